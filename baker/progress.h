@@ -1,0 +1,18 @@
+// Progress and cancellation of long work, as the libraries see it; baker/tool draws it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+namespace froth {
+
+// Called from the working thread, at most a few hundred times per stage. `total` may be 0: unknown.
+// Returning false asks the stage to stop; it then fails with ErrorKind::kCancelled.
+using Progress = std::function<bool(std::string_view stage, uint64_t done, uint64_t total)>;
+
+inline bool report(const Progress& progress, std::string_view stage, uint64_t done, uint64_t total) {
+  return !progress || progress(stage, done, total);
+}
+
+}  // namespace froth

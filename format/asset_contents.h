@@ -1,0 +1,81 @@
+// What a .froth asset holds, decoded: the struct that the baker hands to the writer and that the reader gives back.
+// docs/FORMAT.md says how it lies in the file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace froth {
+
+// A reference to a cell anywhere in the asset: (chunk << localBits) | local index. localBits belongs to the asset.
+using CellRef = uint32_t;
+
+// One chunk: cells [0, liveCount) are live (they can contribute to an image); cells [liveCount, cellCount) only cut
+// their neighbours and guide walks (dead: no density; empty: their ball lies wholly in other power cells).
+// Positions are relative to `origin`.
+struct ChunkContents {
+  std::array<double, 3> origin{};  // [scene units] added to every site of the chunk
+  uint32_t cellCount = 0;
+  uint32_t liveCount = 0;  // <= cellCount
+
+  std::vector<glm::vec3> sites;  // [cellCount] [scene units]
+  std::vector<float> radii;      // [cellCount] [scene units, > 0]
+
+  // Graph, compressed rows. Row i is neighbours[neighbourOffsets[i] .. neighbourOffsets[i + 1]).
+  // A live cell's row starts with its alphaCounts[i] true alpha-complex neighbours, nearest radical plane first
+  // (ascending radicalOffset / |toNeighbour|); then come its other neighbours in the regular triangulation, in the same
+  // order. Without a walk graph only the alpha part is there.
+  std::vector<uint32_t> neighbourOffsets;  // [cellCount + 1]
+  std::vector<CellRef> neighbours;         // [neighbourOffsets.back()]
+  std::vector<uint32_t> alphaCounts;       // [liveCount]
+
+  std::vector<float> densities;         // [liveCount] [1 / scene unit]
+  std::vector<glm::vec4> orientations;  // [liveCount] unit quaternion (w, x, y, z), rows n, t, b
+  std::vector<glm::vec2> detailSites;   // [liveCount * K] in units of the radius
+  std::vector<float> detailHeights;     // [liveCount * K] in units of the radius; empty: all zero
+  std::vector<glm::vec3> lobeAxes;      // [liveCount * K * M]
+  std::vector<glm::vec3> lobeColours;   // [liveCount * K * M]
+};
+
+// A pinhole camera of a path or a start view; axes x right, y down, z forward.
+struct StoredCamera {
+  std::array<double, 12> worldFromCamera{};  // 3 rows of 4
+  double tanHalfFovY = 0.5;                  // half-height of the image plane at depth 1
+};
+
+// What happened in the bake; shown by `froth info`.
+struct BakeStatistics {
+  uint64_t inputCells = 0;       // cells in the input
+  uint64_t hiddenDropped = 0;    // sites with an empty power cell: not in the asset
+  uint64_t duplicatesMerged = 0; // of these, sites that coincide with another one
+  uint64_t emptyCells = 0;       // power cell, but no bounded cell
+  uint64_t deadCells = 0;        // density too low to be seen
+  uint64_t walkPairs = 0;        // undirected pairs of the regular triangulation
+  uint64_t alphaPairs = 0;       // undirected pairs of the alpha-complex
+};
+
+struct AssetContents {
+  uint32_t detailCount = 0;  // K [1..32]
+  uint32_t lobeCount = 0;    // M [1..32]
+  uint32_t localBits = 32;   // split of a CellRef; 32: one chunk, the reference is the local index
+  bool hasWalkGraph = true;
+
+  float detailSharpness = 10.0f;  // tau of the soft Voronoi weights exp(-tau |x - s|^2 / r^2)
+  float nearRatio = 4.0f;         // default near tests of primary visibility (foam.md "Near cells")
+  float nearDepth = 0.0f;         // [scene units]
+  std::string preset = "exact";
+  std::string source;             // name of the input file, without folder
+  BakeStatistics statistics;
+
+  StoredCamera startView;               // valid if hasStartView
+  bool hasStartView = false;
+  std::vector<StoredCamera> flightPath; // may be empty
+
+  std::vector<ChunkContents> chunks;  // >= 1
+};
+
+}  // namespace froth

@@ -1,0 +1,307 @@
+/* Froth: a runtime for radiance foams, inside the engine's own Vulkan.
+ *
+ * What it needs:     Vulkan 1.3 with bufferDeviceAddress and synchronization2, one queue family with COMPUTE.
+ * What it does:      records compute work into the caller's command buffers and writes the caller's images.
+ * What it never does: submit, wait for the GPU in a frame call, own a queue, create a window, print, abort, keep globals.
+ *
+ * A frame:  frothUpdate -> frothRecordUpload(cmd) -> frothRasterize(cmd) or frothWalk(cmd) per view -> the caller submits.
+ *
+ * Conventions: matrices are column-major for column vectors; a name says target from source (clipFromView).
+ * Conventions of clip space (depth direction, viewport sign, off-centre lenses) are derived from the caller's matrix.
+ * Structs begin with structSize = sizeof(the struct); zero is every field's default. Booleans are uint32_t.
+ *
+ * Threads: any thread, any time: frothGetRequirements, frothRequireFeatures, frothResultName.
+ *          one thread per view at a time: frothRasterize, frothWalk.
+ *          one thread at a time per context: everything else.
+ *
+ * docs/EMBEDDING.md leads through it.
+ */
+#ifndef FROTH_FROTH_H
+#define FROTH_FROTH_H
+
+#include <stdint.h>
+#include <vulkan/vulkan_core.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(FROTH_BUILD) && defined(__GNUC__)
+#define FROTH_API __attribute__((visibility("default")))
+#else
+#define FROTH_API
+#endif
+
+/* Major in the upper, minor in the lower 16 bits. Creation fails with FROTH_ERROR_VERSION if the major differs. */
+#define FROTH_ABI_VERSION 0x00010000u
+
+typedef enum FrothResult {
+  FROTH_OK = 0,
+  /* information */
+  FROTH_PENDING = 1,    /* started; ask again */
+  FROTH_INCOMPLETE = 2, /* done, with less than asked for; the status bits say what and which setting to raise */
+  /* errors; the message callback got the details */
+  FROTH_ERROR_ARGUMENT = -1,    /* a null pointer, a size, an extent, a value out of its range */
+  FROTH_ERROR_HANDLE = -2,      /* a stale or foreign handle */
+  FROTH_ERROR_VERSION = -3,     /* header and library, or file and library, do not fit */
+  FROTH_ERROR_FEATURE = -4,     /* the device lacks, or the caller did not enable, what is required */
+  FROTH_ERROR_FILE = -5,        /* the asset is missing, damaged or not one */
+  FROTH_ERROR_MEMORY = -6,      /* host or device memory, or the budget, is exhausted */
+  FROTH_ERROR_UNSUPPORTED = -7, /* valid, but this version cannot do it (an orthographic camera, say) */
+  FROTH_ERROR_DEVICE = -8,      /* a Vulkan call failed; the message names it and its VkResult */
+  FROTH_ERROR_STATE = -9,       /* calls out of order (asset not READY, frame serial not growing) */
+  FROTH_RESULT_MAX = 0x7fffffff
+} FrothResult;
+
+FROTH_API const char* frothResultName(FrothResult result); /* never null */
+
+typedef enum FrothSeverity {
+  FROTH_SEVERITY_INFO = 0,
+  FROTH_SEVERITY_WARNING = 1,
+  FROTH_SEVERITY_ERROR = 2,
+  FROTH_SEVERITY_MAX = 0x7fffffff
+} FrothSeverity;
+
+/* Called on the thread of the failing call. `object` names the asset's path, the view or the call. `text` says cause,
+ * place, found value, remedy; it lives during the call only. Must not call Froth. */
+typedef void (*FrothMessageCallback)(void* user, FrothSeverity severity, FrothResult code, const char* object,
+                                     const char* text);
+
+/* ---- Requirements: pure functions, before a VkDevice exists ---- */
+
+typedef struct FrothRequirement {
+  const char* name;   /* "bufferDeviceAddress", "shaderStorageImageExtendedFormats", "VK_EXT_memory_budget" */
+  const char* loss;   /* what is lost without it; null: it is required */
+  uint32_t isPresent; /* on the physical device that was asked about; 0 where that was null */
+  uint32_t isFeature; /* 1: a feature bit, 0: an extension or limit */
+} FrothRequirement;
+
+typedef struct FrothRequirements {
+  uint32_t structSize;
+  uint32_t apiVersion;     /* least VkApplicationInfo::apiVersion */
+  uint32_t isSatisfied;    /* all required items are present */
+  uint32_t itemCount;
+  const FrothRequirement* items; /* [itemCount], in storage inside this struct's owner below */
+  FrothRequirement storage[16];
+} FrothRequirements;
+
+/* `instance` and `physicalDevice` may be null: the general list. Messages are in the items. */
+FROTH_API FrothResult frothGetRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                                           VkPhysicalDevice physicalDevice, FrothRequirements* requirements);
+
+/* ORs the required feature bits into the caller's own chain: VkPhysicalDeviceFeatures2 with VkPhysicalDeviceVulkan12Features
+ * and VkPhysicalDeviceVulkan13Features in pNext. FROTH_ERROR_FEATURE: *missingStructure names the structure to add. */
+FROTH_API FrothResult frothRequireFeatures(VkPhysicalDeviceFeatures2* features, const char** missingStructure);
+
+/* ---- Context: one per VkDevice ---- */
+
+typedef struct FrothContext FrothContext;
+
+typedef struct FrothContextInfo {
+  uint32_t structSize;
+  uint32_t abiVersion; /* FROTH_ABI_VERSION */
+  PFN_vkGetInstanceProcAddr getInstanceProcAddr;
+  VkInstance instance;
+  VkPhysicalDevice physicalDevice;
+  VkDevice device;                                 /* null: null context; handles and states work, record calls do nothing */
+  const VkPhysicalDeviceFeatures2* enabledFeatures; /* the chain the device was made with */
+  uint32_t queueFamily;           /* the compute-capable family that frames are submitted to */
+  VkPipelineCache pipelineCache;  /* may be null */
+  uint32_t framesInFlight;        /* [1..8]; 0: 2 */
+  uint64_t deviceBudget;          /* [bytes] of device memory for everything; 0: no limit */
+  FrothMessageCallback onMessage; /* may be null */
+  void* messageUser;
+  uint32_t checkIndices;          /* debug: shaders check every index; counted in FrothViewStatus::indexViolations */
+} FrothContextInfo;
+
+FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
+
+/* The caller has made sure that the device is done with all frames that used it (vkDeviceWaitIdle). */
+FROTH_API void frothDestroyContext(FrothContext* context);
+
+/* Handles are an index and a generation; {0, 0} is null. */
+typedef struct FrothAsset { uint32_t index, generation; } FrothAsset;
+typedef struct FrothInstance { uint32_t index, generation; } FrothInstance;
+typedef struct FrothView { uint32_t index, generation; } FrothView;
+
+/* ---- Assets ---- */
+
+typedef enum FrothAssetState {
+  FROTH_ASSET_OPENING = 0,
+  FROTH_ASSET_READY = 1,
+  FROTH_ASSET_FAILED = 2,
+  FROTH_ASSET_STATE_MAX = 0x7fffffff
+} FrothAssetState;
+
+typedef struct FrothAssetInfo {
+  uint32_t structSize;
+  const char* path; /* a .froth file; or null, and the bytes: */
+  const void* data; /* the caller keeps them until the asset is READY or FAILED */
+  uint64_t dataSize;
+} FrothAssetInfo;
+
+typedef struct FrothStoredCamera {
+  double worldFromCamera[12]; /* 3 rows of 4; axes x right, y down, z forward */
+  double tanHalfFovY;
+} FrothStoredCamera;
+
+typedef struct FrothAssetStatus {
+  uint32_t structSize;
+  FrothAssetState state;
+  FrothResult error;        /* of a FAILED asset */
+  uint32_t cellCount;       /* cells in the asset */
+  uint32_t liveCount;       /* cells that can be seen */
+  uint32_t detailCount, lobeCount, chunkCount;
+  uint32_t hasWalkGraph;
+  float nearRatio, nearDepth; /* the asset's defaults */
+  float boundsMin[3], boundsMax[3]; /* of the balls of live cells [scene units] */
+  uint64_t deviceBytes;     /* resident on the GPU */
+  uint32_t hasStartView;
+  FrothStoredCamera startView;
+  uint32_t flightPathCount; /* key frames; frothGetFlightPath */
+} FrothAssetStatus;
+
+/* Returns FROTH_OK with the asset OPENING; it loads in the following frothUpdate / frothRecordUpload calls. A bad file makes
+ * it FAILED, with one message; the frames go on. */
+FROTH_API FrothResult frothOpenAsset(FrothContext* context, const FrothAssetInfo* info, FrothAsset* asset);
+FROTH_API FrothResult frothGetAssetStatus(FrothContext* context, FrothAsset asset, FrothAssetStatus* status);
+/* Copies up to `capacity` key frames; *count gets how many. */
+FROTH_API FrothResult frothGetFlightPath(FrothContext* context, FrothAsset asset, uint32_t capacity,
+                                         FrothStoredCamera* cameras, uint32_t* count);
+/* Returns at once; memory comes back when the last frame that used it is complete. Its instances must be gone. */
+FROTH_API FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset);
+
+/* ---- Instances ---- */
+
+typedef struct FrothInstanceInfo {
+  uint32_t structSize;
+  FrothAsset asset;
+  double position[3]; /* of the asset's origin in the world */
+  float rotation[4];  /* unit quaternion (x, y, z, w), world from asset; all zero: identity */
+  float scale;        /* uniform, > 0; 0: 1 */
+  uint32_t userId;
+} FrothInstanceInfo;
+
+FROTH_API FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info, FrothInstance* instance);
+FROTH_API FrothResult frothSetInstance(FrothContext* context, FrothInstance instance, const FrothInstanceInfo* info);
+FROTH_API FrothResult frothDestroyInstance(FrothContext* context, FrothInstance instance);
+
+/* ---- Views: transients and history of one camera ---- */
+
+typedef struct FrothViewInfo {
+  uint32_t structSize;
+  VkExtent2D maxExtent;     /* <= 16384 x 16384; no allocation below it */
+  uint32_t measurePasses;   /* 1: timestamps by pass, read back later without waiting */
+} FrothViewInfo;
+
+FROTH_API FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view);
+FROTH_API FrothResult frothDestroyView(FrothContext* context, FrothView view);
+
+/* Limits that a frame hit. The image is valid and incomplete; the next frothUpdate grows what the bit names. */
+typedef enum FrothViewBit {
+  FROTH_VIEW_PAIR_OVERFLOW = 1,  /* more (tile, cell) pairs than space; the farthest cells are missing */
+  FROTH_VIEW_STEP_LIMIT = 2,     /* walks ended by FrothRenderInfo::maxSteps */
+  FROTH_VIEW_NO_WALK_GRAPH = 4,  /* the asset was baked without one */
+  FROTH_VIEW_NOT_READY = 8,      /* an instance's asset is not READY; it was left out */
+  FROTH_VIEW_BIT_MAX = 0x7fffffff
+} FrothViewBit;
+
+typedef struct FrothPassTime {
+  const char* name; /* "cull", "sort", "bin", "shade", "raster", "locate", "walk" ...; static storage */
+  double milliseconds;
+} FrothPassTime;
+
+/* Of the newest frame that is complete (FrothFrame::completedSerial). */
+typedef struct FrothViewStatus {
+  uint32_t structSize;
+  uint64_t serial; /* of that frame; 0: none yet */
+  uint32_t bits;   /* FrothViewBit */
+  uint32_t visibleCells;
+  uint64_t pairs;            /* (tile, cell) pairs */
+  uint64_t walkSteps;        /* summed over rays; counted only with checkIndices */
+  uint32_t indexViolations;  /* with FrothContextInfo::checkIndices; must be 0 */
+  uint32_t passCount;
+  FrothPassTime passes[16];  /* with FrothViewInfo::measurePasses */
+  uint64_t deviceBytes;      /* of the view's transients */
+} FrothViewStatus;
+
+FROTH_API FrothResult frothGetViewStatus(FrothContext* context, FrothView view, FrothViewStatus* status);
+
+/* ---- Frames ---- */
+
+typedef struct FrothFrame {
+  uint32_t structSize;
+  uint64_t serial;          /* of the submission now recorded: > 0, growing */
+  uint64_t completedSerial; /* the newest submission that the GPU has completed */
+  uint64_t uploadBytes;     /* most bytes to upload in this frame; 0: no limit */
+} FrothFrame;
+
+typedef struct FrothFrameStatus {
+  uint32_t structSize;
+  uint32_t assetsOpening;    /* 0: nothing is being loaded */
+  uint64_t uploadBytesQueued;
+  uint64_t deviceBytes;      /* all device memory held by the context */
+  uint64_t hostBytes;        /* staging and read-back */
+} FrothFrameStatus;
+
+/* CPU only: retires what is complete, loads assets, grows buffers. Never records, never waits for the GPU. status may be null. */
+FROTH_API FrothResult frothUpdate(FrothContext* context, const FrothFrame* frame, FrothFrameStatus* status);
+
+/* Records the copies of this frame; outside a render pass. */
+FROTH_API FrothResult frothRecordUpload(FrothContext* context, VkCommandBuffer commandBuffer);
+
+/* Tells that the frame with this serial was recorded and will never be submitted: its uploads queue again. */
+FROTH_API FrothResult frothDropFrame(FrothContext* context, uint64_t serial);
+
+/* An image of the caller. image = null: not wanted, and costs nothing. Froth transitions from the entry state and to the exit
+ * state, and remembers nothing in between. layoutIn = UNDEFINED drops the contents. */
+typedef struct FrothImage {
+  VkImage image;
+  VkImageView view; /* 2D, one level, identity swizzle, usage STORAGE */
+  VkFormat format;
+  VkExtent2D extent;
+  VkImageLayout layoutIn, layoutOut;
+  VkPipelineStageFlags2 stageIn, stageOut;
+  VkAccessFlags2 accessIn, accessOut;
+} FrothImage;
+
+typedef struct FrothCamera {
+  double eye[3];          /* in the world */
+  float viewFromWorld[9]; /* rotation, column-major */
+  float clipFromView[16]; /* unjittered; any perspective projection: reversed, infinite, off-centre, oblique */
+  float jitter[2];        /* [pixels], +x right, +y down */
+  VkViewport viewport;    /* negative height too */
+  VkRect2D scissor;       /* zero: the whole viewport */
+} FrothCamera;
+
+/* Marks "take the asset's default" in the two near limits. */
+#define FROTH_NEAR_DEFAULT (-1.0f)
+
+typedef struct FrothRenderInfo {
+  uint32_t structSize;
+  FrothCamera camera;
+  float cutoff;        /* a ray ends when its transmittance falls below; 0: 1e-3; negative: never */
+  float nearRatio;     /* skips cells with |p - eye| < nearRatio * r; 0: off; FROTH_NEAR_DEFAULT */
+  float nearDepth;     /* skips cells with forward . (p - eye) < nearDepth [scene units]; 0: off; FROTH_NEAR_DEFAULT */
+  float depthQuantile; /* 0: one half */
+  uint32_t maxSteps;   /* of one walk; 0: 65536 */
+  uint32_t displayCoded; /* 1: colour stays display-coded (for files); 0: linear */
+
+  FrothImage colour;   /* R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: premultiplied colour, alpha = 1 - T */
+  FrothImage distance; /* R32_SFLOAT: distance along the ray where T falls below depthQuantile [scene units]; +inf: never */
+  FrothImage normal;   /* R16G16B16A16_SFLOAT: sum of T alpha n in world axes, not normalized; w = 0 */
+} FrothRenderInfo;
+
+/* Primary visibility of all instances by sorted rasterization. On exit compute pipeline, sets and push constants are undefined,
+ * graphics state is untouched. FROTH_INCOMPLETE: recorded, but something was left out (the returned frame's status bits say what). */
+FROTH_API FrothResult frothRasterize(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
+                                     const FrothRenderInfo* info);
+
+/* The same image by walking every pixel's ray from cell to cell through the regular triangulation. */
+FROTH_API FrothResult frothWalk(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
+                                const FrothRenderInfo* info);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

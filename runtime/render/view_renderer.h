@@ -1,0 +1,53 @@
+// Records the passes of one view: cull -> sort -> bin -> shade -> raster, or cull -> shade -> locate -> walk.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "froth/froth.h"
+#include "runtime/asset/gpu_asset.h"
+#include "runtime/core/device.h"
+
+namespace froth {
+
+class RenderPipelines;  // runtime/render/pipelines.h: layouts and pipelines, made once per context and per asset shape
+
+// One instance as the passes see it.
+struct RenderInstance {
+  const GpuAsset* asset = nullptr;
+  std::array<double, 3> position{};
+  std::array<float, 4> rotation{0, 0, 0, 1};  // unit quaternion (x, y, z, w), world from asset
+  float scale = 1;
+};
+
+class ViewRenderer {
+ public:
+  // Allocates transients for the maximum extent; they grow in prepare() only.
+  static Result<std::unique_ptr<ViewRenderer>> create(Device& device, VkExtent2D maxExtent, bool measurePasses,
+                                                      uint32_t framesInFlight, bool checkIndices);
+  ~ViewRenderer();  // the GPU must be done with the view
+
+  // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `asset` (may be null) and
+  // for the overflows seen; replaced buffers are freed once `completedSerial` has passed their last use.
+  Status prepare(uint64_t serial, uint64_t completedSerial, const GpuAsset* asset);
+
+  // Between frothUpdate calls; `serial` is that of the frame. Both may be called once per frame.
+  // info has been checked and its defaults resolved. Allocates nothing. Returns the FrothViewBit set known at record time.
+  uint32_t recordRaster(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const RenderInstance& instance,
+                        const FrothRenderInfo& info, uint64_t serial);
+  uint32_t recordWalk(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const RenderInstance& instance,
+                      const FrothRenderInfo& info, uint64_t serial);
+
+  // With no instance that is ready: clears the wanted outputs (colour 0, distance +inf, normal 0).
+  void recordClear(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothRenderInfo& info, uint64_t serial);
+
+  const FrothViewStatus& status() const;  // of the newest complete frame
+
+ private:
+  ViewRenderer();
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace froth

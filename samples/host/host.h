@@ -1,0 +1,74 @@
+// A stand-in for an engine without a window: instance, device, one queue, images, submission, read-back.
+// Used by the headless samples, by `froth render` and `froth bench`, and by the GPU tests. Links the Vulkan loader.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <vulkan/vulkan.h>
+
+#include "format/result.h"
+#include "froth/froth.h"
+
+namespace froth {
+
+struct HostDeviceInfo {
+  std::string name, driver;
+  uint32_t apiVersion = 0;
+  VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
+  bool isSuitable = false;  // frothGetRequirements is satisfied
+  std::string missing;      // what it lacks
+};
+
+Result<std::vector<HostDeviceInfo>> listHostDevices();
+
+struct HostOptions {
+  std::string device;        // index or part of a name; empty: first suitable, GPUs before CPUs
+  bool useValidation = false; // core and synchronization validation; fails if the layer is not installed
+};
+
+struct HostImage {
+  VkImage image = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  VkExtent2D extent{};
+};
+
+class Host {
+ public:
+  static Result<std::unique_ptr<Host>> create(const HostOptions& options);
+  ~Host();
+
+  FrothContextInfo contextInfo() const;  // ready for frothCreateContext; callbacks left null
+  Result<HostImage> createImage(VkFormat format, VkExtent2D extent);  // STORAGE | TRANSFER_SRC | SAMPLED
+  void destroyImage(HostImage& image);
+  FrothImage describe(const HostImage& image) const;  // UNDEFINED in, GENERAL out to a transfer read
+
+  // Records, submits and waits. `record` gets the command buffer and the frame's serial (completedSerial is serial - 1).
+  Status submit(const std::function<Status(VkCommandBuffer, uint64_t serial)>& record);
+  uint64_t nextSerial() const;
+
+  // Texels of an image in layout GENERAL as floats, `channels` per texel (1 or 4), halves widened.
+  Result<std::vector<float>> readImage(const HostImage& image);
+
+  // Messages of the validation layers so far (severity warning or error); tests expect none.
+  std::vector<std::string> validationMessages() const;
+
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t queueFamily = 0;
+  HostDeviceInfo info;
+
+ private:
+  Host();
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace froth

@@ -1,0 +1,50 @@
+// Soft Voronoi weights of a face's detail sites, and the Spherical Voronoi colour of one detail site.
+// Source: Govindarajan et al., "Power Foam" (2026); the exponents are those of the published models (foam.md).
+#ifndef FROTH_FOAM_APPEARANCE_H
+#define FROTH_FOAM_APPEARANCE_H
+#include "prelude.h"
+
+// Below this the sum of soft Voronoi weights is held, so that values fade out far from all sites.
+FOAM_FN real flooredWeightSum(real sum) { return max(sum, real(1e-20)); }
+
+// A query point on the face, factored: (x' . t / r, x' . b / r, |x'|^2 / r^2) with x' = x - p.
+FOAM_FN real3 faceQuery(real3 local, real3 tangent, real3 bitangent, real inverseRadius) {
+  real3 unit = local * inverseRadius;
+  return real3(dot(unit, tangent), dot(unit, bitangent), dot(unit, unit));
+}
+
+// exp(-sharpness |x - s|^2 / r^2) for the detail site s = p + r (u t + v b), detail = (u, v).
+// |x - s|^2 is expanded, so a site costs two multiply-adds and an exp; the clamp undoes rounding above zero.
+FOAM_FN real detailWeight(real3 query, real2 detail, real sharpness) {
+  real squared = query.z - real(2) * (query.x * detail.x + query.y * detail.y) + dot(detail, detail);
+  return exp(-sharpness * max(squared, real(0)));
+}
+
+// Exponent of one lobe seen along `direction` (unit): -tau |direction - axis/tau|, tau = |axis|.
+FOAM_FN real lobeExponent(real3 axis, real3 direction) {
+  real temperature = sqrt(dot(axis, axis));
+  if (!(temperature > real(0))) return real(0);
+  real3 difference = direction - axis / temperature;
+  return -temperature * sqrt(dot(difference, difference));
+}
+
+// Adds one lobe to a running, normalised sum that never underflows: weights are kept relative to the largest so far.
+// Start with largest = the first lobe's exponent, weightSum = 0, colourSum = 0.
+FOAM_FN void addLobe(real exponent, real3 colour, FOAM_INOUT(real) largest, FOAM_INOUT(real) weightSum,
+                     FOAM_INOUT(real3) colourSum) {
+  real newLargest = max(largest, exponent);
+  real rescale = exp(largest - newLargest);
+  real weight = exp(exponent - newLargest);
+  weightSum = weightSum * rescale + weight;
+  colourSum = colourSum * rescale + weight * colour;
+  largest = newLargest;
+}
+
+// Display-coded colour of a detail site from its finished lobe sums.
+FOAM_FN real3 lobeColour(real weightSum, real3 colourSum) {
+  real3 colour = real3(real(0.5)) + colourSum / weightSum;
+  return real3(max(colour.x, real(0)), max(colour.y, real(0)), max(colour.z, real(0)));
+}
+
+#include "postlude.h"
+#endif
