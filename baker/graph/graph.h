@@ -1,0 +1,46 @@
+// Graphs of a power diagram: regular triangulation, alpha-complex, Cech pairs (foam.md "Graphs").
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "baker/progress.h"
+#include "format/result.h"
+
+namespace froth {
+
+// Symmetric graph in compressed rows; neighbours ascending within a row.
+struct CellGraph {
+  std::vector<uint32_t> offsets;     // [cells + 1]
+  std::vector<uint32_t> neighbours;  // [offsets.back()]
+};
+
+struct RegularTriangulation {
+  CellGraph graph;               // pairs whose power cells share a face; rows of hidden cells are empty
+  std::vector<uint8_t> isHidden; // [cells] 1: the power cell is empty (covered by others, or a duplicate)
+  uint64_t duplicates = 0;       // sites that coincide with another; the one with the largest radius, then the lowest index, stays
+};
+
+// CGAL, sequential, exact predicates on exactly these floats. Any input of finite numbers works: fewer than five sites,
+// collinear, coplanar, cospherical, duplicate ones (lower-dimensional triangulations give the right graph too).
+Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites, std::span<const float> radii,
+                                                const Progress& progress = {});
+
+struct AlphaComplex {
+  CellGraph graph;              // pairs whose bounded cells share a face: never a true pair missing, superfluous ones only within the margin
+  std::vector<uint8_t> isEmpty; // [cells] 1: not hidden, but the bounded cell is empty
+};
+
+AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<const float> radii,
+                                 const RegularTriangulation& triangulation, const Progress& progress = {});
+
+// Pairs with |p_i - p_j| < r_i + r_j, in double; over a bounding volume hierarchy or grid, near-linear.
+CellGraph findCechPairs(std::span<const glm::vec3> sites, std::span<const float> radii);
+
+// Cells along a Morton curve of 21 bits per axis over the bounding box; ties by index. order[k] = cell at place k.
+std::vector<uint32_t> mortonOrder(std::span<const glm::vec3> sites);
+
+}  // namespace froth

@@ -1,0 +1,23 @@
+// How far two images are apart. Conventions of foam.md "Conventions of images and errors".
+#pragma once
+
+#include <cstdint>
+
+#include "baker/image/image.h"
+#include "format/result.h"
+
+namespace froth {
+
+struct ImageDifference {
+  double psnr = 0;             // -10 log10 MSE over pixels and channels, both clamped to 0..1, peak 1 [dB]; +inf if equal
+  double psnrChannelMean = 0;  // mean over channels of the channel's PSNR, as published figures are [dB]
+  double ssim = 0;             // Gaussian window 11x11, sigma 1.5, valid region, mean over channels
+  double maxError = 0;         // largest absolute difference, not clamped
+  double overOneStep = 0;      // share of pixels with a channel off by more than 1/255
+  double overTwoSteps = 0;     // ... by more than 2/255
+};
+
+// Fails if sizes or channels differ.
+Result<ImageDifference> compareImages(const Image& a, const Image& b);
+
+}  // namespace froth

@@ -1,0 +1,45 @@
+// The reference renderer: the oracle of everything. Brute force over a bounding volume hierarchy, with its own Cech pairs
+// (no triangulation), every cell sorted by its power, compiled from shaders/foam/ like the shaders.
+#pragma once
+
+#include <memory>
+
+#include "baker/camera/camera.h"
+#include "baker/foam.h"
+#include "baker/image/image.h"
+#include "baker/progress.h"
+#include "format/result.h"
+
+namespace froth {
+
+enum class Precision { kFloat, kDouble };
+
+struct ReferenceOptions {
+  Precision precision = Precision::kDouble;
+  double cutoff = 0;            // a ray ends when its transmittance falls below
+  double nearRatio = 4;         // resolved: the view's own value, else the asset's default
+  double nearDepth = 0;         // [scene units]
+  double depthQuantile = 0.5;
+  double detailSharpness = 10;
+};
+
+struct RenderedImages {
+  Image colour;  // 3 channels, display-coded over black, not clamped
+  Image alpha;   // 1 channel, 1 - T
+  Image depth;   // 1 channel, distance along the ray where T falls below depthQuantile; -1: never
+  Image normal;  // 3 channels, sum of T alpha n, world axes
+};
+
+// Renders with all cores; the same input gives the same bits on any number of threads.
+class ReferenceRenderer {
+ public:
+  explicit ReferenceRenderer(const Foam& foam);  // keeps a reference; builds hierarchy and pairs once
+  ~ReferenceRenderer();
+  Result<RenderedImages> render(const View& view, const ReferenceOptions& options, const Progress& progress = {}) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace froth

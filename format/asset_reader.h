@@ -1,0 +1,46 @@
+// Reads a .froth asset. Nothing in the file is trusted: any bytes give a value or a named error, never a crash, a hang or
+// an allocation beyond what the file's size justifies.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "format/asset_contents.h"
+#include "format/result.h"
+
+namespace froth {
+
+// An opened asset: header and manifest are read and checked, sections are decoded on demand.
+// Thread safety: readChunk() may run on several threads at once.
+class AssetReader {
+ public:
+  static Result<AssetReader> open(const std::filesystem::path& path);
+  // `bytes` must outlive the reader; `name` stands for the file in messages.
+  static Result<AssetReader> openBytes(std::span<const uint8_t> bytes, std::string name);
+
+  AssetReader(AssetReader&&) noexcept;
+  AssetReader& operator=(AssetReader&&) noexcept;
+  ~AssetReader();
+
+  // Everything but the chunks' arrays; `chunks` holds origin and counts.
+  const AssetContents& manifest() const;
+  // Decodes and checks all sections of one chunk: hashes, sizes, index ranges, finite numbers, positive radii.
+  Result<ChunkContents> readChunk(uint32_t chunk) const;
+
+ private:
+  AssetReader();
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// The whole asset in memory.
+Result<AssetContents> readAsset(const std::filesystem::path& path);
+
+// What `froth verify` does beyond reading: every section decodes, the graph is symmetric (also across chunks) and
+// without loops or double entries, alpha rows are prefixes in nearest-first order, live cells have a finite frame.
+Status verifyAsset(const std::filesystem::path& path);
+
+}  // namespace froth

@@ -1,0 +1,20 @@
+// Whole-file input and output that never leaves a half-written file behind.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "format/result.h"
+
+namespace froth {
+
+// Fails with ErrorKind::kBadInput if the path does not exist, is a directory or cannot be read.
+Result<std::vector<uint8_t>> readFile(const std::filesystem::path& path);
+
+// Writes to a temporary name in the same folder, syncs, renames over `path`. On failure the old file is intact and the
+// temporary is removed. Part of froth_format_write.
+Status writeFileAtomically(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+
+}  // namespace froth
