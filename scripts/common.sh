@@ -1,0 +1,35 @@
+# What scripts/demo and scripts/test share: packages and builds. Sourced, not run.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+
+# Debian 12 packages that every build needs.
+build_packages=(
+  build-essential cmake ninja-build pkg-config
+  libcgal-dev libtbb-dev libfmt-dev libglm-dev libzstd-dev libflatbuffers-dev flatbuffers-compiler libxxhash-dev
+  libcli11-dev nlohmann-json3-dev libpng-dev libjpeg-dev zlib1g-dev libstb-dev
+  glslang-tools libvulkan-dev libglfw3-dev libimgui-dev mesa-vulkan-drivers
+)
+
+# Installs what is missing; silent and without network where nothing is.
+install_packages() {
+  local missing=() package
+  for package in "$@"; do
+    dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
+  local as_root=()
+  [ "$(id -u)" -eq 0 ] || as_root=(sudo)
+  echo "Installing: ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# build PRESET [TARGET ...]
+build() {
+  local preset=$1
+  shift
+  cmake --preset "$preset" >"build-$preset.log" 2>&1 || { cat "build-$preset.log"; return 1; }
+  rm -f "build-$preset.log"
+  cmake --build --preset "$preset" ${1:+--target "$@"}
+}
