@@ -18,7 +18,7 @@ struct Image {
   const float* pixel(uint32_t x, uint32_t y) const { return &values[(size_t{y} * width + x) * channels]; }
 };
 
-// By extension: .pfm (float), .png (8 bit; 16 bit is read too), .jpg (read), .f16 (raw little-endian half; needs the size, so
+// By extension: .pfm (float), .png (8 bit; 16 bit is read too; transparency over black), .jpg (read), .f16 (raw little-endian half; needs the size, so
 // `shape` gives width and height, channels follow from the file's length).
 Result<Image> readImage(const std::filesystem::path& path, const Image* shape = nullptr);
 

@@ -9,10 +9,10 @@
 namespace froth {
 
 struct ImageDifference {
-  double psnr = 0;             // -10 log10 MSE over pixels and channels, both clamped to 0..1, peak 1 [dB]; +inf if equal
+  double psnr = 0;             // -10 log10 MSE over pixels and channels, both clamped to 0..1, peak 1 [dB]; +inf if equal, NaN if a value is
   double psnrChannelMean = 0;  // mean over channels of the channel's PSNR, as published figures are [dB]
-  double ssim = 0;             // Gaussian window 11x11, sigma 1.5, valid region, mean over channels
-  double maxError = 0;         // largest absolute difference, not clamped
+  double ssim = 0;             // Gaussian window 11x11, sigma 1.5, valid region, clamped, mean over channels; NaN under 11 pixels a side
+  double maxError = 0;         // largest absolute difference, not clamped; +inf where a value is NaN
   double overOneStep = 0;      // share of pixels with a channel off by more than 1/255
   double overTwoSteps = 0;     // ... by more than 2/255
 };
