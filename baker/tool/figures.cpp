@@ -1,0 +1,26 @@
+#include "baker/tool/figures.h"
+
+#include <cstdint>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "format/atomic_file.h"
+
+namespace froth {
+
+Status FiguresOutput::write(const nlohmann::ordered_json& figures) const {
+  if (target.empty()) return {};
+  const std::string text = figures.dump(2) + "\n";
+  if (target == "-") {
+    fmt::print("{}", text);
+    return {};
+  }
+  return writeFileAtomically(target, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+void addFiguresOption(CLI::App& command, FiguresOutput& output) {
+  command.add_flag("--json{-}", output.target, "Figures as JSON on stdout, or to a file with --json=FILE");
+}
+
+}  // namespace froth

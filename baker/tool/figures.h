@@ -1,0 +1,24 @@
+// Figures of a command: a table for people, JSON for machines.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "format/result.h"
+
+namespace froth {
+
+// `--json` prints the figures as JSON on stdout instead of the table; `--json=FILE` writes them to a file
+// beside it. A flag with an optional value, so that it never swallows the argument after it.
+struct FiguresOutput {
+  std::string target;  // empty: no JSON; "-": stdout; else a file
+
+  bool wantsTable() const { return target != "-"; }
+  Status write(const nlohmann::ordered_json& figures) const;
+};
+
+void addFiguresOption(CLI::App& command, FiguresOutput& output);
+
+}  // namespace froth

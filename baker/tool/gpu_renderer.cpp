@@ -1,0 +1,307 @@
+#include "baker/tool/gpu_renderer.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "baker/tool/progress_printer.h"
+
+namespace froth {
+namespace {
+
+// Each frothUpdate at least doubles what overflowed, so this reaches any size that fits into memory.
+constexpr int kMaxRedraws = 32;
+
+ErrorKind errorKindOf(FrothResult result) {
+  return result == FROTH_ERROR_FILE || result == FROTH_ERROR_VERSION ? ErrorKind::kBadInput
+                                                                     : ErrorKind::kUnsupported;
+}
+
+VkExtent2D extentOf(const View& view) {
+  return {view.width, view.height};
+}
+
+Image imageFromTexels(const std::vector<float>& texels, uint32_t stride, uint32_t first, uint32_t channels,
+                      VkExtent2D extent) {
+  Image image{extent.width, extent.height, channels, {}};
+  const size_t count = size_t{extent.width} * extent.height;
+  image.values.reserve(count * channels);
+  for (size_t pixel = 0; pixel < count; ++pixel) {
+    for (uint32_t channel = 0; channel < channels; ++channel) {
+      image.values.push_back(texels[pixel * stride + first + channel]);
+    }
+  }
+  return image;
+}
+
+// The runtime says +inf where transmittance never falls to the quantile, files say -1 (foam.md).
+void markMissingDepth(Image& depth) {
+  for (float& value : depth.values) {
+    if (std::isinf(value)) value = -1.0f;
+  }
+}
+
+}  // namespace
+
+FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options) {
+  FrothRenderInfo info{};
+  info.structSize = sizeof(info);
+  info.cutoff = options.cutoff > 0 ? options.cutoff : -1.0f;
+  info.nearRatio = view.nearRatio ? static_cast<float>(*view.nearRatio) : FROTH_NEAR_DEFAULT;
+  info.nearDepth = view.nearDepth ? static_cast<float>(*view.nearDepth) : FROTH_NEAR_DEFAULT;
+  info.displayCoded = options.isLinear ? 0 : 1;
+
+  FrothCamera& camera = info.camera;
+  const auto& world = view.worldFromCamera;
+  for (int axis = 0; axis < 3; ++axis) {
+    camera.eye[axis] = world[axis * 4 + 3];
+    // The inverse of a rotation is its transpose: row `axis` of world-from-camera is column `axis` of the
+    // inverse.
+    for (int row = 0; row < 3; ++row)
+      camera.viewFromWorld[axis * 3 + row] = static_cast<float>(world[axis * 4 + row]);
+  }
+  // View axes x right, y down, z forward are those of Vulkan's clip space; depth is reversed with an infinite
+  // far plane.
+  const double width = view.width, height = view.height;
+  camera.clipFromView[0] = static_cast<float>(2 * view.fx / width);
+  camera.clipFromView[5] = static_cast<float>(2 * view.fy / height);
+  camera.clipFromView[8] = static_cast<float>(2 * view.cx / width - 1);
+  camera.clipFromView[9] = static_cast<float>(2 * view.cy / height - 1);
+  camera.clipFromView[11] = 1.0f;
+  camera.clipFromView[14] = 0.01f;  // device depth of the near plane; no output depends on it
+  camera.viewport = {0, 0, static_cast<float>(width), static_cast<float>(height), 0, 1};
+  return info;
+}
+
+struct GpuRenderer::State {
+  ~State();
+
+  Error error(FrothResult result, const char* call) const;
+  Status check(FrothResult result, const char* call) const;
+
+  Status createContext(const GpuDeviceOptions& options);
+  Status openAsset(const AssetInput& input, const Progress& progress);
+  Status setExtent(VkExtent2D wanted, bool wantsAllChannels);
+  void destroyImages();
+
+  // Records frothUpdate and the uploads, then draws if `info` is not null.
+  Status submitFrame(const FrothRenderInfo* info, GpuMethod method);
+  Result<FrothViewStatus> drawAndAsk(const FrothRenderInfo& info, GpuMethod method);
+  Status checkSilence(const FrothViewStatus& status) const;
+  Result<RenderedImages> readImages();
+
+  GpuDeviceOptions options;
+  std::unique_ptr<Host> host;
+  FrothContext* context = nullptr;
+  FrothAsset asset{};
+  FrothInstance instance{};
+  FrothView view{};
+  VkExtent2D extent{};
+  HostImage colour, distance, normal;
+  std::string lastMessage;
+};
+
+GpuRenderer::State::~State() {
+  if (host) destroyImages();
+  if (context) frothDestroyContext(context);  // every submission was waited for
+}
+
+Error GpuRenderer::State::error(FrothResult result, const char* call) const {
+  const std::string& cause = lastMessage.empty() ? std::string(call) + " failed" : lastMessage;
+  return makeError(errorKindOf(result), "%s (%s)", cause.c_str(), frothResultName(result));
+}
+
+Status GpuRenderer::State::check(FrothResult result, const char* call) const {
+  if (result >= FROTH_OK) return {};
+  return error(result, call);
+}
+
+Status GpuRenderer::State::createContext(const GpuDeviceOptions& deviceOptions) {
+  options = deviceOptions;
+  Result<std::unique_ptr<Host>> created = Host::create({options.device, options.validate});
+  if (!created) return created.error();
+  host = std::move(*created);
+
+  FrothContextInfo info = host->contextInfo();
+  info.checkIndices = options.validate ? 1 : 0;
+  info.messageUser = this;
+  info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
+    if (severity != FROTH_SEVERITY_ERROR) return;
+    static_cast<State*>(user)->lastMessage = fmt::format("{}: {}", object, text);
+  };
+  return check(frothCreateContext(&info, &context), "frothCreateContext");
+}
+
+Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& progress) {
+  const std::string path = input.path.string();
+  FrothAssetInfo info{};
+  info.structSize = sizeof(info);
+  if (input.bytes.empty()) {
+    info.path = path.c_str();
+  } else {
+    info.data = input.bytes.data();
+    info.dataSize = input.bytes.size();
+  }
+  if (Status opened = check(frothOpenAsset(context, &info, &asset), "frothOpenAsset"); !opened) return opened;
+
+  for (uint64_t frame = 0;; ++frame) {
+    if (!report(progress, "upload", frame, 0)) return stoppedError();
+    if (Status submitted = submitFrame(nullptr, GpuMethod::kRaster); !submitted) return submitted;
+    FrothAssetStatus status{};
+    status.structSize = sizeof(status);
+    if (Status asked = check(frothGetAssetStatus(context, asset, &status), "frothGetAssetStatus"); !asked)
+      return asked;
+    if (status.state == FROTH_ASSET_FAILED) return error(status.error, "frothOpenAsset");
+    if (status.state == FROTH_ASSET_READY) break;
+  }
+  FrothInstanceInfo instanceInfo{};
+  instanceInfo.structSize = sizeof(instanceInfo);
+  instanceInfo.asset = asset;
+  return check(frothCreateInstance(context, &instanceInfo, &instance), "frothCreateInstance");
+}
+
+void GpuRenderer::State::destroyImages() {
+  for (HostImage* image : {&colour, &distance, &normal}) {
+    if (image->image) host->destroyImage(*image);
+  }
+}
+
+Status GpuRenderer::State::setExtent(VkExtent2D wanted, bool wantsAllChannels) {
+  const bool hasAllChannels = normal.image != VK_NULL_HANDLE;
+  if (wanted.width == extent.width && wanted.height == extent.height && wantsAllChannels == hasAllChannels)
+    return {};
+
+  destroyImages();
+  if (extent.width > 0) {
+    if (Status gone = check(frothDestroyView(context, view), "frothDestroyView"); !gone) return gone;
+  }
+  extent = {};
+  FrothViewInfo info{};
+  info.structSize = sizeof(info);
+  info.maxExtent = wanted;
+  info.measurePasses = options.measurePasses ? 1 : 0;
+  if (Status made = check(frothCreateView(context, &info, &view), "frothCreateView"); !made) return made;
+  extent = wanted;
+
+  const auto make = [&](HostImage& image, VkFormat format) -> Status {
+    Result<HostImage> made = host->createImage(format, wanted);
+    if (!made) return made.error();
+    image = *made;
+    return {};
+  };
+  if (!wantsAllChannels) return make(colour, VK_FORMAT_R16G16B16A16_SFLOAT);
+  if (Status made = make(colour, VK_FORMAT_R32G32B32A32_SFLOAT); !made) return made;
+  if (Status made = make(distance, VK_FORMAT_R32_SFLOAT); !made) return made;
+  return make(normal, VK_FORMAT_R16G16B16A16_SFLOAT);
+}
+
+Status GpuRenderer::State::submitFrame(const FrothRenderInfo* info, GpuMethod method) {
+  return host->submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
+    FrothFrame frame{};
+    frame.structSize = sizeof(frame);
+    frame.serial = serial;
+    frame.completedSerial = serial - 1;
+    if (Status updated = check(frothUpdate(context, &frame, nullptr), "frothUpdate"); !updated)
+      return updated;
+    if (Status copied = check(frothRecordUpload(context, commands), "frothRecordUpload"); !copied)
+      return copied;
+    if (!info) return {};
+    if (method == GpuMethod::kRaster)
+      return check(frothRasterize(context, view, commands, info), "frothRasterize");
+    return check(frothWalk(context, view, commands, info), "frothWalk");
+  });
+}
+
+Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wanted, GpuMethod method) {
+  FrothRenderInfo info = wanted;
+  info.colour = host->describe(colour);
+  if (distance.image) info.distance = host->describe(distance);
+  if (normal.image) info.normal = host->describe(normal);
+
+  FrothViewStatus status{};
+  for (int attempt = 0; attempt <= kMaxRedraws; ++attempt) {
+    if (isStopRequested()) return stoppedError();
+    if (Status drawn = submitFrame(&info, method); !drawn) return drawn.error();
+    // The counts of a frame are known in the frothUpdate after it.
+    if (Status updated = submitFrame(nullptr, method); !updated) return updated.error();
+    status = {};
+    status.structSize = sizeof(status);
+    if (Status asked = check(frothGetViewStatus(context, view, &status), "frothGetViewStatus"); !asked) {
+      return asked.error();
+    }
+    if ((status.bits & FROTH_VIEW_PAIR_OVERFLOW) == 0) break;
+  }
+  if (Status silent = checkSilence(status); !silent) return silent.error();
+  return status;
+}
+
+Status GpuRenderer::State::checkSilence(const FrothViewStatus& status) const {
+  if (status.bits & FROTH_VIEW_NO_WALK_GRAPH) {
+    return makeError(ErrorKind::kUnsupported, "the asset holds no walk graph; use --renderer raster");
+  }
+  if (status.indexViolations > 0) {
+    return makeError(ErrorKind::kUnsupported, "shaders met %u indices out of range; this is a fault of Froth",
+                     status.indexViolations);
+  }
+  const std::vector<std::string> messages = host->validationMessages();
+  if (messages.empty()) return {};
+  return makeError(ErrorKind::kUnsupported, "%zu validation messages; the first: %s", messages.size(),
+                   messages.front().c_str());
+}
+
+Result<RenderedImages> GpuRenderer::State::readImages() {
+  Result<std::vector<float>> colours = host->readImage(colour);
+  if (!colours) return colours.error();
+  Result<std::vector<float>> distances = host->readImage(distance);
+  if (!distances) return distances.error();
+  Result<std::vector<float>> normals = host->readImage(normal);
+  if (!normals) return normals.error();
+
+  RenderedImages images;
+  images.colour = imageFromTexels(*colours, 4, 0, 3, extent);
+  images.alpha = imageFromTexels(*colours, 4, 3, 1, extent);
+  images.depth = imageFromTexels(*distances, 1, 0, 1, extent);
+  images.normal = imageFromTexels(*normals, 4, 0, 3, extent);
+  markMissingDepth(images.depth);
+  return images;
+}
+
+GpuRenderer::GpuRenderer() : state_(std::make_unique<State>()) {}
+GpuRenderer::~GpuRenderer() = default;
+
+Result<std::unique_ptr<GpuRenderer>> GpuRenderer::create(const GpuDeviceOptions& options,
+                                                         const AssetInput& asset, const Progress& progress) {
+  std::unique_ptr<GpuRenderer> renderer(new GpuRenderer());
+  if (Status made = renderer->state_->createContext(options); !made) return made.error();
+  if (Status opened = renderer->state_->openAsset(asset, progress); !opened) return opened.error();
+  return renderer;
+}
+
+Result<GpuFrame> GpuRenderer::render(const View& view, const GpuRenderOptions& options) {
+  if (Status ready = state_->setExtent(extentOf(view), true); !ready) return ready.error();
+  const Result<FrothViewStatus> status = state_->drawAndAsk(renderInfoOf(view, options), options.method);
+  if (!status) return status.error();
+  Result<RenderedImages> images = state_->readImages();
+  if (!images) return images.error();
+  return GpuFrame{std::move(*images), *status};
+}
+
+Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptions& options) {
+  if (Status ready = state_->setExtent(extentOf(view), false); !ready) return ready.error();
+  return state_->drawAndAsk(renderInfoOf(view, options), options.method);
+}
+
+const HostDeviceInfo& GpuRenderer::device() const {
+  return state_->host->info;
+}
+
+FrothAssetStatus GpuRenderer::assetStatus() const {
+  FrothAssetStatus status{};
+  status.structSize = sizeof(status);
+  frothGetAssetStatus(state_->context, state_->asset, &status);  // the handle is good: create() opened it
+  return status;
+}
+
+}  // namespace froth

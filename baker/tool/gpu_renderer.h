@@ -1,0 +1,60 @@
+// Draws views through the runtime's public API on a Vulkan device, and reads images and measures back.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "baker/camera/camera.h"
+#include "baker/reference/reference.h"
+#include "baker/tool/foam_input.h"
+#include "format/result.h"
+#include "froth/froth.h"
+#include "samples/host/host.h"
+
+namespace froth {
+
+enum class GpuMethod { kRaster, kWalk };
+
+struct GpuDeviceOptions {
+  std::string device;     // index or part of a name; empty: the first suitable one
+  bool validate = false;  // validation layers, and shaders that check every index; any message fails a render
+  bool measurePasses = false;
+};
+
+struct GpuRenderOptions {
+  GpuMethod method = GpuMethod::kRaster;
+  float cutoff = 1e-3f;   // 0: a ray never ends early
+  bool isLinear = false;  // colour decoded to linear light
+};
+
+struct GpuFrame {
+  RenderedImages images;
+  FrothViewStatus status{};
+};
+
+// One thread at a time.
+class GpuRenderer {
+ public:
+  // Opens the asset and waits until it is ready.
+  static Result<std::unique_ptr<GpuRenderer>> create(const GpuDeviceOptions& options, const AssetInput& asset,
+                                                     const Progress& progress);
+  ~GpuRenderer();
+
+  // All channels in float. Draws again while a limit that grows by itself was hit.
+  Result<GpuFrame> render(const View& view, const GpuRenderOptions& options);
+  // What a game draws: linear half-float colour only, left on the device. The status is of this very frame.
+  Result<FrothViewStatus> draw(const View& view, const GpuRenderOptions& options);
+
+  const HostDeviceInfo& device() const;
+  FrothAssetStatus assetStatus() const;
+
+ private:
+  GpuRenderer();
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// What the runtime needs to know of a pinhole view; near limits that the view leaves open become the asset's.
+FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options);
+
+}  // namespace froth

@@ -1,0 +1,57 @@
+// The program `froth`: parses arguments, runs one command, turns its error into a message and an exit code.
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "baker/tool/commands.h"
+#include "baker/tool/exit_codes.h"
+
+namespace {
+
+int runAction(froth::Tool& tool) {
+  const froth::Status status = tool.action();
+  tool.progress.finishLine();
+  if (status) return froth::kExitWell;
+  std::fprintf(stderr, "froth: %s\n", status.error().message.c_str());
+  return froth::exitCodeOf(status.error().kind);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program{"Bakes, renders and measures radiance foams."};
+  program.require_subcommand(1);
+  program.fallthrough();  // --quiet is accepted after the subcommand too
+
+  froth::Tool tool;
+  program.add_flag_callback(
+      "-q,--quiet", [&tool] { tool.progress.setQuiet(); }, "No progress on stderr");
+  froth::addSynthCommand(program, tool);
+  froth::addBakeCommand(program, tool);
+  froth::addRenderCommand(program, tool);
+  froth::addInfoCommand(program, tool);
+  froth::addVerifyCommand(program, tool);
+  froth::addCompareCommand(program, tool);
+  froth::addBenchCommand(program, tool);
+  froth::addDevicesCommand(program, tool);
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return program.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "froth: %s; `froth --help` and `froth COMMAND --help` list what there is\n",
+                 error.what());
+    return froth::kExitUsage;
+  }
+
+  froth::stopOnInterrupt();
+  try {
+    return runAction(tool);
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "froth: out of memory\n");
+  } catch (const std::exception& error) {  // third-party code that throws; Froth itself returns its errors
+    std::fprintf(stderr, "froth: internal error: %s\n", error.what());
+  }
+  return froth::kExitFailed;
+}
