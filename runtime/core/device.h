@@ -39,6 +39,8 @@ struct GpuBuffer {
   VkDeviceSize size = 0;
   VkDeviceAddress address = 0;  // 0 for kStaging
   void* mapped = nullptr;       // null for kDevice
+  BufferKind kind = BufferKind::kDevice;
+  VkDeviceSize allocatedSize = 0;  // what the budget is charged
 };
 
 // Owns nothing of the caller's. One thread at a time.
@@ -55,9 +57,13 @@ class Device {
   VkDevice device = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
+  VkDeviceSize maxAllocationSize = 0;  // largest buffer the device promises to accept
   VkDeviceSize budget = 0;       // [bytes] 0: no limit
   VkDeviceSize deviceBytes = 0;  // held now, kDevice
   VkDeviceSize hostBytes = 0;    // held now, kStaging and kReadback
+
+ private:
+  Status bindMemory(GpuBuffer& buffer, const char* purpose);
 };
 
 }  // namespace froth

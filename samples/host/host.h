@@ -67,6 +67,7 @@ class Host {
 
  private:
   Host();
+  Status createDevice();
   struct State;
   std::unique_ptr<State> state_;
 };

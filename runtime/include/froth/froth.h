@@ -70,7 +70,7 @@ typedef void (*FrothMessageCallback)(void* user, FrothSeverity severity, FrothRe
 /* ---- Requirements: pure functions, before a VkDevice exists ---- */
 
 typedef struct FrothRequirement {
-  const char* name;   /* "bufferDeviceAddress", "shaderStorageImageExtendedFormats", "VK_EXT_memory_budget" */
+  const char* name;   /* "bufferDeviceAddress", "timestampComputeAndGraphics" */
   const char* loss;   /* what is lost without it; null: it is required */
   uint32_t isPresent; /* on the physical device that was asked about; 0 where that was null */
   uint32_t isFeature; /* 1: a feature bit, 0: an extension or limit */
@@ -78,19 +78,19 @@ typedef struct FrothRequirement {
 
 typedef struct FrothRequirements {
   uint32_t structSize;
-  uint32_t apiVersion;     /* least VkApplicationInfo::apiVersion */
-  uint32_t isSatisfied;    /* all required items are present */
+  uint32_t apiVersion;  /* least VkApplicationInfo::apiVersion */
+  uint32_t isSatisfied; /* all required items are present; 0 where no physical device was given */
   uint32_t itemCount;
-  const FrothRequirement* items; /* [itemCount], in storage inside this struct's owner below */
-  FrothRequirement storage[16];
+  FrothRequirement items[16]; /* [itemCount] strings are static */
 } FrothRequirements;
 
-/* `instance` and `physicalDevice` may be null: the general list. Messages are in the items. */
+/* `physicalDevice` may be null (then so may the others): the list in general. Sends no messages: the items tell. */
 FROTH_API FrothResult frothGetRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
                                            VkPhysicalDevice physicalDevice, FrothRequirements* requirements);
 
-/* ORs the required feature bits into the caller's own chain: VkPhysicalDeviceFeatures2 with VkPhysicalDeviceVulkan12Features
- * and VkPhysicalDeviceVulkan13Features in pNext. FROTH_ERROR_FEATURE: *missingStructure names the structure to add. */
+/* ORs the required feature bits into the caller's own chain: VkPhysicalDeviceFeatures2 with, in pNext,
+ * VkPhysicalDeviceVulkan12Features and VkPhysicalDeviceVulkan13Features, or the single structures of those features.
+ * FROTH_ERROR_FEATURE: *missingStructure (may be null) names the structure to add. */
 FROTH_API FrothResult frothRequireFeatures(VkPhysicalDeviceFeatures2* features, const char** missingStructure);
 
 /* ---- Context: one per VkDevice ---- */

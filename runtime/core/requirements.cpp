@@ -1,0 +1,185 @@
+#include "runtime/core/requirements.h"
+
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace froth {
+namespace {
+
+// A feature bit stands in the structure of its core version or in its own; a chain holds one of the two.
+struct FeatureHome {
+  VkStructureType type;
+  const char* name;
+  size_t offset;
+};
+
+struct RequiredFeature {
+  const char* name;
+  FeatureHome homes[2];
+};
+
+#define FROTH_HOME(type, structure, member) {type, #structure, offsetof(structure, member)}
+constexpr RequiredFeature kRequiredFeatures[] = {
+    {"bufferDeviceAddress",
+     {FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, VkPhysicalDeviceVulkan12Features,
+                 bufferDeviceAddress),
+      FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES,
+                 VkPhysicalDeviceBufferDeviceAddressFeatures, bufferDeviceAddress)}},
+    {"synchronization2",
+     {FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, VkPhysicalDeviceVulkan13Features,
+                 synchronization2),
+      FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+                 VkPhysicalDeviceSynchronization2Features, synchronization2)}},
+};
+#undef FROTH_HOME
+
+constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
+
+// The feature's bit in a chain; null if neither of its homes is there.
+VkBool32* findFeature(void* chain, const RequiredFeature& feature) {
+  for (auto* link = static_cast<VkBaseOutStructure*>(chain); link; link = link->pNext) {
+    for (const FeatureHome& home : feature.homes) {
+      if (link->sType == home.type) {
+        return reinterpret_cast<VkBool32*>(reinterpret_cast<char*>(link) + home.offset);
+      }
+    }
+  }
+  return nullptr;
+}
+
+bool isEnabled(const VkPhysicalDeviceFeatures2& chain, const RequiredFeature& feature) {
+  const VkBool32* bit = findFeature(const_cast<VkPhysicalDeviceFeatures2*>(&chain), feature);
+  return bit && *bit;
+}
+
+// What a physical device offers; all zero without one.
+struct Offer {
+  VkPhysicalDeviceProperties properties{};
+  std::vector<VkQueueFamilyProperties> queueFamilies;
+  VkPhysicalDeviceVulkan13Features features13{};
+  VkPhysicalDeviceVulkan12Features features12{};
+  VkPhysicalDeviceFeatures2 features{};
+};
+
+void linkFeatures(Offer& offer) {
+  offer.features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  offer.features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  offer.features12.pNext = &offer.features13;
+  offer.features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  offer.features.pNext = &offer.features12;
+}
+
+void queryOffer(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkPhysicalDevice physicalDevice,
+                Offer& offer) {
+  const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties>(
+      getInstanceProcAddr(instance, "vkGetPhysicalDeviceProperties"));
+  const auto getFamilies = reinterpret_cast<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
+      getInstanceProcAddr(instance, "vkGetPhysicalDeviceQueueFamilyProperties"));
+  const auto getFeatures = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
+      getInstanceProcAddr(instance, "vkGetPhysicalDeviceFeatures2"));
+  if (!getProperties || !getFamilies || !getFeatures) {
+    return;  // an instance older than Vulkan 1.1: nothing is offered
+  }
+  getProperties(physicalDevice, &offer.properties);
+  uint32_t count = 0;
+  getFamilies(physicalDevice, &count, nullptr);
+  offer.queueFamilies.resize(count);
+  getFamilies(physicalDevice, &count, offer.queueFamilies.data());
+  getFeatures(physicalDevice, &offer.features);
+}
+
+bool hasCompute(const Offer& offer) {
+  for (const VkQueueFamilyProperties& family : offer.queueFamilies) {
+    if (family.queueFlags & VK_QUEUE_COMPUTE_BIT) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void addItem(FrothRequirements& requirements, const char* name, const char* loss, bool isPresent, bool isFeature) {
+  requirements.items[requirements.itemCount++] = {name, loss, isPresent, isFeature};
+}
+
+}  // namespace
+
+FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                                    VkPhysicalDevice physicalDevice) {
+  Offer offer;
+  linkFeatures(offer);
+  if (physicalDevice) {
+    queryOffer(getInstanceProcAddr, instance, physicalDevice, offer);
+  }
+  FrothRequirements requirements{};
+  requirements.structSize = sizeof(requirements);
+  requirements.apiVersion = kApiVersion;
+  addItem(requirements, "Vulkan 1.3", nullptr, offer.properties.apiVersion >= kApiVersion, false);
+  addItem(requirements, "a queue family with VK_QUEUE_COMPUTE_BIT", nullptr, hasCompute(offer), false);
+  for (const RequiredFeature& feature : kRequiredFeatures) {
+    addItem(requirements, feature.name, nullptr, isEnabled(offer.features, feature), true);
+  }
+  addItem(requirements, "timestampComputeAndGraphics", "the times of passes (FrothViewStatus::passes)",
+          offer.properties.limits.timestampComputeAndGraphics, false);
+
+  requirements.isSatisfied = 1;
+  for (uint32_t i = 0; i < requirements.itemCount; ++i) {
+    const FrothRequirement& item = requirements.items[i];
+    requirements.isSatisfied &= item.isPresent | (item.loss != nullptr);
+  }
+  return requirements;
+}
+
+const char* requireFeatures(VkPhysicalDeviceFeatures2& features) {
+  const char* missing = nullptr;
+  for (const RequiredFeature& feature : kRequiredFeatures) {
+    if (VkBool32* bit = findFeature(&features, feature)) {
+      *bit = VK_TRUE;
+    } else if (!missing) {
+      missing = feature.homes[0].name;
+    }
+  }
+  return missing;
+}
+
+Status checkContextDevice(const FrothContextInfo& info) {
+  const FrothRequirements requirements =
+      queryRequirements(info.getInstanceProcAddr, info.instance, info.physicalDevice);
+  std::string missing;
+  for (uint32_t i = 0; i < requirements.itemCount; ++i) {
+    const FrothRequirement& item = requirements.items[i];
+    if (!item.loss && !item.isPresent) {
+      missing += missing.empty() ? item.name : std::string(", ") + item.name;
+    }
+  }
+  if (!missing.empty()) {
+    return makeError(ErrorKind::kUnsupported, "the physical device lacks %s; frothGetRequirements tells beforehand",
+                     missing.c_str());
+  }
+  for (const RequiredFeature& feature : kRequiredFeatures) {
+    if (!isEnabled(*info.enabledFeatures, feature)) {
+      missing += missing.empty() ? feature.name : std::string(", ") + feature.name;
+    }
+  }
+  if (!missing.empty()) {
+    return makeError(ErrorKind::kUnsupported,
+                     "FrothContextInfo::enabledFeatures: the device was made without %s; call frothRequireFeatures on "
+                     "the chain before vkCreateDevice",
+                     missing.c_str());
+  }
+
+  Offer offer;
+  linkFeatures(offer);
+  queryOffer(info.getInstanceProcAddr, info.instance, info.physicalDevice, offer);
+  const size_t familyCount = offer.queueFamilies.size();
+  if (info.queueFamily >= familyCount || !(offer.queueFamilies[info.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT)) {
+    return makeError(ErrorKind::kUnsupported,
+                     "FrothContextInfo::queueFamily: family %u of %zu has no VK_QUEUE_COMPUTE_BIT; name the family that "
+                     "frames are submitted to",
+                     info.queueFamily, familyCount);
+  }
+  return {};
+}
+
+}  // namespace froth

@@ -1,0 +1,19 @@
+// What the runtime needs of a Vulkan device: one list for the query, for enabling, and for the check at creation.
+#pragma once
+
+#include "format/result.h"
+#include "froth/froth.h"
+
+namespace froth {
+
+FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                                    VkPhysicalDevice physicalDevice);
+
+// The structure that the caller's chain lacks for a required feature, after setting all bits that have a place; null: none.
+const char* requireFeatures(VkPhysicalDeviceFeatures2& features);
+
+// Repeats the query for a context and looks whether its features were enabled and its queue family can compute.
+// Error: names everything that is missing.
+Status checkContextDevice(const FrothContextInfo& info);
+
+}  // namespace froth

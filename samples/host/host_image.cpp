@@ -1,0 +1,200 @@
+#include <cstring>
+
+#include <glm/gtc/packing.hpp>
+
+#include "samples/host/host.h"
+#include "samples/host/host_state.h"
+
+namespace froth {
+namespace {
+
+struct FormatTraits {
+  uint32_t channels;
+  uint32_t bytesPerTexel;
+};
+
+Result<FormatTraits> traitsOf(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+      return FormatTraits{4, 8};
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+      return FormatTraits{4, 16};
+    case VK_FORMAT_R32_SFLOAT:
+      return FormatTraits{1, 4};
+    default:
+      return makeError(ErrorKind::kUnsupported,
+                       "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT and R32_SFLOAT",
+                       format);
+  }
+}
+
+std::vector<float> widenTexels(const void* texels, size_t byteCount, FormatTraits traits) {
+  std::vector<float> values(byteCount / traits.bytesPerTexel * traits.channels);
+  if (traits.bytesPerTexel == traits.channels * sizeof(float)) {
+    std::memcpy(values.data(), texels, byteCount);
+    return values;
+  }
+  const auto* halves = static_cast<const uint16_t*>(texels);
+  for (size_t i = 0; i < values.size(); ++i) {
+    values[i] = glm::unpackHalf1x16(halves[i]);
+  }
+  return values;
+}
+
+// A host-visible buffer that goes with its scope.
+struct ReadbackBuffer {
+  VkDevice device = VK_NULL_HANDLE;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  void* mapped = nullptr;
+
+  ~ReadbackBuffer() {
+    vkDestroyBuffer(device, buffer, nullptr);
+    vkFreeMemory(device, memory, nullptr);
+  }
+};
+
+Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements, uint32_t type, VkDeviceMemory& memory) {
+  VkMemoryAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  info.allocationSize = requirements.size;
+  info.memoryTypeIndex = type;
+  const VkResult code = type == UINT32_MAX ? VK_ERROR_OUT_OF_DEVICE_MEMORY : vkAllocateMemory(device, &info, nullptr, &memory);
+  if (code != VK_SUCCESS) {
+    return makeError(ErrorKind::kUnsupported, "host: allocating %llu bytes gives VkResult %d",
+                     static_cast<unsigned long long>(requirements.size), code);
+  }
+  return {};
+}
+
+void copyToBuffer(VkCommandBuffer commands, const HostImage& image, VkBuffer buffer) {
+  VkBufferImageCopy region{};
+  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.imageExtent = {image.extent.width, image.extent.height, 1};
+  vkCmdCopyImageToBuffer(commands, image.image, VK_IMAGE_LAYOUT_GENERAL, buffer, 1, &region);
+  VkMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+  barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+  barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+}  // namespace
+
+uint32_t Host::State::findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const {
+  for (uint32_t type = 0; type < memory.memoryTypeCount; ++type) {
+    if ((allowedTypes >> type & 1) && (memory.memoryTypes[type].propertyFlags & wanted) == wanted) {
+      return type;
+    }
+  }
+  return UINT32_MAX;
+}
+
+Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent) {
+  if (const Result<FormatTraits> traits = traitsOf(format); !traits) {
+    return traits.error();
+  }
+  HostImage image;
+  image.format = format;
+  image.extent = extent;
+  VkImageCreateInfo imageInfo{};
+  imageInfo.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+  imageInfo.imageType = VK_IMAGE_TYPE_2D;
+  imageInfo.format = format;
+  imageInfo.extent = {extent.width, extent.height, 1};
+  imageInfo.mipLevels = 1;
+  imageInfo.arrayLayers = 1;
+  imageInfo.samples = VK_SAMPLE_COUNT_1_BIT;
+  imageInfo.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  if (const VkResult code = vkCreateImage(device, &imageInfo, nullptr, &image.image); code != VK_SUCCESS) {
+    return makeError(ErrorKind::kUnsupported, "vkCreateImage of %u x %u gives VkResult %d", extent.width, extent.height,
+                     code);
+  }
+  VkMemoryRequirements requirements{};
+  vkGetImageMemoryRequirements(device, image.image, &requirements);
+  const uint32_t type = state_->findMemoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  if (const Status status = allocateMemory(device, requirements, type, image.memory); !status) {
+    destroyImage(image);
+    return status.error();
+  }
+  vkBindImageMemory(device, image.image, image.memory, 0);
+
+  VkImageViewCreateInfo viewInfo{};
+  viewInfo.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+  viewInfo.image = image.image;
+  viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  viewInfo.format = format;
+  viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  if (const VkResult code = vkCreateImageView(device, &viewInfo, nullptr, &image.view); code != VK_SUCCESS) {
+    destroyImage(image);
+    return makeError(ErrorKind::kUnsupported, "vkCreateImageView gives VkResult %d", code);
+  }
+  return image;
+}
+
+void Host::destroyImage(HostImage& image) {
+  vkDestroyImageView(device, image.view, nullptr);
+  vkDestroyImage(device, image.image, nullptr);
+  vkFreeMemory(device, image.memory, nullptr);
+  image = {};
+}
+
+FrothImage Host::describe(const HostImage& image) const {
+  FrothImage described{};
+  described.image = image.image;
+  described.view = image.view;
+  described.format = image.format;
+  described.extent = image.extent;
+  described.layoutIn = VK_IMAGE_LAYOUT_UNDEFINED;
+  described.stageIn = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;  // two passes of one submission may write the same image
+  described.accessIn = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  described.layoutOut = VK_IMAGE_LAYOUT_GENERAL;
+  described.stageOut = VK_PIPELINE_STAGE_2_COPY_BIT;
+  described.accessOut = VK_ACCESS_2_TRANSFER_READ_BIT;
+  return described;
+}
+
+Result<std::vector<float>> Host::readImage(const HostImage& image) {
+  const Result<FormatTraits> traits = traitsOf(image.format);
+  if (!traits) {
+    return traits.error();
+  }
+  VkBufferCreateInfo bufferInfo{};
+  bufferInfo.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  bufferInfo.size = VkDeviceSize{image.extent.width} * image.extent.height * traits->bytesPerTexel;
+  bufferInfo.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  ReadbackBuffer readback;
+  readback.device = device;
+  if (const VkResult code = vkCreateBuffer(device, &bufferInfo, nullptr, &readback.buffer); code != VK_SUCCESS) {
+    return makeError(ErrorKind::kUnsupported, "vkCreateBuffer gives VkResult %d", code);
+  }
+  VkMemoryRequirements requirements{};
+  vkGetBufferMemoryRequirements(device, readback.buffer, &requirements);
+  constexpr VkMemoryPropertyFlags kCoherent =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  uint32_t type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent | VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
+  if (type == UINT32_MAX) {
+    type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent);
+  }
+  if (const Status status = allocateMemory(device, requirements, type, readback.memory); !status) {
+    return status.error();
+  }
+  vkBindBufferMemory(device, readback.buffer, readback.memory, 0);
+  vkMapMemory(device, readback.memory, 0, VK_WHOLE_SIZE, 0, &readback.mapped);
+  const Status status = state_->runCommands(device, queue, [&](VkCommandBuffer commands) {
+    copyToBuffer(commands, image, readback.buffer);
+    return Status();
+  });
+  if (!status) {
+    return status.error();
+  }
+  return widenTexels(readback.mapped, bufferInfo.size, *traits);
+}
+
+}  // namespace froth
