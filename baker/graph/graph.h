@@ -19,28 +19,33 @@ struct CellGraph {
 };
 
 struct RegularTriangulation {
-  CellGraph graph;               // pairs whose power cells share a face; rows of hidden cells are empty
-  std::vector<uint8_t> isHidden; // [cells] 1: the power cell is empty (covered by others, or a duplicate)
-  uint64_t duplicates = 0;       // sites that coincide with another; the one with the largest radius, then the lowest index, stays
+  CellGraph graph;                // pairs whose power cells share a face; rows of hidden cells are empty
+  std::vector<uint8_t> isHidden;  // [cells] 1: the power cell is empty (covered by others, or a duplicate)
+  uint64_t duplicates = 0;  // sites that coincide with another; the largest radius, then the lowest index, stays
 };
 
-// CGAL, sequential, exact predicates on exactly these floats. Any input of finite numbers works: fewer than five sites,
-// collinear, coplanar, cospherical, duplicate ones (lower-dimensional triangulations give the right graph too).
-Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites, std::span<const float> radii,
-                                                const Progress& progress = {});
+// CGAL, sequential, exact predicates on exactly these floats. Any input of finite numbers works: fewer than
+// five sites, collinear, coplanar, cospherical, duplicate ones (lower-dimensional triangulations give the
+// right graph too).
+Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites,
+                                                std::span<const float> radii, const Progress& progress = {});
 
 struct AlphaComplex {
-  CellGraph graph;              // pairs whose bounded cells share a face: never a true pair missing, superfluous ones only within the margin
-  std::vector<uint8_t> isEmpty; // [cells] 1: not hidden, but the bounded cell is empty
+  // Pairs whose bounded cells share a face: never a true pair missing, superfluous ones only within the margin.
+  CellGraph graph;
+  std::vector<uint8_t> isEmpty;  // [cells] 1: not hidden, but the bounded cell is empty
 };
 
+// One polygon per pair, clipped in double; all cores, the same result on any number of them. When `progress`
+// asks to stop the result is empty (no offsets): whoever stopped it drops it.
 AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<const float> radii,
                                  const RegularTriangulation& triangulation, const Progress& progress = {});
 
 // Pairs with |p_i - p_j| < r_i + r_j, in double; over a bounding volume hierarchy or grid, near-linear.
 CellGraph findCechPairs(std::span<const glm::vec3> sites, std::span<const float> radii);
 
-// Cells along a Morton curve of 21 bits per axis over the bounding box; ties by index. order[k] = cell at place k.
+// Cells along a Morton curve of 21 bits per axis over the bounding box; ties by index. order[k] = cell at
+// place k.
 std::vector<uint32_t> mortonOrder(std::span<const glm::vec3> sites);
 
 }  // namespace froth

@@ -1,0 +1,219 @@
+// The alpha-complex: pairs of the regular triangulation whose face polygon meets the ball.
+//
+// On a radical plane both powers are equal, so the face lies in the ball of i exactly where it lies in the
+// ball of j: a pair is decided once, from its side with fewer neighbours. The polygons thus cost the sum of
+// min(degree) over the pairs times a row, and one cell with 100,000 neighbours is no trouble.
+//
+// Every step errs to the superset: each half-space is widened by a slack that covers the rounding.
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "baker/graph/graph.h"
+#include "shaders/foam/cell.h"
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kProgressSlabs = 64;
+
+// Rounding of a plane's offset, in units of r: 8 roundings of 2^-53 on terms of the size |d|^2 + r_i^2 +
+// r_j^2, divided by |d| r, doubled.
+constexpr double kOffsetSlack = 0x1p-49;
+// Rounding of the polygon: 8 of 2^-53 per cut, within the unit ball; enough for 2^14 cuts of one polygon.
+constexpr double kPolygonSlack = 0x1p-36;
+
+// The half-space normal . x <= offset that a neighbour leaves to a cell; x in units of the cell's radius,
+// from its site.
+struct HalfSpace {
+  glm::dvec3 normal;  // unit
+  double offset;
+  double slack;  // > rounding of offset
+};
+
+struct Scratch {
+  std::vector<HalfSpace> halfSpaces;  // that cut the ball
+  std::vector<uint32_t> entries;      // their places in the neighbour array
+  std::vector<glm::dvec2> polygon, clipped;
+};
+
+HalfSpace makeHalfSpace(std::span<const glm::vec3> sites, std::span<const float> radii, uint32_t cell,
+                        uint32_t neighbour) {
+  const glm::dvec3 toNeighbour = glm::dvec3(sites[neighbour]) - glm::dvec3(sites[cell]);
+  const double distance = glm::length(toNeighbour);
+  const double radius = radii[cell], neighbourRadius = radii[neighbour];
+  const double scale = 1 / (distance * radius);
+  const double terms = distance * distance + radius * radius + neighbourRadius * neighbourRadius;
+  return {toNeighbour / distance, foam::radicalOffset(toNeighbour, radius, neighbourRadius) * scale,
+          kPolygonSlack + kOffsetSlack * terms * scale};
+}
+
+// Keeps the part of a convex polygon where across . x <= limit.
+void clipPolygon(std::vector<glm::dvec2>& polygon, const glm::dvec2& across, double limit,
+                 std::vector<glm::dvec2>& clipped) {
+  clipped.clear();
+  glm::dvec2 from = polygon.back();
+  double fromExcess = glm::dot(across, from) - limit;
+  for (const glm::dvec2& to : polygon) {
+    const double toExcess = glm::dot(across, to) - limit;
+    if ((fromExcess > 0) != (toExcess > 0)) {
+      clipped.push_back(from + (to - from) * (fromExcess / (fromExcess - toExcess)));
+    }
+    if (toExcess <= 0) clipped.push_back(to);
+    from = to;
+    fromExcess = toExcess;
+  }
+  polygon.swap(clipped);
+}
+
+// Smallest distance of the origin from the polygon's boundary, squared.
+double squaredDistanceToBoundary(std::span<const glm::dvec2> polygon) {
+  double smallest = INFINITY;
+  glm::dvec2 from = polygon.back();
+  for (const glm::dvec2& to : polygon) {
+    const glm::dvec2 edge = to - from;
+    const double squaredLength = glm::dot(edge, edge);
+    const double t = squaredLength > 0 ? std::clamp(-glm::dot(from, edge) / squaredLength, 0.0, 1.0) : 0.0;
+    const glm::dvec2 nearest = from + t * edge;
+    smallest = std::min(smallest, glm::dot(nearest, nearest));
+    from = to;
+  }
+  return smallest;
+}
+
+// Whether the part of plane `face` inside all other half-spaces comes into the unit ball.
+// The plane cuts the ball in a disc; a square around the disc is clipped, and what is left must come into the
+// disc.
+bool faceMeetsBall(const HalfSpace& face, Scratch& scratch) {
+  const double height = std::abs(face.offset);
+  if (height > 1 + face.slack) return false;
+  const double discRadius = std::sqrt((1 + face.slack - height) * (1 + face.slack + height));
+  const glm::dvec3 axis = std::abs(face.normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 u = glm::normalize(glm::cross(face.normal, axis)), v = glm::cross(face.normal, u);
+
+  std::vector<glm::dvec2>& polygon = scratch.polygon;
+  polygon = {{-discRadius, -discRadius},
+             {discRadius, -discRadius},
+             {discRadius, discRadius},
+             {-discRadius, discRadius}};
+  bool holdsCentre = true;
+  for (const HalfSpace& other : scratch.halfSpaces) {
+    if (&other == &face) continue;
+    const glm::dvec2 across(glm::dot(other.normal, u), glm::dot(other.normal, v));
+    const double limit =
+        other.offset - face.offset * glm::dot(other.normal, face.normal) + other.slack + face.slack;
+    const double reach = glm::length(across) * discRadius;
+    if (limit >= reach) continue;
+    if (limit < -reach) return false;
+    clipPolygon(polygon, across, limit, scratch.clipped);
+    if (polygon.empty()) return false;
+    holdsCentre = holdsCentre && limit >= 0;
+  }
+  return holdsCentre || squaredDistanceToBoundary(polygon) <= discRadius * discRadius;
+}
+
+class AlphaComplexBuilder {
+ public:
+  AlphaComplexBuilder(std::span<const glm::vec3> sites, std::span<const float> radii, const CellGraph& graph)
+      : sites_(sites), radii_(radii), graph_(graph), isKept_(graph.neighbours.size(), 0) {}
+
+  // Decides every pair that the cell owns.
+  void decideOwnedPairs(uint32_t cell, Scratch& scratch) {
+    scratch.halfSpaces.clear();
+    scratch.entries.clear();
+    for (uint32_t entry = graph_.offsets[cell]; entry < graph_.offsets[cell + 1]; ++entry) {
+      const HalfSpace halfSpace = makeHalfSpace(sites_, radii_, cell, graph_.neighbours[entry]);
+      if (halfSpace.offset > 1 + halfSpace.slack) continue;  // holds the whole ball
+      scratch.halfSpaces.push_back(halfSpace);
+      scratch.entries.push_back(entry);
+    }
+    for (size_t k = 0; k < scratch.entries.size(); ++k) {
+      const uint32_t entry = scratch.entries[k];
+      if (owns(cell, graph_.neighbours[entry]))
+        isKept_[entry] = faceMeetsBall(scratch.halfSpaces[k], scratch);
+    }
+  }
+
+  // Takes over what the owners decided. Owned entries are only read here, the others only written.
+  void copyDecisions(uint32_t cell) {
+    for (uint32_t entry = graph_.offsets[cell]; entry < graph_.offsets[cell + 1]; ++entry) {
+      const uint32_t owner = graph_.neighbours[entry];
+      if (owns(cell, owner)) continue;
+      const auto row = graph_.neighbours.begin() + graph_.offsets[owner];
+      const auto rowEnd = graph_.neighbours.begin() + graph_.offsets[owner + 1];
+      isKept_[entry] = isKept_[std::lower_bound(row, rowEnd, cell) - graph_.neighbours.begin()];
+    }
+  }
+
+  // Without a face in its ball, a cell is the whole ball, with all offsets >= 1, or nothing, with its site
+  // beyond some plane, offset < 0. Any threshold between tells them apart, whatever the rounding.
+  bool isEmpty(uint32_t cell) const {
+    bool isCutOff = false;
+    for (uint32_t entry = graph_.offsets[cell]; entry < graph_.offsets[cell + 1]; ++entry) {
+      if (isKept_[entry]) return false;
+      isCutOff = isCutOff || makeHalfSpace(sites_, radii_, cell, graph_.neighbours[entry]).offset < 0.5;
+    }
+    return isCutOff;
+  }
+
+  CellGraph takeKept() const {
+    CellGraph kept;
+    kept.offsets.reserve(graph_.offsets.size());
+    kept.neighbours.reserve(std::count(isKept_.begin(), isKept_.end(), uint8_t{1}));
+    kept.offsets.push_back(0);
+    for (size_t cell = 0; cell + 1 < graph_.offsets.size(); ++cell) {
+      for (uint32_t entry = graph_.offsets[cell]; entry < graph_.offsets[cell + 1]; ++entry) {
+        if (isKept_[entry]) kept.neighbours.push_back(graph_.neighbours[entry]);
+      }
+      kept.offsets.push_back(static_cast<uint32_t>(kept.neighbours.size()));
+    }
+    return kept;
+  }
+
+ private:
+  uint32_t degree(uint32_t cell) const { return graph_.offsets[cell + 1] - graph_.offsets[cell]; }
+  bool owns(uint32_t cell, uint32_t neighbour) const {
+    const uint32_t own = degree(cell), other = degree(neighbour);
+    return own < other || (own == other && cell < neighbour);
+  }
+
+  std::span<const glm::vec3> sites_;
+  std::span<const float> radii_;
+  const CellGraph& graph_;
+  std::vector<uint8_t> isKept_;  // per entry of graph_.neighbours
+};
+
+}  // namespace
+
+AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<const float> radii,
+                                 const RegularTriangulation& triangulation, const Progress& progress) {
+  using Range = tbb::blocked_range<uint32_t>;
+  const uint32_t cellCount = static_cast<uint32_t>(sites.size());
+  AlphaComplexBuilder builder(sites, radii, triangulation.graph);
+
+  const uint32_t slab = cellCount / kProgressSlabs + 1;
+  for (uint32_t first = 0; first < cellCount; first += slab) {
+    if (!report(progress, "alpha-complex", first, cellCount)) return {};
+    tbb::parallel_for(Range(first, std::min(first + slab, cellCount)), [&](const Range& range) {
+      Scratch scratch;
+      for (uint32_t cell = range.begin(); cell < range.end(); ++cell) builder.decideOwnedPairs(cell, scratch);
+    });
+  }
+  tbb::parallel_for(Range(0, cellCount), [&](const Range& range) {
+    for (uint32_t cell = range.begin(); cell < range.end(); ++cell) builder.copyDecisions(cell);
+  });
+
+  AlphaComplex result;
+  result.isEmpty.resize(cellCount);
+  tbb::parallel_for(Range(0, cellCount), [&](const Range& range) {
+    for (uint32_t cell = range.begin(); cell < range.end(); ++cell)
+      result.isEmpty[cell] = builder.isEmpty(cell);
+  });
+  result.graph = builder.takeKept();
+  report(progress, "alpha-complex", cellCount, cellCount);
+  return result;
+}
+
+}  // namespace froth
