@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "baker/checkpoint/activation.h"
+#include "baker/checkpoint/checkpoint.h"
+#include "baker/checkpoint/checkpoint_views.h"
+#include "baker/checkpoint/mapped_file.h"
+
+namespace froth {
+namespace {
+
+constexpr uint64_t kMaxCells = UINT32_MAX;
+constexpr uint64_t kMaxDetails = 32, kMaxLobes = 32;
+constexpr uint64_t kMaxExpansion = 256;  // foam bytes per file byte; 1 as published, 2 from float16, more if expanded
+
+class Importer {
+ public:
+  Importer(const NamedBytes& file, CheckpointViews views, const Progress& progress)
+      : file_(file), views_(std::move(views)), progress_(progress) {}
+
+  Result<Foam> import();
+
+ private:
+  Status readCounts();
+  Status checkShapes() const;
+  Status checkExpansion() const;
+  Status fillFoam();
+  template <class Vec>
+  Status readPlain(Parameter parameter, std::vector<Vec>& out);
+  Status readActivated(Parameter parameter, float smallest, std::vector<float>& out);
+  Status readOrientations();
+  Status checkFinite(const TensorView& view, std::span<const float> values) const;
+  Status reportProgress(const TensorView& view);
+  uint64_t totalCount() const;
+  const TensorView& view(Parameter parameter) const { return views_[static_cast<size_t>(parameter)]; }
+
+  const NamedBytes& file_;
+  const CheckpointViews views_;
+  const Progress& progress_;
+  uint64_t done_ = 0;  // elements read
+  Foam foam_;
+};
+
+Result<Foam> Importer::import() {
+  using Step = Status (Importer::*)();
+  for (const Step step : {&Importer::readCounts, &Importer::fillFoam}) {
+    if (Status status = (this->*step)(); !status) {
+      return status.error();
+    }
+  }
+  return std::move(foam_);
+}
+
+// The counts follow from three shapes; all others must agree with them.
+Status Importer::readCounts() {
+  const auto& points = view(Parameter::kPoints).shape;
+  const uint64_t cells = points.size() == 2 ? points[0] : 0;
+  if (cells < 1 || cells > kMaxCells) {
+    return badInput(file_.name, "tensor 'points' has shape {}, expected [N, 3] with 1 <= N <= {}; save a foam with cells",
+                    describeShape(points), kMaxCells);
+  }
+  const auto& sites = view(Parameter::kDetailSites).shape;
+  const uint64_t details = sites.size() == 3 ? sites[1] : 0;
+  if (details < 1 || details > kMaxDetails) {
+    return badInput(file_.name, "tensor 'texel_sites' has shape {}, expected [N, K, 2] with 1 <= K <= {}; train with such K",
+                    describeShape(sites), kMaxDetails);
+  }
+  const auto& axes = view(Parameter::kLobeAxes).shape;
+  const uint64_t lobes = axes.size() == 4 ? axes[2] : axes.size() == 3 ? axes[2] / 3 : 0;
+  if (lobes < 1 || lobes > kMaxLobes) {
+    return badInput(file_.name,
+                    "tensor 'texel_sv_axis' has shape {}, expected [N, K, 3M] or [N, K, M, 3] with 1 <= M <= {}; train with such M",
+                    describeShape(axes), kMaxLobes);
+  }
+  foam_.cellCount = static_cast<uint32_t>(cells);
+  foam_.detailCount = static_cast<uint32_t>(details);
+  foam_.lobeCount = static_cast<uint32_t>(lobes);
+  if (Status status = checkShapes(); !status) {
+    return status;
+  }
+  return checkExpansion();
+}
+
+Status Importer::checkShapes() const {
+  const uint64_t cells = foam_.cellCount, details = foam_.detailCount, lobes = foam_.lobeCount;
+  const CheckpointViews& views = views_;
+  for (const TensorView& found : views) {
+    std::vector<uint64_t> expected;
+    switch (static_cast<Parameter>(&found - views.data())) {
+      case Parameter::kPoints: expected = {cells, 3}; break;
+      case Parameter::kRadii:
+      case Parameter::kDensity: expected = {cells}; break;
+      case Parameter::kOrientations: expected = {cells, 4}; break;
+      case Parameter::kDetailSites: expected = {cells, details, 2}; break;
+      case Parameter::kDetailHeights: expected = {cells, details}; break;
+      case Parameter::kLobeAxes:
+      case Parameter::kLobeColours:
+        expected = found.shape.size() == 4 ? std::vector<uint64_t>{cells, details, lobes, 3}
+                                           : std::vector<uint64_t>{cells, details, 3 * lobes};
+    }
+    if (found.shape != expected) {
+      return badInput(file_.name, "tensor '{}' has shape {}, the others ask for {}; save the tensors of one foam", found.key,
+                      describeShape(found.shape), describeShape(expected));
+    }
+  }
+  return {};
+}
+
+// Strides of 0 repeat elements, so that a small file can ask for any amount of memory.
+Status Importer::checkExpansion() const {
+  const uint64_t bytes = totalCount() * sizeof(float);
+  if (bytes / kMaxExpansion > file_.bytes.size()) {
+    return badInput(file_.name, "its tensors expand to {} bytes, over {} times the file's {}; save them contiguous", bytes,
+                    kMaxExpansion, file_.bytes.size());
+  }
+  return {};
+}
+
+Status Importer::fillFoam() {
+  constexpr float kSmallestRadius = std::numeric_limits<float>::denorm_min(), kSmallestDensity = 0;
+  Status status = readPlain(Parameter::kPoints, foam_.sites);
+  if (status) status = readActivated(Parameter::kRadii, kSmallestRadius, foam_.radii);
+  if (status) status = readActivated(Parameter::kDensity, kSmallestDensity, foam_.densities);
+  if (status) status = readOrientations();
+  if (status) status = readPlain(Parameter::kDetailSites, foam_.detailSites);
+  if (status) status = readPlain(Parameter::kDetailHeights, foam_.detailHeights);
+  if (status) status = readPlain(Parameter::kLobeAxes, foam_.lobeAxes);
+  if (status) status = readPlain(Parameter::kLobeColours, foam_.lobeColours);
+  return status;
+}
+
+template <class Vec>
+Status Importer::readPlain(Parameter parameter, std::vector<Vec>& out) {
+  const TensorView& from = view(parameter);
+  out.resize(from.count * sizeof(float) / sizeof(Vec));
+  const auto values = reinterpret_cast<float*>(out.data());
+  copyElements(from, values);
+  if (Status status = checkFinite(from, {values, from.count}); !status) {
+    return status;
+  }
+  return reportProgress(from);
+}
+
+Status Importer::readActivated(Parameter parameter, float smallest, std::vector<float>& out) {
+  const TensorView& from = view(parameter);
+  std::vector<double> raw(from.count);
+  copyElements(from, raw.data());
+  out.resize(from.count);
+  for (size_t i = 0; i < raw.size(); ++i) {
+    // Infinity must not pass as the density or radius 0 that it would become.
+    out[i] = static_cast<float>(std::isfinite(raw[i]) ? softplus(raw[i]) : raw[i]);
+  }
+  if (Status status = checkFinite(from, out); !status) {
+    return status;
+  }
+  const auto low = std::find_if(out.begin(), out.end(), [&](float value) { return value < smallest; });
+  if (low != out.end()) {
+    const auto cell = low - out.begin();
+    return badInput(file_.name, "tensor '{}': cell {} has the raw value {}, which activates to 0; remove the cell", from.key,
+                    cell, raw[static_cast<size_t>(cell)]);
+  }
+  return reportProgress(from);
+}
+
+Status Importer::readOrientations() {
+  const TensorView& from = view(Parameter::kOrientations);
+  std::vector<glm::dvec4> raw(foam_.cellCount);
+  copyElements(from, &raw[0].x);
+  foam_.orientations.resize(raw.size());
+  for (size_t i = 0; i < raw.size(); ++i) {
+    const double length = glm::length(raw[i]);
+    if (!(length > 0) || std::isinf(length)) {
+      return badInput(file_.name, "tensor '{}': the quaternion of cell {} has length {}; remove the cell or train again",
+                      from.key, i, length);
+    }
+    foam_.orientations[i] = normaliseQuaternion(raw[i]);
+  }
+  return reportProgress(from);
+}
+
+Status Importer::checkFinite(const TensorView& from, std::span<const float> values) const {
+  const auto bad = std::find_if_not(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+  if (bad != values.end()) {
+    const auto cell = static_cast<uint64_t>(bad - values.begin()) / (from.count / foam_.cellCount);
+    return badInput(file_.name, "tensor '{}': cell {} of {} holds {} (as float32); remove the cell or train again", from.key,
+                    cell, foam_.cellCount, *bad);
+  }
+  return {};
+}
+
+Status Importer::reportProgress(const TensorView& finished) {
+  done_ += finished.count;
+  if (!report(progress_, "import", done_, totalCount())) {
+    return Error{ErrorKind::kCancelled, file_.name + ": import stopped on request"};
+  }
+  return {};
+}
+
+uint64_t Importer::totalCount() const {
+  uint64_t total = 0;
+  for (const TensorView& tensor : views_) {
+    total += tensor.count;
+  }
+  return total;
+}
+
+}  // namespace
+
+Result<Foam> importCheckpointBytes(std::span<const uint8_t> bytes, const std::string& name, const Progress& progress) {
+  const NamedBytes file{bytes, name};
+  Result<CheckpointViews> views = viewCheckpoint(file);
+  if (!views) {
+    return views.error();
+  }
+  return Importer(file, std::move(*views), progress).import();
+}
+
+Result<Foam> importCheckpoint(const std::filesystem::path& path, const Progress& progress) {
+  const Result<MappedFile> file = MappedFile::open(path);
+  if (!file) {
+    return file.error();
+  }
+  return importCheckpointBytes(file->bytes(), path.string(), progress);
+}
+
+}  // namespace froth
