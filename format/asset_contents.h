@@ -41,6 +41,11 @@ struct ChunkContents {
   std::vector<glm::vec3> lobeColours;   // [liveCount * K * M]
 };
 
+// An axis-aligned box; all zero: nothing in it.
+struct Box {
+  std::array<double, 3> min{}, max{};  // [scene units]
+};
+
 // A pinhole camera of a path or a start view; axes x right, y down, z forward.
 struct StoredCamera {
   std::array<double, 12> worldFromCamera{};  // 3 rows of 4

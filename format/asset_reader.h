@@ -27,6 +27,8 @@ class AssetReader {
 
   // Everything but the chunks' arrays; `chunks` holds origin and counts.
   const AssetContents& manifest() const;
+  // The balls of a chunk's live cells, relative to its origin; known before any section is read. chunk < chunks.size().
+  Box liveBounds(uint32_t chunk) const;
   // Decodes and checks all sections of one chunk: hashes, sizes, index ranges, finite numbers, positive radii.
   Result<ChunkContents> readChunk(uint32_t chunk) const;
 
