@@ -20,6 +20,7 @@
 #define FOAM_PRECISE
 
 namespace froth::foam {
+using glm::cross;
 using glm::dot;
 using std::abs;
 using std::exp;

@@ -1,0 +1,12 @@
+// The look of a view without anything in it: colour 0, distance +inf, normal 0.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gpu/outputs.glsl"
+
+layout(local_size_x = kSubTileSize, local_size_y = kSubTileSize) in;
+
+void main() {
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  if (pixel.x >= FRAME.regionWidth || pixel.y >= FRAME.regionHeight) return;
+  writePixel(pixel, vec3(0.0), 0.0, kInfinity, vec3(0.0));
+}

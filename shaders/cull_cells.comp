@@ -1,0 +1,43 @@
+// Which live cells this view can see: near tests, then the ball against all rays of the view. A thread per live cell of
+// the chunk gl_WorkGroupID.y; a bit per cell and, per workgroup, the count of visible cells and of their planes.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gpu/asset.glsl"
+#include "gpu/pixels.glsl"
+#include "foam/cell.h"
+
+layout(local_size_x = kGroupSize) in;
+
+shared uint maskWords[kMaskWords];
+shared uint planes;
+
+bool isVisible(Ball ball) {
+  if (isNearCell(ball.centre, ball.radius, FRAME.forward.xyz, FRAME.nearRatio, FRAME.forward.w)) return false;
+  return pixelsMeetBall(ball.centre, ball.radius, uvec2(0), max(FRAME.regionWidth, FRAME.regionHeight));
+}
+
+void main() {
+  uint thread = gl_LocalInvocationIndex;
+  uint chunk = gl_WorkGroupID.y;
+  uint local = gl_GlobalInvocationID.x;
+  uint group = chunk * FRAME.groupsPerChunk + gl_WorkGroupID.x;
+  if (thread < kMaskWords) maskWords[thread] = 0;
+  if (thread == 0) planes = 0;
+  barrier();
+
+  if (local < FRAME.chunks.v[chunk].liveCount && isVisible(ballOfCell(uvec2(chunk, local)))) {
+    atomicOr(maskWords[thread / 32], 1u << (thread % 32));
+    atomicAdd(planes, FRAME.chunks.v[chunk].alphaCounts.v[local]);
+  }
+  barrier();
+
+  uint groups = FRAME.chunkCount * FRAME.groupsPerChunk;
+  if (thread < kMaskWords) {
+    FRAME.visibilityMasks.v[checked(group * kMaskWords + thread, groups * kMaskWords)] = maskWords[thread];
+  }
+  if (thread == 0) {
+    uint cells = 0;
+    for (uint word = 0; word < kMaskWords; ++word) cells += bitCount(maskWords[word]);
+    FRAME.groupSums.v[checked(group, groups)] = uvec2(cells, planes);
+  }
+}

@@ -1,0 +1,43 @@
+// What every pass knows: the frame's block by push constant, specialization, checked indices.
+#ifndef FROTH_GPU_FRAME_GLSL
+#define FROTH_GPU_FRAME_GLSL
+#extension GL_EXT_buffer_reference : require
+#include "gpu/layout.h"
+
+layout(constant_id = kConstantCheckIndices) const bool checkIndices = false;
+
+#if defined(FROTH_SORT)
+layout(push_constant) uniform Push {
+  FrameRef frame;
+  UintArray keysIn, valuesIn, keysOut, valuesOut, count;
+  uint shift, capacity;
+} push;
+#else
+layout(push_constant) uniform Push {
+  FrameRef frame;
+  uint mode;
+} push;
+#endif
+
+#define kInfinity uintBitsToFloat(0x7f800000u)
+#define FRAME push.frame.v
+#define COUNTERS push.frame.v.counters.v
+
+// Every access to an array goes through this: with checkIndices an index out of range is counted and clamped.
+uint checked(uint index, uint count) {
+  if (checkIndices && index >= count) {
+    atomicAdd(COUNTERS.violations, 1u);
+    return count > 0 ? count - 1 : 0;
+  }
+  return index;
+}
+
+// Dispatches over long lists are two-dimensional: one dimension may be limited to 65535 workgroups.
+uint linearGroup() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
+uvec4 dispatchOf(uint groups) {
+  uint rows = (groups + 65534u) / 65535u;
+  return uvec4(rows > 0 ? (groups + rows - 1) / rows : 0, rows, 1, 0);
+}
+
+#endif

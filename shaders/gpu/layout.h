@@ -1,0 +1,179 @@
+// What crosses the border between the recording code and the render passes: one text for C++ and GLSL.
+//
+// Large arrays are reached by address. Structs hold only 4-byte scalars, 16-byte vectors and 8-byte addresses, each at a
+// multiple of its size, so that C++ and std430 agree without padding rules; the static_asserts below hold them to it.
+#ifndef FROTH_GPU_LAYOUT_H
+#define FROTH_GPU_LAYOUT_H
+
+#if defined(__cplusplus)
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace froth::gpu {
+using uint = uint32_t;
+using uvec4 = std::array<uint32_t, 4>;
+using vec4 = std::array<float, 4>;
+#define FROTH_ADDRESS(type) uint64_t
+#define FROTH_CONST constexpr uint
+
+#else
+
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer UintArray { uint v[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer FloatArray { float v[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer UintPairArray { uvec2 v[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer FloatPairArray { vec2 v[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer UintQuadArray { uvec4 v[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer FloatQuadArray { vec4 v[]; };
+#define FROTH_ADDRESS(type) type
+#define FROTH_CONST const uint
+
+#endif
+
+FROTH_CONST kGroupSize = 256;         // threads of a workgroup in all passes over lists
+FROTH_CONST kSortKeysPerGroup = 1024; // keys one workgroup ranks in a radix pass
+FROTH_CONST kTileSize = 32;           // [pixels] edge of the tiles that own lists
+FROTH_CONST kSubTileSize = 8;         // [pixels] edge of what one workgroup of the raster draws
+FROTH_CONST kMaskWords = 8;           // words of a bit per thread of a workgroup
+FROTH_CONST kNoCell = 0xffffffffu;
+
+// PassConstants::mode of scan_groups.comp: whose totals it scans.
+FROTH_CONST kScanVisible = 0;
+FROTH_CONST kScanPairs = 1;
+
+// Specialization constants of all shaders.
+FROTH_CONST kConstantCheckIndices = 0;
+FROTH_CONST kConstantDetailCount = 1;
+FROTH_CONST kConstantLobeCount = 2;
+FROTH_CONST kConstantHasHeights = 3;
+
+// FrameBlock::flags
+FROTH_CONST kFlagColour = 1;
+FROTH_CONST kFlagDistance = 2;
+FROTH_CONST kFlagNormal = 4;
+FROTH_CONST kFlagDisplayCoded = 8;
+FROTH_CONST kFlagForgetStart = 16; // the walk's start cell of the last frame belongs to another asset
+FROTH_CONST kFlagOnlyPaired = 32;  // shade only cells that own a (tile, cell) pair
+
+// One chunk of the asset, seen from this frame's eye.
+struct ChunkEntry {
+  vec4 offsetHigh;  // xyz: chunk origin minus eye in the asset's axes; the high and
+  vec4 offsetLow;   //      the low part of a double [scene units of the asset]
+  FROTH_ADDRESS(FloatQuadArray) siteRadius;
+  FROTH_ADDRESS(UintArray) neighbourOffsets;
+  FROTH_ADDRESS(UintArray) neighbours;
+  FROTH_ADDRESS(UintArray) alphaCounts;
+  FROTH_ADDRESS(FloatArray) densities;
+  FROTH_ADDRESS(FloatQuadArray) orientations;
+  FROTH_ADDRESS(FloatPairArray) detailSites;
+  FROTH_ADDRESS(FloatArray) detailHeights;
+  FROTH_ADDRESS(FloatArray) lobeAxes;
+  FROTH_ADDRESS(FloatArray) lobeColours;
+  uint cellCount, liveCount, neighbourCount;
+  uint liveStart;  // live cells in the chunks before
+};
+
+// A visible cell as the rays meet it. Positions are relative to the eye.
+struct CellRecord {
+  vec4 ball;       // centre, radius
+  vec4 face;       // normal n, density
+  vec4 tangent;    // t, 1 / radius
+  vec4 bitangent;  // b, 0
+  uint planeBegin, planeSplit, planeEnd;  // eye planes: [begin, split) only lower tFar, [split, end) only raise tNear
+  uint padding;
+};
+
+// Written by the passes, cleared per frame, copied to the host. Each dispatch is a VkDispatchIndirectCommand.
+struct Counters {
+  uint visibleCells;
+  uint planes;      // of the visible cells
+  uint pairs;       // (tile, cell) pairs wanted; saturates
+  uint pairsKept;   // of these, those that had space
+  uint stepLimit;   // pixels whose walk was ended by maxSteps
+  uint violations;  // indices out of range (checkIndices)
+  uint walkStepsLow, walkStepsHigh;  // (checkIndices)
+  uvec4 visibleDispatch;   // a thread per visible cell
+  uvec4 siteDispatch;      // a thread per detail site of a visible cell
+  uvec4 cellSortDispatch;  // a workgroup per kSortKeysPerGroup visible cells
+  uvec4 pairDispatch;      // a thread per kept pair
+  uvec4 pairSortDispatch;  // a workgroup per kSortKeysPerGroup kept pairs
+};
+
+#if !defined(__cplusplus)
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer ChunkArray { ChunkEntry v[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer RecordArray { CellRecord v[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer CountersRef { Counters v; };
+#endif
+
+// One recording of one view. Directions and lengths are in the asset's axes and units.
+struct FrameBlock {
+  vec4 rayOrigin;  // direction of pixel (column, row) of the region, not normalized:
+  vec4 rayX;       // rayOrigin + column rayX + row rayY
+  vec4 rayY;
+  vec4 forward;    // unit view axis, nearDepth
+  vec4 worldX;     // rows of the rotation world-from-asset
+  vec4 worldY;
+  vec4 worldZ;
+  float nearRatio, scale, logCutoff, logQuantile;
+  float detailSharpness;
+  uint flags, maxSteps, localBits;
+  uint regionX, regionY, regionWidth, regionHeight;  // [pixels] what is drawn
+  uint tilesX, tilesY, chunkCount, groupsPerChunk;   // groups: workgroups over a chunk's live cells
+  uint visibleCapacity, planeCapacity, pairCapacity, histogramCapacity;
+  FROTH_ADDRESS(CountersRef) counters;
+  FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
+  FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] or [groups over visible cells]
+  FROTH_ADDRESS(UintArray) visibilityMasks;    // [chunkCount * groupsPerChunk * kMaskWords]
+  FROTH_ADDRESS(UintArray) slotOfCell;         // [liveCount] kNoCell: not visible
+  FROTH_ADDRESS(UintQuadArray) visibleCells;   // [slot] chunk, local index, first plane, planes
+  FROTH_ADDRESS(UintArray) cellKeys;           // [slot] order-preserving bits of the power of the eye
+  FROTH_ADDRESS(UintArray) order;              // [visible cell] slot
+  FROTH_ADDRESS(RecordArray) records;          // [visible cell]
+  FROTH_ADDRESS(FloatQuadArray) planes;        // [planeCapacity] xyz: s = dot(xyz, direction) = 1 / t
+  FROTH_ADDRESS(FloatPairArray) sites;         // [visible cell * K * 3] (u, v), (height, r), (g, b)
+  FROTH_ADDRESS(UintArray) tileCounts;         // [visible cell] tiles its ball meets
+  FROTH_ADDRESS(UintArray) pairTiles;          // [pair] as emitted
+  FROTH_ADDRESS(UintArray) pairCells;
+  FROTH_ADDRESS(UintArray) tileCells;          // [pair] visible cells in the order of tiles
+  FROTH_ADDRESS(UintArray) sortedTiles;        // [pair] tile of that pair
+  FROTH_ADDRESS(UintPairArray) tileRanges;     // [tile] begin and end in tileCells
+  FROTH_ADDRESS(UintArray) histogram;          // [kGroupSize + histogramCapacity] totals by digit, then rows by digit
+  FROTH_ADDRESS(UintPairArray) walkStart;      // [1] chunk, local index of the cell that holds the eye; kept over frames
+};
+
+#if defined(__cplusplus)
+
+// Push constants of the radix sort.
+struct SortConstants {
+  uint64_t frame, keysIn, valuesIn, keysOut, valuesOut, count;
+  uint shift, capacity;
+};
+
+// Push constants of all other passes.
+struct PassConstants {
+  uint64_t frame;
+  uint mode;  // of scan_groups.comp
+  uint padding;
+};
+
+static_assert(sizeof(ChunkEntry) == 128 && offsetof(ChunkEntry, siteRadius) == 32);
+static_assert(offsetof(ChunkEntry, lobeColours) == 104 && offsetof(ChunkEntry, cellCount) == 112);
+static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
+static_assert(sizeof(Counters) == 112 && offsetof(Counters, visibleDispatch) == 32);
+static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);
+static_assert(offsetof(FrameBlock, counters) == 192 && sizeof(FrameBlock) == 344);
+static_assert(sizeof(SortConstants) == 56 && sizeof(PassConstants) == 16);
+static_assert(sizeof(SortConstants) <= 128);
+
+}  // namespace froth::gpu
+
+#else
+
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer FrameRef { FrameBlock v; };
+
+#endif
+
+#undef FROTH_ADDRESS
+#undef FROTH_CONST
+#endif

@@ -1,0 +1,25 @@
+// The caller's images. FROTH_COLOUR_FORMAT is rgba16f or rgba32f; images that are not wanted are placeholders, untouched.
+#ifndef FROTH_GPU_OUTPUTS_GLSL
+#define FROTH_GPU_OUTPUTS_GLSL
+#include "gpu/frame.glsl"
+#include "foam/colour.h"
+
+layout(set = 0, binding = 0, FROTH_COLOUR_FORMAT) uniform writeonly image2D colourImage;
+layout(set = 0, binding = 1, r32f) uniform writeonly image2D distanceImage;
+layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D normalImage;
+
+// `pixel` counts from the region's corner; `colour` is display-coded, the normal in the asset's axes.
+void writePixel(uvec2 pixel, vec3 colour, float coverage, float quantileDepth, vec3 normal) {
+  ivec2 place = ivec2(pixel + uvec2(FRAME.regionX, FRAME.regionY));
+  if ((FRAME.flags & kFlagColour) != 0) {
+    vec3 coded = (FRAME.flags & kFlagDisplayCoded) != 0 ? colour : linearPremultiplied(colour, coverage);
+    imageStore(colourImage, place, vec4(coded, coverage));
+  }
+  if ((FRAME.flags & kFlagDistance) != 0) imageStore(distanceImage, place, vec4(quantileDepth * FRAME.scale));
+  if ((FRAME.flags & kFlagNormal) != 0) {
+    vec3 world = vec3(dot(FRAME.worldX.xyz, normal), dot(FRAME.worldY.xyz, normal), dot(FRAME.worldZ.xyz, normal));
+    imageStore(normalImage, place, vec4(world, 0.0));
+  }
+}
+
+#endif

@@ -1,0 +1,56 @@
+// Finds the power cell that holds the eye: from the cell of the last frame, always on to the neighbour of least power. One
+// workgroup; the threads share a cell's neighbours.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gpu/asset.glsl"
+#include "foam/cell.h"
+
+const uint kThreads = 64;
+layout(local_size_x = kThreads) in;
+
+shared float powers[kThreads];
+shared uint places[kThreads];
+
+// Place in the neighbour array of the least power, the first one among equals; its power in powers[0] of all threads.
+void findLeast(uint chunk, uvec2 row) {
+  uint thread = gl_LocalInvocationIndex;
+  float least = kInfinity;
+  uint place = kNoCell;
+  for (uint i = row.x + thread; i < row.y; i += kThreads) {
+    Ball ball = ballOfCell(neighbourAt(chunk, i));
+    float power = powerOfOrigin(ball.centre, ball.radius);
+    if (power < least) {
+      least = power;
+      place = i;
+    }
+  }
+  powers[thread] = least;
+  places[thread] = place;
+  barrier();
+  for (uint stride = kThreads / 2; stride > 0; stride /= 2) {
+    if (thread < stride) {
+      float other = powers[thread + stride];
+      if (other < powers[thread] || (other == powers[thread] && places[thread + stride] < places[thread])) {
+        powers[thread] = other;
+        places[thread] = places[thread + stride];
+      }
+    }
+    barrier();
+  }
+}
+
+void main() {
+  uvec2 cell = (FRAME.flags & kFlagForgetStart) != 0 ? uvec2(0) : FRAME.walkStart.v[0];
+  Ball ball = ballOfCell(cell);
+  float power = powerOfOrigin(ball.centre, ball.radius);
+  for (uint steps = 0; steps < FRAME.maxSteps; ++steps) {
+    findLeast(cell.x, neighbourRow(cell));
+    float least = powers[0];
+    uint place = places[0];
+    barrier();
+    if (!(least < power)) break;
+    cell = neighbourAt(cell.x, place);
+    power = least;
+  }
+  if (gl_LocalInvocationIndex == 0) FRAME.walkStart.v[0] = cell;
+}
