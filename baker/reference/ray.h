@@ -1,0 +1,121 @@
+// One primary ray: the cells it meets, clipped, shaded and composited (foam.md "What one ray meets in one
+// cell").
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "baker/reference/view_cells.h"
+#include "shaders/foam/appearance.h"
+#include "shaders/foam/cell.h"
+#include "shaders/foam/compositing.h"
+
+namespace froth {
+
+// A ball that the ray meets.
+template <class Real>
+struct BallHit {
+  uint32_t rank;  // in ViewCells::cells
+  Real tNear, tFar;
+};
+
+template <class Real>
+struct RayResult {
+  glm::vec<3, Real> colour{0};
+  glm::vec<3, Real> normal{0};
+  Real logTransmittance = 0;
+  Real depth = -1;
+};
+
+template <class Real>
+struct RaySettings {
+  Real cutoff, logQuantile, sharpness;
+};
+
+// Cuts the interval by all neighbours' planes; false when nothing is left.
+template <class Real>
+bool clipByNeighbours(std::span<const ViewPlane<Real>> planes, const glm::vec<3, Real>& direction,
+                      BallHit<Real>& hit) {
+  for (const ViewPlane<Real>& plane : planes) {
+    foam::clipByPlane(plane.clearance, glm::dot(plane.toNeighbour, direction), hit.tNear, hit.tFar);
+    if (!(hit.tNear < hit.tFar)) return false;
+  }
+  return true;
+}
+
+template <class Real>
+Real blendHeight(std::span<const ViewDetail<Real>> details, const glm::vec<3, Real>& query, Real sharpness) {
+  Real sum = 0, weightSum = 0;
+  for (const ViewDetail<Real>& detail : details) {
+    const Real weight = foam::detailWeight(query, detail.place, sharpness);
+    sum += weight * detail.height;
+    weightSum += weight;
+  }
+  return sum / foam::flooredWeightSum(weightSum);
+}
+
+template <class Real>
+glm::vec<3, Real> blendColour(std::span<const ViewDetail<Real>> details, const glm::vec<3, Real>& query,
+                              Real sharpness) {
+  glm::vec<3, Real> sum(0);
+  Real weightSum = 0;
+  for (const ViewDetail<Real>& detail : details) {
+    const Real weight = foam::detailWeight(query, detail.place, sharpness);
+    sum += weight * detail.colour;
+    weightSum += weight;
+  }
+  return sum / foam::flooredWeightSum(weightSum);
+}
+
+// Steps 3 to 7 for a cell whose interval the planes have cut.
+template <class Real>
+void compositeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>> details,
+                   const glm::vec<3, Real>& direction, const RaySettings<Real>& settings, BallHit<Real> hit,
+                   RayResult<Real>& ray) {
+  const Real facing = glm::dot(cell.frame.normal, direction);
+  const bool leavesThroughFace = facing >= 0;
+  const auto queryAt = [&](Real t) {
+    return foam::faceQuery(t * direction - cell.centre, cell.frame.tangent, cell.frame.bitangent,
+                           cell.inverseRadius);
+  };
+  const Real tBase = foam::intersectFace(cell.centre, cell.frame.normal, facing, Real(0));
+  const Real tQuery = leavesThroughFace ? hit.tNear : std::max(hit.tNear, tBase);
+  const Real height = blendHeight(details, queryAt(tQuery), settings.sharpness);
+  const Real tFace = foam::intersectFace(cell.centre, cell.frame.normal, facing, height);
+  if (leavesThroughFace) {
+    hit.tFar = std::min(hit.tFar, tFace);
+  } else {
+    hit.tNear = std::max(hit.tNear, tFace);
+  }
+  if (!(hit.tNear < hit.tFar)) return;
+
+  const glm::vec<3, Real> colour = blendColour(details, queryAt(hit.tNear), settings.sharpness);
+  const Real opticalDepth = cell.density * (hit.tFar - hit.tNear);
+  const Real weight = std::exp(ray.logTransmittance) * foam::opacity(opticalDepth);
+  const Real logAfter = ray.logTransmittance - opticalDepth;
+  if (ray.logTransmittance >= settings.logQuantile && logAfter < settings.logQuantile) {
+    ray.depth = foam::quantileDistance(hit.tNear, ray.logTransmittance, settings.logQuantile, cell.density);
+  }
+  ray.colour += weight * colour;
+  ray.normal += weight * cell.frame.normal;
+  ray.logTransmittance = logAfter;
+}
+
+// `hits` in any order; they are sorted front to back.
+template <class Real>
+RayResult<Real> compositeHits(const ViewCells<Real>& view, const glm::vec<3, Real>& direction,
+                              const RaySettings<Real>& settings, std::vector<BallHit<Real>>& hits) {
+  std::sort(hits.begin(), hits.end(),
+            [](const BallHit<Real>& a, const BallHit<Real>& b) { return a.rank < b.rank; });
+  RayResult<Real> ray;
+  for (BallHit<Real>& hit : hits) {
+    const ViewCell<Real>& cell = view.cells[hit.rank];
+    if (!clipByNeighbours(view.planesOf(cell), direction, hit)) continue;
+    compositeCell(cell, view.detailsOf(hit.rank), direction, settings, hit, ray);
+    if (std::exp(ray.logTransmittance) < settings.cutoff) break;
+  }
+  return ray;
+}
+
+}  // namespace froth

@@ -1,0 +1,169 @@
+#include "baker/reference/reference.h"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <mutex>
+
+#include "baker/reference/ball_hierarchy.h"
+#include "baker/reference/ray.h"
+#include "baker/reference/view_cells.h"
+
+namespace froth {
+namespace {
+
+constexpr uint64_t kMaxPixels = uint64_t{1} << 28;
+
+// Cells that can show: of coincident sites only the one with the largest radius, then the lowest index,
+// exists; cells without density only cut.
+std::vector<uint32_t> findVisibleCells(const Foam& foam) {
+  std::vector<uint32_t> cells(foam.cellCount);
+  for (uint32_t i = 0; i < foam.cellCount; ++i) cells[i] = i;
+  const auto key = [&](uint32_t i) {
+    const glm::vec3& p = foam.sites[i];
+    return std::tuple(p.x, p.y, p.z, -foam.radii[i], i);
+  };
+  std::sort(cells.begin(), cells.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  const auto isSameSite = [&](uint32_t a, uint32_t b) { return foam.sites[a] == foam.sites[b]; };
+  cells.erase(std::unique(cells.begin(), cells.end(), isSameSite), cells.end());
+  std::erase_if(cells, [&](uint32_t i) { return !(foam.densities[i] > 0); });
+  return cells;
+}
+
+// Counts rows from all threads, reports about a hundred times, one thread at a time.
+class RowCounter {
+ public:
+  RowCounter(const Progress& progress, uint32_t rows)
+      : progress_(progress), rows_(rows), stride_(std::max(rows / 100, 1u)) {}
+
+  // False: stop.
+  bool finishRow() {
+    const uint32_t done = ++done_;
+    if (done % stride_ == 0) {
+      const std::lock_guard lock(mutex_);
+      if (!isStopped_ && !report(progress_, "render", done, rows_)) isStopped_ = true;
+    }
+    return !isStopped_;
+  }
+  bool isStopped() const { return isStopped_; }
+
+ private:
+  const Progress& progress_;
+  const uint32_t rows_, stride_;
+  std::atomic<uint32_t> done_ = 0;
+  std::atomic<bool> isStopped_ = false;
+  std::mutex mutex_;
+};
+
+glm::dvec3 pixelDirection(const View& view, uint32_t x, uint32_t y) {
+  const auto& m = view.worldFromCamera;
+  const glm::dvec3 d((x + 0.5 - view.cx) / view.fx, (y + 0.5 - view.cy) / view.fy, 1);
+  return glm::normalize(glm::dvec3(m[0] * d.x + m[1] * d.y + m[2] * d.z, m[4] * d.x + m[5] * d.y + m[6] * d.z,
+                                   m[8] * d.x + m[9] * d.y + m[10] * d.z));
+}
+
+template <class Real>
+class ImageRenderer {
+ public:
+  ImageRenderer(const BallHierarchy& hierarchy, const ViewCells<Real>& cells, const View& view,
+                const ReferenceOptions& options)
+      : hierarchy_(hierarchy),
+        cells_(cells),
+        view_(view),
+        settings_{Real(options.cutoff), Real(std::log(options.depthQuantile)),
+                  Real(options.detailSharpness)} {
+    const size_t pixels = size_t{view.width} * view.height;
+    images_.colour = {view.width, view.height, 3, std::vector<float>(pixels * 3)};
+    images_.alpha = {view.width, view.height, 1, std::vector<float>(pixels)};
+    images_.depth = {view.width, view.height, 1, std::vector<float>(pixels)};
+    images_.normal = {view.width, view.height, 3, std::vector<float>(pixels * 3)};
+  }
+
+  Result<RenderedImages> render(const Progress& progress) {
+    RowCounter counter(progress, view_.height);
+    tbb::task_group_context context;
+    tbb::parallel_for(
+        tbb::blocked_range<uint32_t>(0, view_.height),
+        [&](const tbb::blocked_range<uint32_t>& rows) {
+          std::vector<BallHit<Real>> hits;
+          for (uint32_t y = rows.begin(); y < rows.end(); ++y) {
+            for (uint32_t x = 0; x < view_.width; ++x) renderPixel(x, y, hits);
+            if (!counter.finishRow()) {
+              context.cancel_group_execution();
+              return;
+            }
+          }
+        },
+        tbb::auto_partitioner(), context);
+    if (counter.isStopped()) return makeError(ErrorKind::kCancelled, "render: stopped on request");
+    return std::move(images_);
+  }
+
+ private:
+  void renderPixel(uint32_t x, uint32_t y, std::vector<BallHit<Real>>& hits) {
+    const glm::dvec3 exactDirection = pixelDirection(view_, x, y);
+    const glm::vec<3, Real> direction(exactDirection);
+    hits.clear();
+    hierarchy_.visitAlongRay(eyeOf(view_), exactDirection, [&](uint32_t source) {
+      BallHit<Real> hit{cells_.rankOf[source], 0, 0};
+      if (hit.rank == ViewCells<Real>::kNotDrawn) return;
+      const ViewCell<Real>& cell = cells_.cells[hit.rank];
+      if (foam::intersectBall(cell.centre, cell.radius, direction, hit.tNear, hit.tFar)) hits.push_back(hit);
+    });
+    const RayResult<Real> ray = compositeHits(cells_, direction, settings_, hits);
+    for (int c = 0; c < 3; ++c) {
+      images_.colour.pixel(x, y)[c] = static_cast<float>(ray.colour[c]);
+      images_.normal.pixel(x, y)[c] = static_cast<float>(ray.normal[c]);
+    }
+    *images_.alpha.pixel(x, y) = static_cast<float>(-std::expm1(ray.logTransmittance));
+    *images_.depth.pixel(x, y) = static_cast<float>(ray.depth);
+  }
+
+  const BallHierarchy& hierarchy_;
+  const ViewCells<Real>& cells_;
+  const View& view_;
+  const RaySettings<Real> settings_;
+  RenderedImages images_;
+};
+
+}  // namespace
+
+struct ReferenceRenderer::State {
+  explicit State(const Foam& source)
+      : foam(source),
+        visible(findVisibleCells(source)),
+        cechPairs(findCechPairs(source.sites, source.radii)),
+        hierarchy(source.sites, source.radii, visible) {}
+
+  template <class Real>
+  Result<RenderedImages> render(const View& view, const ReferenceOptions& options,
+                                const Progress& progress) const {
+    const ViewCells<Real> cells = prepareViewCells<Real>(foam, cechPairs, visible, view, options);
+    return ImageRenderer<Real>(hierarchy, cells, view, options).render(progress);
+  }
+
+  const Foam& foam;
+  const std::vector<uint32_t> visible;
+  const CellGraph cechPairs;
+  const BallHierarchy hierarchy;
+};
+
+ReferenceRenderer::ReferenceRenderer(const Foam& foam) : state_(std::make_unique<State>(foam)) {}
+ReferenceRenderer::~ReferenceRenderer() = default;
+
+Result<RenderedImages> ReferenceRenderer::render(const View& view, const ReferenceOptions& options,
+                                                 const Progress& progress) const {
+  if (view.width == 0 || view.height == 0 || uint64_t{view.width} * view.height > kMaxPixels) {
+    return makeError(ErrorKind::kUsage, "view '%s': size %u x %u; give 1 to 2^28 pixels", view.name.c_str(),
+                     view.width, view.height);
+  }
+  if (!(options.depthQuantile > 0 && options.depthQuantile <= 1)) {
+    return makeError(ErrorKind::kUsage,
+                     "depth quantile: found %g; give a transmittance above 0 and at most 1",
+                     options.depthQuantile);
+  }
+  return options.precision == Precision::kFloat ? state_->render<float>(view, options, progress)
+                                                : state_->render<double>(view, options, progress);
+}
+
+}  // namespace froth

@@ -1,0 +1,129 @@
+#include "baker/reference/view_cells.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "shaders/foam/appearance.h"
+#include "shaders/foam/cell.h"
+
+namespace froth {
+namespace {
+
+template <class Real>
+using Vec3 = glm::vec<3, Real>;
+
+// Near tests (foam.md "Near cells"): once per cell, in double.
+std::vector<uint32_t> selectDrawnCells(const Foam& foam, std::span<const uint32_t> candidates,
+                                       const View& view, const ReferenceOptions& options) {
+  const auto& m = view.worldFromCamera;
+  const glm::dvec3 eye = eyeOf(view), forward = glm::normalize(glm::dvec3(m[2], m[6], m[10]));
+  std::vector<uint32_t> drawn;
+  for (uint32_t cell : candidates) {
+    const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
+    const double radius = foam.radii[cell];
+    if (!foam::isNearCell(centre, radius, forward, options.nearRatio, options.nearDepth))
+      drawn.push_back(cell);
+  }
+  return drawn;
+}
+
+// By the power of the eye; equal powers by index (foam.md "Order").
+template <class Real>
+void sortFrontToBack(const Foam& foam, const glm::dvec3& eye, std::vector<uint32_t>& cells) {
+  std::vector<Real> powers(foam.cellCount);
+  for (uint32_t cell : cells) {
+    powers[cell] =
+        foam::powerOfOrigin(Vec3<Real>(glm::dvec3(foam.sites[cell]) - eye), Real(foam.radii[cell]));
+  }
+  std::sort(cells.begin(), cells.end(),
+            [&](uint32_t a, uint32_t b) { return std::pair(powers[a], a) < std::pair(powers[b], b); });
+}
+
+// The colour of a detail site from the eye: its lobes weighed by the direction in which it is seen.
+template <class Real>
+Vec3<Real> seeDetail(std::span<const glm::vec3> axes, std::span<const glm::vec3> colours,
+                     const Vec3<Real>& direction) {
+  Real largest = foam::lobeExponent(Vec3<Real>(axes[0]), direction), weightSum = 0;
+  Vec3<Real> colourSum(0);
+  for (size_t m = 0; m < axes.size(); ++m) {
+    const Real exponent = foam::lobeExponent(Vec3<Real>(axes[m]), direction);
+    foam::addLobe(exponent, Vec3<Real>(colours[m]), largest, weightSum, colourSum);
+  }
+  return foam::lobeColour(weightSum, colourSum);
+}
+
+template <class Real>
+void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell,
+                 std::span<ViewDetail<Real>> details) {
+  const size_t M = foam.lobeCount;
+  for (size_t k = 0; k < details.size(); ++k) {
+    const size_t site = size_t{source} * details.size() + k;
+    ViewDetail<Real>& detail = details[k];
+    detail.place = foam.detailSites[site];
+    detail.height = cell.radius * Real(foam.detailHeights[site]);
+    const Vec3<Real> fromEye = cell.centre + cell.radius * (detail.place.x * cell.frame.tangent +
+                                                            detail.place.y * cell.frame.bitangent);
+    detail.colour = seeDetail(std::span(foam.lobeAxes).subspan(site * M, M),
+                              std::span(foam.lobeColours).subspan(site * M, M), glm::normalize(fromEye));
+  }
+}
+
+template <class Real>
+void fillPlanes(const Foam& foam, std::span<const uint32_t> neighbours, uint32_t source,
+                const ViewCell<Real>& cell, std::span<ViewPlane<Real>> planes) {
+  for (size_t i = 0; i < planes.size(); ++i) {
+    const uint32_t other = neighbours[i];
+    const Vec3<Real> toNeighbour(glm::dvec3(foam.sites[other]) - glm::dvec3(foam.sites[source]));
+    const Real offset = foam::radicalOffset(toNeighbour, cell.radius, Real(foam.radii[other]));
+    planes[i] = {toNeighbour, foam::radicalClearance(cell.centre, toNeighbour, offset)};
+  }
+}
+
+}  // namespace
+
+template <class Real>
+ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
+                                 std::span<const uint32_t> candidates, const View& view,
+                                 const ReferenceOptions& options) {
+  const glm::dvec3 eye = eyeOf(view);
+  std::vector<uint32_t> drawn = selectDrawnCells(foam, candidates, view, options);
+  sortFrontToBack<Real>(foam, eye, drawn);
+
+  ViewCells<Real> result;
+  result.detailCount = foam.detailCount;
+  result.rankOf.assign(foam.cellCount, ViewCells<Real>::kNotDrawn);
+  result.cells.resize(drawn.size());
+  uint64_t planeCount = 0;
+  for (uint32_t rank = 0; rank < drawn.size(); ++rank) {
+    result.rankOf[drawn[rank]] = rank;
+    result.cells[rank].planesBegin = planeCount;
+    planeCount += cechPairs.offsets[drawn[rank] + 1] - cechPairs.offsets[drawn[rank]];
+    result.cells[rank].planesEnd = planeCount;
+  }
+  result.planes.resize(planeCount);
+  result.details.resize(drawn.size() * foam.detailCount);
+
+  tbb::parallel_for(size_t{0}, drawn.size(), [&](size_t rank) {
+    const uint32_t source = drawn[rank];
+    ViewCell<Real>& cell = result.cells[rank];
+    cell.centre = glm::dvec3(foam.sites[source]) - eye;
+    cell.radius = foam.radii[source];
+    cell.inverseRadius = 1 / cell.radius;
+    cell.density = foam.densities[source];
+    cell.frame = faceFrame<Real>(foam.orientations[source]);
+    fillDetails(foam, source, cell,
+                std::span(result.details).subspan(rank * foam.detailCount, foam.detailCount));
+    const size_t planes = cell.planesEnd - cell.planesBegin;
+    fillPlanes(foam, std::span(cechPairs.neighbours).subspan(cechPairs.offsets[source], planes), source, cell,
+               std::span(result.planes).subspan(cell.planesBegin, planes));
+  });
+  return result;
+}
+
+template ViewCells<float> prepareViewCells(const Foam&, const CellGraph&, std::span<const uint32_t>,
+                                           const View&, const ReferenceOptions&);
+template ViewCells<double> prepareViewCells(const Foam&, const CellGraph&, std::span<const uint32_t>,
+                                            const View&, const ReferenceOptions&);
+
+}  // namespace froth
