@@ -25,7 +25,7 @@ Status failed(const char* call, VkResult code) {
 }  // namespace
 
 Result<std::vector<HostDeviceInfo>> listHostDevices() {
-  Result<HostInstance> instance = createHostInstance(nullptr);
+  Result<HostInstance> instance = createHostInstance(nullptr, {});
   if (!instance) {
     return instance.error();
   }
@@ -46,7 +46,8 @@ Host::Host() : state_(std::make_unique<State>()) {}
 Result<std::unique_ptr<Host>> Host::create(const HostOptions& options) {
   std::unique_ptr<Host> host(new Host());
   State& state = *host->state_;
-  Result<HostInstance> instance = createHostInstance(options.useValidation ? &state.log : nullptr);
+  Result<HostInstance> instance =
+      createHostInstance(options.useValidation ? &state.log : nullptr, options.instanceExtensions);
   if (!instance) {
     return instance.error();
   }
@@ -63,13 +64,13 @@ Result<std::unique_ptr<Host>> Host::create(const HostOptions& options) {
   host->physicalDevice = choice->physicalDevice;
   host->info = choice->info;
   vkGetPhysicalDeviceMemoryProperties(host->physicalDevice, &state.memory);
-  if (const Status status = host->createDevice(); !status) {
+  if (const Status status = host->createDevice(options.deviceExtensions); !status) {
     return status.error();
   }
   return host;
 }
 
-Status Host::createDevice() {
+Status Host::createDevice(const std::vector<const char*>& extensions) {
   State& state = *state_;
   state.features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
   state.features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
@@ -93,6 +94,8 @@ Status Host::createDevice() {
   deviceInfo.pNext = &state.features;
   deviceInfo.queueCreateInfoCount = 1;
   deviceInfo.pQueueCreateInfos = &queueInfo;
+  deviceInfo.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  deviceInfo.ppEnabledExtensionNames = extensions.data();
   if (const VkResult code = vkCreateDevice(physicalDevice, &deviceInfo, nullptr, &device); code != VK_SUCCESS) {
     return failed("vkCreateDevice", code);
   }

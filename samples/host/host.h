@@ -1,5 +1,5 @@
-// A stand-in for an engine without a window: instance, device, one queue, images, submission, read-back.
-// Used by the headless samples, by `froth render` and `froth bench`, and by the GPU tests. Links the Vulkan loader.
+// A stand-in for an engine: instance, device, one queue, images, submission, read-back; no window.
+// Used by the samples, by `froth render` and `froth bench`, and by the GPU tests. Links the Vulkan loader.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +28,9 @@ Result<std::vector<HostDeviceInfo>> listHostDevices();
 struct HostOptions {
   std::string device;        // index or part of a name; empty: first suitable, GPUs before CPUs
   bool useValidation = false; // core and synchronization validation; fails if the layer is not installed
+  // What a window needs, if the caller makes one; names live as long as the call.
+  std::vector<const char*> instanceExtensions = {};
+  std::vector<const char*> deviceExtensions = {};
 };
 
 struct HostImage {
@@ -67,7 +70,7 @@ class Host {
 
  private:
   Host();
-  Status createDevice();
+  Status createDevice(const std::vector<const char*>& extensions);
   struct State;
   std::unique_ptr<State> state_;
 };

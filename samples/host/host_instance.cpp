@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <iterator>
 
 namespace froth {
 namespace {
@@ -77,7 +76,7 @@ std::string listNames(const std::vector<HostDeviceChoice>& devices) {
 
 }  // namespace
 
-Result<HostInstance> createHostInstance(ValidationLog* log) {
+Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const char*> extensions) {
   if (log && !hasValidationLayer()) {
     return makeError(ErrorKind::kUnsupported, "validation: the layer %s is not installed; install vulkan-validationlayers",
                      kValidationLayer);
@@ -100,7 +99,6 @@ Result<HostInstance> createHostInstance(ValidationLog* log) {
   application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   application.pApplicationName = "froth_host";
   application.apiVersion = VK_API_VERSION_1_3;
-  const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
   VkInstanceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   info.pApplicationInfo = &application;
@@ -108,9 +106,11 @@ Result<HostInstance> createHostInstance(ValidationLog* log) {
     info.pNext = &validation;
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &kValidationLayer;
-    info.enabledExtensionCount = static_cast<uint32_t>(std::size(extensions));
-    info.ppEnabledExtensionNames = extensions;
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
   }
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   HostInstance result;
   if (const VkResult code = vkCreateInstance(&info, nullptr, &result.instance); code != VK_SUCCESS) {
     return makeError(ErrorKind::kUnsupported, "vkCreateInstance gives VkResult %d; is a Vulkan driver installed?", code);

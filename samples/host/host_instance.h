@@ -30,7 +30,7 @@ struct HostDeviceChoice {
 };
 
 // `log` null: no validation. Else it must outlive the instance.
-Result<HostInstance> createHostInstance(ValidationLog* log);
+Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const char*> extensions);
 void destroyHostInstance(HostInstance& instance);
 
 Result<std::vector<HostDeviceChoice>> enumerateHostDevices(VkInstance instance);
