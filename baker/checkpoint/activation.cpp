@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kBeta = 100;
 constexpr double kLinearFrom = 20;  // beyond it torch returns x itself
-constexpr float kRawOfZero = -2;    // exp(-200) / 100 is far below the smallest float, in double and in float arithmetic
+constexpr float kRawOfZero =
+    -2;  // exp(-200) / 100 is far below the smallest float, in double and in float arithmetic
 
 }  // namespace
 
@@ -38,7 +39,8 @@ float inverseSoftplus(float activated) {
 }
 
 glm::vec4 normaliseQuaternion(const glm::dvec4& quaternion) {
-  // Four components, each rounded by at most 2^-24 of itself, move the squared length by at most 2^-23 and a bit.
+  // Four components, each rounded by at most 2^-24 of itself, move the squared length by at most 2^-23 and a
+  // bit.
   constexpr double kRounding = 0x1p-22;
   const glm::vec4 rounded(quaternion);
   if (std::abs(glm::dot(glm::dvec4(rounded), glm::dvec4(rounded)) - 1) <= kRounding) {

@@ -20,10 +20,12 @@ struct NamedBytes {
 
 template <class... Args>
 [[nodiscard]] Error badInput(std::string_view file, fmt::format_string<Args...> format, Args&&... args) {
-  return {ErrorKind::kBadInput, fmt::format("{}: {}", file, fmt::format(format, std::forward<Args>(args)...))};
+  return {ErrorKind::kBadInput,
+          fmt::format("{}: {}", file, fmt::format(format, std::forward<Args>(args)...))};
 }
 
-// A name taken from a file, fit for a terminal: quoted, no control or non-ASCII characters, at most 80 characters.
+// A name taken from a file, fit for a terminal: quoted, no control or non-ASCII characters, at most 80
+// characters.
 inline std::string quoted(std::string_view name) {
   constexpr size_t kMaxShown = 80;
   std::string shown = "'";

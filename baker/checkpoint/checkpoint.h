@@ -12,17 +12,19 @@
 
 namespace froth {
 
-// Reads, checks and activates (softplus, normalisation; in double, rounded once to float). The pickle is read by an
-// interpreter of the few opcodes and globals that such a file needs; everything else is refused by name.
-// Refuses NaN, infinity, radii that underflow to 0, quaternions of length 0, counts beyond the file's size (expanded
-// tensors may make the foam 256 times as large as the file, not more).
+// Reads, checks and activates (softplus, normalisation; in double, rounded once to float). The pickle is read
+// by an interpreter of the few opcodes and globals that such a file needs; everything else is refused by
+// name. Refuses NaN, infinity, radii that underflow to 0, quaternions of length 0, counts beyond the file's
+// size (expanded tensors may make the foam 256 times as large as the file, not more).
 Result<Foam> importCheckpoint(const std::filesystem::path& path, const Progress& progress = {});
 
 // The same from memory; messages call the bytes `name`. Any bytes give a foam or an error.
-Result<Foam> importCheckpointBytes(std::span<const uint8_t> bytes, const std::string& name, const Progress& progress = {});
+Result<Foam> importCheckpointBytes(std::span<const uint8_t> bytes, const std::string& name,
+                                   const Progress& progress = {});
 
-// Writes the layout that published tools load: stored ZIP, protocol-2 pickle, contiguous float32, raw (inverse-activated)
-// values, Cech adjacency of the written spheres, `version` and `byteorder` members. Atomic. The same foam gives the same bytes.
+// Writes the layout that published tools load: stored ZIP, protocol-2 pickle, contiguous float32, raw
+// (inverse-activated) values, Cech adjacency of the written spheres, `version` and `byteorder` members.
+// Atomic. The same foam gives the same bytes.
 Status exportCheckpoint(const std::filesystem::path& path, const Foam& foam, const Progress& progress = {});
 
 }  // namespace froth

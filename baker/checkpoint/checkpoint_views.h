@@ -12,8 +12,9 @@ namespace froth {
 
 using CheckpointViews = std::array<TensorView, kParameterCount>;  // by Parameter
 
-// Reads archive and pickle, compares the checksums of the pickle and of the eight tensors' storages. The views point
-// into `file`. Shapes are as found: only that each view lies inside its storage is certain. Other tensors are not looked at.
+// Reads archive and pickle, compares the checksums of the pickle and of the eight tensors' storages. The
+// views point into `file`. Shapes are as found: only that each view lies inside its storage is certain. Other
+// tensors are not looked at.
 Result<CheckpointViews> viewCheckpoint(const NamedBytes& file);
 
 }  // namespace froth

@@ -12,8 +12,8 @@ namespace froth {
 namespace {
 
 constexpr uint64_t kMaxCells = UINT32_MAX;
-constexpr uint64_t kMaxDetails = 32, kMaxLobes = 32;
-constexpr uint64_t kMaxExpansion = 256;  // foam bytes per file byte; 1 as published, 2 from float16, more if expanded
+constexpr uint64_t kMaxExpansion =
+    256;  // foam bytes per file byte; 1 as published, 2 from float16, more if expanded
 
 class Importer {
  public:
@@ -58,20 +58,24 @@ Status Importer::readCounts() {
   const auto& points = view(Parameter::kPoints).shape;
   const uint64_t cells = points.size() == 2 ? points[0] : 0;
   if (cells < 1 || cells > kMaxCells) {
-    return badInput(file_.name, "tensor 'points' has shape {}, expected [N, 3] with 1 <= N <= {}; save a foam with cells",
+    return badInput(file_.name,
+                    "tensor 'points' has shape {}, expected [N, 3] with 1 <= N <= {}; save a foam with cells",
                     describeShape(points), kMaxCells);
   }
   const auto& sites = view(Parameter::kDetailSites).shape;
   const uint64_t details = sites.size() == 3 ? sites[1] : 0;
   if (details < 1 || details > kMaxDetails) {
-    return badInput(file_.name, "tensor 'texel_sites' has shape {}, expected [N, K, 2] with 1 <= K <= {}; train with such K",
-                    describeShape(sites), kMaxDetails);
+    return badInput(
+        file_.name,
+        "tensor 'texel_sites' has shape {}, expected [N, K, 2] with 1 <= K <= {}; train with such K",
+        describeShape(sites), kMaxDetails);
   }
   const auto& axes = view(Parameter::kLobeAxes).shape;
   const uint64_t lobes = axes.size() == 4 ? axes[2] : axes.size() == 3 ? axes[2] / 3 : 0;
   if (lobes < 1 || lobes > kMaxLobes) {
     return badInput(file_.name,
-                    "tensor 'texel_sv_axis' has shape {}, expected [N, K, 3M] or [N, K, M, 3] with 1 <= M <= {}; train with such M",
+                    "tensor 'texel_sv_axis' has shape {}, expected [N, K, 3M] or [N, K, M, 3] with 1 <= M <= "
+                    "{}; train with such M",
                     describeShape(axes), kMaxLobes);
   }
   foam_.cellCount = static_cast<uint32_t>(cells);
@@ -89,20 +93,31 @@ Status Importer::checkShapes() const {
   for (const TensorView& found : views) {
     std::vector<uint64_t> expected;
     switch (static_cast<Parameter>(&found - views.data())) {
-      case Parameter::kPoints: expected = {cells, 3}; break;
+      case Parameter::kPoints:
+        expected = {cells, 3};
+        break;
       case Parameter::kRadii:
-      case Parameter::kDensity: expected = {cells}; break;
-      case Parameter::kOrientations: expected = {cells, 4}; break;
-      case Parameter::kDetailSites: expected = {cells, details, 2}; break;
-      case Parameter::kDetailHeights: expected = {cells, details}; break;
+      case Parameter::kDensity:
+        expected = {cells};
+        break;
+      case Parameter::kOrientations:
+        expected = {cells, 4};
+        break;
+      case Parameter::kDetailSites:
+        expected = {cells, details, 2};
+        break;
+      case Parameter::kDetailHeights:
+        expected = {cells, details};
+        break;
       case Parameter::kLobeAxes:
       case Parameter::kLobeColours:
         expected = found.shape.size() == 4 ? std::vector<uint64_t>{cells, details, lobes, 3}
                                            : std::vector<uint64_t>{cells, details, 3 * lobes};
     }
     if (found.shape != expected) {
-      return badInput(file_.name, "tensor '{}' has shape {}, the others ask for {}; save the tensors of one foam", found.key,
-                      describeShape(found.shape), describeShape(expected));
+      return badInput(file_.name,
+                      "tensor '{}' has shape {}, the others ask for {}; save the tensors of one foam",
+                      found.key, describeShape(found.shape), describeShape(expected));
     }
   }
   return {};
@@ -112,8 +127,9 @@ Status Importer::checkShapes() const {
 Status Importer::checkExpansion() const {
   const uint64_t bytes = totalCount() * sizeof(float);
   if (bytes / kMaxExpansion > file_.bytes.size()) {
-    return badInput(file_.name, "its tensors expand to {} bytes, over {} times the file's {}; save them contiguous", bytes,
-                    kMaxExpansion, file_.bytes.size());
+    return badInput(file_.name,
+                    "its tensors expand to {} bytes, over {} times the file's {}; save them contiguous",
+                    bytes, kMaxExpansion, file_.bytes.size());
   }
   return {};
 }
@@ -158,8 +174,9 @@ Status Importer::readActivated(Parameter parameter, float smallest, std::vector<
   const auto low = std::find_if(out.begin(), out.end(), [&](float value) { return value < smallest; });
   if (low != out.end()) {
     const auto cell = low - out.begin();
-    return badInput(file_.name, "tensor '{}': cell {} has the raw value {}, which activates to 0; remove the cell", from.key,
-                    cell, raw[static_cast<size_t>(cell)]);
+    return badInput(file_.name,
+                    "tensor '{}': cell {} has the raw value {}, which activates to 0; remove the cell",
+                    from.key, cell, raw[static_cast<size_t>(cell)]);
   }
   return reportProgress(from);
 }
@@ -172,7 +189,8 @@ Status Importer::readOrientations() {
   for (size_t i = 0; i < raw.size(); ++i) {
     const double length = glm::length(raw[i]);
     if (!(length > 0) || std::isinf(length)) {
-      return badInput(file_.name, "tensor '{}': the quaternion of cell {} has length {}; remove the cell or train again",
+      return badInput(file_.name,
+                      "tensor '{}': the quaternion of cell {} has length {}; remove the cell or train again",
                       from.key, i, length);
     }
     foam_.orientations[i] = normaliseQuaternion(raw[i]);
@@ -181,11 +199,13 @@ Status Importer::readOrientations() {
 }
 
 Status Importer::checkFinite(const TensorView& from, std::span<const float> values) const {
-  const auto bad = std::find_if_not(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+  const auto bad =
+      std::find_if_not(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
   if (bad != values.end()) {
     const auto cell = static_cast<uint64_t>(bad - values.begin()) / (from.count / foam_.cellCount);
-    return badInput(file_.name, "tensor '{}': cell {} of {} holds {} (as float32); remove the cell or train again", from.key,
-                    cell, foam_.cellCount, *bad);
+    return badInput(file_.name,
+                    "tensor '{}': cell {} of {} holds {} (as float32); remove the cell or train again",
+                    from.key, cell, foam_.cellCount, *bad);
   }
   return {};
 }
@@ -208,7 +228,8 @@ uint64_t Importer::totalCount() const {
 
 }  // namespace
 
-Result<Foam> importCheckpointBytes(std::span<const uint8_t> bytes, const std::string& name, const Progress& progress) {
+Result<Foam> importCheckpointBytes(std::span<const uint8_t> bytes, const std::string& name,
+                                   const Progress& progress) {
   const NamedBytes file{bytes, name};
   Result<CheckpointViews> views = viewCheckpoint(file);
   if (!views) {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 namespace froth {
 
@@ -15,6 +16,13 @@ Number loadLittleEndian(const uint8_t* bytes) {
   Number number;
   std::memcpy(&number, bytes, sizeof number);
   return number;
+}
+
+template <class Number>
+void appendLittleEndian(std::vector<uint8_t>& bytes, Number number) {
+  const size_t size = bytes.size();
+  bytes.resize(size + sizeof number);
+  std::memcpy(bytes.data() + size, &number, sizeof number);
 }
 
 }  // namespace froth

@@ -37,7 +37,8 @@ Result<std::span<const uint8_t>> mapOpenFile(int descriptor, const std::string& 
 }  // namespace
 
 Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe without a writer must not block
+  const int descriptor =
+      ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe without a writer must not block
   if (descriptor < 0) {
     return badInput(path.string(), "cannot be opened: {}; check the path", std::strerror(errno));
   }

@@ -9,8 +9,8 @@
 
 namespace froth {
 
-// Read-only mapping of a whole file; moves, does not copy. A file that another program shortens meanwhile cannot be
-// read safely by any mapping: the process then ends with SIGBUS.
+// Read-only mapping of a whole file; moves, does not copy. A file that another program shortens meanwhile
+// cannot be read safely by any mapping: the process then ends with SIGBUS.
 class MappedFile {
  public:
   // Fails with kBadInput if the path does not exist, is no regular file, is empty or cannot be read.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 namespace froth {
@@ -19,8 +20,12 @@ enum class Parameter : size_t {
 };
 
 inline constexpr std::array<std::string_view, 8> kParameterKeys = {
-    "points", "density", "radii", "quaternions", "texel_sites", "texel_sv_axis", "texel_sv_rgb", "texel_height"};
+    "points",      "density",       "radii",        "quaternions",
+    "texel_sites", "texel_sv_axis", "texel_sv_rgb", "texel_height"};
 inline constexpr size_t kParameterCount = kParameterKeys.size();
+
+// Limits of a foam's counts; cells are counted in 32 bits.
+inline constexpr uint64_t kMaxDetails = 32, kMaxLobes = 32;
 
 // Of the Cech graph; read by nobody here (foam.md: the stored one lacks pairs), written for other tools.
 inline constexpr std::string_view kAdjacencyKey = "adjacency", kAdjacencyOffsetsKey = "adjacency_offsets";

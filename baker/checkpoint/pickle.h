@@ -1,4 +1,5 @@
-// A pickle is a program. This interpreter knows the few instructions that build a dict of tensors, and no others.
+// A pickle is a program. This interpreter knows the few instructions that build a dict of tensors, and no
+// others.
 #pragma once
 
 #include <cstdint>
@@ -30,10 +31,10 @@ struct PickledEntry {
   PickledTensor tensor;
 };
 
-// Runs `pickle`, whose result must be a dict, and returns its tensors in the dict's order; entries that are not tensors
-// are left out. Keys and storage names are views into the pickle's bytes. Accepts any bytes of at most 256 KiB: time and
-// memory stay within a constant times their number. Everything that such a dict does not need (other globals, other
-// opcodes) is refused by name, and nothing is ever called. Thread-safe.
+// Runs `pickle`, whose result must be a dict, and returns its tensors in the dict's order; entries that are
+// not tensors are left out. Keys and storage names are views into the pickle's bytes. Accepts any bytes of at
+// most 256 KiB: time and memory stay within a constant times their number. Everything that such a dict does
+// not need (other globals, other opcodes) is refused by name, and nothing is ever called. Thread-safe.
 Result<std::vector<PickledEntry>> readPickledTensors(const NamedBytes& pickle);
 
 }  // namespace froth

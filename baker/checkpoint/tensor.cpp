@@ -20,9 +20,15 @@ struct BFloat16 {
   uint16_t bits;
 };
 
-double toReal(float value) { return value; }
-double toReal(double value) { return value; }
-double toReal(BFloat16 value) { return std::bit_cast<float>(uint32_t{value.bits} << 16); }
+double toReal(float value) {
+  return value;
+}
+double toReal(double value) {
+  return value;
+}
+double toReal(BFloat16 value) {
+  return std::bit_cast<float>(uint32_t{value.bits} << 16);
+}
 
 double toReal(Half value) {
   constexpr int kMantissaBits = 10, kBias = 15, kMaxExponent = 31;
@@ -30,7 +36,8 @@ double toReal(Half value) {
   const int mantissa = value.bits & ((1 << kMantissaBits) - 1);
   const double sign = value.bits & 0x8000 ? -1.0 : 1.0;
   if (exponent == kMaxExponent) {
-    return mantissa ? std::numeric_limits<double>::quiet_NaN() : sign * std::numeric_limits<double>::infinity();
+    return mantissa ? std::numeric_limits<double>::quiet_NaN()
+                    : sign * std::numeric_limits<double>::infinity();
   }
   const bool isNormal = exponent > 0;
   const int significand = isNormal ? mantissa + (1 << kMantissaBits) : mantissa;
@@ -40,15 +47,19 @@ double toReal(Half value) {
 uint64_t elementSize(ScalarType type) {
   switch (type) {
     case ScalarType::kDouble:
-    case ScalarType::kLong: return 8;
+    case ScalarType::kLong:
+      return 8;
     case ScalarType::kFloat:
-    case ScalarType::kInt: return 4;
+    case ScalarType::kInt:
+      return 4;
     case ScalarType::kHalf:
     case ScalarType::kBFloat16:
-    case ScalarType::kShort: return 2;
+    case ScalarType::kShort:
+      return 2;
     case ScalarType::kChar:
     case ScalarType::kByte:
-    case ScalarType::kBool: return 1;
+    case ScalarType::kBool:
+      return 1;
   }
   return 0;
 }
@@ -102,7 +113,8 @@ void copyStrided(const TensorView& view, Real* out) {
   std::vector<uint64_t> index(rank, 0);
   uint64_t element = view.offset;
   for (uint64_t i = 0; i < view.count; ++i) {
-    out[i] = static_cast<Real>(toReal(loadLittleEndian<Element>(view.storage.data() + element * sizeof(Element))));
+    out[i] =
+        static_cast<Real>(toReal(loadLittleEndian<Element>(view.storage.data() + element * sizeof(Element))));
     for (size_t axis = rank; axis-- > 0;) {
       element += view.strides[axis];
       if (++index[axis] < view.shape[axis]) {
@@ -119,19 +131,24 @@ void copyStrided(const TensorView& view, Real* out) {
 Result<TensorView> viewTensor(std::string_view file, std::string_view key, const PickledTensor& tensor,
                               std::span<const uint8_t> storage) {
   if (!isFloating(tensor.type)) {
-    return badInput(file, "tensor '{}' holds integers; save it as float32, float64, float16 or bfloat16", key);
+    return badInput(file, "tensor '{}' holds integers; save it as float32, float64, float16 or bfloat16",
+                    key);
   }
   const uint64_t size = elementSize(tensor.type);
   if (storage.size() % size != 0 || storage.size() / size != tensor.storageCount) {
-    return badInput(file, "tensor '{}': its storage {} has {} bytes, expected {} elements of {} bytes; save it again", key,
-                    quoted(tensor.storage), storage.size(), tensor.storageCount, size);
+    return badInput(
+        file, "tensor '{}': its storage {} has {} bytes, expected {} elements of {} bytes; save it again",
+        key, quoted(tensor.storage), storage.size(), tensor.storageCount, size);
   }
   uint64_t extent = 0, count = 0;
   if (!findExtent(tensor, extent) || !multiplyShape(tensor.shape, count) || extent > tensor.storageCount) {
-    return badInput(file, "tensor '{}' of shape {}, strides {}, offset {} leaves its storage of {} elements; save it again",
-                    key, describeShape(tensor.shape), describeShape(tensor.strides), tensor.offset, tensor.storageCount);
+    return badInput(
+        file,
+        "tensor '{}' of shape {}, strides {}, offset {} leaves its storage of {} elements; save it again",
+        key, describeShape(tensor.shape), describeShape(tensor.strides), tensor.offset, tensor.storageCount);
   }
-  return TensorView{std::string(key), tensor.type, storage, tensor.offset, tensor.shape, tensor.strides, count};
+  return TensorView{std::string(key), tensor.type,    storage, tensor.offset,
+                    tensor.shape,     tensor.strides, count};
 }
 
 template <class Real>
@@ -143,16 +160,25 @@ void copyElements(const TensorView& view, Real* out) {
     return;
   }
   switch (view.type) {
-    case ScalarType::kDouble: copyStrided<double>(view, out); return;
-    case ScalarType::kHalf: copyStrided<Half>(view, out); return;
-    case ScalarType::kBFloat16: copyStrided<BFloat16>(view, out); return;
-    default: copyStrided<float>(view, out);
+    case ScalarType::kDouble:
+      copyStrided<double>(view, out);
+      return;
+    case ScalarType::kHalf:
+      copyStrided<Half>(view, out);
+      return;
+    case ScalarType::kBFloat16:
+      copyStrided<BFloat16>(view, out);
+      return;
+    default:
+      copyStrided<float>(view, out);
   }
 }
 
 template void copyElements(const TensorView& view, float* out);
 template void copyElements(const TensorView& view, double* out);
 
-std::string describeShape(std::span<const uint64_t> shape) { return fmt::format("[{}]", fmt::join(shape, ", ")); }
+std::string describeShape(std::span<const uint64_t> shape) {
+  return fmt::format("[{}]", fmt::join(shape, ", "));
+}
 
 }  // namespace froth

@@ -21,12 +21,13 @@ struct TensorView {
   uint64_t count = 0;                    // product of the shape
 };
 
-// `storage`: the bytes of the tensor's storage. Refuses integer types, storages whose size is not what the pickle
-// states, views that leave their storage and counts beyond 64 bits.
+// `storage`: the bytes of the tensor's storage. Refuses integer types, storages whose size is not what the
+// pickle states, views that leave their storage and counts beyond 64 bits.
 Result<TensorView> viewTensor(std::string_view file, std::string_view key, const PickledTensor& tensor,
                               std::span<const uint8_t> storage);
 
-// Writes the view's elements in row-major order. `out` must hold `view.count` elements; Real is float or double.
+// Writes the view's elements in row-major order. `out` must hold `view.count` elements; Real is float or
+// double.
 template <class Real>
 void copyElements(const TensorView& view, Real* out);
 

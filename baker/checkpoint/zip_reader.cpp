@@ -7,18 +7,10 @@
 #include <zlib.h>
 
 #include "baker/checkpoint/little_endian.h"
+#include "baker/checkpoint/zip_layout.h"
 
 namespace froth {
 namespace {
-
-// APPNOTE.TXT 4.3: records, their sizes and the offsets of the fields read here.
-constexpr uint32_t kLocalSignature = 0x04034b50, kCentralSignature = 0x02014b50, kEndSignature = 0x06054b50;
-constexpr uint32_t kZip64LocatorSignature = 0x07064b50, kZip64EndSignature = 0x06064b50;
-constexpr uint64_t kLocalSize = 30, kCentralSize = 46, kEndSize = 22, kZip64LocatorSize = 20, kZip64EndSize = 56;
-constexpr uint16_t kZip64Extra = 1;
-constexpr uint16_t kEncryptedFlag = 1;
-constexpr uint16_t kSaturated16 = 0xffff;
-constexpr uint32_t kSaturated32 = 0xffffffff;  // the true value is in a zip64 record
 
 constexpr const char* kRemedy = "copy or save the checkpoint again";
 
@@ -38,7 +30,9 @@ class ZipReader {
   Result<ZipArchive> read();
 
  private:
-  bool holds(uint64_t offset, uint64_t size) const { return offset <= file_.size() && size <= file_.size() - offset; }
+  bool holds(uint64_t offset, uint64_t size) const {
+    return offset <= file_.size() && size <= file_.size() - offset;
+  }
   uint16_t at16(uint64_t offset) const { return loadLittleEndian<uint16_t>(file_.data() + offset); }
   uint32_t at32(uint64_t offset) const { return loadLittleEndian<uint32_t>(file_.data() + offset); }
   uint64_t at64(uint64_t offset) const { return loadLittleEndian<uint64_t>(file_.data() + offset); }
@@ -50,7 +44,8 @@ class ZipReader {
   Result<Directory> readDirectory(uint64_t end) const;
   Status readZip64Directory(uint64_t end, Directory& directory) const;
   Result<Entry> readEntry(uint64_t offset, uint64_t directoryBegin) const;
-  Status readZip64Extra(uint64_t extra, uint64_t extraSize, uint64_t& size, uint64_t& stored, uint64_t& begin) const;
+  Status readZip64Extra(uint64_t extra, uint64_t extraSize, uint64_t& size, uint64_t& stored,
+                        uint64_t& begin) const;
   Status locateBytes(Entry& entry, uint64_t size, uint64_t directoryBegin) const;
   Status checkDisjoint(std::vector<Entry> entries) const;
   Status checkUnique(const ZipArchive& archive) const;
@@ -62,8 +57,10 @@ class ZipReader {
 Result<ZipArchive> ZipReader::read() {
   const std::optional<uint64_t> end = findEnd();
   if (!end) {
-    return badInput(name_, "no complete ZIP archive ({} bytes, no end record): cut short, or not of torch.save 1.6 or later; {}",
-                    file_.size(), kRemedy);
+    return badInput(
+        name_,
+        "no complete ZIP archive ({} bytes, no end record): cut short, or not of torch.save 1.6 or later; {}",
+        file_.size(), kRemedy);
   }
   const Result<Directory> directory = readDirectory(*end);
   if (!directory) {
@@ -78,7 +75,7 @@ Result<ZipArchive> ZipReader::read() {
     if (!entry) {
       return entry.error();
     }
-    offset += kCentralSize + at16(offset + 28) + at16(offset + 30) + at16(offset + 32);
+    offset += kZipCentralSize + at16(offset + 28) + at16(offset + 30) + at16(offset + 32);
     archive.members.push_back(entry->member);
     entries.push_back(*entry);
   }
@@ -93,13 +90,13 @@ Result<ZipArchive> ZipReader::read() {
 
 // The end record is the last thing in the file but for a comment, whose length it states.
 std::optional<uint64_t> ZipReader::findEnd() const {
-  if (file_.size() < kEndSize) {
+  if (file_.size() < kZipEndSize) {
     return std::nullopt;
   }
-  const uint64_t last = file_.size() - kEndSize;
-  const uint64_t first = last > kSaturated16 ? last - kSaturated16 : 0;
+  const uint64_t last = file_.size() - kZipEndSize;
+  const uint64_t first = last > kZipSaturated16 ? last - kZipSaturated16 : 0;
   for (uint64_t offset = last + 1; offset-- > first;) {
-    if (at32(offset) == kEndSignature && at16(offset + 20) == last - offset) {
+    if (at32(offset) == kZipEndSignature && at16(offset + 20) == last - offset) {
       return offset;
     }
   }
@@ -108,8 +105,8 @@ std::optional<uint64_t> ZipReader::findEnd() const {
 
 Result<Directory> ZipReader::readDirectory(uint64_t end) const {
   Directory directory{.offset = at32(end + 16), .size = at32(end + 12), .count = at16(end + 10)};
-  const bool isZip64 =
-      directory.offset == kSaturated32 || directory.size == kSaturated32 || directory.count == kSaturated16;
+  const bool isZip64 = directory.offset == kZipSaturated32 || directory.size == kZipSaturated32 ||
+                       directory.count == kZipSaturated16;
   if (isZip64) {
     if (Status status = readZip64Directory(end, directory); !status) {
       return status.error();
@@ -118,11 +115,12 @@ Result<Directory> ZipReader::readDirectory(uint64_t end) const {
     return badInput(name_, "ZIP archive split over {} disks; join the parts first", at16(end + 4) + 1);
   }
   if (directory.offset > end || directory.size > end - directory.offset) {
-    return badInput(name_, "ZIP directory of {} bytes at {} reaches past the archive's end at {}; {}", directory.size,
-                    directory.offset, end, kRemedy);
+    return badInput(name_, "ZIP directory of {} bytes at {} reaches past the archive's end at {}; {}",
+                    directory.size, directory.offset, end, kRemedy);
   }
-  if (directory.count > directory.size / kCentralSize) {
-    return badInput(name_, "ZIP directory of {} bytes cannot hold {} members; {}", directory.size, directory.count, kRemedy);
+  if (directory.count > directory.size / kZipCentralSize) {
+    return badInput(name_, "ZIP directory of {} bytes cannot hold {} members; {}", directory.size,
+                    directory.count, kRemedy);
   }
   return directory;
 }
@@ -136,38 +134,44 @@ Status ZipReader::readZip64Directory(uint64_t end, Directory& directory) const {
     return badInput(name_, "zip64 locator points to {}, where no zip64 record lies; {}", record, kRemedy);
   }
   if (at32(record + 16) != 0 || at32(record + 20) != 0) {
-    return badInput(name_, "ZIP archive split over {} disks; join the parts first", uint64_t{at32(record + 16)} + 1);
+    return badInput(name_, "ZIP archive split over {} disks; join the parts first",
+                    uint64_t{at32(record + 16)} + 1);
   }
   directory = {.offset = at64(record + 48), .size = at64(record + 40), .count = at64(record + 32)};
   return {};
 }
 
 Result<Entry> ZipReader::readEntry(uint64_t offset, uint64_t directoryBegin) const {
-  if (!holds(offset, kCentralSize) || at32(offset) != kCentralSignature) {
+  if (!holds(offset, kZipCentralSize) || at32(offset) != kZipCentralSignature) {
     return badInput(name_, "no ZIP directory entry at {}; {}", offset, kRemedy);
   }
   const uint64_t nameSize = at16(offset + 28), extraSize = at16(offset + 30);
-  if (!holds(offset + kCentralSize, nameSize + extraSize + at16(offset + 32))) {
+  if (!holds(offset + kZipCentralSize, nameSize + extraSize + at16(offset + 32))) {
     return badInput(name_, "ZIP directory entry at {} reaches past the end of the file; {}", offset, kRemedy);
   }
   Entry entry;
-  entry.member.name = text(offset + kCentralSize, nameSize);
+  entry.member.name = text(offset + kZipCentralSize, nameSize);
   entry.member.crc32 = at32(offset + 16);
   entry.begin = at32(offset + 42);
   uint64_t stored = at32(offset + 20), size = at32(offset + 24);
   const std::string shown = quoted(entry.member.name);
-  if (at16(offset + 8) & kEncryptedFlag) {
-    return badInput(name_, "member {} is encrypted (flags {:#x}); save the checkpoint unencrypted", shown, at16(offset + 8));
+  if (at16(offset + 8) & kZipEncryptedFlag) {
+    return badInput(name_, "member {} is encrypted (flags {:#x}); save the checkpoint unencrypted", shown,
+                    at16(offset + 8));
   }
-  if (at16(offset + 10) != 0) {
-    return badInput(name_, "member {} is compressed (method {}), torch.save stores members; unpack and store it again", shown,
-                    at16(offset + 10));
+  if (at16(offset + 10) != kZipStoredMethod) {
+    return badInput(
+        name_, "member {} is compressed (method {}), torch.save stores members; unpack and store it again",
+        shown, at16(offset + 10));
   }
-  if (Status status = readZip64Extra(offset + kCentralSize + nameSize, extraSize, size, stored, entry.begin); !status) {
+  if (Status status =
+          readZip64Extra(offset + kZipCentralSize + nameSize, extraSize, size, stored, entry.begin);
+      !status) {
     return status.error();
   }
   if (stored != size) {
-    return badInput(name_, "stored member {} states two sizes, {} and {} bytes; {}", shown, stored, size, kRemedy);
+    return badInput(name_, "stored member {} states two sizes, {} and {} bytes; {}", shown, stored, size,
+                    kRemedy);
   }
   if (Status status = locateBytes(entry, size, directoryBegin); !status) {
     return status.error();
@@ -179,14 +183,15 @@ Result<Entry> ZipReader::readEntry(uint64_t offset, uint64_t directoryBegin) con
 Status ZipReader::readZip64Extra(uint64_t extra, uint64_t extraSize, uint64_t& size, uint64_t& stored,
                                  uint64_t& begin) const {
   const uint64_t end = extra + extraSize;
-  constexpr uint64_t kFieldHeader = 4;
-  while (end - extra >= kFieldHeader && at16(extra) != kZip64Extra) {
-    extra += std::min<uint64_t>(kFieldHeader + at16(extra + 2), end - extra);
+  while (end - extra >= kZipExtraHeaderSize && at16(extra) != kZip64Extra) {
+    extra += std::min<uint64_t>(kZipExtraHeaderSize + at16(extra + 2), end - extra);
   }
-  uint64_t left = end - extra >= kFieldHeader ? std::min<uint64_t>(at16(extra + 2), end - extra - kFieldHeader) : 0;
-  uint64_t cursor = extra + kFieldHeader;
+  uint64_t left = end - extra >= kZipExtraHeaderSize
+                      ? std::min<uint64_t>(at16(extra + 2), end - extra - kZipExtraHeaderSize)
+                      : 0;
+  uint64_t cursor = extra + kZipExtraHeaderSize;
   for (uint64_t* value : {&size, &stored, &begin}) {
-    if (*value != kSaturated32) {
+    if (*value != kZipSaturated32) {
       continue;
     }
     if (left < sizeof(uint64_t)) {
@@ -202,17 +207,19 @@ Status ZipReader::readZip64Extra(uint64_t extra, uint64_t extraSize, uint64_t& s
 Status ZipReader::locateBytes(Entry& entry, uint64_t size, uint64_t directoryBegin) const {
   const std::string shown = quoted(entry.member.name);
   const uint64_t begin = entry.begin;
-  if (begin > directoryBegin || directoryBegin - begin < kLocalSize || at32(begin) != kLocalSignature) {
+  if (begin > directoryBegin || directoryBegin - begin < kZipLocalSize || at32(begin) != kZipLocalSignature) {
     return badInput(name_, "member {}: no local header at {}; {}", shown, begin, kRemedy);
   }
   const uint64_t nameSize = at16(begin + 26);
-  const uint64_t headerSize = kLocalSize + nameSize + at16(begin + 28);
+  const uint64_t headerSize = kZipLocalSize + nameSize + at16(begin + 28);
   if (headerSize > directoryBegin - begin || size > directoryBegin - begin - headerSize) {
-    return badInput(name_, "member {} of {} bytes at {} reaches into the directory at {}; {}", shown, size, begin,
-                    directoryBegin, kRemedy);
+    return badInput(name_, "member {} of {} bytes at {} reaches into the directory at {}; {}", shown, size,
+                    begin, directoryBegin, kRemedy);
   }
-  if (text(begin + kLocalSize, nameSize) != entry.member.name || at16(begin + 8) != 0 || at16(begin + 6) & kEncryptedFlag) {
-    return badInput(name_, "member {}: local header at {} contradicts the directory; {}", shown, begin, kRemedy);
+  if (text(begin + kZipLocalSize, nameSize) != entry.member.name || at16(begin + 8) != kZipStoredMethod ||
+      at16(begin + 6) & kZipEncryptedFlag) {
+    return badInput(name_, "member {}: local header at {} contradicts the directory; {}", shown, begin,
+                    kRemedy);
   }
   entry.member.bytes = file_.subspan(begin + headerSize, size);
   return {};
@@ -247,17 +254,20 @@ Status ZipReader::checkUnique(const ZipArchive& archive) const {
 }  // namespace
 
 const ZipMember* ZipArchive::find(std::string_view name) const {
-  const auto found = std::find_if(members.begin(), members.end(), [&](const ZipMember& m) { return m.name == name; });
+  const auto found =
+      std::find_if(members.begin(), members.end(), [&](const ZipMember& m) { return m.name == name; });
   return found == members.end() ? nullptr : &*found;
 }
 
-Result<ZipArchive> readZipArchive(const NamedBytes& archive) { return ZipReader(archive).read(); }
+Result<ZipArchive> readZipArchive(const NamedBytes& archive) {
+  return ZipReader(archive).read();
+}
 
 Status checkZipMember(const NamedBytes& archive, const ZipMember& member) {
   const auto found = static_cast<uint32_t>(crc32_z(0, member.bytes.data(), member.bytes.size()));
   if (found != member.crc32) {
-    return badInput(archive.name, "member {} is damaged (CRC-32 {:#010x}, expected {:#010x}); {}", quoted(member.name), found,
-                    member.crc32, kRemedy);
+    return badInput(archive.name, "member {} is damaged (CRC-32 {:#010x}, expected {:#010x}); {}",
+                    quoted(member.name), found, member.crc32, kRemedy);
   }
   return {};
 }

@@ -24,8 +24,8 @@ struct ZipArchive {
   const ZipMember* find(std::string_view name) const;  // nullptr: there is none
 };
 
-// Accepts any bytes. Every member of the result lies inside the archive, none overlaps another, names are unique.
-// Refuses compressed, encrypted and split archives by name. Thread-safe.
+// Accepts any bytes. Every member of the result lies inside the archive, none overlaps another, names are
+// unique. Refuses compressed, encrypted and split archives by name. Thread-safe.
 Result<ZipArchive> readZipArchive(const NamedBytes& archive);
 
 // Compares the member's checksum with its bytes: reads all of them.
