@@ -98,7 +98,6 @@ bool faceMeetsBall(const HalfSpace& face, Scratch& scratch) {
              {discRadius, -discRadius},
              {discRadius, discRadius},
              {-discRadius, discRadius}};
-  bool holdsCentre = true;
   for (const HalfSpace& other : scratch.halfSpaces) {
     if (&other == &face) continue;
     const glm::dvec2 across(glm::dot(other.normal, u), glm::dot(other.normal, v));
@@ -109,9 +108,9 @@ bool faceMeetsBall(const HalfSpace& face, Scratch& scratch) {
     if (limit < -reach) return false;
     clipPolygon(polygon, across, limit, scratch.clipped);
     if (polygon.empty()) return false;
-    holdsCentre = holdsCentre && limit >= 0;
   }
-  return holdsCentre || squaredDistanceToBoundary(polygon) <= discRadius * discRadius;
+  // A polygon around the disc's centre passes too: it lies within the square, so its boundary comes into the disc.
+  return squaredDistanceToBoundary(polygon) <= discRadius * discRadius * (1 + kPolygonSlack);
 }
 
 class AlphaComplexBuilder {

@@ -17,11 +17,11 @@ constexpr uint32_t kBlockSize = 1024;  // rows found by one task
 // exact same test does it from both sides, and the graph is symmetric.
 constexpr double kSlack = 0x1p-48;
 
-struct Box {
+struct Bounds {
   glm::dvec3 low{INFINITY}, high{-INFINITY};
 };
 
-Box unite(const Box& a, const Box& b) {
+Bounds unite(const Bounds& a, const Bounds& b) {
   return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
 
@@ -37,7 +37,7 @@ class BallTree {
     for (size_t k = 0; k < order_.size(); ++k) {
       const glm::dvec3 centre(sites[order_[k]]);
       const glm::dvec3 reach = double{radii[order_[k]]} * (1 + kSlack) + kSlack * glm::abs(centre);
-      Box& box = boxes_[leafCount_ + k / kLeafSize];
+      Bounds& box = boxes_[leafCount_ + k / kLeafSize];
       box = unite(box, {centre - reach, centre + reach});
     }
     for (size_t node = leafCount_ - 1; node >= 1; --node)
@@ -66,7 +66,7 @@ class BallTree {
     }
   }
 
-  bool touches(const Box& box, uint32_t cell) const {
+  bool touches(const Bounds& box, uint32_t cell) const {
     const glm::dvec3 centre(sites_[cell]);
     const glm::dvec3 gap = glm::max(glm::max(box.low - centre, centre - box.high), glm::dvec3(0));
     const double reach = radii_[cell] * (1 + kSlack);
@@ -83,7 +83,7 @@ class BallTree {
   std::span<const float> radii_;
   std::vector<uint32_t> order_;
   uint32_t leafCount_;
-  std::vector<Box> boxes_;
+  std::vector<Bounds> boxes_;
 };
 
 }  // namespace
