@@ -1,10 +1,79 @@
-// The C entry points: they check what they are given and hand it on.
+// The C entry points: null pointers, struct sizes, exceptions; everything else is the context's.
 #include "froth/froth.h"
 
+#include <memory>
+#include <new>
+
 #include "runtime/api/struct_size.h"
+#include "runtime/core/context.h"
 #include "runtime/core/requirements.h"
 
 using namespace froth;
+
+namespace {
+
+// Runs call(name); no exception crosses the C boundary.
+template <class Call>
+FrothResult guard(const Messages& messages, const char* name, Call call) {
+  try {
+    return call(name);
+  } catch (const std::bad_alloc&) {
+    return messages.fail(FROTH_ERROR_MEMORY, name, "host memory is exhausted");
+  } catch (...) {
+    return messages.fail(FROTH_ERROR_STATE, name, "an unexpected failure inside the library");
+  }
+}
+
+template <class Call>
+FrothResult guard(FrothContext* context, const char* name, Call call) {
+  return context ? guard(context->messages, name, call) : FROTH_ERROR_ARGUMENT;
+}
+
+FrothResult failNull(const FrothContext& context, const char* call, const char* parameter) {
+  return context.messages.fail(FROTH_ERROR_ARGUMENT, call, "%s: null", parameter);
+}
+
+// Reads a caller's struct, with a message where that fails.
+template <class T>
+FrothResult readInput(const Messages& messages, const char* call, const T* given, T& known) {
+  if (!given) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "info: null");
+  }
+  const FrothResult result = readStruct(*given, known);
+  if (result == FROTH_ERROR_ARGUMENT) {
+    return messages.fail(result, call, "structSize: %u; set it to sizeof the struct", given->structSize);
+  }
+  if (result == FROTH_ERROR_VERSION) {
+    return messages.fail(
+        result, call,
+        "structSize: %u, this library knows %zu, and fields beyond are not zero; use a newer library",
+        given->structSize, sizeof(T));
+  }
+  return result;
+}
+
+template <class T>
+FrothResult writeOutput(const Messages& messages, const char* call, const T& known, T* given) {
+  if (!given) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "status: null");
+  }
+  if (!writeStruct(known, *given)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "structSize: %u; set it to sizeof the struct",
+                         given->structSize);
+  }
+  return FROTH_OK;
+}
+
+FrothResult render(FrothContext* context, RenderMethod method, const char* call, FrothView view,
+                   VkCommandBuffer commandBuffer, const FrothRenderInfo* info) {
+  return guard(context, call, [&](const char*) {
+    FrothRenderInfo known;
+    const FrothResult result = readInput(context->messages, call, info, known);
+    return result == FROTH_OK ? context->render(method, view, commandBuffer, known) : result;
+  });
+}
+
+}  // namespace
 
 const char* frothResultName(FrothResult result) {
   switch (result) {
@@ -49,4 +118,140 @@ FrothResult frothRequireFeatures(VkPhysicalDeviceFeatures2* features, const char
     *missingStructure = missing;
   }
   return missing ? FROTH_ERROR_FEATURE : FROTH_OK;
+}
+
+FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context) {
+  if (!context) {
+    return FROTH_ERROR_ARGUMENT;
+  }
+  *context = nullptr;
+  const Messages messages = info ? Messages{info->onMessage, info->messageUser} : Messages{};
+  return guard(messages, __func__, [&](const char* call) {
+    FrothContextInfo known;
+    FrothResult result = readInput(messages, call, info, known);
+    if (result != FROTH_OK) {
+      return result;
+    }
+    auto created = std::make_unique<FrothContext>();
+    result = created->create(known);
+    if (result == FROTH_OK) {
+      *context = created.release();
+    }
+    return result;
+  });
+}
+
+void frothDestroyContext(FrothContext* context) {
+  delete context;
+}
+
+FrothResult frothOpenAsset(FrothContext* context, const FrothAssetInfo* info, FrothAsset* asset) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothAssetInfo known;
+    const FrothResult result = readInput(context->messages, call, info, known);
+    if (result != FROTH_OK) {
+      return result;
+    }
+    return asset ? context->openAsset(known, *asset) : failNull(*context, call, "asset");
+  });
+}
+
+FrothResult frothGetAssetStatus(FrothContext* context, FrothAsset asset, FrothAssetStatus* status) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothAssetStatus known{};
+    const FrothResult result = context->describeAsset(asset, known);
+    return result == FROTH_OK ? writeOutput(context->messages, call, known, status) : result;
+  });
+}
+
+FrothResult frothGetFlightPath(FrothContext* context, FrothAsset asset, uint32_t capacity,
+                               FrothStoredCamera* cameras, uint32_t* count) {
+  return guard(context, __func__, [&](const char* call) {
+    return count ? context->copyFlightPath(asset, capacity, cameras, *count)
+                 : failNull(*context, call, "count");
+  });
+}
+
+FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset) {
+  return guard(context, __func__, [&](const char*) { return context->closeAsset(asset); });
+}
+
+FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info,
+                                FrothInstance* instance) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothInstanceInfo known;
+    const FrothResult result = readInput(context->messages, call, info, known);
+    if (result != FROTH_OK) {
+      return result;
+    }
+    return instance ? context->createInstance(known, *instance) : failNull(*context, call, "instance");
+  });
+}
+
+FrothResult frothSetInstance(FrothContext* context, FrothInstance instance, const FrothInstanceInfo* info) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothInstanceInfo known;
+    const FrothResult result = readInput(context->messages, call, info, known);
+    return result == FROTH_OK ? context->setInstance(instance, known) : result;
+  });
+}
+
+FrothResult frothDestroyInstance(FrothContext* context, FrothInstance instance) {
+  return guard(context, __func__, [&](const char*) { return context->destroyInstance(instance); });
+}
+
+FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothViewInfo known;
+    const FrothResult result = readInput(context->messages, call, info, known);
+    if (result != FROTH_OK) {
+      return result;
+    }
+    return view ? context->createView(known, *view) : failNull(*context, call, "view");
+  });
+}
+
+FrothResult frothDestroyView(FrothContext* context, FrothView view) {
+  return guard(context, __func__, [&](const char*) { return context->destroyView(view); });
+}
+
+FrothResult frothGetViewStatus(FrothContext* context, FrothView view, FrothViewStatus* status) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothViewStatus known{};
+    const FrothResult result = context->describeView(view, known);
+    return result == FROTH_OK ? writeOutput(context->messages, call, known, status) : result;
+  });
+}
+
+FrothResult frothUpdate(FrothContext* context, const FrothFrame* frame, FrothFrameStatus* status) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothFrame known;
+    FrothFrameStatus found{};
+    FrothResult result = readInput(context->messages, call, frame, known);
+    if (result == FROTH_OK && status) {  // before the frame begins, so that a wrong call changes nothing
+      result = writeOutput(context->messages, call, found, status);
+    }
+    if (result == FROTH_OK) {
+      result = context->update(known, found);
+    }
+    return result == FROTH_OK && status ? writeOutput(context->messages, call, found, status) : result;
+  });
+}
+
+FrothResult frothRecordUpload(FrothContext* context, VkCommandBuffer commandBuffer) {
+  return guard(context, __func__, [&](const char*) { return context->recordUpload(commandBuffer); });
+}
+
+FrothResult frothDropFrame(FrothContext* context, uint64_t serial) {
+  return guard(context, __func__, [&](const char*) { return context->dropFrame(serial); });
+}
+
+FrothResult frothRasterize(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
+                           const FrothRenderInfo* info) {
+  return render(context, RenderMethod::kRaster, "frothRasterize", view, commandBuffer, info);
+}
+
+FrothResult frothWalk(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
+                      const FrothRenderInfo* info) {
+  return render(context, RenderMethod::kWalk, "frothWalk", view, commandBuffer, info);
 }

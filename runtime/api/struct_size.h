@@ -8,16 +8,16 @@
 
 namespace froth {
 
-// Copies a caller's struct of another age. FROTH_ERROR_VERSION: longer than known, and what is unknown is not zero.
+// Copies a caller's struct of another age. FROTH_ERROR_VERSION: longer than known, and what is unknown is not
+// zero.
 template <class T>
 FrothResult readStruct(const T& given, T& known) {
   if (given.structSize < sizeof(given.structSize)) {
     return FROTH_ERROR_ARGUMENT;
   }
   const auto* bytes = reinterpret_cast<const unsigned char*>(&given);
-  if (given.structSize > sizeof(T) && std::any_of(bytes + sizeof(T), bytes + given.structSize, [](unsigned char byte) {
-        return byte != 0;
-      })) {
+  if (given.structSize > sizeof(T) && std::any_of(bytes + sizeof(T), bytes + given.structSize,
+                                                  [](unsigned char byte) { return byte != 0; })) {
     return FROTH_ERROR_VERSION;
   }
   known = {};

@@ -43,30 +43,33 @@ std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& m
   return std::nullopt;
 }
 
-unsigned long long asPrinted(VkDeviceSize bytes) { return bytes; }
+unsigned long long asPrinted(VkDeviceSize bytes) {
+  return bytes;
+}
 
 }  // namespace
 
 Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
                               VkPhysicalDevice physicalDevice, VkDevice device) {
-  const auto getDeviceProcAddr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
-      getInstanceProcAddr(instance, "vkGetDeviceProcAddr"));
+  const auto getDeviceProcAddr =
+      reinterpret_cast<PFN_vkGetDeviceProcAddr>(getInstanceProcAddr(instance, "vkGetDeviceProcAddr"));
   const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
       getInstanceProcAddr(instance, "vkGetPhysicalDeviceProperties2"));
   const auto getMemoryProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
       getInstanceProcAddr(instance, "vkGetPhysicalDeviceMemoryProperties"));
   if (!getDeviceProcAddr || !getProperties || !getMemoryProperties) {
-    return makeError(ErrorKind::kUnsupported,
-                     "vkGetInstanceProcAddr: gives no vkGetPhysicalDeviceProperties2 for this instance; create the "
-                     "instance with VkApplicationInfo::apiVersion of at least 1.3");
+    return makeError(
+        ErrorKind::kUnsupported,
+        "vkGetInstanceProcAddr: gives no vkGetPhysicalDeviceProperties2 for this instance; create the "
+        "instance with VkApplicationInfo::apiVersion of at least 1.3");
   }
 
   Device result;
   result.device = device;
-#define FROTH_LOAD(name)                                                                        \
-  result.table.name = reinterpret_cast<PFN_##name>(getDeviceProcAddr(device, #name));           \
-  if (!result.table.name) {                                                                     \
-    return makeError(ErrorKind::kUnsupported,                                                   \
+#define FROTH_LOAD(name)                                                                              \
+  result.table.name = reinterpret_cast<PFN_##name>(getDeviceProcAddr(device, #name));                 \
+  if (!result.table.name) {                                                                           \
+    return makeError(ErrorKind::kUnsupported,                                                         \
                      "vkGetDeviceProcAddr: gives no " #name "; the device must be a Vulkan 1.3 one"); \
   }
   FROTH_DEVICE_FUNCTIONS(FROTH_LOAD)
@@ -86,9 +89,10 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
 
 Result<GpuBuffer> Device::createBuffer(BufferKind kind, VkDeviceSize size, const char* purpose) {
   if (size > maxAllocationSize) {
-    return makeError(ErrorKind::kUnsupported,
-                     "%s: %llu bytes, but this device allocates at most %llu at once; use a smaller asset or view",
-                     purpose, asPrinted(size), asPrinted(maxAllocationSize));
+    return makeError(
+        ErrorKind::kUnsupported,
+        "%s: %llu bytes, but this device allocates at most %llu at once; use a smaller asset or view",
+        purpose, asPrinted(size), asPrinted(maxAllocationSize));
   }
   VkBufferCreateInfo bufferInfo{};
   bufferInfo.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -97,7 +101,8 @@ Result<GpuBuffer> Device::createBuffer(BufferKind kind, VkDeviceSize size, const
   GpuBuffer buffer;
   buffer.kind = kind;
   buffer.size = size;
-  if (const VkResult result = table.vkCreateBuffer(device, &bufferInfo, nullptr, &buffer.buffer); result != VK_SUCCESS) {
+  if (const VkResult result = table.vkCreateBuffer(device, &bufferInfo, nullptr, &buffer.buffer);
+      result != VK_SUCCESS) {
     return makeError(ErrorKind::kUnsupported, "%s: vkCreateBuffer of %llu bytes gives VkResult %d", purpose,
                      asPrinted(size), result);
   }
@@ -122,8 +127,8 @@ Status Device::bindMemory(GpuBuffer& buffer, const char* purpose) {
   }
   const std::optional<uint32_t> type = findMemoryType(memory, requirements.memoryTypeBits, traits);
   if (!type) {
-    return makeError(ErrorKind::kUnsupported, "%s: no memory type of this device fits (allowed types 0x%x)", purpose,
-                     requirements.memoryTypeBits);
+    return makeError(ErrorKind::kUnsupported, "%s: no memory type of this device fits (allowed types 0x%x)",
+                     purpose, requirements.memoryTypeBits);
   }
 
   VkMemoryAllocateFlagsInfo flags{};
@@ -136,10 +141,11 @@ Status Device::bindMemory(GpuBuffer& buffer, const char* purpose) {
   allocation.memoryTypeIndex = *type;
   if (const VkResult result = table.vkAllocateMemory(device, &allocation, nullptr, &buffer.memory);
       result != VK_SUCCESS) {
-    return makeError(ErrorKind::kUnsupported,
-                     "%s: vkAllocateMemory of %llu bytes gives VkResult %d with %llu bytes in use; close another asset "
-                     "or view",
-                     purpose, asPrinted(requirements.size), result, asPrinted(deviceBytes));
+    return makeError(
+        ErrorKind::kUnsupported,
+        "%s: vkAllocateMemory of %llu bytes gives VkResult %d with %llu bytes in use; close another asset "
+        "or view",
+        purpose, asPrinted(requirements.size), result, asPrinted(deviceBytes));
   }
   buffer.allocatedSize = requirements.size;
   (buffer.kind == BufferKind::kDevice ? deviceBytes : hostBytes) += buffer.allocatedSize;

@@ -11,15 +11,20 @@
 namespace froth {
 
 // Device-level functions the runtime calls, loaded per context: no globals, no loader symbols.
-#define FROTH_DEVICE_FUNCTIONS(X)                                                                                    \
-  X(vkAllocateMemory) X(vkFreeMemory) X(vkMapMemory) X(vkUnmapMemory) X(vkCreateBuffer) X(vkDestroyBuffer)           \
-  X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) X(vkGetBufferDeviceAddress) X(vkCreateShaderModule)         \
-  X(vkDestroyShaderModule) X(vkCreateComputePipelines) X(vkDestroyPipeline) X(vkCreatePipelineLayout)                \
-  X(vkDestroyPipelineLayout) X(vkCreateDescriptorSetLayout) X(vkDestroyDescriptorSetLayout) X(vkCreateDescriptorPool) \
-  X(vkDestroyDescriptorPool) X(vkResetDescriptorPool) X(vkAllocateDescriptorSets) X(vkUpdateDescriptorSets)          \
-  X(vkCreateQueryPool) X(vkDestroyQueryPool) X(vkResetQueryPool) X(vkGetQueryPoolResults) X(vkCmdBindPipeline)       \
-  X(vkCmdBindDescriptorSets) X(vkCmdPushConstants) X(vkCmdDispatch) X(vkCmdDispatchIndirect) X(vkCmdPipelineBarrier2) \
-  X(vkCmdCopyBuffer) X(vkCmdFillBuffer) X(vkCmdUpdateBuffer) X(vkCmdResetQueryPool) X(vkCmdWriteTimestamp2)
+#define FROTH_DEVICE_FUNCTIONS(X)                                                                           \
+  X(vkAllocateMemory)                                                                                       \
+  X(vkFreeMemory) X(vkMapMemory) X(vkUnmapMemory) X(vkCreateBuffer) X(vkDestroyBuffer)                      \
+      X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) X(vkGetBufferDeviceAddress)                    \
+          X(vkCreateShaderModule) X(vkDestroyShaderModule) X(vkCreateComputePipelines) X(vkDestroyPipeline) \
+              X(vkCreatePipelineLayout) X(vkDestroyPipelineLayout) X(vkCreateDescriptorSetLayout)           \
+                  X(vkDestroyDescriptorSetLayout) X(vkCreateDescriptorPool) X(vkDestroyDescriptorPool)      \
+                      X(vkResetDescriptorPool) X(vkAllocateDescriptorSets) X(vkUpdateDescriptorSets)        \
+                          X(vkCreateQueryPool) X(vkDestroyQueryPool) X(vkResetQueryPool)                    \
+                              X(vkGetQueryPoolResults) X(vkCmdBindPipeline) X(vkCmdBindDescriptorSets)      \
+                                  X(vkCmdPushConstants) X(vkCmdDispatch) X(vkCmdDispatchIndirect)           \
+                                      X(vkCmdPipelineBarrier2) X(vkCmdCopyBuffer) X(vkCmdFillBuffer)        \
+                                          X(vkCmdUpdateBuffer) X(vkCmdResetQueryPool)                       \
+                                              X(vkCmdWriteTimestamp2)
 
 struct DeviceTable {
 #define FROTH_DECLARE(name) PFN_##name name = nullptr;
@@ -58,9 +63,9 @@ class Device {
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
   VkDeviceSize maxAllocationSize = 0;  // largest buffer the device promises to accept
-  VkDeviceSize budget = 0;       // [bytes] 0: no limit
-  VkDeviceSize deviceBytes = 0;  // held now, kDevice
-  VkDeviceSize hostBytes = 0;    // held now, kStaging and kReadback
+  VkDeviceSize budget = 0;             // [bytes] 0: no limit
+  VkDeviceSize deviceBytes = 0;        // held now, kDevice
+  VkDeviceSize hostBytes = 0;          // held now, kStaging and kReadback
 
  private:
   Status bindMemory(GpuBuffer& buffer, const char* purpose);

@@ -7,7 +7,8 @@
 
 namespace froth {
 
-// `Handle` has the fields index and generation; {0, 0} is never handed out. One thread at a time for add and remove.
+// `Handle` has the fields index and generation; {0, 0} is never handed out. One thread at a time for add and
+// remove.
 template <class T, class Handle>
 class HandlePool {
  public:

@@ -14,7 +14,8 @@ struct Messages {
 #if defined(__GNUC__)
   __attribute__((format(printf, 4, 5)))
 #endif
-  FrothResult fail(FrothResult code, const char* object, const char* format, ...) const;
+  FrothResult
+  fail(FrothResult code, const char* object, const char* format, ...) const;
 };
 
 }  // namespace froth

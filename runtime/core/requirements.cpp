@@ -20,7 +20,8 @@ struct RequiredFeature {
   FeatureHome homes[2];
 };
 
-#define FROTH_HOME(type, structure, member) {type, #structure, offsetof(structure, member)}
+#define FROTH_HOME(type, structure, member) \
+  { type, #structure, offsetof(structure, member) }
 constexpr RequiredFeature kRequiredFeatures[] = {
     {"bufferDeviceAddress",
      {FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, VkPhysicalDeviceVulkan12Features,
@@ -71,8 +72,8 @@ void linkFeatures(Offer& offer) {
   offer.features.pNext = &offer.features12;
 }
 
-void queryOffer(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkPhysicalDevice physicalDevice,
-                Offer& offer) {
+void queryOffer(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                VkPhysicalDevice physicalDevice, Offer& offer) {
   const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties>(
       getInstanceProcAddr(instance, "vkGetPhysicalDeviceProperties"));
   const auto getFamilies = reinterpret_cast<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
@@ -99,7 +100,8 @@ bool hasCompute(const Offer& offer) {
   return false;
 }
 
-void addItem(FrothRequirements& requirements, const char* name, const char* loss, bool isPresent, bool isFeature) {
+void addItem(FrothRequirements& requirements, const char* name, const char* loss, bool isPresent,
+             bool isFeature) {
   requirements.items[requirements.itemCount++] = {name, loss, isPresent, isFeature};
 }
 
@@ -154,8 +156,8 @@ Status checkContextDevice(const FrothContextInfo& info) {
     }
   }
   if (!missing.empty()) {
-    return makeError(ErrorKind::kUnsupported, "the physical device lacks %s; frothGetRequirements tells beforehand",
-                     missing.c_str());
+    return makeError(ErrorKind::kUnsupported,
+                     "the physical device lacks %s; frothGetRequirements tells beforehand", missing.c_str());
   }
   for (const RequiredFeature& feature : kRequiredFeatures) {
     if (!isEnabled(*info.enabledFeatures, feature)) {
@@ -163,21 +165,24 @@ Status checkContextDevice(const FrothContextInfo& info) {
     }
   }
   if (!missing.empty()) {
-    return makeError(ErrorKind::kUnsupported,
-                     "FrothContextInfo::enabledFeatures: the device was made without %s; call frothRequireFeatures on "
-                     "the chain before vkCreateDevice",
-                     missing.c_str());
+    return makeError(
+        ErrorKind::kUnsupported,
+        "FrothContextInfo::enabledFeatures: the device was made without %s; call frothRequireFeatures on "
+        "the chain before vkCreateDevice",
+        missing.c_str());
   }
 
   Offer offer;
   linkFeatures(offer);
   queryOffer(info.getInstanceProcAddr, info.instance, info.physicalDevice, offer);
   const size_t familyCount = offer.queueFamilies.size();
-  if (info.queueFamily >= familyCount || !(offer.queueFamilies[info.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT)) {
-    return makeError(ErrorKind::kUnsupported,
-                     "FrothContextInfo::queueFamily: family %u of %zu has no VK_QUEUE_COMPUTE_BIT; name the family that "
-                     "frames are submitted to",
-                     info.queueFamily, familyCount);
+  if (info.queueFamily >= familyCount ||
+      !(offer.queueFamilies[info.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT)) {
+    return makeError(
+        ErrorKind::kUnsupported,
+        "FrothContextInfo::queueFamily: family %u of %zu has no VK_QUEUE_COMPUTE_BIT; name the family that "
+        "frames are submitted to",
+        info.queueFamily, familyCount);
   }
   return {};
 }

@@ -1,4 +1,5 @@
-// What the runtime needs of a Vulkan device: one list for the query, for enabling, and for the check at creation.
+// What the runtime needs of a Vulkan device: one list for the query, for enabling, and for the check at
+// creation.
 #pragma once
 
 #include "format/result.h"
@@ -9,11 +10,12 @@ namespace froth {
 FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
                                     VkPhysicalDevice physicalDevice);
 
-// The structure that the caller's chain lacks for a required feature, after setting all bits that have a place; null: none.
+// The structure that the caller's chain lacks for a required feature, after setting all bits that have a
+// place; null: none.
 const char* requireFeatures(VkPhysicalDeviceFeatures2& features);
 
-// Repeats the query for a context and looks whether its features were enabled and its queue family can compute.
-// Error: names everything that is missing.
+// Repeats the query for a context and looks whether its features were enabled and its queue family can
+// compute. Error: names everything that is missing.
 Status checkContextDevice(const FrothContextInfo& info);
 
 }  // namespace froth

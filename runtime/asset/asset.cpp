@@ -1,0 +1,230 @@
+#include "runtime/asset/asset.h"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <numeric>
+
+namespace froth {
+namespace {
+
+FrothStoredCamera toApi(const StoredCamera& camera) {
+  FrothStoredCamera result{};
+  std::copy(camera.worldFromCamera.begin(), camera.worldFromCamera.end(), result.worldFromCamera);
+  result.tanHalfFovY = camera.tanHalfFovY;
+  return result;
+}
+
+FrothAssetStatus describeManifest(const AssetContents& manifest) {
+  FrothAssetStatus description{};
+  for (const ChunkContents& chunk : manifest.chunks) {
+    description.cellCount += chunk.cellCount;
+    description.liveCount += chunk.liveCount;
+  }
+  description.detailCount = manifest.detailCount;
+  description.lobeCount = manifest.lobeCount;
+  description.chunkCount = static_cast<uint32_t>(manifest.chunks.size());
+  description.hasWalkGraph = manifest.hasWalkGraph;
+  description.nearRatio = manifest.nearRatio;
+  description.nearDepth = manifest.nearDepth;
+  description.hasStartView = manifest.hasStartView;
+  description.startView = toApi(manifest.startView);
+  description.flightPathCount = static_cast<uint32_t>(manifest.flightPath.size());
+  return description;
+}
+
+GpuAsset describeShape(const AssetContents& manifest) {
+  GpuAsset asset;
+  asset.detailCount = manifest.detailCount;
+  asset.lobeCount = manifest.lobeCount;
+  asset.localBits = manifest.localBits;
+  asset.hasWalkGraph = manifest.hasWalkGraph;
+  asset.detailSharpness = manifest.detailSharpness;
+  asset.nearRatio = manifest.nearRatio;
+  asset.nearDepth = manifest.nearDepth;
+  return asset;
+}
+
+// GpuChunk::siteRadius
+std::vector<glm::vec4> joinSitesAndRadii(const ChunkContents& contents) {
+  std::vector<glm::vec4> joined(contents.sites.size());
+  for (size_t i = 0; i < joined.size(); ++i) {
+    joined[i] = glm::vec4(contents.sites[i], contents.radii[i]);
+  }
+  return joined;
+}
+
+}  // namespace
+
+GpuBufferSet::~GpuBufferSet() {
+  for (GpuBuffer& buffer : buffers) {
+    device.destroyBuffer(buffer);
+  }
+}
+
+Asset::Asset(std::string path, std::span<const uint8_t> bytes, Device* device)
+    : isFile_(!path.empty()),
+      name_(isFile_ ? std::move(path) : "asset in memory"),
+      bytes_(bytes),
+      device_(device) {
+  if (device) {
+    buffers_ = std::make_shared<GpuBufferSet>(*device);
+  }
+}
+
+void Asset::load(RenderPipelines* pipelines, const Messages& messages) {
+  if (hasFailed() || isDecoded_ || !arrays_.empty()) {
+    return;
+  }
+  try {
+    if (!reader_) {
+      if (const Status status = openReader(); !status) {
+        const bool isNewer = status.error().kind == ErrorKind::kUnsupported;
+        return fail(isNewer ? FROTH_ERROR_VERSION : FROTH_ERROR_FILE, status.error().message, messages);
+      }
+    }
+    Result<ChunkContents> contents = reader_->readChunk(nextChunk_);
+    if (!contents) {
+      return fail(FROTH_ERROR_FILE, contents.error().message, messages);
+    }
+    if (const Status status = placeChunk(std::move(*contents)); !status) {
+      return fail(FROTH_ERROR_MEMORY, status.error().message, messages);
+    }
+    if (++nextChunk_ < description_.chunkCount) {
+      return;
+    }
+    reader_.reset();
+    if (pipelines) {
+      if (const Status status = pipelines->prepareFor(gpu_); !status) {
+        return fail(FROTH_ERROR_DEVICE, status.error().message, messages);
+      }
+    }
+    isDecoded_ = true;
+  } catch (const std::bad_alloc&) {
+    fail(FROTH_ERROR_MEMORY, "host memory is exhausted while the asset is decoded", messages);
+  }
+}
+
+void Asset::fail(FrothResult code, const std::string& text, const Messages& messages) {
+  error_ = messages.fail(code, name_.c_str(), "%s", text.c_str());
+  reader_.reset();
+  arrays_.clear();
+}
+
+Status Asset::openReader() {
+  Result<AssetReader> reader = isFile_ ? AssetReader::open(name_) : AssetReader::openBytes(bytes_, name_);
+  if (!reader) {
+    return reader.error();
+  }
+  const AssetContents& manifest = reader->manifest();
+  description_ = describeManifest(manifest);
+  gpu_ = describeShape(manifest);
+  std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_),
+                 toApi);
+  reader_ = std::move(*reader);
+  return {};
+}
+
+Status Asset::placeChunk(ChunkContents&& contents) {
+  growBounds(contents);
+  gpu_.hasHeights |= !contents.detailHeights.empty();
+  gpu_.liveCount += contents.liveCount;
+  GpuChunk& chunk = gpu_.chunks.emplace_back();
+  chunk.origin = contents.origin;
+  chunk.cellCount = contents.cellCount;
+  chunk.liveCount = contents.liveCount;
+  chunk.neighbourCount = static_cast<uint32_t>(contents.neighbours.size());
+  chunk.alphaTotal = std::accumulate(contents.alphaCounts.begin(), contents.alphaCounts.end(), uint64_t{0});
+  gpu_.alphaTotal += chunk.alphaTotal;
+  if (!device_) {
+    return {};
+  }
+  Status status = placeArray(joinSitesAndRadii(contents), "sites and radii", chunk.siteRadius);
+  if (status)
+    status = placeArray(std::move(contents.neighbourOffsets), "neighbour offsets", chunk.neighbourOffsets);
+  if (status) status = placeArray(std::move(contents.neighbours), "neighbours", chunk.neighbours);
+  if (status) status = placeArray(std::move(contents.alphaCounts), "alpha counts", chunk.alphaCounts);
+  if (status) status = placeArray(std::move(contents.densities), "densities", chunk.densities);
+  if (status) status = placeArray(std::move(contents.orientations), "orientations", chunk.orientations);
+  if (status) status = placeArray(std::move(contents.detailSites), "detail sites", chunk.detailSites);
+  if (status) status = placeArray(std::move(contents.detailHeights), "detail heights", chunk.detailHeights);
+  if (status) status = placeArray(std::move(contents.lobeAxes), "lobe axes", chunk.lobeAxes);
+  if (status) status = placeArray(std::move(contents.lobeColours), "lobe colours", chunk.lobeColours);
+  return status;
+}
+
+template <class T>
+Status Asset::placeArray(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address) {
+  if (values.empty()) {
+    return {};
+  }
+  const VkDeviceSize size = values.size() * sizeof(T);
+  const std::string fullPurpose =
+      "chunk " + std::to_string(gpu_.chunks.size() - 1) + ", array '" + purpose + "'";
+  const Result<GpuBuffer> buffer = device_->createBuffer(BufferKind::kDevice, size, fullPurpose.c_str());
+  if (!buffer) {
+    return buffer.error();
+  }
+  buffers_->buffers.push_back(*buffer);
+  address = buffer->address;
+  const auto owner = std::make_shared<const std::vector<T>>(std::move(values));
+  arrays_.push_back({std::shared_ptr<const void>(owner, owner->data()), buffer->buffer, size, 0});
+  return {};
+}
+
+void Asset::growBounds(const ChunkContents& contents) {
+  if (contents.liveCount == 0) {
+    return;
+  }
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const bool isFirst = gpu_.liveCount == 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    float low = isFirst ? kInfinity : description_.boundsMin[axis];
+    float high = isFirst ? -kInfinity : description_.boundsMax[axis];
+    for (uint32_t cell = 0; cell < contents.liveCount; ++cell) {
+      const double site = contents.origin[static_cast<size_t>(axis)] + contents.sites[cell][axis];
+      low = std::min(low, static_cast<float>(site - contents.radii[cell]));
+      high = std::max(high, static_cast<float>(site + contents.radii[cell]));
+    }
+    description_.boundsMin[axis] = low;
+    description_.boundsMax[axis] = high;
+  }
+}
+
+VkDeviceSize Asset::stage(UploadRing& ring, VkDeviceSize limit) {
+  VkDeviceSize staged = 0;
+  while (!arrays_.empty()) {
+    PendingArray& array = arrays_.front();
+    const VkDeviceSize wanted = std::min(array.size - array.staged, limit - staged);
+    const VkDeviceSize taken = ring.stage(this, array.target, array.staged,
+                                          static_cast<const char*>(array.bytes.get()) + array.staged, wanted);
+    array.staged += taken;
+    staged += taken;
+    if (array.staged < array.size) {
+      break;
+    }
+    arrays_.erase(arrays_.begin());
+  }
+  return staged;
+}
+
+uint64_t Asset::queuedBytes() const {
+  uint64_t bytes = 0;
+  for (const PendingArray& array : arrays_) {
+    bytes += array.size - array.staged;
+  }
+  return bytes;
+}
+
+FrothAssetStatus Asset::describe() const {
+  FrothAssetStatus description = description_;
+  description.error = error_;
+  if (buffers_) {
+    for (const GpuBuffer& buffer : buffers_->buffers) {
+      description.deviceBytes += buffer.allocatedSize;
+    }
+  }
+  return description;
+}
+
+}  // namespace froth

@@ -1,0 +1,92 @@
+// An asset on its way from a file to the GPU.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "format/asset_reader.h"
+#include "froth/froth.h"
+#include "runtime/asset/gpu_asset.h"
+#include "runtime/core/device.h"
+#include "runtime/core/messages.h"
+#include "runtime/core/upload_ring.h"
+#include "runtime/render/pipelines.h"
+
+namespace froth {
+
+// Device buffers that go together. The GPU must be done with them when they go.
+struct GpuBufferSet {
+  explicit GpuBufferSet(Device& owner) : device(owner) {}
+  ~GpuBufferSet();
+  GpuBufferSet(const GpuBufferSet&) = delete;
+  GpuBufferSet& operator=(const GpuBufferSet&) = delete;
+
+  Device& device;
+  std::vector<GpuBuffer> buffers;
+};
+
+// Loads chunk by chunk: decode one, allocate its arrays, stage them through the ring as it has room, then the
+// next. One thread at a time.
+class Asset {
+ public:
+  // `path` empty: the asset is `bytes`, which the caller keeps until loading has ended. `device` null:
+  // decodes and checks, and keeps nothing.
+  Asset(std::string path, std::span<const uint8_t> bytes, Device* device);
+
+  // At most one chunk's work. An error ends the asset: one message, hasFailed().
+  void load(RenderPipelines* pipelines, const Messages& messages);
+  // Moves at most `limit` bytes of decoded arrays into the ring; returns how many.
+  VkDeviceSize stage(UploadRing& ring, VkDeviceSize limit);
+
+  // Everything is decoded and has its place on the GPU: views can prepare for gpu().
+  bool isDecoded() const { return isDecoded_; }
+  bool hasFailed() const { return error_ != FROTH_OK; }
+  uint64_t queuedBytes() const;  // decoded, not staged
+
+  const GpuAsset& gpu() const { return gpu_; }
+  const std::string& name() const { return name_; }
+  // Counts, bounds, cameras; zero before the manifest is read. The state is the context's to tell.
+  FrothAssetStatus describe() const;
+  std::span<const FrothStoredCamera> flightPath() const { return flightPath_; }
+
+  // Takes the buffers out, to be freed once the GPU is done with them.
+  std::shared_ptr<GpuBufferSet> releaseBuffers() { return std::move(buffers_); }
+
+ private:
+  // A decoded array on its way to its buffer; owned until it is staged.
+  struct PendingArray {
+    std::shared_ptr<const void> bytes;
+    VkBuffer target;
+    VkDeviceSize size, staged;
+  };
+
+  Status openReader();
+  Status placeChunk(ChunkContents&& contents);
+  template <class T>
+  Status placeArray(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address);
+  void growBounds(const ChunkContents& contents);
+  void fail(FrothResult code, const std::string& text, const Messages& messages);
+
+  bool isFile_;
+  std::string name_;
+  std::span<const uint8_t> bytes_;
+  Device* device_;
+
+  std::optional<AssetReader> reader_;  // while loading
+  uint32_t nextChunk_ = 0;
+  std::vector<PendingArray> arrays_;  // of the newest chunk; staged from the front
+  bool isDecoded_ = false;
+  FrothResult error_ = FROTH_OK;
+
+  FrothAssetStatus description_{};
+  std::vector<FrothStoredCamera> flightPath_;
+  GpuAsset gpu_;
+  std::shared_ptr<GpuBufferSet> buffers_;
+};
+
+}  // namespace froth

@@ -1,0 +1,255 @@
+#include "runtime/core/context.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/core/render_info.h"
+#include "runtime/core/requirements.h"
+
+namespace froth {
+namespace {
+
+constexpr VkDeviceSize kUploadRingBytes = 64u << 20;
+constexpr uint32_t kDefaultFramesInFlight = 2, kMaxFramesInFlight = 8;
+constexpr uint32_t kMaxViewExtent = 16384;
+constexpr double kUnitQuaternionTolerance = 1e-3;  // as for a camera's rotation
+
+}  // namespace
+
+FrothResult Context::create(const FrothContextInfo& info) {
+  messages = {info.onMessage, info.messageUser};
+  constexpr const char* kCall = "frothCreateContext";
+  if (info.abiVersion >> 16 != FROTH_ABI_VERSION >> 16) {
+    return messages.fail(
+        FROTH_ERROR_VERSION, kCall,
+        "abiVersion: 0x%08x, this library is 0x%08x; compile with the header of this library",
+        info.abiVersion, FROTH_ABI_VERSION);
+  }
+  if (info.framesInFlight > kMaxFramesInFlight) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "framesInFlight: %u; at most %u", info.framesInFlight,
+                         kMaxFramesInFlight);
+  }
+  framesInFlight_ = info.framesInFlight == 0 ? kDefaultFramesInFlight : info.framesInFlight;
+  if (!info.device) {
+    return FROTH_OK;
+  }
+  if (!info.getInstanceProcAddr || !info.instance || !info.physicalDevice || !info.enabledFeatures) {
+    return messages.fail(
+        FROTH_ERROR_ARGUMENT, kCall,
+        "getInstanceProcAddr, instance, physicalDevice, enabledFeatures: null; a device needs them all");
+  }
+  if (const Status status = checkContextDevice(info); !status) {
+    return messages.fail(FROTH_ERROR_FEATURE, kCall, "%s", status.error().message.c_str());
+  }
+  Result<Device> device =
+      Device::create(info.getInstanceProcAddr, info.instance, info.physicalDevice, info.device);
+  if (!device) {
+    return messages.fail(FROTH_ERROR_DEVICE, kCall, "%s", device.error().message.c_str());
+  }
+  device_ = *device;
+  device_.budget = info.deviceBudget;
+  checksIndices_ = info.checkIndices != 0;
+  Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(device_, kUploadRingBytes);
+  if (!ring) {
+    return messages.fail(FROTH_ERROR_MEMORY, kCall, "%s", ring.error().message.c_str());
+  }
+  ring_ = std::move(*ring);
+  Result<std::unique_ptr<RenderPipelines>> pipelines =
+      RenderPipelines::create(device_, info.pipelineCache, checksIndices_);
+  if (!pipelines) {
+    return messages.fail(FROTH_ERROR_DEVICE, kCall, "%s", pipelines.error().message.c_str());
+  }
+  pipelines_ = std::move(*pipelines);
+  return FROTH_OK;
+}
+
+void Context::retire(std::shared_ptr<void> object) {
+  if (object) {
+    retired_.emplace_back(serial_, std::move(object));
+  }
+}
+
+// ---- Assets ----
+
+FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
+  const bool hasBytes = info.data && info.dataSize > 0;
+  if ((info.path != nullptr) == hasBytes) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset",
+                         "path, data: %s; give a path, or data and dataSize",
+                         hasBytes ? "both are set" : "neither is set");
+  }
+  if (info.path && !*info.path) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset",
+                         "path: empty; give the path of a .froth file");
+  }
+  const std::span<const uint8_t> bytes(static_cast<const uint8_t*>(info.data), hasBytes ? info.dataSize : 0);
+  handle = assets_.add(
+      std::make_unique<Asset>(info.path ? info.path : std::string(), bytes, isNull() ? nullptr : &device_));
+  return FROTH_OK;
+}
+
+// READY: all copies stand in frames that are recorded and not dropped.
+FrothAssetState Context::stateOf(const Asset& asset) const {
+  if (asset.hasFailed()) {
+    return FROTH_ASSET_FAILED;
+  }
+  const bool isUploaded = asset.queuedBytes() == 0 && !(ring_ && ring_->isStaged(&asset));
+  return asset.isDecoded() && isUploaded ? FROTH_ASSET_READY : FROTH_ASSET_OPENING;
+}
+
+FrothResult Context::describeAsset(FrothAsset handle, FrothAssetStatus& status) const {
+  const Asset* asset = assets_.find(handle);
+  if (!asset) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothGetAssetStatus", "asset {%u, %u}: closed or never opened",
+                         handle.index, handle.generation);
+  }
+  status = asset->describe();
+  status.state = stateOf(*asset);
+  return FROTH_OK;
+}
+
+FrothResult Context::copyFlightPath(FrothAsset handle, uint32_t capacity, FrothStoredCamera* cameras,
+                                    uint32_t& count) const {
+  const Asset* asset = assets_.find(handle);
+  if (!asset) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothGetFlightPath", "asset {%u, %u}: closed or never opened",
+                         handle.index, handle.generation);
+  }
+  if (capacity > 0 && !cameras) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothGetFlightPath", "cameras: null, with capacity %u",
+                         capacity);
+  }
+  const std::span<const FrothStoredCamera> path = asset->flightPath();
+  std::copy_n(path.begin(), std::min<size_t>(capacity, path.size()), cameras);
+  count = static_cast<uint32_t>(path.size());
+  return FROTH_OK;
+}
+
+FrothResult Context::closeAsset(FrothAsset handle) {
+  const Asset* asset = assets_.find(handle);
+  if (!asset) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothCloseAsset", "asset {%u, %u}: closed or never opened",
+                         handle.index, handle.generation);
+  }
+  uint32_t users = 0;
+  instances_.forEach([&](const Instance& instance) { users += assets_.find(instance.asset) == asset; });
+  if (users > 0) {
+    return messages.fail(FROTH_ERROR_STATE, asset->name().c_str(),
+                         "%u instances still use it; destroy them first", users);
+  }
+  if (ring_) {
+    ring_->forget(asset);
+  }
+  retire(std::shared_ptr<Asset>(assets_.remove(handle)));
+  return FROTH_OK;
+}
+
+// ---- Instances ----
+
+FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* call,
+                                   Instance& instance) const {
+  if (!assets_.find(info.asset)) {
+    return messages.fail(FROTH_ERROR_HANDLE, call, "asset {%u, %u}: closed or never opened", info.asset.index,
+                         info.asset.generation);
+  }
+  double length = 0;
+  for (const float part : info.rotation) {
+    length += double{part} * part;
+  }
+  if (length != 0 && !(std::abs(length - 1) <= kUnitQuaternionTolerance)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "rotation: a quaternion of squared length %g; normalize it", length);
+  }
+  if (!(info.scale >= 0) || !std::isfinite(info.scale)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "scale: %g; must be positive, or 0 for 1",
+                         double{info.scale});
+  }
+  for (const double part : info.position) {
+    if (!std::isfinite(part)) {
+      return messages.fail(FROTH_ERROR_ARGUMENT, call, "position: %g; must be finite", part);
+    }
+  }
+  instance.asset = info.asset;
+  std::copy_n(info.position, 3, instance.placement.position.begin());
+  if (length != 0) {
+    std::copy_n(info.rotation, 4, instance.placement.rotation.begin());
+  } else {
+    instance.placement.rotation = {0, 0, 0, 1};
+  }
+  instance.placement.scale = info.scale == 0 ? 1 : info.scale;
+  return FROTH_OK;
+}
+
+FrothResult Context::createInstance(const FrothInstanceInfo& info, FrothInstance& handle) {
+  auto instance = std::make_unique<Instance>();
+  const FrothResult result = readPlacement(info, "frothCreateInstance", *instance);
+  if (result == FROTH_OK) {
+    handle = instances_.add(std::move(instance));
+  }
+  return result;
+}
+
+FrothResult Context::setInstance(FrothInstance handle, const FrothInstanceInfo& info) {
+  Instance* instance = instances_.find(handle);
+  if (!instance) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothSetInstance",
+                         "instance {%u, %u}: destroyed or never created", handle.index, handle.generation);
+  }
+  return readPlacement(info, "frothSetInstance", *instance);
+}
+
+FrothResult Context::destroyInstance(FrothInstance handle) {
+  if (!instances_.find(handle)) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothDestroyInstance",
+                         "instance {%u, %u}: destroyed or never created", handle.index, handle.generation);
+  }
+  instances_.remove(handle);
+  return FROTH_OK;
+}
+
+// ---- Views ----
+
+FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
+  const VkExtent2D extent = info.maxExtent;
+  if (extent.width == 0 || extent.height == 0 || extent.width > kMaxViewExtent ||
+      extent.height > kMaxViewExtent) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "maxExtent: %u x %u; must be 1 to %u each",
+                         extent.width, extent.height, kMaxViewExtent);
+  }
+  auto view = std::make_unique<View>();
+  view->maxExtent = extent;
+  if (!isNull()) {
+    Result<std::unique_ptr<ViewRenderer>> renderer =
+        ViewRenderer::create(device_, extent, info.measurePasses != 0, framesInFlight_, checksIndices_);
+    if (!renderer) {
+      return messages.fail(FROTH_ERROR_MEMORY, "frothCreateView", "%s", renderer.error().message.c_str());
+    }
+    view->renderer = std::move(*renderer);
+  }
+  handle = views_.add(std::move(view));
+  return FROTH_OK;
+}
+
+FrothResult Context::describeView(FrothView handle, FrothViewStatus& status) const {
+  const View* view = views_.find(handle);
+  if (!view) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothGetViewStatus",
+                         "view {%u, %u}: destroyed or never created", handle.index, handle.generation);
+  }
+  status = view->renderer ? view->renderer->status() : FrothViewStatus{};
+  for (const auto& [serial, bits] : view->bits) {
+    status.bits |= serial == status.serial ? bits : 0;
+  }
+  return FROTH_OK;
+}
+
+FrothResult Context::destroyView(FrothView handle) {
+  if (!views_.find(handle)) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothDestroyView", "view {%u, %u}: destroyed or never created",
+                         handle.index, handle.generation);
+  }
+  retire(std::shared_ptr<View>(views_.remove(handle)));
+  return FROTH_OK;
+}
+
+}  // namespace froth

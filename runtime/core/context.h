@@ -1,0 +1,97 @@
+// One per VkDevice: owns assets, instances, views and the memory that they hold on the GPU.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "froth/froth.h"
+#include "runtime/asset/asset.h"
+#include "runtime/core/device.h"
+#include "runtime/core/handles.h"
+#include "runtime/core/messages.h"
+#include "runtime/core/upload_ring.h"
+#include "runtime/render/pipelines.h"
+#include "runtime/render/view_renderer.h"
+
+namespace froth {
+
+enum class RenderMethod { kRaster, kWalk };
+
+// The calls of froth.h with their structs already read to today's size. Threads as in froth.h.
+class Context {
+ public:
+  Context() = default;
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  FrothResult create(const FrothContextInfo& info);
+
+  FrothResult openAsset(const FrothAssetInfo& info, FrothAsset& handle);
+  FrothResult describeAsset(FrothAsset handle, FrothAssetStatus& status) const;
+  FrothResult copyFlightPath(FrothAsset handle, uint32_t capacity, FrothStoredCamera* cameras,
+                             uint32_t& count) const;
+  FrothResult closeAsset(FrothAsset handle);
+
+  FrothResult createInstance(const FrothInstanceInfo& info, FrothInstance& handle);
+  FrothResult setInstance(FrothInstance handle, const FrothInstanceInfo& info);
+  FrothResult destroyInstance(FrothInstance handle);
+
+  FrothResult createView(const FrothViewInfo& info, FrothView& handle);
+  FrothResult describeView(FrothView handle, FrothViewStatus& status) const;
+  FrothResult destroyView(FrothView handle);
+
+  FrothResult update(const FrothFrame& frame, FrothFrameStatus& status);
+  FrothResult recordUpload(VkCommandBuffer commandBuffer);
+  FrothResult dropFrame(uint64_t serial);
+  FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
+                     FrothRenderInfo info);
+
+  Messages messages;
+
+ private:
+  struct Instance {
+    FrothAsset asset;
+    RenderInstance placement;  // its `asset` is filled in when it is drawn
+  };
+  struct View {
+    VkExtent2D maxExtent{};
+    std::unique_ptr<ViewRenderer> renderer;  // null: null context
+    const GpuAsset* preparedFor = nullptr;   // in the newest frothUpdate
+    std::string preparationError;            // sent already
+    uint64_t renderedSerials[2] = {0, 0};    // newest frame per RenderMethod
+    std::vector<std::pair<uint64_t, uint32_t>>
+        bits;  // recorded frames that left something out: serial, FrothViewBit
+  };
+
+  bool isNull() const { return device_.device == VK_NULL_HANDLE; }
+  FrothAssetState stateOf(const Asset& asset) const;
+  FrothResult readPlacement(const FrothInstanceInfo& info, const char* call, Instance& instance) const;
+  FrothResult beginFrame(const FrothFrame& frame);
+  void loadAssets();
+  void prepareView(View& view);
+  FrothResult chooseInstance(const View& view, const char* call, const Instance*& chosen,
+                             uint32_t& bits) const;
+  // Frees `object` once all frames that may use it are complete.
+  void retire(std::shared_ptr<void> object);
+
+  // What is declared later goes first, and needs what is declared earlier.
+  Device device_;
+  uint32_t framesInFlight_ = 2;
+  bool checksIndices_ = false;
+  std::unique_ptr<UploadRing> ring_;            // null: null context
+  std::unique_ptr<RenderPipelines> pipelines_;  // null: null context
+  HandlePool<Asset, FrothAsset> assets_;
+  HandlePool<Instance, FrothInstance> instances_;
+  HandlePool<View, FrothView> views_;
+  std::vector<std::pair<uint64_t, std::shared_ptr<void>>> retired_;  // serial of the last use
+
+  uint64_t serial_ = 0, completedSerial_ = 0;
+  std::vector<uint64_t> serialsInFlight_;
+  uint64_t uploadBytesLeft_ = 0;  // of this frame
+};
+
+}  // namespace froth
+
+struct FrothContext : froth::Context {};

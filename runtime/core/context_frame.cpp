@@ -1,0 +1,210 @@
+// The calls of a frame: update, upload, draw.
+#include <algorithm>
+
+#include "runtime/core/context.h"
+#include "runtime/core/render_info.h"
+
+namespace froth {
+
+FrothResult Context::beginFrame(const FrothFrame& frame) {
+  constexpr const char* kCall = "frothUpdate";
+  if (frame.serial <= serial_) {
+    return messages.fail(FROTH_ERROR_STATE, kCall, "serial: %llu after %llu; serials must grow",
+                         static_cast<unsigned long long>(frame.serial),
+                         static_cast<unsigned long long>(serial_));
+  }
+  if (frame.completedSerial >= frame.serial || frame.completedSerial < completedSerial_) {
+    return messages.fail(
+        FROTH_ERROR_STATE, kCall,
+        "completedSerial: %llu, in frame %llu, after %llu; must be below the frame's and never shrink",
+        static_cast<unsigned long long>(frame.completedSerial), static_cast<unsigned long long>(frame.serial),
+        static_cast<unsigned long long>(completedSerial_));
+  }
+  std::erase_if(serialsInFlight_, [&](uint64_t serial) { return serial <= frame.completedSerial; });
+  if (serialsInFlight_.size() >= framesInFlight_) {
+    return messages.fail(
+        FROTH_ERROR_STATE, kCall,
+        "completedSerial: %llu leaves %zu frames in flight, the context was made for %u; wait for the "
+        "oldest, or raise FrothContextInfo::framesInFlight",
+        static_cast<unsigned long long>(frame.completedSerial), serialsInFlight_.size() + 1, framesInFlight_);
+  }
+  serialsInFlight_.push_back(frame.serial);
+  serial_ = frame.serial;
+  completedSerial_ = frame.completedSerial;
+  uploadBytesLeft_ = frame.uploadBytes == 0 ? UINT64_MAX : frame.uploadBytes;
+  return FROTH_OK;
+}
+
+FrothResult Context::update(const FrothFrame& frame, FrothFrameStatus& status) {
+  if (const FrothResult result = beginFrame(frame); result != FROTH_OK) {
+    return result;
+  }
+  std::erase_if(retired_, [&](const auto& retired) { return retired.first <= completedSerial_; });
+  if (ring_) {
+    ring_->retire(completedSerial_);
+  }
+  loadAssets();
+  views_.forEach([&](View& view) { prepareView(view); });
+
+  assets_.forEach([&](const Asset& asset) {
+    status.assetsOpening += stateOf(asset) == FROTH_ASSET_OPENING;
+    status.uploadBytesQueued += asset.queuedBytes();
+  });
+  status.uploadBytesQueued += ring_ ? ring_->stagedBytes() : 0;
+  status.deviceBytes = device_.deviceBytes;
+  status.hostBytes = device_.hostBytes;
+  return FROTH_OK;
+}
+
+void Context::loadAssets() {
+  assets_.forEach([&](Asset& asset) {
+    asset.load(pipelines_.get(), messages);
+    if (asset.hasFailed() && ring_) {
+      ring_->forget(&asset);
+      retire(asset.releaseBuffers());
+    }
+  });
+}
+
+void Context::prepareView(View& view) {
+  if (!view.renderer) {
+    return;
+  }
+  std::erase_if(view.bits,
+                [&](const auto& recorded) { return recorded.first < view.renderer->status().serial; });
+  view.preparedFor = nullptr;
+  instances_.forEach([&](const Instance& instance) {
+    const Asset* asset = assets_.find(instance.asset);
+    if (!view.preparedFor && asset->isDecoded()) {
+      view.preparedFor = &asset->gpu();
+    }
+  });
+  const Status status = view.renderer->prepare(serial_, completedSerial_, view.preparedFor);
+  if (status) {
+    view.preparationError.clear();
+    return;
+  }
+  view.preparedFor = nullptr;
+  if (view.preparationError != status.error().message) {  // once, not in every frame
+    view.preparationError = status.error().message;
+    messages.fail(FROTH_ERROR_MEMORY, "view", "%s", view.preparationError.c_str());
+  }
+}
+
+FrothResult Context::recordUpload(VkCommandBuffer commandBuffer) {
+  if (serial_ == 0) {
+    return messages.fail(FROTH_ERROR_STATE, "frothRecordUpload", "no frame; call frothUpdate first");
+  }
+  if (isNull()) {
+    return FROTH_OK;
+  }
+  if (!commandBuffer) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothRecordUpload", "commandBuffer: null");
+  }
+  const uint64_t waiting = std::min(ring_->stagedBytes(), uploadBytesLeft_);
+  uint64_t room = uploadBytesLeft_ - waiting;
+  assets_.forEach([&](Asset& asset) { room -= asset.stage(*ring_, room); });
+  const uint64_t recorded = ring_->record(commandBuffer, serial_, uploadBytesLeft_);
+  uploadBytesLeft_ -= recorded;
+  if (recorded == 0) {
+    return FROTH_OK;
+  }
+  VkMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+  barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+  barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &barrier;
+  device_.table.vkCmdPipelineBarrier2(commandBuffer, &dependency);
+  return FROTH_OK;
+}
+
+FrothResult Context::dropFrame(uint64_t serial) {
+  const auto found = std::find(serialsInFlight_.begin(), serialsInFlight_.end(), serial);
+  if (found == serialsInFlight_.end()) {
+    return messages.fail(FROTH_ERROR_STATE, "frothDropFrame",
+                         "serial: %llu is complete, dropped already, or unknown",
+                         static_cast<unsigned long long>(serial));
+  }
+  serialsInFlight_.erase(found);
+  if (ring_) {
+    ring_->drop(serial);
+  }
+  return FROTH_OK;
+}
+
+// The one ready instance; null: none. Several: this version cannot merge them.
+FrothResult Context::chooseInstance(const View& view, const char* call, const Instance*& chosen,
+                                    uint32_t& bits) const {
+  uint32_t readyCount = 0;
+  instances_.forEach([&](const Instance& instance) {
+    const Asset& asset = *assets_.find(instance.asset);
+    if (stateOf(asset) != FROTH_ASSET_READY) {
+      bits |= FROTH_VIEW_NOT_READY;
+      return;
+    }
+    chosen = &instance;
+    ++readyCount;
+  });
+  if (readyCount > 1) {
+    return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
+                         "%u instances are ready; this version draws one per view", readyCount);
+  }
+  // An instance that came after frothUpdate: the view has no buffers for it before the next one.
+  if (chosen && !isNull() && view.preparedFor != &assets_.find(chosen->asset)->gpu()) {
+    chosen = nullptr;
+    bits |= FROTH_VIEW_NOT_READY;
+  }
+  return FROTH_OK;
+}
+
+FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
+                            FrothRenderInfo info) {
+  const char* call = method == RenderMethod::kRaster ? "frothRasterize" : "frothWalk";
+  View* view = views_.find(handle);
+  if (!view) {
+    return messages.fail(FROTH_ERROR_HANDLE, call, "view {%u, %u}: destroyed or never created", handle.index,
+                         handle.generation);
+  }
+  uint64_t& renderedSerial = view->renderedSerials[static_cast<size_t>(method)];
+  if (renderedSerial == serial_) {
+    return messages.fail(FROTH_ERROR_STATE, call,
+                         "view {%u, %u}: already drawn in frame %llu; call frothUpdate first", handle.index,
+                         handle.generation, static_cast<unsigned long long>(serial_));
+  }
+  if (const FrothResult result = resolveRenderInfo(messages, call, view->maxExtent, info);
+      result != FROTH_OK) {
+    return result;
+  }
+  const Instance* instance = nullptr;
+  uint32_t bits = 0;
+  if (const FrothResult result = chooseInstance(*view, call, instance, bits);
+      result != FROTH_OK || isNull()) {
+    return result;
+  }
+  if (!commandBuffer) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "commandBuffer: null");
+  }
+
+  renderedSerial = serial_;
+  if (instance) {
+    RenderInstance placed = instance->placement;
+    placed.asset = view->preparedFor;
+    resolveNearLimits(*placed.asset, placed.scale, info);
+    const auto record =
+        method == RenderMethod::kRaster ? &ViewRenderer::recordRaster : &ViewRenderer::recordWalk;
+    bits |= (view->renderer.get()->*record)(commandBuffer, *pipelines_, placed, info, serial_);
+  } else {
+    view->renderer->recordClear(commandBuffer, *pipelines_, info, serial_);
+  }
+  if (bits != 0) {
+    view->bits.emplace_back(serial_, bits);
+  }
+  return bits == 0 ? FROTH_OK : FROTH_INCOMPLETE;
+}
+
+}  // namespace froth

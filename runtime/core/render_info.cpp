@@ -1,0 +1,230 @@
+#include "runtime/core/render_info.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+namespace froth {
+namespace {
+
+constexpr float kDefaultCutoff = 1e-3f;
+constexpr float kDefaultDepthQuantile = 0.5f;
+constexpr uint32_t kDefaultMaxSteps = 65536;
+
+// Float matrices that an engine multiplied together drift by about 1e-6; 1e-3 catches scales and swapped
+// rows.
+constexpr double kOrthonormalTolerance = 1e-3;
+
+template <size_t N>
+bool areFinite(const float (&values)[N]) {
+  return std::all_of(values, values + N, [](float value) { return std::isfinite(value); });
+}
+
+bool isOrthonormal(const float (&m)[9]) {
+  for (int a = 0; a < 3; ++a) {
+    for (int b = a; b < 3; ++b) {
+      const double product = double{m[3 * a]} * m[3 * b] + double{m[3 * a + 1]} * m[3 * b + 1] +
+                             double{m[3 * a + 2]} * m[3 * b + 2];
+      if (std::abs(product - (a == b ? 1.0 : 0.0)) > kOrthonormalTolerance) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+// Rows x, y and w of the projection give the rays: with the eye at the view's origin their constant parts are
+// zero.
+FrothResult checkProjection(const Messages& messages, const char* call, const float (&clipFromView)[16]) {
+  double rows[3][4];
+  const int rowIndices[3] = {0, 1, 3};
+  double lengths[3];
+  for (int r = 0; r < 3; ++r) {
+    for (int column = 0; column < 4; ++column) {
+      rows[r][column] = clipFromView[4 * column + rowIndices[r]];
+    }
+    lengths[r] = std::hypot(rows[r][0], rows[r][1], rows[r][2]);
+  }
+  if (lengths[2] == 0) {
+    return messages.fail(
+        FROTH_ERROR_UNSUPPORTED, call,
+        "camera.clipFromView: its row w is (0, 0, 0, %g): an orthographic projection; use a perspective one",
+        rows[2][3]);
+  }
+  const double determinant = rows[0][0] * (rows[1][1] * rows[2][2] - rows[1][2] * rows[2][1]) -
+                             rows[0][1] * (rows[1][0] * rows[2][2] - rows[1][2] * rows[2][0]) +
+                             rows[0][2] * (rows[1][0] * rows[2][1] - rows[1][1] * rows[2][0]);
+  // Relative to the rows' lengths this is the volume of three unit vectors; floats resolve it to about 1e-7.
+  if (!(std::abs(determinant) > 1e-6 * lengths[0] * lengths[1] * lengths[2])) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "camera.clipFromView: its rows x, y, w have determinant %g: no rays follow from it",
+                         determinant);
+  }
+  for (int r = 0; r < 3; ++r) {
+    if (std::abs(rows[r][3]) > 1e-6 * lengths[r]) {
+      return messages.fail(
+          FROTH_ERROR_ARGUMENT, call,
+          "camera.clipFromView: row %d has the constant part %g; move the eye into camera.eye", rowIndices[r],
+          rows[r][3]);
+    }
+  }
+  return FROTH_OK;
+}
+
+FrothResult checkCamera(const Messages& messages, const char* call, const FrothCamera& camera) {
+  const VkViewport& viewport = camera.viewport;
+  const float viewportValues[] = {viewport.x, viewport.y, viewport.width, viewport.height};
+  const bool hasFiniteEye =
+      std::all_of(camera.eye, camera.eye + 3, [](double value) { return std::isfinite(value); });
+  if (!hasFiniteEye || !areFinite(camera.viewFromWorld) || !areFinite(camera.clipFromView) ||
+      !areFinite(camera.jitter) || !areFinite(viewportValues)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera: a value is not finite");
+  }
+  if (!isOrthonormal(camera.viewFromWorld)) {
+    return messages.fail(
+        FROTH_ERROR_ARGUMENT, call,
+        "camera.viewFromWorld: not a rotation within %g; normalize it, and keep scale out of it",
+        kOrthonormalTolerance);
+  }
+  if (viewport.width <= 0 || viewport.height == 0) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "camera.viewport: %g x %g; width > 0 and height != 0 are needed",
+                         double{viewport.width}, double{viewport.height});
+  }
+  return checkProjection(messages, call, camera.clipFromView);
+}
+
+// The pixels that viewport and scissor let through; may be empty.
+VkRect2D drawnRectangle(const FrothCamera& camera) {
+  const VkViewport& viewport = camera.viewport;
+  const double bottom = double{viewport.y} + viewport.height;
+  double x0 = std::floor(viewport.x), x1 = std::ceil(double{viewport.x} + viewport.width);
+  double y0 = std::floor(std::min<double>(viewport.y, bottom)),
+         y1 = std::ceil(std::max<double>(viewport.y, bottom));
+  const VkRect2D& scissor = camera.scissor;
+  if (scissor.extent.width != 0 || scissor.extent.height != 0) {
+    x0 = std::max<double>(x0, scissor.offset.x);
+    y0 = std::max<double>(y0, scissor.offset.y);
+    x1 = std::min(x1, static_cast<double>(scissor.extent.width) + scissor.offset.x);
+    y1 = std::min(y1, static_cast<double>(scissor.extent.height) + scissor.offset.y);
+  }
+  constexpr double kFarthest = 1 << 20;  // beyond any extent, within int32
+  x0 = std::clamp(x0, -kFarthest, kFarthest);
+  y0 = std::clamp(y0, -kFarthest, kFarthest);
+  x1 = std::clamp(x1, x0, kFarthest);
+  y1 = std::clamp(y1, y0, kFarthest);
+  return {{static_cast<int32_t>(x0), static_cast<int32_t>(y0)},
+          {static_cast<uint32_t>(x1 - x0), static_cast<uint32_t>(y1 - y0)}};
+}
+
+FrothResult checkImage(const Messages& messages, const char* call, const char* name, const FrothImage& image,
+                       std::initializer_list<VkFormat> formats, const VkRect2D& drawn) {
+  if (!image.image) {
+    return FROTH_OK;
+  }
+  if (!image.view) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s.view: null; give a 2D view with usage STORAGE",
+                         name);
+  }
+  if (std::find(formats.begin(), formats.end(), image.format) == formats.end()) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "%s.format: VkFormat %d; the header lists the formats of this image", name,
+                         image.format);
+  }
+  if (image.layoutOut == VK_IMAGE_LAYOUT_UNDEFINED || image.layoutOut == VK_IMAGE_LAYOUT_PREINITIALIZED) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "%s.layoutOut: VkImageLayout %d; name the layout of its next use", name,
+                         image.layoutOut);
+  }
+  const uint64_t right = uint64_t{drawn.extent.width} + static_cast<uint32_t>(drawn.offset.x);
+  const uint64_t bottom = uint64_t{drawn.extent.height} + static_cast<uint32_t>(drawn.offset.y);
+  if (right > image.extent.width || bottom > image.extent.height) {
+    return messages.fail(
+        FROTH_ERROR_ARGUMENT, call,
+        "%s.extent: %u x %u, but viewport and scissor reach to %llu x %llu; clip them to the image", name,
+        image.extent.width, image.extent.height, static_cast<unsigned long long>(right),
+        static_cast<unsigned long long>(bottom));
+  }
+  return FROTH_OK;
+}
+
+FrothResult checkDrawn(const Messages& messages, const char* call, VkExtent2D maxExtent,
+                       const VkRect2D& drawn) {
+  if (drawn.extent.width == 0 || drawn.extent.height == 0 || drawn.offset.x < 0 || drawn.offset.y < 0) {
+    return messages.fail(
+        FROTH_ERROR_ARGUMENT, call,
+        "camera: viewport and scissor leave %u x %u pixels at (%d, %d); at least one at an offset >= 0 is "
+        "needed",
+        drawn.extent.width, drawn.extent.height, drawn.offset.x, drawn.offset.y);
+  }
+  if (drawn.extent.width > maxExtent.width || drawn.extent.height > maxExtent.height) {
+    return messages.fail(
+        FROTH_ERROR_ARGUMENT, call,
+        "camera: %u x %u pixels, but the view was made for %u x %u; raise FrothViewInfo::maxExtent",
+        drawn.extent.width, drawn.extent.height, maxExtent.width, maxExtent.height);
+  }
+  return FROTH_OK;
+}
+
+// NaN fails every comparison, so each condition says what is right.
+FrothResult resolveLimits(const Messages& messages, const char* call, FrothRenderInfo& info) {
+  info.cutoff = info.cutoff == 0 ? kDefaultCutoff : info.cutoff < 0 ? 0 : info.cutoff;
+  info.depthQuantile = info.depthQuantile == 0 ? kDefaultDepthQuantile : info.depthQuantile;
+  info.maxSteps = info.maxSteps == 0 ? kDefaultMaxSteps : info.maxSteps;
+  if (!(info.cutoff < 1)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "cutoff: %g; must be below 1", double{info.cutoff});
+  }
+  if (!(info.depthQuantile > 0 && info.depthQuantile < 1)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "depthQuantile: %g; must lie between 0 and 1",
+                         double{info.depthQuantile});
+  }
+  for (const float limit : {info.nearRatio, info.nearDepth}) {
+    if (limit != FROTH_NEAR_DEFAULT && !(limit >= 0 && std::isfinite(limit))) {
+      return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                           "nearRatio, nearDepth: %g; must be 0, positive, or FROTH_NEAR_DEFAULT",
+                           double{limit});
+    }
+  }
+  return FROTH_OK;
+}
+
+}  // namespace
+
+FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExtent2D maxExtent,
+                              FrothRenderInfo& info) {
+  if (const FrothResult result = checkCamera(messages, call, info.camera); result != FROTH_OK) {
+    return result;
+  }
+  const VkRect2D drawn = drawnRectangle(info.camera);
+  if (const FrothResult result = checkDrawn(messages, call, maxExtent, drawn); result != FROTH_OK) {
+    return result;
+  }
+  info.camera.scissor = drawn;
+  FrothResult result = checkImage(messages, call, "colour", info.colour,
+                                  {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}, drawn);
+  if (result == FROTH_OK) {
+    result = checkImage(messages, call, "distance", info.distance, {VK_FORMAT_R32_SFLOAT}, drawn);
+  }
+  if (result == FROTH_OK) {
+    result = checkImage(messages, call, "normal", info.normal, {VK_FORMAT_R16G16B16A16_SFLOAT}, drawn);
+  }
+  if (result != FROTH_OK) {
+    return result;
+  }
+  if (!info.colour.image && !info.distance.image && !info.normal.image) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "colour, distance, normal: all null; at least one is needed");
+  }
+  return resolveLimits(messages, call, info);
+}
+
+void resolveNearLimits(const GpuAsset& asset, float scale, FrothRenderInfo& info) {
+  if (info.nearRatio == FROTH_NEAR_DEFAULT) {
+    info.nearRatio = asset.nearRatio;
+  }
+  if (info.nearDepth == FROTH_NEAR_DEFAULT) {
+    info.nearDepth = asset.nearDepth * scale;
+  }
+}
+
+}  // namespace froth

@@ -1,0 +1,20 @@
+// Checks what a record call is given and fills in its defaults.
+#pragma once
+
+#include "froth/froth.h"
+#include "runtime/asset/gpu_asset.h"
+#include "runtime/core/messages.h"
+
+namespace froth {
+
+// On FROTH_OK every field of `info` is finite and final: scissor is the rectangle to draw, inside the
+// viewport and all images and not larger than `maxExtent`; cutoff >= 0, depthQuantile in (0, 1), maxSteps >
+// 0. The two near limits may still be FROTH_NEAR_DEFAULT. `call` names the entry point in messages.
+FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExtent2D maxExtent,
+                              FrothRenderInfo& info);
+
+// Takes the asset's near limits where the caller left them to it. `scale` of the instance: nearDepth is in
+// world units.
+void resolveNearLimits(const GpuAsset& asset, float scale, FrothRenderInfo& info);
+
+}  // namespace froth
