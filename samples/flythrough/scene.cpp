@@ -1,0 +1,112 @@
+#include "samples/flythrough/scene.h"
+
+#include <utility>
+
+namespace froth {
+
+Status Scene::check(FrothResult result, const char* call) const {
+  if (result >= FROTH_OK)
+    return {};  // what is positive is information, such as an asset that is still loading
+  const ErrorKind kind = result == FROTH_ERROR_FILE ? ErrorKind::kBadInput : ErrorKind::kUnsupported;
+  return makeError(kind, "%s: %s: %s", call, frothResultName(result), lastMessage_.c_str());
+}
+
+Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& assetPath) {
+  std::unique_ptr<Scene> scene(new Scene());
+  info.messageUser = scene.get();
+  info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
+    if (severity == FROTH_SEVERITY_ERROR)
+      static_cast<Scene*>(user)->lastMessage_ = std::string(object) + ": " + text;
+  };
+  Status made = scene->check(frothCreateContext(&info, &scene->context_), "frothCreateContext");
+  if (!made) return made.error();
+
+  FrothAssetInfo assetInfo{};
+  assetInfo.structSize = sizeof(assetInfo);
+  assetInfo.path = assetPath.c_str();
+  made = scene->check(frothOpenAsset(scene->context_, &assetInfo, &scene->assetHandle_), "frothOpenAsset");
+  if (!made) return made.error();
+
+  // An instance may exist before its asset is ready: it appears once it is.
+  FrothInstanceInfo instanceInfo{};
+  instanceInfo.structSize = sizeof(instanceInfo);
+  instanceInfo.asset = scene->assetHandle_;
+  made = scene->check(frothCreateInstance(scene->context_, &instanceInfo, &scene->instance_),
+                      "frothCreateInstance");
+  if (!made) return made.error();
+  return scene;
+}
+
+Scene::~Scene() {
+  if (context_) frothDestroyContext(context_);
+}
+
+Status Scene::setExtent(VkExtent2D extent) {
+  if (extent_.width > 0) {
+    if (Status gone = check(frothDestroyView(context_, view_), "frothDestroyView"); !gone) return gone;
+    extent_ = {};
+  }
+  FrothViewInfo info{};
+  info.structSize = sizeof(info);
+  info.maxExtent = extent;
+  info.measurePasses = 1;
+  if (Status made = check(frothCreateView(context_, &info, &view_), "frothCreateView"); !made) return made;
+  extent_ = extent;
+  return {};
+}
+
+Status Scene::beginFrame(VkCommandBuffer commands, uint64_t serial, uint64_t completedSerial) {
+  FrothFrame frame{};
+  frame.structSize = sizeof(frame);
+  frame.serial = serial;
+  frame.completedSerial = completedSerial;
+  frame_.structSize = sizeof(frame_);
+  if (Status updated = check(frothUpdate(context_, &frame, &frame_), "frothUpdate"); !updated) return updated;
+  if (Status copied = check(frothRecordUpload(context_, commands), "frothRecordUpload"); !copied)
+    return copied;
+
+  asset_.structSize = sizeof(asset_);
+  if (Status asked = check(frothGetAssetStatus(context_, assetHandle_, &asset_), "frothGetAssetStatus");
+      !asked) {
+    return asked;
+  }
+  if (asset_.state == FROTH_ASSET_FAILED) return check(asset_.error, "frothOpenAsset");
+  return {};
+}
+
+Status Scene::draw(VkCommandBuffer commands, Picture picture, const Pose& pose, const FrothImage& colour) {
+  FrothRenderInfo info{};
+  info.structSize = sizeof(info);
+  info.camera = cameraOf(pose, extent_);
+  info.nearRatio = FROTH_NEAR_DEFAULT;
+  info.nearDepth = FROTH_NEAR_DEFAULT;
+  info.colour = colour;
+  if (picture == Picture::kWalk) return check(frothWalk(context_, view_, commands, &info), "frothWalk");
+  return check(frothRasterize(context_, view_, commands, &info), "frothRasterize");
+}
+
+Result<FrothViewStatus> Scene::viewStatus() const {
+  FrothViewStatus status{};
+  status.structSize = sizeof(status);
+  if (Status asked = check(frothGetViewStatus(context_, view_, &status), "frothGetViewStatus"); !asked) {
+    return asked.error();
+  }
+  return status;
+}
+
+Result<CameraPath> Scene::path(std::vector<Pose> keys) const {
+  if (!keys.empty()) return CameraPath(std::move(keys));
+
+  std::vector<FrothStoredCamera> stored(asset_.flightPathCount);
+  uint32_t count = 0;
+  const FrothResult copied =
+      frothGetFlightPath(context_, assetHandle_, asset_.flightPathCount, stored.data(), &count);
+  if (Status got = check(copied, "frothGetFlightPath"); !got) return got.error();
+  for (const FrothStoredCamera& camera : stored) {
+    keys.push_back(poseFromMatrix(camera.worldFromCamera, camera.tanHalfFovY));
+  }
+  if (keys.empty()) return orbitPath(asset_.boundsMin, asset_.boundsMax);
+  return CameraPath(std::move(keys));
+}
+
+}  // namespace froth
