@@ -1,0 +1,63 @@
+// That a file's promises do not make the reader allocate: counts all of C++'s allocations of this program.
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "file_surgery.h"
+#include "sample_asset.h"
+
+namespace {
+std::atomic<size_t> largestAllocation{0};
+}
+
+void* operator new(size_t size) {
+  size_t seen = largestAllocation.load();
+  while (seen < size && !largestAllocation.compare_exchange_weak(seen, size)) {
+  }
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+
+namespace froth {
+namespace {
+
+// Decodes and tells the largest allocation on the way.
+size_t largestAllocationOf(const std::vector<uint8_t>& bytes, std::string& error) {
+  largestAllocation = 0;
+  const Result<AssetContents> contents = decodeAsset(bytes);
+  const size_t largest = largestAllocation;
+  error = contents ? "no error" : contents.error().message;
+  return largest;
+}
+
+// Counts and raw sizes agree with each other, four billion cells each; only the file's size speaks against them.
+TEST(Allocation, OfConsistentButAbsurdCountsDoesNotHappen) {
+  constexpr uint64_t kCells = 0xffffffff;
+  std::vector<uint8_t> bytes = encodeOrFail(makeSampleAsset({.detailCount = 32, .lobeCount = 32}));
+  const ChunkCounts counts{kCells, kCells, kCells};
+  bytes = withChunk(bytes, [](fb::Chunk& c) { c = fb::Chunk(c.origin(), kCells, kCells, kCells, c.live_bounds()); });
+  for (size_t i = 0; i < 11; ++i)
+    bytes = withSection(bytes, i, [&](fb::Section& s) {
+      const uint64_t words = sectionWords(static_cast<SectionType>(s.type()), counts, 32, 32);
+      s = fb::Section(s.type(), s.chunk(), s.flags(), 1, 0, s.offset(), s.stored_size(), words * kWordSize, s.hash());
+    });
+  std::string error;
+  EXPECT_LT(largestAllocationOf(bytes, error), size_t{1} << 20);
+  EXPECT_THAT(error, testing::HasSubstr("cannot hold"));
+}
+
+TEST(Allocation, StaysWithinTheFilesSizeTimesTheLimitOfExpansion) {
+  const std::vector<uint8_t> bytes = encodeOrFail(makeSampleAsset({.cellsPerChunk = 100}));
+  std::string error;
+  EXPECT_LT(largestAllocationOf(bytes, error), bytes.size() * kMaxExpansion);
+  EXPECT_EQ(error, "no error");
+}
+
+}  // namespace
+}  // namespace froth
