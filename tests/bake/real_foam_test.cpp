@@ -1,0 +1,60 @@
+// Trained foams; skipped where the data is absent.
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "baker/bake/bake.h"
+#include "baker/checkpoint/checkpoint.h"
+
+namespace froth {
+namespace {
+
+std::optional<std::filesystem::path> findCheckpoint(const char* name) {
+  const char* data = std::getenv("FROTH_DATA");
+  const std::filesystem::path root = data ? data : FROTH_SOURCE_DIR "/../shared/data";
+  const std::filesystem::path path = root / "foams" / name / "model.pt";
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  return path;
+}
+
+double meanAlphaDegree(const ChunkContents& chunk) {
+  uint64_t sum = 0;
+  for (const uint32_t count : chunk.alphaCounts) sum += count;
+  return static_cast<double>(sum) / chunk.liveCount;
+}
+
+// The counts were found by another implementation: 6.95 planes per cell, 0.1 % of the cells without a bounded
+// cell.
+TEST(RealFoam, MikuPlushHasTheKnownCounts) {
+  const auto path = findCheckpoint("miku_plush");
+  if (!path) GTEST_SKIP() << "no foams/miku_plush; set FROTH_DATA";
+  const Result<Foam> foam = importCheckpoint(*path);
+  ASSERT_TRUE(foam) << foam.error().message;
+  const Result<BakeResult> baked = bakeFoam(*foam, {});
+  ASSERT_TRUE(baked) << baked.error().message;
+  const BakeStatistics& statistics = baked->contents.statistics;
+  EXPECT_EQ(statistics.inputCells, 39999u);
+  EXPECT_LE(statistics.hiddenDropped + statistics.emptyCells, 40u);
+  EXPECT_EQ(statistics.duplicatesMerged, 0u);
+  EXPECT_NEAR(meanAlphaDegree(baked->contents.chunks[0]), 6.95, 0.01);
+  EXPECT_NEAR(2.0 * statistics.walkPairs / 39999, 15.15, 0.05);
+}
+
+TEST(RealFoam, TankardRoughBakesThoughItIsBadlyTrained) {
+  const auto path = findCheckpoint("tankard_rough");
+  if (!path) GTEST_SKIP() << "no foams/tankard_rough; set FROTH_DATA";
+  const Result<Foam> foam = importCheckpoint(*path);
+  ASSERT_TRUE(foam) << foam.error().message;
+  const Result<BakeResult> baked = bakeFoam(*foam, {});
+  ASSERT_TRUE(baked) << baked.error().message;
+  const BakeStatistics& statistics = baked->contents.statistics;
+  EXPECT_EQ(statistics.hiddenDropped + baked->contents.chunks[0].cellCount, 59999u);
+  EXPECT_GT(statistics.hiddenDropped, 0u);
+  EXPECT_GT(statistics.emptyCells, 0u);
+  EXPECT_NEAR(meanAlphaDegree(baked->contents.chunks[0]), 12.87, 0.05);
+}
+
+}  // namespace
+}  // namespace froth
