@@ -1,0 +1,231 @@
+// From the gallery's surfaces to cells: sites spread over every solid, a face tangent to it, detail sites over the cell's
+// patch of the face, heights and colours fitted to the analytic surface under it.
+#include "baker/synth/gallery_foam.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/quaternion.hpp>
+#include <tbb/parallel_for.h>
+
+#include "baker/graph/graph.h"
+#include "baker/synth/appearance_fit.h"
+#include "baker/synth/gallery_scene.h"
+#include "shaders/foam/cell.h"
+
+namespace froth {
+
+using glm::dvec2;
+using glm::dvec3;
+using glm::dvec4;
+
+namespace {
+
+constexpr uint32_t kDetailCount = 8, kLobeCount = 8;
+constexpr double kDetailSharpness = 10;
+constexpr double kOpticalRadius = 40;      // density * radius: opaque within a few percent of the radius
+constexpr double kContactMargin = 0.12;    // [spacings] sites this close to another solid would cut it
+constexpr uint64_t kJitterPurpose = 2;
+
+struct PlacedSites {
+  std::vector<SurfaceSite> sites;
+  std::vector<uint32_t> solids;  // [sites] index into the scene's solids
+};
+
+PlacedSites placeAllSites(double spacing, uint64_t seed) {
+  const std::vector<Solid>& solids = galleryScene().solids();
+  std::vector<std::vector<SurfaceSite>> perSolid(solids.size());
+  tbb::parallel_for(size_t{0}, solids.size(), [&](size_t s) {
+    const double own = spacing * solids[s].spacingFactor;
+    solids[s].shape->placeSites(own, CounterRandom(seed, kJitterPurpose + s), perSolid[s]);
+    std::erase_if(perSolid[s], [&](const SurfaceSite& site) {
+      return galleryScene().isCovered(site.position, solids[s], kContactMargin * std::min(own, site.radius));
+    });
+  });
+  PlacedSites placed;
+  for (size_t s = 0; s < solids.size(); ++s) {
+    placed.sites.insert(placed.sites.end(), perSolid[s].begin(), perSolid[s].end());
+    placed.solids.resize(placed.sites.size(), static_cast<uint32_t>(s));
+  }
+  return placed;
+}
+
+// The densest placing of at most `cellCount` sites that a few rounds of count ~ 1 / spacing^2 find; empty if there is none.
+PlacedSites placeAtMost(uint32_t cellCount, uint64_t seed) {
+  constexpr int kRounds = 8;
+  constexpr double kClose = 0.995;
+  PlacedSites best;
+  double spacing = std::sqrt(250.0 / cellCount);
+  for (int round = 0; round < kRounds && best.sites.size() < kClose * cellCount; ++round) {
+    PlacedSites placed = placeAllSites(spacing, seed);
+    const double ratio = static_cast<double>(placed.sites.size()) / cellCount;
+    if (ratio <= 1 && placed.sites.size() > best.sites.size()) best = std::move(placed);
+    spacing *= std::sqrt(ratio) * 1.0005;
+  }
+  return best;
+}
+
+Foam makeCells(const PlacedSites& placed) {
+  Foam foam;
+  foam.cellCount = static_cast<uint32_t>(placed.sites.size());
+  foam.detailCount = kDetailCount;
+  foam.lobeCount = kLobeCount;
+  for (const SurfaceSite& site : placed.sites) {
+    const glm::dmat3 rows(site.normal, site.tangent, glm::cross(site.normal, site.tangent));
+    const glm::dquat q = glm::normalize(glm::quat_cast(glm::transpose(rows)));
+    foam.sites.emplace_back(site.position);
+    foam.radii.push_back(static_cast<float>(site.radius));
+    foam.densities.push_back(static_cast<float>(kOpticalRadius / site.radius));
+    foam.orientations.emplace_back(q.w, q.x, q.y, q.z);
+  }
+  const size_t details = size_t{foam.cellCount} * kDetailCount;
+  foam.detailSites.resize(details);
+  foam.detailHeights.resize(details);
+  foam.lobeAxes.resize(details * kLobeCount);
+  foam.lobeColours.resize(details * kLobeCount);
+  return foam;
+}
+
+// Places where cameras may stand: what the fit of glossy colours looks from.
+std::vector<dvec3> sampleEyes() {
+  constexpr int kEyes = 48;
+  const CounterRandom random(0, 3);
+  std::vector<dvec3> eyes;
+  for (uint64_t i = 0; i < kEyes; ++i)
+    eyes.emplace_back(random.uniform(3 * i, 2.0, 6.4), random.uniform(3 * i + 1, 1.8, 4.4),
+                      random.uniform(3 * i + 2, 1.0, 2.1));
+  return eyes;
+}
+
+std::vector<SeenColour> lookAtPoint(const LitPoint& point) {
+  static const std::vector<dvec3> eyes = sampleEyes();
+  constexpr uint64_t kElsewhere = 32;
+  constexpr double kElsewhereWeight = 0.15;
+  const CounterRandom random(0, 4);
+  std::vector<SeenColour> seen;
+  const auto add = [&](const dvec3& direction, double weight) {
+    if (glm::dot(direction, point.normal) < -0.05) seen.push_back({direction, displayColour(point, direction), weight});
+  };
+  for (const dvec3& eye : eyes) add(glm::normalize(point.position - eye), 1);
+  for (uint64_t i = 0; i < kElsewhere; ++i) {
+    const dvec3 direction = random.direction(i);
+    add(glm::dot(direction, point.normal) < 0 ? direction : -direction, kElsewhereWeight);
+  }
+  return seen;
+}
+
+// Axes where the view changes most: around the mirror image of the window at two widths, towards its sides, at the mirror
+// image of the sunlit floor below it, and at grazing angles.
+std::array<dvec3, kLobeCount> glossAxes(const LitPoint& point) {
+  const dvec3& n = point.normal;
+  const dvec3 window = windowDirection(point.position);
+  const dvec3 image = glm::reflect(window, n);
+  const dvec3 side = glm::normalize(glm::cross(image, dvec3(0, 0, 1)));
+  const dvec3 along = glm::normalize(window - glm::dot(window, n) * n + 1e-9 * side);
+  const double sharp = 1.6 / point.roughness;
+  return {-n,
+          0.5 * sharp * image,
+          1.6 * sharp * image,
+          sharp * glm::normalize(image + 0.25 * side),
+          sharp * glm::normalize(image - 0.25 * side),
+          5.0 * glm::normalize(image + dvec3(0, 0, 0.7)),
+          4.0 * glm::normalize(-0.35 * n - along),
+          4.0 * glm::normalize(-0.35 * n + along)};
+}
+
+// Writes the lobes of one detail site. `shift` is what sharpening adds to every colour.
+void writeLobes(const LitPoint& point, const dvec3& plainColour, const dvec3& shift, glm::vec3* axes, glm::vec3* colours) {
+  if (point.reflectance == dvec3(0)) {
+    std::fill_n(axes, kLobeCount, glm::vec3(-0.01 * point.normal));
+    std::fill_n(colours, kLobeCount, glm::vec3(plainColour + shift - 0.5));
+    return;
+  }
+  const std::array<dvec3, kLobeCount> chosen = glossAxes(point);
+  const std::vector<SeenColour> seen = lookAtPoint(point);
+  const std::vector<dvec3> fitted =
+      seen.empty() ? std::vector<dvec3>(kLobeCount, plainColour - 0.5) : fitLobeColours(chosen, seen);
+  for (size_t m = 0; m < kLobeCount; ++m) {
+    axes[m] = chosen[m];
+    colours[m] = fitted[m] + shift;
+  }
+}
+
+class CellFitter {
+ public:
+  CellFitter(Foam& foam, const std::vector<uint32_t>& solids, const CellGraph& pairs)
+      : foam_(foam), solids_(solids), pairs_(pairs) {}
+
+  void fit(uint32_t cell) {
+    const Solid& solid = galleryScene().solids()[solids_[cell]];
+    const FaceFrame<double> frame = faceFrame<double>(foam_.orientations[cell]);
+    const dvec3 centre = foam_.sites[cell];
+    const double radius = foam_.radii[cell];
+    const FacePatch patch = spreadDetails(cutsOfFace(cell, frame), kDetailCount);
+
+    const auto surfacePoint = [&](const dvec2& x, double& height) {
+      const dvec3 onFace = centre + radius * (x.x * frame.tangent + x.y * frame.bitangent);
+      height = heightAlongNormal(solid, onFace, frame.normal);
+      return lightPoint(solid, onFace + height * frame.normal);
+    };
+    // The colour varies over the face mostly as it does seen from the middle of the room.
+    const dvec3 usual = glm::normalize(centre - dvec3(0.5, 0.5, 0.48) * kRoomSize);
+    std::vector<dvec4> samples;
+    for (const dvec2& x : patch.samples) {
+      double height;
+      const LitPoint point = surfacePoint(x, height);
+      samples.emplace_back(displayColour(point, usual), height / radius);
+    }
+    const std::vector<dvec4> values = fitDetailValues(patch, samples, kDetailSharpness);
+    for (uint32_t k = 0; k < kDetailCount; ++k) {
+      const size_t detail = size_t{cell} * kDetailCount + k;
+      double height;
+      const LitPoint point = surfacePoint(patch.details[k], height);
+      const dvec3 plain = displayColour(point, usual);
+      foam_.detailSites[detail] = patch.details[k];
+      foam_.detailHeights[detail] = static_cast<float>(std::clamp(values[k].w, -kMaxHeight, kMaxHeight));
+      writeLobes(point, plain, dvec3(values[k]) - plain, &foam_.lobeAxes[detail * kLobeCount],
+                 &foam_.lobeColours[detail * kLobeCount]);
+    }
+  }
+
+ private:
+  static constexpr double kMaxHeight = 0.6;  // [radii] beyond it the ball would cut the surface
+
+  std::vector<dvec3> cutsOfFace(uint32_t cell, const FaceFrame<double>& frame) const {
+    std::vector<dvec3> cuts;
+    const double radius = foam_.radii[cell];
+    for (uint32_t k = pairs_.offsets[cell]; k < pairs_.offsets[cell + 1]; ++k) {
+      const uint32_t other = pairs_.neighbours[k];
+      const dvec3 toOther = dvec3(foam_.sites[other]) - dvec3(foam_.sites[cell]);
+      const double offset = foam::radicalOffset(toOther, radius, static_cast<double>(foam_.radii[other]));
+      cuts.emplace_back(glm::dot(toOther, frame.tangent), glm::dot(toOther, frame.bitangent), offset / radius);
+    }
+    return cuts;
+  }
+
+  Foam& foam_;
+  const std::vector<uint32_t>& solids_;
+  const CellGraph& pairs_;
+};
+
+}  // namespace
+
+Result<Foam> synthesizeGallery(uint32_t cellCount, uint64_t seed, const Progress& progress) {
+  const PlacedSites placed = placeAtMost(cellCount, seed);
+  if (placed.sites.empty())
+    return makeError(ErrorKind::kUsage, "gallery: %u cells do not cover its thin parts; ask for more (the default is 200000)",
+                     cellCount);
+  Foam foam = makeCells(placed);
+  const CellGraph pairs = findCechPairs(foam.sites, foam.radii);
+  CellFitter fitter(foam, placed.solids, pairs);
+  constexpr uint32_t kReports = 100;
+  const uint32_t step = foam.cellCount / kReports + 1;
+  for (uint32_t begin = 0; begin < foam.cellCount; begin += step) {
+    if (!report(progress, "fitting cells", begin, foam.cellCount))
+      return makeError(ErrorKind::kCancelled, "synthesis of the gallery was stopped");
+    tbb::parallel_for(begin, std::min(begin + step, foam.cellCount), [&](uint32_t cell) { fitter.fit(cell); });
+  }
+  return foam;
+}
+
+}  // namespace froth

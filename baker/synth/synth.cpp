@@ -1,0 +1,48 @@
+#include "baker/synth/synth.h"
+
+#include "baker/synth/gallery_foam.h"
+#include "baker/synth/small_scenes.h"
+
+namespace froth {
+
+namespace {
+
+constexpr uint32_t kGalleryCells = 200000;
+
+struct Scene {
+  const char* name;
+  Result<Foam> (*make)(const SynthOptions& options, const Progress& progress);
+};
+
+Result<Foam> makeGallery(const SynthOptions& options, const Progress& progress) {
+  return synthesizeGallery(options.cellCount ? options.cellCount : kGalleryCells, options.seed, progress);
+}
+
+constexpr Scene kScenes[] = {
+    {"gallery", makeGallery},
+    {"one", [](const SynthOptions& options, const Progress&) { return synthesizeOne(options); }},
+    {"two", [](const SynthOptions& options, const Progress&) { return synthesizeTwo(options); }},
+    {"grid", [](const SynthOptions& options, const Progress&) { return synthesizeGrid(options); }},
+    {"shell", [](const SynthOptions& options, const Progress&) { return synthesizeShell(options); }},
+    {"random", [](const SynthOptions& options, const Progress&) { return synthesizeRandom(options); }},
+};
+
+}  // namespace
+
+std::vector<std::string> synthNames() {
+  std::vector<std::string> names;
+  for (const Scene& scene : kScenes) names.emplace_back(scene.name);
+  return names;
+}
+
+Result<Foam> synthesizeFoam(const SynthOptions& options, const Progress& progress) {
+  std::string known;
+  for (const Scene& scene : kScenes) {
+    if (options.name == scene.name) return scene.make(options, progress);
+    known += known.empty() ? scene.name : std::string(", ") + scene.name;
+  }
+  return makeError(ErrorKind::kUsage, "no procedural scene is called '%s'; there are: %s", options.name.c_str(),
+                   known.c_str());
+}
+
+}  // namespace froth

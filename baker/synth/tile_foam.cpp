@@ -1,0 +1,84 @@
+#include <cmath>
+#include <limits>
+
+#include <glm/gtc/quaternion.hpp>
+#include <tbb/parallel_for.h>
+
+#include "baker/synth/synth.h"
+
+namespace froth {
+
+using glm::dvec3;
+
+namespace {
+
+constexpr double kGap = 0.05;                        // of the bounding box
+constexpr double kTurn = 2.39996322972865332;        // golden angle: no two copies are turned alike
+
+struct Bounds {
+  dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+};
+
+Bounds boundBalls(const Foam& foam) {
+  Bounds bounds;
+  for (size_t i = 0; i < foam.sites.size(); ++i) {
+    bounds.low = glm::min(bounds.low, dvec3(foam.sites[i]) - double{foam.radii[i]});
+    bounds.high = glm::max(bounds.high, dvec3(foam.sites[i]) + double{foam.radii[i]});
+  }
+  return bounds;
+}
+
+template <class T>
+void repeat(std::vector<T>& values, uint32_t count) {
+  const size_t length = values.size();
+  values.reserve(length * count);
+  for (uint32_t copy = 1; copy < count; ++copy)
+    values.insert(values.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(length));
+}
+
+// Turns copy `copy` by `angle` about the vertical through `centre`, then moves it.
+void placeCopy(Foam& foam, size_t copy, size_t cells, const dvec3& centre, double angle, const dvec3& move) {
+  const glm::dquat turn(std::cos(0.5 * angle), 0, 0, std::sin(0.5 * angle));
+  tbb::parallel_for(copy * cells, (copy + 1) * cells, [&](size_t i) {
+    foam.sites[i] = centre + turn * (dvec3(foam.sites[i]) - centre) + move;
+    // The frame's vectors are rows: turning them multiplies the inverse turn from the right.
+    const glm::vec4 o = foam.orientations[i];
+    const glm::dquat q = glm::normalize(glm::dquat(o.x, o.y, o.z, o.w) * glm::conjugate(turn));
+    foam.orientations[i] = {q.w, q.x, q.y, q.z};
+    const size_t lobes = size_t{foam.detailCount} * foam.lobeCount;
+    for (size_t m = i * lobes; m < (i + 1) * lobes; ++m) foam.lobeAxes[m] = turn * dvec3(foam.lobeAxes[m]);
+  });
+}
+
+}  // namespace
+
+Result<Foam> tileFoam(const Foam& foam, uint32_t count) {
+  if (count == 0) return makeError(ErrorKind::kUsage, "tiling into 0 copies; ask for at least 1");
+  if (uint64_t{count} * foam.cellCount > std::numeric_limits<uint32_t>::max())
+    return makeError(ErrorKind::kUsage, "%u copies of %u cells exceed 2^32 - 1; ask for at most %u", count, foam.cellCount,
+                     std::numeric_limits<uint32_t>::max() / foam.cellCount);
+  Foam tiled = foam;
+  tiled.cellCount = count * foam.cellCount;
+  repeat(tiled.sites, count);
+  repeat(tiled.radii, count);
+  repeat(tiled.densities, count);
+  repeat(tiled.orientations, count);
+  repeat(tiled.detailSites, count);
+  repeat(tiled.detailHeights, count);
+  repeat(tiled.lobeAxes, count);
+  repeat(tiled.lobeColours, count);
+
+  const Bounds bounds = boundBalls(foam);
+  const dvec3 extent = bounds.high - bounds.low;
+  // A turned copy reaches as far sideways as the diagonal of its footprint.
+  const double across = (1 + kGap) * std::hypot(extent.x, extent.y);
+  const dvec3 pitch(across, across, (1 + kGap) * extent.z);
+  const auto side = static_cast<uint32_t>(std::ceil(std::cbrt(static_cast<double>(count)) - 1e-9));
+  for (uint32_t copy = 1; copy < count; ++copy) {
+    const dvec3 place(copy % side, copy / side % side, copy / side / side);
+    placeCopy(tiled, copy, foam.cellCount, 0.5 * (bounds.low + bounds.high), kTurn * copy, pitch * place);
+  }
+  return tiled;
+}
+
+}  // namespace froth
