@@ -45,7 +45,7 @@ HalfSpace makeHalfSpace(std::span<const glm::vec3> sites, std::span<const float>
   const double distance = glm::length(toNeighbour);
   const double radius = radii[cell], neighbourRadius = radii[neighbour];
   const double scale = 1 / (distance * radius);
-  const double terms = distance * distance + radius * radius + neighbourRadius * neighbourRadius;
+  const double terms = distance * distance + std::abs(radius - neighbourRadius) * (radius + neighbourRadius);
   return {toNeighbour / distance, foam::radicalOffset(toNeighbour, radius, neighbourRadius) * scale,
           kPolygonSlack + kOffsetSlack * terms * scale};
 }
@@ -109,7 +109,8 @@ bool faceMeetsBall(const HalfSpace& face, Scratch& scratch) {
     clipPolygon(polygon, across, limit, scratch.clipped);
     if (polygon.empty()) return false;
   }
-  // A polygon around the disc's centre passes too: it lies within the square, so its boundary comes into the disc.
+  // A polygon around the disc's centre passes too: it lies within the square, so its boundary comes into the
+  // disc.
   return squaredDistanceToBoundary(polygon) <= discRadius * discRadius * (1 + kPolygonSlack);
 }
 

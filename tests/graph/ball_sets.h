@@ -86,6 +86,17 @@ class BallSetMaker {
     return balls;
   }
 
+  // Every third ball all but repeats an earlier one: a few units in the last place apart.
+  BallSet withNearDuplicates(uint32_t count) {
+    BallSet balls = foamLike(count);
+    balls.name = "near duplicates";
+    for (uint32_t i = 2; i < count; i += 3) {
+      balls.sites[i] = balls.sites[i / 2] + glm::vec3(pointInCube(-5e-6, 5e-6));
+      balls.radii[i] = balls.radii[i / 2];
+    }
+    return balls;
+  }
+
   // Every third ball repeats an earlier site, with its own radius.
   BallSet withDuplicates(uint32_t count) {
     BallSet balls = foamLike(count);
@@ -102,9 +113,9 @@ class BallSetMaker {
 
 inline std::vector<BallSet> makeBallSets(uint64_t seed) {
   BallSetMaker make(seed);
-  std::vector<BallSet> sets = {make.foamLike(150),     make.foamLike(150, 1e5), make.stiff(150),
-                               make.grid(4, 0.9f),     make.coplanar(60),       make.collinear(20),
-                               make.withDuplicates(90)};
+  std::vector<BallSet> sets = {make.foamLike(150),      make.foamLike(150, 1e5),    make.stiff(150),
+                               make.grid(4, 0.9f),      make.coplanar(60),          make.collinear(20),
+                               make.withDuplicates(90), make.withNearDuplicates(90)};
   for (uint32_t count = 1; count <= 4; ++count) {
     sets.push_back(make.foamLike(count));
     sets.back().name = "few";
