@@ -39,8 +39,15 @@ void findLeast(uint chunk, uvec2 row) {
   }
 }
 
+// The last frame's cell; another asset may have fewer.
+uvec2 startCell() {
+  uvec2 cell = FRAME.walkStart.v[0];
+  bool isThere = cell.x < FRAME.chunkCount && cell.y < FRAME.chunks.v[cell.x].cellCount;
+  return isThere ? cell : uvec2(0);
+}
+
 void main() {
-  uvec2 cell = (FRAME.flags & kFlagForgetStart) != 0 ? uvec2(0) : FRAME.walkStart.v[0];
+  uvec2 cell = startCell();
   Ball ball = ballOfCell(cell);
   float power = powerOfOrigin(ball.centre, ball.radius);
   for (uint steps = 0; steps < FRAME.maxSteps; ++steps) {

@@ -11,6 +11,7 @@
 
 namespace froth {
 
+struct ViewState;       // view_state.h
 class RenderPipelines;  // runtime/render/pipelines.h: layouts and pipelines, made once per context and per asset shape
 
 // One instance as the passes see it.
@@ -46,8 +47,7 @@ class ViewRenderer {
 
  private:
   ViewRenderer();
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<ViewState> state_;
 };
 
 }  // namespace froth

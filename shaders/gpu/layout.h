@@ -53,8 +53,7 @@ FROTH_CONST kFlagColour = 1;
 FROTH_CONST kFlagDistance = 2;
 FROTH_CONST kFlagNormal = 4;
 FROTH_CONST kFlagDisplayCoded = 8;
-FROTH_CONST kFlagForgetStart = 16; // the walk's start cell of the last frame belongs to another asset
-FROTH_CONST kFlagOnlyPaired = 32;  // shade only cells that own a (tile, cell) pair
+FROTH_CONST kFlagOnlyPaired = 16;  // shade only cells that own a (tile, cell) pair
 
 // One chunk of the asset, seen from this frame's eye.
 struct ChunkEntry {

@@ -1,0 +1,27 @@
+// The caller's camera as rays in an asset's own axes and units. All in double.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vulkan/vulkan_core.h>
+
+#include "froth/froth.h"
+#include "runtime/render/view_renderer.h"
+
+namespace froth {
+
+// The ray of pixel (column, row) of the region runs through the pixel's centre along origin + column stepX + row stepY,
+// which points forward. Lengths are scaled so that the region's middle ray has length 1.
+struct CameraRays {
+  glm::dvec3 origin, stepX, stepY;
+  glm::dvec3 forward;  // unit view axis: gradient of clip w
+  glm::dvec3 eye;      // relative to the asset's origin
+  glm::dmat3 worldFromAsset;  // rotation
+};
+
+// The pixels to draw: scissor (zero: the whole viewport) within viewport, wanted images and maxExtent. May be empty.
+VkRect2D drawnRegion(const FrothRenderInfo& info, VkExtent2D maxExtent);
+
+// region: not empty. Jitter moves the image by that many pixels, as it would in the engine's own jittered projection.
+CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance, const VkRect2D& region);
+
+}  // namespace froth

@@ -1,0 +1,125 @@
+#include "runtime/render/frame_block.h"
+
+#include <cmath>
+#include <limits>
+
+#include "runtime/render/camera_rays.h"
+
+namespace froth {
+namespace {
+
+gpu::vec4 toFloats(const glm::dvec3& v, double w = 0) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+void fillCamera(const FrothRenderInfo& info, const CameraRays& rays, const RenderInstance& instance,
+                gpu::FrameBlock& block) {
+  block.rayOrigin = toFloats(rays.origin);
+  block.rayX = toFloats(rays.stepX);
+  block.rayY = toFloats(rays.stepY);
+  block.forward = toFloats(rays.forward, double{info.nearDepth} / instance.scale);
+  block.nearRatio = info.nearRatio;
+  const glm::dmat3 rows = glm::transpose(rays.worldFromAsset);
+  block.worldX = toFloats(rows[0]);
+  block.worldY = toFloats(rows[1]);
+  block.worldZ = toFloats(rows[2]);
+}
+
+void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* chunks) {
+  uint32_t liveStart = 0;
+  for (size_t i = 0; i < asset.chunks.size(); ++i) {
+    const GpuChunk& chunk = asset.chunks[i];
+    const glm::dvec3 offset = glm::dvec3(chunk.origin[0], chunk.origin[1], chunk.origin[2]) - eye;
+    const gpu::vec4 high = toFloats(offset);
+    gpu::ChunkEntry& entry = chunks[i];
+    entry.offsetHigh = high;
+    entry.offsetLow = toFloats(offset - glm::dvec3(high[0], high[1], high[2]));
+    entry.siteRadius = chunk.siteRadius;
+    entry.neighbourOffsets = chunk.neighbourOffsets;
+    entry.neighbours = chunk.neighbours;
+    entry.alphaCounts = chunk.alphaCounts;
+    entry.densities = chunk.densities;
+    entry.orientations = chunk.orientations;
+    entry.detailSites = chunk.detailSites;
+    entry.detailHeights = chunk.detailHeights;
+    entry.lobeAxes = chunk.lobeAxes;
+    entry.lobeColours = chunk.lobeColours;
+    entry.cellCount = chunk.cellCount;
+    entry.liveCount = chunk.liveCount;
+    entry.neighbourCount = chunk.neighbourCount;
+    entry.liveStart = liveStart;
+    liveStart += chunk.liveCount;
+  }
+}
+
+void fillTransients(const ViewBuffers& buffers, const VkRect2D& region, gpu::FrameBlock& block) {
+  const ViewCapacity& capacity = buffers.capacity();
+  block.visibleCapacity = capacity.cells;
+  block.planeCapacity = static_cast<uint32_t>(capacity.planes);
+  block.pairCapacity = capacity.pairs;
+  block.histogramCapacity = static_cast<uint32_t>(buffers[ViewBuffer::kHistogram].size / sizeof(uint32_t));
+  block.groupSums = buffers[ViewBuffer::kGroupSums].address;
+  block.visibilityMasks = buffers[ViewBuffer::kVisibilityMasks].address;
+  block.slotOfCell = buffers[ViewBuffer::kSlotOfCell].address;
+  block.visibleCells = buffers[ViewBuffer::kVisibleCells].address;
+  block.cellKeys = buffers[ViewBuffer::kCellKeys].address;
+  block.order = buffers[ViewBuffer::kOrder].address;
+  block.records = buffers[ViewBuffer::kRecords].address;
+  block.planes = buffers[ViewBuffer::kPlanes].address;
+  block.sites = buffers[ViewBuffer::kSites].address;
+  block.tileCounts = buffers[ViewBuffer::kTileCounts].address;
+  block.pairTiles = buffers[ViewBuffer::kPairTiles].address;
+  block.pairCells = buffers[ViewBuffer::kPairCells].address;
+  const bool endsInSwap = tileDigits(region) % 2 != 0;
+  block.sortedTiles = buffers[endsInSwap ? ViewBuffer::kPairTilesSwap : ViewBuffer::kPairTiles].address;
+  block.tileCells = buffers[endsInSwap ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells].address;
+  block.tileRanges = buffers[ViewBuffer::kTileRanges].address;
+  block.histogram = buffers[ViewBuffer::kHistogram].address;
+  block.walkStart = buffers[ViewBuffer::kWalkStart].address;
+}
+
+}  // namespace
+
+uint32_t tilesAlong(uint32_t pixels) { return (pixels + gpu::kTileSize - 1) / gpu::kTileSize; }
+
+uint32_t tileDigits(const VkRect2D& region) {
+  const uint32_t lastTile = tilesAlong(region.extent.width) * tilesAlong(region.extent.height) - 1;
+  uint32_t digits = 1;
+  while (lastTile >> (8 * digits) != 0) ++digits;
+  return digits;
+}
+
+void fillOutputs(const FrothRenderInfo& info, const VkRect2D& region, gpu::FrameBlock& block) {
+  block.scale = 1;
+  block.flags = (info.colour.image ? gpu::kFlagColour : 0) | (info.distance.image ? gpu::kFlagDistance : 0) |
+                (info.normal.image ? gpu::kFlagNormal : 0) | (info.displayCoded ? gpu::kFlagDisplayCoded : 0);
+  block.regionX = static_cast<uint32_t>(region.offset.x);
+  block.regionY = static_cast<uint32_t>(region.offset.y);
+  block.regionWidth = region.extent.width;
+  block.regionHeight = region.extent.height;
+}
+
+void fillFrame(const FrothRenderInfo& info, const VkRect2D& region, const RenderInstance& instance,
+               const ViewBuffers& buffers, const RecordingPlace& place, gpu::FrameBlock& block,
+               gpu::ChunkEntry* chunks) {
+  const GpuAsset& asset = *instance.asset;
+  const CameraRays rays = computeCameraRays(info.camera, instance, region);
+  fillOutputs(info, region, block);
+  fillCamera(info, rays, instance, block);
+  fillTransients(buffers, region, block);
+  fillChunks(asset, rays.eye, chunks);
+  block.scale = instance.scale;
+  block.logCutoff = info.cutoff > 0 ? std::log(info.cutoff) : -std::numeric_limits<float>::infinity();
+  block.logQuantile = std::log(info.depthQuantile);
+  block.detailSharpness = asset.detailSharpness;
+  block.maxSteps = info.maxSteps;
+  block.localBits = asset.localBits;
+  block.tilesX = tilesAlong(region.extent.width);
+  block.tilesY = tilesAlong(region.extent.height);
+  block.chunkCount = static_cast<uint32_t>(asset.chunks.size());
+  block.groupsPerChunk = groupsPerChunk(asset);
+  block.counters = place.counters;
+  block.chunks = place.block + kChunkTableOffset;
+}
+
+}  // namespace froth

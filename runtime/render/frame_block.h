@@ -1,0 +1,33 @@
+// Fills what the passes of one recording read: camera, limits, addresses, chunk table.
+#pragma once
+
+#include <cstdint>
+
+#include "froth/froth.h"
+#include "runtime/render/view_buffers.h"
+#include "runtime/render/view_renderer.h"
+#include "shaders/gpu/layout.h"
+
+namespace froth {
+
+// Where one recording keeps its block and its counters.
+struct RecordingPlace {
+  VkDeviceAddress block;     // FrameBlock; the chunk table follows at kChunkTableOffset
+  VkDeviceAddress counters;  // Counters
+};
+inline constexpr VkDeviceSize kChunkTableOffset = 512;
+
+// Tiles over a region.
+uint32_t tilesAlong(uint32_t pixels);
+
+// Bytes of a tile number that a stable sort by tile has to look at.
+uint32_t tileDigits(const VkRect2D& region);
+
+// What a clear needs: region, outputs, scale.
+void fillOutputs(const FrothRenderInfo& info, const VkRect2D& region, gpu::FrameBlock& block);
+
+// Everything. region: not empty. chunks: [asset.chunks.size()].
+void fillFrame(const FrothRenderInfo& info, const VkRect2D& region, const RenderInstance& instance,
+               const ViewBuffers& buffers, const RecordingPlace& place, gpu::FrameBlock& block, gpu::ChunkEntry* chunks);
+
+}  // namespace froth

@@ -1,0 +1,198 @@
+#include "runtime/render/output_images.h"
+
+#include "runtime/render/pipeline_state.h"
+
+namespace froth {
+namespace {
+
+Error deviceError(const char* call, VkResult result) {
+  return makeError(ErrorKind::kUnsupported, "%s: output images of a view give VkResult %d; close another view or asset",
+                   call, result);
+}
+
+VkImageMemoryBarrier2 barrierOf(VkImage image) {
+  VkImageMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image;
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  return barrier;
+}
+
+// From the state in which the caller hands an image over.
+VkImageMemoryBarrier2 entryBarrier(const FrothImage& image) {
+  VkImageMemoryBarrier2 barrier = barrierOf(image.image);
+  barrier.srcStageMask = image.stageIn;
+  barrier.srcAccessMask = image.accessIn;
+  barrier.oldLayout = image.layoutIn;
+  barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+  return barrier;
+}
+
+VkImageMemoryBarrier2 exitBarrier(const FrothImage& image) {
+  VkImageMemoryBarrier2 barrier = barrierOf(image.image);
+  barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  barrier.oldLayout = VK_IMAGE_LAYOUT_GENERAL;
+  barrier.dstStageMask = image.stageOut;
+  barrier.dstAccessMask = image.accessOut;
+  barrier.newLayout = image.layoutOut;
+  return barrier;
+}
+
+// A placeholder has no contents to keep: any earlier layout will do.
+VkImageMemoryBarrier2 placeholderBarrier(VkImage image) {
+  VkImageMemoryBarrier2 barrier = barrierOf(image);
+  barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  barrier.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+  return barrier;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint32_t recordings) {
+  std::unique_ptr<OutputImages> images(new OutputImages(device));
+  for (const Status& status : {images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, images->half4_),
+                               images->createPlaceholder(VK_FORMAT_R32_SFLOAT, images->float1_),
+                               images->createSets(recordings)}) {
+    if (!status) return status.error();
+  }
+  return images;
+}
+
+OutputImages::~OutputImages() {
+  const DeviceTable& vk = device_.table;
+  for (const Placeholder& placeholder : {half4_, float1_}) {
+    vk.vkDestroyImageView(device_.device, placeholder.view, nullptr);
+    vk.vkDestroyImage(device_.device, placeholder.image, nullptr);
+    vk.vkFreeMemory(device_.device, placeholder.memory, nullptr);
+  }
+  vk.vkDestroyDescriptorPool(device_.device, pool_, nullptr);
+  vk.vkDestroyDescriptorSetLayout(device_.device, layout_, nullptr);
+}
+
+Status OutputImages::createPlaceholder(VkFormat format, Placeholder& placeholder) {
+  const DeviceTable& vk = device_.table;
+  VkImageCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+  info.imageType = VK_IMAGE_TYPE_2D;
+  info.format = format;
+  info.extent = {1, 1, 1};
+  info.mipLevels = 1;
+  info.arrayLayers = 1;
+  info.samples = VK_SAMPLE_COUNT_1_BIT;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT;
+  VkResult result = vk.vkCreateImage(device_.device, &info, nullptr, &placeholder.image);
+  if (result != VK_SUCCESS) return deviceError("vkCreateImage", result);
+
+  VkMemoryRequirements requirements{};
+  vk.vkGetImageMemoryRequirements(device_.device, placeholder.image, &requirements);
+  VkMemoryAllocateInfo allocation{};
+  allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  allocation.allocationSize = requirements.size;
+  while ((requirements.memoryTypeBits >> allocation.memoryTypeIndex & 1) == 0) ++allocation.memoryTypeIndex;
+  result = vk.vkAllocateMemory(device_.device, &allocation, nullptr, &placeholder.memory);
+  if (result == VK_SUCCESS) result = vk.vkBindImageMemory(device_.device, placeholder.image, placeholder.memory, 0);
+  if (result != VK_SUCCESS) return deviceError("vkAllocateMemory", result);
+
+  VkImageViewCreateInfo viewInfo{};
+  viewInfo.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+  viewInfo.image = placeholder.image;
+  viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  viewInfo.format = format;
+  viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  result = vk.vkCreateImageView(device_.device, &viewInfo, nullptr, &placeholder.view);
+  if (result != VK_SUCCESS) return deviceError("vkCreateImageView", result);
+  return {};
+}
+
+Status OutputImages::createSets(uint32_t recordings) {
+  const DeviceTable& vk = device_.table;
+  layout_ = createOutputSetLayout(device_);
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3 * recordings};
+  VkDescriptorPoolCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  info.maxSets = recordings;
+  info.poolSizeCount = 1;
+  info.pPoolSizes = &size;
+  VkResult result = vk.vkCreateDescriptorPool(device_.device, &info, nullptr, &pool_);
+  if (result != VK_SUCCESS) return deviceError("vkCreateDescriptorPool", result);
+
+  const std::vector<VkDescriptorSetLayout> layouts(recordings, layout_);
+  VkDescriptorSetAllocateInfo allocation{};
+  allocation.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  allocation.descriptorPool = pool_;
+  allocation.descriptorSetCount = recordings;
+  allocation.pSetLayouts = layouts.data();
+  sets_.resize(recordings);
+  result = vk.vkAllocateDescriptorSets(device_.device, &allocation, sets_.data());
+  if (result != VK_SUCCESS) return deviceError("vkAllocateDescriptorSets", result);
+  return {};
+}
+
+VkDescriptorSet OutputImages::update(uint32_t recording, const FrothRenderInfo& info) {
+  const std::array<VkImageView, 3> views = {info.colour.image ? info.colour.view : half4_.view,
+                                            info.distance.image ? info.distance.view : float1_.view,
+                                            info.normal.image ? info.normal.view : half4_.view};
+  std::array<VkDescriptorImageInfo, 3> images{};
+  std::array<VkWriteDescriptorSet, 3> writes{};
+  for (uint32_t i = 0; i < images.size(); ++i) {
+    images[i] = {VK_NULL_HANDLE, views[i], VK_IMAGE_LAYOUT_GENERAL};
+    writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    writes[i].dstSet = sets_[recording];
+    writes[i].dstBinding = i;
+    writes[i].descriptorCount = 1;
+    writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    writes[i].pImageInfo = &images[i];
+  }
+  device_.table.vkUpdateDescriptorSets(device_.device, static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+  return sets_[recording];
+}
+
+void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const {
+  // Uploads of this frame, and every use of the transients by earlier recordings.
+  VkMemoryBarrier2 memory{};
+  memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                        VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
+  memory.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  memory.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
+                         VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  std::array<VkImageMemoryBarrier2, 5> barriers{};
+  uint32_t count = 0;
+  for (const FrothImage* image : {&info.colour, &info.distance, &info.normal}) {
+    if (image->image) barriers[count++] = entryBarrier(*image);
+  }
+  if (!info.colour.image || !info.normal.image) barriers[count++] = placeholderBarrier(half4_.image);
+  if (!info.distance.image) barriers[count++] = placeholderBarrier(float1_.image);
+
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &memory;
+  dependency.imageMemoryBarrierCount = count;
+  dependency.pImageMemoryBarriers = barriers.data();
+  device_.table.vkCmdPipelineBarrier2(commandBuffer, &dependency);
+}
+
+void OutputImages::leave(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const {
+  std::array<VkImageMemoryBarrier2, 3> barriers{};
+  uint32_t count = 0;
+  for (const FrothImage* image : {&info.colour, &info.distance, &info.normal}) {
+    if (image->image) barriers[count++] = exitBarrier(*image);
+  }
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.imageMemoryBarrierCount = count;
+  dependency.pImageMemoryBarriers = barriers.data();
+  device_.table.vkCmdPipelineBarrier2(commandBuffer, &dependency);
+}
+
+}  // namespace froth

@@ -1,0 +1,52 @@
+// The caller's images as the passes see them: descriptor sets, placeholders for images that are not wanted, barriers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "froth/froth.h"
+#include "runtime/core/device.h"
+
+namespace froth {
+
+class OutputImages {
+ public:
+  // recordings: how many can be in flight; each has a descriptor set of its own.
+  static Result<std::unique_ptr<OutputImages>> create(Device& device, uint32_t recordings);
+  ~OutputImages();
+
+  // Points the recording's set to the wanted images. The recording before it with this number must be complete.
+  VkDescriptorSet update(uint32_t recording, const FrothRenderInfo& info);
+
+  // Orders everything before after the caller's use of the images, and all passes after earlier frames' use of the view.
+  void enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const;
+  // Hands the images on in their exit states.
+  void leave(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const;
+
+ private:
+  // One texel in layout GENERAL that stands where a pipeline needs a valid descriptor; never written.
+  struct Placeholder {
+    VkImage image = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;
+  };
+
+  explicit OutputImages(Device& device) : device_(device) {}
+  Status createPlaceholder(VkFormat format, Placeholder& placeholder);
+  Status createSets(uint32_t recordings);
+
+  Device& device_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  std::vector<VkDescriptorSet> sets_;
+  Placeholder half4_, float1_;  // R16G16B16A16_SFLOAT (colour, normal), R32_SFLOAT
+};
+
+// Whether the passes that write rgba32f are meant; else rgba16f, also where no colour is wanted.
+inline bool isWideColour(const FrothRenderInfo& info) {
+  return info.colour.image && info.colour.format == VK_FORMAT_R32G32B32A32_SFLOAT;
+}
+
+}  // namespace froth

@@ -1,0 +1,66 @@
+// The render passes as pipelines, by pass and by asset shape.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <mutex>
+
+#include "runtime/render/pipelines.h"
+
+namespace froth {
+
+// The passes that come in two forms write the colour image: rgba16f, rgba32f.
+enum class Pass : uint32_t {
+  kCullCells,
+  kCompactCells,
+  kSortHistogram,
+  kSortScan,
+  kSortScatter,
+  kCountTiles,
+  kEmitPairs,
+  kFindRanges,
+  kExpandCells,
+  kLocate,
+  kClear16,
+  kClear32,
+  // from here on specialized on the asset's shape
+  kScanGroups,
+  kShadeSites,
+  kRaster16,
+  kRaster32,
+  kWalk16,
+  kWalk32,
+};
+inline constexpr uint32_t kPassCount = 18;
+inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kScanGroups);
+
+// What the shaders are specialized on.
+struct AssetShape {
+  uint32_t detailCount = 1, lobeCount = 1;
+  bool hasHeights = false;
+  friend auto operator<=>(const AssetShape&, const AssetShape&) = default;
+};
+
+AssetShape shapeOf(const GpuAsset& asset);
+
+using PassPipelines = std::array<VkPipeline, kPassCount>;
+
+struct RenderPipelines::State {
+  Device& device;
+  VkPipelineCache cache = VK_NULL_HANDLE;
+  bool checkIndices = false;
+  VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // the output images
+  VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 64 bytes of push constants
+  PassPipelines common{};                            // null from kFirstShapedPass on
+  std::map<AssetShape, PassPipelines> byShape{};     // complete; guarded by `mutex`, entries never change or move
+  std::mutex mutex{};
+
+  // Null if prepareFor was not called for this shape.
+  const PassPipelines* find(const AssetShape& shape);
+};
+
+// Storage images 0: colour, 1: distance, 2: normal. Identical layouts are compatible, so views make their own.
+VkDescriptorSetLayout createOutputSetLayout(Device& device);
+
+}  // namespace froth

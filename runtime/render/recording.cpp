@@ -1,0 +1,159 @@
+// How every recording begins and ends, and the passes that raster and walk share.
+#include <cstddef>
+#include <cstring>
+
+#include "runtime/render/camera_rays.h"
+#include "runtime/render/view_state.h"
+
+namespace froth {
+namespace {
+
+constexpr VkDeviceSize kCountersStride = 512;
+
+void writeBlock(const Recording& recording, const RenderInstance* instance) {
+  const ViewBuffers& buffers = recording.view.buffers;
+  char* staged = static_cast<char*>(buffers[ViewBuffer::kStaging].mapped) + recording.number * buffers.recordingStride();
+  gpu::FrameBlock block{};
+  if (!instance) {
+    fillOutputs(recording.info, recording.region, block);
+  } else if (recording.region.extent.width != 0) {
+    fillFrame(recording.info, recording.region, *instance, buffers,
+              {recording.blockAddress(), recording.countersAddress()}, block,
+              reinterpret_cast<gpu::ChunkEntry*>(staged + kChunkTableOffset));
+    block.flags |= recording.kind == RecordingKind::kRaster ? gpu::kFlagOnlyPaired : 0;
+  }
+  std::memcpy(staged, &block, sizeof(block));
+}
+
+void recordMemoryBarrier(const Recording& recording, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
+                         VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
+  VkMemoryBarrier2 memory{};
+  memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  memory.srcStageMask = fromStage;
+  memory.srcAccessMask = fromAccess;
+  memory.dstStageMask = toStage;
+  memory.dstAccessMask = toAccess;
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &memory;
+  recording.view.device.table.vkCmdPipelineBarrier2(recording.commandBuffer, &dependency);
+}
+
+// Copies the block to the device and clears what the passes count in or only partly write.
+void recordUpload(const Recording& recording, const GpuAsset* asset) {
+  ViewState& view = recording.view;
+  const ViewBuffers& buffers = view.buffers;
+  const DeviceTable& vk = view.device.table;
+  const VkDeviceSize stride = buffers.recordingStride();
+  const VkBufferCopy copy{recording.number * stride, recording.place * stride, stride};
+  vk.vkCmdCopyBuffer(recording.commandBuffer, buffers[ViewBuffer::kStaging].buffer, buffers[ViewBuffer::kFrames].buffer,
+                     1, &copy);
+  vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer, recording.countersOffset(),
+                     sizeof(gpu::Counters), 0);
+  if (recording.kind == RecordingKind::kRaster) {
+    vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kTileRanges].buffer, 0, VK_WHOLE_SIZE, 0);
+  }
+  if (recording.kind == RecordingKind::kWalk && view.walkAsset != asset) {
+    vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kWalkStart].buffer, 0, VK_WHOLE_SIZE, 0);
+    view.walkAsset = asset;
+  }
+  recordMemoryBarrier(recording, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
+}  // namespace
+
+VkDeviceAddress Recording::blockAddress() const {
+  return view.buffers[ViewBuffer::kFrames].address + place * view.buffers.recordingStride();
+}
+
+VkDeviceAddress Recording::countersAddress() const {
+  return view.buffers[ViewBuffer::kCounters].address + countersOffset();
+}
+
+VkDeviceSize Recording::countersOffset() const { return place * kCountersStride; }
+
+void Recording::mark(const char* pass) const {
+  if (view.timer) view.timer->mark(commandBuffer, number, pass);
+}
+
+Recording beginRecording(ViewState& view, VkCommandBuffer commandBuffer, RecordingKind kind,
+                         const FrothRenderInfo& info, uint64_t serial, const RenderInstance* instance) {
+  FrameSlot& slot = view.slots[view.slot];
+  const uint32_t place = slot.recordings % kRecordingsPerFrame;
+  Recording recording{.view = view,
+                      .info = info,
+                      .commandBuffer = commandBuffer,
+                      .kind = kind,
+                      .region = drawnRegion(info, view.maxExtent),
+                      .place = place,
+                      .number = view.slot * kRecordingsPerFrame + place};
+  slot.serial = serial;
+  slot.recordings = place + 1;
+  view.lastSerial = serial;
+
+  view.images->enter(commandBuffer, info);
+  if (view.timer) view.timer->begin(commandBuffer, recording.number);
+  writeBlock(recording, instance);
+  recordUpload(recording, instance ? instance->asset : nullptr);
+  return recording;
+}
+
+PassRecorder bindRecording(const Recording& recording, const RenderPipelines::State& pipelines,
+                           const PassPipelines& passes) {
+  const DeviceTable& vk = recording.view.device.table;
+  const VkDescriptorSet set = recording.view.images->update(recording.number, recording.info);
+  vk.vkCmdBindDescriptorSets(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.layout, 0, 1, &set, 0,
+                             nullptr);
+  return {.vk = vk,
+          .commandBuffer = recording.commandBuffer,
+          .layout = pipelines.layout,
+          .pipelines = passes,
+          .frame = recording.blockAddress(),
+          .counters = recording.view.buffers[ViewBuffer::kCounters].buffer,
+          .countersOffset = recording.countersOffset()};
+}
+
+void endRecording(const Recording& recording) {
+  const ViewBuffers& buffers = recording.view.buffers;
+  recordMemoryBarrier(recording, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+  const VkBufferCopy copy{recording.countersOffset(), recording.number * kCountersStride, sizeof(gpu::Counters)};
+  recording.view.device.table.vkCmdCopyBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer,
+                                              buffers[ViewBuffer::kReadback].buffer, 1, &copy);
+  recordMemoryBarrier(recording, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+  recording.view.images->leave(recording.commandBuffer, recording.info);
+}
+
+const gpu::Counters& readCounters(const ViewState& view, uint32_t number) {
+  const char* readback = static_cast<const char*>(view.buffers[ViewBuffer::kReadback].mapped);
+  return *reinterpret_cast<const gpu::Counters*>(readback + number * kCountersStride);
+}
+
+void recordCull(const PassRecorder& recorder, const GpuAsset& asset) {
+  const uint32_t groups = groupsPerChunk(asset);
+  const auto chunks = static_cast<uint32_t>(asset.chunks.size());
+  recorder.run(Pass::kCullCells, groups, chunks);
+  recorder.wait();
+  recorder.run(Pass::kScanGroups, 1, 1, gpu::kScanVisible);
+  recorder.wait();
+  recorder.run(Pass::kCompactCells, groups, chunks);
+  recorder.wait();
+}
+
+void recordShade(const PassRecorder& recorder) {
+  recorder.runIndirect(Pass::kExpandCells, offsetof(gpu::Counters, visibleDispatch));
+  recorder.wait();
+  recorder.runIndirect(Pass::kShadeSites, offsetof(gpu::Counters, siteDispatch));
+  recorder.wait();
+}
+
+void recordPixels(const Recording& recording, const PassRecorder& recorder, Pass pass) {
+  const auto groupsAlong = [](uint32_t pixels) { return (pixels + gpu::kSubTileSize - 1) / gpu::kSubTileSize; };
+  recorder.run(pass, groupsAlong(recording.region.extent.width), groupsAlong(recording.region.extent.height));
+}
+
+}  // namespace froth

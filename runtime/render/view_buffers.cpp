@@ -1,0 +1,132 @@
+#include "runtime/render/view_buffers.h"
+
+#include <algorithm>
+
+#include "shaders/gpu/layout.h"
+
+namespace froth {
+namespace {
+
+constexpr VkDeviceSize kBlockStride = 512;  // of a FrameBlock and of Counters
+static_assert(sizeof(gpu::FrameBlock) <= kBlockStride && sizeof(gpu::Counters) <= kBlockStride);
+
+VkDeviceSize strideOf(const ViewCapacity& capacity) {
+  return kBlockStride + VkDeviceSize{capacity.chunks} * sizeof(gpu::ChunkEntry);
+}
+
+uint32_t groupsOver(uint32_t items, uint32_t perGroup) { return (items + perGroup - 1) / perGroup; }
+
+VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
+  const VkDeviceSize cells = capacity.cells;
+  const VkDeviceSize pairs = capacity.pairs;
+  switch (id) {
+    case ViewBuffer::kFrames: return kRecordingsPerFrame * strideOf(capacity);
+    case ViewBuffer::kStaging: return capacity.frames * kRecordingsPerFrame * strideOf(capacity);
+    case ViewBuffer::kReadback: return capacity.frames * kRecordingsPerFrame * kBlockStride;
+    case ViewBuffer::kCounters: return kRecordingsPerFrame * kBlockStride;
+    case ViewBuffer::kGroupSums: return 8 * VkDeviceSize{std::max(capacity.groups, groupsOver(capacity.cells, gpu::kGroupSize))};
+    case ViewBuffer::kVisibilityMasks: return 4 * gpu::kMaskWords * VkDeviceSize{capacity.groups};
+    case ViewBuffer::kVisibleCells: return 16 * cells;
+    case ViewBuffer::kRecords: return sizeof(gpu::CellRecord) * cells;
+    case ViewBuffer::kPlanes: return 16 * capacity.planes;
+    case ViewBuffer::kSites: return 24 * capacity.sites;
+    case ViewBuffer::kSlotOfCell:
+    case ViewBuffer::kCellKeys:
+    case ViewBuffer::kCellKeysSwap:
+    case ViewBuffer::kOrder:
+    case ViewBuffer::kOrderSwap:
+    case ViewBuffer::kTileCounts: return 4 * cells;
+    case ViewBuffer::kPairTiles:
+    case ViewBuffer::kPairTilesSwap:
+    case ViewBuffer::kPairCells:
+    case ViewBuffer::kPairCellsSwap: return 4 * pairs;
+    case ViewBuffer::kTileRanges: return 8 * VkDeviceSize{capacity.tiles};
+    case ViewBuffer::kHistogram:
+      return 4 * gpu::kGroupSize *
+             (1 + VkDeviceSize{groupsOver(std::max(capacity.cells, capacity.pairs), gpu::kSortKeysPerGroup)});
+    case ViewBuffer::kWalkStart: return 16;
+  }
+  return 0;
+}
+
+BufferKind kindOf(ViewBuffer id) {
+  if (id == ViewBuffer::kStaging) return BufferKind::kStaging;
+  return id == ViewBuffer::kReadback ? BufferKind::kReadback : BufferKind::kDevice;
+}
+
+ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b) {
+  return {std::max(a.frames, b.frames), std::max(a.chunks, b.chunks), std::max(a.groups, b.groups),
+          std::max(a.cells, b.cells),   std::max(a.pairs, b.pairs),   std::max(a.tiles, b.tiles),
+          std::max(a.planes, b.planes), std::max(a.sites, b.sites)};
+}
+
+}  // namespace
+
+uint32_t groupsPerChunk(const GpuAsset& asset) {
+  uint32_t groups = 1;
+  for (const GpuChunk& chunk : asset.chunks) groups = std::max(groups, groupsOver(chunk.liveCount, gpu::kGroupSize));
+  return groups;
+}
+
+void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
+  const auto chunks = static_cast<uint32_t>(asset.chunks.size());
+  ViewCapacity needed;
+  needed.chunks = chunks;
+  needed.groups = chunks * groupsPerChunk(asset);
+  needed.cells = asset.liveCount;
+  needed.planes = asset.alphaTotal;
+  needed.sites = uint64_t{asset.liveCount} * asset.detailCount;
+  capacity = largest(capacity, needed);
+}
+
+bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
+  return asset.chunks.size() <= capacity.chunks && asset.chunks.size() * groupsPerChunk(asset) <= capacity.groups &&
+         asset.liveCount <= capacity.cells && asset.alphaTotal <= capacity.planes &&
+         uint64_t{asset.liveCount} * asset.detailCount <= capacity.sites;
+}
+
+ViewBuffers::~ViewBuffers() {
+  freeRetired(UINT64_MAX);
+  for (GpuBuffer& buffer : buffers_) device_.destroyBuffer(buffer);
+}
+
+Status ViewBuffers::grow(const ViewCapacity& wanted, uint64_t lastSerial) {
+  const ViewCapacity grown = largest(capacity_, wanted);
+  std::array<GpuBuffer, kViewBufferCount> larger{};
+  for (uint32_t i = 0; i < kViewBufferCount; ++i) {
+    const auto id = static_cast<ViewBuffer>(i);
+    if (buffers_[i].size >= sizeOf(id, grown)) continue;
+    Result<GpuBuffer> buffer = device_.createBuffer(kindOf(id), sizeOf(id, grown), "transients of a view");
+    if (!buffer) {
+      for (GpuBuffer& made : larger) device_.destroyBuffer(made);
+      return buffer.error();
+    }
+    larger[i] = *buffer;
+  }
+  for (uint32_t i = 0; i < kViewBufferCount; ++i) {
+    if (larger[i].size == 0) continue;
+    if (buffers_[i].size != 0) retired_.emplace_back(lastSerial, buffers_[i]);
+    buffers_[i] = larger[i];
+  }
+  capacity_ = grown;
+  return {};
+}
+
+void ViewBuffers::freeRetired(uint64_t completedSerial) {
+  std::erase_if(retired_, [&](std::pair<uint64_t, GpuBuffer>& retired) {
+    if (retired.first > completedSerial) return false;
+    device_.destroyBuffer(retired.second);
+    return true;
+  });
+}
+
+VkDeviceSize ViewBuffers::deviceBytes() const {
+  VkDeviceSize bytes = 0;
+  for (const GpuBuffer& buffer : buffers_) bytes += buffer.kind == BufferKind::kDevice ? buffer.size : 0;
+  for (const auto& [serial, buffer] : retired_) bytes += buffer.kind == BufferKind::kDevice ? buffer.size : 0;
+  return bytes;
+}
+
+VkDeviceSize ViewBuffers::recordingStride() const { return strideOf(capacity_); }
+
+}  // namespace froth

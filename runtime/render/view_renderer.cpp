@@ -1,0 +1,153 @@
+#include "runtime/render/view_renderer.h"
+
+#include <algorithm>
+
+#include "runtime/render/view_state.h"
+
+namespace froth {
+namespace {
+
+// Space for pairs before the first overflow tells better: a few tiles per cell, and some depth in every tile.
+constexpr uint64_t kLeastPairs = uint64_t{1} << 18;
+constexpr uint64_t kPairsPerCell = 4;
+constexpr uint64_t kPairsPerTile = 8;
+constexpr uint64_t kMostPairs = uint64_t{1} << 30;
+
+uint32_t startPairs(uint64_t cells, uint64_t tiles) {
+  return static_cast<uint32_t>(
+      std::min(std::max(kLeastPairs, kPairsPerCell * cells + kPairsPerTile * tiles), kMostPairs));
+}
+
+// A quarter more than a frame wanted: views move.
+uint32_t pairsFor(uint64_t wanted) { return static_cast<uint32_t>(std::min(wanted + wanted / 4, kMostPairs)); }
+
+void addCounters(const gpu::Counters& counters, FrothViewStatus& status) {
+  status.visibleCells = std::max(status.visibleCells, counters.visibleCells);
+  status.pairs += counters.pairs;
+  status.walkSteps += uint64_t{counters.walkStepsHigh} << 32 | counters.walkStepsLow;
+  status.indexViolations += counters.violations;
+  if (counters.pairs > counters.pairsKept) status.bits |= FROTH_VIEW_PAIR_OVERFLOW;
+  if (counters.stepLimit != 0) status.bits |= FROTH_VIEW_STEP_LIMIT;
+}
+
+// Takes over counts and times of the newest frame that is complete.
+void readBack(ViewState& view, uint64_t completedSerial) {
+  const auto isNewer = [&](const FrameSlot& a, uint64_t serial) {
+    return a.serial <= completedSerial && a.serial > serial;
+  };
+  const FrameSlot* newest = nullptr;
+  for (const FrameSlot& slot : view.slots) {
+    if (isNewer(slot, newest ? newest->serial : view.status.serial)) newest = &slot;
+  }
+  if (!newest) return;
+  view.status = {};
+  view.status.structSize = sizeof(FrothViewStatus);
+  view.status.serial = newest->serial;
+  const auto firstNumber = static_cast<uint32_t>(newest - view.slots.data()) * kRecordingsPerFrame;
+  for (uint32_t number = firstNumber; number < firstNumber + newest->recordings; ++number) {
+    addCounters(readCounters(view, number), view.status);
+    if (view.timer) view.timer->read(number, view.status);
+  }
+}
+
+bool isEmpty(const VkRect2D& region) { return region.extent.width == 0 || region.extent.height == 0; }
+
+}  // namespace
+
+ViewRenderer::ViewRenderer() = default;
+ViewRenderer::~ViewRenderer() = default;
+
+Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExtent2D maxExtent, bool measurePasses,
+                                                           uint32_t framesInFlight, bool) {
+  const uint32_t recordings = framesInFlight * kRecordingsPerFrame;
+  Result<std::unique_ptr<OutputImages>> images = OutputImages::create(device, recordings);
+  if (!images) return images.error();
+  std::unique_ptr<PassTimer> timer;
+  if (measurePasses) {
+    Result<std::unique_ptr<PassTimer>> made = PassTimer::create(device, recordings);
+    if (!made) return made.error();
+    timer = std::move(*made);
+  }
+  std::unique_ptr<ViewRenderer> renderer(new ViewRenderer);
+  renderer->state_.reset(new ViewState{.device = device,
+                                   .maxExtent = maxExtent,
+                                   .buffers = ViewBuffers(device),
+                                   .images = std::move(*images),
+                                   .timer = std::move(timer),
+                                   .slots = std::vector<FrameSlot>(framesInFlight)});
+  ViewCapacity capacity;
+  capacity.frames = framesInFlight;
+  capacity.tiles = tilesAlong(maxExtent.width) * tilesAlong(maxExtent.height);
+  capacity.pairs = startPairs(0, capacity.tiles);
+  if (const Status status = renderer->state_->buffers.grow(capacity, 0); !status) return status.error();
+  return renderer;
+}
+
+Status ViewRenderer::prepare(uint64_t, uint64_t completedSerial, const GpuAsset* asset) {
+  ViewState& view = *state_;
+  readBack(view, completedSerial);
+  view.buffers.freeRetired(completedSerial);
+  if (view.slots[view.slot].recordings != 0) {
+    view.slot = (view.slot + 1) % static_cast<uint32_t>(view.slots.size());
+    view.slots[view.slot] = {};
+  }
+
+  ViewCapacity wanted = view.buffers.capacity();
+  if (asset && !coversAsset(*asset, wanted)) {
+    coverAsset(*asset, wanted);
+    wanted.pairs = std::max(wanted.pairs, startPairs(wanted.cells, wanted.tiles));
+  }
+  if (view.status.pairs > wanted.pairs) wanted.pairs = pairsFor(view.status.pairs);
+  const VkBuffer oldWalkStart = view.buffers[ViewBuffer::kWalkStart].buffer;
+  const Status status = view.buffers.grow(wanted, view.lastSerial);
+  if (view.buffers[ViewBuffer::kWalkStart].buffer != oldWalkStart) view.walkAsset = nullptr;
+  view.status.deviceBytes = view.buffers.deviceBytes();
+  return status;
+}
+
+uint32_t ViewRenderer::recordRaster(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
+                                    const RenderInstance& instance, const FrothRenderInfo& info, uint64_t serial) {
+  const PassPipelines* passes = pipelines.state().find(shapeOf(*instance.asset));
+  if (!passes || !coversAsset(*instance.asset, state_->buffers.capacity())) {
+    recordClear(commandBuffer, pipelines, info, serial);
+    return FROTH_VIEW_NOT_READY;
+  }
+  const Recording recording =
+      beginRecording(*state_, commandBuffer, RecordingKind::kRaster, info, serial, &instance);
+  if (!isEmpty(recording.region)) {
+    recordRasterPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
+  }
+  endRecording(recording);
+  return 0;
+}
+
+uint32_t ViewRenderer::recordWalk(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
+                                  const RenderInstance& instance, const FrothRenderInfo& info, uint64_t serial) {
+  const PassPipelines* passes = pipelines.state().find(shapeOf(*instance.asset));
+  const bool isReady = passes && coversAsset(*instance.asset, state_->buffers.capacity());
+  if (!isReady || !instance.asset->hasWalkGraph) {
+    recordClear(commandBuffer, pipelines, info, serial);
+    return isReady ? FROTH_VIEW_NO_WALK_GRAPH : FROTH_VIEW_NOT_READY;
+  }
+  const Recording recording = beginRecording(*state_, commandBuffer, RecordingKind::kWalk, info, serial, &instance);
+  if (!isEmpty(recording.region)) {
+    recordWalkPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
+  }
+  endRecording(recording);
+  return 0;
+}
+
+void ViewRenderer::recordClear(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothRenderInfo& info,
+                               uint64_t serial) {
+  const Recording recording = beginRecording(*state_, commandBuffer, RecordingKind::kClear, info, serial, nullptr);
+  if (!isEmpty(recording.region)) {
+    const PassRecorder recorder = bindRecording(recording, pipelines.state(), pipelines.state().common);
+    recordPixels(recording, recorder, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
+    recording.mark("clear");
+  }
+  endRecording(recording);
+}
+
+const FrothViewStatus& ViewRenderer::status() const { return state_->status; }
+
+}  // namespace froth
