@@ -39,8 +39,7 @@ float inverseSoftplus(float activated) {
 }
 
 glm::vec4 normaliseQuaternion(const glm::dvec4& quaternion) {
-  // Four components, each rounded by at most 2^-24 of itself, move the squared length by at most 2^-23 and a
-  // bit.
+  // Four components, each rounded by at most 2^-24 of itself, move the squared length by little over 2^-23.
   constexpr double kRounding = 0x1p-22;
   const glm::vec4 rounded(quaternion);
   if (std::abs(glm::dot(glm::dvec4(rounded), glm::dvec4(rounded)) - 1) <= kRounding) {

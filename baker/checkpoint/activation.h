@@ -14,8 +14,7 @@ double softplus(double raw);
 float inverseSoftplus(float activated);
 
 // Unit quaternion, rounded once to float. One that is a unit quaternion already, up to the rounding of its
-// components, is returned as it is, so that writing and reading a foam changes no bit. The length must not be
-// 0.
+// components, is returned as it is, so that writing and reading a foam changes no bit. Needs a length > 0.
 glm::vec4 normaliseQuaternion(const glm::dvec4& quaternion);
 
 }  // namespace froth

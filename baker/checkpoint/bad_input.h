@@ -24,8 +24,7 @@ template <class... Args>
           fmt::format("{}: {}", file, fmt::format(format, std::forward<Args>(args)...))};
 }
 
-// A name taken from a file, fit for a terminal: quoted, no control or non-ASCII characters, at most 80
-// characters.
+// A name taken from a file, fit for a terminal: quoted, at most 80 characters, all of them printable ASCII.
 inline std::string quoted(std::string_view name) {
   constexpr size_t kMaxShown = 80;
   std::string shown = "'";

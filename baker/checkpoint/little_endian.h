@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <vector>
+#include <string>
 
 namespace froth {
 
@@ -19,10 +19,8 @@ Number loadLittleEndian(const uint8_t* bytes) {
 }
 
 template <class Number>
-void appendLittleEndian(std::vector<uint8_t>& bytes, Number number) {
-  const size_t size = bytes.size();
-  bytes.resize(size + sizeof number);
-  std::memcpy(bytes.data() + size, &number, sizeof number);
+void appendLittleEndian(std::string& bytes, Number number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
 }  // namespace froth

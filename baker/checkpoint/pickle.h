@@ -1,5 +1,4 @@
-// A pickle is a program. This interpreter knows the few instructions that build a dict of tensors, and no
-// others.
+// A pickle is a program. This interpreter knows only the few instructions that build a dict of tensors.
 #pragma once
 
 #include <cstdint>

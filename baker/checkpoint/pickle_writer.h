@@ -18,8 +18,7 @@ struct TensorDeclaration {
   std::vector<uint64_t> shape;           // 1 to 3 sizes, their product below 2^63
 };
 
-// The storage of tensors[i] is called "i". At most 20 tensors: torch.save's memo then needs only its short
-// opcodes.
+// The storage of tensors[i] is called "i". At most 20 tensors: the memo then needs only its short opcodes.
 std::string pickleTensors(std::span<const TensorDeclaration> tensors);
 
 }  // namespace froth

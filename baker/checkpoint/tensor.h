@@ -26,8 +26,7 @@ struct TensorView {
 Result<TensorView> viewTensor(std::string_view file, std::string_view key, const PickledTensor& tensor,
                               std::span<const uint8_t> storage);
 
-// Writes the view's elements in row-major order. `out` must hold `view.count` elements; Real is float or
-// double.
+// Writes the view's elements in row-major order; `out` holds `view.count` of them. Real: float or double.
 template <class Real>
 void copyElements(const TensorView& view, Real* out);
 

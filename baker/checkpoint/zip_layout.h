@@ -1,5 +1,4 @@
-// Records of a ZIP archive (APPNOTE.TXT 4.3): signatures, sizes, special values. Reader and writer share
-// them.
+// Records of a ZIP archive (APPNOTE.TXT 4.3), for its reader and its writer: signatures, sizes, values.
 #pragma once
 
 #include <cstdint>

@@ -16,15 +16,13 @@ constexpr uint64_t kAlignment = 64;         // of a member's bytes, as `.storage
 constexpr uint16_t kPaddingExtra = 0x4246;  // "FB", the extra field with which torch.save aligns
 constexpr uint16_t kZip64Version = 45, kPlainVersion = 0, kMadeBy = 0x031e;
 
-using Bytes = std::vector<uint8_t>;
-
 template <class... Numbers>
-void appendNumbers(Bytes& bytes, Numbers... numbers) {
+void appendNumbers(std::string& bytes, Numbers... numbers) {
   (appendLittleEndian(bytes, numbers), ...);
 }
 
-void appendText(Bytes& bytes, std::string_view text) {
-  bytes.insert(bytes.end(), text.begin(), text.end());
+std::span<const uint8_t> asBytes(std::string_view text) {
+  return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
 }
 
 uint32_t saturate(uint64_t value, bool isLarge) {
@@ -34,7 +32,7 @@ uint32_t saturate(uint64_t value, bool isLarge) {
 }  // namespace
 
 Status ZipWriter::begin(std::string name, uint64_t size) {
-  Bytes header;
+  std::string header;
   const uint16_t zip64Size = isLarge(size) ? 2 * sizeof(uint64_t) : 0;
   const uint64_t zip64Bytes = zip64Size ? kZipExtraHeaderSize + zip64Size : 0;
   const uint64_t unpadded = offset_ + kZipLocalSize + name.size() + zip64Bytes + kZipExtraHeaderSize;
@@ -44,14 +42,14 @@ Status ZipWriter::begin(std::string name, uint64_t size) {
       uint32_t{0},                                                  // time and date
       uint32_t{0}, saturate(0, zip64Size), saturate(0, zip64Size),  // checksum and sizes: behind the bytes
       static_cast<uint16_t>(name.size()), static_cast<uint16_t>(zip64Bytes + kZipExtraHeaderSize + padding));
-  appendText(header, name);
+  header += name;
   if (zip64Size) {
     appendNumbers(header, kZip64Extra, zip64Size, size, size);
   }
   appendNumbers(header, kPaddingExtra, padding);
-  header.insert(header.end(), padding, uint8_t{'Z'});
+  header.append(padding, 'Z');
   members_.push_back({std::move(name), size, offset_, 0});
-  return emit(header);
+  return emit(asBytes(header));
 }
 
 Status ZipWriter::append(std::span<const uint8_t> bytes) {
@@ -62,28 +60,27 @@ Status ZipWriter::append(std::span<const uint8_t> bytes) {
 
 Status ZipWriter::end() {
   const Member& member = members_.back();
-  Bytes descriptor;
+  std::string descriptor;
   appendNumbers(descriptor, kZipDescriptorSignature, member.crc32);
   if (isLarge(member.size)) {
     appendNumbers(descriptor, member.size, member.size);
   } else {
     appendNumbers(descriptor, static_cast<uint32_t>(member.size), static_cast<uint32_t>(member.size));
   }
-  return emit(descriptor);
+  return emit(asBytes(descriptor));
 }
 
 Status ZipWriter::add(std::string name, std::string_view bytes) {
   Status status = begin(std::move(name), bytes.size());
-  if (status) status = append({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+  if (status) status = append(asBytes(bytes));
   if (status) status = end();
   return status;
 }
 
 Status ZipWriter::finish() {
-  Bytes directory;
+  std::string directory;
   for (const Member& member : members_) {
-    const Bytes entry = encodeDirectoryEntry(member);
-    directory.insert(directory.end(), entry.begin(), entry.end());
+    directory += encodeDirectoryEntry(member);
   }
   const uint64_t begin = offset_, size = directory.size(), end = begin + size, count = members_.size();
   const bool isZip64 = isLarge(begin) || isLarge(size) || count >= kZipSaturated16;
@@ -94,11 +91,11 @@ Status ZipWriter::finish() {
   const uint16_t shownCount = isZip64 ? kZipSaturated16 : static_cast<uint16_t>(count);
   appendNumbers(directory, kZipEndSignature, uint32_t{0}, shownCount, shownCount, saturate(size, isZip64),
                 saturate(begin, isZip64), uint16_t{0});
-  return emit(directory);
+  return emit(asBytes(directory));
 }
 
-Bytes ZipWriter::encodeDirectoryEntry(const Member& member) const {
-  Bytes zip64;
+std::string ZipWriter::encodeDirectoryEntry(const Member& member) const {
+  std::string zip64;
   if (isLarge(member.size)) {
     appendNumbers(zip64, member.size, member.size);
   }
@@ -107,17 +104,17 @@ Bytes ZipWriter::encodeDirectoryEntry(const Member& member) const {
   }
   const uint32_t size = saturate(member.size, isLarge(member.size));
   const uint64_t extraSize = zip64.empty() ? 0 : kZipExtraHeaderSize + zip64.size();
-  Bytes entry;
+  std::string entry;
   appendNumbers(entry, kZipCentralSignature, uint16_t{0}, zip64.empty() ? kPlainVersion : kZip64Version,
                 kFlags, kZipStoredMethod, uint32_t{0},  // time and date
                 member.crc32, size, size, static_cast<uint16_t>(member.name.size()),
                 static_cast<uint16_t>(extraSize), uint16_t{0}, uint16_t{0}, uint16_t{0},
                 uint32_t{0},  // comment, disk, attributes
                 saturate(member.begin, isLarge(member.begin)));
-  appendText(entry, member.name);
+  entry += member.name;
   if (!zip64.empty()) {
     appendNumbers(entry, kZip64Extra, static_cast<uint16_t>(zip64.size()));
-    entry.insert(entry.end(), zip64.begin(), zip64.end());
+    entry += zip64;
   }
   return entry;
 }

@@ -1,5 +1,4 @@
-// Writes the ZIP archive of torch.save: stored members, their bytes at multiples of 64, checksums behind
-// them.
+// Writes the ZIP archive of torch.save: stored members at multiples of 64, with their checksums behind them.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +12,14 @@
 
 namespace froth {
 
-// Equal calls give equal bytes: no time is stored. The first error of the sink ends the archive and is
-// returned.
+// Equal calls give equal bytes: no time is stored. An error of the sink is returned and ends the archive.
 class ZipWriter {
  public:
   // Sizes and offsets from `zip64From` on go into zip64 records; tests lower it to see some.
   explicit ZipWriter(ByteSink sink, uint64_t zip64From = UINT32_MAX)
       : sink_(std::move(sink)), zip64From_(zip64From) {}
 
-  // A member of `size` bytes; append() must then receive exactly that many, in any number of pieces, before
-  // end().
+  // A member of `size` bytes; append() must receive exactly that many, in any number of pieces, before end().
   Status begin(std::string name, uint64_t size);
   Status append(std::span<const uint8_t> bytes);
   Status end();
@@ -40,7 +37,7 @@ class ZipWriter {
 
   Status emit(std::span<const uint8_t> bytes);
   bool isLarge(uint64_t value) const { return value >= zip64From_; }
-  std::vector<uint8_t> encodeDirectoryEntry(const Member& member) const;
+  std::string encodeDirectoryEntry(const Member& member) const;
 
   ByteSink sink_;
   uint64_t zip64From_;
