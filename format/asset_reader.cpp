@@ -39,11 +39,11 @@ struct Source {
 Status checkHeader(const FileHeader& header, const Source& source) {
   const char* name = source.name.c_str();
   if (header.magic != kFileMagic) return makeError(ErrorKind::kBadInput, "%s: wrong magic bytes; %s", name, kNoAsset);
+  if (!hashMatches({reinterpret_cast<const uint8_t*>(&header), offsetof(FileHeader, headerHash)}, header.headerHash))
+    return makeError(ErrorKind::kBadInput, "%s: header: hash does not match; %s", name, kNoAsset);
   if (header.versionMajor != kVersionMajor)
     return makeError(ErrorKind::kUnsupported, "%s: format version %u.%u, this program reads %u; update the older one",
                      name, header.versionMajor, header.versionMinor, kVersionMajor);
-  if (!hashMatches({reinterpret_cast<const uint8_t*>(&header), offsetof(FileHeader, headerHash)}, header.headerHash))
-    return makeError(ErrorKind::kBadInput, "%s: header: hash does not match; %s", name, kNoAsset);
   if (header.reserved0 != 0 || header.reserved1 != 0)
     return makeError(ErrorKind::kUnsupported, "%s: header: reserved bytes are not zero; update this program", name);
   if (header.fileSize != source.size)

@@ -110,9 +110,9 @@ TEST(VerifyAsset, FindsTwoNeighboursAtOnePoint) {
 
 TEST(VerifyAsset, FindsAFrameThatIsNoRotation) {
   AssetContents contents = makeSampleAsset();
-  contents.chunks[0].orientations[2] *= 1.5f;
+  contents.chunks[0].orientations[2] = {2, 0, 0, 0};
   EXPECT_THAT(verifyContents(contents),
-              AllOf(HasSubstr("section 'orientations': cell 2: quaternion of length 1.5"), HasSubstr(", not 1")));
+              AllOf(HasSubstr("section 'orientations': cell 2: quaternion of length 2, not 1"), HasSubstr("bake")));
 }
 
 TEST(VerifyAsset, FindsBoundsThatAreNotThoseOfTheCells) {
