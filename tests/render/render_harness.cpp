@@ -1,0 +1,210 @@
+#include "tests/render/render_harness.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "format/asset_writer.h"
+
+namespace froth::test {
+namespace {
+
+void check(FrothResult result, const char* call) { EXPECT_EQ(result, FROTH_OK) << call << ": " << frothResultName(result); }
+
+void onMessage(void*, FrothSeverity, FrothResult, const char* object, const char* text) {
+  ADD_FAILURE() << object << ": " << text;
+}
+
+void expectSilence(const Host& host) {
+  for (const std::string& message : host.validationMessages()) ADD_FAILURE() << message;
+}
+
+Image channelsOf(const std::vector<float>& texels, uint32_t stride, uint32_t first, uint32_t channels, VkExtent2D extent) {
+  Image image{extent.width, extent.height, channels, {}};
+  for (size_t pixel = 0; pixel < size_t{extent.width} * extent.height; ++pixel) {
+    for (uint32_t c = 0; c < channels; ++c) image.values.push_back(texels[pixel * stride + first + c]);
+  }
+  return image;
+}
+
+std::vector<float> readBack(Host& host, const HostImage& image) {
+  Result<std::vector<float>> texels = host.readImage(image);
+  EXPECT_TRUE(texels) << texels.error().message;
+  return texels ? *texels : std::vector<float>();
+}
+
+}  // namespace
+
+Host& sharedHost() {
+  static const std::unique_ptr<Host> host = [] {
+    Result<std::unique_ptr<Host>> created = Host::create({.device = "", .useValidation = true});
+    if (!created) {
+      ADD_FAILURE() << created.error().message;
+      std::abort();
+    }
+    return std::move(*created);
+  }();
+  return *host;
+}
+
+Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent) {
+  Host& host = sharedHost();
+  FrothContextInfo info = host.contextInfo();
+  info.onMessage = onMessage;
+  info.checkIndices = 1;
+  check(frothCreateContext(&info, &context_), "frothCreateContext");
+  Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
+  EXPECT_TRUE(bytes) << bytes.error().message;
+  bytes_ = std::move(*bytes);
+  const FrothAssetInfo assetInfo{sizeof(FrothAssetInfo), nullptr, bytes_.data(), bytes_.size()};
+  check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
+  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1};
+  check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");
+  place({});
+
+  FrothAssetStatus status{};
+  status.structSize = sizeof(status);
+  do {
+    FrothRenderInfo none{};
+    submit(Method::kRaster, none);
+    check(frothGetAssetStatus(context_, asset_, &status), "frothGetAssetStatus");
+  } while (status.state == FROTH_ASSET_OPENING);
+  EXPECT_EQ(status.state, FROTH_ASSET_READY);
+}
+
+Stage::~Stage() {
+  frothDestroyContext(context_);
+  expectSilence(sharedHost());
+}
+
+void Stage::place(const FrothInstanceInfo& placement) {
+  FrothInstanceInfo info = placement;
+  info.structSize = sizeof(info);
+  info.asset = asset_;
+  if (instance_.generation == 0) {
+    check(frothCreateInstance(context_, &info, &instance_), "frothCreateInstance");
+  } else {
+    check(frothSetInstance(context_, instance_, &info), "frothSetInstance");
+  }
+}
+
+FrothViewStatus Stage::submit(Method method, const FrothRenderInfo& info) {
+  const bool draws = info.colour.image || info.distance.image || info.normal.image;
+  const auto record = [&](VkCommandBuffer commandBuffer, uint64_t serial, bool isDrawn) -> Status {
+    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0};
+    check(frothUpdate(context_, &frame, nullptr), "frothUpdate");
+    check(frothRecordUpload(context_, commandBuffer), "frothRecordUpload");
+    if (!isDrawn) return {};
+    check(method == Method::kRaster ? frothRasterize(context_, view_, commandBuffer, &info)
+                                    : frothWalk(context_, view_, commandBuffer, &info),
+          "draw");
+    return {};
+  };
+  // The frame after it brings its status.
+  for (const bool isDrawn : {draws, false}) {
+    const Status submitted = sharedHost().submit(
+        [&](VkCommandBuffer commandBuffer, uint64_t serial) { return record(commandBuffer, serial, isDrawn); });
+    EXPECT_TRUE(submitted) << submitted.error().message;
+  }
+  FrothViewStatus status{};
+  status.structSize = sizeof(status);
+  check(frothGetViewStatus(context_, view_, &status), "frothGetViewStatus");
+  EXPECT_EQ(status.indexViolations, 0u);
+  return status;
+}
+
+Frame Stage::draw(Method method, const FrothRenderInfo& info, VkExtent2D extent, VkFormat colourFormat) {
+  Host& host = sharedHost();
+  Result<HostImage> colour = host.createImage(colourFormat, extent);
+  Result<HostImage> distance = host.createImage(VK_FORMAT_R32_SFLOAT, extent);
+  Result<HostImage> normal = host.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent);
+  FrothRenderInfo wanted = info;
+  wanted.colour = host.describe(*colour);
+  wanted.distance = host.describe(*distance);
+  wanted.normal = host.describe(*normal);
+  Frame frame;
+  frame.status = submit(method, wanted);
+  const std::vector<float> colours = readBack(host, *colour);
+  frame.colour = channelsOf(colours, 4, 0, 3, extent);
+  frame.alpha = channelsOf(colours, 4, 3, 1, extent);
+  frame.distance = channelsOf(readBack(host, *distance), 1, 0, 1, extent);
+  frame.normal = channelsOf(readBack(host, *normal), 4, 0, 3, extent);
+  for (HostImage* image : {&*colour, &*distance, &*normal}) host.destroyImage(*image);
+  expectSilence(host);
+  return frame;
+}
+
+Frame Stage::draw(Method method, const View& view) {
+  return draw(method, infoOf(view), {view.width, view.height});
+}
+
+View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height, double tanHalfFovY) {
+  const glm::dvec3 forward = glm::normalize(target - eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.1, 1, 0.05), forward));
+  const glm::dvec3 down = glm::cross(forward, right);
+  View view;
+  view.name = "test";
+  view.width = width;
+  view.height = height;
+  view.fx = view.fy = 0.5 * height / tanHalfFovY;
+  view.cx = 0.5 * width;
+  view.cy = 0.5 * height;
+  for (int row = 0; row < 3; ++row) {
+    const double values[4] = {right[row], down[row], forward[row], eye[row]};
+    for (int column = 0; column < 4; ++column) view.worldFromCamera[row * 4 + column] = values[column];
+  }
+  return view;
+}
+
+FrothRenderInfo infoOf(const View& view) {
+  FrothRenderInfo info{};
+  info.structSize = sizeof(info);
+  info.nearRatio = static_cast<float>(view.nearRatio.value_or(0));
+  info.nearDepth = static_cast<float>(view.nearDepth.value_or(0));
+  info.displayCoded = 1;
+  FrothCamera& camera = info.camera;
+  for (int axis = 0; axis < 3; ++axis) {
+    camera.eye[axis] = view.worldFromCamera[axis * 4 + 3];
+    for (int row = 0; row < 3; ++row) {
+      camera.viewFromWorld[axis * 3 + row] = static_cast<float>(view.worldFromCamera[axis * 4 + row]);
+    }
+  }
+  camera.clipFromView[0] = static_cast<float>(2 * view.fx / view.width);
+  camera.clipFromView[5] = static_cast<float>(2 * view.fy / view.height);
+  camera.clipFromView[8] = static_cast<float>(2 * view.cx / view.width - 1);
+  camera.clipFromView[9] = static_cast<float>(2 * view.cy / view.height - 1);
+  camera.clipFromView[11] = 1.0f;
+  camera.clipFromView[14] = 0.01f;
+  camera.viewport = {0, 0, static_cast<float>(view.width), static_cast<float>(view.height), 0, 1};
+  return info;
+}
+
+AssetContents bakeForTest(const Foam& foam) {
+  Result<BakeResult> baked = bakeFoam(foam, {});
+  EXPECT_TRUE(baked) << baked.error().message;
+  return baked->contents;
+}
+
+RenderedImages renderReference(const Foam& foam, const View& view, double cutoff) {
+  ReferenceOptions options;
+  options.cutoff = cutoff;
+  options.nearRatio = view.nearRatio.value_or(0);
+  options.nearDepth = view.nearDepth.value_or(0);
+  Result<RenderedImages> images = ReferenceRenderer(foam).render(view, options);
+  EXPECT_TRUE(images) << images.error().message;
+  return *images;
+}
+
+double psnr(const Image& a, const Image& b) {
+  const Result<ImageDifference> difference = compareImages(a, b);
+  EXPECT_TRUE(difference) << difference.error().message;
+  return difference->psnr;
+}
+
+double overTwoSteps(const Image& a, const Image& b) {
+  const Result<ImageDifference> difference = compareImages(a, b);
+  EXPECT_TRUE(difference) << difference.error().message;
+  return difference->overTwoSteps;
+}
+
+}  // namespace froth::test

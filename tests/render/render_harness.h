@@ -1,0 +1,67 @@
+// Draws through the runtime's public calls on a device with validation and index checks; what tests ask of an image.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "baker/bake/bake.h"
+#include "baker/camera/camera.h"
+#include "baker/foam.h"
+#include "baker/image/image.h"
+#include "baker/image/metrics.h"
+#include "baker/reference/reference.h"
+#include "format/asset_contents.h"
+#include "froth/froth.h"
+#include "samples/host/host.h"
+
+namespace froth::test {
+
+enum class Method { kRaster, kWalk };
+
+struct Frame {
+  Image colour;    // 3 channels, as the image holds them
+  Image alpha;     // 1 channel
+  Image distance;  // 1 channel; +inf: never
+  Image normal;    // 3 channels
+  FrothViewStatus status{};
+};
+
+// One device with validation layers for all tests of the program.
+Host& sharedHost();
+
+// One asset, one instance, one view. Any failing call, validation message or index violation fails the test.
+class Stage {
+ public:
+  Stage(const AssetContents& contents, VkExtent2D maxExtent);
+  ~Stage();
+
+  void place(const FrothInstanceInfo& placement);  // `asset` is filled in
+  Frame draw(Method method, const FrothRenderInfo& info, VkExtent2D extent,
+             VkFormat colourFormat = VK_FORMAT_R32G32B32A32_SFLOAT);
+  Frame draw(Method method, const View& view);
+
+  // Records only the wanted images of `info`; returns the status of that frame.
+  FrothViewStatus submit(Method method, const FrothRenderInfo& info);
+
+ private:
+  FrothContext* context_ = nullptr;
+  std::vector<uint8_t> bytes_;
+  FrothAsset asset_{};
+  FrothInstance instance_{};
+  FrothView view_{};
+};
+
+// A camera at `eye` that looks at `target`, `width` x `height` pixels, with the given half-angle's tangent.
+View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height, double tanHalfFovY);
+
+// Display-coded, cut-off 1e-3, reversed depth with an infinite far plane; near limits of the view, else off.
+FrothRenderInfo infoOf(const View& view);
+
+AssetContents bakeForTest(const Foam& foam);
+RenderedImages renderReference(const Foam& foam, const View& view, double cutoff = 0);
+
+double psnr(const Image& a, const Image& b);
+double overTwoSteps(const Image& a, const Image& b);
+
+}  // namespace froth::test
