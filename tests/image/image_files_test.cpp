@@ -218,7 +218,7 @@ TEST_F(ImageFilesTest, JpegIsReadBaselineAndProgressive) {
 }
 
 TEST_F(ImageFilesTest, JpegCutAtAnyLengthIsRefusedAndNoFlippedByteCrashes) {
-  const Bytes whole = encodeJpeg(ramp(40, 24, 3), false);
+  const Bytes whole = encodeJpeg(ramp(16, 16, 1), false);
   for (size_t length = 0; length + 2 < whole.size(); length += 7) {
     EXPECT_FALSE(readImage(write("cut.jpg", Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(length)))))
         << length;
