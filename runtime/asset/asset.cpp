@@ -216,13 +216,15 @@ uint64_t Asset::queuedBytes() const {
   return bytes;
 }
 
+std::span<const GpuBuffer> Asset::buffers() const {
+  return buffers_ ? std::span<const GpuBuffer>(buffers_->buffers) : std::span<const GpuBuffer>();
+}
+
 FrothAssetStatus Asset::describe() const {
   FrothAssetStatus description = description_;
   description.error = error_;
-  if (buffers_) {
-    for (const GpuBuffer& buffer : buffers_->buffers) {
-      description.deviceBytes += buffer.allocatedSize;
-    }
+  for (const GpuBuffer& buffer : buffers()) {
+    description.deviceBytes += buffer.allocatedSize;
   }
   return description;
 }

@@ -49,6 +49,7 @@ class Asset {
   uint64_t queuedBytes() const;  // decoded, not staged
 
   const GpuAsset& gpu() const { return gpu_; }
+  std::span<const GpuBuffer> buffers() const;  // of gpu()'s arrays
   const std::string& name() const { return name_; }
   // Counts, bounds, cameras; zero before the manifest is read. The state is the context's to tell.
   FrothAssetStatus describe() const;

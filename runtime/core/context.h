@@ -48,6 +48,8 @@ class Context {
   FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
                      FrothRenderInfo info);
 
+  const Asset* findAsset(FrothAsset handle) const { return assets_.find(handle); }  // null: stale
+
   Messages messages;
 
  private:

@@ -1,0 +1,259 @@
+#include <cmath>
+#include <limits>
+
+#include "runtime_fixture.h"
+
+namespace froth {
+namespace {
+
+using ::testing::HasSubstr;
+
+// What record calls refuse, in every build. The checks need no device.
+class RecordCall : public RuntimeTest {
+ protected:
+  void SetUp() override {
+    createContext();
+    view_ = createView({64, 64});
+    ASSERT_EQ(update(1), FROTH_OK);
+    info_ = makeStruct<FrothRenderInfo>();
+    info_.camera = makeCamera(64, 64);
+    info_.nearRatio = info_.nearDepth = FROTH_NEAR_DEFAULT;
+    info_.colour.image = reinterpret_cast<VkImage>(1);
+    info_.colour.view = reinterpret_cast<VkImageView>(1);
+    info_.colour.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    info_.colour.extent = {64, 64};
+    info_.colour.layoutOut = VK_IMAGE_LAYOUT_GENERAL;
+  }
+
+  // Both calls, in a frame of their own.
+  void expectResult(FrothResult expected, const char* text) {
+    ASSERT_EQ(update(++serial_), FROTH_OK);
+    messages_.clear();
+    EXPECT_EQ(frothRasterize(context_, view_, nullptr, &info_), expected) << lastText();
+    EXPECT_EQ(frothWalk(context_, view_, nullptr, &info_), expected) << lastText();
+    if (expected < 0) {
+      EXPECT_THAT(lastText(), HasSubstr(text));
+    }
+  }
+
+  FrothView view_{};
+  FrothRenderInfo info_{};
+  uint64_t serial_ = 1;
+};
+
+TEST_F(RecordCall, AcceptsAGoodCamera) {
+  expectResult(FROTH_OK, "");
+}
+
+TEST_F(RecordCall, AcceptsReversedOffCentreObliqueAndFlippedProjections) {
+  info_.camera.clipFromView[8] = 0.3f;  // off-centre
+  info_.camera.clipFromView[2] = 0.2f;  // oblique near plane: only the depth row
+  info_.camera.clipFromView[10] = -1.0f;
+  expectResult(FROTH_OK, "");
+  info_.camera.viewport.y = 64;
+  info_.camera.viewport.height = -64;
+  expectResult(FROTH_OK, "");
+  info_.camera.clipFromView[11] = -1;  // the view looks along -z
+  expectResult(FROTH_OK, "");
+}
+
+TEST_F(RecordCall, RefusesValuesThatAreNotFinite) {
+  info_.camera.eye[2] = std::numeric_limits<double>::quiet_NaN();
+  expectResult(FROTH_ERROR_ARGUMENT, "not finite");
+  info_.camera.eye[2] = 0;
+  info_.camera.jitter[0] = std::numeric_limits<float>::infinity();
+  expectResult(FROTH_ERROR_ARGUMENT, "not finite");
+}
+
+TEST_F(RecordCall, RefusesARotationWithScale) {
+  info_.camera.viewFromWorld[0] = 1.01f;
+  expectResult(FROTH_ERROR_ARGUMENT, "viewFromWorld: not a rotation");
+}
+
+TEST_F(RecordCall, RefusesAnOrthographicProjectionAsUnsupported) {
+  info_.camera.clipFromView[11] = 0;
+  info_.camera.clipFromView[15] = 1;
+  expectResult(FROTH_ERROR_UNSUPPORTED, "orthographic");
+}
+
+TEST_F(RecordCall, RefusesAProjectionWithoutRays) {
+  info_.camera.clipFromView[5] = 0;
+  expectResult(FROTH_ERROR_ARGUMENT, "determinant 0");
+}
+
+TEST_F(RecordCall, RefusesAnEyeHiddenInTheProjection) {
+  info_.camera.clipFromView[12] = 0.5f;
+  expectResult(FROTH_ERROR_ARGUMENT, "move the eye into camera.eye");
+}
+
+TEST_F(RecordCall, RefusesWhatDoesNotFitTheImageOrTheView) {
+  info_.colour.extent = {64, 63};
+  expectResult(FROTH_ERROR_ARGUMENT, "colour.extent: 64 x 63");
+  info_.camera.scissor = {{0, 0}, {64, 32}};
+  expectResult(FROTH_OK, "");
+  info_.camera.scissor = {{100, 0}, {8, 8}};
+  expectResult(FROTH_ERROR_ARGUMENT, "leave 0 x 8 pixels");
+  info_.camera.scissor = {};
+  info_.colour.extent = {4096, 4096};
+  info_.camera.viewport.width = 65;
+  expectResult(FROTH_ERROR_ARGUMENT, "the view was made for 64 x 64");
+  info_.camera.viewport.width = 1e30f;
+  expectResult(FROTH_ERROR_ARGUMENT, "the view was made for 64 x 64");
+  info_.camera.viewport.width = 0;
+  expectResult(FROTH_ERROR_ARGUMENT, "camera.viewport: 0 x 64");
+}
+
+TEST_F(RecordCall, RefusesImagesOfOtherFormats) {
+  info_.colour.format = VK_FORMAT_R8G8B8A8_UNORM;
+  expectResult(FROTH_ERROR_ARGUMENT, "colour.format: VkFormat 37");
+  info_.colour.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  info_.distance = info_.colour;
+  expectResult(FROTH_ERROR_ARGUMENT, "distance.format");
+  info_.distance = {};
+  info_.colour.view = VK_NULL_HANDLE;
+  expectResult(FROTH_ERROR_ARGUMENT, "colour.view: null");
+  info_.colour = {};
+  expectResult(FROTH_ERROR_ARGUMENT, "all null");
+}
+
+TEST_F(RecordCall, RefusesALayoutToLeaveTheImageInThatIsNone) {
+  info_.colour.layoutOut = VK_IMAGE_LAYOUT_UNDEFINED;
+  expectResult(FROTH_ERROR_ARGUMENT, "colour.layoutOut");
+}
+
+TEST_F(RecordCall, RefusesLimitsOutOfTheirRange) {
+  const FrothRenderInfo good = info_;
+  info_.cutoff = 1;
+  expectResult(FROTH_ERROR_ARGUMENT, "cutoff: 1");
+  info_ = good;
+  info_.cutoff = std::nanf("");
+  expectResult(FROTH_ERROR_ARGUMENT, "cutoff");
+  info_ = good;
+  info_.depthQuantile = -0.5f;
+  expectResult(FROTH_ERROR_ARGUMENT, "depthQuantile: -0.5");
+  info_ = good;
+  info_.nearRatio = -3;
+  expectResult(FROTH_ERROR_ARGUMENT, "nearDepth: -3");
+}
+
+TEST_F(RecordCall, RefusesSeveralReadyInstances) {
+  const FrothAsset asset = openBytes(encodeSample());
+  createInstance(asset);
+  createInstance(asset);
+  ASSERT_EQ(update(++serial_), FROTH_OK);
+  ASSERT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
+  expectResult(FROTH_ERROR_UNSUPPORTED, "2 instances are ready");
+}
+
+class RecordCallOnDevice : public RuntimeGpuTest {
+ protected:
+  void SetUp() override {
+    RuntimeGpuTest::SetUp();
+    FrothContextInfo info = host_->contextInfo();
+    info.checkIndices = 1;
+    createContext(info);
+    Result<HostImage> image = host_->createImage(VK_FORMAT_R16G16B16A16_SFLOAT, {16, 16});
+    ASSERT_TRUE(image) << image.error().message;
+    image_ = *image;
+    view_ = createView({16, 16});
+  }
+
+  void TearDown() override {
+    host_->destroyImage(image_);
+    RuntimeGpuTest::TearDown();
+  }
+
+  FrothRenderInfo renderInfo() const {
+    auto info = makeStruct<FrothRenderInfo>();
+    info.camera = makeCamera(16, 16);
+    info.colour = host_->describe(image_);
+    return info;
+  }
+
+  // A frame that draws; returns what the call said.
+  FrothResult drawFrame(uint64_t uploadBytes = 0) {
+    const FrothRenderInfo info = renderInfo();
+    FrothResult result = FROTH_RESULT_MAX;
+    runFrame(uploadBytes,
+             [&](VkCommandBuffer commands) { result = frothRasterize(context_, view_, commands, &info); });
+    return result;
+  }
+
+  HostImage image_;
+  FrothView view_{};
+};
+
+TEST_F(RecordCallOnDevice, ClearsTheImageWhileTheAssetIsNotReadyAndSaysSo) {
+  const FrothAsset asset = openBytes(encodeSample());
+  createInstance(asset);
+  EXPECT_EQ(drawFrame(100), FROTH_INCOMPLETE);
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_OPENING);
+  const Result<std::vector<float>> texels = host_->readImage(image_);
+  ASSERT_TRUE(texels) << texels.error().message;
+  EXPECT_THAT(*texels, ::testing::Each(0.0f));
+
+  EXPECT_EQ(drawFrame(), FROTH_OK) << "the rest is uploaded and drawn in the same frame";
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
+  auto status = makeStruct<FrothViewStatus>();
+  EXPECT_EQ(drawFrame(), FROTH_OK);
+  ASSERT_EQ(frothGetViewStatus(context_, view_, &status), FROTH_OK);
+  EXPECT_EQ(status.bits & FROTH_VIEW_NOT_READY, 0u);
+  EXPECT_EQ(status.indexViolations, 0u);
+}
+
+TEST_F(RecordCallOnDevice, KeepsTheBitOfAnIncompleteFrameInItsStatus) {
+  createInstance(openBytes(encodeSample()));
+  EXPECT_EQ(drawFrame(100), FROTH_INCOMPLETE);
+  const uint64_t incompleteSerial = host_->nextSerial() - 1;
+  runFrame(100);
+  auto status = makeStruct<FrothViewStatus>();
+  ASSERT_EQ(frothGetViewStatus(context_, view_, &status), FROTH_OK);
+  EXPECT_EQ(status.serial, incompleteSerial);
+  EXPECT_EQ(status.bits, static_cast<uint32_t>(FROTH_VIEW_NOT_READY));
+}
+
+TEST_F(RecordCallOnDevice, LeavesOutAnInstanceThatCameAfterTheUpdate) {
+  const FrothAsset asset = openBytes(encodeSample());
+  runFrame();
+  ASSERT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
+  const FrothRenderInfo info = renderInfo();
+  FrothResult result = FROTH_RESULT_MAX;
+  runFrame(0, [&](VkCommandBuffer commands) {
+    createInstance(asset);
+    result = frothRasterize(context_, view_, commands, &info);
+  });
+  EXPECT_EQ(result, FROTH_INCOMPLETE);
+  EXPECT_EQ(drawFrame(), FROTH_OK);
+}
+
+TEST_F(RecordCallOnDevice, DrawsAViewOnceInAFrame) {
+  const FrothRenderInfo info = renderInfo();
+  runFrame(0, [&](VkCommandBuffer commands) {
+    EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_OK);
+    EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_ERROR_STATE);
+    EXPECT_EQ(frothWalk(context_, view_, commands, &info), FROTH_OK);
+    EXPECT_EQ(frothRasterize(context_, view_, nullptr, &info), FROTH_ERROR_STATE);
+  });
+}
+
+TEST_F(RecordCallOnDevice, SurvivesClosingAndDestroyingWhatTheFrameUses) {
+  const FrothAsset asset = openBytes(encodeSample());
+  const FrothInstance instance = createInstance(asset);
+  runFrame();
+  const FrothRenderInfo info = renderInfo();
+  runFrame(0, [&](VkCommandBuffer commands) {
+    EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_OK);
+    EXPECT_EQ(frothDestroyInstance(context_, instance), FROTH_OK);
+    EXPECT_EQ(frothCloseAsset(context_, asset), FROTH_OK);
+    EXPECT_EQ(frothDestroyView(context_, view_), FROTH_OK);
+  });
+  auto frame = makeStruct<FrothFrame>();
+  frame.serial = host_->nextSerial();
+  frame.completedSerial = frame.serial - 1;
+  auto status = makeStruct<FrothFrameStatus>();
+  ASSERT_EQ(frothUpdate(context_, &frame, &status), FROTH_OK);
+  EXPECT_EQ(status.deviceBytes, 0u) << "all memory is back once the frame is complete";
+}
+
+}  // namespace
+}  // namespace froth

@@ -1,0 +1,238 @@
+// What arrives on the GPU, seen from the inside: the arrays of a loaded asset are those of its file.
+#include "runtime/core/context.h"
+#include "runtime_fixture.h"
+
+namespace froth {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class Upload : public RuntimeGpuTest {
+ protected:
+  // A device as the context has one, for read-back.
+  Device device() {
+    Result<Device> device =
+        Device::create(vkGetInstanceProcAddr, host_->instance, host_->physicalDevice, host_->device);
+    EXPECT_TRUE(device);
+    return *device;
+  }
+
+  template <class T>
+  void expectOnGpu(const Asset& asset, VkDeviceAddress address, const std::vector<T>& expected,
+                   const char* name) {
+    if (expected.empty()) {
+      EXPECT_EQ(address, 0u) << name;
+      return;
+    }
+    const auto buffers = asset.buffers();
+    const auto source = std::find_if(buffers.begin(), buffers.end(),
+                                     [&](const GpuBuffer& buffer) { return buffer.address == address; });
+    ASSERT_NE(source, buffers.end()) << name;
+    ASSERT_EQ(source->size, expected.size() * sizeof(T)) << name;
+    Device reader = device();
+    Result<GpuBuffer> copy = reader.createBuffer(BufferKind::kReadback, source->size, "read-back");
+    ASSERT_TRUE(copy) << copy.error().message;
+    const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) {
+      const VkBufferCopy region{0, 0, source->size};
+      vkCmdCopyBuffer(commands, source->buffer, copy->buffer, 1, &region);
+      return Status();
+    });
+    EXPECT_TRUE(status);
+    EXPECT_EQ(std::memcmp(copy->mapped, expected.data(), source->size), 0) << name;
+    reader.destroyBuffer(*copy);
+  }
+
+  void expectContentsOnGpu(FrothAsset handle, const AssetContents& contents) {
+    const Asset* asset = context_->findAsset(handle);
+    ASSERT_EQ(asset->gpu().chunks.size(), contents.chunks.size());
+    for (size_t c = 0; c < contents.chunks.size(); ++c) {
+      const ChunkContents& chunk = contents.chunks[c];
+      const GpuChunk& gpu = asset->gpu().chunks[c];
+      EXPECT_EQ(gpu.origin, chunk.origin);
+      EXPECT_EQ(gpu.cellCount, chunk.cellCount);
+      EXPECT_EQ(gpu.liveCount, chunk.liveCount);
+      EXPECT_EQ(gpu.neighbourCount, chunk.neighbours.size());
+      std::vector<glm::vec4> siteRadius;
+      for (size_t i = 0; i < chunk.sites.size(); ++i) siteRadius.emplace_back(chunk.sites[i], chunk.radii[i]);
+      expectOnGpu(*asset, gpu.siteRadius, siteRadius, "siteRadius");
+      expectOnGpu(*asset, gpu.neighbourOffsets, chunk.neighbourOffsets, "neighbourOffsets");
+      expectOnGpu(*asset, gpu.neighbours, chunk.neighbours, "neighbours");
+      expectOnGpu(*asset, gpu.alphaCounts, chunk.alphaCounts, "alphaCounts");
+      expectOnGpu(*asset, gpu.densities, chunk.densities, "densities");
+      expectOnGpu(*asset, gpu.orientations, chunk.orientations, "orientations");
+      expectOnGpu(*asset, gpu.detailSites, chunk.detailSites, "detailSites");
+      expectOnGpu(*asset, gpu.detailHeights, chunk.detailHeights, "detailHeights");
+      expectOnGpu(*asset, gpu.lobeAxes, chunk.lobeAxes, "lobeAxes");
+      expectOnGpu(*asset, gpu.lobeColours, chunk.lobeColours, "lobeColours");
+    }
+  }
+
+  // Records a frame and does not submit it.
+  void dropFrame(uint64_t uploadBytes) {
+    const uint64_t serial = host_->nextSerial();
+    ASSERT_EQ(update(serial, uploadBytes), FROTH_OK);
+    const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) -> Status {
+      EXPECT_EQ(frothRecordUpload(context_, commands), FROTH_OK);
+      return makeError(ErrorKind::kCancelled, "dropped");
+    });
+    ASSERT_FALSE(status);
+    ASSERT_EQ(frothDropFrame(context_, serial), FROTH_OK) << lastText();
+  }
+};
+
+TEST_F(Upload, InOneFrameGivesTheContents) {
+  createContext(host_->contextInfo());
+  const FrothAsset asset = openBytes(encodeSample());
+  runFrame();
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
+  EXPECT_GT(statusOf(asset).deviceBytes, 0u);
+  expectContentsOnGpu(asset, makeSampleAsset());
+}
+
+TEST_F(Upload, WithoutHeightsAllocatesNothingForThem) {
+  createContext(host_->contextInfo());
+  const FrothAsset asset = openBytes(encodeSample({.hasHeights = false}));
+  runFrame();
+  EXPECT_FALSE(context_->findAsset(asset)->gpu().hasHeights);
+  expectContentsOnGpu(asset, makeSampleAsset({.hasHeights = false}));
+}
+
+TEST_F(Upload, InPiecesWithADroppedFrameAmongThemGivesTheContents) {
+  createContext(host_->contextInfo());
+  const SampleOptions options{.chunkCount = 3, .cellsPerChunk = 12, .localBits = 16, .detailCount = 3};
+  const FrothAsset asset = openBytes(encodeSample(options));
+  constexpr uint64_t kPiece = 611;  // no divisor of anything
+  int frames = 0;
+  while (statusOf(asset).state == FROTH_ASSET_OPENING && frames < 200) {
+    if (++frames % 4 == 0) {
+      dropFrame(kPiece);
+      EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_OPENING) << "what was dropped is not uploaded";
+    } else {
+      runFrame(kPiece);
+    }
+  }
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
+  EXPECT_GT(frames, 10);
+  expectContentsOnGpu(asset, makeSampleAsset(options));
+}
+
+TEST_F(Upload, DroppedAtTheEndTakesTheAssetBackToOpening) {
+  createContext(host_->contextInfo());
+  const FrothAsset asset = openBytes(encodeSample());
+  dropFrame(0);
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_OPENING);
+  runFrame(100);  // smaller pieces than before
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_OPENING);
+  runFrame();
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
+  expectContentsOnGpu(asset, makeSampleAsset());
+}
+
+TEST_F(Upload, IsReportedInBytes) {
+  createContext(host_->contextInfo());
+  const FrothAsset asset = openBytes(encodeSample());
+  runFrame(300);
+  auto frame = makeStruct<FrothFrame>();
+  frame.serial = host_->nextSerial();
+  frame.completedSerial = frame.serial - 1;
+  auto status = makeStruct<FrothFrameStatus>();
+  ASSERT_EQ(frothUpdate(context_, &frame, &status), FROTH_OK);
+  uint64_t size = 0;
+  for (const GpuBuffer& buffer : context_->findAsset(asset)->buffers()) size += buffer.size;
+  EXPECT_EQ(status.uploadBytesQueued, size - 300);
+  EXPECT_EQ(status.assetsOpening, 1u);
+  EXPECT_EQ(status.deviceBytes, statusOf(asset).deviceBytes);
+  EXPECT_GE(status.hostBytes, 1u << 20);
+}
+
+TEST_F(Upload, BeyondTheBudgetFailsWithNumbersAndGivesTheMemoryBack) {
+  FrothContextInfo info = host_->contextInfo();
+  info.deviceBudget = 1000;
+  createContext(info);
+  const FrothAsset asset = openBytes(encodeSample({.cellsPerChunk = 12}));
+  runFrame();
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_FAILED);
+  EXPECT_EQ(statusOf(asset).error, FROTH_ERROR_MEMORY);
+  ASSERT_EQ(messages_.size(), 1u);
+  EXPECT_THAT(messages_[0].text, HasSubstr("chunk 0, array '"));
+  EXPECT_THAT(messages_[0].text,
+              HasSubstr("of 1000 bytes are in use; raise FrothContextInfo::deviceBudget by"));
+  runFrame();
+  auto frame = makeStruct<FrothFrame>();
+  frame.serial = host_->nextSerial();
+  frame.completedSerial = frame.serial - 1;
+  auto status = makeStruct<FrothFrameStatus>();
+  ASSERT_EQ(frothUpdate(context_, &frame, &status), FROTH_OK);
+  EXPECT_EQ(status.deviceBytes, 0u);
+  EXPECT_EQ(messages_.size(), 1u) << "once, not in every frame";
+}
+
+TEST_F(Upload, OfAnAssetThatIsClosedHalfwayStopsAndLeavesTheOther) {
+  createContext(host_->contextInfo());
+  const FrothAsset first = openBytes(encodeSample());
+  const FrothAsset second = openBytes(encodeSample());
+  runFrame(500);
+  dropFrame(500);  // has copies of the first that would be recorded again
+  ASSERT_EQ(frothCloseAsset(context_, first), FROTH_OK);
+  runFrame();
+  EXPECT_EQ(statusOf(second).state, FROTH_ASSET_READY);
+  expectContentsOnGpu(second, makeSampleAsset());
+}
+
+TEST_F(Upload, ThroughASmallRingWrapsAround) {
+  Device gpu = device();
+  Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(gpu, 1000);
+  Result<GpuBuffer> target = gpu.createBuffer(BufferKind::kReadback, 4096, "target");
+  ASSERT_TRUE(ring && target);
+  std::vector<uint8_t> bytes(4096);
+  for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<uint8_t>(i * 7 + i / 256);
+  VkDeviceSize staged = 0;
+  while (staged < bytes.size()) {
+    const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t serial) {
+      (*ring)->retire(serial - 1);
+      const VkDeviceSize piece = std::min<VkDeviceSize>(700, bytes.size() - staged);
+      EXPECT_EQ((*ring)->stage(this, target->buffer, staged, bytes.data() + staged, piece), piece);
+      EXPECT_EQ((*ring)->record(commands, serial, UINT64_MAX), piece);
+      staged += piece;
+      return Status();
+    });
+    ASSERT_TRUE(status);
+  }
+  EXPECT_EQ(std::memcmp(target->mapped, bytes.data(), bytes.size()), 0);
+  gpu.destroyBuffer(*target);
+}
+
+TEST_F(Upload, TakesNothingIntoAFullRingBeforeAFrameIsComplete) {
+  Device gpu = device();
+  Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(gpu, 1000);
+  Result<GpuBuffer> target = gpu.createBuffer(BufferKind::kDevice, 4096, "target");
+  ASSERT_TRUE(ring && target);
+  const std::vector<uint8_t> bytes(4096);
+  EXPECT_EQ((*ring)->stage(this, target->buffer, 0, bytes.data(), 4096), 1000u);
+  EXPECT_TRUE((*ring)->isStaged(this));
+  (*ring)->retire(UINT64_MAX - 1);
+  EXPECT_EQ((*ring)->stage(this, target->buffer, 1000, bytes.data(), 1), 0u) << "staged, not yet recorded";
+  ASSERT_TRUE(host_->submit([&](VkCommandBuffer commands, uint64_t) {
+    EXPECT_EQ((*ring)->record(commands, 7, UINT64_MAX), 1000u);
+    return Status();
+  }));
+  EXPECT_FALSE((*ring)->isStaged(this));
+  (*ring)->retire(6);
+  EXPECT_EQ((*ring)->stage(this, target->buffer, 1000, bytes.data(), 1), 0u) << "recorded, not yet complete";
+  (*ring)->retire(7);
+  EXPECT_EQ((*ring)->stage(this, target->buffer, 1000, bytes.data(), 4096), 1000u);
+  gpu.destroyBuffer(*target);
+}
+
+TEST_F(Upload, BufferLargerThanTheDeviceAllowsIsRefusedWithNumbers) {
+  Device gpu = device();
+  const Result<GpuBuffer> buffer =
+      gpu.createBuffer(BufferKind::kDevice, gpu.maxAllocationSize + 1, "lobe axes");
+  ASSERT_FALSE(buffer);
+  EXPECT_THAT(buffer.error().message, HasSubstr("lobe axes"));
+  EXPECT_THAT(buffer.error().message, HasSubstr(std::to_string(gpu.maxAllocationSize)));
+}
+
+}  // namespace
+}  // namespace froth
