@@ -13,13 +13,13 @@ float activate(float raw) {
   return static_cast<float>(softplus(raw));
 }
 
-TEST(Softplus, isTheIdentityFromAFifthOn) {
+TEST(Softplus, IsTheIdentityFromAFifthOn) {
   EXPECT_EQ(softplus(0.21), 0.21);
   EXPECT_GT(softplus(0.19), 0.19);
   EXPECT_NEAR(softplus(0.19), 0.19, 1e-10);
 }
 
-TEST(InverseSoftplus, comesBackToTheSameFloatWhereAFloatLeadsThere) {
+TEST(InverseSoftplus, ComesBackToTheSameFloatWhereAFloatLeadsThere) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> raw(-0.9f, 0.5f);
   for (int i = 0; i < 100'000; ++i) {
@@ -28,7 +28,7 @@ TEST(InverseSoftplus, comesBackToTheSameFloatWhereAFloatLeadsThere) {
   }
 }
 
-TEST(InverseSoftplus, comesBackToAnyFloatFromAHundredthOn) {
+TEST(InverseSoftplus, ComesBackToAnyFloatFromAHundredthOn) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> exponent(-2, 20);
   for (int i = 0; i < 100'000; ++i) {
@@ -37,7 +37,7 @@ TEST(InverseSoftplus, comesBackToAnyFloatFromAHundredthOn) {
   }
 }
 
-TEST(InverseSoftplus, staysWithinTheStepsOfFloatForTinyValues) {
+TEST(InverseSoftplus, StaysWithinTheStepsOfFloatForTinyValues) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> exponent(-37, -2);
   for (int i = 0; i < 100'000; ++i) {
@@ -48,13 +48,13 @@ TEST(InverseSoftplus, staysWithinTheStepsOfFloatForTinyValues) {
   }
 }
 
-TEST(InverseSoftplus, keepsZeroExactly) {
+TEST(InverseSoftplus, KeepsZeroExactly) {
   EXPECT_EQ(activate(inverseSoftplus(0)), 0.0f);
   EXPECT_EQ(std::exp(100 * inverseSoftplus(0)), 0.0f) << "and so in float arithmetic";
   EXPECT_GT(activate(inverseSoftplus(std::numeric_limits<float>::denorm_min())), 0.0f);
 }
 
-TEST(NormaliseQuaternion, changesNoBitOfWhatItNormalised) {
+TEST(NormaliseQuaternion, ChangesNoBitOfWhatItNormalised) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> component(-3, 3);
   for (int i = 0; i < 100'000; ++i) {

@@ -61,7 +61,7 @@ class ExportCheckpoint : public testing::Test {
   const std::filesystem::path path_ = folder_ / "model.pt";
 };
 
-TEST_F(ExportCheckpoint, writesWhatTheImporterReadsBackBitByBit) {
+TEST_F(ExportCheckpoint, WritesWhatTheImporterReadsBackBitByBit) {
   for (const auto& [details, lobes] : {std::pair{1u, 1u}, {8u, 8u}, {3u, 2u}}) {
     const Foam foam = randomFoam(50, details, lobes);
     const Status written = exportCheckpoint(path_, foam);
@@ -72,7 +72,7 @@ TEST_F(ExportCheckpoint, writesWhatTheImporterReadsBackBitByBit) {
   }
 }
 
-TEST_F(ExportCheckpoint, givesTheSameBytesForTheSameFoam) {
+TEST_F(ExportCheckpoint, GivesTheSameBytesForTheSameFoam) {
   const Foam foam = randomFoam(20, 2, 2);
   ASSERT_TRUE(exportCheckpoint(path_, foam));
   const std::string first = readAll(path_);
@@ -80,7 +80,7 @@ TEST_F(ExportCheckpoint, givesTheSameBytesForTheSameFoam) {
   EXPECT_TRUE(readAll(path_) == first);
 }
 
-TEST_F(ExportCheckpoint, storesTheCechGraphOfTheSpheres) {
+TEST_F(ExportCheckpoint, StoresTheCechGraphOfTheSpheres) {
   const Foam foam = randomFoam(50, 1, 1);
   ASSERT_TRUE(exportCheckpoint(path_, foam));
   const std::string bytes = readAll(path_);
@@ -97,7 +97,7 @@ TEST_F(ExportCheckpoint, storesTheCechGraphOfTheSpheres) {
   EXPECT_TRUE(holds("model/data/9", expected.offsets));
 }
 
-TEST_F(ExportCheckpoint, refusesFoamsThatCouldNotBeReadBack) {
+TEST_F(ExportCheckpoint, RefusesFoamsThatCouldNotBeReadBack) {
   const auto refuse = [&](void (*spoil)(Foam&), const char* part) {
     Foam foam = randomFoam(4, 1, 1);
     spoil(foam);
@@ -114,7 +114,7 @@ TEST_F(ExportCheckpoint, refusesFoamsThatCouldNotBeReadBack) {
   EXPECT_TRUE(filesInFolder().empty());
 }
 
-TEST_F(ExportCheckpoint, leavesTheOldFileAndNoOtherWhenStopped) {
+TEST_F(ExportCheckpoint, LeavesTheOldFileAndNoOtherWhenStopped) {
   std::ofstream(path_) << "old";
   const Status status = exportCheckpoint(path_, randomFoam(4, 1, 1), [](auto, auto, auto) { return false; });
   ASSERT_FALSE(status);
@@ -123,7 +123,7 @@ TEST_F(ExportCheckpoint, leavesTheOldFileAndNoOtherWhenStopped) {
   EXPECT_THAT(filesInFolder(), testing::ElementsAre("model.pt"));
 }
 
-TEST_F(ExportCheckpoint, saysWhereItCannotWrite) {
+TEST_F(ExportCheckpoint, SaysWhereItCannotWrite) {
   const Status status = exportCheckpoint(folder_ / "missing" / "model.pt", randomFoam(1, 1, 1));
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().kind, ErrorKind::kIo);
@@ -131,7 +131,7 @@ TEST_F(ExportCheckpoint, saysWhereItCannotWrite) {
   EXPECT_FALSE(exportCheckpoint(folder_, randomFoam(1, 1, 1))) << "a directory";
 }
 
-TEST(ZipWriter, putsLargeMembersIntoZip64RecordsThatTheReaderReads) {
+TEST(ZipWriter, PutsLargeMembersIntoZip64RecordsThatTheReaderReads) {
   std::string bytes;
   const auto sink = [&](std::span<const uint8_t> piece) {
     bytes.append(piece.begin(), piece.end());
@@ -152,7 +152,7 @@ TEST(ZipWriter, putsLargeMembersIntoZip64RecordsThatTheReaderReads) {
   }
 }
 
-TEST(ZipWriter, passesTheSinksErrorOn) {
+TEST(ZipWriter, PassesTheSinksErrorOn) {
   ZipWriter writer([](std::span<const uint8_t>) -> Status { return Error{ErrorKind::kIo, "disk full"}; });
   const Status status = writer.add("a", "bytes");
   ASSERT_FALSE(status);

@@ -8,7 +8,7 @@
 namespace froth {
 namespace {
 
-TEST(HostileArchive, isRefusedAtEveryLengthButItsOwn) {
+TEST(HostileArchive, IsRefusedAtEveryLengthButItsOwn) {
   const std::string bytes = buildCheckpoint(sampleCheckpoint(1, 1, 1));
   for (size_t length = 0; length < bytes.size(); ++length) {
     ASSERT_FALSE(importBytes(bytes.substr(0, length))) << length;
@@ -16,7 +16,7 @@ TEST(HostileArchive, isRefusedAtEveryLengthButItsOwn) {
   EXPECT_TRUE(importBytes(bytes));
 }
 
-TEST(HostileArchive, givesAnErrorOrTheSameFoamWhicheverBitIsFlipped) {
+TEST(HostileArchive, GivesAnErrorOrTheSameFoamWhicheverBitIsFlipped) {
   std::string bytes = buildCheckpoint(sampleCheckpoint(1, 1, 1));
   const Result<Foam> original = importBytes(bytes);
   ASSERT_TRUE(original);
@@ -32,14 +32,14 @@ TEST(HostileArchive, givesAnErrorOrTheSameFoamWhicheverBitIsFlipped) {
   }
 }
 
-TEST(HostileArchive, noticesAFlippedBitInAStorage) {
+TEST(HostileArchive, NoticesAFlippedBitInAStorage) {
   std::string bytes = buildCheckpoint(sampleCheckpoint());
   const size_t place = bytes.find("model/data/points") + 20;
   bytes[place] = static_cast<char>(bytes[place] ^ 1);
   expectRefusal(importBytes(bytes), "member 'model/data/points' is damaged");
 }
 
-TEST(HostileArchive, isRefusedWithItsCauseInTheMessage) {
+TEST(HostileArchive, IsRefusedWithItsCauseInTheMessage) {
   const auto refuse = [](void (*spoil)(std::vector<ZipEntrySpec>&), const char* part) {
     std::vector<ZipEntrySpec> entries = zipEntries(sampleCheckpoint());
     spoil(entries);
@@ -63,13 +63,13 @@ TEST(HostileArchive, isRefusedWithItsCauseInTheMessage) {
   refuse([](Entries e) { e.clear(); }, "without data.pkl");
 }
 
-TEST(HostileArchive, mayNotClaimMoreMembersThanItsDirectoryHolds) {
+TEST(HostileArchive, MayNotClaimMoreMembersThanItsDirectoryHolds) {
   std::string bytes = buildCheckpoint(sampleCheckpoint());
   bytes.replace(bytes.size() - 12, 2, packNumber(uint16_t{60000}));
   expectRefusal(importBytes(bytes), "cannot hold 60000 members");
 }
 
-TEST(HostileArchive, mayNotPointItsZip64RecordsOutOfTheFile) {
+TEST(HostileArchive, MayNotPointItsZip64RecordsOutOfTheFile) {
   std::string bytes = buildZip(zipEntries(sampleCheckpoint()), /*isZip64=*/true);
   const size_t record = bytes.rfind("PK\x06\x06"), locator = bytes.rfind("PK\x06\x07");
   for (const uint64_t value : {~uint64_t{0}, ~uint64_t{0} - 40, uint64_t{1} << 40}) {
@@ -85,7 +85,7 @@ TEST(HostileArchive, mayNotPointItsZip64RecordsOutOfTheFile) {
   }
 }
 
-TEST(HostileTensor, isRefusedWhenItLeavesItsStorage) {
+TEST(HostileTensor, IsRefusedWhenItLeavesItsStorage) {
   constexpr int64_t kHuge = 1'000'000'000'000, kLargest = std::numeric_limits<int64_t>::max();
   const auto refuse = [](void (*spoil)(TensorSpec&), const char* part) {
     CheckpointSpec checkpoint = sampleCheckpoint();
@@ -109,7 +109,7 @@ TEST(HostileTensor, isRefusedWhenItLeavesItsStorage) {
   refuse([](TensorSpec& t) { t.shape = t.strides = std::vector<int64_t>(9, 1); }, "at most 8");
 }
 
-TEST(HostileTensor, mayNotExpandASmallFileToAHugeFoam) {
+TEST(HostileTensor, MayNotExpandASmallFileToAHugeFoam) {
   CheckpointSpec checkpoint = sampleCheckpoint(1, 1, 1);
   for (auto& [key, tensor] : checkpoint.tensors) {
     tensor.shape[0] = 1'000'000;
@@ -122,7 +122,7 @@ TEST(HostileTensor, mayNotExpandASmallFileToAHugeFoam) {
   expectRefusal(importSpec(checkpoint), "[1000000000000, 3]");
 }
 
-TEST(HostileTensor, isRefusedWhenItsShapeDoesNotFitTheOthers) {
+TEST(HostileTensor, IsRefusedWhenItsShapeDoesNotFitTheOthers) {
   const auto refuse = [](const char* key, const std::vector<int64_t>& shape, const char* part) {
     CheckpointSpec checkpoint = sampleCheckpoint(2, 3, 2);
     checkpoint.tensor(key).shape = shape;
@@ -144,7 +144,7 @@ TEST(HostileTensor, isRefusedWhenItsShapeDoesNotFitTheOthers) {
   refuse("texel_height", {2, 2}, "'texel_height' has shape [2, 2]");
 }
 
-TEST(HostileTensor, isNamedWithItsCellWhenAValueIsNotFinite) {
+TEST(HostileTensor, IsNamedWithItsCellWhenAValueIsNotFinite) {
   for (const auto& [key, spec] : sampleCheckpoint(2, 3, 2).tensors) {
     for (const float value : {NAN, INFINITY, -INFINITY}) {
       SCOPED_TRACE(testing::Message() << key << " " << value);
@@ -157,7 +157,7 @@ TEST(HostileTensor, isNamedWithItsCellWhenAValueIsNotFinite) {
   }
 }
 
-TEST(HostileTensor, isNamedWithItsCellWhenADoubleDoesNotFitIntoAFloat) {
+TEST(HostileTensor, IsNamedWithItsCellWhenADoubleDoesNotFitIntoAFloat) {
   CheckpointSpec checkpoint = sampleCheckpoint(2, 1, 1);
   checkpoint.tensor("quaternions").storageClass = "DoubleStorage";
   checkpoint.storages["quaternions"] = packNumbers<double>({1, 0, 0, 0, 1e300, 0, 0, 0});
@@ -168,13 +168,13 @@ TEST(HostileTensor, isNamedWithItsCellWhenADoubleDoesNotFitIntoAFloat) {
   expectRefusal(importSpec(checkpoint), "tensor 'points': cell 1 of 2 holds -inf");
 }
 
-TEST(HostileTensor, isNamedWithItsCellWhenARadiusVanishes) {
+TEST(HostileTensor, IsNamedWithItsCellWhenARadiusVanishes) {
   CheckpointSpec checkpoint = sampleCheckpoint(3, 1, 1);
   checkpoint.setFloats("radii", {3}, {1, 1, -3});
   expectRefusal(importSpec(checkpoint), "tensor 'radii': cell 2 has the raw value -3, which activates to 0");
 }
 
-TEST(HostileTensor, isNamedWithItsCellWhenAQuaternionHasNoLength) {
+TEST(HostileTensor, IsNamedWithItsCellWhenAQuaternionHasNoLength) {
   CheckpointSpec checkpoint = sampleCheckpoint(2, 1, 1);
   checkpoint.setFloats("quaternions", {2, 4}, {1, 0, 0, 0, 0, 0, 0, 0});
   expectRefusal(importSpec(checkpoint), "the quaternion of cell 1 has length 0");

@@ -18,7 +18,7 @@ Result<Foam> importPickle(const std::string& pickle) {
   return importSpec(checkpoint);
 }
 
-TEST(HostilePickle, mayNotCallTheSystem) {
+TEST(HostilePickle, MayNotCallTheSystem) {
   const std::string call = pickleTuple({pickleText("touch owned")});
   expectRefusal(importPickle(pickleProgram(pickleCall(pickleGlobal("posix", "system"), call))),
                 "data.pkl: byte 2: the pickle wants to call 'system' of module 'posix'");
@@ -29,7 +29,7 @@ TEST(HostilePickle, mayNotCallTheSystem) {
   }
 }
 
-TEST(HostilePickle, mayNotCallEvenWhatTorchOffersBeyondTensors) {
+TEST(HostilePickle, MayNotCallEvenWhatTorchOffersBeyondTensors) {
   for (const auto& [module, name] : {std::pair{"torch.storage", "_load_from_bytes"},
                                      {"torch._utils", "_rebuild_tensor"},
                                      {"torch._utils", "_rebuild_parameter"},
@@ -40,13 +40,13 @@ TEST(HostilePickle, mayNotCallEvenWhatTorchOffersBeyondTensors) {
   }
 }
 
-TEST(HostilePickle, mayNotShowControlCharactersInTheMessage) {
+TEST(HostilePickle, MayNotShowControlCharactersInTheMessage) {
   const Result<Foam> foam = importPickle(pickleProgram(pickleGlobal("\x1b[2J", std::string(10'000, 'x'))));
   expectRefusal(foam, "'?[2J'");
   EXPECT_LT(foam.error().message.size(), 500u);
 }
 
-TEST(HostilePickle, isRefusedByTheNameOfAnOpcodeThatADictOfTensorsNeverNeeds) {
+TEST(HostilePickle, IsRefusedByTheNameOfAnOpcodeThatADictOfTensorsNeverNeeds) {
   for (const auto& [opcode, name] : {std::pair{"b", "BUILD"},
                                      {"i", "INST"},
                                      {"o", "OBJ"},
@@ -58,20 +58,20 @@ TEST(HostilePickle, isRefusedByTheNameOfAnOpcodeThatADictOfTensorsNeverNeeds) {
   }
 }
 
-TEST(HostilePickle, isRefusedWhenItIsNoPickleOfProtocolTwoToFive) {
+TEST(HostilePickle, IsRefusedWhenItIsNoPickleOfProtocolTwoToFive) {
   for (const char* pickle : {"", "}.", "\x80\x01}.", "\x80\x06}.", "}\x80\x02."}) {
     expectRefusal(importPickle(pickle), "protocol");
   }
 }
 
-TEST(HostilePickle, isRefusedWhereItBreaksOff) {
+TEST(HostilePickle, IsRefusedWhereItBreaksOff) {
   const std::string whole = zipEntries(sampleCheckpoint(1, 1, 1))[0].bytes;
   for (size_t length = 0; length < whole.size(); ++length) {
     ASSERT_FALSE(importPickle(whole.substr(0, length))) << length;
   }
 }
 
-TEST(HostilePickle, isRefusedWhenItMisusesItsStack) {
+TEST(HostilePickle, IsRefusedWhenItMisusesItsStack) {
   for (const char* opcodes : {"R",
                               "t",
                               "u",
@@ -105,7 +105,7 @@ TEST(HostilePickle, isRefusedWhenItMisusesItsStack) {
   }
 }
 
-TEST(HostilePickle, isRefusedWhenItsResultIsNoDictOfTheTensors) {
+TEST(HostilePickle, IsRefusedWhenItsResultIsNoDictOfTheTensors) {
   expectRefusal(importPickle(pickleProgram("]")), "no dict");
   expectRefusal(importPickle(pickleProgram("")), "no dict");
   expectRefusal(importPickle(pickleProgram("}")), "lacks the tensors 'points', 'density', 'radii'");
@@ -116,7 +116,7 @@ TEST(HostilePickle, isRefusedWhenItsResultIsNoDictOfTheTensors) {
 }
 
 // Each of these would ruin an interpreter that recurses into its values or copies them.
-TEST(HostilePickle, mayNestAndShareItsValuesWithoutHarm) {
+TEST(HostilePickle, MayNestAndShareItsValuesWithoutHarm) {
   expectRefusal(importPickle(pickleProgram(join(")", repeat("\x85", 200'000)))), "no dict");  // ((((...
   expectRefusal(importPickle(pickleProgram(join("]", repeat("q\1h\1a", 40'000)))),
                 "no dict");  // a list in itself
@@ -127,11 +127,11 @@ TEST(HostilePickle, mayNestAndShareItsValuesWithoutHarm) {
   expectRefusal(importPickle(pickleProgram(repeat("(", 200'000))), "no dict");
 }
 
-TEST(HostilePickle, mayNotBeLargerThanAnyDictOfTensors) {
+TEST(HostilePickle, MayNotBeLargerThanAnyDictOfTensors) {
   expectRefusal(importPickle(pickleProgram(repeat("N", 300'000))), "300003 bytes");
 }
 
-TEST(HostilePickle, mayNotHoldIntegersBeyondSixtyFourBits) {
+TEST(HostilePickle, MayNotHoldIntegersBeyondSixtyFourBits) {
   expectRefusal(importPickle(pickleProgram("\x8a\x09" + std::string(9, '\1'))), "an integer of 9 bytes");
 }
 

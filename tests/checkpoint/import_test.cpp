@@ -6,7 +6,7 @@
 namespace froth {
 namespace {
 
-TEST(ImportCheckpoint, readsEveryTensorIntoItsPlace) {
+TEST(ImportCheckpoint, ReadsEveryTensorIntoItsPlace) {
   const Result<Foam> foam = importSpec(sampleCheckpoint());
   ASSERT_TRUE(foam) << foam.error().message;
   EXPECT_EQ(foam->cellCount, 2u);
@@ -22,7 +22,7 @@ TEST(ImportCheckpoint, readsEveryTensorIntoItsPlace) {
   EXPECT_EQ(foam->lobeColours[11], glm::vec3(-1 + 33 * step, -1 + 34 * step, -1 + 35 * step));
 }
 
-TEST(ImportCheckpoint, normalisesQuaternionsAndActivatesRadiiAndDensities) {
+TEST(ImportCheckpoint, NormalisesQuaternionsAndActivatesRadiiAndDensities) {
   CheckpointSpec checkpoint = sampleCheckpoint();
   checkpoint.setFloats("quaternions", {2, 4}, {0, 3, 0, -4, 0, 0, 2, 0});
   checkpoint.setFloats("radii", {2}, {0, 0.2001f});
@@ -37,7 +37,7 @@ TEST(ImportCheckpoint, normalisesQuaternionsAndActivatesRadiiAndDensities) {
   EXPECT_EQ(foam->densities[1], 0.0f);
 }
 
-TEST(ImportCheckpoint, readsLobesOfThreeAndOfFourDimensionsAlike) {
+TEST(ImportCheckpoint, ReadsLobesOfThreeAndOfFourDimensionsAlike) {
   CheckpointSpec checkpoint = sampleCheckpoint(2, 3, 2);
   const Result<Foam> flat = importSpec(checkpoint);
   for (const char* key : {"texel_sv_axis", "texel_sv_rgb"}) {
@@ -49,7 +49,7 @@ TEST(ImportCheckpoint, readsLobesOfThreeAndOfFourDimensionsAlike) {
   expectSameFoam(*flat, *nested);
 }
 
-TEST(ImportCheckpoint, followsStridesOfATransposedTensor) {
+TEST(ImportCheckpoint, FollowsStridesOfATransposedTensor) {
   CheckpointSpec checkpoint = sampleCheckpoint();
   checkpoint.setFloats("points", {2, 3}, {1, 4, 2, 5, 3, 6});
   checkpoint.tensor("points").strides = {1, 2};
@@ -59,7 +59,7 @@ TEST(ImportCheckpoint, followsStridesOfATransposedTensor) {
   EXPECT_EQ(foam->sites[1], glm::vec3(4, 5, 6));
 }
 
-TEST(ImportCheckpoint, readsTwoTensorsFromOneStorageByTheirOffsets) {
+TEST(ImportCheckpoint, ReadsTwoTensorsFromOneStorageByTheirOffsets) {
   CheckpointSpec checkpoint = sampleCheckpoint();
   checkpoint.storages["radii"] = packNumbers<float>({9, 1, 2, 3, 4});
   checkpoint.tensor("radii") = {"radii", 5, {2}, {1}, 1};
@@ -70,7 +70,7 @@ TEST(ImportCheckpoint, readsTwoTensorsFromOneStorageByTheirOffsets) {
   EXPECT_EQ(foam->densities, (std::vector<float>{3, 4}));
 }
 
-TEST(ImportCheckpoint, readsExpandedTensorsWhoseStridesAreZero) {
+TEST(ImportCheckpoint, ReadsExpandedTensorsWhoseStridesAreZero) {
   CheckpointSpec checkpoint = sampleCheckpoint();
   checkpoint.setFloats("texel_height", {2, 3}, {0.5f});
   checkpoint.tensor("texel_height").strides = {0, 0};
@@ -80,7 +80,7 @@ TEST(ImportCheckpoint, readsExpandedTensorsWhoseStridesAreZero) {
 }
 
 // Bit patterns of 1, -2, 0.5 and the smallest normal and subnormal number of each type.
-TEST(ImportCheckpoint, readsHalfBFloat16AndDouble) {
+TEST(ImportCheckpoint, ReadsHalfBFloat16AndDouble) {
   struct Case {
     const char* storageClass;
     std::string bytes;
@@ -108,14 +108,14 @@ TEST(ImportCheckpoint, readsHalfBFloat16AndDouble) {
   }
 }
 
-TEST(ImportCheckpoint, ignoresOtherKeysAndLeavesTheirTensorsUnread) {
+TEST(ImportCheckpoint, IgnoresOtherKeysAndLeavesTheirTensorsUnread) {
   CheckpointSpec checkpoint = sampleCheckpoint();
   checkpoint.tensor("adjacency") = {"storage that is not there", 7, {7}, {1}, 0, "IntStorage"};
   const Result<Foam> foam = importSpec(checkpoint);
   EXPECT_TRUE(foam) << foam.error().message;
 }
 
-TEST(ImportCheckpoint, findsThePickleUnderAnyFolder) {
+TEST(ImportCheckpoint, FindsThePickleUnderAnyFolder) {
   for (const char* prefix : {"", "archive/", "a/b/"}) {
     CheckpointSpec checkpoint = sampleCheckpoint();
     checkpoint.prefix = prefix;
@@ -124,12 +124,12 @@ TEST(ImportCheckpoint, findsThePickleUnderAnyFolder) {
   }
 }
 
-TEST(ImportCheckpoint, readsZip64Archives) {
+TEST(ImportCheckpoint, ReadsZip64Archives) {
   const Result<Foam> foam = importBytes(buildZip(zipEntries(sampleCheckpoint()), /*isZip64=*/true));
   EXPECT_TRUE(foam) << foam.error().message;
 }
 
-TEST(ImportCheckpoint, readsArchivesWithACommentBehind) {
+TEST(ImportCheckpoint, ReadsArchivesWithACommentBehind) {
   std::string bytes = buildCheckpoint(sampleCheckpoint());
   bytes.replace(bytes.size() - 2, 2, packNumber(uint16_t{4}) + "note");
   const Result<Foam> foam = importBytes(bytes);
@@ -138,7 +138,7 @@ TEST(ImportCheckpoint, readsArchivesWithACommentBehind) {
 
 // The same dict as protocol 4 spells it: frames, short strings, numbered memo, globals from the stack; and an
 // ordered dict.
-TEST(ImportCheckpoint, readsPicklesOfProtocolFour) {
+TEST(ImportCheckpoint, ReadsPicklesOfProtocolFour) {
   const auto shortText = [](const std::string& text) {
     return "\x8c" + std::string(1, static_cast<char>(text.size())) + text;
   };
@@ -161,7 +161,7 @@ TEST(ImportCheckpoint, readsPicklesOfProtocolFour) {
   EXPECT_TRUE(foam) << foam.error().message;
 }
 
-TEST(ImportCheckpoint, stopsWhenProgressSaysSo) {
+TEST(ImportCheckpoint, StopsWhenProgressSaysSo) {
   const std::string bytes = buildCheckpoint(sampleCheckpoint());
   uint64_t lastDone = 0, lastTotal = 0;
   const auto watch = [&](std::string_view, uint64_t done, uint64_t total) {
@@ -178,7 +178,7 @@ TEST(ImportCheckpoint, stopsWhenProgressSaysSo) {
   EXPECT_EQ(stopped.error().kind, ErrorKind::kCancelled);
 }
 
-TEST(ImportCheckpoint, refusesWhatIsNoRegularFile) {
+TEST(ImportCheckpoint, RefusesWhatIsNoRegularFile) {
   const std::string folder = testing::TempDir();
   for (const auto& [path, part] : {std::pair<std::string, std::string>{folder, "directory"},
                                    {folder + "/no such file.pt", "No such file"},

@@ -29,7 +29,7 @@ class PublishedFoam : public testing::Test {
   }
 };
 
-TEST_F(PublishedFoam, mikuPlushHasItsCellsDetailsAndLobes) {
+TEST_F(PublishedFoam, MikuPlushHasItsCellsDetailsAndLobes) {
   const Result<Foam> foam = importCheckpoint(find("miku_plush"));
   ASSERT_TRUE(foam) << foam.error().message;
   EXPECT_EQ(foam->cellCount, 39'999u);
@@ -43,7 +43,7 @@ TEST_F(PublishedFoam, mikuPlushHasItsCellsDetailsAndLobes) {
   EXPECT_EQ(foam->lobeColours.back().z, -0.21790830790996552f);
 }
 
-TEST_F(PublishedFoam, tankardRoughHasItsCellsDetailsAndLobes) {
+TEST_F(PublishedFoam, TankardRoughHasItsCellsDetailsAndLobes) {
   const Result<Foam> foam = importCheckpoint(find("tankard_rough"));
   ASSERT_TRUE(foam) << foam.error().message;
   EXPECT_EQ(foam->cellCount, 59'999u);
@@ -51,7 +51,7 @@ TEST_F(PublishedFoam, tankardRoughHasItsCellsDetailsAndLobes) {
   EXPECT_EQ(foam->lobeCount, 2u);
 }
 
-TEST_F(PublishedFoam, comesBackBitByBitFromItsExport) {
+TEST_F(PublishedFoam, ComesBackBitByBitFromItsExport) {
   const Result<Foam> foam = importCheckpoint(find("tankard_rough"));
   ASSERT_TRUE(foam) << foam.error().message;
   const std::filesystem::path copy = std::filesystem::path(testing::TempDir()) / "froth_tankard_rough.pt";
@@ -64,7 +64,7 @@ TEST_F(PublishedFoam, comesBackBitByBitFromItsExport) {
 
 // So that whatever loads the published files loads ours: the pickle of the same shapes is the same, byte for
 // byte.
-TEST_F(PublishedFoam, hasThePickleThatTheExporterWrites) {
+TEST_F(PublishedFoam, HasThePickleThatTheExporterWrites) {
   for (const char* name : {"miku_plush", "tankard_rough"}) {
     const Result<MappedFile> file = MappedFile::open(find(name));
     ASSERT_TRUE(file) << file.error().message;
@@ -83,7 +83,7 @@ TEST_F(PublishedFoam, hasThePickleThatTheExporterWrites) {
   }
 }
 
-TEST(MalformedFiles, ofOtherFormatsAreAllRefused) {
+TEST(MalformedFiles, OfOtherFormatsAreAllRefused) {
   const std::filesystem::path folder = dataFolder() / "malformed";
   if (!std::filesystem::exists(folder)) {
     GTEST_SKIP() << "no " << folder << " (set FROTH_DATA)";
