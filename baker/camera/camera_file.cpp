@@ -1,6 +1,7 @@
 // Reading and writing cameras.json (docs/CAMERAS.md).
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <initializer_list>
 
 #include "baker/camera/camera.h"
@@ -25,7 +26,7 @@ class FieldReader {
   void refuseOthers(std::initializer_list<const char*> known) {
     if (error_) return;
     for (const auto& [key, value] : object_.items()) {
-      const bool isKnown = std::any_of(known.begin(), known.end(), [&](const char* k) { return key == k; });
+      const bool isKnown = std::find(known.begin(), known.end(), key) != known.end();
       if (!isKnown)
         return fail(key.c_str(), "an unknown field",
                     "remove it, or check its spelling against docs/CAMERAS.md");
