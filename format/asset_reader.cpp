@@ -25,10 +25,12 @@ struct Source {
   std::span<const uint8_t> memory;  // if there is no file
 
   // A range of the bytes; `storage` holds them if they must be read.
-  Result<std::span<const uint8_t>> view(uint64_t offset, uint64_t length, std::vector<uint8_t>& storage) const {
+  Result<std::span<const uint8_t>> view(uint64_t offset, uint64_t length,
+                                        std::vector<uint8_t>& storage) const {
     if (offset > size || length > size - offset)
-      return makeError(ErrorKind::kBadInput, "%s: %llu bytes at byte %llu do not lie within the file's %llu; %s",
-                       name.c_str(), ull{length}, ull{offset}, ull{size}, kNoAsset);
+      return makeError(ErrorKind::kBadInput,
+                       "%s: %llu bytes at byte %llu do not lie within the file's %llu; %s", name.c_str(),
+                       ull{length}, ull{offset}, ull{size}, kNoAsset);
     if (!file) return memory.subspan(static_cast<size_t>(offset), static_cast<size_t>(length));
     storage.resize(static_cast<size_t>(length));
     if (Status status = file->readAt(offset, storage); !status) return status.error();
@@ -38,14 +40,18 @@ struct Source {
 
 Status checkHeader(const FileHeader& header, const Source& source) {
   const char* name = source.name.c_str();
-  if (header.magic != kFileMagic) return makeError(ErrorKind::kBadInput, "%s: wrong magic bytes; %s", name, kNoAsset);
-  if (!hashMatches({reinterpret_cast<const uint8_t*>(&header), offsetof(FileHeader, headerHash)}, header.headerHash))
+  if (header.magic != kFileMagic)
+    return makeError(ErrorKind::kBadInput, "%s: wrong magic bytes; %s", name, kNoAsset);
+  if (!hashMatches({reinterpret_cast<const uint8_t*>(&header), offsetof(FileHeader, headerHash)},
+                   header.headerHash))
     return makeError(ErrorKind::kBadInput, "%s: header: hash does not match; %s", name, kNoAsset);
   if (header.versionMajor != kVersionMajor)
-    return makeError(ErrorKind::kUnsupported, "%s: format version %u.%u, this program reads %u; update the older one",
-                     name, header.versionMajor, header.versionMinor, kVersionMajor);
+    return makeError(ErrorKind::kUnsupported,
+                     "%s: format version %u.%u, this program reads %u; update the older one", name,
+                     header.versionMajor, header.versionMinor, kVersionMajor);
   if (header.reserved0 != 0 || header.reserved1 != 0)
-    return makeError(ErrorKind::kUnsupported, "%s: header: reserved bytes are not zero; update this program", name);
+    return makeError(ErrorKind::kUnsupported, "%s: header: reserved bytes are not zero; update this program",
+                     name);
   if (header.fileSize != source.size)
     return makeError(ErrorKind::kBadInput, "%s: %llu bytes long, its header says %llu; copy it again", name,
                      ull{source.size}, ull{header.fileSize});
@@ -69,7 +75,8 @@ Result<Manifest> readManifest(const Source& source) {
   Result<std::span<const uint8_t>> bytes = source.view(header.manifestOffset, header.manifestSize, storage);
   if (!bytes) return bytes.error();
   if (!hashMatches(*bytes, header.manifestHash))
-    return makeError(ErrorKind::kBadInput, "%s: manifest: hash does not match; copy it again or bake the scene again",
+    return makeError(ErrorKind::kBadInput,
+                     "%s: manifest: hash does not match; copy it again or bake the scene again",
                      source.name.c_str());
   const std::vector<uint8_t> aligned(bytes->begin(), bytes->end());
   return parseManifest(aligned, header.manifestOffset + header.manifestSize, source.size, source.name);
@@ -92,7 +99,8 @@ class SectionReader {
     }
     // The manifest's check has tied rawSize to the counts, and so to a whole number of elements.
     array.resize(static_cast<size_t>(record->rawSize / sizeof(Element)));
-    status_ = decodeSection(*record, *stored, {reinterpret_cast<uint8_t*>(array.data()), array.size() * sizeof(Element)},
+    status_ = decodeSection(*record, *stored,
+                            {reinterpret_cast<uint8_t*>(array.data()), array.size() * sizeof(Element)},
                             sectionPlace(source_.name, chunk_, record->type));
   }
 
@@ -144,15 +152,19 @@ Result<AssetReader> AssetReader::openBytes(std::span<const uint8_t> bytes, std::
   return reader;
 }
 
-const AssetContents& AssetReader::manifest() const { return state_->manifest.contents; }
+const AssetContents& AssetReader::manifest() const {
+  return state_->manifest.contents;
+}
 
-Box AssetReader::liveBounds(uint32_t chunk) const { return state_->manifest.chunks[chunk].liveBounds; }
+Box AssetReader::liveBounds(uint32_t chunk) const {
+  return state_->manifest.chunks[chunk].liveBounds;
+}
 
 Result<ChunkContents> AssetReader::readChunk(uint32_t chunk) const {
   const AssetContents& asset = state_->manifest.contents;
   if (chunk >= asset.chunks.size())
-    return makeError(ErrorKind::kUsage, "%s: chunk %u asked for, there are %zu", state_->source.name.c_str(), chunk,
-                     asset.chunks.size());
+    return makeError(ErrorKind::kUsage, "%s: chunk %u asked for, there are %zu", state_->source.name.c_str(),
+                     chunk, asset.chunks.size());
   ChunkContents contents = asset.chunks[chunk];
   SectionReader sections(state_->source, state_->manifest, chunk);
   visitSections(contents, sections);

@@ -17,13 +17,13 @@ constexpr char kRemedy[] = "bake the scene again";
 // A float rounds by at most half of FLT_EPSILON, relative.
 constexpr double kRounding = FLT_EPSILON / 2;
 
-// A quaternion normalised in float: its length carries some 4 roundings and each component one or two of its own, so
-// |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is allowed.
+// A quaternion normalised in float: its length carries some 4 roundings and each component one or two of its
+// own, so |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is allowed.
 constexpr double kUnitTolerance = 24 * kRounding;
 
 // What of a chunk the graph's checks need. Rows keep their parts (alpha, others), each sorted by reference.
 struct GraphChunk {
-  ChunkContents contents;                // without what only shading needs
+  ChunkContents contents;                 // without what only shading needs
   std::vector<CellRef> sortedNeighbours;  // rows as in contents.neighbours
 
   std::span<const CellRef> row(const std::vector<CellRef>& array, uint32_t cell) const {
@@ -97,7 +97,8 @@ class Verifier {
       const glm::dvec4 q(contents->orientations[cell]);
       if (std::abs(glm::dot(q, q) - 1) <= kUnitTolerance) continue;
       return makeError(ErrorKind::kBadInput, "%s: cell %u: quaternion of length %.9g, not 1; %s",
-                       placeOf(index, SectionType::kOrientations).c_str(), cell, std::sqrt(glm::dot(q, q)), kRemedy);
+                       placeOf(index, SectionType::kOrientations).c_str(), cell, std::sqrt(glm::dot(q, q)),
+                       kRemedy);
     }
     const Box told = reader.liveBounds(index), found = liveBoundsOf(*contents);
     if (told.min != found.min || told.max != found.max)
@@ -117,9 +118,10 @@ class Verifier {
     const std::span<const CellRef> alpha = chunk.sortedAlpha(cell), others = chunk.sortedOthers(cell);
     const CellRef self = referenceTo(index, cell);
     if (contains(alpha, self) || contains(others, self)) return rowError(index, cell, "is its own neighbour");
-    const bool isDoubled = std::adjacent_find(alpha.begin(), alpha.end()) != alpha.end() ||
-                           std::adjacent_find(others.begin(), others.end()) != others.end() ||
-                           std::any_of(alpha.begin(), alpha.end(), [&](CellRef c) { return contains(others, c); });
+    const bool isDoubled =
+        std::adjacent_find(alpha.begin(), alpha.end()) != alpha.end() ||
+        std::adjacent_find(others.begin(), others.end()) != others.end() ||
+        std::any_of(alpha.begin(), alpha.end(), [&](CellRef c) { return contains(others, c); });
     if (isDoubled) return rowError(index, cell, "has a neighbour twice");
     if (!hasWalkGraph_ && !others.empty())
       return rowError(index, cell, "has more than alpha neighbours, and the asset no walk graph");
@@ -161,8 +163,9 @@ class Verifier {
     return {};
   }
 
-  // radicalOffset / |toNeighbour|, of foam.md. Made in float, toNeighbour carries one rounding, its square three, the
-  // difference of squared radii three, their sum, half and quotient four more: 8 of the larger intermediate values.
+  // radicalOffset / |toNeighbour| (shaders/foam/cell.h). A baker may have made it in float: then the squared
+  // distance carries 5 roundings and the difference of squared radii 3, their sum one more, the distance 3.5
+  // and the quotient one: less than 11 in all, relative to the sum of both terms' sizes.
   PlaneDistance planeDistance(uint32_t index, uint32_t cell, CellRef neighbour) const {
     const ChunkContents& a = chunks_[index].contents;
     const ChunkContents& b = chunks_[chunkOf(neighbour, localBits_)].contents;
@@ -172,7 +175,7 @@ class Verifier {
       toNeighbour[axis] += b.origin[static_cast<size_t>(axis)] - a.origin[static_cast<size_t>(axis)];
     const double radius = a.radii[cell], otherRadius = b.radii[local];
     const double squares = (radius - otherRadius) * (radius + otherRadius), length = glm::length(toNeighbour);
-    return {0.5 * (length + squares / length), 8 * kRounding * 0.5 * (length + std::abs(squares) / length)};
+    return {0.5 * (length + squares / length), 11 * kRounding * 0.5 * (length + std::abs(squares) / length)};
   }
 
   CellRef referenceTo(uint32_t index, uint32_t cell) const {
@@ -184,8 +187,8 @@ class Verifier {
   }
 
   Error rowError(uint32_t index, uint32_t cell, const char* what) const {
-    return makeError(ErrorKind::kBadInput, "%s: cell %u %s; %s", placeOf(index, SectionType::kNeighbours).c_str(), cell,
-                     what, kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: cell %u %s; %s",
+                     placeOf(index, SectionType::kNeighbours).c_str(), cell, what, kRemedy);
   }
 
   Error pairError(uint32_t index, uint32_t cell, CellRef neighbour, const char* what) const {

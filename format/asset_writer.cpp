@@ -27,7 +27,8 @@ class SectionEncoder {
   template <class Element>
   void operator()(SectionType type, const std::vector<Element>& array) {
     if (!status_ || array.empty() || isAbsent(type, array)) return;
-    const std::span<const uint8_t> raw{reinterpret_cast<const uint8_t*>(array.data()), array.size() * sizeof(Element)};
+    const std::span<const uint8_t> raw{reinterpret_cast<const uint8_t*>(array.data()),
+                                       array.size() * sizeof(Element)};
     Result<EncodedSection> section = encodeSection(raw);
     if (!section) {
       status_ = section.error();
@@ -66,7 +67,7 @@ std::span<const uint8_t> bytesOf(const Pod& pod) {
   return {reinterpret_cast<const uint8_t*>(&pod), sizeof(Pod)};
 }
 
-// Header, manifest, sections, one after the other. Empties sections.stored as it goes: they are most of the memory.
+// Header, manifest, sections, one after the other. Frees sections.stored as it goes: most of the memory.
 std::vector<uint8_t> assemble(const AssetContents& contents, Sections& sections) {
   FileHeader header;
   header.magic = kFileMagic;
@@ -85,7 +86,9 @@ std::vector<uint8_t> assemble(const AssetContents& contents, Sections& sections)
 
   std::vector<uint8_t> file;
   file.reserve(header.fileSize);
-  const auto append = [&file](std::span<const uint8_t> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); };
+  const auto append = [&file](std::span<const uint8_t> bytes) {
+    file.insert(file.end(), bytes.begin(), bytes.end());
+  };
   append(bytesOf(header));
   append(manifest);
   for (std::vector<uint8_t>& stored : sections.stored) {

@@ -20,12 +20,14 @@ Result<InputFile> InputFile::open(const std::filesystem::path& path) {
   // Without O_NONBLOCK a pipe without a writer would hang here.
   file.descriptor_ = ::open(name, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file.descriptor_ < 0)
-    return makeError(ErrorKind::kBadInput, "%s: cannot be opened: %s; check the path", name, std::strerror(errno));
+    return makeError(ErrorKind::kBadInput, "%s: cannot be opened: %s; check the path", name,
+                     std::strerror(errno));
   struct stat info {};
   if (::fstat(file.descriptor_, &info) != 0)
     return makeError(ErrorKind::kBadInput, "%s: cannot be examined: %s", name, std::strerror(errno));
   if (S_ISDIR(info.st_mode)) return makeError(ErrorKind::kBadInput, "%s: is a directory; give a file", name);
-  if (!S_ISREG(info.st_mode)) return makeError(ErrorKind::kBadInput, "%s: is no regular file; give a file", name);
+  if (!S_ISREG(info.st_mode))
+    return makeError(ErrorKind::kBadInput, "%s: is no regular file; give a file", name);
   file.size_ = static_cast<uint64_t>(info.st_size);
   return file;
 }
@@ -53,7 +55,8 @@ Status InputFile::readAt(uint64_t offset, std::span<uint8_t> out) const {
     if (got < 0)
       return makeError(ErrorKind::kBadInput, "%s: cannot be read: %s", name_.c_str(), std::strerror(errno));
     if (got == 0)
-      return makeError(ErrorKind::kBadInput, "%s: became shorter while it was read; try again", name_.c_str());
+      return makeError(ErrorKind::kBadInput, "%s: became shorter while it was read; try again",
+                       name_.c_str());
     offset += static_cast<uint64_t>(got);
     out = out.subspan(static_cast<size_t>(got));
   }

@@ -10,7 +10,8 @@
 
 namespace froth {
 
-// Keeps reading the same file when another one is renamed over its path. Thread safety: readAt() from several threads.
+// Keeps reading the same file when another one is renamed over its path.
+// Thread safety: readAt() may run on several threads at once.
 class InputFile {
  public:
   // Fails with ErrorKind::kBadInput if the path does not exist, is no regular file or cannot be read.

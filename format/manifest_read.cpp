@@ -21,7 +21,9 @@ constexpr flatbuffers::uoffset_t kMaxDepth = 16, kMaxTables = 1000;
 
 using ull = unsigned long long;
 
-std::array<double, 3> unpack(const fb::Double3& v) { return {v.x(), v.y(), v.z()}; }
+std::array<double, 3> unpack(const fb::Double3& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 StoredCamera unpack(const fb::Camera& camera) {
   StoredCamera result;
@@ -49,6 +51,16 @@ SectionRecord unpack(const fb::Section& s) {
 
 bool hasLowerKey(const SectionRecord& a, const SectionRecord& b) {
   return std::tie(a.chunk, a.type) < std::tie(b.chunk, b.type);
+}
+
+template <class Struct>
+bool isAligned(const flatbuffers::Vector<const Struct*>* vector) {
+  return !vector || reinterpret_cast<uintptr_t>(vector->Data()) % alignof(Struct) == 0;
+}
+
+// FlatBuffers' own verifier looks at the alignment of a vector's length only.
+bool areStructsAligned(const fb::Manifest& manifest) {
+  return isAligned(manifest.flight_path()) && isAligned(manifest.chunks()) && isAligned(manifest.sections());
 }
 
 // Everything of the manifest but chunks and sections.
@@ -81,11 +93,12 @@ Status unpackChunks(const fb::Manifest& packed, const std::string& file, Manifes
                                                        {"neighbour_count", chunk->neighbour_count()}};
     for (const auto& [field, count] : counts)
       if (count > kMost)
-        return makeError(ErrorKind::kBadInput, "%s: %s is %llu, more than %llu; %s", place.c_str(), field, ull{count},
-                         ull{kMost}, kRemedy);
+        return makeError(ErrorKind::kBadInput, "%s: %s is %llu, more than %llu; %s", place.c_str(), field,
+                         ull{count}, ull{kMost}, kRemedy);
     const Box bounds{unpack(chunk->live_bounds().min()), unpack(chunk->live_bounds().max())};
     for (size_t axis = 0; axis < 3; ++axis)
-      if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis]) || bounds.min[axis] > bounds.max[axis])
+      if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis]) ||
+          bounds.min[axis] > bounds.max[axis])
         return makeError(ErrorKind::kBadInput, "%s: live_bounds: %g..%g is no interval; %s", place.c_str(),
                          bounds.min[axis], bounds.max[axis], kRemedy);
     ChunkContents contents;
@@ -99,13 +112,15 @@ Status unpackChunks(const fb::Manifest& packed, const std::string& file, Manifes
 }
 
 // What the record says about itself and its place in the file.
-Status checkRecord(const SectionRecord& record, uint32_t reserved, uint64_t fileSize, const std::string& place) {
+Status checkRecord(const SectionRecord& record, uint32_t reserved, uint64_t fileSize,
+                   const std::string& place) {
   if (reserved != 0 || (record.flags & kSectionReservedFlags) != 0)
     return makeError(ErrorKind::kUnsupported, "%s: reserved bits are set (flags 0x%04x); %s", place.c_str(),
                      record.flags, kTooNew);
   if (record.offset > fileSize || record.storedSize > fileSize - record.offset)
-    return makeError(ErrorKind::kBadInput, "%s: offset %llu + size %llu lies beyond the file's %llu bytes; %s",
-                     place.c_str(), ull{record.offset}, ull{record.storedSize}, ull{fileSize}, kRemedy);
+    return makeError(ErrorKind::kBadInput,
+                     "%s: offset %llu + size %llu lies beyond the file's %llu bytes; %s", place.c_str(),
+                     ull{record.offset}, ull{record.storedSize}, ull{fileSize}, kRemedy);
   if (sectionName(record.type) == nullptr && (record.flags & kSectionCritical) != 0)
     return makeError(ErrorKind::kUnsupported, "%s: unknown and critical; %s", place.c_str(), kTooNew);
   return {};
@@ -114,15 +129,17 @@ Status checkRecord(const SectionRecord& record, uint32_t reserved, uint64_t file
 // What the record of a known section says, against the counts of its chunk.
 Status checkKnownRecord(const SectionRecord& record, const Manifest& manifest, const std::string& place) {
   if (record.chunk >= manifest.chunks.size())
-    return makeError(ErrorKind::kBadInput, "%s: there are only %zu chunks; %s", place.c_str(), manifest.chunks.size(),
-                     kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: there are only %zu chunks; %s", place.c_str(),
+                     manifest.chunks.size(), kRemedy);
   if (record.codec > static_cast<uint16_t>(SectionCodec::kBytePlanes))
-    return makeError(ErrorKind::kUnsupported, "%s: unknown codec %u; %s", place.c_str(), record.codec, kTooNew);
-  const uint64_t words = sectionWords(static_cast<SectionType>(record.type), manifest.chunks[record.chunk].counts,
-                                      manifest.contents.detailCount, manifest.contents.lobeCount);
+    return makeError(ErrorKind::kUnsupported, "%s: unknown codec %u; %s", place.c_str(), record.codec,
+                     kTooNew);
+  const uint64_t words =
+      sectionWords(static_cast<SectionType>(record.type), manifest.chunks[record.chunk].counts,
+                   manifest.contents.detailCount, manifest.contents.lobeCount);
   if (words == 0 || record.rawSize != words * kWordSize)
-    return makeError(ErrorKind::kBadInput, "%s: raw size %llu, but the counts demand %llu bytes; %s", place.c_str(),
-                     ull{record.rawSize}, ull{words * kWordSize}, kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: raw size %llu, but the counts demand %llu bytes; %s",
+                     place.c_str(), ull{record.rawSize}, ull{words * kWordSize}, kRemedy);
   const bool isStored = record.codec == static_cast<uint16_t>(SectionCodec::kStored);
   if (isStored ? record.storedSize != record.rawSize : record.rawSize > record.storedSize * kMaxExpansion)
     return makeError(ErrorKind::kBadInput, "%s: %llu stored bytes cannot hold %llu; %s", place.c_str(),
@@ -130,13 +147,14 @@ Status checkKnownRecord(const SectionRecord& record, const Manifest& manifest, c
   return {};
 }
 
-// Sorts the ranges of all sections, and of the manifest with the header before it. `occupied`: [offset, end) each.
+// `occupied`: ranges [offset, end) of all sections, and of the manifest with the header before it.
 Status checkOverlaps(std::vector<std::pair<uint64_t, uint64_t>> occupied, const std::string& file) {
   std::sort(occupied.begin(), occupied.end());
   for (size_t i = 1; i < occupied.size(); ++i)
     if (occupied[i].first < occupied[i - 1].second)
-      return makeError(ErrorKind::kBadInput, "%s: the section at byte %llu overlaps what ends at byte %llu; %s",
-                       file.c_str(), ull{occupied[i].first}, ull{occupied[i - 1].second}, kRemedy);
+      return makeError(ErrorKind::kBadInput,
+                       "%s: the section at byte %llu overlaps what ends at byte %llu; %s", file.c_str(),
+                       ull{occupied[i].first}, ull{occupied[i - 1].second}, kRemedy);
   return {};
 }
 
@@ -148,8 +166,8 @@ Status checkKeys(const std::vector<SectionRecord>& sorted, const std::string& fi
   return {};
 }
 
-Status unpackSections(const fb::Manifest& packed, uint64_t manifestEnd, uint64_t fileSize, const std::string& file,
-                      Manifest& manifest) {
+Status unpackSections(const fb::Manifest& packed, uint64_t manifestEnd, uint64_t fileSize,
+                      const std::string& file, Manifest& manifest) {
   std::vector<SectionRecord> all;
   std::vector<std::pair<uint64_t, uint64_t>> occupied{{0, manifestEnd}};
   for (const fb::Section* section : *packed.sections()) {
@@ -199,7 +217,7 @@ Result<Manifest> parseManifest(const std::vector<uint8_t>& bytes, uint64_t manif
   limits.max_depth = kMaxDepth;
   limits.max_tables = kMaxTables;
   flatbuffers::Verifier verifier(bytes.data(), bytes.size(), limits);
-  if (!fb::VerifyManifestBuffer(verifier))
+  if (!fb::VerifyManifestBuffer(verifier) || !areStructsAligned(*fb::GetManifest(bytes.data())))
     return makeError(ErrorKind::kBadInput, "%s: the manifest's %zu bytes are no FlatBuffers manifest; %s",
                      file.c_str(), bytes.size(), kRemedy);
   const fb::Manifest& packed = *fb::GetManifest(bytes.data());
@@ -211,7 +229,8 @@ Result<Manifest> parseManifest(const std::vector<uint8_t>& bytes, uint64_t manif
   manifest.contents = unpackParameters(packed);
   if (Status status = unpackChunks(packed, file, manifest); !status) return status.error();
   if (Status status = checkParameters(manifest.contents, file); !status) return status.error();
-  if (Status status = unpackSections(packed, manifestEnd, fileSize, file, manifest); !status) return status.error();
+  if (Status status = unpackSections(packed, manifestEnd, fileSize, file, manifest); !status)
+    return status.error();
   if (Status status = checkPresence(manifest, file); !status) return status.error();
   return manifest;
 }

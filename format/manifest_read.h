@@ -17,7 +17,7 @@ struct ChunkIndex {
 };
 
 struct Manifest {
-  AssetContents contents;           // chunks: origin and counts, no arrays
+  AssetContents contents;  // chunks: origin and counts, no arrays
   std::vector<ChunkIndex> chunks;
   std::vector<SectionRecord> sections;  // of known types, sorted by {chunk, type}
 
@@ -25,9 +25,9 @@ struct Manifest {
   const SectionRecord* findSection(uint32_t chunk, SectionType type) const;
 };
 
-// Checks everything that can be known without reading a section: FlatBuffers structure, ranges, and for every section
-// place, size against the counts and the limit of expansion. `bytes` is at most kMaxManifestSize and ends in the file at
-// `manifestEnd`; no section may begin before that.
+// Checks everything that can be known without reading a section: FlatBuffers structure, ranges, and for every
+// section place, size against the counts and the limit of expansion. `bytes` is at most kMaxManifestSize and
+// ends in the file at `manifestEnd`; no section may begin before that.
 Result<Manifest> parseManifest(const std::vector<uint8_t>& bytes, uint64_t manifestEnd, uint64_t fileSize,
                                const std::string& file);
 

@@ -8,7 +8,9 @@
 namespace froth {
 namespace {
 
-fb::Double3 pack(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+fb::Double3 pack(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
 
 fb::Camera pack(const StoredCamera& camera) {
   return fb::Camera(flatbuffers::make_span(camera.worldFromCamera), camera.tanHalfFovY);
@@ -21,8 +23,8 @@ fb::Chunk pack(const ChunkContents& chunk) {
 }
 
 fb::Section pack(const SectionRecord& record) {
-  return fb::Section(record.type, record.chunk, record.flags, record.codec, 0, record.offset, record.storedSize,
-                     record.rawSize, record.hash);
+  return fb::Section(record.type, record.chunk, record.flags, record.codec, 0, record.offset,
+                     record.storedSize, record.rawSize, record.hash);
 }
 
 template <class Packed, class Source>
@@ -33,9 +35,10 @@ flatbuffers::Offset<flatbuffers::Vector<const Packed*>> packAll(flatbuffers::Fla
   return builder.CreateVectorOfStructs(packed);
 }
 
-flatbuffers::Offset<fb::Statistics> packStatistics(flatbuffers::FlatBufferBuilder& builder, const BakeStatistics& s) {
-  return fb::CreateStatistics(builder, s.inputCells, s.hiddenDropped, s.duplicatesMerged, s.emptyCells, s.deadCells,
-                              s.walkPairs, s.alphaPairs);
+flatbuffers::Offset<fb::Statistics> packStatistics(flatbuffers::FlatBufferBuilder& builder,
+                                                   const BakeStatistics& s) {
+  return fb::CreateStatistics(builder, s.inputCells, s.hiddenDropped, s.duplicatesMerged, s.emptyCells,
+                              s.deadCells, s.walkPairs, s.alphaPairs);
 }
 
 }  // namespace

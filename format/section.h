@@ -8,8 +8,8 @@
 
 namespace froth {
 
-// Every section is an array of 32-bit words (float32 or uint32). A section of no words does not exist; detail_heights
-// does not exist either if all heights are zero.
+// Every section is an array of 32-bit words (float32 or uint32). A section of no words does not exist;
+// detail_heights does not exist either if all heights are zero.
 enum class SectionType : uint32_t {
   kSites = 1,             // [cellCount × 3] float
   kRadii = 2,             // [cellCount] float
@@ -30,13 +30,13 @@ enum class SectionCodec : uint16_t {
   kBytePlanes = 2,  // one zstd frame of: byte 0 of every word, byte 1 of every word, byte 2 …, byte 3 …
 };
 
-inline constexpr uint16_t kSectionCritical = 1;           // a reader that does not know the type refuses the file
+inline constexpr uint16_t kSectionCritical = 1;  // a reader that does not know the type refuses the file
 inline constexpr uint16_t kSectionReservedFlags = 0xff00;  // must be zero
 
 inline constexpr uint64_t kWordSize = 4;  // [bytes]
 
-// rawSize <= kMaxExpansion * storedSize, so memory is bounded by the file's size. Trained foams reach 1.3 (floats) to 4
-// (graph); zstd alone would allow 32768. The writer pads a frame with zeros where it compresses better than that.
+// rawSize <= kMaxExpansion * storedSize, so memory is bounded by the file's size. Trained foams reach 1.2
+// (colours) to 7 (counts); zstd alone would allow 32768. The writer pads with zeros a frame that is shorter.
 inline constexpr uint64_t kMaxExpansion = 256;
 
 // A frame may look back this far, so a decoder's window needs no more. [log2 bytes]

@@ -49,18 +49,22 @@ class FrameReader {
       const size_t before = input_.pos;
       if (Status step = advance(none); !step) return step;
       if (!atEnd_ && input_.pos == before)
-        return makeError(ErrorKind::kBadInput, "%s: the zstd frame does not end; %s", place_.c_str(), kRemedy);
+        return makeError(ErrorKind::kBadInput, "%s: the zstd frame does not end; %s", place_.c_str(),
+                         kRemedy);
     }
     const uint8_t* bytes = static_cast<const uint8_t*>(input_.src);
-    if (std::all_of(bytes + input_.pos, bytes + input_.size, [](uint8_t byte) { return byte == 0; })) return {};
-    return makeError(ErrorKind::kBadInput, "%s: bytes after the zstd frame are not zero; %s", place_.c_str(), kRemedy);
+    if (std::all_of(bytes + input_.pos, bytes + input_.size, [](uint8_t byte) { return byte == 0; }))
+      return {};
+    return makeError(ErrorKind::kBadInput, "%s: bytes after the zstd frame are not zero; %s", place_.c_str(),
+                     kRemedy);
   }
 
  private:
   Status advance(ZSTD_outBuffer& output) {
     const size_t result = ZSTD_decompressStream(context_.get(), &output, &input_);
     if (ZSTD_isError(result))
-      return makeError(ErrorKind::kBadInput, "%s: zstd: %s; %s", place_.c_str(), ZSTD_getErrorName(result), kRemedy);
+      return makeError(ErrorKind::kBadInput, "%s: zstd: %s; %s", place_.c_str(), ZSTD_getErrorName(result),
+                       kRemedy);
     atEnd_ = result == 0;
     return {};
   }

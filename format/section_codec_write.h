@@ -15,7 +15,7 @@ struct EncodedSection {
   std::vector<uint8_t> stored;
 };
 
-// The shortest of the codecs' encodings; the first of equals. `raw` is a whole number of words.
+// In a codec that suits the numbers, and never longer than they are. `raw` is whole words, at least one.
 Result<EncodedSection> encodeSection(std::span<const uint8_t> raw);
 
 }  // namespace froth

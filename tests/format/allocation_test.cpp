@@ -21,8 +21,12 @@ void* operator new(size_t size) {
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, size_t) noexcept {
+  std::free(memory);
+}
 
 namespace froth {
 namespace {
@@ -36,16 +40,18 @@ size_t largestAllocationOf(const std::vector<uint8_t>& bytes, std::string& error
   return largest;
 }
 
-// Counts and raw sizes agree with each other, four billion cells each; only the file's size speaks against them.
+// Counts and raw sizes agree, four billion cells each; only the file's size speaks against them.
 TEST(Allocation, OfConsistentButAbsurdCountsDoesNotHappen) {
   constexpr uint64_t kCells = 0xffffffff;
   std::vector<uint8_t> bytes = encodeOrFail(makeSampleAsset({.detailCount = 32, .lobeCount = 32}));
   const ChunkCounts counts{kCells, kCells, kCells};
-  bytes = withChunk(bytes, [](fb::Chunk& c) { c = fb::Chunk(c.origin(), kCells, kCells, kCells, c.live_bounds()); });
+  bytes = withChunk(bytes,
+                    [](fb::Chunk& c) { c = fb::Chunk(c.origin(), kCells, kCells, kCells, c.live_bounds()); });
   for (size_t i = 0; i < 11; ++i)
     bytes = withSection(bytes, i, [&](fb::Section& s) {
       const uint64_t words = sectionWords(static_cast<SectionType>(s.type()), counts, 32, 32);
-      s = fb::Section(s.type(), s.chunk(), s.flags(), 1, 0, s.offset(), s.stored_size(), words * kWordSize, s.hash());
+      s = fb::Section(s.type(), s.chunk(), s.flags(), 1, 0, s.offset(), s.stored_size(), words * kWordSize,
+                      s.hash());
     });
   std::string error;
   EXPECT_LT(largestAllocationOf(bytes, error), size_t{1} << 20);

@@ -12,7 +12,8 @@ namespace froth {
 
 template <class Element>
 bool haveSameBits(const std::vector<Element>& a, const std::vector<Element>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0);
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0);
 }
 
 inline bool operator==(const StoredCamera& a, const StoredCamera& b) {

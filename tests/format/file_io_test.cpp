@@ -28,7 +28,8 @@ using testing::HasSubstr;
 class FileIo : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / (std::string("froth_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("froth_") + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -47,7 +48,9 @@ template <class T>
 std::string errorOf(const Result<T>& result) {
   return result ? "no error" : result.error().message;
 }
-std::string errorOf(const Status& status) { return status ? "no error" : status.error().message; }
+std::string errorOf(const Status& status) {
+  return status ? "no error" : status.error().message;
+}
 
 TEST_F(FileIo, WritesANewFileAndReplacesAnOldOne) {
   ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "a", kOld)), "no error");
@@ -64,7 +67,8 @@ TEST_F(FileIo, WritesAndReadsAnEmptyFile) {
 }
 
 TEST_F(FileIo, NamesAMissingFile) {
-  EXPECT_THAT(errorOf(readFile(folder_ / "none")), AllOf(HasSubstr("none: cannot be opened"), HasSubstr("check the path")));
+  EXPECT_THAT(errorOf(readFile(folder_ / "none")),
+              AllOf(HasSubstr("none: cannot be opened"), HasSubstr("check the path")));
   EXPECT_THAT(errorOf(AssetReader::open(folder_ / "none")), HasSubstr("cannot be opened"));
 }
 
@@ -123,7 +127,8 @@ TEST_F(FileIo, WritesNothingForContentsThatAreNoAsset) {
   EXPECT_THAT(errorOf(writeAsset(folder_ / "a.froth", contents)), HasSubstr("cell 1 has radius -1"));
   contents = makeSampleAsset();
   contents.chunks[0].lobeAxes.pop_back();
-  EXPECT_THAT(errorOf(writeAsset(folder_ / "a.froth", contents)), HasSubstr("'lobe_axes': 45 numbers instead of 48"));
+  EXPECT_THAT(errorOf(writeAsset(folder_ / "a.froth", contents)),
+              HasSubstr("'lobe_axes': 45 numbers instead of 48"));
   contents = makeSampleAsset();
   contents.chunks.clear();
   EXPECT_THAT(errorOf(writeAsset(folder_ / "a.froth", contents)), HasSubstr("number of chunks is 0"));

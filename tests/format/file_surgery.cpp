@@ -79,7 +79,8 @@ std::vector<uint8_t> Draft::assemble() const {
   std::vector<uint8_t> bytes(sizeof(FileHeader));
   const std::vector<uint8_t> manifest = buildManifest(contents, placed);
   bytes.insert(bytes.end(), manifest.begin(), manifest.end());
-  for (const std::vector<uint8_t>& section : stored) bytes.insert(bytes.end(), section.begin(), section.end());
+  for (const std::vector<uint8_t>& section : stored)
+    bytes.insert(bytes.end(), section.begin(), section.end());
   setHeader(bytes, header);
   signManifest(bytes);
   return bytes;
@@ -88,8 +89,8 @@ std::vector<uint8_t> Draft::assemble() const {
 Draft draftOf(const AssetContents& contents) {
   std::vector<uint8_t> bytes = encodeOrFail(contents);
   const std::span<const uint8_t> packed = manifestOf(bytes);
-  Result<Manifest> manifest =
-      parseManifest({packed.begin(), packed.end()}, sizeof(FileHeader) + packed.size(), bytes.size(), "draft");
+  Result<Manifest> manifest = parseManifest({packed.begin(), packed.end()},
+                                            sizeof(FileHeader) + packed.size(), bytes.size(), "draft");
   Draft draft{contents, manifest->sections, {}};
   for (const SectionRecord& record : draft.records) {
     const uint8_t* first = bytes.data() + record.offset;
@@ -124,8 +125,9 @@ std::vector<uint8_t> signedAgain(std::vector<uint8_t> bytes) {
   const std::span<uint8_t> manifest = manifestOf(bytes);
   flatbuffers::Verifier verifier(manifest.data(), manifest.size());
   if (fb::VerifyManifestBuffer(verifier)) {
-    const size_t count = fb::GetManifest(manifest.data())->sections()->size();
-    for (size_t i = 0; i < count; ++i) {
+    const auto* sections = fb::GetManifest(manifest.data())->sections();
+    const bool isAligned = reinterpret_cast<uintptr_t>(sections->Data()) % alignof(fb::Section) == 0;
+    for (size_t i = 0; isAligned && i < sections->size(); ++i) {
       fb::Section& s = sectionAt(bytes, i);
       if (s.offset() > bytes.size() || s.stored_size() > bytes.size() - s.offset()) continue;
       const uint64_t hash = hashBytes({bytes.data() + s.offset(), static_cast<size_t>(s.stored_size())});

@@ -1,4 +1,4 @@
-// Files that are wrong in one chosen way: valid ones taken apart, changed, and signed again so that the hashes hold.
+// Files that are wrong in one chosen way: valid ones taken apart, changed, and signed again so that hashes fit.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,8 @@ std::span<const uint8_t> rawBytes(const std::vector<Element>& array) {
 std::vector<uint8_t> withHeader(std::vector<uint8_t> bytes, const std::function<void(FileHeader&)>& edit);
 // Edits fixed-size fields of the manifest in place and signs again; nothing else is brought into line.
 std::vector<uint8_t> withChunk(std::vector<uint8_t> bytes, const std::function<void(fb::Chunk&)>& edit);
-std::vector<uint8_t> withSection(std::vector<uint8_t> bytes, size_t index, const std::function<void(fb::Section&)>& edit);
+std::vector<uint8_t> withSection(std::vector<uint8_t> bytes, size_t index,
+                                 const std::function<void(fb::Section&)>& edit);
 // Sets the hashes of sections, manifest and header to what the bytes are, as far as these can be found.
 std::vector<uint8_t> signedAgain(std::vector<uint8_t> bytes);
 

@@ -15,7 +15,8 @@ namespace froth {
 namespace {
 
 TEST(Golden, FileOfVersion1IsRead) {
-  const std::filesystem::path path = std::filesystem::path(FROTH_SOURCE_DIR) / "tests/format/golden/version_1_0.froth";
+  const std::filesystem::path path =
+      std::filesystem::path(FROTH_SOURCE_DIR) / "tests/format/golden/version_1_0.froth";
   const AssetContents contents = makeSampleAsset({.chunkCount = 2, .cellsPerChunk = 6, .localBits = 4});
   if (std::getenv("FROTH_WRITE_GOLDEN")) {
     const Status written = writeAsset(path, contents);

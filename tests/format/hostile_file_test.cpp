@@ -17,7 +17,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 AssetContents smallAsset() {
-  return makeSampleAsset({.chunkCount = 2, .cellsPerChunk = 3, .localBits = 2, .detailCount = 1, .lobeCount = 1});
+  return makeSampleAsset(
+      {.chunkCount = 2, .cellsPerChunk = 3, .localBits = 2, .detailCount = 1, .lobeCount = 1});
 }
 
 std::string errorOf(std::span<const uint8_t> bytes) {
@@ -54,7 +55,7 @@ TEST(HostileFile, GivesAnErrorOrTheSameContentsForEveryFlippedBit) {
   }
 }
 
-// The hashes of an attacker's file fit; every later check must hold alone. A wrong read shows under the sanitizers.
+// An attacker's hashes fit, so every later check must hold alone. The sanitizers show a wrong read.
 TEST(HostileFile, SurvivesEveryFlippedBitThatIsSignedAgain) {
   std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
   size_t refused = 0;
@@ -99,15 +100,19 @@ TEST(HostileFile, OfANewerMinorVersionIsRead) {
 
 TEST(HostileFile, IsRefusedWithReservedHeaderBytes) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
-  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.reserved0 = 1; })), HasSubstr("reserved"));
-  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.reserved1 = 1; })), HasSubstr("reserved"));
+  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.reserved0 = 1; })),
+              HasSubstr("reserved"));
+  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.reserved1 = 1; })),
+              HasSubstr("reserved"));
 }
 
 TEST(HostileFile, IsRefusedWithAManifestOutsideTheFile) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
-  for (const uint64_t size : {uint64_t{bytes.size()}, uint64_t{1} << 40, std::numeric_limits<uint64_t>::max()})
+  for (const uint64_t size :
+       {uint64_t{bytes.size()}, uint64_t{1} << 40, std::numeric_limits<uint64_t>::max()})
     EXPECT_FALSE(decodeAsset(withHeader(bytes, [&](FileHeader& header) { header.manifestSize = size; })));
-  EXPECT_FALSE(decodeAsset(withHeader(bytes, [](FileHeader& header) { header.manifestOffset = ~uint64_t{0}; })));
+  EXPECT_FALSE(
+      decodeAsset(withHeader(bytes, [](FileHeader& header) { header.manifestOffset = ~uint64_t{0}; })));
 }
 
 // ---- Manifest ----
@@ -119,16 +124,19 @@ TEST(HostileFile, WithParametersOutOfRangeIsRefusedByTheirNames) {
     edit(changed.contents);
     return errorOf(changed.assemble());
   };
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.detailCount = 33; }), HasSubstr("detail_count is 33, not in 1..32"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.detailCount = 33; }),
+              HasSubstr("detail_count is 33, not in 1..32"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 0; }), HasSubstr("lobe_count is 0"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 33; }), HasSubstr("local_bits is 33"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 1; }), HasSubstr("cell_count is 3"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 32; }), HasSubstr("number of chunks is 2"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.nearRatio = NAN; }), HasSubstr("near_ratio"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.nearDepth = -1; }), HasSubstr("near_depth is -1"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.detailSharpness = INFINITY; }), HasSubstr("detail_sharpness"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.detailSharpness = INFINITY; }),
+              HasSubstr("detail_sharpness"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.startView.tanHalfFovY = 0; }), HasSubstr("start_view"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.flightPath[1].worldFromCamera[3] = NAN; }), HasSubstr("flight_path"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.flightPath[1].worldFromCamera[3] = NAN; }),
+              HasSubstr("flight_path"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.chunks[0].origin[2] = INFINITY; }), HasSubstr("origin"));
 }
 
@@ -147,7 +155,8 @@ TEST(HostileFile, WithAbsurdCountsIsRefusedByTheirNames) {
               HasSubstr("neighbour_count is 1000000000000"));
   EXPECT_THAT(errorOf(withChunk(bytes, [](fb::Chunk& c) { c = withCounts(c, 3, 4, 15); })),
               HasSubstr("live_count is 4, not in 0..3"));
-  EXPECT_THAT(errorOf(withChunk(bytes, [](fb::Chunk& c) { c = withCounts(c, 0, 0, 15); })), HasSubstr("cell_count"));
+  EXPECT_THAT(errorOf(withChunk(bytes, [](fb::Chunk& c) { c = withCounts(c, 0, 0, 15); })),
+              HasSubstr("cell_count"));
 }
 
 TEST(HostileFile, IsRefusedIfTheCountsDoNotFitTheSections) {
@@ -170,15 +179,16 @@ TEST(HostileFile, IsRefusedIfItsManifestIsNone) {
 struct SectionEdit {
   fb::Section& section;
   void operator()(uint64_t offset, uint64_t storedSize, uint64_t rawSize) {
-    section = fb::Section(section.type(), section.chunk(), section.flags(), section.codec(), 0, offset, storedSize,
-                          rawSize, section.hash());
+    section = fb::Section(section.type(), section.chunk(), section.flags(), section.codec(), 0, offset,
+                          storedSize, rawSize, section.hash());
   }
 };
 
 TEST(HostileFile, IsRefusedIfASectionLiesOutsideIt) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
   const auto errorAt = [&](uint64_t offset, uint64_t size) {
-    return errorOf(withSection(bytes, 3, [&](fb::Section& s) { SectionEdit{s}(offset, size, s.raw_size()); }));
+    return errorOf(
+        withSection(bytes, 3, [&](fb::Section& s) { SectionEdit{s}(offset, size, s.raw_size()); }));
   };
   EXPECT_THAT(errorAt(bytes.size() - 1, 2), HasSubstr("beyond the file's"));
   EXPECT_THAT(errorAt(~uint64_t{0}, 8), HasSubstr("beyond the file's"));
@@ -198,7 +208,8 @@ TEST(HostileFile, IsRefusedIfSectionsOverlap) {
 TEST(HostileFile, IsRefusedIfASectionsRawSizeLies) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
   for (const uint64_t rawSize : {uint64_t{0}, uint64_t{35}, uint64_t{40}, uint64_t{1} << 50, ~uint64_t{0}})
-    EXPECT_THAT(errorOf(withSection(bytes, 0, [&](fb::Section& s) { SectionEdit{s}(s.offset(), s.stored_size(), rawSize); })),
+    EXPECT_THAT(errorOf(withSection(
+                    bytes, 0, [&](fb::Section& s) { SectionEdit{s}(s.offset(), s.stored_size(), rawSize); })),
                 HasSubstr("the counts demand 36 bytes"));
 }
 
@@ -248,7 +259,8 @@ TEST(HostileFile, IsRefusedWithAnUnknownCodecOrChunk) {
   EXPECT_THAT(errorOf(draft.assemble()), HasSubstr("unknown codec 3"));
   draft = draftOf(smallAsset());
   draft.records[0].chunk = 17;
-  EXPECT_THAT(errorOf(draft.assemble()), AllOf(HasSubstr("chunk 17, section 'sites'"), HasSubstr("only 2 chunks")));
+  EXPECT_THAT(errorOf(draft.assemble()),
+              AllOf(HasSubstr("chunk 17, section 'sites'"), HasSubstr("only 2 chunks")));
 }
 
 }  // namespace

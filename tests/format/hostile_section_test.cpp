@@ -34,23 +34,28 @@ std::string errorWith(SectionType type, std::vector<Element> ChunkContents::*arr
 TEST(HostileSection, WithANumberThatIsNotFiniteIsRefusedByPlace) {
   const std::string error =
       errorWith(SectionType::kSites, &ChunkContents::sites, [](auto& sites) { sites[1].z = NAN; });
-  EXPECT_THAT(error, AllOf(HasSubstr("scene.froth: chunk 0, section 'sites': number 5 is nan"), HasSubstr("bake")));
-  EXPECT_THAT(errorWith(SectionType::kLobeAxes, &ChunkContents::lobeAxes, [](auto& axes) { axes.back().x = -INFINITY; }),
+  EXPECT_THAT(error,
+              AllOf(HasSubstr("scene.froth: chunk 0, section 'sites': number 5 is nan"), HasSubstr("bake")));
+  EXPECT_THAT(errorWith(SectionType::kLobeAxes, &ChunkContents::lobeAxes,
+                        [](auto& axes) { axes.back().x = -INFINITY; }),
               HasSubstr("section 'lobe_axes'"));
-  EXPECT_THAT(errorWith(SectionType::kDetailHeights, &ChunkContents::detailHeights, [](auto& h) { h[0] = INFINITY; }),
-              HasSubstr("section 'detail_heights'"));
+  EXPECT_THAT(
+      errorWith(SectionType::kDetailHeights, &ChunkContents::detailHeights, [](auto& h) { h[0] = INFINITY; }),
+      HasSubstr("section 'detail_heights'"));
 }
 
 TEST(HostileSection, WithARadiusOrDensityOutOfRangeIsRefused) {
   EXPECT_THAT(errorWith(SectionType::kRadii, &ChunkContents::radii, [](auto& radii) { radii[3] = 0; }),
               HasSubstr("cell 3 has radius 0, not > 0"));
-  EXPECT_THAT(errorWith(SectionType::kDensities, &ChunkContents::densities, [](auto& densities) { densities[1] = -2; }),
+  EXPECT_THAT(errorWith(SectionType::kDensities, &ChunkContents::densities,
+                        [](auto& densities) { densities[1] = -2; }),
               HasSubstr("cell 1 has density -2, not >= 0"));
 }
 
 TEST(HostileSection, WithAReferenceToNoCellIsRefused) {
-  EXPECT_THAT(errorWith(SectionType::kNeighbours, &ChunkContents::neighbours, [](auto& cells) { cells[4] = 6; }),
-              HasSubstr("section 'neighbours': cell 6 of chunk 0 >= 6"));
+  EXPECT_THAT(
+      errorWith(SectionType::kNeighbours, &ChunkContents::neighbours, [](auto& cells) { cells[4] = 6; }),
+      HasSubstr("section 'neighbours': cell 6 of chunk 0 >= 6"));
 }
 
 TEST(HostileSection, WithAReferenceToNoChunkIsRefused) {
@@ -71,8 +76,9 @@ TEST(HostileSection, WithOffsetsThatAreNoRowsIsRefused) {
 }
 
 TEST(HostileSection, WithMoreAlphaNeighboursThanNeighboursIsRefused) {
-  EXPECT_THAT(errorWith(SectionType::kAlphaCounts, &ChunkContents::alphaCounts, [](auto& counts) { counts[2] = 6; }),
-              HasSubstr("cell 2: 6 alpha neighbours in a row of 5"));
+  EXPECT_THAT(
+      errorWith(SectionType::kAlphaCounts, &ChunkContents::alphaCounts, [](auto& counts) { counts[2] = 6; }),
+      HasSubstr("cell 2: 6 alpha neighbours in a row of 5"));
 }
 
 // ---- Encoding ----
@@ -92,7 +98,9 @@ std::string errorWithRadiiFrame(const std::vector<uint8_t>& frame) {
   return errorOf(draft.assemble());
 }
 
-std::vector<float> sampleRadii() { return makeSampleAsset().chunks[0].radii; }
+std::vector<float> sampleRadii() {
+  return makeSampleAsset().chunks[0].radii;
+}
 
 TEST(HostileSection, IsReadWithZerosAfterItsFrameAndRefusedWithOtherBytes) {
   std::vector<uint8_t> frame = frameOf(rawBytes(sampleRadii()));
@@ -105,7 +113,8 @@ TEST(HostileSection, IsReadWithZerosAfterItsFrameAndRefusedWithOtherBytes) {
 TEST(HostileSection, IsRefusedIfItsFrameHoldsMoreOrLess) {
   std::vector<float> radii = sampleRadii();
   radii.push_back(1);
-  EXPECT_THAT(errorWithRadiiFrame(frameOf(rawBytes(radii))), HasSubstr("the zstd frame holds 28 bytes, the manifest says 24"));
+  EXPECT_THAT(errorWithRadiiFrame(frameOf(rawBytes(radii))),
+              HasSubstr("the zstd frame holds 28 bytes, the manifest says 24"));
   radii.resize(3);
   EXPECT_THAT(errorWithRadiiFrame(frameOf(rawBytes(radii))), HasSubstr("holds 12 bytes"));
 }
@@ -129,14 +138,15 @@ TEST(HostileSection, IsRefusedIfItExpandsBeyondTheLimit) {
   EXPECT_EQ(errorOf(draft.assemble()), "no error");
 }
 
-// Byte planes are taken in pieces, so zstd needs a window of its own; it must not be as large as the frame likes.
+// Byte planes are taken in pieces, so zstd needs a window, and the frame must not choose its size freely.
 TEST(HostileSection, IsRefusedIfItsFrameWantsALargeWindow) {
   const auto errorWithWindow = [](int windowLog) {
     Draft draft = draftOf(makeSampleAsset());
     const size_t index = draft.find(SectionType::kRadii);
     // Magic; 4-byte content size; window; content size 24; last block, raw, of 24 bytes (RFC 8878, 3.1.1).
     const std::array<uint8_t, 12> head = {
-        0x28, 0xb5, 0x2f, 0xfd, 0x80, static_cast<uint8_t>((windowLog - 10) << 3), 24, 0, 0, 0, (24 << 3) | 1, 0};
+        0x28, 0xb5, 0x2f, 0xfd, 0x80,          static_cast<uint8_t>((windowLog - 10) << 3),
+        24,   0,    0,    0,    (24 << 3) | 1, 0};
     std::vector<uint8_t> frame(head.size() + 1 + 24, 0x3f);
     std::copy(head.begin(), head.end(), frame.begin());
     frame[head.size()] = 0;

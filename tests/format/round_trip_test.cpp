@@ -18,15 +18,21 @@ AssetContents decode(const std::vector<uint8_t>& bytes) {
   return {};
 }
 
-void expectRoundTrip(const AssetContents& contents) { expectSameAsset(decode(encodeOrFail(contents)), contents); }
+void expectRoundTrip(const AssetContents& contents) {
+  expectSameAsset(decode(encodeOrFail(contents)), contents);
+}
 
-TEST(RoundTrip, KeepsEveryBitOfEveryArray) { expectRoundTrip(makeSampleAsset()); }
+TEST(RoundTrip, KeepsEveryBitOfEveryArray) {
+  expectRoundTrip(makeSampleAsset());
+}
 
 TEST(RoundTrip, KeepsSeveralChunks) {
   expectRoundTrip(makeSampleAsset({.chunkCount = 3, .cellsPerChunk = 7, .localBits = 4}));
 }
 
-TEST(RoundTrip, KeepsAnAssetWithoutWalkGraph) { expectRoundTrip(makeSampleAsset({.hasWalkGraph = false})); }
+TEST(RoundTrip, KeepsAnAssetWithoutWalkGraph) {
+  expectRoundTrip(makeSampleAsset({.hasWalkGraph = false}));
+}
 
 TEST(RoundTrip, KeepsAChunkWithoutLiveCells) {
   AssetContents contents = makeSampleAsset({.cellsPerChunk = 1});

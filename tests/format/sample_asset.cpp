@@ -62,7 +62,8 @@ double planeDistance(const Cell& a, const Cell& b) {
 }
 
 // The row of cell `a`; its alpha neighbours come first, each part nearest plane first.
-std::vector<CellRef> makeRow(const std::vector<Cell>& cells, size_t a, bool hasWalkGraph, uint32_t& alphaCount) {
+std::vector<CellRef> makeRow(const std::vector<Cell>& cells, size_t a, bool hasWalkGraph,
+                             uint32_t& alphaCount) {
   std::vector<std::pair<double, CellRef>> alpha, others;
   for (size_t b = 0; b < cells.size(); ++b) {
     if (b == a) continue;

@@ -26,7 +26,9 @@ std::string verifyBytes(const std::vector<uint8_t>& bytes) {
   return status ? "no error" : status.error().message;
 }
 
-std::string verifyContents(const AssetContents& contents) { return verifyBytes(encodeOrFail(contents)); }
+std::string verifyContents(const AssetContents& contents) {
+  return verifyBytes(encodeOrFail(contents));
+}
 
 // The first row of the first chunk.
 std::span<CellRef> firstRow(AssetContents& contents) {
@@ -37,8 +39,10 @@ std::span<CellRef> firstRow(AssetContents& contents) {
 TEST(VerifyAsset, FindsNothingWrongWithAValidAsset) {
   EXPECT_EQ(verifyContents(makeSampleAsset()), "no error");
   EXPECT_EQ(verifyContents(makeSampleAsset({.hasWalkGraph = false})), "no error");
-  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .cellsPerChunk = 5, .localBits = 16})), "no error");
-  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .localBits = 30, .hasWalkGraph = false})), "no error");
+  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .cellsPerChunk = 5, .localBits = 16})),
+            "no error");
+  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .localBits = 30, .hasWalkGraph = false})),
+            "no error");
 }
 
 TEST(VerifyAsset, FindsWhatReadingFinds) {
@@ -63,7 +67,8 @@ TEST(VerifyAsset, FindsANeighbourThatIsThereTwice) {
 // Takes the last neighbour out of the first row, whose back reference stays.
 TEST(VerifyAsset, FindsAPairOfOneDirection) {
   for (const uint32_t chunkCount : {1u, 3u}) {
-    AssetContents contents = makeSampleAsset({.chunkCount = chunkCount, .localBits = chunkCount == 1 ? 32u : 8u});
+    AssetContents contents =
+        makeSampleAsset({.chunkCount = chunkCount, .localBits = chunkCount == 1 ? 32u : 8u});
     ChunkContents& chunk = contents.chunks[0];
     chunk.neighbours.erase(chunk.neighbours.begin() + chunk.neighbourOffsets[1] - 1);
     for (uint32_t cell = 1; cell <= chunk.cellCount; ++cell) --chunk.neighbourOffsets[cell];
@@ -87,7 +92,8 @@ TEST(VerifyAsset, FindsARowThatIsNotNearestFirst) {
   AssetContents contents = makeSampleAsset({.cellsPerChunk = 12});
   ASSERT_GE(contents.chunks[0].alphaCounts[0], 2u);
   std::swap(firstRow(contents)[0], firstRow(contents)[1]);
-  EXPECT_THAT(verifyContents(contents), HasSubstr("its plane is nearer than that of the neighbour before it"));
+  EXPECT_THAT(verifyContents(contents),
+              HasSubstr("its plane is nearer than that of the neighbour before it"));
 }
 
 TEST(VerifyAsset, AcceptsEqualPlanesInAnyOrder) {
@@ -111,8 +117,9 @@ TEST(VerifyAsset, FindsTwoNeighboursAtOnePoint) {
 TEST(VerifyAsset, FindsAFrameThatIsNoRotation) {
   AssetContents contents = makeSampleAsset();
   contents.chunks[0].orientations[2] = {2, 0, 0, 0};
-  EXPECT_THAT(verifyContents(contents),
-              AllOf(HasSubstr("section 'orientations': cell 2: quaternion of length 2, not 1"), HasSubstr("bake")));
+  EXPECT_THAT(
+      verifyContents(contents),
+      AllOf(HasSubstr("section 'orientations': cell 2: quaternion of length 2, not 1"), HasSubstr("bake")));
 }
 
 TEST(VerifyAsset, FindsBoundsThatAreNotThoseOfTheCells) {
