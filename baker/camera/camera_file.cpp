@@ -17,9 +17,10 @@ using Json = nlohmann::ordered_json;  // keeps keys in the order in which they a
 class FieldReader {
  public:
   FieldReader(const Json& object, std::string place) : object_(object), place_(std::move(place)) {
-    if (!object.is_object())
+    if (!object.is_object()) {
       error_ =
           makeError(ErrorKind::kBadInput, "%s: found %s; give an object", place_.c_str(), object.type_name());
+    }
   }
 
   // A misspelt key would silently change the image: refuse what is not known.
@@ -27,9 +28,10 @@ class FieldReader {
     if (error_) return;
     for (const auto& [key, value] : object_.items()) {
       const bool isKnown = std::find(known.begin(), known.end(), key) != known.end();
-      if (!isKnown)
+      if (!isKnown) {
         return fail(key.c_str(), "an unknown field",
                     "remove it, or check its spelling against docs/CAMERAS.md");
+      }
     }
   }
 

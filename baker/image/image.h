@@ -18,8 +18,8 @@ struct Image {
   const float* pixel(uint32_t x, uint32_t y) const { return &values[(size_t{y} * width + x) * channels]; }
 };
 
-// By extension: .pfm (float), .png (8 bit; 16 bit is read too; transparency over black), .jpg (read), .f16 (raw little-endian half; needs the size, so
-// `shape` gives width and height, channels follow from the file's length).
+// By extension: .pfm (float), .png (8 bit, 16 bit is read too; transparency lies over black), .jpg, and .f16 (raw
+// little-endian half without a header: `shape` gives width and height, channels follow from the file's length).
 Result<Image> readImage(const std::filesystem::path& path, const Image* shape = nullptr);
 
 // .pfm keeps the floats, .png clamps to 0..1 and rounds to 8 bits. Written to a temporary name, synced, renamed.

@@ -9,12 +9,16 @@
 namespace froth {
 
 struct ImageDifference {
-  double psnr = 0;             // -10 log10 MSE over pixels and channels, both clamped to 0..1, peak 1 [dB]; +inf if equal, NaN if a value is
+  // -10 log10 of the mean square over pixels and channels, both clamped to 0..1, peak 1 [dB]; +inf if equal, NaN if a
+  // value is.
+  double psnr = 0;
   double psnrChannelMean = 0;  // mean over channels of the channel's PSNR, as published figures are [dB]
-  double ssim = 0;             // Gaussian window 11x11, sigma 1.5, valid region, clamped, mean over channels; NaN under 11 pixels a side
-  double maxError = 0;         // largest absolute difference, not clamped; +inf where a value is NaN
-  double overOneStep = 0;      // share of pixels with a channel off by more than 1/255
-  double overTwoSteps = 0;     // ... by more than 2/255
+  // Gaussian window 11x11, sigma 1.5, windows wholly inside, clamped to 0..1, mean over channels; NaN where a side has
+  // fewer than 11 pixels.
+  double ssim = 0;
+  double maxError = 0;     // largest absolute difference, not clamped; +inf where a value is NaN
+  double overOneStep = 0;  // share of pixels with a channel off by more than 1/255
+  double overTwoSteps = 0; // ... by more than 2/255
 };
 
 // Fails if sizes or channels differ.

@@ -1,5 +1,5 @@
-// The reference renderer: the oracle of everything. Brute force over a bounding volume hierarchy, with its own Cech pairs
-// (no triangulation), every cell sorted by its power, compiled from shaders/foam/ like the shaders.
+// The reference renderer: the oracle of everything. Brute force over a bounding volume hierarchy, with its own Cech
+// pairs (no triangulation), every cell sorted by its power, compiled from shaders/foam/ like the shaders.
 #pragma once
 
 #include <memory>
@@ -35,7 +35,10 @@ class ReferenceRenderer {
  public:
   explicit ReferenceRenderer(const Foam& foam);  // keeps a reference; builds hierarchy and pairs once
   ~ReferenceRenderer();
-  Result<RenderedImages> render(const View& view, const ReferenceOptions& options, const Progress& progress = {}) const;
+  // Near limits are those of `options`, whatever the view says. Fails with kUsage for a view without pixels or with more
+  // than 2^28, or a quantile outside 0..1; with kCancelled. May be called from several threads at once.
+  Result<RenderedImages> render(const View& view, const ReferenceOptions& options,
+                                const Progress& progress = {}) const;
 
  private:
   struct State;
