@@ -11,7 +11,8 @@ namespace froth {
 
 Status FiguresOutput::write(const nlohmann::ordered_json& figures) const {
   if (target.empty()) return {};
-  const std::string text = figures.dump(2) + "\n";
+  // File names need not be UTF-8; JSON must be.
+  const std::string text = figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (target == "-") {
     fmt::print("{}", text);
     return {};

@@ -1,0 +1,162 @@
+// What the program says to bad files: exit code 3, a message that names file, place, found value and remedy,
+// and no output, whole or partial.
+#include <cstdlib>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "tests/checkpoint/checkpoint_builder.h"
+#include "tests/tool/program_runner.h"
+
+namespace froth::test {
+namespace {
+
+using testing::HasSubstr;
+
+class BadInput : public ToolTest {
+ protected:
+  // `command` fails with a message that names `file` and each of `parts`, and changes nothing in the folder.
+  void expectRefusal(const std::vector<std::string>& command, const std::string& file,
+                     const std::vector<std::string>& parts) const {
+    const std::vector<std::string> before = filesInFolder();
+    const ProgramRun run = froth(command);
+    EXPECT_EQ(run.exitCode, 3) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("froth: "));
+    EXPECT_THAT(run.err, HasSubstr(file));
+    for (const std::string& part : parts) EXPECT_THAT(run.err, HasSubstr(part));
+    EXPECT_EQ(filesInFolder(), before) << "something was left behind";
+  }
+
+  // The same of a bake.
+  void expectBakeRefused(const std::string& input, const std::vector<std::string>& parts) const {
+    expectRefusal({"bake", input, "-o", "out.froth"}, input, parts);
+  }
+
+  void writeCheckpoint(const CheckpointSpec& checkpoint) const {
+    writeBytes(folder_ / "bad.pt", buildCheckpoint(checkpoint));
+  }
+};
+
+TEST_F(BadInput, AMissingFile) {
+  expectBakeRefused("none.pt", {});
+  expectRefusal({"info", "none.froth"}, "none.froth", {});
+  expectRefusal({"verify", "none.froth"}, "none.froth", {});
+}
+
+TEST_F(BadInput, AnEmptyFile) {
+  writeBytes(folder_ / "bad.pt", "");
+  writeBytes(folder_ / "bad.froth", "");
+  expectBakeRefused("bad.pt", {});
+  expectRefusal({"info", "bad.froth"}, "bad.froth", {});
+  expectRefusal({"verify", "bad.froth"}, "bad.froth", {});
+}
+
+TEST_F(BadInput, ADirectory) {
+  std::filesystem::create_directory(folder_ / "bad.pt");
+  std::filesystem::create_directory(folder_ / "bad.froth");
+  expectBakeRefused("bad.pt", {"directory"});
+  expectRefusal({"info", "bad.froth"}, "bad.froth", {"directory"});
+}
+
+TEST_F(BadInput, ATruncatedCheckpoint) {
+  const std::string whole = buildCheckpoint(sampleCheckpoint());
+  for (const size_t length : {size_t{1}, size_t{100}, whole.size() / 2, whole.size() - 1}) {
+    writeBytes(folder_ / "bad.pt", whole.substr(0, length));
+    expectBakeRefused("bad.pt", {});
+  }
+}
+
+TEST_F(BadInput, ABitFlipInEveryPartOfAnAsset) {
+  makeRandomFoam("60");
+  const std::string whole = readBytes(folder_ / "random.froth");
+  for (size_t part = 0; part < 12; ++part) {
+    std::string flipped = whole;
+    flipped[part * (whole.size() - 1) / 11] ^= 0x10;
+    writeBytes(folder_ / "bad.froth", flipped);
+    expectRefusal({"verify", "bad.froth"}, "bad.froth", {});
+  }
+}
+
+TEST_F(BadInput, ATruncatedAsset) {
+  makeRandomFoam("60");
+  const std::string whole = readBytes(folder_ / "random.froth");
+  for (const size_t length : {size_t{3}, size_t{64}, whole.size() / 2, whole.size() - 1}) {
+    writeBytes(folder_ / "bad.froth", whole.substr(0, length));
+    expectRefusal({"verify", "bad.froth"}, "bad.froth", {});
+    expectRefusal({"synth", "tile", "--of", "bad.froth", "--count", "2", "-o", "out.froth"}, "bad.froth", {});
+  }
+}
+
+TEST_F(BadInput, ABitFlipInACheckpointsData) {
+  std::string flipped = buildCheckpoint(sampleCheckpoint());
+  // A mantissa byte of a stored number: only the archive's checksum can tell.
+  const size_t name = flipped.find("model/data/points");
+  ASSERT_NE(name, std::string::npos);
+  flipped[name + std::string("model/data/points").size() + 5] ^= 0x01;
+  writeBytes(folder_ / "bad.pt", flipped);
+  expectBakeRefused("bad.pt", {"points"});
+}
+
+TEST_F(BadInput, APickleThatCallsTheSystem) {
+  CheckpointSpec checkpoint = sampleCheckpoint();
+  const std::string trap = (folder_ / "trap").string();
+  checkpoint.pickle =
+      pickleProgram(pickleCall(pickleGlobal("os", "system"), pickleTuple({pickleText("touch " + trap)})));
+  writeCheckpoint(checkpoint);
+  expectBakeRefused("bad.pt", {"os", "system"});
+  EXPECT_FALSE(std::filesystem::exists(trap));
+}
+
+TEST_F(BadInput, ParametersThatAreNotFinite) {
+  for (const char* key : {"points", "radii", "density", "quaternions", "texel_sites", "texel_height",
+                          "texel_sv_axis", "texel_sv_rgb"}) {
+    for (const float value :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+      CheckpointSpec checkpoint = sampleCheckpoint();
+      checkpoint.storages[key].replace(4, 4, packNumber(value));
+      writeCheckpoint(checkpoint);
+      expectBakeRefused("bad.pt", {key});
+    }
+  }
+}
+
+TEST_F(BadInput, NegativeCounts) {
+  CheckpointSpec checkpoint = sampleCheckpoint();
+  checkpoint.tensor("radii").shape = {-2};
+  writeCheckpoint(checkpoint);
+  expectBakeRefused("bad.pt", {"radii", "-2"});
+}
+
+TEST_F(BadInput, ACellCountOf10To12) {
+  CheckpointSpec checkpoint = sampleCheckpoint();
+  for (auto& [key, tensor] : checkpoint.tensors) tensor.shape[0] = 1'000'000'000'000;
+  writeCheckpoint(checkpoint);
+  expectBakeRefused("bad.pt", {"1000000000000"});
+}
+
+TEST_F(BadInput, CamerasThatAreNoJson) {
+  makeRandomFoam("60");
+  writeBytes(folder_ / "cameras.json", "{\"views\": [");
+  expectRefusal(
+      {"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"},
+      "cameras.json", {"JSON"});
+}
+
+TEST_F(BadInput, ImagesOfDifferentSizes) {
+  writeBytes(folder_ / "a.pfm", "Pf\n1 1\n-1\n" + packNumber(0.5f));
+  writeBytes(folder_ / "b.pfm", "Pf\n2 1\n-1\n" + packNumbers<float>({0.5f, 0.5f}));
+  expectRefusal({"compare", "a.pfm", "b.pfm"}, "1", {"2"});
+}
+
+TEST_F(BadInput, FilesFoundInTheWild) {
+  const char* data = std::getenv("FROTH_DATA");
+  const std::filesystem::path folder =
+      std::filesystem::path(data ? data : FROTH_SOURCE_DIR "/../shared/data") / "malformed";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent; set FROTH_DATA";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) expectBakeRefused(entry.path().string(), {});
+  }
+}
+
+}  // namespace
+}  // namespace froth::test

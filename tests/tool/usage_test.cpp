@@ -1,0 +1,103 @@
+// What the program says to wrong command lines: exit code 2, a message on stderr, nothing on disk.
+#include "tests/tool/program_runner.h"
+
+namespace froth::test {
+namespace {
+
+class Usage : public ToolTest {
+ protected:
+  void expectUsageError(const std::vector<std::string>& arguments, const std::string& named) const {
+    const ProgramRun run = froth(arguments);
+    EXPECT_EQ(run.exitCode, 2) << run.err;
+    EXPECT_EQ(run.err.rfind("froth: ", 0), 0u) << run.err;
+    EXPECT_NE(run.err.find(named), std::string::npos) << "'" << named << "' is missing in: " << run.err;
+    EXPECT_TRUE(filesInFolder().empty());
+  }
+};
+
+TEST_F(Usage, ACommandIsNeeded) {
+  expectUsageError({}, "subcommand");
+}
+
+TEST_F(Usage, AnUnknownCommandIsRefused) {
+  expectUsageError({"fry"}, "fry");
+}
+
+TEST_F(Usage, AnUnknownOptionIsNamed) {
+  expectUsageError({"info", "a.froth", "--sise", "3"}, "--sise");
+}
+
+TEST_F(Usage, AMissingOptionIsNamed) {
+  expectUsageError({"bake", "a.pt"}, "--output");
+}
+
+TEST_F(Usage, AnUnknownSceneIsNamed) {
+  expectUsageError({"synth", "moon", "-o", "a.pt"}, "moon");
+}
+
+TEST_F(Usage, ACellCountBeyond32BitsIsRefused) {
+  expectUsageError({"synth", "random", "--cells", "1000000000000", "-o", "a.pt"}, "1000000000000");
+}
+
+TEST_F(Usage, ASizeMustBeTwoNumbers) {
+  for (const char* size : {"640", "640x", "x480", "0x480", "640x480x3", "-1x5", "99999x2"}) {
+    expectUsageError(
+        {"render", "a.froth", "--cameras", "c.json", "--renderer", "raster", "--size", size, "-o", "d"},
+        size);
+  }
+}
+
+TEST_F(Usage, AnUnknownRendererIsNamed) {
+  expectUsageError({"render", "a.froth", "--cameras", "c.json", "--renderer", "magic", "-o", "d"}, "magic");
+}
+
+TEST_F(Usage, PrecisionBelongsToTheReference) {
+  expectUsageError(
+      {"render", "a.froth", "--cameras", "c.json", "--renderer", "walk", "--precision", "float", "-o", "d"},
+      "--precision");
+}
+
+TEST_F(Usage, APngHoldsNeitherDepthNorLinearColour) {
+  const std::vector<std::string> common{"render", "a.froth", "--cameras", "c.json", "--renderer",
+                                        "raster", "--view",  "0",         "-o",     "a.png"};
+  std::vector<std::string> depth = common, linear = common;
+  depth.insert(depth.end(), {"--channel", "depth"});
+  linear.push_back("--linear");
+  expectUsageError(depth, "depth");
+  expectUsageError(linear, "linear");
+}
+
+TEST_F(Usage, TruthBelongsToTheGallery) {
+  expectUsageError({"synth", "random", "--truth", "c.json", "-o", "d"}, "--truth");
+}
+
+TEST_F(Usage, ATilingNeedsSourceAndCount) {
+  expectUsageError({"synth", "tile", "--count", "2", "-o", "a.pt"}, "--of");
+}
+
+TEST_F(Usage, AnAssetIsNamedLikeOne) {
+  expectUsageError({"bake", "a.pt", "-o", "a.bin"}, ".froth");
+}
+
+TEST_F(Usage, FewerThanHundredFramesAreNoMeasurement) {
+  expectUsageError({"bench", "a.froth", "--cameras", "c.json", "--frames", "10"}, "--frames");
+}
+
+TEST_F(Usage, HelpIsNoError) {
+  const ProgramRun run = froth({"bake", "--help"});
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_NE(run.out.find("--near-ratio"), std::string::npos);
+}
+
+TEST_F(Usage, AViewThatIsNotThereIsNamed) {
+  CameraSet cameras;
+  cameras.views.push_back(viewOfRandomFoam(8, 8));
+  ASSERT_TRUE(writeCameras(folder_ / "cameras.json", cameras));
+  const ProgramRun run = froth({"render", "a.froth", "--cameras", "cameras.json", "--view", "3", "--renderer",
+                                "reference", "-o", "a.pfm"});
+  EXPECT_EQ(run.exitCode, 2);
+  EXPECT_NE(run.err.find("--view 3: cameras.json has 1 views"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace froth::test
