@@ -12,7 +12,9 @@ shared uint maskWords[kMaskWords];
 shared uint planes;
 
 bool isVisible(Ball ball) {
-  if (isNearCell(ball.centre, ball.radius, FRAME.forward.xyz, FRAME.nearRatio, FRAME.forward.w)) return false;
+  // One load: lavapipe of Mesa 22.3 mixes up the components where a vector and one of its parts are loaded apart.
+  vec4 forward = FRAME.forward;
+  if (isNearCell(ball.centre, ball.radius, forward.xyz, FRAME.nearRatio, forward.w)) return false;
   return pixelsMeetBall(ball.centre, ball.radius, uvec2(0), max(FRAME.regionWidth, FRAME.regionHeight));
 }
 

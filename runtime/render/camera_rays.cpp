@@ -1,21 +1,7 @@
 #include "runtime/render/camera_rays.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace froth {
 namespace {
-
-struct Interval {
-  double low, high;
-};
-
-// Pixels whose centres lie in the interval, cut to [0, limit].
-Interval cutPixels(double a, double b, double limit) {
-  return {std::clamp(std::ceil(std::min(a, b) - 0.5), 0.0, limit), std::clamp(std::ceil(std::max(a, b) - 0.5), 0.0, limit)};
-}
-
-Interval intersect(Interval a, Interval b) { return {std::max(a.low, b.low), std::min(a.high, b.high)}; }
 
 glm::dmat3 rotationOf(const std::array<float, 4>& quaternion) {
   const glm::dvec4 q = glm::normalize(glm::dvec4(quaternion[0], quaternion[1], quaternion[2], quaternion[3]));
@@ -27,27 +13,7 @@ glm::dmat3 rotationOf(const std::array<float, 4>& quaternion) {
 
 }  // namespace
 
-VkRect2D drawnRegion(const FrothRenderInfo& info, VkExtent2D maxExtent) {
-  VkExtent2D extent = maxExtent;
-  for (const FrothImage* image : {&info.colour, &info.distance, &info.normal}) {
-    if (!image->image) continue;
-    extent.width = std::min(extent.width, image->extent.width);
-    extent.height = std::min(extent.height, image->extent.height);
-  }
-  const VkViewport& viewport = info.camera.viewport;
-  Interval x = cutPixels(viewport.x, double{viewport.x} + viewport.width, extent.width);
-  Interval y = cutPixels(viewport.y, double{viewport.y} + viewport.height, extent.height);
-  const VkRect2D& scissor = info.camera.scissor;
-  if (scissor.extent.width != 0 || scissor.extent.height != 0) {
-    x = intersect(x, {double(scissor.offset.x), double(scissor.offset.x) + scissor.extent.width});
-    y = intersect(y, {double(scissor.offset.y), double(scissor.offset.y) + scissor.extent.height});
-  }
-  if (x.high <= x.low || y.high <= y.low) return {};
-  return {{static_cast<int32_t>(x.low), static_cast<int32_t>(y.low)},
-          {static_cast<uint32_t>(x.high - x.low), static_cast<uint32_t>(y.high - y.low)}};
-}
-
-CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance, const VkRect2D& region) {
+CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance) {
   const float* clip = camera.clipFromView;
   // Rows x, y, w of the projection: (x_ndc, y_ndc, 1) w = projection * direction, so w > 0 points forward.
   const glm::dmat3 projection(clip[0], clip[1], clip[3], clip[4], clip[5], clip[7], clip[8], clip[9], clip[11]);
@@ -59,6 +25,7 @@ CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& in
   const glm::dmat3 assetFromClip = assetFromView * glm::inverse(projection);
 
   const VkViewport& viewport = camera.viewport;
+  const VkRect2D& region = camera.scissor;
   const double left = region.offset.x + 0.5 - camera.jitter[0] - viewport.x;
   const double top = region.offset.y + 0.5 - camera.jitter[1] - viewport.y;
   rays.stepX = assetFromClip[0] * (2.0 / viewport.width);

@@ -18,10 +18,8 @@ struct CameraRays {
   glm::dmat3 worldFromAsset;  // rotation
 };
 
-// The pixels to draw: scissor (zero: the whole viewport) within viewport, wanted images and maxExtent. May be empty.
-VkRect2D drawnRegion(const FrothRenderInfo& info, VkExtent2D maxExtent);
-
-// region: not empty. Jitter moves the image by that many pixels, as it would in the engine's own jittered projection.
-CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance, const VkRect2D& region);
+// The region is camera.scissor, resolved. Jitter moves the image by that many pixels, as it would in the engine's own
+// jittered projection.
+CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance);
 
 }  // namespace froth

@@ -89,7 +89,8 @@ uint32_t tileDigits(const VkRect2D& region) {
   return digits;
 }
 
-void fillOutputs(const FrothRenderInfo& info, const VkRect2D& region, gpu::FrameBlock& block) {
+void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block) {
+  const VkRect2D& region = info.camera.scissor;
   block.scale = 1;
   block.flags = (info.colour.image ? gpu::kFlagColour : 0) | (info.distance.image ? gpu::kFlagDistance : 0) |
                 (info.normal.image ? gpu::kFlagNormal : 0) | (info.displayCoded ? gpu::kFlagDisplayCoded : 0);
@@ -99,12 +100,12 @@ void fillOutputs(const FrothRenderInfo& info, const VkRect2D& region, gpu::Frame
   block.regionHeight = region.extent.height;
 }
 
-void fillFrame(const FrothRenderInfo& info, const VkRect2D& region, const RenderInstance& instance,
-               const ViewBuffers& buffers, const RecordingPlace& place, gpu::FrameBlock& block,
-               gpu::ChunkEntry* chunks) {
+void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, const ViewBuffers& buffers,
+               const RecordingPlace& place, gpu::FrameBlock& block, gpu::ChunkEntry* chunks) {
   const GpuAsset& asset = *instance.asset;
-  const CameraRays rays = computeCameraRays(info.camera, instance, region);
-  fillOutputs(info, region, block);
+  const VkRect2D& region = info.camera.scissor;
+  const CameraRays rays = computeCameraRays(info.camera, instance);
+  fillOutputs(info, block);
   fillCamera(info, rays, instance, block);
   fillTransients(buffers, region, block);
   fillChunks(asset, rays.eye, chunks);

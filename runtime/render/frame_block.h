@@ -24,10 +24,10 @@ uint32_t tilesAlong(uint32_t pixels);
 uint32_t tileDigits(const VkRect2D& region);
 
 // What a clear needs: region, outputs, scale.
-void fillOutputs(const FrothRenderInfo& info, const VkRect2D& region, gpu::FrameBlock& block);
+void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block);
 
-// Everything. region: not empty. chunks: [asset.chunks.size()].
-void fillFrame(const FrothRenderInfo& info, const VkRect2D& region, const RenderInstance& instance,
-               const ViewBuffers& buffers, const RecordingPlace& place, gpu::FrameBlock& block, gpu::ChunkEntry* chunks);
+// Everything. chunks: [asset.chunks.size()].
+void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, const ViewBuffers& buffers,
+               const RecordingPlace& place, gpu::FrameBlock& block, gpu::ChunkEntry* chunks);
 
 }  // namespace froth

@@ -33,7 +33,7 @@ void recordBin(const Recording& recording, const PassRecorder& recorder) {
               buffers[ViewBuffer::kPairTilesSwap].address, buffers[ViewBuffer::kPairCellsSwap].address,
               counters + offsetof(gpu::Counters, pairsKept), buffers.capacity().pairs,
               offsetof(gpu::Counters, pairSortDispatch)},
-             tileDigits(recording.region));
+             tileDigits(recording.info.camera.scissor));
   recorder.runIndirect(Pass::kFindRanges, offsetof(gpu::Counters, pairDispatch));
   recorder.wait();
 }

@@ -2,7 +2,6 @@
 #include <cstddef>
 #include <cstring>
 
-#include "runtime/render/camera_rays.h"
 #include "runtime/render/view_state.h"
 
 namespace froth {
@@ -15,10 +14,9 @@ void writeBlock(const Recording& recording, const RenderInstance* instance) {
   char* staged = static_cast<char*>(buffers[ViewBuffer::kStaging].mapped) + recording.number * buffers.recordingStride();
   gpu::FrameBlock block{};
   if (!instance) {
-    fillOutputs(recording.info, recording.region, block);
-  } else if (recording.region.extent.width != 0) {
-    fillFrame(recording.info, recording.region, *instance, buffers,
-              {recording.blockAddress(), recording.countersAddress()}, block,
+    fillOutputs(recording.info, block);
+  } else {
+    fillFrame(recording.info, *instance, buffers, {recording.blockAddress(), recording.countersAddress()}, block,
               reinterpret_cast<gpu::ChunkEntry*>(staged + kChunkTableOffset));
     block.flags |= recording.kind == RecordingKind::kRaster ? gpu::kFlagOnlyPaired : 0;
   }
@@ -87,7 +85,6 @@ Recording beginRecording(ViewState& view, VkCommandBuffer commandBuffer, Recordi
                       .info = info,
                       .commandBuffer = commandBuffer,
                       .kind = kind,
-                      .region = drawnRegion(info, view.maxExtent),
                       .place = place,
                       .number = view.slot * kRecordingsPerFrame + place};
   slot.serial = serial;
@@ -153,7 +150,8 @@ void recordShade(const PassRecorder& recorder) {
 
 void recordPixels(const Recording& recording, const PassRecorder& recorder, Pass pass) {
   const auto groupsAlong = [](uint32_t pixels) { return (pixels + gpu::kSubTileSize - 1) / gpu::kSubTileSize; };
-  recorder.run(pass, groupsAlong(recording.region.extent.width), groupsAlong(recording.region.extent.height));
+  const VkExtent2D& extent = recording.info.camera.scissor.extent;
+  recorder.run(pass, groupsAlong(extent.width), groupsAlong(extent.height));
 }
 
 }  // namespace froth

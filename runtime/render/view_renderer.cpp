@@ -50,8 +50,6 @@ void readBack(ViewState& view, uint64_t completedSerial) {
   }
 }
 
-bool isEmpty(const VkRect2D& region) { return region.extent.width == 0 || region.extent.height == 0; }
-
 }  // namespace
 
 ViewRenderer::ViewRenderer() = default;
@@ -70,7 +68,6 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExt
   }
   std::unique_ptr<ViewRenderer> renderer(new ViewRenderer);
   renderer->state_.reset(new ViewState{.device = device,
-                                   .maxExtent = maxExtent,
                                    .buffers = ViewBuffers(device),
                                    .images = std::move(*images),
                                    .timer = std::move(timer),
@@ -114,9 +111,7 @@ uint32_t ViewRenderer::recordRaster(VkCommandBuffer commandBuffer, RenderPipelin
   }
   const Recording recording =
       beginRecording(*state_, commandBuffer, RecordingKind::kRaster, info, serial, &instance);
-  if (!isEmpty(recording.region)) {
-    recordRasterPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
-  }
+  recordRasterPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
   endRecording(recording);
   return 0;
 }
@@ -130,9 +125,7 @@ uint32_t ViewRenderer::recordWalk(VkCommandBuffer commandBuffer, RenderPipelines
     return isReady ? FROTH_VIEW_NO_WALK_GRAPH : FROTH_VIEW_NOT_READY;
   }
   const Recording recording = beginRecording(*state_, commandBuffer, RecordingKind::kWalk, info, serial, &instance);
-  if (!isEmpty(recording.region)) {
-    recordWalkPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
-  }
+  recordWalkPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
   endRecording(recording);
   return 0;
 }
@@ -140,11 +133,9 @@ uint32_t ViewRenderer::recordWalk(VkCommandBuffer commandBuffer, RenderPipelines
 void ViewRenderer::recordClear(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothRenderInfo& info,
                                uint64_t serial) {
   const Recording recording = beginRecording(*state_, commandBuffer, RecordingKind::kClear, info, serial, nullptr);
-  if (!isEmpty(recording.region)) {
-    const PassRecorder recorder = bindRecording(recording, pipelines.state(), pipelines.state().common);
-    recordPixels(recording, recorder, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
-    recording.mark("clear");
-  }
+  const PassRecorder recorder = bindRecording(recording, pipelines.state(), pipelines.state().common);
+  recordPixels(recording, recorder, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
+  recording.mark("clear");
   endRecording(recording);
 }
 

@@ -34,7 +34,8 @@ class ViewRenderer {
   Status prepare(uint64_t serial, uint64_t completedSerial, const GpuAsset* asset);
 
   // Between frothUpdate calls; `serial` is that of the frame. Both may be called once per frame.
-  // info has been checked and its defaults resolved. Allocates nothing. Returns the FrothViewBit set known at record time.
+  // info has been checked and its defaults resolved: camera.scissor is what is drawn, not empty, within maxExtent and the
+  // images. Allocates nothing. Returns the FrothViewBit set known at record time.
   uint32_t recordRaster(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const RenderInstance& instance,
                         const FrothRenderInfo& info, uint64_t serial);
   uint32_t recordWalk(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const RenderInstance& instance,

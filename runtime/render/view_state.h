@@ -23,7 +23,6 @@ struct FrameSlot {
 
 struct ViewState {
   Device& device;
-  VkExtent2D maxExtent;
   ViewBuffers buffers;
   std::unique_ptr<OutputImages> images;
   std::unique_ptr<PassTimer> timer;  // null: not measured
@@ -42,7 +41,6 @@ struct Recording {
   const FrothRenderInfo& info;
   VkCommandBuffer commandBuffer;
   RecordingKind kind;
-  VkRect2D region;
   uint32_t place;   // within the frame: device block, counters
   uint32_t number;  // among all recordings in flight: descriptor set, staging, read-back
 

@@ -37,7 +37,7 @@ std::vector<float> readBack(Host& host, const HostImage& image) {
 
 Host& sharedHost() {
   static const std::unique_ptr<Host> host = [] {
-    Result<std::unique_ptr<Host>> created = Host::create({.device = "", .useValidation = true});
+    Result<std::unique_ptr<Host>> created = Host::create({.device = {}, .useValidation = true});
     if (!created) {
       ADD_FAILURE() << created.error().message;
       std::abort();
@@ -47,12 +47,19 @@ Host& sharedHost() {
   return *host;
 }
 
-Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent) {
-  Host& host = sharedHost();
-  FrothContextInfo info = host.contextInfo();
-  info.onMessage = onMessage;
-  info.checkIndices = 1;
-  check(frothCreateContext(&info, &context_), "frothCreateContext");
+FrothContext* sharedContext() {
+  static FrothContext* const context = [] {
+    FrothContextInfo info = sharedHost().contextInfo();
+    info.onMessage = onMessage;
+    info.checkIndices = 1;
+    FrothContext* created = nullptr;
+    check(frothCreateContext(&info, &created), "frothCreateContext");
+    return created;
+  }();
+  return context;
+}
+
+Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent) : context_(sharedContext()) {
   Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
   EXPECT_TRUE(bytes) << bytes.error().message;
   bytes_ = std::move(*bytes);
@@ -73,7 +80,9 @@ Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent) {
 }
 
 Stage::~Stage() {
-  frothDestroyContext(context_);
+  check(frothDestroyView(context_, view_), "frothDestroyView");
+  check(frothDestroyInstance(context_, instance_), "frothDestroyInstance");
+  check(frothCloseAsset(context_, asset_), "frothCloseAsset");
   expectSilence(sharedHost());
 }
 

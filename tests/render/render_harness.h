@@ -27,8 +27,10 @@ struct Frame {
   FrothViewStatus status{};
 };
 
-// One device with validation layers for all tests of the program.
+// One device with validation layers, and one context that checks indices, for all tests of the program: pipelines are
+// made once per asset shape.
 Host& sharedHost();
+FrothContext* sharedContext();
 
 // One asset, one instance, one view. Any failing call, validation message or index violation fails the test.
 class Stage {
@@ -45,7 +47,7 @@ class Stage {
   FrothViewStatus submit(Method method, const FrothRenderInfo& info);
 
  private:
-  FrothContext* context_ = nullptr;
+  FrothContext* context_;
   std::vector<uint8_t> bytes_;
   FrothAsset asset_{};
   FrothInstance instance_{};
