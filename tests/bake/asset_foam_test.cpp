@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "baker/bake/bake.h"
+#include "baker/reference/reference.h"
 #include "tests/bake/random_foam.h"
 
 namespace froth {
@@ -30,6 +31,31 @@ TEST(FoamFromAsset, GivesTheLiveCellsBackAndEmptiesTheOthers) {
     EXPECT_EQ(shown->detailHeights[2 * place + 1], isLive ? foam.detailHeights[2 * cell + 1] : 0);
     EXPECT_EQ(shown->lobeColours[6 * place + 5], isLive ? foam.lobeColours[6 * cell + 5] : glm::vec3(0));
   }
+}
+
+// Dropped, emptied and reordered cells leave no trace: the reference, which finds its neighbours on its own,
+// draws the baked foam as it draws the input.
+TEST(FoamFromAsset, ShowsTheImageOfTheInput) {
+  const Foam foam = makeMixedFoam();
+  const Result<BakeResult> baked = bakeFoam(foam, {});
+  ASSERT_TRUE(baked);
+  const Result<Foam> shown = foamFromAsset(baked->contents);
+  ASSERT_TRUE(shown);
+
+  View view;  // looks along z at the foam in [0, 10]^3
+  view.width = view.height = 48;
+  view.fx = view.fy = 48;
+  view.cx = view.cy = 24;
+  view.worldFromCamera = {1, 0, 0, 5, 0, 1, 0, 5, 0, 0, 1, -8};
+  const Result<RenderedImages> expected = ReferenceRenderer(foam).render(view, {});
+  const Result<RenderedImages> found = ReferenceRenderer(*shown).render(view, {});
+  ASSERT_TRUE(expected && found);
+  double energy = 0;
+  for (size_t k = 0; k < expected->colour.values.size(); ++k) {
+    energy += expected->colour.values[k];
+    ASSERT_NEAR(found->colour.values[k], expected->colour.values[k], 1e-6) << k;
+  }
+  EXPECT_GT(energy, 100);
 }
 
 // Two chunks of one live and one dead cell each; the second lies at an origin.

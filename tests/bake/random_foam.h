@@ -31,4 +31,16 @@ inline Foam makeRandomFoam(uint32_t cellCount, uint32_t detailCount, uint32_t lo
   return foam;
 }
 
+// A foam of live, dead, empty, hidden and duplicate cells: a random one, with some cells spoilt.
+inline Foam makeMixedFoam() {
+  Foam foam = makeRandomFoam(400, 2, 3, 11);
+  for (uint32_t i = 0; i < 400; i += 10) foam.densities[i] = 0;
+  for (uint32_t i = 1; i < 400; i += 20) foam.sites[i] = foam.sites[i + 1];
+  for (uint32_t i = 3; i < 400; i += 20) {  // small, well inside a neighbour: empty or hidden
+    foam.radii[i] = 0.05f * foam.radii[i + 1];
+    foam.sites[i] = foam.sites[i + 1] + 0.5f * foam.radii[i + 1] * glm::vec3(0, 0, 1);
+  }
+  return foam;
+}
+
 }  // namespace froth

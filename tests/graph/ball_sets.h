@@ -27,7 +27,7 @@ class BallSetMaker {
  public:
   explicit BallSetMaker(uint64_t seed) : random_(seed) {}
 
-  double uniform(double low, double high) { return low + (high - low) * unit_(random_); }
+  double uniform(double low, double high) { return low + (high - low) * unit(); }
   glm::dvec3 pointInCube(double low, double high) {
     const double x = uniform(low, high), y = uniform(low, high);
     return {x, y, uniform(low, high)};
@@ -48,7 +48,7 @@ class BallSetMaker {
   BallSet stiff(uint32_t count) {
     BallSet balls{"stiff", {}, {}};
     for (uint32_t i = 0; i < count; ++i) {
-      const double radius = 3 * std::pow(10, -4 * std::pow(unit_(random_), 0.5));
+      const double radius = 3 * std::pow(10, -4 * std::pow(unit(), 0.5));
       glm::dvec3 site = pointInCube(0, 10);
       if (i >= 4 && i % 3 != 0) {
         const uint32_t host = i % 4 == 0 ? i - 1 : i % 4;
@@ -106,9 +106,10 @@ class BallSetMaker {
   }
 
  private:
-  std::mt19937_64
-      random_;  // its bits are the same on every platform; std distributions are avoided but for one
-  std::uniform_real_distribution<double> unit_{0, 1};
+  // Not std's distributions: their numbers differ between standard libraries.
+  double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
+
+  std::mt19937_64 random_;
 };
 
 inline std::vector<BallSet> makeBallSets(uint64_t seed) {
