@@ -37,11 +37,10 @@ double marchRelief(const Solid& solid, const Ray& ray, double start) {
   return t;
 }
 
-// Whether the sphere around the solid stays clear of the segment from `origin` of `length` along `direction`.
-bool missesBounds(const Shape& shape, const dvec3& origin, const dvec3& direction, double length, double margin) {
-  const double radius = shape.boundingRadius() + margin;
-  if (radius == kNoHit) return false;
-  const dvec3 toCentre = shape.centre() - origin;
+// Whether a sphere stays clear of the segment from `origin` of `length` along `direction`.
+bool missesSphere(const dvec3& centre, double radius, const dvec3& origin, const dvec3& direction,
+                  double length) {
+  const dvec3 toCentre = centre - origin;
   const double along = std::clamp(glm::dot(toCentre, direction), 0.0, length);
   const dvec3 apart = toCentre - along * direction;
   return glm::dot(apart, apart) > radius * radius;
@@ -49,31 +48,30 @@ bool missesBounds(const Shape& shape, const dvec3& origin, const dvec3& directio
 
 }  // namespace
 
+AnalyticScene::AnalyticScene(std::vector<Solid> solids, const Extent& room, const Extent& opening)
+    : solids_(std::move(solids)), room_(room), opening_(opening) {
+  for (const Solid& solid : solids_)
+    bounds_.push_back({solid.shape->centre(), solid.shape->boundingRadius()});
+}
+
 std::optional<SceneHit> AnalyticScene::intersect(const Ray& ray) const {
   SceneHit hit{kNoHit, nullptr, {}};
-  for (const Solid& solid : solids_) {
-    const bool embossed = solid.material.reliefBound > 0;
-    if (missesBounds(*solid.shape, ray.origin, ray.direction, hit.distance, solid.material.reliefBound)) continue;
-    if (opening_ && solid.shape->boundingRadius() == kNoHit) {
+  for (size_t i = 0; i < solids_.size(); ++i) {
+    const Solid& solid = solids_[i];
+    const double bound = solid.material.reliefBound;
+    if (missesSphere(bounds_[i].centre, bounds_[i].radius + bound, ray.origin, ray.direction, hit.distance))
+      continue;
+    if (bounds_[i].radius == kNoHit) {
       const double wall = solid.shape->intersect(ray, 0);
-      if (wall != kNoHit && opening_->contains(ray.origin + wall * ray.direction)) continue;
+      if (wall != kNoHit && opening_.contains(ray.origin + wall * ray.direction)) continue;
     }
-    double t = solid.shape->intersect(ray, solid.material.reliefBound);
+    double t = solid.shape->intersect(ray, bound);
     if (t >= hit.distance) continue;
-    if (embossed) t = marchRelief(solid, ray, t);
+    if (bound > 0) t = marchRelief(solid, ray, t);
     if (t < hit.distance) hit = {t, &solid, ray.origin + t * ray.direction};
   }
   if (!hit.solid) return {};
   return hit;
-}
-
-bool AnalyticScene::isShadowed(const dvec3& from, const dvec3& to) const {
-  const double length = glm::length(to - from);
-  const Ray ray{from, (to - from) / length};
-  return std::any_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
-    return solid.castsShadows && !missesBounds(*solid.shape, from, ray.direction, length, 0) &&
-           solid.shape->intersect(ray, 0) < length;
-  });
 }
 
 double AnalyticScene::softVisibility(const dvec3& from, const dvec3& to, double softness) const {
@@ -81,8 +79,11 @@ double AnalyticScene::softVisibility(const dvec3& from, const dvec3& to, double 
   const double length = glm::length(to - from);
   const dvec3 direction = (to - from) / length;
   double visibility = 1;
-  for (const Solid& solid : solids_) {
-    if (!solid.castsShadows || missesBounds(*solid.shape, from, direction, length, softness * length)) continue;
+  for (size_t i = 0; i < solids_.size(); ++i) {
+    const Solid& solid = solids_[i];
+    if (!solid.castsShadows) continue;
+    if (missesSphere(bounds_[i].centre, bounds_[i].radius + softness * length, from, direction, length))
+      continue;
     double narrowest = 1;
     double t = 0.01;
     for (int step = 0; step < kMaxSteps && t < length; ++step) {
@@ -98,27 +99,34 @@ double AnalyticScene::softVisibility(const dvec3& from, const dvec3& to, double 
 }
 
 bool AnalyticScene::isCovered(const dvec3& x, const Solid& solid, double margin) const {
-  if (opening_ && solid.shape->boundingRadius() == kNoHit && opening_->contains(x)) return true;
-  return std::any_of(solids_.begin(), solids_.end(), [&](const Solid& other) {
-    const double radius = other.shape->boundingRadius();
-    if (&other == &solid || radius == kNoHit) return false;
-    const dvec3 apart = x - other.shape->centre();
-    return glm::dot(apart, apart) < (radius + margin) * (radius + margin) && other.shape->distance(x) < margin;
-  });
+  const bool isWall = solid.shape->boundingRadius() == kNoHit;
+  if (isWall ? opening_.contains(x) : !room_.contains(x) && !opening_.contains(x)) return true;
+  const size_t own = static_cast<size_t>(&solid - solids_.data());
+  for (size_t i = 0; i < solids_.size(); ++i) {
+    if (i == own || bounds_[i].radius == kNoHit) continue;
+    constexpr double kSunk = -1e-4;  // [scene units] more than rounding
+    if (glm::length(x - bounds_[i].centre) > bounds_[i].radius + margin) continue;
+    if (solids_[i].shape->distance(x) < (isWall || i < own ? margin : kSunk)) return true;
+  }
+  return false;
 }
 
 double AnalyticScene::clearance(const dvec3& x, double reach) const {
   double clearance = reach;
-  for (const Solid& solid : solids_) {
-    const double radius = solid.shape->boundingRadius();
-    if (radius != kNoHit && glm::length(x - solid.shape->centre()) - radius > clearance) continue;
-    clearance = std::min(clearance, solid.shape->distance(x));
+  for (size_t i = 0; i < solids_.size(); ++i) {
+    const dvec3 apart = x - bounds_[i].centre;
+    const double far = bounds_[i].radius + clearance;
+    if (glm::dot(apart, apart) > far * far) continue;
+    const double distance = solids_[i].shape->distance(x);
+    // Rooms that x is not in are behind their own walls.
+    if (bounds_[i].radius != kNoHit || distance >= 0) clearance = std::min(clearance, distance);
   }
   return clearance;
 }
 
 double heightAlongNormal(const Solid& solid, const dvec3& origin, const dvec3& normal) {
-  constexpr int kIterations = 5;  // the normals differ little over one cell, so each divides the error by ten or more
+  constexpr int kIterations =
+      5;  // the normals differ little over one cell, so each divides the error by ten or more
   double height = 0;
   for (int i = 0; i < kIterations; ++i) {
     const dvec3 x = origin + height * normal;
@@ -129,7 +137,8 @@ double heightAlongNormal(const Solid& solid, const dvec3& origin, const dvec3& n
 
 dvec3 embossedNormal(const Solid& solid, const SurfacePoint& point) {
   if (!solid.material.relief) return point.normal;
-  constexpr double kStep = 1.5e-3;  // [scene units] half a groove's rim: resolves every slope, smooths none away
+  constexpr double kStep =
+      1.5e-3;  // [scene units] half a groove's rim: resolves every slope, smooths none away
   const dvec3 bitangent = glm::cross(point.normal, point.tangent);
   const auto slope = [&](const dvec3& along) {
     const double ahead = solid.material.relief(solid.shape->nearest(point.position + kStep * along));

@@ -48,43 +48,49 @@ struct SceneHit {
   glm::dvec3 position;  // on the embossed surface
 };
 
+// An axis-aligned box of the world.
+struct Extent {
+  glm::dvec3 low, high;
+  bool contains(const glm::dvec3& x) const {
+    return glm::all(glm::greaterThan(x, low)) && glm::all(glm::lessThan(x, high));
+  }
+};
+
+// Solids around and inside a room with one opening in its walls. Rays pass through the surfaces of inside-out
+// shapes within the opening; solids may be sunk into the walls, where nobody sees them.
 class AnalyticScene {
  public:
-  // Rays and sites pass through the walls of shapes turned inside out where `opening` (a box in the world) holds them.
-  struct Opening {
-    glm::dvec3 low, high;
-    bool contains(const glm::dvec3& x) const {
-      return glm::all(glm::greaterThan(x, low)) && glm::all(glm::lessThan(x, high));
-    }
-  };
-
-  explicit AnalyticScene(std::vector<Solid> solids, std::optional<Opening> opening = {})
-      : solids_(std::move(solids)), opening_(opening) {}
+  AnalyticScene(std::vector<Solid> solids, const Extent& room, const Extent& opening);
 
   const std::vector<Solid>& solids() const { return solids_; }
 
   std::optional<SceneHit> intersect(const Ray& ray) const;
 
-  // Whether a solid that casts shadows stands between two points; relief does not count.
-  bool isShadowed(const glm::dvec3& from, const glm::dvec3& to) const;
-
-  // As isShadowed, with a penumbra: 1 lit, 0 dark, between them where the segment passes closer than `softness` times
-  // the distance gone.
+  // How much of `to` can be seen from `from` past the solids that cast shadows: 1 lit, 0 dark, between them
+  // where the segment passes closer than `softness` times the distance gone. Relief does not count.
   double softVisibility(const glm::dvec3& from, const glm::dvec3& to, double softness) const;
 
-  // Whether a site of `solid` is swallowed: by another solid (to within `margin` of it) or by the opening.
+  // Whether a place on the surface of `solid` is hidden: in a wall, or, for walls, in the opening; in another
+  // solid, or within `margin` of it if `solid` is a wall or comes later (of coplanar surfaces the earlier
+  // remains).
   bool isCovered(const glm::dvec3& x, const Solid& solid, double margin) const;
 
   // Clearance at x from the nearest solid, looked for up to `reach`.
   double clearance(const glm::dvec3& x, double reach) const;
 
  private:
+  struct Bounds {
+    glm::dvec3 centre;
+    double radius;  // kNoHit: the shape is inside out, and everywhere
+  };
+
   std::vector<Solid> solids_;
-  std::optional<Opening> opening_;
+  std::vector<Bounds> bounds_;  // [solids]
+  Extent room_, opening_;
 };
 
-// The embossed surface seen along the normal of a shape's point: height above `origin` of the surface on the line
-// origin + height * normal [scene units].
+// The embossed surface seen along the normal of a shape's point: height above `origin` of the surface on the
+// line origin + height * normal [scene units].
 double heightAlongNormal(const Solid& solid, const glm::dvec3& origin, const glm::dvec3& normal);
 
 // Unit normal of the embossed surface at the shape's point nearest to x.

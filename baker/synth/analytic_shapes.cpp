@@ -31,7 +31,11 @@ dmat3 frameAround(const dvec3& z) {
 }
 
 Box::Box(const dvec3& centre, const dvec3& halfExtent, Empty empty, uint32_t faces, const dmat3& axes)
-    : centre_(centre), halfExtent_(halfExtent), side_(empty == Empty::kOutside ? 1 : -1), faces_(faces), axes_(axes) {}
+    : centre_(centre),
+      halfExtent_(halfExtent),
+      side_(empty == Empty::kOutside ? 1 : -1),
+      faces_(faces),
+      axes_(axes) {}
 
 double Box::distance(const dvec3& x) const {
   const dvec3 beyond = glm::abs((x - centre_) * axes_) - halfExtent_;
@@ -62,17 +66,21 @@ SurfacePoint Box::nearest(const dvec3& x) const {
 double Box::intersect(const Ray& ray, double swell) const {
   const dvec3 origin = (ray.origin - centre_) * axes_;
   const dvec3 direction = ray.direction * axes_;
-  const dvec3 extent = halfExtent_ + side_ * swell;
+  // Open faces do not swell: what they border on is not there.
+  const auto extentTowards = [&](int axis, double sign) {
+    const bool open = side_ < 0 && !(faces_ >> (2 * axis + (sign > 0 ? 1 : 0)) & 1);
+    return halfExtent_[axis] + (open ? 0.0 : side_ * swell);
+  };
   double enter = -kNoHit, leave = kNoHit;
   uint32_t leaveFace = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (direction[axis] == 0) {
-      if (std::abs(origin[axis]) > extent[axis]) return kNoHit;
+      if (std::abs(origin[axis]) > extentTowards(axis, origin[axis])) return kNoHit;
       continue;
     }
     const double sign = direction[axis] > 0 ? 1 : -1;
-    enter = std::max(enter, (-sign * extent[axis] - origin[axis]) / direction[axis]);
-    const double exit = (sign * extent[axis] - origin[axis]) / direction[axis];
+    enter = std::max(enter, (-sign * extentTowards(axis, -sign) - origin[axis]) / direction[axis]);
+    const double exit = (sign * extentTowards(axis, sign) - origin[axis]) / direction[axis];
     if (exit < leave) {
       leave = exit;
       leaveFace = 2 * static_cast<uint32_t>(axis) + (sign > 0 ? 1 : 0);
@@ -83,9 +91,13 @@ double Box::intersect(const Ray& ray, double swell) const {
   return faces_ >> leaveFace & 1 ? leave : kNoHit;
 }
 
-double Box::boundingRadius() const { return side_ > 0 ? glm::length(halfExtent_) : kNoHit; }
+double Box::boundingRadius() const {
+  return side_ > 0 ? glm::length(halfExtent_) : kNoHit;
+}
 
-double Sphere::distance(const dvec3& x) const { return glm::length(x - centre_) - radius_; }
+double Sphere::distance(const dvec3& x) const {
+  return glm::length(x - centre_) - radius_;
+}
 
 SurfacePoint Sphere::nearest(const dvec3& x) const {
   const dvec3 normal = glm::normalize(x - centre_);
@@ -99,7 +111,9 @@ double Sphere::intersect(const Ray& ray, double swell) const {
 Backdrop::Backdrop(const dvec3& centre, double radius, const dvec3& axis, double halfAngle)
     : centre_(centre), axis_(axis), radius_(radius), cosHalfAngle_(std::cos(halfAngle)) {}
 
-double Backdrop::distance(const dvec3& x) const { return radius_ - glm::length(x - centre_); }
+double Backdrop::distance(const dvec3& x) const {
+  return radius_ - glm::length(x - centre_);
+}
 
 SurfacePoint Backdrop::nearest(const dvec3& x) const {
   const dvec3 outwards = glm::normalize(x - centre_);
@@ -133,7 +147,9 @@ SurfacePoint Torus::pointAt(const dvec3& local) const {
   return point;
 }
 
-SurfacePoint Torus::nearest(const dvec3& x) const { return pointAt((x - centre_) * axes_); }
+SurfacePoint Torus::nearest(const dvec3& x) const {
+  return pointAt((x - centre_) * axes_);
+}
 
 // Sphere tracing: the distance is exact, so steps of its full length never overshoot.
 double Torus::intersect(const Ray& ray, double swell) const {
@@ -199,6 +215,8 @@ double Cylinder::intersect(const Ray& ray, double swell) const {
   return enter < leave && enter > 0 ? enter : kNoHit;
 }
 
-double Cylinder::boundingRadius() const { return std::hypot(radius_, 0.5 * height_); }
+double Cylinder::boundingRadius() const {
+  return std::hypot(radius_, 0.5 * height_);
+}
 
 }  // namespace froth

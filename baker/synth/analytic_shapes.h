@@ -41,34 +41,36 @@ class Shape {
   virtual double distance(const glm::dvec3& x) const = 0;
   virtual SurfacePoint nearest(const glm::dvec3& x) const = 0;
 
-  // First ray parameter > 0 at which the ray enters the solid, swollen by `swell` [scene units, >= 0] towards its empty
-  // side; kNoHit if it never does.
+  // First ray parameter > 0 at which the ray enters the solid, swollen by `swell` [scene units, >= 0] towards
+  // its empty side; kNoHit if it never does.
   virtual double intersect(const Ray& ray, double swell) const = 0;
 
   // Appends sites about `spacing` apart.
-  virtual void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const = 0;
+  virtual void placeSites(double spacing, const CounterRandom& random,
+                          std::vector<SurfaceSite>& sites) const = 0;
 
   // Radius around centre() that holds the solid; kNoHit for shapes turned inside out.
   virtual double boundingRadius() const = 0;
   virtual glm::dvec3 centre() const = 0;
 };
 
-// A box with axes of its own. Sites lie in rows parallel to the edges, and both faces of an edge hold mirrored rows, so
-// that their radical planes bisect the edge and it comes out sharp.
+// A box with axes of its own. Sites lie in rows parallel to the edges, and both faces of an edge hold
+// mirrored rows, so that their radical planes bisect the edge and it comes out sharp.
 class Box final : public Shape {
  public:
   enum class Empty { kOutside, kInside };
   static constexpr uint32_t kAllFaces = 63;
 
-  // `faces`: bit 2 * axis + (1 on the positive side). A face left out gets no sites; if the box is empty inside, rays
-  // leave through it.
-  Box(const glm::dvec3& centre, const glm::dvec3& halfExtent, Empty empty = Empty::kOutside, uint32_t faces = kAllFaces,
-      const glm::dmat3& axes = glm::dmat3(1));
+  // `faces`: bit 2 * axis + (1 on the positive side). A face left out gets no sites; if the box is empty
+  // inside, rays leave through it.
+  Box(const glm::dvec3& centre, const glm::dvec3& halfExtent, Empty empty = Empty::kOutside,
+      uint32_t faces = kAllFaces, const glm::dmat3& axes = glm::dmat3(1));
 
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;
   double intersect(const Ray& ray, double swell) const override;
-  void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const override;
+  void placeSites(double spacing, const CounterRandom& random,
+                  std::vector<SurfaceSite>& sites) const override;
   double boundingRadius() const override;
   glm::dvec3 centre() const override { return centre_; }
 
@@ -76,7 +78,7 @@ class Box final : public Shape {
   SurfacePoint pointOnFace(const glm::dvec3& local, uint32_t face) const;
 
   glm::dvec3 centre_, halfExtent_;
-  double side_;      // +1: empty outside
+  double side_;  // +1: empty outside
   uint32_t faces_;
   glm::dmat3 axes_;  // columns: the box's axes in the world
 };
@@ -88,7 +90,8 @@ class Sphere final : public Shape {
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;
   double intersect(const Ray& ray, double swell) const override;
-  void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const override;
+  void placeSites(double spacing, const CounterRandom& random,
+                  std::vector<SurfaceSite>& sites) const override;
   double boundingRadius() const override { return radius_; }
   glm::dvec3 centre() const override { return centre_; }
 
@@ -105,7 +108,8 @@ class Backdrop final : public Shape {
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;
   double intersect(const Ray& ray, double swell) const override;
-  void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const override;
+  void placeSites(double spacing, const CounterRandom& random,
+                  std::vector<SurfaceSite>& sites) const override;
   double boundingRadius() const override { return kNoHit; }
   glm::dvec3 centre() const override { return centre_; }
 
@@ -122,7 +126,8 @@ class Torus final : public Shape {
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;
   double intersect(const Ray& ray, double swell) const override;
-  void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const override;
+  void placeSites(double spacing, const CounterRandom& random,
+                  std::vector<SurfaceSite>& sites) const override;
   double boundingRadius() const override { return major_ + minor_; }
   glm::dvec3 centre() const override { return centre_; }
 
@@ -137,12 +142,14 @@ class Torus final : public Shape {
 // An upright cylinder standing on z = base.z; its foot gets no sites.
 class Cylinder final : public Shape {
  public:
-  Cylinder(const glm::dvec3& base, double radius, double height) : base_(base), radius_(radius), height_(height) {}
+  Cylinder(const glm::dvec3& base, double radius, double height)
+      : base_(base), radius_(radius), height_(height) {}
 
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;
   double intersect(const Ray& ray, double swell) const override;
-  void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const override;
+  void placeSites(double spacing, const CounterRandom& random,
+                  std::vector<SurfaceSite>& sites) const override;
   double boundingRadius() const override;
   glm::dvec3 centre() const override { return base_ + glm::dvec3(0, 0, 0.5 * height_); }
 

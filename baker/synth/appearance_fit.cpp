@@ -71,6 +71,16 @@ void addObservation(std::span<const double> basis, double weight, const Vector& 
   }
 }
 
+dvec3 meanColour(std::span<const SeenColour> seen) {
+  dvec3 sum(0);
+  double total = 0;
+  for (const SeenColour& s : seen) {
+    sum += s.weight * s.colour;
+    total += s.weight;
+  }
+  return sum / total;
+}
+
 void normalizeWeights(std::vector<double>& weights) {
   double sum = 0;
   for (const double weight : weights) sum += weight;
@@ -83,9 +93,8 @@ FacePatch spreadDetails(std::span<const dvec3> cuts, uint32_t detailCount) {
   static const std::vector<dvec2> disc = sampleDisc();
   FacePatch patch;
   for (const dvec2& x : disc) {
-    const bool own = std::all_of(cuts.begin(), cuts.end(), [&](const dvec3& cut) {
-      return cut.x * x.x + cut.y * x.y <= cut.z;
-    });
+    const bool own = std::all_of(cuts.begin(), cuts.end(),
+                                 [&](const dvec3& cut) { return cut.x * x.x + cut.y * x.y <= cut.z; });
     if (own) patch.samples.push_back(x);
   }
   if (patch.samples.size() < detailCount) patch.samples = disc;  // a sliver, seen by no one: anything will do
@@ -107,7 +116,8 @@ FacePatch spreadDetails(std::span<const dvec3> cuts, uint32_t detailCount) {
   return patch;
 }
 
-std::vector<dvec4> fitDetailValues(const FacePatch& patch, std::span<const dvec4> sampleValues, double sharpness) {
+std::vector<dvec4> fitDetailValues(const FacePatch& patch, std::span<const dvec4> sampleValues,
+                                   double sharpness) {
   // Held towards the plain means by a weight that only tames what the samples leave undetermined.
   constexpr double kRidge = 0.02;
   const size_t n = patch.details.size();
@@ -137,22 +147,55 @@ std::vector<dvec4> fitDetailValues(const FacePatch& patch, std::span<const dvec4
   return values;
 }
 
-std::vector<dvec3> fitLobeColours(std::span<const dvec3> axes, std::span<const SeenColour> seen) {
-  constexpr double kRidge = 2e-4;  // of the total weight: lobes that no direction tells apart share their colour
-  const size_t n = axes.size();
-  dvec3 mean(0);
-  double total = 0;
+std::vector<dvec3> chooseLobeAxes(std::span<const SeenColour> seen, uint32_t lobeCount) {
+  constexpr int kRounds = 5;
+  constexpr double kEvenShare = 0.3;  // [mean departures] what every direction counts anyway
+  constexpr double kHeat = 0.9, kColdest = 1.0,
+                   kHottest = 40.0;  // temperature = heat / distance to the next axis
+  const dvec3 mean = meanColour(seen);
+  double departure = 0, total = 0;
   for (const SeenColour& s : seen) {
-    mean += s.weight * s.colour;
+    departure += s.weight * glm::length(s.colour - mean);
     total += s.weight;
   }
-  mean /= total;
+  const double evenly = kEvenShare * departure / total + 1e-9;
+
+  std::vector<dvec3> axes(lobeCount);
+  for (size_t m = 0; m < lobeCount; ++m) axes[m] = seen[m * seen.size() / lobeCount].direction;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<dvec3> sums(lobeCount, dvec3(0));
+    for (const SeenColour& s : seen) {
+      size_t nearest = 0;
+      for (size_t m = 1; m < lobeCount; ++m)
+        if (glm::dot(axes[m], s.direction) > glm::dot(axes[nearest], s.direction)) nearest = m;
+      sums[nearest] += s.weight * (glm::length(s.colour - mean) + evenly) * s.direction;
+    }
+    for (size_t m = 0; m < lobeCount; ++m)
+      if (sums[m] != dvec3(0)) axes[m] = glm::normalize(sums[m]);
+  }
+  std::vector<dvec3> heated(lobeCount);
+  for (size_t m = 0; m < lobeCount; ++m) {
+    double gap = 2;
+    for (size_t other = 0; other < lobeCount; ++other)
+      if (other != m) gap = std::min(gap, glm::length(axes[m] - axes[other]));
+    heated[m] = std::clamp(kHeat / std::max(gap, 1e-6), kColdest, kHottest) * axes[m];
+  }
+  return heated;
+}
+
+std::vector<dvec3> fitLobeColours(std::span<const dvec3> axes, std::span<const SeenColour> seen) {
+  constexpr double kRidge =
+      1e-6;  // of the total weight: lobes that no direction tells apart share their colour
+  const size_t n = axes.size();
+  const dvec3 mean = meanColour(seen);
+  double total = 0;
   std::vector<double> a(n * n, 0), basis(n);
   std::vector<dvec3> colours(n, dvec3(0));
   for (const SeenColour& s : seen) {
     for (size_t m = 0; m < n; ++m) basis[m] = std::exp(foam::lobeExponent(axes[m], s.direction));
     normalizeWeights(basis);
     addObservation(basis, s.weight, s.colour - mean, a, colours);
+    total += s.weight;
   }
   solveRidge(a, colours, kRidge * total);
   for (dvec3& colour : colours) colour += mean - 0.5;

@@ -1,4 +1,5 @@
-// Random numbers as a pure function of (seed, purpose, index): no state, so no thread can change another's draw.
+// Random numbers as a pure function of (seed, purpose, index): no state, so no thread can change another's
+// draw.
 #pragma once
 
 #include <cmath>
@@ -19,13 +20,16 @@ inline uint64_t mixBits(uint64_t x) {
 class CounterRandom {
  public:
   // Streams of different purposes are independent.
-  CounterRandom(uint64_t seed, uint64_t purpose) : key_(mixBits(mixBits(seed + kGolden) + purpose * kGolden)) {}
+  CounterRandom(uint64_t seed, uint64_t purpose)
+      : key_(mixBits(mixBits(seed + kGolden) + purpose * kGolden)) {}
 
   uint64_t bits(uint64_t index) const { return mixBits(key_ + (index + 1) * kGolden); }
 
   // [0, 1), 53 bits.
   double uniform(uint64_t index) const { return static_cast<double>(bits(index) >> 11) * 0x1p-53; }
-  double uniform(uint64_t index, double low, double high) const { return low + (high - low) * uniform(index); }
+  double uniform(uint64_t index, double low, double high) const {
+    return low + (high - low) * uniform(index);
+  }
 
   // Uniform on the unit sphere.
   glm::dvec3 direction(uint64_t index) const {

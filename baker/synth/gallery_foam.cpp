@@ -1,12 +1,12 @@
-// From the gallery's surfaces to cells: sites spread over every solid, a face tangent to it, detail sites over the cell's
-// patch of the face, heights and colours fitted to the analytic surface under it.
+// From the gallery's surfaces to cells: sites spread over every solid, a face tangent to it, detail sites
+// over the cell's patch of the face, heights and colours fitted to the analytic surface under it.
 #include "baker/synth/gallery_foam.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include <glm/gtc/quaternion.hpp>
 #include <tbb/parallel_for.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "baker/graph/graph.h"
 #include "baker/synth/appearance_fit.h"
@@ -23,14 +23,38 @@ namespace {
 
 constexpr uint32_t kDetailCount = 8, kLobeCount = 8;
 constexpr double kDetailSharpness = 10;
-constexpr double kOpticalRadius = 40;      // density * radius: opaque within a few percent of the radius
-constexpr double kContactMargin = 0.12;    // [spacings] sites this close to another solid would cut it
+constexpr double kOpticalRadius = 40;    // density * radius: opaque within a few percent of the radius
+constexpr double kContactMargin = 0.25;  // [spacings] sites this close to another solid would cut it
 constexpr uint64_t kJitterPurpose = 2;
 
 struct PlacedSites {
   std::vector<SurfaceSite> sites;
   std::vector<uint32_t> solids;  // [sites] index into the scene's solids
 };
+
+bool isWall(const Solid& solid) {
+  return solid.shape->boundingRadius() == kNoHit;
+}
+
+//      |q          Where a solid stands on a floor or hangs on a wall, the wall gets a mirror image q' of
+//      each of the |           solid's lowest sites q: their radical plane bisects the corner. Without it the
+//      cells of the one reach
+//   ___|__q'___    past the corner into the other.
+void addSeam(const Solid& wall, const std::vector<SurfaceSite>& sites, std::vector<SurfaceSite>& wallSites) {
+  constexpr double kUpright = 0.3;     // cosine between the normals of solid and wall
+  constexpr double kTolerance = 1e-3;  // [scene units]
+  for (const SurfaceSite& q : sites) {
+    const double height = wall.shape->distance(q.position);
+    if (height <= 0 || height > q.radius) continue;
+    const SurfacePoint foot = wall.shape->nearest(q.position);
+    if (std::abs(glm::dot(foot.normal, q.normal)) > kUpright) continue;
+    const double reach = wall.shape->intersect({q.position, -foot.normal}, 0);
+    if (std::abs(reach - height) > kTolerance) continue;  // that face belongs to another solid
+    const SurfacePoint mirrored = wall.shape->nearest(q.position + height * (q.normal - foot.normal));
+    if (!galleryScene().isCovered(mirrored.position, wall, 0.5 * height))
+      wallSites.push_back({mirrored.position, mirrored.normal, mirrored.tangent, q.radius});
+  }
+}
 
 PlacedSites placeAllSites(double spacing, uint64_t seed) {
   const std::vector<Solid>& solids = galleryScene().solids();
@@ -42,6 +66,11 @@ PlacedSites placeAllSites(double spacing, uint64_t seed) {
       return galleryScene().isCovered(site.position, solids[s], kContactMargin * std::min(own, site.radius));
     });
   });
+  for (size_t wall = 0; wall < solids.size(); ++wall) {
+    if (!isWall(solids[wall])) continue;
+    for (size_t s = 0; s < solids.size(); ++s)
+      if (!isWall(solids[s])) addSeam(solids[wall], perSolid[s], perSolid[wall]);
+  }
   PlacedSites placed;
   for (size_t s = 0; s < solids.size(); ++s) {
     placed.sites.insert(placed.sites.end(), perSolid[s].begin(), perSolid[s].end());
@@ -50,17 +79,21 @@ PlacedSites placeAllSites(double spacing, uint64_t seed) {
   return placed;
 }
 
-// The densest placing of at most `cellCount` sites that a few rounds of count ~ 1 / spacing^2 find; empty if there is none.
+// The densest placing of at most `cellCount` sites, to within half a percent where whole rows allow it; empty
+// if there is none. Bisection, between the spacings that fit and those that do not.
 PlacedSites placeAtMost(uint32_t cellCount, uint64_t seed) {
-  constexpr int kRounds = 8;
-  constexpr double kClose = 0.995;
+  constexpr int kRounds = 14;
+  constexpr double kClose = 0.995, kBeyond = 1.02;
   PlacedSites best;
-  double spacing = std::sqrt(250.0 / cellCount);
+  double spacing = 17.0 / std::sqrt(cellCount), fitting = 0, failing = 0;
   for (int round = 0; round < kRounds && best.sites.size() < kClose * cellCount; ++round) {
     PlacedSites placed = placeAllSites(spacing, seed);
     const double ratio = static_cast<double>(placed.sites.size()) / cellCount;
+    (ratio <= 1 ? fitting : failing) = spacing;
     if (ratio <= 1 && placed.sites.size() > best.sites.size()) best = std::move(placed);
-    spacing *= std::sqrt(ratio) * 1.0005;
+    const double guess = spacing * std::sqrt(ratio);
+    spacing = fitting > 0 && failing > 0 ? std::sqrt(fitting * failing)
+                                         : (ratio <= 1 ? guess / kBeyond : guess * kBeyond);
   }
   return best;
 }
@@ -104,7 +137,8 @@ std::vector<SeenColour> lookAtPoint(const LitPoint& point) {
   const CounterRandom random(0, 4);
   std::vector<SeenColour> seen;
   const auto add = [&](const dvec3& direction, double weight) {
-    if (glm::dot(direction, point.normal) < -0.05) seen.push_back({direction, displayColour(point, direction), weight});
+    if (glm::dot(direction, point.normal) < -0.05)
+      seen.push_back({direction, displayColour(point, direction), weight});
   };
   for (const dvec3& eye : eyes) add(glm::normalize(point.position - eye), 1);
   for (uint64_t i = 0; i < kElsewhere; ++i) {
@@ -114,36 +148,17 @@ std::vector<SeenColour> lookAtPoint(const LitPoint& point) {
   return seen;
 }
 
-// Axes where the view changes most: around the mirror image of the window at two widths, towards its sides, at the mirror
-// image of the sunlit floor below it, and at grazing angles.
-std::array<dvec3, kLobeCount> glossAxes(const LitPoint& point) {
-  const dvec3& n = point.normal;
-  const dvec3 window = windowDirection(point.position);
-  const dvec3 image = glm::reflect(window, n);
-  const dvec3 side = glm::normalize(glm::cross(image, dvec3(0, 0, 1)));
-  const dvec3 along = glm::normalize(window - glm::dot(window, n) * n + 1e-9 * side);
-  const double sharp = 1.6 / point.roughness;
-  return {-n,
-          0.5 * sharp * image,
-          1.6 * sharp * image,
-          sharp * glm::normalize(image + 0.25 * side),
-          sharp * glm::normalize(image - 0.25 * side),
-          5.0 * glm::normalize(image + dvec3(0, 0, 0.7)),
-          4.0 * glm::normalize(-0.35 * n - along),
-          4.0 * glm::normalize(-0.35 * n + along)};
-}
-
 // Writes the lobes of one detail site. `shift` is what sharpening adds to every colour.
-void writeLobes(const LitPoint& point, const dvec3& plainColour, const dvec3& shift, glm::vec3* axes, glm::vec3* colours) {
+void writeLobes(const LitPoint& point, const dvec3& plainColour, const dvec3& shift, glm::vec3* axes,
+                glm::vec3* colours) {
   if (point.reflectance == dvec3(0)) {
     std::fill_n(axes, kLobeCount, glm::vec3(-0.01 * point.normal));
     std::fill_n(colours, kLobeCount, glm::vec3(plainColour + shift - 0.5));
     return;
   }
-  const std::array<dvec3, kLobeCount> chosen = glossAxes(point);
   const std::vector<SeenColour> seen = lookAtPoint(point);
-  const std::vector<dvec3> fitted =
-      seen.empty() ? std::vector<dvec3>(kLobeCount, plainColour - 0.5) : fitLobeColours(chosen, seen);
+  const std::vector<dvec3> chosen = chooseLobeAxes(seen, kLobeCount);
+  const std::vector<dvec3> fitted = fitLobeColours(chosen, seen);
   for (size_t m = 0; m < kLobeCount; ++m) {
     axes[m] = chosen[m];
     colours[m] = fitted[m] + shift;
@@ -198,7 +213,8 @@ class CellFitter {
       const uint32_t other = pairs_.neighbours[k];
       const dvec3 toOther = dvec3(foam_.sites[other]) - dvec3(foam_.sites[cell]);
       const double offset = foam::radicalOffset(toOther, radius, static_cast<double>(foam_.radii[other]));
-      cuts.emplace_back(glm::dot(toOther, frame.tangent), glm::dot(toOther, frame.bitangent), offset / radius);
+      cuts.emplace_back(glm::dot(toOther, frame.tangent), glm::dot(toOther, frame.bitangent),
+                        offset / radius);
     }
     return cuts;
   }
@@ -213,7 +229,8 @@ class CellFitter {
 Result<Foam> synthesizeGallery(uint32_t cellCount, uint64_t seed, const Progress& progress) {
   const PlacedSites placed = placeAtMost(cellCount, seed);
   if (placed.sites.empty())
-    return makeError(ErrorKind::kUsage, "gallery: %u cells do not cover its thin parts; ask for more (the default is 200000)",
+    return makeError(ErrorKind::kUsage,
+                     "gallery: %u cells do not cover its thin parts; ask for more (the default is 200000)",
                      cellCount);
   Foam foam = makeCells(placed);
   const CellGraph pairs = findCechPairs(foam.sites, foam.radii);
@@ -223,7 +240,8 @@ Result<Foam> synthesizeGallery(uint32_t cellCount, uint64_t seed, const Progress
   for (uint32_t begin = 0; begin < foam.cellCount; begin += step) {
     if (!report(progress, "fitting cells", begin, foam.cellCount))
       return makeError(ErrorKind::kCancelled, "synthesis of the gallery was stopped");
-    tbb::parallel_for(begin, std::min(begin + step, foam.cellCount), [&](uint32_t cell) { fitter.fit(cell); });
+    tbb::parallel_for(begin, std::min(begin + step, foam.cellCount),
+                      [&](uint32_t cell) { fitter.fit(cell); });
   }
   return foam;
 }

@@ -1,5 +1,6 @@
-// A fixed lighting model in place of global illumination: the window as a soft area light, the sun through its panes, the
-// glow of the sunlit floor, spots on the pictures, ambient light with occlusion; gloss mirrors a blurred sketch of the room.
+// A fixed lighting model in place of global illumination: the window as a soft area light, the sun through
+// its panes, the glow of the sunlit floor, spots on the pictures, ambient light with occlusion; gloss mirrors
+// a blurred sketch of the room.
 #include <algorithm>
 #include <cmath>
 
@@ -17,18 +18,19 @@ using glm::mix;
 namespace {
 
 const dvec3 kToSun = glm::normalize(dvec3(-1.0, -0.34, 0.66));
-constexpr dvec3 kSunLight{4.2, 3.4, 2.3};
+constexpr dvec3 kSunLight{6.6, 5.3, 3.5};
 constexpr dvec3 kSkyLight{2.9, 3.2, 3.6};
 constexpr dvec3 kSpotLight{2.6, 2.1, 1.45};
 constexpr dvec3 kSunPatch{2.75, 3.9, 0.02};  // middle of the sunlit floor
-constexpr dvec3 kWindowMiddle{0.0, 0.5 * (kWindowLow.x + kWindowHigh.x), 0.5 * (kWindowLow.y + kWindowHigh.y)};
+constexpr dvec3 kWindowMiddle{-kWallDepth, 0.5 * (kWindowLow.x + kWindowHigh.x),
+                              0.5 * (kWindowLow.y + kWindowHigh.y)};
 
 struct Spot {
   dvec3 position, target;
 };
-constexpr Spot kSpots[] = {{{2.1, 4.5, 3.2}, {2.1, 6.0, 1.8}},  {{4.15, 4.4, 3.2}, {4.15, 6.0, 1.85}},
-                           {{6.2, 4.5, 3.2}, {6.2, 6.0, 1.8}},  {{6.4, 3.0, 3.2}, {8.0, 3.0, 1.85}},
-                           {{2.7, 1.5, 3.2}, {2.7, 0.0, 1.8}},  {{5.2, 1.6, 3.2}, {5.2, 0.0, 1.85}}};
+constexpr Spot kSpots[] = {{{2.1, 4.5, 3.2}, {2.1, 6.0, 1.8}}, {{4.15, 4.4, 3.2}, {4.15, 6.0, 1.85}},
+                           {{6.2, 4.5, 3.2}, {6.2, 6.0, 1.8}}, {{6.4, 3.0, 3.2}, {8.0, 3.0, 1.85}},
+                           {{2.7, 1.5, 3.2}, {2.7, 0.0, 1.8}}, {{5.2, 1.6, 3.2}, {5.2, 0.0, 1.85}}};
 
 // Share of a window-plane point that is glass and not bar, blurred over `blur` [m].
 double glazing(const dvec2& p, double blur) {
@@ -40,19 +42,22 @@ double glazing(const dvec2& p, double blur) {
   // Wider blurs than the bars wash them out.
   const double bar = 0.5 * kWindowBar;
   const double depth = std::min(1.0, kWindowBar / blur);
-  share *= 1 - depth * (1 - smoothRamp(bar - 0.5 * blur, bar + 0.5 * blur, distanceToMultiple(place.x, pitch.x)));
-  share *= 1 - depth * (1 - smoothRamp(bar - 0.5 * blur, bar + 0.5 * blur, distanceToMultiple(place.y, pitch.y)));
+  share *=
+      1 - depth * (1 - smoothRamp(bar - 0.5 * blur, bar + 0.5 * blur, distanceToMultiple(place.x, pitch.x)));
+  share *=
+      1 - depth * (1 - smoothRamp(bar - 0.5 * blur, bar + 0.5 * blur, distanceToMultiple(place.y, pitch.y)));
   return share;
 }
 
-// Irradiance of a diffuse rectangle by Lambert's contour integral, over pi. Light from below the horizon is cut as a
-// whole, which is smooth enough for a window.
+// Irradiance of the panes, a diffuse rectangle, by Lambert's contour integral, over pi. Light from below the
+// horizon is cut as a whole, which is smooth enough for a window.
 double windowFormFactor(const dvec3& x, const dvec3& normal) {
-  if (x.x <= 0.02) return 0;
-  const dvec3 corners[4] = {{0, kWindowLow.x, kWindowLow.y},
-                            {0, kWindowLow.x, kWindowHigh.y},
-                            {0, kWindowHigh.x, kWindowHigh.y},
-                            {0, kWindowHigh.x, kWindowLow.y}};
+  constexpr double kNearest = 0.03;  // [m] the frame of the panes itself is in the dark
+  if (x.x <= kNearest - kWallDepth) return 0;
+  const dvec3 corners[4] = {{-kWallDepth, kWindowLow.x, kWindowLow.y},
+                            {-kWallDepth, kWindowLow.x, kWindowHigh.y},
+                            {-kWallDepth, kWindowHigh.x, kWindowHigh.y},
+                            {-kWallDepth, kWindowHigh.x, kWindowLow.y}};
   dvec3 directions[4];
   for (int i = 0; i < 4; ++i) directions[i] = glm::normalize(corners[i] - x);
   double sum = 0;
@@ -63,7 +68,7 @@ double windowFormFactor(const dvec3& x, const dvec3& normal) {
     if (sine < 1e-9) continue;
     sum += std::acos(std::clamp(dot(a, b), -1.0, 1.0)) * dot(normal, edge) / sine;
   }
-  return std::max(-sum, 0.0) / glm::two_pi<double>();
+  return std::max(sum, 0.0) / glm::two_pi<double>();
 }
 
 double ambientOcclusion(const dvec3& x, const dvec3& normal) {
@@ -115,17 +120,19 @@ dvec3 bounceIrradiance(const dvec3& x, const dvec3& normal) {
 }
 
 dvec3 irradiance(const dvec3& x, const dvec3& normal) {
-  const dvec3 below(0.24, 0.19, 0.14), above(0.27, 0.28, 0.29);
+  const dvec3 below(0.21, 0.17, 0.13), above(0.235, 0.24, 0.25);
   const dvec3 ambient = mix(below, above, 0.5 + 0.5 * normal.z);
   const double occlusion = ambientOcclusion(x, normal);
   const double form = windowFormFactor(x, normal);
   const double lit =
-      form > 1e-4 ? galleryScene().softVisibility(x + 0.01 * normal, kWindowMiddle + dvec3(0.05, 0, 0), 0.25) : 0.0;
+      form > 1e-4 ? galleryScene().softVisibility(x + 0.01 * normal, kWindowMiddle + dvec3(0.05, 0, 0), 0.25)
+                  : 0.0;
   return occlusion * (ambient + bounceIrradiance(x, normal) + spotIrradiance(x, normal)) +
          (0.4 + 0.6 * occlusion) * lit * form * kSkyLight + sunIrradiance(x, normal);
 }
 
-// The room as a mirror of the given blur [radians] shows it: window, sunlit floor, lamps, and gradients for the rest.
+// The room as a mirror of the given blur [radians] shows it: window, sunlit floor, lamps, and gradients for
+// the rest.
 dvec3 blurredRoom(const dvec3& x, const dvec3& direction, double blur) {
   const dvec3 floor(0.16, 0.12, 0.085), walls(0.16, 0.21, 0.21), ceiling(0.34, 0.33, 0.31);
   dvec3 light = mix(walls, ceiling, smoothRamp(0.15, 0.6 + blur, direction.z));
@@ -134,7 +141,8 @@ dvec3 blurredRoom(const dvec3& x, const dvec3& direction, double blur) {
     const double away = x.x / -direction.x;
     const dvec3 crossing = x + away * direction;
     const double share = glazing({crossing.y, crossing.z}, std::max(0.05, blur * away * 2));
-    light = mix(light, mix(dvec3(0.9, 1.0, 0.95), dvec3(2.6, 2.8, 3.0), smoothRamp(-0.15, 0.25, direction.z)), share);
+    light = mix(light, mix(dvec3(0.9, 1.0, 0.95), dvec3(2.6, 2.8, 3.0), smoothRamp(-0.15, 0.25, direction.z)),
+                share);
   }
   if (direction.z < -0.02 && x.z > 0.05) {
     const double away = x.z / -direction.z;
@@ -149,12 +157,11 @@ dvec3 displayFromRadiance(const dvec3& radiance) {
   const dvec3 x = radiance * 0.95;
   const dvec3 filmic = (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14);
   const dvec3 clamped = glm::clamp(filmic, dvec3(0), dvec3(1));
-  return {foam::displayFromLinear(clamped.x), foam::displayFromLinear(clamped.y), foam::displayFromLinear(clamped.z)};
+  return {foam::displayFromLinear(clamped.x), foam::displayFromLinear(clamped.y),
+          foam::displayFromLinear(clamped.z)};
 }
 
 }  // namespace
-
-dvec3 windowDirection(const dvec3& x) { return glm::normalize(kWindowMiddle - x); }
 
 LitPoint lightPoint(const Solid& solid, const dvec3& x) {
   const SurfacePoint base = solid.shape->nearest(x);
@@ -167,11 +174,13 @@ LitPoint lightPoint(const Solid& solid, const dvec3& x) {
 dvec3 displayColour(const LitPoint& point, const dvec3& direction) {
   if (point.reflectance == dvec3(0)) return displayFromRadiance(point.radiance);
   const double facing = std::max(-dot(point.normal, direction), 0.0);
-  const double grazing = std::pow(1 - facing, 5);
+  const double grazing = std::pow(1 - facing, 4);
   // A rough surface never becomes a full mirror at grazing angles.
-  const dvec3 fresnel = point.reflectance + (1 - 2 * point.roughness) * 0.6 * grazing * (dvec3(1) - point.reflectance);
+  const dvec3 fresnel =
+      point.reflectance + (1 - 2 * point.roughness) * 0.4 * grazing * (dvec3(1) - point.reflectance);
   const dvec3 mirrored = glm::reflect(direction, point.normal);
-  return displayFromRadiance(point.radiance + fresnel * blurredRoom(point.position, mirrored, point.roughness));
+  return displayFromRadiance(point.radiance +
+                             fresnel * blurredRoom(point.position, mirrored, point.roughness));
 }
 
 }  // namespace froth

@@ -13,13 +13,15 @@ using glm::mix;
 
 namespace {
 
-constexpr double kTile = 0.5;         // [m] floor tiles, turned by 45 degrees
-constexpr double kJoint = 0.011;      // [m] half-width of a joint
-constexpr double kJointDepth = 0.004; // [m]
+constexpr double kTile = 0.5;           // [m] floor tiles, turned by 45 degrees
+constexpr double kJoint = 0.010;        // [m] half-width of a joint
+constexpr double kJointDepth = 0.0025;  // [m]
 constexpr double kPanellingTop = 0.95;
 constexpr double kRailTop = 1.03;
 
-dvec2 tilePlane(const dvec3& x) { return dvec2(x.x + x.y, x.x - x.y) * (std::sqrt(0.5) / kTile); }
+dvec2 tilePlane(const dvec3& x) {
+  return dvec2(x.x + x.y, x.x - x.y) * (std::sqrt(0.5) / kTile);
+}
 
 // Distance to the nearest joint between floor tiles [m].
 double jointDistance(const dvec3& x) {
@@ -88,19 +90,20 @@ Texel floorTexture(const SurfacePoint& point) {
   const double edge = std::min({x.x, x.y, kRoomSize.x - x.x, kRoomSize.y - x.y});
   Texel texel;
   const dvec3 cream = mix(dvec3(0.60, 0.52, 0.40), dvec3(0.38, 0.27, 0.17), 0.8 * marbleVeins(place, 7, 31));
-  const dvec3 slate = mix(dvec3(0.075, 0.10, 0.105), dvec3(0.34, 0.37, 0.35), 0.7 * marbleVeins(place, 9, 41));
+  const dvec3 slate =
+      mix(dvec3(0.075, 0.10, 0.105), dvec3(0.34, 0.37, 0.35), 0.7 * marbleVeins(place, 9, 41));
   texel.albedo = ((i + j) % 2 == 0 ? cream : slate) * (0.88 + 0.24 * latticeHash(i, j, 3));
   const double border = smoothInterval(0.34, 0.46, 0.02, edge);
   texel.albedo = mix(texel.albedo, dvec3(0.26, 0.09, 0.05), border);
-  const double joint = (1 - border) * (1 - smoothRamp(kJoint, kJoint + 0.012, jointDistance(x)));
+  const double joint = (1 - border) * (1 - smoothRamp(kJoint, kJoint + 0.014, jointDistance(x)));
   texel.albedo = mix(texel.albedo, dvec3(0.16, 0.14, 0.12), joint);
   texel.reflectance = dvec3(0.05) * (1 - 0.7 * joint);
-  texel.roughness = 0.16;
+  texel.roughness = 0.2;
   return texel;
 }
 
 double floorRelief(const SurfacePoint& point) {
-  return kJointDepth * (smoothRamp(0.3 * kJoint, kJoint + 0.014, jointDistance(point.position)) - 1);
+  return kJointDepth * (smoothRamp(0.2 * kJoint, kJoint + 0.018, jointDistance(point.position)) - 1);
 }
 
 // Distance to the nearest beam between the coffers of the ceiling [m], negative on the beam.
@@ -108,35 +111,47 @@ double cofferInset(const dvec3& x) {
   return std::min(distanceToMultiple(x.x, 1.0), distanceToMultiple(x.y, 1.0)) - 0.11;
 }
 
-// Hills behind hills, a lake and a sky, as seen at azimuth and elevation [radians].
+// Mountains behind a lake behind a meadow, as seen at azimuth and elevation [radians].
 dvec3 landscape(double azimuth, double elevation) {
-  const dvec3 zenith(0.10, 0.26, 0.62), haze(0.80, 0.74, 0.62);
-  const double clouds = smoothRamp(
-      0.05, 0.75, fractalNoise(dvec2(azimuth * 3.0, (elevation - 0.1) * 9.0), 4, 70) + 0.25);
-  dvec3 colour = mix(haze, zenith, smoothRamp(-0.05, 0.55, elevation));
-  colour = mix(colour, dvec3(1.0, 0.96, 0.90), 0.85 * clouds * smoothRamp(0.02, 0.2, elevation));
-  const dvec3 near(0.06, 0.13, 0.045), far(0.36, 0.42, 0.50);
-  constexpr int kRanges = 4;
-  for (int range = 0; range < kRanges; ++range) {
-    const double depth = static_cast<double>(range) / (kRanges - 1);  // 0 far, 1 near
-    const double crest = mix(0.10, -0.13, depth) +
-                         mix(0.07, 0.035, depth) * fractalNoise({azimuth * mix(2.2, 4.0, depth) + 10 * range, 0.5},
-                                                                4, 80 + static_cast<uint32_t>(range));
-    const double woods = fractalNoise(dvec2(azimuth, elevation) * 22.0, 2, 90);
-    const dvec3 hill = mix(far, near * (1 + 0.5 * woods), std::sqrt(depth));
-    colour = mix(colour, hill, smoothRamp(-0.006, 0.006, crest - elevation));
-  }
-  const double shore = -0.17 + 0.02 * fractalNoise({azimuth * 3.0, 1.5}, 2, 95);
-  const double ripples = 0.5 + 0.5 * gradientNoise({azimuth * 5.0, elevation * 45.0}, 97);
-  const dvec3 lake = mix(dvec3(0.22, 0.34, 0.42), dvec3(0.62, 0.64, 0.58), ripples);
-  return mix(colour, lake, smoothRamp(-0.006, 0.006, shore - elevation));
+  constexpr double kEdge = 0.005;  // softness of silhouettes
+  const auto below = [&](double crest) { return smoothRamp(-kEdge, kEdge, crest - elevation); };
+  const auto ridge = [&](double frequency, uint32_t seed) {
+    return fractalNoise({azimuth * frequency, 0.5}, 4, seed);
+  };
+
+  const double cover = fractalNoise(dvec2(azimuth * 3.5, elevation * 11.0), 4, 70);
+  dvec3 colour = mix(dvec3(0.80, 0.70, 0.56), dvec3(0.10, 0.27, 0.60), smoothRamp(-0.02, 0.30, elevation));
+  colour = mix(colour, dvec3(1.05, 0.98, 0.90),
+               0.9 * smoothRamp(-0.05, 0.35, cover) * smoothRamp(0.05, 0.14, elevation));
+
+  const double peaks = 0.085 + 0.06 * ridge(3.0, 80);
+  const double snow = smoothRamp(-0.012, 0.012, elevation - peaks + 0.03 - 0.02 * ridge(17.0, 81));
+  const double crags = fractalNoise(dvec2(azimuth * 26.0 + elevation * 14.0, elevation * 20.0), 2, 82);
+  colour = mix(colour, mix(dvec3(0.20, 0.26, 0.38) * (1 + 0.35 * crags), dvec3(0.82, 0.84, 0.88), snow),
+               below(peaks));
+  colour = mix(colour, dvec3(0.10, 0.19, 0.16), below(0.022 + 0.035 * ridge(4.5, 84)));
+
+  const double ripples = 0.5 + 0.5 * gradientNoise({azimuth * 6.0, elevation * 60.0}, 97);
+  colour = mix(colour, mix(dvec3(0.10, 0.23, 0.36), dvec3(0.48, 0.56, 0.58), ripples), below(-0.012));
+
+  const double meadow = 0.5 + 0.5 * fractalNoise(dvec2(azimuth * 10.0, elevation * 30.0), 3, 90);
+  const double shore = -0.075 + 0.03 * ridge(2.5, 95);
+  colour = mix(colour, mix(dvec3(0.10, 0.20, 0.04), dvec3(0.36, 0.40, 0.10), meadow), below(shore));
+  const double trees =
+      shore - 0.01 + 0.09 * smoothRamp(0.1, 0.5, ridge(5.0, 96)) * (0.75 + 0.4 * ridge(40.0, 98));
+  const double onShore = smoothRamp(-0.012, 0.0, elevation - shore + 0.012);
+  return mix(colour, dvec3(0.035, 0.085, 0.03) * (1 + 0.8 * crags), below(trees) * onShore);
 }
 
 }  // namespace
 
-Material floorMaterial() { return {floorTexture, floorRelief, kJointDepth}; }
+Material floorMaterial() {
+  return {floorTexture, floorRelief, kJointDepth};
+}
 
-Material wallMaterial() { return {wallTexture, wallRelief, 0.017}; }
+Material wallMaterial() {
+  return {wallTexture, wallRelief, 0.017};
+}
 
 Material ceilingMaterial() {
   const auto texture = [](const SurfacePoint& point) {
@@ -146,7 +161,7 @@ Material ceilingMaterial() {
     return texel;
   };
   const auto relief = [](const SurfacePoint& point) {
-    return -0.03 * smoothRamp(-0.01, 0.08, cofferInset(point.position));
+    return -0.03 * smoothRamp(-0.01, 0.15, cofferInset(point.position));
   };
   return {texture, relief, 0.03};
 }
@@ -191,7 +206,8 @@ Material woodMaterial() {
 Material columnMaterial(double radius) {
   const auto texture = [](const SurfacePoint& point) {
     Texel texel;
-    texel.albedo = dvec3(0.66, 0.60, 0.50) * (1 + 0.07 * fractalNoise({point.local.z * 4, point.local.x * 9}, 2, 55));
+    texel.albedo =
+        dvec3(0.66, 0.60, 0.50) * (1 + 0.07 * fractalNoise({point.local.z * 4, point.local.x * 9}, 2, 55));
     return texel;
   };
   const auto relief = [radius](const SurfacePoint& point) {
@@ -236,7 +252,7 @@ Material bandedCeramicMaterial(double radius) {
     Texel texel;
     texel.albedo = mix(dvec3(0.012, 0.045, 0.28), dvec3(0.75, 0.52, 0.14), std::max(band, cap));
     texel.reflectance = dvec3(0.06);
-    texel.roughness = 0.14;
+    texel.roughness = 0.18;
     return texel;
   };
   return {texture, {}, 0};
@@ -249,7 +265,8 @@ Material spiralBallMaterial(double radius) {
     const double stripe = smoothRamp(-0.12, 0.12, std::sin(turn));
     const double cap = smoothRamp(0.86, 0.88, std::abs(x.z));
     Texel texel;
-    texel.albedo = mix(mix(dvec3(0.78, 0.74, 0.66), dvec3(0.72, 0.20, 0.045), stripe), dvec3(0.06, 0.20, 0.22), cap);
+    texel.albedo =
+        mix(mix(dvec3(0.78, 0.74, 0.66), dvec3(0.72, 0.20, 0.045), stripe), dvec3(0.06, 0.20, 0.22), cap);
     texel.reflectance = dvec3(0.045);
     texel.roughness = 0.25;
     return texel;

@@ -18,7 +18,8 @@ Material metalMaterial(const glm::dvec3& reflectance, double roughness);
 Material bandedCeramicMaterial(double radius);
 Material spiralBallMaterial(double radius);
 
-// A picture on the face of a box of this half-extent (x: half width, y: half height of the whole, with frame).
+// A picture on the face of a box of this half-extent (x: half width, y: half height of the whole, with
+// frame).
 enum class Painting { kBubbles, kSunset, kCircles, kWeave, kMarbling };
 Material pictureMaterial(Painting painting, const glm::dvec2& halfExtent, uint32_t wallAxis);
 

@@ -12,8 +12,8 @@ using glm::mix;
 
 namespace {
 
-constexpr double kFrame = 0.085;       // [m] width of the frame
-constexpr double kFrameRise = 0.010;   // [m] its moulding above the canvas
+constexpr double kFrame = 0.085;      // [m] width of the frame
+constexpr double kFrameRise = 0.010;  // [m] its moulding above the canvas
 constexpr dvec3 kGold{0.55, 0.36, 0.12};
 
 // Canvases: x in [-1, 1] times the aspect, y in [-1, 1], up.
@@ -30,13 +30,15 @@ dvec3 paintBubbles(const dvec2& x) {
 dvec3 paintSunset(const dvec2& x) {
   const double sun = glm::length(x - dvec2(0.35, 0.12));
   dvec3 colour = mix(dvec3(0.85, 0.36, 0.08), dvec3(0.10, 0.08, 0.28), smoothRamp(-0.2, 1.0, x.y));
-  colour = mix(colour, dvec3(0.92, 0.55, 0.35), 0.6 * smoothRamp(0.0, 0.8, fractalNoise({x.x * 1.2, x.y * 5}, 3, 111)));
+  colour = mix(colour, dvec3(0.92, 0.55, 0.35),
+               0.6 * smoothRamp(0.0, 0.8, fractalNoise({x.x * 1.2, x.y * 5}, 3, 111)));
   colour = mix(colour, dvec3(1.0, 0.83, 0.38), 1 - smoothRamp(0.22, 0.26, sun));
   const double glitter = 0.5 + 0.5 * std::sin(26 * x.y + 3 * gradientNoise(x * dvec2(2, 9), 113));
   const double path = std::exp(-9 * (x.x - 0.35) * (x.x - 0.35));
   const dvec3 sea = mix(dvec3(0.05, 0.06, 0.17), dvec3(0.95, 0.55, 0.18), glitter * (0.15 + 0.75 * path));
   colour = mix(colour, sea, smoothRamp(-0.01, 0.01, -0.10 - x.y));
-  const double cliff = -0.25 + 0.35 * fractalNoise({x.x * 2.0, 4.0}, 3, 117) - 0.9 * smoothRamp(-1.0, -0.1, x.x);
+  const double cliff =
+      -0.25 + 0.35 * fractalNoise({x.x * 2.0, 4.0}, 3, 117) - 0.9 * smoothRamp(-1.0, -0.1, x.x);
   return mix(colour, dvec3(0.03, 0.02, 0.05), smoothRamp(-0.02, 0.02, cliff + 0.55 - x.y));
 }
 
@@ -76,11 +78,16 @@ dvec3 paintMarbling(const dvec2& x) {
 
 dvec3 paint(Painting painting, const dvec2& x) {
   switch (painting) {
-    case Painting::kBubbles: return paintBubbles(x);
-    case Painting::kSunset: return paintSunset(x);
-    case Painting::kCircles: return paintCircles(x);
-    case Painting::kWeave: return paintWeave(x);
-    case Painting::kMarbling: return paintMarbling(x);
+    case Painting::kBubbles:
+      return paintBubbles(x);
+    case Painting::kSunset:
+      return paintSunset(x);
+    case Painting::kCircles:
+      return paintCircles(x);
+    case Painting::kWeave:
+      return paintWeave(x);
+    case Painting::kMarbling:
+      return paintMarbling(x);
   }
   return {};
 }

@@ -24,7 +24,4 @@ LitPoint lightPoint(const Solid& solid, const glm::dvec3& x);
 // Display-coded colour [0..1] of a lit point seen along `direction` (unit, towards the point).
 glm::dvec3 displayColour(const LitPoint& point, const glm::dvec3& direction);
 
-// Direction (unit) from a point to the middle of the window, the brightest thing a glossy surface can mirror.
-glm::dvec3 windowDirection(const glm::dvec3& x);
-
 }  // namespace froth

@@ -1,4 +1,5 @@
-// Patterns of the plane from which materials are mixed. All are deterministic and continuous unless said otherwise.
+// Patterns of the plane from which materials are mixed. All are deterministic and continuous unless said
+// otherwise.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,17 @@ using glm::dvec3;
 namespace {
 
 // One stream of random numbers for each thing drawn.
-enum Purpose : uint64_t { kSite = 10, kRadius, kDensity, kFrame, kDetail, kHeight, kAxis, kTemperature, kColour };
+enum Purpose : uint64_t {
+  kSite = 10,
+  kRadius,
+  kDensity,
+  kFrame,
+  kDetail,
+  kHeight,
+  kAxis,
+  kTemperature,
+  kColour
+};
 
 Foam emptyFoam(uint32_t cells, uint32_t details, uint32_t lobes) {
   Foam foam;
@@ -42,24 +52,26 @@ glm::vec4 orientationFacing(const dvec3& normal) {
 
 // Spreads detail sites over the face and gives lobes random axes and colours, alike for all random scenes.
 void randomizeAppearance(Foam& foam, uint64_t seed, double relief, double hottest) {
-  const CounterRandom detail(seed, kDetail), height(seed, kHeight), axis(seed, kAxis), temperature(seed, kTemperature),
-      colour(seed, kColour);
+  const CounterRandom detail(seed, kDetail), height(seed, kHeight), axis(seed, kAxis),
+      temperature(seed, kTemperature), colour(seed, kColour);
   for (size_t i = 0; i < foam.detailSites.size(); ++i) {
-    const double radius = 0.8 * std::sqrt(detail.uniform(2 * i)), angle = detail.uniform(2 * i + 1, 0, 2 * glm::pi<double>());
+    const double radius = 0.8 * std::sqrt(detail.uniform(2 * i)),
+                 angle = detail.uniform(2 * i + 1, 0, 2 * glm::pi<double>());
     foam.detailSites[i] = radius * glm::dvec2(std::cos(angle), std::sin(angle));
     foam.detailHeights[i] = static_cast<float>(height.uniform(i, -relief, relief));
   }
   for (size_t i = 0; i < foam.lobeAxes.size(); ++i) {
     foam.lobeAxes[i] = axis.direction(i) * temperature.uniform(i, 0.1, hottest);
     for (int channel = 0; channel < 3; ++channel)
-      foam.lobeColours[i][channel] = static_cast<float>(colour.uniform(3 * i + static_cast<uint64_t>(channel), -0.5, 0.5));
+      foam.lobeColours[i][channel] =
+          static_cast<float>(colour.uniform(3 * i + static_cast<uint64_t>(channel), -0.5, 0.5));
   }
 }
 
 Status requireCount(const SynthOptions& options, uint32_t count) {
   if (options.cellCount == 0 || options.cellCount == count) return {};
-  return makeError(ErrorKind::kUsage, "scene '%s' has %u cells, not %u; leave the count out", options.name.c_str(), count,
-                   options.cellCount);
+  return makeError(ErrorKind::kUsage, "scene '%s' has %u cells, not %u; leave the count out",
+                   options.name.c_str(), count, options.cellCount);
 }
 
 }  // namespace
@@ -108,7 +120,8 @@ Result<Foam> synthesizeShell(const SynthOptions& options) {
   constexpr uint32_t kDefault = 1000, kFewest = 12;
   const uint32_t count = options.cellCount ? options.cellCount : kDefault;
   if (count < kFewest)
-    return makeError(ErrorKind::kUsage, "scene 'shell': %u cells; a sphere needs at least %u", count, kFewest);
+    return makeError(ErrorKind::kUsage, "scene 'shell': %u cells; a sphere needs at least %u", count,
+                     kFewest);
   std::vector<SurfaceSite> sites;
   const double spacing = std::sqrt(4 * glm::pi<double>() * kRadius * kRadius / count);
   Sphere(dvec3(0), kRadius).placeSites(spacing, CounterRandom(options.seed, kSite), sites);
@@ -127,11 +140,12 @@ Result<Foam> synthesizeRandom(const SynthOptions& options) {
   constexpr uint32_t kDefault = 500;
   const uint32_t count = options.cellCount ? options.cellCount : kDefault;
   Foam foam = emptyFoam(count, 8, 8);
-  const CounterRandom site(options.seed, kSite), radius(options.seed, kRadius), density(options.seed, kDensity),
-      frame(options.seed, kFrame);
+  const CounterRandom site(options.seed, kSite), radius(options.seed, kRadius),
+      density(options.seed, kDensity), frame(options.seed, kFrame);
   const double spacing = 2 / std::cbrt(count);
   for (uint64_t i = 0; i < count; ++i) {
-    foam.sites[i] = dvec3(site.uniform(3 * i, -1, 1), site.uniform(3 * i + 1, -1, 1), site.uniform(3 * i + 2, 2, 4));
+    foam.sites[i] =
+        dvec3(site.uniform(3 * i, -1, 1), site.uniform(3 * i + 1, -1, 1), site.uniform(3 * i + 2, 2, 4));
     foam.radii[i] = static_cast<float>(spacing * radius.uniform(i, 0.4, 1.1));
     const double draw = density.uniform(i);
     foam.densities[i] = draw < 0.1 ? 0.0f : static_cast<float>(std::exp(8 * draw - 2));

@@ -1,5 +1,5 @@
-// How shapes cover themselves with sites: about one site per spacing^2, and a radius that reaches the corners of the
-// Voronoi patches.
+// How shapes cover themselves with sites: about one site per spacing^2, and a radius that reaches the corners
+// of the Voronoi patches.
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +35,8 @@ void placeOnCap(const dvec3& centre, double radius, const dvec3& axis, double co
   for (double i = 0; i < count; ++i) {
     const double z = 1 - (1 - cosHalfAngle) * (i + 0.5) / count;
     const double across = std::sqrt(1 - z * z);
-    const dvec3 outwards = frame * dvec3(across * std::cos(kGoldenAngle * i), across * std::sin(kGoldenAngle * i), z);
+    const dvec3 outwards =
+        frame * dvec3(across * std::cos(kGoldenAngle * i), across * std::sin(kGoldenAngle * i), z);
     // The widest patches of the spiral reach 0.74 of sqrt(area per site).
     sites.push_back({centre + radius * outwards, facing * outwards, frameAround(outwards)[0],
                      0.8 * std::sqrt(area / count)});
@@ -47,7 +48,8 @@ void placeOnCap(const dvec3& centre, double radius, const dvec3& axis, double co
 void Box::placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const {
   const dvec3 extent = 2.0 * halfExtent_;
   const double thickness = std::min({extent.x, extent.y, extent.z});
-  // All edges share one margin; a thin bar is a whole number of rows thick, and may be sparser along its length.
+  // All edges share one margin; a thin bar is a whole number of rows thick, and may be sparser along its
+  // length.
   const double row = thickness / std::max(1.0, std::round(thickness / spacing));
   const double margin = 0.5 * row;
   const double stride = std::clamp(spacing, row, 2.5 * row);
@@ -105,7 +107,8 @@ void Torus::placeSites(double spacing, const CounterRandom& random, std::vector<
   }
 }
 
-void Cylinder::placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const {
+void Cylinder::placeSites(double spacing, const CounterRandom& random,
+                          std::vector<SurfaceSite>& sites) const {
   const double aroundCount = std::max(8.0, std::round(glm::two_pi<double>() * radius_ / spacing));
   const double step = glm::two_pi<double>() * radius_ / aroundCount;
   const double radius = 0.8 * step;
@@ -126,8 +129,8 @@ void Cylinder::placeSites(double spacing, const CounterRandom& random, std::vect
   addRing(aroundCount, 0, radius_ - 0.5 * step, height_, true);
   double ringRadius = radius_ - 1.5 * step;
   for (uint64_t ring = 0; ringRadius > 0.3 * step; ++ring, ringRadius -= step)
-    addRing(std::max(3.0, std::round(glm::two_pi<double>() * ringRadius / step)), random.uniform(ring), ringRadius,
-            height_, true);
+    addRing(std::max(3.0, std::round(glm::two_pi<double>() * ringRadius / step)), random.uniform(ring),
+            ringRadius, height_, true);
   if (ringRadius > -0.3 * step) addRing(1, 0, 0, height_, true);
 }
 

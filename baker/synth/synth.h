@@ -14,8 +14,8 @@
 namespace froth {
 
 struct SynthOptions {
-  std::string name;          // "gallery", "one", "two", "grid", "shell", "random"
-  uint32_t cellCount = 0;    // 0: the scene's default (gallery 200,000)
+  std::string name;        // "gallery", "one", "two", "grid", "shell", "random"
+  uint32_t cellCount = 0;  // 0: the scene's default (gallery 200,000)
   uint64_t seed = 1;
 };
 
@@ -27,11 +27,13 @@ Result<Foam> synthesizeFoam(const SynthOptions& options, const Progress& progres
 // Twelve test views and a flight path of the gallery.
 CameraSet galleryCameras();
 
-// Ray traces the analytic gallery itself: `samples` per pixel, stratified, display-coded colours averaged in display space.
+// Ray traces the analytic gallery itself: `samples` per pixel, stratified, display-coded colours averaged in
+// display space.
 Result<Image> traceGalleryTruth(const View& view, uint32_t samples, const Progress& progress = {});
 
-// `count` copies of a foam on a grid, each turned about an axis by its own angle and set apart by a gap of 5 % of the
-// bounding box; copy 0 is the original in place. Lobe axes turn with the copy. Refuses more than 2^32 - 1 cells.
+// `count` copies of a foam on a grid, each turned about an axis by its own angle and set apart by a gap of 5
+// % of the bounding box; copy 0 is the original in place. Lobe axes turn with the copy. Refuses more than
+// 2^32 - 1 cells.
 Result<Foam> tileFoam(const Foam& foam, uint32_t count);
 
 }  // namespace froth

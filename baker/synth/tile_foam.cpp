@@ -1,8 +1,8 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/gtc/quaternion.hpp>
 #include <tbb/parallel_for.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "baker/synth/synth.h"
 
@@ -12,8 +12,8 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double kGap = 0.05;                        // of the bounding box
-constexpr double kTurn = 2.39996322972865332;        // golden angle: no two copies are turned alike
+constexpr double kGap = 0.05;                  // of the bounding box
+constexpr double kTurn = 2.39996322972865332;  // golden angle: no two copies are turned alike
 
 struct Bounds {
   dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
@@ -55,8 +55,8 @@ void placeCopy(Foam& foam, size_t copy, size_t cells, const dvec3& centre, doubl
 Result<Foam> tileFoam(const Foam& foam, uint32_t count) {
   if (count == 0) return makeError(ErrorKind::kUsage, "tiling into 0 copies; ask for at least 1");
   if (uint64_t{count} * foam.cellCount > std::numeric_limits<uint32_t>::max())
-    return makeError(ErrorKind::kUsage, "%u copies of %u cells exceed 2^32 - 1; ask for at most %u", count, foam.cellCount,
-                     std::numeric_limits<uint32_t>::max() / foam.cellCount);
+    return makeError(ErrorKind::kUsage, "%u copies of %u cells exceed 2^32 - 1; ask for at most %u", count,
+                     foam.cellCount, std::numeric_limits<uint32_t>::max() / foam.cellCount);
   Foam tiled = foam;
   tiled.cellCount = count * foam.cellCount;
   repeat(tiled.sites, count);
