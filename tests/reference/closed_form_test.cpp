@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "tests/reference/scenes.h"
 
@@ -37,6 +38,9 @@ struct HalfBall {
   double height;  // < 1
   bool facesEye;
 };
+void PrintTo(const HalfBall& ball, std::ostream* stream) {
+  *stream << (ball.facesEye ? "face towards the eye, height " : "face away, height ") << ball.height;
+}
 class OneCell : public ::testing::TestWithParam<HalfBall> {};
 
 TEST_P(OneCell, ShowsTheSolidSideOfItsFace) {

@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include "baker/image/metrics.h"
@@ -74,7 +75,10 @@ TEST_P(Invariance, ASmallCutoffChangesAnImageByNoMoreThanItself) {
   EXPECT_LE(error, 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(Precisions, Invariance, ::testing::Values(Precision::kFloat, Precision::kDouble));
+INSTANTIATE_TEST_SUITE_P(Precisions, Invariance, ::testing::Values(Precision::kFloat, Precision::kDouble),
+                         [](const auto& test) {
+                           return test.param == Precision::kFloat ? "Float" : "Double";
+                         });
 
 TEST(Rendering, ReportsRowsAndStopsOnRequest) {
   const Foam foam = randomFoam(30, 1, 1, 1);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include "baker/image/metrics.h"
 #include "tests/reference/scenes.h"
@@ -113,6 +114,9 @@ struct Eye {
   Vec position;
   uint64_t seed;
 };
+void PrintTo(const Eye& eye, std::ostream* stream) {
+  *stream << "foam " << eye.seed;
+}
 class AgainstTheTextbook : public ::testing::TestWithParam<Eye> {};
 
 TEST_P(AgainstTheTextbook, EveryPixelOfARandomFoamAgrees) {
