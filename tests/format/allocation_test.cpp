@@ -1,41 +1,19 @@
-// That a file's promises do not make the reader allocate: counts all of C++'s allocations of this program.
-#include <algorithm>
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+// That a file's promises do not make the reader allocate.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "allocation_counter.h"
 #include "file_surgery.h"
 #include "sample_asset.h"
-
-namespace {
-std::atomic<size_t> largestAllocation{0};
-}
-
-void* operator new(size_t size) {
-  size_t seen = largestAllocation.load();
-  while (seen < size && !largestAllocation.compare_exchange_weak(seen, size)) {
-  }
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, size_t) noexcept {
-  std::free(memory);
-}
 
 namespace froth {
 namespace {
 
 // Decodes and tells the largest allocation on the way.
 size_t largestAllocationOf(const std::vector<uint8_t>& bytes, std::string& error) {
-  largestAllocation = 0;
+  forgetAllocations();
   const Result<AssetContents> contents = decodeAsset(bytes);
-  const size_t largest = largestAllocation;
+  const size_t largest = largestAllocation();
   error = contents ? "no error" : contents.error().message;
   return largest;
 }
