@@ -46,7 +46,8 @@ Status streamFileAtomically(const std::filesystem::path& path,
     return makeError(ErrorKind::kIo, "%s: exists and is no regular file; give another name", path.c_str());
   }
   const std::filesystem::path temporary = path.string() + ".tmp-" + std::to_string(::getpid());
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  ::unlink(temporary.c_str());  // a process of this number may have been killed here
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) {
     return ioError(temporary, "cannot be created");
   }

@@ -71,6 +71,11 @@ Status checkFoam(const std::string& file, const Foam& foam) {
     status = makeError(ErrorKind::kUsage, "%s: a radius <= 0 or a density < 0; no raw value activates to it",
                        file.c_str());
   }
+  const auto hasNoLength = [](const glm::vec4& quaternion) { return quaternion == glm::vec4(0); };
+  if (status && std::any_of(foam.orientations.begin(), foam.orientations.end(), hasNoLength)) {
+    status = makeError(ErrorKind::kUsage, "%s: an orientation of length 0; give every cell a quaternion",
+                       file.c_str());
+  }
   return status;
 }
 

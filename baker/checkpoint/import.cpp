@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "baker/checkpoint/activation.h"
 #include "baker/checkpoint/checkpoint.h"
@@ -12,8 +13,8 @@ namespace froth {
 namespace {
 
 constexpr uint64_t kMaxCells = UINT32_MAX;
-constexpr uint64_t kMaxExpansion =
-    256;  // foam bytes per file byte; 1 as published, 2 from float16, more if expanded
+// Foam bytes per file byte: 1 as published, 2 from float16, more where tensors are expanded.
+constexpr uint64_t kMaxExpansion = 256;
 
 class Importer {
  public:
@@ -24,6 +25,7 @@ class Importer {
 
  private:
   Status readCounts();
+  std::vector<uint64_t> expectedShape(Parameter parameter, size_t rank) const;
   Status checkShapes() const;
   Status checkExpansion() const;
   Status fillFoam();
@@ -44,11 +46,11 @@ class Importer {
 };
 
 Result<Foam> Importer::import() {
-  using Step = Status (Importer::*)();
-  for (const Step step : {&Importer::readCounts, &Importer::fillFoam}) {
-    if (Status status = (this->*step)(); !status) {
-      return status.error();
-    }
+  if (Status status = readCounts(); !status) {
+    return status.error();
+  }
+  if (Status status = fillFoam(); !status) {
+    return status.error();
   }
   return std::move(foam_);
 }
@@ -87,33 +89,32 @@ Status Importer::readCounts() {
   return checkExpansion();
 }
 
-Status Importer::checkShapes() const {
+std::vector<uint64_t> Importer::expectedShape(Parameter parameter, size_t rank) const {
   const uint64_t cells = foam_.cellCount, details = foam_.detailCount, lobes = foam_.lobeCount;
-  const CheckpointViews& views = views_;
-  for (const TensorView& found : views) {
-    std::vector<uint64_t> expected;
-    switch (static_cast<Parameter>(&found - views.data())) {
-      case Parameter::kPoints:
-        expected = {cells, 3};
-        break;
-      case Parameter::kRadii:
-      case Parameter::kDensity:
-        expected = {cells};
-        break;
-      case Parameter::kOrientations:
-        expected = {cells, 4};
-        break;
-      case Parameter::kDetailSites:
-        expected = {cells, details, 2};
-        break;
-      case Parameter::kDetailHeights:
-        expected = {cells, details};
-        break;
-      case Parameter::kLobeAxes:
-      case Parameter::kLobeColours:
-        expected = found.shape.size() == 4 ? std::vector<uint64_t>{cells, details, lobes, 3}
-                                           : std::vector<uint64_t>{cells, details, 3 * lobes};
-    }
+  switch (parameter) {
+    case Parameter::kPoints:
+      return {cells, 3};
+    case Parameter::kDensity:
+    case Parameter::kRadii:
+      return {cells};
+    case Parameter::kOrientations:
+      return {cells, 4};
+    case Parameter::kDetailSites:
+      return {cells, details, 2};
+    case Parameter::kDetailHeights:
+      return {cells, details};
+    case Parameter::kLobeAxes:
+    case Parameter::kLobeColours:
+      break;
+  }
+  return rank == 4 ? std::vector<uint64_t>{cells, details, lobes, 3}
+                   : std::vector<uint64_t>{cells, details, 3 * lobes};
+}
+
+Status Importer::checkShapes() const {
+  for (size_t i = 0; i < kParameterCount; ++i) {
+    const TensorView& found = views_[i];
+    const auto expected = expectedShape(static_cast<Parameter>(i), found.shape.size());
     if (found.shape != expected) {
       return badInput(file_.name,
                       "tensor '{}' has shape {}, the others ask for {}; save the tensors of one foam",

@@ -72,6 +72,14 @@ TEST_F(ExportCheckpoint, WritesWhatTheImporterReadsBackBitByBit) {
   }
 }
 
+TEST_F(ExportCheckpoint, WritesASingleCellWithoutNeighbours) {
+  const Foam foam = randomFoam(1, 1, 1);
+  ASSERT_TRUE(exportCheckpoint(path_, foam));
+  const Result<Foam> read = importCheckpoint(path_);
+  ASSERT_TRUE(read) << read.error().message;
+  expectSameFoam(foam, *read);
+}
+
 TEST_F(ExportCheckpoint, GivesTheSameBytesForTheSameFoam) {
   const Foam foam = randomFoam(20, 2, 2);
   ASSERT_TRUE(exportCheckpoint(path_, foam));
@@ -111,6 +119,7 @@ TEST_F(ExportCheckpoint, RefusesFoamsThatCouldNotBeReadBack) {
   refuse([](Foam& foam) { foam.sites[2].y = NAN; }, "sites hold nan at place 2");
   refuse([](Foam& foam) { foam.lobeAxes.pop_back(); }, "3 lobe axes");
   refuse([](Foam& foam) { foam = Foam{}; }, "0 cells");
+  refuse([](Foam& foam) { foam.orientations[2] = {}; }, "orientation of length 0");
   EXPECT_TRUE(filesInFolder().empty());
 }
 
