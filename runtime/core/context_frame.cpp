@@ -134,6 +134,11 @@ FrothResult Context::dropFrame(uint64_t serial) {
   if (ring_) {
     ring_->drop(serial);
   }
+  views_.forEach([&](View& view) {
+    if (view.renderer) {
+      view.renderer->dropFrame(serial);
+    }
+  });
   return FROTH_OK;
 }
 

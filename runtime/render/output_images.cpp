@@ -47,6 +47,7 @@ VkImageMemoryBarrier2 exitBarrier(const FrothImage& image) {
 VkImageMemoryBarrier2 placeholderBarrier(VkImage image) {
   VkImageMemoryBarrier2 barrier = barrierOf(image);
   barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
   barrier.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   barrier.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;

@@ -97,7 +97,8 @@ Status ViewRenderer::prepare(uint64_t, uint64_t completedSerial, const GpuAsset*
   if (view.status.pairs > wanted.pairs) wanted.pairs = pairsFor(view.status.pairs);
   const VkBuffer oldWalkStart = view.buffers[ViewBuffer::kWalkStart].buffer;
   const Status status = view.buffers.grow(wanted, view.lastSerial);
-  if (view.buffers[ViewBuffer::kWalkStart].buffer != oldWalkStart) view.walkAsset = nullptr;
+  const bool isWalkStartKept = view.buffers[ViewBuffer::kWalkStart].buffer == oldWalkStart;
+  if (!isWalkStartKept || view.walkAsset != asset) view.walkAsset = nullptr;
   view.status.deviceBytes = view.buffers.deviceBytes();
   return status;
 }
@@ -137,6 +138,13 @@ void ViewRenderer::recordClear(VkCommandBuffer commandBuffer, RenderPipelines& p
   recordPixels(recording, recorder, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
   recording.mark("clear");
   endRecording(recording);
+}
+
+void ViewRenderer::dropFrame(uint64_t serial) {
+  for (FrameSlot& slot : state_->slots) {
+    if (slot.serial == serial) slot = {};
+  }
+  state_->walkAsset = nullptr;  // it may be that frame that would have found the start
 }
 
 const FrothViewStatus& ViewRenderer::status() const { return state_->status; }

@@ -44,6 +44,9 @@ class ViewRenderer {
   // With no instance that is ready: clears the wanted outputs (colour 0, distance +inf, normal 0).
   void recordClear(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothRenderInfo& info, uint64_t serial);
 
+  // The frame with this serial was recorded and will never be submitted: its counts are not read, its place is free.
+  void dropFrame(uint64_t serial);
+
   const FrothViewStatus& status() const;  // of the newest complete frame
 
  private:

@@ -236,6 +236,26 @@ TEST_F(RecordCallOnDevice, DrawsAViewOnceInAFrame) {
   });
 }
 
+TEST_F(RecordCallOnDevice, OfADroppedFrameIsNeverReadBack) {
+  createInstance(openBytes(encodeSample()));
+  EXPECT_EQ(drawFrame(), FROTH_OK);
+  const uint64_t drawnSerial = host_->nextSerial() - 1;
+  const uint64_t droppedSerial = host_->nextSerial();
+  const FrothRenderInfo info = renderInfo();
+  ASSERT_EQ(update(droppedSerial), FROTH_OK);
+  const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) -> Status {
+    EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_OK);
+    return makeError(ErrorKind::kCancelled, "dropped");
+  });
+  ASSERT_FALSE(status);
+  ASSERT_EQ(frothDropFrame(context_, droppedSerial), FROTH_OK);
+  runFrame();
+  runFrame();
+  auto viewStatus = makeStruct<FrothViewStatus>();
+  ASSERT_EQ(frothGetViewStatus(context_, view_, &viewStatus), FROTH_OK);
+  EXPECT_EQ(viewStatus.serial, drawnSerial);
+}
+
 TEST_F(RecordCallOnDevice, SurvivesClosingAndDestroyingWhatTheFrameUses) {
   const FrothAsset asset = openBytes(encodeSample());
   const FrothInstance instance = createInstance(asset);

@@ -126,6 +126,7 @@ typedef struct FrothView { uint32_t index, generation; } FrothView;
 
 /* ---- Assets ---- */
 
+/* READY: its last copies are recorded, so the same frame can draw it. */
 typedef enum FrothAssetState {
   FROTH_ASSET_OPENING = 0,
   FROTH_ASSET_READY = 1,
@@ -250,7 +251,8 @@ FROTH_API FrothResult frothUpdate(FrothContext* context, const FrothFrame* frame
 /* Records the copies of this frame; outside a render pass. */
 FROTH_API FrothResult frothRecordUpload(FrothContext* context, VkCommandBuffer commandBuffer);
 
-/* Tells that the frame with this serial was recorded and will never be submitted: its uploads queue again. */
+/* Tells that the frame with this serial was recorded and will never be submitted: its uploads queue again, and assets that
+ * wait for them are OPENING until then. Frames recorded after it read what it would have uploaded: drop them too. */
 FROTH_API FrothResult frothDropFrame(FrothContext* context, uint64_t serial);
 
 /* An image of the caller. image = null: not wanted, and costs nothing. Froth transitions from the entry state and to the exit
