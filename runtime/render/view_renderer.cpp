@@ -8,7 +8,7 @@ namespace froth {
 namespace {
 
 // Space for pairs before the first overflow tells better: a few tiles per cell, and some depth in every tile.
-constexpr uint64_t kLeastPairs = uint64_t{1} << 18;
+constexpr uint64_t kLeastPairs = uint64_t{1} << 14;
 constexpr uint64_t kPairsPerCell = 4;
 constexpr uint64_t kPairsPerTile = 8;
 constexpr uint64_t kMostPairs = uint64_t{1} << 30;

@@ -1,1 +1,242 @@
+// Single passes on the device against the CPU.
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <numeric>
+#include <random>
 
+#include <gtest/gtest.h>
+
+#include "runtime/render/pass_recorder.h"
+#include "runtime/render/view_state.h"
+#include "tests/render/random_foam.h"
+#include "tests/render/render_harness.h"
+
+namespace froth::test {
+namespace {
+
+class Passes : public testing::Test {
+ protected:
+  Passes()
+      : device_(*Device::create(vkGetInstanceProcAddr, sharedHost().instance, sharedHost().physicalDevice,
+                                sharedHost().device)),
+        pipelines_(std::move(*RenderPipelines::create(device_, VK_NULL_HANDLE, true))) {}
+
+  ~Passes() override {
+    for (GpuBuffer& buffer : buffers_) device_.destroyBuffer(buffer);
+  }
+
+  // Mapped, and reached by address.
+  template <class T>
+  GpuBuffer upload(const std::vector<T>& values) {
+    Result<GpuBuffer> buffer =
+        device_.createBuffer(BufferKind::kReadback, std::max<size_t>(values.size() * sizeof(T), 16), "test");
+    EXPECT_TRUE(buffer);
+    if (!values.empty()) std::memcpy(buffer->mapped, values.data(), values.size() * sizeof(T));
+    buffers_.push_back(*buffer);
+    return *buffer;
+  }
+
+  template <class T>
+  std::vector<T> download(const GpuBuffer& buffer, size_t count) {
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(values.data(), buffer.mapped, count * sizeof(T));
+    return values;
+  }
+
+  // What a device buffer of a view holds once the frame is complete.
+  template <class T>
+  std::vector<T> copyOut(const GpuBuffer& source, size_t count) {
+    const GpuBuffer target = upload(std::vector<T>(count));
+    submit([&](VkCommandBuffer commandBuffer) {
+      const VkBufferCopy copy{0, 0, count * sizeof(T)};
+      if (count > 0) device_.table.vkCmdCopyBuffer(commandBuffer, source.buffer, target.buffer, 1, &copy);
+    });
+    return download<T>(target, count);
+  }
+
+  void submit(const std::function<void(VkCommandBuffer)>& record) {
+    const Status status = sharedHost().submit([&](VkCommandBuffer commandBuffer, uint64_t) -> Status {
+      record(commandBuffer);
+      return {};
+    });
+    EXPECT_TRUE(status) << status.error().message;
+  }
+
+  Device device_;
+  std::unique_ptr<RenderPipelines> pipelines_;
+  std::vector<GpuBuffer> buffers_;
+};
+
+class Sort : public Passes, public testing::WithParamInterface<uint32_t> {};
+
+TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
+  const uint32_t count = GetParam();
+  std::mt19937 engine(count);
+  std::vector<uint32_t> keys(count), values(count);
+  for (uint32_t& key : keys) key = (engine() % 97) * 0x01030507u;  // many equal keys, all bytes in use
+  std::iota(values.begin(), values.end(), 0u);
+
+  const GpuBuffer keyBuffer = upload(keys), valueBuffer = upload(values);
+  const GpuBuffer keySwap = upload(keys), valueSwap = upload(values);
+  const uint32_t groups = (count + gpu::kSortKeysPerGroup - 1) / gpu::kSortKeysPerGroup;
+  const GpuBuffer histogram = upload(std::vector<uint32_t>(gpu::kGroupSize * (1 + groups)));
+  gpu::Counters counters{};
+  counters.visibleCells = count;
+  counters.cellSortDispatch = {groups, 1, 1, 0};
+  Result<GpuBuffer> counterBuffer = device_.createBuffer(BufferKind::kDevice, sizeof(counters), "test");
+  ASSERT_TRUE(counterBuffer);
+  buffers_.push_back(*counterBuffer);
+  gpu::FrameBlock block{};
+  block.counters = counterBuffer->address;
+  block.histogram = histogram.address;
+  block.histogramCapacity = gpu::kGroupSize * (1 + groups);
+  const GpuBuffer blockBuffer = upload(std::vector<gpu::FrameBlock>{block});
+
+  submit([&](VkCommandBuffer commandBuffer) {
+    const PassRecorder recorder{.vk = device_.table,
+                                .commandBuffer = commandBuffer,
+                                .layout = pipelines_->state().layout,
+                                .pipelines = pipelines_->state().common,
+                                .frame = blockBuffer.address,
+                                .counters = counterBuffer->buffer,
+                                .countersOffset = 0};
+    device_.table.vkCmdUpdateBuffer(commandBuffer, counterBuffer->buffer, 0, sizeof(counters), &counters);
+    VkMemoryBarrier2 memory{};
+    memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    memory.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    memory.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
+    memory.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
+    VkDependencyInfo dependency{};
+    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &memory;
+    device_.table.vkCmdPipelineBarrier2(commandBuffer, &dependency);
+    recordSort(recorder,
+               {keyBuffer.address, valueBuffer.address, keySwap.address, valueSwap.address,
+                counterBuffer->address + offsetof(gpu::Counters, visibleCells), std::max(count, 1u),
+                offsetof(gpu::Counters, cellSortDispatch)},
+               4);
+  });
+
+  std::vector<uint32_t> order = values;
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return keys[a] < keys[b]; });
+  std::vector<uint32_t> sortedKeys;
+  for (const uint32_t index : order) sortedKeys.push_back(keys[index]);
+  EXPECT_EQ(download<uint32_t>(keyBuffer, count), sortedKeys);
+  EXPECT_EQ(download<uint32_t>(valueBuffer, count), order);
+  EXPECT_EQ(copyOut<gpu::Counters>(*counterBuffer, 1)[0].violations, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, Sort, testing::Values(0u, 1u, 255u, 256u, 257u, 1025u, 100000u),
+                         testing::PrintToStringParamName());
+
+// Balls alone: no neighbours, K = M = 1.
+class Bin : public Passes {
+ protected:
+  GpuAsset uploadBalls(const Foam& foam) {
+    const auto count = static_cast<size_t>(foam.cellCount);
+    std::vector<glm::vec4> siteRadius;
+    for (size_t i = 0; i < count; ++i) siteRadius.emplace_back(foam.sites[i], foam.radii[i]);
+    GpuAsset asset;
+    asset.detailCount = asset.lobeCount = 1;
+    asset.liveCount = foam.cellCount;
+    GpuChunk chunk;
+    chunk.cellCount = chunk.liveCount = foam.cellCount;
+    chunk.siteRadius = upload(siteRadius).address;
+    chunk.neighbourOffsets = upload(std::vector<uint32_t>(count + 1)).address;
+    chunk.neighbours = upload(std::vector<uint32_t>(1)).address;
+    chunk.alphaCounts = upload(std::vector<uint32_t>(count)).address;
+    chunk.densities = upload(foam.densities).address;
+    chunk.orientations = upload(foam.orientations).address;
+    chunk.detailSites = upload(foam.detailSites).address;
+    chunk.lobeAxes = upload(foam.lobeAxes).address;
+    chunk.lobeColours = upload(foam.lobeColours).address;
+    asset.chunks = {chunk};
+    return asset;
+  }
+};
+
+// What a ray's tile must hold: every ball that one of its pixels' rays meets, nearest power first.
+TEST_F(Bin, TilesHoldTheBallsThatTheirPixelsMeetInOrderOfPower) {
+  constexpr VkExtent2D kExtent{150, 100};
+  const Foam foam = makeRandomFoam(700, 1, 1, 11);
+  const GpuAsset asset = uploadBalls(foam);
+  ASSERT_TRUE(pipelines_->prepareFor(asset));
+
+  ViewState view{.device = device_,
+                 .buffers = ViewBuffers(device_),
+                 .images = std::move(*OutputImages::create(device_, kRecordingsPerFrame)),
+                 .timer = nullptr,
+                 .slots = std::vector<FrameSlot>(1)};
+  const uint32_t tilesX = tilesAlong(kExtent.width), tilesY = tilesAlong(kExtent.height);
+  ViewCapacity capacity;
+  capacity.tiles = tilesX * tilesY;
+  capacity.pairs = 1 << 16;
+  coverAsset(asset, capacity);
+  ASSERT_TRUE(view.buffers.grow(capacity, 0));
+
+  const View camera = lookAt({0.3, 0.2, 1.2}, {0, 0, 3}, kExtent.width, kExtent.height, 0.7);
+  Result<HostImage> image = sharedHost().createImage(VK_FORMAT_R16G16B16A16_SFLOAT, kExtent);
+  ASSERT_TRUE(image);
+  FrothRenderInfo info = infoOf(camera);
+  info.colour = sharedHost().describe(*image);
+  info.camera.scissor = {{0, 0}, kExtent};
+  info.depthQuantile = 0.5f;
+  const RenderInstance instance{.asset = &asset, .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
+  submit([&](VkCommandBuffer commandBuffer) {
+    const Recording recording = beginRecording(view, commandBuffer, RecordingKind::kRaster, info, 1, &instance);
+    const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset));
+    recordRasterPasses(recording, bindRecording(recording, pipelines_->state(), passes), asset);
+    endRecording(recording);
+  });
+
+  const gpu::Counters counters = readCounters(view, 0);
+  EXPECT_EQ(counters.violations, 0u);
+  const auto order = copyOut<uint32_t>(view.buffers[ViewBuffer::kOrder], counters.visibleCells);
+  const auto visible = copyOut<gpu::uvec4>(view.buffers[ViewBuffer::kVisibleCells], counters.visibleCells);
+  const auto ranges = copyOut<std::array<uint32_t, 2>>(view.buffers[ViewBuffer::kTileRanges], tilesX * tilesY);
+  const auto pairs = copyOut<uint32_t>(view.buffers[ViewBuffer::kPairCellsSwap], counters.pairsKept);  // one digit: odd
+
+  const auto& world = camera.worldFromCamera;
+  const glm::dvec3 right(world[0], world[4], world[8]), down(world[1], world[5], world[9]),
+      forward(world[2], world[6], world[10]), eye(world[3], world[7], world[11]);
+  const auto ray = [&](double x, double y) {
+    return forward + right * ((x - camera.cx) / camera.fx) + down * ((y - camera.cy) / camera.fy);
+  };
+  for (uint32_t tile = 0; tile < ranges.size(); ++tile) {
+    std::vector<bool> isListed(foam.cellCount);
+    double lastPower = -INFINITY;
+    for (uint32_t pair = ranges[tile][0]; pair < ranges[tile][1]; ++pair) {
+      const uint32_t cell = visible.at(order.at(pairs[pair]))[1];
+      EXPECT_FALSE(isListed[cell]) << "cell " << cell << " twice in tile " << tile;
+      isListed[cell] = true;
+      const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
+      const double power = glm::dot(centre, centre) - double{foam.radii[cell]} * foam.radii[cell];
+      EXPECT_GE(power, lastPower - 1e-5) << "tile " << tile;
+      lastPower = power;
+    }
+    const uint32_t x0 = tile % tilesX * gpu::kTileSize, y0 = tile / tilesX * gpu::kTileSize;
+    const uint32_t x1 = std::min(x0 + gpu::kTileSize, kExtent.width), y1 = std::min(y0 + gpu::kTileSize, kExtent.height);
+    for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
+      const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
+      bool isMet = false, isNearby = false;
+      for (uint32_t y = y0; y < y1; ++y) {
+        for (uint32_t x = x0; x < x1; ++x) {
+          const glm::dvec3 direction = glm::normalize(ray(x + 0.5, y + 0.5));
+          const double along = std::max(glm::dot(direction, centre), 0.0);
+          const double miss = glm::length(centre - along * direction) - foam.radii[cell];
+          isMet |= miss < -1e-6;
+          isNearby |= miss < 0.01;  // a pixel is 0.02 wide at distance 1
+        }
+      }
+      EXPECT_FALSE(isMet && !isListed[cell]) << "cell " << cell << " is missing in tile " << tile;
+      EXPECT_FALSE(isListed[cell] && !isNearby) << "cell " << cell << " far from tile " << tile;
+    }
+  }
+  sharedHost().destroyImage(*image);
+}
+
+}  // namespace
+}  // namespace froth::test

@@ -1,44 +1,175 @@
-// Raster and walk against the double reference renderer on the small named scenes.
+// Raster and walk against the double reference renderer.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "baker/synth/synth.h"
+#include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
 
 namespace froth::test {
 namespace {
 
-Foam makeFoam(const char* name, uint32_t cells = 0) {
+constexpr uint32_t kWidth = 160, kHeight = 120;
+
+View frontView() { return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.6); }
+
+Foam synthesize(const char* name, uint32_t cells) {
   Result<Foam> foam = synthesizeFoam({name, cells, 1});
   EXPECT_TRUE(foam) << foam.error().message;
   return *foam;
 }
 
-constexpr uint32_t kWidth = 160, kHeight = 120;
+// The share of pixels where one image has a distance and the other has none, or they differ by more than 1e-3.
+double distanceMismatch(const Image& runtime, const Image& reference) {
+  size_t off = 0;
+  for (size_t i = 0; i < runtime.values.size(); ++i) {
+    const float found = std::isinf(runtime.values[i]) ? -1.0f : runtime.values[i];
+    if (!(std::abs(found - reference.values[i]) <= 1e-3f)) ++off;
+  }
+  return static_cast<double>(off) / static_cast<double>(runtime.values.size());
+}
 
-class SmallScene : public testing::TestWithParam<const char*> {};
-
-TEST_P(SmallScene, IsDrawnAsTheReferenceDrawsItByRasterAndWalk) {
-  const Foam foam = makeFoam(GetParam());
-  const View view = lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.6);
-  const RenderedImages expected = renderReference(foam, view);
-  Stage stage(bakeForTest(foam), {kWidth, kHeight});
-  const Frame raster = stage.draw(Method::kRaster, view);
-  const Frame walk = stage.draw(Method::kWalk, view);
-  RecordProperty("raster", std::to_string(psnr(raster.colour, expected.colour)));
-  std::printf("%s: raster %.1f walk %.1f walk-raster %.1f alpha %.1f normal %.1f\n", GetParam(), psnr(raster.colour, expected.colour), psnr(walk.colour, expected.colour), psnr(walk.colour, raster.colour), psnr(raster.alpha, expected.alpha), psnr(raster.normal, expected.normal));
-  for (uint32_t i = 0; i < raster.status.passCount; ++i) std::printf("  %s %.2f\n", raster.status.passes[i].name, raster.status.passes[i].milliseconds);
-  for (uint32_t i = 0; i < walk.status.passCount; ++i) std::printf("  %s %.2f\n", walk.status.passes[i].name, walk.status.passes[i].milliseconds);
-  std::printf("  visible %u pairs %lu steps %lu\n", raster.status.visibleCells, raster.status.pairs, walk.status.walkSteps);
-  EXPECT_GE(psnr(raster.colour, expected.colour), 60);
-  EXPECT_GE(psnr(raster.alpha, expected.alpha), 60);
-  EXPECT_GE(psnr(raster.normal, expected.normal), 60);
+void expectWalkAgrees(const Frame& walk, const Frame& raster) {
   EXPECT_GE(psnr(walk.colour, raster.colour), 60);
   EXPECT_LE(overTwoSteps(walk.colour, raster.colour), 1e-4);
   EXPECT_EQ(walk.status.bits, 0u);
 }
 
+void expectReference(const Foam& foam, const View& view) {
+  const RenderedImages expected = renderReference(foam, view);
+  Stage stage(bakeForTest(foam), {view.width, view.height});
+  const Frame raster = stage.draw(Method::kRaster, view);
+  EXPECT_GE(psnr(raster.colour, expected.colour), 60);
+  EXPECT_GE(psnr(raster.alpha, expected.alpha), 60);
+  EXPECT_GE(psnr(raster.normal, expected.normal), 60);
+  EXPECT_LE(distanceMismatch(raster.distance, expected.depth), 1e-3);
+  const Frame walk = stage.draw(Method::kWalk, view);
+  expectWalkAgrees(walk, raster);
+  EXPECT_LE(distanceMismatch(walk.distance, expected.depth), 1e-3);
+}
+
+class SmallScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(SmallScene, IsDrawnAsTheReferenceDrawsItByRasterAndWalk) {
+  expectReference(synthesize(GetParam(), 0), frontView());
+}
+
 INSTANTIATE_TEST_SUITE_P(Named, SmallScene, testing::Values("one", "two", "grid", "shell", "random"),
                          [](const auto& scene) { return std::string(scene.param); });
+
+TEST(Scenes, AGalleryOfFiveThousandCellsIsDrawnAsTheReferenceDrawsIt) {
+  const View view = resizeView(galleryCameras().views.at(0), kWidth, kHeight);
+  expectReference(synthesize("gallery", 5000), view);
+}
+
+struct Shape {
+  uint32_t details, lobes;
+};
+
+class AssetShapes : public testing::TestWithParam<Shape> {};
+
+TEST_P(AssetShapes, AreDrawnAsTheReferenceDrawsThem) {
+  const View view = lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, 64, 48, 0.4);
+  expectReference(makeRandomFoam(60, GetParam().details, GetParam().lobes, 5), view);
+}
+
+INSTANTIATE_TEST_SUITE_P(DetailsAndLobes, AssetShapes, testing::Values(Shape{1, 1}, Shape{4, 2}, Shape{32, 32}),
+                         [](const auto& shape) {
+                           return std::to_string(shape.param.details) + "x" + std::to_string(shape.param.lobes);
+                         });
+
+TEST(Scenes, AnEyeInsideBallsSeesThemWithTheNearTestsOff) {
+  View view = lookAt({0.1, 0.0, 3.0}, {0.4, 0.3, 4}, kWidth, kHeight, 1.2);
+  expectReference(synthesize("random", 0), view);
+}
+
+TEST(Scenes, NearTestsSkipTheCellsThatTheReferenceSkips) {
+  View view = frontView();
+  view.nearRatio = 18;
+  view.nearDepth = 5.0;
+  expectReference(synthesize("random", 0), view);
+}
+
+TEST(Scenes, TheCutoffEndsRaysAsInTheReference) {
+  const Foam foam = synthesize("random", 0);
+  const View view = frontView();
+  Stage stage(bakeForTest(foam), {kWidth, kHeight});
+  for (const double cutoff : {0.0, 0.1}) {
+    const RenderedImages expected = renderReference(foam, view, cutoff);
+    FrothRenderInfo info = infoOf(view);
+    info.cutoff = cutoff > 0 ? static_cast<float>(cutoff) : -1.0f;
+    for (const Method method : {Method::kRaster, Method::kWalk}) {
+      EXPECT_GE(psnr(stage.draw(method, info, {kWidth, kHeight}).colour, expected.colour), 80) << cutoff;
+    }
+  }
+}
+
+TEST(Scenes, TheStepLimitEndsWalksAndIsReported) {
+  Stage stage(bakeForTest(synthesize("random", 0)), {kWidth, kHeight});
+  FrothRenderInfo info = infoOf(frontView());
+  info.maxSteps = 3;
+  EXPECT_EQ(stage.draw(Method::kWalk, info, {kWidth, kHeight}).status.bits, uint32_t{FROTH_VIEW_STEP_LIMIT});
+}
+
+TEST(Scenes, TwoDrawsGiveTheSameBits) {
+  Stage stage(bakeForTest(synthesize("random", 0)), {kWidth, kHeight});
+  for (const Method method : {Method::kRaster, Method::kWalk}) {
+    const Frame first = stage.draw(method, frontView());
+    const Frame second = stage.draw(method, frontView());
+    EXPECT_EQ(first.colour.values, second.colour.values);
+    EXPECT_EQ(first.distance.values, second.distance.values);
+    EXPECT_EQ(first.normal.values, second.normal.values);
+  }
+}
+
+TEST(Scenes, AssetsWithoutHeightsAreDrawnWithFlatFaces) {
+  Foam foam = synthesize("random", 0);
+  foam.detailHeights.assign(foam.detailHeights.size(), 0.0f);
+  expectReference(foam, frontView());
+}
+
+TEST(Scenes, TheLinearImageDecodesTheDisplayCodedOneOncePerPixel) {
+  Stage stage(bakeForTest(synthesize("random", 0)), {kWidth, kHeight});
+  FrothRenderInfo info = infoOf(frontView());
+  const Frame coded = stage.draw(Method::kRaster, info, {kWidth, kHeight});
+  info.displayCoded = 0;
+  const Frame linear = stage.draw(Method::kRaster, info, {kWidth, kHeight});
+  const auto decode = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
+  for (size_t i = 0; i < coded.alpha.values.size(); ++i) {
+    const float coverage = coded.alpha.values[i];
+    if (!(coverage > 0)) continue;
+    for (size_t c = 0; c < 3; ++c) {
+      ASSERT_NEAR(linear.colour.values[3 * i + c], coverage * decode(coded.colour.values[3 * i + c] / coverage), 1e-4);
+    }
+  }
+}
+
+TEST(Scenes, HalfFloatColourIsTheFloatColourRounded) {
+  Stage stage(bakeForTest(synthesize("random", 0)), {kWidth, kHeight});
+  for (const Method method : {Method::kRaster, Method::kWalk}) {
+    const Frame wide = stage.draw(method, infoOf(frontView()), {kWidth, kHeight});
+    const Frame half = stage.draw(method, infoOf(frontView()), {kWidth, kHeight}, VK_FORMAT_R16G16B16A16_SFLOAT);
+    EXPECT_GE(psnr(wide.colour, half.colour), 65);  // halves near 1 have steps of 5e-4
+  }
+}
+
+// 120 balls around the eye cover all 143 tiles: more pairs than a view starts with.
+TEST(Scenes, PairsBeyondTheSpaceAreReportedAndTheNextFrameIsWhole) {
+  Foam foam = makeRandomFoam(120, 1, 1, 9);
+  for (glm::vec3& site : foam.sites) site -= glm::vec3(0, 0, 3);
+  foam.radii.assign(foam.cellCount, 10.0f);
+  foam.densities.assign(foam.cellCount, 100.0f);
+  const View view = lookAt({0, 0, 0}, {0, 0, 1}, 416, 352, 1);
+  Stage stage(bakeForTest(foam), {view.width, view.height});
+  const Frame first = stage.draw(Method::kRaster, view);
+  EXPECT_EQ(first.status.bits, uint32_t{FROTH_VIEW_PAIR_OVERFLOW});
+  EXPECT_EQ(first.status.pairs, uint64_t{120} * 13 * 11);
+  const Frame second = stage.draw(Method::kRaster, view);
+  EXPECT_EQ(second.status.bits, 0u);
+  EXPECT_EQ(second.status.pairs, first.status.pairs);
+  expectWalkAgrees(stage.draw(Method::kWalk, view), second);
+}
 
 }  // namespace
 }  // namespace froth::test

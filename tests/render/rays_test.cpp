@@ -1,0 +1,99 @@
+// Balls against rectangles of rays (shaders/foam/rays.h) against dense samples.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "shaders/foam/rays.h"
+
+namespace froth::test {
+namespace {
+
+using Vec = glm::vec3;
+
+struct Case {
+  Vec centre, corner, edgeX, edgeY;
+  float radius;
+};
+
+// Rectangles before the eye, from a few pixels to a wide lens, and balls all around, some around the eye.
+Case makeCase(std::mt19937& engine) {
+  std::uniform_real_distribution<float> unit(-1, 1);
+  const auto random3 = [&] {
+    const float x = unit(engine), y = unit(engine), z = unit(engine);
+    return Vec(x, y, z);
+  };
+  const float size = std::pow(10.0f, unit(engine));
+  Case c;
+  c.corner = Vec(unit(engine), unit(engine), 1.0f);
+  c.edgeX = Vec(size, 0.1f * size * unit(engine), 0.05f * size * unit(engine));
+  c.edgeY = Vec(0.1f * size * unit(engine), -size, 0.05f * size * unit(engine));
+  c.centre = 3.0f * random3();
+  c.radius = std::pow(10.0f, unit(engine) - 0.5f);
+  return c;
+}
+
+// The largest share of the radius by which a sampled ray misses the ball; negative: it hits.
+float nearestMiss(const Case& c, int samples) {
+  float least = INFINITY;
+  for (int i = 0; i <= samples; ++i) {
+    for (int j = 0; j <= samples; ++j) {
+      const float s = static_cast<float>(i) / static_cast<float>(samples);
+      const float t = static_cast<float>(j) / static_cast<float>(samples);
+      const Vec direction = glm::normalize(c.corner + s * c.edgeX + t * c.edgeY);
+      const float along = std::max(glm::dot(direction, c.centre), 0.0f);
+      least = std::min(least, glm::length(c.centre - along * direction) / c.radius - 1);
+    }
+  }
+  return least;
+}
+
+TEST(Rays, ARectangleMeetsABallIfAndOnlyIfOneOfItsRaysDoes) {
+  std::mt19937 engine(3);
+  int hits = 0, misses = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Case c = makeCase(engine);
+    const float miss = nearestMiss(c, 12);
+    const bool meets = foam::rectangleMeetsBall(c.centre, c.radius, c.corner, c.edgeX, c.edgeY);
+    if (miss < 0) {
+      ASSERT_TRUE(meets) << "case " << i << ": a ray runs " << -miss << " radii inside";
+      ++hits;
+    } else if (!meets) {
+      ++misses;
+    }
+    // Samples are up to 1/24 of an edge away from the nearest ray of the rectangle.
+    const float edge = std::max(glm::length(c.edgeX), glm::length(c.edgeY));
+    const float slack = glm::length(c.centre) / c.radius * edge / 12 + 1e-3f;
+    ASSERT_FALSE(meets && miss > slack) << "case " << i << ": all rays miss by " << miss << " radii";
+  }
+  EXPECT_GT(hits, 1000);
+  EXPECT_GT(misses, 1000);
+}
+
+TEST(Rays, TheBoundsOfABallsImageHoldEveryRayThatMeetsIt) {
+  std::mt19937 engine(4);
+  int bounded = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Case c = makeCase(engine);
+    float low, high;
+    if (!foam::boundBallImage(c.centre, c.radius, glm::cross(c.corner, c.edgeY), glm::cross(c.edgeX, c.edgeY), low,
+                              high)) {
+      continue;
+    }
+    ++bounded;
+    for (int k = 0; k < 32; ++k) {  // rays through points of the ball's silhouette plane
+      std::uniform_real_distribution<float> unit(-1, 1);
+      const Vec point = c.centre + 0.99f * c.radius * glm::normalize(Vec(unit(engine), unit(engine), unit(engine)));
+      // point ~ corner + x edgeX + y edgeY, by Cramer's rule
+      const float w = glm::dot(point, glm::cross(c.edgeX, c.edgeY));
+      const float x = glm::dot(point, glm::cross(c.edgeY, c.corner)) / w;
+      const float slack = 1e-3f * (1 + std::abs(x));
+      ASSERT_GE(x, low - slack) << "case " << i;
+      ASSERT_LE(x, high + slack) << "case " << i;
+    }
+  }
+  EXPECT_GT(bounded, 1000);
+}
+
+}  // namespace
+}  // namespace froth::test
