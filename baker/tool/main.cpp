@@ -20,7 +20,7 @@ int runAction(froth::Tool& tool) {
 
 int main(int argc, char** argv) {
   CLI::App program{"Bakes, renders and measures radiance foams."};
-  program.require_subcommand(1);
+  program.require_subcommand(0, 1);  // none is told below: CLI11 would not name a misspelt one
   program.fallthrough();  // --quiet is accepted after the subcommand too
 
   froth::Tool tool;
@@ -45,6 +45,10 @@ int main(int argc, char** argv) {
     return froth::kExitUsage;
   }
 
+  if (!tool.action) {
+    std::fprintf(stderr, "froth: a command is needed; `froth --help` lists them\n");
+    return froth::kExitUsage;
+  }
   froth::stopOnInterrupt();
   try {
     return runAction(tool);

@@ -30,11 +30,11 @@ Status waitUntilReady(Host& host, Scene& scene) {
 }
 
 // A file should show the whole foam: a frame that overflowed is drawn again, as beginFrame() made room.
-Status drawWhole(Host& host, Scene& scene, Picture picture, const Pose& pose, const HostImage& image) {
+Status drawWhole(Host& host, Scene& scene, Painter& painter, Picture picture, const Pose& pose) {
   constexpr int kMaxAttempts = 32;
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     Status drawn = submitFrame(host, scene, [&](VkCommandBuffer commands) {
-      return scene.draw(commands, picture, pose, host.describe(image));
+      return painter.record(commands, scene, picture, pose, VK_PIPELINE_STAGE_2_COPY_BIT);
     });
     if (!drawn) return drawn;
     // What a frame met is known at the start of the next one.
@@ -78,14 +78,14 @@ Status checkSilence(const Host& host) {
                    messages.front().c_str());
 }
 
-Status flyPath(Host& host, Scene& scene, const CameraPath& path, const FlythroughOptions& options,
-               HostImage& image) {
+Status flyPath(Host& host, Scene& scene, Painter& painter, const CameraPath& path,
+               const FlythroughOptions& options) {
   std::vector<Picture8> sheet;
   Picture8 picture;
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     const double share = options.frames > 1 ? static_cast<double>(frame) / (options.frames - 1) : 0.0;
-    if (Status drawn = drawWhole(host, scene, options.picture, path.at(share), image); !drawn) return drawn;
-    const Result<std::vector<float>> texels = host.readImage(image);
+    if (Status drawn = drawWhole(host, scene, painter, options.picture, path.at(share)); !drawn) return drawn;
+    const Result<std::vector<float>> texels = host.readImage(painter.result());
     if (!texels) return texels.error();
     picture = encodePicture(*texels, options.extent);
     if (Status written = writePicture(framePath(options, frame), picture); !written) return written;
@@ -112,14 +112,11 @@ Status flyHeadless(const FlythroughOptions& options) {
   Result<std::unique_ptr<Scene>> scene = Scene::create((*host)->contextInfo(), options.asset);
   if (!scene) return scene.error();
   if (Status ready = waitUntilReady(**host, **scene); !ready) return ready;
-  if (Status sized = (*scene)->setExtent(options.extent); !sized) return sized;
+  Painter painter(**host);
+  if (Status sized = painter.setExtent(**scene, options.extent); !sized) return sized;
   const Result<CameraPath> path = (*scene)->path(std::move(keys));
   if (!path) return path.error();
-
-  Result<HostImage> image = (*host)->createImage(VK_FORMAT_R16G16B16A16_SFLOAT, options.extent);
-  if (!image) return image.error();
-  const Status flown = flyPath(**host, **scene, *path, options, *image);
-  (*host)->destroyImage(*image);
+  const Status flown = flyPath(**host, **scene, painter, *path, options);
   return flown ? checkSilence(**host) : flown;
 }
 

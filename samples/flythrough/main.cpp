@@ -38,9 +38,9 @@ int main(int argc, char** argv) {
       ->type_name("WxH")
       ->default_str("1280x720")
       ->check(CLI::Validator(checkSize, ""));
-  program.add_option("--renderer", picture, "raster or walk")
+  program.add_option("--renderer", picture, "raster, walk, or the difference of the two")
       ->capture_default_str()
-      ->check(CLI::IsMember({"raster", "walk"}));
+      ->check(CLI::IsMember({"raster", "walk", "difference"}));
   program.add_option("--device", options.device, "Index or part of a name");
   program.add_flag("--validate", options.validate, "Validation layers; fail on a message");
   CLI::Option* frames = program.add_option("--frames", options.frames, "End after so many frames");
@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
   }
   if (!size.empty()) std::sscanf(size.c_str(), "%ux%u", &options.extent.width, &options.extent.height);
   if (picture == "walk") options.picture = froth::Picture::kWalk;
+  if (picture == "difference") options.picture = froth::Picture::kDifference;
 
   const froth::Status status = options.isHeadless ? froth::flyHeadless(options) : froth::flyInWindow(options);
   if (status) return 0;

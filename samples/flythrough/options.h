@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "samples/flythrough/scene.h"
+#include "samples/flythrough/painter.h"
 
 namespace froth {
 

@@ -14,6 +14,7 @@ namespace froth {
 namespace {
 
 constexpr double kMebi = 1024.0 * 1024.0;
+constexpr float kBarWidth = 300.0f;  // [pixels]
 
 // ImGui's colours are display-coded, but the swapchain's sRGB format encodes once more: hand it linear ones.
 void decodeStyleColours() {
@@ -30,7 +31,7 @@ void layOutPasses(const FrothViewStatus& view) {
     const float share = total > 0 ? static_cast<float>(view.passes[i].milliseconds / total) : 0.0f;
     char label[64];
     std::snprintf(label, sizeof(label), "%s %.3f ms", view.passes[i].name, view.passes[i].milliseconds);
-    ImGui::ProgressBar(share, ImVec2(-1, 0), label);
+    ImGui::ProgressBar(share, ImVec2(kBarWidth, 0), label);
   }
 }
 
@@ -164,8 +165,7 @@ void Overlay::beginFrame() {
 
 void Overlay::layOut(const OverlayContent& content) {
   ImGui::SetNextWindowPos(ImVec2(12, 12), ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize(ImVec2(300, 0), ImGuiCond_FirstUseEver);
-  ImGui::Begin("Froth");
+  ImGui::Begin("Froth", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::Text("%s, %s, %.1f frames/s", content.picture, content.camera, ImGui::GetIO().Framerate);
   if (content.asset.state == FROTH_ASSET_OPENING) {
     ImGui::Text("loading, %.1f MiB to go", static_cast<double>(content.frame.uploadBytesQueued) / kMebi);

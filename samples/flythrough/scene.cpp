@@ -74,14 +74,14 @@ Status Scene::beginFrame(VkCommandBuffer commands, uint64_t serial, uint64_t com
   return {};
 }
 
-Status Scene::draw(VkCommandBuffer commands, Picture picture, const Pose& pose, const FrothImage& colour) {
+Status Scene::draw(VkCommandBuffer commands, Method method, const Pose& pose, const FrothImage& colour) {
   FrothRenderInfo info{};
   info.structSize = sizeof(info);
   info.camera = cameraOf(pose, extent_);
   info.nearRatio = FROTH_NEAR_DEFAULT;
   info.nearDepth = FROTH_NEAR_DEFAULT;
   info.colour = colour;
-  if (picture == Picture::kWalk) return check(frothWalk(context_, view_, commands, &info), "frothWalk");
+  if (method == Method::kWalk) return check(frothWalk(context_, view_, commands, &info), "frothWalk");
   return check(frothRasterize(context_, view_, commands, &info), "frothRasterize");
 }
 

@@ -10,7 +10,7 @@
 
 namespace froth {
 
-enum class Picture { kRaster, kWalk };
+enum class Method { kRaster, kWalk };
 
 class Scene {
  public:
@@ -24,7 +24,7 @@ class Scene {
   // The start of each frame: loads what there is to load, grows what was too small, records the uploads.
   Status beginFrame(VkCommandBuffer commands, uint64_t serial, uint64_t completedSerial);
   // Records linear premultiplied colour of the whole image. Nothing is drawn before the asset is ready.
-  Status draw(VkCommandBuffer commands, Picture picture, const Pose& pose, const FrothImage& colour);
+  Status draw(VkCommandBuffer commands, Method method, const Pose& pose, const FrothImage& colour);
 
   bool isReady() const { return asset_.state == FROTH_ASSET_READY; }
   const FrothAssetStatus& assetStatus() const { return asset_; }

@@ -12,7 +12,6 @@
 #include <imgui.h>
 
 #include "samples/flythrough/cameras_json.h"
-#include "samples/flythrough/difference_pass.h"
 #include "samples/flythrough/fly_camera.h"
 #include "samples/flythrough/frame_ring.h"
 #include "samples/flythrough/overlay.h"
@@ -26,30 +25,21 @@ namespace {
 constexpr double kSecondsPerKey = 2.0;      // of the path camera
 constexpr double kRadiansPerPixel = 0.003;  // of a drag
 
-enum class Shown { kRaster, kWalk, kDifference };
-
-const char* nameOf(Shown shown) {
-  return shown == Shown::kRaster ? "raster" : shown == Shown::kWalk ? "walk" : "difference";
-}
-
 class Flythrough {
  public:
-  explicit Flythrough(const FlythroughOptions& options)
-      : options_(options), shown_(options.picture == Picture::kWalk ? Shown::kWalk : Shown::kRaster) {}
+  explicit Flythrough(const FlythroughOptions& options) : options_(options), shown_(options.picture) {}
   ~Flythrough();
 
   Status create();
   Status run();
 
  private:
-  Status createImages();
   Status resize();
   Status startFlight();
   void handleInput(double seconds);
   void steer(double seconds);
 
   Status drawFrame();
-  Status recordPicture(VkCommandBuffer commands, const Pose& pose);
   void recordBlit(VkCommandBuffer commands, VkImage target);
   OverlayContent overlayContent() const;
   Pose currentPose() const;
@@ -63,14 +53,13 @@ class Flythrough {
   std::unique_ptr<FrameRing> frames_;
   std::unique_ptr<Overlay> overlay_;
   std::unique_ptr<Scene> scene_;
-  HostImage picture_, other_;  // `other_` is the walk's, for the difference
-  std::unique_ptr<DifferencePass> difference_;
+  std::unique_ptr<Painter> painter_;
 
   std::vector<Pose> keys_;          // of --cameras
   std::optional<CameraPath> path_;  // once the asset is ready
   std::optional<FlyCamera> flight_;
   double pathSeconds_ = 0;
-  Shown shown_;
+  Picture shown_;
   bool isOnPath_ = true, isOverlayShown_ = true, isScreenshotWanted_ = false;
   uint32_t screenshots_ = 0;
 };
@@ -78,9 +67,7 @@ class Flythrough {
 Flythrough::~Flythrough() {
   if (!host_) return;
   vkDeviceWaitIdle(host_->device);
-  difference_.reset();
-  host_->destroyImage(picture_);
-  host_->destroyImage(other_);
+  painter_.reset();
   scene_.reset();
   overlay_.reset();
   frames_.reset();
@@ -120,24 +107,8 @@ Status Flythrough::create() {
   Result<std::unique_ptr<Scene>> scene = Scene::create(contextInfo, options_.asset);
   if (!scene) return scene.error();
   scene_ = std::move(*scene);
-  if (Status sized = scene_->setExtent(swapchain_->extent()); !sized) return sized;
-  return createImages();
-}
-
-// One set serves all frames in flight: a frame's barriers make it wait until the frame before has read the
-// images.
-Status Flythrough::createImages() {
-  difference_.reset();
-  for (HostImage* image : {&picture_, &other_}) {
-    host_->destroyImage(*image);
-    Result<HostImage> made = host_->createImage(VK_FORMAT_R16G16B16A16_SFLOAT, swapchain_->extent());
-    if (!made) return made.error();
-    *image = *made;
-  }
-  Result<std::unique_ptr<DifferencePass>> difference = DifferencePass::create(*host_, picture_, other_);
-  if (!difference) return difference.error();
-  difference_ = std::move(*difference);
-  return {};
+  painter_ = std::make_unique<Painter>(*host_);
+  return painter_->setExtent(*scene_, swapchain_->extent());
 }
 
 Status Flythrough::resize() {
@@ -146,8 +117,7 @@ Status Flythrough::resize() {
   vkDeviceWaitIdle(host_->device);
   if (Status sized = swapchain_->resize(extent); !sized) return sized;
   if (Status set = overlay_->setSwapchain(*swapchain_); !set) return set;
-  if (Status sized = scene_->setExtent(swapchain_->extent()); !sized) return sized;
-  return createImages();
+  return painter_->setExtent(*scene_, swapchain_->extent());
 }
 
 Status Flythrough::startFlight() {
@@ -173,9 +143,9 @@ Pose Flythrough::currentPose() const {
 
 void Flythrough::handleInput(double seconds) {
   if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) glfwSetWindowShouldClose(system_->window(), GLFW_TRUE);
-  if (ImGui::IsKeyPressed(GLFW_KEY_1, false)) shown_ = Shown::kRaster;
-  if (ImGui::IsKeyPressed(GLFW_KEY_2, false)) shown_ = Shown::kWalk;
-  if (ImGui::IsKeyPressed(GLFW_KEY_3, false)) shown_ = Shown::kDifference;
+  if (ImGui::IsKeyPressed(GLFW_KEY_1, false)) shown_ = Picture::kRaster;
+  if (ImGui::IsKeyPressed(GLFW_KEY_2, false)) shown_ = Picture::kWalk;
+  if (ImGui::IsKeyPressed(GLFW_KEY_3, false)) shown_ = Picture::kDifference;
   if (ImGui::IsKeyPressed(GLFW_KEY_H, false)) isOverlayShown_ = !isOverlayShown_;
   if (ImGui::IsKeyPressed(GLFW_KEY_C, false)) isScreenshotWanted_ = true;
   if (!path_) return;
@@ -206,28 +176,6 @@ void Flythrough::steer(double seconds) {
   flight_->step(input);
 }
 
-// Raster or walk fill `picture_`, or both pictures become their difference. It ends in GENERAL, ready for the
-// blit.
-Status Flythrough::recordPicture(VkCommandBuffer commands, const Pose& pose) {
-  FrothImage target = host_->describe(picture_);
-  target.stageOut = VK_PIPELINE_STAGE_2_BLIT_BIT;
-  if (shown_ == Shown::kRaster) return scene_->draw(commands, Picture::kRaster, pose, target);
-  if (shown_ == Shown::kWalk) return scene_->draw(commands, Picture::kWalk, pose, target);
-
-  FrothImage second = host_->describe(other_);
-  target.stageOut = second.stageOut = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  target.accessOut = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-  second.accessOut = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
-  if (Status drawn = scene_->draw(commands, Picture::kRaster, pose, target); !drawn) return drawn;
-  if (Status drawn = scene_->draw(commands, Picture::kWalk, pose, second); !drawn) return drawn;
-  difference_->record(commands);
-  imageBarrier(
-      commands, picture_.image,
-      {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-      {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT});
-  return {};
-}
-
 // Premultiplied colour over black is the colour itself; the blit to an sRGB format encodes it.
 void Flythrough::recordBlit(VkCommandBuffer commands, VkImage target) {
   imageBarrier(
@@ -238,7 +186,7 @@ void Flythrough::recordBlit(VkCommandBuffer commands, VkImage target) {
   VkImageBlit region{};
   region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.srcOffsets[1] = region.dstOffsets[1] = {width, height, 1};
-  vkCmdBlitImage(commands, picture_.image, VK_IMAGE_LAYOUT_GENERAL, target,
+  vkCmdBlitImage(commands, painter_->result().image, VK_IMAGE_LAYOUT_GENERAL, target,
                  VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
 }
 
@@ -271,7 +219,8 @@ Status Flythrough::drawFrame() {
   if (!path_ && scene_->isReady()) {
     if (Status started = startFlight(); !started) return started;
   }
-  if (recorded = recordPicture(commands, currentPose()); !recorded) return recorded;
+  recorded = painter_->record(commands, *scene_, shown_, currentPose(), VK_PIPELINE_STAGE_2_BLIT_BIT);
+  if (!recorded) return recorded;
   recordBlit(commands, target.image);
   if (isOverlayShown_) overlay_->layOut(overlayContent());
   overlay_->record(commands, index);
@@ -292,12 +241,13 @@ Status Flythrough::drawFrame() {
 
 Status Flythrough::saveScreenshot() {
   vkDeviceWaitIdle(host_->device);
-  const Result<std::vector<float>> texels = host_->readImage(picture_);
+  const Result<std::vector<float>> texels = host_->readImage(painter_->result());
   if (!texels) return texels.error();
   char name[48];
   std::snprintf(name, sizeof(name), "screenshot_%02u.png", screenshots_++);
   const std::filesystem::path path = options_.output / name;
-  if (Status written = writePicture(path, encodePicture(*texels, picture_.extent)); !written) return written;
+  if (Status written = writePicture(path, encodePicture(*texels, painter_->result().extent)); !written)
+    return written;
   std::printf("%s\n", path.c_str());
   return {};
 }

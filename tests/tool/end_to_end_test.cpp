@@ -131,7 +131,7 @@ TEST_F(EndToEnd, ATilingOfAnAssetIsAnAsset) {
 }
 
 TEST_F(EndToEnd, TheGalleryComesWithCamerasAndTruth) {
-  frothWell({"synth", "gallery", "--cells", "3000", "-o", "gallery.pt"});
+  frothWell({"synth", "gallery", "--cells", "8000", "-o", "gallery.pt"});
   ASSERT_TRUE(std::filesystem::exists(folder_ / "gallery.cameras.json"));
   frothWell({"synth", "gallery", "--truth", "gallery.cameras.json", "--samples", "1", "--size", "48x32",
              "--view", "1", "-o", "truth.pfm"});

@@ -13,8 +13,12 @@ namespace {
 
 std::string quoted(const std::string& argument) {
   std::string text = "'";
-  for (const char letter : argument) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  return text + "'";
+  for (const char letter : argument) {
+    if (letter == '\'') text.append("'\\'");
+    text.push_back(letter);
+  }
+  text.push_back('\'');
+  return text;
 }
 
 }  // namespace
@@ -32,9 +36,10 @@ ProgramRun runProgram(const std::string& program, const std::vector<std::string>
                       const std::filesystem::path& folder) {
   // Beside the folder, so that tests can look at what the program itself left in it.
   const std::string out = folder.string() + ".stdout", err = folder.string() + ".stderr";
-  std::string command = "cd " + quoted(folder.string()) + " && " + quoted(program);
-  for (const std::string& argument : arguments) command += " " + quoted(argument);
-  command += " >" + quoted(out) + " 2>" + quoted(err);
+  std::string command = "cd ";
+  command.append(quoted(folder.string())).append(" && ").append(quoted(program));
+  for (const std::string& argument : arguments) command.append(" ").append(quoted(argument));
+  command.append(" >").append(quoted(out)).append(" 2>").append(quoted(err));
   const int status = std::system(command.c_str());
   ProgramRun run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, readBytes(out), readBytes(err)};
   std::filesystem::remove(out);

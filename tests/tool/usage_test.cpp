@@ -16,7 +16,7 @@ class Usage : public ToolTest {
 };
 
 TEST_F(Usage, ACommandIsNeeded) {
-  expectUsageError({}, "subcommand");
+  expectUsageError({}, "command");
 }
 
 TEST_F(Usage, AnUnknownCommandIsRefused) {

@@ -1,0 +1,68 @@
+#include "samples/flythrough/painter.h"
+
+#include <utility>
+
+#include "samples/flythrough/vulkan_check.h"
+
+namespace froth {
+
+const char* nameOf(Picture picture) {
+  switch (picture) {
+    case Picture::kRaster:
+      return "raster";
+    case Picture::kWalk:
+      return "walk";
+    case Picture::kDifference:
+      break;
+  }
+  return "difference";
+}
+
+Painter::~Painter() {
+  destroyImages();
+}
+
+void Painter::destroyImages() {
+  difference_.reset();
+  for (HostImage* image : {&first_, &second_}) host_.destroyImage(*image);
+}
+
+Status Painter::setExtent(Scene& scene, VkExtent2D extent) {
+  destroyImages();
+  for (HostImage* image : {&first_, &second_}) {
+    Result<HostImage> made = host_.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent);
+    if (!made) return made.error();
+    *image = *made;
+  }
+  Result<std::unique_ptr<DifferencePass>> difference = DifferencePass::create(host_, first_, second_);
+  if (!difference) return difference.error();
+  difference_ = std::move(*difference);
+  return scene.setExtent(extent);
+}
+
+Status Painter::record(VkCommandBuffer commands, Scene& scene, Picture picture, const Pose& pose,
+                       VkPipelineStageFlags2 readStage) {
+  if (picture == Picture::kDifference) return recordDifference(commands, scene, pose, readStage);
+  FrothImage target = host_.describe(first_);
+  target.stageOut = readStage;
+  target.accessOut = VK_ACCESS_2_TRANSFER_READ_BIT;
+  return scene.draw(commands, picture == Picture::kWalk ? Method::kWalk : Method::kRaster, pose, target);
+}
+
+Status Painter::recordDifference(VkCommandBuffer commands, Scene& scene, const Pose& pose,
+                                 VkPipelineStageFlags2 readStage) {
+  FrothImage raster = host_.describe(first_), walk = host_.describe(second_);
+  raster.stageOut = walk.stageOut = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  raster.accessOut = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  walk.accessOut = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+  if (Status drawn = scene.draw(commands, Method::kRaster, pose, raster); !drawn) return drawn;
+  if (Status drawn = scene.draw(commands, Method::kWalk, pose, walk); !drawn) return drawn;
+  difference_->record(commands);
+  imageBarrier(
+      commands, first_.image,
+      {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+      {VK_IMAGE_LAYOUT_GENERAL, readStage, VK_ACCESS_2_TRANSFER_READ_BIT});
+  return {};
+}
+
+}  // namespace froth
