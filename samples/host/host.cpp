@@ -79,7 +79,8 @@ Status Host::createDevice(const std::vector<const char*>& extensions) {
   state.features.pNext = &state.features12;
   const char* missing = nullptr;
   if (frothRequireFeatures(&state.features, &missing) != FROTH_OK) {
-    return makeError(ErrorKind::kUnsupported, "froth needs features of %s, which this host does not know", missing);
+    return makeError(ErrorKind::kUnsupported, "froth needs features of %s, which this host does not know",
+                     missing);
   }
 
   queueFamily = findComputeFamily(physicalDevice);
@@ -96,7 +97,8 @@ Status Host::createDevice(const std::vector<const char*>& extensions) {
   deviceInfo.pQueueCreateInfos = &queueInfo;
   deviceInfo.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   deviceInfo.ppEnabledExtensionNames = extensions.data();
-  if (const VkResult code = vkCreateDevice(physicalDevice, &deviceInfo, nullptr, &device); code != VK_SUCCESS) {
+  if (const VkResult code = vkCreateDevice(physicalDevice, &deviceInfo, nullptr, &device);
+      code != VK_SUCCESS) {
     return failed("vkCreateDevice", code);
   }
   vkGetDeviceQueue(device, queueFamily, 0, &queue);
@@ -104,14 +106,16 @@ Status Host::createDevice(const std::vector<const char*>& extensions) {
   VkCommandPoolCreateInfo poolInfo{};
   poolInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
   poolInfo.queueFamilyIndex = queueFamily;
-  if (const VkResult code = vkCreateCommandPool(device, &poolInfo, nullptr, &state.pool); code != VK_SUCCESS) {
+  if (const VkResult code = vkCreateCommandPool(device, &poolInfo, nullptr, &state.pool);
+      code != VK_SUCCESS) {
     return failed("vkCreateCommandPool", code);
   }
   VkCommandBufferAllocateInfo bufferInfo{};
   bufferInfo.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
   bufferInfo.commandPool = state.pool;
   bufferInfo.commandBufferCount = 1;
-  if (const VkResult code = vkAllocateCommandBuffers(device, &bufferInfo, &state.commands); code != VK_SUCCESS) {
+  if (const VkResult code = vkAllocateCommandBuffers(device, &bufferInfo, &state.commands);
+      code != VK_SUCCESS) {
     return failed("vkAllocateCommandBuffers", code);
   }
   return {};
@@ -143,16 +147,20 @@ FrothContextInfo Host::contextInfo() const {
 
 Status Host::submit(const std::function<Status(VkCommandBuffer, uint64_t serial)>& record) {
   const uint64_t serial = ++state_->serial;
-  return state_->runCommands(device, queue, [&](VkCommandBuffer commands) { return record(commands, serial); });
+  return state_->runCommands(device, queue,
+                             [&](VkCommandBuffer commands) { return record(commands, serial); });
 }
 
-uint64_t Host::nextSerial() const { return state_->serial + 1; }
+uint64_t Host::nextSerial() const {
+  return state_->serial + 1;
+}
 
-Status Host::State::runCommands(VkDevice device, VkQueue queue, const std::function<Status(VkCommandBuffer)>& record) {
+Status Host::State::runCommands(VkDevice onDevice, VkQueue onQueue,
+                                const std::function<Status(VkCommandBuffer)>& record) {
   VkCommandBufferBeginInfo beginInfo{};
   beginInfo.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
   beginInfo.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  if (const VkResult code = vkResetCommandPool(device, pool, 0); code != VK_SUCCESS) {
+  if (const VkResult code = vkResetCommandPool(onDevice, pool, 0); code != VK_SUCCESS) {
     return failed("vkResetCommandPool", code);
   }
   if (const VkResult code = vkBeginCommandBuffer(commands, &beginInfo); code != VK_SUCCESS) {
@@ -169,10 +177,10 @@ Status Host::State::runCommands(VkDevice device, VkQueue queue, const std::funct
   submitInfo.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   submitInfo.commandBufferCount = 1;
   submitInfo.pCommandBuffers = &commands;
-  if (const VkResult code = vkQueueSubmit(queue, 1, &submitInfo, VK_NULL_HANDLE); code != VK_SUCCESS) {
+  if (const VkResult code = vkQueueSubmit(onQueue, 1, &submitInfo, VK_NULL_HANDLE); code != VK_SUCCESS) {
     return failed("vkQueueSubmit", code);
   }
-  if (const VkResult code = vkQueueWaitIdle(queue); code != VK_SUCCESS) {
+  if (const VkResult code = vkQueueWaitIdle(onQueue); code != VK_SUCCESS) {
     return failed("vkQueueWaitIdle", code);
   }
   return {};

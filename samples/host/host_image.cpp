@@ -22,9 +22,10 @@ Result<FormatTraits> traitsOf(VkFormat format) {
     case VK_FORMAT_R32_SFLOAT:
       return FormatTraits{1, 4};
     default:
-      return makeError(ErrorKind::kUnsupported,
-                       "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT and R32_SFLOAT",
-                       format);
+      return makeError(
+          ErrorKind::kUnsupported,
+          "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT and R32_SFLOAT",
+          format);
   }
 }
 
@@ -54,12 +55,14 @@ struct ReadbackBuffer {
   }
 };
 
-Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements, uint32_t type, VkDeviceMemory& memory) {
+Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements, uint32_t type,
+                      VkDeviceMemory& memory) {
   VkMemoryAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
   info.allocationSize = requirements.size;
   info.memoryTypeIndex = type;
-  const VkResult code = type == UINT32_MAX ? VK_ERROR_OUT_OF_DEVICE_MEMORY : vkAllocateMemory(device, &info, nullptr, &memory);
+  const VkResult code =
+      type == UINT32_MAX ? VK_ERROR_OUT_OF_DEVICE_MEMORY : vkAllocateMemory(device, &info, nullptr, &memory);
   if (code != VK_SUCCESS) {
     return makeError(ErrorKind::kUnsupported, "host: allocating %llu bytes gives VkResult %d",
                      static_cast<unsigned long long>(requirements.size), code);
@@ -113,12 +116,13 @@ Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent) {
   imageInfo.samples = VK_SAMPLE_COUNT_1_BIT;
   imageInfo.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   if (const VkResult code = vkCreateImage(device, &imageInfo, nullptr, &image.image); code != VK_SUCCESS) {
-    return makeError(ErrorKind::kUnsupported, "vkCreateImage of %u x %u gives VkResult %d", extent.width, extent.height,
-                     code);
+    return makeError(ErrorKind::kUnsupported, "vkCreateImage of %u x %u gives VkResult %d", extent.width,
+                     extent.height, code);
   }
   VkMemoryRequirements requirements{};
   vkGetImageMemoryRequirements(device, image.image, &requirements);
-  const uint32_t type = state_->findMemoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  const uint32_t type =
+      state_->findMemoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   if (const Status status = allocateMemory(device, requirements, type, image.memory); !status) {
     destroyImage(image);
     return status.error();
@@ -152,7 +156,8 @@ FrothImage Host::describe(const HostImage& image) const {
   described.format = image.format;
   described.extent = image.extent;
   described.layoutIn = VK_IMAGE_LAYOUT_UNDEFINED;
-  described.stageIn = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;  // two passes of one submission may write the same image
+  described.stageIn =
+      VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;  // two passes of one submission may write the same image
   described.accessIn = VK_ACCESS_2_MEMORY_WRITE_BIT;
   described.layoutOut = VK_IMAGE_LAYOUT_GENERAL;
   described.stageOut = VK_PIPELINE_STAGE_2_COPY_BIT;
@@ -171,14 +176,16 @@ Result<std::vector<float>> Host::readImage(const HostImage& image) {
   bufferInfo.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   ReadbackBuffer readback;
   readback.device = device;
-  if (const VkResult code = vkCreateBuffer(device, &bufferInfo, nullptr, &readback.buffer); code != VK_SUCCESS) {
+  if (const VkResult code = vkCreateBuffer(device, &bufferInfo, nullptr, &readback.buffer);
+      code != VK_SUCCESS) {
     return makeError(ErrorKind::kUnsupported, "vkCreateBuffer gives VkResult %d", code);
   }
   VkMemoryRequirements requirements{};
   vkGetBufferMemoryRequirements(device, readback.buffer, &requirements);
   constexpr VkMemoryPropertyFlags kCoherent =
       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-  uint32_t type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent | VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
+  uint32_t type =
+      state_->findMemoryType(requirements.memoryTypeBits, kCoherent | VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
   if (type == UINT32_MAX) {
     type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent);
   }

@@ -8,7 +8,8 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL logMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL logMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
   auto* log = static_cast<ValidationLog*>(user);
   const std::lock_guard<std::mutex> lock(log->mutex);
@@ -78,7 +79,8 @@ std::string listNames(const std::vector<HostDeviceChoice>& devices) {
 
 Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const char*> extensions) {
   if (log && !hasValidationLayer()) {
-    return makeError(ErrorKind::kUnsupported, "validation: the layer %s is not installed; install vulkan-validationlayers",
+    return makeError(ErrorKind::kUnsupported,
+                     "validation: the layer %s is not installed; install vulkan-validationlayers",
                      kValidationLayer);
   }
   VkDebugUtilsMessengerCreateInfoEXT messengerInfo{};
@@ -88,7 +90,8 @@ Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const ch
   messengerInfo.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
   messengerInfo.pfnUserCallback = logMessage;
   messengerInfo.pUserData = log;
-  const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  const VkValidationFeatureEnableEXT enabled[] = {
+      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   VkValidationFeaturesEXT validation{};
   validation.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
   validation.pNext = &messengerInfo;
@@ -113,7 +116,8 @@ Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const ch
   info.ppEnabledExtensionNames = extensions.data();
   HostInstance result;
   if (const VkResult code = vkCreateInstance(&info, nullptr, &result.instance); code != VK_SUCCESS) {
-    return makeError(ErrorKind::kUnsupported, "vkCreateInstance gives VkResult %d; is a Vulkan driver installed?", code);
+    return makeError(ErrorKind::kUnsupported,
+                     "vkCreateInstance gives VkResult %d; is a Vulkan driver installed?", code);
   }
   if (log) {
     const auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
@@ -147,7 +151,8 @@ Result<std::vector<HostDeviceChoice>> enumerateHostDevices(VkInstance instance) 
   return devices;
 }
 
-Result<HostDeviceChoice> chooseHostDevice(const std::vector<HostDeviceChoice>& devices, const std::string& wanted) {
+Result<HostDeviceChoice> chooseHostDevice(const std::vector<HostDeviceChoice>& devices,
+                                          const std::string& wanted) {
   const HostDeviceChoice* chosen = nullptr;
   for (size_t i = 0; i < devices.size(); ++i) {
     const HostDeviceInfo& info = devices[i].info;

@@ -168,6 +168,22 @@ TEST_F(Upload, BeyondTheBudgetFailsWithNumbersAndGivesTheMemoryBack) {
   EXPECT_EQ(messages_.size(), 1u) << "once, not in every frame";
 }
 
+TEST_F(Upload, ThatFitsTheBudgetWhileTheViewDoesNotLeavesTheViewRefused) {
+  FrothContextInfo info = host_->contextInfo();
+  info.deviceBudget = 16 << 10;
+  createContext(info);
+  const FrothAsset asset = openBytes(encodeSample());
+  auto viewInfo = makeStruct<FrothViewInfo>();
+  viewInfo.maxExtent = {4096, 4096};
+  FrothView view{};
+  EXPECT_EQ(frothCreateView(context_, &viewInfo, &view), FROTH_ERROR_MEMORY);
+  ASSERT_EQ(messages_.size(), 1u);
+  EXPECT_THAT(messages_[0].text,
+              HasSubstr("of 16384 bytes are in use; raise FrothContextInfo::deviceBudget by"));
+  runFrame();
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
+}
+
 TEST_F(Upload, OfAnAssetThatIsClosedHalfwayStopsAndLeavesTheOther) {
   createContext(host_->contextInfo());
   const FrothAsset first = openBytes(encodeSample());

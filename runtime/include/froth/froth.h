@@ -11,7 +11,7 @@
  * Structs begin with structSize = sizeof(the struct); zero is every field's default. Booleans are uint32_t.
  *
  * Threads: any thread, any time: frothGetRequirements, frothRequireFeatures, frothResultName.
- *          one thread per view at a time: frothRasterize, frothWalk.
+ *          at once on different views: frothRasterize, frothWalk; while no call of the last row runs.
  *          one thread at a time per context: everything else.
  *
  * docs/EMBEDDING.md leads through it.
