@@ -98,15 +98,20 @@ double AnalyticScene::softVisibility(const dvec3& from, const dvec3& to, double 
   return visibility;
 }
 
-bool AnalyticScene::isCovered(const dvec3& x, const Solid& solid, double margin) const {
+bool AnalyticScene::isCovered(const dvec3& x, const dvec3& normal, const Solid& solid, double margin) const {
+  constexpr double kSunk = -1e-4;   // [scene units] more than rounding
+  constexpr double kFacing = -0.5;  // cosine between the normals of surfaces that face each other
   const bool isWall = solid.shape->boundingRadius() == kNoHit;
   if (isWall ? opening_.contains(x) : !room_.contains(x) && !opening_.contains(x)) return true;
   const size_t own = static_cast<size_t>(&solid - solids_.data());
   for (size_t i = 0; i < solids_.size(); ++i) {
     if (i == own || bounds_[i].radius == kNoHit) continue;
-    constexpr double kSunk = -1e-4;  // [scene units] more than rounding
     if (glm::length(x - bounds_[i].centre) > bounds_[i].radius + margin) continue;
-    if (solids_[i].shape->distance(x) < (isWall || i < own ? margin : kSunk)) return true;
+    const Shape& other = *solids_[i].shape;
+    const double distance = other.distance(x);
+    if (distance < kSunk) return true;
+    const bool yields = (isWall || i < own) && distance < margin;
+    if (yields && glm::dot(other.nearest(x).normal, normal) > kFacing) return true;
   }
   return false;
 }

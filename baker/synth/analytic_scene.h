@@ -70,10 +70,11 @@ class AnalyticScene {
   // where the segment passes closer than `softness` times the distance gone. Relief does not count.
   double softVisibility(const glm::dvec3& from, const glm::dvec3& to, double softness) const;
 
-  // Whether a place on the surface of `solid` is hidden: in a wall, or, for walls, in the opening; in another
-  // solid, or within `margin` of it if `solid` is a wall or comes later (of coplanar surfaces the earlier
-  // remains).
-  bool isCovered(const glm::dvec3& x, const Solid& solid, double margin) const;
+  // Whether a place on the surface of `solid`, where its normal is given, is hidden: in a wall, or, for
+  // walls, in the opening; in another solid, or within `margin` of it if `solid` is a wall or comes later (of
+  // coplanar surfaces the earlier remains) and the two do not face each other, as a ball and the floor under
+  // it do.
+  bool isCovered(const glm::dvec3& x, const glm::dvec3& normal, const Solid& solid, double margin) const;
 
   // Clearance at x from the nearest solid, looked for up to `reach`.
   double clearance(const glm::dvec3& x, double reach) const;

@@ -51,7 +51,7 @@ void addSeam(const Solid& wall, const std::vector<SurfaceSite>& sites, std::vect
     const double reach = wall.shape->intersect({q.position, -foot.normal}, 0);
     if (std::abs(reach - height) > kTolerance) continue;  // that face belongs to another solid
     const SurfacePoint mirrored = wall.shape->nearest(q.position + height * (q.normal - foot.normal));
-    if (!galleryScene().isCovered(mirrored.position, wall, 0.5 * height))
+    if (!galleryScene().isCovered(mirrored.position, mirrored.normal, wall, 0.5 * height))
       wallSites.push_back({mirrored.position, mirrored.normal, mirrored.tangent, q.radius});
   }
 }
@@ -63,7 +63,8 @@ PlacedSites placeAllSites(double spacing, uint64_t seed) {
     const double own = spacing * solids[s].spacingFactor;
     solids[s].shape->placeSites(own, CounterRandom(seed, kJitterPurpose + s), perSolid[s]);
     std::erase_if(perSolid[s], [&](const SurfaceSite& site) {
-      return galleryScene().isCovered(site.position, solids[s], kContactMargin * std::min(own, site.radius));
+      return galleryScene().isCovered(site.position, site.normal, solids[s],
+                                      kContactMargin * std::min(own, site.radius));
     });
   });
   for (size_t wall = 0; wall < solids.size(); ++wall) {

@@ -161,7 +161,7 @@ Material ceilingMaterial() {
     return texel;
   };
   const auto relief = [](const SurfacePoint& point) {
-    return -0.03 * smoothRamp(-0.01, 0.15, cofferInset(point.position));
+    return 0.03 * (1 - smoothRamp(-0.01, 0.15, cofferInset(point.position)));
   };
   return {texture, relief, 0.03};
 }

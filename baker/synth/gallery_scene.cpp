@@ -57,8 +57,8 @@ void addRoom(Builder& build) {
   add(floorMaterial(), kFoot, 0.9);
   add(ceilingMaterial(), kTop, 1.5);
   // A cornice covers the seam of walls and ceiling, whose cells differ in size.
-  constexpr double kCornice = 0.11;
-  const dvec3 end = kRoomSize + kCornice, low(-kCornice, -kCornice, kRoomSize.z - kCornice);
+  constexpr double kCornice = 0.11, kSunk = 0.003;
+  const dvec3 end = kRoomSize + kSunk, low(-kSunk, -kSunk, kRoomSize.z - kCornice);
   const Material plaster = plainMaterial(dvec3(0.70, 0.67, 0.60));
   const auto addCornice = [&](const dvec3& from, const dvec3& to, uint32_t inwards) {
     build.addBox(from, to, plaster, 1, false, inwards | kFoot);

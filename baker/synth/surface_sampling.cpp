@@ -16,9 +16,11 @@ namespace {
 constexpr double kJitter = 0.05;
 constexpr double kGoldenAngle = 2.39996322972865332;
 
-// Places along an edge of `length`, symmetric, the outermost `margin` away from the ends.
+// Places along an edge of `length`, symmetric, the outermost `margin` away from the ends, or one in the
+// middle of an edge of about two margins.
 std::vector<double> placeAlong(double length, double margin, double spacing) {
-  const auto count = static_cast<int>(std::max(1.0, std::round(length / spacing)));
+  const auto count =
+      static_cast<int>(std::max(length > 3 * margin ? 2.0 : 1.0, std::round(length / spacing)));
   if (count == 1) return {0.0};
   std::vector<double> places(static_cast<size_t>(count));
   const double step = (length - 2 * margin) / (count - 1);
