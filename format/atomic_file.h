@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,5 +17,12 @@ Result<std::vector<uint8_t>> readFile(const std::filesystem::path& path);
 // Writes to a temporary name in the same folder, syncs, renames over `path`. On failure the old file is intact and the
 // temporary is removed. Part of froth_format_write.
 Status writeFileAtomically(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+
+// Takes bytes from front to back. After an error nothing more may be given to it.
+using ByteSink = std::function<Status(std::span<const uint8_t>)>;
+
+// The same for contents too large to gather first: `produce` gets a sink that appends to the temporary. Its first error is
+// returned. Part of froth_format_write.
+Status streamFileAtomically(const std::filesystem::path& path, const std::function<Status(const ByteSink&)>& produce);
 
 }  // namespace froth

@@ -34,15 +34,17 @@ class TemporaryFile {
   bool isOpen() const { return exists_; }
   const std::string& path() const { return path_; }
 
-  bool write(std::span<const uint8_t> bytes) {
+  bool append(std::span<const uint8_t> bytes) {
     while (!bytes.empty()) {
       const ssize_t done = ::write(descriptor_, bytes.data(), bytes.size());
       if (done < 0 && errno == EINTR) continue;
       if (done < 0) return false;
       bytes = bytes.subspan(static_cast<size_t>(done));
     }
-    return ::fsync(descriptor_) == 0 && close();
+    return true;
   }
+
+  bool finish() { return ::fsync(descriptor_) == 0 && close(); }
 
   bool renameTo(const std::filesystem::path& target) {
     if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
@@ -77,17 +79,26 @@ void syncFolderOf(const std::filesystem::path& path) {
 
 }  // namespace
 
-Status writeFileAtomically(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
+Status streamFileAtomically(const std::filesystem::path& path, const std::function<Status(const ByteSink&)>& produce) {
   std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+  const std::filesystem::file_status old = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(old) && !std::filesystem::is_regular_file(old))
     return makeError(ErrorKind::kIo, "%s: exists and is no regular file; give another name", path.c_str());
   TemporaryFile temporary(path);
   if (!temporary.isOpen()) return ioError(temporary.path(), "cannot be created");
-  if (!temporary.write(bytes)) return ioError(temporary.path(), "cannot be written");
+  const Status produced = produce([&](std::span<const uint8_t> bytes) -> Status {
+    if (!temporary.append(bytes)) return ioError(temporary.path(), "cannot be written");
+    return {};
+  });
+  if (!produced) return produced;
+  if (!temporary.finish()) return ioError(temporary.path(), "cannot be synced");
   if (!temporary.renameTo(path)) return ioError(path, "cannot be replaced");
   syncFolderOf(path);
   return {};
+}
+
+Status writeFileAtomically(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
+  return streamFileAtomically(path, [&](const ByteSink& sink) { return sink(bytes); });
 }
 
 }  // namespace froth

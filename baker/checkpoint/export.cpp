@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "baker/checkpoint/activation.h"
-#include "baker/checkpoint/atomic_file_stream.h"
 #include "baker/checkpoint/checkpoint.h"
 #include "baker/checkpoint/parameters.h"
 #include "baker/checkpoint/pickle_writer.h"
 #include "baker/checkpoint/zip_writer.h"
 #include "baker/graph/graph.h"
+#include "format/atomic_file.h"
 
 namespace froth {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "baker/checkpoint/atomic_file_stream.h"
+#include "format/atomic_file.h"
 #include "format/result.h"
 
 namespace froth {

@@ -4,10 +4,10 @@
 #include <iterator>
 #include <random>
 
-#include "baker/checkpoint/atomic_file_stream.h"
 #include "baker/checkpoint/zip_reader.h"
 #include "baker/checkpoint/zip_writer.h"
 #include "baker/graph/graph.h"
+#include "format/atomic_file.h"
 #include "tests/checkpoint/import_checks.h"
 
 namespace froth {
