@@ -21,7 +21,7 @@ int runAction(froth::Tool& tool) {
 int main(int argc, char** argv) {
   CLI::App program{"Bakes, renders and measures radiance foams."};
   program.require_subcommand(0, 1);  // none is told below: CLI11 would not name a misspelt one
-  program.fallthrough();  // --quiet is accepted after the subcommand too
+  program.fallthrough();             // --quiet is accepted after the subcommand too
 
   froth::Tool tool;
   program.add_flag_callback(
