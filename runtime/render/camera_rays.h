@@ -1,25 +1,25 @@
 // The caller's camera as rays in an asset's own axes and units. All in double.
 #pragma once
 
-#include <glm/glm.hpp>
 #include <vulkan/vulkan_core.h>
+#include <glm/glm.hpp>
 
 #include "froth/froth.h"
 #include "runtime/render/view_renderer.h"
 
 namespace froth {
 
-// The ray of pixel (column, row) of the region runs through the pixel's centre along origin + column stepX + row stepY,
-// which points forward. Lengths are scaled so that the region's middle ray has length 1.
+// The ray of pixel (column, row) of the region runs through the pixel's centre along origin + column stepX +
+// row stepY, which points forward. Lengths are scaled so that the region's middle ray has length 1.
 struct CameraRays {
   glm::dvec3 origin, stepX, stepY;
-  glm::dvec3 forward;  // unit view axis: gradient of clip w
-  glm::dvec3 eye;      // relative to the asset's origin
+  glm::dvec3 forward;         // unit view axis: gradient of clip w
+  glm::dvec3 eye;             // relative to the asset's origin
   glm::dmat3 worldFromAsset;  // rotation
 };
 
-// The region is camera.scissor, resolved. Jitter moves the image by that many pixels, as it would in the engine's own
-// jittered projection.
+// The region is camera.scissor, resolved. Jitter moves the image by that many pixels, as it would in the
+// engine's own jittered projection.
 CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance);
 
 }  // namespace froth

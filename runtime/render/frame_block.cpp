@@ -80,7 +80,9 @@ void fillTransients(const ViewBuffers& buffers, const VkRect2D& region, gpu::Fra
 
 }  // namespace
 
-uint32_t tilesAlong(uint32_t pixels) { return (pixels + gpu::kTileSize - 1) / gpu::kTileSize; }
+uint32_t tilesAlong(uint32_t pixels) {
+  return (pixels + gpu::kTileSize - 1) / gpu::kTileSize;
+}
 
 uint32_t tileDigits(const VkRect2D& region) {
   const uint32_t lastTile = tilesAlong(region.extent.width) * tilesAlong(region.extent.height) - 1;

@@ -6,8 +6,8 @@ namespace froth {
 namespace {
 
 Error deviceError(const char* call, VkResult result) {
-  return makeError(ErrorKind::kUnsupported, "%s: output images of a view give VkResult %d; close another view or asset",
-                   call, result);
+  return makeError(ErrorKind::kUnsupported,
+                   "%s: output images of a view give VkResult %d; close another view or asset", call, result);
 }
 
 VkImageMemoryBarrier2 barrierOf(VkImage image) {
@@ -59,9 +59,9 @@ VkImageMemoryBarrier2 placeholderBarrier(VkImage image) {
 
 Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint32_t recordings) {
   std::unique_ptr<OutputImages> images(new OutputImages(device));
-  for (const Status& status : {images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, images->half4_),
-                               images->createPlaceholder(VK_FORMAT_R32_SFLOAT, images->float1_),
-                               images->createSets(recordings)}) {
+  for (const Status& status :
+       {images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, images->half4_),
+        images->createPlaceholder(VK_FORMAT_R32_SFLOAT, images->float1_), images->createSets(recordings)}) {
     if (!status) return status.error();
   }
   return images;
@@ -99,7 +99,8 @@ Status OutputImages::createPlaceholder(VkFormat format, Placeholder& placeholder
   allocation.allocationSize = requirements.size;
   while ((requirements.memoryTypeBits >> allocation.memoryTypeIndex & 1) == 0) ++allocation.memoryTypeIndex;
   result = vk.vkAllocateMemory(device_.device, &allocation, nullptr, &placeholder.memory);
-  if (result == VK_SUCCESS) result = vk.vkBindImageMemory(device_.device, placeholder.image, placeholder.memory, 0);
+  if (result == VK_SUCCESS)
+    result = vk.vkBindImageMemory(device_.device, placeholder.image, placeholder.memory, 0);
   if (result != VK_SUCCESS) return deviceError("vkAllocateMemory", result);
 
   VkImageViewCreateInfo viewInfo{};
@@ -152,7 +153,8 @@ VkDescriptorSet OutputImages::update(uint32_t recording, const FrothRenderInfo& 
     writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     writes[i].pImageInfo = &images[i];
   }
-  device_.table.vkUpdateDescriptorSets(device_.device, static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+  device_.table.vkUpdateDescriptorSets(device_.device, static_cast<uint32_t>(writes.size()), writes.data(), 0,
+                                       nullptr);
   return sets_[recording];
 }
 

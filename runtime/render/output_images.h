@@ -1,4 +1,5 @@
-// The caller's images as the passes see them: descriptor sets, placeholders for images that are not wanted, barriers.
+// The caller's images as the passes see them: descriptor sets, placeholders for images that are not wanted,
+// barriers.
 #pragma once
 
 #include <array>
@@ -17,10 +18,12 @@ class OutputImages {
   static Result<std::unique_ptr<OutputImages>> create(Device& device, uint32_t recordings);
   ~OutputImages();
 
-  // Points the recording's set to the wanted images. The recording before it with this number must be complete.
+  // Points the recording's set to the wanted images. The recording before it with this number must be
+  // complete.
   VkDescriptorSet update(uint32_t recording, const FrothRenderInfo& info);
 
-  // Orders everything before after the caller's use of the images, and all passes after earlier frames' use of the view.
+  // Orders everything before after the caller's use of the images, and all passes after earlier frames' use
+  // of the view.
   void enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const;
   // Hands the images on in their exit states.
   void leave(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const;

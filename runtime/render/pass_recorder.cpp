@@ -42,8 +42,9 @@ void PassRecorder::wait() const {
 }
 
 void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits) {
-  gpu::SortConstants constants{recorder.frame,    arrays.keys,  arrays.values, arrays.keysSwap,
-                               arrays.valuesSwap, arrays.count, 0,             arrays.capacity};
+  gpu::SortConstants constants{
+      recorder.frame, arrays.keys, arrays.values,  arrays.keysSwap, arrays.valuesSwap,
+      arrays.count,   0,           arrays.capacity};
   for (uint32_t digit = 0; digit < digits; ++digit) {
     constants.shift = 8 * digit;
     recorder.vk.vkCmdPushConstants(recorder.commandBuffer, recorder.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,

@@ -14,8 +14,8 @@ struct PassRecorder {
   VkCommandBuffer commandBuffer;
   VkPipelineLayout layout;
   const PassPipelines& pipelines;
-  VkDeviceAddress frame;    // FrameBlock
-  VkBuffer counters;        // Counters, and where in the buffer
+  VkDeviceAddress frame;  // FrameBlock
+  VkBuffer counters;      // Counters, and where in the buffer
   VkDeviceSize countersOffset;
 
   void run(Pass pass, uint32_t groupsX, uint32_t groupsY = 1, uint32_t mode = 0) const;
@@ -36,7 +36,8 @@ struct SortArrays {
   size_t dispatch;  // offset in gpu::Counters of a size of one workgroup per kSortKeysPerGroup keys
 };
 
-// Sorts stably by the low `digits` bytes of the keys, ascending. Ends in the swaps if `digits` is odd. Ends with a barrier.
+// Sorts stably by the low `digits` bytes of the keys, ascending. Ends in the swaps if `digits` is odd. Ends
+// with a barrier.
 void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits);
 
 }  // namespace froth

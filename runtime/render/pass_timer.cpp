@@ -13,15 +13,19 @@ Result<std::unique_ptr<PassTimer>> PassTimer::create(Device& device, uint32_t re
   info.queryCount = recordings * kQueries;
   if (const VkResult result = device.table.vkCreateQueryPool(device.device, &info, nullptr, &timer->pool_);
       result != VK_SUCCESS) {
-    return makeError(ErrorKind::kUnsupported, "vkCreateQueryPool: %u timestamps give VkResult %d; create the view "
-                     "without measurePasses", info.queryCount, result);
+    return makeError(ErrorKind::kUnsupported,
+                     "vkCreateQueryPool: %u timestamps give VkResult %d; create the view "
+                     "without measurePasses",
+                     info.queryCount, result);
   }
   timer->names_.resize(recordings);
   for (auto& names : timer->names_) names.reserve(kMaxPasses);
   return timer;
 }
 
-PassTimer::~PassTimer() { device_.table.vkDestroyQueryPool(device_.device, pool_, nullptr); }
+PassTimer::~PassTimer() {
+  device_.table.vkDestroyQueryPool(device_.device, pool_, nullptr);
+}
 
 void PassTimer::stamp(VkCommandBuffer commandBuffer, uint32_t query) {
   device_.table.vkCmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, query);
@@ -42,14 +46,14 @@ void PassTimer::read(uint32_t recording, FrothViewStatus& status) const {
   const auto passes = static_cast<uint32_t>(names_[recording].size());
   if (passes == 0) return;
   std::array<uint64_t, kQueries> stamps{};
-  const VkResult result = device_.table.vkGetQueryPoolResults(device_.device, pool_, recording * kQueries, passes + 1,
-                                                              sizeof(stamps), stamps.data(), sizeof(uint64_t),
-                                                              VK_QUERY_RESULT_64_BIT);
+  const VkResult result = device_.table.vkGetQueryPoolResults(device_.device, pool_, recording * kQueries,
+                                                              passes + 1, sizeof(stamps), stamps.data(),
+                                                              sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
   if (result != VK_SUCCESS) return;
   const double millisecondsPerTick = device_.properties.limits.timestampPeriod * 1e-6;
   for (uint32_t i = 0; i < passes && status.passCount < std::size(status.passes); ++i) {
-    status.passes[status.passCount++] = {names_[recording][i],
-                                         static_cast<double>(stamps[i + 1] - stamps[i]) * millisecondsPerTick};
+    status.passes[status.passCount++] = {
+        names_[recording][i], static_cast<double>(stamps[i + 1] - stamps[i]) * millisecondsPerTick};
   }
 }
 

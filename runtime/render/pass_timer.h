@@ -21,7 +21,8 @@ class PassTimer {
   // The commands since begin or the last mark are the pass `name` (static storage).
   void mark(VkCommandBuffer commandBuffer, uint32_t recording, const char* name);
 
-  // Appends the times of a recording that the GPU has completed; never waits. Stops at the capacity of `status.passes`.
+  // Appends the times of a recording that the GPU has completed; never waits. Stops at the capacity of
+  // `status.passes`.
   void read(uint32_t recording, FrothViewStatus& status) const;
 
  private:
@@ -33,7 +34,8 @@ class PassTimer {
 
   Device& device_;
   VkQueryPool pool_ = VK_NULL_HANDLE;
-  std::vector<std::vector<const char*>> names_;  // [recording]; capacity kMaxPasses, so that marks allocate nothing
+  std::vector<std::vector<const char*>>
+      names_;  // [recording]; capacity kMaxPasses, so that marks allocate nothing
 };
 
 }  // namespace froth

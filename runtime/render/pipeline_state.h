@@ -53,14 +53,16 @@ struct RenderPipelines::State {
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // the output images
   VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 64 bytes of push constants
   PassPipelines common{};                            // null from kFirstShapedPass on
-  std::map<AssetShape, PassPipelines> byShape{};     // complete; guarded by `mutex`, entries never change or move
+  std::map<AssetShape, PassPipelines>
+      byShape{};  // complete; guarded by `mutex`, entries never change or move
   std::mutex mutex{};
 
   // Null if prepareFor was not called for this shape.
   const PassPipelines* find(const AssetShape& shape);
 };
 
-// Storage images 0: colour, 1: distance, 2: normal. Identical layouts are compatible, so views make their own.
+// Storage images 0: colour, 1: distance, 2: normal. Identical layouts are compatible, so views make their
+// own.
 VkDescriptorSetLayout createOutputSetLayout(Device& device);
 
 }  // namespace froth

@@ -27,7 +27,8 @@ namespace froth {
 namespace {
 
 constexpr uint32_t kPushConstantBytes = 64;
-static_assert(sizeof(gpu::SortConstants) <= kPushConstantBytes && sizeof(gpu::PassConstants) <= kPushConstantBytes);
+static_assert(sizeof(gpu::SortConstants) <= kPushConstantBytes &&
+              sizeof(gpu::PassConstants) <= kPushConstantBytes);
 
 struct PassCode {
   const char* name;
@@ -70,17 +71,20 @@ constexpr std::array<VkSpecializationMapEntry, 4> kSpecializationEntries = {{
 }};
 
 Error deviceError(const char* call, const char* object, VkResult result) {
-  return makeError(ErrorKind::kUnsupported, "%s: %s gives VkResult %d; update the device's driver", object, call, result);
+  return makeError(ErrorKind::kUnsupported, "%s: %s gives VkResult %d; update the device's driver", object,
+                   call, result);
 }
 
-Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode& code, const Specialization& values) {
+Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode& code,
+                                  const Specialization& values) {
   const DeviceTable& vk = state.device.table;
   VkShaderModuleCreateInfo moduleInfo{};
   moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   moduleInfo.codeSize = code.spirv.size_bytes();
   moduleInfo.pCode = code.spirv.data();
   VkShaderModule shaderModule = VK_NULL_HANDLE;
-  if (const VkResult result = vk.vkCreateShaderModule(state.device.device, &moduleInfo, nullptr, &shaderModule);
+  if (const VkResult result =
+          vk.vkCreateShaderModule(state.device.device, &moduleInfo, nullptr, &shaderModule);
       result != VK_SUCCESS) {
     return deviceError("vkCreateShaderModule", code.name, result);
   }
@@ -136,7 +140,9 @@ Status createLayout(RenderPipelines::State& state) {
 
 }  // namespace
 
-AssetShape shapeOf(const GpuAsset& asset) { return {asset.detailCount, asset.lobeCount, asset.hasHeights}; }
+AssetShape shapeOf(const GpuAsset& asset) {
+  return {asset.detailCount, asset.lobeCount, asset.hasHeights};
+}
 
 VkDescriptorSetLayout createOutputSetLayout(Device& device) {
   std::array<VkDescriptorSetLayoutBinding, 3> bindings{};
@@ -148,7 +154,8 @@ VkDescriptorSetLayout createOutputSetLayout(Device& device) {
   info.bindingCount = static_cast<uint32_t>(bindings.size());
   info.pBindings = bindings.data();
   VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  device.table.vkCreateDescriptorSetLayout(device.device, &info, nullptr, &layout);  // null on failure; the next call fails
+  device.table.vkCreateDescriptorSetLayout(device.device, &info, nullptr,
+                                           &layout);  // null on failure; the next call fails
   return layout;
 }
 
@@ -164,7 +171,8 @@ RenderPipelines::~RenderPipelines() {
   const DeviceTable& vk = state_->device.table;
   const VkDevice device = state_->device.device;
   for (auto& [shape, pipelines] : state_->byShape) {
-    for (uint32_t pass = kFirstShapedPass; pass < kPassCount; ++pass) vk.vkDestroyPipeline(device, pipelines[pass], nullptr);
+    for (uint32_t pass = kFirstShapedPass; pass < kPassCount; ++pass)
+      vk.vkDestroyPipeline(device, pipelines[pass], nullptr);
   }
   for (VkPipeline pipeline : state_->common) vk.vkDestroyPipeline(device, pipeline, nullptr);
   vk.vkDestroyPipelineLayout(device, state_->layout, nullptr);
@@ -177,7 +185,8 @@ Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device,
   pipelines->state_.reset(new State{.device = device, .cache = cache, .checkIndices = checkIndices});
   State& state = *pipelines->state_;
   if (const Status status = createLayout(state); !status) return status.error();
-  if (const Status status = createPasses(state, {}, 0, kFirstShapedPass, state.common); !status) return status.error();
+  if (const Status status = createPasses(state, {}, 0, kFirstShapedPass, state.common); !status)
+    return status.error();
   return pipelines;
 }
 

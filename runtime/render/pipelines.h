@@ -11,10 +11,12 @@ namespace froth {
 class RenderPipelines {
  public:
   // Makes what does not depend on an asset. `checkIndices` specializes all shaders to check and count.
-  static Result<std::unique_ptr<RenderPipelines>> create(Device& device, VkPipelineCache cache, bool checkIndices);
+  static Result<std::unique_ptr<RenderPipelines>> create(Device& device, VkPipelineCache cache,
+                                                         bool checkIndices);
   ~RenderPipelines();
 
-  // Makes the pipelines specialized on an asset's shape (K, M, heights). Called before the asset becomes READY; idempotent.
+  // Makes the pipelines specialized on an asset's shape (K, M, heights). Called before the asset becomes
+  // READY; idempotent.
   Status prepareFor(const GpuAsset& asset);
 
   struct State;

@@ -11,20 +11,21 @@ constexpr VkDeviceSize kCountersStride = 512;
 
 void writeBlock(const Recording& recording, const RenderInstance* instance) {
   const ViewBuffers& buffers = recording.view.buffers;
-  char* staged = static_cast<char*>(buffers[ViewBuffer::kStaging].mapped) + recording.number * buffers.recordingStride();
+  char* staged =
+      static_cast<char*>(buffers[ViewBuffer::kStaging].mapped) + recording.number * buffers.recordingStride();
   gpu::FrameBlock block{};
   if (!instance) {
     fillOutputs(recording.info, block);
   } else {
-    fillFrame(recording.info, *instance, buffers, {recording.blockAddress(), recording.countersAddress()}, block,
-              reinterpret_cast<gpu::ChunkEntry*>(staged + kChunkTableOffset));
+    fillFrame(recording.info, *instance, buffers, {recording.blockAddress(), recording.countersAddress()},
+              block, reinterpret_cast<gpu::ChunkEntry*>(staged + kChunkTableOffset));
     block.flags |= recording.kind == RecordingKind::kRaster ? gpu::kFlagOnlyPaired : 0;
   }
   std::memcpy(staged, &block, sizeof(block));
 }
 
-void recordMemoryBarrier(const Recording& recording, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
-                         VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
+void recordMemoryBarrier(const Recording& recording, VkPipelineStageFlags2 fromStage,
+                         VkAccessFlags2 fromAccess, VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
   VkMemoryBarrier2 memory{};
   memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
   memory.srcStageMask = fromStage;
@@ -45,10 +46,10 @@ void recordUpload(const Recording& recording, const GpuAsset* asset) {
   const DeviceTable& vk = view.device.table;
   const VkDeviceSize stride = buffers.recordingStride();
   const VkBufferCopy copy{recording.number * stride, recording.place * stride, stride};
-  vk.vkCmdCopyBuffer(recording.commandBuffer, buffers[ViewBuffer::kStaging].buffer, buffers[ViewBuffer::kFrames].buffer,
-                     1, &copy);
-  vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer, recording.countersOffset(),
-                     sizeof(gpu::Counters), 0);
+  vk.vkCmdCopyBuffer(recording.commandBuffer, buffers[ViewBuffer::kStaging].buffer,
+                     buffers[ViewBuffer::kFrames].buffer, 1, &copy);
+  vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer,
+                     recording.countersOffset(), sizeof(gpu::Counters), 0);
   if (recording.kind == RecordingKind::kRaster) {
     vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kTileRanges].buffer, 0, VK_WHOLE_SIZE, 0);
   }
@@ -71,7 +72,9 @@ VkDeviceAddress Recording::countersAddress() const {
   return view.buffers[ViewBuffer::kCounters].address + countersOffset();
 }
 
-VkDeviceSize Recording::countersOffset() const { return place * kCountersStride; }
+VkDeviceSize Recording::countersOffset() const {
+  return place * kCountersStride;
+}
 
 void Recording::mark(const char* pass) const {
   if (view.timer) view.timer->mark(commandBuffer, number, pass);
@@ -102,8 +105,8 @@ PassRecorder bindRecording(const Recording& recording, const RenderPipelines::St
                            const PassPipelines& passes) {
   const DeviceTable& vk = recording.view.device.table;
   const VkDescriptorSet set = recording.view.images->update(recording.number, recording.info);
-  vk.vkCmdBindDescriptorSets(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.layout, 0, 1, &set, 0,
-                             nullptr);
+  vk.vkCmdBindDescriptorSets(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.layout, 0, 1,
+                             &set, 0, nullptr);
   return {.vk = vk,
           .commandBuffer = recording.commandBuffer,
           .layout = pipelines.layout,
@@ -117,7 +120,8 @@ void endRecording(const Recording& recording) {
   const ViewBuffers& buffers = recording.view.buffers;
   recordMemoryBarrier(recording, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-  const VkBufferCopy copy{recording.countersOffset(), recording.number * kCountersStride, sizeof(gpu::Counters)};
+  const VkBufferCopy copy{recording.countersOffset(), recording.number * kCountersStride,
+                          sizeof(gpu::Counters)};
   recording.view.device.table.vkCmdCopyBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer,
                                               buffers[ViewBuffer::kReadback].buffer, 1, &copy);
   recordMemoryBarrier(recording, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -149,7 +153,9 @@ void recordShade(const PassRecorder& recorder) {
 }
 
 void recordPixels(const Recording& recording, const PassRecorder& recorder, Pass pass) {
-  const auto groupsAlong = [](uint32_t pixels) { return (pixels + gpu::kSubTileSize - 1) / gpu::kSubTileSize; };
+  const auto groupsAlong = [](uint32_t pixels) {
+    return (pixels + gpu::kSubTileSize - 1) / gpu::kSubTileSize;
+  };
   const VkExtent2D& extent = recording.info.camera.scissor.extent;
   recorder.run(pass, groupsAlong(extent.width), groupsAlong(extent.height));
 }

@@ -14,37 +14,53 @@ VkDeviceSize strideOf(const ViewCapacity& capacity) {
   return kBlockStride + VkDeviceSize{capacity.chunks} * sizeof(gpu::ChunkEntry);
 }
 
-uint32_t groupsOver(uint32_t items, uint32_t perGroup) { return (items + perGroup - 1) / perGroup; }
+uint32_t groupsOver(uint32_t items, uint32_t perGroup) {
+  return (items + perGroup - 1) / perGroup;
+}
 
 VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
   const VkDeviceSize cells = capacity.cells;
   const VkDeviceSize pairs = capacity.pairs;
   switch (id) {
-    case ViewBuffer::kFrames: return kRecordingsPerFrame * strideOf(capacity);
-    case ViewBuffer::kStaging: return capacity.frames * kRecordingsPerFrame * strideOf(capacity);
-    case ViewBuffer::kReadback: return capacity.frames * kRecordingsPerFrame * kBlockStride;
-    case ViewBuffer::kCounters: return kRecordingsPerFrame * kBlockStride;
-    case ViewBuffer::kGroupSums: return 8 * VkDeviceSize{std::max(capacity.groups, groupsOver(capacity.cells, gpu::kGroupSize))};
-    case ViewBuffer::kVisibilityMasks: return 4 * gpu::kMaskWords * VkDeviceSize{capacity.groups};
-    case ViewBuffer::kVisibleCells: return 16 * cells;
-    case ViewBuffer::kRecords: return sizeof(gpu::CellRecord) * cells;
-    case ViewBuffer::kPlanes: return 16 * capacity.planes;
-    case ViewBuffer::kSites: return 24 * capacity.sites;
+    case ViewBuffer::kFrames:
+      return kRecordingsPerFrame * strideOf(capacity);
+    case ViewBuffer::kStaging:
+      return capacity.frames * kRecordingsPerFrame * strideOf(capacity);
+    case ViewBuffer::kReadback:
+      return capacity.frames * kRecordingsPerFrame * kBlockStride;
+    case ViewBuffer::kCounters:
+      return kRecordingsPerFrame * kBlockStride;
+    case ViewBuffer::kGroupSums:
+      return 8 * VkDeviceSize{std::max(capacity.groups, groupsOver(capacity.cells, gpu::kGroupSize))};
+    case ViewBuffer::kVisibilityMasks:
+      return 4 * gpu::kMaskWords * VkDeviceSize{capacity.groups};
+    case ViewBuffer::kVisibleCells:
+      return 16 * cells;
+    case ViewBuffer::kRecords:
+      return sizeof(gpu::CellRecord) * cells;
+    case ViewBuffer::kPlanes:
+      return 16 * capacity.planes;
+    case ViewBuffer::kSites:
+      return 24 * capacity.sites;
     case ViewBuffer::kSlotOfCell:
     case ViewBuffer::kCellKeys:
     case ViewBuffer::kCellKeysSwap:
     case ViewBuffer::kOrder:
     case ViewBuffer::kOrderSwap:
-    case ViewBuffer::kTileCounts: return 4 * cells;
+    case ViewBuffer::kTileCounts:
+      return 4 * cells;
     case ViewBuffer::kPairTiles:
     case ViewBuffer::kPairTilesSwap:
     case ViewBuffer::kPairCells:
-    case ViewBuffer::kPairCellsSwap: return 4 * pairs;
-    case ViewBuffer::kTileRanges: return 8 * VkDeviceSize{capacity.tiles};
+    case ViewBuffer::kPairCellsSwap:
+      return 4 * pairs;
+    case ViewBuffer::kTileRanges:
+      return 8 * VkDeviceSize{capacity.tiles};
     case ViewBuffer::kHistogram:
       return 4 * gpu::kGroupSize *
              (1 + VkDeviceSize{groupsOver(std::max(capacity.cells, capacity.pairs), gpu::kSortKeysPerGroup)});
-    case ViewBuffer::kWalkStart: return 16;
+    case ViewBuffer::kWalkStart:
+      return 16;
   }
   return 0;
 }
@@ -64,7 +80,8 @@ ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b) {
 
 uint32_t groupsPerChunk(const GpuAsset& asset) {
   uint32_t groups = 1;
-  for (const GpuChunk& chunk : asset.chunks) groups = std::max(groups, groupsOver(chunk.liveCount, gpu::kGroupSize));
+  for (const GpuChunk& chunk : asset.chunks)
+    groups = std::max(groups, groupsOver(chunk.liveCount, gpu::kGroupSize));
   return groups;
 }
 
@@ -80,7 +97,8 @@ void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
 }
 
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
-  return asset.chunks.size() <= capacity.chunks && asset.chunks.size() * groupsPerChunk(asset) <= capacity.groups &&
+  return asset.chunks.size() <= capacity.chunks &&
+         asset.chunks.size() * groupsPerChunk(asset) <= capacity.groups &&
          asset.liveCount <= capacity.cells && asset.alphaTotal <= capacity.planes &&
          uint64_t{asset.liveCount} * asset.detailCount <= capacity.sites;
 }
@@ -127,6 +145,8 @@ VkDeviceSize ViewBuffers::deviceBytes() const {
   return bytes;
 }
 
-VkDeviceSize ViewBuffers::recordingStride() const { return strideOf(capacity_); }
+VkDeviceSize ViewBuffers::recordingStride() const {
+  return strideOf(capacity_);
+}
 
 }  // namespace froth

@@ -1,4 +1,5 @@
-// The transient buffers of one view. They grow in prepare() only; what they replace is kept until no frame uses it.
+// The transient buffers of one view. They grow in prepare() only; what they replace is kept until no frame
+// uses it.
 #pragma once
 
 #include <array>
@@ -64,15 +65,16 @@ class ViewBuffers {
   explicit ViewBuffers(Device& device) : device_(device) {}
   ~ViewBuffers();  // the GPU must be done with them
 
-  // Makes every buffer large enough. `lastSerial`: the newest frame that may use what is replaced. On failure the old
-  // buffers and the old capacity stay.
+  // Makes every buffer large enough. `lastSerial`: the newest frame that may use what is replaced. On failure
+  // the old buffers and the old capacity stay.
   Status grow(const ViewCapacity& wanted, uint64_t lastSerial);
   void freeRetired(uint64_t completedSerial);
 
   const GpuBuffer& operator[](ViewBuffer id) const { return buffers_[static_cast<uint32_t>(id)]; }
   const ViewCapacity& capacity() const { return capacity_; }
   VkDeviceSize deviceBytes() const;
-  VkDeviceSize recordingStride() const;  // [bytes] from one recording's block to the next, in kFrames and kStaging
+  VkDeviceSize recordingStride()
+      const;  // [bytes] from one recording's block to the next, in kFrames and kStaging
 
  private:
   Device& device_;

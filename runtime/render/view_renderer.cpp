@@ -19,7 +19,9 @@ uint32_t startPairs(uint64_t cells, uint64_t tiles) {
 }
 
 // A quarter more than a frame wanted: views move.
-uint32_t pairsFor(uint64_t wanted) { return static_cast<uint32_t>(std::min(wanted + wanted / 4, kMostPairs)); }
+uint32_t pairsFor(uint64_t wanted) {
+  return static_cast<uint32_t>(std::min(wanted + wanted / 4, kMostPairs));
+}
 
 void addCounters(const gpu::Counters& counters, FrothViewStatus& status) {
   status.visibleCells = std::max(status.visibleCells, counters.visibleCells);
@@ -55,8 +57,9 @@ void readBack(ViewState& view, uint64_t completedSerial) {
 ViewRenderer::ViewRenderer() = default;
 ViewRenderer::~ViewRenderer() = default;
 
-Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExtent2D maxExtent, bool measurePasses,
-                                                           uint32_t framesInFlight, bool) {
+Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExtent2D maxExtent,
+                                                           bool measurePasses, uint32_t framesInFlight,
+                                                           bool) {
   const uint32_t recordings = framesInFlight * kRecordingsPerFrame;
   Result<std::unique_ptr<OutputImages>> images = OutputImages::create(device, recordings);
   if (!images) return images.error();
@@ -68,10 +71,10 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExt
   }
   std::unique_ptr<ViewRenderer> renderer(new ViewRenderer);
   renderer->state_.reset(new ViewState{.device = device,
-                                   .buffers = ViewBuffers(device),
-                                   .images = std::move(*images),
-                                   .timer = std::move(timer),
-                                   .slots = std::vector<FrameSlot>(framesInFlight)});
+                                       .buffers = ViewBuffers(device),
+                                       .images = std::move(*images),
+                                       .timer = std::move(timer),
+                                       .slots = std::vector<FrameSlot>(framesInFlight)});
   ViewCapacity capacity;
   capacity.frames = framesInFlight;
   capacity.tiles = tilesAlong(maxExtent.width) * tilesAlong(maxExtent.height);
@@ -104,7 +107,8 @@ Status ViewRenderer::prepare(uint64_t, uint64_t completedSerial, const GpuAsset*
 }
 
 uint32_t ViewRenderer::recordRaster(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
-                                    const RenderInstance& instance, const FrothRenderInfo& info, uint64_t serial) {
+                                    const RenderInstance& instance, const FrothRenderInfo& info,
+                                    uint64_t serial) {
   const PassPipelines* passes = pipelines.state().find(shapeOf(*instance.asset));
   if (!passes || !coversAsset(*instance.asset, state_->buffers.capacity())) {
     recordClear(commandBuffer, pipelines, info, serial);
@@ -118,22 +122,25 @@ uint32_t ViewRenderer::recordRaster(VkCommandBuffer commandBuffer, RenderPipelin
 }
 
 uint32_t ViewRenderer::recordWalk(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
-                                  const RenderInstance& instance, const FrothRenderInfo& info, uint64_t serial) {
+                                  const RenderInstance& instance, const FrothRenderInfo& info,
+                                  uint64_t serial) {
   const PassPipelines* passes = pipelines.state().find(shapeOf(*instance.asset));
   const bool isReady = passes && coversAsset(*instance.asset, state_->buffers.capacity());
   if (!isReady || !instance.asset->hasWalkGraph) {
     recordClear(commandBuffer, pipelines, info, serial);
     return isReady ? FROTH_VIEW_NO_WALK_GRAPH : FROTH_VIEW_NOT_READY;
   }
-  const Recording recording = beginRecording(*state_, commandBuffer, RecordingKind::kWalk, info, serial, &instance);
+  const Recording recording =
+      beginRecording(*state_, commandBuffer, RecordingKind::kWalk, info, serial, &instance);
   recordWalkPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
   endRecording(recording);
   return 0;
 }
 
-void ViewRenderer::recordClear(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothRenderInfo& info,
-                               uint64_t serial) {
-  const Recording recording = beginRecording(*state_, commandBuffer, RecordingKind::kClear, info, serial, nullptr);
+void ViewRenderer::recordClear(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
+                               const FrothRenderInfo& info, uint64_t serial) {
+  const Recording recording =
+      beginRecording(*state_, commandBuffer, RecordingKind::kClear, info, serial, nullptr);
   const PassRecorder recorder = bindRecording(recording, pipelines.state(), pipelines.state().common);
   recordPixels(recording, recorder, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
   recording.mark("clear");
@@ -147,6 +154,8 @@ void ViewRenderer::dropFrame(uint64_t serial) {
   state_->walkAsset = nullptr;  // it may be that frame that would have found the start
 }
 
-const FrothViewStatus& ViewRenderer::status() const { return state_->status; }
+const FrothViewStatus& ViewRenderer::status() const {
+  return state_->status;
+}
 
 }  // namespace froth

@@ -12,7 +12,8 @@
 namespace froth {
 
 struct ViewState;       // view_state.h
-class RenderPipelines;  // runtime/render/pipelines.h: layouts and pipelines, made once per context and per asset shape
+class RenderPipelines;  // runtime/render/pipelines.h: layouts and pipelines, made once per context and per
+                        // asset shape
 
 // One instance as the passes see it.
 struct RenderInstance {
@@ -25,26 +26,30 @@ struct RenderInstance {
 class ViewRenderer {
  public:
   // Allocates transients for the maximum extent; they grow in prepare() only.
-  static Result<std::unique_ptr<ViewRenderer>> create(Device& device, VkExtent2D maxExtent, bool measurePasses,
-                                                      uint32_t framesInFlight, bool checkIndices);
+  static Result<std::unique_ptr<ViewRenderer>> create(Device& device, VkExtent2D maxExtent,
+                                                      bool measurePasses, uint32_t framesInFlight,
+                                                      bool checkIndices);
   ~ViewRenderer();  // the GPU must be done with the view
 
-  // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `asset` (may be null) and
-  // for the overflows seen; replaced buffers are freed once `completedSerial` has passed their last use.
+  // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `asset` (may be
+  // null) and for the overflows seen; replaced buffers are freed once `completedSerial` has passed their last
+  // use.
   Status prepare(uint64_t serial, uint64_t completedSerial, const GpuAsset* asset);
 
   // Between frothUpdate calls; `serial` is that of the frame. Both may be called once per frame.
-  // info has been checked and its defaults resolved: camera.scissor is what is drawn, not empty, within maxExtent and the
-  // images. Allocates nothing. Returns the FrothViewBit set known at record time.
-  uint32_t recordRaster(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const RenderInstance& instance,
-                        const FrothRenderInfo& info, uint64_t serial);
-  uint32_t recordWalk(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const RenderInstance& instance,
-                      const FrothRenderInfo& info, uint64_t serial);
+  // info has been checked and its defaults resolved: camera.scissor is what is drawn, not empty, within
+  // maxExtent and the images. Allocates nothing. Returns the FrothViewBit set known at record time.
+  uint32_t recordRaster(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
+                        const RenderInstance& instance, const FrothRenderInfo& info, uint64_t serial);
+  uint32_t recordWalk(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
+                      const RenderInstance& instance, const FrothRenderInfo& info, uint64_t serial);
 
   // With no instance that is ready: clears the wanted outputs (colour 0, distance +inf, normal 0).
-  void recordClear(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothRenderInfo& info, uint64_t serial);
+  void recordClear(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothRenderInfo& info,
+                   uint64_t serial);
 
-  // The frame with this serial was recorded and will never be submitted: its counts are not read, its place is free.
+  // The frame with this serial was recorded and will never be submitted: its counts are not read, its place
+  // is free.
   void dropFrame(uint64_t serial);
 
   const FrothViewStatus& status() const;  // of the newest complete frame

@@ -25,10 +25,10 @@ struct ViewState {
   Device& device;
   ViewBuffers buffers;
   std::unique_ptr<OutputImages> images;
-  std::unique_ptr<PassTimer> timer;  // null: not measured
-  std::vector<FrameSlot> slots;      // [frames in flight]
-  uint32_t slot = 0;                 // of the frame being recorded
-  uint64_t lastSerial = 0;           // newest recorded frame
+  std::unique_ptr<PassTimer> timer;     // null: not measured
+  std::vector<FrameSlot> slots;         // [frames in flight]
+  uint32_t slot = 0;                    // of the frame being recorded
+  uint64_t lastSerial = 0;              // newest recorded frame
   const GpuAsset* walkAsset = nullptr;  // whose cell kWalkStart holds
   FrothViewStatus status{};
 };

@@ -186,7 +186,8 @@ TEST_F(Bin, TilesHoldTheBallsThatTheirPixelsMeetInOrderOfPower) {
   info.depthQuantile = 0.5f;
   const RenderInstance instance{.asset = &asset, .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
   submit([&](VkCommandBuffer commandBuffer) {
-    const Recording recording = beginRecording(view, commandBuffer, RecordingKind::kRaster, info, 1, &instance);
+    const Recording recording =
+        beginRecording(view, commandBuffer, RecordingKind::kRaster, info, 1, &instance);
     const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset));
     recordRasterPasses(recording, bindRecording(recording, pipelines_->state(), passes), asset);
     endRecording(recording);
@@ -196,8 +197,10 @@ TEST_F(Bin, TilesHoldTheBallsThatTheirPixelsMeetInOrderOfPower) {
   EXPECT_EQ(counters.violations, 0u);
   const auto order = copyOut<uint32_t>(view.buffers[ViewBuffer::kOrder], counters.visibleCells);
   const auto visible = copyOut<gpu::uvec4>(view.buffers[ViewBuffer::kVisibleCells], counters.visibleCells);
-  const auto ranges = copyOut<std::array<uint32_t, 2>>(view.buffers[ViewBuffer::kTileRanges], tilesX * tilesY);
-  const auto pairs = copyOut<uint32_t>(view.buffers[ViewBuffer::kPairCellsSwap], counters.pairsKept);  // one digit: odd
+  const auto ranges =
+      copyOut<std::array<uint32_t, 2>>(view.buffers[ViewBuffer::kTileRanges], tilesX * tilesY);
+  const auto pairs =
+      copyOut<uint32_t>(view.buffers[ViewBuffer::kPairCellsSwap], counters.pairsKept);  // one digit: odd
 
   const auto& world = camera.worldFromCamera;
   const glm::dvec3 right(world[0], world[4], world[8]), down(world[1], world[5], world[9]),
@@ -218,7 +221,8 @@ TEST_F(Bin, TilesHoldTheBallsThatTheirPixelsMeetInOrderOfPower) {
       lastPower = power;
     }
     const uint32_t x0 = tile % tilesX * gpu::kTileSize, y0 = tile / tilesX * gpu::kTileSize;
-    const uint32_t x1 = std::min(x0 + gpu::kTileSize, kExtent.width), y1 = std::min(y0 + gpu::kTileSize, kExtent.height);
+    const uint32_t x1 = std::min(x0 + gpu::kTileSize, kExtent.width),
+                   y1 = std::min(y0 + gpu::kTileSize, kExtent.height);
     for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
       const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
       bool isMet = false, isNearby = false;

@@ -13,7 +13,9 @@ namespace {
 constexpr VkExtent2D kExtent{96, 72};
 constexpr double kFar = 1e6;
 
-View frontView() { return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6); }
+View frontView() {
+  return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6);
+}
 
 const AssetContents& randomAsset() {
   static const AssetContents contents = [] {
@@ -26,9 +28,12 @@ const AssetContents& randomAsset() {
 
 class Placement : public testing::Test {
  protected:
-  Placement() : stage_(std::in_place, randomAsset(), kExtent), base_(stage_->draw(Method::kRaster, frontView())) {}
+  Placement()
+      : stage_(std::in_place, randomAsset(), kExtent), base_(stage_->draw(Method::kRaster, frontView())) {}
 
-  Frame draw(const FrothRenderInfo& info, Method method = Method::kRaster) { return stage_->draw(method, info, kExtent); }
+  Frame draw(const FrothRenderInfo& info, Method method = Method::kRaster) {
+    return stage_->draw(method, info, kExtent);
+  }
 
   std::optional<Stage> stage_;  // a context draws one instance: reset before making another stage
   Frame base_;
@@ -85,7 +90,8 @@ TEST_F(Placement, JitterMovesTheImageByThatManyPixels) {
   for (uint32_t y = 0; y + 2 < kExtent.height; ++y) {
     for (uint32_t x = 3; x < kExtent.width; ++x) {
       for (uint32_t c = 0; c < 3; ++c) {
-        largest = std::max(largest, std::abs(double{moved.colour.pixel(x, y)[c]} - base_.colour.pixel(x - 3, y + 2)[c]));
+        largest = std::max(
+            largest, std::abs(double{moved.colour.pixel(x, y)[c]} - base_.colour.pixel(x - 3, y + 2)[c]));
       }
     }
   }
@@ -119,7 +125,12 @@ TEST_F(Placement, PixelsOutsideTheScissorKeepTheirValues) {
 }
 
 TEST_F(Placement, AnInstanceAMillionUnitsAwayLooksTheSame) {
-  stage_->place({.structSize = 0, .asset = {}, .position = {kFar, -kFar, kFar}, .rotation = {}, .scale = 0, .userId = 0});
+  stage_->place({.structSize = 0,
+                 .asset = {},
+                 .position = {kFar, -kFar, kFar},
+                 .rotation = {},
+                 .scale = 0,
+                 .userId = 0});
   FrothRenderInfo info = infoOf(frontView());
   info.camera.eye[0] += kFar;
   info.camera.eye[1] -= kFar;
@@ -131,7 +142,12 @@ TEST_F(Placement, AnInstanceAMillionUnitsAwayLooksTheSame) {
 TEST_F(Placement, ATurnedAndScaledInstanceSeenAccordinglyLooksTheSame) {
   // A quarter turn about z and twice the size: world = 2 (-y, x, z) + (5, 6, 7).
   const float half = std::sqrt(0.5f);
-  stage_->place({.structSize = 0, .asset = {}, .position = {5, 6, 7}, .rotation = {0, 0, half, half}, .scale = 2, .userId = 0});
+  stage_->place({.structSize = 0,
+                 .asset = {},
+                 .position = {5, 6, 7},
+                 .rotation = {0, 0, half, half},
+                 .scale = 2,
+                 .userId = 0});
   FrothRenderInfo info = infoOf(frontView());
   const std::array<double, 3> eye = {info.camera.eye[0], info.camera.eye[1], info.camera.eye[2]};
   info.camera.eye[0] = -2 * eye[1] + 5;
@@ -163,8 +179,8 @@ TEST_F(Placement, AChunkOriginAMillionUnitsAwayLooksTheSame) {
   EXPECT_GE(psnr(stage.draw(Method::kWalk, info, kExtent).colour, base_.colour), 60);
 }
 
-// Live cells [0, split) and all cells behind the live ones go to chunk 0, the other live cells to chunk 1, whose origin is
-// another one.
+// Live cells [0, split) and all cells behind the live ones go to chunk 0, the other live cells to chunk 1,
+// whose origin is another one.
 AssetContents splitInTwo(const AssetContents& whole) {
   const ChunkContents& source = whole.chunks[0];
   const uint32_t split = source.liveCount / 3;
@@ -230,8 +246,10 @@ TEST_F(Placement, AnImageWantedAloneIsTheSame) {
     ASSERT_TRUE(texels);
     for (size_t i = 0; i < texels->size(); ++i) {
       const float expected = base_.distance.values[i];
-      if (std::isinf(expected)) ASSERT_TRUE(std::isinf((*texels)[i])) << i;
-      else ASSERT_NEAR((*texels)[i], expected, 1e-3) << i;
+      if (std::isinf(expected))
+        ASSERT_TRUE(std::isinf((*texels)[i])) << i;
+      else
+        ASSERT_NEAR((*texels)[i], expected, 1e-3) << i;
     }
   }
   host.destroyImage(*image);

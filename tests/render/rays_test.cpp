@@ -76,14 +76,15 @@ TEST(Rays, TheBoundsOfABallsImageHoldEveryRayThatMeetsIt) {
   for (int i = 0; i < 20000; ++i) {
     const Case c = makeCase(engine);
     float low, high;
-    if (!foam::boundBallImage(c.centre, c.radius, glm::cross(c.corner, c.edgeY), glm::cross(c.edgeX, c.edgeY), low,
-                              high)) {
+    if (!foam::boundBallImage(c.centre, c.radius, glm::cross(c.corner, c.edgeY), glm::cross(c.edgeX, c.edgeY),
+                              low, high)) {
       continue;
     }
     ++bounded;
     for (int k = 0; k < 32; ++k) {  // rays through points of the ball's silhouette plane
       std::uniform_real_distribution<float> unit(-1, 1);
-      const Vec point = c.centre + 0.99f * c.radius * glm::normalize(Vec(unit(engine), unit(engine), unit(engine)));
+      const Vec point =
+          c.centre + 0.99f * c.radius * glm::normalize(Vec(unit(engine), unit(engine), unit(engine)));
       // point ~ corner + x edgeX + y edgeY, by Cramer's rule
       const float w = glm::dot(point, glm::cross(c.edgeX, c.edgeY));
       const float x = glm::dot(point, glm::cross(c.edgeY, c.corner)) / w;

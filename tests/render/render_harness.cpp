@@ -9,7 +9,9 @@
 namespace froth::test {
 namespace {
 
-void check(FrothResult result, const char* call) { EXPECT_EQ(result, FROTH_OK) << call << ": " << frothResultName(result); }
+void check(FrothResult result, const char* call) {
+  EXPECT_EQ(result, FROTH_OK) << call << ": " << frothResultName(result);
+}
 
 void onMessage(void*, FrothSeverity, FrothResult, const char* object, const char* text) {
   ADD_FAILURE() << object << ": " << text;
@@ -22,7 +24,8 @@ void expectSilence(const Host& host) {
   for (; reported < messages.size(); ++reported) ADD_FAILURE() << messages[reported];
 }
 
-Image channelsOf(const std::vector<float>& texels, uint32_t stride, uint32_t first, uint32_t channels, VkExtent2D extent) {
+Image channelsOf(const std::vector<float>& texels, uint32_t stride, uint32_t first, uint32_t channels,
+                 VkExtent2D extent) {
   Image image{extent.width, extent.height, channels, {}};
   for (size_t pixel = 0; pixel < size_t{extent.width} * extent.height; ++pixel) {
     for (uint32_t c = 0; c < channels; ++c) image.values.push_back(texels[pixel * stride + first + c]);
@@ -75,8 +78,7 @@ Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent) : context_(sha
   FrothAssetStatus status{};
   status.structSize = sizeof(status);
   do {
-    FrothRenderInfo none{};
-    submit(Method::kRaster, none);
+    submit({});
     check(frothGetAssetStatus(context_, asset_, &status), "frothGetAssetStatus");
   } while (status.state == FROTH_ASSET_OPENING);
   EXPECT_EQ(status.state, FROTH_ASSET_READY);
@@ -100,22 +102,24 @@ void Stage::place(const FrothInstanceInfo& placement) {
   }
 }
 
-FrothViewStatus Stage::submit(Method method, const FrothRenderInfo& info) {
-  const bool draws = info.colour.image || info.distance.image || info.normal.image;
+FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws) {
   const auto record = [&](VkCommandBuffer commandBuffer, uint64_t serial, bool isDrawn) -> Status {
     const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0};
     check(frothUpdate(context_, &frame, nullptr), "frothUpdate");
     check(frothRecordUpload(context_, commandBuffer), "frothRecordUpload");
-    if (!isDrawn) return {};
-    check(method == Method::kRaster ? frothRasterize(context_, view_, commandBuffer, &info)
-                                    : frothWalk(context_, view_, commandBuffer, &info),
-          "draw");
+    for (const auto& [method, info] : draws) {
+      if (!isDrawn) break;
+      check(method == Method::kRaster ? frothRasterize(context_, view_, commandBuffer, &info)
+                                      : frothWalk(context_, view_, commandBuffer, &info),
+            "draw");
+    }
     return {};
   };
   // The frame after it brings its status.
-  for (const bool isDrawn : {draws, false}) {
-    const Status submitted = sharedHost().submit(
-        [&](VkCommandBuffer commandBuffer, uint64_t serial) { return record(commandBuffer, serial, isDrawn); });
+  for (const bool isDrawn : {true, false}) {
+    const Status submitted = sharedHost().submit([&](VkCommandBuffer commandBuffer, uint64_t serial) {
+      return record(commandBuffer, serial, isDrawn);
+    });
     EXPECT_TRUE(submitted) << submitted.error().message;
   }
   FrothViewStatus status{};
@@ -150,7 +154,8 @@ Frame Stage::draw(Method method, const View& view) {
   return draw(method, infoOf(view), {view.width, view.height});
 }
 
-View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height, double tanHalfFovY) {
+View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height,
+            double tanHalfFovY) {
   const glm::dvec3 forward = glm::normalize(target - eye);
   const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.1, 1, 0.05), forward));
   const glm::dvec3 down = glm::cross(forward, right);

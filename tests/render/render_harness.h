@@ -1,8 +1,10 @@
-// Draws through the runtime's public calls on a device with validation and index checks; what tests ask of an image.
+// Draws through the runtime's public calls on a device with validation and index checks; what tests ask of an
+// image.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "baker/bake/bake.h"
@@ -27,8 +29,8 @@ struct Frame {
   FrothViewStatus status{};
 };
 
-// One device with validation layers, and one context that checks indices, for all tests of the program: pipelines are
-// made once per asset shape.
+// One device with validation layers, and one context that checks indices, for all tests of the program:
+// pipelines are made once per asset shape.
 Host& sharedHost();
 FrothContext* sharedContext();
 
@@ -44,7 +46,10 @@ class Stage {
   Frame draw(Method method, const View& view);
 
   // Records only the wanted images of `info`; returns the status of that frame.
-  FrothViewStatus submit(Method method, const FrothRenderInfo& info);
+  FrothViewStatus submit(Method method, const FrothRenderInfo& info) { return submit({{method, info}}); }
+
+  // Several draws in one frame and command buffer.
+  FrothViewStatus submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws);
 
  private:
   FrothContext* context_;
@@ -55,7 +60,8 @@ class Stage {
 };
 
 // A camera at `eye` that looks at `target`, `width` x `height` pixels, with the given half-angle's tangent.
-View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height, double tanHalfFovY);
+View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height,
+            double tanHalfFovY);
 
 // Display-coded, cut-off 1e-3, reversed depth with an infinite far plane; near limits of the view, else off.
 FrothRenderInfo infoOf(const View& view);

@@ -12,7 +12,9 @@ namespace {
 
 constexpr uint32_t kWidth = 160, kHeight = 120;
 
-View frontView() { return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.6); }
+View frontView() {
+  return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.6);
+}
 
 Foam synthesize(const char* name, uint32_t cells) {
   Result<Foam> foam = synthesizeFoam({name, cells, 1});
@@ -20,7 +22,8 @@ Foam synthesize(const char* name, uint32_t cells) {
   return *foam;
 }
 
-// The share of pixels where one image has a distance and the other has none, or they differ by more than 1e-3.
+// The share of pixels where one image has a distance and the other has none, or they differ by more than
+// 1e-3.
 double distanceMismatch(const Image& runtime, const Image& reference) {
   size_t off = 0;
   for (size_t i = 0; i < runtime.values.size(); ++i) {
@@ -74,9 +77,10 @@ TEST_P(AssetShapes, AreDrawnAsTheReferenceDrawsThem) {
   expectReference(makeRandomFoam(60, GetParam().details, GetParam().lobes, 5), view);
 }
 
-INSTANTIATE_TEST_SUITE_P(DetailsAndLobes, AssetShapes, testing::Values(Shape{1, 1}, Shape{4, 2}, Shape{32, 32}),
-                         [](const auto& shape) {
-                           return std::to_string(shape.param.details) + "x" + std::to_string(shape.param.lobes);
+INSTANTIATE_TEST_SUITE_P(DetailsAndLobes, AssetShapes,
+                         testing::Values(Shape{1, 1}, Shape{4, 2}, Shape{32, 32}), [](const auto& shape) {
+                           return std::to_string(shape.param.details) + "x" +
+                                  std::to_string(shape.param.lobes);
                          });
 
 TEST(Scenes, AnEyeInsideBallsSeesThemWithTheNearTestsOff) {
@@ -123,6 +127,30 @@ TEST(Scenes, TwoDrawsGiveTheSameBits) {
   }
 }
 
+TEST(Scenes, ARasterAndAWalkInOneFrameAreWhatEachIsAlone) {
+  Host& host = sharedHost();
+  Stage stage(bakeForTest(synthesize("random", 0)), {kWidth, kHeight});
+  const View other = lookAt({0.5, -0.3, 0}, {0, 0, 3}, kWidth, kHeight, 0.8);
+  Result<HostImage> first = host.createImage(VK_FORMAT_R32G32B32A32_SFLOAT, {kWidth, kHeight});
+  Result<HostImage> second = host.createImage(VK_FORMAT_R32G32B32A32_SFLOAT, {kWidth, kHeight});
+  FrothRenderInfo raster = infoOf(frontView()), walk = infoOf(other);
+  raster.colour = host.describe(*first);
+  walk.colour = host.describe(*second);
+  std::vector<std::vector<float>> texels;
+  const auto read = [&](const HostImage& image) { texels.push_back(*host.readImage(image)); };
+  EXPECT_GE(stage.submit({{Method::kRaster, raster}, {Method::kWalk, walk}}).passCount, 9u);
+  read(*first);
+  read(*second);
+  stage.submit(Method::kRaster, raster);
+  stage.submit(Method::kWalk, walk);
+  read(*first);
+  read(*second);
+  EXPECT_EQ(texels[0], texels[2]);
+  EXPECT_EQ(texels[1], texels[3]);
+  host.destroyImage(*first);
+  host.destroyImage(*second);
+}
+
 TEST(Scenes, AssetsWithoutHeightsAreDrawnWithFlatFaces) {
   Foam foam = synthesize("random", 0);
   foam.detailHeights.assign(foam.detailHeights.size(), 0.0f);
@@ -135,12 +163,15 @@ TEST(Scenes, TheLinearImageDecodesTheDisplayCodedOneOncePerPixel) {
   const Frame coded = stage.draw(Method::kRaster, info, {kWidth, kHeight});
   info.displayCoded = 0;
   const Frame linear = stage.draw(Method::kRaster, info, {kWidth, kHeight});
-  const auto decode = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
+  const auto decode = [](float c) {
+    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+  };
   for (size_t i = 0; i < coded.alpha.values.size(); ++i) {
     const float coverage = coded.alpha.values[i];
     if (!(coverage > 0)) continue;
     for (size_t c = 0; c < 3; ++c) {
-      ASSERT_NEAR(linear.colour.values[3 * i + c], coverage * decode(coded.colour.values[3 * i + c] / coverage), 1e-4);
+      ASSERT_NEAR(linear.colour.values[3 * i + c],
+                  coverage * decode(coded.colour.values[3 * i + c] / coverage), 1e-4);
     }
   }
 }
@@ -149,7 +180,8 @@ TEST(Scenes, HalfFloatColourIsTheFloatColourRounded) {
   Stage stage(bakeForTest(synthesize("random", 0)), {kWidth, kHeight});
   for (const Method method : {Method::kRaster, Method::kWalk}) {
     const Frame wide = stage.draw(method, infoOf(frontView()), {kWidth, kHeight});
-    const Frame half = stage.draw(method, infoOf(frontView()), {kWidth, kHeight}, VK_FORMAT_R16G16B16A16_SFLOAT);
+    const Frame half =
+        stage.draw(method, infoOf(frontView()), {kWidth, kHeight}, VK_FORMAT_R16G16B16A16_SFLOAT);
     EXPECT_GE(psnr(wide.colour, half.colour), 65);  // halves near 1 have steps of 5e-4
   }
 }
