@@ -170,12 +170,28 @@ void PickleMachine::rebuildTensor(const Tuple& arguments) {
   auto shape = asCounts(arguments.items[2]);
   auto strides = asCounts(arguments.items[3]);
   if (!storage || !offset || *offset < 0 || !shape || !strides || shape->size() != strides->size()) {
-    fail("a tensor needs a storage, an offset >= 0 and equally many sizes and strides >= 0, at most {}",
-         kMaxTensorRank);
+    const auto* key = stack_.empty() ? nullptr : as<std::string_view>(stack_.back());  // of the dict's entry
+    fail("tensor {}: offset {}, sizes {}, strides {}; it needs a storage, an offset >= 0 and equally many sizes and "
+         "strides >= 0, at most {}",
+         key ? quoted(*key) : "without a name", describe(arguments.items[1]), describe(arguments.items[2]),
+         describe(arguments.items[3]), kMaxTensorRank);
     return;
   }
   push(PickledTensor{storage->type, storage->key, storage->count, static_cast<uint64_t>(*offset),
                      *std::move(shape), *std::move(strides)});
+}
+
+// An integer or a tuple of integers, for messages.
+std::string PickleMachine::describe(Ref ref) {
+  if (const auto* number = as<int64_t>(ref)) return fmt::format("{}", *number);
+  const auto* tuple = as<Tuple>(ref);
+  if (!tuple || tuple->items.size() > kMaxTensorRank) return "(not a short tuple)";
+  std::string text;
+  for (const Ref item : tuple->items) {
+    const auto* number = as<int64_t>(item);
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", number ? fmt::format("{}", *number) : "?");
+  }
+  return "[" + text + "]";
 }
 
 std::optional<std::vector<uint64_t>> PickleMachine::asCounts(Ref ref) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -93,6 +94,7 @@ class PickleMachine {
   void call();
   void rebuildTensor(const Tuple& arguments);
   void loadStorage();
+  std::string describe(Ref ref);
   std::optional<std::vector<uint64_t>> asCounts(Ref ref);
   Result<std::vector<PickledEntry>> collectTensors();
 

@@ -124,7 +124,7 @@ TEST_F(BadInput, NegativeCounts) {
   CheckpointSpec checkpoint = sampleCheckpoint();
   checkpoint.tensor("radii").shape = {-2};
   writeCheckpoint(checkpoint);
-  expectBakeRefused("bad.pt", {"data.pkl", "sizes and strides >= 0"});
+  expectBakeRefused("bad.pt", {"data.pkl", "tensor 'radii'", "sizes [-2]", "sizes and strides >= 0"});
 }
 
 TEST_F(BadInput, ACellCountOf10To12) {
