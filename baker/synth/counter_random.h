@@ -17,11 +17,28 @@ inline uint64_t mixBits(uint64_t x) {
   return x ^ (x >> 31);
 }
 
+// What random numbers are drawn for; streams of different purposes are independent.
+enum class Purpose : uint64_t {
+  kSubpixel,
+  kEye,
+  kDirection,
+  kSite,
+  kRadius,
+  kDensity,
+  kFrame,
+  kDetail,
+  kHeight,
+  kAxis,
+  kTemperature,
+  kColour,
+  kSurface,  // last: one stream for each surface follows
+};
+
 class CounterRandom {
  public:
-  // Streams of different purposes are independent.
-  CounterRandom(uint64_t seed, uint64_t purpose)
-      : key_(mixBits(mixBits(seed + kGolden) + purpose * kGolden)) {}
+  // `stream` tells several streams of one purpose apart; only kSurface has them.
+  CounterRandom(uint64_t seed, Purpose purpose, uint64_t stream = 0)
+      : key_(mixBits(mixBits(seed + kGolden) + (static_cast<uint64_t>(purpose) + stream) * kGolden)) {}
 
   uint64_t bits(uint64_t index) const { return mixBits(key_ + (index + 1) * kGolden); }
 

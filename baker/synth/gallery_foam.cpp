@@ -25,7 +25,6 @@ constexpr uint32_t kDetailCount = 8, kLobeCount = 8;
 constexpr double kDetailSharpness = 10;
 constexpr double kOpticalRadius = 40;    // density * radius: opaque within a few percent of the radius
 constexpr double kContactMargin = 0.25;  // [spacings] sites this close to another solid would cut it
-constexpr uint64_t kJitterPurpose = 2;
 
 struct PlacedSites {
   std::vector<SurfaceSite> sites;
@@ -36,10 +35,13 @@ bool isWall(const Solid& solid) {
   return solid.shape->boundingRadius() == kNoHit;
 }
 
-//      |q          Where a solid stands on a floor or hangs on a wall, the wall gets a mirror image q' of
-//      each of the |           solid's lowest sites q: their radical plane bisects the corner. Without it the
-//      cells of the one reach
-//   ___|__q'___    past the corner into the other.
+// Where a solid stands on a floor or hangs on a wall, the wall gets a mirror image q' of each of the solid's
+// lowest sites q, so that their radical plane bisects the corner. Otherwise cells of the one reach past it
+// into the other.
+//
+//   solid |
+//         |q
+//     ____|__q'____ wall
 void addSeam(const Solid& wall, const std::vector<SurfaceSite>& sites, std::vector<SurfaceSite>& wallSites) {
   constexpr double kUpright = 0.3;     // cosine between the normals of solid and wall
   constexpr double kTolerance = 1e-3;  // [scene units]
@@ -61,7 +63,7 @@ PlacedSites placeAllSites(double spacing, uint64_t seed) {
   std::vector<std::vector<SurfaceSite>> perSolid(solids.size());
   tbb::parallel_for(size_t{0}, solids.size(), [&](size_t s) {
     const double own = spacing * solids[s].spacingFactor;
-    solids[s].shape->placeSites(own, CounterRandom(seed, kJitterPurpose + s), perSolid[s]);
+    solids[s].shape->placeSites(own, CounterRandom(seed, Purpose::kSurface, s), perSolid[s]);
     std::erase_if(perSolid[s], [&](const SurfaceSite& site) {
       return galleryScene().isCovered(site.position, site.normal, solids[s],
                                       kContactMargin * std::min(own, site.radius));
@@ -123,7 +125,7 @@ Foam makeCells(const PlacedSites& placed) {
 // Places where cameras may stand: what the fit of glossy colours looks from.
 std::vector<dvec3> sampleEyes() {
   constexpr int kEyes = 48;
-  const CounterRandom random(0, 3);
+  const CounterRandom random(0, Purpose::kEye);
   std::vector<dvec3> eyes;
   for (uint64_t i = 0; i < kEyes; ++i)
     eyes.emplace_back(random.uniform(3 * i, 2.0, 6.4), random.uniform(3 * i + 1, 1.8, 4.4),
@@ -135,7 +137,7 @@ std::vector<SeenColour> lookAtPoint(const LitPoint& point) {
   static const std::vector<dvec3> eyes = sampleEyes();
   constexpr uint64_t kElsewhere = 32;
   constexpr double kElsewhereWeight = 0.15;
-  const CounterRandom random(0, 4);
+  const CounterRandom random(0, Purpose::kDirection);
   std::vector<SeenColour> seen;
   const auto add = [&](const dvec3& direction, double weight) {
     if (glm::dot(direction, point.normal) < -0.05)

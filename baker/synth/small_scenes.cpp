@@ -13,19 +13,6 @@ using glm::dvec3;
 
 namespace {
 
-// One stream of random numbers for each thing drawn.
-enum Purpose : uint64_t {
-  kSite = 10,
-  kRadius,
-  kDensity,
-  kFrame,
-  kDetail,
-  kHeight,
-  kAxis,
-  kTemperature,
-  kColour
-};
-
 Foam emptyFoam(uint32_t cells, uint32_t details, uint32_t lobes) {
   Foam foam;
   foam.cellCount = cells;
@@ -52,8 +39,8 @@ glm::vec4 orientationFacing(const dvec3& normal) {
 
 // Spreads detail sites over the face and gives lobes random axes and colours, alike for all random scenes.
 void randomizeAppearance(Foam& foam, uint64_t seed, double relief, double hottest) {
-  const CounterRandom detail(seed, kDetail), height(seed, kHeight), axis(seed, kAxis),
-      temperature(seed, kTemperature), colour(seed, kColour);
+  const CounterRandom detail(seed, Purpose::kDetail), height(seed, Purpose::kHeight),
+      axis(seed, Purpose::kAxis), temperature(seed, Purpose::kTemperature), colour(seed, Purpose::kColour);
   for (size_t i = 0; i < foam.detailSites.size(); ++i) {
     const double radius = 0.8 * std::sqrt(detail.uniform(2 * i)),
                  angle = detail.uniform(2 * i + 1, 0, 2 * glm::pi<double>());
@@ -103,7 +90,7 @@ Result<Foam> synthesizeGrid(const SynthOptions& options) {
     return makeError(ErrorKind::kUsage, "scene 'grid': %u cells are no cube; ask for %u", options.cellCount,
                      std::max(1u, side * side * side));
   Foam foam = emptyFoam(side * side * side, 2, 2);
-  const CounterRandom frame(options.seed, kFrame), density(options.seed, kDensity);
+  const CounterRandom frame(options.seed, Purpose::kFrame), density(options.seed, Purpose::kDensity);
   const dvec3 origin(-0.5 * (side - 1), -0.5 * (side - 1), 2 + 0.5 * (side + 1));
   for (uint32_t i = 0; i < foam.cellCount; ++i) {
     foam.sites[i] = origin + dvec3(i % side, i / side % side, i / side / side);
@@ -124,7 +111,7 @@ Result<Foam> synthesizeShell(const SynthOptions& options) {
                      kFewest);
   std::vector<SurfaceSite> sites;
   const double spacing = std::sqrt(4 * glm::pi<double>() * kRadius * kRadius / count);
-  Sphere(dvec3(0), kRadius).placeSites(spacing, CounterRandom(options.seed, kSite), sites);
+  Sphere(dvec3(0), kRadius).placeSites(spacing, CounterRandom(options.seed, Purpose::kSite), sites);
   Foam foam = emptyFoam(static_cast<uint32_t>(sites.size()), 4, 2);
   for (size_t i = 0; i < sites.size(); ++i) {
     foam.sites[i] = sites[i].position;
@@ -140,8 +127,8 @@ Result<Foam> synthesizeRandom(const SynthOptions& options) {
   constexpr uint32_t kDefault = 500;
   const uint32_t count = options.cellCount ? options.cellCount : kDefault;
   Foam foam = emptyFoam(count, 8, 8);
-  const CounterRandom site(options.seed, kSite), radius(options.seed, kRadius),
-      density(options.seed, kDensity), frame(options.seed, kFrame);
+  const CounterRandom site(options.seed, Purpose::kSite), radius(options.seed, Purpose::kRadius),
+      density(options.seed, Purpose::kDensity), frame(options.seed, Purpose::kFrame);
   const double spacing = 2 / std::cbrt(count);
   for (uint64_t i = 0; i < count; ++i) {
     foam.sites[i] =

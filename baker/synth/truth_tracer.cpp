@@ -13,8 +13,6 @@ using glm::dvec3;
 
 namespace {
 
-constexpr uint64_t kSubpixelPurpose = 1;
-
 dvec3 traceRay(const Ray& ray) {
   const auto hit = galleryScene().intersect(ray);
   if (!hit) return {};
@@ -51,7 +49,7 @@ Result<Image> traceGalleryTruth(const View& view, uint32_t samples, const Progre
                      "view '%s': %u x %u pixels, focal lengths %g, %g; all must be positive",
                      view.name.c_str(), view.width, view.height, view.fx, view.fy);
   Image image{view.width, view.height, 3, std::vector<float>(size_t{view.width} * view.height * 3)};
-  const CounterRandom random(0, kSubpixelPurpose);
+  const CounterRandom random(0, Purpose::kSubpixel);
   constexpr uint32_t kBand = 16;  // rows between two reports
   for (uint32_t band = 0; band < view.height; band += kBand) {
     if (!report(progress, "tracing truth", band, view.height))

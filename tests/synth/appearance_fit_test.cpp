@@ -66,7 +66,7 @@ TEST(FitDetailValues, BlendsCloserToTheSamplesThanTheirMeansDo) {
 }
 
 TEST(FitLobeColours, FindsTheColoursThatMadeThePicture) {
-  const CounterRandom random(3, 1);
+  const CounterRandom random(3, Purpose::kDirection);
   std::vector<dvec3> axes, colours;
   for (uint64_t m = 0; m < 4; ++m) {
     axes.push_back(3.0 * random.direction(m));
@@ -89,7 +89,7 @@ TEST(FitLobeColours, FindsTheColoursThatMadeThePicture) {
 
 TEST(ChooseLobeAxes, GathersAroundAHighlight) {
   const dvec3 highlight = glm::normalize(dvec3(0.3, 0.2, 1));
-  const CounterRandom random(4, 1);
+  const CounterRandom random(4, Purpose::kDirection);
   std::vector<SeenColour> seen;
   for (uint64_t i = 0; i < 400; ++i) {
     const dvec3 direction = random.direction(i);
