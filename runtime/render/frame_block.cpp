@@ -122,7 +122,7 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   block.chunkCount = static_cast<uint32_t>(asset.chunks.size());
   block.groupsPerChunk = groupsPerChunk(asset);
   block.counters = place.counters;
-  block.chunks = place.block + kChunkTableOffset;
+  block.chunks = place.block + kBlockStride;
 }
 
 }  // namespace froth

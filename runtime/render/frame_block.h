@@ -12,10 +12,9 @@ namespace froth {
 
 // Where one recording keeps its block and its counters.
 struct RecordingPlace {
-  VkDeviceAddress block;     // FrameBlock; the chunk table follows at kChunkTableOffset
+  VkDeviceAddress block;     // FrameBlock; the chunk table follows at kBlockStride
   VkDeviceAddress counters;  // Counters
 };
-inline constexpr VkDeviceSize kChunkTableOffset = 512;
 
 // Tiles over a region.
 uint32_t tilesAlong(uint32_t pixels);

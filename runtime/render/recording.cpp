@@ -7,8 +7,6 @@
 namespace froth {
 namespace {
 
-constexpr VkDeviceSize kCountersStride = 512;
-
 void writeBlock(const Recording& recording, const RenderInstance* instance) {
   const ViewBuffers& buffers = recording.view.buffers;
   char* staged =
@@ -18,7 +16,7 @@ void writeBlock(const Recording& recording, const RenderInstance* instance) {
     fillOutputs(recording.info, block);
   } else {
     fillFrame(recording.info, *instance, buffers, {recording.blockAddress(), recording.countersAddress()},
-              block, reinterpret_cast<gpu::ChunkEntry*>(staged + kChunkTableOffset));
+              block, reinterpret_cast<gpu::ChunkEntry*>(staged + kBlockStride));
     block.flags |= recording.kind == RecordingKind::kRaster ? gpu::kFlagOnlyPaired : 0;
   }
   std::memcpy(staged, &block, sizeof(block));
@@ -73,7 +71,7 @@ VkDeviceAddress Recording::countersAddress() const {
 }
 
 VkDeviceSize Recording::countersOffset() const {
-  return place * kCountersStride;
+  return place * kBlockStride;
 }
 
 void Recording::mark(const char* pass) const {
@@ -120,8 +118,7 @@ void endRecording(const Recording& recording) {
   const ViewBuffers& buffers = recording.view.buffers;
   recordMemoryBarrier(recording, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-  const VkBufferCopy copy{recording.countersOffset(), recording.number * kCountersStride,
-                          sizeof(gpu::Counters)};
+  const VkBufferCopy copy{recording.countersOffset(), recording.number * kBlockStride, sizeof(gpu::Counters)};
   recording.view.device.table.vkCmdCopyBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer,
                                               buffers[ViewBuffer::kReadback].buffer, 1, &copy);
   recordMemoryBarrier(recording, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -131,7 +128,7 @@ void endRecording(const Recording& recording) {
 
 const gpu::Counters& readCounters(const ViewState& view, uint32_t number) {
   const char* readback = static_cast<const char*>(view.buffers[ViewBuffer::kReadback].mapped);
-  return *reinterpret_cast<const gpu::Counters*>(readback + number * kCountersStride);
+  return *reinterpret_cast<const gpu::Counters*>(readback + number * kBlockStride);
 }
 
 void recordCull(const PassRecorder& recorder, const GpuAsset& asset) {

@@ -7,7 +7,6 @@
 namespace froth {
 namespace {
 
-constexpr VkDeviceSize kBlockStride = 512;  // of a FrameBlock and of Counters
 static_assert(sizeof(gpu::FrameBlock) <= kBlockStride && sizeof(gpu::Counters) <= kBlockStride);
 
 VkDeviceSize strideOf(const ViewCapacity& capacity) {

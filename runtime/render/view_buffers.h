@@ -41,6 +41,9 @@ enum class ViewBuffer : uint32_t {
 inline constexpr uint32_t kViewBufferCount = 23;
 inline constexpr uint32_t kRecordingsPerFrame = 2;  // a raster and a walk
 
+// [bytes] The space of a FrameBlock and of Counters. The chunk table follows its block.
+inline constexpr VkDeviceSize kBlockStride = 512;
+
 // What a view has space for. Only ever grows.
 struct ViewCapacity {
   uint32_t frames = 1;  // in flight

@@ -44,9 +44,7 @@ void expectGolden(const RealFoam& foam, Stage& stage, size_t index, double least
   const Frame raster = stage.draw(Method::kRaster, view);
   const Result<Image> golden = readImage(foam.folder / view.goldenColour, &raster.colour);
   ASSERT_TRUE(golden) << golden.error().message;
-  const double found = psnr(raster.colour, *golden);
-  std::printf("view %zu: raster against golden %.2f dB\n", index, found);
-  EXPECT_GE(found, least);
+  EXPECT_GE(psnr(raster.colour, *golden), least);
 }
 
 // A quarter of the size, to bound the time.
@@ -55,9 +53,6 @@ void expectWalkAgrees(const RealFoam& foam, Stage& stage, size_t index) {
   const View view = resizeView(full, full.width / 4, full.height / 4);
   const Frame raster = stage.draw(Method::kRaster, view);
   const Frame walk = stage.draw(Method::kWalk, view);
-  std::printf("view %zu: walk against raster %.2f dB, %.2e off, %.1f steps a ray\n", index,
-              psnr(walk.colour, raster.colour), overTwoSteps(walk.colour, raster.colour),
-              double(walk.status.walkSteps) / (view.width * view.height));
   EXPECT_GE(psnr(walk.colour, raster.colour), 60);
   EXPECT_LE(overTwoSteps(walk.colour, raster.colour), 1e-4);
   EXPECT_EQ(walk.status.bits, 0u) << "a walk was cut by the step limit";
