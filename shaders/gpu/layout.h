@@ -100,7 +100,7 @@ struct Counters {
 };
 
 #if !defined(__cplusplus)
-layout(buffer_reference, std430, buffer_reference_align = 16) buffer ChunkArray { ChunkEntry v[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer ChunkArray { ChunkEntry v[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer RecordArray { CellRecord v[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer CountersRef { Counters v; };
 #endif
@@ -169,7 +169,7 @@ static_assert(sizeof(SortConstants) <= 128);
 
 #else
 
-layout(buffer_reference, std430, buffer_reference_align = 16) buffer FrameRef { FrameBlock v; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer FrameRef { FrameBlock v; };
 
 #endif
 
