@@ -9,8 +9,8 @@ namespace {
 
 // Space for pairs before the first overflow tells better: a few tiles per cell, and some depth in every tile.
 constexpr uint64_t kLeastPairs = uint64_t{1} << 14;
-constexpr uint64_t kPairsPerCell = 4;
-constexpr uint64_t kPairsPerTile = 8;
+constexpr uint64_t kPairsPerCell = 8;
+constexpr uint64_t kPairsPerTile = 32;
 constexpr uint64_t kMostPairs = uint64_t{1} << 30;
 
 uint32_t startPairs(uint64_t cells, uint64_t tiles) {
