@@ -34,7 +34,10 @@ void main() {
   uint planeTotal;
   uint plane = FRAME.groupSums.v[group].y + scanExclusive(planeCount, planeTotal);
 
-  if (isLive) FRAME.slotOfCell.v[checked(FRAME.chunks.v[chunk].liveStart + local, FRAME.visibleCapacity)] = isVisible ? slot : kNoCell;
+  if (isLive) {
+    uint live = checked(FRAME.chunks.v[chunk].liveStart + local, FRAME.visibleCapacity);
+    FRAME.slotOfCell.v[live] = isVisible ? slot : kNoCell;
+  }
   if (!isVisible) return;
   Ball ball = ballOfCell(uvec2(chunk, local));
   slot = checked(slot, FRAME.visibleCapacity);

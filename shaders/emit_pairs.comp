@@ -1,4 +1,5 @@
-// Writes the (tile, visible cell) pairs in the order of the cells. Pairs beyond the capacity, of the farthest cells, are lost.
+// Writes the (tile, visible cell) pairs in the order of the cells. Pairs beyond the capacity are lost: those of the
+// farthest cells.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/tiles.glsl"

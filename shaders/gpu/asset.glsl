@@ -33,8 +33,10 @@ Ball ballOfCell(uvec2 cell) { return ballOf(checkedChunk(cell.x), siteRadiusOf(c
 vec3 fromSiteToSite(uvec2 cell, vec3 site, uvec2 other, vec3 otherSite) {
   precise vec3 difference = otherSite - site;
   if (cell.x != other.x) {
-    precise vec3 high = FRAME.chunks.v[checkedChunk(other.x)].offsetHigh.xyz - FRAME.chunks.v[checkedChunk(cell.x)].offsetHigh.xyz;
-    precise vec3 low = FRAME.chunks.v[checkedChunk(other.x)].offsetLow.xyz - FRAME.chunks.v[checkedChunk(cell.x)].offsetLow.xyz;
+    ChunkEntry from = FRAME.chunks.v[checkedChunk(cell.x)];
+    ChunkEntry to = FRAME.chunks.v[checkedChunk(other.x)];
+    precise vec3 high = to.offsetHigh.xyz - from.offsetHigh.xyz;
+    precise vec3 low = to.offsetLow.xyz - from.offsetLow.xyz;
     difference += high + low;
   }
   return difference;

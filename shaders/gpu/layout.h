@@ -163,7 +163,6 @@ static_assert(sizeof(Counters) == 112 && offsetof(Counters, visibleDispatch) == 
 static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);
 static_assert(offsetof(FrameBlock, counters) == 192 && sizeof(FrameBlock) == 344);
 static_assert(sizeof(SortConstants) == 56 && sizeof(PassConstants) == 16);
-static_assert(sizeof(SortConstants) <= 128);
 
 }  // namespace froth::gpu
 
