@@ -55,7 +55,7 @@ bool hasLowerKey(const SectionRecord& a, const SectionRecord& b) {
 
 template <class Struct>
 bool isAligned(const flatbuffers::Vector<const Struct*>* vector) {
-  return !vector || reinterpret_cast<uintptr_t>(vector->Data()) % alignof(Struct) == 0;
+  return !vector || vector->size() == 0 || reinterpret_cast<uintptr_t>(vector->Data()) % alignof(Struct) == 0;
 }
 
 // FlatBuffers' own verifier looks at the alignment of a vector's length only.

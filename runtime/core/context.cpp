@@ -48,14 +48,13 @@ FrothResult Context::create(const FrothContextInfo& info) {
   }
   device_ = *device;
   device_.budget = info.deviceBudget;
-  checksIndices_ = info.checkIndices != 0;
   Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(device_, kUploadRingBytes);
   if (!ring) {
     return messages.fail(FROTH_ERROR_MEMORY, kCall, "%s", ring.error().message.c_str());
   }
   ring_ = std::move(*ring);
   Result<std::unique_ptr<RenderPipelines>> pipelines =
-      RenderPipelines::create(device_, info.pipelineCache, checksIndices_);
+      RenderPipelines::create(device_, info.pipelineCache, info.checkIndices != 0);
   if (!pipelines) {
     return messages.fail(FROTH_ERROR_DEVICE, kCall, "%s", pipelines.error().message.c_str());
   }
@@ -220,7 +219,7 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   view->maxExtent = extent;
   if (!isNull()) {
     Result<std::unique_ptr<ViewRenderer>> renderer =
-        ViewRenderer::create(device_, extent, info.measurePasses != 0, framesInFlight_, checksIndices_);
+        ViewRenderer::create(device_, extent, info.measurePasses != 0, framesInFlight_);
     if (!renderer) {
       return messages.fail(FROTH_ERROR_MEMORY, "frothCreateView", "%s", renderer.error().message.c_str());
     }

@@ -81,7 +81,6 @@ class Context {
   // What is declared later goes first, and needs what is declared earlier.
   Device device_;
   uint32_t framesInFlight_ = 2;
-  bool checksIndices_ = false;
   std::unique_ptr<UploadRing> ring_;            // null: null context
   std::unique_ptr<RenderPipelines> pipelines_;  // null: null context
   HandlePool<Asset, FrothAsset> assets_;

@@ -58,8 +58,7 @@ ViewRenderer::ViewRenderer() = default;
 ViewRenderer::~ViewRenderer() = default;
 
 Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExtent2D maxExtent,
-                                                           bool measurePasses, uint32_t framesInFlight,
-                                                           bool) {
+                                                           bool measurePasses, uint32_t framesInFlight) {
   const uint32_t recordings = framesInFlight * kRecordingsPerFrame;
   Result<std::unique_ptr<OutputImages>> images = OutputImages::create(device, recordings);
   if (!images) return images.error();

@@ -27,8 +27,7 @@ class ViewRenderer {
  public:
   // Allocates transients for the maximum extent; they grow in prepare() only.
   static Result<std::unique_ptr<ViewRenderer>> create(Device& device, VkExtent2D maxExtent,
-                                                      bool measurePasses, uint32_t framesInFlight,
-                                                      bool checkIndices);
+                                                      bool measurePasses, uint32_t framesInFlight);
   ~ViewRenderer();  // the GPU must be done with the view
 
   // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `asset` (may be

@@ -54,7 +54,11 @@ TEST(RoundTrip, KeepsAnAssetWithoutCameras) {
   contents.hasStartView = false;
   contents.startView = {};
   contents.flightPath.clear();
-  expectRoundTrip(contents);
+  contents.statistics = {};
+  for (size_t length = 0; length < 16; ++length) {  // moves the empty path through every alignment
+    contents.source.assign(length, 'x');
+    expectRoundTrip(contents);
+  }
 }
 
 TEST(RoundTrip, KeepsAnAssetOfManyCells) {
