@@ -105,9 +105,8 @@ std::vector<std::string> ToolTest::filesInFolder() const {
   return names;
 }
 
-bool ToolTest::hasDevice() {
-  const ProgramRun run =
-      runProgram(FROTH_TOOL, {"devices", "--json"}, std::filesystem::temp_directory_path());
+bool ToolTest::hasDevice() const {
+  const ProgramRun run = froth({"devices", "--json"});
   const nlohmann::json devices = nlohmann::json::parse(run.out, nullptr, false);
   return devices.is_array() && std::any_of(devices.begin(), devices.end(),
                                            [](const auto& device) { return device["suitable"] == true; });

@@ -41,7 +41,7 @@ class ToolTest : public testing::Test {
   // random.pt, random.froth and cameras.json with `views` views.
   void makeRandomFoam(const std::string& cells, size_t views = 1) const;
   std::vector<std::string> filesInFolder() const;  // sorted names
-  static bool hasDevice();
+  bool hasDevice() const;
 
   std::filesystem::path folder_;
 };
