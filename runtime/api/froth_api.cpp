@@ -64,6 +64,21 @@ FrothResult writeOutput(const Messages& messages, const char* call, const T& kno
   return FROTH_OK;
 }
 
+// The calls that make an object: *handle is null unless they succeed.
+template <class Info, class Handle>
+FrothResult make(FrothContext* context, const char* name, const Info* info, const char* handleName,
+                 Handle* handle, FrothResult (Context::*makeObject)(const Info&, Handle&)) {
+  return guard(context, name, [&](const char* call) {
+    if (!handle) {
+      return failNull(*context, call, handleName);
+    }
+    *handle = {};
+    Info known;
+    const FrothResult result = readInput(context->messages, call, info, known);
+    return result == FROTH_OK ? (context->*makeObject)(known, *handle) : result;
+  });
+}
+
 FrothResult render(FrothContext* context, RenderMethod method, const char* call, FrothView view,
                    VkCommandBuffer commandBuffer, const FrothRenderInfo* info) {
   return guard(context, call, [&](const char*) {
@@ -146,14 +161,7 @@ void frothDestroyContext(FrothContext* context) {
 }
 
 FrothResult frothOpenAsset(FrothContext* context, const FrothAssetInfo* info, FrothAsset* asset) {
-  return guard(context, __func__, [&](const char* call) {
-    FrothAssetInfo known;
-    const FrothResult result = readInput(context->messages, call, info, known);
-    if (result != FROTH_OK) {
-      return result;
-    }
-    return asset ? context->openAsset(known, *asset) : failNull(*context, call, "asset");
-  });
+  return make(context, __func__, info, "asset", asset, &Context::openAsset);
 }
 
 FrothResult frothGetAssetStatus(FrothContext* context, FrothAsset asset, FrothAssetStatus* status) {
@@ -178,14 +186,7 @@ FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset) {
 
 FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info,
                                 FrothInstance* instance) {
-  return guard(context, __func__, [&](const char* call) {
-    FrothInstanceInfo known;
-    const FrothResult result = readInput(context->messages, call, info, known);
-    if (result != FROTH_OK) {
-      return result;
-    }
-    return instance ? context->createInstance(known, *instance) : failNull(*context, call, "instance");
-  });
+  return make(context, __func__, info, "instance", instance, &Context::createInstance);
 }
 
 FrothResult frothSetInstance(FrothContext* context, FrothInstance instance, const FrothInstanceInfo* info) {
@@ -201,14 +202,7 @@ FrothResult frothDestroyInstance(FrothContext* context, FrothInstance instance) 
 }
 
 FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view) {
-  return guard(context, __func__, [&](const char* call) {
-    FrothViewInfo known;
-    const FrothResult result = readInput(context->messages, call, info, known);
-    if (result != FROTH_OK) {
-      return result;
-    }
-    return view ? context->createView(known, *view) : failNull(*context, call, "view");
-  });
+  return make(context, __func__, info, "view", view, &Context::createView);
 }
 
 FrothResult frothDestroyView(FrothContext* context, FrothView view) {
@@ -225,6 +219,9 @@ FrothResult frothGetViewStatus(FrothContext* context, FrothView view, FrothViewS
 
 FrothResult frothUpdate(FrothContext* context, const FrothFrame* frame, FrothFrameStatus* status) {
   return guard(context, __func__, [&](const char* call) {
+    if (!frame) {
+      return failNull(*context, call, "frame");
+    }
     FrothFrame known;
     FrothFrameStatus found{};
     FrothResult result = readInput(context->messages, call, frame, known);

@@ -33,10 +33,13 @@ FrothResult Context::create(const FrothContextInfo& info) {
   if (!info.device) {
     return FROTH_OK;
   }
-  if (!info.getInstanceProcAddr || !info.instance || !info.physicalDevice || !info.enabledFeatures) {
-    return messages.fail(
-        FROTH_ERROR_ARGUMENT, kCall,
-        "getInstanceProcAddr, instance, physicalDevice, enabledFeatures: null; a device needs them all");
+  const char* missing = !info.getInstanceProcAddr ? "getInstanceProcAddr"
+                        : !info.instance          ? "instance"
+                        : !info.physicalDevice    ? "physicalDevice"
+                        : !info.enabledFeatures   ? "enabledFeatures"
+                                                  : nullptr;
+  if (missing) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "%s: null; a context on a device needs it", missing);
   }
   if (const Status status = checkContextDevice(info); !status) {
     return messages.fail(FROTH_ERROR_FEATURE, kCall, "%s", status.error().message.c_str());

@@ -79,7 +79,7 @@ void Context::prepareView(View& view) {
       view.preparedFor = &asset->gpu();
     }
   });
-  const Status status = view.renderer->prepare(serial_, completedSerial_, view.preparedFor);
+  const Status status = view.renderer->prepare(completedSerial_, view.preparedFor);
   if (status) {
     view.preparationError.clear();
     return;
@@ -174,6 +174,9 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   if (!view) {
     return messages.fail(FROTH_ERROR_HANDLE, call, "view {%u, %u}: destroyed or never created", handle.index,
                          handle.generation);
+  }
+  if (serial_ == 0) {
+    return messages.fail(FROTH_ERROR_STATE, call, "no frame; call frothUpdate first");
   }
   uint64_t& renderedSerial = view->renderedSerials[static_cast<size_t>(method)];
   if (renderedSerial == serial_) {

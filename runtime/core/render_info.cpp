@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <span>
 
 namespace froth {
 namespace {
@@ -15,9 +16,10 @@ constexpr uint32_t kDefaultMaxSteps = 65536;
 // rows.
 constexpr double kOrthonormalTolerance = 1e-3;
 
-template <size_t N>
-bool areFinite(const float (&values)[N]) {
-  return std::all_of(values, values + N, [](float value) { return std::isfinite(value); });
+double determinantOf(const double (&rows)[3][4]) {  // of their first three columns
+  return rows[0][0] * (rows[1][1] * rows[2][2] - rows[1][2] * rows[2][1]) -
+         rows[0][1] * (rows[1][0] * rows[2][2] - rows[1][2] * rows[2][0]) +
+         rows[0][2] * (rows[1][0] * rows[2][1] - rows[1][1] * rows[2][0]);
 }
 
 bool isOrthonormal(const float (&m)[9]) {
@@ -45,15 +47,13 @@ FrothResult checkProjection(const Messages& messages, const char* call, const fl
     }
     lengths[r] = std::hypot(rows[r][0], rows[r][1], rows[r][2]);
   }
-  if (lengths[2] == 0) {
+  if (lengths[2] == 0 && rows[2][3] != 0) {
     return messages.fail(
         FROTH_ERROR_UNSUPPORTED, call,
         "camera.clipFromView: its row w is (0, 0, 0, %g): an orthographic projection; use a perspective one",
         rows[2][3]);
   }
-  const double determinant = rows[0][0] * (rows[1][1] * rows[2][2] - rows[1][2] * rows[2][1]) -
-                             rows[0][1] * (rows[1][0] * rows[2][2] - rows[1][2] * rows[2][0]) +
-                             rows[0][2] * (rows[1][0] * rows[2][1] - rows[1][1] * rows[2][0]);
+  const double determinant = determinantOf(rows);
   // Relative to the rows' lengths this is the volume of three unit vectors; floats resolve it to about 1e-7.
   if (!(std::abs(determinant) > 1e-6 * lengths[0] * lengths[1] * lengths[2])) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call,
@@ -71,20 +71,49 @@ FrothResult checkProjection(const Messages& messages, const char* call, const fl
   return FROTH_OK;
 }
 
-FrothResult checkCamera(const Messages& messages, const char* call, const FrothCamera& camera) {
-  const VkViewport& viewport = camera.viewport;
-  const float viewportValues[] = {viewport.x, viewport.y, viewport.width, viewport.height};
-  const bool hasFiniteEye =
-      std::all_of(camera.eye, camera.eye + 3, [](double value) { return std::isfinite(value); });
-  if (!hasFiniteEye || !areFinite(camera.viewFromWorld) || !areFinite(camera.clipFromView) ||
-      !areFinite(camera.jitter) || !areFinite(viewportValues)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera: a value is not finite");
+// Sends a message that names the first value that is not finite.
+template <class T>
+FrothResult checkFinite(const Messages& messages, const char* call, const char* field,
+                        std::span<const T> values) {
+  const auto bad = std::find_if(values.begin(), values.end(), [](T value) { return !std::isfinite(value); });
+  if (bad == values.end()) {
+    return FROTH_OK;
   }
-  if (!isOrthonormal(camera.viewFromWorld)) {
+  return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera.%s: element %td is %g; must be finite", field,
+                       bad - values.begin(), double{*bad});
+}
+
+FrothResult checkRotation(const Messages& messages, const char* call, const float (&m)[9]) {
+  if (!isOrthonormal(m)) {
     return messages.fail(
         FROTH_ERROR_ARGUMENT, call,
         "camera.viewFromWorld: not a rotation within %g; normalize it, and keep scale out of it",
         kOrthonormalTolerance);
+  }
+  const double columns[3][4] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
+  if (determinantOf(columns) < 0) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "camera.viewFromWorld: a reflection; put the flip of an axis into clipFromView");
+  }
+  return FROTH_OK;
+}
+
+FrothResult checkCamera(const Messages& messages, const char* call, const FrothCamera& camera) {
+  const VkViewport& viewport = camera.viewport;
+  const float viewportValues[] = {viewport.x, viewport.y, viewport.width, viewport.height};
+  FrothResult result = checkFinite<double>(messages, call, "eye", camera.eye);
+  const auto check = [&](const char* field, std::span<const float> values) {
+    result = result == FROTH_OK ? checkFinite(messages, call, field, values) : result;
+  };
+  check("viewFromWorld", camera.viewFromWorld);
+  check("clipFromView", camera.clipFromView);
+  check("jitter", camera.jitter);
+  check("viewport", viewportValues);
+  if (result == FROTH_OK) {
+    result = checkRotation(messages, call, camera.viewFromWorld);
+  }
+  if (result != FROTH_OK) {
+    return result;
   }
   if (viewport.width <= 0 || viewport.height == 0) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call,
@@ -118,7 +147,8 @@ VkRect2D drawnRectangle(const FrothCamera& camera) {
 }
 
 FrothResult checkImage(const Messages& messages, const char* call, const char* name, const FrothImage& image,
-                       std::initializer_list<VkFormat> formats, const VkRect2D& drawn) {
+                       std::initializer_list<VkFormat> formats, const char* formatNames,
+                       const VkRect2D& drawn) {
   if (!image.image) {
     return FROTH_OK;
   }
@@ -127,9 +157,8 @@ FrothResult checkImage(const Messages& messages, const char* call, const char* n
                          name);
   }
   if (std::find(formats.begin(), formats.end(), image.format) == formats.end()) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                         "%s.format: VkFormat %d; the header lists the formats of this image", name,
-                         image.format);
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s.format: VkFormat %d; must be %s", name, image.format,
+                         formatNames);
   }
   if (image.layoutOut == VK_IMAGE_LAYOUT_UNDEFINED || image.layoutOut == VK_IMAGE_LAYOUT_PREINITIALIZED) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call,
@@ -154,7 +183,7 @@ FrothResult checkDrawn(const Messages& messages, const char* call, VkExtent2D ma
     return messages.fail(
         FROTH_ERROR_ARGUMENT, call,
         "camera: viewport and scissor leave %u x %u pixels at (%d, %d); at least one at an offset >= 0 is "
-        "needed",
+        "needed; cut what lies outside of the images with the scissor",
         drawn.extent.width, drawn.extent.height, drawn.offset.x, drawn.offset.y);
   }
   if (drawn.extent.width > maxExtent.width || drawn.extent.height > maxExtent.height) {
@@ -201,12 +230,15 @@ FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExte
   }
   info.camera.scissor = drawn;
   FrothResult result = checkImage(messages, call, "colour", info.colour,
-                                  {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}, drawn);
+                                  {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT},
+                                  "R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT", drawn);
   if (result == FROTH_OK) {
-    result = checkImage(messages, call, "distance", info.distance, {VK_FORMAT_R32_SFLOAT}, drawn);
+    result =
+        checkImage(messages, call, "distance", info.distance, {VK_FORMAT_R32_SFLOAT}, "R32_SFLOAT", drawn);
   }
   if (result == FROTH_OK) {
-    result = checkImage(messages, call, "normal", info.normal, {VK_FORMAT_R16G16B16A16_SFLOAT}, drawn);
+    result = checkImage(messages, call, "normal", info.normal, {VK_FORMAT_R16G16B16A16_SFLOAT},
+                        "R16G16B16A16_SFLOAT", drawn);
   }
   if (result != FROTH_OK) {
     return result;

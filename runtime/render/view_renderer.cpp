@@ -82,13 +82,15 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExt
   return renderer;
 }
 
-Status ViewRenderer::prepare(uint64_t, uint64_t completedSerial, const GpuAsset* asset) {
+Status ViewRenderer::prepare(uint64_t completedSerial, const GpuAsset* asset) {
   ViewState& view = *state_;
   readBack(view, completedSerial);
   view.buffers.freeRetired(completedSerial);
-  if (view.slots[view.slot].recordings != 0) {
-    view.slot = (view.slot + 1) % static_cast<uint32_t>(view.slots.size());
-    view.slots[view.slot] = {};
+  if (view.slots[view.slot].recordings != 0) {  // frames can be dropped in any order, so any slot may be free
+    const auto free = std::find_if(view.slots.begin(), view.slots.end(),
+                                   [&](const FrameSlot& slot) { return slot.serial <= completedSerial; });
+    *free = {};
+    view.slot = static_cast<uint32_t>(free - view.slots.begin());
   }
 
   ViewCapacity wanted = view.buffers.capacity();

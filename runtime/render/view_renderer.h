@@ -33,7 +33,7 @@ class ViewRenderer {
   // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `asset` (may be
   // null) and for the overflows seen; replaced buffers are freed once `completedSerial` has passed their last
   // use.
-  Status prepare(uint64_t serial, uint64_t completedSerial, const GpuAsset* asset);
+  Status prepare(uint64_t completedSerial, const GpuAsset* asset);
 
   // Between frothUpdate calls; `serial` is that of the frame. Both may be called once per frame.
   // info has been checked and its defaults resolved: camera.scissor is what is drawn, not empty, within

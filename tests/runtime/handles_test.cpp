@@ -25,6 +25,16 @@ TEST_F(Handles, OfZeroAreNull) {
   EXPECT_EQ(frothGetAssetStatus(context_, FrothAsset{}, &status), FROTH_ERROR_HANDLE);
 }
 
+TEST_F(Handles, AreNullAfterACallThatFailed) {
+  auto info = makeStruct<FrothViewInfo>();  // no extent
+  FrothView view{7, 7};
+  EXPECT_EQ(frothCreateView(context_, &info, &view), FROTH_ERROR_ARGUMENT);
+  EXPECT_EQ(view.generation, 0u);
+  FrothInstance instance{7, 7};
+  EXPECT_EQ(frothCreateInstance(context_, nullptr, &instance), FROTH_ERROR_ARGUMENT);
+  EXPECT_EQ(instance.generation, 0u);
+}
+
 TEST_F(Handles, OfAClosedAssetStayStaleWhenItsPlaceIsTakenAgain) {
   const FrothAsset first = openBytes(bytes_);
   ASSERT_EQ(frothCloseAsset(context_, first), FROTH_OK);

@@ -59,15 +59,30 @@ TEST_F(RecordCall, AcceptsReversedOffCentreObliqueAndFlippedProjections) {
 
 TEST_F(RecordCall, RefusesValuesThatAreNotFinite) {
   info_.camera.eye[2] = std::numeric_limits<double>::quiet_NaN();
-  expectResult(FROTH_ERROR_ARGUMENT, "not finite");
+  expectResult(FROTH_ERROR_ARGUMENT, "camera.eye: element 2 is nan");
   info_.camera.eye[2] = 0;
   info_.camera.jitter[0] = std::numeric_limits<float>::infinity();
-  expectResult(FROTH_ERROR_ARGUMENT, "not finite");
+  expectResult(FROTH_ERROR_ARGUMENT, "camera.jitter: element 0 is inf");
 }
 
 TEST_F(RecordCall, RefusesARotationWithScale) {
   info_.camera.viewFromWorld[0] = 1.01f;
   expectResult(FROTH_ERROR_ARGUMENT, "viewFromWorld: not a rotation");
+}
+
+TEST_F(RecordCall, RefusesAReflection) {
+  info_.camera.viewFromWorld[4] = -1;
+  expectResult(FROTH_ERROR_ARGUMENT, "viewFromWorld: a reflection");
+  info_.camera.viewFromWorld[0] = -1;  // both: half a turn
+  expectResult(FROTH_OK, "");
+}
+
+TEST_F(RecordCall, RefusesToDrawBeforeTheFirstFrame) {
+  frothDestroyContext(context_);
+  createContext();
+  view_ = createView({64, 64});
+  EXPECT_EQ(frothRasterize(context_, view_, nullptr, &info_), FROTH_ERROR_STATE);
+  EXPECT_EQ(lastText(), "no frame; call frothUpdate first");
 }
 
 TEST_F(RecordCall, RefusesAnOrthographicProjectionAsUnsupported) {
@@ -78,6 +93,8 @@ TEST_F(RecordCall, RefusesAnOrthographicProjectionAsUnsupported) {
 
 TEST_F(RecordCall, RefusesAProjectionWithoutRays) {
   info_.camera.clipFromView[5] = 0;
+  expectResult(FROTH_ERROR_ARGUMENT, "determinant 0");
+  std::fill_n(info_.camera.clipFromView, 16, 0.0f);
   expectResult(FROTH_ERROR_ARGUMENT, "determinant 0");
 }
 
@@ -105,7 +122,8 @@ TEST_F(RecordCall, RefusesWhatDoesNotFitTheImageOrTheView) {
 
 TEST_F(RecordCall, RefusesImagesOfOtherFormats) {
   info_.colour.format = VK_FORMAT_R8G8B8A8_UNORM;
-  expectResult(FROTH_ERROR_ARGUMENT, "colour.format: VkFormat 37");
+  expectResult(FROTH_ERROR_ARGUMENT,
+               "colour.format: VkFormat 37; must be R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT");
   info_.colour.format = VK_FORMAT_R32G32B32A32_SFLOAT;
   info_.distance = info_.colour;
   expectResult(FROTH_ERROR_ARGUMENT, "distance.format");
@@ -254,6 +272,39 @@ TEST_F(RecordCallOnDevice, OfADroppedFrameIsNeverReadBack) {
   auto viewStatus = makeStruct<FrothViewStatus>();
   ASSERT_EQ(frothGetViewStatus(context_, view_, &viewStatus), FROTH_OK);
   EXPECT_EQ(viewStatus.serial, drawnSerial);
+}
+
+TEST_F(RecordCallOnDevice, AFrameDroppedAmongOthersLeavesTheirCountsAlone) {
+  frothDestroyContext(context_);
+  FrothContextInfo contextInfo = host_->contextInfo();
+  contextInfo.framesInFlight = 3;
+  createContext(contextInfo);
+  view_ = createView({16, 16});
+  const FrothRenderInfo info = renderInfo();
+  const auto beginFrame = [&](uint64_t serial, uint64_t completedSerial) {
+    auto frame = makeStruct<FrothFrame>();
+    frame.serial = serial;
+    frame.completedSerial = completedSerial;
+    ASSERT_EQ(frothUpdate(context_, &frame, nullptr), FROTH_OK) << lastText();
+  };
+  const auto record = [&] {
+    const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) {
+      EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_OK) << lastText();
+      return Status();
+    });
+    ASSERT_TRUE(status) << status.error().message;
+  };
+  for (const uint64_t serial : {1, 2, 3}) {
+    beginFrame(serial, 0);
+    record();
+  }
+  ASSERT_EQ(frothDropFrame(context_, 2), FROTH_OK);
+  beginFrame(4, 0);  // frame 1 is still in flight: frame 4 must not take its place
+  record();
+  beginFrame(5, 1);
+  auto status = makeStruct<FrothViewStatus>();
+  ASSERT_EQ(frothGetViewStatus(context_, view_, &status), FROTH_OK);
+  EXPECT_EQ(status.serial, 1u);
 }
 
 TEST_F(RecordCallOnDevice, SurvivesClosingAndDestroyingWhatTheFrameUses) {

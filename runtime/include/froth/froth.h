@@ -180,7 +180,6 @@ typedef struct FrothInstanceInfo {
   double position[3]; /* of the asset's origin in the world */
   float rotation[4];  /* unit quaternion (x, y, z, w), world from asset; all zero: identity */
   float scale;        /* uniform, > 0; 0: 1 */
-  uint32_t userId;
 } FrothInstanceInfo;
 
 FROTH_API FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info, FrothInstance* instance);
