@@ -221,8 +221,9 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   auto view = std::make_unique<View>();
   view->maxExtent = extent;
   if (!isNull()) {
+    const bool canMeasure = device_.properties.limits.timestampComputeAndGraphics;
     Result<std::unique_ptr<ViewRenderer>> renderer =
-        ViewRenderer::create(device_, extent, info.measurePasses != 0, framesInFlight_);
+        ViewRenderer::create(device_, extent, info.measurePasses != 0 && canMeasure, framesInFlight_);
     if (!renderer) {
       return messages.fail(FROTH_ERROR_MEMORY, "frothCreateView", "%s", renderer.error().message.c_str());
     }

@@ -84,7 +84,7 @@ void Context::prepareView(View& view) {
     view.preparationError.clear();
     return;
   }
-  view.preparedFor = nullptr;
+  // The view keeps the buffers it had: it goes on drawing what they hold.
   if (view.preparationError != status.error().message) {  // once, not in every frame
     view.preparationError = status.error().message;
     messages.fail(FROTH_ERROR_MEMORY, "view", "%s", view.preparationError.c_str());

@@ -32,7 +32,7 @@ class ViewRenderer {
 
   // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `asset` (may be
   // null) and for the overflows seen; replaced buffers are freed once `completedSerial` has passed their last
-  // use.
+  // use. On an error the buffers are as before; recording goes on with them, if they cover the asset.
   Status prepare(uint64_t completedSerial, const GpuAsset* asset);
 
   // Between frothUpdate calls; `serial` is that of the frame. Both may be called once per frame.

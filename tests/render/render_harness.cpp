@@ -65,7 +65,7 @@ FrothContext* sharedContext() {
   return context;
 }
 
-Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent) : context_(sharedContext()) {
+Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context) : context_(context) {
   Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
   EXPECT_TRUE(bytes) << bytes.error().message;
   bytes_ = std::move(*bytes);

@@ -186,14 +186,22 @@ TEST(Scenes, HalfFloatColourIsTheFloatColourRounded) {
   }
 }
 
-// 120 balls around the eye cover all 143 tiles: more pairs than a view starts with.
-TEST(Scenes, PairsBeyondTheSpaceAreReportedAndTheNextFrameIsWhole) {
+// 120 balls around the eye cover all 143 tiles of widePairView(): more pairs than a view starts with.
+Foam makeFoamOfManyPairs() {
   Foam foam = makeRandomFoam(120, 1, 1, 9);
   for (glm::vec3& site : foam.sites) site -= glm::vec3(0, 0, 3);
   foam.radii.assign(foam.cellCount, 10.0f);
   foam.densities.assign(foam.cellCount, 100.0f);
-  const View view = lookAt({0, 0, 0}, {0, 0, 1}, 416, 352, 1);
-  Stage stage(bakeForTest(foam), {view.width, view.height});
+  return foam;
+}
+
+View widePairView() {
+  return lookAt({0, 0, 0}, {0, 0, 1}, 416, 352, 1);
+}
+
+TEST(Scenes, PairsBeyondTheSpaceAreReportedAndTheNextFrameIsWhole) {
+  const View view = widePairView();
+  Stage stage(bakeForTest(makeFoamOfManyPairs()), {view.width, view.height});
   const Frame first = stage.draw(Method::kRaster, view);
   EXPECT_EQ(first.status.bits, uint32_t{FROTH_VIEW_PAIR_OVERFLOW});
   EXPECT_EQ(first.status.pairs, uint64_t{120} * 13 * 11);
@@ -201,6 +209,51 @@ TEST(Scenes, PairsBeyondTheSpaceAreReportedAndTheNextFrameIsWhole) {
   EXPECT_EQ(second.status.bits, 0u);
   EXPECT_EQ(second.status.pairs, first.status.pairs);
   expectWalkAgrees(stage.draw(Method::kWalk, view), second);
+}
+
+// Without messages: a view that meets the budget sends one.
+FrothContext* createContextOfBudget(uint64_t deviceBudget) {
+  FrothContextInfo info = sharedHost().contextInfo();
+  info.deviceBudget = deviceBudget;
+  FrothContext* context = nullptr;
+  EXPECT_EQ(frothCreateContext(&info, &context), FROTH_OK);
+  return context;
+}
+
+uint64_t deviceBytesOf(FrothContext* context) {
+  FrothFrameStatus status{};
+  status.structSize = sizeof(status);
+  const Status submitted = sharedHost().submit([&](VkCommandBuffer, uint64_t serial) {
+    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0};
+    EXPECT_EQ(frothUpdate(context, &frame, &status), FROTH_OK);
+    return Status();
+  });
+  EXPECT_TRUE(submitted);
+  return status.deviceBytes;
+}
+
+TEST(Scenes, AViewThatTheBudgetKeepsFromGrowingGoesOnDrawingWhatItHolds) {
+  const AssetContents contents = bakeForTest(makeFoamOfManyPairs());
+  const View view = widePairView();
+  const VkExtent2D extent{view.width, view.height};
+  FrothContext* free = createContextOfBudget(0);
+  uint64_t startBytes = 0;
+  {
+    Stage stage(contents, extent, free);
+    startBytes = deviceBytesOf(free);
+  }
+  frothDestroyContext(free);
+
+  constexpr uint64_t kSlack = 64 << 10;  // enough to start, too little for the pairs
+  FrothContext* limited = createContextOfBudget(startBytes + kSlack);
+  {
+    Stage stage(contents, extent, limited);
+    const Frame first = stage.draw(Method::kRaster, view);
+    const Frame second = stage.draw(Method::kRaster, view);
+    EXPECT_EQ(second.status.bits, uint32_t{FROTH_VIEW_PAIR_OVERFLOW});
+    EXPECT_EQ(second.colour.values, first.colour.values);
+  }
+  frothDestroyContext(limited);
 }
 
 }  // namespace

@@ -103,23 +103,24 @@ typedef struct FrothContextInfo {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr;
   VkInstance instance;
   VkPhysicalDevice physicalDevice;
-  VkDevice device;                                 /* null: null context; handles and states work, record calls do nothing */
-  const VkPhysicalDeviceFeatures2* enabledFeatures; /* the chain the device was made with */
+  VkDevice device;                /* null: null context; handles and states work, record calls do nothing */
+  const VkPhysicalDeviceFeatures2* enabledFeatures; /* the chain the device was made with; read during the call */
   uint32_t queueFamily;           /* the compute-capable family that frames are submitted to */
-  VkPipelineCache pipelineCache;  /* may be null */
-  uint32_t framesInFlight;        /* [1..8]; 0: 2 */
-  uint64_t deviceBudget;          /* [bytes] of device memory for everything; 0: no limit */
+  VkPipelineCache pipelineCache;  /* may be null; used until the context is destroyed */
+  uint32_t framesInFlight;        /* most frames begun and not complete, with the one being recorded [1..8]; 0: 2 */
+  uint64_t deviceBudget;          /* [bytes] of device memory for all assets and views, hard; 0: no limit */
   FrothMessageCallback onMessage; /* may be null */
   void* messageUser;
   uint32_t checkIndices;          /* debug: shaders check every index; counted in FrothViewStatus::indexViolations */
 } FrothContextInfo;
 
+/* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */
 FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
 
 /* The caller has made sure that the device is done with all frames that used it (vkDeviceWaitIdle). */
 FROTH_API void frothDestroyContext(FrothContext* context);
 
-/* Handles are an index and a generation; {0, 0} is null. */
+/* Handles are an index and a generation; {0, 0} is null, and what a call that failed gives. */
 typedef struct FrothAsset { uint32_t index, generation; } FrothAsset;
 typedef struct FrothInstance { uint32_t index, generation; } FrothInstance;
 typedef struct FrothView { uint32_t index, generation; } FrothView;
@@ -136,7 +137,7 @@ typedef enum FrothAssetState {
 
 typedef struct FrothAssetInfo {
   uint32_t structSize;
-  const char* path; /* a .froth file; or null, and the bytes: */
+  const char* path; /* a .froth file, copied; or null, and the bytes: */
   const void* data; /* the caller keeps them until the asset is READY or FAILED */
   uint64_t dataSize;
 } FrothAssetInfo;
@@ -166,7 +167,7 @@ typedef struct FrothAssetStatus {
  * it FAILED, with one message; the frames go on. */
 FROTH_API FrothResult frothOpenAsset(FrothContext* context, const FrothAssetInfo* info, FrothAsset* asset);
 FROTH_API FrothResult frothGetAssetStatus(FrothContext* context, FrothAsset asset, FrothAssetStatus* status);
-/* Copies up to `capacity` key frames; *count gets how many. */
+/* Copies up to `capacity` key frames; *count gets how many there are. capacity 0: cameras may be null. */
 FROTH_API FrothResult frothGetFlightPath(FrothContext* context, FrothAsset asset, uint32_t capacity,
                                          FrothStoredCamera* cameras, uint32_t* count);
 /* Returns at once; memory comes back when the last frame that used it is complete. Its instances must be gone. */
@@ -174,6 +175,7 @@ FROTH_API FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset);
 
 /* ---- Instances ---- */
 
+/* Read when a view is drawn. This version draws one: a record call with several READY gives FROTH_ERROR_UNSUPPORTED. */
 typedef struct FrothInstanceInfo {
   uint32_t structSize;
   FrothAsset asset;
@@ -190,11 +192,12 @@ FROTH_API FrothResult frothDestroyInstance(FrothContext* context, FrothInstance 
 
 typedef struct FrothViewInfo {
   uint32_t structSize;
-  VkExtent2D maxExtent;     /* <= 16384 x 16384; no allocation below it */
+  VkExtent2D maxExtent;     /* <= 16384 x 16384; largest area that a camera draws; smaller ones allocate nothing */
   uint32_t measurePasses;   /* 1: timestamps by pass, read back later without waiting */
 } FrothViewInfo;
 
 FROTH_API FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view);
+/* Returns at once; memory comes back when the last frame that used it is complete. */
 FROTH_API FrothResult frothDestroyView(FrothContext* context, FrothView view);
 
 /* Limits that a frame hit. The image is valid and incomplete; the next frothUpdate grows what the bit names. */
@@ -202,7 +205,8 @@ typedef enum FrothViewBit {
   FROTH_VIEW_PAIR_OVERFLOW = 1,  /* more (tile, cell) pairs than space; the farthest cells are missing */
   FROTH_VIEW_STEP_LIMIT = 2,     /* walks ended by FrothRenderInfo::maxSteps */
   FROTH_VIEW_NO_WALK_GRAPH = 4,  /* the asset was baked without one */
-  FROTH_VIEW_NOT_READY = 8,      /* an instance's asset is not READY; it was left out */
+  FROTH_VIEW_NOT_READY = 8,      /* an instance was left out: its asset is OPENING or FAILED, it or the view came after
+                                    frothUpdate, or the view's buffers did not fit the budget (a message told) */
   FROTH_VIEW_BIT_MAX = 0x7fffffff
 } FrothViewBit;
 
@@ -244,7 +248,8 @@ typedef struct FrothFrameStatus {
   uint64_t hostBytes;        /* staging and read-back */
 } FrothFrameStatus;
 
-/* CPU only: retires what is complete, loads assets, grows buffers. Never records, never waits for the GPU. status may be null. */
+/* Begins a frame, which the caller submits or drops. CPU only: retires what is complete, loads assets, grows buffers. Never
+ * records, never waits for the GPU. What is created after it is drawn from the next frame on. status may be null. */
 FROTH_API FrothResult frothUpdate(FrothContext* context, const FrothFrame* frame, FrothFrameStatus* status);
 
 /* Records the copies of this frame; outside a render pass. */
@@ -268,11 +273,11 @@ typedef struct FrothImage {
 
 typedef struct FrothCamera {
   double eye[3];          /* in the world */
-  float viewFromWorld[9]; /* rotation, column-major */
+  float viewFromWorld[9]; /* rotation, column-major; the view's axes are those that clipFromView takes */
   float clipFromView[16]; /* unjittered; any perspective projection: reversed, infinite, off-centre, oblique */
   float jitter[2];        /* [pixels], +x right, +y down */
   VkViewport viewport;    /* negative height too */
-  VkRect2D scissor;       /* zero: the whole viewport */
+  VkRect2D scissor;       /* zero: the whole viewport. What is left must lie in the images and fit maxExtent */
 } FrothCamera;
 
 /* Marks "take the asset's default" in the two near limits. */
@@ -282,23 +287,24 @@ typedef struct FrothRenderInfo {
   uint32_t structSize;
   FrothCamera camera;
   float cutoff;        /* a ray ends when its transmittance falls below; 0: 1e-3; negative: never */
-  float nearRatio;     /* skips cells with |p - eye| < nearRatio * r; 0: off; FROTH_NEAR_DEFAULT */
-  float nearDepth;     /* skips cells with forward . (p - eye) < nearDepth [scene units]; 0: off; FROTH_NEAR_DEFAULT */
+  float nearRatio;     /* skips cells with |p - eye| < nearRatio * r; 0: off; usually FROTH_NEAR_DEFAULT */
+  float nearDepth;     /* skips cells with forward . (p - eye) < nearDepth [world units]; 0: off; FROTH_NEAR_DEFAULT */
   float depthQuantile; /* 0: one half */
   uint32_t maxSteps;   /* of one walk; 0: 65536 */
   uint32_t displayCoded; /* 1: colour stays display-coded (for files); 0: linear */
 
   FrothImage colour;   /* R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: premultiplied colour, alpha = 1 - T */
-  FrothImage distance; /* R32_SFLOAT: distance along the ray where T falls below depthQuantile [scene units]; +inf: never */
+  FrothImage distance; /* R32_SFLOAT: distance along the ray where T falls below depthQuantile [world units]; +inf: never */
   FrothImage normal;   /* R16G16B16A16_SFLOAT: sum of T alpha n in world axes, not normalized; w = 0 */
 } FrothRenderInfo;
 
-/* Primary visibility of all instances by sorted rasterization. On exit compute pipeline, sets and push constants are undefined,
- * graphics state is untouched. FROTH_INCOMPLETE: recorded, but something was left out (the returned frame's status bits say what). */
+/* Primary visibility by sorted rasterization. Outside a render pass; once per view and frame. On exit compute pipeline, sets
+ * and push constants are undefined, graphics state is untouched. FROTH_INCOMPLETE: recorded, but something was left out, and
+ * without any instance the images are cleared (FrothViewStatus::bits of this frame will say why). */
 FROTH_API FrothResult frothRasterize(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
                                      const FrothRenderInfo* info);
 
-/* The same image by walking every pixel's ray from cell to cell through the regular triangulation. */
+/* The same image by walking every pixel's ray from cell to cell through the regular triangulation, under the same rules. */
 FROTH_API FrothResult frothWalk(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
                                 const FrothRenderInfo* info);
 
