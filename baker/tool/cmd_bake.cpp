@@ -1,5 +1,6 @@
 // froth bake: a trained foam becomes an asset.
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -11,6 +12,8 @@
 #include "baker/tool/commands.h"
 #include "baker/tool/figures.h"
 #include "baker/tool/foam_input.h"
+#include "baker/tool/option_checks.h"
+#include "baker/tool/output_file.h"
 #include "baker/tool/statistics.h"
 #include "format/asset_writer.h"
 #include "format/atomic_file.h"
@@ -110,6 +113,7 @@ Status checkAndRunBake(BakeCommandOptions& options, const Progress& progress) {
     return makeError(ErrorKind::kUsage, "%s is an asset already; bake the checkpoint that it came from",
                      options.input.c_str());
   }
+  if (Status writable = checkWritable(options.output); !writable) return writable;
   return runBake(options, progress);
 }
 
@@ -123,13 +127,17 @@ void addBakeCommand(CLI::App& program, Tool& tool) {
   command->add_option("--preset", options->bake.preset, "How exactly values are kept")
       ->capture_default_str()
       ->check(CLI::IsMember({"exact"}));
+  const CLI::Validator limits = numberBetween(0, std::numeric_limits<float>::max());
   command
-      ->add_option("--near-ratio", options->bake.nearRatio, "Default: skip cells nearer than this many radii")
+      ->add_option("--near-ratio", options->bake.nearRatio,
+                   "Default: skip cells nearer than this many radii; 0: none")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--near-depth", options->bake.nearDepth, "Default: skip cells nearer than this depth")
+      ->check(limits);
+  command
+      ->add_option("--near-depth", options->bake.nearDepth,
+                   "Default: skip cells nearer than this depth [scene units]; 0: none")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(limits);
   command->add_option("--cameras", options->cameras, "Start view and flight path to store (cameras.json)");
   addFiguresOption(*command, options->figures);
   command->callback([&tool, options] {

@@ -12,6 +12,7 @@
 #include "baker/tool/figures.h"
 #include "baker/tool/foam_input.h"
 #include "baker/tool/gpu_renderer.h"
+#include "baker/tool/option_checks.h"
 #include "baker/tool/view_selection.h"
 
 namespace froth {
@@ -192,14 +193,14 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
       ->check(CLI::IsMember({"raster", "walk"}));
   command->add_option("--cutoff", options->cutoff, "A ray ends below this transmittance")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(numberBetween(0, 1));
   command->add_option("--frames", options->frames, "Measured frames, cycling through the views")
       ->capture_default_str()
-      ->check(CLI::Range(100, 1000000));
+      ->check(countBetween(100, 1000000));
   command
       ->add_option("--warmup", options->warmupSeconds, "Seconds of drawing before the first measured frame")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(numberBetween(0, 3600));
   command->add_option("--device", options->device, "Index or part of a name (`froth devices`)");
   addFiguresOption(*command, options->figures);
   command->callback([&tool, options] {

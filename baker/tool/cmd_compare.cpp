@@ -31,7 +31,10 @@ Result<ImageDifference> compareFiles(const CompareOptions& options) {
   if (!shaped) return shaped.error();
   const Result<Image> other = readImage(isSwapped ? options.a : options.b, &*shaped);
   if (!other) return other.error();
-  return compareImages(*shaped, *other);
+  Result<ImageDifference> difference = compareImages(*shaped, *other);
+  if (difference) return difference;
+  return makeError(difference.error().kind, "%s and %s: %s", options.a.c_str(), options.b.c_str(),
+                   difference.error().message.c_str());
 }
 
 Status runCompare(const CompareOptions& options) {
@@ -60,7 +63,7 @@ Status runCompare(const CompareOptions& options) {
 
 void addCompareCommand(CLI::App& program, Tool& tool) {
   CLI::App* command =
-      program.add_subcommand("compare", "Difference of two images: PSNR, SSIM, largest error");
+      program.add_subcommand("compare", "Difference of two images; PSNR and SSIM of values clamped to 0..1");
   auto options = std::make_shared<CompareOptions>();
   command->add_option("A", options->a, "pfm, png, jpg, or raw f16 with the size of B")->required();
   command->add_option("B", options->b, "pfm, png, jpg, or raw f16 with the size of A")->required();

@@ -12,6 +12,7 @@
 #include "baker/tool/figures.h"
 #include "baker/tool/foam_input.h"
 #include "baker/tool/gpu_renderer.h"
+#include "baker/tool/option_checks.h"
 #include "baker/tool/view_selection.h"
 #include "shaders/foam/colour.h"
 
@@ -201,7 +202,7 @@ void addRenderCommand(CLI::App& program, Tool& tool) {
   command
       ->add_option("--cutoff", options->cutoff,
                    "A ray ends below this transmittance; default 1e-3, reference 0")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(numberBetween(0, 1));
   command->add_option("--channel", options->channel, "What to write")
       ->capture_default_str()
       ->check(CLI::IsMember({"colour", "alpha", "depth", "normal"}));

@@ -1,4 +1,5 @@
 // froth synth: foams made procedurally, the gallery's ray-traced truth, and tilings for scale.
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -9,6 +10,8 @@
 #include "baker/synth/synth.h"
 #include "baker/tool/commands.h"
 #include "baker/tool/foam_input.h"
+#include "baker/tool/option_checks.h"
+#include "baker/tool/output_file.h"
 #include "baker/tool/view_selection.h"
 #include "format/asset_writer.h"
 
@@ -109,8 +112,9 @@ Status checkOptions(const CLI::App& command, const SynthCommandOptions& options)
 
 Status runSynth(const CLI::App& command, const SynthCommandOptions& options, const Progress& progress) {
   if (Status good = checkOptions(command, options); !good) return good;
-  if (options.synth.name == kTile) return runTile(options, progress);
   if (!options.views.cameras.empty()) return runTruth(options, progress);
+  if (Status writable = checkWritable(options.output); !writable) return writable;
+  if (options.synth.name == kTile) return runTile(options, progress);
   return runNamedScene(options, progress);
 }
 
@@ -126,15 +130,17 @@ void addSynthCommand(CLI::App& program, Tool& tool) {
       ->check(CLI::IsMember(names));
   command->add_option("-o,--output", options->output, "Checkpoint to write; a folder or image for --truth")
       ->required();
-  command->add_option("--cells", options->synth.cellCount, "Cells to make; 0: as many as suit the scene");
+  command->add_option("--cells", options->synth.cellCount, "Cells to make; 0: as many as suit the scene")
+      ->check(countBetween(0, std::numeric_limits<uint32_t>::max()));
   command->add_option("--seed", options->synth.seed, "Seed of what is random")->capture_default_str();
   command->add_option("--of", options->tileSource, "tile: the checkpoint or asset to copy");
-  command->add_option("--count", options->tileCount, "tile: number of copies")->check(CLI::PositiveNumber);
+  command->add_option("--count", options->tileCount, "tile: number of copies")
+      ->check(countBetween(1, std::numeric_limits<uint32_t>::max()));
   command->add_option("--truth", options->views.cameras,
                       "gallery: ray trace the scene itself for these cameras");
   command->add_option("--samples", options->samples, "Samples per pixel of the truth")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(countBetween(1, std::numeric_limits<uint32_t>::max()));
   addViewOptions(*command, options->views);
   command->callback([&tool, command, options] {
     tool.action = [&tool, command, options] {

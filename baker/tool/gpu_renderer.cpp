@@ -109,8 +109,8 @@ GpuRenderer::State::~State() {
 }
 
 Error GpuRenderer::State::error(FrothResult result, const char* call) const {
-  const std::string& cause = lastMessage.empty() ? std::string(call) + " failed" : lastMessage;
-  return makeError(errorKindOf(result), "%s (%s)", cause.c_str(), frothResultName(result));
+  if (!lastMessage.empty()) return makeError(errorKindOf(result), "%s", lastMessage.c_str());
+  return makeError(errorKindOf(result), "%s gives %s", call, frothResultName(result));
 }
 
 Status GpuRenderer::State::check(FrothResult result, const char* call) const {

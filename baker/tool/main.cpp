@@ -1,5 +1,7 @@
 // The program `froth`: parses arguments, runs one command, turns its error into a message and an exit code.
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -11,6 +13,11 @@ namespace {
 int runAction(froth::Tool& tool) {
   const froth::Status status = tool.action();
   tool.progress.finishLine();
+  if (status && std::fflush(stdout) != 0) {
+    std::fprintf(stderr, "froth: standard output: cannot be written: %s; figures are missing\n",
+                 std::strerror(errno));
+    return froth::kExitFailed;
+  }
   if (status) return froth::kExitWell;
   std::fprintf(stderr, "froth: %s\n", status.error().message.c_str());
   return froth::exitCodeOf(status.error().kind);
@@ -53,7 +60,7 @@ int main(int argc, char** argv) {
   try {
     return runAction(tool);
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "froth: out of memory\n");
+    std::fprintf(stderr, "froth: out of memory; work on fewer cells or pixels, or on a machine with more\n");
   } catch (const std::exception& error) {  // third-party code that throws; Froth itself returns its errors
     std::fprintf(stderr, "froth: internal error: %s\n", error.what());
   }

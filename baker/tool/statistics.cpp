@@ -63,6 +63,8 @@ nlohmann::ordered_json statisticsAsJson(const AssetContents& contents) {
           {"deadCells", bake.deadCells},
           {"walkPairs", bake.walkPairs},
           {"alphaPairs", bake.alphaPairs},
+          {"walkDegree", meanDegree(bake.walkPairs, counts.cells)},
+          {"alphaDegree", meanDegree(bake.alphaPairs, counts.live)},
           {"nearRatio", contents.nearRatio},
           {"nearDepth", contents.nearDepth},
           {"detailSharpness", contents.detailSharpness},

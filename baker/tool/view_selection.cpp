@@ -1,9 +1,12 @@
 #include "baker/tool/view_selection.h"
 
 #include <charconv>
+#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
+
+#include "baker/tool/option_checks.h"
 
 namespace froth {
 namespace {
@@ -39,7 +42,9 @@ bool isImagePath(const std::filesystem::path& path) {
 }  // namespace
 
 void addViewOptions(CLI::App& command, ViewOptions& options) {
-  command.add_option("--view", options.view, "Index of one view; without it all of them")->type_name("I");
+  command.add_option("--view", options.view, "Index of one view, from 0; without it all of them")
+      ->type_name("I")
+      ->check(countBetween(0, std::numeric_limits<uint32_t>::max()));
   command.add_option("--size", options.size, "Size of the images instead of the view's own")
       ->type_name("WxH")
       ->check(CLI::Validator(checkSize, ""));

@@ -145,7 +145,15 @@ TEST_F(BadInput, CamerasThatAreNoJson) {
 TEST_F(BadInput, ImagesOfDifferentSizes) {
   writeBytes(folder_ / "a.pfm", "Pf\n1 1\n-1\n" + packNumber(0.5f));
   writeBytes(folder_ / "b.pfm", "Pf\n2 1\n-1\n" + packNumbers<float>({0.5f, 0.5f}));
-  expectRefusal({"compare", "a.pfm", "b.pfm"}, "1", {"2"});
+  expectRefusal({"compare", "a.pfm", "b.pfm"}, "a.pfm and b.pfm", {"1 x 1", "2 x 1"});
+}
+
+TEST_F(BadInput, AnAssetOnTheDeviceIsNamedOnce) {
+  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  makeRandomFoam("12");
+  writeBytes(folder_ / "bad.froth", readBytes(folder_ / "random.froth").substr(0, 200));
+  expectRefusal({"render", "bad.froth", "--cameras", "cameras.json", "--renderer", "raster", "-o", "out"},
+                "froth: bad.froth: 200 bytes", {});
 }
 
 TEST_F(BadInput, FilesFoundInTheWild) {

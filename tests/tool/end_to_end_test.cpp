@@ -103,6 +103,16 @@ TEST_F(EndToEnd, LinearColourOfRuntimeAndReferenceAgree) {
   EXPECT_GE(psnr("reference.pfm", "raster.pfm"), 60);
 }
 
+TEST_F(EndToEnd, AnImageBeyondWhatDevicesAllowIsRefused) {
+  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  makeRandomFoam("12");
+  const ProgramRun run = froth({"render", "random.froth", "--cameras", "cameras.json", "--view", "0",
+                                "--size", "16384x16384", "--renderer", "raster", "-o", "a.pfm"});
+  EXPECT_EQ(run.exitCode, 1);
+  EXPECT_NE(run.err.find("16384 x 16384"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.pfm"));
+}
+
 TEST_F(EndToEnd, DepthThatIsNeverReachedIsMinusOne) {
   if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("60");

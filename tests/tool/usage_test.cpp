@@ -47,6 +47,23 @@ TEST_F(Usage, ASizeMustBeTwoNumbers) {
   }
 }
 
+TEST_F(Usage, NumbersOutOfRangeAreNamedWithWhatToGive) {
+  const std::vector<std::string> render{"render",     "a.froth", "--cameras", "c.json",
+                                        "--renderer", "raster",  "-o",        "d"};
+  const std::vector<std::string> bake{"bake", "a.pt", "-o", "a.froth"};
+  const auto expectRefused = [this](std::vector<std::string> command, const std::string& option,
+                                    const std::string& value) {
+    command.insert(command.end(), {option, value});
+    expectUsageError(command, option + ": found '" + value + "'; give a ");
+  };
+  for (const char* cutoff : {"nan", "-1", "2", "half"}) expectRefused(render, "--cutoff", cutoff);
+  for (const char* view : {"-1", "1.5", "one"}) expectRefused(render, "--view", view);
+  for (const char* limit : {"nan", "inf", "-1", "1e39", "far"}) {
+    expectRefused(bake, "--near-ratio", limit);
+    expectRefused(bake, "--near-depth", limit);
+  }
+}
+
 TEST_F(Usage, AnUnknownRendererIsNamed) {
   expectUsageError({"render", "a.froth", "--cameras", "c.json", "--renderer", "magic", "-o", "d"}, "magic");
 }
@@ -97,6 +114,25 @@ TEST_F(Usage, AViewThatIsNotThereIsNamed) {
                                 "reference", "-o", "a.pfm"});
   EXPECT_EQ(run.exitCode, 2);
   EXPECT_NE(run.err.find("--view 3: cameras.json has 1 views"), std::string::npos) << run.err;
+}
+
+TEST_F(Usage, AFolderThatIsNotThereIsToldBeforeTheWork) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"bake", "missing.pt", "-o", "none/a.froth"},
+        std::vector<std::string>{"synth", "random", "-o", "none/a.pt"}}) {
+    const ProgramRun run = froth(command);
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_NE(run.err.find("none/a."), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("folder none"), std::string::npos) << run.err;
+    EXPECT_TRUE(filesInFolder().empty());
+  }
+}
+
+TEST_F(Usage, FiguresThatCannotBeWrittenAreAFailure) {
+  makeRandomFoam("12");
+  const ProgramRun run = runProgram("/bin/sh", {"-c", FROTH_TOOL " info random.froth > /dev/full"}, folder_);
+  EXPECT_EQ(run.exitCode, 1);
+  EXPECT_NE(run.err.find("standard output"), std::string::npos) << run.err;
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+// Where a command writes.
+#pragma once
+
+#include <filesystem>
+
+#include "format/result.h"
+
+namespace froth {
+
+// Fails where `path` could not be written, so that long work does not find out at its end.
+Status checkWritable(const std::filesystem::path& path);
+
+}  // namespace froth
