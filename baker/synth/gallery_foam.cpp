@@ -88,6 +88,7 @@ PlacedSites placeAtMost(uint32_t cellCount, uint64_t seed) {
   constexpr int kRounds = 14;
   constexpr double kClose = 0.995, kBeyond = 1.02;
   PlacedSites best;
+  best.sites.reserve(cellCount);  // refuses here what memory cannot hold
   double spacing = 17.0 / std::sqrt(cellCount), fitting = 0, failing = 0;
   for (int round = 0; round < kRounds && best.sites.size() < kClose * cellCount; ++round) {
     PlacedSites placed = placeAllSites(spacing, seed);

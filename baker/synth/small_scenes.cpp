@@ -37,22 +37,31 @@ glm::vec4 orientationFacing(const dvec3& normal) {
   return {q.w, q.x, q.y, q.z};
 }
 
+Error stopped(const SynthOptions& options) {
+  return makeError(ErrorKind::kCancelled, "synthesis of '%s' was stopped", options.name.c_str());
+}
+
 // Spreads detail sites over the face and gives lobes random axes and colours, alike for all random scenes.
-void randomizeAppearance(Foam& foam, uint64_t seed, double relief, double hottest) {
+// Returns false if asked to stop.
+bool randomizeAppearance(Foam& foam, uint64_t seed, double relief, double hottest, const Progress& progress) {
   const CounterRandom detail(seed, Purpose::kDetail), height(seed, Purpose::kHeight),
       axis(seed, Purpose::kAxis), temperature(seed, Purpose::kTemperature), colour(seed, Purpose::kColour);
-  for (size_t i = 0; i < foam.detailSites.size(); ++i) {
+  constexpr size_t kReports = 100;
+  const size_t details = foam.detailSites.size(), step = details / kReports + 1;
+  for (size_t i = 0; i < details; ++i) {
+    if (i % step == 0 && !report(progress, "detail sites", i, details)) return false;
     const double radius = 0.8 * std::sqrt(detail.uniform(2 * i)),
                  angle = detail.uniform(2 * i + 1, 0, 2 * glm::pi<double>());
     foam.detailSites[i] = radius * glm::dvec2(std::cos(angle), std::sin(angle));
     foam.detailHeights[i] = static_cast<float>(height.uniform(i, -relief, relief));
+    for (size_t lobe = i * foam.lobeCount; lobe < (i + 1) * foam.lobeCount; ++lobe) {
+      foam.lobeAxes[lobe] = axis.direction(lobe) * temperature.uniform(lobe, 0.1, hottest);
+      for (int channel = 0; channel < 3; ++channel)
+        foam.lobeColours[lobe][channel] =
+            static_cast<float>(colour.uniform(3 * lobe + static_cast<uint64_t>(channel), -0.5, 0.5));
+    }
   }
-  for (size_t i = 0; i < foam.lobeAxes.size(); ++i) {
-    foam.lobeAxes[i] = axis.direction(i) * temperature.uniform(i, 0.1, hottest);
-    for (int channel = 0; channel < 3; ++channel)
-      foam.lobeColours[i][channel] =
-          static_cast<float>(colour.uniform(3 * i + static_cast<uint64_t>(channel), -0.5, 0.5));
-  }
+  return true;
 }
 
 Status requireCount(const SynthOptions& options, uint32_t count) {
@@ -84,7 +93,7 @@ Result<Foam> synthesizeTwo(const SynthOptions& options) {
   return foam;
 }
 
-Result<Foam> synthesizeGrid(const SynthOptions& options) {
+Result<Foam> synthesizeGrid(const SynthOptions& options, const Progress& progress) {
   const auto side = options.cellCount ? static_cast<uint32_t>(std::lround(std::cbrt(options.cellCount))) : 4u;
   if (options.cellCount && uint64_t{side} * side * side != options.cellCount)
     return makeError(ErrorKind::kUsage, "scene 'grid': %u cells are no cube; ask for %u", options.cellCount,
@@ -98,11 +107,11 @@ Result<Foam> synthesizeGrid(const SynthOptions& options) {
     foam.orientations[i] = orientationFacing(frame.direction(i));
     foam.densities[i] = static_cast<float>(density.uniform(i, 0.2, 20));
   }
-  randomizeAppearance(foam, options.seed, 0.2, 3);
+  if (!randomizeAppearance(foam, options.seed, 0.2, 3, progress)) return stopped(options);
   return foam;
 }
 
-Result<Foam> synthesizeShell(const SynthOptions& options) {
+Result<Foam> synthesizeShell(const SynthOptions& options, const Progress& progress) {
   constexpr double kRadius = 2;
   constexpr uint32_t kDefault = 1000, kFewest = 12;
   const uint32_t count = options.cellCount ? options.cellCount : kDefault;
@@ -110,6 +119,7 @@ Result<Foam> synthesizeShell(const SynthOptions& options) {
     return makeError(ErrorKind::kUsage, "scene 'shell': %u cells; a sphere needs at least %u", count,
                      kFewest);
   std::vector<SurfaceSite> sites;
+  sites.reserve(count);  // refuses here what memory cannot hold
   const double spacing = std::sqrt(4 * glm::pi<double>() * kRadius * kRadius / count);
   Sphere(dvec3(0), kRadius).placeSites(spacing, CounterRandom(options.seed, Purpose::kSite), sites);
   Foam foam = emptyFoam(static_cast<uint32_t>(sites.size()), 4, 2);
@@ -119,11 +129,11 @@ Result<Foam> synthesizeShell(const SynthOptions& options) {
     foam.densities[i] = static_cast<float>(20 / sites[i].radius);
     foam.orientations[i] = orientationFacing(-sites[i].normal);
   }
-  randomizeAppearance(foam, options.seed, 0.1, 2);
+  if (!randomizeAppearance(foam, options.seed, 0.1, 2, progress)) return stopped(options);
   return foam;
 }
 
-Result<Foam> synthesizeRandom(const SynthOptions& options) {
+Result<Foam> synthesizeRandom(const SynthOptions& options, const Progress& progress) {
   constexpr uint32_t kDefault = 500;
   const uint32_t count = options.cellCount ? options.cellCount : kDefault;
   Foam foam = emptyFoam(count, 8, 8);
@@ -138,7 +148,7 @@ Result<Foam> synthesizeRandom(const SynthOptions& options) {
     foam.densities[i] = draw < 0.1 ? 0.0f : static_cast<float>(std::exp(8 * draw - 2));
     foam.orientations[i] = orientationFacing(frame.direction(i));
   }
-  randomizeAppearance(foam, options.seed, 0.3, 6);
+  if (!randomizeAppearance(foam, options.seed, 0.3, 6, progress)) return stopped(options);
   return foam;
 }
 

@@ -22,9 +22,9 @@ constexpr Scene kScenes[] = {
     {"gallery", makeGallery},
     {"one", [](const SynthOptions& options, const Progress&) { return synthesizeOne(options); }},
     {"two", [](const SynthOptions& options, const Progress&) { return synthesizeTwo(options); }},
-    {"grid", [](const SynthOptions& options, const Progress&) { return synthesizeGrid(options); }},
-    {"shell", [](const SynthOptions& options, const Progress&) { return synthesizeShell(options); }},
-    {"random", [](const SynthOptions& options, const Progress&) { return synthesizeRandom(options); }},
+    {"grid", synthesizeGrid},
+    {"shell", synthesizeShell},
+    {"random", synthesizeRandom},
 };
 
 }  // namespace

@@ -49,6 +49,15 @@ TEST(SmallScenes, RepeatBitForBitAndDifferBetweenSeeds) {
   }
 }
 
+TEST(SmallScenes, StopOnRequest) {
+  for (const std::string name : {"grid", "shell", "random"}) {
+    const Result<Foam> foam =
+        synthesizeFoam({name}, [](std::string_view, uint64_t, uint64_t) { return false; });
+    ASSERT_FALSE(foam) << name;
+    EXPECT_EQ(foam.error().kind, ErrorKind::kCancelled);
+  }
+}
+
 TEST(SmallScenes, CellsOfTheShellFaceItsCentre) {
   const Foam foam = *synthesizeFoam({"shell", 100});
   for (uint32_t i = 0; i < foam.cellCount; ++i) {
