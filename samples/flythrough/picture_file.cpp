@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <string>
@@ -40,8 +41,14 @@ Status writePicture(const std::filesystem::path& path, const Picture8& picture) 
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   const std::filesystem::path temporary = path.string() + ".partial";
-  const bool isWritten = stbi_write_png(temporary.c_str(), picture.width, picture.height, kChannels,
-                                        picture.rgb.data(), picture.width * kChannels) != 0;
+  std::ofstream file(temporary, std::ios::binary);
+  const auto append = [](void* stream, void* bytes, int count) {
+    static_cast<std::ofstream*>(stream)->write(static_cast<const char*>(bytes), count);
+  };
+  const bool isEncoded = stbi_write_png_to_func(append, &file, picture.width, picture.height, kChannels,
+                                                picture.rgb.data(), picture.width * kChannels) != 0;
+  file.close();
+  const bool isWritten = isEncoded && file.good();
   if (isWritten) std::filesystem::rename(temporary, path, error);
   if (isWritten && !error) return {};
   std::error_code ignored;

@@ -7,8 +7,10 @@ namespace froth {
 Status Scene::check(FrothResult result, const char* call) const {
   if (result >= FROTH_OK)
     return {};  // what is positive is information, such as an asset that is still loading
-  const ErrorKind kind = result == FROTH_ERROR_FILE ? ErrorKind::kBadInput : ErrorKind::kUnsupported;
-  return makeError(kind, "%s: %s: %s", call, frothResultName(result), lastMessage_.c_str());
+  const bool isFileFault = result == FROTH_ERROR_FILE || result == FROTH_ERROR_VERSION;
+  const ErrorKind kind = isFileFault ? ErrorKind::kBadInput : ErrorKind::kUnsupported;
+  if (!lastMessage_.empty()) return makeError(kind, "%s", lastMessage_.c_str());
+  return makeError(kind, "%s gives %s", call, frothResultName(result));
 }
 
 Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& assetPath) {

@@ -79,6 +79,20 @@ TEST_F(Flythrough, RefusesADamagedAsset) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "frames"));
 }
 
+TEST_F(Flythrough, RefusesAPoseThatIsNoRotation) {
+  for (const char* corner : {"-1", "2"}) {
+    const std::string rows = std::string("[[") + corner + ",0,0,0],[0,1,0,0],[0,0,1,0]]";
+    writeBytes(folder_ / "cameras.json",
+               R"({"views": [{"height": 8, "fy": 8, "world_from_camera": )" + rows + "}]}");
+    const ProgramRun run = fly({"--frames", "1"});
+    EXPECT_EQ(run.exitCode, 3);
+    EXPECT_THAT(run.err,
+                HasSubstr("cameras.json: views 0, field 'world_from_camera': found a determinant of " +
+                          std::string(corner)));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "frames"));
+  }
+}
+
 TEST_F(Flythrough, RefusesWrongArguments) {
   EXPECT_EQ(fly({"--frames", "1", "--size", "wide"}).exitCode, 2);
   EXPECT_EQ(fly({}).exitCode, 2);  // headless, but how many frames?
