@@ -100,8 +100,15 @@ uint32_t Host::State::findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlag
 }
 
 Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent) {
-  if (const Result<FormatTraits> traits = traitsOf(format); !traits) {
-    return traits.error();
+  const Result<FormatTraits> traits = traitsOf(format);
+  if (!traits) return traits.error();
+  // What every device must allow (Vulkan specification, VkImageFormatProperties::maxResourceSize); lavapipe
+  // crashes above.
+  constexpr uint64_t kMaxImageBytes = uint64_t{1} << 31;
+  if (uint64_t{extent.width} * extent.height * traits->bytesPerTexel > kMaxImageBytes) {
+    return makeError(ErrorKind::kUnsupported,
+                     "image: %u x %u pixels of %u bytes exceed 2 GiB; use a smaller size", extent.width,
+                     extent.height, traits->bytesPerTexel);
   }
   HostImage image;
   image.format = format;

@@ -117,7 +117,9 @@ Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const ch
   HostInstance result;
   if (const VkResult code = vkCreateInstance(&info, nullptr, &result.instance); code != VK_SUCCESS) {
     return makeError(ErrorKind::kUnsupported,
-                     "vkCreateInstance gives VkResult %d; is a Vulkan driver installed?", code);
+                     "vkCreateInstance gives VkResult %d; install a Vulkan driver (mesa-vulkan-drivers works "
+                     "without a GPU)",
+                     code);
   }
   if (log) {
     const auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
