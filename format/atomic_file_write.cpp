@@ -32,7 +32,6 @@ class TemporaryFile {
   }
 
   bool isOpen() const { return exists_; }
-  const std::string& path() const { return path_; }
 
   bool append(std::span<const uint8_t> bytes) {
     while (!bytes.empty()) {
@@ -85,13 +84,13 @@ Status streamFileAtomically(const std::filesystem::path& path, const std::functi
   if (std::filesystem::exists(old) && !std::filesystem::is_regular_file(old))
     return makeError(ErrorKind::kIo, "%s: exists and is no regular file; give another name", path.c_str());
   TemporaryFile temporary(path);
-  if (!temporary.isOpen()) return ioError(temporary.path(), "cannot be created");
+  if (!temporary.isOpen()) return ioError(path, "cannot be created");
   const Status produced = produce([&](std::span<const uint8_t> bytes) -> Status {
-    if (!temporary.append(bytes)) return ioError(temporary.path(), "cannot be written");
+    if (!temporary.append(bytes)) return ioError(path, "cannot be written");
     return {};
   });
   if (!produced) return produced;
-  if (!temporary.finish()) return ioError(temporary.path(), "cannot be synced");
+  if (!temporary.finish()) return ioError(path, "cannot be synced");
   if (!temporary.renameTo(path)) return ioError(path, "cannot be replaced");
   syncFolderOf(path);
   return {};

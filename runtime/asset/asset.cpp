@@ -106,7 +106,10 @@ void Asset::load(RenderPipelines* pipelines, const Messages& messages) {
 }
 
 void Asset::fail(FrothResult code, const std::string& text, const Messages& messages) {
-  error_ = messages.fail(code, name_.c_str(), "%s", text.c_str());
+  // The reader's texts begin with the name, which the message has as its object.
+  const std::string prefix = name_ + ": ";
+  const size_t start = text.starts_with(prefix) ? prefix.size() : 0;
+  error_ = messages.fail(code, name_.c_str(), "%s", text.c_str() + start);
   reader_.reset();
   arrays_.clear();
 }
