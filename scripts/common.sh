@@ -29,7 +29,8 @@ install_packages() {
 build() {
   local preset=$1
   shift
-  cmake --preset "$preset" >"build-$preset.log" 2>&1 || { cat "build-$preset.log"; return 1; }
-  rm -f "build-$preset.log"
+  local log=build/configure-$preset.log
+  mkdir -p build
+  cmake --preset "$preset" >"$log" 2>&1 || { cat "$log"; return 1; }
   cmake --build --preset "$preset" ${1:+--target "$@"}
 }
