@@ -138,7 +138,7 @@ typedef enum FrothAssetState {
 typedef struct FrothAssetInfo {
   uint32_t structSize;
   const char* path; /* a .froth file, copied; or null, and the bytes: */
-  const void* data; /* the caller keeps them until the asset is READY or FAILED */
+  const void* data; /* the caller keeps them until the asset is READY, FAILED or closed */
   uint64_t dataSize;
 } FrothAssetInfo;
 
