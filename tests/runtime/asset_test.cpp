@@ -99,7 +99,7 @@ TEST_F(AssetOfNullContext, ThatIsMissingFailsWithItsPath) {
   const std::string path = (folder() / "missing.froth").string();
   failedStatus(openPath(path), FROTH_ERROR_FILE);
   EXPECT_EQ(messages_[0].object, path);
-  EXPECT_THAT(messages_[0].text, AllOf(HasSubstr(path), HasSubstr("check the path")));
+  EXPECT_THAT(messages_[0].text, AllOf(Not(HasSubstr(path)), HasSubstr("check the path")));  // once is enough
 }
 
 TEST_F(AssetOfNullContext, ThatIsAFolderFails) {
@@ -124,8 +124,8 @@ TEST_F(AssetOfNullContext, WithADamagedSectionNamesPathSectionAndRemedy) {
   bytes.back() ^= 1;
   const std::string path = writeFile("damaged.froth", bytes);
   failedStatus(openPath(path), FROTH_ERROR_FILE);
-  EXPECT_THAT(messages_[0].text,
-              AllOf(HasSubstr(path), HasSubstr("chunk 0"), HasSubstr("section"), HasSubstr("hash")));
+  EXPECT_EQ(messages_[0].object, path);
+  EXPECT_THAT(messages_[0].text, AllOf(HasSubstr("chunk 0"), HasSubstr("section"), HasSubstr("hash")));
 }
 
 TEST_F(AssetOfNullContext, OfANewerFormatFailsAsAVersion) {
