@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,18 +23,26 @@ bool isSource(const fs::path& path) {
   return kExtensions.contains(path.extension().string());
 }
 
+// What stands between the quotes or brackets of an #include line; empty for any other line.
+std::string includedBy(const std::string& line) {
+  const size_t hash = line.find_first_not_of(" \t");
+  if (hash == std::string::npos || line[hash] != '#') return {};
+  const size_t word = line.find_first_not_of(" \t", hash + 1);
+  if (word == std::string::npos || line.compare(word, 7, "include") != 0) return {};
+  const size_t open = line.find_first_of("\"<", word);
+  const size_t close = open == std::string::npos ? open : line.find_first_of("\">", open + 1);
+  return close == std::string::npos ? std::string() : line.substr(open + 1, close - open - 1);
+}
+
 std::vector<Include> includesUnder(const std::string& folder) {
-  static const std::regex kInclude(R"(^\s*#\s*include\s*["<]([^">]+)[">])");
   const fs::path root = FROTH_SOURCE_DIR;
   std::vector<Include> includes;
   for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
     if (!entry.is_regular_file() || !isSource(entry.path())) continue;
     std::ifstream text(entry.path());
     for (std::string line; std::getline(text, line);) {
-      std::smatch match;
-      if (std::regex_search(line, match, kInclude)) {
-        includes.push_back({fs::relative(entry.path(), root).string(), match[1]});
-      }
+      const std::string target = includedBy(line);
+      if (!target.empty()) includes.push_back({fs::relative(entry.path(), root).string(), target});
     }
   }
   return includes;
