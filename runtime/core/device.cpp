@@ -174,4 +174,20 @@ void Device::destroyBuffer(GpuBuffer& buffer) {
   buffer = {};
 }
 
+void DeviceTable::recordMemoryBarrier(VkCommandBuffer commandBuffer, VkPipelineStageFlags2 fromStage,
+                                      VkAccessFlags2 fromAccess, VkPipelineStageFlags2 toStage,
+                                      VkAccessFlags2 toAccess) const {
+  VkMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  barrier.srcStageMask = fromStage;
+  barrier.srcAccessMask = fromAccess;
+  barrier.dstStageMask = toStage;
+  barrier.dstAccessMask = toAccess;
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commandBuffer, &dependency);
+}
+
 }  // namespace froth

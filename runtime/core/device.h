@@ -30,6 +30,10 @@ struct DeviceTable {
 #define FROTH_DECLARE(name) PFN_##name name = nullptr;
   FROTH_DEVICE_FUNCTIONS(FROTH_DECLARE)
 #undef FROTH_DECLARE
+
+  // One global memory barrier between two uses of buffers.
+  void recordMemoryBarrier(VkCommandBuffer commandBuffer, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
+                           VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) const;
 };
 
 enum class BufferKind {

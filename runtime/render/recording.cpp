@@ -22,21 +22,6 @@ void writeBlock(const Recording& recording, const RenderInstance* instance) {
   std::memcpy(staged, &block, sizeof(block));
 }
 
-void recordMemoryBarrier(const Recording& recording, VkPipelineStageFlags2 fromStage,
-                         VkAccessFlags2 fromAccess, VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
-  VkMemoryBarrier2 memory{};
-  memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-  memory.srcStageMask = fromStage;
-  memory.srcAccessMask = fromAccess;
-  memory.dstStageMask = toStage;
-  memory.dstAccessMask = toAccess;
-  VkDependencyInfo dependency{};
-  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  dependency.memoryBarrierCount = 1;
-  dependency.pMemoryBarriers = &memory;
-  recording.view.device.table.vkCmdPipelineBarrier2(recording.commandBuffer, &dependency);
-}
-
 // Copies the block to the device and clears what the passes count in or only partly write.
 void recordUpload(const Recording& recording, const GpuAsset* asset) {
   ViewState& view = recording.view;
@@ -55,9 +40,10 @@ void recordUpload(const Recording& recording, const GpuAsset* asset) {
     vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kWalkStart].buffer, 0, VK_WHOLE_SIZE, 0);
     view.walkAsset = asset;
   }
-  recordMemoryBarrier(recording, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+  recording.view.device.table.recordMemoryBarrier(
+      recording.commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
 }  // namespace
@@ -116,13 +102,15 @@ PassRecorder bindRecording(const Recording& recording, const RenderPipelines::St
 
 void endRecording(const Recording& recording) {
   const ViewBuffers& buffers = recording.view.buffers;
-  recordMemoryBarrier(recording, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                      VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+  recording.view.device.table.recordMemoryBarrier(
+      recording.commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+      VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
   const VkBufferCopy copy{recording.countersOffset(), recording.number * kBlockStride, sizeof(gpu::Counters)};
   recording.view.device.table.vkCmdCopyBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer,
                                               buffers[ViewBuffer::kReadback].buffer, 1, &copy);
-  recordMemoryBarrier(recording, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+  recording.view.device.table.recordMemoryBarrier(
+      recording.commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   recording.view.images->leave(recording.commandBuffer, recording.info);
 }
 
