@@ -12,7 +12,7 @@ namespace froth {
 struct Foam {
   uint32_t cellCount = 0;    // N >= 1
   uint32_t detailCount = 0;  // K, detail sites per cell [1..32]
-  uint32_t lobeCount = 0;    // M, Spherical Voronoi lobes per detail site [1..32]
+  uint32_t lobeCount = 0;    // M, Spherical Voronoi lobes per detail site [0..32]; with lobeOffsets: most of them
 
   std::vector<glm::vec3> sites;         // [N] p_i [scene units]
   std::vector<float> radii;             // [N] r_i [scene units, > 0]
@@ -21,8 +21,24 @@ struct Foam {
   std::vector<glm::vec2> detailSites;   // [N*K] (u, v) in units of r_i along (t, b)
   std::vector<float> detailHeights;     // [N*K] displacement in units of r_i
   std::vector<glm::vec3> lobeAxes;      // [N*K*M] a: direction times temperature
-  std::vector<glm::vec3> lobeColours;   // [N*K*M] c: offset from one half, display-coded
+  std::vector<glm::vec3> lobeColours;   // [N*K*M] c: offset from one half, or from the base colour
+
+  // Of a compressed foam; a trained one has neither.
+  std::vector<glm::vec3> baseColours;   // [N*K] offset from one half; empty: all zero
+  std::vector<uint64_t> lobeOffsets;    // [N*K+1] lobes of detail site s: [lobeOffsets[s], lobeOffsets[s+1]); empty: M each
 };
+
+// A range of a foam's lobe arrays.
+struct LobeRange {
+  uint64_t first = 0;
+  uint32_t count = 0;
+};
+
+// The lobes of detail site `site` = cell * K + k.
+inline LobeRange lobesOf(const Foam& foam, uint64_t site) {
+  if (foam.lobeOffsets.empty()) return {site * foam.lobeCount, foam.lobeCount};
+  return {foam.lobeOffsets[site], static_cast<uint32_t>(foam.lobeOffsets[site + 1] - foam.lobeOffsets[site])};
+}
 
 // Rows n (face normal), t, b of the rotation matrix of a unit quaternion (w, x, y, z).
 template <class Real>

@@ -9,36 +9,54 @@
 
 #include <glm/glm.hpp>
 
+#include "format/quantization.h"
+
 namespace froth {
 
 // A reference to a cell anywhere in the asset: (chunk << localBits) | local index. localBits belongs to the asset.
 using CellRef = uint32_t;
 
-// One chunk: cells [0, liveCount) are live (they can contribute to an image); cells [liveCount, cellCount) only cut
-// their neighbours and guide walks (dead: no density; empty: their ball lies wholly in other power cells).
+// One chunk, complete in itself: it can be drawn and walked without any other chunk.
+// Cells [0, liveCount) are live (they can contribute to an image); cells [liveCount, cellCount) only cut their neighbours
+// and guide walks (dead: no density; empty: their ball lies wholly in other power cells; Steiner: made by the baker).
+// Behind them, ghosts: copies of the sites and radii of cells of other chunks that are neighbours of cells of this one.
 // Positions are relative to `origin`.
 struct ChunkContents {
   std::array<double, 3> origin{};  // [scene units] added to every site of the chunk
   uint32_t cellCount = 0;
-  uint32_t liveCount = 0;  // <= cellCount
+  uint32_t liveCount = 0;   // <= cellCount
+  uint32_t ghostCount = 0;
 
-  std::vector<glm::vec3> sites;  // [cellCount] [scene units]
-  std::vector<float> radii;      // [cellCount] [scene units, > 0]
+  std::vector<glm::vec3> sites;      // [cellCount + ghostCount] [scene units]
+  std::vector<float> radii;          // [cellCount + ghostCount] [scene units, > 0]
+  std::vector<CellRef> ghostRefs;    // [ghostCount] where each ghost lives, ascending
 
-  // Graph, compressed rows. Row i is neighbours[neighbourOffsets[i] .. neighbourOffsets[i + 1]).
+  // Graph, compressed rows. Row i is neighbours[neighbourOffsets[i] .. neighbourOffsets[i + 1]), indices into sites.
   // A live cell's row starts with its alphaCounts[i] true alpha-complex neighbours, nearest radical plane first
   // (ascending radicalOffset / |toNeighbour|); then come its other neighbours in the regular triangulation, in the same
   // order. Without a walk graph only the alpha part is there.
   std::vector<uint32_t> neighbourOffsets;  // [cellCount + 1]
-  std::vector<CellRef> neighbours;         // [neighbourOffsets.back()]
+  std::vector<uint32_t> neighbours;        // [neighbourOffsets.back()] < cellCount + ghostCount
   std::vector<uint32_t> alphaCounts;       // [liveCount]
 
   std::vector<float> densities;         // [liveCount] [1 / scene unit]
   std::vector<glm::vec4> orientations;  // [liveCount] unit quaternion (w, x, y, z), rows n, t, b
+
+  // Layer 0: one colour and one displacement per cell, for readers that stop there. Empty in a foam that has no layers.
+  std::vector<glm::vec3> cellColours;   // [liveCount] display-coded, 0..1
+  std::vector<float> cellHeights;       // [liveCount] in units of the radius; empty: all zero
+
+  // Layer 1.
   std::vector<glm::vec2> detailSites;   // [liveCount * K] in units of the radius
   std::vector<float> detailHeights;     // [liveCount * K] in units of the radius; empty: all zero
-  std::vector<glm::vec3> lobeAxes;      // [liveCount * K * M]
-  std::vector<glm::vec3> lobeColours;   // [liveCount * K * M]
+  std::vector<glm::vec3> baseColours;   // [liveCount * K] offset from one half; empty: all zero
+  std::vector<uint8_t> colourScales;    // [liveCount] colour lattice of the cell: step * 2^scale [0..15]; empty: all 0
+
+  // Layer 2. The lobes of a detail site follow each other; sum(lobeCounts) in all. A detail site's colour along a unit
+  // direction is max(0, 1/2 + base + sum w c / sum w) over its lobes; without lobes the last term is 0.
+  std::vector<uint8_t> lobeCounts;      // [liveCount * K] 0..M; empty: M each
+  std::vector<glm::vec3> lobeAxes;      // [lobes]
+  std::vector<glm::vec3> lobeColours;   // [lobes]
 };
 
 // An axis-aligned box; all zero: nothing in it.
@@ -59,13 +77,25 @@ struct BakeStatistics {
   uint64_t duplicatesMerged = 0; // of these, sites that coincide with another one
   uint64_t emptyCells = 0;       // power cell, but no bounded cell
   uint64_t deadCells = 0;        // density too low to be seen
+  uint64_t unseenCulled = 0;     // dropped because no camera sees more of them than the stated contribution
+  uint64_t steinerCells = 0;     // added to fill empty space
   uint64_t walkPairs = 0;        // undirected pairs of the regular triangulation
   uint64_t alphaPairs = 0;       // undirected pairs of the alpha-complex
 };
 
+// Measured error of one attribute over the live cells: what is stored against the input.
+struct AttributeError {
+  std::string name;  // "sites", "radii", ...
+  std::string unit;  // "scene units", "relative", "radians", "radius", "display-coded"
+  double rms = 0, max = 0;
+};
+
+// The first layers of an asset are a complete, coarser scene: K = 1 and no lobes; K detail sites and no lobes; all.
+enum class Layer : uint8_t { kGeometry = 0, kDetails = 1, kViewDependence = 2 };
+
 struct AssetContents {
   uint32_t detailCount = 0;  // K [1..32]
-  uint32_t lobeCount = 0;    // M [1..32]
+  uint32_t lobeCount = 0;    // M, most lobes of a detail site [0..32]; 0: no view dependence
   uint32_t localBits = 32;   // split of a CellRef; 32: one chunk, the reference is the local index
   bool hasWalkGraph = true;
 
@@ -75,6 +105,11 @@ struct AssetContents {
   std::string preset = "exact";
   std::string source;             // name of the input file, without folder
   BakeStatistics statistics;
+
+  Quantization quantization;
+  std::vector<glm::vec3> axisCodebook;        // lobe axes to choose from; empty: axes are stored one by one
+  std::vector<AttributeError> errors;         // informative
+  double psnr = 0;                            // against the input on sample views, dB; 0: not measured
 
   StoredCamera startView;               // valid if hasStartView
   bool hasStartView = false;

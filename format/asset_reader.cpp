@@ -126,7 +126,7 @@ AssetReader::AssetReader(AssetReader&&) noexcept = default;
 AssetReader& AssetReader::operator=(AssetReader&&) noexcept = default;
 AssetReader::~AssetReader() = default;
 
-Result<AssetReader> AssetReader::open(const std::filesystem::path& path) {
+Result<AssetReader> AssetReader::open(const std::filesystem::path& path, Layer) {
   Result<InputFile> file = InputFile::open(path);
   if (!file) return file.error();
   AssetReader reader;
@@ -140,7 +140,7 @@ Result<AssetReader> AssetReader::open(const std::filesystem::path& path) {
   return reader;
 }
 
-Result<AssetReader> AssetReader::openBytes(std::span<const uint8_t> bytes, std::string name) {
+Result<AssetReader> AssetReader::openBytes(std::span<const uint8_t> bytes, std::string name, Layer) {
   AssetReader reader;
   Source& source = reader.state_->source;
   source.name = std::move(name);
@@ -173,7 +173,7 @@ Result<ChunkContents> AssetReader::readChunk(uint32_t chunk) const {
   return contents;
 }
 
-Result<AssetContents> readAsset(const std::filesystem::path& path) {
+Result<AssetContents> readAsset(const std::filesystem::path& path, Layer) {
   Result<AssetReader> reader = AssetReader::open(path);
   if (!reader) return reader.error();
   AssetContents contents = reader->manifest();

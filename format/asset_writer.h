@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "format/asset_contents.h"
@@ -10,10 +11,37 @@
 
 namespace froth {
 
-// The file's bytes. The same contents give the same bytes.
+// One chunk on its way into a file; made and read by the writer alone.
+struct EncodedChunk;
+
+// Writes an asset chunk by chunk, so that memory holds one chunk at a time. Sections gather in a temporary beside `path`; finish()
+// puts header and manifest before them, first layers of all chunks first, syncs and renames. Without finish() nothing is left.
+// Thread safety: encodeChunk() may run on several threads at once; the rest on one.
+class AssetStreamWriter {
+ public:
+  // `header`: counts, quantization and codebook are read; `chunks` is ignored.
+  static Result<AssetStreamWriter> create(const std::filesystem::path& path, const AssetContents& header);
+  AssetStreamWriter(AssetStreamWriter&&) noexcept;
+  AssetStreamWriter& operator=(AssetStreamWriter&&) noexcept;
+  ~AssetStreamWriter();
+
+  // The chunk's sections, encoded. Fails if a value does not lie on its lattice.
+  Result<EncodedChunk> encodeChunk(const ChunkContents& chunk) const;
+  // Appends; chunks come in the order of their index.
+  Status append(EncodedChunk&& chunk);
+  // `header` as at the start, now with statistics and errors. Returns the file's size [bytes].
+  Result<uint64_t> finish(const AssetContents& header);
+
+ private:
+  AssetStreamWriter();
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// The file's bytes, from contents with all their chunks. The same contents give the same bytes.
 Result<std::vector<uint8_t>> encodeAsset(const AssetContents& contents);
 
-// Encodes, writes to a temporary name beside `path`, syncs, renames: an interrupted write leaves the old file intact.
+// AssetStreamWriter over all chunks of `contents`. An interrupted write leaves the old file intact.
 Status writeAsset(const std::filesystem::path& path, const AssetContents& contents);
 
 }  // namespace froth

@@ -21,7 +21,7 @@ vec3 siteColour(uint chunk, uint firstLobe, vec3 direction) {
     float exponent = lobeExponent(loadTriple(axes, 3 * lobe), direction);
     addLobe(exponent, loadTriple(colours, 3 * lobe), largest, weightSum, colourSum);
   }
-  return lobeColour(weightSum, colourSum);
+  return lobeColour(vec3(0.0), weightSum, colourSum);
 }
 
 void main() {

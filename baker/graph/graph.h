@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -43,6 +44,22 @@ AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<con
 
 // Pairs with |p_i - p_j| < r_i + r_j, in double; over a bounding volume hierarchy or grid, near-linear.
 CellGraph findCechPairs(std::span<const glm::vec3> sites, std::span<const float> radii);
+
+// The same graph, region by region: each region is triangulated with as many sites around it as its stars need, proven by
+// the empty orthospheres of their tetrahedra. Memory grows with `regionCells`, not with the scene. `order` lists all cells
+// so that neighbours in it lie close together (a space-filling curve).
+Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites, std::span<const float> radii,
+                                                std::span<const uint32_t> order, uint32_t regionCells,
+                                                const Progress& progress = {});
+
+// What was checked of the graphs of a bake, and what was found; `faults` is empty when all is well.
+struct ValidityReport {
+  uint64_t cells = 0, walkPairs = 0, alphaPairs = 0;
+  uint64_t pointsChecked = 0, raysChecked = 0;  // against brute force
+  std::vector<std::string> faults;              // at most 16, each with cell numbers and values
+};
+ValidityReport checkGraphs(std::span<const glm::vec3> sites, std::span<const float> radii,
+                           const RegularTriangulation& triangulation, const AlphaComplex& alpha, uint64_t seed);
 
 // Cells along a Morton curve of 21 bits per axis over the bounding box; ties by index. order[k] = cell at
 // place k.

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "shaders/foam/appearance.h"
 #include "shaders/foam/cell.h"
@@ -42,21 +43,21 @@ void sortFrontToBack(const Foam& foam, const glm::dvec3& eye, std::vector<uint32
 
 // The colour of a detail site from the eye: its lobes weighed by the direction in which it is seen.
 template <class Real>
-Vec3<Real> seeDetail(std::span<const glm::vec3> axes, std::span<const glm::vec3> colours,
-                     const Vec3<Real>& direction) {
-  Real largest = foam::lobeExponent(Vec3<Real>(axes[0]), direction), weightSum = 0;
+Vec3<Real> seeDetail(const Foam& foam, size_t site, const Vec3<Real>& direction) {
+  const LobeRange lobes = lobesOf(foam, site);
+  Real largest = -std::numeric_limits<Real>::max(), weightSum = 0;
   Vec3<Real> colourSum(0);
-  for (size_t m = 0; m < axes.size(); ++m) {
-    const Real exponent = foam::lobeExponent(Vec3<Real>(axes[m]), direction);
-    foam::addLobe(exponent, Vec3<Real>(colours[m]), largest, weightSum, colourSum);
+  for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
+    const Real exponent = foam::lobeExponent(Vec3<Real>(foam.lobeAxes[m]), direction);
+    foam::addLobe(exponent, Vec3<Real>(foam.lobeColours[m]), largest, weightSum, colourSum);
   }
-  return foam::lobeColour(weightSum, colourSum);
+  const Vec3<Real> base = foam.baseColours.empty() ? Vec3<Real>(0) : Vec3<Real>(foam.baseColours[site]);
+  return foam::lobeColour(base, weightSum, colourSum);
 }
 
 template <class Real>
 void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell,
                  std::span<ViewDetail<Real>> details) {
-  const size_t M = foam.lobeCount;
   for (size_t k = 0; k < details.size(); ++k) {
     const size_t site = size_t{source} * details.size() + k;
     ViewDetail<Real>& detail = details[k];
@@ -64,8 +65,7 @@ void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell,
     detail.height = cell.radius * Real(foam.detailHeights[site]);
     const Vec3<Real> fromEye = cell.centre + cell.radius * (detail.place.x * cell.frame.tangent +
                                                             detail.place.y * cell.frame.bitangent);
-    detail.colour = seeDetail(std::span(foam.lobeAxes).subspan(site * M, M),
-                              std::span(foam.lobeColours).subspan(site * M, M), glm::normalize(fromEye));
+    detail.colour = seeDetail(foam, site, glm::normalize(fromEye));
   }
 }
 

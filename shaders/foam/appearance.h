@@ -29,7 +29,7 @@ FOAM_FN real lobeExponent(real3 axis, real3 direction) {
 }
 
 // Adds one lobe to a running, normalised sum that never underflows: weights are kept relative to the largest so far.
-// Start with largest = the first lobe's exponent, weightSum = 0, colourSum = 0.
+// Start with largest = the lowest finite number, weightSum = 0, colourSum = 0.
 FOAM_FN void addLobe(real exponent, real3 colour, FOAM_INOUT(real) largest, FOAM_INOUT(real) weightSum,
                      FOAM_INOUT(real3) colourSum) {
   real newLargest = max(largest, exponent);
@@ -40,9 +40,11 @@ FOAM_FN void addLobe(real exponent, real3 colour, FOAM_INOUT(real) largest, FOAM
   largest = newLargest;
 }
 
-// Display-coded colour of a detail site from its finished lobe sums.
-FOAM_FN real3 lobeColour(real weightSum, real3 colourSum) {
-  real3 colour = real3(real(0.5)) + colourSum / weightSum;
+// Display-coded colour of a detail site from its base colour (offset from one half) and its finished lobe sums; weightSum 0:
+// it has no lobes.
+FOAM_FN real3 lobeColour(real3 base, real weightSum, real3 colourSum) {
+  real3 colour = real3(real(0.5)) + base;
+  if (weightSum > real(0)) colour = colour + colourSum / weightSum;
   return real3(max(colour.x, real(0)), max(colour.y, real(0)), max(colour.z, real(0)));
 }
 

@@ -24,7 +24,7 @@ glm::vec<3, Real> blend(const std::vector<Lobe<Real>>& lobes) {
   glm::vec<3, Real> colourSum(0);
   for (const Lobe<Real>& lobe : lobes)
     foam::addLobe(lobe.exponent, lobe.colour, largest, weightSum, colourSum);
-  return foam::lobeColour(weightSum, colourSum);
+  return foam::lobeColour(glm::vec<3, Real>(0), weightSum, colourSum);
 }
 
 TYPED_TEST(AppearanceMathematics, DetailWeightIsTheGaussianOfTheDistanceInRadii) {

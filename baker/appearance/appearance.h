@@ -1,0 +1,59 @@
+// Compresses the colours of a foam: base colours, fewer lobes, axes from a codebook; errors weighed by what is seen.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "baker/appearance/visibility.h"
+#include "baker/foam.h"
+#include "baker/progress.h"
+#include "format/asset_contents.h"
+#include "format/result.h"
+
+namespace froth {
+
+// Knobs of a preset.
+struct AppearanceOptions {
+  float errorBound = 0;         // [display-coded] weighted RMS error allowed per detail site over the directions that see it
+  uint32_t lobeLimit = 32;      // most lobes kept per detail site
+  uint32_t codebookSize = 0;    // entries of the axis codebook [0..65536]; 0: none
+  float colourStep = 0;         // [display-coded] lattice of base and lobe colours, a power of two
+  float lobeAxisStep = 0;       // lattice of axes, or of their residuals; a power of two
+  uint64_t seed = 1;
+};
+
+// The colours of some cells, in the arrays of ChunkContents.
+struct CellAppearance {
+  std::vector<glm::vec3> cellColours;   // [cells] display-coded, multiples of 1/255
+  std::vector<glm::vec3> baseColours;   // [cells * K]
+  std::vector<uint8_t> colourScales;    // [cells]
+  std::vector<uint8_t> lobeCounts;      // [cells * K]
+  std::vector<glm::vec3> lobeAxes, lobeColours;
+  double squaredError = 0;  // sum over detail sites of weighted squared errors, display-coded, mean over channels
+  double weight = 0;        // sum of the weights
+  double maxError = 0;      // largest error of a detail site along a direction that sees it
+};
+
+class AppearanceCoder {
+ public:
+  // Keeps references to foam and visibility. `visibility` null: directions are the hemisphere before each face, all alike.
+  // Trains the codebook from a sample of the foam's lobes.
+  static Result<AppearanceCoder> create(const Foam& foam, const Visibility* visibility, const AppearanceOptions& options,
+                                        const Progress& progress = {});
+
+  const std::vector<glm::vec3>& codebook() const { return codebook_; }
+  // Thread-safe. Each cell's result depends on that cell (and the codebook) alone, so the order and grouping of calls do not
+  // matter. Values lie on the lattices of the options and of the codebook.
+  CellAppearance compress(std::span<const uint32_t> cells) const;
+
+ private:
+  const Foam* foam_ = nullptr;
+  const Visibility* visibility_ = nullptr;
+  AppearanceOptions options_;
+  std::vector<glm::vec3> codebook_;
+};
+
+}  // namespace froth

@@ -1,0 +1,37 @@
+// How much each detail site of a foam shows in the input's cameras: what lossy steps weigh their errors by.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "baker/camera/camera.h"
+#include "baker/foam.h"
+#include "baker/progress.h"
+#include "format/result.h"
+
+namespace froth {
+
+struct VisibilityOptions {
+  double nearRatio = 4, nearDepth = 0;  // where a view does not say
+  double detailSharpness = 10;
+  uint32_t maxPixelsPerView = 0;        // views are reduced to about this size; 0: the implementation's default
+};
+
+// A detail site is seen from a view with weight sum over pixels of (T alpha omega_k / sum omega), in pixels of the full-size
+// view. Compressed rows over detail sites; entries ascend by view.
+struct Visibility {
+  std::vector<glm::vec3> eyes;          // [views] [scene units]
+  std::vector<uint64_t> offsets;        // [N*K + 1]
+  std::vector<uint16_t> views;          // [offsets.back()]
+  std::vector<float> weights;           // [offsets.back()] > 0
+  std::vector<float> contributions;     // [N] the largest T alpha of the cell in any pixel of any view
+};
+
+// The same input gives the same bits on any number of threads. Fails with kCancelled.
+Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> views, const VisibilityOptions& options,
+                                     const Progress& progress = {});
+
+}  // namespace froth
