@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct CameraSet {
 
 // Views and intrinsics are checked: positive sizes and focal lengths, finite numbers, rotation orthonormal to 1e-4.
 Result<CameraSet> readCameras(const std::filesystem::path& path);
+// The same from memory; `file` stands for it in messages.
+Result<CameraSet> parseCameras(std::span<const uint8_t> bytes, const std::string& file);
 Status writeCameras(const std::filesystem::path& path, const CameraSet& cameras);
 
 // The same view at another size: intrinsics times W'/W and H'/H; near limits stay.

@@ -194,12 +194,15 @@ Json toJson(const View& view) {
 }  // namespace
 
 Result<CameraSet> readCameras(const std::filesystem::path& path) {
-  const std::string file = path.string();
   Result<std::vector<uint8_t>> bytes = readFile(path);
   if (!bytes) return bytes.error();
+  return parseCameras(*bytes, path.string());
+}
+
+Result<CameraSet> parseCameras(std::span<const uint8_t> bytes, const std::string& file) {
   Json root;
   try {
-    root = Json::parse(bytes->begin(), bytes->end());
+    root = Json::parse(bytes.begin(), bytes.end());
   } catch (const Json::parse_error& fault) {
     return makeError(ErrorKind::kBadInput, "%s: byte %zu: not JSON (%s); write it as docs/CAMERAS.md shows",
                      file.c_str(), size_t{fault.byte}, fault.what());

@@ -1,0 +1,26 @@
+// Any bytes as cameras.json: views within their limits, or an error.
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "baker/camera/camera.h"
+
+namespace {
+
+bool isSound(const froth::View& view) {
+  bool ok = view.width > 0 && view.height > 0 && view.width <= 65536 && view.height <= 65536 && view.fx > 0 && view.fy > 0;
+  for (const double entry : view.worldFromCamera) ok = ok && std::isfinite(entry);
+  return ok;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const auto cameras = froth::parseCameras({data, size}, "fuzz.json");
+  if (!cameras) return 0;
+  for (const froth::View& view : cameras->views)
+    if (!isSound(view)) std::abort();
+  for (const froth::View& view : cameras->flight)
+    if (!isSound(view)) std::abort();
+  return 0;
+}
