@@ -1,21 +1,31 @@
 // The way back: from the contents of an asset to a foam.
+#include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 #include "baker/bake/bake.h"
 
 namespace froth {
 namespace {
 
+// Lobes of all detail sites of a chunk.
+size_t countLobes(const AssetContents& contents, const ChunkContents& chunk) {
+  if (chunk.lobeCounts.empty()) return size_t{chunk.liveCount} * contents.detailCount * contents.lobeCount;
+  return std::accumulate(chunk.lobeCounts.begin(), chunk.lobeCounts.end(), size_t{0});
+}
+
 Status checkChunk(const AssetContents& contents, size_t index) {
   const ChunkContents& chunk = contents.chunks[index];
-  const size_t live = chunk.liveCount, details = live * contents.detailCount,
-               lobes = details * contents.lobeCount;
-  const bool isWhole = live <= chunk.cellCount && chunk.sites.size() == chunk.cellCount &&
-                       chunk.radii.size() == chunk.cellCount && chunk.densities.size() == live &&
-                       chunk.orientations.size() == live && chunk.detailSites.size() == details &&
-                       (chunk.detailHeights.empty() || chunk.detailHeights.size() == details) &&
-                       chunk.lobeAxes.size() == lobes && chunk.lobeColours.size() == lobes;
+  const size_t live = chunk.liveCount, details = live * contents.detailCount;
+  const size_t sites = size_t{chunk.cellCount} + chunk.ghostCount, lobes = countLobes(contents, chunk);
+  const auto isAbsentOr = [](size_t found, size_t expected) { return found == 0 || found == expected; };
+  const bool isWhole = live <= chunk.cellCount && chunk.sites.size() == sites && chunk.radii.size() == sites &&
+                       chunk.densities.size() == live && chunk.orientations.size() == live &&
+                       chunk.detailSites.size() == details && isAbsentOr(chunk.detailHeights.size(), details) &&
+                       isAbsentOr(chunk.baseColours.size(), details) &&
+                       isAbsentOr(chunk.lobeCounts.size(), details) && chunk.lobeAxes.size() == lobes &&
+                       chunk.lobeColours.size() == lobes;
   if (isWhole) return {};
   return makeError(ErrorKind::kBadInput,
                    "asset: chunk %zu: an array's length does not match %u cells, %u of them live; "
@@ -30,21 +40,59 @@ void append(std::vector<T>& all, const std::vector<T>& values, size_t fillers, c
   all.insert(all.end(), fillers, filler);
 }
 
-void appendChunk(const ChunkContents& chunk, Foam& foam) {
-  const glm::dvec3 origin(chunk.origin[0], chunk.origin[1], chunk.origin[2]);
-  for (const glm::vec3& site : chunk.sites) foam.sites.emplace_back(origin + glm::dvec3(site));
-  foam.radii.insert(foam.radii.end(), chunk.radii.begin(), chunk.radii.end());
-
-  const size_t bare = chunk.cellCount - chunk.liveCount;
-  const size_t bareDetails = bare * foam.detailCount, bareLobes = bareDetails * foam.lobeCount;
-  append(foam.densities, chunk.densities, bare, 0.0f);
-  append(foam.orientations, chunk.orientations, bare, glm::vec4(1, 0, 0, 0));
-  append(foam.detailSites, chunk.detailSites, bareDetails, glm::vec2(0));
-  const size_t flatDetails = chunk.detailHeights.empty() ? size_t{chunk.liveCount} * foam.detailCount : 0;
-  append(foam.detailHeights, chunk.detailHeights, flatDetails + bareDetails, 0.0f);
-  append(foam.lobeAxes, chunk.lobeAxes, bareLobes, glm::vec3(0));
-  append(foam.lobeColours, chunk.lobeColours, bareLobes, glm::vec3(0));  // an offset of 0 is grey
+// The same where an empty array means `filler` for every detail site.
+template <class T>
+void appendDetails(std::vector<T>& all, const std::vector<T>& values, size_t details, const T& filler) {
+  append(all, values, details - values.size(), filler);
 }
+
+class FoamAssembler {
+ public:
+  FoamAssembler(const AssetContents& contents, uint32_t cellCount) {
+    foam_.cellCount = cellCount;
+    foam_.detailCount = contents.detailCount;
+    foam_.lobeCount = contents.lobeCount;
+    const auto anyChunk = [&](auto&& has) { return std::any_of(contents.chunks.begin(), contents.chunks.end(), has); };
+    hasBase_ = anyChunk([](const ChunkContents& chunk) { return !chunk.baseColours.empty(); });
+    // Cells that are not live have no lobes, unless every detail site of the foam has the same number of them.
+    hasOffsets_ = anyChunk([](const ChunkContents& chunk) { return !chunk.lobeCounts.empty(); });
+    if (hasOffsets_) foam_.lobeOffsets.push_back(0);
+  }
+
+  void append(const ChunkContents& chunk) {
+    const glm::dvec3 origin(chunk.origin[0], chunk.origin[1], chunk.origin[2]);
+    for (uint32_t i = 0; i < chunk.cellCount; ++i) foam_.sites.emplace_back(origin + glm::dvec3(chunk.sites[i]));
+    foam_.radii.insert(foam_.radii.end(), chunk.radii.begin(), chunk.radii.begin() + chunk.cellCount);
+
+    const size_t bare = chunk.cellCount - chunk.liveCount;
+    const size_t bareDetails = bare * foam_.detailCount, details = size_t{chunk.cellCount} * foam_.detailCount;
+    froth::append(foam_.densities, chunk.densities, bare, 0.0f);
+    froth::append(foam_.orientations, chunk.orientations, bare, glm::vec4(1, 0, 0, 0));
+    froth::append(foam_.detailSites, chunk.detailSites, bareDetails, glm::vec2(0));
+    appendDetails(foam_.detailHeights, chunk.detailHeights, details, 0.0f);
+    if (hasBase_) appendDetails(foam_.baseColours, chunk.baseColours, details, glm::vec3(0));
+    appendLobes(chunk, bareDetails);
+  }
+
+  Foam take() { return std::move(foam_); }
+
+ private:
+  void appendLobes(const ChunkContents& chunk, size_t bareDetails) {
+    const size_t fillers = hasOffsets_ ? 0 : bareDetails * foam_.lobeCount;
+    froth::append(foam_.lobeAxes, chunk.lobeAxes, fillers, glm::vec3(0));
+    froth::append(foam_.lobeColours, chunk.lobeColours, fillers, glm::vec3(0));  // an offset of 0 is grey
+    if (!hasOffsets_) return;
+    const size_t liveDetails = size_t{chunk.liveCount} * foam_.detailCount;
+    for (size_t site = 0; site < liveDetails; ++site) {
+      const uint32_t count = chunk.lobeCounts.empty() ? foam_.lobeCount : chunk.lobeCounts[site];
+      foam_.lobeOffsets.push_back(foam_.lobeOffsets.back() + count);
+    }
+    foam_.lobeOffsets.insert(foam_.lobeOffsets.end(), bareDetails, foam_.lobeOffsets.back());
+  }
+
+  Foam foam_;
+  bool hasBase_ = false, hasOffsets_ = false;
+};
 
 }  // namespace
 
@@ -58,16 +106,9 @@ Result<Foam> foamFromAsset(const AssetContents& contents) {
     return makeError(ErrorKind::kBadInput, "asset: %llu cells; a foam has 1 to 4294967295",
                      static_cast<unsigned long long>(cellCount));
   }
-
-  Foam foam;
-  foam.cellCount = static_cast<uint32_t>(cellCount);
-  foam.detailCount = contents.detailCount;
-  foam.lobeCount = contents.lobeCount;
-  foam.sites.reserve(cellCount);
-  foam.lobeAxes.reserve(cellCount * foam.detailCount * foam.lobeCount);
-  foam.lobeColours.reserve(cellCount * foam.detailCount * foam.lobeCount);
-  for (const ChunkContents& chunk : contents.chunks) appendChunk(chunk, foam);
-  return foam;
+  FoamAssembler assembler(contents, static_cast<uint32_t>(cellCount));
+  for (const ChunkContents& chunk : contents.chunks) assembler.append(chunk);
+  return assembler.take();
 }
 
 }  // namespace froth

@@ -127,10 +127,25 @@ Error cancelled() {
 
 }  // namespace
 
-Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const Progress& progress) {
-  if (options.preset != "exact") {
-    return makeError(ErrorKind::kUsage, "preset '%s' does not exist; use 'exact'", options.preset.c_str());
+Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const ChunkSink& sink,
+                            const Progress& progress) {
+  Result<BakeResult> result = bakeFoam(foam, options, progress);
+  if (!result) return result;
+  std::vector<ChunkContents> chunks = std::move(result->contents.chunks);
+  result->contents.chunks.clear();
+  if (Status begun = sink.begin(result->contents); !begun) return begun.error();
+  for (const ChunkContents& chunk : chunks) {
+    ChunkContents& counts = result->contents.chunks.emplace_back();
+    counts.origin = chunk.origin;
+    counts.cellCount = chunk.cellCount;
+    counts.liveCount = chunk.liveCount;
+    counts.ghostCount = chunk.ghostCount;
   }
+  if (Status appended = sink.append(std::move(chunks)); !appended) return appended.error();
+  return result;
+}
+
+Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const Progress& progress) {
   if (Status status = checkFoam(foam); !status) return status.error();
   BakeResult result;
   StageRecorder recorder(result.stages);

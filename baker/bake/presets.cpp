@@ -1,0 +1,65 @@
+// The presets: named sets of knobs.
+#include "baker/bake/bake.h"
+
+namespace froth {
+namespace {
+
+BakeKnobs defaultKnobs() {
+  BakeKnobs knobs;
+  knobs.positionBits = 16;
+  knobs.radiusBits = 9;
+  knobs.densityBits = 4;
+  knobs.frameBits = 8;
+  knobs.detailSiteBits = 5;
+  knobs.heightBits = 5;
+  knobs.compressColours = true;
+  knobs.appearance.errorBound = 1.0f / 64;
+  knobs.appearance.lobeLimit = 8;
+  knobs.appearance.codebookSize = 4096;
+  knobs.appearance.colourStep = 0x1p-6f;
+  knobs.appearance.lobeAxisStep = 0.25f;
+  return knobs;
+}
+
+BakeKnobs highKnobs() {
+  BakeKnobs knobs = defaultKnobs();
+  knobs.positionBits = 19;
+  knobs.radiusBits = 12;
+  knobs.densityBits = 7;
+  knobs.frameBits = 11;
+  knobs.detailSiteBits = 8;
+  knobs.heightBits = 8;
+  knobs.appearance.errorBound = 1.0f / 256;
+  knobs.appearance.lobeLimit = 32;
+  knobs.appearance.colourStep = 0x1p-8f;
+  knobs.appearance.lobeAxisStep = 0x1p-4f;
+  return knobs;
+}
+
+BakeKnobs smallKnobs() {
+  BakeKnobs knobs = defaultKnobs();
+  knobs.positionBits = 15;
+  knobs.radiusBits = 8;
+  knobs.densityBits = 3;
+  knobs.frameBits = 7;
+  knobs.detailSiteBits = 4;
+  knobs.heightBits = 4;
+  knobs.appearance.errorBound = 1.0f / 32;
+  knobs.appearance.lobeLimit = 3;
+  knobs.appearance.codebookSize = 1024;
+  knobs.appearance.colourStep = 0x1p-5f;
+  knobs.appearance.lobeAxisStep = 1;
+  return knobs;
+}
+
+}  // namespace
+
+Result<BakeKnobs> presetKnobs(const std::string& preset) {
+  if (preset == "exact") return BakeKnobs{};
+  if (preset == "high") return highKnobs();
+  if (preset == "default") return defaultKnobs();
+  if (preset == "small") return smallKnobs();
+  return makeError(ErrorKind::kUsage, "preset '%s' does not exist; use exact, high, default or small", preset.c_str());
+}
+
+}  // namespace froth
