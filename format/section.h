@@ -5,6 +5,7 @@
 #include <string>
 
 #include "format/asset_contents.h"
+#include "format/section_codec.h"
 
 namespace froth {
 
@@ -24,23 +25,10 @@ enum class SectionType : uint32_t {
   kLobeColours = 11,      // [liveCount × K × M × 3] float
 };
 
-enum class SectionCodec : uint16_t {
-  kStored = 0,      // the raw bytes
-  kZstd = 1,        // one zstd frame of the raw bytes
-  kBytePlanes = 2,  // one zstd frame of: byte 0 of every word, byte 1 of every word, byte 2 …, byte 3 …
-};
-
 inline constexpr uint16_t kSectionCritical = 1;  // a reader that does not know the type refuses the file
 inline constexpr uint16_t kSectionReservedFlags = 0xff00;  // must be zero
 
 inline constexpr uint64_t kWordSize = 4;  // [bytes]
-
-// rawSize <= kMaxExpansion * storedSize, so memory is bounded by the file's size. Trained foams reach 1.2
-// (colours) to 7 (counts); zstd alone would allow 32768. The writer pads with zeros a frame that is shorter.
-inline constexpr uint64_t kMaxExpansion = 256;
-
-// A frame may look back this far, so a decoder's window needs no more. [log2 bytes]
-inline constexpr int kMaxWindowLog = 23;
 
 struct SectionRecord {
   uint32_t type = 0;  // SectionType, or one that this version does not know

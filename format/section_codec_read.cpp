@@ -93,7 +93,7 @@ Status readBytePlanes(FrameReader& frame, std::span<uint8_t> raw) {
 }  // namespace
 
 Status decodeSection(const SectionRecord& record, std::span<const uint8_t> stored, std::span<uint8_t> raw,
-                     const std::string& place) {
+                     const std::string& place, SectionShape) {
   if (!hashMatches(stored, record.hash))
     return makeError(ErrorKind::kBadInput, "%s: hash %016llx instead of %016llx; %s", place.c_str(),
                      static_cast<unsigned long long>(hashBytes(stored)),

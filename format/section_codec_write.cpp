@@ -79,7 +79,7 @@ Result<SectionCodec> chooseCodec(std::span<const uint8_t> raw) {
 
 }  // namespace
 
-Result<EncodedSection> encodeSection(std::span<const uint8_t> raw) {
+Result<EncodedSection> encodeSection(std::span<const uint8_t> raw, SectionShape) {
   const Result<SectionCodec> codec = chooseCodec(raw);
   if (!codec) return codec.error();
   Result<EncodedSection> section = encodeAs(*codec, raw);

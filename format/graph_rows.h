@@ -1,0 +1,46 @@
+// How the graph of a chunk lies in the file: each pair once, as ascending differences; and how rows come from it.
+//
+// Pairs {i, j} of indices into the chunk's sites are kept at the smaller index i, which is an own cell's: j is a larger own
+// cell or a ghost. Packing and unpacking stand in the writing and the reading library.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "format/asset_contents.h"
+#include "format/result.h"
+
+namespace froth {
+
+// Three sections' raw bytes. Without a walk graph only the pairs of the alpha-complex are there, and no bits.
+struct PackedGraph {
+  std::vector<uint8_t> counts;     // [cellCount] elements: pairs kept at each cell
+  std::vector<uint8_t> deltas;     // [pairs] elements: j - i - 1 of a cell's first pair, then j - (j before) - 1
+  std::vector<uint8_t> alphaBits;  // [(pairs + 7) / 8] bit p % 8 of byte p / 8: pair p is in the alpha-complex
+};
+
+// Size of an element of counts and deltas [2 or 4 bytes].
+uint32_t graphElementSize(const ChunkContents& chunk);
+
+// Reads cellCount, ghostCount, liveCount, neighbourOffsets, neighbours and alphaCounts. Rows may be in any order. Fails
+// if they are not symmetric: j in the row of an own i if and only if i in that of an own j, and both or none as alpha
+// (a live cell's mark counts if the other is not live).
+Result<PackedGraph> packGraph(const ChunkContents& chunk, bool hasWalkGraph);
+
+// The inverse: fills neighbourOffsets, neighbours and alphaCounts from the packed graph, the counts, sites and radii of
+// `chunk`. Everything in the spans is checked before use; allocates 8 bytes per pair and 8 per cell, and a scratch of the longest row.
+// `place` names the chunk in messages.
+struct PackedGraphView {
+  std::span<const uint8_t> counts, deltas, alphaBits;
+};
+Status unpackGraph(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& chunk,
+                   const std::string& place);
+
+// Sorts both parts of the rows of cells [first, last) into the order that ChunkContents promises; alpha neighbours must be
+// in front already. Baker and reader share it, so that a baked chunk and a read one agree. Safe to call for disjoint
+// ranges from several threads. Indices must be valid.
+void sortGraphRows(ChunkContents& chunk, uint32_t first, uint32_t last);
+
+}  // namespace froth

@@ -1,0 +1,37 @@
+// What encoders and decoders of sections share: the codecs, the shape of a section's elements, the limits.
+// A section is an array of entries of `components` elements of `elementSize` bytes, little-endian.
+#pragma once
+
+#include <cstdint>
+
+namespace froth {
+
+enum class SectionCodec : uint16_t {
+  kStored = 0,       // the raw bytes
+  kZstd = 1,         // one zstd frame of the raw bytes
+  kBytePlanes = 2,   // one zstd frame of: byte 0 of every element, byte 1 of every element, ...
+  kDeltaPlanes = 3,  // likewise, of each element's difference to the same component of the entry before
+  kMortonDelta = 4,  // positions: one zstd frame of byte planes of differences between Morton codes
+  kDraco = 5,        // positions: runs of points, each a kd-tree of Draco's, in the order in which that gives them
+};
+inline constexpr uint16_t kLastSectionCodec = static_cast<uint16_t>(SectionCodec::kDraco);
+
+struct SectionShape {
+  uint32_t elementSize = 4;  // [bytes] 1, 2 or 4
+  uint32_t components = 1;   // >= 1
+};
+
+// The shape of positions: three signed 32-bit lattice indices per point. The codecs for positions take no other.
+inline constexpr SectionShape kPositionShape = {4, 3};
+
+// The codecs for positions take points whose box spans at most this many bits along each axis.
+inline constexpr uint32_t kMaxPositionBits = 21;
+
+// rawSize <= kMaxExpansion * storedSize, so memory is bounded by the file's size. Trained foams reach 1.2
+// (colours) to 7 (counts); zstd alone would allow 32768. The writer pads with zeros a section that is shorter.
+inline constexpr uint64_t kMaxExpansion = 256;
+
+// A frame may look back this far, so a decoder's window needs no more. [log2 bytes]
+inline constexpr int kMaxWindowLog = 23;
+
+}  // namespace froth
