@@ -28,6 +28,14 @@ struct RayResult {
   Real depth = -1;
 };
 
+// What a ray sees of one cell: composited with weight T alpha, its details blended at `query` (foam::faceQuery).
+template <class Real>
+struct RaySegment {
+  uint32_t rank;
+  Real weight;
+  glm::vec<3, Real> query;
+};
+
 template <class Real>
 struct RaySettings {
   Real cutoff, logQuantile, sharpness;
@@ -68,11 +76,11 @@ glm::vec<3, Real> blendColour(std::span<const ViewDetail<Real>> details, const g
   return sum / foam::flooredWeightSum(weightSum);
 }
 
-// Steps 3 to 7 for a cell whose interval the planes have cut.
-template <class Real>
+// Steps 3 to 7 for a cell whose interval the planes have cut; visit(segment) if it shows.
+template <class Real, class Visitor>
 void compositeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>> details,
                    const glm::vec<3, Real>& direction, const RaySettings<Real>& settings, BallHit<Real> hit,
-                   RayResult<Real>& ray) {
+                   RayResult<Real>& ray, Visitor&& visit) {
   const Real facing = glm::dot(cell.frame.normal, direction);
   const bool leavesThroughFace = facing >= 0;
   const auto queryAt = [&](Real t) {
@@ -90,7 +98,8 @@ void compositeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>>
   }
   if (!(hit.tNear < hit.tFar)) return;
 
-  const glm::vec<3, Real> colour = blendColour(details, queryAt(hit.tNear), settings.sharpness);
+  const glm::vec<3, Real> query = queryAt(hit.tNear);
+  const glm::vec<3, Real> colour = blendColour(details, query, settings.sharpness);
   const Real opticalDepth = cell.density * (hit.tFar - hit.tNear);
   const Real weight = std::exp(ray.logTransmittance) * foam::opacity(opticalDepth);
   const Real logAfter = ray.logTransmittance - opticalDepth;
@@ -100,22 +109,30 @@ void compositeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>>
   ray.colour += weight * colour;
   ray.normal += weight * cell.frame.normal;
   ray.logTransmittance = logAfter;
+  visit(RaySegment<Real>{hit.rank, weight, query});
 }
 
-// `hits` in any order; they are sorted front to back.
-template <class Real>
+// `hits` in any order; they are sorted front to back. Calls visit(segment) for every cell that shows, front to back.
+template <class Real, class Visitor>
 RayResult<Real> compositeHits(const ViewCells<Real>& view, const glm::vec<3, Real>& direction,
-                              const RaySettings<Real>& settings, std::vector<BallHit<Real>>& hits) {
+                              const RaySettings<Real>& settings, std::vector<BallHit<Real>>& hits,
+                              Visitor&& visit) {
   std::sort(hits.begin(), hits.end(),
             [](const BallHit<Real>& a, const BallHit<Real>& b) { return a.rank < b.rank; });
   RayResult<Real> ray;
   for (BallHit<Real>& hit : hits) {
     const ViewCell<Real>& cell = view.cells[hit.rank];
     if (!clipByNeighbours(view.planesOf(cell), direction, hit)) continue;
-    compositeCell(cell, view.detailsOf(hit.rank), direction, settings, hit, ray);
+    compositeCell(cell, view.detailsOf(hit.rank), direction, settings, hit, ray, visit);
     if (std::exp(ray.logTransmittance) < settings.cutoff) break;
   }
   return ray;
+}
+
+template <class Real>
+RayResult<Real> compositeHits(const ViewCells<Real>& view, const glm::vec<3, Real>& direction,
+                              const RaySettings<Real>& settings, std::vector<BallHit<Real>>& hits) {
+  return compositeHits(view, direction, settings, hits, [](const RaySegment<Real>&) {});
 }
 
 }  // namespace froth

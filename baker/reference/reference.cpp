@@ -14,22 +14,6 @@ namespace {
 
 constexpr uint64_t kMaxPixels = uint64_t{1} << 28;
 
-// Cells that can show: of coincident sites only the one with the largest radius, then the lowest index,
-// exists; cells without density only cut.
-std::vector<uint32_t> findVisibleCells(const Foam& foam) {
-  std::vector<uint32_t> cells(foam.cellCount);
-  for (uint32_t i = 0; i < foam.cellCount; ++i) cells[i] = i;
-  const auto key = [&](uint32_t i) {
-    const glm::vec3& p = foam.sites[i];
-    return std::tuple(p.x, p.y, p.z, -foam.radii[i], i);
-  };
-  std::sort(cells.begin(), cells.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
-  const auto isSameSite = [&](uint32_t a, uint32_t b) { return foam.sites[a] == foam.sites[b]; };
-  cells.erase(std::unique(cells.begin(), cells.end(), isSameSite), cells.end());
-  std::erase_if(cells, [&](uint32_t i) { return !(foam.densities[i] > 0); });
-  return cells;
-}
-
 // Counts rows from all threads, reports about a hundred times, one thread at a time.
 class RowCounter {
  public:
@@ -54,13 +38,6 @@ class RowCounter {
   std::atomic<bool> isStopped_ = false;
   std::mutex mutex_;
 };
-
-glm::dvec3 pixelDirection(const View& view, uint32_t x, uint32_t y) {
-  const auto& m = view.worldFromCamera;
-  const glm::dvec3 d((x + 0.5 - view.cx) / view.fx, (y + 0.5 - view.cy) / view.fy, 1);
-  return glm::normalize(glm::dvec3(m[0] * d.x + m[1] * d.y + m[2] * d.z, m[4] * d.x + m[5] * d.y + m[6] * d.z,
-                                   m[8] * d.x + m[9] * d.y + m[10] * d.z));
-}
 
 template <class Real>
 class ImageRenderer {

@@ -60,6 +60,13 @@ inline glm::dvec3 eyeOf(const View& view) {
   return {view.worldFromCamera[3], view.worldFromCamera[7], view.worldFromCamera[11]};
 }
 
+// Unit direction [world] of the ray through the centre of a pixel.
+glm::dvec3 pixelDirection(const View& view, uint32_t x, uint32_t y);
+
+// Cells that can show: of coincident sites only the one with the largest radius, then the lowest index,
+// exists; cells without density only cut.
+std::vector<uint32_t> findVisibleCells(const Foam& foam);
+
 // Draws those of `candidates` that pass the near tests. Every Cech neighbour cuts, drawn or not.
 template <class Real>
 ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,

@@ -1,0 +1,206 @@
+#include "baker/appearance/visibility.h"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "baker/reference/ball_hierarchy.h"
+#include "baker/reference/ray.h"
+#include "baker/reference/view_cells.h"
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kDefaultPixels = 80'000;
+constexpr double kCutoff = 1e-3;         // of the runtime
+constexpr double kFixedPoint = 1 << 24;  // sums are integers: their order does not matter
+
+// The foam without its colours: reduced views of large foams should not pay for lobes.
+Foam copyGeometry(const Foam& foam) {
+  Foam geometry;
+  geometry.cellCount = foam.cellCount;
+  geometry.detailCount = foam.detailCount;
+  geometry.sites = foam.sites;
+  geometry.radii = foam.radii;
+  geometry.densities = foam.densities;
+  geometry.orientations = foam.orientations;
+  geometry.detailSites = foam.detailSites;
+  geometry.detailHeights = foam.detailHeights;
+  return geometry;
+}
+
+View reduceView(const View& view, uint32_t maxPixels) {
+  const double pixels = double(view.width) * view.height;
+  const double scale = std::min(1.0, std::sqrt(maxPixels / pixels));
+  const auto reduce = [&](uint32_t size) { return std::max(1u, static_cast<uint32_t>(std::lround(size * scale))); };
+  return resizeView(view, reduce(view.width), reduce(view.height));
+}
+
+// Balls that may show in the view: at least partly before the eye and inside the pyramid of its image.
+std::vector<uint32_t> findCellsInFrustum(const Foam& foam, std::span<const uint32_t> cells, const View& view) {
+  const auto& m = view.worldFromCamera;
+  const glm::dvec3 eye = eyeOf(view);
+  const glm::dvec3 right(m[0], m[4], m[8]), down(m[1], m[5], m[9]), forward(m[2], m[6], m[10]);
+  const std::array<glm::dvec3, 5> inward = {forward, glm::normalize(right * view.fx + forward * view.cx),
+                                            glm::normalize(-right * view.fx + forward * (view.width - view.cx)),
+                                            glm::normalize(down * view.fy + forward * view.cy),
+                                            glm::normalize(-down * view.fy + forward * (view.height - view.cy))};
+  std::vector<uint32_t> inside;
+  for (uint32_t cell : cells) {
+    const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
+    bool isInside = true;
+    for (const glm::dvec3& normal : inward) isInside &= glm::dot(normal, centre) > -double(foam.radii[cell]);
+    if (isInside) inside.push_back(cell);
+  }
+  return inside;
+}
+
+void raise(float& value, float other) {
+  std::atomic_ref<float> largest(value);
+  for (float seen = largest; seen < other && !largest.compare_exchange_weak(seen, other);) {
+  }
+}
+
+// What one view sees.
+struct ViewSums {
+  std::vector<uint64_t> details;    // [drawn cells * K] sum of T alpha omega, fixed point
+  std::vector<float> contributions; // [drawn cells] largest T alpha
+};
+
+class ViewMeasurer {
+ public:
+  ViewMeasurer(const View& view, const ViewCells<float>& cells, const BallHierarchy& hierarchy, double sharpness)
+      : view_(view), cells_(cells), hierarchy_(hierarchy) {
+    settings_ = {float(kCutoff), -std::numeric_limits<float>::infinity(), float(sharpness)};
+    sums_.details.resize(cells.cells.size() * cells.detailCount);
+    sums_.contributions.resize(cells.cells.size());
+  }
+
+  ViewSums measure() {
+    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, view_.height), [&](const tbb::blocked_range<uint32_t>& rows) {
+      std::vector<BallHit<float>> hits;
+      std::vector<float> shares(cells_.detailCount);
+      for (uint32_t y = rows.begin(); y < rows.end(); ++y) {
+        for (uint32_t x = 0; x < view_.width; ++x) measurePixel(x, y, hits, shares);
+      }
+    });
+    return std::move(sums_);
+  }
+
+ private:
+  void measurePixel(uint32_t x, uint32_t y, std::vector<BallHit<float>>& hits, std::span<float> shares) {
+    const glm::dvec3 exactDirection = pixelDirection(view_, x, y);
+    const glm::vec3 direction(exactDirection);
+    hits.clear();
+    hierarchy_.visitAlongRay(eyeOf(view_), exactDirection, [&](uint32_t source) {
+      BallHit<float> hit{cells_.rankOf[source], 0, 0};
+      if (hit.rank == ViewCells<float>::kNotDrawn) return;
+      const ViewCell<float>& cell = cells_.cells[hit.rank];
+      if (foam::intersectBall(cell.centre, cell.radius, direction, hit.tNear, hit.tFar)) hits.push_back(hit);
+    });
+    compositeHits(cells_, direction, settings_, hits,
+                  [&](const RaySegment<float>& segment) { addSegment(segment, shares); });
+  }
+
+  void addSegment(const RaySegment<float>& segment, std::span<float> shares) {
+    const auto details = cells_.detailsOf(segment.rank);
+    float sum = 0;
+    for (size_t k = 0; k < shares.size(); ++k) {
+      shares[k] = foam::detailWeight(segment.query, details[k].place, settings_.sharpness);
+      sum += shares[k];
+    }
+    const double scale = kFixedPoint * segment.weight / foam::flooredWeightSum(sum);
+    for (size_t k = 0; k < shares.size(); ++k) {
+      const auto added = static_cast<uint64_t>(scale * shares[k]);
+      if (added == 0) continue;
+      std::atomic_ref<uint64_t>(sums_.details[segment.rank * shares.size() + k]).fetch_add(added, std::memory_order_relaxed);
+    }
+    raise(sums_.contributions[segment.rank], segment.weight);
+  }
+
+  const View& view_;
+  const ViewCells<float>& cells_;
+  const BallHierarchy& hierarchy_;
+  RaySettings<float> settings_;
+  ViewSums sums_;
+};
+
+// Seen detail sites of one view, in no useful order.
+struct ViewEntries {
+  std::vector<uint64_t> sites;
+  std::vector<float> weights;  // [full-size pixels]
+};
+
+void addEntries(const ViewCells<float>& cells, const ViewSums& sums, double pixelsPerSample, ViewEntries& entries,
+                std::vector<float>& contributions) {
+  const uint32_t K = cells.detailCount;
+  for (size_t cell = 0; cell < cells.rankOf.size(); ++cell) {
+    const uint32_t rank = cells.rankOf[cell];
+    if (rank == ViewCells<float>::kNotDrawn) continue;
+    contributions[cell] = std::max(contributions[cell], sums.contributions[rank]);
+    for (uint32_t k = 0; k < K; ++k) {
+      const uint64_t sum = sums.details[uint64_t{rank} * K + k];
+      if (sum == 0) continue;
+      entries.sites.push_back(cell * K + k);
+      entries.weights.push_back(static_cast<float>(sum / kFixedPoint * pixelsPerSample));
+    }
+  }
+}
+
+void gatherRows(const std::vector<ViewEntries>& views, Visibility& visibility) {
+  auto& offsets = visibility.offsets;
+  for (const ViewEntries& view : views) {
+    for (uint64_t site : view.sites) ++offsets[site + 1];
+  }
+  for (size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];
+  visibility.views.resize(offsets.back());
+  visibility.weights.resize(offsets.back());
+  std::vector<uint64_t> next(offsets.begin(), offsets.end() - 1);
+  for (size_t v = 0; v < views.size(); ++v) {
+    for (size_t i = 0; i < views[v].sites.size(); ++i) {
+      const uint64_t place = next[views[v].sites[i]]++;
+      visibility.views[place] = static_cast<uint16_t>(v);
+      visibility.weights[place] = views[v].weights[i];
+    }
+  }
+}
+
+}  // namespace
+
+Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> views, const VisibilityOptions& options,
+                                     const Progress& progress) {
+  if (views.size() > std::numeric_limits<uint16_t>::max()) {
+    return makeError(ErrorKind::kUsage, "cameras: found %zu views; give at most 65535", views.size());
+  }
+  const Foam geometry = copyGeometry(foam);
+  const std::vector<uint32_t> visible = findVisibleCells(geometry);
+  const CellGraph pairs = findCechPairs(geometry.sites, geometry.radii);
+  const BallHierarchy hierarchy(geometry.sites, geometry.radii, visible);
+
+  Visibility visibility;
+  visibility.offsets.assign(uint64_t{foam.cellCount} * foam.detailCount + 1, 0);
+  visibility.contributions.assign(foam.cellCount, 0.0f);
+  std::vector<ViewEntries> entries(views.size());
+  for (size_t v = 0; v < views.size(); ++v) {
+    if (!report(progress, "visibility", v, views.size())) {
+      return makeError(ErrorKind::kCancelled, "visibility: stopped on request");
+    }
+    const View view = reduceView(views[v], options.maxPixelsPerView > 0 ? options.maxPixelsPerView : kDefaultPixels);
+    ReferenceOptions reference;
+    reference.nearRatio = views[v].nearRatio.value_or(options.nearRatio);
+    reference.nearDepth = views[v].nearDepth.value_or(options.nearDepth);
+    const auto candidates = findCellsInFrustum(geometry, visible, view);
+    const auto cells = prepareViewCells<float>(geometry, pairs, candidates, view, reference);
+    const ViewSums sums = ViewMeasurer(view, cells, hierarchy, options.detailSharpness).measure();
+    const double pixelsPerSample = double(views[v].width) * views[v].height / (double(view.width) * view.height);
+    addEntries(cells, sums, pixelsPerSample, entries[v], visibility.contributions);
+    visibility.eyes.push_back(eyeOf(view));
+  }
+  gatherRows(entries, visibility);
+  return visibility;
+}
+
+}  // namespace froth
