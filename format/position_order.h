@@ -2,16 +2,14 @@
 // an order of its own. The baker asks here before it puts a chunk's cells into their order.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "format/result.h"
+#include "format/section_codec.h"
 
 namespace froth {
-
-using LatticePoint = std::array<int32_t, 3>;
 
 // Decoding a point costs this much more by Draco than by Morton-delta; measured by froth_bench_codecs.
 inline constexpr double kDracoDecodeCost = 5;

@@ -2,6 +2,7 @@
 // A section is an array of entries of `components` elements of `elementSize` bytes, little-endian.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace froth {
@@ -19,9 +20,12 @@ inline constexpr uint16_t kLastSectionCodec = static_cast<uint16_t>(SectionCodec
 struct SectionShape {
   uint32_t elementSize = 4;  // [bytes] 1, 2 or 4
   uint32_t components = 1;   // >= 1
+
+  bool operator==(const SectionShape&) const = default;
 };
 
-// The shape of positions: three signed 32-bit lattice indices per point. The codecs for positions take no other.
+// Positions are lattice indices; the codecs for positions take no other shape.
+using LatticePoint = std::array<int32_t, 3>;
 inline constexpr SectionShape kPositionShape = {4, 3};
 
 // The codecs for positions take points whose box spans at most this many bits along each axis.
@@ -30,6 +34,10 @@ inline constexpr uint32_t kMaxPositionBits = 21;
 // rawSize <= kMaxExpansion * storedSize, so memory is bounded by the file's size. Trained foams reach 1.2
 // (colours) to 7 (counts); zstd alone would allow 32768. The writer pads with zeros a section that is shorter.
 inline constexpr uint64_t kMaxExpansion = 256;
+
+// Draco works harder for a point than zstd for a byte, so its sections expand less (trained foams: 3): no small file
+// keeps a decoder busy. A writer offers the codec only below.
+inline constexpr uint64_t kMaxDracoExpansion = 16;
 
 // A frame may look back this far, so a decoder's window needs no more. [log2 bytes]
 inline constexpr int kMaxWindowLog = 23;

@@ -1,112 +1,103 @@
 #include "format/section_codec_read.h"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
-#include <memory>
-
-#include <zstd.h>
+#include <vector>
 
 #include "format/container.h"
+#include "format/deltas.h"
+#include "format/draco_positions.h"
+#include "format/frame_read.h"
 
 namespace froth {
 namespace {
 
-constexpr char kRemedy[] = "the file is damaged, copy it or bake the scene again";
+using ull = unsigned long long;
 
-// One zstd frame, followed by nothing but zeros, whose content is taken in pieces.
-class FrameReader {
- public:
-  FrameReader(std::span<const uint8_t> stored, const std::string& place)
-      : context_(ZSTD_createDCtx(), ZSTD_freeDCtx), input_{stored.data(), stored.size(), 0}, place_(place) {}
-
-  Status start(uint64_t contentSize) {
-    if (!context_) return makeError(ErrorKind::kIo, "%s: no memory for zstd", place_.c_str());
-    ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, kMaxWindowLog);
-    const unsigned long long found = ZSTD_getFrameContentSize(input_.src, input_.size);
-    if (found == contentSize) return {};
-    if (found == ZSTD_CONTENTSIZE_ERROR || found == ZSTD_CONTENTSIZE_UNKNOWN)
-      return makeError(ErrorKind::kBadInput, "%s: no zstd frame of known size; %s", place_.c_str(), kRemedy);
-    return makeError(ErrorKind::kBadInput, "%s: the zstd frame holds %llu bytes, the manifest says %llu; %s",
-                     place_.c_str(), found, static_cast<unsigned long long>(contentSize), kRemedy);
+template <class Word>
+void undoDeltas(std::span<uint8_t> raw, size_t components) {
+  const size_t reach = components * sizeof(Word);
+  for (size_t at = 0; at < raw.size(); at += sizeof(Word)) {
+    Word before = 0, folded;
+    if (at >= reach) std::memcpy(&before, raw.data() + at - reach, sizeof(Word));
+    std::memcpy(&folded, raw.data() + at, sizeof(Word));
+    const Word value = static_cast<Word>(before + unzigzag(folded));
+    std::memcpy(raw.data() + at, &value, sizeof(Word));
   }
+}
 
-  // Fills `out` whole.
-  Status read(std::span<uint8_t> out) {
-    ZSTD_outBuffer output{out.data(), out.size(), 0};
-    while (output.pos < output.size) {
-      if (Status step = advance(output); !step) return step;
-      if (output.pos < output.size && (atEnd_ || input_.pos == input_.size))
-        return makeError(ErrorKind::kBadInput, "%s: the zstd frame ends early; %s", place_.c_str(), kRemedy);
-    }
-    return {};
+void undoDeltas(std::span<uint8_t> raw, SectionShape shape) {
+  if (shape.elementSize == 1) return undoDeltas<uint8_t>(raw, shape.components);
+  if (shape.elementSize == 2) return undoDeltas<uint16_t>(raw, shape.components);
+  undoDeltas<uint32_t>(raw, shape.components);
+}
+
+// Frame content: the least coordinates of all points (3 x int32), then the byte planes of the folded differences between
+// the points' Morton codes (uint64).
+Status readMortonDeltas(FrameReader& frame, std::span<uint8_t> raw) {
+  const size_t count = raw.size() / sizeof(std::array<uint32_t, 3>);
+  std::array<uint32_t, 3> least;
+  std::vector<uint64_t> codes(count);
+  const std::span<uint8_t> codeBytes{reinterpret_cast<uint8_t*>(codes.data()), count * sizeof(uint64_t)};
+  if (Status status = frame.start(sizeof(least) + codeBytes.size()); !status) return status;
+  if (Status status = frame.read({reinterpret_cast<uint8_t*>(least.data()), sizeof(least)}); !status) return status;
+  if (Status status = frame.readPlanes(codeBytes, sizeof(uint64_t)); !status) return status;
+
+  uint64_t code = 0;
+  for (size_t i = 0; i < count; ++i) {
+    code += unzigzag(codes[i]);
+    std::array<uint32_t, 3> point = mortonPoint(code);
+    for (size_t axis = 0; axis < 3; ++axis) point[axis] += least[axis];
+    std::memcpy(raw.data() + i * sizeof(point), point.data(), sizeof(point));
   }
+  return frame.finish();
+}
 
-  // The frame must end here (its checksum is read now), and zeros must follow.
-  Status finish() {
-    ZSTD_outBuffer none{nullptr, 0, 0};
-    while (!atEnd_) {
-      const size_t before = input_.pos;
-      if (Status step = advance(none); !step) return step;
-      if (!atEnd_ && input_.pos == before)
-        return makeError(ErrorKind::kBadInput, "%s: the zstd frame does not end; %s", place_.c_str(),
-                         kRemedy);
-    }
-    const uint8_t* bytes = static_cast<const uint8_t*>(input_.src);
-    if (std::all_of(bytes + input_.pos, bytes + input_.size, [](uint8_t byte) { return byte == 0; }))
-      return {};
-    return makeError(ErrorKind::kBadInput, "%s: bytes after the zstd frame are not zero; %s", place_.c_str(),
-                     kRemedy);
-  }
+Status readZstd(SectionCodec codec, std::span<const uint8_t> stored, std::span<uint8_t> raw, const std::string& place,
+                SectionShape shape) {
+  FrameReader frame(stored, place);
+  if (codec == SectionCodec::kMortonDelta) return readMortonDeltas(frame, raw);
+  if (Status status = frame.start(raw.size()); !status) return status;
+  const bool isPlanes = codec != SectionCodec::kZstd;
+  if (Status status = isPlanes ? frame.readPlanes(raw, shape.elementSize) : frame.read(raw); !status) return status;
+  if (codec == SectionCodec::kDeltaPlanes) undoDeltas(raw, shape);
+  return frame.finish();
+}
 
- private:
-  Status advance(ZSTD_outBuffer& output) {
-    const size_t result = ZSTD_decompressStream(context_.get(), &output, &input_);
-    if (ZSTD_isError(result))
-      return makeError(ErrorKind::kBadInput, "%s: zstd: %s; %s", place_.c_str(), ZSTD_getErrorName(result),
-                       kRemedy);
-    atEnd_ = result == 0;
-    return {};
-  }
-
-  std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context_;
-  ZSTD_inBuffer input_;
-  bool atEnd_ = false;
-  const std::string& place_;
-};
-
-// Takes plane after plane from the frame and deals its bytes to the words.
-Status readBytePlanes(FrameReader& frame, std::span<uint8_t> raw) {
-  std::array<uint8_t, 1 << 16> buffer;
-  const size_t words = raw.size() / kWordSize;
-  for (size_t plane = 0; plane < kWordSize; ++plane) {
-    for (size_t first = 0; first < words; first += buffer.size()) {
-      const size_t count = std::min(buffer.size(), words - first);
-      if (Status status = frame.read({buffer.data(), count}); !status) return status;
-      uint8_t* target = raw.data() + first * kWordSize + plane;
-      for (size_t i = 0; i < count; ++i) target[i * kWordSize] = buffer[i];
-    }
-  }
+Status checkShape(SectionCodec codec, std::span<const uint8_t> stored, std::span<uint8_t> raw,
+                  const std::string& place, SectionShape shape) {
+  if (codec > SectionCodec{kLastSectionCodec})
+    return makeError(ErrorKind::kUnsupported, "%s: codec %u is unknown; update this program", place.c_str(),
+                     static_cast<unsigned>(codec));
+  if (raw.size() % (uint64_t{shape.elementSize} * shape.components) != 0)
+    return makeError(ErrorKind::kBadInput, "%s: %llu bytes are no whole entries of %u x %u bytes; %s", place.c_str(),
+                     ull{raw.size()}, shape.components, shape.elementSize, kSectionRemedy);
+  const bool isForPositions = codec == SectionCodec::kMortonDelta || codec == SectionCodec::kDraco;
+  if (isForPositions && shape != kPositionShape)
+    return makeError(ErrorKind::kBadInput, "%s: codec %u is for positions only; %s", place.c_str(),
+                     static_cast<unsigned>(codec), kSectionRemedy);
+  if (codec == SectionCodec::kStored && stored.size() != raw.size())
+    return makeError(ErrorKind::kBadInput, "%s: %llu bytes stored as they are, for %llu; %s", place.c_str(),
+                     ull{stored.size()}, ull{raw.size()}, kSectionRemedy);
   return {};
 }
 
 }  // namespace
 
 Status decodeSection(const SectionRecord& record, std::span<const uint8_t> stored, std::span<uint8_t> raw,
-                     const std::string& place, SectionShape) {
+                     const std::string& place, SectionShape shape) {
+  const SectionCodec codec{record.codec};
   if (!hashMatches(stored, record.hash))
     return makeError(ErrorKind::kBadInput, "%s: hash %016llx instead of %016llx; %s", place.c_str(),
-                     static_cast<unsigned long long>(hashBytes(stored)),
-                     static_cast<unsigned long long>(record.hash), kRemedy);
-  if (record.codec == static_cast<uint16_t>(SectionCodec::kStored)) {
-    std::memcpy(raw.data(), stored.data(), raw.size());  // sizes were compared when the manifest was read
+                     ull{hashBytes(stored)}, ull{record.hash}, kSectionRemedy);
+  if (Status status = checkShape(codec, stored, raw, place, shape); !status) return status;
+  if (raw.empty()) return {};
+  if (codec == SectionCodec::kStored) {
+    std::memcpy(raw.data(), stored.data(), raw.size());
     return {};
   }
-  FrameReader frame(stored, place);
-  if (Status status = frame.start(raw.size()); !status) return status;
-  const bool planes = record.codec == static_cast<uint16_t>(SectionCodec::kBytePlanes);
-  if (Status status = planes ? readBytePlanes(frame, raw) : frame.read(raw); !status) return status;
-  return frame.finish();
+  if (codec == SectionCodec::kDraco) return readDracoPositions(stored, raw, place);
+  return readZstd(codec, stored, raw, place, shape);
 }
 
 }  // namespace froth
