@@ -11,7 +11,8 @@
 namespace froth {
 namespace {
 
-using Json = nlohmann::ordered_json;  // keeps keys in the order in which they are written
+using Json = nlohmann::json;
+using WrittenJson = nlohmann::ordered_json;  // keeps keys in their order; many take it quadratic time
 
 // Fields of one JSON object. The first fault is kept; later reads then return defaults.
 class FieldReader {
@@ -101,8 +102,18 @@ class FieldReader {
   const std::string& place() const { return place_; }
 
  private:
+  // A file may nest values as deep as it is long, and dump() recurses.
+  static bool isDeeperThan(const Json& value, int levels) {
+    return value.is_structured() &&
+           (levels == 0 || std::any_of(value.begin(), value.end(), [levels](const Json& child) {
+              return isDeeperThan(child, levels - 1);
+            }));
+  }
+
   static std::string describe(const Json& value) {
     constexpr size_t kShown = 60;
+    constexpr int kShownLevels = 3;
+    if (isDeeperThan(value, kShownLevels)) return std::string("a deeply nested ") + value.type_name();
     std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
     return text.size() > kShown ? text.substr(0, kShown) + "..." : text;
   }
@@ -176,10 +187,10 @@ Result<std::vector<View>> readViews(const Json& root, const char* list, const st
   return views;
 }
 
-Json toJson(const View& view) {
+WrittenJson toJson(const View& view) {
   const auto& m = view.worldFromCamera;
-  Json object = {{"photo", view.name}, {"width", view.width}, {"height", view.height}, {"fx", view.fx},
-                 {"fy", view.fy},      {"cx", view.cx},       {"cy", view.cy}};
+  WrittenJson object = {{"photo", view.name}, {"width", view.width}, {"height", view.height}, {"fx", view.fx},
+                        {"fy", view.fy},      {"cx", view.cx},       {"cy", view.cy}};
   object["world_from_camera"] = {
       {m[0], m[1], m[2], m[3]}, {m[4], m[5], m[6], m[7]}, {m[8], m[9], m[10], m[11]}};
   if (view.nearDepth) object["near_depth"] = *view.nearDepth;
@@ -226,7 +237,7 @@ Result<CameraSet> parseCameras(std::span<const uint8_t> bytes, const std::string
 }
 
 Status writeCameras(const std::filesystem::path& path, const CameraSet& cameras) {
-  Json root;
+  WrittenJson root;
   if (!cameras.scene.empty()) root["scene"] = cameras.scene;
   root["convention"] =
       "camera axes x right, y down, z forward; pixel centres at +0.5; world_from_camera: 3 rows of 4; "
@@ -234,7 +245,7 @@ Status writeCameras(const std::filesystem::path& path, const CameraSet& cameras)
   const std::pair<const char*, const std::vector<View>&> lists[] = {{"views", cameras.views},
                                                                     {"flight", cameras.flight}};
   for (const auto& [list, views] : lists) {
-    Json array = Json::array();
+    WrittenJson array = WrittenJson::array();
     for (size_t i = 0; i < views.size(); ++i) {
       if (Status status = checkView(views[i], viewPlace(path.string(), list, i)); !status) return status;
       array.push_back(toJson(views[i]));
@@ -243,7 +254,7 @@ Status writeCameras(const std::filesystem::path& path, const CameraSet& cameras)
   }
   // File names need not be UTF-8; a name that is not is written with replacement characters instead of
   // failing.
-  const std::string text = root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = root.dump(1, ' ', false, WrittenJson::error_handler_t::replace) + "\n";
   return writeFileAtomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 

@@ -264,7 +264,11 @@ Result<ZipArchive> readZipArchive(const NamedBytes& archive) {
 }
 
 Status checkZipMember(const NamedBytes& archive, const ZipMember& member) {
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+  const uint32_t found = member.crc32;  // so that edits of a file get past it
+#else
   const auto found = static_cast<uint32_t>(crc32_z(0, member.bytes.data(), member.bytes.size()));
+#endif
   if (found != member.crc32) {
     return badInput(archive.name, "member {} is damaged (CRC-32 {:#010x}, expected {:#010x}); {}",
                     quoted(member.name), found, member.crc32, kRemedy);

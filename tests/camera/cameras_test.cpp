@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -123,6 +124,14 @@ TEST_F(CamerasTest, AViewWithoutAPhotoIsNamedByItsPlace) {
   EXPECT_TRUE(cameras->flight.empty());
 }
 
+TEST_F(CamerasTest, TimeGrowsWithTheFileAndNotWithItsSquare) {
+  std::string fields = "1";
+  for (int i = 0; i < 200000; ++i) fields += ", \"a" + std::to_string(i) + "\": 1";
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_FALSE(readWith("width", fields));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));  // quadratic: over a minute
+}
+
 TEST_F(CamerasTest, AFaultNamesFileViewFieldFoundValueAndRemedy) {
   expectRefused("width", "0", "found 0");
   expectRefused("width", "-640", "found -640");
@@ -138,6 +147,9 @@ TEST_F(CamerasTest, AFaultNamesFileViewFieldFoundValueAndRemedy) {
   expectRefused("near_ratio", "true", "true");
   expectRefused("near_deph", "0.3", "unknown field");
   expectRefused("photo", "7", "found 7");
+  expectRefused("width", "[[[4]]]", "found [[[4]]]");
+  const std::string deep(1000000, '[');  // deeper than any stack
+  expectRefused("width", deep + std::string(deep.size(), ']'), "found a deeply nested array");
   expectRefused("golden", "7", "found number");
   expectRefused("golden", R"({"rgb": "../../etc/passwd"})", "passwd");
   expectRefused("golden", R"({"normal": "n.f16"})", "unknown field");
