@@ -21,7 +21,7 @@ void undoDeltas(std::span<uint8_t> raw, size_t components) {
     Word before = 0, folded;
     if (at >= reach) std::memcpy(&before, raw.data() + at - reach, sizeof(Word));
     std::memcpy(&folded, raw.data() + at, sizeof(Word));
-    const Word value = static_cast<Word>(before + unzigzag(folded));
+    const Word value = static_cast<Word>(before + unfoldDelta(folded));
     std::memcpy(raw.data() + at, &value, sizeof(Word));
   }
 }
@@ -45,7 +45,7 @@ Status readMortonDeltas(FrameReader& frame, std::span<uint8_t> raw) {
 
   uint64_t code = 0;
   for (size_t i = 0; i < count; ++i) {
-    code += unzigzag(codes[i]);
+    code += unfoldDelta(codes[i]);
     std::array<uint32_t, 3> point = mortonPoint(code);
     for (size_t axis = 0; axis < 3; ++axis) point[axis] += least[axis];
     std::memcpy(raw.data() + i * sizeof(point), point.data(), sizeof(point));

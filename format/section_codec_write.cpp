@@ -28,7 +28,7 @@ std::vector<uint8_t> deltasOf(std::span<const uint8_t> raw, size_t components) {
     Word before = 0, value;
     if (at >= reach) std::memcpy(&before, raw.data() + at - reach, sizeof(Word));
     std::memcpy(&value, raw.data() + at, sizeof(Word));
-    const Word folded = zigzag(static_cast<Word>(value - before));
+    const Word folded = foldDelta(static_cast<Word>(value - before));
     std::memcpy(deltas.data() + at, &folded, sizeof(Word));
   }
   return deltas;
@@ -60,7 +60,7 @@ Result<EncodedSection> encodeMortonDeltas(std::span<const LatticePoint> points) 
   uint64_t before = 0;
   for (size_t i = 0; i < points.size(); ++i) {
     const uint64_t code = mortonCode(box.offsetOf(points[i]));
-    deltas[i] = zigzag(code - before);
+    deltas[i] = foldDelta(code - before);
     before = code;
   }
   const std::span<const uint8_t> least{reinterpret_cast<const uint8_t*>(box.least.data()), sizeof(box.least)};
