@@ -30,13 +30,17 @@ uint32_t graphElementSize(const ChunkContents& chunk);
 Result<PackedGraph> packGraph(const ChunkContents& chunk, bool hasWalkGraph);
 
 // The inverse: fills neighbourOffsets, neighbours and alphaCounts from the packed graph, the counts, sites and radii of
-// `chunk`. Everything in the spans is checked before use; allocates 8 bytes per pair and 8 per cell, and a scratch of the longest row.
-// `place` names the chunk in messages.
+// `chunk`, which must be there (sites and radii of any value). Everything in the spans is checked before use; allocates 8
+// bytes per pair, 16 per cell, and 16 per neighbour of the longest row. `place` names the chunk in messages.
 struct PackedGraphView {
   std::span<const uint8_t> counts, deltas, alphaBits;
 };
 Status unpackGraph(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& chunk,
                    const std::string& place);
+
+// From the site of a cell to the radical plane towards another site, negative beyond the site [scene units]. In double;
+// 0 if there is no such plane.
+double planeDistance(const ChunkContents& chunk, uint32_t cell, uint32_t neighbour);
 
 // Sorts both parts of the rows of cells [first, last) into the order that ChunkContents promises; alpha neighbours must be
 // in front already. Baker and reader share it, so that a baked chunk and a read one agree. Safe to call for disjoint
