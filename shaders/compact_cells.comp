@@ -15,11 +15,11 @@ uint orderedBits(float value) {
 
 void main() {
   uint thread = gl_LocalInvocationIndex;
-  uint chunk = gl_WorkGroupID.y;
+  Chunk chunk = loadChunk(gl_WorkGroupID.y);
   uint local = gl_GlobalInvocationID.x;
   uint groups = FRAME.chunkCount * FRAME.groupsPerChunk;
-  uint group = checked(chunk * FRAME.groupsPerChunk + gl_WorkGroupID.x, groups);
-  bool isLive = local < FRAME.chunks.v[chunk].liveCount;
+  uint group = checked(chunk.index * FRAME.groupsPerChunk + gl_WorkGroupID.x, groups);
+  bool isLive = local < chunk.liveCount;
 
   uint slot = FRAME.groupSums.v[group].x;
   uint word = 0;
@@ -30,18 +30,18 @@ void main() {
   slot += bitCount(word & ((1u << (thread % 32)) - 1));
   bool isVisible = (word >> (thread % 32) & 1u) != 0;
 
-  uint planeCount = isVisible ? FRAME.chunks.v[chunk].alphaCounts.v[local] : 0;
+  uint planeCount = isVisible ? FRAME.chunks.v[chunk.index].alphaCounts.v[local] : 0;
   uint planeTotal;
   uint plane = FRAME.groupSums.v[group].y + scanExclusive(planeCount, planeTotal);
 
   if (isLive) {
-    uint live = checked(FRAME.chunks.v[chunk].liveStart + local, FRAME.visibleCapacity);
+    uint live = checked(chunk.liveStart + local, FRAME.visibleCapacity);
     FRAME.slotOfCell.v[live] = isVisible ? slot : kNoCell;
   }
   if (!isVisible) return;
-  Ball ball = ballOfCell(uvec2(chunk, local));
+  Ball ball = ballOfSite(chunk, local);
   slot = checked(slot, FRAME.visibleCapacity);
-  FRAME.visibleCells.v[slot] = uvec4(chunk, local, plane, planeCount);
+  FRAME.visibleCells.v[slot] = uvec4(chunk.index, local, plane, planeCount);
   FRAME.cellKeys.v[slot] = orderedBits(powerOfOrigin(ball.centre, ball.radius));
   FRAME.order.v[slot] = slot;
 }

@@ -8,7 +8,7 @@ layout(local_size_x = kGroupSize) in;
 
 uint countTiles(uint visible) {
   uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
-  Ball ball = ballOfCell(cell.xy);
+  Ball ball = ballOfSite(loadChunk(cell.x), cell.y);
   TileBounds bounds = tileBounds(ball);
   uint count = 0;
   for (int row = bounds.first.y; row <= bounds.last.y; ++row) {

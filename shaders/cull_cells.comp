@@ -20,16 +20,16 @@ bool isVisible(Ball ball) {
 
 void main() {
   uint thread = gl_LocalInvocationIndex;
-  uint chunk = gl_WorkGroupID.y;
+  Chunk chunk = loadChunk(gl_WorkGroupID.y);
   uint local = gl_GlobalInvocationID.x;
-  uint group = chunk * FRAME.groupsPerChunk + gl_WorkGroupID.x;
+  uint group = chunk.index * FRAME.groupsPerChunk + gl_WorkGroupID.x;
   if (thread < kMaskWords) maskWords[thread] = 0;
   if (thread == 0) planes = 0;
   barrier();
 
-  if (local < FRAME.chunks.v[chunk].liveCount && isVisible(ballOfCell(uvec2(chunk, local)))) {
+  if (local < chunk.liveCount && isVisible(ballOfSite(chunk, local))) {
     atomicOr(maskWords[thread / 32], 1u << (thread % 32));
-    atomicAdd(planes, FRAME.chunks.v[chunk].alphaCounts.v[local]);
+    atomicAdd(planes, FRAME.chunks.v[chunk.index].alphaCounts.v[local]);
   }
   barrier();
 

@@ -15,16 +15,15 @@ void setFrame(vec4 quaternion, inout CellRecord record) {
   record.bitangent.xyz = vec3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y));
 }
 
-void expandPlanes(uvec4 cell, vec4 siteRadius, inout CellRecord record) {
-  uint row = neighbourRow(cell.xy).x;
+void expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius, inout CellRecord record) {
+  uint row = neighbourRow(chunk, cell.y).x;
   uint low = cell.z;
   uint high = cell.z + cell.w;
   record.planeBegin = low;
   record.planeEnd = high;
   for (uint i = 0; i < cell.w; ++i) {
-    uvec2 other = neighbourAt(cell.x, row + i);
-    vec4 otherSite = siteRadiusOf(other);
-    vec3 toNeighbour = fromSiteToSite(cell.xy, siteRadius.xyz, other, otherSite.xyz);
+    vec4 otherSite = siteRadiusOf(chunk, neighbourAt(chunk, row + i));
+    vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
     float clearance = radicalClearance(record.ball.xyz, toNeighbour, radicalOffset(toNeighbour, siteRadius.w, otherSite.w));
     uint place = clearance >= 0.0 ? low++ : --high;
     FRAME.planes.v[checked(place, FRAME.planeCapacity)] = vec4(eyePlane(toNeighbour, clearance), 0.0);
@@ -37,17 +36,18 @@ void main() {
   if (visible >= COUNTERS.visibleCells) return;
   if ((FRAME.flags & kFlagOnlyPaired) != 0 && FRAME.tileCounts.v[visible] == 0) return;
   uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
-  vec4 siteRadius = siteRadiusOf(cell.xy);
-  uint liveCount = FRAME.chunks.v[cell.x].liveCount;
-  Ball ball = ballOf(cell.x, siteRadius);
+  Chunk chunk = loadChunk(cell.x);
+  vec4 siteRadius = siteRadiusOf(chunk, cell.y);
+  uint local = checked(cell.y, chunk.liveCount);
+  Ball ball = ballOf(chunk, siteRadius);
 
   CellRecord record;
   record.ball = vec4(ball.centre, ball.radius);
-  setFrame(FRAME.chunks.v[cell.x].orientations.v[checked(cell.y, liveCount)], record);
-  record.face.w = FRAME.chunks.v[cell.x].densities.v[checked(cell.y, liveCount)];
+  setFrame(FRAME.chunks.v[chunk.index].orientations.v[local], record);
+  record.face.w = FRAME.chunks.v[chunk.index].densities.v[local];
   record.tangent.w = 1.0 / ball.radius;
   record.bitangent.w = 0.0;
   record.padding = 0;
-  expandPlanes(cell, siteRadius, record);
+  expandPlanes(chunk, cell, siteRadius, record);
   FRAME.records.v[visible] = record;
 }

@@ -1,5 +1,6 @@
-// Finds the power cell that holds the eye: from the cell of the last frame, always on to the neighbour of least power. One
-// workgroup; the threads share a cell's neighbours.
+// Finds the power cell that holds the eye: from the cell of the last frame, always on to the neighbour of least power. The
+// power goes with the search into the next chunk, where it may be rounded otherwise: it falls with every step, so the
+// search ends. One workgroup; the threads share a cell's neighbours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
@@ -12,12 +13,12 @@ shared float powers[kThreads];
 shared uint places[kThreads];
 
 // Place in the neighbour array of the least power, the first one among equals; its power in powers[0] of all threads.
-void findLeast(uint chunk, uvec2 row) {
+void findLeast(Chunk chunk, uvec2 row) {
   uint thread = gl_LocalInvocationIndex;
   float least = kInfinity;
   uint place = kNoCell;
   for (uint i = row.x + thread; i < row.y; i += kThreads) {
-    Ball ball = ballOfCell(neighbourAt(chunk, i));
+    Ball ball = ballOfSite(chunk, neighbourAt(chunk, i));
     float power = powerOfOrigin(ball.centre, ball.radius);
     if (power < least) {
       least = power;
@@ -48,15 +49,20 @@ uvec2 startCell() {
 
 void main() {
   uvec2 cell = startCell();
-  Ball ball = ballOfCell(cell);
+  Chunk chunk = loadChunk(cell.x);
+  Ball ball = ballOfSite(chunk, cell.y);
   float power = powerOfOrigin(ball.centre, ball.radius);
   for (uint steps = 0; steps < FRAME.maxSteps; ++steps) {
-    findLeast(cell.x, neighbourRow(cell));
+    findLeast(chunk, neighbourRow(chunk, cell.y));
     float least = powers[0];
     uint place = places[0];
     barrier();
     if (!(least < power)) break;
-    cell = neighbourAt(cell.x, place);
+    cell.y = neighbourAt(chunk, place);
+    if (isGhost(chunk, cell.y)) {
+      cell = cellOfGhost(chunk, cell.y);
+      chunk = loadChunk(cell.x);
+    }
     power = least;
   }
   if (gl_LocalInvocationIndex == 0) FRAME.walkStart.v[0] = cell;

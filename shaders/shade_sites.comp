@@ -8,20 +8,45 @@ layout(local_size_x = kGroupSize) in;
 layout(constant_id = kConstantDetailCount) const uint detailCount = 8;
 layout(constant_id = kConstantLobeCount) const uint lobeCount = 8;
 layout(constant_id = kConstantHasHeights) const bool hasHeights = true;
+layout(constant_id = kConstantHasBaseColours) const bool hasBaseColours = true;
+layout(constant_id = kConstantHasLobeOffsets) const bool hasLobeOffsets = true;
 
-vec3 loadTriple(FloatArray values, uint index) { return vec3(values.v[index], values.v[index + 1], values.v[index + 2]); }
+const float kLowest = -3.402823466e38;
 
-vec3 siteColour(uint chunk, uint firstLobe, vec3 direction) {
-  FloatArray axes = FRAME.chunks.v[chunk].lobeAxes;
-  FloatArray colours = FRAME.chunks.v[chunk].lobeColours;
-  float largest = lobeExponent(loadTriple(axes, 3 * firstLobe), direction);
+vec3 loadTriple(FloatArray values, uint index) {
+  return vec3(values.v[3 * index], values.v[3 * index + 1], values.v[3 * index + 2]);
+}
+
+// A chunk whose values are all zero has no array, though others have one.
+bool hasPart(uint chunk, uint part) { return (FRAME.chunks.v[chunk].parts & part) != 0; }
+
+// Begin and end of a detail site's lobes.
+uvec2 lobesOf(uint chunk, uint site) {
+  if (hasLobeOffsets && hasPart(chunk, kPartLobeOffsets)) {
+    return uvec2(FRAME.chunks.v[chunk].lobeOffsets.v[site], FRAME.chunks.v[chunk].lobeOffsets.v[site + 1]);
+  }
+  return uvec2(site * lobeCount, (site + 1) * lobeCount);
+}
+
+vec3 siteColour(uint chunk, uint site, vec3 direction) {
+  vec3 base = vec3(0.0);
+  if (hasBaseColours && hasPart(chunk, kPartBaseColours)) {
+    FloatArray bases = FRAME.chunks.v[chunk].baseColours;
+    base = loadTriple(bases, site);
+  }
   float weightSum = 0.0;
   vec3 colourSum = vec3(0.0);
-  for (uint lobe = firstLobe; lobe < firstLobe + lobeCount; ++lobe) {
-    float exponent = lobeExponent(loadTriple(axes, 3 * lobe), direction);
-    addLobe(exponent, loadTriple(colours, 3 * lobe), largest, weightSum, colourSum);
+  if (lobeCount > 0) {
+    FloatArray axes = FRAME.chunks.v[chunk].lobeAxes;
+    FloatArray colours = FRAME.chunks.v[chunk].lobeColours;
+    uvec2 lobes = lobesOf(chunk, site);
+    float largest = kLowest;
+    for (uint lobe = lobes.x; lobe < lobes.y; ++lobe) {
+      float exponent = lobeExponent(loadTriple(axes, lobe), direction);
+      addLobe(exponent, loadTriple(colours, lobe), largest, weightSum, colourSum);
+    }
   }
-  return lobeColour(vec3(0.0), weightSum, colourSum);
+  return lobeColour(base, weightSum, colourSum);
 }
 
 void main() {
@@ -34,12 +59,13 @@ void main() {
   uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
   uint site = checked(cell.y, FRAME.chunks.v[cell.x].liveCount) * detailCount + detail;
   vec2 place = FRAME.chunks.v[cell.x].detailSites.v[site];
-  float height = hasHeights ? FRAME.chunks.v[cell.x].detailHeights.v[site] : 0.0;
+  float height = 0.0;
+  if (hasHeights && hasPart(cell.x, kPartHeights)) height = FRAME.chunks.v[cell.x].detailHeights.v[site];
 
   CellRecord record = FRAME.records.v[visible];
   vec3 offset = record.tangent.xyz * place.x + record.bitangent.xyz * place.y;
   vec3 toSite = record.ball.xyz + record.ball.w * offset;
-  vec3 colour = siteColour(cell.x, site * lobeCount, normalize(toSite));
+  vec3 colour = siteColour(cell.x, site, normalize(toSite));
 
   uint place3 = 3 * index;
   FRAME.sites.v[place3] = place;

@@ -1,5 +1,10 @@
 // One ray per pixel from cell to cell through the regular triangulation. The entry into a cell is the exit of the one
-// before; the key dot(direction, site), one fixed formula, grows with every step, so no rounding can make a walk cycle.
+// before. A ray's state of the chunk it is in stays in registers; a step into a ghost changes the chunk.
+//
+// No rounding can make a walk cycle: a step into a site of a chunk, be it a cell or a ghost, has the key
+// dot(direction, site), which is one fixed number for a ray, a chunk and a site. A step is taken only to a greater key, and
+// the key goes with the walk into the next chunk. So no (chunk, site) comes twice, however a cell's key is rounded in its
+// own chunk and in those that know it as a ghost.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
@@ -10,7 +15,7 @@
 layout(local_size_x = kSubTileSize, local_size_y = kSubTileSize) in;
 
 struct Step {
-  uvec2 cell;
+  uint site;     // of the chunk in which the step was made
   float key;
   float entry;   // where the ray enters the cell
   bool isInside; // false: the ray has left the foam
@@ -22,17 +27,17 @@ float orderAlong(vec3 direction, vec3 centre) {
 }
 
 // The neighbour through whose plane the ray leaves the cell first.
-Step nextStep(Step from, vec3 direction) {
-  vec4 siteRadius = siteRadiusOf(from.cell);
-  vec3 centre = ballOf(from.cell.x, siteRadius).centre;
-  uvec2 row = neighbourRow(from.cell);
-  Step next = Step(from.cell, from.key, kInfinity, false);
+Step nextStep(Chunk chunk, Step from, vec3 direction) {
+  vec4 siteRadius = siteRadiusOf(chunk, from.site);
+  vec3 centre = ballOf(chunk, siteRadius).centre;
+  uvec2 row = neighbourRow(chunk, from.site);
+  Step next = Step(from.site, from.key, kInfinity, false);
   for (uint i = row.x; i < row.y; ++i) {
-    uvec2 other = neighbourAt(from.cell.x, i);
-    vec4 otherSite = siteRadiusOf(other);
-    float key = orderAlong(direction, ballOf(other.x, otherSite).centre);
+    uint other = neighbourAt(chunk, i);
+    vec4 otherSite = siteRadiusOf(chunk, other);
+    float key = orderAlong(direction, ballOf(chunk, otherSite).centre);
     if (!(key > from.key)) continue;
-    vec3 toNeighbour = fromSiteToSite(from.cell, siteRadius.xyz, other, otherSite.xyz);
+    vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
     float q = dot(toNeighbour, direction);
     if (!(q > 0.0)) continue;
     float exit = radicalClearance(centre, toNeighbour, radicalOffset(toNeighbour, siteRadius.w, otherSite.w)) / q;
@@ -42,10 +47,16 @@ Step nextStep(Step from, vec3 direction) {
   return next;
 }
 
-uint visibleOfCell(uvec2 cell) {
-  uint chunk = checkedChunk(cell.x);
-  if (cell.y >= FRAME.chunks.v[chunk].liveCount) return kNoCell;
-  return FRAME.slotOfCell.v[checked(FRAME.chunks.v[chunk].liveStart + cell.y, FRAME.visibleCapacity)];
+uint visibleOfCell(Chunk chunk, uint cell) {
+  if (cell >= chunk.liveCount) return kNoCell;
+  return FRAME.slotOfCell.v[checked(chunk.liveStart + cell, FRAME.visibleCapacity)];
+}
+
+// From the ghost that a step has led to, on to the cell for which it stands.
+void enterGhost(inout Chunk chunk, inout Step current) {
+  uvec2 cell = cellOfGhost(chunk, current.site);
+  chunk = loadChunk(cell.x);
+  current.site = cell.y;
 }
 
 void meetCell(uint visible, vec3 direction, float entry, float exit, inout Radiance radiance) {
@@ -71,13 +82,15 @@ void main() {
   Radiance radiance = emptyRadiance();
 
   uvec2 start = FRAME.walkStart.v[0];
-  Step current = Step(start, orderAlong(direction, ballOfCell(start).centre), 0.0, true);
+  Chunk chunk = loadChunk(start.x);
+  Step current = Step(start.y, orderAlong(direction, ballOfSite(chunk, start.y).centre), 0.0, true);
   uint steps = 0;
   while (current.isInside && !isSaturated(radiance) && steps < FRAME.maxSteps) {
-    Step next = nextStep(current, direction);
-    uint visible = visibleOfCell(current.cell);
+    Step next = nextStep(chunk, current, direction);
+    uint visible = visibleOfCell(chunk, current.site);
     if (visible != kNoCell) meetCell(visible, direction, current.entry, next.entry, radiance);
     current = next;
+    if (isGhost(chunk, current.site)) enterGhost(chunk, current);
     ++steps;
   }
   countSteps(steps, current.isInside && !isSaturated(radiance));

@@ -144,6 +144,7 @@ Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& pr
     info.data = input.bytes.data();
     info.dataSize = input.bytes.size();
   }
+  info.layers = options.layers;
   if (Status opened = check(frothOpenAsset(context, &info, &asset), "frothOpenAsset"); !opened) return opened;
 
   for (uint64_t frame = 0;; ++frame) {

@@ -1,6 +1,7 @@
 #include "runtime/asset/asset.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <new>
 #include <numeric>
@@ -45,6 +46,14 @@ GpuAsset describeShape(const AssetContents& manifest) {
   return asset;
 }
 
+// GpuChunk::lobeOffsets
+std::vector<uint32_t> sumLobeCounts(const std::vector<uint8_t>& counts) {
+  if (counts.empty()) return {};
+  std::vector<uint32_t> offsets(counts.size() + 1, 0);
+  std::inclusive_scan(counts.begin(), counts.end(), offsets.begin() + 1, std::plus<>(), uint32_t{0});
+  return offsets;
+}
+
 // GpuChunk::siteRadius
 std::vector<glm::vec4> joinSitesAndRadii(const ChunkContents& contents) {
   std::vector<glm::vec4> joined(contents.sites.size());
@@ -62,10 +71,11 @@ GpuBufferSet::~GpuBufferSet() {
   }
 }
 
-Asset::Asset(std::string path, std::span<const uint8_t> bytes, Device* device)
+Asset::Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device)
     : isFile_(!path.empty()),
       name_(isFile_ ? std::move(path) : "asset in memory"),
       bytes_(bytes),
+      lastLayer_(lastLayer),
       device_(device) {
   if (device) {
     buffers_ = std::make_shared<GpuBufferSet>(*device);
@@ -115,7 +125,8 @@ void Asset::fail(FrothResult code, const std::string& text, const Messages& mess
 }
 
 Status Asset::openReader() {
-  Result<AssetReader> reader = isFile_ ? AssetReader::open(name_) : AssetReader::openBytes(bytes_, name_);
+  Result<AssetReader> reader =
+      isFile_ ? AssetReader::open(name_, lastLayer_) : AssetReader::openBytes(bytes_, name_, lastLayer_);
   if (!reader) {
     return reader.error();
   }
@@ -131,11 +142,14 @@ Status Asset::openReader() {
 Status Asset::placeChunk(ChunkContents&& contents) {
   growBounds(contents);
   gpu_.hasHeights |= !contents.detailHeights.empty();
+  gpu_.hasBaseColours |= !contents.baseColours.empty();
+  gpu_.hasLobeOffsets |= !contents.lobeCounts.empty();
   gpu_.liveCount += contents.liveCount;
   GpuChunk& chunk = gpu_.chunks.emplace_back();
   chunk.origin = contents.origin;
   chunk.cellCount = contents.cellCount;
   chunk.liveCount = contents.liveCount;
+  chunk.siteCount = contents.cellCount + contents.ghostCount;
   chunk.neighbourCount = static_cast<uint32_t>(contents.neighbours.size());
   chunk.alphaTotal = std::accumulate(contents.alphaCounts.begin(), contents.alphaCounts.end(), uint64_t{0});
   gpu_.alphaTotal += chunk.alphaTotal;
@@ -146,11 +160,14 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   if (status)
     status = placeArray(std::move(contents.neighbourOffsets), "neighbour offsets", chunk.neighbourOffsets);
   if (status) status = placeArray(std::move(contents.neighbours), "neighbours", chunk.neighbours);
+  if (status) status = placeArray(std::move(contents.ghostRefs), "ghost references", chunk.ghostRefs);
   if (status) status = placeArray(std::move(contents.alphaCounts), "alpha counts", chunk.alphaCounts);
   if (status) status = placeArray(std::move(contents.densities), "densities", chunk.densities);
   if (status) status = placeArray(std::move(contents.orientations), "orientations", chunk.orientations);
   if (status) status = placeArray(std::move(contents.detailSites), "detail sites", chunk.detailSites);
   if (status) status = placeArray(std::move(contents.detailHeights), "detail heights", chunk.detailHeights);
+  if (status) status = placeArray(std::move(contents.baseColours), "base colours", chunk.baseColours);
+  if (status) status = placeArray(sumLobeCounts(contents.lobeCounts), "lobe offsets", chunk.lobeOffsets);
   if (status) status = placeArray(std::move(contents.lobeAxes), "lobe axes", chunk.lobeAxes);
   if (status) status = placeArray(std::move(contents.lobeColours), "lobe colours", chunk.lobeColours);
   return status;

@@ -34,9 +34,9 @@ struct GpuBufferSet {
 // next. One thread at a time.
 class Asset {
  public:
-  // `path` empty: the asset is `bytes`, which the caller keeps until loading has ended. `device` null:
-  // decodes and checks, and keeps nothing.
-  Asset(std::string path, std::span<const uint8_t> bytes, Device* device);
+  // `path` empty: the asset is `bytes`, which the caller keeps until loading has ended. Layers behind
+  // `lastLayer` are not read. `device` null: decodes and checks, and keeps nothing.
+  Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device);
 
   // At most one chunk's work. An error ends the asset: one message, hasFailed().
   void load(RenderPipelines* pipelines, const Messages& messages);
@@ -76,6 +76,7 @@ class Asset {
   bool isFile_;
   std::string name_;
   std::span<const uint8_t> bytes_;
+  Layer lastLayer_;
   Device* device_;
 
   std::optional<AssetReader> reader_;  // while loading

@@ -12,6 +12,7 @@ namespace {
 constexpr VkDeviceSize kUploadRingBytes = 64u << 20;
 constexpr uint32_t kDefaultFramesInFlight = 2, kMaxFramesInFlight = 8;
 constexpr uint32_t kMaxViewExtent = 16384;
+constexpr uint32_t kLayerCount = 3;
 constexpr double kUnitQuaternionTolerance = 1e-3;  // as for a camera's rotation
 
 }  // namespace
@@ -84,9 +85,14 @@ FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
     return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset",
                          "path: empty; give the path of a .froth file");
   }
+  if (info.layers > kLayerCount) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset", "layers: %u; at most %u, or 0 for all",
+                         info.layers, kLayerCount);
+  }
+  const auto lastLayer = static_cast<Layer>((info.layers == 0 ? kLayerCount : info.layers) - 1);
   const std::span<const uint8_t> bytes(static_cast<const uint8_t*>(info.data), hasBytes ? info.dataSize : 0);
-  handle = assets_.add(
-      std::make_unique<Asset>(info.path ? info.path : std::string(), bytes, isNull() ? nullptr : &device_));
+  handle = assets_.add(std::make_unique<Asset>(info.path ? info.path : std::string(), bytes, lastLayer,
+                                               isNull() ? nullptr : &device_));
   return FROTH_OK;
 }
 

@@ -25,6 +25,11 @@ void fillCamera(const FrothRenderInfo& info, const CameraRays& rays, const Rende
   block.worldZ = toFloats(rows[2]);
 }
 
+uint32_t partsOf(const GpuChunk& chunk) {
+  return (chunk.detailHeights ? gpu::kPartHeights : 0) | (chunk.baseColours ? gpu::kPartBaseColours : 0) |
+         (chunk.lobeOffsets ? gpu::kPartLobeOffsets : 0);
+}
+
 void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* chunks) {
   uint32_t liveStart = 0;
   for (size_t i = 0; i < asset.chunks.size(); ++i) {
@@ -37,17 +42,22 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
     entry.siteRadius = chunk.siteRadius;
     entry.neighbourOffsets = chunk.neighbourOffsets;
     entry.neighbours = chunk.neighbours;
+    entry.ghostRefs = chunk.ghostRefs;
     entry.alphaCounts = chunk.alphaCounts;
     entry.densities = chunk.densities;
     entry.orientations = chunk.orientations;
     entry.detailSites = chunk.detailSites;
     entry.detailHeights = chunk.detailHeights;
+    entry.baseColours = chunk.baseColours;
+    entry.lobeOffsets = chunk.lobeOffsets;
     entry.lobeAxes = chunk.lobeAxes;
     entry.lobeColours = chunk.lobeColours;
     entry.cellCount = chunk.cellCount;
     entry.liveCount = chunk.liveCount;
+    entry.siteCount = chunk.siteCount;
     entry.neighbourCount = chunk.neighbourCount;
     entry.liveStart = liveStart;
+    entry.parts = partsOf(chunk);
     liveStart += chunk.liveCount;
   }
 }

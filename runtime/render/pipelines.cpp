@@ -60,14 +60,16 @@ const std::array<PassCode, kPassCount> kPassCodes = {{
 struct Specialization {
   VkBool32 checkIndices;
   uint32_t detailCount, lobeCount;
-  VkBool32 hasHeights;
+  VkBool32 hasHeights, hasBaseColours, hasLobeOffsets;
 };
 
-constexpr std::array<VkSpecializationMapEntry, 4> kSpecializationEntries = {{
+constexpr std::array<VkSpecializationMapEntry, 6> kSpecializationEntries = {{
     {gpu::kConstantCheckIndices, offsetof(Specialization, checkIndices), sizeof(VkBool32)},
     {gpu::kConstantDetailCount, offsetof(Specialization, detailCount), sizeof(uint32_t)},
     {gpu::kConstantLobeCount, offsetof(Specialization, lobeCount), sizeof(uint32_t)},
     {gpu::kConstantHasHeights, offsetof(Specialization, hasHeights), sizeof(VkBool32)},
+    {gpu::kConstantHasBaseColours, offsetof(Specialization, hasBaseColours), sizeof(VkBool32)},
+    {gpu::kConstantHasLobeOffsets, offsetof(Specialization, hasLobeOffsets), sizeof(VkBool32)},
 }};
 
 Error deviceError(const char* call, const char* object, VkResult result) {
@@ -113,8 +115,12 @@ Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode&
 // Makes passes [first, last) into `pipelines`.
 Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint32_t first, uint32_t last,
                     PassPipelines& pipelines) {
-  const Specialization values{state.checkIndices ? VK_TRUE : VK_FALSE, shape.detailCount, shape.lobeCount,
-                              shape.hasHeights ? VK_TRUE : VK_FALSE};
+  const Specialization values{.checkIndices = state.checkIndices,
+                              .detailCount = shape.detailCount,
+                              .lobeCount = shape.lobeCount,
+                              .hasHeights = shape.hasHeights,
+                              .hasBaseColours = shape.hasBaseColours,
+                              .hasLobeOffsets = shape.hasLobeOffsets};
   for (uint32_t pass = first; pass < last; ++pass) {
     Result<VkPipeline> pipeline = createPipeline(state, kPassCodes[pass], values);
     if (!pipeline) return pipeline.error();
@@ -141,7 +147,7 @@ Status createLayout(RenderPipelines::State& state) {
 }  // namespace
 
 AssetShape shapeOf(const GpuAsset& asset) {
-  return {asset.detailCount, asset.lobeCount, asset.hasHeights};
+  return {asset.detailCount, asset.lobeCount, asset.hasHeights, asset.hasBaseColours, asset.hasLobeOffsets};
 }
 
 VkDescriptorSetLayout createOutputSetLayout(Device& device) {

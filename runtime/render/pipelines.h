@@ -15,7 +15,7 @@ class RenderPipelines {
                                                          bool checkIndices);
   ~RenderPipelines();
 
-  // Makes the pipelines specialized on an asset's shape (K, M, heights). Called before the asset becomes
+  // Makes the pipelines specialized on an asset's shape (K, M, what it holds). Called before the asset becomes
   // READY; idempotent.
   Status prepareFor(const GpuAsset& asset);
 

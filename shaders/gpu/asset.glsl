@@ -1,4 +1,5 @@
-// The asset's cells. A cell is addressed as uvec2(chunk, local index).
+// The asset's cells. A cell is addressed as uvec2(chunk, local index). A chunk is complete in itself: the neighbours of its
+// cells are sites of the same chunk, its own cells first and ghosts of cells of other chunks behind them.
 #ifndef FROTH_GPU_ASSET_GLSL
 #define FROTH_GPU_ASSET_GLSL
 #include "gpu/frame.glsl"
@@ -8,51 +9,57 @@ struct Ball {
   float radius;
 };
 
-uvec2 cellOfRef(uint ref) {
-  uint bits = FRAME.localBits;
-  return bits >= 32 ? uvec2(0, ref) : uvec2(ref >> bits, ref & ((1u << bits) - 1));
-}
+// What a pass asks of a chunk over and over, to be held in registers.
+struct Chunk {
+  uint index;
+  vec3 offsetHigh, offsetLow;
+  FloatQuadArray siteRadius;
+  UintArray neighbourOffsets, neighbours;
+  uint cellCount, siteCount, neighbourCount;
+  uint liveCount, liveStart;
+};
 
-uint checkedChunk(uint chunk) { return checked(chunk, FRAME.chunkCount); }
+Chunk loadChunk(uint index) {
+  uint i = checked(index, FRAME.chunkCount);
+  return Chunk(i, FRAME.chunks.v[i].offsetHigh.xyz, FRAME.chunks.v[i].offsetLow.xyz, FRAME.chunks.v[i].siteRadius,
+               FRAME.chunks.v[i].neighbourOffsets, FRAME.chunks.v[i].neighbours, FRAME.chunks.v[i].cellCount,
+               FRAME.chunks.v[i].siteCount, FRAME.chunks.v[i].neighbourCount, FRAME.chunks.v[i].liveCount,
+               FRAME.chunks.v[i].liveStart);
+}
 
 // The site in its chunk's coordinates, and the radius.
-vec4 siteRadiusOf(uvec2 cell) {
-  uint chunk = checkedChunk(cell.x);
-  return FRAME.chunks.v[chunk].siteRadius.v[checked(cell.y, FRAME.chunks.v[chunk].cellCount)];
-}
+vec4 siteRadiusOf(Chunk chunk, uint site) { return chunk.siteRadius.v[checked(site, chunk.siteCount)]; }
 
 // (site + high) + low: exact to a unit in the last place of the result, however far the scene lies from its origin.
-Ball ballOf(uint chunk, vec4 siteRadius) {
-  precise vec3 centre = (siteRadius.xyz + FRAME.chunks.v[chunk].offsetHigh.xyz) + FRAME.chunks.v[chunk].offsetLow.xyz;
+Ball ballOf(Chunk chunk, vec4 siteRadius) {
+  precise vec3 centre = (siteRadius.xyz + chunk.offsetHigh) + chunk.offsetLow;
   return Ball(centre, siteRadius.w);
 }
 
-Ball ballOfCell(uvec2 cell) { return ballOf(checkedChunk(cell.x), siteRadiusOf(cell)); }
+Ball ballOfSite(Chunk chunk, uint site) { return ballOf(chunk, siteRadiusOf(chunk, site)); }
 
-// From a site to another one, which may lie in another chunk. Exact where the difference of the sites is.
-vec3 fromSiteToSite(uvec2 cell, vec3 site, uvec2 other, vec3 otherSite) {
+// Exact where the difference of the sites is.
+vec3 fromSiteToSite(vec3 site, vec3 otherSite) {
   precise vec3 difference = otherSite - site;
-  if (cell.x != other.x) {
-    ChunkEntry from = FRAME.chunks.v[checkedChunk(cell.x)];
-    ChunkEntry to = FRAME.chunks.v[checkedChunk(other.x)];
-    precise vec3 high = to.offsetHigh.xyz - from.offsetHigh.xyz;
-    precise vec3 low = to.offsetLow.xyz - from.offsetLow.xyz;
-    difference += high + low;
-  }
   return difference;
 }
 
 // Begin and end of a cell's row of neighbours.
-uvec2 neighbourRow(uvec2 cell) {
-  uint chunk = checkedChunk(cell.x);
-  uint local = checked(cell.y, FRAME.chunks.v[chunk].cellCount);
-  UintArray offsets = FRAME.chunks.v[chunk].neighbourOffsets;
-  return uvec2(offsets.v[local], offsets.v[local + 1]);
+uvec2 neighbourRow(Chunk chunk, uint cell) {
+  uint local = checked(cell, chunk.cellCount);
+  return uvec2(chunk.neighbourOffsets.v[local], chunk.neighbourOffsets.v[local + 1]);
 }
 
-uvec2 neighbourAt(uint chunk, uint index) {
-  uint safeChunk = checkedChunk(chunk);
-  return cellOfRef(FRAME.chunks.v[safeChunk].neighbours.v[checked(index, FRAME.chunks.v[safeChunk].neighbourCount)]);
+// A site of the chunk.
+uint neighbourAt(Chunk chunk, uint index) { return chunk.neighbours.v[checked(index, chunk.neighbourCount)]; }
+
+bool isGhost(Chunk chunk, uint site) { return site >= chunk.cellCount; }
+
+// Where a ghost lives.
+uvec2 cellOfGhost(Chunk chunk, uint site) {
+  uint ghost = checked(site - chunk.cellCount, chunk.siteCount - chunk.cellCount);
+  uint ref = FRAME.chunks.v[chunk.index].ghostRefs.v[ghost];
+  return uvec2(ref >> FRAME.localBits, ref & ((1u << FRAME.localBits) - 1));
 }
 
 #endif

@@ -47,6 +47,8 @@ FROTH_CONST kConstantCheckIndices = 0;
 FROTH_CONST kConstantDetailCount = 1;
 FROTH_CONST kConstantLobeCount = 2;
 FROTH_CONST kConstantHasHeights = 3;
+FROTH_CONST kConstantHasBaseColours = 4;
+FROTH_CONST kConstantHasLobeOffsets = 5;
 
 // FrameBlock::flags
 FROTH_CONST kFlagColour = 1;
@@ -55,22 +57,33 @@ FROTH_CONST kFlagNormal = 4;
 FROTH_CONST kFlagDisplayCoded = 8;
 FROTH_CONST kFlagOnlyPaired = 16;  // shade only cells that own a (tile, cell) pair
 
-// One chunk of the asset, seen from this frame's eye.
+// ChunkEntry::parts: arrays that a chunk may lack, though the asset has them elsewhere.
+FROTH_CONST kPartHeights = 1;
+FROTH_CONST kPartBaseColours = 2;
+FROTH_CONST kPartLobeOffsets = 4;
+
+// One chunk of the asset, seen from this frame's eye. The arrays: GpuChunk (runtime/asset/gpu_asset.h).
 struct ChunkEntry {
   vec4 offsetHigh;  // xyz: chunk origin minus eye in the asset's axes; the high and
   vec4 offsetLow;   //      the low part of a double [scene units of the asset]
   FROTH_ADDRESS(FloatQuadArray) siteRadius;
   FROTH_ADDRESS(UintArray) neighbourOffsets;
   FROTH_ADDRESS(UintArray) neighbours;
+  FROTH_ADDRESS(UintArray) ghostRefs;
   FROTH_ADDRESS(UintArray) alphaCounts;
   FROTH_ADDRESS(FloatArray) densities;
   FROTH_ADDRESS(FloatQuadArray) orientations;
   FROTH_ADDRESS(FloatPairArray) detailSites;
   FROTH_ADDRESS(FloatArray) detailHeights;
+  FROTH_ADDRESS(FloatArray) baseColours;
+  FROTH_ADDRESS(UintArray) lobeOffsets;
   FROTH_ADDRESS(FloatArray) lobeAxes;
   FROTH_ADDRESS(FloatArray) lobeColours;
-  uint cellCount, liveCount, neighbourCount;
+  uint cellCount, liveCount;
+  uint siteCount;  // cells and ghosts
+  uint neighbourCount;
   uint liveStart;  // live cells in the chunks before
+  uint parts;
 };
 
 // A visible cell as the rays meet it. Positions are relative to the eye.
@@ -156,8 +169,8 @@ struct PassConstants {
   uint padding;
 };
 
-static_assert(sizeof(ChunkEntry) == 128 && offsetof(ChunkEntry, siteRadius) == 32);
-static_assert(offsetof(ChunkEntry, lobeColours) == 104 && offsetof(ChunkEntry, cellCount) == 112);
+static_assert(sizeof(ChunkEntry) == 160 && offsetof(ChunkEntry, siteRadius) == 32);
+static_assert(offsetof(ChunkEntry, lobeColours) == 128 && offsetof(ChunkEntry, cellCount) == 136);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(sizeof(Counters) == 112 && offsetof(Counters, visibleDispatch) == 32);
 static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);

@@ -143,7 +143,7 @@ class Bin : public Passes {
     asset.detailCount = asset.lobeCount = 1;
     asset.liveCount = foam.cellCount;
     GpuChunk chunk;
-    chunk.cellCount = chunk.liveCount = foam.cellCount;
+    chunk.cellCount = chunk.siteCount = chunk.liveCount = foam.cellCount;
     chunk.siteRadius = upload(siteRadius).address;
     chunk.neighbourOffsets = upload(std::vector<uint32_t>(count + 1)).address;
     chunk.neighbours = upload(std::vector<uint32_t>(1)).address;

@@ -170,61 +170,6 @@ TEST_F(Placement, AChunkOriginAMillionUnitsAwayLooksTheSame) {
   EXPECT_GE(psnr(stage.draw(Method::kWalk, info, kExtent).colour, base_.colour), 60);
 }
 
-// Live cells [0, split) and all cells behind the live ones go to chunk 0, the other live cells to chunk 1,
-// whose origin is another one.
-AssetContents splitInTwo(const AssetContents& whole) {
-  const ChunkContents& source = whole.chunks[0];
-  const uint32_t split = source.liveCount / 3;
-  AssetContents result = whole;
-  result.localBits = 16;
-  result.chunks.assign(2, {});
-  std::vector<std::vector<uint32_t>> members(2);
-  std::vector<CellRef> refs(source.cellCount);
-  for (uint32_t cell = 0; cell < source.cellCount; ++cell) {
-    const uint32_t chunk = cell >= split && cell < source.liveCount ? 1 : 0;
-    refs[cell] = chunk << 16 | static_cast<uint32_t>(members[chunk].size());
-    members[chunk].push_back(cell);
-  }
-  const uint32_t K = whole.detailCount, M = whole.lobeCount;
-  for (uint32_t c = 0; c < 2; ++c) {
-    ChunkContents& chunk = result.chunks[c];
-    chunk.origin = {0.5 * c, 0.25 * c, -2.0 * c};  // exact in float, as are differences of most sites
-    const glm::vec3 origin(chunk.origin[0], chunk.origin[1], chunk.origin[2]);
-    chunk.cellCount = static_cast<uint32_t>(members[c].size());
-    chunk.neighbourOffsets.push_back(0);
-    for (const uint32_t cell : members[c]) {
-      chunk.sites.push_back(source.sites[cell] - origin);
-      chunk.radii.push_back(source.radii[cell]);
-      for (uint32_t i = source.neighbourOffsets[cell]; i < source.neighbourOffsets[cell + 1]; ++i) {
-        chunk.neighbours.push_back(refs[source.neighbours[i]]);
-      }
-      chunk.neighbourOffsets.push_back(static_cast<uint32_t>(chunk.neighbours.size()));
-      if (cell >= source.liveCount) continue;
-      ++chunk.liveCount;
-      chunk.alphaCounts.push_back(source.alphaCounts[cell]);
-      chunk.densities.push_back(source.densities[cell]);
-      chunk.orientations.push_back(source.orientations[cell]);
-      const auto copy = [cell](const auto& from, auto& to, uint32_t count) {
-        to.insert(to.end(), from.begin() + size_t{cell} * count, from.begin() + size_t{cell + 1} * count);
-      };
-      copy(source.detailSites, chunk.detailSites, K);
-      copy(source.detailHeights, chunk.detailHeights, K);
-      copy(source.lobeAxes, chunk.lobeAxes, K * M);
-      copy(source.lobeColours, chunk.lobeColours, K * M);
-    }
-  }
-  return result;
-}
-
-TEST_F(Placement, TwoChunksGiveTheImageOfOne) {
-  stage_.reset();
-  Stage stage(splitInTwo(randomAsset()), kExtent);
-  EXPECT_GE(psnr(stage.draw(Method::kRaster, frontView()).colour, base_.colour), 80);
-  const Frame walk = stage.draw(Method::kWalk, frontView());
-  EXPECT_GE(psnr(walk.colour, base_.colour), 60);
-  EXPECT_EQ(walk.status.bits, 0u);
-}
-
 TEST_F(Placement, AnImageWantedAloneIsTheSame) {
   Host& host = sharedHost();
   Result<HostImage> image = host.createImage(VK_FORMAT_R32_SFLOAT, kExtent);

@@ -65,11 +65,16 @@ FrothContext* sharedContext() {
   return context;
 }
 
-Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context) : context_(context) {
+Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context, uint32_t layers)
+    : context_(context) {
   Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
   EXPECT_TRUE(bytes) << bytes.error().message;
   bytes_ = std::move(*bytes);
-  const FrothAssetInfo assetInfo{sizeof(FrothAssetInfo), nullptr, bytes_.data(), bytes_.size()};
+  FrothAssetInfo assetInfo{};
+  assetInfo.structSize = sizeof(assetInfo);
+  assetInfo.data = bytes_.data();
+  assetInfo.dataSize = bytes_.size();
+  assetInfo.layers = layers;
   check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
   const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1};
   check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");

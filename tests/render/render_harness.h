@@ -37,7 +37,8 @@ FrothContext* sharedContext();
 // One asset, one instance, one view. Any failing call, validation message or index violation fails the test.
 class Stage {
  public:
-  Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context = sharedContext());
+  Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context = sharedContext(),
+        uint32_t layers = 0);
   ~Stage();
 
   void place(const FrothInstanceInfo& placement);  // `asset` is filled in

@@ -168,6 +168,31 @@ TEST_F(AssetOfNullContext, NeedsAPathOrBytesAndNotBoth) {
   EXPECT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_ERROR_ARGUMENT);
 }
 
+TEST_F(AssetOfNullContext, HasNoFourthLayer) {
+  const std::vector<uint8_t> bytes = encodeSample();
+  auto info = makeStruct<FrothAssetInfo>();
+  info.data = bytes.data();
+  info.dataSize = bytes.size();
+  info.layers = 4;
+  FrothAsset asset{};
+  EXPECT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_ERROR_ARGUMENT);
+  EXPECT_THAT(lastText(), AllOf(HasSubstr("layers: 4"), HasSubstr("at most 3")));
+}
+
+TEST_F(AssetOfNullContext, TellsWhatTheLoadedLayersHold) {
+  const std::vector<uint8_t> bytes = encodeSample({.detailCount = 3, .lobeCount = 2});
+  auto info = makeStruct<FrothAssetInfo>();
+  info.data = bytes.data();
+  info.dataSize = bytes.size();
+  info.layers = 2;
+  FrothAsset asset{};
+  ASSERT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_OK);
+  ASSERT_EQ(update(1), FROTH_OK);
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY) << lastText();
+  EXPECT_EQ(statusOf(asset).detailCount, 3u);
+  EXPECT_EQ(statusOf(asset).lobeCount, 0u);
+}
+
 TEST_F(AssetOfNullContext, KeepsItsPathWhenTheCallersStringIsGone) {
   auto path = std::make_unique<std::string>(writeFile("sample.froth", encodeSample()));
   const FrothAsset asset = openPath(*path);

@@ -140,6 +140,8 @@ typedef struct FrothAssetInfo {
   const char* path; /* a .froth file, copied; or null, and the bytes: */
   const void* data; /* the caller keeps them until the asset is READY, FAILED or closed */
   uint64_t dataSize;
+  uint32_t layers;  /* how many are loaded; each is a whole scene. 1: one colour per cell; 2: detail without view dependence;
+                       3 or 0: all */
 } FrothAssetInfo;
 
 typedef struct FrothStoredCamera {
