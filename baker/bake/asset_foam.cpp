@@ -1,4 +1,5 @@
-// The way back: from the contents of an asset to a foam.
+#include "baker/bake/asset_foam.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -35,7 +36,7 @@ Status checkChunk(const AssetContents& contents, size_t index) {
 
 // Appends the values of live cells, then `filler` for the other cells of the chunk.
 template <class T>
-void append(std::vector<T>& all, const std::vector<T>& values, size_t fillers, const T& filler) {
+void appendValues(std::vector<T>& all, const std::vector<T>& values, size_t fillers, const T& filler) {
   all.insert(all.end(), values.begin(), values.end());
   all.insert(all.end(), fillers, filler);
 }
@@ -43,58 +44,47 @@ void append(std::vector<T>& all, const std::vector<T>& values, size_t fillers, c
 // The same where an empty array means `filler` for every detail site.
 template <class T>
 void appendDetails(std::vector<T>& all, const std::vector<T>& values, size_t details, const T& filler) {
-  append(all, values, details - values.size(), filler);
+  appendValues(all, values, details - values.size(), filler);
 }
 
-class FoamAssembler {
- public:
-  FoamAssembler(const AssetContents& contents, uint32_t cellCount) {
-    foam_.cellCount = cellCount;
-    foam_.detailCount = contents.detailCount;
-    foam_.lobeCount = contents.lobeCount;
-    const auto anyChunk = [&](auto&& has) { return std::any_of(contents.chunks.begin(), contents.chunks.end(), has); };
-    hasBase_ = anyChunk([](const ChunkContents& chunk) { return !chunk.baseColours.empty(); });
-    // Cells that are not live have no lobes, unless every detail site of the foam has the same number of them.
-    hasOffsets_ = anyChunk([](const ChunkContents& chunk) { return !chunk.lobeCounts.empty(); });
-    if (hasOffsets_) foam_.lobeOffsets.push_back(0);
-  }
-
-  void append(const ChunkContents& chunk) {
-    const glm::dvec3 origin(chunk.origin[0], chunk.origin[1], chunk.origin[2]);
-    for (uint32_t i = 0; i < chunk.cellCount; ++i) foam_.sites.emplace_back(origin + glm::dvec3(chunk.sites[i]));
-    foam_.radii.insert(foam_.radii.end(), chunk.radii.begin(), chunk.radii.begin() + chunk.cellCount);
-
-    const size_t bare = chunk.cellCount - chunk.liveCount;
-    const size_t bareDetails = bare * foam_.detailCount, details = size_t{chunk.cellCount} * foam_.detailCount;
-    froth::append(foam_.densities, chunk.densities, bare, 0.0f);
-    froth::append(foam_.orientations, chunk.orientations, bare, glm::vec4(1, 0, 0, 0));
-    froth::append(foam_.detailSites, chunk.detailSites, bareDetails, glm::vec2(0));
-    appendDetails(foam_.detailHeights, chunk.detailHeights, details, 0.0f);
-    if (hasBase_) appendDetails(foam_.baseColours, chunk.baseColours, details, glm::vec3(0));
-    appendLobes(chunk, bareDetails);
-  }
-
-  Foam take() { return std::move(foam_); }
-
- private:
-  void appendLobes(const ChunkContents& chunk, size_t bareDetails) {
-    const size_t fillers = hasOffsets_ ? 0 : bareDetails * foam_.lobeCount;
-    froth::append(foam_.lobeAxes, chunk.lobeAxes, fillers, glm::vec3(0));
-    froth::append(foam_.lobeColours, chunk.lobeColours, fillers, glm::vec3(0));  // an offset of 0 is grey
-    if (!hasOffsets_) return;
-    const size_t liveDetails = size_t{chunk.liveCount} * foam_.detailCount;
-    for (size_t site = 0; site < liveDetails; ++site) {
-      const uint32_t count = chunk.lobeCounts.empty() ? foam_.lobeCount : chunk.lobeCounts[site];
-      foam_.lobeOffsets.push_back(foam_.lobeOffsets.back() + count);
-    }
-    foam_.lobeOffsets.insert(foam_.lobeOffsets.end(), bareDetails, foam_.lobeOffsets.back());
-  }
-
-  Foam foam_;
-  bool hasBase_ = false, hasOffsets_ = false;
-};
-
 }  // namespace
+
+FoamAssembler::FoamAssembler(uint32_t detailCount, uint32_t lobeCount, bool hasBaseColours, bool hasLobeOffsets)
+    : hasBaseColours_(hasBaseColours), hasLobeOffsets_(hasLobeOffsets) {
+  foam_.detailCount = detailCount;
+  foam_.lobeCount = lobeCount;
+  if (hasLobeOffsets) foam_.lobeOffsets.push_back(0);
+}
+
+void FoamAssembler::append(const ChunkContents& chunk) {
+  const glm::dvec3 origin(chunk.origin[0], chunk.origin[1], chunk.origin[2]);
+  for (uint32_t i = 0; i < chunk.cellCount; ++i) foam_.sites.emplace_back(origin + glm::dvec3(chunk.sites[i]));
+  foam_.radii.insert(foam_.radii.end(), chunk.radii.begin(), chunk.radii.begin() + chunk.cellCount);
+  foam_.cellCount += chunk.cellCount;
+
+  const size_t bare = chunk.cellCount - chunk.liveCount;
+  const size_t bareDetails = bare * foam_.detailCount, details = size_t{chunk.cellCount} * foam_.detailCount;
+  appendValues(foam_.densities, chunk.densities, bare, 0.0f);
+  appendValues(foam_.orientations, chunk.orientations, bare, glm::vec4(1, 0, 0, 0));
+  appendValues(foam_.detailSites, chunk.detailSites, bareDetails, glm::vec2(0));
+  appendDetails(foam_.detailHeights, chunk.detailHeights, details, 0.0f);
+  if (hasBaseColours_) appendDetails(foam_.baseColours, chunk.baseColours, details, glm::vec3(0));
+  appendLobes(chunk, bareDetails);
+}
+
+// Cells that are not live have no lobes, or grey ones where every detail site has the same number of them.
+void FoamAssembler::appendLobes(const ChunkContents& chunk, size_t bareDetails) {
+  const size_t fillers = hasLobeOffsets_ ? 0 : bareDetails * foam_.lobeCount;
+  appendValues(foam_.lobeAxes, chunk.lobeAxes, fillers, glm::vec3(0));
+  appendValues(foam_.lobeColours, chunk.lobeColours, fillers, glm::vec3(0));
+  if (!hasLobeOffsets_) return;
+  const size_t liveDetails = size_t{chunk.liveCount} * foam_.detailCount;
+  for (size_t site = 0; site < liveDetails; ++site) {
+    const uint32_t count = chunk.lobeCounts.empty() ? foam_.lobeCount : chunk.lobeCounts[site];
+    foam_.lobeOffsets.push_back(foam_.lobeOffsets.back() + count);
+  }
+  foam_.lobeOffsets.insert(foam_.lobeOffsets.end(), bareDetails, foam_.lobeOffsets.back());
+}
 
 Result<Foam> foamFromAsset(const AssetContents& contents) {
   uint64_t cellCount = 0;
@@ -106,7 +96,12 @@ Result<Foam> foamFromAsset(const AssetContents& contents) {
     return makeError(ErrorKind::kBadInput, "asset: %llu cells; a foam has 1 to 4294967295",
                      static_cast<unsigned long long>(cellCount));
   }
-  FoamAssembler assembler(contents, static_cast<uint32_t>(cellCount));
+  const auto anyChunk = [&](auto&& has) {
+    return std::any_of(contents.chunks.begin(), contents.chunks.end(), has);
+  };
+  FoamAssembler assembler(contents.detailCount, contents.lobeCount,
+                          anyChunk([](const ChunkContents& chunk) { return !chunk.baseColours.empty(); }),
+                          anyChunk([](const ChunkContents& chunk) { return !chunk.lobeCounts.empty(); }));
   for (const ChunkContents& chunk : contents.chunks) assembler.append(chunk);
   return assembler.take();
 }

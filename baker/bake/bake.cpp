@@ -1,112 +1,38 @@
 #include "baker/bake/bake.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <chrono>
+#include <iterator>
+#include <optional>
 #include <utility>
 
-#include "baker/bake/chunk_arrays.h"
-#include "baker/graph/graph.h"
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "baker/bake/asset_foam.h"
+#include "baker/bake/attribute_errors.h"
+#include "baker/bake/check_foam.h"
+#include "baker/bake/chunk_attributes.h"
+#include "baker/bake/chunk_geometry.h"
+#include "baker/bake/chunk_plan.h"
+#include "baker/bake/colour_source.h"
+#include "baker/bake/cull_unseen.h"
+#include "baker/bake/left_out.h"
+#include "baker/bake/mark_cells.h"
+#include "baker/bake/sample_views.h"
+#include "baker/bake/snap_cells.h"
+#include "baker/bake/stage_recorder.h"
+#include "baker/steiner/steiner.h"
 
 namespace froth {
 namespace {
 
-// A cell is dead if its opacity 1 - exp(-2 r sigma) along its longest chord is below this. Such a cell adds
-// less than 2^-24 of its colour to a ray and leaves a float transmittance within one rounding: a ray must
-// cross 128 of them before a 16-bit channel, of half-step 2^-17, can change.
-constexpr double kDeadOpticalDepth = 0x1p-24;
+// Most memory that CGAL takes per site while it triangulates; measured. [bytes]
+constexpr uint64_t kTriangulationBytes = 1000;
+// A region is triangulated with the sites around it.
+constexpr uint64_t kHaloFactor = 3;
 
-enum class CellState : uint8_t { kLive, kDead, kEmpty, kHidden };
-
-// Closes the stages of a bake, one after the other, with what each took.
-class StageRecorder {
- public:
-  explicit StageRecorder(std::vector<StageReport>& stages) : stages_(stages) {}
-
-  void finish(const char* stage, uint64_t items) {
-    const Clock::time_point now = Clock::now();
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    stages_.push_back({stage, std::chrono::duration<double>(now - begin_).count(), items,
-                       static_cast<uint64_t>(usage.ru_maxrss) * 1024});
-    begin_ = now;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::vector<StageReport>& stages_;
-  Clock::time_point begin_ = Clock::now();
-};
-
-Status checkLength(const char* name, size_t found, size_t expected) {
-  if (found == expected) return {};
-  return makeError(ErrorKind::kBadInput,
-                   "foam: array '%s' has %zu entries, the counts ask for %zu; import it again", name, found,
-                   expected);
-}
-
-Status checkFoam(const Foam& foam) {
-  if (foam.cellCount == 0 || foam.detailCount - 1 >= 32 || foam.lobeCount - 1 >= 32) {
-    return makeError(ErrorKind::kBadInput,
-                     "foam: %u cells, %u detail sites, %u lobes; needs >= 1, 1..32, 1..32", foam.cellCount,
-                     foam.detailCount, foam.lobeCount);
-  }
-  const size_t cells = foam.cellCount, details = cells * foam.detailCount, lobes = details * foam.lobeCount;
-  const std::pair<const char*, std::pair<size_t, size_t>> lengths[] = {
-      {"sites", {foam.sites.size(), cells}},
-      {"radii", {foam.radii.size(), cells}},
-      {"densities", {foam.densities.size(), cells}},
-      {"orientations", {foam.orientations.size(), cells}},
-      {"detailSites", {foam.detailSites.size(), details}},
-      {"detailHeights", {foam.detailHeights.size(), details}},
-      {"lobeAxes", {foam.lobeAxes.size(), lobes}},
-      {"lobeColours", {foam.lobeColours.size(), lobes}}};
-  for (const auto& [name, length] : lengths) {
-    if (Status status = checkLength(name, length.first, length.second); !status) return status;
-  }
-  return {};
-}
-
-std::vector<CellState> markCells(const Foam& foam, const RegularTriangulation& triangulation,
-                                 const AlphaComplex& alpha) {
-  std::vector<CellState> states(foam.cellCount, CellState::kLive);
-  for (uint32_t i = 0; i < foam.cellCount; ++i) {
-    if (triangulation.isHidden[i]) {
-      states[i] = CellState::kHidden;
-    } else if (alpha.isEmpty[i]) {
-      states[i] = CellState::kEmpty;
-    } else if (2.0 * foam.radii[i] * foam.densities[i] < kDeadOpticalDepth) {
-      states[i] = CellState::kDead;
-    }
-  }
-  return states;
-}
-
-// Source cells in the order of the asset: the live ones along a Morton curve, then the dead and empty ones
-// along it.
-std::vector<uint32_t> orderCells(const Foam& foam, const std::vector<CellState>& states) {
-  std::vector<uint32_t> order = mortonOrder(foam.sites);
-  std::erase_if(order, [&](uint32_t cell) { return states[cell] == CellState::kHidden; });
-  std::stable_partition(order.begin(), order.end(),
-                        [&](uint32_t cell) { return states[cell] == CellState::kLive; });
-  return order;
-}
-
-BakeStatistics countCells(const std::vector<CellState>& states, const RegularTriangulation& triangulation,
-                          const AlphaComplex& alpha) {
-  const auto count = [&](CellState state) {
-    return static_cast<uint64_t>(std::count(states.begin(), states.end(), state));
-  };
-  BakeStatistics statistics;
-  statistics.inputCells = states.size();
-  statistics.hiddenDropped = count(CellState::kHidden);
-  statistics.duplicatesMerged = triangulation.duplicates;
-  statistics.emptyCells = count(CellState::kEmpty);
-  statistics.deadCells = count(CellState::kDead);
-  statistics.walkPairs = triangulation.graph.neighbours.size() / 2;
-  statistics.alphaPairs = alpha.graph.neighbours.size() / 2;
-  return statistics;
+Error cancelled() {
+  return makeError(ErrorKind::kCancelled, "bake stopped on request");
 }
 
 StoredCamera storeCamera(const View& view) {
@@ -121,72 +47,257 @@ void storeCameras(const CameraSet& cameras, AssetContents& contents) {
   }
 }
 
-Error cancelled() {
-  return makeError(ErrorKind::kCancelled, "bake stopped on request");
+// One bake: its steps in the order of run(), and what they hand on.
+class Bake {
+ public:
+  Bake(const Foam& foam, const BakeOptions& options, const ChunkSink& sink, const Progress& progress)
+      : foam_(foam), options_(options), sink_(sink), progress_(progress) {}
+
+  Status run();
+  BakeResult take() { return std::move(result_); }
+
+ private:
+  Status lookThroughCameras();
+  Status snap();
+  Status placeSteiner();
+  Status triangulate();
+  Status mark();
+  Status check();
+  Status prepareColours();
+  void fillHeader();
+  Status makeChunks();
+  Status measure();
+
+  Result<ChunkContents> makeChunk(uint32_t index, AttributeErrors& errors);
+  void keepCounts(const ChunkContents& chunk);
+
+  const Foam& foam_;
+  const BakeOptions& options_;
+  const ChunkSink& sink_;
+  const Progress& progress_;
+
+  BakeResult result_;
+  StageRecorder recorder_{result_.stages};
+  AssetContents& contents_ = result_.contents;
+  uint64_t unseenCulled_ = 0;
+  std::optional<Visibility> visibility_;
+  BakeCells cells_;
+  RegularTriangulation triangulation_;
+  AlphaComplex alpha_;
+  ChunkPlan plan_;
+  ColourSource colours_;
+  StoredCounts stored_;
+  std::optional<FoamAssembler> baked_;  // for measuring
+};
+
+Status Bake::run() {
+  if (Status status = checkFoam(foam_); !status) return status;
+  if (Status status = checkOptions(options_); !status) return status;
+
+  // 1. What the cameras see weighs errors and tells which cells can go.
+  if (Status status = lookThroughCameras(); !status) return status;
+  // 2. Snap, then everything else: the graphs belong to the numbers that a reader will have.
+  if (Status status = snap(); !status) return status;
+  // 3. Cells in empty space, for walks.
+  if (Status status = placeSteiner(); !status) return status;
+  // 4. All sites are triangulated: cells that nobody sees still cut their neighbours. Then the pairs that
+  // rasterization needs, and the cells without a bounded cell.
+  if (Status status = triangulate(); !status) return status;
+  // 5. Cells get their chunks and places; hidden ones none.
+  if (Status status = mark(); !status) return status;
+  // 6. The graphs against brute force.
+  if (Status status = check(); !status) return status;
+  // 7. How colours will be stored; a codebook is shared, so it goes first.
+  if (Status status = prepareColours(); !status) return status;
+  fillHeader();
+  if (Status status = sink_.begin(contents_); !status) return status;
+  // 8. Chunk after chunk into the sink: memory holds a few of them.
+  if (Status status = makeChunks(); !status) return status;
+  // 9. What the asset looks like beside the input.
+  return measure();
+}
+
+Status Bake::lookThroughCameras() {
+  const bool isNeeded = options_.knobs.compressColours || options_.cullUnseen > 0;
+  if (!isNeeded || !options_.cameras || options_.cameras->views.empty()) return {};
+  VisibilityOptions visibility;
+  visibility.nearRatio = options_.nearRatio;
+  visibility.nearDepth = options_.nearDepth;
+  Result<Visibility> measured = measureVisibility(foam_, options_.cameras->views, visibility, progress_);
+  if (!measured) return measured.error();
+  visibility_ = std::move(*measured);
+  recorder_.finish("visibility", options_.cameras->views.size());
+  return {};
+}
+
+Status Bake::snap() {
+  contents_.quantization = makeLattices(foam_, options_.knobs);
+  cells_ = snapCells(foam_, contents_.quantization);
+  recorder_.finish("snap", foam_.cellCount);
+  if (options_.cullUnseen <= 0) return {};
+  if (!visibility_) return makeError(ErrorKind::kUsage, "culling unseen cells needs cameras; give some with views");
+  unseenCulled_ = cullUnseenCells(cells_, visibility_->contributions, options_.cullUnseen);
+  recorder_.finish("cull", unseenCulled_);
+  return {};
+}
+
+Status Bake::placeSteiner() {
+  if (!options_.steiner || !options_.walkGraph) return {};
+  SteinerOptions steiner;
+  steiner.seed = options_.seed;
+  steiner.cameras = options_.cameras;
+  steiner.nearRatio = options_.nearRatio;
+  steiner.nearDepth = options_.nearDepth;
+  steiner.positionStep = contents_.quantization.positionStep;
+  steiner.radiusBits = contents_.quantization.radiusBits;
+  const Result<SteinerCells> added = placeSteinerCells(cells_.sites, cells_.radii, cells_.densities, steiner, progress_);
+  if (!added) return added.error();
+  cells_.sites.insert(cells_.sites.end(), added->sites.begin(), added->sites.end());
+  cells_.radii.insert(cells_.radii.end(), added->radii.begin(), added->radii.end());
+  cells_.sources.resize(cells_.sites.size(), kNoSource);
+  result_.walkLengthBefore = added->walkLengthBefore;
+  result_.walkLengthAfter = added->walkLengthAfter;
+  recorder_.finish("steiner", added->sites.size());
+  return {};
+}
+
+Status Bake::triangulate() {
+  const bool fits = options_.memoryLimit == 0 || cells_.count() * kTriangulationBytes <= options_.memoryLimit;
+  const uint64_t regionCells = std::max<uint64_t>(options_.memoryLimit / (kTriangulationBytes * kHaloFactor), 1000);
+  Result<RegularTriangulation> triangulation =
+      fits ? triangulateRegular(cells_.sites, cells_.radii, progress_)
+           : triangulateRegions(cells_.sites, cells_.radii, mortonOrder(cells_.sites),
+                                static_cast<uint32_t>(std::min<uint64_t>(regionCells, cells_.count())), progress_);
+  if (!triangulation) return triangulation.error();
+  triangulation_ = std::move(*triangulation);
+  recorder_.finish("triangulate", cells_.count());
+
+  alpha_ = computeAlphaComplex(cells_.sites, cells_.radii, triangulation_, progress_);
+  if (alpha_.graph.offsets.empty()) return cancelled();
+  recorder_.finish("alpha-complex", triangulation_.graph.neighbours.size() / 2);
+  return {};
+}
+
+Status Bake::mark() {
+  const std::vector<CellState> states = markCells(cells_, triangulation_, alpha_, options_.walkGraph);
+  contents_.statistics = countCells(cells_, states, triangulation_, alpha_);
+  contents_.statistics.inputCells = foam_.cellCount;
+  contents_.statistics.unseenCulled = unseenCulled_;
+  Result<ChunkPlan> plan = planChunks(cells_, states, options_.chunkCells, progress_);
+  if (!plan) return plan.error();
+  plan_ = std::move(*plan);
+  recorder_.finish("chunks", plan_.chunks.size());
+  return {};
+}
+
+Status Bake::check() {
+  result_.validity = checkGraphs(cells_.sites, cells_.radii, triangulation_, alpha_, options_.seed);
+  recorder_.finish("check", result_.validity.pointsChecked + result_.validity.raysChecked);
+  if (result_.validity.faults.empty()) return {};
+  return makeError(ErrorKind::kUnsupported, "graphs: %s; this is a fault of the baker, please report it with the input",
+                   result_.validity.faults.front().c_str());
+}
+
+Status Bake::prepareColours() {
+  Result<ColourSource> colours = ColourSource::create(foam_, visibility_ ? &*visibility_ : nullptr, options_, progress_);
+  if (!colours) return colours.error();
+  colours_ = std::move(*colours);
+  recorder_.finish("codebook", colours_.codebook().size());
+  return {};
+}
+
+void Bake::fillHeader() {
+  contents_.detailCount = foam_.detailCount;
+  contents_.lobeCount = colours_.lobeCount();
+  contents_.localBits = plan_.localBits;
+  contents_.hasWalkGraph = options_.walkGraph;
+  contents_.nearRatio = options_.nearRatio;
+  contents_.nearDepth = options_.nearDepth;
+  contents_.preset = options_.preset;
+  contents_.source = options_.source;
+  contents_.axisCodebook = colours_.codebook();
+  if (options_.cameras) storeCameras(*options_.cameras, contents_);
+}
+
+Result<ChunkContents> Bake::makeChunk(uint32_t index, AttributeErrors& errors) {
+  const PlannedChunk& planned = plan_.chunks[index];
+  const std::span<const uint32_t> live(planned.cells.data(), planned.liveCount);
+  std::vector<uint32_t> sources;
+  for (const uint32_t cell : live) sources.push_back(cells_.sources[cell]);
+  ChunkContents chunk =
+      makeChunkGeometry(cells_, plan_, index, {triangulation_.graph, alpha_.graph, options_.walkGraph},
+                        contents_.quantization.positionStep);
+  fillFaces(foam_, cells_, live, contents_.quantization, chunk, errors);
+  const StageProgress stage{progress_, "colours", stored_.live, foam_.cellCount};
+  if (!colours_.fill(sources, stage, chunk, errors)) return cancelled();
+  return chunk;
+}
+
+// What the result keeps of a chunk that goes to the sink.
+void Bake::keepCounts(const ChunkContents& chunk) {
+  ChunkContents& counts = contents_.chunks.emplace_back();
+  counts.origin = chunk.origin;
+  counts.cellCount = chunk.cellCount;
+  counts.liveCount = chunk.liveCount;
+  counts.ghostCount = chunk.ghostCount;
+  stored_.cells += chunk.cellCount;
+  stored_.live += chunk.liveCount;
+  stored_.detailHeights += chunk.detailHeights.size();
+  stored_.lobes += chunk.lobeColours.size();
+}
+
+Status Bake::makeChunks() {
+  const bool isLossy = options_.preset != "exact";
+  if (options_.measure && isLossy)
+    baked_.emplace(contents_.detailCount, contents_.lobeCount, true, colours_.isCompressed());
+  AttributeErrors errors;
+  const size_t batchSize = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
+  std::vector<ChunkContents> batch;
+  for (uint32_t index = 0; index < plan_.chunks.size(); ++index) {
+    Result<ChunkContents> chunk = makeChunk(index, errors);
+    if (!chunk) return chunk.error();
+    keepCounts(*chunk);
+    if (baked_) baked_->append(*chunk);
+    for (const uint32_t cell : plan_.chunks[index].cells) result_.sourceCells.push_back(cells_.sources[cell]);
+    batch.push_back(std::move(*chunk));
+    if (batch.size() < batchSize && index + 1 < plan_.chunks.size()) continue;
+    if (Status status = sink_.append(std::exchange(batch, {})); !status) return status;
+  }
+  contents_.errors = errors.list();
+  result_.leftOut = listLeftOut(foam_, contents_, stored_);
+  recorder_.finish("arrays and encoding", stored_.cells);
+  return {};
+}
+
+Status Bake::measure() {
+  if (!baked_) return {};
+  const Foam baked = baked_->take();
+  const Result<double> psnr = measurePsnr(foam_, baked, options_, progress_);
+  if (!psnr) return psnr.error();
+  contents_.psnr = *psnr;
+  recorder_.finish("measure", baked.cellCount);
+  return {};
 }
 
 }  // namespace
 
 Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const ChunkSink& sink,
                             const Progress& progress) {
-  Result<BakeResult> result = bakeFoam(foam, options, progress);
-  if (!result) return result;
-  std::vector<ChunkContents> chunks = std::move(result->contents.chunks);
-  result->contents.chunks.clear();
-  if (Status begun = sink.begin(result->contents); !begun) return begun.error();
-  for (const ChunkContents& chunk : chunks) {
-    ChunkContents& counts = result->contents.chunks.emplace_back();
-    counts.origin = chunk.origin;
-    counts.cellCount = chunk.cellCount;
-    counts.liveCount = chunk.liveCount;
-    counts.ghostCount = chunk.ghostCount;
-  }
-  if (Status appended = sink.append(std::move(chunks)); !appended) return appended.error();
-  return result;
+  Bake bake(foam, options, sink, progress);
+  if (Status status = bake.run(); !status) return status.error();
+  return bake.take();
 }
 
 Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const Progress& progress) {
-  if (Status status = checkFoam(foam); !status) return status.error();
-  BakeResult result;
-  StageRecorder recorder(result.stages);
-
-  // 1. All sites are triangulated: cells that nobody sees still cut their neighbours.
-  Result<RegularTriangulation> triangulation = triangulateRegular(foam.sites, foam.radii, progress);
-  if (!triangulation) return triangulation.error();
-  recorder.finish("triangulate", foam.cellCount);
-
-  // 2. The pairs that rasterization needs, and the cells without a bounded cell.
-  const AlphaComplex alpha = computeAlphaComplex(foam.sites, foam.radii, *triangulation, progress);
-  if (alpha.graph.offsets.empty()) return cancelled();
-  recorder.finish("alpha-complex", triangulation->graph.neighbours.size() / 2);
-
-  // 3. Cells get their places: live ones first, so that raster lists and colours are prefixes; hidden ones
-  // none.
-  const std::vector<CellState> states = markCells(foam, *triangulation, alpha);
-  result.contents.statistics = countCells(states, *triangulation, alpha);
-  result.sourceCells = orderCells(foam, states);
-  ChunkContents& chunk = result.contents.chunks.emplace_back();
-  chunk.cellCount = static_cast<uint32_t>(result.sourceCells.size());
-  chunk.liveCount = static_cast<uint32_t>(std::count(states.begin(), states.end(), CellState::kLive));
-  recorder.finish("order", chunk.cellCount);
-
-  // 4. Graph rows, nearest plane first: a ray that misses is mostly told so by the first planes.
-  fillGraphRows(foam, triangulation->graph, alpha.graph, result.sourceCells, chunk);
-  recorder.finish("rows", chunk.neighbours.size());
-
-  // 5. Attributes. The preset "exact" keeps their bits.
-  if (!report(progress, "arrays", 0, chunk.cellCount)) return cancelled();
-  fillAttributes(foam, result.sourceCells, chunk);
-  AssetContents& contents = result.contents;
-  contents.detailCount = foam.detailCount;
-  contents.lobeCount = foam.lobeCount;
-  contents.nearRatio = options.nearRatio;
-  contents.nearDepth = options.nearDepth;
-  contents.preset = options.preset;
-  contents.source = options.source;
-  if (options.cameras) storeCameras(*options.cameras, contents);
-  report(progress, "arrays", chunk.cellCount, chunk.cellCount);
-  recorder.finish("arrays", chunk.cellCount);
+  std::vector<ChunkContents> chunks;
+  ChunkSink sink;
+  sink.begin = [](const AssetContents&) { return Status{}; };
+  sink.append = [&chunks](std::vector<ChunkContents>&& batch) {
+    chunks.insert(chunks.end(), std::make_move_iterator(batch.begin()), std::make_move_iterator(batch.end()));
+    return Status{};
+  };
+  Result<BakeResult> result = bakeFoam(foam, options, sink, progress);
+  if (result) result->contents.chunks = std::move(chunks);
   return result;
 }
 

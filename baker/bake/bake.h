@@ -8,6 +8,7 @@
 #include "baker/appearance/appearance.h"
 #include "baker/camera/camera.h"
 #include "baker/foam.h"
+#include "baker/graph/graph.h"
 #include "baker/progress.h"
 #include "format/asset_contents.h"
 #include "format/result.h"
@@ -17,7 +18,7 @@ namespace froth {
 // How exactly values are kept. Steps as bits, where a range is known: the position step is the scene's largest extent over
 // 2^positionBits, rounded down to a power of two.
 struct BakeKnobs {
-  uint32_t positionBits = 0;    // [10..24]; 0: float32 as it is, in world coordinates
+  uint32_t positionBits = 0;    // [10..22]; 0: float32 as it is, in world coordinates
   uint32_t radiusBits = 23;     // mantissa bits [4..23]
   uint32_t densityBits = 23;    // mantissa bits [1..23]
   uint32_t frameBits = 0;       // bits per axis of the octahedral normal [4..15]; 0: quaternions of floats
@@ -41,6 +42,7 @@ struct BakeOptions {
   uint32_t chunkCells = 16384;   // most live cells of a chunk
   uint64_t memoryLimit = 0;      // [bytes] of the bake beside the input; 0: none. Triangulates region by region below it
   uint64_t seed = 1;
+  bool measure = true;           // PSNR of a lossy asset on sample views
   std::string source;            // name shown by `froth info`
   const CameraSet* cameras = nullptr;  // start view, flight path, and what is seen; may be null
 };
@@ -62,6 +64,8 @@ struct BakeResult {
   AssetContents contents;   // `chunks` hold origins and counts; with their arrays only if they were asked for
   std::vector<StageReport> stages;
   std::vector<LeftOut> leftOut;
+  ValidityReport validity;
+  double walkLengthBefore = 0, walkLengthAfter = 0;  // mean steps per ray without and with Steiner cells; 0: none placed
   std::vector<uint32_t> sourceCells;  // [cells in the asset, chunk after chunk] index in the input foam; kNoSource: Steiner
 };
 inline constexpr uint32_t kNoSource = 0xffffffff;

@@ -1,0 +1,78 @@
+#include "baker/bake/check_foam.h"
+
+#include <utility>
+
+namespace froth {
+namespace {
+
+struct Length {
+  const char* name;
+  size_t found, expected;
+};
+
+Status checkLengths(const Foam& foam) {
+  const size_t cells = foam.cellCount, details = cells * foam.detailCount;
+  const size_t lobes = foam.lobeOffsets.empty() ? details * foam.lobeCount : foam.lobeOffsets.back();
+  const auto optional = [](size_t found, size_t expected) { return found == 0 ? 0 : expected; };
+  const Length lengths[] = {
+      {"sites", foam.sites.size(), cells},
+      {"radii", foam.radii.size(), cells},
+      {"densities", foam.densities.size(), cells},
+      {"orientations", foam.orientations.size(), cells},
+      {"detailSites", foam.detailSites.size(), details},
+      {"detailHeights", foam.detailHeights.size(), details},
+      {"baseColours", foam.baseColours.size(), optional(foam.baseColours.size(), details)},
+      {"lobeOffsets", foam.lobeOffsets.size(), optional(foam.lobeOffsets.size(), details + 1)},
+      {"lobeAxes", foam.lobeAxes.size(), lobes},
+      {"lobeColours", foam.lobeColours.size(), lobes}};
+  for (const Length& length : lengths) {
+    if (length.found == length.expected) continue;
+    return makeError(ErrorKind::kBadInput,
+                     "foam: array '%s' has %zu entries, the counts ask for %zu; import it again", length.name,
+                     length.found, length.expected);
+  }
+  return {};
+}
+
+struct KnobRange {
+  const char* name;
+  uint32_t found, least, most;
+  bool canBeOff;  // 0: values are kept as they are
+};
+
+}  // namespace
+
+Status checkFoam(const Foam& foam) {
+  if (foam.cellCount == 0 || foam.detailCount - 1 >= 32 || foam.lobeCount > 32) {
+    return makeError(ErrorKind::kBadInput,
+                     "foam: %u cells, %u detail sites, %u lobes; needs >= 1, 1..32, 0..32", foam.cellCount,
+                     foam.detailCount, foam.lobeCount);
+  }
+  if (Status status = checkLengths(foam); !status) return status;
+  for (size_t site = 0; site + 1 < foam.lobeOffsets.size(); ++site) {
+    if (foam.lobeOffsets[site + 1] - foam.lobeOffsets[site] <= foam.lobeCount) continue;
+    return makeError(ErrorKind::kBadInput, "foam: array 'lobeOffsets' gives detail site %zu more than %u lobes; import it again",
+                     site, foam.lobeCount);
+  }
+  return {};
+}
+
+Status checkOptions(const BakeOptions& options) {
+  const BakeKnobs& knobs = options.knobs;
+  const KnobRange ranges[] = {{"position bits", knobs.positionBits, 10, 22, true},
+                              {"radius bits", knobs.radiusBits, 4, 23, false},
+                              {"density bits", knobs.densityBits, 1, 23, false},
+                              {"frame bits", knobs.frameBits, 4, 15, true},
+                              {"detail site bits", knobs.detailSiteBits, 1, 16, true},
+                              {"height bits", knobs.heightBits, 1, 16, true}};
+  for (const KnobRange& range : ranges) {
+    if (range.canBeOff && range.found == 0) continue;
+    if (range.found >= range.least && range.found <= range.most) continue;
+    return makeError(ErrorKind::kUsage, "%s: found %u; give %u to %u%s", range.name, range.found, range.least,
+                     range.most, range.canBeOff ? ", or 0 for floats" : "");
+  }
+  if (options.chunkCells == 0) return makeError(ErrorKind::kUsage, "chunk cells: found 0; give at least 1");
+  return {};
+}
+
+}  // namespace froth

@@ -1,0 +1,151 @@
+#include "baker/bake/chunk_attributes.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <tbb/parallel_for.h>
+
+#include "baker/bake/snap_cells.h"
+#include "shaders/foam/appearance.h"
+
+namespace froth {
+namespace {
+
+// The values of the listed cells, `perCell` each; none if there are none.
+template <class T>
+std::vector<T> gather(const std::vector<T>& values, std::span<const uint32_t> cells, size_t perCell) {
+  std::vector<T> gathered;
+  if (values.empty()) return gathered;
+  gathered.reserve(cells.size() * perCell);
+  for (const uint32_t cell : cells) {
+    const auto first = values.begin() + static_cast<ptrdiff_t>(cell * perCell);
+    gathered.insert(gathered.end(), first, first + static_cast<ptrdiff_t>(perCell));
+  }
+  return gathered;
+}
+
+double relativeError(float stored, float input) {
+  return input > 0 ? stored / double{input} - 1 : stored;
+}
+
+// |to - from| for unit vectors, exact for small angles.
+double angleBetween(const glm::dvec3& from, const glm::dvec3& to) {
+  return 2 * std::asin(std::fmin(0.5 * glm::length(to - from), 1.0));
+}
+
+// Directions from which a face is seen, in its frame (n, t, b): straight on, and three at 45 degrees.
+const std::array<glm::vec3, 4> kFaceDirections = {glm::vec3(-1, 0, 0), glm::vec3(-0.70710678f, 0.70710678f, 0),
+                                                  glm::vec3(-0.70710678f, -0.35355339f, 0.61237244f),
+                                                  glm::vec3(-0.70710678f, -0.35355339f, -0.61237244f)};
+
+glm::vec3 colourAlong(const Foam& foam, uint64_t site, const glm::vec3& direction) {
+  float largest = std::numeric_limits<float>::lowest(), weightSum = 0;
+  glm::vec3 colourSum(0);
+  const LobeRange lobes = lobesOf(foam, site);
+  for (uint64_t lobe = lobes.first; lobe < lobes.first + lobes.count; ++lobe)
+    foam::addLobe(foam::lobeExponent(foam.lobeAxes[lobe], direction), foam.lobeColours[lobe], largest, weightSum,
+                  colourSum);
+  return foam::lobeColour(foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[site], weightSum, colourSum);
+}
+
+// Mean over detail sites and directions, to a byte per channel.
+glm::vec3 meanColour(const Foam& foam, uint32_t cell) {
+  const FaceFrame<float> frame = faceFrame<float>(foam.orientations[cell]);
+  glm::vec3 sum(0);
+  for (const glm::vec3& local : kFaceDirections) {
+    const glm::vec3 direction = local.x * frame.normal + local.y * frame.tangent + local.z * frame.bitangent;
+    for (uint32_t k = 0; k < foam.detailCount; ++k)
+      sum += colourAlong(foam, uint64_t{cell} * foam.detailCount + k, direction);
+  }
+  const glm::vec3 mean = sum / static_cast<float>(kFaceDirections.size() * foam.detailCount);
+  return glm::round(glm::clamp(mean, 0.0f, 1.0f) * 255.0f) / 255.0f;
+}
+
+bool hasVaryingLobes(const Foam& foam, uint64_t site) {
+  const LobeRange lobes = lobesOf(foam, site);
+  for (uint64_t lobe = lobes.first + 1; lobe < lobes.first + lobes.count; ++lobe) {
+    if (foam.lobeColours[lobe] != foam.lobeColours[lobes.first]) return true;
+  }
+  return false;
+}
+
+void fillLobes(const Foam& foam, std::span<const uint32_t> sources, ChunkContents& chunk) {
+  for (const uint32_t cell : sources) {
+    const uint64_t first = lobesOf(foam, uint64_t{cell} * foam.detailCount).first;
+    uint64_t last = first;
+    for (uint32_t k = 0; k < foam.detailCount; ++k) {
+      const LobeRange lobes = lobesOf(foam, uint64_t{cell} * foam.detailCount + k);
+      if (!foam.lobeOffsets.empty()) chunk.lobeCounts.push_back(static_cast<uint8_t>(lobes.count));
+      last = lobes.first + lobes.count;
+    }
+    chunk.lobeAxes.insert(chunk.lobeAxes.end(), foam.lobeAxes.begin() + first, foam.lobeAxes.begin() + last);
+    chunk.lobeColours.insert(chunk.lobeColours.end(), foam.lobeColours.begin() + first,
+                             foam.lobeColours.begin() + last);
+  }
+}
+
+// The one colour of each detail site, as its base.
+void fillPlainColours(const Foam& foam, std::span<const uint32_t> sources, ChunkContents& chunk) {
+  for (const uint32_t cell : sources) {
+    for (uint32_t k = 0; k < foam.detailCount; ++k) {
+      const uint64_t site = uint64_t{cell} * foam.detailCount + k;
+      const LobeRange lobes = lobesOf(foam, site);
+      glm::vec3 base = foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[site];
+      if (lobes.count > 0) base += foam.lobeColours[lobes.first];
+      chunk.baseColours.push_back(base);
+    }
+  }
+}
+
+}  // namespace
+
+void fillFaces(const Foam& foam, const BakeCells& cells, std::span<const uint32_t> live, const Quantization& lattices,
+               ChunkContents& chunk, AttributeErrors& errors) {
+  const uint32_t details = foam.detailCount;
+  bool isFlat = true;
+  for (const uint32_t cell : live) {
+    const uint32_t source = cells.sources[cell];
+    errors.sites.add(glm::distance(glm::dvec3(cells.sites[cell]), glm::dvec3(foam.sites[source])));
+    errors.radii.add(relativeError(cells.radii[cell], foam.radii[source]));
+    errors.densities.add(relativeError(cells.densities[cell], foam.densities[source]));
+    const SnappedFace face = snapFace(foam.orientations[source], lattices);
+    errors.normals.add(angleBetween(face.from.normal, face.to.normal));
+    chunk.densities.push_back(cells.densities[cell]);
+    chunk.orientations.push_back(face.orientation);
+
+    double heightSum = 0;
+    for (size_t k = size_t{source} * details; k < (size_t{source} + 1) * details; ++k) {
+      const glm::dvec2 site(foam.detailSites[k]), snapped(snapDetailSite(face, foam.detailSites[k], lattices));
+      errors.detailSites.add(glm::distance(site.x * face.from.tangent + site.y * face.from.bitangent,
+                                           snapped.x * face.to.tangent + snapped.y * face.to.bitangent));
+      chunk.detailSites.emplace_back(snapped);
+      const float height = snapToStep(foam.detailHeights[k], lattices.heightStep);
+      errors.detailHeights.add(double{height} - foam.detailHeights[k]);
+      chunk.detailHeights.push_back(height);
+      isFlat = isFlat && height == 0;
+      heightSum += height;
+    }
+    chunk.cellHeights.push_back(snapToStep(static_cast<float>(heightSum / details), lattices.heightStep));
+  }
+  if (isFlat) chunk.detailHeights = chunk.cellHeights = {};
+}
+
+void fillColours(const Foam& foam, std::span<const uint32_t> sources, bool keepsLobes, ChunkContents& chunk) {
+  chunk.cellColours.resize(sources.size());
+  tbb::parallel_for(size_t{0}, sources.size(),
+                    [&](size_t i) { chunk.cellColours[i] = meanColour(foam, sources[i]); });
+  if (!keepsLobes) return fillPlainColours(foam, sources, chunk);
+  chunk.baseColours = gather(foam.baseColours, sources, foam.detailCount);
+  fillLobes(foam, sources, chunk);
+}
+
+bool isViewDependent(const Foam& foam) {
+  const uint64_t siteCount = uint64_t{foam.cellCount} * foam.detailCount;
+  for (uint64_t site = 0; site < siteCount; ++site) {
+    if (hasVaryingLobes(foam, site)) return true;
+  }
+  return false;
+}
+
+}  // namespace froth

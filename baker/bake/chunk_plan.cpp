@@ -1,0 +1,120 @@
+#include "baker/bake/chunk_plan.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+#include "baker/bake/slices.h"
+#include "baker/graph/graph.h"
+
+namespace froth {
+namespace {
+
+// A total order along an axis, so that a median splits the same way however it is found.
+struct AlongAxis {
+  const std::vector<glm::vec3>& sites;
+  int axis;
+
+  bool operator()(uint32_t a, uint32_t b) const {
+    return std::pair(sites[a][axis], a) < std::pair(sites[b][axis], b);
+  }
+};
+
+class KdSplitter {
+ public:
+  KdSplitter(const BakeCells& cells, const Progress& progress) : cells_(cells), progress_(progress) {}
+
+  // Splits into `chunkCount` chunks of nearly the same number of live cells; the others fall where the splits' planes put
+  // them. False: asked to stop.
+  bool split(std::span<uint32_t> live, std::span<uint32_t> others, size_t chunkCount, std::vector<PlannedChunk>& chunks) {
+    if (!report(progress_, "chunks", chunks.size(), 0)) return false;
+    if (chunkCount <= 1) {
+      PlannedChunk& chunk = chunks.emplace_back();
+      chunk.liveCount = static_cast<uint32_t>(live.size());
+      chunk.cells.assign(live.begin(), live.end());
+      chunk.cells.insert(chunk.cells.end(), others.begin(), others.end());
+      return true;
+    }
+    const AlongAxis isBefore{cells_.sites, widestAxis(live)};
+    const size_t leftChunks = chunkCount / 2, leftCells = live.size() * leftChunks / chunkCount;
+    std::nth_element(live.begin(), live.begin() + leftCells, live.end(), isBefore);
+    const float plane = cells_.sites[live[leftCells]][isBefore.axis];
+    const auto middle = std::partition(others.begin(), others.end(), [&](uint32_t cell) {
+      return cells_.sites[cell][isBefore.axis] < plane;
+    });
+    const size_t leftOthers = middle - others.begin();
+    return split(live.first(leftCells), others.first(leftOthers), leftChunks, chunks) &&
+           split(live.subspan(leftCells), others.subspan(leftOthers), chunkCount - leftChunks, chunks);
+  }
+
+ private:
+  int widestAxis(std::span<const uint32_t> cells) const {
+    glm::vec3 low = cells_.sites[cells[0]], high = low;
+    for (const uint32_t cell : cells) {
+      low = glm::min(low, cells_.sites[cell]);
+      high = glm::max(high, cells_.sites[cell]);
+    }
+    const glm::vec3 size = high - low;
+    if (size.x >= size.y && size.x >= size.z) return 0;
+    return size.y >= size.z ? 1 : 2;
+  }
+
+  const BakeCells& cells_;
+  const Progress& progress_;
+};
+
+void sortAlongCurve(std::span<uint32_t> cells, const BakeCells& all) {
+  std::sort(cells.begin(), cells.end());  // places on the curve that fall together are told apart by index
+  std::vector<glm::vec3> sites;
+  sites.reserve(cells.size());
+  for (const uint32_t cell : cells) sites.push_back(all.sites[cell]);
+  std::vector<uint32_t> sorted = mortonOrder(sites);
+  for (uint32_t& place : sorted) place = cells[place];
+  std::copy(sorted.begin(), sorted.end(), cells.begin());
+}
+
+Status fillRefs(const BakeCells& cells, ChunkPlan& plan) {
+  size_t largest = 1;
+  for (const PlannedChunk& chunk : plan.chunks) largest = std::max(largest, chunk.cells.size());
+  const size_t chunkCount = plan.chunks.size();
+  plan.localBits = chunkCount == 1 ? 32 : std::bit_width(largest - 1);
+  if (chunkCount > 1 && static_cast<int>(plan.localBits) + std::bit_width(chunkCount - 1) > 32) {
+    return makeError(ErrorKind::kUnsupported,
+                     "chunks: %zu of them with up to %zu cells exceed 2^32 places; bake with more cells per chunk",
+                     chunkCount, largest);
+  }
+  plan.refs.resize(cells.count());
+  for (uint32_t chunk = 0; chunk < chunkCount; ++chunk) {
+    const CellRef base = plan.localBits < 32 ? chunk << plan.localBits : 0;
+    const std::vector<uint32_t>& own = plan.chunks[chunk].cells;
+    for (uint32_t local = 0; local < own.size(); ++local) plan.refs[own[local]] = base | local;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<ChunkPlan> planChunks(const BakeCells& cells, const std::vector<CellState>& states, uint32_t chunkCells,
+                             const Progress& progress) {
+  std::vector<uint32_t> live, others;
+  for (uint32_t cell = 0; cell < cells.count(); ++cell) {
+    if (isInAsset(states[cell])) (states[cell] == CellState::kLive ? live : others).push_back(cell);
+  }
+  ChunkPlan plan;
+  const size_t chunkCount = (live.size() + chunkCells - 1) / chunkCells;
+  KdSplitter splitter(cells, progress);
+  const auto sortChunk = [&](uint32_t index) {
+    PlannedChunk& chunk = plan.chunks[index];
+    sortAlongCurve(std::span(chunk.cells).first(chunk.liveCount), cells);
+    sortAlongCurve(std::span(chunk.cells).subspan(chunk.liveCount), cells);
+  };
+  if (!splitter.split(live, others, chunkCount, plan.chunks) ||
+      !forEachSlice(static_cast<uint32_t>(plan.chunks.size()), 1, {progress, "order", 0, chunkCount}, sortChunk)) {
+    return makeError(ErrorKind::kCancelled, "bake stopped on request");
+  }
+  if (Status status = fillRefs(cells, plan); !status) return status.error();
+  return plan;
+}
+
+}  // namespace froth

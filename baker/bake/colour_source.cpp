@@ -1,0 +1,63 @@
+#include "baker/bake/colour_source.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "baker/bake/chunk_attributes.h"
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kSliceCells = 32;  // compressed by one task
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& values) {
+  all.insert(all.end(), values.begin(), values.end());
+}
+
+void appendAppearance(const CellAppearance& cells, ChunkContents& chunk, AttributeErrors& errors) {
+  append(chunk.cellColours, cells.cellColours);
+  append(chunk.baseColours, cells.baseColours);
+  append(chunk.colourScales, cells.colourScales);
+  append(chunk.lobeCounts, cells.lobeCounts);
+  append(chunk.lobeAxes, cells.lobeAxes);
+  append(chunk.lobeColours, cells.lobeColours);
+  errors.colours.add(cells.squaredError, cells.maxError, cells.weight);
+}
+
+}  // namespace
+
+Result<ColourSource> ColourSource::create(const Foam& foam, const Visibility* visibility, const BakeOptions& options,
+                                          const Progress& progress) {
+  ColourSource source;
+  source.foam_ = &foam;
+  if (!options.knobs.compressColours) {
+    source.lobeCount_ = isViewDependent(foam) ? foam.lobeCount : 0;
+    return source;
+  }
+  AppearanceOptions appearance = options.knobs.appearance;
+  appearance.seed = options.seed;
+  Result<AppearanceCoder> coder = AppearanceCoder::create(foam, visibility, appearance, progress);
+  if (!coder) return coder.error();
+  source.coder_ = std::move(*coder);
+  source.lobeCount_ = std::min(foam.lobeCount, appearance.lobeLimit);
+  return source;
+}
+
+bool ColourSource::fill(std::span<const uint32_t> sources, const StageProgress& stage, ChunkContents& chunk,
+                        AttributeErrors& errors) const {
+  if (!coder_) {
+    fillColours(*foam_, sources, lobeCount_ > 0, chunk);
+    return report(stage.progress, stage.stage, stage.done, stage.total);
+  }
+  std::vector<CellAppearance> slices((sources.size() + kSliceCells - 1) / kSliceCells);
+  const auto compressSlice = [&](uint32_t slice) {
+    const size_t first = size_t{slice} * kSliceCells;
+    slices[slice] = coder_->compress(sources.subspan(first, std::min<size_t>(kSliceCells, sources.size() - first)));
+  };
+  if (!forEachSlice(static_cast<uint32_t>(slices.size()), kSliceCells, stage, compressSlice)) return false;
+  for (const CellAppearance& cells : slices) appendAppearance(cells, chunk, errors);
+  return true;
+}
+
+}  // namespace froth

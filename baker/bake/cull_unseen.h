@@ -1,0 +1,15 @@
+// Takes out what no camera sees. Internal to baker/bake.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "baker/bake/cells.h"
+
+namespace froth {
+
+// Cells whose `contributions` [cells] are not above `limit` lose their place; those whose ball overlaps the ball of a
+// seen cell stay as cutters (isUnseen), so that no seen cell grows. Returns how many were culled, cutters included.
+uint64_t cullUnseenCells(BakeCells& cells, std::span<const float> contributions, float limit);
+
+}  // namespace froth

@@ -1,0 +1,92 @@
+#include "baker/bake/sample_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "baker/reference/reference.h"
+
+namespace froth {
+namespace {
+
+constexpr size_t kSampleViews = 4;
+constexpr double kSamplePixels = 160 * 120;
+
+View reduceView(const View& view) {
+  const double scale = std::min(1.0, std::sqrt(kSamplePixels / (double{1} * view.width * view.height)));
+  const auto shrink = [scale](uint32_t size) { return std::max(1u, static_cast<uint32_t>(std::lround(size * scale))); };
+  return resizeView(view, shrink(view.width), shrink(view.height));
+}
+
+// Looks at `target` from `eye`.
+View lookAt(const glm::dvec3& eye, const glm::dvec3& target) {
+  const glm::dvec3 forward = glm::normalize(target - eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.31, 0.22, 1)));
+  const glm::dvec3 down = glm::cross(forward, right);
+  View view;
+  view.width = 160;
+  view.height = 120;
+  view.fx = view.fy = 120;
+  view.cx = 80;
+  view.cy = 60;
+  for (int row = 0; row < 3; ++row) {
+    view.worldFromCamera[4 * row] = right[row];
+    view.worldFromCamera[4 * row + 1] = down[row];
+    view.worldFromCamera[4 * row + 2] = forward[row];
+    view.worldFromCamera[4 * row + 3] = eye[row];
+  }
+  return view;
+}
+
+// From the four corners of a tetrahedron, far enough to see all of the foam.
+std::vector<View> viewsAround(const Foam& foam) {
+  glm::dvec3 low(foam.sites[0]), high(low);
+  for (uint32_t i = 0; i < foam.cellCount; ++i) {
+    low = glm::min(low, glm::dvec3(foam.sites[i]) - double{foam.radii[i]});
+    high = glm::max(high, glm::dvec3(foam.sites[i]) + double{foam.radii[i]});
+  }
+  const glm::dvec3 centre = 0.5 * (low + high);
+  const double distance = 1.2 * glm::length(high - low);
+  std::vector<View> views;
+  for (const glm::dvec3& corner : {glm::dvec3(1, 1, 1), glm::dvec3(1, -1, -1), glm::dvec3(-1, 1, -1), glm::dvec3(-1, -1, 1)})
+    views.push_back(lookAt(centre + distance / std::sqrt(3.0) * corner, centre));
+  return views;
+}
+
+std::vector<View> chooseViews(const Foam& foam, const BakeOptions& options) {
+  if (!options.cameras || options.cameras->views.empty()) return viewsAround(foam);
+  const std::vector<View>& all = options.cameras->views;
+  const size_t count = std::min(kSampleViews, all.size());
+  std::vector<View> views;
+  for (size_t k = 0; k < count; ++k) views.push_back(reduceView(all[k * all.size() / count]));
+  return views;
+}
+
+double clampedDifference(float a, float b) {
+  return double{std::clamp(a, 0.0f, 1.0f)} - std::clamp(b, 0.0f, 1.0f);
+}
+
+}  // namespace
+
+Result<double> measurePsnr(const Foam& input, const Foam& baked, const BakeOptions& options, const Progress& progress) {
+  const ReferenceRenderer inputRenderer(input), bakedRenderer(baked);
+  double squares = 0, values = 0;
+  for (const View& view : chooseViews(input, options)) {
+    ReferenceOptions reference;
+    reference.precision = Precision::kFloat;
+    reference.nearRatio = view.nearRatio.value_or(options.nearRatio);
+    reference.nearDepth = view.nearDepth.value_or(options.nearDepth);
+    const Result<RenderedImages> expected = inputRenderer.render(view, reference, progress);
+    if (!expected) return expected.error();
+    const Result<RenderedImages> found = bakedRenderer.render(view, reference, progress);
+    if (!found) return found.error();
+    for (size_t k = 0; k < expected->colour.values.size(); ++k) {
+      const double difference = clampedDifference(expected->colour.values[k], found->colour.values[k]);
+      squares += difference * difference;
+    }
+    values += static_cast<double>(expected->colour.values.size());
+  }
+  return squares > 0 ? std::min(kMaxPsnr, -10 * std::log10(squares / values)) : kMaxPsnr;
+}
+
+}  // namespace froth

@@ -1,0 +1,16 @@
+// What a lossy asset looks like beside its input. Internal to baker/bake.
+#pragma once
+
+#include "baker/bake/bake.h"
+#include "baker/foam.h"
+#include "baker/progress.h"
+#include "format/result.h"
+
+namespace froth {
+
+// PSNR over a few reduced views of the cameras, or around the foam if there are none; by the float reference. [dB], at most
+// kMaxPsnr. Fails with kCancelled.
+inline constexpr double kMaxPsnr = 200;  // stands for equal images
+Result<double> measurePsnr(const Foam& input, const Foam& baked, const BakeOptions& options, const Progress& progress);
+
+}  // namespace froth

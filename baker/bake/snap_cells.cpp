@@ -1,0 +1,79 @@
+#include "baker/bake/snap_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace froth {
+namespace {
+
+double largestExtent(const Foam& foam) {
+  glm::dvec3 low(foam.sites[0]), high(foam.sites[0]);
+  for (const glm::vec3& site : foam.sites) {
+    low = glm::min(low, glm::dvec3(site));
+    high = glm::max(high, glm::dvec3(site));
+  }
+  const glm::dvec3 size = high - low;
+  const double extent = std::max({size.x, size.y, size.z});
+  return extent > 0 ? extent : foam.radii[0];  // all sites in one place
+}
+
+float stepOfBits(uint32_t bits) {
+  return bits > 0 ? std::ldexp(1.0f, -static_cast<int>(bits)) : 0.0f;
+}
+
+}  // namespace
+
+Quantization makeLattices(const Foam& foam, const BakeKnobs& knobs) {
+  Quantization lattices;
+  if (knobs.positionBits > 0)
+    lattices.positionStep = std::exp2(std::floor(std::log2(largestExtent(foam))) - knobs.positionBits);
+  lattices.radiusBits = knobs.radiusBits;
+  lattices.densityBits = knobs.densityBits;
+  lattices.normalBits = knobs.frameBits;
+  lattices.detailSiteStep = stepOfBits(knobs.detailSiteBits);
+  lattices.heightStep = stepOfBits(knobs.heightBits);
+  if (knobs.compressColours) {
+    lattices.colourStep = knobs.appearance.colourStep;
+    lattices.lobeAxisStep = knobs.appearance.lobeAxisStep;
+  }
+  return lattices;
+}
+
+BakeCells snapCells(const Foam& foam, const Quantization& lattices) {
+  BakeCells cells;
+  cells.sites.resize(foam.cellCount);
+  cells.radii.resize(foam.cellCount);
+  cells.densities.resize(foam.cellCount);
+  cells.sources.resize(foam.cellCount);
+  cells.isUnseen.assign(foam.cellCount, 0);
+  std::iota(cells.sources.begin(), cells.sources.end(), 0u);
+  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
+    // Always a float: beyond 2^24 steps from the world's origin floats are coarser than the grid, and lie on it already.
+    for (int axis = 0; axis < 3; ++axis)
+      cells.sites[cell][axis] =
+          static_cast<float>(snapToStep(double{foam.sites[cell][axis]}, lattices.positionStep));
+    cells.radii[cell] = roundMantissa(foam.radii[cell], lattices.radiusBits);
+    cells.densities[cell] = roundMantissa(foam.densities[cell], lattices.densityBits);
+  }
+  return cells;
+}
+
+SnappedFace snapFace(const glm::vec4& orientation, const Quantization& lattices) {
+  SnappedFace face{orientation, faceFrame<double>(orientation), {}};
+  if (lattices.normalBits > 0)
+    face.orientation =
+        orientationOfNormal(normalIndices(face.from.normal, lattices.normalBits), lattices.normalBits);
+  face.to = faceFrame<double>(face.orientation);
+  return face;
+}
+
+glm::vec2 snapDetailSite(const SnappedFace& face, glm::vec2 detailSite, const Quantization& lattices) {
+  if (lattices.normalBits > 0) {
+    const glm::dvec3 offset = double{detailSite.x} * face.from.tangent + double{detailSite.y} * face.from.bitangent;
+    detailSite = glm::vec2(glm::dot(offset, face.to.tangent), glm::dot(offset, face.to.bitangent));
+  }
+  return {snapToStep(detailSite.x, lattices.detailSiteStep), snapToStep(detailSite.y, lattices.detailSiteStep)};
+}
+
+}  // namespace froth

@@ -1,0 +1,27 @@
+// Snaps a foam to the lattices of its asset, before anything is built on its numbers. Internal to baker/bake.
+#pragma once
+
+#include "baker/bake/bake.h"
+#include "baker/bake/cells.h"
+#include "baker/foam.h"
+#include "format/quantization.h"
+
+namespace froth {
+
+// The lattices that the knobs ask for, fitted to the foam's extent.
+Quantization makeLattices(const Foam& foam, const BakeKnobs& knobs);
+
+// All cells of the foam.
+BakeCells snapCells(const Foam& foam, const Quantization& lattices);
+
+// A snapped face: frame of the cell and its detail sites in that frame.
+struct SnappedFace {
+  glm::vec4 orientation;
+  FaceFrame<double> from, to;  // frames before and after
+};
+SnappedFace snapFace(const glm::vec4& orientation, const Quantization& lattices);
+
+// A detail site (u, v) [radii] of the old frame, in the new one and on its lattice.
+glm::vec2 snapDetailSite(const SnappedFace& face, glm::vec2 detailSite, const Quantization& lattices);
+
+}  // namespace froth
