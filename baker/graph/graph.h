@@ -19,10 +19,15 @@ struct CellGraph {
   std::vector<uint32_t> neighbours;  // [offsets.back()]
 };
 
+inline std::span<const uint32_t> neighboursOf(const CellGraph& graph, uint32_t cell) {
+  return std::span(graph.neighbours)
+      .subspan(graph.offsets[cell], graph.offsets[cell + 1] - graph.offsets[cell]);
+}
+
 struct RegularTriangulation {
   CellGraph graph;                // pairs whose power cells share a face; rows of hidden cells are empty
   std::vector<uint8_t> isHidden;  // [cells] 1: the power cell is empty (covered by others, or a duplicate)
-  uint64_t duplicates = 0;  // sites that coincide with another; the largest radius, then the lowest index, stays
+  uint64_t duplicates = 0;        // of coinciding sites the largest radius, then the lowest index, stays
 };
 
 // CGAL, sequential, exact predicates on exactly these floats. Any input of finite numbers works: fewer than
@@ -32,7 +37,8 @@ Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites
                                                 std::span<const float> radii, const Progress& progress = {});
 
 struct AlphaComplex {
-  // Pairs whose bounded cells share a face: never a true pair missing, superfluous ones only within the margin.
+  // Pairs whose bounded cells share a face: never a true pair missing, superfluous ones only within the
+  // margin.
   CellGraph graph;
   std::vector<uint8_t> isEmpty;  // [cells] 1: not hidden, but the bounded cell is empty
 };
@@ -45,21 +51,28 @@ AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<con
 // Pairs with |p_i - p_j| < r_i + r_j, in double; over a bounding volume hierarchy or grid, near-linear.
 CellGraph findCechPairs(std::span<const glm::vec3> sites, std::span<const float> radii);
 
-// The same graph, region by region: each region is triangulated with as many sites around it as its stars need, proven by
-// the empty orthospheres of their tetrahedra. Memory grows with `regionCells`, not with the scene. `order` lists all cells
-// so that neighbours in it lie close together (a space-filling curve).
-Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites, std::span<const float> radii,
-                                                std::span<const uint32_t> order, uint32_t regionCells,
-                                                const Progress& progress = {});
+// The same graph, region by region: each region is triangulated with as many sites around it as its stars
+// need, proven by the empty orthospheres of their tetrahedra. Memory grows with `regionCells`, not with the
+// scene. `order` lists all cells so that neighbours in it lie close together (a space-filling curve).
+Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites,
+                                                std::span<const float> radii, std::span<const uint32_t> order,
+                                                uint32_t regionCells, const Progress& progress = {});
 
 // What was checked of the graphs of a bake, and what was found; `faults` is empty when all is well.
+//
+// Rows of both graphs are checked in full, the diagram by samples: at random points (in balls, in the scene's
+// box, next to faces) a walk down the power over the graph must end in the cell of least power; on random
+// rays every step of a walk must be in the cell of least power, every ball on the ray must be cut alike by
+// alpha planes and by all planes, and none be left out. Least powers and balls on a ray are found without the
+// graphs. All cores; the same for the same seed on any number of them.
 struct ValidityReport {
   uint64_t cells = 0, walkPairs = 0, alphaPairs = 0;
   uint64_t pointsChecked = 0, raysChecked = 0;  // against brute force
   std::vector<std::string> faults;              // at most 16, each with cell numbers and values
 };
 ValidityReport checkGraphs(std::span<const glm::vec3> sites, std::span<const float> radii,
-                           const RegularTriangulation& triangulation, const AlphaComplex& alpha, uint64_t seed);
+                           const RegularTriangulation& triangulation, const AlphaComplex& alpha,
+                           uint64_t seed);
 
 // Cells along a Morton curve of 21 bits per axis over the bounding box; ties by index. order[k] = cell at
 // place k.
