@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "format/checks.h"
+#include "format/chunk_sections_read.h"
 #include "format/container.h"
 #include "format/input_file.h"
 #include "format/manifest_read.h"
@@ -46,9 +47,9 @@ Status checkHeader(const FileHeader& header, const Source& source) {
                    header.headerHash))
     return makeError(ErrorKind::kBadInput, "%s: header: hash does not match; %s", name, kNoAsset);
   if (header.versionMajor != kVersionMajor)
-    return makeError(ErrorKind::kUnsupported,
-                     "%s: format version %u.%u, this program reads %u; update the older one", name,
-                     header.versionMajor, header.versionMinor, kVersionMajor);
+    return makeError(ErrorKind::kUnsupported, "%s: format version %u.%u, this program reads %u; %s", name,
+                     header.versionMajor, header.versionMinor, kVersionMajor,
+                     header.versionMajor < kVersionMajor ? "bake the scene again" : "update this program");
   if (header.reserved0 != 0 || header.reserved1 != 0)
     return makeError(ErrorKind::kUnsupported, "%s: header: reserved bytes are not zero; update this program",
                      name);
@@ -82,43 +83,52 @@ Result<Manifest> readManifest(const Source& source) {
   return parseManifest(aligned, header.manifestOffset + header.manifestSize, source.size, source.name);
 }
 
-// Decodes the sections of one chunk into its arrays.
-class SectionReader {
- public:
-  SectionReader(const Source& source, const Manifest& manifest, uint32_t chunk)
-      : source_(source), manifest_(manifest), chunk_(chunk) {}
-
-  template <class Element>
-  void operator()(SectionType type, std::vector<Element>& array) {
-    const SectionRecord* record = manifest_.findSection(chunk_, type);
-    if (!status_ || !record) return;
-    Result<std::span<const uint8_t>> stored = source_.view(record->offset, record->storedSize, storage_);
-    if (!stored) {
-      status_ = stored.error();
-      return;
-    }
-    // The manifest's check has tied rawSize to the counts, and so to a whole number of elements.
-    array.resize(static_cast<size_t>(record->rawSize / sizeof(Element)));
-    status_ = decodeSection(*record, *stored,
-                            {reinterpret_cast<uint8_t*>(array.data()), array.size() * sizeof(Element)},
-                            sectionPlace(source_.name, chunk_, record->type));
+// What a reader of the first layers sees.
+AssetContents coarsened(AssetContents contents, Layer last) {
+  if (last == Layer::kGeometry) contents.detailCount = 1;
+  if (last != Layer::kViewDependence) {
+    contents.lobeCount = 0;
+    contents.axisCodebook.clear();
   }
-
-  const Status& status() const { return status_; }
-
- private:
-  const Source& source_;
-  const Manifest& manifest_;
-  uint32_t chunk_;
-  std::vector<uint8_t> storage_;
-  Status status_;
-};
+  return contents;
+}
 
 }  // namespace
 
 struct AssetReader::State {
   Source source;
-  Manifest manifest;
+  Manifest manifest;       // of the file
+  AssetContents contents;  // what the chosen layers make of it
+  Layer last = Layer::kViewDependence;
+
+  // Thread-safe, as the source is.
+  Status decode(const SectionRecord& record, std::span<uint8_t> raw, const std::string& place) const {
+    std::vector<uint8_t> storage;
+    Result<std::span<const uint8_t>> stored = source.view(record.offset, record.storedSize, storage);
+    if (!stored) return stored.error();
+    const uint32_t components = sectionComponents(static_cast<SectionType>(record.type), manifest.contents.quantization);
+    return decodeSection(record, *stored, raw, sectionPlace(place, record.type), {record.elementSize, components});
+  }
+
+  Status readCodebook() {
+    const SectionRecord* record = manifest.findSection(kSharedChunk, SectionType::kAxisCodebook);
+    if (!record || last != Layer::kViewDependence) return {};
+    std::vector<glm::vec3>& codebook = manifest.contents.axisCodebook;
+    codebook.resize(manifest.codebookSize);
+    const std::span<uint8_t> raw{reinterpret_cast<uint8_t*>(codebook.data()), codebook.size() * sizeof(glm::vec3)};
+    if (Status status = decode(*record, raw, chunkPlace(source.name, kSharedChunk)); !status) return status;
+    return checkParameters(manifest.contents, source.name);
+  }
+
+  Status start(Layer lastLayer) {
+    last = lastLayer;
+    Result<Manifest> found = readManifest(source);
+    if (!found) return found.error();
+    manifest = std::move(*found);
+    if (Status status = readCodebook(); !status) return status;
+    contents = coarsened(manifest.contents, last);
+    return {};
+  }
 };
 
 AssetReader::AssetReader() : state_(std::make_unique<State>()) {}
@@ -126,7 +136,7 @@ AssetReader::AssetReader(AssetReader&&) noexcept = default;
 AssetReader& AssetReader::operator=(AssetReader&&) noexcept = default;
 AssetReader::~AssetReader() = default;
 
-Result<AssetReader> AssetReader::open(const std::filesystem::path& path, Layer) {
+Result<AssetReader> AssetReader::open(const std::filesystem::path& path, Layer last) {
   Result<InputFile> file = InputFile::open(path);
   if (!file) return file.error();
   AssetReader reader;
@@ -134,47 +144,51 @@ Result<AssetReader> AssetReader::open(const std::filesystem::path& path, Layer) 
   source.name = file->name();
   source.size = file->size();
   source.file = std::move(*file);
-  Result<Manifest> manifest = readManifest(source);
-  if (!manifest) return manifest.error();
-  reader.state_->manifest = std::move(*manifest);
+  if (Status status = reader.state_->start(last); !status) return status.error();
   return reader;
 }
 
-Result<AssetReader> AssetReader::openBytes(std::span<const uint8_t> bytes, std::string name, Layer) {
+Result<AssetReader> AssetReader::openBytes(std::span<const uint8_t> bytes, std::string name, Layer last) {
   AssetReader reader;
   Source& source = reader.state_->source;
   source.name = std::move(name);
   source.size = bytes.size();
   source.memory = bytes;
-  Result<Manifest> manifest = readManifest(source);
-  if (!manifest) return manifest.error();
-  reader.state_->manifest = std::move(*manifest);
+  if (Status status = reader.state_->start(last); !status) return status.error();
   return reader;
 }
 
 const AssetContents& AssetReader::manifest() const {
-  return state_->manifest.contents;
+  return state_->contents;
 }
 
 Box AssetReader::liveBounds(uint32_t chunk) const {
   return state_->manifest.chunks[chunk].liveBounds;
 }
 
+std::span<const SectionRecord> AssetReader::sections() const {
+  return state_->manifest.sections;
+}
+
 Result<ChunkContents> AssetReader::readChunk(uint32_t chunk) const {
-  const AssetContents& asset = state_->manifest.contents;
-  if (chunk >= asset.chunks.size())
-    return makeError(ErrorKind::kUsage, "%s: chunk %u asked for, there are %zu", state_->source.name.c_str(),
-                     chunk, asset.chunks.size());
-  ChunkContents contents = asset.chunks[chunk];
-  SectionReader sections(state_->source, state_->manifest, chunk);
-  visitSections(contents, sections);
-  if (!sections.status()) return sections.status().error();
-  if (Status status = checkChunk(asset, chunk, contents, state_->source.name); !status) return status.error();
+  const State& state = *state_;
+  if (chunk >= state.contents.chunks.size())
+    return makeError(ErrorKind::kUsage, "%s: chunk %u asked for, there are %zu", state.source.name.c_str(), chunk,
+                     state.contents.chunks.size());
+  const std::string place = chunkPlace(state.source.name, chunk);
+  const SectionDecoder decode = [&](const SectionRecord& record, std::span<uint8_t> raw) {
+    return state.decode(record, raw, place);
+  };
+  Result<ChunkContents> contents = unpackChunk(state.manifest, chunk, state.last, decode, place);
+  if (!contents) return contents;
+  if (Status status = checkChunk(state.contents, *contents, place); !status) return status.error();
+  if (Status status = checkGhostRefs(state.contents, state.manifest.chunks, chunk, contents->ghostRefs, place); !status)
+    return status.error();
   return contents;
 }
 
-Result<AssetContents> readAsset(const std::filesystem::path& path, Layer) {
-  Result<AssetReader> reader = AssetReader::open(path);
+Result<AssetContents> readAsset(const std::filesystem::path& path, Layer last) {
+  Result<AssetReader> reader = AssetReader::open(path, last);
   if (!reader) return reader.error();
   AssetContents contents = reader->manifest();
   for (uint32_t chunk = 0; chunk < contents.chunks.size(); ++chunk) {

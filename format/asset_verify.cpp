@@ -1,8 +1,8 @@
-// The checks of `froth verify` that need the whole graph.
+// The checks of `froth verify` that need more than one chunk, or more time than every reader should spend.
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <span>
+#include <tuple>
 #include <vector>
 
 #include "format/asset_reader.h"
@@ -14,61 +14,22 @@ namespace {
 
 constexpr char kRemedy[] = "bake the scene again";
 
-// A float rounds by at most half of FLT_EPSILON, relative.
-constexpr double kRounding = FLT_EPSILON / 2;
+// A quaternion normalised in float: its length carries some 4 roundings of half of FLT_EPSILON and each component one or two of
+// its own, so |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is allowed.
+constexpr double kUnitTolerance = 12 * FLT_EPSILON;
 
-// A quaternion normalised in float: its length carries some 4 roundings and each component one or two of its
-// own, so |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is allowed.
-constexpr double kUnitTolerance = 24 * kRounding;
+// A pair across two chunks, as one of them sees it.
+struct CrossPair {
+  CellRef from, to;  // own cell, cell behind the ghost
+  bool isAlpha;
 
-// What of a chunk the graph's checks need. Rows keep their parts (alpha, others), each sorted by reference.
-struct GraphChunk {
-  ChunkContents contents;                 // without what only shading needs
-  std::vector<CellRef> sortedNeighbours;  // rows as in contents.neighbours
-
-  std::span<const CellRef> row(const std::vector<CellRef>& array, uint32_t cell) const {
-    const uint32_t first = contents.neighbourOffsets[cell];
-    return {array.data() + first, contents.neighbourOffsets[cell + 1] - first};
-  }
-  bool isLive(uint32_t cell) const { return cell < contents.liveCount; }
-  uint32_t alphaCount(uint32_t cell) const { return isLive(cell) ? contents.alphaCounts[cell] : 0; }
-  std::span<const CellRef> sortedAlpha(uint32_t cell) const {
-    return row(sortedNeighbours, cell).first(alphaCount(cell));
-  }
-  std::span<const CellRef> sortedOthers(uint32_t cell) const {
-    return row(sortedNeighbours, cell).subspan(alphaCount(cell));
-  }
+  CellRef least() const { return std::min(from, to); }
+  CellRef most() const { return std::max(from, to); }
 };
 
-bool contains(std::span<const CellRef> sorted, CellRef cell) {
-  return std::binary_search(sorted.begin(), sorted.end(), cell);
+bool comesBefore(const CrossPair& a, const CrossPair& b) {
+  return std::tuple(a.least(), a.most(), a.from) < std::tuple(b.least(), b.most(), b.from);
 }
-
-void dropShading(ChunkContents& chunk) {
-  chunk.densities = {};
-  chunk.orientations = {};
-  chunk.detailSites = {};
-  chunk.detailHeights = {};
-  chunk.lobeAxes = {};
-  chunk.lobeColours = {};
-}
-
-void sortRows(GraphChunk& chunk) {
-  chunk.sortedNeighbours = chunk.contents.neighbours;
-  for (uint32_t cell = 0; cell < chunk.contents.cellCount; ++cell) {
-    const auto row = chunk.sortedNeighbours.begin();
-    const auto first = row + chunk.contents.neighbourOffsets[cell];
-    const auto middle = first + chunk.alphaCount(cell);
-    std::sort(first, middle);
-    std::sort(middle, row + chunk.contents.neighbourOffsets[cell + 1]);
-  }
-}
-
-// The distance of the radical plane from a cell's site, and what float arithmetic may have made of it.
-struct PlaneDistance {
-  double distance = 0;
-  double tolerance = 0;
-};
 
 class Verifier {
  public:
@@ -81,126 +42,113 @@ class Verifier {
     for (uint32_t index = 0; index < count; ++index)
       if (Status status = addChunk(reader, index); !status) return status;
     for (uint32_t index = 0; index < count; ++index)
-      for (uint32_t cell = 0; cell < chunks_[index].contents.cellCount; ++cell) {
-        if (Status status = checkRow(index, cell); !status) return status;
-        if (Status status = checkSymmetry(index, cell); !status) return status;
-        if (Status status = checkOrder(index, cell); !status) return status;
-      }
-    return {};
+      if (Status status = checkGhosts(index); !status) return status;
+    return checkCrossPairs();
   }
 
  private:
   Status addChunk(const AssetReader& reader, uint32_t index) {
     Result<ChunkContents> contents = reader.readChunk(index);
     if (!contents) return contents.error();
-    for (uint32_t cell = 0; cell < contents->liveCount; ++cell) {
-      const glm::dvec4 q(contents->orientations[cell]);
-      if (std::abs(glm::dot(q, q) - 1) <= kUnitTolerance) continue;
-      return makeError(ErrorKind::kBadInput, "%s: cell %u: quaternion of length %.9g, not 1; %s",
-                       placeOf(index, SectionType::kOrientations).c_str(), cell, std::sqrt(glm::dot(q, q)),
-                       kRemedy);
-    }
+    if (Status status = checkFrames(*contents, index); !status) return status;
     const Box told = reader.liveBounds(index), found = liveBoundsOf(*contents);
     if (told.min != found.min || told.max != found.max)
-      return makeError(ErrorKind::kBadInput, "%s: chunk %u: live_bounds are not those of its live cells; %s",
-                       file_.c_str(), index, kRemedy);
-    GraphChunk chunk;
-    chunk.contents = std::move(*contents);
-    dropShading(chunk.contents);
-    sortRows(chunk);
-    chunks_.push_back(std::move(chunk));
+      return makeError(ErrorKind::kBadInput, "%s: live_bounds are not those of its live cells; %s",
+                       chunkPlace(file_, index).c_str(), kRemedy);
+    for (uint32_t cell = 0; cell < contents->cellCount; ++cell)
+      if (Status status = addRow(*contents, index, cell); !status) return status;
+    // What the other chunks' ghosts are compared with is all that is kept.
+    ChunkContents& kept = chunks_.emplace_back();
+    kept.origin = contents->origin;
+    kept.cellCount = contents->cellCount;
+    kept.liveCount = contents->liveCount;
+    kept.sites = std::move(contents->sites);
+    kept.radii = std::move(contents->radii);
+    kept.ghostRefs = std::move(contents->ghostRefs);
     return {};
   }
 
-  // No loop, no double entry, and without a walk graph nothing but alpha neighbours.
-  Status checkRow(uint32_t index, uint32_t cell) const {
-    const GraphChunk& chunk = chunks_[index];
-    const std::span<const CellRef> alpha = chunk.sortedAlpha(cell), others = chunk.sortedOthers(cell);
-    const CellRef self = referenceTo(index, cell);
-    if (contains(alpha, self) || contains(others, self)) return rowError(index, cell, "is its own neighbour");
-    const bool isDoubled =
-        std::adjacent_find(alpha.begin(), alpha.end()) != alpha.end() ||
-        std::adjacent_find(others.begin(), others.end()) != others.end() ||
-        std::any_of(alpha.begin(), alpha.end(), [&](CellRef c) { return contains(others, c); });
-    if (isDoubled) return rowError(index, cell, "has a neighbour twice");
-    if (!hasWalkGraph_ && !others.empty())
-      return rowError(index, cell, "has more than alpha neighbours, and the asset no walk graph");
-    return {};
-  }
-
-  // Who is a neighbour has one; live alpha neighbours likewise.
-  Status checkSymmetry(uint32_t index, uint32_t cell) const {
-    const GraphChunk& chunk = chunks_[index];
-    const CellRef self = referenceTo(index, cell);
-    for (const bool isAlpha : {true, false})
-      for (const CellRef neighbour : isAlpha ? chunk.sortedAlpha(cell) : chunk.sortedOthers(cell)) {
-        const GraphChunk& other = chunks_[chunkOf(neighbour, localBits_)];
-        const uint32_t local = localOf(neighbour, localBits_);
-        const bool isAlphaBack = contains(other.sortedAlpha(local), self);
-        if (chunk.isLive(cell) && other.isLive(local) && isAlpha != isAlphaBack)
-          return pairError(index, cell, neighbour, "the alpha-complex holds one direction only");
-        if (hasWalkGraph_ && !isAlphaBack && !contains(other.sortedOthers(local), self))
-          return pairError(index, cell, neighbour, "the graph holds one direction only");
-      }
-    return {};
-  }
-
-  // Both parts of a live cell's row: nearest radical plane first.
-  Status checkOrder(uint32_t index, uint32_t cell) const {
-    const GraphChunk& chunk = chunks_[index];
-    if (!chunk.isLive(cell)) return {};
-    const std::span<const CellRef> row = chunk.row(chunk.contents.neighbours, cell);
-    PlaneDistance previous;
-    for (size_t i = 0; i < row.size(); ++i) {
-      const PlaneDistance next = planeDistance(index, cell, row[i]);
-      if (!std::isfinite(next.distance))
-        return pairError(index, cell, row[i], "both sites are the same point, no plane parts them");
-      const bool startsPart = i == 0 || i == chunk.alphaCount(cell);
-      if (!startsPart && next.distance < previous.distance - previous.tolerance - next.tolerance)
-        return pairError(index, cell, row[i], "its plane is nearer than that of the neighbour before it");
-      previous = next;
+  Status checkFrames(const ChunkContents& chunk, uint32_t index) const {
+    for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) {
+      const glm::dvec4 q(chunk.orientations[cell]);
+      if (std::abs(glm::dot(q, q) - 1) <= kUnitTolerance) continue;
+      return makeError(ErrorKind::kBadInput, "%s: cell %u: quaternion of length %.9g, not 1; %s",
+                       sectionPlace(chunkPlace(file_, index), SectionType::kOrientations).c_str(), cell,
+                       std::sqrt(glm::dot(q, q)), kRemedy);
     }
     return {};
   }
 
-  // radicalOffset / |toNeighbour| (shaders/foam/cell.h). A baker may have made it in float: then the squared
-  // distance carries 5 roundings and the difference of squared radii 3, their sum one more, the distance 3.5
-  // and the quotient one: less than 11 in all, relative to the sum of both terms' sizes.
-  PlaneDistance planeDistance(uint32_t index, uint32_t cell, CellRef neighbour) const {
-    const ChunkContents& a = chunks_[index].contents;
-    const ChunkContents& b = chunks_[chunkOf(neighbour, localBits_)].contents;
-    const uint32_t local = localOf(neighbour, localBits_);
-    glm::dvec3 toNeighbour = glm::dvec3(b.sites[local]) - glm::dvec3(a.sites[cell]);
-    for (int axis = 0; axis < 3; ++axis)
-      toNeighbour[axis] += b.origin[static_cast<size_t>(axis)] - a.origin[static_cast<size_t>(axis)];
-    const double radius = a.radii[cell], otherRadius = b.radii[local];
-    const double squares = (radius - otherRadius) * (radius + otherRadius), length = glm::length(toNeighbour);
-    return {0.5 * (length + squares / length), 11 * kRounding * 0.5 * (length + std::abs(squares) / length)};
+  // A plane parts any two neighbours. Pairs with ghosts are kept for later.
+  Status addRow(const ChunkContents& chunk, uint32_t index, uint32_t cell) {
+    const uint32_t first = chunk.neighbourOffsets[cell], last = chunk.neighbourOffsets[cell + 1];
+    const uint32_t alphaCount = cell < chunk.liveCount ? chunk.alphaCounts[cell] : 0;
+    for (uint32_t i = first; i < last; ++i) {
+      const uint32_t neighbour = chunk.neighbours[i];
+      if (chunk.sites[neighbour] == chunk.sites[cell])
+        return makeError(ErrorKind::kBadInput, "%s: cell %u and its neighbour %u are the same point, no plane parts them; %s",
+                         chunkPlace(file_, index).c_str(), cell, neighbour, kRemedy);
+      if (neighbour >= chunk.cellCount)
+        crossPairs_.push_back({referenceTo(index, cell), chunk.ghostRefs[neighbour - chunk.cellCount], i - first < alphaCount});
+    }
+    return {};
+  }
+
+  // A ghost is its cell, seen from the chunk's origin: bit for bit on a lattice, else rounded to float.
+  Status checkGhosts(uint32_t index) const {
+    const ChunkContents& chunk = chunks_[index];
+    for (uint32_t ghost = 0; ghost < chunk.ghostRefs.size(); ++ghost) {
+      const ChunkContents& other = chunks_[chunkOf(chunk.ghostRefs[ghost], localBits_)];
+      const uint32_t cell = localOf(chunk.ghostRefs[ghost], localBits_), here = chunk.cellCount + ghost;
+      bool isSame = chunk.radii[here] == other.radii[cell];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const int a = static_cast<int>(axis);
+        const double site = other.origin[axis] - chunk.origin[axis] + other.sites[cell][a];
+        isSame = isSame && chunk.sites[here][a] == static_cast<float>(site);
+      }
+      if (!isSame)
+        return makeError(ErrorKind::kBadInput, "%s: ghost %u is not where cell %u of chunk %u is, or not as large; %s",
+                         chunkPlace(file_, index).c_str(), ghost, cell, chunkOf(chunk.ghostRefs[ghost], localBits_),
+                         kRemedy);
+    }
+    return {};
+  }
+
+  bool isLive(CellRef cell) const {
+    return localOf(cell, localBits_) < chunks_[chunkOf(cell, localBits_)].liveCount;
+  }
+
+  // Both chunks know of a pair, and agree on alpha if both cells are live.
+  Status checkCrossPairs() {
+    std::sort(crossPairs_.begin(), crossPairs_.end(), comesBefore);
+    for (size_t i = 0; i < crossPairs_.size(); ++i) {
+      const CrossPair& pair = crossPairs_[i];
+      const bool areLive = isLive(pair.from) && isLive(pair.to);
+      const bool isBoth = i + 1 < crossPairs_.size() && crossPairs_[i + 1].from == pair.to && crossPairs_[i + 1].to == pair.from;
+      if (!isBoth && (hasWalkGraph_ || areLive)) return pairError(pair, "the graph holds one direction only");
+      if (!isBoth) continue;
+      if (areLive && pair.isAlpha != crossPairs_[i + 1].isAlpha)
+        return pairError(pair, "the alpha-complex holds one direction only");
+      ++i;
+    }
+    return {};
   }
 
   CellRef referenceTo(uint32_t index, uint32_t cell) const {
     return static_cast<CellRef>((uint64_t{index} << localBits_) | cell);
   }
 
-  std::string placeOf(uint32_t index, SectionType type) const {
-    return sectionPlace(file_, index, static_cast<uint32_t>(type));
-  }
-
-  Error rowError(uint32_t index, uint32_t cell, const char* what) const {
-    return makeError(ErrorKind::kBadInput, "%s: cell %u %s; %s",
-                     placeOf(index, SectionType::kNeighbours).c_str(), cell, what, kRemedy);
-  }
-
-  Error pairError(uint32_t index, uint32_t cell, CellRef neighbour, const char* what) const {
+  Error pairError(const CrossPair& pair, const char* what) const {
     return makeError(ErrorKind::kBadInput, "%s: cell %u and cell %u of chunk %u: %s; %s",
-                     placeOf(index, SectionType::kNeighbours).c_str(), cell, localOf(neighbour, localBits_),
-                     chunkOf(neighbour, localBits_), what, kRemedy);
+                     chunkPlace(file_, chunkOf(pair.from, localBits_)).c_str(), localOf(pair.from, localBits_),
+                     localOf(pair.to, localBits_), chunkOf(pair.to, localBits_), what, kRemedy);
   }
 
   std::string file_;
   uint32_t localBits_ = 32;
   bool hasWalkGraph_ = true;
-  std::vector<GraphChunk> chunks_;
+  std::vector<ChunkContents> chunks_;
+  std::vector<CrossPair> crossPairs_;
 };
 
 }  // namespace

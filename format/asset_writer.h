@@ -8,14 +8,25 @@
 
 #include "format/asset_contents.h"
 #include "format/result.h"
+#include "format/section.h"
 
 namespace froth {
 
-// One chunk on its way into a file; made and read by the writer alone.
-struct EncodedChunk;
+struct StoredSection {
+  SectionRecord record;
+  std::vector<uint8_t> stored;
+};
 
-// Writes an asset chunk by chunk, so that memory holds one chunk at a time. Sections gather in a temporary beside `path`; finish()
-// puts header and manifest before them, first layers of all chunks first, syncs and renames. Without finish() nothing is left.
+// One chunk on its way into a file; made and read by the writer alone.
+struct EncodedChunk {
+  ChunkIndex index;
+  std::vector<CellRef> ghostRefs;       // the highest into each chunk
+  std::vector<StoredSection> sections;  // ascending types
+};
+
+// Writes an asset chunk by chunk, so that memory holds one chunk at a time. Sections gather in temporaries beside `path`; finish()
+// puts header and manifest before them, first layers of all chunks first, syncs and renames. Without finish() nothing is left, and
+// an old file stays as it is. The disk must hold the file twice. The bytes do not depend on the threads.
 // Thread safety: encodeChunk() may run on several threads at once; the rest on one.
 class AssetStreamWriter {
  public:

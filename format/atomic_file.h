@@ -14,6 +14,9 @@ namespace froth {
 // Fails with ErrorKind::kBadInput if the path does not exist, is a directory or cannot be read.
 Result<std::vector<uint8_t>> readFile(const std::filesystem::path& path);
 
+// Fails with ErrorKind::kIo if `path` is something else than a regular file, which no file may replace. Part of froth_format_write.
+Status checkTarget(const std::filesystem::path& path);
+
 // Writes to a temporary name in the same folder, syncs, renames over `path`. On failure the old file is intact and the
 // temporary is removed. Part of froth_format_write.
 Status writeFileAtomically(const std::filesystem::path& path, std::span<const uint8_t> bytes);

@@ -3,51 +3,83 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
-#include "format/section.h"
+#include "format/lattice.h"
 
 namespace froth {
 namespace {
 
 constexpr char kRemedy[] = "bake the scene again";
-constexpr uint32_t kMaxDetails = 32, kMaxLobes = 32, kMaxLocalBits = 32;
+constexpr uint32_t kMaxDetails = 32, kMaxLobes = 32, kMaxLocalBits = 32, kMaxCodebook = 65536;
+constexpr uint64_t kMaxCells = std::numeric_limits<uint32_t>::max();
+constexpr uint64_t kMaxPairs = uint64_t{1} << 31;  // so that rows have 32-bit offsets
 
-Status checkRange(const std::string& file, const char* field, uint64_t value, uint64_t least, uint64_t most) {
+using ull = unsigned long long;
+
+Status checkRange(const std::string& place, const char* field, uint64_t value, uint64_t least, uint64_t most) {
   if (value >= least && value <= most) return {};
-  return makeError(ErrorKind::kBadInput, "%s: %s is %llu, not in %llu..%llu; %s", file.c_str(), field,
-                   static_cast<unsigned long long>(value), static_cast<unsigned long long>(least),
-                   static_cast<unsigned long long>(most), kRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: %s is %llu, not in %llu..%llu; %s", place.c_str(), field, ull{value},
+                   ull{least}, ull{most}, kRemedy);
 }
 
 Status checkNotNegative(const std::string& file, const char* field, double value) {
   if (std::isfinite(value) && value >= 0) return {};
-  return makeError(ErrorKind::kBadInput, "%s: %s is %g, not a finite number >= 0; %s", file.c_str(), field,
-                   value, kRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: %s is %g, not a finite number >= 0; %s", file.c_str(), field, value,
+                   kRemedy);
+}
+
+// Steps are powers of two so that products with small integers are exact.
+Status checkStep(const std::string& file, const char* field, double step) {
+  constexpr int kMaxExponent = 60;
+  int exponent = 0;
+  const bool isPower = std::isfinite(step) && std::frexp(step, &exponent) == 0.5;  // step = 2^(exponent - 1)
+  if (step == 0 || (isPower && std::abs(exponent - 1) <= kMaxExponent)) return {};
+  return makeError(ErrorKind::kBadInput, "%s: quantization: %s is %g, not 0 or a power of two in 2^-60..2^60; %s",
+                   file.c_str(), field, step, kRemedy);
+}
+
+Status checkQuantization(const std::string& file, const Quantization& q) {
+  if (Status status = checkRange(file, "radius_bits", q.radiusBits, 1, 23); !status) return status;
+  if (Status status = checkRange(file, "density_bits", q.densityBits, 1, 23); !status) return status;
+  if (q.normalBits != 0)
+    if (Status status = checkRange(file, "normal_bits", q.normalBits, 4, 15); !status) return status;
+  const std::pair<const char*, double> steps[] = {{"position_step", q.positionStep},
+                                                  {"detail_site_step", q.detailSiteStep},
+                                                  {"height_step", q.heightStep},
+                                                  {"colour_step", q.colourStep},
+                                                  {"lobe_axis_step", q.lobeAxisStep}};
+  for (const auto& [field, step] : steps)
+    if (Status status = checkStep(file, field, step); !status) return status;
+  return {};
 }
 
 Status checkCamera(const std::string& file, const char* field, const StoredCamera& camera) {
   for (const double value : camera.worldFromCamera)
     if (!std::isfinite(value))
-      return makeError(ErrorKind::kBadInput, "%s: %s: matrix holds %g; %s", file.c_str(), field, value,
-                       kRemedy);
+      return makeError(ErrorKind::kBadInput, "%s: %s: matrix holds %g; %s", file.c_str(), field, value, kRemedy);
   if (!std::isfinite(camera.tanHalfFovY) || camera.tanHalfFovY <= 0)
-    return makeError(ErrorKind::kBadInput, "%s: %s: tan_half_fov_y is %g, not a finite number > 0; %s",
-                     file.c_str(), field, camera.tanHalfFovY, kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: %s: tan_half_fov_y is %g, not a finite number > 0; %s", file.c_str(),
+                     field, camera.tanHalfFovY, kRemedy);
   return {};
 }
 
-Status checkCounts(const std::string& file, const AssetContents& asset, size_t index) {
-  const ChunkContents& chunk = asset.chunks[index];
-  const std::string place = file + ": chunk " + std::to_string(index);
-  const uint64_t most =
-      std::min(uint64_t{1} << asset.localBits, uint64_t{std::numeric_limits<uint32_t>::max()});
-  if (Status status = checkRange(place, "cell_count", chunk.cellCount, 1, most); !status) return status;
-  if (Status status = checkRange(place, "live_count", chunk.liveCount, 0, chunk.cellCount); !status)
-    return status;
-  for (const double value : chunk.origin)
+Status checkOrigin(const ChunkIndex& chunk, double step, const std::string& place) {
+  constexpr double kMostSteps = 0x1p52;  // so that origin + step * index is exact in double
+  for (const double value : chunk.origin) {
     if (!std::isfinite(value))
       return makeError(ErrorKind::kBadInput, "%s: origin holds %g; %s", place.c_str(), value, kRemedy);
+    if (step > 0 && (std::fmod(value, step) != 0 || std::abs(value / step) > kMostSteps))
+      return makeError(ErrorKind::kBadInput, "%s: origin %.17g is no multiple of the position step %g; %s",
+                       place.c_str(), value, step, kRemedy);
+  }
+  return {};
+}
+
+Status checkBounds(const Box& bounds, const std::string& place) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis]) || bounds.min[axis] > bounds.max[axis])
+      return makeError(ErrorKind::kBadInput, "%s: live_bounds: %g..%g is no interval; %s", place.c_str(),
+                       bounds.min[axis], bounds.max[axis], kRemedy);
   return {};
 }
 
@@ -58,147 +90,201 @@ std::span<const float> floatsOf(const std::vector<Vector>& array) {
   return {reinterpret_cast<const float*>(array.data()), array.size() * (sizeof(Vector) / sizeof(float))};
 }
 
-// Lengths and finite numbers of a chunk's arrays.
+// Lengths and finite numbers of a chunk's arrays. Remembers the first that is wrong.
 class ArrayCheck {
  public:
-  ArrayCheck(const AssetContents& asset, uint32_t index, const ChunkContents& chunk, const std::string& file)
-      : asset_(asset),
-        index_(index),
-        file_(file),
-        counts_{chunk.cellCount, chunk.liveCount, chunk.neighbours.size()} {}
+  explicit ArrayCheck(const std::string& place) : place_(place) {}
 
   template <class Element>
-  void operator()(SectionType type, const std::vector<Element>& array) {
+  void required(const char* name, const std::vector<Element>& array, uint64_t length) {
     if (!status_) return;
-    const uint64_t expected = sectionWords(type, counts_, asset_.detailCount, asset_.lobeCount);
-    const uint64_t found = array.size() * (sizeof(Element) / kWordSize);
-    const bool isAbsent = type == SectionType::kDetailHeights && array.empty();
-    if (found != expected && !isAbsent)
-      status_ = makeError(ErrorKind::kBadInput, "%s: %llu numbers instead of %llu; %s", placeOf(type).c_str(),
-                          static_cast<unsigned long long>(found), static_cast<unsigned long long>(expected),
-                          kRemedy);
-    if constexpr (!std::is_same_v<Element, uint32_t>) checkFinite(type, floatsOf(array));
+    if (array.size() != length)
+      status_ = makeError(ErrorKind::kBadInput, "%s: %s: %zu entries instead of %llu; %s", place_.c_str(), name,
+                          array.size(), ull{length}, kRemedy);
+    if constexpr (!std::is_integral_v<Element>) checkFinite(name, floatsOf(array));
+  }
+
+  template <class Element>
+  void optional(const char* name, const std::vector<Element>& array, uint64_t length) {
+    if (!array.empty()) required(name, array, length);
   }
 
   const Status& status() const { return status_; }
 
  private:
-  void checkFinite(SectionType type, std::span<const float> numbers) {
-    const auto bad =
-        std::find_if_not(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
+  void checkFinite(const char* name, std::span<const float> numbers) {
+    const auto bad = std::find_if_not(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
     if (!status_ || bad == numbers.end()) return;
-    status_ = makeError(ErrorKind::kBadInput, "%s: number %zu is %g; %s", placeOf(type).c_str(),
+    status_ = makeError(ErrorKind::kBadInput, "%s: %s: number %zu is %g; %s", place_.c_str(), name,
                         static_cast<size_t>(bad - numbers.begin()), *bad, kRemedy);
   }
 
-  std::string placeOf(SectionType type) const {
-    return sectionPlace(file_, index_, static_cast<uint32_t>(type));
-  }
-
-  const AssetContents& asset_;
-  uint32_t index_;
-  const std::string& file_;
-  ChunkCounts counts_;
+  const std::string& place_;
   Status status_;
 };
 
-Status checkCells(const ChunkContents& chunk, uint32_t index, const std::string& file) {
+// The number of lobes that the counts add up to; an error if one exceeds M.
+Result<uint64_t> countLobes(const AssetContents& asset, const ChunkContents& chunk, const std::string& place) {
+  const uint64_t details = uint64_t{chunk.liveCount} * asset.detailCount;
+  if (chunk.lobeCounts.empty()) return details * asset.lobeCount;
+  uint64_t sum = 0;
+  for (const uint8_t count : chunk.lobeCounts) {
+    if (count > asset.lobeCount)
+      return makeError(ErrorKind::kBadInput, "%s: lobe_counts: %u lobes at a detail site, more than %u; %s",
+                       place.c_str(), count, asset.lobeCount, kRemedy);
+    sum += count;
+  }
+  return sum;
+}
+
+Status checkArrays(const AssetContents& asset, const ChunkContents& chunk, const std::string& place) {
+  const uint64_t cells = chunk.cellCount, live = chunk.liveCount, sites = cells + chunk.ghostCount;
+  const uint64_t details = live * asset.detailCount;
+  ArrayCheck arrays(place);
+  arrays.required("sites", chunk.sites, sites);
+  arrays.required("radii", chunk.radii, sites);
+  arrays.required("ghost_refs", chunk.ghostRefs, chunk.ghostCount);
+  arrays.required("neighbour_offsets", chunk.neighbourOffsets, cells + 1);
+  arrays.required("alpha_counts", chunk.alphaCounts, live);
+  arrays.required("densities", chunk.densities, live);
+  arrays.required("orientations", chunk.orientations, live);
+  arrays.optional("cell_colours", chunk.cellColours, live);
+  arrays.optional("cell_heights", chunk.cellHeights, live);
+  arrays.required("detail_sites", chunk.detailSites, details);
+  arrays.optional("detail_heights", chunk.detailHeights, details);
+  arrays.optional("base_colours", chunk.baseColours, details);
+  arrays.optional("colour_scales", chunk.colourScales, live);
+  arrays.optional("lobe_counts", chunk.lobeCounts, details);
+  if (!arrays.status()) return arrays.status();
+  const Result<uint64_t> lobes = countLobes(asset, chunk, place);
+  if (!lobes) return lobes.error();
+  arrays.required("lobe_axes", chunk.lobeAxes, *lobes);
+  arrays.required("lobe_colours", chunk.lobeColours, *lobes);
+  return arrays.status();
+}
+
+Status checkCells(const ChunkContents& chunk, const std::string& place) {
   const auto radius = std::find_if_not(chunk.radii.begin(), chunk.radii.end(), [](float r) { return r > 0; });
   if (radius != chunk.radii.end())
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has radius %g, not > 0; %s",
-                     sectionPlace(file, index, static_cast<uint32_t>(SectionType::kRadii)).c_str(),
+                     sectionPlace(place, SectionType::kRadii).c_str(),
                      static_cast<size_t>(radius - chunk.radii.begin()), *radius, kRemedy);
-  const auto density =
-      std::find_if(chunk.densities.begin(), chunk.densities.end(), [](float d) { return d < 0; });
+  const auto density = std::find_if(chunk.densities.begin(), chunk.densities.end(), [](float d) { return d < 0; });
   if (density != chunk.densities.end())
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has density %g, not >= 0; %s",
-                     sectionPlace(file, index, static_cast<uint32_t>(SectionType::kDensities)).c_str(),
+                     sectionPlace(place, SectionType::kDensities).c_str(),
                      static_cast<size_t>(density - chunk.densities.begin()), *density, kRemedy);
+  const auto scale = std::find_if(chunk.colourScales.begin(), chunk.colourScales.end(), [](uint8_t s) { return s > kMaxColourScale; });
+  if (scale != chunk.colourScales.end())
+    return makeError(ErrorKind::kBadInput, "%s: cell %zu has scale %u, more than %u; %s",
+                     sectionPlace(place, SectionType::kColourScales).c_str(),
+                     static_cast<size_t>(scale - chunk.colourScales.begin()), *scale, kMaxColourScale, kRemedy);
+  const auto ghost = std::adjacent_find(chunk.ghostRefs.begin(), chunk.ghostRefs.end(), std::greater_equal<CellRef>());
+  if (ghost != chunk.ghostRefs.end())
+    return makeError(ErrorKind::kBadInput, "%s: %u follows %u, references must ascend; %s",
+                     sectionPlace(place, SectionType::kGhostRefs).c_str(), ghost[1], ghost[0], kRemedy);
   return {};
 }
 
-Status checkRows(const ChunkContents& chunk, uint32_t index, const std::string& file) {
-  const std::string place = sectionPlace(file, index, static_cast<uint32_t>(SectionType::kNeighbourOffsets));
+Status checkRows(const ChunkContents& chunk, const std::string& place) {
   const std::vector<uint32_t>& offsets = chunk.neighbourOffsets;
-  if (offsets.front() != 0)
-    return makeError(ErrorKind::kBadInput, "%s: starts with %u, not 0; %s", place.c_str(), offsets.front(),
-                     kRemedy);
-  if (offsets.back() != chunk.neighbours.size())
-    return makeError(ErrorKind::kBadInput, "%s: ends with %u, not with the %zu neighbours there are; %s",
-                     place.c_str(), offsets.back(), chunk.neighbours.size(), kRemedy);
+  if (offsets.front() != 0 || offsets.back() != chunk.neighbours.size())
+    return makeError(ErrorKind::kBadInput, "%s: neighbour_offsets run from %u to %u, not from 0 to %zu; %s",
+                     place.c_str(), offsets.front(), offsets.back(), chunk.neighbours.size(), kRemedy);
   for (uint32_t cell = 0; cell < chunk.cellCount; ++cell)
     if (offsets[cell] > offsets[cell + 1])
-      return makeError(ErrorKind::kBadInput, "%s: cell %u: %u > %u, offsets must not fall; %s", place.c_str(),
-                       cell, offsets[cell], offsets[cell + 1], kRemedy);
+      return makeError(ErrorKind::kBadInput, "%s: neighbour_offsets: cell %u: %u > %u, offsets must not fall; %s",
+                       place.c_str(), cell, offsets[cell], offsets[cell + 1], kRemedy);
   for (uint32_t cell = 0; cell < chunk.liveCount; ++cell)
     if (chunk.alphaCounts[cell] > offsets[cell + 1] - offsets[cell])
-      return makeError(ErrorKind::kBadInput, "%s: cell %u: %u alpha neighbours in a row of %u; %s",
-                       sectionPlace(file, index, static_cast<uint32_t>(SectionType::kAlphaCounts)).c_str(),
-                       cell, chunk.alphaCounts[cell], offsets[cell + 1] - offsets[cell], kRemedy);
-  return {};
-}
-
-Status checkReferences(const AssetContents& asset, const ChunkContents& chunk, uint32_t index,
-                       const std::string& file) {
-  for (const CellRef neighbour : chunk.neighbours) {
-    const uint32_t other = chunkOf(neighbour, asset.localBits), local = localOf(neighbour, asset.localBits);
-    const bool isChunk = other < asset.chunks.size();
-    if (isChunk && local < asset.chunks[other].cellCount) continue;
-    const std::string place = sectionPlace(file, index, static_cast<uint32_t>(SectionType::kNeighbours));
-    if (!isChunk)
-      return makeError(ErrorKind::kBadInput, "%s: chunk %u >= %zu; %s", place.c_str(), other,
-                       asset.chunks.size(), kRemedy);
-    return makeError(ErrorKind::kBadInput, "%s: cell %u of chunk %u >= %u; %s", place.c_str(), local, other,
-                     asset.chunks[other].cellCount, kRemedy);
-  }
+      return makeError(ErrorKind::kBadInput, "%s: cell %u: %u alpha neighbours in a row of %u; %s", place.c_str(), cell,
+                       chunk.alphaCounts[cell], offsets[cell + 1] - offsets[cell], kRemedy);
+  const uint64_t sites = uint64_t{chunk.cellCount} + chunk.ghostCount;
+  for (const uint32_t neighbour : chunk.neighbours)
+    if (neighbour >= sites)
+      return makeError(ErrorKind::kBadInput, "%s: neighbour %u >= %llu; %s", place.c_str(), neighbour, ull{sites},
+                       kRemedy);
   return {};
 }
 
 }  // namespace
 
 Status checkParameters(const AssetContents& asset, const std::string& file) {
-  if (Status status = checkRange(file, "detail_count", asset.detailCount, 1, kMaxDetails); !status)
-    return status;
-  if (Status status = checkRange(file, "lobe_count", asset.lobeCount, 1, kMaxLobes); !status) return status;
-  if (Status status = checkRange(file, "local_bits", asset.localBits, 1, kMaxLocalBits); !status)
-    return status;
-  const uint64_t mostChunks = uint64_t{1} << (kMaxLocalBits - asset.localBits);
-  if (Status status = checkRange(file, "number of chunks", asset.chunks.size(), 1, mostChunks); !status)
-    return status;
-  if (Status status = checkNotNegative(file, "detail_sharpness", asset.detailSharpness); !status)
-    return status;
+  if (Status status = checkRange(file, "detail_count", asset.detailCount, 1, kMaxDetails); !status) return status;
+  if (Status status = checkRange(file, "lobe_count", asset.lobeCount, 0, kMaxLobes); !status) return status;
+  if (Status status = checkRange(file, "local_bits", asset.localBits, 1, kMaxLocalBits); !status) return status;
+  if (Status status = checkCodebookSize(asset, asset.axisCodebook.size(), file); !status) return status;
+  for (const float number : floatsOf(asset.axisCodebook))
+    if (!std::isfinite(number))
+      return makeError(ErrorKind::kBadInput, "%s: axis codebook holds %g; %s", file.c_str(), number, kRemedy);
+  if (Status status = checkQuantization(file, asset.quantization); !status) return status;
+  if (Status status = checkNotNegative(file, "detail_sharpness", asset.detailSharpness); !status) return status;
   if (Status status = checkNotNegative(file, "near_ratio", asset.nearRatio); !status) return status;
   if (Status status = checkNotNegative(file, "near_depth", asset.nearDepth); !status) return status;
   if (asset.hasStartView)
     if (Status status = checkCamera(file, "start_view", asset.startView); !status) return status;
   for (const StoredCamera& camera : asset.flightPath)
     if (Status status = checkCamera(file, "flight_path", camera); !status) return status;
-  for (size_t i = 0; i < asset.chunks.size(); ++i)
-    if (Status status = checkCounts(file, asset, i); !status) return status;
   return {};
 }
 
-Status checkChunk(const AssetContents& asset, uint32_t index, const ChunkContents& chunk,
-                  const std::string& file) {
-  ArrayCheck arrays(asset, index, chunk, file);
-  visitSections(chunk, arrays);
-  if (!arrays.status()) return arrays.status();
-  if (Status status = checkCells(chunk, index, file); !status) return status;
-  if (Status status = checkRows(chunk, index, file); !status) return status;
-  return checkReferences(asset, chunk, index, file);
+Status checkCodebookSize(const AssetContents& asset, uint64_t size, const std::string& file) {
+  return checkRange(file, "codebook_size", size, 0, asset.lobeCount > 0 ? kMaxCodebook : 0);
+}
+
+Status checkChunkIndex(const AssetContents& asset, const ChunkIndex& chunk, const std::string& place) {
+  const ChunkCounts& counts = chunk.counts;
+  const uint64_t mostCells = std::min(uint64_t{1} << asset.localBits, kMaxCells);
+  if (Status status = checkRange(place, "cell_count", counts.cells, 1, mostCells); !status) return status;
+  if (Status status = checkRange(place, "live_count", counts.live, 0, counts.cells); !status) return status;
+  if (Status status = checkRange(place, "ghost_count", counts.ghosts, 0, kMaxCells - counts.cells); !status)
+    return status;
+  if (Status status = checkRange(place, "pair_count", counts.pairs, 0, kMaxPairs - 1); !status) return status;
+  const uint64_t mostLobes = counts.live * asset.detailCount * asset.lobeCount;
+  if (Status status = checkRange(place, "lobe_count", counts.lobes, 0, mostLobes); !status) return status;
+  if (Status status = checkOrigin(chunk, asset.quantization.positionStep, place); !status) return status;
+  return checkBounds(chunk.liveBounds, place);
+}
+
+Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks, const std::string& file) {
+  const uint64_t mostChunks = uint64_t{1} << (kMaxLocalBits - asset.localBits);
+  if (Status status = checkRange(file, "number of chunks", chunks.size(), 1, mostChunks); !status) return status;
+  for (uint32_t i = 0; i < chunks.size(); ++i)
+    if (Status status = checkChunkIndex(asset, chunks[i], chunkPlace(file, i)); !status) return status;
+  return {};
+}
+
+Status checkChunk(const AssetContents& asset, const ChunkContents& chunk, const std::string& place) {
+  if (Status status = checkArrays(asset, chunk, place); !status) return status;
+  if (Status status = checkCells(chunk, place); !status) return status;
+  return checkRows(chunk, place);
+}
+
+Status checkGhostRefs(const AssetContents& asset, std::span<const ChunkIndex> chunks, uint32_t index,
+                      std::span<const CellRef> ghosts, const std::string& place) {
+  for (const CellRef ghost : ghosts) {
+    const uint32_t other = chunkOf(ghost, asset.localBits), local = localOf(ghost, asset.localBits);
+    const bool isOther = other < chunks.size() && other != index;
+    if (isOther && local < chunks[other].counts.cells) continue;
+    return makeError(ErrorKind::kBadInput, "%s: a ghost lives in cell %u of chunk %u, which is %s; %s",
+                     sectionPlace(place, SectionType::kGhostRefs).c_str(), local, other,
+                     other == index ? "its own" : "not there", kRemedy);
+  }
+  return {};
 }
 
 Box liveBoundsOf(const ChunkContents& chunk) {
   if (chunk.liveCount == 0) return {};
   Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.min[static_cast<size_t>(axis)] = std::numeric_limits<double>::infinity();
-    box.max[static_cast<size_t>(axis)] = -std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity(), most = -least;
     for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) {
       const double site = chunk.sites[cell][axis], radius = chunk.radii[cell];
-      box.min[static_cast<size_t>(axis)] = std::min(box.min[static_cast<size_t>(axis)], site - radius);
-      box.max[static_cast<size_t>(axis)] = std::max(box.max[static_cast<size_t>(axis)], site + radius);
+      least = std::min(least, site - radius);
+      most = std::max(most, site + radius);
     }
+    box.min[static_cast<size_t>(axis)] = least;
+    box.max[static_cast<size_t>(axis)] = most;
   }
   return box;
 }

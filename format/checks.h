@@ -2,20 +2,30 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "format/asset_contents.h"
 #include "format/result.h"
+#include "format/section.h"
 
 namespace froth {
 
-// Counts, ranges and finite numbers of everything but the chunks' arrays. `file` names the asset in messages.
+// Ranges and finite numbers of everything but the chunks. `file` names the asset in messages.
 Status checkParameters(const AssetContents& asset, const std::string& file);
+Status checkCodebookSize(const AssetContents& asset, uint64_t size, const std::string& file);
 
-// Array lengths (chunk.cellCount and liveCount decide), finite numbers, positive radii, monotone offsets,
-// references to cells that exist. `asset` has passed checkParameters.
-Status checkChunk(const AssetContents& asset, uint32_t index, const ChunkContents& chunk,
-                  const std::string& file);
+// Number of chunks; counts, origin and bounds of each. `asset` has passed checkParameters; its chunks are not looked at.
+Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks, const std::string& file);
+Status checkChunkIndex(const AssetContents& asset, const ChunkIndex& chunk, const std::string& place);
+
+// Array lengths (the chunk's counts decide; optional arrays may be empty), finite numbers, positive radii, ascending ghosts, rows
+// that hold what they may. `asset` has passed checkParameters. `place` names the chunk in messages.
+Status checkChunk(const AssetContents& asset, const ChunkContents& chunk, const std::string& place);
+
+// Ghosts live in another chunk, in a cell that exists.
+Status checkGhostRefs(const AssetContents& asset, std::span<const ChunkIndex> chunks, uint32_t index,
+                      std::span<const CellRef> ghosts, const std::string& place);
 
 // Box of the balls of live cells, relative to the chunk's origin.
 Box liveBoundsOf(const ChunkContents& chunk);

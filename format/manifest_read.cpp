@@ -1,14 +1,13 @@
 #include "format/manifest_read.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <tuple>
 
 #include <format/froth_generated.h>
 
 #include "format/checks.h"
 #include "format/container.h"
+#include "format/graph_rows.h"
 
 namespace froth {
 namespace {
@@ -16,7 +15,7 @@ namespace {
 constexpr char kRemedy[] = "the file is damaged, copy it or bake the scene again";
 constexpr char kTooNew[] = "the file is newer than this program, update it";
 
-// Manifests of version 1 have two tables, one inside the other; later ones may add some.
+// Manifests of version 2.0 have three tables and one per attribute error; later ones may add some.
 constexpr flatbuffers::uoffset_t kMaxDepth = 16, kMaxTables = 1000;
 
 using ull = unsigned long long;
@@ -40,13 +39,35 @@ BakeStatistics unpack(const fb::Statistics& s) {
   result.duplicatesMerged = s.duplicates_merged();
   result.emptyCells = s.empty_cells();
   result.deadCells = s.dead_cells();
+  result.unseenCulled = s.unseen_culled();
+  result.steinerCells = s.steiner_cells();
   result.walkPairs = s.walk_pairs();
   result.alphaPairs = s.alpha_pairs();
   return result;
 }
 
+Quantization unpack(const fb::Quantization& q) {
+  Quantization result;
+  result.positionStep = q.position_step();
+  result.radiusBits = q.radius_bits();
+  result.densityBits = q.density_bits();
+  result.normalBits = q.normal_bits();
+  result.detailSiteStep = q.detail_site_step();
+  result.heightStep = q.height_step();
+  result.colourStep = q.colour_step();
+  result.lobeAxisStep = q.lobe_axis_step();
+  return result;
+}
+
+ChunkIndex unpack(const fb::Chunk& c) {
+  return {unpack(c.origin()),
+          {c.cell_count(), c.live_count(), c.ghost_count(), c.pair_count(), c.lobe_count()},
+          {unpack(c.live_bounds().min()), unpack(c.live_bounds().max())}};
+}
+
 SectionRecord unpack(const fb::Section& s) {
-  return {s.type(), s.chunk(), s.flags(), s.codec(), s.offset(), s.stored_size(), s.raw_size(), s.hash()};
+  return {s.type(), s.chunk(),  s.flags(),       s.codec(),    s.element_size(),
+          s.base(), s.offset(), s.stored_size(), s.raw_size(), s.hash()};
 }
 
 bool hasLowerKey(const SectionRecord& a, const SectionRecord& b) {
@@ -73,7 +94,12 @@ AssetContents unpackParameters(const fb::Manifest& manifest) {
   contents.detailSharpness = manifest.detail_sharpness();
   contents.nearRatio = manifest.near_ratio();
   contents.nearDepth = manifest.near_depth();
+  contents.quantization = unpack(*manifest.quantization());
   contents.preset = manifest.preset()->str();
+  contents.psnr = manifest.psnr();
+  if (manifest.errors())
+    for (const fb::AttributeError* error : *manifest.errors())
+      contents.errors.push_back({error->name()->str(), error->unit()->str(), error->rms(), error->max()});
   if (manifest.source()) contents.source = manifest.source()->str();
   if (manifest.statistics()) contents.statistics = unpack(*manifest.statistics());
   contents.hasStartView = manifest.start_view() != nullptr;
@@ -83,38 +109,23 @@ AssetContents unpackParameters(const fb::Manifest& manifest) {
   return contents;
 }
 
-// Counts are compared with what 32 bits hold here, and with each other in checkParameters.
 Status unpackChunks(const fb::Manifest& packed, const std::string& file, Manifest& manifest) {
-  constexpr uint64_t kMost = std::numeric_limits<uint32_t>::max();
-  for (const fb::Chunk* chunk : *packed.chunks()) {
-    const std::string place = file + ": chunk " + std::to_string(manifest.chunks.size());
-    const std::pair<const char*, uint64_t> counts[] = {{"cell_count", chunk->cell_count()},
-                                                       {"live_count", chunk->live_count()},
-                                                       {"neighbour_count", chunk->neighbour_count()}};
-    for (const auto& [field, count] : counts)
-      if (count > kMost)
-        return makeError(ErrorKind::kBadInput, "%s: %s is %llu, more than %llu; %s", place.c_str(), field,
-                         ull{count}, ull{kMost}, kRemedy);
-    const Box bounds{unpack(chunk->live_bounds().min()), unpack(chunk->live_bounds().max())};
-    for (size_t axis = 0; axis < 3; ++axis)
-      if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis]) ||
-          bounds.min[axis] > bounds.max[axis])
-        return makeError(ErrorKind::kBadInput, "%s: live_bounds: %g..%g is no interval; %s", place.c_str(),
-                         bounds.min[axis], bounds.max[axis], kRemedy);
+  for (const fb::Chunk* chunk : *packed.chunks()) manifest.chunks.push_back(unpack(*chunk));
+  if (Status status = checkChunkIndices(manifest.contents, manifest.chunks, file); !status) return status;
+  for (const ChunkIndex& chunk : manifest.chunks) {
     ChunkContents contents;
-    contents.origin = unpack(chunk->origin());
-    contents.cellCount = static_cast<uint32_t>(chunk->cell_count());
-    contents.liveCount = static_cast<uint32_t>(chunk->live_count());
+    contents.origin = chunk.origin;
+    contents.cellCount = static_cast<uint32_t>(chunk.counts.cells);
+    contents.liveCount = static_cast<uint32_t>(chunk.counts.live);
+    contents.ghostCount = static_cast<uint32_t>(chunk.counts.ghosts);
     manifest.contents.chunks.push_back(std::move(contents));
-    manifest.chunks.push_back({{chunk->cell_count(), chunk->live_count(), chunk->neighbour_count()}, bounds});
   }
   return {};
 }
 
 // What the record says about itself and its place in the file.
-Status checkRecord(const SectionRecord& record, uint32_t reserved, uint64_t fileSize,
-                   const std::string& place) {
-  if (reserved != 0 || (record.flags & kSectionReservedFlags) != 0)
+Status checkRecord(const SectionRecord& record, bool hasReserved, uint64_t fileSize, const std::string& place) {
+  if (hasReserved || (record.flags & kSectionReservedFlags) != 0)
     return makeError(ErrorKind::kUnsupported, "%s: reserved bits are set (flags 0x%04x); %s", place.c_str(),
                      record.flags, kTooNew);
   if (record.offset > fileSize || record.storedSize > fileSize - record.offset)
@@ -126,20 +137,47 @@ Status checkRecord(const SectionRecord& record, uint32_t reserved, uint64_t file
   return {};
 }
 
+// Elements and entries of a known section; 0 entries: there must be no such section.
+uint64_t demandedEntries(const SectionRecord& record, const Manifest& manifest) {
+  const SectionType type = static_cast<SectionType>(record.type);
+  if (type == SectionType::kAxisCodebook) return manifest.codebookSize;
+  const ChunkCounts& counts = manifest.chunks[record.chunk].counts;
+  const bool hasCodebook = manifest.codebookSize > 0;
+  if (sectionPresence(type, manifest.contents, hasCodebook, counts) == Presence::kForbidden) return 0;
+  return sectionEntries(type, counts, manifest.contents.detailCount);
+}
+
+Status checkElements(const SectionRecord& record, const Manifest& manifest, const std::string& place) {
+  const ElementKind kind = sectionKind(static_cast<SectionType>(record.type), manifest.contents.quantization);
+  const bool isGraph = kind == ElementKind::kGraph;
+  if (!isElementSize(kind, record.elementSize) ||
+      (isGraph && record.elementSize != graphElementSize(manifest.contents.chunks[record.chunk])))
+    return makeError(ErrorKind::kBadInput, "%s: elements of %u bytes cannot be; %s", place.c_str(), record.elementSize,
+                     kRemedy);
+  if (record.base != 0 && kind != ElementKind::kUnsigned)
+    return makeError(ErrorKind::kBadInput, "%s: base is %u, these elements have none; %s", place.c_str(), record.base,
+                     kRemedy);
+  return {};
+}
+
 // What the record of a known section says, against the counts of its chunk.
 Status checkKnownRecord(const SectionRecord& record, const Manifest& manifest, const std::string& place) {
-  if (record.chunk >= manifest.chunks.size())
-    return makeError(ErrorKind::kBadInput, "%s: there are only %zu chunks; %s", place.c_str(),
+  const SectionType type = static_cast<SectionType>(record.type);
+  const bool isShared = type == SectionType::kAxisCodebook;
+  if (isShared ? record.chunk != kSharedChunk : record.chunk >= manifest.chunks.size())
+    return makeError(ErrorKind::kBadInput, "%s: belongs to no such chunk, there are %zu; %s", place.c_str(),
                      manifest.chunks.size(), kRemedy);
   if (record.codec > kLastSectionCodec)
-    return makeError(ErrorKind::kUnsupported, "%s: unknown codec %u; %s", place.c_str(), record.codec,
-                     kTooNew);
-  const uint64_t words =
-      sectionWords(static_cast<SectionType>(record.type), manifest.chunks[record.chunk].counts,
-                   manifest.contents.detailCount, manifest.contents.lobeCount);
-  if (words == 0 || record.rawSize != words * kWordSize)
-    return makeError(ErrorKind::kBadInput, "%s: raw size %llu, but the counts demand %llu bytes; %s",
-                     place.c_str(), ull{record.rawSize}, ull{words * kWordSize}, kRemedy);
+    return makeError(ErrorKind::kUnsupported, "%s: unknown codec %u; %s", place.c_str(), record.codec, kTooNew);
+  const uint64_t entries = demandedEntries(record, manifest);
+  if (entries == 0)
+    return makeError(ErrorKind::kBadInput, "%s: must not be there; %s", place.c_str(), kRemedy);
+  if (Status status = checkElements(record, manifest, place); !status) return status;
+  const uint64_t rawSize =
+      entries * sectionComponents(type, manifest.contents.quantization) * record.elementSize;
+  if (record.rawSize != rawSize)
+    return makeError(ErrorKind::kBadInput, "%s: raw size %llu, but the counts demand %llu bytes; %s", place.c_str(),
+                     ull{record.rawSize}, ull{rawSize}, kRemedy);
   const bool isStored = record.codec == static_cast<uint16_t>(SectionCodec::kStored);
   if (isStored ? record.storedSize != record.rawSize : record.rawSize > record.storedSize * kMaxExpansion)
     return makeError(ErrorKind::kBadInput, "%s: %llu stored bytes cannot hold %llu; %s", place.c_str(),
@@ -162,7 +200,7 @@ Status checkKeys(const std::vector<SectionRecord>& sorted, const std::string& fi
   for (size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i].chunk == sorted[i - 1].chunk && sorted[i].type == sorted[i - 1].type)
       return makeError(ErrorKind::kBadInput, "%s: exists twice; %s",
-                       sectionPlace(file, sorted[i].chunk, sorted[i].type).c_str(), kRemedy);
+                       sectionPlace(chunkPlace(file, sorted[i].chunk), sorted[i].type).c_str(), kRemedy);
   return {};
 }
 
@@ -172,8 +210,9 @@ Status unpackSections(const fb::Manifest& packed, uint64_t manifestEnd, uint64_t
   std::vector<std::pair<uint64_t, uint64_t>> occupied{{0, manifestEnd}};
   for (const fb::Section* section : *packed.sections()) {
     const SectionRecord record = unpack(*section);
-    const std::string place = sectionPlace(file, record.chunk, record.type);
-    if (Status status = checkRecord(record, section->reserved(), fileSize, place); !status) return status;
+    const std::string place = sectionPlace(chunkPlace(file, record.chunk), record.type);
+    const bool hasReserved = section->reserved0() != 0 || section->reserved1() != 0;
+    if (Status status = checkRecord(record, hasReserved, fileSize, place); !status) return status;
     occupied.emplace_back(record.offset, record.offset + record.storedSize);
     all.push_back(record);
     if (sectionName(record.type) == nullptr) continue;
@@ -186,19 +225,21 @@ Status unpackSections(const fb::Manifest& packed, uint64_t manifestEnd, uint64_t
   return checkOverlaps(std::move(occupied), file);
 }
 
-// Every array that holds anything must be there; only detail_heights may be left out.
+Status missing(const std::string& chunkPlace, SectionType type) {
+  return makeError(ErrorKind::kBadInput, "%s: is missing; %s", sectionPlace(chunkPlace, type).c_str(), kRemedy);
+}
+
 Status checkPresence(const Manifest& manifest, const std::string& file) {
-  Status status;
-  for (uint32_t index = 0; index < manifest.chunks.size() && status; ++index)
-    visitSections(manifest.contents.chunks[index], [&](SectionType type, const auto&) {
-      const uint64_t words = sectionWords(type, manifest.chunks[index].counts, manifest.contents.detailCount,
-                                          manifest.contents.lobeCount);
-      if (!status || words == 0 || type == SectionType::kDetailHeights) return;
-      if (manifest.findSection(index, type)) return;
-      status = makeError(ErrorKind::kBadInput, "%s: is missing; %s",
-                         sectionPlace(file, index, static_cast<uint32_t>(type)).c_str(), kRemedy);
-    });
-  return status;
+  const bool hasCodebook = manifest.codebookSize > 0;
+  if (hasCodebook && !manifest.findSection(kSharedChunk, SectionType::kAxisCodebook))
+    return missing(chunkPlace(file, kSharedChunk), SectionType::kAxisCodebook);
+  for (uint32_t index = 0; index < manifest.chunks.size(); ++index)
+    for (const SectionType type : allSectionTypes()) {
+      const Presence presence = sectionPresence(type, manifest.contents, hasCodebook, manifest.chunks[index].counts);
+      if (presence == Presence::kRequired && !manifest.findSection(index, type))
+        return missing(chunkPlace(file, index), type);
+    }
+  return {};
 }
 
 }  // namespace
@@ -227,8 +268,10 @@ Result<Manifest> parseManifest(const std::vector<uint8_t>& bytes, uint64_t manif
 
   Manifest manifest;
   manifest.contents = unpackParameters(packed);
-  if (Status status = unpackChunks(packed, file, manifest); !status) return status.error();
+  manifest.codebookSize = packed.codebook_size();
   if (Status status = checkParameters(manifest.contents, file); !status) return status.error();
+  if (Status status = checkCodebookSize(manifest.contents, manifest.codebookSize, file); !status) return status.error();
+  if (Status status = unpackChunks(packed, file, manifest); !status) return status.error();
   if (Status status = unpackSections(packed, manifestEnd, fileSize, file, manifest); !status)
     return status.error();
   if (Status status = checkPresence(manifest, file); !status) return status.error();

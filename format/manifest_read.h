@@ -11,14 +11,10 @@
 
 namespace froth {
 
-struct ChunkIndex {
-  ChunkCounts counts;
-  Box liveBounds;
-};
-
 struct Manifest {
   AssetContents contents;  // chunks: origin and counts, no arrays
   std::vector<ChunkIndex> chunks;
+  uint32_t codebookSize = 0;
   std::vector<SectionRecord> sections;  // of known types, sorted by {chunk, type}
 
   // Null if there is none.

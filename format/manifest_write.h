@@ -10,7 +10,8 @@
 
 namespace froth {
 
-// The size depends on the number of sections and not on their values.
-std::vector<uint8_t> buildManifest(const AssetContents& contents, std::span<const SectionRecord> sections);
+// `contents`: its chunks are not looked at. The size does not depend on the values in `sections`.
+std::vector<uint8_t> buildManifest(const AssetContents& contents, std::span<const ChunkIndex> chunks,
+                                   std::span<const SectionRecord> sections);
 
 }  // namespace froth

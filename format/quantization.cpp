@@ -35,12 +35,13 @@ float floorMantissa(float value, uint32_t bits) {
   return std::bit_cast<float>(std::bit_cast<uint32_t>(value) >> shift << shift);
 }
 
+// Adding 0 makes -0 into +0, which is the only zero of a lattice.
 float snapToStep(float value, float step) {
-  return step > 0 ? std::nearbyint(value / step) * step : value;
+  return step > 0 ? std::nearbyint(value / step) * step + 0.0f : value;
 }
 
 double snapToStep(double value, double step) {
-  return step > 0 ? std::nearbyint(value / step) * step : value;
+  return step > 0 ? std::nearbyint(value / step) * step + 0.0 : value;
 }
 
 std::array<uint32_t, 2> normalIndices(glm::dvec3 normal, uint32_t bits) {
@@ -61,8 +62,8 @@ glm::vec4 orientationOfNormal(std::array<uint32_t, 2> indices, uint32_t bits) {
   const double x = 1 - std::abs(y) - std::abs(z);
   if (x < 0) {
     const glm::dvec2 folded = foldSquare(y, z);
-    y = folded.x;
-    z = folded.y;
+    y = folded.x + 0.0;  // -0 into +0: on the square's border two pairs of indices are the same normal
+    z = folded.y + 0.0;
   }
   const double length = std::sqrt(x * x + y * y + z * z);
   const glm::dvec3 normal(x / length, y / length, z / length);

@@ -1,0 +1,299 @@
+#include "format/chunk_sections_read.h"
+
+#include <bit>
+#include <cstring>
+
+#include "format/graph_rows.h"
+#include "format/lattice.h"
+
+namespace froth {
+namespace {
+
+constexpr char kRemedy[] = "the file is damaged, copy it or bake the scene again";
+
+// The raw bytes of a section as numbers.
+class Elements {
+ public:
+  Elements() = default;
+  Elements(std::vector<uint8_t> bytes, uint32_t size, uint32_t base) : bytes_(std::move(bytes)), size_(size), base_(base) {}
+
+  size_t size() const { return size_ == 0 ? 0 : bytes_.size() / size_; }
+  // May wrap around if the base is absurd.
+  uint32_t operator[](size_t i) const {
+    uint32_t element = 0;
+    std::memcpy(&element, bytes_.data() + i * size_, size_);
+    return base_ + element;
+  }
+  std::span<const uint8_t> bytes() const { return bytes_; }
+  std::vector<uint8_t> takeBytes() { return std::move(bytes_); }
+
+ private:
+  std::vector<uint8_t> bytes_;
+  uint32_t size_ = 0, base_ = 0;
+};
+
+class ChunkReader {
+ public:
+  ChunkReader(const Manifest& manifest, uint32_t chunk, const SectionDecoder& decode, const std::string& place)
+      : asset_(manifest.contents), manifest_(manifest), index_(chunk), decode_(decode), place_(place) {
+    chunk_ = asset_.chunks[chunk];
+  }
+
+  Result<ChunkContents> read(Layer last) {
+    for (auto step : {&ChunkReader::readSites, &ChunkReader::readGraph, &ChunkReader::readCells})
+      if (Status status = (this->*step)(); !status) return status.error();
+    if (last == Layer::kGeometry) {
+      coarsen();
+      return std::move(chunk_);
+    }
+    if (Status status = readDetails(); !status) return status.error();
+    if (last == Layer::kDetails) return std::move(chunk_);
+    if (Status status = readLobes(); !status) return status.error();
+    return std::move(chunk_);
+  }
+
+ private:
+  const SectionRecord* find(SectionType type) const { return manifest_.findSection(index_, type); }
+  bool isOnLattice(SectionType type) const {
+    return sectionKind(type, asset_.quantization) != ElementKind::kFloat;
+  }
+
+  Error outOfRange(SectionType type, size_t number) const {
+    return makeError(ErrorKind::kBadInput, "%s: number %zu is out of range; %s", sectionPlace(place_, type).c_str(),
+                     number, kRemedy);
+  }
+
+  // No elements if there is no such section.
+  Status load(SectionType type, Elements& elements) const {
+    const SectionRecord* record = find(type);
+    if (!record) return {};
+    std::vector<uint8_t> bytes(static_cast<size_t>(record->rawSize));
+    if (Status status = decode_(*record, bytes); !status) return status;
+    elements = Elements(std::move(bytes), record->elementSize, record->base);
+    return {};
+  }
+
+  // The section's bytes are the array's. It must be a multiple of Element, which the manifest's check has seen to.
+  template <class Element>
+  Status loadAsIs(SectionType type, std::vector<Element>& array, size_t first = 0) const {
+    const SectionRecord* record = find(type);
+    if (!record) return {};
+    const size_t count = static_cast<size_t>(record->rawSize / sizeof(Element));
+    array.resize(first + count);
+    return decode_(*record, {reinterpret_cast<uint8_t*>(array.data() + first), count * sizeof(Element)});
+  }
+
+  // Numbers on a lattice: stepOf(i) is the step of number i, expected(i) was taken off its index.
+  template <class Vector, class StepOf, class Expected>
+  Status loadIndices(SectionType type, std::vector<Vector>& array, StepOf stepOf, Expected expected) const {
+    Elements elements;
+    if (Status status = load(type, elements); !status) return status;
+    array.resize(elements.size() / (sizeof(Vector) / sizeof(float)));
+    float* numbers = reinterpret_cast<float*>(array.data());
+    for (size_t i = 0; i < elements.size(); ++i) {
+      const int64_t index = int64_t{unzigzag(elements[i])} + expected(i);
+      if (std::abs(index) > kMaxLatticeIndex) return outOfRange(type, i);
+      numbers[i] = stepOf(i) * static_cast<float>(index);
+    }
+    return {};
+  }
+
+  template <class Vector>
+  Status loadFloats(SectionType type, std::vector<Vector>& array, float step) const {
+    if (!isOnLattice(type)) return loadAsIs(type, array);
+    return loadIndices(type, array, [&](size_t) { return step; }, [](size_t) { return 0; });
+  }
+
+  Status loadSites(SectionType type, size_t first) {
+    if (!isOnLattice(type)) return loadAsIs(type, chunk_.sites, first);
+    Elements elements;
+    if (Status status = load(type, elements); !status) return status;
+    chunk_.sites.resize(first + elements.size() / 3);
+    float* numbers = reinterpret_cast<float*>(chunk_.sites.data() + first);
+    const double step = asset_.quantization.positionStep;
+    for (size_t i = 0; i < elements.size(); ++i) {
+      const int32_t index = static_cast<int32_t>(elements[i]);
+      if (index < -kMaxLatticeIndex || index > kMaxLatticeIndex) return outOfRange(type, i);
+      numbers[i] = static_cast<float>(step * index);
+    }
+    return {};
+  }
+
+  // Floats without the mantissa's last bits. What is not finite, checkChunk finds.
+  Status loadMantissas(SectionType type, std::vector<float>& array, uint32_t bits) const {
+    if (!isOnLattice(type)) return loadAsIs(type, array);
+    Elements elements;
+    if (Status status = load(type, elements); !status) return status;
+    array.resize(elements.size());
+    for (size_t i = 0; i < elements.size(); ++i) {
+      if (elements[i] >> (8 + bits) != 0) return outOfRange(type, i);
+      array[i] = std::bit_cast<float>(elements[i] << (23 - bits));
+    }
+    return {};
+  }
+
+  Status readSites() {
+    if (Status status = loadSites(SectionType::kSites, 0); !status) return status;
+    if (Status status = loadSites(SectionType::kGhostSites, chunk_.cellCount); !status) return status;
+    if (Status status = loadAsIs(SectionType::kGhostRefs, chunk_.ghostRefs); !status) return status;
+    return loadMantissas(SectionType::kRadii, chunk_.radii, asset_.quantization.radiusBits);
+  }
+
+  Status readGraph() {
+    if (manifest_.chunks[index_].counts.pairs == 0) {
+      chunk_.neighbourOffsets.assign(size_t{chunk_.cellCount} + 1, 0);
+      chunk_.alphaCounts.assign(chunk_.liveCount, 0);
+      return {};
+    }
+    Elements counts, deltas, bits;
+    if (Status status = load(SectionType::kGraphCounts, counts); !status) return status;
+    if (Status status = load(SectionType::kGraphDeltas, deltas); !status) return status;
+    if (Status status = load(SectionType::kGraphAlphaBits, bits); !status) return status;
+    return unpackGraph({counts.bytes(), deltas.bytes(), bits.bytes()}, asset_.hasWalkGraph, chunk_, place_);
+  }
+
+  Status readOrientations() {
+    const uint32_t bits = asset_.quantization.normalBits;
+    if (!isOnLattice(SectionType::kOrientations)) return loadAsIs(SectionType::kOrientations, chunk_.orientations);
+    Elements elements;
+    if (Status status = load(SectionType::kOrientations, elements); !status) return status;
+    chunk_.orientations.resize(elements.size() / 2);
+    const uint32_t most = (1u << bits) - 2;
+    for (size_t i = 0; i < chunk_.orientations.size(); ++i) {
+      const std::array<uint32_t, 2> indices{elements[2 * i], elements[2 * i + 1]};
+      if (indices[0] > most || indices[1] > most) return outOfRange(SectionType::kOrientations, 2 * i);
+      chunk_.orientations[i] = orientationOfNormal(indices, bits);
+    }
+    return {};
+  }
+
+  Status readCells() {
+    if (Status status = loadMantissas(SectionType::kDensities, chunk_.densities, asset_.quantization.densityBits); !status)
+      return status;
+    if (Status status = readOrientations(); !status) return status;
+    if (Status status = load(SectionType::kCellColours, cellColours_); !status) return status;
+    chunk_.cellColours.resize(cellColours_.size() / 3);
+    for (size_t i = 0; i < cellColours_.size(); ++i)
+      chunk_.cellColours[i / 3][static_cast<int>(i % 3)] = colourOfByte(cellColours_.bytes()[i]);
+    return loadFloats(SectionType::kCellHeights, chunk_.cellHeights, asset_.quantization.heightStep);
+  }
+
+  // Layer 0 alone: one detail site in the middle of the face, of the cell's colour and height.
+  void coarsen() {
+    chunk_.detailSites.assign(chunk_.liveCount, glm::vec2(0));
+    chunk_.detailHeights = chunk_.cellHeights;
+    for (const glm::vec3& colour : chunk_.cellColours) chunk_.baseColours.push_back(colour - 0.5f);
+  }
+
+  Status readDetails() {
+    const uint32_t count = asset_.detailCount;
+    if (Status status = loadFloats(SectionType::kDetailSites, chunk_.detailSites, asset_.quantization.detailSiteStep); !status)
+      return status;
+    chunk_.detailSites.resize(size_t{chunk_.liveCount} * count, glm::vec2(0));  // absent: all zero
+    if (Status status = readDetailHeights(); !status) return status;
+    return readBaseColours();
+  }
+
+  Status readDetailHeights() {
+    if (!isOnLattice(SectionType::kDetailHeights)) return loadAsIs(SectionType::kDetailHeights, chunk_.detailHeights);
+    const float step = asset_.quantization.heightStep;
+    return loadIndices(
+        SectionType::kDetailHeights, chunk_.detailHeights, [&](size_t) { return step; },
+        [&](size_t i) {
+          if (chunk_.cellHeights.empty()) return 0;
+          return static_cast<int32_t>(chunk_.cellHeights[i / asset_.detailCount] / step);
+        });
+  }
+
+  float unitOf(size_t cell) const {
+    return colourUnit(asset_.quantization.colourStep, chunk_.colourScales.empty() ? uint8_t{0} : chunk_.colourScales[cell]);
+  }
+
+  Status readBaseColours() {
+    if (Status status = loadAsIs(SectionType::kColourScales, chunk_.colourScales); !status) return status;
+    for (size_t cell = 0; cell < chunk_.colourScales.size(); ++cell)
+      if (chunk_.colourScales[cell] > kMaxColourScale) return outOfRange(SectionType::kColourScales, cell);
+    if (!isOnLattice(SectionType::kBaseColours)) return loadAsIs(SectionType::kBaseColours, chunk_.baseColours);
+    const size_t perCell = size_t{asset_.detailCount} * 3;
+    return loadIndices(
+        SectionType::kBaseColours, chunk_.baseColours, [&](size_t i) { return unitOf(i / perCell); },
+        [&](size_t i) {
+          if (chunk_.cellColours.empty()) return 0;
+          return expectedColourIndex(cellColours_.bytes()[i / perCell * 3 + i % 3], unitOf(i / perCell));
+        });
+  }
+
+  Status readLobes() {
+    const uint64_t lobes = manifest_.chunks[index_].counts.lobes;
+    const size_t details = size_t{chunk_.liveCount} * asset_.detailCount;
+    if (Status status = loadAsIs(SectionType::kLobeCounts, chunk_.lobeCounts); !status) return status;
+    if (lobes == 0 && asset_.lobeCount > 0) chunk_.lobeCounts.assign(details, 0);
+    if (Status status = checkLobeCounts(lobes); !status) return status;
+    if (Status status = asset_.axisCodebook.empty()
+                            ? loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes, asset_.quantization.lobeAxisStep)
+                            : readLabels();
+        !status)
+      return status;
+    if (!isOnLattice(SectionType::kLobeColours)) return loadAsIs(SectionType::kLobeColours, chunk_.lobeColours);
+    const std::vector<float> units = lobeUnits(static_cast<size_t>(lobes));
+    return loadIndices(
+        SectionType::kLobeColours, chunk_.lobeColours, [&](size_t i) { return units[i / 3]; },
+        [](size_t) { return 0; });
+  }
+
+  // Lobes of detail site `detail`.
+  uint32_t lobesOf(size_t detail) const {
+    return chunk_.lobeCounts.empty() ? asset_.lobeCount : chunk_.lobeCounts[detail];
+  }
+
+  Status checkLobeCounts(uint64_t lobes) const {
+    if (chunk_.lobeCounts.empty()) return {};
+    uint64_t sum = 0;
+    for (const uint8_t count : chunk_.lobeCounts) sum += count;
+    if (sum == lobes) return {};
+    return makeError(ErrorKind::kBadInput, "%s: %llu lobes, the manifest says %llu; %s",
+                     sectionPlace(place_, SectionType::kLobeCounts).c_str(), static_cast<unsigned long long>(sum),
+                     static_cast<unsigned long long>(lobes), kRemedy);
+  }
+
+  // The step of the colour lattice for each lobe.
+  std::vector<float> lobeUnits(size_t lobes) const {
+    std::vector<float> units;
+    units.reserve(lobes);
+    const size_t details = size_t{chunk_.liveCount} * asset_.detailCount;
+    for (size_t detail = 0; detail < details; ++detail)
+      units.insert(units.end(), lobesOf(detail), unitOf(detail / asset_.detailCount));
+    return units;
+  }
+
+  // Axes as entries of the codebook, and the differences to them.
+  Status readLabels() {
+    Elements labels;
+    if (Status status = load(SectionType::kLobeLabels, labels); !status) return status;
+    if (Status status = loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes, asset_.quantization.lobeAxisStep); !status)
+      return status;
+    chunk_.lobeAxes.resize(labels.size(), glm::vec3(0));  // absent: no differences
+    for (size_t i = 0; i < labels.size(); ++i) {
+      if (labels[i] >= asset_.axisCodebook.size()) return outOfRange(SectionType::kLobeLabels, i);
+      chunk_.lobeAxes[i] = asset_.axisCodebook[labels[i]] + chunk_.lobeAxes[i];
+    }
+    return {};
+  }
+
+  const AssetContents& asset_;
+  const Manifest& manifest_;
+  uint32_t index_;
+  const SectionDecoder& decode_;
+  const std::string& place_;
+  Elements cellColours_;
+  ChunkContents chunk_;
+};
+
+}  // namespace
+
+Result<ChunkContents> unpackChunk(const Manifest& manifest, uint32_t chunk, Layer last, const SectionDecoder& decode,
+                                  const std::string& place) {
+  return ChunkReader(manifest, chunk, decode, place).read(last);
+}
+
+}  // namespace froth

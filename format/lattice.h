@@ -1,0 +1,40 @@
+// Between lattice indices and the elements of sections: what the two halves of chunk_sections share.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "format/quantization.h"
+
+namespace froth {
+
+// Indices of values lie within +-kMaxLatticeIndex, so that step * index is an exact float.
+inline constexpr int32_t kMaxLatticeIndex = (1 << 24) - 1;
+
+inline constexpr uint8_t kMaxColourScale = 15;
+
+// 0, -1, 1, -2, 2, ... as 0, 1, 2, 3, 4, ...
+inline uint32_t zigzag(int32_t value) {
+  return (static_cast<uint32_t>(value) << 1) ^ static_cast<uint32_t>(value >> 31);
+}
+inline int32_t unzigzag(uint32_t element) {
+  return static_cast<int32_t>(element >> 1) ^ -static_cast<int32_t>(element & 1);
+}
+
+// Cell colours are bytes.
+inline float colourOfByte(uint8_t byte) {
+  return static_cast<float>(byte) / 255.0f;
+}
+
+// The step of the colour lattice of a cell.
+inline float colourUnit(float colourStep, uint8_t scale) {
+  return std::ldexp(colourStep, scale);
+}
+
+// The index of a base colour that the cell's colour lets expect; ties to even.
+inline int32_t expectedColourIndex(uint8_t cellColour, float unit) {
+  const double index = std::nearbyint((cellColour / 255.0 - 0.5) / unit);
+  return static_cast<int32_t>(std::fmin(std::fmax(index, -kMaxLatticeIndex), kMaxLatticeIndex));
+}
+
+}  // namespace froth
