@@ -1,5 +1,6 @@
 // The program `froth`: parses arguments, runs one command, turns its error into a message and an exit code.
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -57,6 +58,7 @@ int main(int argc, char** argv) {
     return froth::kExitUsage;
   }
   froth::stopOnInterrupt();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like any other failed write
   try {
     return runAction(tool);
   } catch (const std::bad_alloc&) {
