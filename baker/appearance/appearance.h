@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -44,16 +45,17 @@ class AppearanceCoder {
   static Result<AppearanceCoder> create(const Foam& foam, const Visibility* visibility, const AppearanceOptions& options,
                                         const Progress& progress = {});
 
-  const std::vector<glm::vec3>& codebook() const { return codebook_; }
+  const std::vector<glm::vec3>& codebook() const;
   // Thread-safe. Each cell's result depends on that cell (and the codebook) alone, so the order and grouping of calls do not
   // matter. Values lie on the lattices of the options and of the codebook.
   CellAppearance compress(std::span<const uint32_t> cells) const;
 
  private:
+  struct Model;
+
   const Foam* foam_ = nullptr;
-  const Visibility* visibility_ = nullptr;
   AppearanceOptions options_;
-  std::vector<glm::vec3> codebook_;
+  std::shared_ptr<const Model> model_;
 };
 
 }  // namespace froth

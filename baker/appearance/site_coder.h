@@ -1,0 +1,45 @@
+// Compresses the colours of one detail site.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "baker/appearance/appearance.h"
+#include "baker/appearance/axis_codebook.h"
+#include "baker/appearance/lobe_fit.h"
+
+namespace froth {
+
+// A detail site as it is stored.
+struct CodedSite {
+  glm::dvec3 base{0};               // display-coded offset from one half
+  std::vector<glm::vec3> axes;
+  std::vector<glm::dvec3> colours;  // offsets from the base
+  FitError error;
+};
+
+class SiteCoder {
+ public:
+  // Keeps references. `bound`: the squared error that is allowed, in the units of FitError.
+  SiteCoder(const AppearanceOptions& options, const AxisCodebook& codebook, double bound)
+      : options_(options), codebook_(codebook), bound_(bound) {}
+
+  // `axes`: the lobes of the input. Colours become multiples of `step` [0: any].
+  CodedSite code(const Observations& seen, std::span<const glm::vec3> axes, double step) const;
+
+ private:
+  enum class AxisChoice { kEntries, kResiduals };
+
+  std::vector<glm::vec3> candidates(std::span<const glm::vec3> axes, AxisChoice choice) const;
+  // Improves `best` until it keeps the bound or lobes run out.
+  void tryLobes(const Observations& seen, const LobeBasis& basis, double step, CodedSite& best) const;
+
+  const AppearanceOptions& options_;
+  const AxisCodebook& codebook_;
+  double bound_;
+};
+
+}  // namespace froth
