@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "format/asset_contents.h"
-#include "format/section.h"
 
 namespace froth {
 
@@ -20,6 +19,21 @@ inline bool operator==(const StoredCamera& a, const StoredCamera& b) {
   return a.worldFromCamera == b.worldFromCamera && a.tanHalfFovY == b.tanHalfFovY;
 }
 
+inline bool operator==(const AttributeError& a, const AttributeError& b) {
+  return a.name == b.name && a.unit == b.unit && a.rms == b.rms && a.max == b.max;
+}
+
+inline void expectSameQuantization(const Quantization& a, const Quantization& b) {
+  EXPECT_EQ(a.positionStep, b.positionStep);
+  EXPECT_EQ(a.radiusBits, b.radiusBits);
+  EXPECT_EQ(a.densityBits, b.densityBits);
+  EXPECT_EQ(a.normalBits, b.normalBits);
+  EXPECT_EQ(a.detailSiteStep, b.detailSiteStep);
+  EXPECT_EQ(a.heightStep, b.heightStep);
+  EXPECT_EQ(a.colourStep, b.colourStep);
+  EXPECT_EQ(a.lobeAxisStep, b.lobeAxisStep);
+}
+
 inline void expectSameParameters(const AssetContents& a, const AssetContents& b) {
   EXPECT_EQ(a.detailCount, b.detailCount);
   EXPECT_EQ(a.lobeCount, b.lobeCount);
@@ -31,6 +45,10 @@ inline void expectSameParameters(const AssetContents& a, const AssetContents& b)
   EXPECT_EQ(a.preset, b.preset);
   EXPECT_EQ(a.source, b.source);
   EXPECT_EQ(std::memcmp(&a.statistics, &b.statistics, sizeof(BakeStatistics)), 0);
+  expectSameQuantization(a.quantization, b.quantization);
+  EXPECT_TRUE(haveSameBits(a.axisCodebook, b.axisCodebook));
+  EXPECT_TRUE(a.errors == b.errors);
+  EXPECT_EQ(a.psnr, b.psnr);
   EXPECT_EQ(a.hasStartView, b.hasStartView);
   EXPECT_TRUE(a.startView == b.startView);
   EXPECT_TRUE(a.flightPath == b.flightPath);
@@ -40,15 +58,22 @@ inline void expectSameArrays(const ChunkContents& a, const ChunkContents& b) {
   EXPECT_EQ(a.origin, b.origin);
   EXPECT_EQ(a.cellCount, b.cellCount);
   EXPECT_EQ(a.liveCount, b.liveCount);
+  EXPECT_EQ(a.ghostCount, b.ghostCount);
   EXPECT_TRUE(haveSameBits(a.sites, b.sites));
   EXPECT_TRUE(haveSameBits(a.radii, b.radii));
+  EXPECT_TRUE(haveSameBits(a.ghostRefs, b.ghostRefs));
   EXPECT_TRUE(haveSameBits(a.neighbourOffsets, b.neighbourOffsets));
   EXPECT_TRUE(haveSameBits(a.neighbours, b.neighbours));
   EXPECT_TRUE(haveSameBits(a.alphaCounts, b.alphaCounts));
   EXPECT_TRUE(haveSameBits(a.densities, b.densities));
   EXPECT_TRUE(haveSameBits(a.orientations, b.orientations));
+  EXPECT_TRUE(haveSameBits(a.cellColours, b.cellColours));
+  EXPECT_TRUE(haveSameBits(a.cellHeights, b.cellHeights));
   EXPECT_TRUE(haveSameBits(a.detailSites, b.detailSites));
   EXPECT_TRUE(haveSameBits(a.detailHeights, b.detailHeights));
+  EXPECT_TRUE(haveSameBits(a.baseColours, b.baseColours));
+  EXPECT_TRUE(haveSameBits(a.colourScales, b.colourScales));
+  EXPECT_TRUE(haveSameBits(a.lobeCounts, b.lobeCounts));
   EXPECT_TRUE(haveSameBits(a.lobeAxes, b.lobeAxes));
   EXPECT_TRUE(haveSameBits(a.lobeColours, b.lobeColours));
 }

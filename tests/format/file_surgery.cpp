@@ -49,9 +49,10 @@ size_t Draft::find(SectionType type, uint32_t chunk) const {
 }
 
 void Draft::replace(SectionType type, std::span<const uint8_t> raw) {
-  Result<EncodedSection> section = encodeSection(raw);
-  ASSERT_TRUE(section);
   const size_t index = find(type);
+  const uint32_t components = sectionComponents(type, contents.quantization);
+  Result<EncodedSection> section = encodeSection(raw, {records[index].elementSize, components});
+  ASSERT_TRUE(section);
   records[index].codec = static_cast<uint16_t>(section->codec);
   records[index].rawSize = raw.size();
   stored[index] = section->stored;
@@ -68,7 +69,7 @@ std::vector<uint8_t> Draft::assemble() const {
   header.magic = kFileMagic;
   header.versionMajor = kVersionMajor;
   header.manifestOffset = sizeof(FileHeader);
-  header.manifestSize = buildManifest(contents, placed).size();
+  header.manifestSize = buildManifest(contents, chunks, placed).size();
   header.fileSize = header.manifestOffset + header.manifestSize;
   for (size_t i = 0; i < placed.size(); ++i) {
     placed[i].offset = header.fileSize;
@@ -77,7 +78,7 @@ std::vector<uint8_t> Draft::assemble() const {
     header.fileSize += stored[i].size();
   }
   std::vector<uint8_t> bytes(sizeof(FileHeader));
-  const std::vector<uint8_t> manifest = buildManifest(contents, placed);
+  const std::vector<uint8_t> manifest = buildManifest(contents, chunks, placed);
   bytes.insert(bytes.end(), manifest.begin(), manifest.end());
   for (const std::vector<uint8_t>& section : stored)
     bytes.insert(bytes.end(), section.begin(), section.end());
@@ -91,7 +92,7 @@ Draft draftOf(const AssetContents& contents) {
   const std::span<const uint8_t> packed = manifestOf(bytes);
   Result<Manifest> manifest = parseManifest({packed.begin(), packed.end()},
                                             sizeof(FileHeader) + packed.size(), bytes.size(), "draft");
-  Draft draft{contents, manifest->sections, {}};
+  Draft draft{contents, manifest->chunks, manifest->sections, {}};
   for (const SectionRecord& record : draft.records) {
     const uint8_t* first = bytes.data() + record.offset;
     draft.stored.emplace_back(first, first + record.storedSize);
@@ -131,8 +132,8 @@ std::vector<uint8_t> signedAgain(std::vector<uint8_t> bytes) {
       fb::Section& s = sectionAt(bytes, i);
       if (s.offset() > bytes.size() || s.stored_size() > bytes.size() - s.offset()) continue;
       const uint64_t hash = hashBytes({bytes.data() + s.offset(), static_cast<size_t>(s.stored_size())});
-      s = fb::Section(s.type(), s.chunk(), s.flags(), s.codec(), s.reserved(), s.offset(), s.stored_size(),
-                      s.raw_size(), hash);
+      s = fb::Section(s.type(), s.chunk(), s.flags(), s.codec(), s.element_size(), s.reserved0(), s.base(),
+                      s.reserved1(), s.offset(), s.stored_size(), s.raw_size(), hash);
     }
   }
   signManifest(bytes);
@@ -146,8 +147,8 @@ std::vector<uint8_t> encodeOrFail(const AssetContents& contents) {
   return {};
 }
 
-Result<AssetContents> decodeAsset(std::span<const uint8_t> bytes) {
-  Result<AssetReader> reader = AssetReader::openBytes(bytes, "scene.froth");
+Result<AssetContents> decodeAsset(std::span<const uint8_t> bytes, Layer last) {
+  Result<AssetReader> reader = AssetReader::openBytes(bytes, "scene.froth", last);
   if (!reader) return reader.error();
   AssetContents contents = reader->manifest();
   for (uint32_t i = 0; i < contents.chunks.size(); ++i) {

@@ -18,11 +18,12 @@ namespace froth {
 // The file's parts, before offsets and hashes are set.
 struct Draft {
   AssetContents contents;
+  std::vector<ChunkIndex> chunks;
   std::vector<SectionRecord> records;
   std::vector<std::vector<uint8_t>> stored;  // [records]
 
   size_t find(SectionType type, uint32_t chunk = 0) const;  // index in `records`
-  // Replaces a section by the encoding of `raw`.
+  // Replaces a section of chunk 0 by the encoding of `raw`, in elements of the same size.
   void replace(SectionType type, std::span<const uint8_t> raw);
   void add(const SectionRecord& record, std::vector<uint8_t> bytes);
   std::vector<uint8_t> assemble() const;  // lays the sections one after the other and signs
@@ -46,6 +47,6 @@ std::vector<uint8_t> signedAgain(std::vector<uint8_t> bytes);
 
 std::vector<uint8_t> encodeOrFail(const AssetContents& contents);
 // Opens and reads all chunks.
-Result<AssetContents> decodeAsset(std::span<const uint8_t> bytes);
+Result<AssetContents> decodeAsset(std::span<const uint8_t> bytes, Layer last = Layer::kViewDependence);
 
 }  // namespace froth
