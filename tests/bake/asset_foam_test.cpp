@@ -11,7 +11,9 @@ namespace {
 TEST(FoamFromAsset, GivesTheLiveCellsBackAndEmptiesTheOthers) {
   Foam foam = makeRandomFoam(200, 2, 3, 2);
   for (uint32_t i = 0; i < 200; i += 7) foam.densities[i] = 0;
-  Result<BakeResult> baked = bakeFoam(foam, {});
+  BakeOptions options;
+  options.steiner = false;
+  const Result<BakeResult> baked = bakeFoam(foam, options);
   ASSERT_TRUE(baked);
   const Result<Foam> shown = foamFromAsset(baked->contents);
   ASSERT_TRUE(shown) << shown.error().message;
@@ -88,6 +90,36 @@ TEST(FoamFromAsset, JoinsChunksInWorldCoordinates) {
   ASSERT_FALSE(broken);
   EXPECT_THAT(broken.error().message, testing::HasSubstr("chunk 1"));
   EXPECT_FALSE(foamFromAsset(AssetContents{}));
+}
+
+// One live cell with two detail sites of one and no lobes, one dead cell, and a ghost that belongs to another chunk.
+TEST(FoamFromAsset, KeepsBaseColoursAndVaryingLobesAndDropsGhosts) {
+  ChunkContents chunk;
+  chunk.cellCount = 2;
+  chunk.liveCount = chunk.ghostCount = 1;
+  chunk.sites = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+  chunk.radii = {1, 2, 3};
+  chunk.densities = {5};
+  chunk.orientations = {{0, 1, 0, 0}};
+  chunk.detailSites = {{0.5f, 0.5f}, {0, 0}};
+  chunk.baseColours = {{0.25f, 0, 0}, {0, 0.25f, 0}};
+  chunk.lobeCounts = {1, 0};
+  chunk.lobeAxes = {{1, 0, 0}};
+  chunk.lobeColours = {{0.125f, 0, 0}};
+  AssetContents contents;
+  contents.detailCount = 2;
+  contents.lobeCount = 3;
+  contents.chunks = {chunk};
+
+  const Result<Foam> foam = foamFromAsset(contents);
+  ASSERT_TRUE(foam) << foam.error().message;
+  EXPECT_EQ(foam->cellCount, 2u);
+  EXPECT_EQ(foam->sites.size(), 2u);
+  EXPECT_EQ(foam->radii.size(), 2u);
+  EXPECT_THAT(foam->baseColours, testing::ElementsAre(glm::vec3(0.25f, 0, 0), glm::vec3(0, 0.25f, 0), glm::vec3(0),
+                                                      glm::vec3(0)));
+  EXPECT_THAT(foam->lobeOffsets, testing::ElementsAre(0, 1, 1, 1, 1));
+  EXPECT_EQ(foam->lobeColours.size(), 1u);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include "baker/graph/graph.h"
 #include "shaders/foam/cell.h"
@@ -15,10 +14,19 @@
 namespace froth {
 namespace {
 
-BakeResult bake(const Foam& foam, const BakeOptions& options = {}) {
+// Without Steiner cells: these tests are about those of the input.
+BakeResult bake(const Foam& foam, BakeOptions options = {}) {
+  options.steiner = false;
   Result<BakeResult> result = bakeFoam(foam, options);
   EXPECT_TRUE(result) << result.error().message;
   return std::move(*result);
+}
+
+uint64_t findLeftOut(const BakeResult& result, const std::string& what) {
+  for (const LeftOut& leftOut : result.leftOut) {
+    if (leftOut.what == what) return leftOut.savedBytes;
+  }
+  return 0;
 }
 
 std::vector<CellRef> rowOf(const ChunkContents& chunk, uint32_t place) {
@@ -78,20 +86,21 @@ TEST(Bake, PutsLiveCellsFirstAndDropsHiddenOnes) {
   EXPECT_GT(statistics.hiddenDropped, statistics.duplicatesMerged);
   EXPECT_EQ(statistics.hiddenDropped + chunk.cellCount, 400u);
   EXPECT_EQ(statistics.walkPairs * 2, chunk.neighbours.size());
+  EXPECT_EQ(statistics.steinerCells, 0u);
   EXPECT_EQ(statistics.alphaPairs * 2, alpha.graph.neighbours.size());
 }
 
-// Within each group cells follow the Morton curve of all sites.
-TEST(Bake, OrdersEachGroupAlongTheMortonCurve) {
+// Within each group cells follow the Morton curve of the group.
+TEST(Bake, OrdersEachGroupAlongItsMortonCurve) {
   const Foam foam = makeMixedFoam();
   const BakeResult result = bake(foam);
-  const std::vector<uint32_t> curve = mortonOrder(foam.sites);
-  std::vector<uint32_t> rank(foam.cellCount);
-  for (uint32_t k = 0; k < foam.cellCount; ++k) rank[curve[k]] = k;
-  const auto isBefore = [&](uint32_t a, uint32_t b) { return rank[a] < rank[b]; };
-  const auto firstBare = result.sourceCells.begin() + result.contents.chunks[0].liveCount;
-  EXPECT_TRUE(std::is_sorted(result.sourceCells.begin(), firstBare, isBefore));
-  EXPECT_TRUE(std::is_sorted(firstBare, result.sourceCells.end(), isBefore));
+  const ChunkContents& chunk = result.contents.chunks.at(0);
+  const auto isOrdered = [&](uint32_t first, uint32_t last) {
+    const std::vector<uint32_t> curve = mortonOrder(std::span(chunk.sites).subspan(first, last - first));
+    return std::is_sorted(curve.begin(), curve.end());
+  };
+  EXPECT_TRUE(isOrdered(0, chunk.liveCount));
+  EXPECT_TRUE(isOrdered(chunk.liveCount, chunk.cellCount));
 }
 
 TEST(Bake, RowsStartWithTheAlphaComplexNearestPlaneFirst) {
@@ -149,9 +158,41 @@ TEST(Bake, CallsACellDeadOnlyIfNoImageCanShowIt) {
 
 TEST(Bake, LeavesOutHeightsThatAreAllZero) {
   Foam foam = makeRandomFoam(30, 2, 1, 1);
-  EXPECT_EQ(bake(foam).contents.chunks[0].detailHeights.size(), 2u * bake(foam).contents.chunks[0].liveCount);
+  const BakeResult displaced = bake(foam);
+  EXPECT_EQ(displaced.contents.chunks[0].detailHeights.size(), 2u * displaced.contents.chunks[0].liveCount);
+  EXPECT_EQ(displaced.contents.chunks[0].cellHeights.size(), displaced.contents.chunks[0].liveCount);
   std::fill(foam.detailHeights.begin(), foam.detailHeights.end(), 0.0f);
-  EXPECT_TRUE(bake(foam).contents.chunks[0].detailHeights.empty());
+  const BakeResult flat = bake(foam);
+  EXPECT_TRUE(flat.contents.chunks[0].detailHeights.empty());
+  EXPECT_TRUE(flat.contents.chunks[0].cellHeights.empty());
+  EXPECT_EQ(findLeftOut(flat, "displacement"), 2u * 4 * flat.contents.chunks[0].liveCount);
+  EXPECT_EQ(findLeftOut(displaced, "displacement"), 0u);
+}
+
+TEST(Bake, LeavesOutLobesThatLookTheSameFromEverywhere) {
+  Foam foam = makeRandomFoam(30, 2, 3, 1);
+  EXPECT_EQ(bake(foam).contents.lobeCount, 3u);
+  for (size_t lobe = 0; lobe < foam.lobeColours.size(); ++lobe)
+    foam.lobeColours[lobe] = foam.lobeColours[lobe / 3 * 3];
+  const BakeResult result = bake(foam);
+  const ChunkContents& chunk = result.contents.chunks[0];
+  EXPECT_EQ(result.contents.lobeCount, 0u);
+  EXPECT_TRUE(chunk.lobeColours.empty());
+  ASSERT_EQ(chunk.baseColours.size(), 2u * chunk.liveCount);
+  for (uint32_t place = 0; place < chunk.liveCount; ++place)
+    EXPECT_EQ(chunk.baseColours[2 * place + 1], foam.lobeColours[6 * result.sourceCells[place] + 3]);
+  EXPECT_EQ(findLeftOut(result, "view dependence"), 24u * 6 * chunk.liveCount);
+}
+
+TEST(Bake, GivesEveryLiveCellAColourAndAHeight) {
+  Foam foam = makeRandomFoam(1, 2, 1, 1);
+  foam.lobeColours = {glm::vec3(0.25f, 0, 1), glm::vec3(-0.25f, 0.125f, 1)};
+  foam.detailHeights = {0.25f, 0.5f};
+  const BakeResult result = bake(foam);
+  const ChunkContents& chunk = result.contents.chunks[0];
+  EXPECT_THAT(chunk.cellHeights, testing::ElementsAre(0.375f));
+  // The mean of 1/2 + colour, to a byte: (0.5, 0.5625, 1.5).
+  EXPECT_THAT(chunk.cellColours, testing::ElementsAre(glm::vec3(128.0f, 143.0f, 255.0f) / 255.0f));
 }
 
 TEST(Bake, TakesStartViewAndFlightPathFromTheCameras) {
@@ -194,20 +235,11 @@ TEST(Bake, PassesItsOptionsOnAndReportsItsStages) {
   EXPECT_EQ(result.contents.lobeCount, 2u);
   EXPECT_EQ(result.contents.localBits, 32u);
   ASSERT_FALSE(result.stages.empty());
-  EXPECT_EQ(result.stages[0].stage, "triangulate");
-  EXPECT_EQ(result.stages[0].items, 50u);
-  EXPECT_GT(result.stages[0].peakBytes, 0u);
-}
-
-TEST(Bake, IsTheSameOnAnyNumberOfThreads) {
-  const Foam foam = makeRandomFoam(3000, 1, 1, 4);
-  const BakeResult many = bake(foam);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const BakeResult single = bake(foam);
-  EXPECT_EQ(many.sourceCells, single.sourceCells);
-  EXPECT_EQ(many.contents.chunks[0].neighbourOffsets, single.contents.chunks[0].neighbourOffsets);
-  EXPECT_EQ(many.contents.chunks[0].neighbours, single.contents.chunks[0].neighbours);
-  EXPECT_EQ(many.contents.chunks[0].alphaCounts, single.contents.chunks[0].alphaCounts);
+  const auto triangulate = std::find_if(result.stages.begin(), result.stages.end(),
+                                        [](const StageReport& stage) { return stage.stage == "triangulate"; });
+  ASSERT_NE(triangulate, result.stages.end());
+  EXPECT_EQ(triangulate->items, 50u);
+  EXPECT_GT(triangulate->peakBytes, 0u);
 }
 
 TEST(Bake, OfOneCellIsThatCell) {
@@ -216,14 +248,19 @@ TEST(Bake, OfOneCellIsThatCell) {
   EXPECT_THAT(result.contents.chunks[0].neighbourOffsets, testing::ElementsAre(0, 0));
 }
 
-TEST(Bake, RefusesUnknownPresetsAndBrokenFoams) {
-  BakeOptions options;
-  options.preset = "tiny";
-  const Foam good = makeRandomFoam(5, 1, 1, 1);
-  const Result<BakeResult> wrongPreset = bakeFoam(good, options);
+TEST(Bake, RefusesUnknownPresetsBrokenFoamsAndKnobsOutOfRange) {
+  const Result<BakeKnobs> wrongPreset = presetKnobs("tiny");
   ASSERT_FALSE(wrongPreset);
   EXPECT_EQ(wrongPreset.error().kind, ErrorKind::kUsage);
   EXPECT_THAT(wrongPreset.error().message, testing::HasSubstr("'tiny'"));
+
+  const Foam good = makeRandomFoam(5, 1, 1, 1);
+  BakeOptions options;
+  options.knobs.positionBits = 30;
+  const Result<BakeResult> wrongKnob = bakeFoam(good, options);
+  ASSERT_FALSE(wrongKnob);
+  EXPECT_EQ(wrongKnob.error().kind, ErrorKind::kUsage);
+  EXPECT_THAT(wrongKnob.error().message, testing::HasSubstr("position bits: found 30; give 10 to 22"));
 
   Foam shortArray = good;
   shortArray.lobeColours.pop_back();
@@ -244,7 +281,7 @@ TEST(Bake, StopsInEveryStageWhenAskedTo) {
     return stages.emplace(stage), true;
   };
   ASSERT_TRUE(bakeFoam(foam, {}, collect));
-  EXPECT_EQ(stages.size(), 3u);
+  EXPECT_GE(stages.size(), 5u);
   for (const std::string& stop : stages) {
     const auto refuse = [&](std::string_view stage, uint64_t, uint64_t) { return stage != stop; };
     const Result<BakeResult> result = bakeFoam(foam, {}, refuse);

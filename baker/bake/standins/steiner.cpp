@@ -1,6 +1,6 @@
 #include "baker/steiner/steiner.h"
 namespace froth {
-Result<SteinerCells> placeSteinerCells(std::span<const glm::vec3>, std::span<const float>, std::span<const float>,
+[[gnu::weak]] Result<SteinerCells> placeSteinerCells(std::span<const glm::vec3>, std::span<const float>, std::span<const float>,
                                        const SteinerOptions&, const Progress&) {
   return SteinerCells{};
 }
