@@ -33,6 +33,13 @@ bool lock(int descriptor) {
   return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
 }
 
+// False once another process has removed it, or its owner has renamed it and perhaps made another file of that name.
+bool isStillNamed(int descriptor, const std::string& name) {
+  struct stat open {}, named {};
+  return ::fstat(descriptor, &open) == 0 && ::lstat(name.c_str(), &named) == 0 && S_ISREG(named.st_mode) &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
 // What can be locked belongs to no living process. Best effort: nothing here is worth failing for.
 void removeLeftovers(const std::filesystem::path& target) {
   std::error_code ignored;
@@ -43,8 +50,7 @@ void removeLeftovers(const std::filesystem::path& target) {
   for (const std::string& leftover : leftovers) {
     const int descriptor = ::open(leftover.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor < 0) continue;
-    struct stat info {};
-    if (::fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode) && lock(descriptor)) ::unlink(leftover.c_str());
+    if (lock(descriptor) && isStillNamed(descriptor, leftover)) ::unlink(leftover.c_str());
     ::close(descriptor);
   }
 }
@@ -79,9 +85,9 @@ Status TemporaryFile::openLocked() {
     const int descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno == EEXIST) continue;
     if (descriptor < 0) return ioError(target_, "cannot be created");
-    lock(descriptor);  // where locks do not exist, nobody removes leftovers either
-    struct stat info {};
-    if (::fstat(descriptor, &info) == 0 && info.st_nlink > 0) {
+    // Where locks do not exist, nobody removes leftovers either.
+    const bool isTaken = !lock(descriptor) && errno == EWOULDBLOCK;
+    if (!isTaken && isStillNamed(descriptor, name)) {
       descriptor_ = descriptor;
       name_ = name;
       return {};
