@@ -18,29 +18,40 @@ size_t largestAllocationOf(const std::vector<uint8_t>& bytes, std::string& error
   return largest;
 }
 
-// Counts and raw sizes agree, four billion cells each; only the file's size speaks against them.
+// Counts and raw sizes agree, two billion cells each; only the file's size speaks against them.
 TEST(Allocation, OfConsistentButAbsurdCountsDoesNotHappen) {
-  constexpr uint64_t kCells = 0xffffffff;
-  std::vector<uint8_t> bytes = encodeOrFail(makeSampleAsset({.detailCount = 32, .lobeCount = 32}));
-  const ChunkCounts counts{kCells, kCells, kCells};
-  bytes = withChunk(bytes,
-                    [](fb::Chunk& c) { c = fb::Chunk(c.origin(), kCells, kCells, kCells, c.live_bounds()); });
-  for (size_t i = 0; i < 11; ++i)
-    bytes = withSection(bytes, i, [&](fb::Section& s) {
-      const uint64_t words = sectionWords(static_cast<SectionType>(s.type()), counts, 32, 32);
-      s = fb::Section(s.type(), s.chunk(), s.flags(), 1, 0, s.offset(), s.stored_size(), words * kWordSize,
-                      s.hash());
-    });
+  constexpr uint64_t kCells = 0x7fffffff;
+  Draft draft = draftOf(makeSampleAsset({.detailCount = 32, .lobeCount = 32}));
+  draft.chunks[0].counts = {kCells, kCells, 0, kCells, kCells * 32 * 32};
+  for (SectionRecord& record : draft.records) {
+    const SectionType type = static_cast<SectionType>(record.type);
+    if (sectionKind(type, draft.contents.quantization) == ElementKind::kGraph) record.elementSize = 4;
+    record.codec = static_cast<uint16_t>(SectionCodec::kZstd);
+    record.rawSize = sectionEntries(type, draft.chunks[0].counts, 32) *
+                     sectionComponents(type, draft.contents.quantization) * record.elementSize;
+  }
   std::string error;
-  EXPECT_LT(largestAllocationOf(bytes, error), size_t{1} << 20);
+  EXPECT_LT(largestAllocationOf(draft.assemble(), error), size_t{1} << 20);
   EXPECT_THAT(error, testing::HasSubstr("cannot hold"));
 }
 
-TEST(Allocation, StaysWithinTheFilesSizeTimesTheLimitOfExpansion) {
-  const std::vector<uint8_t> bytes = encodeOrFail(makeSampleAsset({.cellsPerChunk = 100}));
+// A codebook of the largest size, of which the file has no trace.
+TEST(Allocation, OfACodebookThatIsNotThereDoesNotHappen) {
+  Draft draft = draftOf(makeSampleAsset({.isQuantized = true, .codebookSize = 3}));
+  draft.contents.axisCodebook.resize(65536);
   std::string error;
-  EXPECT_LT(largestAllocationOf(bytes, error), bytes.size() * kMaxExpansion);
-  EXPECT_EQ(error, "no error");
+  EXPECT_LT(largestAllocationOf(draft.assemble(), error), size_t{1} << 16);
+  EXPECT_THAT(error, testing::HasSubstr("shared, section 'axis_codebook': raw size 36, but the counts demand 786432 bytes"));
+}
+
+TEST(Allocation, StaysWithinTheFilesSizeTimesTheLimitOfExpansion) {
+  for (const bool isQuantized : {false, true}) {
+    const std::vector<uint8_t> bytes =
+        encodeOrFail(makeSampleAsset({.cellsPerChunk = 100, .isQuantized = isQuantized, .hasLayers = true}));
+    std::string error;
+    EXPECT_LT(largestAllocationOf(bytes, error), bytes.size() * kMaxExpansion);
+    EXPECT_EQ(error, "no error");
+  }
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ TEST_F(FileIo, WritesNothingForContentsThatAreNoAsset) {
   contents = makeSampleAsset();
   contents.chunks[0].lobeAxes.pop_back();
   EXPECT_THAT(errorOf(writeAsset(folder_ / "a.froth", contents)),
-              HasSubstr("'lobe_axes': 45 numbers instead of 48"));
+              HasSubstr("lobe_axes: 15 entries instead of 16"));
   contents = makeSampleAsset();
   contents.chunks.clear();
   EXPECT_THAT(errorOf(writeAsset(folder_ / "a.froth", contents)), HasSubstr("number of chunks is 0"));

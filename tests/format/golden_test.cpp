@@ -1,9 +1,10 @@
-// Files that earlier versions wrote stay readable. The golden file is written again by
+// Files that earlier versions wrote stay readable, or are refused for a reason. The golden file is written again by
 //   FROTH_WRITE_GOLDEN=1 test_format --gtest_filter='Golden.*'
 // only when a new major version makes the old one unreadable on purpose.
 #include <cstdlib>
 #include <filesystem>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "asset_equality.h"
@@ -14,10 +15,18 @@
 namespace froth {
 namespace {
 
-TEST(Golden, FileOfVersion1IsRead) {
-  const std::filesystem::path path =
-      std::filesystem::path(FROTH_SOURCE_DIR) / "tests/format/golden/version_1_0.froth";
-  const AssetContents contents = makeSampleAsset({.chunkCount = 2, .cellsPerChunk = 6, .localBits = 4});
+std::filesystem::path goldenPath(const char* name) {
+  return std::filesystem::path(FROTH_SOURCE_DIR) / "tests/format/golden" / name;
+}
+
+TEST(Golden, FileOfVersion2IsRead) {
+  const std::filesystem::path path = goldenPath("version_2_0.froth");
+  const AssetContents contents = makeSampleAsset({.chunkCount = 2,
+                                                  .cellsPerChunk = 6,
+                                                  .localBits = 4,
+                                                  .isQuantized = true,
+                                                  .hasLayers = true,
+                                                  .codebookSize = 5});
   if (std::getenv("FROTH_WRITE_GOLDEN")) {
     const Status written = writeAsset(path, contents);
     ASSERT_TRUE(written) << written.error().message;
@@ -27,6 +36,16 @@ TEST(Golden, FileOfVersion1IsRead) {
   expectSameAsset(*found, contents);
   const Status verified = verifyAsset(path);
   EXPECT_TRUE(verified) << verified.error().message;
+}
+
+// No release wrote version 1, and nobody shall write a reader for it.
+TEST(Golden, FileOfVersion1IsRefusedWithItsRemedy) {
+  const Result<AssetContents> found = readAsset(goldenPath("version_1_0.froth"));
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().kind, ErrorKind::kUnsupported);
+  EXPECT_THAT(found.error().message,
+              testing::AllOf(testing::HasSubstr("version_1_0.froth: format version 1.0, this program reads 2"),
+                             testing::HasSubstr("bake the scene again")));
 }
 
 }  // namespace

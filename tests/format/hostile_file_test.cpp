@@ -17,8 +17,17 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 AssetContents smallAsset() {
-  return makeSampleAsset(
-      {.chunkCount = 2, .cellsPerChunk = 3, .localBits = 2, .detailCount = 1, .lobeCount = 1});
+  return makeSampleAsset({.chunkCount = 2, .cellsPerChunk = 3, .localBits = 2, .detailCount = 1, .lobeCount = 1});
+}
+
+// Something of everything, on lattices.
+AssetContents richAsset() {
+  return makeSampleAsset({.chunkCount = 2,
+                          .cellsPerChunk = 9,
+                          .localBits = 4,
+                          .isQuantized = true,
+                          .hasLayers = true,
+                          .codebookSize = 5});
 }
 
 std::string errorOf(std::span<const uint8_t> bytes) {
@@ -27,11 +36,13 @@ std::string errorOf(std::span<const uint8_t> bytes) {
 }
 
 TEST(HostileFile, IsRefusedWhenTruncatedAtAnyLength) {
-  const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
-  for (size_t length = 0; length < bytes.size(); ++length) {
-    // An allocation of this very length, so that a sanitizer sees a read past its end.
-    const std::vector<uint8_t> part(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(length));
-    ASSERT_FALSE(decodeAsset(part)) << "cut to " << length << " of " << bytes.size() << " bytes";
+  for (const AssetContents& contents : {smallAsset(), richAsset()}) {
+    const std::vector<uint8_t> bytes = encodeOrFail(contents);
+    for (size_t length = 0; length < bytes.size(); ++length) {
+      // An allocation of this very length, so that a sanitizer sees a read past its end.
+      const std::vector<uint8_t> part(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(length));
+      ASSERT_FALSE(decodeAsset(part)) << "cut to " << length << " of " << bytes.size() << " bytes";
+    }
   }
 }
 
@@ -41,31 +52,36 @@ TEST(HostileFile, IsRefusedWithAnAppendedByte) {
   EXPECT_THAT(errorOf(bytes), AllOf(HasSubstr("scene.froth"), HasSubstr("its header says")));
 }
 
+// More than 10^4 bits in each of them.
 TEST(HostileFile, GivesAnErrorOrTheSameContentsForEveryFlippedBit) {
-  const AssetContents contents = smallAsset();
-  std::vector<uint8_t> bytes = encodeOrFail(contents);
-  for (size_t bit = 0; bit < bytes.size() * 8; ++bit) {
-    const uint8_t mask = static_cast<uint8_t>(1u << (bit % 8));
-    bytes[bit / 8] ^= mask;
-    if (Result<AssetContents> found = decodeAsset(bytes)) {
-      SCOPED_TRACE("bit " + std::to_string(bit));
-      expectSameAsset(*found, contents);
+  for (const AssetContents& contents : {smallAsset(), richAsset()}) {
+    std::vector<uint8_t> bytes = encodeOrFail(contents);
+    ASSERT_GE(bytes.size() * 8, 10'000u);
+    for (size_t bit = 0; bit < bytes.size() * 8; ++bit) {
+      const uint8_t mask = static_cast<uint8_t>(1u << (bit % 8));
+      bytes[bit / 8] ^= mask;
+      if (Result<AssetContents> found = decodeAsset(bytes)) {
+        SCOPED_TRACE("bit " + std::to_string(bit));
+        expectSameAsset(*found, contents);
+      }
+      bytes[bit / 8] ^= mask;
     }
-    bytes[bit / 8] ^= mask;
   }
 }
 
 // An attacker's hashes fit, so every later check must hold alone. The sanitizers show a wrong read.
 TEST(HostileFile, SurvivesEveryFlippedBitThatIsSignedAgain) {
-  std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
-  size_t refused = 0;
-  for (size_t bit = sizeof(FileHeader) * 8; bit < bytes.size() * 8; ++bit) {
-    const uint8_t mask = static_cast<uint8_t>(1u << (bit % 8));
-    bytes[bit / 8] ^= mask;
-    if (!decodeAsset(signedAgain(bytes))) ++refused;
-    bytes[bit / 8] ^= mask;
+  for (const AssetContents& contents : {smallAsset(), richAsset()}) {
+    std::vector<uint8_t> bytes = encodeOrFail(contents);
+    size_t refused = 0;
+    for (size_t bit = sizeof(FileHeader) * 8; bit < bytes.size() * 8; ++bit) {
+      const uint8_t mask = static_cast<uint8_t>(1u << (bit % 8));
+      bytes[bit / 8] ^= mask;
+      if (!decodeAsset(signedAgain(bytes))) ++refused;
+      bytes[bit / 8] ^= mask;
+    }
+    EXPECT_GT(refused, 0u);
   }
-  EXPECT_GT(refused, 0u);
 }
 
 TEST(HostileFile, SurvivesRandomBytesBehindAValidMagic) {
@@ -86,10 +102,12 @@ TEST(HostileFile, IsRefusedWithoutItsMagic) {
   EXPECT_THAT(errorOf(bytes), AllOf(HasSubstr("magic"), HasSubstr("no .froth asset")));
 }
 
-TEST(HostileFile, OfANewerMajorVersionIsRefusedByItsVersion) {
-  const std::vector<uint8_t> bytes =
-      withHeader(encodeOrFail(smallAsset()), [](FileHeader& header) { header.versionMajor = 2; });
-  EXPECT_THAT(errorOf(bytes), HasSubstr("format version 2.0, this program reads 1"));
+TEST(HostileFile, OfAnotherMajorVersionIsRefusedWithWhatToDo) {
+  const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
+  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.versionMajor = 3; })),
+              HasSubstr("format version 3.0, this program reads 2; update this program"));
+  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.versionMajor = 1; })),
+              HasSubstr("format version 1.0, this program reads 2; bake the scene again"));
 }
 
 TEST(HostileFile, OfANewerMinorVersionIsRead) {
@@ -126,7 +144,8 @@ TEST(HostileFile, WithParametersOutOfRangeIsRefusedByTheirNames) {
   };
   EXPECT_THAT(errorWith([](AssetContents& c) { c.detailCount = 33; }),
               HasSubstr("detail_count is 33, not in 1..32"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 0; }), HasSubstr("lobe_count is 0"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 33; }), HasSubstr("lobe_count is 33, not in 0..32"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 0; }), HasSubstr("chunk 0: lobe_count is 2, not in 0..0"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 33; }), HasSubstr("local_bits is 33"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 1; }), HasSubstr("cell_count is 3"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 32; }), HasSubstr("number of chunks is 2"));
@@ -137,34 +156,61 @@ TEST(HostileFile, WithParametersOutOfRangeIsRefusedByTheirNames) {
   EXPECT_THAT(errorWith([](AssetContents& c) { c.startView.tanHalfFovY = 0; }), HasSubstr("start_view"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.flightPath[1].worldFromCamera[3] = NAN; }),
               HasSubstr("flight_path"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.chunks[0].origin[2] = INFINITY; }), HasSubstr("origin"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.axisCodebook.resize(65537); }), HasSubstr("codebook_size is 65537"));
 }
 
-fb::Chunk withCounts(const fb::Chunk& chunk, uint64_t cells, uint64_t live, uint64_t neighbours) {
-  return fb::Chunk(chunk.origin(), cells, live, neighbours, chunk.live_bounds());
+TEST(HostileFile, WithALatticeThatIsNoneIsRefused) {
+  const Draft draft = draftOf(smallAsset());
+  const auto errorWith = [&](void (*edit)(Quantization&)) {
+    Draft changed = draft;
+    edit(changed.contents.quantization);
+    return errorOf(changed.assemble());
+  };
+  EXPECT_THAT(errorWith([](Quantization& q) { q.radiusBits = 0; }), HasSubstr("radius_bits is 0, not in 1..23"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.densityBits = 24; }), HasSubstr("density_bits is 24"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.normalBits = 3; }), HasSubstr("normal_bits is 3, not in 4..15"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.positionStep = 0.3; }), HasSubstr("position_step is 0.3"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.detailSiteStep = -0.5f; }), HasSubstr("detail_site_step is -0.5"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.heightStep = NAN; }), HasSubstr("height_step is nan"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.colourStep = 0x1p61f; }), HasSubstr("colour_step"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.lobeAxisStep = INFINITY; }), HasSubstr("lobe_axis_step is inf"));
+}
+
+// The error that an edit of the first chunk's record leads to.
+std::string errorWithChunk(void (*edit)(ChunkIndex&)) {
+  Draft draft = draftOf(richAsset());
+  edit(draft.chunks[0]);
+  return errorOf(draft.assemble());
 }
 
 TEST(HostileFile, WithAbsurdCountsIsRefusedByTheirNames) {
-  const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
   constexpr uint64_t kTrillion = 1'000'000'000'000;
-  EXPECT_THAT(errorOf(withChunk(bytes, [](fb::Chunk& c) { c = withCounts(c, kTrillion, 2, 15); })),
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.cells = kTrillion; }),
               AllOf(HasSubstr("chunk 0"), HasSubstr("cell_count is 1000000000000")));
-  EXPECT_THAT(errorOf(withChunk(bytes, [](fb::Chunk& c) { c = withCounts(c, 3, kTrillion, 15); })),
-              HasSubstr("live_count is 1000000000000"));
-  EXPECT_THAT(errorOf(withChunk(bytes, [](fb::Chunk& c) { c = withCounts(c, 3, 2, kTrillion); })),
-              HasSubstr("neighbour_count is 1000000000000"));
-  EXPECT_THAT(errorOf(withChunk(bytes, [](fb::Chunk& c) { c = withCounts(c, 3, 4, 15); })),
-              HasSubstr("live_count is 4, not in 0..3"));
-  EXPECT_THAT(errorOf(withChunk(bytes, [](fb::Chunk& c) { c = withCounts(c, 0, 0, 15); })),
-              HasSubstr("cell_count"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.live = kTrillion; }), HasSubstr("live_count is 1000000000000"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.ghosts = kTrillion; }), HasSubstr("ghost_count is 1000000000000"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.pairs = kTrillion; }), HasSubstr("pair_count is 1000000000000"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.lobes = kTrillion; }), HasSubstr("lobe_count is 1000000000000"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.live = 10; }), HasSubstr("live_count is 10, not in 0..9"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.cells = 0; }), HasSubstr("cell_count"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.lobes = 25; }), HasSubstr("lobe_count is 25, not in 0..24"));
+}
+
+TEST(HostileFile, WithAnOriginOffTheGridOrNotFiniteIsRefused) {
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[2] = INFINITY; }), HasSubstr("origin holds inf"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[1] += 0x1p-13; }), HasSubstr("no multiple of the position step"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[0] = 0x1p200; }), HasSubstr("no multiple of the position step"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.liveBounds.min[0] = NAN; }), HasSubstr("live_bounds"));
 }
 
 TEST(HostileFile, IsRefusedIfTheCountsDoNotFitTheSections) {
-  const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
-  EXPECT_THAT(errorOf(withChunk(bytes, [](fb::Chunk& c) { c = withCounts(c, 4, 2, 15); })),
-              AllOf(HasSubstr("section 'sites'"), HasSubstr("raw size 36, but the counts demand 48 bytes")));
-  EXPECT_THAT(errorOf(withChunk(bytes, [](fb::Chunk& c) { c = withCounts(c, 3, 2, 16); })),
-              HasSubstr("section 'neighbours'"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.cells; }),
+              AllOf(HasSubstr("section 'sites'"), HasSubstr("raw size 108, but the counts demand 120 bytes")));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.ghosts; }), HasSubstr("section 'ghost_sites'"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.pairs; }), HasSubstr("section 'graph_deltas'"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.lobes; }), HasSubstr("section 'lobe_labels'"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.lobes = 0; }), HasSubstr("must not be there"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { --c.counts.live; }), HasSubstr("the counts demand"));
 }
 
 TEST(HostileFile, IsRefusedIfItsManifestIsNone) {
@@ -179,8 +225,8 @@ TEST(HostileFile, IsRefusedIfItsManifestIsNone) {
 struct SectionEdit {
   fb::Section& section;
   void operator()(uint64_t offset, uint64_t storedSize, uint64_t rawSize) {
-    section = fb::Section(section.type(), section.chunk(), section.flags(), section.codec(), 0, offset,
-                          storedSize, rawSize, section.hash());
+    section = fb::Section(section.type(), section.chunk(), section.flags(), section.codec(), section.element_size(), 0,
+                          section.base(), 0, offset, storedSize, rawSize, section.hash());
   }
 };
 
@@ -198,7 +244,7 @@ TEST(HostileFile, IsRefusedIfASectionLiesOutsideIt) {
 TEST(HostileFile, IsRefusedIfSectionsOverlap) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
   for (const uint64_t shift : {uint64_t{1}, bytes.size() / 2}) {
-    const std::vector<uint8_t> moved = withSection(bytes, 21, [&](fb::Section& s) {
+    const std::vector<uint8_t> moved = withSection(bytes, 20, [&](fb::Section& s) {
       SectionEdit{s}(s.offset() - shift, s.stored_size(), s.raw_size());
     });
     EXPECT_THAT(errorOf(moved), HasSubstr("overlaps"));
@@ -225,7 +271,9 @@ TEST(HostileFile, IsRefusedIfASectionIsMissing) {
     Draft changed = draft;
     changed.records.erase(changed.records.begin() + static_cast<ptrdiff_t>(i));
     changed.stored.erase(changed.stored.begin() + static_cast<ptrdiff_t>(i));
-    const bool isOptional = draft.records[i].type == static_cast<uint32_t>(SectionType::kDetailHeights);
+    const uint32_t type = draft.records[i].type;
+    const bool isOptional = type == static_cast<uint32_t>(SectionType::kDetailHeights) ||
+                            type == static_cast<uint32_t>(SectionType::kDetailSites);
     EXPECT_THAT(errorOf(changed.assemble()), HasSubstr(isOptional ? "no error" : "is missing"));
   }
 }
@@ -255,12 +303,49 @@ TEST(HostileFile, IsRefusedWithReservedFlagsAndReadWithUnusedOnes) {
 
 TEST(HostileFile, IsRefusedWithAnUnknownCodecOrChunk) {
   Draft draft = draftOf(smallAsset());
-  draft.records[0].codec = 3;
-  EXPECT_THAT(errorOf(draft.assemble()), HasSubstr("unknown codec 3"));
+  draft.records[0].codec = 6;
+  EXPECT_THAT(errorOf(draft.assemble()), HasSubstr("unknown codec 6"));
   draft = draftOf(smallAsset());
   draft.records[0].chunk = 17;
   EXPECT_THAT(errorOf(draft.assemble()),
-              AllOf(HasSubstr("chunk 17, section 'sites'"), HasSubstr("only 2 chunks")));
+              AllOf(HasSubstr("chunk 17, section 'sites'"), HasSubstr("there are 2")));
+}
+
+TEST(HostileFile, IsRefusedWithElementsOfAnotherSizeOrABase) {
+  const Draft draft = draftOf(richAsset());
+  const auto errorWith = [&](SectionType type, uint32_t elementSize, uint32_t base) {
+    Draft changed = draft;
+    SectionRecord& record = changed.records[changed.find(type)];
+    record.rawSize = record.rawSize / record.elementSize * elementSize;
+    record.elementSize = elementSize;
+    record.base = base;
+    return errorOf(changed.assemble());
+  };
+  for (const uint32_t size : {0u, 3u, 8u, 65535u})
+    EXPECT_THAT(errorWith(SectionType::kRadii, size, 0), HasSubstr("section 'radii': elements of"));
+  EXPECT_THAT(errorWith(SectionType::kSites, 2, 0), HasSubstr("section 'sites': elements of 2 bytes"));
+  EXPECT_THAT(errorWith(SectionType::kGraphDeltas, 4, 0), HasSubstr("'graph_deltas': elements of 4 bytes"));
+  EXPECT_THAT(errorWith(SectionType::kBaseColours, 1, 7), HasSubstr("base is 7, these elements have none"));
+}
+
+TEST(HostileFile, IsRefusedWithASectionThatItsLatticesOrCountsRuleOut) {
+  Draft draft = draftOf(makeSampleAsset({.hasWalkGraph = false}));
+  SectionRecord bits;
+  bits.type = static_cast<uint32_t>(SectionType::kGraphAlphaBits);
+  bits.elementSize = 1;
+  bits.rawSize = 2;
+  draft.add(bits, {0, 0});
+  EXPECT_THAT(errorOf(draft.assemble()), HasSubstr("section 'graph_alpha_bits': must not be there"));
+}
+
+TEST(HostileFile, IsRefusedIfACodebookBelongsToAChunkOrAnArrayToNone) {
+  const Draft draft = draftOf(richAsset());
+  Draft changed = draft;
+  changed.records[changed.find(SectionType::kAxisCodebook, kSharedChunk)].chunk = 0;
+  EXPECT_THAT(errorOf(changed.assemble()), HasSubstr("section 'axis_codebook': belongs to no such chunk"));
+  changed = draft;
+  changed.records[changed.find(SectionType::kSites)].chunk = kSharedChunk;
+  EXPECT_THAT(errorOf(changed.assemble()), HasSubstr("shared, section 'sites': belongs to no such chunk"));
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zstd.h>
 
 #include "file_surgery.h"
+#include "format/section_codec_read.h"
 #include "sample_asset.h"
 
 namespace froth {
@@ -21,64 +23,131 @@ std::string errorOf(const std::vector<uint8_t>& bytes) {
   return contents ? "no error" : contents.error().message;
 }
 
-// The error that one changed array of the sample's only chunk leads to.
-template <class Element, class Edit>
-std::string errorWith(SectionType type, std::vector<Element> ChunkContents::*array, Edit edit) {
-  Draft draft = draftOf(makeSampleAsset());
-  std::vector<Element> changed = draft.contents.chunks[0].*array;
-  edit(changed);
-  draft.replace(type, rawBytes(changed));
+// The error that one changed section of chunk 0 leads to.
+template <class Element>
+std::string errorWith(const AssetContents& contents, SectionType type, const std::vector<Element>& elements) {
+  Draft draft = draftOf(contents);
+  EXPECT_EQ(draft.records[draft.find(type)].rawSize, rawBytes(elements).size());
+  draft.replace(type, rawBytes(elements));
   return errorOf(draft.assemble());
 }
 
+template <class Element>
+std::vector<Element> elementsOf(const AssetContents& contents, SectionType type) {
+  const Draft draft = draftOf(contents);
+  const size_t index = draft.find(type);
+  const SectionRecord& record = draft.records[index];
+  EXPECT_EQ(record.elementSize, sizeof(Element));
+  std::vector<Element> elements(record.rawSize / sizeof(Element));
+  const std::span<uint8_t> raw{reinterpret_cast<uint8_t*>(elements.data()), record.rawSize};
+  const uint32_t components = sectionComponents(type, contents.quantization);
+  const Status status = decodeSection(record, draft.stored[index], raw, "section", {record.elementSize, components});
+  EXPECT_TRUE(status) << status.error().message;
+  return elements;
+}
+
+// The error that an edit of one section leads to.
+template <class Element, class Edit>
+std::string errorAfter(const AssetContents& contents, SectionType type, Edit edit) {
+  std::vector<Element> elements = elementsOf<Element>(contents, type);
+  edit(elements);
+  return errorWith(contents, type, elements);
+}
+
+AssetContents quantizedAsset() {
+  return makeSampleAsset({.chunkCount = 2,
+                          .cellsPerChunk = 9,
+                          .localBits = 4,
+                          .isQuantized = true,
+                          .hasLayers = true,
+                          .codebookSize = 5});
+}
+
 TEST(HostileSection, WithANumberThatIsNotFiniteIsRefusedByPlace) {
-  const std::string error =
-      errorWith(SectionType::kSites, &ChunkContents::sites, [](auto& sites) { sites[1].z = NAN; });
-  EXPECT_THAT(error,
-              AllOf(HasSubstr("scene.froth: chunk 0, section 'sites': number 5 is nan"), HasSubstr("bake")));
-  EXPECT_THAT(errorWith(SectionType::kLobeAxes, &ChunkContents::lobeAxes,
-                        [](auto& axes) { axes.back().x = -INFINITY; }),
-              HasSubstr("section 'lobe_axes'"));
-  EXPECT_THAT(
-      errorWith(SectionType::kDetailHeights, &ChunkContents::detailHeights, [](auto& h) { h[0] = INFINITY; }),
-      HasSubstr("section 'detail_heights'"));
+  const AssetContents contents = makeSampleAsset();
+  EXPECT_THAT(errorAfter<float>(contents, SectionType::kSites, [](auto& sites) { sites[5] = NAN; }),
+              AllOf(HasSubstr("scene.froth: chunk 0: sites: number 5 is nan"), HasSubstr("bake")));
+  EXPECT_THAT(errorAfter<float>(contents, SectionType::kLobeAxes, [](auto& axes) { axes.back() = -INFINITY; }),
+              HasSubstr("lobe_axes"));
+  EXPECT_THAT(errorAfter<float>(contents, SectionType::kDetailHeights, [](auto& h) { h[0] = INFINITY; }),
+              HasSubstr("detail_heights"));
 }
 
 TEST(HostileSection, WithARadiusOrDensityOutOfRangeIsRefused) {
-  EXPECT_THAT(errorWith(SectionType::kRadii, &ChunkContents::radii, [](auto& radii) { radii[3] = 0; }),
+  const AssetContents contents = makeSampleAsset();
+  EXPECT_THAT(errorAfter<float>(contents, SectionType::kRadii, [](auto& radii) { radii[3] = 0; }),
               HasSubstr("cell 3 has radius 0, not > 0"));
-  EXPECT_THAT(errorWith(SectionType::kDensities, &ChunkContents::densities,
-                        [](auto& densities) { densities[1] = -2; }),
+  EXPECT_THAT(errorAfter<float>(contents, SectionType::kDensities, [](auto& densities) { densities[1] = -2; }),
               HasSubstr("cell 1 has density -2, not >= 0"));
 }
 
-TEST(HostileSection, WithAReferenceToNoCellIsRefused) {
-  EXPECT_THAT(
-      errorWith(SectionType::kNeighbours, &ChunkContents::neighbours, [](auto& cells) { cells[4] = 6; }),
-      HasSubstr("section 'neighbours': cell 6 of chunk 0 >= 6"));
-}
-
-TEST(HostileSection, WithAReferenceToNoChunkIsRefused) {
-  Draft draft = draftOf(makeSampleAsset({.chunkCount = 3, .localBits = 3}));
-  std::vector<CellRef> cells = draft.contents.chunks[0].neighbours;
-  cells[0] = 3 << 3;
-  draft.replace(SectionType::kNeighbours, rawBytes(cells));
-  EXPECT_THAT(errorOf(draft.assemble()), HasSubstr("section 'neighbours': chunk 3 >= 3"));
-}
-
-TEST(HostileSection, WithOffsetsThatAreNoRowsIsRefused) {
-  const auto errorOfOffsets = [](auto edit) {
-    return errorWith(SectionType::kNeighbourOffsets, &ChunkContents::neighbourOffsets, edit);
+TEST(HostileSection, WithAGhostThatLivesNowhereIsRefused) {
+  const auto errorWithGhost = [](size_t ghost, CellRef ref) {
+    return errorAfter<CellRef>(quantizedAsset(), SectionType::kGhostRefs, [&](auto& refs) { refs[ghost] = ref; });
   };
-  EXPECT_THAT(errorOfOffsets([](auto& offsets) { offsets[0] = 1; }), HasSubstr("starts with 1"));
-  EXPECT_THAT(errorOfOffsets([](auto& offsets) { offsets.back() += 1; }), HasSubstr("ends with 31"));
-  EXPECT_THAT(errorOfOffsets([](auto& offsets) { offsets[2] = ~0u; }), HasSubstr("must not fall"));
+  EXPECT_THAT(errorWithGhost(8, 2 << 4), HasSubstr("section 'ghost_refs': a ghost lives in cell 0 of chunk 2, which is not there"));
+  EXPECT_THAT(errorWithGhost(8, (1 << 4) + 9), HasSubstr("cell 9 of chunk 1, which is not there"));
+  EXPECT_THAT(errorWithGhost(0, 3), HasSubstr("cell 3 of chunk 0, which is its own"));
+  EXPECT_THAT(errorWithGhost(3, 1 << 4), HasSubstr("references must ascend"));
 }
 
-TEST(HostileSection, WithMoreAlphaNeighboursThanNeighboursIsRefused) {
-  EXPECT_THAT(
-      errorWith(SectionType::kAlphaCounts, &ChunkContents::alphaCounts, [](auto& counts) { counts[2] = 6; }),
-      HasSubstr("cell 2: 6 alpha neighbours in a row of 5"));
+TEST(HostileSection, WithAGraphThatLeavesItsChunkIsRefused) {
+  const AssetContents contents = quantizedAsset();
+  EXPECT_THAT(errorAfter<uint16_t>(contents, SectionType::kGraphDeltas, [](auto& deltas) { deltas[0] = 18; }),
+              HasSubstr("neighbour"));
+  EXPECT_THAT(errorAfter<uint16_t>(contents, SectionType::kGraphCounts, [](auto& counts) { ++counts[0]; }),
+              HasSubstr("graph"));
+}
+
+TEST(HostileSection, WithAnIndexOffItsLatticeIsRefused) {
+  const AssetContents contents = quantizedAsset();
+  const auto errorOfSites = [&](int32_t index) {
+    return errorAfter<int32_t>(contents, SectionType::kSites, [&](auto& sites) { sites[4] = index; });
+  };
+  EXPECT_THAT(errorOfSites(1 << 24), HasSubstr("section 'sites': number 4 is out of range"));
+  EXPECT_THAT(errorOfSites(-(1 << 24)), HasSubstr("out of range"));
+  EXPECT_THAT(errorOfSites(std::numeric_limits<int32_t>::min()), HasSubstr("out of range"));
+  EXPECT_EQ(errorOfSites((1 << 24) - 1), "no error");
+  EXPECT_THAT(errorAfter<uint16_t>(contents, SectionType::kOrientations, [](auto& normals) { normals[3] = 511; }),
+              HasSubstr("section 'orientations': number 2 is out of range"));
+  EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kColourScales, [](auto& scales) { scales[2] = 16; }),
+              HasSubstr("section 'colour_scales': number 2 is out of range"));
+  EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kLobeLabels, [](auto& labels) { labels[1] = 5; }),
+              HasSubstr("section 'lobe_labels': number 1 is out of range"));
+}
+
+// The base is no part of the section, but of its record.
+TEST(HostileSection, WithABaseThatMakesItsNumbersAbsurdIsRefused) {
+  for (const auto& [type, base] : {std::pair{SectionType::kRadii, 255u << 9}, std::pair{SectionType::kRadii, ~0u},
+                                   std::pair{SectionType::kOrientations, 511u}, std::pair{SectionType::kLobeLabels, 5u}}) {
+    Draft draft = draftOf(quantizedAsset());
+    draft.records[draft.find(type)].base = base;
+    EXPECT_NE(errorOf(draft.assemble()), "no error") << sectionName(static_cast<uint32_t>(type)) << " + " << base;
+  }
+}
+
+TEST(HostileSection, WithLobeCountsThatAddUpToAnotherNumberIsRefused) {
+  const AssetContents contents = quantizedAsset();
+  EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kLobeCounts, [](auto& counts) { ++counts[1]; }),
+              HasSubstr("section 'lobe_counts'"));
+  EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kLobeCounts,
+                                  [](auto& counts) {
+                                    counts[0] = static_cast<uint8_t>(counts[0] + counts[1]);
+                                    counts[1] = 0;
+                                    counts[0] = static_cast<uint8_t>(counts[0] + counts[2]);
+                                    counts[2] = 0;
+                                  }),
+              HasSubstr("lobes at a detail site, more than 2"));
+}
+
+TEST(HostileSection, WithACodebookThatIsNotFiniteIsRefused) {
+  Draft draft = draftOf(quantizedAsset());
+  std::vector<glm::vec3> codebook = draft.contents.axisCodebook;
+  codebook[3].y = NAN;
+  const size_t index = draft.find(SectionType::kAxisCodebook, kSharedChunk);
+  draft.records[index].codec = static_cast<uint16_t>(SectionCodec::kStored);
+  draft.stored[index].assign(rawBytes(codebook).begin(), rawBytes(codebook).end());
+  EXPECT_THAT(errorOf(draft.assemble()), HasSubstr("codebook holds nan"));
 }
 
 // ---- Encoding ----
@@ -114,7 +183,7 @@ TEST(HostileSection, IsRefusedIfItsFrameHoldsMoreOrLess) {
   std::vector<float> radii = sampleRadii();
   radii.push_back(1);
   EXPECT_THAT(errorWithRadiiFrame(frameOf(rawBytes(radii))),
-              HasSubstr("the zstd frame holds 28 bytes, the manifest says 24"));
+              HasSubstr("the zstd frame holds 28 bytes, instead of 24"));
   radii.resize(3);
   EXPECT_THAT(errorWithRadiiFrame(frameOf(rawBytes(radii))), HasSubstr("holds 12 bytes"));
 }

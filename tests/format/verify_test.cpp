@@ -1,4 +1,5 @@
 // What verifyAsset finds in assets that read well.
+#include <algorithm>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -30,18 +31,21 @@ std::string verifyContents(const AssetContents& contents) {
   return verifyBytes(encodeOrFail(contents));
 }
 
-// The first row of the first chunk.
-std::span<CellRef> firstRow(AssetContents& contents) {
-  ChunkContents& chunk = contents.chunks[0];
-  return {chunk.neighbours.data(), chunk.neighbourOffsets[1]};
+AssetContents twoChunks() {
+  return makeSampleAsset({.chunkCount = 2, .localBits = 8});
 }
 
 TEST(VerifyAsset, FindsNothingWrongWithAValidAsset) {
   EXPECT_EQ(verifyContents(makeSampleAsset()), "no error");
   EXPECT_EQ(verifyContents(makeSampleAsset({.hasWalkGraph = false})), "no error");
-  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .cellsPerChunk = 5, .localBits = 16})),
-            "no error");
-  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .localBits = 30, .hasWalkGraph = false})),
+  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .cellsPerChunk = 5, .localBits = 16})), "no error");
+  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .localBits = 30, .hasWalkGraph = false})), "no error");
+  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3,
+                                            .cellsPerChunk = 40,
+                                            .localBits = 14,
+                                            .isQuantized = true,
+                                            .hasLayers = true,
+                                            .codebookSize = 9})),
             "no error");
 }
 
@@ -49,84 +53,62 @@ TEST(VerifyAsset, FindsWhatReadingFinds) {
   EXPECT_THAT(verifyBytes({'n', 'o'}), HasSubstr("do not lie within"));
 }
 
-TEST(VerifyAsset, FindsACellThatIsItsOwnNeighbour) {
-  AssetContents contents = makeSampleAsset();
-  firstRow(contents)[0] = 0;
-  EXPECT_THAT(verifyContents(contents), HasSubstr("section 'neighbours': cell 0 is its own neighbour"));
+// Takes the pair of cell 0 and the first ghost out of chunk 0; chunk 1 keeps it.
+TEST(VerifyAsset, FindsAPairThatOneChunkAloneKnows) {
+  AssetContents contents = twoChunks();
+  ChunkContents& chunk = contents.chunks[0];
+  const auto first = chunk.neighbours.begin();
+  const auto ghost = std::find(first, first + chunk.neighbourOffsets[1], chunk.cellCount);
+  const bool isAlpha = ghost - first < chunk.alphaCounts[0];
+  chunk.neighbours.erase(ghost);
+  if (isAlpha) --chunk.alphaCounts[0];
+  for (uint32_t cell = 1; cell <= chunk.cellCount; ++cell) --chunk.neighbourOffsets[cell];
+  EXPECT_THAT(verifyContents(contents), HasSubstr("the graph holds one direction only"));
 }
 
-TEST(VerifyAsset, FindsANeighbourThatIsThereTwice) {
-  AssetContents contents = makeSampleAsset();
-  firstRow(contents)[1] = firstRow(contents)[0];
-  EXPECT_THAT(verifyContents(contents), HasSubstr("cell 0 has a neighbour twice"));
-  contents = makeSampleAsset();
-  firstRow(contents).back() = firstRow(contents).front();  // once as alpha neighbour, once as another
-  EXPECT_THAT(verifyContents(contents), HasSubstr("cell 0 has a neighbour twice"));
-}
-
-// Takes the last neighbour out of the first row, whose back reference stays.
-TEST(VerifyAsset, FindsAPairOfOneDirection) {
-  for (const uint32_t chunkCount : {1u, 3u}) {
-    AssetContents contents =
-        makeSampleAsset({.chunkCount = chunkCount, .localBits = chunkCount == 1 ? 32u : 8u});
-    ChunkContents& chunk = contents.chunks[0];
-    chunk.neighbours.erase(chunk.neighbours.begin() + chunk.neighbourOffsets[1] - 1);
-    for (uint32_t cell = 1; cell <= chunk.cellCount; ++cell) --chunk.neighbourOffsets[cell];
-    EXPECT_THAT(verifyContents(contents), HasSubstr("the graph holds one direction only"));
-  }
-}
-
-TEST(VerifyAsset, FindsAnAlphaPairOfOneDirection) {
-  AssetContents contents = makeSampleAsset();
-  contents.chunks[0].alphaCounts[0] = 0;
+// The first row's alpha part ends before its last alpha neighbour that is a live ghost's.
+TEST(VerifyAsset, FindsAnAlphaPairThatOneChunkAloneKnows) {
+  AssetContents contents = twoChunks();
+  ChunkContents& chunk = contents.chunks[0];
+  const auto first = chunk.neighbours.begin(), end = first + chunk.alphaCounts[0];
+  const auto ghost = std::find_if(first, end, [&](uint32_t site) {
+    return site >= chunk.cellCount && site - chunk.cellCount < contents.chunks[1].liveCount;
+  });
+  ASSERT_NE(ghost, end);
+  std::rotate(ghost, ghost + 1, end);
+  --chunk.alphaCounts[0];
   EXPECT_THAT(verifyContents(contents), HasSubstr("the alpha-complex holds one direction only"));
 }
 
-TEST(VerifyAsset, FindsOtherNeighboursWithoutAWalkGraph) {
-  AssetContents contents = makeSampleAsset();
-  contents.hasWalkGraph = false;
-  EXPECT_THAT(verifyContents(contents), HasSubstr("the asset no walk graph"));
-}
-
-TEST(VerifyAsset, FindsARowThatIsNotNearestFirst) {
-  AssetContents contents = makeSampleAsset({.cellsPerChunk = 12});
-  ASSERT_GE(contents.chunks[0].alphaCounts[0], 2u);
-  std::swap(firstRow(contents)[0], firstRow(contents)[1]);
-  EXPECT_THAT(verifyContents(contents),
-              HasSubstr("its plane is nearer than that of the neighbour before it"));
-}
-
-TEST(VerifyAsset, AcceptsEqualPlanesInAnyOrder) {
-  AssetContents contents = makeSampleAsset({.cellsPerChunk = 3});
-  ChunkContents& chunk = contents.chunks[0];
-  chunk.sites = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}};
-  chunk.radii = {1, 1, 1};
-  chunk.alphaCounts = {2, 1};
-  for (const std::array<CellRef, 2> row : {std::array<CellRef, 2>{1, 2}, std::array<CellRef, 2>{2, 1}}) {
-    chunk.neighbours = {row[0], row[1], 0, 2, 0, 1};
-    EXPECT_EQ(verifyContents(contents), "no error");
+TEST(VerifyAsset, FindsAGhostThatIsNotItsCell) {
+  for (const bool isQuantized : {false, true}) {
+    const AssetContents valid = makeSampleAsset({.chunkCount = 2, .localBits = 8, .isQuantized = isQuantized});
+    AssetContents contents = valid;
+    contents.chunks[1].sites.back().y += 0x1p-12f;
+    EXPECT_THAT(verifyContents(contents), HasSubstr("chunk 1: ghost 5 is not where cell 5 of chunk 0 is"));
+    contents = valid;
+    contents.chunks[1].radii.back() += 0x1p-9f;
+    EXPECT_THAT(verifyContents(contents), HasSubstr("chunk 1: ghost 5 is not where cell 5 of chunk 0 is"));
   }
 }
 
 TEST(VerifyAsset, FindsTwoNeighboursAtOnePoint) {
   AssetContents contents = makeSampleAsset();
-  contents.chunks[0].sites[firstRow(contents)[0]] = contents.chunks[0].sites[0];
+  contents.chunks[0].sites[1] = contents.chunks[0].sites[0];
   EXPECT_THAT(verifyContents(contents), HasSubstr("the same point"));
 }
 
 TEST(VerifyAsset, FindsAFrameThatIsNoRotation) {
   AssetContents contents = makeSampleAsset();
   contents.chunks[0].orientations[2] = {2, 0, 0, 0};
-  EXPECT_THAT(
-      verifyContents(contents),
-      AllOf(HasSubstr("section 'orientations': cell 2: quaternion of length 2, not 1"), HasSubstr("bake")));
+  EXPECT_THAT(verifyContents(contents),
+              AllOf(HasSubstr("section 'orientations': cell 2: quaternion of length 2, not 1"), HasSubstr("bake")));
 }
 
 TEST(VerifyAsset, FindsBoundsThatAreNotThoseOfTheCells) {
-  const std::vector<uint8_t> bytes = withChunk(encodeOrFail(makeSampleAsset()), [](fb::Chunk& c) {
-    c = fb::Chunk(c.origin(), c.cell_count(), c.live_count(), c.neighbour_count(), fb::Box());
-  });
-  EXPECT_THAT(verifyBytes(bytes), HasSubstr("live_bounds"));
+  Draft draft = draftOf(makeSampleAsset());
+  draft.chunks[0].liveBounds = {};
+  EXPECT_THAT(verifyBytes(draft.assemble()), HasSubstr("live_bounds"));
 }
 
 }  // namespace
