@@ -193,7 +193,8 @@ std::vector<uint32_t> DiagramCheck::findBallsOn(const Ray& ray) const {
     const double along = std::max(glm::dot(centre, ray.direction), 0.0);
     return glm::length(centre - along * ray.direction) - reach;
   };
-  tree_.search(0.0, bound, [&](uint32_t cell) {
+  tree_.search(0.0, bound, [&](uint32_t place) {
+    const uint32_t cell = order_[place];
     double tNear, tFar;
     const glm::dvec3 centre = glm::dvec3(sites_[cell]) - ray.origin;
     if (foam::intersectBall(centre, double{radii_[cell]}, ray.direction, tNear, tFar)) found.push_back(cell);

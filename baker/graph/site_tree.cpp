@@ -41,7 +41,8 @@ LeastPower SiteTree::findLeastPower(const glm::dvec3& x) const {
     const double squaredGap = glm::dot(gap, gap), weight = double{node.box.maxRadius} * node.box.maxRadius;
     return squaredGap - weight - kSlack * (squaredGap + weight);
   };
-  search(limit, bound, [&](uint32_t site) {
+  search(limit, bound, [&](uint32_t place) {
+    const uint32_t site = order_[place];
     const double power = powerAt(x, sites_[site], radii_[site]);
     if (power < best.power || (power == best.power && site < best.site)) best = {site, power};
     limit = best.power;

@@ -47,8 +47,8 @@ class SiteTree {
     uint32_t begin, end;
   };
 
-  // Visits every site whose nodes all have bound(node) <= limit, the children of smaller bound first; `visit`
-  // may lower the limit meanwhile.
+  // Visits the place of every site whose nodes all have bound(node) <= limit, the children of smaller bound
+  // first; `visit` may lower the limit meanwhile.
   template <class Bound, class Visit>
   void search(const double& limit, const Bound& bound, const Visit& visit) const;
 
@@ -86,7 +86,7 @@ void SiteTree::search(const double& limit, const Bound& bound, const Visit& visi
     if (!(top.bound <= limit) || top.leaf * kLeafSize >= count) continue;
     if (top.leaves == 1) {
       const uint32_t begin = top.leaf * kLeafSize, end = std::min(begin + kLeafSize, count);
-      for (uint32_t k = begin; k < end; ++k) visit(order_[k]);
+      for (uint32_t k = begin; k < end; ++k) visit(k);
       continue;
     }
     const uint32_t half = top.leaves / 2;
