@@ -183,7 +183,7 @@ TEST(HostileSection, IsRefusedIfItsFrameHoldsMoreOrLess) {
   std::vector<float> radii = sampleRadii();
   radii.push_back(1);
   EXPECT_THAT(errorWithRadiiFrame(frameOf(rawBytes(radii))),
-              HasSubstr("the zstd frame holds 28 bytes, instead of 24"));
+              HasSubstr("the zstd frame holds 28 bytes instead of 24"));
   radii.resize(3);
   EXPECT_THAT(errorWithRadiiFrame(frameOf(rawBytes(radii))), HasSubstr("holds 12 bytes"));
 }
