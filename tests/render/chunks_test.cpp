@@ -111,6 +111,30 @@ TEST(Chunks, OfOneCellEachLetWalksAlongALatticeEnd) {
   expectSameImages(whole, splitAsset(whole, foam.cellCount, kGrid), {along, straight, across});
 }
 
+// Each chunk says that the other one's cell lies behind its own, so that only the key ends a walk:
+//
+//    chunk 0:   eye > cell   ghost of 1
+//    chunk 1:            cell   ghost of 0
+//
+TEST(Chunks, WhoseGhostsAreMisplacedCannotMakeAWalkCycle) {
+  Foam foam = makeRandomFoam(2, 1, 1, 3);
+  foam.sites = {{0, 0, 3}, {0, 0, 3.5f}};
+  foam.radii = {0.4f, 0.4f};
+  foam.densities = {0.1f, 0.1f};
+  BakeOptions options;
+  options.steiner = false;
+  const Result<BakeResult> baked = bakeFoam(foam, options);
+  ASSERT_TRUE(baked) << baked.error().message;
+  AssetContents contents = splitAsset(baked->contents, 2, kGrid);
+  ChunkContents& second = contents.chunks[1];
+  ASSERT_EQ(second.ghostCount, 1u);
+  second.sites[1] = second.sites[0] + glm::vec3(0, 0, 0.5f);
+  Stage stage(contents, {kWidth, kHeight});
+  FrothRenderInfo info = infoOf(frontView());
+  info.maxSteps = 100;
+  EXPECT_EQ(stage.draw(Method::kWalk, info, {kWidth, kHeight}).status.bits, 0u);
+}
+
 TEST(Chunks, FarFromTheOriginLookTheSame) {
   constexpr double kFar = 1 << 20;
   const AssetContents whole = bakeForTest(synthesize("random", 0));
