@@ -43,7 +43,7 @@ struct ChunkContents {
   std::vector<glm::vec4> orientations;  // [liveCount] unit quaternion (w, x, y, z), rows n, t, b
 
   // Layer 0: one colour and one displacement per cell, for readers that stop there. Empty in a foam that has no layers.
-  std::vector<glm::vec3> cellColours;   // [liveCount] display-coded, 0..1
+  std::vector<glm::vec3> cellColours;   // [liveCount] display-coded, n / 255 with n in 0..255
   std::vector<float> cellHeights;       // [liveCount] in units of the radius; empty: all zero
 
   // Layer 1.
