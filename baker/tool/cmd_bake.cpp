@@ -1,29 +1,30 @@
 // froth bake: a trained foam becomes an asset.
 #include <chrono>
-#include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <tbb/global_control.h>
 
 #include "baker/bake/bake.h"
 #include "baker/checkpoint/checkpoint.h"
+#include "baker/tool/asset_sink.h"
+#include "baker/tool/bake_flags.h"
 #include "baker/tool/commands.h"
 #include "baker/tool/figures.h"
 #include "baker/tool/foam_input.h"
-#include "baker/tool/option_checks.h"
 #include "baker/tool/output_file.h"
 #include "baker/tool/statistics.h"
-#include "format/asset_writer.h"
-#include "format/atomic_file.h"
+#include "format/asset_reader.h"
 
 namespace froth {
 namespace {
 
 struct BakeCommandOptions {
   std::filesystem::path input, output, cameras;
-  BakeOptions bake;
+  BakeFlags flags;
   FiguresOutput figures;
 };
 
@@ -67,45 +68,85 @@ nlohmann::ordered_json stagesAsJson(const std::vector<StageReport>& stages) {
   return list;
 }
 
-Status runBake(BakeCommandOptions& options, const Progress& progress) {
+void printLeftOut(const std::vector<LeftOut>& leftOut) {
+  for (const LeftOut& entry : leftOut) fmt::print("left out          {}: {} bytes\n", entry.what, entry.savedBytes);
+}
+
+void printChecks(const BakeResult& baked) {
+  if (baked.walkLengthBefore > 0)
+    fmt::print("walk length       {:.2f} cells per ray, {:.2f} without Steiner cells\n", baked.walkLengthAfter,
+               baked.walkLengthBefore);
+  fmt::print("checked           {} points and {} rays against brute force: no fault\n", baked.validity.pointsChecked,
+             baked.validity.raysChecked);
+}
+
+nlohmann::ordered_json leftOutAsJson(const std::vector<LeftOut>& leftOut) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const LeftOut& entry : leftOut) list.push_back({{"what", entry.what}, {"savedBytes", entry.savedBytes}});
+  return list;
+}
+
+nlohmann::ordered_json checksAsJson(const BakeResult& baked) {
+  return {{"cells", baked.validity.cells},         {"walkPairs", baked.validity.walkPairs},
+          {"alphaPairs", baked.validity.alphaPairs}, {"points", baked.validity.pointsChecked},
+          {"rays", baked.validity.raysChecked},    {"faults", baked.validity.faults}};
+}
+
+Status reportBake(const BakeCommandOptions& options, const BakeResult& baked, uint64_t bytes) {
+  const Result<AssetReader> written = AssetReader::open(options.output);
+  if (!written) return written.error();
+  if (options.figures.wantsTable()) {
+    printStages(baked.stages);
+    printStatistics(baked.contents);
+    printChecks(baked);
+    printLeftOut(baked.leftOut);
+    printSections(*written);
+    fmt::print("{}: {} bytes\n", options.output.string(), bytes);
+  }
+  return options.figures.write({{"input", options.input.string()},
+                                {"output", options.output.string()},
+                                {"bytes", bytes},
+                                {"stages", stagesAsJson(baked.stages)},
+                                {"statistics", statisticsAsJson(baked.contents)},
+                                {"walkLength", {{"without", baked.walkLengthBefore}, {"with", baked.walkLengthAfter}}},
+                                {"checks", checksAsJson(baked)},
+                                {"leftOut", leftOutAsJson(baked.leftOut)},
+                                {"sections", sectionsAsJson(*written)}});
+}
+
+Status runBake(const BakeCommandOptions& options, const Progress& progress) {
+  Result<BakeOptions> bake = options.flags.options();
+  if (!bake) return bake.error();
+  std::optional<tbb::global_control> threads;
+  if (options.flags.threads() > 0)
+    threads.emplace(tbb::global_control::max_allowed_parallelism, options.flags.threads());
   StageClock clock;
   Result<CameraSet> cameras = CameraSet{};
   if (!options.cameras.empty()) {
     cameras = readCameras(options.cameras);
     if (!cameras) return cameras.error();
-    options.bake.cameras = &*cameras;
+    bake->cameras = &*cameras;
   }
   Result<Foam> foam = importCheckpoint(options.input, progress);
   if (!foam) return foam.error();
-  std::vector<StageReport> stages{clock.stop("import", foam->cellCount)};
+  const StageReport import = clock.stop("import", foam->cellCount);
 
-  options.bake.source = options.input.filename().string();
-  Result<BakeResult> baked = bakeFoam(*foam, options.bake, progress);
+  bake->source = options.input.filename().string();
+  AssetFileSink file(options.output);
+  Result<BakeResult> baked = bakeFoam(*foam, *bake, file.sink(), progress);
   if (!baked) return baked.error();
-  *foam = {};  // encoding needs the room
-  stages.insert(stages.end(), baked->stages.begin(), baked->stages.end());
+  *foam = {};
+  baked->stages.insert(baked->stages.begin(), import);
   clock.stop("bake", 0);
 
-  const Result<std::vector<uint8_t>> bytes = encodeAsset(baked->contents);
+  if (!report(progress, "write", 0, 1)) return stoppedError();
+  const Result<uint64_t> bytes = file.finish(baked->contents);
   if (!bytes) return bytes.error();
-  stages.push_back(clock.stop("encode", bytes->size()));
-  if (!report(progress, "write", 0, bytes->size())) return stoppedError();
-  if (Status written = writeFileAtomically(options.output, *bytes); !written) return written;
-  stages.push_back(clock.stop("write", bytes->size()));
-
-  if (options.figures.wantsTable()) {
-    printStages(stages);
-    printStatistics(baked->contents);
-    fmt::print("{}: {} bytes\n", options.output.string(), bytes->size());
-  }
-  return options.figures.write({{"input", options.input.string()},
-                                {"output", options.output.string()},
-                                {"bytes", bytes->size()},
-                                {"stages", stagesAsJson(stages)},
-                                {"statistics", statisticsAsJson(baked->contents)}});
+  baked->stages.push_back(clock.stop("write", *bytes));
+  return reportBake(options, *baked, *bytes);
 }
 
-Status checkAndRunBake(BakeCommandOptions& options, const Progress& progress) {
+Status checkAndRunBake(const BakeCommandOptions& options, const Progress& progress) {
   if (!isAssetPath(options.output)) {
     return makeError(ErrorKind::kUsage, "-o %s: an asset's name ends in .froth", options.output.c_str());
   }
@@ -124,21 +165,9 @@ void addBakeCommand(CLI::App& program, Tool& tool) {
   auto options = std::make_shared<BakeCommandOptions>();
   command->add_option("INPUT", options->input, "A checkpoint (model.pt)")->required();
   command->add_option("-o,--output", options->output, "The .froth file to write")->required();
-  command->add_option("--preset", options->bake.preset, "How exactly values are kept")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"exact"}));
-  const CLI::Validator limits = numberBetween(0, std::numeric_limits<float>::max());
-  command
-      ->add_option("--near-ratio", options->bake.nearRatio,
-                   "Default: skip cells nearer than this many radii; 0: none")
-      ->capture_default_str()
-      ->check(limits);
-  command
-      ->add_option("--near-depth", options->bake.nearDepth,
-                   "Default: skip cells nearer than this depth [scene units]; 0: none")
-      ->capture_default_str()
-      ->check(limits);
-  command->add_option("--cameras", options->cameras, "Start view and flight path to store (cameras.json)");
+  options->flags.addTo(*command);
+  command->add_option("--cameras", options->cameras,
+                      "Views that weigh errors, start view and flight path to store (cameras.json)");
   addFiguresOption(*command, options->figures);
   command->callback([&tool, options] {
     tool.action = [&tool, options] { return checkAndRunBake(*options, tool.progress.callback()); };

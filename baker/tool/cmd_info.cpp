@@ -28,10 +28,12 @@ Status describeAsset(const std::filesystem::path& path, const FiguresOutput& out
   const AssetContents& manifest = reader->manifest();
   if (output.wantsTable()) {
     printStatistics(manifest);
+    printSections(*reader);
     fmt::print("file              {} bytes\n", fileSize(path));
   }
   nlohmann::ordered_json figures{{"file", path.string()}, {"kind", "asset"}, {"bytes", fileSize(path)}};
   figures.update(statisticsAsJson(manifest));
+  figures["sections"] = sectionsAsJson(*reader);
   return output.write(figures);
 }
 

@@ -4,11 +4,16 @@
 #include <nlohmann/json.hpp>
 
 #include "format/asset_contents.h"
+#include "format/asset_reader.h"
 
 namespace froth {
 
 // Chunks need only their origins and counts, as in AssetReader::manifest().
 void printStatistics(const AssetContents& contents);
 nlohmann::ordered_json statisticsAsJson(const AssetContents& contents);
+
+// Bytes per layer and per type of section.
+void printSections(const AssetReader& asset);
+nlohmann::ordered_json sectionsAsJson(const AssetReader& asset);
 
 }  // namespace froth

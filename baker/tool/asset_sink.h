@@ -1,0 +1,29 @@
+// Where the chunks of a bake go: a file, encoded on all cores.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "baker/bake/bake.h"
+#include "format/asset_writer.h"
+#include "format/result.h"
+
+namespace froth {
+
+class AssetFileSink {
+ public:
+  explicit AssetFileSink(std::filesystem::path path) : path_(std::move(path)) {}
+
+  ChunkSink sink();  // refers to this object
+  // After the bake; `contents` as the bake gave them. Returns the file's size [bytes].
+  Result<uint64_t> finish(const AssetContents& contents);
+
+ private:
+  Status append(std::vector<ChunkContents>&& batch);
+
+  std::filesystem::path path_;
+  std::optional<AssetStreamWriter> writer_;
+};
+
+}  // namespace froth
