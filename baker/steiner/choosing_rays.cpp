@@ -1,0 +1,43 @@
+#include "baker/steiner/choosing_rays.h"
+
+#include <algorithm>
+
+#include "baker/synth/counter_random.h"
+
+namespace froth {
+namespace {
+
+std::vector<WalkRay> makeFreeRays(std::span<const glm::vec3> sites, std::span<const float> radii, const BallTree& tree,
+                                  const SteinerOptions& options, uint32_t count) {
+  constexpr float kLeavesBall = 1.01f;
+  const CounterRandom eye(options.seed, Purpose::kEye), direction(options.seed, Purpose::kDirection);
+  const glm::dvec3 low = tree.low(), size = tree.high() - low;
+  std::vector<WalkRay> rays(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    const glm::vec3 away = direction.direction(i);
+    if (i % 2 == 0) {
+      const uint64_t cell = eye.bits(3 * i) % sites.size();
+      rays[i].origin = sites[cell] + kLeavesBall * radii[cell] * away;
+    } else {
+      rays[i].origin = low + size * glm::dvec3(eye.uniform(3 * i), eye.uniform(3 * i + 1), eye.uniform(3 * i + 2));
+    }
+    rays[i].direction = rays[i].forward = away;
+  }
+  return rays;
+}
+
+}  // namespace
+
+std::vector<WalkRay> makeChoosingRays(std::span<const glm::vec3> sites, std::span<const float> radii,
+                                      const BallTree& tree, const SteinerOptions& options, uint32_t count) {
+  std::vector<WalkRay> rays = makeFreeRays(sites, radii, tree, options, count);
+  if (!options.cameras) return rays;
+  std::vector<View> views = options.cameras->views;
+  views.insert(views.end(), options.cameras->flight.begin(), options.cameras->flight.end());
+  const auto raysPerView = static_cast<uint32_t>(count / std::max<size_t>(views.size(), 1) + 1);
+  const std::vector<WalkRay> seen = raysOfViews(views, raysPerView, options.nearRatio, options.nearDepth, options.seed);
+  rays.insert(rays.begin(), seen.begin(), seen.end());
+  return rays;
+}
+
+}  // namespace froth
