@@ -113,12 +113,11 @@ Status readDracoPositions(std::span<const uint8_t> stored, std::span<uint8_t> ra
     return makeError(ErrorKind::kBadInput, "%s: %s; %s", place.c_str(), cause, kSectionRemedy);
   };
   Cursor cursor(stored);
-  std::array<uint32_t, 3> least;
-  if (!cursor.take(least)) return fail("Draco's runs end early");
   while (!raw.empty()) {
     uint32_t count = 0, size = 0;
+    std::array<uint32_t, 3> least;
     std::span<const uint8_t> tree;
-    if (!cursor.take(count) || !cursor.take(size) || !cursor.takeBytes(size, tree))
+    if (!cursor.take(count) || !cursor.take(size) || !cursor.take(least) || !cursor.takeBytes(size, tree))
       return fail("Draco's runs end early");
     if (count == 0 || count > raw.size() / kPointSize) return fail("a run of Draco's has a wrong count");
     if (!isKdTree(tree, count)) return fail("a run of Draco's is no kd-tree of its points");

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
 #include <draco/compression/point_cloud/algorithms/dynamic_integer_points_kd_tree_encoder.h>
@@ -17,7 +16,11 @@ void append(std::vector<uint8_t>& bytes, const void* data, size_t size) {
 }
 
 // Appends a run. The tree depends on the set of points alone, for they are sorted before Draco splits them.
-Status appendRun(std::span<const LatticePoint> points, const PointBox& box, std::vector<uint8_t>& stored) {
+Status appendRun(std::span<const LatticePoint> points, std::vector<uint8_t>& stored) {
+  const PointBox box = boxOf(points);
+  if (box.bits > kMaxPositionBits)
+    return makeError(ErrorKind::kUnsupported, "the points span %u bits, Draco's codec takes %u", box.bits,
+                     kMaxPositionBits);
   std::vector<std::array<uint32_t, 3>> offsets(points.size());
   std::transform(points.begin(), points.end(), offsets.begin(),
                  [&box](const LatticePoint& point) { return box.offsetOf(point); });
@@ -28,20 +31,16 @@ Status appendRun(std::span<const LatticePoint> points, const PointBox& box, std:
     return makeError(ErrorKind::kUnsupported, "Draco refuses %zu points", points.size());
   const uint32_t header[2] = {static_cast<uint32_t>(points.size()), static_cast<uint32_t>(buffer.size())};
   append(stored, header, sizeof(header));
+  append(stored, box.least.data(), sizeof(box.least));
   append(stored, buffer.data(), buffer.size());
   return {};
 }
 
 Result<std::vector<uint8_t>> encodeRuns(std::span<const LatticePoint> points, std::span<const uint32_t> runs) {
-  const PointBox box = boxOf(points);
-  if (box.bits > kMaxPositionBits)
-    return makeError(ErrorKind::kUnsupported, "the points span %u bits, Draco's codec takes %u", box.bits,
-                     kMaxPositionBits);
   std::vector<uint8_t> stored;
-  append(stored, box.least.data(), sizeof(box.least));
   for (const uint32_t run : runs) {
     if (run == 0) continue;
-    if (Status status = appendRun(points.first(run), box, stored); !status) return status.error();
+    if (Status status = appendRun(points.first(run), stored); !status) return status.error();
     points = points.subspan(run);
   }
   return stored;

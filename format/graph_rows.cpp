@@ -15,7 +15,7 @@ double planeDistance(const ChunkContents& chunk, uint32_t cell, uint32_t neighbo
 }
 
 uint32_t graphElementSize(const ChunkContents& chunk) {
-  return uint64_t{chunk.cellCount} + chunk.ghostCount <= 0x10000 ? 2 : 4;
+  return uint64_t{chunk.cellCount} + chunk.ghostCount <= 0x8000 ? 2 : 4;  // a place is less than twice that
 }
 
 void sortGraphRows(ChunkContents& chunk, uint32_t first, uint32_t last) {

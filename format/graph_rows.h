@@ -15,23 +15,25 @@
 namespace froth {
 
 // Three sections' raw bytes. Without a walk graph only the pairs of the alpha-complex are there, and no bits.
+// A cell's pairs stand at ascending places of a list that begins with likely neighbours (format/pair_order.h).
 struct PackedGraph {
   std::vector<uint8_t> counts;     // [cellCount] elements: pairs kept at each cell
-  std::vector<uint8_t> deltas;     // [pairs] elements: j - i - 1 of a cell's first pair, then j - (j before) - 1
-  std::vector<uint8_t> alphaBits;  // [(pairs + 7) / 8] bit p % 8 of byte p / 8: pair p is in the alpha-complex
+  std::vector<uint8_t> deltas;     // [pairs] elements: place of a cell's first pair, then place - (place before) - 1
+  std::vector<uint8_t> alphaBits;  // [(pairs + 7) / 8] bit p % 8 of byte p / 8: whether pair p is in the alpha-complex
+                                   // against expectation (or is not, against it)
 };
 
-// Size of an element of counts and deltas [2 or 4 bytes].
+// Size of an element of counts and deltas [bytes]: 2 up to 32768 sites, 4 beyond.
 uint32_t graphElementSize(const ChunkContents& chunk);
 
-// Reads cellCount, ghostCount, liveCount, neighbourOffsets, neighbours and alphaCounts. Rows may be in any order. Fails
+// Reads the counts, sites, radii, neighbourOffsets, neighbours and alphaCounts. Rows may be in any order. Fails
 // if they are not symmetric: j in the row of an own i if and only if i in that of an own j, and both or none as alpha
 // (a live cell's mark counts if the other is not live).
 Result<PackedGraph> packGraph(const ChunkContents& chunk, bool hasWalkGraph);
 
 // The inverse: fills neighbourOffsets, neighbours and alphaCounts from the packed graph, the counts, sites and radii of
-// `chunk`, which must be there (sites and radii of any value). Everything in the spans is checked before use; allocates 8
-// bytes per pair, 16 per cell, and 16 per neighbour of the longest row. `place` names the chunk in messages.
+// `chunk`, which must be there (sites and radii of any value). Everything in the spans is checked before use; allocates 28
+// bytes per pair, 16 per site, and 24 per neighbour of the longest row. `place` names the chunk in messages.
 struct PackedGraphView {
   std::span<const uint8_t> counts, deltas, alphaBits;
 };

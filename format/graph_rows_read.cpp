@@ -1,8 +1,8 @@
-#include <algorithm>
 #include <cstring>
 
 #include "format/frame_read.h"
 #include "format/graph_rows.h"
+#include "format/pair_order.h"
 
 namespace froth {
 namespace {
@@ -18,21 +18,6 @@ uint32_t elementAt(std::span<const uint8_t> bytes, uint64_t index, uint32_t elem
   uint32_t element;
   std::memcpy(&element, bytes.data() + index * 4, 4);
   return element;
-}
-
-// Calls visit(cell, neighbour, isAlpha) for every pair of a graph whose pairs have been checked.
-template <class Visit>
-void visitPairs(const PackedGraphView& packed, bool hasWalkGraph, const ChunkContents& chunk, Visit&& visit) {
-  const uint32_t elementSize = graphElementSize(chunk);
-  uint64_t pair = 0;
-  for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
-    uint32_t next = cell + 1;
-    for (uint32_t left = elementAt(packed.counts, cell, elementSize); left > 0; --left, ++pair) {
-      const uint32_t neighbour = next + elementAt(packed.deltas, pair, elementSize);
-      visit(cell, neighbour, !hasWalkGraph || (packed.alphaBits[pair / 8] >> pair % 8 & 1));
-      next = neighbour + 1;
-    }
-  }
 }
 
 // The rows hold each pair at most twice and their offsets are 32 bits wide.
@@ -62,33 +47,62 @@ Status checkSizes(const PackedGraphView& packed, bool hasWalkGraph, const ChunkC
   return {};
 }
 
-// Ascending differences cannot repeat a neighbour or name the cell itself; they can leave the chunk.
-Status checkPairs(const PackedGraphView& packed, bool hasWalkGraph, const ChunkContents& chunk,
-                  const std::string& place) {
+// The pairs of a chunk, those of a cell behind each other.
+struct Pairs {
+  std::vector<uint32_t> starts;      // [cellCount + 1]
+  std::vector<uint32_t> neighbours;  // [pairs]
+  std::vector<bool> isAlpha;         // [pairs]
+
+  // Calls visit(cell, neighbour, isAlpha) for every pair.
+  template <class Visit>
+  void visit(Visit&& call) const {
+    for (uint32_t cell = 0; cell + 1 < starts.size(); ++cell)
+      for (uint32_t pair = starts[cell]; pair < starts[cell + 1]; ++pair) call(cell, neighbours[pair], isAlpha[pair]);
+  }
+};
+
+// Places ascend, so a pair comes twice only if it is a candidate; they can leave the chunk.
+Result<Pairs> readPairs(const PackedGraphView& packed, bool hasWalkGraph, const ChunkContents& chunk,
+                        const std::string& place) {
   const uint64_t siteCount = uint64_t{chunk.cellCount} + chunk.ghostCount;
   const uint32_t elementSize = graphElementSize(chunk);
-  uint64_t pair = 0;
+  Pairs pairs;
+  pairs.isAlpha.reserve(packed.deltas.size() / elementSize);
+  PairOrder order(chunk);
   for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
-    uint64_t next = uint64_t{cell} + 1;
-    for (uint32_t left = elementAt(packed.counts, cell, elementSize); left > 0; --left, ++pair) {
-      const uint64_t neighbour = next + elementAt(packed.deltas, pair, elementSize);
-      if (neighbour >= siteCount)
+    order.startCell(cell);
+    uint64_t nextPlace = 0;
+    for (uint32_t left = elementAt(packed.counts, cell, elementSize); left > 0; --left) {
+      const size_t pair = pairs.isAlpha.size();
+      const uint64_t pairPlace = nextPlace + elementAt(packed.deltas, pair, elementSize);
+      const uint64_t site = order.siteAt(pairPlace);
+      if (site >= siteCount)
         return makeError(ErrorKind::kBadInput, "%s: graph: neighbour %llu of cell %u >= %llu; %s", place.c_str(),
-                         ull{neighbour}, cell, ull{siteCount}, kSectionRemedy);
-      const bool isAlpha = !hasWalkGraph || (packed.alphaBits[pair / 8] >> pair % 8 & 1);
+                         ull{site}, cell, ull{siteCount}, kSectionRemedy);
+      const uint32_t neighbour = static_cast<uint32_t>(site);
+      if (pairPlace >= order.candidates().size() && order.isCandidate(neighbour))
+        return makeError(ErrorKind::kBadInput, "%s: graph: neighbour %u of cell %u stands at its second place; %s",
+                         place.c_str(), neighbour, cell, kSectionRemedy);
+      const bool isSurprise = hasWalkGraph && (packed.alphaBits[pair / 8] >> pair % 8 & 1);
+      const bool isAlpha = !hasWalkGraph || isSurprise != isLikelyAlpha(chunk, cell, neighbour);
       if (isAlpha && cell >= chunk.liveCount)
-        return makeError(ErrorKind::kBadInput, "%s: graph: cell %u is not live, but a pair of the alpha-complex; %s",
+        return makeError(ErrorKind::kBadInput, "%s: graph: cell %u is not live, but in a pair of the alpha-complex; %s",
                          place.c_str(), cell, kSectionRemedy);
-      next = neighbour + 1;
+      order.add(neighbour);
+      pairs.isAlpha.push_back(isAlpha);
+      nextPlace = pairPlace + 1;
     }
   }
-  return {};
+  pairs.starts = order.starts();
+  pairs.starts.push_back(static_cast<uint32_t>(order.neighbours().size()));
+  pairs.neighbours = order.neighbours();
+  return pairs;
 }
 
-void countRows(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& chunk) {
+void countRows(const Pairs& pairs, bool hasWalkGraph, ChunkContents& chunk) {
   chunk.neighbourOffsets.assign(size_t{chunk.cellCount} + 1, 0);
   chunk.alphaCounts.assign(chunk.liveCount, 0);
-  visitPairs(packed, hasWalkGraph, chunk, [&](uint32_t cell, uint32_t neighbour, bool isAlpha) {
+  pairs.visit([&](uint32_t cell, uint32_t neighbour, bool isAlpha) {
     for (const uint32_t end : {cell, neighbour}) {
       const bool isLive = end < chunk.liveCount;
       if (end < chunk.cellCount && (isLive || hasWalkGraph)) ++chunk.neighbourOffsets[size_t{end} + 1];
@@ -99,12 +113,12 @@ void countRows(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& 
     chunk.neighbourOffsets[cell + 1] += chunk.neighbourOffsets[cell];
 }
 
-void fillRows(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& chunk) {
+void fillRows(const Pairs& pairs, bool hasWalkGraph, ChunkContents& chunk) {
   chunk.neighbours.resize(chunk.neighbourOffsets.back());
   std::vector<uint32_t> nextAlpha(chunk.neighbourOffsets.begin(), chunk.neighbourOffsets.end() - 1);
   std::vector<uint32_t> nextOther = nextAlpha;
   for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) nextOther[cell] += chunk.alphaCounts[cell];
-  visitPairs(packed, hasWalkGraph, chunk, [&](uint32_t cell, uint32_t neighbour, bool isAlpha) {
+  pairs.visit([&](uint32_t cell, uint32_t neighbour, bool isAlpha) {
     const auto put = [&](uint32_t end, uint32_t other) {
       const bool isLive = end < chunk.liveCount;
       if (end >= chunk.cellCount || !(isLive || hasWalkGraph)) return;
@@ -119,9 +133,10 @@ void fillRows(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& c
 
 Status unpackGraph(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& chunk, const std::string& place) {
   if (Status status = checkSizes(packed, hasWalkGraph, chunk, place); !status) return status;
-  if (Status status = checkPairs(packed, hasWalkGraph, chunk, place); !status) return status;
-  countRows(packed, hasWalkGraph, chunk);
-  fillRows(packed, hasWalkGraph, chunk);
+  const Result<Pairs> pairs = readPairs(packed, hasWalkGraph, chunk, place);
+  if (!pairs) return pairs.error();
+  countRows(*pairs, hasWalkGraph, chunk);
+  fillRows(*pairs, hasWalkGraph, chunk);
   sortGraphRows(chunk, 0, chunk.cellCount);
   return {};
 }

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "format/graph_rows.h"
+#include "format/pair_order.h"
 
 namespace froth {
 namespace {
@@ -52,41 +53,78 @@ bool isMirrored(const ChunkContents& chunk, const SortedRows& rows, uint32_t cel
   return mirror && (!bothLive || mirror->isAlpha == entry.isAlpha);
 }
 
-void append(std::vector<uint8_t>& bytes, uint32_t element, uint32_t elementSize) {
-  bytes.resize(bytes.size() + elementSize);
-  std::memcpy(bytes.data() + bytes.size() - elementSize, &element, elementSize);  // little-endian
+Status checkRows(const ChunkContents& chunk, const SortedRows& rows, bool hasWalkGraph) {
+  for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
+    const RowEntry* before = nullptr;
+    for (const RowEntry& entry : rows.row(cell)) {
+      const bool isRepeated = before && before->neighbour == entry.neighbour;
+      const bool isUnmarked = !hasWalkGraph && !entry.isAlpha;
+      if (entry.neighbour == cell || isRepeated || isUnmarked || !isMirrored(chunk, rows, cell, entry, hasWalkGraph))
+        return makeError(ErrorKind::kBadInput,
+                         "graph: neighbour %u of cell %u is repeated, not mutual or out of place; report a bug of the baker",
+                         entry.neighbour, cell);
+      before = &entry;
+    }
+  }
+  return {};
 }
+
+class Packer {
+ public:
+  Packer(const ChunkContents& chunk, bool hasWalkGraph)
+      : chunk_(chunk), hasWalkGraph_(hasWalkGraph), elementSize_(graphElementSize(chunk)), order_(chunk) {}
+
+  // `row` ascends.
+  void addCell(uint32_t cell, std::span<const RowEntry> row) {
+    const auto behind = std::upper_bound(row.begin(), row.end(), RowEntry{cell, false});
+    const std::span<const RowEntry> kept = row.subspan(static_cast<size_t>(behind - row.begin()));
+    append(packed_.counts, static_cast<uint32_t>(kept.size()));
+    order_.startCell(cell);
+    uint64_t nextPlace = 0;
+    const auto addPair = [&](const RowEntry& entry, uint64_t place) {
+      append(packed_.deltas, static_cast<uint32_t>(place - nextPlace));
+      nextPlace = place + 1;
+      if (hasWalkGraph_) appendBit(entry.isAlpha != isLikelyAlpha(chunk_, cell, entry.neighbour));
+      order_.add(entry.neighbour);
+    };
+    uint64_t place = 0;
+    for (const uint32_t candidate : order_.candidates()) {
+      const auto found = std::lower_bound(kept.begin(), kept.end(), RowEntry{candidate, false});
+      if (found != kept.end() && found->neighbour == candidate) addPair(*found, place);
+      ++place;
+    }
+    for (const RowEntry& entry : kept)
+      if (!order_.isCandidate(entry.neighbour)) addPair(entry, order_.placeOf(entry.neighbour));
+  }
+
+  PackedGraph take() { return std::move(packed_); }
+
+ private:
+  void append(std::vector<uint8_t>& bytes, uint32_t element) const {
+    bytes.resize(bytes.size() + elementSize_);
+    std::memcpy(bytes.data() + bytes.size() - elementSize_, &element, elementSize_);  // little-endian
+  }
+  void appendBit(bool bit) {
+    const size_t pair = order_.neighbours().size();
+    if (pair % 8 == 0) packed_.alphaBits.push_back(0);
+    packed_.alphaBits.back() |= static_cast<uint8_t>(bit << pair % 8);
+  }
+
+  const ChunkContents& chunk_;
+  bool hasWalkGraph_;
+  uint32_t elementSize_;
+  PairOrder order_;
+  PackedGraph packed_;
+};
 
 }  // namespace
 
 Result<PackedGraph> packGraph(const ChunkContents& chunk, bool hasWalkGraph) {
   const SortedRows rows(chunk);
-  const uint32_t elementSize = graphElementSize(chunk);
-  PackedGraph packed;
-  uint64_t pairCount = 0;
-  for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
-    uint32_t kept = 0, next = cell + 1;
-    for (const RowEntry& entry : rows.row(cell)) {
-      const bool isRepeated = entry.neighbour > cell && entry.neighbour < next;
-      if (entry.neighbour == cell || isRepeated || !isMirrored(chunk, rows, cell, entry, hasWalkGraph) ||
-          (!hasWalkGraph && !entry.isAlpha))
-        return makeError(ErrorKind::kBadInput,
-                         "graph: neighbour %u of cell %u is repeated, not mutual or out of place; this is a bug of the baker",
-                         entry.neighbour, cell);
-      const bool isAtOther = entry.neighbour < cell && (hasWalkGraph || cell < chunk.liveCount);
-      if (isAtOther) continue;
-      append(packed.deltas, entry.neighbour - next, elementSize);
-      next = entry.neighbour + 1;
-      ++kept;
-      if (hasWalkGraph) {
-        if (pairCount % 8 == 0) packed.alphaBits.push_back(0);
-        packed.alphaBits.back() |= static_cast<uint8_t>(entry.isAlpha << pairCount % 8);
-      }
-      ++pairCount;
-    }
-    append(packed.counts, kept, elementSize);
-  }
-  return packed;
+  if (Status status = checkRows(chunk, rows, hasWalkGraph); !status) return status.error();
+  Packer packer(chunk, hasWalkGraph);
+  for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) packer.addCell(cell, rows.row(cell));
+  return packer.take();
 }
 
 }  // namespace froth

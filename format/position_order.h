@@ -12,7 +12,7 @@
 namespace froth {
 
 // Decoding a point costs this much more by Draco than by Morton-delta; measured by froth_bench_codecs.
-inline constexpr double kDracoDecodeCost = 5;
+inline constexpr double kDracoDecodeCost = 4;
 // A codec is worth its smaller size up to this factor in decode cost.
 inline constexpr double kMaxDecodeCost = 8;
 
