@@ -55,8 +55,6 @@ inline constexpr uint32_t kSharedChunk = 0xffffffff;
 inline constexpr uint16_t kSectionCritical = 1;  // a reader that does not know the type refuses the file
 inline constexpr uint16_t kSectionReservedFlags = 0xff00;  // must be zero
 
-inline constexpr uint64_t kWordSize = 4;  // [bytes]
-
 struct SectionRecord {
   uint32_t type = 0;  // SectionType, or one that this version does not know
   uint32_t chunk = 0;
