@@ -17,7 +17,8 @@ using Bytes = std::span<const uint8_t>;
 
 // Triples: place (16 bits), new byte.
 std::string editZip64(Bytes edits) {
-  std::string file = buildZip(zipEntries(froth::sampleCheckpoint()), /*isZip64=*/true);
+  static const std::string sample = buildZip(zipEntries(froth::sampleCheckpoint()), /*isZip64=*/true);
+  std::string file = sample;
   for (; edits.size() >= 3; edits = edits.subspan(3)) {
     file[(edits[0] | edits[1] << 8) % file.size()] = static_cast<char>(edits[2]);
   }
@@ -26,7 +27,8 @@ std::string editZip64(Bytes edits) {
 
 // Of any length, which an edit of an archive does not survive.
 std::string replacePickle(Bytes pickle) {
-  froth::CheckpointSpec checkpoint = froth::sampleCheckpoint();
+  static const froth::CheckpointSpec sample = froth::sampleCheckpoint();
+  froth::CheckpointSpec checkpoint = sample;
   checkpoint.pickle = std::string(pickle.begin(), pickle.end());
   return buildCheckpoint(checkpoint);
 }

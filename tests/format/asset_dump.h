@@ -1,0 +1,13 @@
+// An asset's arrays as plain bytes, to be compared with what another reader finds (froth_reader.py).
+#pragma once
+
+#include <filesystem>
+
+#include "format/asset_contents.h"
+
+namespace froth {
+
+// Each array that is not empty: a line "chunk name bytes", then its bytes.
+void writeDump(const std::filesystem::path& path, const AssetContents& contents);
+
+}  // namespace froth

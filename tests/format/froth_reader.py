@@ -1,0 +1,458 @@
+#!/usr/bin/python3
+"""An independent reader of .froth assets, written from docs/FORMAT.md alone: numpy, zstandard and xxhash, no code of Froth.
+
+froth_reader.py FILE [--layer 0|1|2] [--compare DUMP]
+
+Prints what is in FILE; with DUMP (asset_dump.h) compares every array with the other reader's, bit for bit.
+Exit codes: 0 well, 1 they differ or the file is broken, 77 a package is missing.
+"""
+import argparse
+import struct
+import sys
+
+try:
+    import numpy as np
+    import xxhash
+    import zstandard
+except ImportError as missing:
+    print(f"{missing}; install python3-numpy python3-zstandard python3-xxhash")
+    sys.exit(77)
+
+SHARED = 0xFFFFFFFF
+MAX_INDEX = 2**24 - 1
+MAX_WINDOW = 1 << 23
+CODEC_STORED, CODEC_ZSTD, CODEC_PLANES, CODEC_DELTA, CODEC_MORTON, CODEC_DRACO = range(6)
+
+
+def need(condition, message):
+    if not condition:
+        raise ValueError(message)
+
+
+# ---- FlatBuffers
+
+
+class Table:
+    def __init__(self, buffer, position):
+        self.buffer, self.position = buffer, position
+        vtable = position - struct.unpack_from("<i", buffer, position)[0]
+        size = struct.unpack_from("<H", buffer, vtable)[0]
+        self.offsets = struct.unpack_from(f"<{(size - 4) // 2}H", buffer, vtable + 4)
+
+    def place(self, field):
+        offset = self.offsets[field] if field < len(self.offsets) else 0
+        return self.position + offset if offset else None
+
+    def scalar(self, field, code, default):
+        place = self.place(field)
+        return default if place is None else struct.unpack_from("<" + code, self.buffer, place)[0]
+
+    def target(self, field):
+        place = self.place(field)
+        return None if place is None else place + struct.unpack_from("<I", self.buffer, place)[0]
+
+    def table(self, field):
+        target = self.target(field)
+        return None if target is None else Table(self.buffer, target)
+
+    def text(self, field):
+        target = self.target(field)
+        if target is None:
+            return None
+        size = struct.unpack_from("<I", self.buffer, target)[0]
+        return bytes(self.buffer[target + 4 : target + 4 + size]).decode()
+
+    def structs(self, field, dtype):
+        target = self.target(field)
+        need(target is not None, f"manifest field {field} is missing")
+        count = struct.unpack_from("<I", self.buffer, target)[0]
+        return np.frombuffer(self.buffer, dtype, count, target + 4)
+
+
+CHUNK = np.dtype([("origin", "<f8", 3), ("cells", "<u8"), ("live", "<u8"), ("ghosts", "<u8"), ("pairs", "<u8"),
+                  ("lobes", "<u8"), ("low", "<f8", 3), ("high", "<f8", 3)])
+SECTION = np.dtype([("type", "<u4"), ("chunk", "<u4"), ("flags", "<u2"), ("codec", "<u2"), ("element", "<u2"),
+                    ("reserved0", "<u2"), ("base", "<u4"), ("reserved1", "<u4"), ("offset", "<u8"), ("stored", "<u8"),
+                    ("raw", "<u8"), ("hash", "<u8")])
+assert CHUNK.itemsize == 112 and SECTION.itemsize == 56
+
+
+# ---- Codecs
+
+
+def unfold(numbers):
+    """0, 1, 2, 3, 4 ... -> 0, -1, 1, -2, 2 ..., modulo the width of the unsigned numbers."""
+    one = numbers.dtype.type(1)
+    return np.where(numbers & one, ~(numbers >> one), numbers >> one)
+
+
+def decode_frame(stored, size):
+    frame = zstandard.get_frame_parameters(stored)
+    need(frame.content_size == size, f"frame of {frame.content_size} bytes, expected {size}")
+    need(frame.window_size <= MAX_WINDOW and frame.dict_id == 0, "frame wants a large window or a dictionary")
+    decoder = zstandard.ZstdDecompressor().decompressobj()
+    raw = decoder.decompress(stored)
+    need(len(raw) == size and not any(decoder.unused_data), "bytes after the frame, or too few in it")
+    return raw
+
+
+def join_planes(raw, dtype):
+    width = np.dtype(dtype).itemsize
+    planes = np.frombuffer(raw, np.uint8).reshape(width, -1)
+    return np.ascontiguousarray(planes.T).view(dtype).ravel()
+
+
+def decode_morton(stored, entries):
+    raw = decode_frame(stored, 12 + 8 * entries)
+    least = np.frombuffer(raw, "<u4", 3)
+    codes = np.cumsum(unfold(join_planes(raw[12:], "<u8")), dtype=np.uint64)
+    points = np.zeros((entries, 3), np.uint32)
+    for axis in range(3):
+        for bit in range(21):
+            points[:, axis] |= ((codes >> np.uint64(3 * bit + axis)) & np.uint64(1)).astype(np.uint32) << np.uint32(bit)
+    return (points + least).ravel()
+
+
+def decode(stored, codec, element, entries, components):
+    """Unsigned elements, entries after entries."""
+    count, dtype = entries * components, np.dtype(f"<u{element}")
+    if codec == CODEC_STORED:
+        return np.frombuffer(stored, dtype)
+    if codec == CODEC_ZSTD:
+        return np.frombuffer(decode_frame(stored, count * element), dtype)
+    if codec == CODEC_MORTON:
+        need(element == 4 and components == 3, "Morton delta of something that is no position")
+        return decode_morton(stored, entries)
+    need(codec in (CODEC_PLANES, CODEC_DELTA), "Draco: not in this reader" if codec == CODEC_DRACO else "unknown codec")
+    elements = join_planes(decode_frame(stored, count * element), dtype)
+    if codec == CODEC_DELTA:
+        elements = np.cumsum(unfold(elements).reshape(entries, components), axis=0, dtype=dtype).ravel()
+    return elements
+
+
+# ---- Values
+
+
+def signed(elements):
+    n = elements.astype(np.int64)
+    return np.where(n & 1, -((n + 1) >> 1), n >> 1)
+
+
+def on_lattice(step, numbers):
+    need(np.all(np.abs(numbers) <= MAX_INDEX), "a lattice index is out of range")
+    return (np.float64(step) * numbers).astype(np.float32)
+
+
+def truncated_floats(numbers, bits):
+    need(np.all(numbers < 2 ** (8 + bits)), "a mantissa is out of range")
+    return (numbers.astype(np.uint32) << np.uint32(23 - bits)).view(np.float32)
+
+
+def quaternions(indices, bits):
+    h = float(2 ** (bits - 1) - 1)
+    need(np.all(indices <= 2**bits - 2), "a normal is out of range")
+    y, z = (indices[:, 0] - h) / h, (indices[:, 1] - h) / h
+    x = 1 - np.abs(y) - np.abs(z)
+
+    def sign(v):
+        return np.where(v < 0, -1.0, 1.0)
+
+    folded_y, folded_z = (1 - np.abs(z)) * sign(y) + 0.0, (1 - np.abs(y)) * sign(z) + 0.0
+    y, z = np.where(x < 0, folded_y, y), np.where(x < 0, folded_z, z)
+    length = np.sqrt((x * x + y * y) + z * z)
+    x, y, z = x / length, y / length, z / length
+    w = np.sqrt((1 + np.abs(x)) / 2)
+    s = 0.5 / w
+    zero = np.zeros_like(x)
+    front = np.stack([w, zero, z * s, -y * s], axis=1)
+    back = np.stack([-y * s, z * s, zero, w], axis=1)
+    return np.where((x >= 0)[:, None], front, back).astype(np.float32)
+
+
+# ---- Graph
+
+
+def square(v):
+    return (v[..., 0] * v[..., 0] + v[..., 1] * v[..., 1]) + v[..., 2] * v[..., 2]
+
+
+class GraphDecoder:
+    MOST_PAIRS = 32  # of a cell whose pairs propose candidates
+
+    def __init__(self, sites, radii, cells, live, has_walk_graph):
+        self.p, self.r = sites.astype(np.float64), radii.astype(np.float64)
+        self.cells, self.live, self.has_walk_graph = cells, live, has_walk_graph
+
+    def candidates(self, i, before, kept):
+        proposed = {j for a in before for j in kept[a] if j > i}
+        if not proposed:
+            return []
+        c = np.array(sorted(proposed))
+        key = square(self.p[c] - self.p[i]) - self.r[c] * self.r[c]
+        return c[np.lexsort((c, key))].tolist()
+
+    def pairs(self, counts, deltas):
+        """The larger sites of each cell's pairs, in the order of its deltas."""
+        before = [[] for _ in range(len(self.p))]  # cells whose pairs propose candidates for this one
+        kept, cursor = [], 0
+        for i in range(self.cells):
+            order, place, mine = self.candidates(i, before[i], kept), -1, []
+            for delta in deltas[cursor : cursor + counts[i]].tolist():
+                place += delta + 1
+                j = order[place] if place < len(order) else i + 1 + place - len(order)
+                need(j < len(self.p) and (place < len(order) or j not in order), f"cell {i}: a place of no site")
+                mine.append(j)
+            cursor += counts[i]
+            kept.append(mine)
+            if len(mine) <= self.MOST_PAIRS:
+                for j in mine:
+                    before[j].append(i)
+        need(cursor == len(deltas), "counts do not add up to the pairs")
+        return kept
+
+    def are_alpha(self, kept, alpha_bits):
+        first = np.repeat(np.arange(self.cells), [len(mine) for mine in kept])
+        second = np.array([j for mine in kept for j in mine], np.int64)
+        if not self.has_walk_graph:
+            return first, second, np.ones(len(first), bool)
+        reach = self.r[first] + self.r[second]
+        expected = (first < self.live) & (square(self.p[second] - self.p[first]) < reach * reach)
+        bits = np.unpackbits(alpha_bits, bitorder="little")
+        need(not bits[len(first) :].any(), "bits behind the last pair")
+        alpha = expected ^ bits[: len(first)].astype(bool)
+        need(not np.any(alpha & (first >= self.live)), "an alpha pair of a cell that is not live")
+        return first, second, alpha
+
+    def rows(self, counts, deltas, alpha_bits):
+        first, second, alpha = self.are_alpha(self.pairs(counts.tolist(), deltas), alpha_bits)
+        back = second < self.cells
+        i, j = np.concatenate([first, second[back]]), np.concatenate([second, first[back]])
+        alpha = np.concatenate([alpha, alpha[back]]) & (i < self.live)
+        if not self.has_walk_graph:
+            i, j, alpha = i[alpha], j[alpha], alpha[alpha]
+        d = square(self.p[j] - self.p[i])
+        m = 0.5 * (d + (self.r[i] - self.r[j]) * (self.r[i] + self.r[j]))
+        order = np.lexsort((j, m / np.sqrt(d), ~alpha, i))
+        ends = np.cumsum(np.bincount(i, minlength=self.cells))
+        return {
+            "neighbourOffsets": np.concatenate([[0], ends]).astype(np.uint32),
+            "neighbours": j[order].astype(np.uint32),
+            "alphaCounts": np.bincount(i[alpha], minlength=self.cells)[: self.live].astype(np.uint32),
+        }
+
+
+# ---- Asset
+
+
+class Asset:
+    def __init__(self, data):
+        self.data = data
+        magic, major, _, zero, size, begin, length, manifest_hash, zero2, header_hash = struct.unpack_from(
+            "<8sHHIQQQQQQ", data)
+        need(magic == b"\x89FROTH\r\n" and xxhash.xxh3_64_intdigest(data[:56]) == header_hash, "no asset, or damaged")
+        need(major == 2 and zero == 0 and zero2 == 0 and begin == 64 and size == len(data), "header is not of version 2")
+        manifest = data[begin : begin + length]
+        need(xxhash.xxh3_64_intdigest(manifest) == manifest_hash and manifest[4:8] == b"FRTH", "manifest is damaged")
+        root = Table(manifest, struct.unpack_from("<I", manifest)[0])
+        self.details = root.scalar(0, "I", 0)
+        self.most_lobes = root.scalar(1, "I", 0)
+        self.local_bits = root.scalar(2, "I", 32)
+        self.has_walk_graph = bool(root.scalar(3, "B", 1))
+        self.codebook_size = root.scalar(7, "I", 0)
+        need(1 <= self.details <= 32 and self.most_lobes <= 32 and root.text(8) == "sRGB", "manifest")
+        lattices = root.table(9)
+        self.position_step = lattices.scalar(0, "d", 0)
+        self.radius_bits, self.density_bits = lattices.scalar(1, "I", 23), lattices.scalar(2, "I", 23)
+        self.normal_bits = lattices.scalar(3, "I", 0)
+        self.detail_site_step, self.height_step, self.colour_step, self.lobe_axis_step = (
+            lattices.scalar(field, "f", 0) for field in range(4, 8))
+        self.chunks = root.structs(17, CHUNK)
+        self.sections = {}
+        for record in root.structs(18, SECTION):
+            need(record["flags"] >> 8 == 0 and record["reserved0"] == 0 and record["reserved1"] == 0, "reserved bits")
+            key = int(record["chunk"]), int(record["type"])
+            need(key not in self.sections, f"section {key} twice")
+            self.sections[key] = record
+
+    def elements(self, chunk, kind, entries, components):
+        """Unsigned elements of a section as [entries x components], or None; and the section's base."""
+        record = self.sections.get((chunk, kind))
+        if record is None:
+            return None, 0
+        begin, stored_size, element = int(record["offset"]), int(record["stored"]), int(record["element"])
+        need(begin + stored_size <= len(self.data), f"section {kind} of chunk {chunk} leaves the file")
+        need(int(record["raw"]) == entries * components * element <= 256 * stored_size, f"section {kind}: raw size")
+        stored = self.data[begin : begin + stored_size]
+        need(xxhash.xxh3_64_intdigest(stored) == int(record["hash"]), f"section {kind} of chunk {chunk} is damaged")
+        values = decode(stored, int(record["codec"]), element, entries, components)
+        return values.reshape(entries, components), int(record["base"])
+
+    def floats(self, chunk, kind, entries, components):
+        values, _ = self.elements(chunk, kind, entries, components)
+        return None if values is None else values.astype("<u4").view("<f4")
+
+    def unsigned(self, chunk, kind, entries, components):
+        values, base = self.elements(chunk, kind, entries, components)
+        return None if values is None else (values.astype(np.int64) + base) % 2**32
+
+    def signed(self, chunk, kind, entries, components):
+        values, _ = self.elements(chunk, kind, entries, components)
+        return None if values is None else signed(values)
+
+    def positions(self, chunk, kind, entries):
+        values, _ = self.elements(chunk, kind, entries, 3)
+        if values is None:
+            return np.zeros((0, 3), np.float32)
+        if not self.position_step:
+            return values.view("<f4")
+        return on_lattice(self.position_step, values.view("<i4").astype(np.int64))
+
+    def stepped(self, chunk, kind, entries, components, step):
+        """Floats, or indices times a step."""
+        if not step:
+            return self.floats(chunk, kind, entries, components)
+        numbers = self.signed(chunk, kind, entries, components)
+        return None if numbers is None else on_lattice(step, numbers)
+
+    def mantissas(self, chunk, kind, entries, bits):
+        return truncated_floats(self.unsigned(chunk, kind, entries, 1), bits).ravel()
+
+    def read_chunk(self, index, layer=2):
+        chunk = self.chunks[index]
+        n, live, ghosts = int(chunk["cells"]), int(chunk["live"]), int(chunk["ghosts"])
+        out = {"origin": chunk["origin"].copy()}
+        own, other = self.positions(index, 1, n), self.positions(index, 2, ghosts)
+        out["sites"] = np.concatenate([own, other])
+        out["radii"] = self.mantissas(index, 3, n + ghosts, self.radius_bits)
+        refs, _ = self.elements(index, 4, ghosts, 1)
+        out["ghostRefs"] = None if refs is None else refs.ravel()
+        out.update(self.read_graph(index, out["sites"], out["radii"]))
+        if live:
+            out["densities"] = self.mantissas(index, 8, live, self.density_bits)
+            out["orientations"] = (quaternions(self.unsigned(index, 9, live, 2), self.normal_bits) if self.normal_bits
+                                   else self.floats(index, 9, live, 4))
+        colour_bytes, _ = self.elements(index, 10, live, 3)
+        height_numbers = self.signed(index, 11, live, 1) if self.height_step else None
+        if colour_bytes is not None:
+            out["cellColours"] = colour_bytes.astype(np.float32) / np.float32(255)
+        out["cellHeights"] = self.stepped(index, 11, live, 1, self.height_step)
+        if layer == 0:
+            out["detailSites"] = np.zeros((live, 2), np.float32)
+            out["detailHeights"] = out["cellHeights"]
+            if colour_bytes is not None:
+                out["baseColours"] = out["cellColours"] - np.float32(0.5)
+        else:
+            self.read_details(index, live, colour_bytes, height_numbers, out)
+        if layer >= 2 and self.most_lobes:
+            self.read_lobes(index, live, int(chunk["lobes"]), out)
+        return {name: values for name, values in out.items() if values is not None and values.size}
+
+    def read_graph(self, index, sites, radii):
+        chunk = self.chunks[index]
+        n, live, pairs = int(chunk["cells"]), int(chunk["live"]), int(chunk["pairs"])
+        if pairs == 0:
+            return {"neighbourOffsets": np.zeros(n + 1, np.uint32), "alphaCounts": np.zeros(live, np.uint32)}
+        counts, _ = self.elements(index, 5, n, 1)
+        deltas, _ = self.elements(index, 6, pairs, 1)
+        bits, _ = self.elements(index, 7, (pairs + 7) // 8, 1)
+        graph = GraphDecoder(sites, radii, n, live, self.has_walk_graph)
+        return graph.rows(counts.ravel(), deltas.ravel().astype(np.int64), None if bits is None else bits.ravel())
+
+    def read_details(self, index, live, colour_bytes, height_numbers, out):
+        k = self.details
+        out["detailSites"] = self.stepped(index, 32, live * k, 2, self.detail_site_step)
+        if self.height_step:
+            numbers = self.signed(index, 33, live * k, 1)
+            if numbers is not None:
+                base = 0 if height_numbers is None else np.repeat(height_numbers, k, axis=0)
+                out["detailHeights"] = on_lattice(self.height_step, numbers + base)
+        else:
+            out["detailHeights"] = self.floats(index, 33, live * k, 1)
+        scales, _ = self.elements(index, 34, live, 1)
+        out["colourScales"] = None if scales is None else scales.ravel()
+        if not self.colour_step:
+            out["baseColours"] = self.floats(index, 35, live * k, 3)
+            return
+        numbers = self.signed(index, 35, live * k, 3)
+        if numbers is not None:
+            unit = self.colour_units(live, out)[:, None]
+            base = 0
+            if colour_bytes is not None:
+                base = np.clip(np.rint((colour_bytes / 255 - 0.5) / unit), -MAX_INDEX, MAX_INDEX).astype(np.int64)
+                base = np.repeat(base, k, axis=0)
+            out["baseColours"] = on_lattice(np.repeat(unit, k, axis=0), numbers + base)
+
+    def colour_units(self, live, out):
+        scales = out.get("colourScales")
+        scales = np.zeros(live, np.int64) if scales is None else scales.astype(np.int64)
+        return np.float64(self.colour_step) * 2.0**scales
+
+    def read_lobes(self, index, live, lobes, out):
+        sites = live * self.details
+        counts, _ = self.elements(index, 64, sites, 1)
+        if lobes == 0:
+            counts = np.zeros(sites, np.uint8)
+        out["lobeCounts"] = None if counts is None else counts.ravel()
+        if lobes == 0:
+            return
+        per_site = np.full(sites, self.most_lobes) if counts is None else counts.ravel().astype(np.int64)
+        need(per_site.sum() == lobes and per_site.max() <= self.most_lobes, "lobe counts do not add up")
+        axes = self.stepped(index, 66, lobes, 3, self.lobe_axis_step)
+        if self.codebook_size:
+            entries = self.floats(SHARED, 68, self.codebook_size, 3)
+            labels = self.unsigned(index, 65, lobes, 1).ravel()
+            need(labels.max() < self.codebook_size, "a label beyond the codebook")
+            axes = entries[labels] if axes is None else entries[labels] + axes
+        out["lobeAxes"] = axes
+        if not self.colour_step:
+            out["lobeColours"] = self.floats(index, 67, lobes, 3)
+        else:
+            cells = np.repeat(np.arange(sites) // self.details, per_site)
+            unit = self.colour_units(live, out)[cells][:, None]
+            out["lobeColours"] = on_lattice(unit, self.signed(index, 67, lobes, 3))
+
+
+# ---- Comparison
+
+
+def read_dump(path):
+    """{(chunk, array): bytes}; each array is a line "chunk name bytes" and then the bytes."""
+    arrays = {}
+    with open(path, "rb") as dump:
+        while line := dump.readline():
+            chunk, name, size = line.decode().split()
+            arrays[int(chunk), name] = dump.read(int(size))
+    return arrays
+
+
+def compare(found, expected):
+    differing = []
+    for key in sorted(set(found) | set(expected)):
+        mine, theirs = found.get(key, b""), expected.get(key, b"")
+        if mine != theirs:
+            width = next((i for i in range(min(len(mine), len(theirs))) if mine[i] != theirs[i]), None)
+            differing.append(f"chunk {key[0]}, {key[1]}: {len(mine)} and {len(theirs)} bytes, first difference at {width}")
+    return differing
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("file")
+    parser.add_argument("--layer", type=int, default=2)
+    parser.add_argument("--compare")
+    options = parser.parse_args()
+    with open(options.file, "rb") as file:
+        asset = Asset(file.read())
+    found = {}
+    for index in range(len(asset.chunks)):
+        for name, values in asset.read_chunk(index, options.layer).items():
+            found[index, name] = values.tobytes()
+            print(f"chunk {index}: {name} {values.dtype} {values.shape}")
+    if options.compare:
+        differing = compare(found, read_dump(options.compare))
+        print("\n".join(differing) or f"{len(found)} arrays agree")
+        sys.exit(1 if differing else 0)
+
+
+if __name__ == "__main__":
+    main()
