@@ -41,13 +41,8 @@ class AxisCodebook {
   std::vector<uint32_t> order_;    // [entries] tree: the middle of each range splits it
 };
 
-struct WeightedAxis {
-  glm::vec3 axis;
-  float weight;
-};
-
-// Mini-batch k-means (Sculley 2010) over weighted samples: at most `size` entries, the most used ones first. The same
+// Mini-batch k-means (Sculley 2010) over samples: at most `size` entries, the most used ones first. The same
 // samples and seed give the same entries on any number of threads. No samples: no entries.
-std::vector<glm::vec3> trainCodebook(std::span<const WeightedAxis> samples, uint32_t size, uint64_t seed);
+std::vector<glm::vec3> trainCodebook(std::span<const glm::vec3> samples, uint32_t size, uint64_t seed);
 
 }  // namespace froth

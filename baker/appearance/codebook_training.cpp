@@ -19,24 +19,6 @@ struct Centre {
   double weight;
 };
 
-// Draws sample indices in proportion to their weights.
-class SampleDraw {
- public:
-  SampleDraw(std::span<const WeightedAxis> samples, uint64_t seed) : random_(seed), sums_(samples.size()) {
-    double sum = 0;
-    for (size_t i = 0; i < samples.size(); ++i) sums_[i] = sum += samples[i].weight;
-  }
-  size_t operator()() {
-    const double unit = static_cast<double>(random_() >> 11) * 0x1p-53;
-    const auto place = std::upper_bound(sums_.begin(), sums_.end(), unit * sums_.back());
-    return std::min<size_t>(place - sums_.begin(), sums_.size() - 1);
-  }
-
- private:
-  std::mt19937_64 random_;
-  std::vector<double> sums_;
-};
-
 std::vector<glm::vec3> axesOf(const std::vector<Centre>& centres) {
   std::vector<glm::vec3> axes;
   for (const Centre& centre : centres) axes.push_back(unwarpAxis(centre.warped));
@@ -52,15 +34,16 @@ std::vector<uint32_t> assign(const std::vector<glm::vec3>& batch, const std::vec
 
 }  // namespace
 
-std::vector<glm::vec3> trainCodebook(std::span<const WeightedAxis> samples, uint32_t size, uint64_t seed) {
+std::vector<glm::vec3> trainCodebook(std::span<const glm::vec3> samples, uint32_t size, uint64_t seed) {
   if (samples.empty() || size == 0) return {};
-  SampleDraw draw(samples, seed);
+  std::mt19937_64 random(seed);
+  const auto draw = [&] { return samples[random() % samples.size()]; };
   std::vector<Centre> centres(size);
-  for (Centre& centre : centres) centre = {warpAxis(samples[draw()].axis), 1};
+  for (Centre& centre : centres) centre = {warpAxis(draw()), 1};
 
   std::vector<glm::vec3> batch(size_t{size} * kSamplesPerEntry);
   for (uint32_t b = 0; b < kBatches; ++b) {
-    for (glm::vec3& axis : batch) axis = samples[draw()].axis;
+    for (glm::vec3& axis : batch) axis = draw();
     const std::vector<uint32_t> nearest = assign(batch, centres);
     for (size_t i = 0; i < batch.size(); ++i) {
       Centre& centre = centres[nearest[i]];

@@ -109,19 +109,10 @@ double LobeEquations::leastError() const {
   return std::max(0.0, (error.x + error.y + error.z) / 3);
 }
 
-glm::dvec3 meanColour(const Observations& seen) {
-  glm::dvec3 sum(0);
-  double weight = 0;
-  for (size_t i = 0; i < seen.size(); ++i) {
-    sum += double(seen.weights[i]) * glm::dvec3(seen.colours[i]);
-    weight += seen.weights[i];
-  }
-  return sum / weight;
-}
-
 FitError measureFit(const Observations& seen, const LobeBasis& basis, std::span<const uint32_t> chosen, const glm::dvec3& base,
                     std::span<const glm::dvec3> colours) {
   FitError error;
+  error.misses.reserve(seen.size());
   std::vector<double> shares(chosen.size());
   for (size_t i = 0; i < seen.size(); ++i) {
     basis.sharesAlong(i, chosen, shares.data());
@@ -129,7 +120,7 @@ FitError measureFit(const Observations& seen, const LobeBasis& basis, std::span<
     for (size_t l = 0; l < chosen.size(); ++l) colour += shares[l] * colours[l];
     const glm::dvec3 miss = glm::max(colour, 0.0) - glm::dvec3(seen.colours[i]);
     error.squared += seen.weights[i] * glm::dot(miss, miss) / 3;
-    error.largest = std::max({error.largest, std::abs(miss.x), std::abs(miss.y), std::abs(miss.z)});
+    error.misses.push_back(miss);
   }
   return error;
 }

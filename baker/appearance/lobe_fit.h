@@ -46,12 +46,9 @@ class LobeEquations {
   glm::dvec3 constant_{0};            // sum of w colour^2
 };
 
-// Weighted mean colour.
-glm::dvec3 meanColour(const Observations& seen);
-
 struct FitError {
-  double squared = 0;  // weighted sum of squared errors, mean over channels
-  double largest = 0;  // of one channel along one direction
+  double squared = 0;              // weighted sum of squared errors, mean over channels
+  std::vector<glm::vec3> misses;   // [observations] shown - wanted
 };
 
 // Error of base colour + lobes, as a renderer shows them.

@@ -1,23 +1,28 @@
 #include "baker/appearance/observations.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "shaders/foam/appearance.h"
 
 namespace froth {
 namespace {
 
-constexpr float kBrightest = 1.5f;        // display-coded; images end at 1, blends may need a little more
-constexpr float kBesideShare = 0.3f;      // weight of the eye beside a camera, relative to the camera
-constexpr float kBesideDistance = 0.5f;   // in distances to the nearest other camera
-constexpr float kHemisphereShare = 0.01f; // weight of the whole hemisphere beside cameras, in typical detail sites
+constexpr float kBrightest = 1.5f;  // display-coded; images end at 1, blends may need a little more
+
+// Eyes that stand around each camera.
+struct EyeAround {
+  float distance;  // in distances from the camera to the nearest other one
+  float share;     // weight relative to the camera
+};
+constexpr std::array<EyeAround, 2> kAround = {{{0.5f, 0.3f}, {2.5f, 0.2f}}};
+
+constexpr float kHemisphereShare = 0.01f;  // weight of the whole hemisphere beside cameras, in typical detail sites
 constexpr uint32_t kHemisphereDirections = 24;
 
-// Directions at which a face is seen, against its normal: a golden spiral that is even in solid angle.
-// x, y along the tangents, z against the normal.
+// A golden spiral, even in solid angle, about +z.
 std::array<glm::vec3, kHemisphereDirections> spreadHemisphere() {
   std::array<glm::vec3, kHemisphereDirections> directions;
   constexpr double kGoldenAngle = 2.399963229728653;
@@ -28,33 +33,55 @@ std::array<glm::vec3, kHemisphereDirections> spreadHemisphere() {
   return directions;
 }
 
-// An eye near each camera, in a direction that differs from camera to camera.
-std::vector<glm::vec3> placeEyesBeside(const std::vector<glm::vec3>& eyes) {
-  const auto hemisphere = spreadHemisphere();
-  std::vector<glm::vec3> beside(eyes.size());
-  for (size_t i = 0; i < eyes.size(); ++i) {
-    float nearest = std::numeric_limits<float>::max();
-    for (const glm::vec3& other : eyes) {
-      const float distance = glm::distance(other, eyes[i]);
-      if (distance > 0) nearest = std::min(nearest, distance);
-    }
-    if (nearest == std::numeric_limits<float>::max()) nearest = 0;
-    const float sign = i % 2 ? -1.0f : 1.0f;
-    beside[i] = eyes[i] + sign * kBesideDistance * nearest * hemisphere[i * 7 % kHemisphereDirections];
+const std::array<glm::vec3, kHemisphereDirections> kHemisphere = spreadHemisphere();
+
+float distanceToNearest(const std::vector<glm::vec3>& eyes, const glm::vec3& eye) {
+  float nearest = std::numeric_limits<float>::max();
+  for (const glm::vec3& other : eyes) {
+    const float distance = glm::distance(other, eye);
+    if (distance > 0) nearest = std::min(nearest, distance);
   }
-  return beside;
+  return nearest < std::numeric_limits<float>::max() ? nearest : 0;
+}
+
+// One eye per camera, each in another direction.
+std::vector<glm::vec3> placeEyesAround(const std::vector<glm::vec3>& eyes, float distance, size_t firstDirection) {
+  constexpr size_t kStride = 7;  // has no divisor in common with the number of directions: neighbours differ
+  std::vector<glm::vec3> around(eyes.size());
+  for (size_t i = 0; i < eyes.size(); ++i) {
+    const float side = i % 2 ? -distance : distance;
+    const glm::vec3 direction = kHemisphere[(i * kStride + firstDirection) % kHemisphereDirections];
+    around[i] = eyes[i] + side * distanceToNearest(eyes, eyes[i]) * direction;
+  }
+  return around;
 }
 
 }  // namespace
 
-Observer::Observer(const Foam& foam, const Visibility* visibility) : foam_(foam), visibility_(visibility) {
-  if (!visibility) return;
-  eyesBeside_ = placeEyesBeside(visibility->eyes);
+glm::dvec3 meanColour(const Observations& seen) {
+  glm::dvec3 sum(0);
+  for (size_t i = 0; i < seen.size(); ++i) sum += double(seen.weights[i]) * glm::dvec3(seen.colours[i]);
+  return sum / totalWeight(seen);
+}
+
+double totalWeight(const Observations& seen) {
   double sum = 0;
+  for (float weight : seen.weights) sum += weight;
+  return sum;
+}
+
+Observer::Observer(const Foam& foam, const Visibility* visibility) : foam_(foam), visibility_(visibility) {
+  static_assert(kAround.size() == kEyesAround);
+  if (!visibility) return;
+  double sum = 0, shares = 1;
+  for (uint32_t e = 0; e < kEyesAround; ++e) {
+    eyesAround_[e] = placeEyesAround(visibility->eyes, kAround[e].distance, e * kHemisphereDirections / 2);
+    shares += kAround[e].share;
+  }
   uint64_t seen = 0;
   for (float weight : visibility->weights) sum += weight;
   for (size_t i = 0; i + 1 < visibility->offsets.size(); ++i) seen += visibility->offsets[i + 1] > visibility->offsets[i];
-  if (sum > 0) typicalWeight_ = sum * (1 + kBesideShare) / static_cast<double>(seen);
+  if (sum > 0) typicalWeight_ = sum * shares / static_cast<double>(seen);
 }
 
 Observations Observer::observe(uint64_t site) const {
@@ -64,30 +91,43 @@ Observations Observer::observe(uint64_t site) const {
   const glm::vec3 position = foam_.sites[cell] + place.x * frame.tangent + place.y * frame.bitangent;
   Observations seen;
   if (visibility_) addCameras(site, position, seen);
-  addHemisphere(site, frame, seen);
+  addHemisphere(frame, seen);
   seen.colours.reserve(seen.size());
   for (const glm::vec3& direction : seen.directions) seen.colours.push_back(colourAlong(site, direction));
   return seen;
 }
 
+float Observer::overlap(uint32_t cell, uint32_t k, uint32_t l) const {
+  if (!visibility_) return 0;
+  if (k > l) std::swap(k, l);
+  const uint64_t K = foam_.detailCount, before = k * K - k * (k + 1) / 2;  // pairs of the rows above
+  return visibility_->overlaps[cell * (K * (K - 1) / 2) + before + (l - k - 1)];
+}
+
 void Observer::addCameras(uint64_t site, const glm::vec3& position, Observations& seen) const {
-  const auto add = [&](const glm::vec3& eye, double weight) {
+  const auto add = [&](uint32_t number, const glm::vec3& eye, double weight) {
     const glm::vec3 fromEye = position - eye;
     const float distance = glm::length(fromEye);
-    if (!(distance > 0)) return;
+    const auto relative = static_cast<float>(weight / typicalWeight_);
+    if (!(distance > 0) || !(relative > 0)) return;
+    seen.eyes.push_back(number);
     seen.directions.push_back(fromEye / distance);
-    seen.weights.push_back(static_cast<float>(weight / typicalWeight_));
+    seen.weights.push_back(relative);
   };
   for (uint64_t i = visibility_->offsets[site]; i < visibility_->offsets[site + 1]; ++i) {
-    add(visibility_->eyes[visibility_->views[i]], visibility_->weights[i]);
-    add(eyesBeside_[visibility_->views[i]], kBesideShare * visibility_->weights[i]);
+    const uint32_t view = visibility_->views[i], number = view * (1 + kEyesAround);
+    add(number, visibility_->eyes[view], visibility_->weights[i]);
+    for (uint32_t e = 0; e < kEyesAround; ++e) {
+      add(number + 1 + e, eyesAround_[e][view], kAround[e].share * visibility_->weights[i]);
+    }
   }
 }
 
-void Observer::addHemisphere(uint64_t, const FaceFrame<float>& frame, Observations& seen) const {
-  static const auto kHemisphere = spreadHemisphere();
+void Observer::addHemisphere(const FaceFrame<float>& frame, Observations& seen) const {
   const float weight = (visibility_ ? kHemisphereShare : 1.0f) / kHemisphereDirections;
+  uint32_t number = visibility_ ? static_cast<uint32_t>(visibility_->eyes.size()) * (1 + kEyesAround) : 0;
   for (const glm::vec3& d : kHemisphere) {
+    seen.eyes.push_back(number++);
     seen.directions.push_back(d.x * frame.tangent + d.y * frame.bitangent - d.z * frame.normal);
     seen.weights.push_back(weight);
   }

@@ -1,7 +1,9 @@
 // From where a detail site is seen, and the colour that the input foam shows there: what a fit has to match.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -11,8 +13,9 @@
 
 namespace froth {
 
-// One entry per direction.
+// One entry per eye.
 struct Observations {
+  std::vector<uint32_t> eyes;         // ascending; the same number is the same eye for all detail sites of a cell
   std::vector<glm::vec3> directions;  // unit, from the eye to the detail site
   std::vector<float> weights;         // > 0, in units of a typical detail site
   std::vector<glm::vec3> colours;     // display-coded, 0..1.5
@@ -20,24 +23,33 @@ struct Observations {
   size_t size() const { return directions.size(); }
 };
 
-// Every detail site has some observations: a camera flies where none of the input was, so each one counts a little along
-// the hemisphere before its face; and beside each camera that sees it stands one that counts less. Thread-safe.
+// Weighted mean colour, and the sum of the weights.
+glm::dvec3 meanColour(const Observations& seen);
+double totalWeight(const Observations& seen);
+
+// A game's camera flies between the input's cameras and somewhat beyond: around each that sees a detail site stand others
+// that count less. And where none of the input was, each detail site counts a little along the hemisphere before its face, so
+// every one has some observations. Thread-safe.
 class Observer {
  public:
   // Keeps references. `visibility` null: the hemisphere alone.
   Observer(const Foam& foam, const Visibility* visibility);
 
   Observations observe(uint64_t site) const;
+  // How much of where one detail site of a cell shows the other one shows too [0..1] (Visibility::overlaps).
+  float overlap(uint32_t cell, uint32_t k, uint32_t l) const;
 
  private:
+  static constexpr uint32_t kEyesAround = 2;
+
   void addCameras(uint64_t site, const glm::vec3& position, Observations& seen) const;
-  void addHemisphere(uint64_t site, const FaceFrame<float>& frame, Observations& seen) const;
+  void addHemisphere(const FaceFrame<float>& frame, Observations& seen) const;
   glm::vec3 colourAlong(uint64_t site, const glm::vec3& direction) const;
 
   const Foam& foam_;
   const Visibility* visibility_;
-  std::vector<glm::vec3> eyesBeside_;  // [views]
-  double typicalWeight_ = 1;           // mean over the detail sites that are seen [pixels]
+  std::array<std::vector<glm::vec3>, kEyesAround> eyesAround_;  // [views] each
+  double typicalWeight_ = 1;  // mean over the detail sites that are seen
 };
 
 }  // namespace froth

@@ -53,13 +53,13 @@ void SiteCoder::tryLobes(const Observations& seen, const LobeBasis& basis, doubl
     if (selection.leastError() > bound_ && !isLast) continue;
     auto colours = LobeEquations(seen, basis, chosen, base).solveOnLattice(step);
     for (glm::dvec3& colour : colours) colour = glm::clamp(colour, -kBrightestLobe, kBrightestLobe);
-    const FitError error = measureFit(seen, basis, chosen, base, colours);
+    FitError error = measureFit(seen, basis, chosen, base, colours);
     if (error.squared >= best.error.squared) continue;
-    best.error = error;
+    best.error = std::move(error);
     best.colours = std::move(colours);
     best.axes.clear();
     for (uint32_t a : chosen) best.axes.push_back(basis.axes()[a]);
-    if (error.squared <= bound_) return;
+    if (best.error.squared <= bound_) return;
   }
 }
 

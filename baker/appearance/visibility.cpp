@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t kDefaultPixels = 80'000;
 constexpr double kCutoff = 1e-3;         // of the runtime
-constexpr double kFixedPoint = 1 << 24;  // sums are integers: their order does not matter
+constexpr double kFixedPoint = 0x1p28;  // sums are integers: their order does not matter
 
 // The foam without its colours: reduced views of large foams should not pay for lobes.
 Foam copyGeometry(const Foam& foam) {
@@ -66,14 +66,18 @@ void raise(float& value, float other) {
 
 // What one view sees.
 struct ViewSums {
-  std::vector<uint64_t> details;    // [drawn cells * K] sum of T alpha omega, fixed point
+  std::vector<uint64_t> details;    // [drawn cells * K] sum of squared shares, fixed point
   std::vector<float> contributions; // [drawn cells] largest T alpha
 };
 
 class ViewMeasurer {
  public:
-  ViewMeasurer(const View& view, const ViewCells<float>& cells, const BallHierarchy& hierarchy, double sharpness)
-      : view_(view), cells_(cells), hierarchy_(hierarchy) {
+  ViewMeasurer(const View& view, const ViewCells<float>& cells, const BallHierarchy& hierarchy, double sharpness,
+               std::vector<uint64_t>& products)
+      : view_(view), cells_(cells), hierarchy_(hierarchy), products_(products), sources_(cells.cells.size()) {
+    for (uint32_t cell = 0; cell < cells.rankOf.size(); ++cell) {
+      if (cells.rankOf[cell] != ViewCells<float>::kNotDrawn) sources_[cells.rankOf[cell]] = cell;
+    }
     settings_ = {float(kCutoff), -std::numeric_limits<float>::infinity(), float(sharpness)};
     sums_.details.resize(cells.cells.size() * cells.detailCount);
     sums_.contributions.resize(cells.cells.size());
@@ -112,18 +116,27 @@ class ViewMeasurer {
       shares[k] = foam::detailWeight(segment.query, details[k].place, settings_.sharpness);
       sum += shares[k];
     }
-    const double scale = kFixedPoint * segment.weight / foam::flooredWeightSum(sum);
-    for (size_t k = 0; k < shares.size(); ++k) {
-      const auto added = static_cast<uint64_t>(scale * shares[k]);
-      if (added == 0) continue;
-      std::atomic_ref<uint64_t>(sums_.details[segment.rank * shares.size() + k]).fetch_add(added, std::memory_order_relaxed);
+    const float scale = segment.weight / foam::flooredWeightSum(sum);
+    for (float& share : shares) share *= scale;
+    uint64_t* const squares = &sums_.details[segment.rank * shares.size()];
+    uint64_t* const products = &products_[sources_[segment.rank] * (shares.size() * (shares.size() - 1) / 2)];
+    for (size_t k = 0, pair = 0; k < shares.size(); ++k) {
+      addProduct(squares[k], shares[k], shares[k]);
+      for (size_t l = k + 1; l < shares.size(); ++l, ++pair) addProduct(products[pair], shares[k], shares[l]);
     }
     raise(sums_.contributions[segment.rank], segment.weight);
+  }
+
+  static void addProduct(uint64_t& sum, float a, float b) {
+    const auto added = static_cast<uint64_t>(kFixedPoint * a * b);
+    if (added > 0) std::atomic_ref<uint64_t>(sum).fetch_add(added, std::memory_order_relaxed);
   }
 
   const View& view_;
   const ViewCells<float>& cells_;
   const BallHierarchy& hierarchy_;
+  std::vector<uint64_t>& products_;  // [foam cells * K(K-1)/2] of all views
+  std::vector<uint32_t> sources_;    // [drawn cells] index in the foam
   RaySettings<float> settings_;
   ViewSums sums_;
 };
@@ -135,7 +148,7 @@ struct ViewEntries {
 };
 
 void addEntries(const ViewCells<float>& cells, const ViewSums& sums, double pixelsPerSample, ViewEntries& entries,
-                std::vector<float>& contributions) {
+                std::vector<float>& contributions, std::vector<uint64_t>& squares) {
   const uint32_t K = cells.detailCount;
   for (size_t cell = 0; cell < cells.rankOf.size(); ++cell) {
     const uint32_t rank = cells.rankOf[cell];
@@ -144,8 +157,24 @@ void addEntries(const ViewCells<float>& cells, const ViewSums& sums, double pixe
     for (uint32_t k = 0; k < K; ++k) {
       const uint64_t sum = sums.details[uint64_t{rank} * K + k];
       if (sum == 0) continue;
+      squares[cell * K + k] += sum;
       entries.sites.push_back(cell * K + k);
       entries.weights.push_back(static_cast<float>(sum / kFixedPoint * pixelsPerSample));
+    }
+  }
+}
+
+// Products of shares, divided by the roots of the squares.
+void correlate(uint32_t detailCount, const std::vector<uint64_t>& squares, const std::vector<uint64_t>& products,
+               std::vector<float>& overlaps) {
+  overlaps.resize(products.size());
+  size_t pair = 0;
+  for (size_t first = 0; first < squares.size(); first += detailCount) {
+    for (uint32_t k = 0; k < detailCount; ++k) {
+      for (uint32_t l = k + 1; l < detailCount; ++l, ++pair) {
+        const double norm = std::sqrt(double(squares[first + k]) * double(squares[first + l]));
+        overlaps[pair] = norm > 0 ? static_cast<float>(std::min(products[pair] / norm, 1.0)) : 0.0f;
+      }
     }
   }
 }
@@ -183,6 +212,8 @@ Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> vie
   Visibility visibility;
   visibility.offsets.assign(uint64_t{foam.cellCount} * foam.detailCount + 1, 0);
   visibility.contributions.assign(foam.cellCount, 0.0f);
+  const uint32_t K = foam.detailCount;
+  std::vector<uint64_t> squares(uint64_t{foam.cellCount} * K), products(uint64_t{foam.cellCount} * (K * (K - 1) / 2));
   std::vector<ViewEntries> entries(views.size());
   for (size_t v = 0; v < views.size(); ++v) {
     if (!report(progress, "visibility", v, views.size())) {
@@ -194,12 +225,13 @@ Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> vie
     reference.nearDepth = views[v].nearDepth.value_or(options.nearDepth);
     const auto candidates = findCellsInFrustum(geometry, visible, view);
     const auto cells = prepareViewCells<float>(geometry, pairs, candidates, view, reference);
-    const ViewSums sums = ViewMeasurer(view, cells, hierarchy, options.detailSharpness).measure();
+    const ViewSums sums = ViewMeasurer(view, cells, hierarchy, options.detailSharpness, products).measure();
     const double pixelsPerSample = double(views[v].width) * views[v].height / (double(view.width) * view.height);
-    addEntries(cells, sums, pixelsPerSample, entries[v], visibility.contributions);
+    addEntries(cells, sums, pixelsPerSample, entries[v], visibility.contributions, squares);
     visibility.eyes.push_back(eyeOf(view));
   }
   gatherRows(entries, visibility);
+  correlate(K, squares, products, visibility.overlaps);
   return visibility;
 }
 

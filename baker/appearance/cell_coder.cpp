@@ -1,0 +1,100 @@
+#include "baker/appearance/cell_coder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kLargestScale = 15;
+constexpr double kCoarsestStep = 0.25;  // [display-coded] of colours
+constexpr double kRoundingShare = 1.0;  // squared error of rounding colours, relative to what is allowed in all
+constexpr float kMostCarried = 0.3f;    // [display-coded] error of others that a detail site makes up for
+
+glm::vec3 snapCellColour(const glm::dvec3& colour) {
+  return glm::vec3(glm::roundEven(glm::clamp(colour, 0.0, 1.0) * 255.0) / 255.0);
+}
+
+// What an error of `other` looks like where `seen` shows: both are seen from an eye with the same overlap as from all.
+void addCarried(const Observations& seen, const Observations& other, std::span<const glm::vec3> misses, float overlap,
+                std::span<glm::vec3> carried) {
+  for (size_t i = 0, j = 0; i < seen.size(); ++i) {
+    while (j < other.size() && other.eyes[j] < seen.eyes[i]) ++j;
+    if (j == other.size()) return;
+    if (other.eyes[j] != seen.eyes[i]) continue;
+    carried[i] += overlap * std::sqrt(other.weights[j] / seen.weights[i]) * misses[j];
+  }
+}
+
+}  // namespace
+
+std::vector<CellCoder::Site> CellCoder::observeCell(uint32_t cell) const {
+  std::vector<Site> sites(foam_.detailCount);
+  for (uint32_t k = 0; k < foam_.detailCount; ++k) {
+    sites[k].seen = observer_.observe(uint64_t{cell} * foam_.detailCount + k);
+    sites[k].weight = totalWeight(sites[k].seen);
+  }
+  return sites;
+}
+
+// The coarsest lattice on which rounding (uniform errors of +- half a step) stays small even where the cell shows most.
+uint8_t CellCoder::chooseScale(const std::vector<Site>& sites) const {
+  if (!(options_.colourStep > 0)) return 0;
+  double weight = 0;
+  for (const Site& site : sites) weight = std::max(weight, site.weight);
+  const double step = std::min(std::sqrt(12 * kRoundingShare * allowedError() / weight), kCoarsestStep);
+  const double scale = std::floor(std::log2(std::max(step / options_.colourStep, 1.0)));
+  return static_cast<uint8_t>(std::min<double>(scale, kLargestScale));
+}
+
+void CellCoder::codeSites(uint32_t cell, double step, std::vector<Site>& sites) const {
+  const SiteCoder coder(options_, codebook_, allowedError());
+  std::vector<uint32_t> order(sites.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return sites[a].weight < sites[b].weight; });
+  for (size_t n = 0; n < order.size(); ++n) {
+    const uint32_t k = order[n];
+    Site& site = sites[k];
+    std::vector<glm::vec3> carried(site.seen.size(), glm::vec3(0));
+    for (size_t m = 0; m < n; ++m) {
+      const Site& other = sites[order[m]];
+      addCarried(site.seen, other.seen, other.misses, observer_.overlap(cell, k, order[m]), carried);
+    }
+    Observations wanted = site.seen;
+    for (size_t i = 0; i < wanted.size(); ++i) {
+      carried[i] = glm::clamp(carried[i], -kMostCarried, kMostCarried);
+      wanted.colours[i] -= carried[i];
+    }
+    const LobeRange lobes = lobesOf(foam_, uint64_t{cell} * sites.size() + k);
+    site.coded = coder.code(wanted, std::span(foam_.lobeAxes).subspan(lobes.first, lobes.count), step);
+    site.misses = site.coded.error.misses;
+    for (size_t i = 0; i < wanted.size(); ++i) site.misses[i] -= carried[i];
+  }
+}
+
+void CellCoder::append(uint32_t cell, CellAppearance& out) const {
+  std::vector<Site> sites = observeCell(cell);
+  const uint8_t scale = chooseScale(sites);
+  codeSites(cell, std::ldexp(double(options_.colourStep), scale), sites);
+  glm::dvec3 colourSum(0);
+  double weightSum = 0;
+  for (const Site& site : sites) {
+    colourSum += site.weight * meanColour(site.seen);
+    weightSum += site.weight;
+    out.baseColours.push_back(glm::vec3(site.coded.base));
+    out.lobeCounts.push_back(static_cast<uint8_t>(site.coded.axes.size()));
+    out.lobeAxes.insert(out.lobeAxes.end(), site.coded.axes.begin(), site.coded.axes.end());
+    for (const glm::dvec3& colour : site.coded.colours) out.lobeColours.push_back(glm::vec3(colour));
+    for (size_t i = 0; i < site.seen.size(); ++i) {
+      const glm::dvec3 miss = site.misses[i];
+      out.squaredError += site.seen.weights[i] * glm::dot(miss, miss) / 3;
+      for (int c = 0; c < 3; ++c) out.maxError = std::max(out.maxError, std::abs(miss[c]));
+    }
+  }
+  out.cellColours.push_back(snapCellColour(colourSum / weightSum));
+  out.colourScales.push_back(scale);
+  out.weight += weightSum;
+}
+
+}  // namespace froth

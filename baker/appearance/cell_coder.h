@@ -1,0 +1,44 @@
+// Compresses the colours of one cell: its detail sites together, for where one shows others mostly show too.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "baker/appearance/appearance.h"
+#include "baker/appearance/axis_codebook.h"
+#include "baker/appearance/observations.h"
+#include "baker/appearance/site_coder.h"
+
+namespace froth {
+
+// A detail site is coded after those of its cell that show less, and makes up for what they get wrong where it shows too.
+class CellCoder {
+ public:
+  // Keeps references.
+  CellCoder(const Foam& foam, const Observer& observer, const AxisCodebook& codebook, const AppearanceOptions& options)
+      : foam_(foam), observer_(observer), codebook_(codebook), options_(options) {}
+
+  void append(uint32_t cell, CellAppearance& out) const;
+
+ private:
+  struct Site {
+    Observations seen;
+    double weight = 0;
+    CodedSite coded;
+    std::vector<glm::vec3> misses;  // [observations] shown - wanted
+  };
+
+  double allowedError() const { return double(options_.errorBound) * options_.errorBound; }
+  std::vector<Site> observeCell(uint32_t cell) const;
+  uint8_t chooseScale(const std::vector<Site>& sites) const;
+  void codeSites(uint32_t cell, double step, std::vector<Site>& sites) const;
+
+  const Foam& foam_;
+  const Observer& observer_;
+  const AxisCodebook& codebook_;
+  const AppearanceOptions& options_;
+};
+
+}  // namespace froth
