@@ -112,8 +112,6 @@ TEST_F(Appearance, ChunksMayHoldDifferentParts) {
 
 TEST_F(Appearance, OfTheFirstLayerIsOneColourAndOneHeightPerCell) {
   chunk().baseColours = randomColours(detailSites(), -0.4f, 0.4f);
-  chunk().cellColours = randomColours(chunk().liveCount, 0, 1);
-  for (uint32_t cell = 0; cell < chunk().liveCount; ++cell) chunk().cellHeights.push_back(random(-0.3f, 0.3f));
   AssetContents shown = contents_;
   shown.detailCount = 1;
   shown.lobeCount = 0;
@@ -129,7 +127,6 @@ TEST_F(Appearance, OfTheFirstLayerIsOneColourAndOneHeightPerCell) {
 
 TEST_F(Appearance, OfTwoLayersIsTheDetailWithoutViewDependence) {
   chunk().baseColours = randomColours(detailSites(), -0.4f, 0.4f);
-  chunk().cellColours = randomColours(chunk().liveCount, 0, 1);
   AssetContents shown = contents_;
   shown.lobeCount = 0;
   shown.chunks[0].lobeAxes.clear();

@@ -85,7 +85,7 @@ Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* 
   do {
     submit({});
     check(frothGetAssetStatus(context_, asset_, &status), "frothGetAssetStatus");
-  } while (status.state == FROTH_ASSET_OPENING);
+  } while (status.state == FROTH_ASSET_OPENING && !testing::Test::HasFailure());
   EXPECT_EQ(status.state, FROTH_ASSET_READY);
 }
 
