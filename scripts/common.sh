@@ -6,7 +6,7 @@ cd "$root"
 # Debian 12 packages that every build needs.
 build_packages=(
   build-essential cmake ninja-build pkg-config
-  libcgal-dev libtbb-dev libfmt-dev libglm-dev libzstd-dev libdraco-dev libflatbuffers-dev flatbuffers-compiler libxxhash-dev
+  libcgal-dev libtbb-dev libfmt-dev libglm-dev libzstd-dev libdraco-dev libbenchmark-dev libflatbuffers-dev flatbuffers-compiler libxxhash-dev
   libcli11-dev nlohmann-json3-dev libpng-dev libjpeg-dev zlib1g-dev libstb-dev
   glslang-tools libvulkan-dev libglfw3-dev libimgui-dev mesa-vulkan-drivers
 )

@@ -28,8 +28,8 @@ void unpack(std::span<const uint8_t> data) {
   InputBytes bytes(data);
   const GraphInput input = bytes.take<GraphInput>();
   ChunkContents chunk;
-  chunk.cellCount = input.cells;
-  chunk.ghostCount = input.ghosts;
+  chunk.cellCount = input.cells % 256;
+  chunk.ghostCount = input.ghosts % 256u + (input.isWide == 255 ? 0x8000 : 0);
   chunk.liveCount = input.live % (chunk.cellCount + 1);
   const size_t siteCount = size_t{chunk.cellCount} + chunk.ghostCount;
   for (size_t i = 0; i < siteCount; ++i) {

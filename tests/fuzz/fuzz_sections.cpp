@@ -11,7 +11,7 @@ void decode(std::span<const uint8_t> data) {
   const SectionInput input = bytes.take<SectionInput>();
   const SectionShape shape{1u << input.elementSizeLog % 3, input.components % 8 + 1u};
   const std::span<const uint8_t> stored = bytes.left();
-  const size_t rawSize = size_t{input.entries % (1u << 18)} * shape.elementSize * shape.components;
+  const size_t rawSize = size_t{input.entries % (1u << 12)} * shape.elementSize * shape.components;
   if (rawSize > kMaxExpansion * stored.size()) return;  // the manifest's check
   std::vector<uint8_t> raw(rawSize);
   SectionRecord record;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "codec_inputs.h"
+#include "format/deltas.h"
 #include "format/draco_positions.h"
 #include "format/graph_rows.h"
 #include "format/position_order.h"
@@ -47,7 +48,10 @@ void writeSections(const std::filesystem::path& folder) {
     if (const Result<EncodedSection> section = encodeSection(raw, shape)) writeSection(folder, *section, shape, raw.size());
 
   std::vector<LatticePoint> points = randomPoints(60, 9);
-  std::sort(points.begin(), points.end());
+  const auto codeOf = [](const LatticePoint& point) {  // the points lie in -1000 .. -489
+    return mortonCode({point[0] + 1000u, point[1] + 1000u, point[2] + 1000u});
+  };
+  std::sort(points.begin(), points.end(), [&](const auto& a, const auto& b) { return codeOf(a) < codeOf(b); });
   const uint32_t run = static_cast<uint32_t>(points.size());
   if (const Result<EncodedSection> section = encodePositions(bytesOf(points), {&run, 1}))
     writeSection(folder, *section, kPositionShape, bytesOf(points).size());
