@@ -30,8 +30,7 @@ DiagramCheck::DiagramCheck(std::span<const glm::vec3> sites, std::span<const flo
       triangulation_(triangulation),
       alpha_(alpha),
       seed_(seed),
-      order_(mortonOrder(sites)),
-      tree_(sites, radii, order_),
+      tree_(sites, radii, mortonOrder(sites)),
       low_(sites[0]),
       high_(sites[0]) {
   for (const glm::vec3& site : sites) {
@@ -194,7 +193,7 @@ std::vector<uint32_t> DiagramCheck::findBallsOn(const Ray& ray) const {
     return glm::length(centre - along * ray.direction) - reach;
   };
   tree_.search(0.0, bound, [&](uint32_t place) {
-    const uint32_t cell = order_[place];
+    const uint32_t cell = tree_.order()[place];
     double tNear, tFar;
     const glm::dvec3 centre = glm::dvec3(sites_[cell]) - ray.origin;
     if (foam::intersectBall(centre, double{radii_[cell]}, ray.direction, tNear, tFar)) found.push_back(cell);

@@ -55,7 +55,6 @@ class DiagramCheck {
   const RegularTriangulation& triangulation_;
   const AlphaComplex& alpha_;
   uint64_t seed_;
-  std::vector<uint32_t> order_;
   SiteTree tree_;
   glm::dvec3 low_, high_;  // the sites' box
 };

@@ -23,7 +23,7 @@ namespace froth {
 struct PlacedSites {
   std::span<const glm::vec3> sites;
   std::span<const float> radii;
-  std::vector<uint32_t> order;  // site at each place
+  std::span<const uint32_t> order;  // site at each place
 };
 
 // Rows of some visible cells: unsorted, one after the other.

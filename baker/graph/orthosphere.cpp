@@ -55,9 +55,12 @@ PowerForm::PowerForm(const Ball& first, double scale, double scaleTerms, const g
     : origin_(first.site),
       radius_(first.radius),
       scale_(std::max(scale, 0.0)),  // the exact one is not negative, so this is no farther from it
-      scaleError_(kSlack * scaleTerms),
+      scaleError_(kSlack * (scaleTerms + scale_)),
       moment_(moment),
-      momentError_(kSlack * momentTerms) {}
+      momentError_(kSlack * (momentTerms + glm::abs(moment))),
+      centre_(scale_ > 0 ? moment / (2 * scale_)
+                         : glm::mix(glm::dvec3(-INFINITY), glm::dvec3(INFINITY),
+                                    glm::greaterThan(moment, glm::dvec3(0)))) {}
 
 // The centre solves 2 c . d_i = h_i, h_i = |d_i|^2 - (r_i^2 - r_0^2): by Cramer's rule
 // 2 c = (h_1 d_2 x d_3 + h_2 d_3 x d_1 + h_3 d_1 x d_2) / (d_1 . d_2 x d_3).
@@ -95,23 +98,17 @@ PowerForm::Bounds PowerForm::at(const glm::vec3& site, float radius) const {
   const glm::dvec3 x = glm::dvec3(site) - origin_;
   const Summed<double> height = liftedHeight(x, radius, radius_);
   const double value = scale_ * height.value - glm::dot(moment_, x);
-  const double error = (scaleError_ + kSlack * scale_) * height.terms +
-                       glm::dot(momentError_ + kSlack * glm::abs(moment_), glm::abs(x));
+  const double error = scaleError_ * height.terms + glm::dot(momentError_, glm::abs(x));
   return {value - error, value + error};
 }
 
 double PowerForm::lowerOver(const SiteBox& box) const {
   const glm::dvec3 low = glm::dvec3(box.low) - origin_, high = glm::dvec3(box.high) - origin_;
   const glm::dvec3 reach = glm::max(glm::abs(low), glm::abs(high));
-  glm::dvec3 x;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double end = moment_[axis] > 0 ? high[axis] : low[axis];
-    x[axis] = scale_ > 0 ? glm::clamp(moment_[axis] / (2 * scale_), low[axis], high[axis]) : end;
-  }
+  const glm::dvec3 x = glm::clamp(centre_, low, high);
   const double weight = double{box.maxRadius} * box.maxRadius + radius_ * radius_;
   const double height = glm::dot(x, x) - (box.maxRadius - radius_) * (box.maxRadius + radius_);
-  const double error = (scaleError_ + kSlack * scale_) * (glm::dot(reach, reach) + weight) +
-                       glm::dot(momentError_ + kSlack * glm::abs(moment_), reach);
+  const double error = scaleError_ * (glm::dot(reach, reach) + weight) + glm::dot(momentError_, reach);
   return scale_ * height - glm::dot(moment_, x) - error;
 }
 

@@ -37,14 +37,15 @@ class PowerForm {
   double lowerOver(const SiteBox& box) const;
 
  private:
-  // `scale` and `moment` have errors of at most scaleTerms and momentTerms times kSlack.
+  // `scale` and `moment` are sums of products; scaleTerms and momentTerms those of their magnitudes.
   PowerForm(const Ball& first, double scale, double scaleTerms, const glm::dvec3& moment,
             const glm::dvec3& momentTerms);
 
   glm::dvec3 origin_;
   double radius_;
-  double scale_, scaleError_;  // >= 0
+  double scale_, scaleError_;  // >= 0; errors: with the roundings of what they are multiplied with
   glm::dvec3 moment_, momentError_;
+  glm::dvec3 centre_;  // where f is least
 };
 
 }  // namespace froth

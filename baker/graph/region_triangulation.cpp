@@ -28,9 +28,14 @@ constexpr size_t kMaxSitesPerOwn = 16, kMaxExtraSites = 1 << 15;
 
 class Region {
  public:
-  // The region owns the places [begin, end).
-  Region(const PlacedSites& sites, const SiteTree& tree, uint32_t begin, uint32_t end)
-      : sites_(sites), tree_(tree), begin_(begin), end_(end), isLocal_(sites.order.size()), local_(sites) {}
+  // The region owns some places.
+  Region(const PlacedSites& sites, const SiteTree& tree, SiteTree::Range own)
+      : sites_(sites),
+        tree_(tree),
+        begin_(own.begin),
+        end_(own.end),
+        isLocal_(sites.order.size()),
+        local_(sites) {}
 
   enum class Outcome { kDone, kStopped, kNeedsTheWhole };
   // `simplex`: places of four sites that lie in no plane, so that the local triangulation has all dimensions.
@@ -176,23 +181,23 @@ Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites
                                                 std::span<const float> radii, std::span<const uint32_t> order,
                                                 uint32_t regionCells, const Progress& progress) {
   if (Status status = checkFinite(sites, radii); !status) return status.error();
-  PlacedSites placed{sites, radii, dropDuplicates(sites, radii, order)};
+  const SiteTree tree(sites, radii, dropDuplicates(sites, radii, order));
+  const PlacedSites placed{sites, radii, tree.order()};
   const auto placeCount = static_cast<uint32_t>(placed.order.size());
   const std::vector<uint32_t> simplex = findSimplex(placed);
   if (placeCount <= regionCells || simplex.size() < 4) return triangulateRegular(sites, radii, progress);
 
-  const SiteTree tree(sites, radii, placed.order);
-  const uint32_t regionCount = (placeCount + regionCells - 1) / regionCells;
+  // Regions are nodes of the tree: compact, and skipped by a search in one step.
+  uint32_t depth = 0;
+  while (depth < tree.depth() && placeCount >> depth > regionCells) ++depth;
+  const uint32_t regionCount = 1u << depth;
   std::vector<RowBlock> blocks(regionCount);
   InsertionProgress insertion(progress, "triangulate regions", placeCount);
   std::atomic<bool> needsTheWhole = false;
   tbb::parallel_for(
       tbb::blocked_range<uint32_t>(0, regionCount, 1),
       [&](const tbb::blocked_range<uint32_t>& range) {
-        // Regions of equal size, to one site.
-        const auto begin = static_cast<uint32_t>(uint64_t{placeCount} * range.begin() / regionCount);
-        const auto end = static_cast<uint32_t>(uint64_t{placeCount} * range.end() / regionCount);
-        Region region(placed, tree, begin, end);
+        Region region(placed, tree, tree.rangeAt(depth, range.begin()));
         const Region::Outcome outcome = region.triangulate(simplex, insertion);
         if (outcome == Region::Outcome::kDone) blocks[range.begin()] = region.collectRows();
         if (outcome == Region::Outcome::kNeedsTheWhole) {

@@ -76,7 +76,8 @@ RegularTriangulation assembleRows(const PlacedSites& sites, std::vector<RowBlock
 Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites,
                                                 std::span<const float> radii, const Progress& progress) {
   if (Status status = checkFinite(sites, radii); !status) return status.error();
-  const PlacedSites placed{sites, radii, dropDuplicates(sites, radii, mortonOrder(sites))};
+  const std::vector<uint32_t> order = dropDuplicates(sites, radii, mortonOrder(sites));
+  const PlacedSites placed{sites, radii, order};
 
   std::vector<uint32_t> places(placed.order.size());
   std::iota(places.begin(), places.end(), 0u);

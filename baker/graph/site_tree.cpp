@@ -1,8 +1,10 @@
 #include "baker/graph/site_tree.h"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 namespace froth {
 namespace {
@@ -11,26 +13,51 @@ namespace {
 // sum.
 constexpr double kSlack = 0x1p-48;
 
-SiteBox unite(const SiteBox& a, const SiteBox& b) {
-  return {glm::min(a.low, b.low), glm::max(a.high, b.high), std::max(a.maxRadius, b.maxRadius)};
-}
+// Larger nodes are only split in space: regions of a scene are such nodes.
+constexpr uint32_t kMaxSplitByRadius = 1 << 12;
+constexpr uint32_t kParallelNode = 1 << 13;  // smaller ones are not worth a task of their own
 
 }  // namespace
 
 SiteTree::SiteTree(std::span<const glm::vec3> sites, std::span<const float> radii,
-                   std::span<const uint32_t> order)
-    : sites_(sites), radii_(radii), order_(order) {
-  const uint32_t count = static_cast<uint32_t>(order.size());
-  leafCount_ = std::bit_ceil((count + kLeafSize - 1) / kLeafSize);
-  boxes_.resize(size_t{2} * leafCount_);
-  tbb::parallel_for(uint32_t{0}, (count + kLeafSize - 1) / kLeafSize, [&](uint32_t leaf) {
-    SiteBox& box = boxes_[leafCount_ + leaf];
-    for (uint32_t k = leaf * kLeafSize; k < std::min((leaf + 1) * kLeafSize, count); ++k) {
-      box = unite(box, {sites[order[k]], sites[order[k]], radii[order[k]]});
-    }
-  });
-  for (uint32_t node = leafCount_ - 1; node >= 1; --node)
-    boxes_[node] = unite(boxes_[size_t{2} * node], boxes_[size_t{2} * node + 1]);
+                   std::vector<uint32_t> members)
+    : sites_(sites), radii_(radii), order_(std::move(members)) {
+  const auto leaves = static_cast<uint32_t>((order_.size() + kLeafSize - 1) / kLeafSize);
+  depth_ = leaves > 1 ? static_cast<uint32_t>(std::bit_width(leaves - 1)) : 0;
+  boxes_.resize(size_t{2} << depth_);
+  build(0, 0);
+}
+
+// Bounds a node and splits it at its median along the axis in which it is longest.
+void SiteTree::build(uint32_t depth, uint32_t k) {
+  const Range range = rangeAt(depth, k);
+  SiteBox& box = boxes_[(size_t{1} << depth) + k];
+  float minRadius = INFINITY;
+  for (uint32_t place = range.begin; place < range.end; ++place) {
+    const uint32_t site = order_[place];
+    box.low = glm::min(box.low, sites_[site]);
+    box.high = glm::max(box.high, sites_[site]);
+    box.maxRadius = std::max(box.maxRadius, radii_[site]);
+    minRadius = std::min(minRadius, radii_[site]);
+  }
+  if (depth == depth_) return;
+
+  const glm::vec3 size = box.high - box.low;
+  const bool isSplitByRadius = range.end - range.begin <= kMaxSplitByRadius &&
+                               box.maxRadius - minRadius > std::max({size.x, size.y, size.z});
+  const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+  const auto key = [&](uint32_t site) {
+    return std::pair(isSplitByRadius ? radii_[site] : sites_[site][axis], site);
+  };
+  const auto begin = order_.begin();
+  std::nth_element(begin + range.begin, begin + rangeAt(depth + 1, 2 * k).end, begin + range.end,
+                   [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  if (range.end - range.begin >= kParallelNode) {
+    tbb::parallel_invoke([&] { build(depth + 1, 2 * k); }, [&] { build(depth + 1, 2 * k + 1); });
+  } else {
+    build(depth + 1, 2 * k);
+    build(depth + 1, 2 * k + 1);
+  }
 }
 
 LeastPower SiteTree::findLeastPower(const glm::dvec3& x) const {

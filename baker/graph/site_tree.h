@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,14 +33,28 @@ inline double powerAt(const glm::dvec3& x, const glm::vec3& site, float radius) 
   return glm::dot(difference, difference) - double{radius} * radius;
 }
 
-// Implicit binary tree over the sites in a given order, best a space-filling curve: node k has children 2k
-// and 2k + 1; leaf l is node leafCount + l and holds places [l * kLeafSize, (l + 1) * kLeafSize) of the
-// order. Refers to the arrays it was made from. Searches may run at the same time.
+// A balanced kd-tree over some of the sites; small nodes are split by radius where that differs more than the
+// places do, so that a giant does not blow up the bounds of the small balls around it. The tree puts its
+// sites in order: every node is a range of places in it. Refers to the arrays it was made from; searches may
+// run at the same time.
 class SiteTree {
  public:
-  SiteTree(std::span<const glm::vec3> sites, std::span<const float> radii, std::span<const uint32_t> order);
+  SiteTree(std::span<const glm::vec3> sites, std::span<const float> radii, std::vector<uint32_t> members);
 
-  // A node on a search's way: the sites at places [begin, end) of the order lie in `box`.
+  // The site at each place.
+  const std::vector<uint32_t>& order() const { return order_; }
+
+  struct Range {
+    uint32_t begin, end;
+  };
+  // The places of node k of the 2^depth of that depth. The last depth has at most kLeafSize sites per node.
+  Range rangeAt(uint32_t depth, uint32_t k) const {
+    return {static_cast<uint32_t>(uint64_t{order_.size()} * k >> depth),
+            static_cast<uint32_t>(uint64_t{order_.size()} * (k + 1) >> depth)};
+  }
+  uint32_t depth() const { return depth_; }
+
+  // A node on a search's way: the sites at places [begin, end) lie in `box`.
   struct Node {
     const SiteBox& box;
     uint32_t begin, end;
@@ -58,42 +71,41 @@ class SiteTree {
  private:
   static constexpr uint32_t kLeafSize = 8;
 
+  void build(uint32_t depth, uint32_t k);
+
   std::span<const glm::vec3> sites_;
   std::span<const float> radii_;
-  std::span<const uint32_t> order_;
-  uint32_t leafCount_ = 1;
-  std::vector<SiteBox> boxes_;
+  std::vector<uint32_t> order_;
+  uint32_t depth_;
+  std::vector<SiteBox> boxes_;  // node k of depth d is 2^d + k
 };
 
 template <class Bound, class Visit>
 void SiteTree::search(const double& limit, const Bound& bound, const Visit& visit) const {
   struct Open {
-    uint32_t node, leaf, leaves;  // leaves [leaf, leaf + leaves) lie below the node
+    uint32_t depth, k;
     double bound;
   };
-  const uint32_t count = static_cast<uint32_t>(order_.size());
-  const auto open = [&](uint32_t node, uint32_t leaf, uint32_t leaves) -> Open {
-    const uint32_t begin = leaf * kLeafSize;
-    if (begin >= count) return {node, leaf, leaves, INFINITY};
-    return {node, leaf, leaves,
-            bound(Node{boxes_[node], begin, std::min(begin + leaves * kLeafSize, count)})};
+  const auto open = [&](uint32_t depth, uint32_t k) -> Open {
+    const Range range = rangeAt(depth, k);
+    return {depth, k, bound(Node{boxes_[(size_t{1} << depth) + k], range.begin, range.end})};
   };
+  if (order_.empty()) return;
   std::array<Open, 64> stack;  // a depth-first search of a binary tree keeps one node per level, plus one
-  uint32_t depth = 0;
-  stack[depth++] = open(1, 0, leafCount_);
-  while (depth > 0) {
-    const Open top = stack[--depth];
-    if (!(top.bound <= limit) || top.leaf * kLeafSize >= count) continue;
-    if (top.leaves == 1) {
-      const uint32_t begin = top.leaf * kLeafSize, end = std::min(begin + kLeafSize, count);
-      for (uint32_t k = begin; k < end; ++k) visit(k);
+  uint32_t count = 0;
+  stack[count++] = open(0, 0);
+  while (count > 0) {
+    const Open top = stack[--count];
+    if (!(top.bound <= limit)) continue;
+    if (top.depth == depth_) {
+      const Range range = rangeAt(top.depth, top.k);
+      for (uint32_t place = range.begin; place < range.end; ++place) visit(place);
       continue;
     }
-    const uint32_t half = top.leaves / 2;
-    Open near = open(2 * top.node, top.leaf, half), far = open(2 * top.node + 1, top.leaf + half, half);
+    Open near = open(top.depth + 1, 2 * top.k), far = open(top.depth + 1, 2 * top.k + 1);
     if (far.bound < near.bound) std::swap(near, far);
-    if (far.bound <= limit) stack[depth++] = far;
-    if (near.bound <= limit) stack[depth++] = near;
+    if (far.bound <= limit) stack[count++] = far;
+    if (near.bound <= limit) stack[count++] = near;
   }
 }
 

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "baker/graph/graph.h"
+#include "tests/graph/ball_sets.h"
+
+namespace froth {
+namespace {
+
+// The same graph as in one piece; returns the names of the stages that were reported.
+std::set<std::string> expectSameAsTheWhole(const BallSet& balls, uint32_t regionCells) {
+  const Result<RegularTriangulation> whole = triangulateRegular(balls.sites, balls.radii);
+  std::set<std::string> stages;
+  const Progress progress = [&](std::string_view stage, uint64_t, uint64_t) {
+    stages.emplace(stage);
+    return true;
+  };
+  const Result<RegularTriangulation> regions =
+      triangulateRegions(balls.sites, balls.radii, mortonOrder(balls.sites), regionCells, progress);
+  EXPECT_TRUE(whole && regions);
+  EXPECT_EQ(regions->duplicates, whole->duplicates) << balls.name;
+  EXPECT_TRUE(regions->isHidden == whole->isHidden) << balls.name << ", regions of " << regionCells;
+  EXPECT_TRUE(regions->graph.offsets == whole->graph.offsets) << balls.name << ", regions of " << regionCells;
+  EXPECT_TRUE(regions->graph.neighbours == whole->graph.neighbours)
+      << balls.name << ", regions of " << regionCells;
+  return stages;
+}
+
+// A grid has eight cospherical sites around each corner, and whole sides of coplanar ones: only CGAL's
+// symbolic perturbation decides its edges.
+TEST(RegionTriangulation, OfDegenerateSitesIsThatOfTheWhole) {
+  BallSetMaker make(3);
+  BallSet shaken = make.grid(10, 0.8f), mixed = make.grid(10, 0.8f);
+  for (glm::vec3& site : shaken.sites) site += glm::vec3(make.pointInCube(-1e-6, 1e-6));
+  for (size_t i = 0; i < mixed.sites.size(); i += 3) mixed.sites.push_back(mixed.sites[i]);
+  mixed.radii.resize(mixed.sites.size(), 0.8f);
+  for (const BallSet& balls : {make.grid(10, 0.8f), shaken, mixed}) {
+    for (const uint32_t regionCells : {20u, 128u, 600u}) {
+      EXPECT_THAT(expectSameAsTheWhole(balls, regionCells), testing::ElementsAre("triangulate regions"));
+    }
+  }
+}
+
+TEST(RegionTriangulation, OfFoamsIsThatOfTheWhole) {
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    BallSetMaker make(seed);
+    for (const BallSet& balls : {make.foamLike(3000), make.foamLike(3000, 1e6), make.stiff(3000),
+                                 make.withDuplicates(3000), make.withNearDuplicates(3000)}) {
+      for (const uint32_t regionCells : {100u, 1000u}) {
+        EXPECT_THAT(expectSameAsTheWhole(balls, regionCells), testing::ElementsAre("triangulate regions"));
+      }
+    }
+  }
+}
+
+TEST(RegionTriangulation, OfSmallSetsIsThatOfTheWholeWhateverTheRegions) {
+  for (uint64_t seed = 1; seed <= 4; ++seed) {
+    for (const BallSet& balls : makeBallSets(seed)) {
+      for (const uint32_t regionCells : {1u, 7u, 40u}) expectSameAsTheWhole(balls, regionCells);
+    }
+  }
+}
+
+// Sites in a plane have no regions of their own dimension.
+TEST(RegionTriangulation, OfSitesInAPlaneIsDoneInOnePiece) {
+  EXPECT_THAT(expectSameAsTheWhole(BallSetMaker(1).coplanar(500), 50), testing::ElementsAre("triangulate"));
+}
+
+// A plane of sites with one above it: every region lies in the plane.
+TEST(RegionTriangulation, OfAPlaneAndOneSiteAboveItIsThatOfTheWhole) {
+  BallSet balls = BallSetMaker(1).coplanar(500);
+  balls.add({5, 5, 9}, 1);
+  EXPECT_THAT(expectSameAsTheWhole(balls, 50), testing::ElementsAre("triangulate regions"));
+}
+
+// All cells meet in one point, and that in a region of any size: nothing is gained by regions.
+TEST(RegionTriangulation, OfSitesOnASphereIsThatOfTheWhole) {
+  BallSetMaker make(1);
+  BallSet balls{"sphere", {}, {}};
+  for (int i = 0; i < 1500; ++i) balls.add(glm::vec3(glm::normalize(make.pointInCube(-1, 1))), 0.1f);
+  expectSameAsTheWhole(balls, 100);
+}
+
+TEST(RegionTriangulation, IsTheSameOnAnyNumberOfThreads) {
+  const BallSet balls = BallSetMaker(4).foamLike(5000);
+  expectSameAsTheWhole(balls, 300);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  expectSameAsTheWhole(balls, 300);
+}
+
+TEST(RegionTriangulation, StopsWhenAskedTo) {
+  const BallSet balls = BallSetMaker(1).foamLike(3000);
+  const Progress stopHalfway = [](std::string_view, uint64_t done, uint64_t total) {
+    return done < total / 2;
+  };
+  const Result<RegularTriangulation> result =
+      triangulateRegions(balls.sites, balls.radii, mortonOrder(balls.sites), 200, stopHalfway);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::kCancelled);
+}
+
+TEST(RegionTriangulation, RefusesNumbersThatAreNotFinite) {
+  BallSet balls = BallSetMaker(1).foamLike(100);
+  balls.radii[70] = std::numeric_limits<float>::quiet_NaN();
+  const Result<RegularTriangulation> result =
+      triangulateRegions(balls.sites, balls.radii, mortonOrder(balls.sites), 20);
+  ASSERT_FALSE(result);
+  EXPECT_THAT(result.error().message, testing::HasSubstr("cell 70"));
+}
+
+}  // namespace
+}  // namespace froth
