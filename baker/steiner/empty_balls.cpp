@@ -20,7 +20,7 @@ constexpr uint32_t kMaxStretches = 256;  // of one ray; grazing rays see no more
 // Sizes. A cell's neighbours grow with the square of how much larger it is than what lies around it, and a step costs its
 // neighbours. So a ball may touch cells up to kTouchingRatio times smaller; farther out it is kGrading of its distance, which
 // leaves room for smaller ones between, and every ball has neighbours of about its own size.
-constexpr double kTouchingRatio = 4;
+constexpr double kTouchingRatio = 16;
 constexpr double kGrading = 0.3;
 constexpr double kLeastRatio = 1.5;  // to the nearest cell's radius; smaller ones add more steps than they save
 
@@ -30,8 +30,8 @@ constexpr double kLeastRatio = 1.5;  // to the nearest cell's radius; smaller on
 constexpr double kFilling = 1 - 0x1p-7;
 constexpr double kLeastClearance = 0x1p-13;  // of the largest radius
 
-constexpr double kLeastOverlapFree = 0.8;  // distance of two sites over the sum of their radii
-constexpr double kOpaque = 6.9;            // optical depth at which a walk ends
+constexpr double kSpacing = 0.9;  // distance of two sites over the sum of their radii
+constexpr double kOpaque = 6.9;   // optical depth at which a walk ends
 
 class EmptyBallFinder {
  public:
@@ -39,7 +39,12 @@ class EmptyBallFinder {
                   std::span<const float> densities, const SteinerOptions& options)
       : tree_(tree), sites_(sites), radii_(radii), densities_(densities), options_(options),
         extent_(glm::length(tree.high() - tree.low())),
-        leastClearance_(kLeastClearance * *std::max_element(radii.begin(), radii.end())) {}
+        leastClearance_(kLeastClearance * *std::max_element(radii.begin(), radii.end())) {
+    for (const glm::vec3& site : sites) {
+      low_ = glm::min(low_, site);
+      high_ = glm::max(high_, site);
+    }
+  }
 
   void alongRay(const WalkRay& ray, uint64_t stream, std::vector<EmptyBall>& found) const {
     const CounterRandom random(options_.seed, Purpose::kSite);
@@ -50,9 +55,10 @@ class EmptyBallFinder {
       const glm::dvec3 point = origin + t * direction;
       const BallTree::Nearest nearest = tree_.nearestSurface(point);
       const double radius = radii_[nearest.ball];
-      if (nearest.value > kThinnest * radius) {
-        addBall(point + random.uniform(stream * kMaxStretches + i) * nearest.value * direction, found);
-        t += nearest.value;
+      if (nearest.value > 0) {
+        if (nearest.value > kShortest * radius)
+          addBall(point + random.uniform(stream * kMaxStretches + i) * nearest.value * direction, found);
+        t += std::max(nearest.value, kShortest * radius);
       } else {
         const double chord = throughBall(point, direction, nearest.ball);
         const glm::vec3 centre = sites_[nearest.ball] - ray.origin;
@@ -64,7 +70,8 @@ class EmptyBallFinder {
   }
 
  private:
-  static constexpr double kThinnest = 0.01;   // of a radius: stretches shorter than this are passed over
+  static constexpr double kShortest = 0.25;   // of the nearest ball's radius: shorter stretches are passed over
+  static constexpr double kThinnest = 0.01;   // of a radius: a step past the far side of a ball
   static constexpr double kSolidShare = 0.5;  // of a ball lies behind its face
 
   double distanceToScene(const glm::dvec3& point) const {
@@ -81,6 +88,7 @@ class EmptyBallFinder {
   void addBall(const glm::dvec3& point, std::vector<EmptyBall>& found) const {
     const glm::vec3 site(snapToStep(point.x, options_.positionStep), snapToStep(point.y, options_.positionStep),
                          snapToStep(point.z, options_.positionStep));
+    if (site != glm::clamp(site, low_, high_)) return;
     const BallTree::Nearest nearest = tree_.nearestSurface(site);
     const double clearance = nearest.value, neighbour = radii_[nearest.ball];
     if (!(clearance >= leastClearance_)) return;
@@ -94,6 +102,7 @@ class EmptyBallFinder {
   std::span<const float> radii_, densities_;
   const SteinerOptions& options_;
   double extent_, leastClearance_;
+  glm::vec3 low_{INFINITY}, high_{-INFINITY};  // of the sites: the asset's position lattice reaches no farther
 };
 
 // Kept balls on one hashed grid per power of two of their radius.
@@ -101,8 +110,7 @@ class KeptBalls {
  public:
   bool isCrowded(const EmptyBall& ball) const {
     for (const auto& [exponent, grid] : grids_) {
-      const double edge = std::ldexp(2.0, exponent);
-      const double reach = kLeastOverlapFree * (ball.radius + 0.5 * edge);
+      const double edge = std::ldexp(2.0, exponent), reach = kSpacing * (ball.radius + 0.5 * edge);
       const glm::i64vec3 first(glm::floor((glm::dvec3(ball.site) - reach) / edge));
       const glm::i64vec3 last(glm::floor((glm::dvec3(ball.site) + reach) / edge));
       for (int64_t z = first.z; z <= last.z; ++z)
@@ -132,7 +140,7 @@ class KeptBalls {
     if (found == grid.end()) return false;
     return std::any_of(found->second.begin(), found->second.end(), [&](const EmptyBall& other) {
       const double distance = glm::length(glm::dvec3(other.site) - glm::dvec3(ball.site));
-      return distance < kLeastOverlapFree * (double{other.radius} + ball.radius);
+      return distance < kSpacing * (double{other.radius} + ball.radius);
     });
   }
 

@@ -21,8 +21,8 @@ std::vector<EmptyBall> findEmptyBalls(const BallTree& tree, std::span<const glm:
                                       std::span<const float> densities, std::span<const WalkRay> rays,
                                       const SteinerOptions& options);
 
-// From the largest to the smallest, each that overlaps none of those before it by more than a share of the sum of both
-// radii. `balls` may come in any order.
+// From the largest to the smallest, each that overlaps no kept one by more than a share of the sum of both radii. `balls`
+// may come in any order.
 std::vector<EmptyBall> thinEmptyBalls(std::vector<EmptyBall> balls);
 
 }  // namespace froth

@@ -1,0 +1,54 @@
+// The cells along a ray without any triangulation. Less the square of the distance, the power of a cell along a ray is a
+// straight line, and the cells that the ray crosses are the lower envelope of all lines: a new cell cuts one stretch out of it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "baker/steiner/ball_tree.h"
+#include "baker/steiner/walk_length.h"
+
+namespace froth {
+
+// The line offset - 2 slope t of a ball along a ray.
+struct BallLine {
+  double slope, offset;
+
+  double at(double t) const { return offset - 2 * slope * t; }
+};
+BallLine lineOf(const glm::vec3& site, float radius, const WalkRay& ray);
+
+class RayCells {
+ public:
+  RayCells() = default;
+  // From the ray's origin until its transmittance falls below a walk's cut-off, with half of each ball solid.
+  RayCells(const BallTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
+           std::span<const float> densities, const WalkRay& ray);
+
+  size_t count() const { return stretches_.size(); }
+
+  // Adds a cell that is empty, so that the walk ends where it did.
+  void add(const BallLine& ball);
+
+ private:
+  struct Stretch {
+    BallLine line;
+    double begin;
+  };
+  // Where a ball lies below the envelope: it cuts off the end of `left` (-1: none) and the begin of `right` (count: none).
+  struct Cut {
+    int left, right;
+    double begin, end;
+    bool isEmpty = true;
+  };
+
+  double endOf(int stretch) const {
+    return stretch + 1 < static_cast<int>(stretches_.size()) ? stretches_[stretch + 1].begin : end_;
+  }
+  Cut cutOf(const BallLine& ball) const;
+
+  std::vector<Stretch> stretches_;  // slopes ascend
+  double end_ = 0;
+};
+
+}  // namespace froth
