@@ -47,7 +47,7 @@ void writeSections(const std::filesystem::path& folder) {
                                    std::pair{bytesOf(ramp), SectionShape{2, 1}}, std::pair{bytesOf(counts), SectionShape{4, 1}}})
     if (const Result<EncodedSection> section = encodeSection(raw, shape)) writeSection(folder, *section, shape, raw.size());
 
-  std::vector<LatticePoint> points = randomPoints(60, 9);
+  std::vector<LatticePoint> points = randomPoints(200, 9);
   const auto codeOf = [](const LatticePoint& point) {  // the points lie in -1000 .. -489
     return mortonCode({point[0] + 1000u, point[1] + 1000u, point[2] + 1000u});
   };
