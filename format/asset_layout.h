@@ -11,7 +11,8 @@
 
 namespace froth {
 
-// Sections follow each other in streams, and streams in the file: what is shared, then layer after layer of all chunks.
+// Sections follow each other in streams, and streams in the file: what is shared, then layer after layer of
+// all chunks.
 inline constexpr size_t kStreamCount = 4;
 size_t streamOf(const SectionRecord& record);
 

@@ -106,8 +106,10 @@ struct AssetReader::State {
     std::vector<uint8_t> storage;
     Result<std::span<const uint8_t>> stored = source.view(record.offset, record.storedSize, storage);
     if (!stored) return stored.error();
-    const uint32_t components = sectionComponents(static_cast<SectionType>(record.type), manifest.contents.quantization);
-    return decodeSection(record, *stored, raw, sectionPlace(place, record.type), {record.elementSize, components});
+    const uint32_t components =
+        sectionComponents(static_cast<SectionType>(record.type), manifest.contents.quantization);
+    return decodeSection(record, *stored, raw, sectionPlace(place, record.type),
+                         {record.elementSize, components});
   }
 
   Status readCodebook() {
@@ -115,7 +117,8 @@ struct AssetReader::State {
     if (!record || last != Layer::kViewDependence) return {};
     std::vector<glm::vec3>& codebook = manifest.contents.axisCodebook;
     codebook.resize(manifest.codebookSize);
-    const std::span<uint8_t> raw{reinterpret_cast<uint8_t*>(codebook.data()), codebook.size() * sizeof(glm::vec3)};
+    const std::span<uint8_t> raw{reinterpret_cast<uint8_t*>(codebook.data()),
+                                 codebook.size() * sizeof(glm::vec3)};
     if (Status status = decode(*record, raw, chunkPlace(source.name, kSharedChunk)); !status) return status;
     return checkParameters(manifest.contents, source.name);
   }
@@ -173,8 +176,8 @@ std::span<const SectionRecord> AssetReader::sections() const {
 Result<ChunkContents> AssetReader::readChunk(uint32_t chunk) const {
   const State& state = *state_;
   if (chunk >= state.contents.chunks.size())
-    return makeError(ErrorKind::kUsage, "%s: chunk %u asked for, there are %zu", state.source.name.c_str(), chunk,
-                     state.contents.chunks.size());
+    return makeError(ErrorKind::kUsage, "%s: chunk %u asked for, there are %zu", state.source.name.c_str(),
+                     chunk, state.contents.chunks.size());
   const std::string place = chunkPlace(state.source.name, chunk);
   const SectionDecoder decode = [&](const SectionRecord& record, std::span<uint8_t> raw) {
     return state.decode(record, raw, place);
@@ -182,7 +185,9 @@ Result<ChunkContents> AssetReader::readChunk(uint32_t chunk) const {
   Result<ChunkContents> contents = unpackChunk(state.manifest, chunk, state.last, decode, place);
   if (!contents) return contents;
   if (Status status = checkChunk(state.contents, *contents, place); !status) return status.error();
-  if (Status status = checkGhostRefs(state.contents, state.manifest.chunks, chunk, contents->ghostRefs, place); !status)
+  if (Status status =
+          checkGhostRefs(state.contents, state.manifest.chunks, chunk, contents->ghostRefs, place);
+      !status)
     return status.error();
   return contents;
 }

@@ -14,8 +14,9 @@ namespace {
 
 constexpr char kRemedy[] = "bake the scene again";
 
-// A quaternion normalised in float: its length carries some 4 roundings of half of FLT_EPSILON and each component one or two of
-// its own, so |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is allowed.
+// A quaternion normalised in float: its length carries some 4 roundings of half of FLT_EPSILON and each
+// component one or two of its own, so |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is
+// allowed.
 constexpr double kUnitTolerance = 12 * FLT_EPSILON;
 
 // A pair across two chunks, as one of them sees it.
@@ -86,10 +87,12 @@ class Verifier {
     for (uint32_t i = first; i < last; ++i) {
       const uint32_t neighbour = chunk.neighbours[i];
       if (chunk.sites[neighbour] == chunk.sites[cell])
-        return makeError(ErrorKind::kBadInput, "%s: cell %u and its neighbour %u are the same point, no plane parts them; %s",
+        return makeError(ErrorKind::kBadInput,
+                         "%s: cell %u and its neighbour %u are the same point, no plane parts them; %s",
                          chunkPlace(file_, index).c_str(), cell, neighbour, kRemedy);
       if (neighbour >= chunk.cellCount)
-        crossPairs_.push_back({referenceTo(index, cell), chunk.ghostRefs[neighbour - chunk.cellCount], i - first < alphaCount});
+        crossPairs_.push_back(
+            {referenceTo(index, cell), chunk.ghostRefs[neighbour - chunk.cellCount], i - first < alphaCount});
     }
     return {};
   }
@@ -107,9 +110,10 @@ class Verifier {
         isSame = isSame && chunk.sites[here][a] == static_cast<float>(site);
       }
       if (!isSame)
-        return makeError(ErrorKind::kBadInput, "%s: ghost %u is not where cell %u of chunk %u is, or not as large; %s",
-                         chunkPlace(file_, index).c_str(), ghost, cell, chunkOf(chunk.ghostRefs[ghost], localBits_),
-                         kRemedy);
+        return makeError(ErrorKind::kBadInput,
+                         "%s: ghost %u is not where cell %u of chunk %u is, or not as large; %s",
+                         chunkPlace(file_, index).c_str(), ghost, cell,
+                         chunkOf(chunk.ghostRefs[ghost], localBits_), kRemedy);
     }
     return {};
   }
@@ -124,7 +128,8 @@ class Verifier {
     for (size_t i = 0; i < crossPairs_.size(); ++i) {
       const CrossPair& pair = crossPairs_[i];
       const bool areLive = isLive(pair.from) && isLive(pair.to);
-      const bool isBoth = i + 1 < crossPairs_.size() && crossPairs_[i + 1].from == pair.to && crossPairs_[i + 1].to == pair.from;
+      const bool isBoth = i + 1 < crossPairs_.size() && crossPairs_[i + 1].from == pair.to &&
+                          crossPairs_[i + 1].to == pair.from;
       if (!isBoth && (hasWalkGraph_ || areLive)) return pairError(pair, "the graph holds one direction only");
       if (!isBoth) continue;
       if (areLive && pair.isAlpha != crossPairs_[i + 1].isAlpha)
@@ -140,8 +145,9 @@ class Verifier {
 
   Error pairError(const CrossPair& pair, const char* what) const {
     return makeError(ErrorKind::kBadInput, "%s: cell %u and cell %u of chunk %u: %s; %s",
-                     chunkPlace(file_, chunkOf(pair.from, localBits_)).c_str(), localOf(pair.from, localBits_),
-                     localOf(pair.to, localBits_), chunkOf(pair.to, localBits_), what, kRemedy);
+                     chunkPlace(file_, chunkOf(pair.from, localBits_)).c_str(),
+                     localOf(pair.from, localBits_), localOf(pair.to, localBits_),
+                     chunkOf(pair.to, localBits_), what, kRemedy);
   }
 
   std::string file_;

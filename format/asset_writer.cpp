@@ -18,7 +18,8 @@ constexpr char kContents[] = "contents to be written";  // stands for the file i
 
 using ull = unsigned long long;
 
-Result<StoredSection> encodeRaw(RawSection raw, uint32_t chunk, const ChunkCounts& counts, const Quantization& quantization) {
+Result<StoredSection> encodeRaw(RawSection raw, uint32_t chunk, const ChunkCounts& counts,
+                                const Quantization& quantization) {
   const uint32_t components = sectionComponents(raw.type, quantization);
   Result<EncodedSection> encoded = EncodedSection{};
   if (sectionKind(raw.type, quantization) == ElementKind::kInt32) {
@@ -66,7 +67,9 @@ class AssetEncoder {
   Result<std::vector<uint8_t>> encodeCodebook() {
     if (header_.axisCodebook.empty()) return std::vector<uint8_t>{};
     const uint8_t* first = reinterpret_cast<const uint8_t*>(header_.axisCodebook.data());
-    RawSection raw{SectionType::kAxisCodebook, sizeof(float), 0,
+    RawSection raw{SectionType::kAxisCodebook,
+                   sizeof(float),
+                   0,
                    {first, first + header_.axisCodebook.size() * sizeof(glm::vec3)}};
     Result<StoredSection> section = encodeRaw(std::move(raw), kSharedChunk, {}, header_.quantization);
     if (!section) return section.error();
@@ -109,10 +112,11 @@ class AssetEncoder {
   // Once all chunks are there. `header`: the one from the start, with what became known since.
   Result<AssetLayout::Head> finish(const AssetContents& header) const {
     if (Status status = checkParameters(header, kContents); !status) return status.error();
-    if (Status status = checkChunkIndices(header, layout_.chunks(), kContents); !status) return status.error();
+    if (Status status = checkChunkIndices(header, layout_.chunks(), kContents); !status)
+      return status.error();
     for (uint32_t index = 0; index < ghostRefs_.size(); ++index)
-      if (Status status =
-              checkGhostRefs(header, layout_.chunks(), index, ghostRefs_[index], chunkPlace(kContents, index));
+      if (Status status = checkGhostRefs(header, layout_.chunks(), index, ghostRefs_[index],
+                                         chunkPlace(kContents, index));
           !status)
         return status.error();
     return layout_.buildHead(header);
@@ -147,7 +151,8 @@ AssetStreamWriter::AssetStreamWriter(AssetStreamWriter&&) noexcept = default;
 AssetStreamWriter& AssetStreamWriter::operator=(AssetStreamWriter&&) noexcept = default;
 AssetStreamWriter::~AssetStreamWriter() = default;
 
-Result<AssetStreamWriter> AssetStreamWriter::create(const std::filesystem::path& path, const AssetContents& header) {
+Result<AssetStreamWriter> AssetStreamWriter::create(const std::filesystem::path& path,
+                                                    const AssetContents& header) {
   if (Status status = checkTarget(path); !status) return status.error();
   Result<AssetEncoder> encoder = AssetEncoder::create(header);
   if (!encoder) return encoder.error();

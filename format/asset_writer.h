@@ -1,4 +1,5 @@
-// Writes a .froth asset; in a link target of its own (froth_format_write), so that the runtime carries no writer.
+// Writes a .froth asset; in a link target of its own (froth_format_write), so that the runtime carries no
+// writer.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +25,11 @@ struct EncodedChunk {
   std::vector<StoredSection> sections;  // ascending types
 };
 
-// Writes an asset chunk by chunk, so that memory holds one chunk at a time. Sections gather in temporaries beside `path`; finish()
-// puts header and manifest before them, first layers of all chunks first, syncs and renames. Without finish() nothing is left, and
-// an old file stays as it is. The disk must hold the file twice. The bytes do not depend on the threads.
-// Thread safety: encodeChunk() may run on several threads at once; the rest on one.
+// Writes an asset chunk by chunk, so that memory holds one chunk at a time. Sections gather in temporaries
+// beside `path`; finish() puts header and manifest before them, first layers of all chunks first, syncs and
+// renames. Without finish() nothing is left, and an old file stays as it is. The disk must hold the file
+// twice. The bytes do not depend on the threads. Thread safety: encodeChunk() may run on several threads at
+// once; the rest on one.
 class AssetStreamWriter {
  public:
   // `header`: counts, quantization and codebook are read; `chunks` is ignored.

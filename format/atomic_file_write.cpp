@@ -10,7 +10,8 @@ Status checkTarget(const std::filesystem::path& path) {
   return makeError(ErrorKind::kIo, "%s: exists and is no regular file; give another name", path.c_str());
 }
 
-Status streamFileAtomically(const std::filesystem::path& path, const std::function<Status(const ByteSink&)>& produce) {
+Status streamFileAtomically(const std::filesystem::path& path,
+                            const std::function<Status(const ByteSink&)>& produce) {
   if (Status status = checkTarget(path); !status) return status;
   Result<TemporaryFile> temporary = TemporaryFile::create(path);
   if (!temporary) return temporary.error();

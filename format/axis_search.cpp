@@ -40,7 +40,8 @@ std::optional<AxisCode> AxisSearch::find(glm::vec3 axis) const {
     const glm::dvec3 difference = glm::dvec3(axis) - glm::dvec3(entry.axis);
     if (difference.x * difference.x > bestDistance) return false;
     const double distance = glm::dot(difference, difference);
-    if (distance > bestDistance || (best && distance == bestDistance && entry.label > best->label)) return true;
+    if (distance > bestDistance || (best && distance == bestDistance && entry.label > best->label))
+      return true;
     if (const auto steps = stepsBetween(entry.axis, axis, step_)) {
       best = {entry.label, *steps};
       bestDistance = distance;

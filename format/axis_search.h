@@ -22,7 +22,8 @@ class AxisSearch {
   // `step`: lattice of the differences; 0: axes are entries of the codebook.
   AxisSearch(std::span<const glm::vec3> codebook, float step);
 
-  // The nearest entry from which steps lead exactly to `axis` (of several, the first); none if there is none. Thread-safe.
+  // The nearest entry from which steps lead exactly to `axis` (of several, the first); none if there is none.
+  // Thread-safe.
   std::optional<AxisCode> find(glm::vec3 axis) const;
 
  private:

@@ -16,16 +16,17 @@ constexpr uint64_t kMaxPairs = uint64_t{1} << 31;  // so that rows have 32-bit o
 
 using ull = unsigned long long;
 
-Status checkRange(const std::string& place, const char* field, uint64_t value, uint64_t least, uint64_t most) {
+Status checkRange(const std::string& place, const char* field, uint64_t value, uint64_t least,
+                  uint64_t most) {
   if (value >= least && value <= most) return {};
-  return makeError(ErrorKind::kBadInput, "%s: %s is %llu, not in %llu..%llu; %s", place.c_str(), field, ull{value},
-                   ull{least}, ull{most}, kRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: %s is %llu, not in %llu..%llu; %s", place.c_str(), field,
+                   ull{value}, ull{least}, ull{most}, kRemedy);
 }
 
 Status checkNotNegative(const std::string& file, const char* field, double value) {
   if (std::isfinite(value) && value >= 0) return {};
-  return makeError(ErrorKind::kBadInput, "%s: %s is %g, not a finite number >= 0; %s", file.c_str(), field, value,
-                   kRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: %s is %g, not a finite number >= 0; %s", file.c_str(), field,
+                   value, kRemedy);
 }
 
 // Steps are powers of two so that products with small integers are exact.
@@ -34,8 +35,9 @@ Status checkStep(const std::string& file, const char* field, double step) {
   int exponent = 0;
   const bool isPower = std::isfinite(step) && std::frexp(step, &exponent) == 0.5;  // step = 2^(exponent - 1)
   if (step == 0 || (isPower && std::abs(exponent - 1) <= kMaxExponent)) return {};
-  return makeError(ErrorKind::kBadInput, "%s: quantization: %s is %g, not 0 or a power of two in 2^-60..2^60; %s",
-                   file.c_str(), field, step, kRemedy);
+  return makeError(ErrorKind::kBadInput,
+                   "%s: quantization: %s is %g, not 0 or a power of two in 2^-60..2^60; %s", file.c_str(),
+                   field, step, kRemedy);
 }
 
 Status checkQuantization(const std::string& file, const Quantization& q) {
@@ -56,10 +58,11 @@ Status checkQuantization(const std::string& file, const Quantization& q) {
 Status checkCamera(const std::string& file, const char* field, const StoredCamera& camera) {
   for (const double value : camera.worldFromCamera)
     if (!std::isfinite(value))
-      return makeError(ErrorKind::kBadInput, "%s: %s: matrix holds %g; %s", file.c_str(), field, value, kRemedy);
+      return makeError(ErrorKind::kBadInput, "%s: %s: matrix holds %g; %s", file.c_str(), field, value,
+                       kRemedy);
   if (!std::isfinite(camera.tanHalfFovY) || camera.tanHalfFovY <= 0)
-    return makeError(ErrorKind::kBadInput, "%s: %s: tan_half_fov_y is %g, not a finite number > 0; %s", file.c_str(),
-                     field, camera.tanHalfFovY, kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: %s: tan_half_fov_y is %g, not a finite number > 0; %s",
+                     file.c_str(), field, camera.tanHalfFovY, kRemedy);
   return {};
 }
 
@@ -77,7 +80,8 @@ Status checkOrigin(const ChunkIndex& chunk, double step, const std::string& plac
 
 Status checkBounds(const Box& bounds, const std::string& place) {
   for (size_t axis = 0; axis < 3; ++axis)
-    if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis]) || bounds.min[axis] > bounds.max[axis])
+    if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis]) ||
+        bounds.min[axis] > bounds.max[axis])
       return makeError(ErrorKind::kBadInput, "%s: live_bounds: %g..%g is no interval; %s", place.c_str(),
                        bounds.min[axis], bounds.max[axis], kRemedy);
   return {};
@@ -99,8 +103,8 @@ class ArrayCheck {
   void required(const char* name, const std::vector<Element>& array, uint64_t length) {
     if (!status_) return;
     if (array.size() != length)
-      status_ = makeError(ErrorKind::kBadInput, "%s: %s: %zu entries instead of %llu; %s", place_.c_str(), name,
-                          array.size(), ull{length}, kRemedy);
+      status_ = makeError(ErrorKind::kBadInput, "%s: %s: %zu entries instead of %llu; %s", place_.c_str(),
+                          name, array.size(), ull{length}, kRemedy);
     if constexpr (!std::is_integral_v<Element>) checkFinite(name, floatsOf(array));
   }
 
@@ -113,7 +117,8 @@ class ArrayCheck {
 
  private:
   void checkFinite(const char* name, std::span<const float> numbers) {
-    const auto bad = std::find_if_not(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
+    const auto bad =
+        std::find_if_not(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
     if (!status_ || bad == numbers.end()) return;
     status_ = makeError(ErrorKind::kBadInput, "%s: %s: number %zu is %g; %s", place_.c_str(), name,
                         static_cast<size_t>(bad - numbers.begin()), *bad, kRemedy);
@@ -124,7 +129,8 @@ class ArrayCheck {
 };
 
 // The number of lobes that the counts add up to; an error if one exceeds M.
-Result<uint64_t> countLobes(const AssetContents& asset, const ChunkContents& chunk, const std::string& place) {
+Result<uint64_t> countLobes(const AssetContents& asset, const ChunkContents& chunk,
+                            const std::string& place) {
   const uint64_t details = uint64_t{chunk.liveCount} * asset.detailCount;
   if (chunk.lobeCounts.empty()) return details * asset.lobeCount;
   uint64_t sum = 0;
@@ -169,17 +175,21 @@ Status checkCells(const ChunkContents& chunk, const std::string& place) {
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has radius %g, not > 0; %s",
                      sectionPlace(place, SectionType::kRadii).c_str(),
                      static_cast<size_t>(radius - chunk.radii.begin()), *radius, kRemedy);
-  const auto density = std::find_if(chunk.densities.begin(), chunk.densities.end(), [](float d) { return d < 0; });
+  const auto density =
+      std::find_if(chunk.densities.begin(), chunk.densities.end(), [](float d) { return d < 0; });
   if (density != chunk.densities.end())
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has density %g, not >= 0; %s",
                      sectionPlace(place, SectionType::kDensities).c_str(),
                      static_cast<size_t>(density - chunk.densities.begin()), *density, kRemedy);
-  const auto scale = std::find_if(chunk.colourScales.begin(), chunk.colourScales.end(), [](uint8_t s) { return s > kMaxColourScale; });
+  const auto scale = std::find_if(chunk.colourScales.begin(), chunk.colourScales.end(),
+                                  [](uint8_t s) { return s > kMaxColourScale; });
   if (scale != chunk.colourScales.end())
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has scale %u, more than %u; %s",
                      sectionPlace(place, SectionType::kColourScales).c_str(),
-                     static_cast<size_t>(scale - chunk.colourScales.begin()), *scale, kMaxColourScale, kRemedy);
-  const auto ghost = std::adjacent_find(chunk.ghostRefs.begin(), chunk.ghostRefs.end(), std::greater_equal<CellRef>());
+                     static_cast<size_t>(scale - chunk.colourScales.begin()), *scale, kMaxColourScale,
+                     kRemedy);
+  const auto ghost =
+      std::adjacent_find(chunk.ghostRefs.begin(), chunk.ghostRefs.end(), std::greater_equal<CellRef>());
   if (ghost != chunk.ghostRefs.end())
     return makeError(ErrorKind::kBadInput, "%s: %u follows %u, references must ascend; %s",
                      sectionPlace(place, SectionType::kGhostRefs).c_str(), ghost[1], ghost[0], kRemedy);
@@ -193,32 +203,37 @@ Status checkRows(const ChunkContents& chunk, const std::string& place) {
                      place.c_str(), offsets.front(), offsets.back(), chunk.neighbours.size(), kRemedy);
   for (uint32_t cell = 0; cell < chunk.cellCount; ++cell)
     if (offsets[cell] > offsets[cell + 1])
-      return makeError(ErrorKind::kBadInput, "%s: neighbour_offsets: cell %u: %u > %u, offsets must not fall; %s",
-                       place.c_str(), cell, offsets[cell], offsets[cell + 1], kRemedy);
+      return makeError(ErrorKind::kBadInput,
+                       "%s: neighbour_offsets: cell %u: %u > %u, offsets must not fall; %s", place.c_str(),
+                       cell, offsets[cell], offsets[cell + 1], kRemedy);
   for (uint32_t cell = 0; cell < chunk.liveCount; ++cell)
     if (chunk.alphaCounts[cell] > offsets[cell + 1] - offsets[cell])
-      return makeError(ErrorKind::kBadInput, "%s: cell %u: %u alpha neighbours in a row of %u; %s", place.c_str(), cell,
-                       chunk.alphaCounts[cell], offsets[cell + 1] - offsets[cell], kRemedy);
+      return makeError(ErrorKind::kBadInput, "%s: cell %u: %u alpha neighbours in a row of %u; %s",
+                       place.c_str(), cell, chunk.alphaCounts[cell], offsets[cell + 1] - offsets[cell],
+                       kRemedy);
   const uint64_t sites = uint64_t{chunk.cellCount} + chunk.ghostCount;
   for (const uint32_t neighbour : chunk.neighbours)
     if (neighbour >= sites)
-      return makeError(ErrorKind::kBadInput, "%s: neighbour %u >= %llu; %s", place.c_str(), neighbour, ull{sites},
-                       kRemedy);
+      return makeError(ErrorKind::kBadInput, "%s: neighbour %u >= %llu; %s", place.c_str(), neighbour,
+                       ull{sites}, kRemedy);
   return {};
 }
 
 }  // namespace
 
 Status checkParameters(const AssetContents& asset, const std::string& file) {
-  if (Status status = checkRange(file, "detail_count", asset.detailCount, 1, kMaxDetails); !status) return status;
+  if (Status status = checkRange(file, "detail_count", asset.detailCount, 1, kMaxDetails); !status)
+    return status;
   if (Status status = checkRange(file, "lobe_count", asset.lobeCount, 0, kMaxLobes); !status) return status;
-  if (Status status = checkRange(file, "local_bits", asset.localBits, 1, kMaxLocalBits); !status) return status;
+  if (Status status = checkRange(file, "local_bits", asset.localBits, 1, kMaxLocalBits); !status)
+    return status;
   if (Status status = checkCodebookSize(asset, asset.axisCodebook.size(), file); !status) return status;
   for (const float number : floatsOf(asset.axisCodebook))
     if (!std::isfinite(number))
       return makeError(ErrorKind::kBadInput, "%s: axis codebook holds %g; %s", file.c_str(), number, kRemedy);
   if (Status status = checkQuantization(file, asset.quantization); !status) return status;
-  if (Status status = checkNotNegative(file, "detail_sharpness", asset.detailSharpness); !status) return status;
+  if (Status status = checkNotNegative(file, "detail_sharpness", asset.detailSharpness); !status)
+    return status;
   if (Status status = checkNotNegative(file, "near_ratio", asset.nearRatio); !status) return status;
   if (Status status = checkNotNegative(file, "near_depth", asset.nearDepth); !status) return status;
   if (asset.hasStartView)
@@ -246,9 +261,11 @@ Status checkChunkIndex(const AssetContents& asset, const ChunkIndex& chunk, cons
   return checkBounds(chunk.liveBounds, place);
 }
 
-Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks, const std::string& file) {
+Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks,
+                         const std::string& file) {
   const uint64_t mostChunks = uint64_t{1} << (kMaxLocalBits - asset.localBits);
-  if (Status status = checkRange(file, "number of chunks", chunks.size(), 1, mostChunks); !status) return status;
+  if (Status status = checkRange(file, "number of chunks", chunks.size(), 1, mostChunks); !status)
+    return status;
   for (uint32_t i = 0; i < chunks.size(); ++i)
     if (Status status = checkChunkIndex(asset, chunks[i], chunkPlace(file, i)); !status) return status;
   return {};

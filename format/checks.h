@@ -15,12 +15,15 @@ namespace froth {
 Status checkParameters(const AssetContents& asset, const std::string& file);
 Status checkCodebookSize(const AssetContents& asset, uint64_t size, const std::string& file);
 
-// Number of chunks; counts, origin and bounds of each. `asset` has passed checkParameters; its chunks are not looked at.
-Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks, const std::string& file);
+// Number of chunks; counts, origin and bounds of each. `asset` has passed checkParameters; its chunks are not
+// looked at.
+Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks,
+                         const std::string& file);
 Status checkChunkIndex(const AssetContents& asset, const ChunkIndex& chunk, const std::string& place);
 
-// Array lengths (the chunk's counts decide; optional arrays may be empty), finite numbers, positive radii, ascending ghosts, rows
-// that hold what they may. `asset` has passed checkParameters. `place` names the chunk in messages.
+// Array lengths (the chunk's counts decide; optional arrays may be empty), finite numbers, positive radii,
+// ascending ghosts, rows that hold what they may. `asset` has passed checkParameters. `place` names the chunk
+// in messages.
 Status checkChunk(const AssetContents& asset, const ChunkContents& chunk, const std::string& place);
 
 // Ghosts live in another chunk, in a cell that exists.

@@ -15,7 +15,8 @@ constexpr char kRemedy[] = "the file is damaged, copy it or bake the scene again
 class Elements {
  public:
   Elements() = default;
-  Elements(std::vector<uint8_t> bytes, uint32_t size, uint32_t base) : bytes_(std::move(bytes)), size_(size), base_(base) {}
+  Elements(std::vector<uint8_t> bytes, uint32_t size, uint32_t base)
+      : bytes_(std::move(bytes)), size_(size), base_(base) {}
 
   size_t size() const { return size_ == 0 ? 0 : bytes_.size() / size_; }
   // May wrap around if the base is absurd.
@@ -34,7 +35,8 @@ class Elements {
 
 class ChunkReader {
  public:
-  ChunkReader(const Manifest& manifest, uint32_t chunk, const SectionDecoder& decode, const std::string& place)
+  ChunkReader(const Manifest& manifest, uint32_t chunk, const SectionDecoder& decode,
+              const std::string& place)
       : asset_(manifest.contents), manifest_(manifest), index_(chunk), decode_(decode), place_(place) {
     chunk_ = asset_.chunks[chunk];
   }
@@ -59,8 +61,8 @@ class ChunkReader {
   }
 
   Error outOfRange(SectionType type, size_t number) const {
-    return makeError(ErrorKind::kBadInput, "%s: number %zu is out of range; %s", sectionPlace(place_, type).c_str(),
-                     number, kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: number %zu is out of range; %s",
+                     sectionPlace(place_, type).c_str(), number, kRemedy);
   }
 
   // No elements if there is no such section.
@@ -73,7 +75,8 @@ class ChunkReader {
     return {};
   }
 
-  // The section's bytes are the array's. It must be a multiple of Element, which the manifest's check has seen to.
+  // The section's bytes are the array's. It must be a multiple of Element, which the manifest's check has
+  // seen to.
   template <class Element>
   Status loadAsIs(SectionType type, std::vector<Element>& array, size_t first = 0) const {
     const SectionRecord* record = find(type);
@@ -101,7 +104,8 @@ class ChunkReader {
   template <class Vector>
   Status loadFloats(SectionType type, std::vector<Vector>& array, float step) const {
     if (!isOnLattice(type)) return loadAsIs(type, array);
-    return loadIndices(type, array, [&](size_t) { return step; }, [](size_t) { return 0; });
+    return loadIndices(
+        type, array, [&](size_t) { return step; }, [](size_t) { return 0; });
   }
 
   Status loadSites(SectionType type, size_t first) {
@@ -154,7 +158,8 @@ class ChunkReader {
 
   Status readOrientations() {
     const uint32_t bits = asset_.quantization.normalBits;
-    if (!isOnLattice(SectionType::kOrientations)) return loadAsIs(SectionType::kOrientations, chunk_.orientations);
+    if (!isOnLattice(SectionType::kOrientations))
+      return loadAsIs(SectionType::kOrientations, chunk_.orientations);
     Elements elements;
     if (Status status = load(SectionType::kOrientations, elements); !status) return status;
     chunk_.orientations.resize(elements.size() / 2);
@@ -168,7 +173,9 @@ class ChunkReader {
   }
 
   Status readCells() {
-    if (Status status = loadMantissas(SectionType::kDensities, chunk_.densities, asset_.quantization.densityBits); !status)
+    if (Status status =
+            loadMantissas(SectionType::kDensities, chunk_.densities, asset_.quantization.densityBits);
+        !status)
       return status;
     if (Status status = readOrientations(); !status) return status;
     if (Status status = load(SectionType::kCellColours, cellColours_); !status) return status;
@@ -187,7 +194,9 @@ class ChunkReader {
 
   Status readDetails() {
     const uint32_t count = asset_.detailCount;
-    if (Status status = loadFloats(SectionType::kDetailSites, chunk_.detailSites, asset_.quantization.detailSiteStep); !status)
+    if (Status status =
+            loadFloats(SectionType::kDetailSites, chunk_.detailSites, asset_.quantization.detailSiteStep);
+        !status)
       return status;
     chunk_.detailSites.resize(size_t{chunk_.liveCount} * count, glm::vec2(0));  // absent: all zero
     if (Status status = readDetailHeights(); !status) return status;
@@ -195,7 +204,8 @@ class ChunkReader {
   }
 
   Status readDetailHeights() {
-    if (!isOnLattice(SectionType::kDetailHeights)) return loadAsIs(SectionType::kDetailHeights, chunk_.detailHeights);
+    if (!isOnLattice(SectionType::kDetailHeights))
+      return loadAsIs(SectionType::kDetailHeights, chunk_.detailHeights);
     const float step = asset_.quantization.heightStep;
     return loadIndices(
         SectionType::kDetailHeights, chunk_.detailHeights, [&](size_t) { return step; },
@@ -206,14 +216,16 @@ class ChunkReader {
   }
 
   float unitOf(size_t cell) const {
-    return colourUnit(asset_.quantization.colourStep, chunk_.colourScales.empty() ? uint8_t{0} : chunk_.colourScales[cell]);
+    return colourUnit(asset_.quantization.colourStep,
+                      chunk_.colourScales.empty() ? uint8_t{0} : chunk_.colourScales[cell]);
   }
 
   Status readBaseColours() {
     if (Status status = loadAsIs(SectionType::kColourScales, chunk_.colourScales); !status) return status;
     for (size_t cell = 0; cell < chunk_.colourScales.size(); ++cell)
       if (chunk_.colourScales[cell] > kMaxColourScale) return outOfRange(SectionType::kColourScales, cell);
-    if (!isOnLattice(SectionType::kBaseColours)) return loadAsIs(SectionType::kBaseColours, chunk_.baseColours);
+    if (!isOnLattice(SectionType::kBaseColours))
+      return loadAsIs(SectionType::kBaseColours, chunk_.baseColours);
     const size_t perCell = size_t{asset_.detailCount} * 3;
     return loadIndices(
         SectionType::kBaseColours, chunk_.baseColours, [&](size_t i) { return unitOf(i / perCell); },
@@ -229,12 +241,13 @@ class ChunkReader {
     if (Status status = loadAsIs(SectionType::kLobeCounts, chunk_.lobeCounts); !status) return status;
     if (lobes == 0 && asset_.lobeCount > 0) chunk_.lobeCounts.assign(details, 0);
     if (Status status = checkLobeCounts(lobes); !status) return status;
-    if (Status status = asset_.axisCodebook.empty()
-                            ? loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes, asset_.quantization.lobeAxisStep)
-                            : readLabels();
+    if (Status status = asset_.axisCodebook.empty() ? loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes,
+                                                                 asset_.quantization.lobeAxisStep)
+                                                    : readLabels();
         !status)
       return status;
-    if (!isOnLattice(SectionType::kLobeColours)) return loadAsIs(SectionType::kLobeColours, chunk_.lobeColours);
+    if (!isOnLattice(SectionType::kLobeColours))
+      return loadAsIs(SectionType::kLobeColours, chunk_.lobeColours);
     const std::vector<float> units = lobeUnits(static_cast<size_t>(lobes));
     return loadIndices(
         SectionType::kLobeColours, chunk_.lobeColours, [&](size_t i) { return units[i / 3]; },
@@ -252,8 +265,8 @@ class ChunkReader {
     for (const uint8_t count : chunk_.lobeCounts) sum += count;
     if (sum == lobes) return {};
     return makeError(ErrorKind::kBadInput, "%s: %llu lobes, the manifest says %llu; %s",
-                     sectionPlace(place_, SectionType::kLobeCounts).c_str(), static_cast<unsigned long long>(sum),
-                     static_cast<unsigned long long>(lobes), kRemedy);
+                     sectionPlace(place_, SectionType::kLobeCounts).c_str(),
+                     static_cast<unsigned long long>(sum), static_cast<unsigned long long>(lobes), kRemedy);
   }
 
   // The step of the colour lattice for each lobe.
@@ -270,7 +283,8 @@ class ChunkReader {
   Status readLabels() {
     Elements labels;
     if (Status status = load(SectionType::kLobeLabels, labels); !status) return status;
-    if (Status status = loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes, asset_.quantization.lobeAxisStep); !status)
+    if (Status status = loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes, asset_.quantization.lobeAxisStep);
+        !status)
       return status;
     chunk_.lobeAxes.resize(labels.size(), glm::vec3(0));  // absent: no differences
     for (size_t i = 0; i < labels.size(); ++i) {
@@ -291,8 +305,8 @@ class ChunkReader {
 
 }  // namespace
 
-Result<ChunkContents> unpackChunk(const Manifest& manifest, uint32_t chunk, Layer last, const SectionDecoder& decode,
-                                  const std::string& place) {
+Result<ChunkContents> unpackChunk(const Manifest& manifest, uint32_t chunk, Layer last,
+                                  const SectionDecoder& decode, const std::string& place) {
   return ChunkReader(manifest, chunk, decode, place).read(last);
 }
 

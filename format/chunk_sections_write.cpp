@@ -48,13 +48,14 @@ std::vector<uint8_t> narrowTo(std::span<const uint32_t> numbers, uint32_t base) 
 
 class ChunkPacker {
  public:
-  ChunkPacker(const AssetContents& asset, const AxisSearch& axes, const ChunkContents& chunk, const std::string& place)
+  ChunkPacker(const AssetContents& asset, const AxisSearch& axes, const ChunkContents& chunk,
+              const std::string& place)
       : asset_(asset), axes_(axes), chunk_(chunk), place_(place) {}
 
   Result<RawChunk> pack() {
     raw_.counts = {chunk_.cellCount, chunk_.liveCount, chunk_.ghostCount, 0, chunk_.lobeAxes.size()};
-    for (auto step : {&ChunkPacker::addSites, &ChunkPacker::addGraph, &ChunkPacker::addCells, &ChunkPacker::addDetails,
-                      &ChunkPacker::addLobes})
+    for (auto step : {&ChunkPacker::addSites, &ChunkPacker::addGraph, &ChunkPacker::addCells,
+                      &ChunkPacker::addDetails, &ChunkPacker::addLobes})
       if (Status status = (this->*step)(); !status) return status.error();
     std::erase_if(raw_.sections, [](const RawSection& section) { return section.bytes.empty(); });
     return std::move(raw_);
@@ -73,7 +74,9 @@ class ChunkPacker {
   void add(SectionType type, uint32_t elementSize, std::vector<uint8_t> bytes) {
     raw_.sections.push_back({type, elementSize, 0, std::move(bytes)});
   }
-  void addFloats(SectionType type, std::span<const float> numbers) { add(type, sizeof(float), bytesOf(numbers)); }
+  void addFloats(SectionType type, std::span<const float> numbers) {
+    add(type, sizeof(float), bytesOf(numbers));
+  }
 
   // In the smallest elements that hold them all.
   void addNumbers(SectionType type, std::span<const uint32_t> numbers) {
@@ -113,10 +116,12 @@ class ChunkPacker {
       }
       std::vector<int32_t> indices(part.size());
       for (size_t i = 0; i < part.size(); ++i)
-        if (!findIndex(part[i], asset_.quantization.positionStep, indices[i])) return offLattice(type, i, part[i]);
+        if (!findIndex(part[i], asset_.quantization.positionStep, indices[i]))
+          return offLattice(type, i, part[i]);
       add(type, sizeof(int32_t), bytesOf(std::span<const int32_t>(indices)));
     }
-    if (Status status = addMantissas(SectionType::kRadii, chunk_.radii, asset_.quantization.radiusBits); !status)
+    if (Status status = addMantissas(SectionType::kRadii, chunk_.radii, asset_.quantization.radiusBits);
+        !status)
       return status;
     add(SectionType::kGhostRefs, sizeof(CellRef), bytesOf(std::span<const CellRef>(chunk_.ghostRefs)));
     return {};
@@ -158,7 +163,8 @@ class ChunkPacker {
     std::vector<uint32_t> indices;
     for (size_t i = 0; i < chunk_.orientations.size(); ++i) {
       const glm::dvec4 q(chunk_.orientations[i]);  // w, x, y, z
-      const glm::dvec3 normal(1 - 2 * (q.z * q.z + q.w * q.w), 2 * (q.y * q.z - q.x * q.w), 2 * (q.y * q.w + q.x * q.z));
+      const glm::dvec3 normal(1 - 2 * (q.z * q.z + q.w * q.w), 2 * (q.y * q.z - q.x * q.w),
+                              2 * (q.y * q.w + q.x * q.z));
       const std::array<uint32_t, 2> pair = normalIndices(normal, bits);
       if (orientationOfNormal(pair, bits) != chunk_.orientations[i])
         return offLattice(SectionType::kOrientations, i * 4, chunk_.orientations[i].x);
@@ -169,7 +175,9 @@ class ChunkPacker {
   }
 
   Status addCells() {
-    if (Status status = addMantissas(SectionType::kDensities, chunk_.densities, asset_.quantization.densityBits); !status)
+    if (Status status =
+            addMantissas(SectionType::kDensities, chunk_.densities, asset_.quantization.densityBits);
+        !status)
       return status;
     if (Status status = addOrientations(); !status) return status;
     for (const float number : floatsOf(chunk_.cellColours)) {
@@ -187,7 +195,8 @@ class ChunkPacker {
   Status addHeights(SectionType type, const std::vector<float>& heights, Expected expected) {
     if (isZero(heights)) return {};
     if (isOnLattice(type))
-      return addIndices(type, heights, [&](size_t) { return asset_.quantization.heightStep; }, expected);
+      return addIndices(
+          type, heights, [&](size_t) { return asset_.quantization.heightStep; }, expected);
     addFloats(type, heights);
     return {};
   }
@@ -206,17 +215,22 @@ class ChunkPacker {
     }
     const auto cellHeight = [&](size_t i) {
       int32_t index = 0;
-      if (!chunk_.cellHeights.empty()) findIndex(chunk_.cellHeights[i / count], asset_.quantization.heightStep, index);
+      if (!chunk_.cellHeights.empty())
+        findIndex(chunk_.cellHeights[i / count], asset_.quantization.heightStep, index);
       return index;
     };
-    if (Status status = addHeights(SectionType::kDetailHeights, chunk_.detailHeights, cellHeight); !status) return status;
+    if (Status status = addHeights(SectionType::kDetailHeights, chunk_.detailHeights, cellHeight); !status)
+      return status;
     return addBaseColours();
   }
 
-  uint8_t scaleOf(size_t cell) const { return chunk_.colourScales.empty() ? uint8_t{0} : chunk_.colourScales[cell]; }
+  uint8_t scaleOf(size_t cell) const {
+    return chunk_.colourScales.empty() ? uint8_t{0} : chunk_.colourScales[cell];
+  }
 
   Status addBaseColours() {
-    const bool hasScales = std::any_of(chunk_.colourScales.begin(), chunk_.colourScales.end(), [](uint8_t s) { return s > 0; });
+    const bool hasScales =
+        std::any_of(chunk_.colourScales.begin(), chunk_.colourScales.end(), [](uint8_t s) { return s > 0; });
     if (hasScales && asset_.quantization.colourStep == 0)
       return makeError(ErrorKind::kBadInput, "%s: colours without lattice have no scales; leave them out",
                        sectionPlace(place_, SectionType::kColourScales).c_str());
@@ -228,7 +242,9 @@ class ChunkPacker {
       return {};
     }
     const size_t perCell = size_t{asset_.detailCount} * 3;
-    const auto unit = [&](size_t i) { return colourUnit(asset_.quantization.colourStep, scaleOf(i / perCell)); };
+    const auto unit = [&](size_t i) {
+      return colourUnit(asset_.quantization.colourStep, scaleOf(i / perCell));
+    };
     return addIndices(SectionType::kBaseColours, colours, unit, [&](size_t i) {
       return cellColours_.empty() ? 0 : expectedColourIndex(cellColours_[i / perCell * 3 + i % 3], unit(i));
     });
@@ -237,7 +253,8 @@ class ChunkPacker {
   Status addLobes() {
     if (chunk_.lobeAxes.empty()) return {};
     const size_t details = size_t{chunk_.liveCount} * asset_.detailCount;
-    if (chunk_.lobeAxes.size() < details * asset_.lobeCount) add(SectionType::kLobeCounts, 1, chunk_.lobeCounts);
+    if (chunk_.lobeAxes.size() < details * asset_.lobeCount)
+      add(SectionType::kLobeCounts, 1, chunk_.lobeCounts);
     if (Status status = addAxes(); !status) return status;
     const std::span<const float> colours = floatsOf(chunk_.lobeColours);
     if (!isOnLattice(SectionType::kLobeColours)) {
@@ -254,7 +271,8 @@ class ChunkPacker {
     std::vector<float> units;
     for (size_t detail = 0; detail < size_t{chunk_.liveCount} * asset_.detailCount; ++detail) {
       const uint32_t count = chunk_.lobeCounts.empty() ? asset_.lobeCount : chunk_.lobeCounts[detail];
-      units.insert(units.end(), count, colourUnit(asset_.quantization.colourStep, scaleOf(detail / asset_.detailCount)));
+      units.insert(units.end(), count,
+                   colourUnit(asset_.quantization.colourStep, scaleOf(detail / asset_.detailCount)));
     }
     return units;
   }
@@ -264,7 +282,8 @@ class ChunkPacker {
     const std::span<const float> axes = floatsOf(chunk_.lobeAxes);
     const float step = asset_.quantization.lobeAxisStep;
     if (isOnLattice(SectionType::kLobeAxes))
-      return addIndices(SectionType::kLobeAxes, axes, [&](size_t) { return step; }, [](size_t) { return 0; });
+      return addIndices(
+          SectionType::kLobeAxes, axes, [&](size_t) { return step; }, [](size_t) { return 0; });
     addFloats(SectionType::kLobeAxes, axes);
     return {};
   }

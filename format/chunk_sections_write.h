@@ -14,8 +14,8 @@ namespace froth {
 
 struct RawSection {
   SectionType type{};
-  uint32_t elementSize = 0;    // [bytes]
-  uint32_t base = 0;           // SectionRecord::base
+  uint32_t elementSize = 0;  // [bytes]
+  uint32_t base = 0;         // SectionRecord::base
   std::vector<uint8_t> bytes;
 };
 
@@ -24,8 +24,8 @@ struct RawChunk {
   std::vector<RawSection> sections;  // ascending types; those that hold something
 };
 
-// `chunk` has passed checkChunk. Fails if a value does not lie on its lattice, or if a neighbour is one in one direction only.
-// `axes` searches asset.axisCodebook. Thread-safe.
+// `chunk` has passed checkChunk. Fails if a value does not lie on its lattice, or if a neighbour is one in
+// one direction only. `axes` searches asset.axisCodebook. Thread-safe.
 Result<RawChunk> packChunk(const AssetContents& asset, const AxisSearch& axes, const ChunkContents& chunk,
                            const std::string& place);
 

@@ -124,7 +124,8 @@ Status unpackChunks(const fb::Manifest& packed, const std::string& file, Manifes
 }
 
 // What the record says about itself and its place in the file.
-Status checkRecord(const SectionRecord& record, bool hasReserved, uint64_t fileSize, const std::string& place) {
+Status checkRecord(const SectionRecord& record, bool hasReserved, uint64_t fileSize,
+                   const std::string& place) {
   if (hasReserved || (record.flags & kSectionReservedFlags) != 0)
     return makeError(ErrorKind::kUnsupported, "%s: reserved bits are set (flags 0x%04x); %s", place.c_str(),
                      record.flags, kTooNew);
@@ -152,11 +153,11 @@ Status checkElements(const SectionRecord& record, const Manifest& manifest, cons
   const bool isGraph = kind == ElementKind::kGraph;
   if (!isElementSize(kind, record.elementSize) ||
       (isGraph && record.elementSize != graphElementSize(manifest.contents.chunks[record.chunk])))
-    return makeError(ErrorKind::kBadInput, "%s: elements of %u bytes cannot be; %s", place.c_str(), record.elementSize,
-                     kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: elements of %u bytes cannot be; %s", place.c_str(),
+                     record.elementSize, kRemedy);
   if (record.base != 0 && kind != ElementKind::kUnsigned)
-    return makeError(ErrorKind::kBadInput, "%s: base is %u, these elements have none; %s", place.c_str(), record.base,
-                     kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: base is %u, these elements have none; %s", place.c_str(),
+                     record.base, kRemedy);
   return {};
 }
 
@@ -168,7 +169,8 @@ Status checkKnownRecord(const SectionRecord& record, const Manifest& manifest, c
     return makeError(ErrorKind::kBadInput, "%s: belongs to no such chunk, there are %zu; %s", place.c_str(),
                      manifest.chunks.size(), kRemedy);
   if (record.codec > kLastSectionCodec)
-    return makeError(ErrorKind::kUnsupported, "%s: unknown codec %u; %s", place.c_str(), record.codec, kTooNew);
+    return makeError(ErrorKind::kUnsupported, "%s: unknown codec %u; %s", place.c_str(), record.codec,
+                     kTooNew);
   const uint64_t entries = demandedEntries(record, manifest);
   if (entries == 0)
     return makeError(ErrorKind::kBadInput, "%s: must not be there; %s", place.c_str(), kRemedy);
@@ -176,8 +178,8 @@ Status checkKnownRecord(const SectionRecord& record, const Manifest& manifest, c
   const uint64_t rawSize =
       entries * sectionComponents(type, manifest.contents.quantization) * record.elementSize;
   if (record.rawSize != rawSize)
-    return makeError(ErrorKind::kBadInput, "%s: raw size %llu, but the counts demand %llu bytes; %s", place.c_str(),
-                     ull{record.rawSize}, ull{rawSize}, kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: raw size %llu, but the counts demand %llu bytes; %s",
+                     place.c_str(), ull{record.rawSize}, ull{rawSize}, kRemedy);
   const bool isStored = record.codec == static_cast<uint16_t>(SectionCodec::kStored);
   if (isStored ? record.storedSize != record.rawSize : record.rawSize > record.storedSize * kMaxExpansion)
     return makeError(ErrorKind::kBadInput, "%s: %llu stored bytes cannot hold %llu; %s", place.c_str(),
@@ -226,7 +228,8 @@ Status unpackSections(const fb::Manifest& packed, uint64_t manifestEnd, uint64_t
 }
 
 Status missing(const std::string& chunkPlace, SectionType type) {
-  return makeError(ErrorKind::kBadInput, "%s: is missing; %s", sectionPlace(chunkPlace, type).c_str(), kRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: is missing; %s", sectionPlace(chunkPlace, type).c_str(),
+                   kRemedy);
 }
 
 Status checkPresence(const Manifest& manifest, const std::string& file) {
@@ -235,7 +238,8 @@ Status checkPresence(const Manifest& manifest, const std::string& file) {
     return missing(chunkPlace(file, kSharedChunk), SectionType::kAxisCodebook);
   for (uint32_t index = 0; index < manifest.chunks.size(); ++index)
     for (const SectionType type : allSectionTypes()) {
-      const Presence presence = sectionPresence(type, manifest.contents, hasCodebook, manifest.chunks[index].counts);
+      const Presence presence =
+          sectionPresence(type, manifest.contents, hasCodebook, manifest.chunks[index].counts);
       if (presence == Presence::kRequired && !manifest.findSection(index, type))
         return missing(chunkPlace(file, index), type);
     }
@@ -270,7 +274,8 @@ Result<Manifest> parseManifest(const std::vector<uint8_t>& bytes, uint64_t manif
   manifest.contents = unpackParameters(packed);
   manifest.codebookSize = packed.codebook_size();
   if (Status status = checkParameters(manifest.contents, file); !status) return status.error();
-  if (Status status = checkCodebookSize(manifest.contents, manifest.codebookSize, file); !status) return status.error();
+  if (Status status = checkCodebookSize(manifest.contents, manifest.codebookSize, file); !status)
+    return status.error();
   if (Status status = unpackChunks(packed, file, manifest); !status) return status.error();
   if (Status status = unpackSections(packed, manifestEnd, fileSize, file, manifest); !status)
     return status.error();

@@ -22,8 +22,9 @@ fb::Chunk pack(const ChunkIndex& chunk) {
 }
 
 fb::Section pack(const SectionRecord& record) {
-  return fb::Section(record.type, record.chunk, record.flags, record.codec, static_cast<uint16_t>(record.elementSize), 0,
-                     record.base, 0, record.offset, record.storedSize, record.rawSize, record.hash);
+  return fb::Section(record.type, record.chunk, record.flags, record.codec,
+                     static_cast<uint16_t>(record.elementSize), 0, record.base, 0, record.offset,
+                     record.storedSize, record.rawSize, record.hash);
 }
 
 template <class Packed, class Source>
@@ -40,9 +41,10 @@ flatbuffers::Offset<fb::Statistics> packStatistics(flatbuffers::FlatBufferBuilde
                               s.deadCells, s.unseenCulled, s.steinerCells, s.walkPairs, s.alphaPairs);
 }
 
-flatbuffers::Offset<fb::Quantization> packQuantization(flatbuffers::FlatBufferBuilder& builder, const Quantization& q) {
-  return fb::CreateQuantization(builder, q.positionStep, q.radiusBits, q.densityBits, q.normalBits, q.detailSiteStep,
-                                q.heightStep, q.colourStep, q.lobeAxisStep);
+flatbuffers::Offset<fb::Quantization> packQuantization(flatbuffers::FlatBufferBuilder& builder,
+                                                       const Quantization& q) {
+  return fb::CreateQuantization(builder, q.positionStep, q.radiusBits, q.densityBits, q.normalBits,
+                                q.detailSiteStep, q.heightStep, q.colourStep, q.lobeAxisStep);
 }
 
 auto packErrors(flatbuffers::FlatBufferBuilder& builder, const std::vector<AttributeError>& errors) {

@@ -67,7 +67,8 @@ glm::vec4 orientationOfNormal(std::array<uint32_t, 2> indices, uint32_t bits) {
   }
   const double length = std::sqrt(x * x + y * y + z * z);
   const glm::dvec3 normal(x / length, y / length, z / length);
-  // The quaternion q with q n q^-1 = +x, up to a turn by pi about z where n is nearer to -x. Rows of its matrix: n, t, b.
+  // The quaternion q with q n q^-1 = +x, up to a turn by pi about z where n is nearer to -x. Rows of its
+  // matrix: n, t, b.
   const double w = std::sqrt((1 + std::abs(normal.x)) / 2);
   const double s = 0.5 / w;
   if (normal.x >= 0) return glm::vec4(w, 0, normal.z * s, -normal.y * s);

@@ -175,8 +175,11 @@ uint64_t sectionEntries(SectionType type, const ChunkCounts& counts, uint32_t de
   return 0;
 }
 
-Presence sectionPresence(SectionType type, const AssetContents& asset, bool hasCodebook, const ChunkCounts& counts) {
-  const auto requiredIf = [](bool condition) { return condition ? Presence::kRequired : Presence::kForbidden; };
+Presence sectionPresence(SectionType type, const AssetContents& asset, bool hasCodebook,
+                         const ChunkCounts& counts) {
+  const auto requiredIf = [](bool condition) {
+    return condition ? Presence::kRequired : Presence::kForbidden;
+  };
   if (sectionEntries(type, counts, asset.detailCount) == 0) return Presence::kForbidden;
   switch (type) {
     case SectionType::kGraphCounts:

@@ -12,37 +12,37 @@
 
 namespace froth {
 
-// N cells, of these L live, G ghosts, E pairs of the graph, S lobes; K detail sites per cell; C entries of the codebook.
-// Types are grouped by layer; numbers between the groups are free.
+// N cells, of these L live, G ghosts, E pairs of the graph, S lobes; K detail sites per cell; C entries of
+// the codebook. Types are grouped by layer; numbers between the groups are free.
 enum class SectionType : uint32_t {
-  kSites = 1,            // [N × 3]
-  kGhostSites = 2,       // [G × 3]
-  kRadii = 3,            // [N + G] those of ghosts last
-  kGhostRefs = 4,        // [G]
-  kGraphCounts = 5,      // [N] format/graph_rows.h, as the next two
-  kGraphDeltas = 6,      // [E]
-  kGraphAlphaBits = 7,   // [ceil(E / 8)]
-  kDensities = 8,        // [L]
-  kOrientations = 9,     // [L × 2] octahedral normals, or [L × 4] quaternions
-  kCellColours = 10,     // [L × 3]
-  kCellHeights = 11,     // [L]
+  kSites = 1,           // [N × 3]
+  kGhostSites = 2,      // [G × 3]
+  kRadii = 3,           // [N + G] those of ghosts last
+  kGhostRefs = 4,       // [G]
+  kGraphCounts = 5,     // [N] format/graph_rows.h, as the next two
+  kGraphDeltas = 6,     // [E]
+  kGraphAlphaBits = 7,  // [ceil(E / 8)]
+  kDensities = 8,       // [L]
+  kOrientations = 9,    // [L × 2] octahedral normals, or [L × 4] quaternions
+  kCellColours = 10,    // [L × 3]
+  kCellHeights = 11,    // [L]
 
-  kDetailSites = 32,     // [L × K × 2]
-  kDetailHeights = 33,   // [L × K]
-  kColourScales = 34,    // [L]
-  kBaseColours = 35,     // [L × K × 3]
+  kDetailSites = 32,    // [L × K × 2]
+  kDetailHeights = 33,  // [L × K]
+  kColourScales = 34,   // [L]
+  kBaseColours = 35,    // [L × K × 3]
 
-  kLobeCounts = 64,      // [L × K]
-  kLobeLabels = 65,      // [S] entries of the codebook
-  kLobeAxes = 66,        // [S × 3] or what they differ by from the codebook's
-  kLobeColours = 67,     // [S × 3]
-  kAxisCodebook = 68,    // [C × 3] shared: its chunk is kSharedChunk
+  kLobeCounts = 64,    // [L × K]
+  kLobeLabels = 65,    // [S] entries of the codebook
+  kLobeAxes = 66,      // [S × 3] or what they differ by from the codebook's
+  kLobeColours = 67,   // [S × 3]
+  kAxisCodebook = 68,  // [C × 3] shared: its chunk is kSharedChunk
 };
 
 // What the elements of a section are.
 enum class ElementKind {
-  kFloat,     // float32
-  kInt32,     // two's complement
+  kFloat,  // float32
+  kInt32,  // two's complement
   kUint32,
   kGraph,     // unsigned, 2 bytes, or 4 if a chunk has more than 65536 sites
   kByte,      // unsigned, 1 byte
@@ -62,10 +62,10 @@ struct SectionRecord {
   uint16_t codec = 0;
   uint32_t elementSize = 0;  // [bytes]
   uint32_t base = 0;         // added to every element of ElementKind::kUnsigned; 0 with other kinds
-  uint64_t offset = 0;      // [bytes from the start of the file]
-  uint64_t storedSize = 0;  // [bytes]
-  uint64_t rawSize = 0;     // [bytes]
-  uint64_t hash = 0;        // of the stored bytes
+  uint64_t offset = 0;       // [bytes from the start of the file]
+  uint64_t storedSize = 0;   // [bytes]
+  uint64_t rawSize = 0;      // [bytes]
+  uint64_t hash = 0;         // of the stored bytes
 };
 
 // Sizes that the manifest tells before a section is read.
@@ -95,12 +95,14 @@ uint32_t sectionComponents(SectionType type, const Quantization& quantization);
 ElementKind sectionKind(SectionType type, const Quantization& quantization);
 bool isElementSize(ElementKind kind, uint32_t size);
 
-// Entries of a chunk's section, as the counts demand; of a shared one 0. Exact: counts are below 2^40, K at most 32.
+// Entries of a chunk's section, as the counts demand; of a shared one 0. Exact: counts are below 2^40, K at
+// most 32.
 uint64_t sectionEntries(SectionType type, const ChunkCounts& counts, uint32_t detailCount);
 
-// Whether a chunk of these counts has such a section. Of `asset` the parameters are read, not the chunks; `hasCodebook` stands
-// for its codebook.
-Presence sectionPresence(SectionType type, const AssetContents& asset, bool hasCodebook, const ChunkCounts& counts);
+// Whether a chunk of these counts has such a section. Of `asset` the parameters are read, not the chunks;
+// `hasCodebook` stands for its codebook.
+Presence sectionPresence(SectionType type, const AssetContents& asset, bool hasCodebook,
+                         const ChunkCounts& counts);
 
 // "scene.froth: chunk 17", "scene.froth: shared"
 std::string chunkPlace(const std::string& file, uint32_t chunk);

@@ -33,9 +33,11 @@ bool lock(int descriptor) {
   return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
 }
 
-// False once another process has removed it, or its owner has renamed it and perhaps made another file of that name.
+// False once another process has removed it, or its owner has renamed it and perhaps made another file of
+// that name.
 bool isStillNamed(int descriptor, const std::string& name) {
-  struct stat open {}, named {};
+  struct stat open {
+  }, named{};
   return ::fstat(descriptor, &open) == 0 && ::lstat(name.c_str(), &named) == 0 && S_ISREG(named.st_mode) &&
          open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
@@ -81,7 +83,8 @@ Result<TemporaryFile> TemporaryFile::create(const std::filesystem::path& target)
 Status TemporaryFile::openLocked() {
   constexpr int kAttempts = 1000;  // names that other threads may hold
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const std::string name = target_.string() + kMark + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    const std::string name =
+        target_.string() + kMark + std::to_string(::getpid()) + "-" + std::to_string(attempt);
     const int descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno == EEXIST) continue;
     if (descriptor < 0) return ioError(target_, "cannot be created");
@@ -94,7 +97,8 @@ Status TemporaryFile::openLocked() {
     }
     ::close(descriptor);  // taken for a leftover before it was locked
   }
-  return makeError(ErrorKind::kIo, "%s: %d temporary files stand beside it; remove them", target_.c_str(), kAttempts);
+  return makeError(ErrorKind::kIo, "%s: %d temporary files stand beside it; remove them", target_.c_str(),
+                   kAttempts);
 }
 
 TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
@@ -143,7 +147,8 @@ Status TemporaryFile::appendFile(const TemporaryFile& source) {
   }
   std::vector<uint8_t> buffer(std::min(left(), uint64_t{1} << 20));
   while (left() > 0) {
-    const ssize_t got = ::pread(source.descriptor_, buffer.data(), std::min<uint64_t>(buffer.size(), left()), offset);
+    const ssize_t got =
+        ::pread(source.descriptor_, buffer.data(), std::min<uint64_t>(buffer.size(), left()), offset);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return ioError(target_, "its temporary cannot be read");
     if (Status status = append({buffer.data(), static_cast<size_t>(got)}); !status) return status;

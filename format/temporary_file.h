@@ -1,7 +1,7 @@
 // Files under temporary names beside the file that they shall become. Part of froth_format_write.
 //
-// A run that is killed leaves its temporary behind; the next one that writes the same file removes it. Temporaries
-// are locked as long as their process lives, so two runs at once leave each other's alone.
+// A run that is killed leaves its temporary behind; the next one that writes the same file removes it.
+// Temporaries are locked as long as their process lives, so two runs at once leave each other's alone.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ namespace froth {
 // "scene.froth: cannot be written: No space left on device; check folder, rights and free space", from errno.
 Error ioError(const std::filesystem::path& path, const char* what);
 
-// A file that is removed again unless it was renamed over its target. After an error nothing more may be asked of it.
+// A file that is removed again unless it was renamed over its target. After an error nothing more may be
+// asked of it.
 class TemporaryFile {
  public:
   // Beside `target`, so that renaming stays within one file system. Removes leftovers of killed runs first.

@@ -41,7 +41,8 @@ TEST(Allocation, OfACodebookThatIsNotThereDoesNotHappen) {
   draft.contents.axisCodebook.resize(65536);
   std::string error;
   EXPECT_LT(largestAllocationOf(draft.assemble(), error), size_t{1} << 16);
-  EXPECT_THAT(error, testing::HasSubstr("shared, section 'axis_codebook': raw size 36, but the counts demand 786432 bytes"));
+  EXPECT_THAT(error, testing::HasSubstr(
+                         "shared, section 'axis_codebook': raw size 36, but the counts demand 786432 bytes"));
 }
 
 TEST(Allocation, StaysWithinTheFilesSizeTimesTheLimitOfExpansion) {

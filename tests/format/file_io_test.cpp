@@ -98,15 +98,18 @@ TEST_F(FileIo, NamesAFolderThatDoesNotExist) {
 [[noreturn]] void writeWhereNothingMayBe(const fs::path& path) {
   constexpr uid_t kNobody = 65534;
   if (::geteuid() == 0 && ::seteuid(kNobody) != 0) std::_Exit(2);
-  const std::string errors[] = {errorOf(writeFileAtomically(path, kNew)), errorOf(writeAsset(path, makeSampleAsset()))};
+  const std::string errors[] = {errorOf(writeFileAtomically(path, kNew)),
+                                errorOf(writeAsset(path, makeSampleAsset()))};
   for (const std::string& error : errors)
-    if (error.find("cannot be created: Permission denied; check folder, rights") == std::string::npos) std::_Exit(1);
+    if (error.find("cannot be created: Permission denied; check folder, rights") == std::string::npos)
+      std::_Exit(1);
   std::_Exit(0);
 }
 
 TEST_F(FileIo, LeavesTheOldFileInAFolderThatCannotBeWritten) {
   ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "a", kOld)), "no error");
-  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
+                               fs::perms::others_exec);
   EXPECT_EXIT(writeWhereNothingMayBe(folder_ / "a"), testing::ExitedWithCode(0), "");
   fs::permissions(folder_, fs::perms::owner_all);
   EXPECT_EQ(*readFile(folder_ / "a"), kOld);

@@ -1,4 +1,5 @@
-// Files that are wrong in one chosen way: valid ones taken apart, changed, and signed again so that hashes fit.
+// Files that are wrong in one chosen way: valid ones taken apart, changed, and signed again so that hashes
+// fit.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Files that earlier versions wrote stay readable, or are refused for a reason. The golden file is written again by
+// Files that earlier versions wrote stay readable, or are refused for a reason. The golden file is written
+// again by
 //   FROTH_WRITE_GOLDEN=1 test_format --gtest_filter='Golden.*'
 // only when a new major version makes the old one unreadable on purpose.
 #include <cstdlib>
@@ -43,9 +44,10 @@ TEST(Golden, FileOfVersion1IsRefusedWithItsRemedy) {
   const Result<AssetContents> found = readAsset(goldenPath("version_1_0.froth"));
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().kind, ErrorKind::kUnsupported);
-  EXPECT_THAT(found.error().message,
-              testing::AllOf(testing::HasSubstr("version_1_0.froth: format version 1.0, this program reads 2"),
-                             testing::HasSubstr("bake the scene again")));
+  EXPECT_THAT(
+      found.error().message,
+      testing::AllOf(testing::HasSubstr("version_1_0.froth: format version 1.0, this program reads 2"),
+                     testing::HasSubstr("bake the scene again")));
 }
 
 }  // namespace

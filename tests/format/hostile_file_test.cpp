@@ -17,7 +17,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 AssetContents smallAsset() {
-  return makeSampleAsset({.chunkCount = 2, .cellsPerChunk = 3, .localBits = 2, .detailCount = 1, .lobeCount = 1});
+  return makeSampleAsset(
+      {.chunkCount = 2, .cellsPerChunk = 3, .localBits = 2, .detailCount = 1, .lobeCount = 1});
 }
 
 // Something of everything, on lattices.
@@ -144,8 +145,10 @@ TEST(HostileFile, WithParametersOutOfRangeIsRefusedByTheirNames) {
   };
   EXPECT_THAT(errorWith([](AssetContents& c) { c.detailCount = 33; }),
               HasSubstr("detail_count is 33, not in 1..32"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 33; }), HasSubstr("lobe_count is 33, not in 0..32"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 0; }), HasSubstr("chunk 0: lobe_count is 2, not in 0..0"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 33; }),
+              HasSubstr("lobe_count is 33, not in 0..32"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 0; }),
+              HasSubstr("chunk 0: lobe_count is 2, not in 0..0"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 33; }), HasSubstr("local_bits is 33"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 1; }), HasSubstr("cell_count is 3"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 32; }), HasSubstr("number of chunks is 2"));
@@ -156,7 +159,8 @@ TEST(HostileFile, WithParametersOutOfRangeIsRefusedByTheirNames) {
   EXPECT_THAT(errorWith([](AssetContents& c) { c.startView.tanHalfFovY = 0; }), HasSubstr("start_view"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.flightPath[1].worldFromCamera[3] = NAN; }),
               HasSubstr("flight_path"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.axisCodebook.resize(65537); }), HasSubstr("codebook_size is 65537"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.axisCodebook.resize(65537); }),
+              HasSubstr("codebook_size is 65537"));
 }
 
 TEST(HostileFile, WithALatticeThatIsNoneIsRefused) {
@@ -166,14 +170,18 @@ TEST(HostileFile, WithALatticeThatIsNoneIsRefused) {
     edit(changed.contents.quantization);
     return errorOf(changed.assemble());
   };
-  EXPECT_THAT(errorWith([](Quantization& q) { q.radiusBits = 0; }), HasSubstr("radius_bits is 0, not in 1..23"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.radiusBits = 0; }),
+              HasSubstr("radius_bits is 0, not in 1..23"));
   EXPECT_THAT(errorWith([](Quantization& q) { q.densityBits = 24; }), HasSubstr("density_bits is 24"));
-  EXPECT_THAT(errorWith([](Quantization& q) { q.normalBits = 3; }), HasSubstr("normal_bits is 3, not in 4..15"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.normalBits = 3; }),
+              HasSubstr("normal_bits is 3, not in 4..15"));
   EXPECT_THAT(errorWith([](Quantization& q) { q.positionStep = 0.3; }), HasSubstr("position_step is 0.3"));
-  EXPECT_THAT(errorWith([](Quantization& q) { q.detailSiteStep = -0.5f; }), HasSubstr("detail_site_step is -0.5"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.detailSiteStep = -0.5f; }),
+              HasSubstr("detail_site_step is -0.5"));
   EXPECT_THAT(errorWith([](Quantization& q) { q.heightStep = NAN; }), HasSubstr("height_step is nan"));
   EXPECT_THAT(errorWith([](Quantization& q) { q.colourStep = 0x1p61f; }), HasSubstr("colour_step"));
-  EXPECT_THAT(errorWith([](Quantization& q) { q.lobeAxisStep = INFINITY; }), HasSubstr("lobe_axis_step is inf"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.lobeAxisStep = INFINITY; }),
+              HasSubstr("lobe_axis_step is inf"));
 }
 
 // The error that an edit of the first chunk's record leads to.
@@ -187,25 +195,34 @@ TEST(HostileFile, WithAbsurdCountsIsRefusedByTheirNames) {
   constexpr uint64_t kTrillion = 1'000'000'000'000;
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.cells = kTrillion; }),
               AllOf(HasSubstr("chunk 0"), HasSubstr("cell_count is 1000000000000")));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.live = kTrillion; }), HasSubstr("live_count is 1000000000000"));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.ghosts = kTrillion; }), HasSubstr("ghost_count is 1000000000000"));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.pairs = kTrillion; }), HasSubstr("pair_count is 1000000000000"));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.lobes = kTrillion; }), HasSubstr("lobe_count is 1000000000000"));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.live = 10; }), HasSubstr("live_count is 10, not in 0..9"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.live = kTrillion; }),
+              HasSubstr("live_count is 1000000000000"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.ghosts = kTrillion; }),
+              HasSubstr("ghost_count is 1000000000000"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.pairs = kTrillion; }),
+              HasSubstr("pair_count is 1000000000000"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.lobes = kTrillion; }),
+              HasSubstr("lobe_count is 1000000000000"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.live = 10; }),
+              HasSubstr("live_count is 10, not in 0..9"));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.cells = 0; }), HasSubstr("cell_count"));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.lobes = 25; }), HasSubstr("lobe_count is 25, not in 0..24"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.lobes = 25; }),
+              HasSubstr("lobe_count is 25, not in 0..24"));
 }
 
 TEST(HostileFile, WithAnOriginOffTheGridOrNotFiniteIsRefused) {
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[2] = INFINITY; }), HasSubstr("origin holds inf"));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[1] += 0x1p-13; }), HasSubstr("no multiple of the position step"));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[0] = 0x1p200; }), HasSubstr("no multiple of the position step"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[1] += 0x1p-13; }),
+              HasSubstr("no multiple of the position step"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[0] = 0x1p200; }),
+              HasSubstr("no multiple of the position step"));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.liveBounds.min[0] = NAN; }), HasSubstr("live_bounds"));
 }
 
 TEST(HostileFile, IsRefusedIfTheCountsDoNotFitTheSections) {
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.cells; }),
-              AllOf(HasSubstr("section 'sites'"), HasSubstr("raw size 108, but the counts demand 120 bytes")));
+  EXPECT_THAT(
+      errorWithChunk([](ChunkIndex& c) { ++c.counts.cells; }),
+      AllOf(HasSubstr("section 'sites'"), HasSubstr("raw size 108, but the counts demand 120 bytes")));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.ghosts; }), HasSubstr("section 'ghost_sites'"));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.pairs; }), HasSubstr("section 'graph_deltas'"));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.lobes; }), HasSubstr("section 'lobe_labels'"));
@@ -225,8 +242,9 @@ TEST(HostileFile, IsRefusedIfItsManifestIsNone) {
 struct SectionEdit {
   fb::Section& section;
   void operator()(uint64_t offset, uint64_t storedSize, uint64_t rawSize) {
-    section = fb::Section(section.type(), section.chunk(), section.flags(), section.codec(), section.element_size(), 0,
-                          section.base(), 0, offset, storedSize, rawSize, section.hash());
+    section =
+        fb::Section(section.type(), section.chunk(), section.flags(), section.codec(), section.element_size(),
+                    0, section.base(), 0, offset, storedSize, rawSize, section.hash());
   }
 };
 

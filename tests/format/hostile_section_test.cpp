@@ -41,7 +41,8 @@ std::vector<Element> elementsOf(const AssetContents& contents, SectionType type)
   std::vector<Element> elements(record.rawSize / sizeof(Element));
   const std::span<uint8_t> raw{reinterpret_cast<uint8_t*>(elements.data()), record.rawSize};
   const uint32_t components = sectionComponents(type, contents.quantization);
-  const Status status = decodeSection(record, draft.stored[index], raw, "section", {record.elementSize, components});
+  const Status status =
+      decodeSection(record, draft.stored[index], raw, "section", {record.elementSize, components});
   EXPECT_TRUE(status) << status.error().message;
   return elements;
 }
@@ -67,8 +68,9 @@ TEST(HostileSection, WithANumberThatIsNotFiniteIsRefusedByPlace) {
   const AssetContents contents = makeSampleAsset();
   EXPECT_THAT(errorAfter<float>(contents, SectionType::kSites, [](auto& sites) { sites[5] = NAN; }),
               AllOf(HasSubstr("scene.froth: chunk 0: sites: number 5 is nan"), HasSubstr("bake")));
-  EXPECT_THAT(errorAfter<float>(contents, SectionType::kLobeAxes, [](auto& axes) { axes.back() = -INFINITY; }),
-              HasSubstr("lobe_axes"));
+  EXPECT_THAT(
+      errorAfter<float>(contents, SectionType::kLobeAxes, [](auto& axes) { axes.back() = -INFINITY; }),
+      HasSubstr("lobe_axes"));
   EXPECT_THAT(errorAfter<float>(contents, SectionType::kDetailHeights, [](auto& h) { h[0] = INFINITY; }),
               HasSubstr("detail_heights"));
 }
@@ -77,15 +79,18 @@ TEST(HostileSection, WithARadiusOrDensityOutOfRangeIsRefused) {
   const AssetContents contents = makeSampleAsset();
   EXPECT_THAT(errorAfter<float>(contents, SectionType::kRadii, [](auto& radii) { radii[3] = 0; }),
               HasSubstr("cell 3 has radius 0, not > 0"));
-  EXPECT_THAT(errorAfter<float>(contents, SectionType::kDensities, [](auto& densities) { densities[1] = -2; }),
-              HasSubstr("cell 1 has density -2, not >= 0"));
+  EXPECT_THAT(
+      errorAfter<float>(contents, SectionType::kDensities, [](auto& densities) { densities[1] = -2; }),
+      HasSubstr("cell 1 has density -2, not >= 0"));
 }
 
 TEST(HostileSection, WithAGhostThatLivesNowhereIsRefused) {
   const auto errorWithGhost = [](size_t ghost, CellRef ref) {
-    return errorAfter<CellRef>(quantizedAsset(), SectionType::kGhostRefs, [&](auto& refs) { refs[ghost] = ref; });
+    return errorAfter<CellRef>(quantizedAsset(), SectionType::kGhostRefs,
+                               [&](auto& refs) { refs[ghost] = ref; });
   };
-  EXPECT_THAT(errorWithGhost(8, 2 << 4), HasSubstr("section 'ghost_refs': a ghost lives in cell 0 of chunk 2, which is not there"));
+  EXPECT_THAT(errorWithGhost(8, 2 << 4),
+              HasSubstr("section 'ghost_refs': a ghost lives in cell 0 of chunk 2, which is not there"));
   EXPECT_THAT(errorWithGhost(8, (1 << 4) + 9), HasSubstr("cell 9 of chunk 1, which is not there"));
   EXPECT_THAT(errorWithGhost(0, 3), HasSubstr("cell 3 of chunk 0, which is its own"));
   EXPECT_THAT(errorWithGhost(3, 1 << 4), HasSubstr("references must ascend"));
@@ -108,8 +113,9 @@ TEST(HostileSection, WithAnIndexOffItsLatticeIsRefused) {
   EXPECT_THAT(errorOfSites(-(1 << 24)), HasSubstr("out of range"));
   EXPECT_THAT(errorOfSites(std::numeric_limits<int32_t>::min()), HasSubstr("out of range"));
   EXPECT_EQ(errorOfSites((1 << 24) - 1), "no error");
-  EXPECT_THAT(errorAfter<uint16_t>(contents, SectionType::kOrientations, [](auto& normals) { normals[3] = 511; }),
-              HasSubstr("section 'orientations': number 2 is out of range"));
+  EXPECT_THAT(
+      errorAfter<uint16_t>(contents, SectionType::kOrientations, [](auto& normals) { normals[3] = 511; }),
+      HasSubstr("section 'orientations': number 2 is out of range"));
   EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kColourScales, [](auto& scales) { scales[2] = 16; }),
               HasSubstr("section 'colour_scales': number 2 is out of range"));
   EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kLobeLabels, [](auto& labels) { labels[1] = 5; }),
@@ -118,11 +124,13 @@ TEST(HostileSection, WithAnIndexOffItsLatticeIsRefused) {
 
 // The base is no part of the section, but of its record.
 TEST(HostileSection, WithABaseThatMakesItsNumbersAbsurdIsRefused) {
-  for (const auto& [type, base] : {std::pair{SectionType::kRadii, 255u << 9}, std::pair{SectionType::kRadii, ~0u},
-                                   std::pair{SectionType::kOrientations, 511u}, std::pair{SectionType::kLobeLabels, 5u}}) {
+  for (const auto& [type, base] :
+       {std::pair{SectionType::kRadii, 255u << 9}, std::pair{SectionType::kRadii, ~0u},
+        std::pair{SectionType::kOrientations, 511u}, std::pair{SectionType::kLobeLabels, 5u}}) {
     Draft draft = draftOf(quantizedAsset());
     draft.records[draft.find(type)].base = base;
-    EXPECT_NE(errorOf(draft.assemble()), "no error") << sectionName(static_cast<uint32_t>(type)) << " + " << base;
+    EXPECT_NE(errorOf(draft.assemble()), "no error")
+        << sectionName(static_cast<uint32_t>(type)) << " + " << base;
   }
 }
 

@@ -92,8 +92,14 @@ TEST(RoundTrip, KeepsAnAssetWithoutCameras) {
 
 TEST(RoundTrip, KeepsAnAssetOfManyCells) {
   expectRoundTrip(makeSampleAsset({.cellsPerChunk = 300, .detailCount = 8, .lobeCount = 8}));
-  expectRoundTrip(makeSampleAsset({.chunkCount = 2, .cellsPerChunk = 200, .localBits = 14, .detailCount = 8,
-                                   .lobeCount = 8, .isQuantized = true, .hasLayers = true, .codebookSize = 300}));
+  expectRoundTrip(makeSampleAsset({.chunkCount = 2,
+                                   .cellsPerChunk = 200,
+                                   .localBits = 14,
+                                   .detailCount = 8,
+                                   .lobeCount = 8,
+                                   .isQuantized = true,
+                                   .hasLayers = true,
+                                   .codebookSize = 300}));
 }
 
 // Arrays of equal numbers compress better than the format's limit of expansion allows; the writer pads them.
@@ -127,9 +133,9 @@ TEST(RoundTrip, TellsTheBoundsOfLiveCellsBeforeASectionIsRead) {
 
 size_t countSections(const AssetContents& contents, SectionType type) {
   const Draft draft = draftOf(contents);
-  return static_cast<size_t>(std::count_if(draft.records.begin(), draft.records.end(), [&](const SectionRecord& record) {
-    return record.type == static_cast<uint32_t>(type);
-  }));
+  return static_cast<size_t>(
+      std::count_if(draft.records.begin(), draft.records.end(),
+                    [&](const SectionRecord& record) { return record.type == static_cast<uint32_t>(type); }));
 }
 
 TEST(RoundTrip, LeavesOutArraysThatAreAllZero) {
@@ -140,8 +146,9 @@ TEST(RoundTrip, LeavesOutArraysThatAreAllZero) {
   std::fill(chunk.detailSites.begin(), chunk.detailSites.end(), glm::vec2(0));
   std::fill(chunk.baseColours.begin(), chunk.baseColours.end(), glm::vec3(0));
   std::fill(chunk.colourScales.begin(), chunk.colourScales.end(), uint8_t{0});
-  for (const SectionType type : {SectionType::kDetailHeights, SectionType::kCellHeights, SectionType::kDetailSites,
-                                 SectionType::kBaseColours, SectionType::kColourScales})
+  for (const SectionType type :
+       {SectionType::kDetailHeights, SectionType::kCellHeights, SectionType::kDetailSites,
+        SectionType::kBaseColours, SectionType::kColourScales})
     EXPECT_EQ(countSections(contents, type), 0u) << sectionName(static_cast<uint32_t>(type));
   const ChunkContents found = decode(encodeOrFail(contents)).chunks[0];
   EXPECT_TRUE(found.detailHeights.empty());

@@ -66,7 +66,8 @@ class ChunkMaker {
       orientation = glm::normalize(orientation);
       if (options_.isQuantized)
         orientation = orientationOfNormal(
-            normalIndices({orientation.y, orientation.z, orientation.w}, lattices().normalBits), lattices().normalBits);
+            normalIndices({orientation.y, orientation.z, orientation.w}, lattices().normalBits),
+            lattices().normalBits);
     }
     if (!options_.hasLayers) return;
     chunk_.cellColours.resize(chunk_.liveCount);
@@ -91,7 +92,8 @@ class ChunkMaker {
     const size_t cell = detail / options_.detailCount;
     const uint8_t scale = chunk_.colourScales.empty() ? uint8_t{0} : chunk_.colourScales[cell];
     glm::vec3 colour;
-    for (int i = 0; i < 3; ++i) colour[i] = snapToStep(random_() - 0.5f, colourUnit(lattices().colourStep, scale));
+    for (int i = 0; i < 3; ++i)
+      colour[i] = snapToStep(random_() - 0.5f, colourUnit(lattices().colourStep, scale));
     return colour;
   }
 
@@ -99,14 +101,16 @@ class ChunkMaker {
     glm::vec3 axis;
     for (int i = 0; i < 3; ++i) axis[i] = snapToStep(8 * (random_() - 0.5f), lattices().lobeAxisStep);
     if (asset_.axisCodebook.empty()) return axis;
-    const glm::vec3 entry = asset_.axisCodebook[random_.below(static_cast<uint32_t>(asset_.axisCodebook.size()))];
+    const glm::vec3 entry =
+        asset_.axisCodebook[random_.below(static_cast<uint32_t>(asset_.axisCodebook.size()))];
     const bool isBeside = lattices().lobeAxisStep > 0 && random_.below(4) == 0;
     return isBeside ? entry + glm::vec3(0, lattices().lobeAxisStep, 0) : entry;
   }
 
   void fillLobes() {
     for (size_t detail = 0; detail < details_; ++detail) {
-      const uint32_t count = detail > 0 && options_.hasLayers ? random_.below(options_.lobeCount + 1) : options_.lobeCount;
+      const uint32_t count =
+          detail > 0 && options_.hasLayers ? random_.below(options_.lobeCount + 1) : options_.lobeCount;
       if (options_.hasLayers) chunk_.lobeCounts.push_back(static_cast<uint8_t>(count));
       for (uint32_t lobe = 0; lobe < count; ++lobe) {
         chunk_.lobeAxes.push_back(makeAxis());
@@ -161,7 +165,8 @@ void fillGraph(AssetContents& asset, uint32_t index) {
     const auto isAlpha = [&](uint32_t site) { return isLive && (numberOf(cell) + numberOf(site)) % 2 == 1; };
     for (const bool wanted : {true, false})
       for (uint32_t site = 0; site < siteCount; ++site)
-        if (site != cell && isAlpha(site) == wanted && (wanted || asset.hasWalkGraph)) chunk.neighbours.push_back(site);
+        if (site != cell && isAlpha(site) == wanted && (wanted || asset.hasWalkGraph))
+          chunk.neighbours.push_back(site);
     chunk.neighbourOffsets.push_back(static_cast<uint32_t>(chunk.neighbours.size()));
     uint32_t alphaCount = 0;
     for (uint32_t site = 0; site < siteCount; ++site) alphaCount += site != cell && isAlpha(site) ? 1 : 0;

@@ -14,13 +14,13 @@ struct SampleOptions {
   uint32_t detailCount = 2, lobeCount = 2;
   bool hasHeights = true;
   bool hasWalkGraph = true;
-  bool isQuantized = false;    // all attributes, each on a lattice of its own
-  bool hasLayers = false;      // cell colours and heights, base colours; lobe counts that differ
-  uint32_t codebookSize = 0;   // of lobe axes; some axes lie a few steps beside their entry
+  bool isQuantized = false;   // all attributes, each on a lattice of its own
+  bool hasLayers = false;     // cell colours and heights, base colours; lobe counts that differ
+  uint32_t codebookSize = 0;  // of lobe axes; some axes lie a few steps beside their entry
 };
 
-// Any two cells of the asset are neighbours, so each chunk has the cells of all others as ghosts; every other pair of them
-// belongs to the alpha-complex.
+// Any two cells of the asset are neighbours, so each chunk has the cells of all others as ghosts; every other
+// pair of them belongs to the alpha-complex.
 AssetContents makeSampleAsset(const SampleOptions& options = {});
 
 }  // namespace froth

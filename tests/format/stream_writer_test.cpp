@@ -1,4 +1,5 @@
-// Writing chunk by chunk: the same file as at once, nothing left behind, and values that do not fit refused by name.
+// Writing chunk by chunk: the same file as at once, nothing left behind, and values that do not fit refused
+// by name.
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -74,7 +75,8 @@ TEST_F(StreamWriter, WritesTheSameBytesOnAnyNumberOfThreads) {
     for (size_t thread = 0; thread < threadCount; ++thread)
       threads.emplace_back([&, thread] {
         for (size_t i = thread; i < encoded.size(); i += threadCount)
-          if (Result<EncodedChunk> chunk = writer->encodeChunk(contents.chunks[i])) encoded[i] = std::move(*chunk);
+          if (Result<EncodedChunk> chunk = writer->encodeChunk(contents.chunks[i]))
+            encoded[i] = std::move(*chunk);
       });
     for (std::thread& thread : threads) thread.join();
     for (EncodedChunk& chunk : encoded) ASSERT_EQ(errorOf(writer->append(std::move(chunk))), "no error");
@@ -102,18 +104,21 @@ TEST_F(StreamWriter, LeavesNothingBehindIfItIsNotFinished) {
 TEST_F(StreamWriter, FindsAGhostWhoseCellNeverCame) {
   AssetContents contents = fourChunks();
   contents.chunks.pop_back();
-  EXPECT_THAT(errorOf(writeAsset(path_, contents)), HasSubstr("a ghost lives in cell 19 of chunk 3, which is not there"));
+  EXPECT_THAT(errorOf(writeAsset(path_, contents)),
+              HasSubstr("a ghost lives in cell 19 of chunk 3, which is not there"));
   EXPECT_EQ(countFiles(), 0u);
 }
 
 TEST_F(StreamWriter, RefusesATargetThatIsNoFile) {
   fs::create_directory(path_);
   EXPECT_THAT(errorOf(AssetStreamWriter::create(path_, fourChunks())), HasSubstr("no regular file"));
-  EXPECT_THAT(errorOf(AssetStreamWriter::create(folder_ / "no" / "a.froth", fourChunks())),
-              AllOf(HasSubstr("a.froth: cannot be created"), HasSubstr("check folder, rights and free space")));
+  EXPECT_THAT(
+      errorOf(AssetStreamWriter::create(folder_ / "no" / "a.froth", fourChunks())),
+      AllOf(HasSubstr("a.froth: cannot be created"), HasSubstr("check folder, rights and free space")));
 }
 
-// Stands in for a disk that is full after that many bytes of one file. Ends the process: 0 if writing failed as it should.
+// Stands in for a disk that is full after that many bytes of one file. Ends the process: 0 if writing failed
+// as it should.
 [[noreturn]] void writeUnderSizeLimit(const fs::path& path, const AssetContents& contents, rlim_t limit) {
   const rlimit limits{limit, limit};
   ::setrlimit(RLIMIT_FSIZE, &limits);
@@ -189,22 +194,35 @@ TEST(Lattice, RefusesAValueOffItByTheNameOfItsAttribute) {
   EXPECT_THAT(errorAfter([](ChunkContents& c) { c.sites[1].z += 0x1p-13f; }),
               AllOf(HasSubstr("chunk 0, section 'sites': number 5"), HasSubstr("off its lattice; snap it")));
   EXPECT_THAT(errorAfter([](ChunkContents& c) { c.sites[1].z = 0x1p13f; }), HasSubstr("section 'sites'"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.radii[2] += 0x1p-12f; }), HasSubstr("section 'radii': number 2"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.densities[0] += 0x1p-10f; }), HasSubstr("section 'densities'"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.orientations[1] = {0.6f, 0.8f, 0, 0}; }),
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.radii[2] += 0x1p-12f; }),
+              HasSubstr("section 'radii': number 2"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.densities[0] += 0x1p-10f; }),
+              HasSubstr("section 'densities'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) {
+                c.orientations[1] = {0.6f, 0.8f, 0, 0};
+              }),
               HasSubstr("section 'orientations': number 4"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellColours[0].x = 0.5001f; }), HasSubstr("section 'cell_colours'"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellColours[0].y = -2; }), HasSubstr("'cell_colours': number 1"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellHeights[1] += 0x1p-10f; }), HasSubstr("section 'cell_heights'"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.detailSites[0].x += 0x1p-6f; }), HasSubstr("section 'detail_sites'"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.detailHeights[3] += 0x1p-10f; }), HasSubstr("'detail_heights': number 3"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.baseColours[0].z += 0x1p-6f; }), HasSubstr("section 'base_colours'"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.lobeAxes[1].z += 0x1p-11f; }), HasSubstr("section 'lobe_labels': number 1"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.lobeColours[0].x += 0x1p-6f; }), HasSubstr("section 'lobe_colours'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellColours[0].x = 0.5001f; }),
+              HasSubstr("section 'cell_colours'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellColours[0].y = -2; }),
+              HasSubstr("'cell_colours': number 1"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellHeights[1] += 0x1p-10f; }),
+              HasSubstr("section 'cell_heights'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.detailSites[0].x += 0x1p-6f; }),
+              HasSubstr("section 'detail_sites'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.detailHeights[3] += 0x1p-10f; }),
+              HasSubstr("'detail_heights': number 3"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.baseColours[0].z += 0x1p-6f; }),
+              HasSubstr("section 'base_colours'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.lobeAxes[1].z += 0x1p-11f; }),
+              HasSubstr("section 'lobe_labels': number 1"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.lobeColours[0].x += 0x1p-6f; }),
+              HasSubstr("section 'lobe_colours'"));
 }
 
 TEST(Lattice, RefusesANumberThatIsNotFinite) {
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.lobeColours[0].x = NAN; }), HasSubstr("lobe_colours: number 0 is nan"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.lobeColours[0].x = NAN; }),
+              HasSubstr("lobe_colours: number 0 is nan"));
 }
 
 // Axes without codebook lie on the lattice themselves.
@@ -223,7 +241,8 @@ TEST(Lattice, EveryOctahedralNormalIsItsOwnNearestOne) {
         const glm::dvec4 q(orientation);
         const glm::dvec3 normal(1 - 2 * (q.z * q.z + q.w * q.w), 2 * (q.y * q.z - q.x * q.w),
                                 2 * (q.y * q.w + q.x * q.z));
-        ASSERT_EQ(orientationOfNormal(normalIndices(normal, bits), bits), orientation) << bits << " " << y << " " << z;
+        ASSERT_EQ(orientationOfNormal(normalIndices(normal, bits), bits), orientation)
+            << bits << " " << y << " " << z;
       }
   }
 }

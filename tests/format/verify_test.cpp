@@ -38,8 +38,10 @@ AssetContents twoChunks() {
 TEST(VerifyAsset, FindsNothingWrongWithAValidAsset) {
   EXPECT_EQ(verifyContents(makeSampleAsset()), "no error");
   EXPECT_EQ(verifyContents(makeSampleAsset({.hasWalkGraph = false})), "no error");
-  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .cellsPerChunk = 5, .localBits = 16})), "no error");
-  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .localBits = 30, .hasWalkGraph = false})), "no error");
+  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .cellsPerChunk = 5, .localBits = 16})),
+            "no error");
+  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .localBits = 30, .hasWalkGraph = false})),
+            "no error");
   EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3,
                                             .cellsPerChunk = 40,
                                             .localBits = 14,
@@ -82,7 +84,8 @@ TEST(VerifyAsset, FindsAnAlphaPairThatOneChunkAloneKnows) {
 
 TEST(VerifyAsset, FindsAGhostThatIsNotItsCell) {
   for (const bool isQuantized : {false, true}) {
-    const AssetContents valid = makeSampleAsset({.chunkCount = 2, .localBits = 8, .isQuantized = isQuantized});
+    const AssetContents valid =
+        makeSampleAsset({.chunkCount = 2, .localBits = 8, .isQuantized = isQuantized});
     AssetContents contents = valid;
     contents.chunks[1].sites.back().y += 0x1p-12f;
     EXPECT_THAT(verifyContents(contents), HasSubstr("chunk 1: ghost 5 is not where cell 5 of chunk 0 is"));
@@ -101,8 +104,9 @@ TEST(VerifyAsset, FindsTwoNeighboursAtOnePoint) {
 TEST(VerifyAsset, FindsAFrameThatIsNoRotation) {
   AssetContents contents = makeSampleAsset();
   contents.chunks[0].orientations[2] = {2, 0, 0, 0};
-  EXPECT_THAT(verifyContents(contents),
-              AllOf(HasSubstr("section 'orientations': cell 2: quaternion of length 2, not 1"), HasSubstr("bake")));
+  EXPECT_THAT(
+      verifyContents(contents),
+      AllOf(HasSubstr("section 'orientations': cell 2: quaternion of length 2, not 1"), HasSubstr("bake")));
 }
 
 TEST(VerifyAsset, FindsBoundsThatAreNotThoseOfTheCells) {
