@@ -47,6 +47,13 @@ void storeCameras(const CameraSet& cameras, AssetContents& contents) {
   }
 }
 
+// Whether the asset can look different from the input.
+bool isLossy(const BakeOptions& options) {
+  const BakeKnobs& knobs = options.knobs;
+  return knobs.positionBits > 0 || knobs.radiusBits < 23 || knobs.densityBits < 23 || knobs.frameBits > 0 ||
+         knobs.detailSiteBits > 0 || knobs.heightBits > 0 || knobs.compressColours || options.cullUnseen > 0;
+}
+
 // One bake: its steps in the order of run(), and what they hand on.
 class Bake {
  public:
@@ -183,7 +190,7 @@ Status Bake::mark() {
   contents_.statistics = countCells(cells_, states, triangulation_, alpha_);
   contents_.statistics.inputCells = foam_.cellCount;
   contents_.statistics.unseenCulled = unseenCulled_;
-  Result<ChunkPlan> plan = planChunks(cells_, states, options_.chunkCells, progress_);
+  Result<ChunkPlan> plan = planChunks(cells_, states, options_.chunkCells, contents_.quantization.positionStep, progress_);
   if (!plan) return plan.error();
   plan_ = std::move(*plan);
   recorder_.finish("chunks", plan_.chunks.size());
@@ -247,8 +254,7 @@ void Bake::keepCounts(const ChunkContents& chunk) {
 }
 
 Status Bake::makeChunks() {
-  const bool isLossy = options_.preset != "exact";
-  if (options_.measure && isLossy)
+  if (options_.measure && isLossy(options_))
     baked_.emplace(contents_.detailCount, contents_.lobeCount, true, colours_.isCompressed());
   AttributeErrors errors;
   const size_t batchSize = static_cast<size_t>(tbb::this_task_arena::max_concurrency());

@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "baker/bake/cell_order.h"
 #include "baker/bake/slices.h"
-#include "baker/graph/graph.h"
 
 namespace froth {
 namespace {
@@ -64,16 +64,6 @@ class KdSplitter {
   const Progress& progress_;
 };
 
-void sortAlongCurve(std::span<uint32_t> cells, const BakeCells& all) {
-  std::sort(cells.begin(), cells.end());  // places on the curve that fall together are told apart by index
-  std::vector<glm::vec3> sites;
-  sites.reserve(cells.size());
-  for (const uint32_t cell : cells) sites.push_back(all.sites[cell]);
-  std::vector<uint32_t> sorted = mortonOrder(sites);
-  for (uint32_t& place : sorted) place = cells[place];
-  std::copy(sorted.begin(), sorted.end(), cells.begin());
-}
-
 Status fillRefs(const BakeCells& cells, ChunkPlan& plan) {
   size_t largest = 1;
   for (const PlannedChunk& chunk : plan.chunks) largest = std::max(largest, chunk.cells.size());
@@ -96,7 +86,7 @@ Status fillRefs(const BakeCells& cells, ChunkPlan& plan) {
 }  // namespace
 
 Result<ChunkPlan> planChunks(const BakeCells& cells, const std::vector<CellState>& states, uint32_t chunkCells,
-                             const Progress& progress) {
+                             double positionStep, const Progress& progress) {
   std::vector<uint32_t> live, others;
   for (uint32_t cell = 0; cell < cells.count(); ++cell) {
     if (isInAsset(states[cell])) (states[cell] == CellState::kLive ? live : others).push_back(cell);
@@ -106,8 +96,8 @@ Result<ChunkPlan> planChunks(const BakeCells& cells, const std::vector<CellState
   KdSplitter splitter(cells, progress);
   const auto sortChunk = [&](uint32_t index) {
     PlannedChunk& chunk = plan.chunks[index];
-    sortAlongCurve(std::span(chunk.cells).first(chunk.liveCount), cells);
-    sortAlongCurve(std::span(chunk.cells).subspan(chunk.liveCount), cells);
+    const std::span<uint32_t> own(chunk.cells);
+    orderCells(own.first(chunk.liveCount), own.subspan(chunk.liveCount), cells, positionStep);
   };
   if (!splitter.split(live, others, chunkCount, plan.chunks) ||
       !forEachSlice(static_cast<uint32_t>(plan.chunks.size()), 1, {progress, "order", 0, chunkCount}, sortChunk)) {

@@ -25,9 +25,9 @@ struct ChunkPlan {
   uint32_t localOf(CellRef ref) const { return localBits < 32 ? ref & ((1u << localBits) - 1) : ref; }
 };
 
-// kd-median chunks of at most `chunkCells` live cells, in each the live cells along a Morton curve, then the others along
-// one. Splits and curve of the live cells know no others, so that a Steiner cell moves none of them.
+// kd-median chunks of at most `chunkCells` live cells, in each the live cells, then the others, both in the order of
+// cell_order.h. Splits and order of the live cells know no others, so that a Steiner cell moves none of them.
 Result<ChunkPlan> planChunks(const BakeCells& cells, const std::vector<CellState>& states, uint32_t chunkCells,
-                             const Progress& progress);
+                             double positionStep, const Progress& progress);
 
 }  // namespace froth

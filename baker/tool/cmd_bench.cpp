@@ -25,6 +25,7 @@ struct BenchOptions {
   float cutoff = 1e-3f;
   uint32_t frames = 200;
   double warmupSeconds = 1.0;  // clocks of an idle GPU take about this long to rise
+  uint32_t layers = kAllLayers;
   std::string device;
   FiguresOutput figures;
 };
@@ -133,9 +134,10 @@ nlohmann::ordered_json measurementAsJson(const Measurement& measurement,
 }
 
 Status runBench(const BenchOptions& options, const Progress& progress) {
+  if (Status good = checkLayers(options.input, options.layers); !good) return good;
   const Result<std::vector<SelectedView>> views = selectViews(options.views);
   if (!views) return views.error();
-  const Result<AssetInput> asset = loadAsset(options.input, progress);
+  const Result<AssetInput> asset = loadAsset(options.input, progress, options.layers);
   if (!asset) return asset.error();
   GpuDeviceOptions device;
   device.device = options.device;
@@ -172,6 +174,7 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
                                  {"cutoff", options.cutoff},
                                  {"width", view.width},
                                  {"height", view.height},
+                                 {"layers", options.layers},
                                  {"frames", options.frames},
                                  {"cells", status.cellCount},
                                  {"assetBytes", status.deviceBytes},
@@ -201,6 +204,7 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
       ->add_option("--warmup", options->warmupSeconds, "Seconds of drawing before the first measured frame")
       ->capture_default_str()
       ->check(numberBetween(0, 3600));
+  addLayersOption(*command, options->layers);
   command->add_option("--device", options->device, "Index or part of a name (`froth devices`)");
   addFiguresOption(*command, options->figures);
   command->callback([&tool, options] {

@@ -25,6 +25,7 @@ struct RenderCommandOptions {
   std::string renderer, precision = "double", channel = "colour";
   double cutoff = 0;
   bool isLinear = false;
+  uint32_t layers = kAllLayers;
   GpuDeviceOptions device;
   FiguresOutput figures;
 
@@ -97,7 +98,7 @@ Status drawViews(const RenderCommandOptions& options, const std::vector<Selected
 Status renderReference(const RenderCommandOptions& options, const std::vector<SelectedView>& views,
                        const std::vector<std::filesystem::path>& paths, const Progress& progress,
                        nlohmann::ordered_json& figures) {
-  const Result<FoamInput> input = loadFoam(options.input, progress);
+  const Result<FoamInput> input = loadFoam(options.input, progress, options.layers);
   if (!input) return input.error();
   const ReferenceRenderer renderer(input->foam);
   figures["precision"] = options.precision;
@@ -121,7 +122,7 @@ Status renderReference(const RenderCommandOptions& options, const std::vector<Se
 Status renderOnDevice(const RenderCommandOptions& options, const std::vector<SelectedView>& views,
                       const std::vector<std::filesystem::path>& paths, const Progress& progress,
                       nlohmann::ordered_json& figures) {
-  const Result<AssetInput> asset = loadAsset(options.input, progress);
+  const Result<AssetInput> asset = loadAsset(options.input, progress, options.layers);
   if (!asset) return asset.error();
   Result<std::unique_ptr<GpuRenderer>> renderer = GpuRenderer::create(options.device, *asset, progress);
   if (!renderer) return renderer.error();
@@ -162,7 +163,7 @@ Status checkOptions(const CLI::App& command, const RenderCommandOptions& options
     return makeError(ErrorKind::kUsage,
                      "--device and --validate belong to raster and walk; the reference uses the CPU");
   }
-  return {};
+  return checkLayers(options.input, options.layers);
 }
 
 Status runRender(const CLI::App& command, RenderCommandOptions options, const Progress& progress) {
@@ -177,6 +178,7 @@ Status runRender(const CLI::App& command, RenderCommandOptions options, const Pr
                                  {"renderer", options.renderer},
                                  {"channel", options.channel},
                                  {"linear", options.isLinear},
+                                 {"layers", options.layers},
                                  {"cutoff", options.cutoff}};
   const auto render = options.isReference() ? renderReference : renderOnDevice;
   if (Status rendered = render(options, *views, *paths, progress, figures); !rendered) return rendered;
@@ -207,6 +209,7 @@ void addRenderCommand(CLI::App& program, Tool& tool) {
       ->capture_default_str()
       ->check(CLI::IsMember({"colour", "alpha", "depth", "normal"}));
   command->add_flag("--linear", options->isLinear, "Colour in linear light instead of display-coded");
+  addLayersOption(*command, options->layers);
   command->add_option("--device", options->device.device, "Index or part of a name (`froth devices`)");
   command->add_flag("--validate", options->device.validate,
                     "Validation layers and checked indices; fail on a message");

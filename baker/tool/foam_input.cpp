@@ -4,14 +4,15 @@
 
 #include "baker/bake/bake.h"
 #include "baker/checkpoint/checkpoint.h"
+#include "baker/tool/option_checks.h"
 #include "format/asset_reader.h"
 #include "format/asset_writer.h"
 
 namespace froth {
 namespace {
 
-Result<FoamInput> loadFoamOfAsset(const std::filesystem::path& path) {
-  Result<AssetContents> contents = readAsset(path);
+Result<FoamInput> loadFoamOfAsset(const std::filesystem::path& path, uint32_t layers) {
+  Result<AssetContents> contents = readAsset(path, static_cast<Layer>(layers - 1));
   if (!contents) return contents.error();
   Result<Foam> foam = foamFromAsset(*contents);
   if (!foam) return foam.error();
@@ -24,8 +25,19 @@ bool isAssetPath(const std::filesystem::path& path) {
   return path.extension() == ".froth";
 }
 
-Result<FoamInput> loadFoam(const std::filesystem::path& path, const Progress& progress) {
-  if (isAssetPath(path)) return loadFoamOfAsset(path);
+void addLayersOption(CLI::App& command, uint32_t& layers) {
+  command.add_option("--layers", layers, "Of an asset: 1 one colour per cell, 2 detail, 3 view dependence too")
+      ->capture_default_str()
+      ->check(countBetween(1, kAllLayers));
+}
+
+Status checkLayers(const std::filesystem::path& path, uint32_t layers) {
+  if (layers == kAllLayers || isAssetPath(path)) return {};
+  return makeError(ErrorKind::kUsage, "--layers %u: %s has no layers; bake it and name the .froth", layers, path.c_str());
+}
+
+Result<FoamInput> loadFoam(const std::filesystem::path& path, const Progress& progress, uint32_t layers) {
+  if (isAssetPath(path)) return loadFoamOfAsset(path, layers);
   Result<Foam> foam = importCheckpoint(path, progress);
   if (!foam) return foam.error();
   FoamInput input;
@@ -33,9 +45,10 @@ Result<FoamInput> loadFoam(const std::filesystem::path& path, const Progress& pr
   return input;
 }
 
-Result<AssetInput> loadAsset(const std::filesystem::path& path, const Progress& progress) {
+Result<AssetInput> loadAsset(const std::filesystem::path& path, const Progress& progress, uint32_t layers) {
   AssetInput input;
   input.path = path;
+  input.layers = layers;
   if (isAssetPath(path)) return input;
 
   const Result<Foam> foam = importCheckpoint(path, progress);

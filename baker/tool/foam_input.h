@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "baker/foam.h"
 #include "baker/progress.h"
 #include "format/result.h"
@@ -21,14 +23,23 @@ struct FoamInput {
   float detailSharpness = 10.0f;
 };
 
-Result<FoamInput> loadFoam(const std::filesystem::path& path, const Progress& progress);
+// Layers of an asset that are loaded [1..3]: the first shows one colour per cell, the second detail without view dependence.
+inline constexpr uint32_t kAllLayers = 3;
+void addLayersOption(CLI::App& command, uint32_t& layers);
+// A checkpoint has no layers.
+Status checkLayers(const std::filesystem::path& path, uint32_t layers);
+
+Result<FoamInput> loadFoam(const std::filesystem::path& path, const Progress& progress,
+                           uint32_t layers = kAllLayers);
 
 // An asset for the runtime: a file, or a checkpoint that was baked in memory.
 struct AssetInput {
   std::filesystem::path path;
   std::vector<uint8_t> bytes;  // empty: read `path`
+  uint32_t layers = kAllLayers;
 };
 
-Result<AssetInput> loadAsset(const std::filesystem::path& path, const Progress& progress);
+Result<AssetInput> loadAsset(const std::filesystem::path& path, const Progress& progress,
+                             uint32_t layers = kAllLayers);
 
 }  // namespace froth

@@ -138,13 +138,13 @@ Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& pr
   const std::string path = input.path.string();
   FrothAssetInfo info{};
   info.structSize = sizeof(info);
+  info.layers = input.layers;
   if (input.bytes.empty()) {
     info.path = path.c_str();
   } else {
     info.data = input.bytes.data();
     info.dataSize = input.bytes.size();
   }
-  info.layers = options.layers;
   if (Status opened = check(frothOpenAsset(context, &info, &asset), "frothOpenAsset"); !opened) return opened;
 
   for (uint64_t frame = 0;; ++frame) {

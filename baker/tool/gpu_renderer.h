@@ -19,7 +19,6 @@ struct GpuDeviceOptions {
   std::string device;     // index or part of a name; empty: the first suitable one
   bool validate = false;  // validation layers, and shaders that check every index; any message fails a render
   bool measurePasses = false;
-  uint32_t layers = 0;  // of the asset [1..3]; 0: all
 };
 
 struct GpuRenderOptions {

@@ -122,6 +122,35 @@ TEST(Chunks, EveryPairIsThereFromBothSides) {
   }
 }
 
+// Steiner cells fill empty space and touch nothing: live cells, their order and their alpha rows stay as they were.
+TEST(Chunks, LiveCellsAreTheSameWithAndWithoutSteinerCells) {
+  Foam foam = makeRandomFoam(600, 1, 2, 9);
+  for (float& radius : foam.radii) radius *= 0.3f;  // space between the balls
+  for (BakeOptions options : {BakeOptions{}, latticeOptions()}) {
+    options.steiner = false;
+    const BakeResult without = bakeInChunks(foam, 100, options);
+    options.steiner = true;
+    const BakeResult with = bakeInChunks(foam, 100, options);
+    EXPECT_GT(with.contents.statistics.steinerCells, 0u);
+    ASSERT_EQ(without.contents.chunks.size(), with.contents.chunks.size());
+    for (size_t index = 0; index < with.contents.chunks.size(); ++index) {
+      const ChunkContents &a = without.contents.chunks[index], &b = with.contents.chunks[index];
+      ASSERT_EQ(a.liveCount, b.liveCount);
+      EXPECT_EQ(a.origin, b.origin);
+      EXPECT_EQ(a.alphaCounts, b.alphaCounts);
+      EXPECT_EQ(a.densities, b.densities);
+      EXPECT_EQ(a.lobeColours, b.lobeColours);
+      for (uint32_t cell = 0; cell < a.liveCount; ++cell) {
+        EXPECT_EQ(a.sites[cell], b.sites[cell]);
+        EXPECT_EQ(a.radii[cell], b.radii[cell]);
+        for (uint32_t k = 0; k < a.alphaCounts[cell]; ++k)
+          EXPECT_EQ(worldSite(a, a.neighbours[a.neighbourOffsets[cell] + k]),
+                    worldSite(b, b.neighbours[b.neighbourOffsets[cell] + k]));
+      }
+    }
+  }
+}
+
 TEST(Chunks, WithoutAWalkGraphKeepTheAlphaComplexOfLiveCells) {
   BakeOptions options = latticeOptions();
   const BakeResult with = bakeInChunks(makeMixedFoam(), 50, options);

@@ -62,6 +62,22 @@ TEST_F(Usage, NumbersOutOfRangeAreNamedWithWhatToGive) {
     expectRefused(bake, "--near-ratio", limit);
     expectRefused(bake, "--near-depth", limit);
   }
+  expectRefused(bake, "--position-bits", "23");
+  expectRefused(bake, "--lobes", "33");
+  expectRefused(bake, "--codebook", "65537");
+  expectRefused(bake, "--colour-step", "0.3");
+  expectRefused(bake, "--cull-unseen", "1.5");
+  expectRefused(bake, "--chunk-cells", "0");
+  expectRefused(bake, "--threads", "0");
+}
+
+TEST_F(Usage, AnUnknownPresetIsNamed) {
+  expectUsageError({"bake", "a.pt", "-o", "a.froth", "--preset", "tiny"}, "tiny");
+}
+
+TEST_F(Usage, LayersBelongToAssets) {
+  expectUsageError({"render", "a.pt", "--cameras", "c.json", "--renderer", "reference", "--layers", "1", "-o", "d"},
+                   "--layers");
 }
 
 TEST_F(Usage, AnUnknownRendererIsNamed) {

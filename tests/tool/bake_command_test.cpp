@@ -1,0 +1,132 @@
+// froth bake: presets, knobs, layers, reports; and bytes that depend on nothing but input and options.
+#include <limits>
+
+#include "tests/tool/program_runner.h"
+
+namespace froth::test {
+namespace {
+
+class BakeCommand : public ToolTest {
+ protected:
+  nlohmann::json bake(const std::string& output, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"bake", "random.pt", "-o", output, "--cameras", "cameras.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return frothJson(arguments);
+  }
+  void render(const std::string& input, const std::string& output, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"render", input,  "--cameras",  "cameras.json", "--view", "0", "--renderer",
+                                       "reference", "-o", output, "--precision", "float"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    frothWell(arguments);
+  }
+  double psnr(const std::string& a, const std::string& b) const {
+    const nlohmann::json difference = frothJson({"compare", a, b});
+    return difference["psnr"].is_null() ? std::numeric_limits<double>::infinity() : difference["psnr"].get<double>();
+  }
+  std::string bytesOf(const std::string& name) const { return readBytes(folder_ / name); }
+};
+
+TEST_F(BakeCommand, PresetsTradeBytesForQuality) {
+  makeRandomFoam("200");
+  const nlohmann::json exact = bake("exact.froth");
+  EXPECT_TRUE(exact["statistics"]["psnr"].is_null());
+  render("exact.froth", "exact.pfm");
+  double bytes = exact["bytes"], quality = 200;
+  for (const std::string preset : {"high", "default", "small"}) {
+    const nlohmann::json baked = bake(preset + ".froth", {"--preset", preset});
+    frothWell({"verify", preset + ".froth"});
+    render(preset + ".froth", preset + ".pfm");
+    const double found = psnr("exact.pfm", preset + ".pfm");
+    EXPECT_LT(baked["bytes"], bytes) << preset;
+    EXPECT_LT(found, quality) << preset;
+    EXPECT_GT(found, 25) << preset;
+    EXPECT_NEAR(baked["statistics"]["psnr"].get<double>(), found, 1.5) << preset;  // measured on this view, at its size
+    bytes = baked["bytes"];
+    quality = found;
+  }
+}
+
+TEST_F(BakeCommand, AKnobChangesItsLatticeAndNothingElse) {
+  makeRandomFoam("60");
+  bake("b.froth", {"--position-bits", "12", "--radius-bits", "7", "--frame-bits", "9", "--height-bits", "3"});
+  const nlohmann::json info = frothJson({"info", "b.froth"});
+  EXPECT_GT(info["positionStep"], 0);
+  EXPECT_EQ(info["radiusBits"], 7);
+  EXPECT_EQ(info["normalBits"], 9);
+  EXPECT_EQ(info["heightStep"], 0.125);
+  EXPECT_EQ(info["detailSiteStep"], 0);
+  EXPECT_EQ(info["colourStep"], 0);
+  EXPECT_LE(info["errors"]["radii"]["max"], 1.0 / 256);
+  EXPECT_GT(info["errors"]["radii"]["rms"], 0);
+  EXPECT_EQ(info["errors"]["densities"]["max"], 0);
+}
+
+TEST_F(BakeCommand, BytesAreTheSameOnAnyNumberOfThreadsAndWithAnyMemoryLimit) {
+  makeRandomFoam("400");
+  for (const std::string preset : {"exact", "default"}) {
+    const std::vector<std::string> options{"--preset", preset, "--chunk-cells", "90", "--no-measure"};
+    const auto bakeWith = [&](const std::string& output, const std::string& flag, const std::string& value) {
+      std::vector<std::string> all = options;
+      all.insert(all.end(), {flag, value});
+      bake(output, all);
+      return bytesOf(output);
+    };
+    const std::string one = bakeWith("a.froth", "--threads", "1");
+    EXPECT_EQ(one, bakeWith("b.froth", "--threads", "2"));
+    EXPECT_EQ(one, bakeWith("b.froth", "--threads", "8"));
+    EXPECT_EQ(one, bakeWith("b.froth", "--memory-limit", "64KB"));
+  }
+}
+
+TEST_F(BakeCommand, TheFirstLayersAreCoarserScenes) {
+  makeRandomFoam("200");
+  for (const char* preset : {"exact", "default"}) {
+    bake("b.froth", {"--preset", preset, "--no-measure"});
+    render("b.froth", "three.pfm");
+    double quality = 100;
+    for (const char* layers : {"2", "1"}) {
+      render("b.froth", "fewer.pfm", {"--layers", layers});
+      const double found = psnr("three.pfm", "fewer.pfm");
+      EXPECT_LT(found, quality) << preset << " " << layers;
+      EXPECT_GT(found, 15) << preset << " " << layers;
+      quality = found;
+    }
+  }
+}
+
+TEST_F(BakeCommand, TheReportSaysWhereTheBytesAreAndWhatWasLeftOut) {
+  makeRandomFoam("200");
+  const nlohmann::json baked = bake("b.froth", {"--preset", "default", "--no-walk", "--no-measure"});
+  const nlohmann::json& sections = baked["sections"];
+  EXPECT_GT(sections["types"].size(), 10u);
+  uint64_t layers = 0;
+  for (const auto& layer : sections["layers"]) layers += layer["bytes"].get<uint64_t>();
+  EXPECT_EQ(layers, sections["all"]["bytes"]);
+  EXPECT_LT(layers, baked["bytes"]);
+  EXPECT_EQ(baked["statistics"]["hasWalkGraph"], false);
+  EXPECT_EQ(baked["statistics"]["steinerCells"], 0);
+  bool toldWalk = false;
+  for (const auto& leftOut : baked["leftOut"]) toldWalk |= leftOut["what"] == "walk graph" && leftOut["savedBytes"] > 0;
+  EXPECT_TRUE(toldWalk);
+  EXPECT_EQ(frothJson({"info", "b.froth"})["sections"], sections);
+}
+
+TEST_F(BakeCommand, CellsThatNoCameraSeesCanBeCulled) {
+  makeRandomFoam("400");
+  const nlohmann::json all = bake("all.froth", {"--no-steiner"});
+  const nlohmann::json seen = bake("seen.froth", {"--no-steiner", "--cull-unseen", "0.001"});
+  const uint64_t culled = seen["statistics"]["unseenCulled"];
+  EXPECT_GT(culled, 0u);
+  EXPECT_LT(seen["statistics"]["liveCells"], all["statistics"]["liveCells"]);
+  EXPECT_LT(seen["bytes"], all["bytes"]);
+  render("all.froth", "all.pfm");
+  render("seen.froth", "seen.pfm");
+  EXPECT_GT(psnr("all.pfm", "seen.pfm"), 50);
+
+  const ProgramRun blind = froth({"bake", "random.pt", "-o", "b.froth", "--cull-unseen", "0.01"});
+  EXPECT_EQ(blind.exitCode, 2);
+  EXPECT_NE(blind.err.find("cameras"), std::string::npos) << blind.err;
+}
+
+}  // namespace
+}  // namespace froth::test
