@@ -1,4 +1,5 @@
-// Differences of neighbouring numbers as small unsigned ones, and the Z-order curve: shared by encoders and decoders.
+// Differences of neighbouring numbers as small unsigned ones, and the Z-order curve: shared by encoders and
+// decoders.
 #pragma once
 
 #include <array>

@@ -48,8 +48,8 @@ class Cursor {
   std::span<const uint8_t> left_;
 };
 
-// Whether the bytes are laid out as Draco's decoder will take them: a header that says what we expect, 33 streams of the
-// rANS coder for the numbers, and three of plain bits.
+// Whether the bytes are laid out as Draco's decoder will take them: a header that says what we expect, 33
+// streams of the rANS coder for the numbers, and three of plain bits.
 bool isKdTree(std::span<const uint8_t> bytes, uint32_t count) {
   constexpr int kNumberStreams = 33, kPlainStreams = 3;
   Cursor cursor(bytes);
@@ -107,8 +107,9 @@ bool decodeKdTree(std::span<const uint8_t> bytes, PointSink& sink) {
 Status readDracoPositions(std::span<const uint8_t> stored, std::span<uint8_t> raw, const std::string& place) {
   constexpr size_t kPointSize = sizeof(LatticePoint);
   if (raw.size() > kMaxDracoExpansion * stored.size())
-    return makeError(ErrorKind::kBadInput, "%s: %llu bytes of Draco for %llu, less than a %lluth; %s", place.c_str(),
-                     ull{stored.size()}, ull{raw.size()}, ull{kMaxDracoExpansion}, kSectionRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: %llu bytes of Draco for %llu, less than a %lluth; %s",
+                     place.c_str(), ull{stored.size()}, ull{raw.size()}, ull{kMaxDracoExpansion},
+                     kSectionRemedy);
   const auto fail = [&place](const char* cause) {
     return makeError(ErrorKind::kBadInput, "%s: %s; %s", place.c_str(), cause, kSectionRemedy);
   };

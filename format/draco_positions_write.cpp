@@ -4,8 +4,8 @@
 #include <draco/compression/point_cloud/algorithms/dynamic_integer_points_kd_tree_encoder.h>
 
 #include "format/draco_positions.h"
-#include "format/position_order.h"
 #include "format/point_box.h"
+#include "format/position_order.h"
 
 namespace froth {
 namespace {
@@ -36,7 +36,8 @@ Status appendRun(std::span<const LatticePoint> points, std::vector<uint8_t>& sto
   return {};
 }
 
-Result<std::vector<uint8_t>> encodeRuns(std::span<const LatticePoint> points, std::span<const uint32_t> runs) {
+Result<std::vector<uint8_t>> encodeRuns(std::span<const LatticePoint> points,
+                                        std::span<const uint32_t> runs) {
   std::vector<uint8_t> stored;
   for (const uint32_t run : runs) {
     if (run == 0) continue;
@@ -56,7 +57,8 @@ Result<std::vector<LatticePoint>> decodeRuns(std::span<const uint8_t> stored, si
 std::vector<uint32_t> sortedIndices(std::span<const LatticePoint> points) {
   std::vector<uint32_t> indices(points.size());
   std::iota(indices.begin(), indices.end(), 0u);
-  std::stable_sort(indices.begin(), indices.end(), [points](uint32_t a, uint32_t b) { return points[a] < points[b]; });
+  std::stable_sort(indices.begin(), indices.end(),
+                   [points](uint32_t a, uint32_t b) { return points[a] < points[b]; });
   return indices;
 }
 

@@ -16,9 +16,10 @@ Status FrameReader::start(uint64_t contentSize) {
   const unsigned long long found = ZSTD_getFrameContentSize(input_.src, input_.size);
   if (found == contentSize) return {};
   if (found == ZSTD_CONTENTSIZE_ERROR || found == ZSTD_CONTENTSIZE_UNKNOWN)
-    return makeError(ErrorKind::kBadInput, "%s: no zstd frame of known size; %s", place_.c_str(), kSectionRemedy);
-  return makeError(ErrorKind::kBadInput, "%s: the zstd frame holds %llu bytes instead of %llu; %s", place_.c_str(),
-                   found, static_cast<unsigned long long>(contentSize), kSectionRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: no zstd frame of known size; %s", place_.c_str(),
+                     kSectionRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: the zstd frame holds %llu bytes instead of %llu; %s",
+                   place_.c_str(), found, static_cast<unsigned long long>(contentSize), kSectionRemedy);
 }
 
 Status FrameReader::read(std::span<uint8_t> out) {
@@ -26,7 +27,8 @@ Status FrameReader::read(std::span<uint8_t> out) {
   while (output.pos < output.size) {
     if (Status step = advance(output); !step) return step;
     if (output.pos < output.size && (atEnd_ || input_.pos == input_.size))
-      return makeError(ErrorKind::kBadInput, "%s: the zstd frame ends early; %s", place_.c_str(), kSectionRemedy);
+      return makeError(ErrorKind::kBadInput, "%s: the zstd frame ends early; %s", place_.c_str(),
+                       kSectionRemedy);
   }
   return {};
 }
@@ -51,7 +53,8 @@ Status FrameReader::finish() {
     const size_t before = input_.pos;
     if (Status step = advance(none); !step) return step;
     if (!atEnd_ && input_.pos == before)
-      return makeError(ErrorKind::kBadInput, "%s: the zstd frame does not end; %s", place_.c_str(), kSectionRemedy);
+      return makeError(ErrorKind::kBadInput, "%s: the zstd frame does not end; %s", place_.c_str(),
+                       kSectionRemedy);
   }
   const uint8_t* bytes = static_cast<const uint8_t*>(input_.src);
   if (std::all_of(bytes + input_.pos, bytes + input_.size, [](uint8_t byte) { return byte == 0; })) return {};

@@ -19,7 +19,8 @@ Status FrameWriter::write(std::span<const uint8_t> piece, bool isLast) {
   ZSTD_inBuffer input{piece.data(), piece.size(), 0};
   for (;;) {
     ZSTD_outBuffer output{buffer_.data(), buffer_.size(), 0};
-    const size_t left = ZSTD_compressStream2(context_.get(), &output, &input, isLast ? ZSTD_e_end : ZSTD_e_continue);
+    const size_t left =
+        ZSTD_compressStream2(context_.get(), &output, &input, isLast ? ZSTD_e_end : ZSTD_e_continue);
     if (ZSTD_isError(left)) return makeError(ErrorKind::kIo, "zstd: %s", ZSTD_getErrorName(left));
     frame_.insert(frame_.end(), buffer_.begin(), buffer_.begin() + static_cast<ptrdiff_t>(output.pos));
     if (isLast ? left == 0 : input.pos == input.size) return {};

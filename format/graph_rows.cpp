@@ -10,7 +10,8 @@ double planeDistance(const ChunkContents& chunk, uint32_t cell, uint32_t neighbo
   const glm::dvec3 toNeighbour = glm::dvec3(chunk.sites[neighbour]) - glm::dvec3(chunk.sites[cell]);
   const double radius = chunk.radii[cell], otherRadius = chunk.radii[neighbour];
   const double squared = glm::dot(toNeighbour, toNeighbour);
-  const double distance = 0.5 * (squared + (radius - otherRadius) * (radius + otherRadius)) / std::sqrt(squared);
+  const double distance =
+      0.5 * (squared + (radius - otherRadius) * (radius + otherRadius)) / std::sqrt(squared);
   return std::isnan(distance) ? 0 : distance;  // two equal sites: no plane, but still an order
 }
 
@@ -22,13 +23,16 @@ void sortGraphRows(ChunkContents& chunk, uint32_t first, uint32_t last) {
   std::vector<std::pair<double, uint32_t>> entries;  // sorts by distance, then by index
   const auto sortPart = [&](uint32_t cell, std::span<uint32_t> part) {
     entries.clear();
-    for (const uint32_t neighbour : part) entries.emplace_back(planeDistance(chunk, cell, neighbour), neighbour);
+    for (const uint32_t neighbour : part)
+      entries.emplace_back(planeDistance(chunk, cell, neighbour), neighbour);
     std::sort(entries.begin(), entries.end());
-    std::transform(entries.begin(), entries.end(), part.begin(), [](const auto& entry) { return entry.second; });
+    std::transform(entries.begin(), entries.end(), part.begin(),
+                   [](const auto& entry) { return entry.second; });
   };
   for (uint32_t cell = first; cell < last; ++cell) {
     const uint32_t begin = chunk.neighbourOffsets[cell];
-    const std::span<uint32_t> row = std::span(chunk.neighbours).subspan(begin, chunk.neighbourOffsets[cell + 1] - begin);
+    const std::span<uint32_t> row =
+        std::span(chunk.neighbours).subspan(begin, chunk.neighbourOffsets[cell + 1] - begin);
     const uint32_t alphaCount = cell < chunk.liveCount ? chunk.alphaCounts[cell] : 0;
     sortPart(cell, row.first(alphaCount));
     sortPart(cell, row.subspan(alphaCount));

@@ -59,9 +59,11 @@ Status checkRows(const ChunkContents& chunk, const SortedRows& rows, bool hasWal
     for (const RowEntry& entry : rows.row(cell)) {
       const bool isRepeated = before && before->neighbour == entry.neighbour;
       const bool isUnmarked = !hasWalkGraph && !entry.isAlpha;
-      if (entry.neighbour == cell || isRepeated || isUnmarked || !isMirrored(chunk, rows, cell, entry, hasWalkGraph))
+      if (entry.neighbour == cell || isRepeated || isUnmarked ||
+          !isMirrored(chunk, rows, cell, entry, hasWalkGraph))
         return makeError(ErrorKind::kBadInput,
-                         "graph: neighbour %u of cell %u is repeated, not mutual or out of place; report a bug of the baker",
+                         "graph: neighbour %u of cell %u is repeated, not mutual or out of place; report a "
+                         "bug of the baker",
                          entry.neighbour, cell);
       before = &entry;
     }

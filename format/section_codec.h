@@ -13,7 +13,7 @@ enum class SectionCodec : uint16_t {
   kBytePlanes = 2,   // one zstd frame of: byte 0 of every element, byte 1 of every element, ...
   kDeltaPlanes = 3,  // likewise, of each element's difference to the same component of the entry before
   kMortonDelta = 4,  // positions: one zstd frame of byte planes of differences between Morton codes
-  kDraco = 5,        // positions: runs of points, each a kd-tree of Draco's, in the order in which that gives them
+  kDraco = 5,  // positions: runs of points, each a kd-tree of Draco's, in the order in which that gives them
 };
 inline constexpr uint16_t kLastSectionCodec = static_cast<uint16_t>(SectionCodec::kDraco);
 
@@ -32,11 +32,12 @@ inline constexpr SectionShape kPositionShape = {4, 3};
 inline constexpr uint32_t kMaxPositionBits = 21;
 
 // rawSize <= kMaxExpansion * storedSize, so memory is bounded by the file's size. Trained foams reach 1.2
-// (colours) to 7 (counts); zstd alone would allow 32768. The writer pads with zeros a section that is shorter.
+// (colours) to 7 (counts); zstd alone would allow 32768. The writer pads with zeros a section that is
+// shorter.
 inline constexpr uint64_t kMaxExpansion = 256;
 
-// Draco works harder for a point than zstd for a byte, so its sections expand less (trained foams: 3): no small file
-// keeps a decoder busy. A writer offers the codec only below.
+// Draco works harder for a point than zstd for a byte, so its sections expand less (trained foams: 3): no
+// small file keeps a decoder busy. A writer offers the codec only below.
 inline constexpr uint64_t kMaxDracoExpansion = 16;
 
 // A frame may look back this far, so a decoder's window needs no more. [log2 bytes]

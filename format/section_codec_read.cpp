@@ -32,15 +32,16 @@ void undoDeltas(std::span<uint8_t> raw, SectionShape shape) {
   undoDeltas<uint32_t>(raw, shape.components);
 }
 
-// Frame content: the least coordinates of all points (3 x int32), then the byte planes of the folded differences between
-// the points' Morton codes (uint64).
+// Frame content: the least coordinates of all points (3 x int32), then the byte planes of the folded
+// differences between the points' Morton codes (uint64).
 Status readMortonDeltas(FrameReader& frame, std::span<uint8_t> raw) {
   const size_t count = raw.size() / sizeof(std::array<uint32_t, 3>);
   std::array<uint32_t, 3> least;
   std::vector<uint64_t> codes(count);
   const std::span<uint8_t> codeBytes{reinterpret_cast<uint8_t*>(codes.data()), count * sizeof(uint64_t)};
   if (Status status = frame.start(sizeof(least) + codeBytes.size()); !status) return status;
-  if (Status status = frame.read({reinterpret_cast<uint8_t*>(least.data()), sizeof(least)}); !status) return status;
+  if (Status status = frame.read({reinterpret_cast<uint8_t*>(least.data()), sizeof(least)}); !status)
+    return status;
   if (Status status = frame.readPlanes(codeBytes, sizeof(uint64_t)); !status) return status;
 
   uint64_t code = 0;
@@ -53,13 +54,14 @@ Status readMortonDeltas(FrameReader& frame, std::span<uint8_t> raw) {
   return frame.finish();
 }
 
-Status readZstd(SectionCodec codec, std::span<const uint8_t> stored, std::span<uint8_t> raw, const std::string& place,
-                SectionShape shape) {
+Status readZstd(SectionCodec codec, std::span<const uint8_t> stored, std::span<uint8_t> raw,
+                const std::string& place, SectionShape shape) {
   FrameReader frame(stored, place);
   if (codec == SectionCodec::kMortonDelta) return readMortonDeltas(frame, raw);
   if (Status status = frame.start(raw.size()); !status) return status;
   const bool isPlanes = codec != SectionCodec::kZstd;
-  if (Status status = isPlanes ? frame.readPlanes(raw, shape.elementSize) : frame.read(raw); !status) return status;
+  if (Status status = isPlanes ? frame.readPlanes(raw, shape.elementSize) : frame.read(raw); !status)
+    return status;
   if (codec == SectionCodec::kDeltaPlanes) undoDeltas(raw, shape);
   return frame.finish();
 }
@@ -70,8 +72,8 @@ Status checkShape(SectionCodec codec, std::span<const uint8_t> stored, std::span
     return makeError(ErrorKind::kUnsupported, "%s: codec %u is unknown; update this program", place.c_str(),
                      static_cast<unsigned>(codec));
   if (raw.size() % (uint64_t{shape.elementSize} * shape.components) != 0)
-    return makeError(ErrorKind::kBadInput, "%s: %llu bytes are no whole entries of %u x %u bytes; %s", place.c_str(),
-                     ull{raw.size()}, shape.components, shape.elementSize, kSectionRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: %llu bytes are no whole entries of %u x %u bytes; %s",
+                     place.c_str(), ull{raw.size()}, shape.components, shape.elementSize, kSectionRemedy);
   const bool isForPositions = codec == SectionCodec::kMortonDelta || codec == SectionCodec::kDraco;
   if (isForPositions && shape != kPositionShape)
     return makeError(ErrorKind::kBadInput, "%s: codec %u is for positions only; %s", place.c_str(),

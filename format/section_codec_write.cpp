@@ -12,8 +12,9 @@
 namespace froth {
 namespace {
 
-// Measured on trained foams, one core: on colours in floats level 3 packs 270 MB/s and level 9 55 MB/s for 1.5 % less; on graphs
-// and lattice indices level 15 packs 5 MB/s for up to 20 % less, because it spends less than a bit on a zero.
+// Measured on trained foams, one core: on colours in floats level 3 packs 270 MB/s and level 9 55 MB/s
+// for 1.5 % less; on graphs and lattice indices level 15 packs 5 MB/s for up to 20 % less, because it spends
+// less than a bit on a zero.
 constexpr int kFastLevel = 3, kDenseLevel = 15;
 
 int levelFor(size_t size, uint32_t elementSize) {
@@ -41,7 +42,8 @@ std::vector<uint8_t> deltasOf(std::span<const uint8_t> raw, SectionShape shape) 
   return deltasOf<uint32_t>(raw, shape.components);
 }
 
-Result<EncodedSection> encodeAs(SectionCodec codec, std::span<const uint8_t> raw, SectionShape shape, int level) {
+Result<EncodedSection> encodeAs(SectionCodec codec, std::span<const uint8_t> raw, SectionShape shape,
+                                int level) {
   FrameWriter frame(raw.size(), level);
   const auto write = [&] {
     if (codec == SectionCodec::kZstd) return frame.write(raw, true);
@@ -65,23 +67,26 @@ Result<EncodedSection> encodeMortonDeltas(std::span<const LatticePoint> points) 
     before = code;
   }
   const std::span<const uint8_t> least{reinterpret_cast<const uint8_t*>(box.least.data()), sizeof(box.least)};
-  const std::span<const uint8_t> deltaBytes{reinterpret_cast<const uint8_t*>(deltas.data()), deltas.size() * 8};
+  const std::span<const uint8_t> deltaBytes{reinterpret_cast<const uint8_t*>(deltas.data()),
+                                            deltas.size() * 8};
   FrameWriter frame(least.size() + deltaBytes.size(), kDenseLevel);
   if (Status status = frame.write(least, false); !status) return status.error();
   if (Status status = frame.writePlanes(deltaBytes, 8); !status) return status.error();
   return EncodedSection{SectionCodec::kMortonDelta, frame.take()};
 }
 
-// The best of the codecs for numbers of any meaning, judged by a quick try on the start of the section: what is
-// different between them shows at once.
+// The best of the codecs for numbers of any meaning, judged by a quick try on the start of the section: what
+// is different between them shows at once.
 Result<EncodedSection> encodeNumbers(std::span<const uint8_t> raw, SectionShape shape) {
   constexpr size_t kSampleSize = size_t{1} << 20;
   const size_t entrySize = size_t{shape.elementSize} * shape.components;
   const size_t sampleSize = std::min(raw.size(), std::max(kSampleSize / entrySize, size_t{1}) * entrySize);
   SectionCodec best = SectionCodec::kZstd;
   size_t leastSize = SIZE_MAX;
-  for (const SectionCodec codec : {SectionCodec::kZstd, SectionCodec::kBytePlanes, SectionCodec::kDeltaPlanes}) {
-    if (codec == SectionCodec::kBytePlanes && shape.elementSize == 1) continue;  // the same bytes as without planes
+  for (const SectionCodec codec :
+       {SectionCodec::kZstd, SectionCodec::kBytePlanes, SectionCodec::kDeltaPlanes}) {
+    if (codec == SectionCodec::kBytePlanes && shape.elementSize == 1)
+      continue;  // the same bytes as without planes
     const Result<EncodedSection> section = encodeAs(codec, raw.first(sampleSize), shape, kFastLevel);
     if (!section) return section.error();
     if (section->stored.size() >= leastSize) continue;
@@ -116,7 +121,8 @@ Result<EncodedSection> encodePositions(std::span<const uint8_t> raw, std::span<c
   if (morton && morton->stored.size() < best->stored.size()) best = std::move(morton);
   Result<std::vector<uint8_t>> draco = writeDracoPositions(points, runs);
   const bool fits = draco && raw.size() <= kMaxDracoExpansion * draco->size();
-  if (fits && draco->size() < best->stored.size()) best = EncodedSection{SectionCodec::kDraco, std::move(*draco)};
+  if (fits && draco->size() < best->stored.size())
+    best = EncodedSection{SectionCodec::kDraco, std::move(*draco)};
   return finishSection(std::move(*best), raw);
 }
 

@@ -1,7 +1,7 @@
 // Decoding, in bytes of raw output per second and core:
 //   froth_bench_codecs ASSET [--benchmark_...]
-// Every section codec on lattice indices of the asset's sites, on its radii and on its base colours; the graph; whole
-// chunks, all layers.
+// Every section codec on lattice indices of the asset's sites, on its radii and on its base colours; the
+// graph; whole chunks, all layers.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -33,15 +33,17 @@ void setRates(benchmark::State& state, size_t rawSize, size_t storedSize) {
 
 void benchSection(const std::string& name, EncodedSection section, size_t rawSize, SectionShape shape) {
   const std::string title = "codec " + std::to_string(static_cast<int>(section.codec)) + ", " + name;
-  benchmark::RegisterBenchmark(title.c_str(), [section = std::move(section), rawSize, shape](benchmark::State& state) {
-    SectionRecord record;
-    record.codec = static_cast<uint16_t>(section.codec);
-    record.hash = hashBytes(section.stored);
-    std::vector<uint8_t> raw(rawSize);
-    for (auto _ : state)
-      if (!decodeSection(record, section.stored, raw, "section", shape)) return state.SkipWithError("not decoded");
-    setRates(state, rawSize, section.stored.size());
-  });
+  benchmark::RegisterBenchmark(title.c_str(),
+                               [section = std::move(section), rawSize, shape](benchmark::State& state) {
+                                 SectionRecord record;
+                                 record.codec = static_cast<uint16_t>(section.codec);
+                                 record.hash = hashBytes(section.stored);
+                                 std::vector<uint8_t> raw(rawSize);
+                                 for (auto _ : state)
+                                   if (!decodeSection(record, section.stored, raw, "section", shape))
+                                     return state.SkipWithError("not decoded");
+                                 setRates(state, rawSize, section.stored.size());
+                               });
 }
 
 // Indices of the live cells' sites on a grid of `bits` bits over the chunk.
@@ -58,9 +60,11 @@ std::vector<LatticePoint> latticePoints(const ChunkContents& chunk, int bits) {
     points.push_back({index.x, index.y, index.z});
   }
   const auto codeOf = [](const LatticePoint& point) {
-    return mortonCode({static_cast<uint32_t>(point[0]), static_cast<uint32_t>(point[1]), static_cast<uint32_t>(point[2])});
+    return mortonCode(
+        {static_cast<uint32_t>(point[0]), static_cast<uint32_t>(point[1]), static_cast<uint32_t>(point[2])});
   };
-  std::sort(points.begin(), points.end(), [&](const auto& a, const auto& b) { return codeOf(a) < codeOf(b); });
+  std::sort(points.begin(), points.end(),
+            [&](const auto& a, const auto& b) { return codeOf(a) < codeOf(b); });
   return points;
 }
 
@@ -88,7 +92,8 @@ void benchNumbers(const ChunkContents& chunk) {
   for (const glm::vec3& colour : chunk.baseColours)
     for (int c = 0; c < 3; ++c) bytes.push_back(static_cast<uint8_t>(std::lround(colour[c] * 100.0f)));
   std::vector<uint16_t> heights;
-  for (const glm::vec2& site : chunk.detailSites) heights.push_back(static_cast<uint16_t>(std::lround(site.x * 4096.0f)));
+  for (const glm::vec2& site : chunk.detailSites)
+    heights.push_back(static_cast<uint16_t>(std::lround(site.x * 4096.0f)));
   add("radii, float", bytesOf(chunk.radii), {4, 1});
   add("lobe colours, float", bytesOf(chunk.lobeColours), {4, 3});
   add("base colours, 1 byte", bytes, {1, 3});
@@ -98,30 +103,34 @@ void benchNumbers(const ChunkContents& chunk) {
 void benchGraph(const ChunkContents& chunk, bool hasWalkGraph) {
   Result<PackedGraph> packed = packGraph(chunk, hasWalkGraph);
   if (!packed) return;
-  benchmark::RegisterBenchmark("rows from a packed graph", [chunk, packed = std::move(*packed), hasWalkGraph](benchmark::State& state) {
+  benchmark::RegisterBenchmark("rows from a packed graph", [chunk, packed = std::move(*packed),
+                                                            hasWalkGraph](benchmark::State& state) {
     ChunkContents unpacked = chunk;
     for (auto _ : state)
       if (!unpackGraph({packed.counts, packed.deltas, packed.alphaBits}, hasWalkGraph, unpacked, "chunk"))
         return state.SkipWithError("not unpacked");
-    const size_t rawSize = bytesOf(chunk.neighbours).size() + bytesOf(chunk.neighbourOffsets).size() + bytesOf(chunk.alphaCounts).size();
+    const size_t rawSize = bytesOf(chunk.neighbours).size() + bytesOf(chunk.neighbourOffsets).size() +
+                           bytesOf(chunk.alphaCounts).size();
     setRates(state, rawSize, packed.counts.size() + packed.deltas.size() + packed.alphaBits.size());
   });
 }
 
 size_t decodedSize(const ChunkContents& c) {
-  return bytesOf(c.sites).size() + bytesOf(c.radii).size() + bytesOf(c.ghostRefs).size() + bytesOf(c.neighbourOffsets).size() +
-         bytesOf(c.neighbours).size() + bytesOf(c.alphaCounts).size() + bytesOf(c.densities).size() +
-         bytesOf(c.orientations).size() + bytesOf(c.cellColours).size() + bytesOf(c.cellHeights).size() +
-         bytesOf(c.detailSites).size() + bytesOf(c.detailHeights).size() + bytesOf(c.baseColours).size() +
-         bytesOf(c.colourScales).size() + bytesOf(c.lobeCounts).size() + bytesOf(c.lobeAxes).size() + bytesOf(c.lobeColours).size();
+  return bytesOf(c.sites).size() + bytesOf(c.radii).size() + bytesOf(c.ghostRefs).size() +
+         bytesOf(c.neighbourOffsets).size() + bytesOf(c.neighbours).size() + bytesOf(c.alphaCounts).size() +
+         bytesOf(c.densities).size() + bytesOf(c.orientations).size() + bytesOf(c.cellColours).size() +
+         bytesOf(c.cellHeights).size() + bytesOf(c.detailSites).size() + bytesOf(c.detailHeights).size() +
+         bytesOf(c.baseColours).size() + bytesOf(c.colourScales).size() + bytesOf(c.lobeCounts).size() +
+         bytesOf(c.lobeAxes).size() + bytesOf(c.lobeColours).size();
 }
 
 void benchChunk(const AssetReader& reader, const ChunkContents& chunk, size_t storedSize) {
-  benchmark::RegisterBenchmark("whole chunk", [&reader, rawSize = decodedSize(chunk), storedSize](benchmark::State& state) {
-    for (auto _ : state)
-      if (!reader.readChunk(0)) return state.SkipWithError("not read");
-    setRates(state, rawSize, storedSize);
-  });
+  benchmark::RegisterBenchmark("whole chunk",
+                               [&reader, rawSize = decodedSize(chunk), storedSize](benchmark::State& state) {
+                                 for (auto _ : state)
+                                   if (!reader.readChunk(0)) return state.SkipWithError("not read");
+                                 setRates(state, rawSize, storedSize);
+                               });
 }
 
 int run(int argc, char** argv) {
@@ -142,4 +151,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace froth
 
-int main(int argc, char** argv) { return froth::run(argc, argv); }
+int main(int argc, char** argv) {
+  return froth::run(argc, argv);
+}

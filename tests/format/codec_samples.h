@@ -34,7 +34,8 @@ inline std::vector<LatticePoint> randomPoints(size_t count, uint32_t bits) {
   return points;
 }
 
-// A chunk whose last quarter of cells is not live, with half as many ghosts as cells and random pairs of near indices.
+// A chunk whose last quarter of cells is not live, with half as many ghosts as cells and random pairs of near
+// indices.
 inline ChunkContents randomGraph(uint32_t cellCount, bool hasWalkGraph) {
   std::mt19937 random(13);
   ChunkContents chunk;

@@ -55,8 +55,7 @@ EncodedSection sectionIn(SectionCodec codec) {
     return sorted;
   }();
   const uint32_t run = 50;
-  if (codec == SectionCodec::kDraco)
-    return {codec, *writeDracoPositions(inDracoOrder(points), {&run, 1})};
+  if (codec == SectionCodec::kDraco) return {codec, *writeDracoPositions(inDracoOrder(points), {&run, 1})};
   return *encodePositions(bytesOf(points), {&run, 1});
 }
 
@@ -99,13 +98,15 @@ void expectPositions(const std::vector<LatticePoint>& points, std::vector<uint32
   const Result<EncodedSection> section = encodePositions(raw, runs);
   ASSERT_TRUE(section) << section.error().message;
   EXPECT_LE(section->stored.size(), raw.size());
-  const Result<std::vector<uint8_t>> decoded = decode(section->codec, section->stored, raw.size(), kPositionShape);
+  const Result<std::vector<uint8_t>> decoded =
+      decode(section->codec, section->stored, raw.size(), kPositionShape);
   ASSERT_TRUE(decoded) << decoded.error().message;
   EXPECT_TRUE(std::equal(raw.begin(), raw.end(), decoded->begin()));
 }
 
 TEST(PositionCodec, GivesBackPointsInAnyOrder) {
-  for (const uint32_t bits : {1u, 8u, 16u, 21u, 22u, 32u}) expectPositions(randomPoints(3000, bits), {2000, 1000});
+  for (const uint32_t bits : {1u, 8u, 16u, 21u, 22u, 32u})
+    expectPositions(randomPoints(3000, bits), {2000, 1000});
   expectPositions({{INT32_MIN, 0, INT32_MAX}}, {1});
   expectPositions({{INT32_MIN, 0, 5}, {INT32_MAX, -1, 5}}, {1, 1});
   expectPositions(std::vector<LatticePoint>(1000, {4, 5, 6}), {1000});
@@ -174,21 +175,26 @@ TEST_P(HostileCodec, RefusesOrDecodesEveryFlippedBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Codecs, HostileCodec, testing::Values(SectionCodec::kMortonDelta, SectionCodec::kDraco));
+INSTANTIATE_TEST_SUITE_P(Codecs, HostileCodec,
+                         testing::Values(SectionCodec::kMortonDelta, SectionCodec::kDraco));
 
 TEST(Codec, RefusesAWrongShapeOrAnUnknownCodec) {
   const EncodedSection section = sectionIn(SectionCodec::kDraco);
   const std::vector<uint8_t> bytes(12);
-  EXPECT_THAT(decode(section.codec, section.stored, 600, {4, 1}).error().message, HasSubstr("positions only"));
+  EXPECT_THAT(decode(section.codec, section.stored, 600, {4, 1}).error().message,
+              HasSubstr("positions only"));
   EXPECT_THAT(decode(SectionCodec{6}, bytes, 12, {4, 1}).error().message, HasSubstr("codec 6 is unknown"));
-  EXPECT_THAT(decode(SectionCodec::kStored, bytes, 12, {4, 4}).error().message, HasSubstr("no whole entries"));
-  EXPECT_THAT(decode(SectionCodec::kStored, bytes, 8, {4, 1}).error().message, HasSubstr("stored as they are"));
+  EXPECT_THAT(decode(SectionCodec::kStored, bytes, 12, {4, 4}).error().message,
+              HasSubstr("no whole entries"));
+  EXPECT_THAT(decode(SectionCodec::kStored, bytes, 8, {4, 1}).error().message,
+              HasSubstr("stored as they are"));
 }
 
 TEST(Codec, RefusesDracoThatExpandsTooMuch) {
   const EncodedSection section = sectionIn(SectionCodec::kDraco);
   const size_t rawSize = (section.stored.size() * kMaxDracoExpansion / 12 + 1) * 12;
-  EXPECT_THAT(decode(section.codec, section.stored, rawSize, kPositionShape).error().message, HasSubstr("less than"));
+  EXPECT_THAT(decode(section.codec, section.stored, rawSize, kPositionShape).error().message,
+              HasSubstr("less than"));
 }
 
 }  // namespace

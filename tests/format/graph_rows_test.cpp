@@ -94,7 +94,8 @@ TEST(GraphRows, ThatAreNotMutualAreNotPacked) {
 TEST(HostileGraph, OfWrongSizesIsRefused) {
   const ChunkContents chunk = randomGraph(40, true);
   const PackedGraph packed = *packGraph(chunk, true);
-  for (std::vector<uint8_t> PackedGraph::*part : {&PackedGraph::counts, &PackedGraph::deltas, &PackedGraph::alphaBits}) {
+  for (std::vector<uint8_t> PackedGraph::*part :
+       {&PackedGraph::counts, &PackedGraph::deltas, &PackedGraph::alphaBits}) {
     for (size_t size = 0; size < (packed.*part).size() + 4; ++size) {
       if (size == (packed.*part).size()) continue;
       PackedGraph changed = packed;
@@ -125,7 +126,8 @@ TEST(HostileGraph, WithAPairBeyondTheSitesOrOfTheWrongKindIsRefused) {
 TEST(HostileGraph, WithAnyFlippedBitIsRefusedOrHasRowsThatHold) {
   const ChunkContents chunk = randomGraph(20, true);
   const PackedGraph packed = *packGraph(chunk, true);
-  for (std::vector<uint8_t> PackedGraph::*part : {&PackedGraph::counts, &PackedGraph::deltas, &PackedGraph::alphaBits}) {
+  for (std::vector<uint8_t> PackedGraph::*part :
+       {&PackedGraph::counts, &PackedGraph::deltas, &PackedGraph::alphaBits}) {
     for (size_t bit = 0; bit < (packed.*part).size() * 8; ++bit) {
       PackedGraph changed = packed;
       (changed.*part)[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);

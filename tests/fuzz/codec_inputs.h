@@ -1,4 +1,5 @@
-// How the bytes of the fuzz targets of sections and graphs are cut up; shared with the program that makes their seeds.
+// How the bytes of the fuzz targets of sections and graphs are cut up; shared with the program that makes
+// their seeds.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +15,14 @@ struct SectionInput {
   uint8_t elementSizeLog = 0;  // modulo 3
   uint8_t components = 1;      // modulo 8, plus 1
   uint8_t unused = 0;
-  uint32_t entries = 0;        // modulo 2^12
+  uint32_t entries = 0;  // modulo 2^12
 };
 
-// A packed graph: this header, then per site three coordinates and a radius (float), then counts, deltas, bits.
+// A packed graph: this header, then per site three coordinates and a radius (float), then counts, deltas,
+// bits.
 struct GraphInput {
-  uint8_t hasWalkGraph = 0;  // modulo 2
-  uint8_t isWide = 0;        // 255: 2^15 more ghosts, so that elements are 4 bytes
+  uint8_t hasWalkGraph = 0;                  // modulo 2
+  uint8_t isWide = 0;                        // 255: 2^15 more ghosts, so that elements are 4 bytes
   uint16_t cells = 0, live = 0, ghosts = 0;  // modulo 256, cells + 1, 256
   uint32_t deltasSize = 0;                   // [bytes]
 };

@@ -1,5 +1,5 @@
-// Any bytes as the packed graph of a chunk: no crash, no leak, no hang, memory as promised, and rows that hold what
-// ChunkContents says of them.
+// Any bytes as the packed graph of a chunk: no crash, no leak, no hang, memory as promised, and rows that
+// hold what ChunkContents says of them.
 #include <cstdlib>
 
 #include "codec_inputs.h"
@@ -16,11 +16,13 @@ void expect(bool holds) {
 void expectRows(const ChunkContents& chunk) {
   const size_t siteCount = chunk.sites.size();
   expect(chunk.neighbourOffsets.size() == size_t{chunk.cellCount} + 1 && chunk.neighbourOffsets.front() == 0);
-  expect(chunk.neighbourOffsets.back() == chunk.neighbours.size() && chunk.alphaCounts.size() == chunk.liveCount);
+  expect(chunk.neighbourOffsets.back() == chunk.neighbours.size() &&
+         chunk.alphaCounts.size() == chunk.liveCount);
   for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
     const uint32_t first = chunk.neighbourOffsets[cell], last = chunk.neighbourOffsets[cell + 1];
     expect(first <= last && (cell >= chunk.liveCount || chunk.alphaCounts[cell] <= last - first));
-    for (uint32_t i = first; i < last; ++i) expect(chunk.neighbours[i] < siteCount && chunk.neighbours[i] != cell);
+    for (uint32_t i = first; i < last; ++i)
+      expect(chunk.neighbours[i] < siteCount && chunk.neighbours[i] != cell);
   }
 }
 
@@ -44,7 +46,8 @@ void unpack(std::span<const uint8_t> data) {
   const MemoryWatch watch;
   const Status status = unpackGraph({counts, deltas, bytes.left()}, hasWalkGraph, chunk, "chunk");
   const size_t pairs = deltas.size() / graphElementSize(chunk);
-  watch.expectAtMost(80 * pairs + 80 * siteCount + kMessage);  // vectors that grow hold up to twice their content, and its copy
+  watch.expectAtMost(80 * pairs + 80 * siteCount +
+                     kMessage);  // vectors that grow hold up to twice their content, and its copy
   if (status) expectRows(chunk);
 }
 

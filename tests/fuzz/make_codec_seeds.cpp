@@ -43,15 +43,18 @@ void writeSections(const std::filesystem::path& folder) {
   std::iota(ramp.begin(), ramp.end(), uint16_t{1000});
   std::vector<uint32_t> counts(90);
   for (size_t i = 0; i < counts.size(); ++i) counts[i] = noise[i % 30] + 70000u;
-  for (const auto& [raw, shape] : {std::pair{bytesOf(noise), SectionShape{1, 1}}, std::pair{bytesOf(pattern), SectionShape{1, 3}},
-                                   std::pair{bytesOf(ramp), SectionShape{2, 1}}, std::pair{bytesOf(counts), SectionShape{4, 1}}})
-    if (const Result<EncodedSection> section = encodeSection(raw, shape)) writeSection(folder, *section, shape, raw.size());
+  for (const auto& [raw, shape] :
+       {std::pair{bytesOf(noise), SectionShape{1, 1}}, std::pair{bytesOf(pattern), SectionShape{1, 3}},
+        std::pair{bytesOf(ramp), SectionShape{2, 1}}, std::pair{bytesOf(counts), SectionShape{4, 1}}})
+    if (const Result<EncodedSection> section = encodeSection(raw, shape))
+      writeSection(folder, *section, shape, raw.size());
 
   std::vector<LatticePoint> points = randomPoints(200, 9);
   const auto codeOf = [](const LatticePoint& point) {  // the points lie in -1000 .. -489
     return mortonCode({point[0] + 1000u, point[1] + 1000u, point[2] + 1000u});
   };
-  std::sort(points.begin(), points.end(), [&](const auto& a, const auto& b) { return codeOf(a) < codeOf(b); });
+  std::sort(points.begin(), points.end(),
+            [&](const auto& a, const auto& b) { return codeOf(a) < codeOf(b); });
   const uint32_t run = static_cast<uint32_t>(points.size());
   if (const Result<EncodedSection> section = encodePositions(bytesOf(points), {&run, 1}))
     writeSection(folder, *section, kPositionShape, bytesOf(points).size());
@@ -83,7 +86,8 @@ void writeGraph(const std::filesystem::path& path, bool hasWalkGraph) {
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
-  const std::filesystem::path folder = argv[1], sections = folder / "fuzz_sections", graphs = folder / "fuzz_graph_rows";
+  const std::filesystem::path folder = argv[1], sections = folder / "fuzz_sections",
+                              graphs = folder / "fuzz_graph_rows";
   std::filesystem::create_directories(sections);
   std::filesystem::create_directories(graphs);
   froth::writeSections(sections);
