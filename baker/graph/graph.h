@@ -53,10 +53,18 @@ CellGraph findCechPairs(std::span<const glm::vec3> sites, std::span<const float>
 
 // The same graph, region by region: each region is triangulated with as many sites around it as its stars
 // need, proven by the empty orthospheres of their tetrahedra. Memory grows with `regionCells`, not with the
-// scene. `order` lists all cells so that neighbours in it lie close together (a space-filling curve).
+// scene; regions run on all cores, so this is also the faster way for large scenes. Sites that have no
+// regions (all in a plane, or each next to all others) are triangulated in one piece. `order` lists all
+// cells.
 Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites,
                                                 std::span<const float> radii, std::span<const uint32_t> order,
                                                 uint32_t regionCells, const Progress& progress = {});
+
+// Peak memory of triangulateRegular, the result included [bytes].
+uint64_t triangulationBytes(uint64_t cells);
+// The best regionCells for triangulateRegions with a peak within `bytes`, the result included, on the threads
+// that may run. Not below 4096, however little memory there is.
+uint32_t regionCellsWithin(uint64_t cells, uint64_t bytes);
 
 // What was checked of the graphs of a bake, and what was found; `faults` is empty when all is well.
 //

@@ -1,6 +1,7 @@
 #include "baker/graph/local_triangulation.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/property_map.h>
@@ -11,6 +12,8 @@ namespace froth {
 namespace {
 
 constexpr uint64_t kProgressSteps = 200;
+constexpr std::chrono::milliseconds kLongestSilence{200};
+constexpr uint32_t kRowsPerLook = 1024;
 constexpr size_t kBatch = 512;  // insertions between two looks at the progress: a few milliseconds
 
 }  // namespace
@@ -18,10 +21,11 @@ constexpr size_t kBatch = 512;  // insertions between two looks at the progress:
 bool InsertionProgress::add(uint64_t inserted) {
   const std::lock_guard lock(mutex_);
   done_ += inserted;
-  const bool isDue = done_ == 0 || done_ == total_ || done_ - reported_ >= total_ / kProgressSteps;
-  if (isDue && !isStopped_) {
+  const auto now = std::chrono::steady_clock::now();
+  if (done_ - reported_ > total_ / kProgressSteps || now - reportedAt_ > kLongestSilence) {
     reported_ = done_;
-    if (!report(progress_, stage_, done_, total_)) isStopped_ = true;
+    reportedAt_ = now;
+    if (!isStopped_ && !report(progress_, stage_, done_, total_)) isStopped_ = true;
   }
   return !isStopped_;
 }
@@ -51,7 +55,7 @@ bool LocalTriangulation::insert(std::vector<uint32_t>& places, InsertionProgress
   return progress.add(places.empty() || !isCounted ? 0 : (places.size() - 1) % kBatch + 1);
 }
 
-RowBlock LocalTriangulation::collectRows(uint32_t begin, uint32_t end) const {
+RowBlock LocalTriangulation::collectRows(uint32_t begin, uint32_t end, InsertionProgress& progress) const {
   RowBlock block;
   block.cells.reserve(end - begin);
   block.degrees.reserve(end - begin);
@@ -62,6 +66,7 @@ RowBlock LocalTriangulation::collectRows(uint32_t begin, uint32_t end) const {
   std::vector<Triangulation::Vertex_handle> adjacent;
   for (const Triangulation::Vertex_handle vertex : triangulation_.finite_vertex_handles()) {
     if (vertex->info() < begin || vertex->info() >= end) continue;
+    if (block.cells.size() % kRowsPerLook == 0 && !progress.add(0)) return {};
     adjacent.clear();
     if (triangulation_.dimension() >= 1)
       triangulation_.finite_adjacent_vertices(vertex, std::back_inserter(adjacent));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <span>
@@ -37,7 +38,8 @@ class InsertionProgress {
   InsertionProgress(const Progress& progress, const char* stage, uint64_t total)
       : progress_(progress), stage_(stage), total_(total) {}
 
-  // Some more sites are in, out of the total. False from the moment that `progress` has asked to stop.
+  // Some more sites are in, out of the total; to be called every few milliseconds, if only with 0. False from
+  // the moment that `progress` has asked to stop.
   bool add(uint64_t inserted);
   // Ends all insertions.
   void stop() { isStopped_ = true; }
@@ -49,6 +51,7 @@ class InsertionProgress {
   std::atomic<bool> isStopped_ = false;
   std::mutex mutex_;
   uint64_t done_ = 0, reported_ = 0;
+  std::chrono::steady_clock::time_point reportedAt_{};
 };
 
 class LocalTriangulation {
@@ -72,8 +75,8 @@ class LocalTriangulation {
   // what is counted counts as progress. False: stopped on request.
   bool insert(std::vector<uint32_t>& places, InsertionProgress& progress, bool isCounted = true);
 
-  // Rows of the visible cells at places [begin, end).
-  RowBlock collectRows(uint32_t begin, uint32_t end) const;
+  // Rows of the visible cells at places [begin, end); none when stopped.
+  RowBlock collectRows(uint32_t begin, uint32_t end, InsertionProgress& progress) const;
 
   const Triangulation& cgal() const { return triangulation_; }
 

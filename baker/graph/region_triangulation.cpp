@@ -12,6 +12,7 @@
 #include <optional>
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "baker/graph/local_triangulation.h"
 #include "baker/graph/orthosphere.h"
@@ -25,6 +26,17 @@ using Triangulation = LocalTriangulation::Triangulation;
 // A region that needs more sites than this around it is no region: the scene is triangulated as a whole.
 // Trained foams need a few tenths of their own.
 constexpr size_t kMaxSitesPerOwn = 16, kMaxExtraSites = 1 << 15;
+
+// Measured, with some reserve. [bytes]
+constexpr uint64_t kBytesPerCell = 1000;  // in one piece
+constexpr uint64_t kRegionBytesPerCell =
+    1200;  // of a region's own cells: CGAL's for them and those around them
+constexpr uint64_t kSharedBytesPerCell =
+    200;  // tree and order, rows of all regions and the graph made of them
+// Smaller regions are mostly halo; larger ones leave the caches and gain nothing.
+constexpr uint64_t kMinRegionCells = 4096, kMaxRegionCells = 1 << 17;
+
+constexpr uint32_t kCellsPerLook = 1024;  // at the progress
 
 class Region {
  public:
@@ -41,12 +53,14 @@ class Region {
   // `simplex`: places of four sites that lie in no plane, so that the local triangulation has all dimensions.
   Outcome triangulate(std::span<const uint32_t> simplex, InsertionProgress& progress);
 
-  RowBlock collectRows() const { return local_.collectRows(begin_, end_); }
+  RowBlock collectRows(InsertionProgress& progress) const {
+    return local_.collectRows(begin_, end_, progress);
+  }
 
  private:
   bool isOwn(uint32_t place) const { return place >= begin_ && place < end_; }
   bool touchesOwn(Triangulation::Cell_handle cell) const;
-  void findConflicts(std::vector<uint32_t>& places);
+  bool findConflicts(std::vector<uint32_t>& places, InsertionProgress& progress);
   std::optional<uint32_t> findConflict(Triangulation::Cell_handle cell) const;
   std::optional<uint32_t> findInSphere(const PowerForm& sphere) const;
   std::optional<uint32_t> findBeyond(const PowerForm& beyond, const PowerForm& sphere) const;
@@ -81,22 +95,25 @@ Region::Outcome Region::triangulate(std::span<const uint32_t> simplex, Insertion
     if (localCount > kMaxSitesPerOwn * (end_ - begin_) + kMaxExtraSites) return Outcome::kNeedsTheWhole;
     if (!local_.insert(places, progress, false)) return Outcome::kStopped;
     places.clear();
-    findConflicts(places);
+    if (!findConflicts(places, progress)) return Outcome::kStopped;
   } while (!places.empty());
   return Outcome::kDone;
 }
 
 // Looks at all cells next to own sites that are not proven yet; appends a conflicting site for each that has
-// one.
-void Region::findConflicts(std::vector<uint32_t>& places) {
+// one. False: stopped.
+bool Region::findConflicts(std::vector<uint32_t>& places, InsertionProgress& progress) {
+  uint32_t looked = 0;
   for (const Triangulation::Cell_handle cell : local_.cgal().all_cell_handles()) {
     if (cell->info().isProven || !touchesOwn(cell)) continue;
+    if (++looked % kCellsPerLook == 0 && !progress.add(0)) return false;
     const std::optional<uint32_t> conflict = findConflict(cell);
     cell->info().isProven = !conflict;
     if (!conflict || isLocal_[*conflict]) continue;
     isLocal_[*conflict] = true;
     places.push_back(*conflict);
   }
+  return true;
 }
 
 bool Region::touchesOwn(Triangulation::Cell_handle cell) const {
@@ -177,6 +194,17 @@ std::vector<uint32_t> findSimplex(const PlacedSites& sites) {
 
 }  // namespace
 
+uint64_t triangulationBytes(uint64_t cells) {
+  return kBytesPerCell * cells;
+}
+
+uint32_t regionCellsWithin(uint64_t cells, uint64_t bytes) {
+  const uint64_t shared = kSharedBytesPerCell * cells, own = bytes > shared ? bytes - shared : 0;
+  const auto threads = static_cast<uint64_t>(tbb::this_task_arena::max_concurrency());
+  return static_cast<uint32_t>(
+      std::clamp<uint64_t>(own / (kRegionBytesPerCell * threads), kMinRegionCells, kMaxRegionCells));
+}
+
 Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites,
                                                 std::span<const float> radii, std::span<const uint32_t> order,
                                                 uint32_t regionCells, const Progress& progress) {
@@ -199,7 +227,7 @@ Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites
       [&](const tbb::blocked_range<uint32_t>& range) {
         Region region(placed, tree, tree.rangeAt(depth, range.begin()));
         const Region::Outcome outcome = region.triangulate(simplex, insertion);
-        if (outcome == Region::Outcome::kDone) blocks[range.begin()] = region.collectRows();
+        if (outcome == Region::Outcome::kDone) blocks[range.begin()] = region.collectRows(insertion);
         if (outcome == Region::Outcome::kNeedsTheWhole) {
           needsTheWhole = true;
           insertion.stop();

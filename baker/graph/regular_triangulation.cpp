@@ -82,14 +82,14 @@ Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites
   std::vector<uint32_t> places(placed.order.size());
   std::iota(places.begin(), places.end(), 0u);
   InsertionProgress insertion(progress, "triangulate", places.size());
+  const auto cancelled = [] { return makeError(ErrorKind::kCancelled, "triangulation stopped on request"); };
   std::vector<RowBlock> blocks(1);
   {
     LocalTriangulation triangulation(placed);
-    if (!triangulation.insert(places, insertion)) {
-      return makeError(ErrorKind::kCancelled, "triangulation stopped on request");
-    }
-    blocks[0] = triangulation.collectRows(0, static_cast<uint32_t>(placed.order.size()));
+    if (!triangulation.insert(places, insertion)) return cancelled();
+    blocks[0] = triangulation.collectRows(0, static_cast<uint32_t>(order.size()), insertion);
   }
+  if (!insertion.add(0)) return cancelled();
   return assembleRows(placed, std::move(blocks));
 }
 
