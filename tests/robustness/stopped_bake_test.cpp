@@ -12,7 +12,7 @@ constexpr Seconds kStart{0.1};  // of a process: the loader's, before it can set
 
 class StoppedBake : public BakeTest {
  protected:
-  StoppedBake() : BakeTest(std::to_string(countFrom("FROTH_STOP_CELLS", 20000))) {}
+  StoppedBake() : BakeTest(std::to_string(countFrom("FROTH_STOP_CELLS", 3000))) {}
 
   void stopOne(const std::vector<std::string>& options, Seconds wholeTime) {
     ChildProcess bake(bakeCommand(options), folder_);
@@ -42,7 +42,7 @@ class StoppedBake : public BakeTest {
     ASSERT_EQ(whole.exitCode, 0) << whole.text;
     const Seconds wholeTime = since(start);
     putOldAsset();
-    const int count = countFrom("FROTH_STOPS", 8);
+    const int count = countFrom("FROTH_STOPS", 5);
     for (int i = 0; i < count; ++i) stopOne(options, wholeTime);
     std::printf("%d of %d bakes of %.2f s stopped in time; the slowest end took %.3f s\n", stopped_, count,
                 wholeTime.count(), slowest_.count());
