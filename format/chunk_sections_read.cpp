@@ -21,14 +21,20 @@ class Elements {
   size_t size() const { return size_ == 0 ? 0 : bytes_.size() / size_; }
   // May wrap around if the base is absurd.
   uint32_t operator[](size_t i) const {
-    uint32_t element = 0;
-    std::memcpy(&element, bytes_.data() + i * size_, size_);
-    return base_ + element;
+    if (size_ == 1) return base_ + bytes_[i];
+    if (size_ == 2) return base_ + elementAt<uint16_t>(i);
+    return base_ + elementAt<uint32_t>(i);
   }
   std::span<const uint8_t> bytes() const { return bytes_; }
-  std::vector<uint8_t> takeBytes() { return std::move(bytes_); }
 
  private:
+  template <class Element>
+  Element elementAt(size_t i) const {
+    Element element;
+    std::memcpy(&element, bytes_.data() + i * sizeof(Element), sizeof(Element));
+    return element;
+  }
+
   std::vector<uint8_t> bytes_;
   uint32_t size_ = 0, base_ = 0;
 };
