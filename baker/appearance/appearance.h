@@ -18,7 +18,10 @@ namespace froth {
 
 // Knobs of a preset.
 struct AppearanceOptions {
-  float errorBound = 0;         // [display-coded] weighted RMS error allowed per detail site over the directions that see it
+  // [display-coded] RMS error allowed per detail site over the directions that see it. That of one that shows typically; where
+  // images show one x times as much, errors weigh more, and it gets errorBound / sqrt(x). Detail sites of a cell share: their
+  // joint error, as images blend them, keeps the bound. Colours are rounded within it.
+  float errorBound = 0;
   uint32_t lobeLimit = 32;      // most lobes kept per detail site
   uint32_t codebookSize = 0;    // entries of the axis codebook [0..65536]; 0: none
   float colourStep = 0;         // [display-coded] lattice of base and lobe colours, a power of two
@@ -35,7 +38,7 @@ struct CellAppearance {
   std::vector<glm::vec3> lobeAxes, lobeColours;
   double squaredError = 0;  // sum over detail sites of weighted squared errors, display-coded, mean over channels
   double weight = 0;        // sum of the weights
-  double maxError = 0;      // largest error of a detail site along a direction that sees it
+  double maxError = 0;      // largest error of a channel of a detail site along a direction that counts
 };
 
 class AppearanceCoder {

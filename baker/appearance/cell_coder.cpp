@@ -9,7 +9,8 @@ namespace {
 
 constexpr uint32_t kLargestScale = 15;
 constexpr double kCoarsestStep = 0.25;  // [display-coded] of colours
-constexpr double kRoundingShare = 1.0;  // squared error of rounding colours, relative to what is allowed in all
+constexpr double kRoundingShare = 0.5;  // squared error of rounding colours, relative to what is allowed in all
+constexpr int kRefits = 2;              // of all colours, once every detail site knows what the others get wrong
 constexpr float kMostCarried = 0.3f;    // [display-coded] error of others that a detail site makes up for
 
 glm::vec3 snapCellColour(const glm::dvec3& colour) {
@@ -53,24 +54,34 @@ void CellCoder::codeSites(uint32_t cell, double step, std::vector<Site>& sites) 
   std::vector<uint32_t> order(sites.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return sites[a].weight < sites[b].weight; });
-  for (size_t n = 0; n < order.size(); ++n) {
-    const uint32_t k = order[n];
-    Site& site = sites[k];
-    std::vector<glm::vec3> carried(site.seen.size(), glm::vec3(0));
-    for (size_t m = 0; m < n; ++m) {
-      const Site& other = sites[order[m]];
-      addCarried(site.seen, other.seen, other.misses, observer_.overlap(cell, k, order[m]), carried);
+  for (int round = 0; round <= kRefits; ++round) {
+    for (size_t n = 0; n < order.size(); ++n) {
+      const uint32_t k = order[n];
+      Site& site = sites[k];
+      const auto others = std::span(order).first(round > 0 ? order.size() : n);
+      const std::vector<glm::vec3> carried = carriedTo(cell, k, sites, others);
+      Observations wanted = site.seen;
+      for (size_t i = 0; i < wanted.size(); ++i) wanted.colours[i] -= carried[i];
+      if (round == 0) {
+        const LobeRange lobes = lobesOf(foam_, uint64_t{cell} * sites.size() + k);
+        site.coded = coder.code(wanted, std::span(foam_.lobeAxes).subspan(lobes.first, lobes.count), step);
+      } else {
+        coder.refit(wanted, step, site.coded);
+      }
+      site.misses = site.coded.error.misses;
+      for (size_t i = 0; i < wanted.size(); ++i) site.misses[i] -= carried[i];
     }
-    Observations wanted = site.seen;
-    for (size_t i = 0; i < wanted.size(); ++i) {
-      carried[i] = glm::clamp(carried[i], -kMostCarried, kMostCarried);
-      wanted.colours[i] -= carried[i];
-    }
-    const LobeRange lobes = lobesOf(foam_, uint64_t{cell} * sites.size() + k);
-    site.coded = coder.code(wanted, std::span(foam_.lobeAxes).subspan(lobes.first, lobes.count), step);
-    site.misses = site.coded.error.misses;
-    for (size_t i = 0; i < wanted.size(); ++i) site.misses[i] -= carried[i];
   }
+}
+
+std::vector<glm::vec3> CellCoder::carriedTo(uint32_t cell, uint32_t k, const std::vector<Site>& sites,
+                                            std::span<const uint32_t> others) const {
+  std::vector<glm::vec3> carried(sites[k].seen.size(), glm::vec3(0));
+  for (uint32_t l : others) {
+    if (l != k) addCarried(sites[k].seen, sites[l].seen, sites[l].misses, observer_.overlap(cell, k, l), carried);
+  }
+  for (glm::vec3& c : carried) c = glm::clamp(c, -kMostCarried, kMostCarried);
+  return carried;
 }
 
 void CellCoder::append(uint32_t cell, CellAppearance& out) const {

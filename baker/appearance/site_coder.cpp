@@ -1,6 +1,8 @@
 #include "baker/appearance/site_coder.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "baker/appearance/lobe_selection.h"
 #include "format/quantization.h"
@@ -10,23 +12,32 @@ namespace {
 
 constexpr double kBrightestLobe = 2;  // [display-coded] largest offset of a lobe from the base
 
-bool isListed(const std::vector<glm::vec3>& axes, const glm::vec3& axis) {
-  return std::find(axes.begin(), axes.end(), axis) != axes.end();
-}
-
 glm::dvec3 snapColour(const glm::dvec3& colour, double step) {
   return {snapToStep(colour.x, step), snapToStep(colour.y, step), snapToStep(colour.z, step)};
 }
 
+std::vector<glm::dvec3> fitColours(const Observations& seen, const LobeBasis& basis, std::span<const uint32_t> chosen,
+                                   const glm::dvec3& base, double step) {
+  auto colours = LobeEquations(seen, basis, chosen, base).solveOnLattice(step);
+  for (glm::dvec3& colour : colours) colour = glm::clamp(colour, -kBrightestLobe, kBrightestLobe);
+  return colours;
+}
+
 }  // namespace
 
+// Ascending by codebook entry.
 std::vector<glm::vec3> SiteCoder::candidates(std::span<const glm::vec3> axes, AxisChoice choice) const {
-  std::vector<glm::vec3> candidates;
+  std::vector<std::pair<uint32_t, glm::vec3>> labelled;
   for (const glm::vec3& axis : axes) {
-    glm::vec3 entry(0);
-    if (!codebook_.isEmpty()) entry = codebook_.entries()[codebook_.findNearest(axis)];
-    if (choice == AxisChoice::kResiduals) entry += snapAxis(axis - entry, options_.lobeAxisStep);
-    if (!isListed(candidates, entry)) candidates.push_back(entry);
+    const uint32_t label = codebook_.isEmpty() ? 0 : codebook_.findNearest(axis);
+    const glm::vec3 entry = codebook_.isEmpty() ? glm::vec3(0) : codebook_.entries()[label];
+    const bool hasResidual = choice == AxisChoice::kResiduals;
+    labelled.emplace_back(label, hasResidual ? entry + snapAxis(axis - entry, options_.lobeAxisStep) : entry);
+  }
+  std::stable_sort(labelled.begin(), labelled.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<glm::vec3> candidates;
+  for (const auto& [label, axis] : labelled) {
+    if (std::find(candidates.begin(), candidates.end(), axis) == candidates.end()) candidates.push_back(axis);
   }
   return candidates;
 }
@@ -44,15 +55,27 @@ CodedSite SiteCoder::code(const Observations& seen, std::span<const glm::vec3> a
   return best;
 }
 
+void SiteCoder::refit(const Observations& seen, double step, CodedSite& site) const {
+  CodedSite better = site;
+  const LobeBasis basis(seen, site.axes);
+  std::vector<uint32_t> all(site.axes.size());
+  std::iota(all.begin(), all.end(), 0u);
+  better.base = snapColour(meanColour(seen) - 0.5, step);
+  better.colours = fitColours(seen, basis, all, better.base + 0.5, step);
+  better.error = measureFit(seen, basis, all, better.base + 0.5, better.colours);
+  site.error = measureFit(seen, basis, all, site.base + 0.5, site.colours);
+  if (better.error.squared < site.error.squared) site = std::move(better);
+}
+
 void SiteCoder::tryLobes(const Observations& seen, const LobeBasis& basis, double step, CodedSite& best) const {
   const glm::dvec3 base = best.base + 0.5;
   LobeSelection selection(seen, basis, base);
   while (selection.chosen().size() < options_.lobeLimit && selection.grow()) {
-    const auto& chosen = selection.chosen();
+    std::vector<uint32_t> chosen = selection.chosen();
+    std::sort(chosen.begin(), chosen.end());
     const bool isLast = chosen.size() == std::min<size_t>(options_.lobeLimit, basis.axes().size());
     if (selection.leastError() > bound_ && !isLast) continue;
-    auto colours = LobeEquations(seen, basis, chosen, base).solveOnLattice(step);
-    for (glm::dvec3& colour : colours) colour = glm::clamp(colour, -kBrightestLobe, kBrightestLobe);
+    auto colours = fitColours(seen, basis, chosen, base, step);
     FitError error = measureFit(seen, basis, chosen, base, colours);
     if (error.squared >= best.error.squared) continue;
     best.error = std::move(error);

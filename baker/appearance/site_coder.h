@@ -16,7 +16,7 @@ namespace froth {
 // A detail site as it is stored.
 struct CodedSite {
   glm::dvec3 base{0};               // display-coded offset from one half
-  std::vector<glm::vec3> axes;
+  std::vector<glm::vec3> axes;      // ascending by codebook entry
   std::vector<glm::dvec3> colours;  // offsets from the base
   FitError error;
 };
@@ -29,6 +29,9 @@ class SiteCoder {
 
   // `axes`: the lobes of the input. Colours become multiples of `step` [0: any].
   CodedSite code(const Observations& seen, std::span<const glm::vec3> axes, double step) const;
+
+  // The best colours for the axes that a site has.
+  void refit(const Observations& seen, double step, CodedSite& site) const;
 
  private:
   enum class AxisChoice { kEntries, kResiduals };
