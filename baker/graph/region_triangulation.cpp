@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -209,7 +210,11 @@ Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites
                                                 std::span<const float> radii, std::span<const uint32_t> order,
                                                 uint32_t regionCells, const Progress& progress) {
   if (Status status = checkFinite(sites, radii); !status) return status.error();
-  const SiteTree tree(sites, radii, dropDuplicates(sites, radii, order));
+  const auto cancelled = [] { return makeError(ErrorKind::kCancelled, "triangulation stopped on request"); };
+  if (!report(progress, "sort sites", 0, order.size())) return cancelled();
+  std::vector<uint32_t> distinct = dropDuplicates(sites, radii, order);
+  if (!report(progress, "sort sites", order.size() / 2, order.size())) return cancelled();
+  const SiteTree tree(sites, radii, std::move(distinct));
   const PlacedSites placed{sites, radii, tree.order()};
   const auto placeCount = static_cast<uint32_t>(placed.order.size());
   const std::vector<uint32_t> simplex = findSimplex(placed);
@@ -235,7 +240,7 @@ Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites
       },
       tbb::simple_partitioner());
   if (needsTheWhole) return triangulateRegular(sites, radii, progress);
-  if (!insertion.add(0)) return makeError(ErrorKind::kCancelled, "triangulation stopped on request");
+  if (!insertion.add(0)) return cancelled();
   return assembleRows(placed, std::move(blocks));
 }
 

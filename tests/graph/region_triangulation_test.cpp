@@ -31,6 +31,8 @@ std::set<std::string> expectSameAsTheWhole(const BallSet& balls, uint32_t region
   return stages;
 }
 
+const auto kNotInOnePiece = testing::Not(testing::Contains("triangulate"));
+
 // A grid has eight cospherical sites around each corner, and whole sides of coplanar ones: only CGAL's
 // symbolic perturbation decides its edges.
 TEST(RegionTriangulation, OfDegenerateSitesIsThatOfTheWhole) {
@@ -41,7 +43,7 @@ TEST(RegionTriangulation, OfDegenerateSitesIsThatOfTheWhole) {
   mixed.radii.resize(mixed.sites.size(), 0.8f);
   for (const BallSet& balls : {make.grid(10, 0.8f), shaken, mixed}) {
     for (const uint32_t regionCells : {20u, 128u, 600u}) {
-      EXPECT_THAT(expectSameAsTheWhole(balls, regionCells), testing::ElementsAre("triangulate regions"));
+      EXPECT_THAT(expectSameAsTheWhole(balls, regionCells), kNotInOnePiece);
     }
   }
 }
@@ -52,7 +54,7 @@ TEST(RegionTriangulation, OfFoamsIsThatOfTheWhole) {
     for (const BallSet& balls : {make.foamLike(3000), make.foamLike(3000, 1e6), make.stiff(3000),
                                  make.withDuplicates(3000), make.withNearDuplicates(3000)}) {
       for (const uint32_t regionCells : {100u, 1000u}) {
-        EXPECT_THAT(expectSameAsTheWhole(balls, regionCells), testing::ElementsAre("triangulate regions"));
+        EXPECT_THAT(expectSameAsTheWhole(balls, regionCells), kNotInOnePiece);
       }
     }
   }
@@ -68,14 +70,14 @@ TEST(RegionTriangulation, OfSmallSetsIsThatOfTheWholeWhateverTheRegions) {
 
 // Sites in a plane have no regions of their own dimension.
 TEST(RegionTriangulation, OfSitesInAPlaneIsDoneInOnePiece) {
-  EXPECT_THAT(expectSameAsTheWhole(BallSetMaker(1).coplanar(500), 50), testing::ElementsAre("triangulate"));
+  EXPECT_THAT(expectSameAsTheWhole(BallSetMaker(1).coplanar(500), 50), testing::Contains("triangulate"));
 }
 
 // A plane of sites with one above it: every region lies in the plane.
 TEST(RegionTriangulation, OfAPlaneAndOneSiteAboveItIsThatOfTheWhole) {
   BallSet balls = BallSetMaker(1).coplanar(500);
   balls.add({5, 5, 9}, 1);
-  EXPECT_THAT(expectSameAsTheWhole(balls, 50), testing::ElementsAre("triangulate regions"));
+  EXPECT_THAT(expectSameAsTheWhole(balls, 50), kNotInOnePiece);
 }
 
 // All cells meet in one point, and that in a region of any size: nothing is gained by regions.
@@ -95,8 +97,8 @@ TEST(RegionTriangulation, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(RegionTriangulation, StopsWhenAskedTo) {
   const BallSet balls = BallSetMaker(1).foamLike(3000);
-  const Progress stopHalfway = [](std::string_view, uint64_t done, uint64_t total) {
-    return done < total / 2;
+  const Progress stopHalfway = [](std::string_view stage, uint64_t done, uint64_t total) {
+    return stage != "triangulate regions" || done < total / 2;
   };
   const Result<RegularTriangulation> result =
       triangulateRegions(balls.sites, balls.radii, mortonOrder(balls.sites), 200, stopHalfway);
