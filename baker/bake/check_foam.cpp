@@ -1,6 +1,6 @@
 #include "baker/bake/check_foam.h"
 
-#include <utility>
+#include <cmath>
 
 namespace froth {
 namespace {
@@ -34,6 +34,43 @@ Status checkLengths(const Foam& foam) {
   return {};
 }
 
+template <class Vector>
+bool isFinite(const Vector& value) {
+  for (int axis = 0; axis < Vector::length(); ++axis) {
+    if (!std::isfinite(value[axis])) return false;
+  }
+  return true;
+}
+
+// The numbers on which geometry is built; those of colours are checked when they are written.
+Status checkNumbers(const Foam& foam) {
+  for (uint32_t i = 0; i < foam.cellCount; ++i) {
+    const glm::vec3& site = foam.sites[i];
+    const float radius = foam.radii[i], density = foam.densities[i];
+    if (!isFinite(site)) {
+      return makeError(ErrorKind::kBadInput, "cell %u: site (%g, %g, %g) is not finite; repair the foam", i,
+                       double{site.x}, double{site.y}, double{site.z});
+    }
+    if (!std::isfinite(radius) || !(radius > 0)) {
+      return makeError(ErrorKind::kBadInput, "cell %u: radius %g is not a positive number; repair the foam", i,
+                       double{radius});
+    }
+    if (!std::isfinite(density) || !(density >= 0)) {
+      return makeError(ErrorKind::kBadInput, "cell %u: density %g is not a number >= 0; repair the foam", i,
+                       double{density});
+    }
+    if (!isFinite(foam.orientations[i]) || foam.orientations[i] == glm::vec4(0)) {
+      return makeError(ErrorKind::kBadInput, "cell %u: its orientation is no unit quaternion; repair the foam", i);
+    }
+  }
+  for (size_t k = 0; k < foam.detailSites.size(); ++k) {
+    if (isFinite(foam.detailSites[k]) && std::isfinite(foam.detailHeights[k])) continue;
+    return makeError(ErrorKind::kBadInput, "cell %zu: a detail site or height is not finite; repair the foam",
+                     k / foam.detailCount);
+  }
+  return {};
+}
+
 struct KnobRange {
   const char* name;
   uint32_t found, least, most;
@@ -49,6 +86,7 @@ Status checkFoam(const Foam& foam) {
                      foam.detailCount, foam.lobeCount);
   }
   if (Status status = checkLengths(foam); !status) return status;
+  if (Status status = checkNumbers(foam); !status) return status;
   for (size_t site = 0; site + 1 < foam.lobeOffsets.size(); ++site) {
     if (foam.lobeOffsets[site + 1] - foam.lobeOffsets[site] <= foam.lobeCount) continue;
     return makeError(ErrorKind::kBadInput, "foam: array 'lobeOffsets' gives detail site %zu more than %u lobes; import it again",
