@@ -20,20 +20,19 @@ struct EyeAround {
 constexpr std::array<EyeAround, 2> kAround = {{{0.5f, 0.3f}, {2.5f, 0.2f}}};
 
 constexpr float kHemisphereShare = 0.01f;  // weight of the whole hemisphere beside cameras, in typical detail sites
-constexpr uint32_t kHemisphereDirections = 24;
+constexpr uint32_t kDirectionsBesideCameras = 24;
+constexpr uint32_t kDirectionsWithoutCameras = 96;  // 15 degrees apart: lobes of trained foams change over 10 to 20
 
 // A golden spiral, even in solid angle, about +z.
-std::array<glm::vec3, kHemisphereDirections> spreadHemisphere() {
-  std::array<glm::vec3, kHemisphereDirections> directions;
+std::vector<glm::vec3> spreadHemisphere(uint32_t count) {
+  std::vector<glm::vec3> directions(count);
   constexpr double kGoldenAngle = 2.399963229728653;
-  for (uint32_t i = 0; i < kHemisphereDirections; ++i) {
-    const double z = 1 - (i + 0.5) / kHemisphereDirections, s = std::sqrt(1 - z * z), angle = i * kGoldenAngle;
+  for (uint32_t i = 0; i < count; ++i) {
+    const double z = 1 - (i + 0.5) / count, s = std::sqrt(1 - z * z), angle = i * kGoldenAngle;
     directions[i] = glm::dvec3(s * std::cos(angle), s * std::sin(angle), z);
   }
   return directions;
 }
-
-const std::array<glm::vec3, kHemisphereDirections> kHemisphere = spreadHemisphere();
 
 float distanceToNearest(const std::vector<glm::vec3>& eyes, const glm::vec3& eye) {
   float nearest = std::numeric_limits<float>::max();
@@ -46,12 +45,13 @@ float distanceToNearest(const std::vector<glm::vec3>& eyes, const glm::vec3& eye
 
 // One eye per camera, each in another direction.
 std::vector<glm::vec3> placeEyesAround(const std::vector<glm::vec3>& eyes, float distance, size_t firstDirection) {
+  constexpr uint32_t kDirections = 24;
   constexpr size_t kStride = 7;  // has no divisor in common with the number of directions: neighbours differ
+  const std::vector<glm::vec3> directions = spreadHemisphere(kDirections);
   std::vector<glm::vec3> around(eyes.size());
   for (size_t i = 0; i < eyes.size(); ++i) {
     const float side = i % 2 ? -distance : distance;
-    const glm::vec3 direction = kHemisphere[(i * kStride + firstDirection) % kHemisphereDirections];
-    around[i] = eyes[i] + side * distanceToNearest(eyes, eyes[i]) * direction;
+    around[i] = eyes[i] + side * distanceToNearest(eyes, eyes[i]) * directions[(i * kStride + firstDirection) % kDirections];
   }
   return around;
 }
@@ -70,12 +70,15 @@ double totalWeight(const Observations& seen) {
   return sum;
 }
 
-Observer::Observer(const Foam& foam, const Visibility* visibility) : foam_(foam), visibility_(visibility) {
+Observer::Observer(const Foam& foam, const Visibility* visibility)
+    : foam_(foam),
+      visibility_(visibility),
+      hemisphere_(spreadHemisphere(visibility ? kDirectionsBesideCameras : kDirectionsWithoutCameras)) {
   static_assert(kAround.size() == kEyesAround);
   if (!visibility) return;
   double sum = 0, shares = 1;
   for (uint32_t e = 0; e < kEyesAround; ++e) {
-    eyesAround_[e] = placeEyesAround(visibility->eyes, kAround[e].distance, e * kHemisphereDirections / 2);
+    eyesAround_[e] = placeEyesAround(visibility->eyes, kAround[e].distance, 12 * e);
     shares += kAround[e].share;
   }
   uint64_t seen = 0;
@@ -124,12 +127,12 @@ void Observer::addCameras(uint64_t site, const glm::vec3& position, Observations
 }
 
 void Observer::addHemisphere(const FaceFrame<float>& frame, Observations& seen) const {
-  const float weight = (visibility_ ? kHemisphereShare : 1.0f) / kHemisphereDirections;
+  const float weight = (visibility_ ? kHemisphereShare : 1.0f) * 2 / static_cast<float>(hemisphere_.size());
   uint32_t number = visibility_ ? static_cast<uint32_t>(visibility_->eyes.size()) * (1 + kEyesAround) : 0;
-  for (const glm::vec3& d : kHemisphere) {
+  for (const glm::vec3& d : hemisphere_) {
     seen.eyes.push_back(number++);
     seen.directions.push_back(d.x * frame.tangent + d.y * frame.bitangent - d.z * frame.normal);
-    seen.weights.push_back(weight);
+    seen.weights.push_back(weight * d.z);  // as large as the face looks from there
   }
 }
 

@@ -48,6 +48,7 @@ class Observer {
 
   const Foam& foam_;
   const Visibility* visibility_;
+  std::vector<glm::vec3> hemisphere_;  // unit; z: against the face's normal
   std::array<std::vector<glm::vec3>, kEyesAround> eyesAround_;  // [views] each
   double typicalWeight_ = 1;  // mean over the detail sites that are seen
 };
