@@ -13,6 +13,10 @@
 namespace froth::test {
 namespace {
 
+Seconds secondsOf(const timeval& time) {
+  return Seconds(static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec));
+}
+
 [[noreturn]] void becomeProgram(const std::vector<std::string>& command, const std::filesystem::path& folder,
                                 std::optional<uint64_t> largestFile, int output) {
   std::vector<char*> arguments;
@@ -56,8 +60,10 @@ ProgramEnd ChildProcess::wait() {
     end.text.append(buffer, static_cast<size_t>(size));
   ::close(output_);
   int status = 0;
-  ::waitpid(process_, &status, 0);
+  rusage usage{};
+  ::wait4(process_, &status, 0, &usage);
   process_ = -1;
+  end.cpuTime = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
   if (WIFEXITED(status)) end.exitCode = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   return end;

@@ -18,7 +18,8 @@ using Seconds = std::chrono::duration<double>;
 struct ProgramEnd {
   int exitCode = -1;  // -1: it died of `signal`
   int signal = 0;
-  std::string text;  // stdout and stderr
+  std::string text;   // stdout and stderr
+  Seconds cpuTime{};  // of all its threads
 };
 
 class ChildProcess {

@@ -77,6 +77,15 @@ TEST_F(KilledBake, LeavesNoAssetWhereThereWasNone) {
   }
 }
 
+// Kills seldom strike while a temporary has a name: the asset gathers in a file without one.
+TEST_F(KilledBake, WhatOneLeftIsRemovedByTheNextAndNothingElseIs) {
+  writeBytes(folder_ / "out.froth.tmp-4711-0", "half an asset");
+  writeBytes(folder_ / "out.froth.tmp-mine", "no temporary");
+  const ProgramEnd end = ChildProcess(bakeCommand(), folder_).wait();
+  EXPECT_EQ(end.exitCode, 0) << end.text;
+  EXPECT_EQ(filesInFolder(), (std::vector<std::string>{kCheckpoint, kAsset, "out.froth.tmp-mine"}));
+}
+
 // A bake that tidies up must not take the temporaries of one that still runs.
 TEST_F(KilledBake, TwoBakesIntoOneNameBothEndWellAndOneOfThemStays) {
   for (int i = 0; i < 6; ++i) {
