@@ -13,11 +13,11 @@ BakeKnobs defaultKnobs() {
   knobs.detailSiteBits = 5;
   knobs.heightBits = 5;
   knobs.compressColours = true;
-  knobs.appearance.errorBound = 1.0f / 64;
+  knobs.appearance.errorBound = 0.027f;
   knobs.appearance.lobeLimit = 8;
   knobs.appearance.codebookSize = 4096;
   knobs.appearance.colourStep = 0x1p-6f;
-  knobs.appearance.lobeAxisStep = 0.25f;
+  knobs.appearance.lobeAxisStep = 0;  // the codebook's axes as they are
   return knobs;
 }
 
@@ -29,9 +29,10 @@ BakeKnobs highKnobs() {
   knobs.frameBits = 11;
   knobs.detailSiteBits = 8;
   knobs.heightBits = 8;
-  knobs.appearance.errorBound = 1.0f / 256;
+  knobs.appearance.errorBound = 0.01f;
   knobs.appearance.lobeLimit = 32;
-  knobs.appearance.colourStep = 0x1p-8f;
+  knobs.appearance.codebookSize = 0;
+  knobs.appearance.colourStep = 0x1p-9f;
   knobs.appearance.lobeAxisStep = 0x1p-4f;
   return knobs;
 }
@@ -44,11 +45,10 @@ BakeKnobs smallKnobs() {
   knobs.frameBits = 7;
   knobs.detailSiteBits = 4;
   knobs.heightBits = 4;
-  knobs.appearance.errorBound = 1.0f / 32;
-  knobs.appearance.lobeLimit = 3;
+  knobs.appearance.errorBound = 0.06f;
+  knobs.appearance.lobeLimit = 4;
   knobs.appearance.codebookSize = 1024;
   knobs.appearance.colourStep = 0x1p-5f;
-  knobs.appearance.lobeAxisStep = 1;
   return knobs;
 }
 
