@@ -9,8 +9,8 @@ BakeKnobs defaultKnobs() {
   knobs.positionBits = 16;
   knobs.radiusBits = 9;
   knobs.densityBits = 4;
-  knobs.frameBits = 8;
-  knobs.detailSiteBits = 5;
+  knobs.frameBits = 10;
+  knobs.detailSiteBits = 6;
   knobs.heightBits = 5;
   knobs.compressColours = true;
   knobs.appearance.errorBound = 0.027f;
@@ -42,8 +42,8 @@ BakeKnobs smallKnobs() {
   knobs.positionBits = 15;
   knobs.radiusBits = 8;
   knobs.densityBits = 3;
-  knobs.frameBits = 7;
-  knobs.detailSiteBits = 4;
+  knobs.frameBits = 8;
+  knobs.detailSiteBits = 5;
   knobs.heightBits = 4;
   knobs.appearance.errorBound = 0.06f;
   knobs.appearance.lobeLimit = 4;
