@@ -20,7 +20,8 @@ std::span<const glm::vec3> axesOf(const Foam& foam, uint64_t site) {
 }
 
 // The axes that detail site `site` would keep if they could be stored exactly.
-std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer, const AppearanceOptions& options, uint64_t site) {
+std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer,
+                                  const AppearanceOptions& options, uint64_t site) {
   const Observations seen = observer.observe(site);
   const auto axes = axesOf(foam, site);
   const LobeBasis basis(seen, {axes.begin(), axes.end()});
@@ -28,14 +29,16 @@ std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer, co
   const double bound = double(options.errorBound) * options.errorBound;
   if (measureFit(seen, basis, {}, base, {}).squared <= bound) return {};
   LobeSelection selection(seen, basis, base);
-  while (selection.chosen().size() < options.lobeLimit && selection.grow() && selection.leastError() > bound) {
+  while (selection.chosen().size() < options.lobeLimit && selection.grow() &&
+         selection.leastError() > bound) {
   }
   std::vector<glm::vec3> kept;
   for (uint32_t a : selection.chosen()) kept.push_back(axes[a]);
   return kept;
 }
 
-std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer, const AppearanceOptions& options) {
+std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer,
+                                  const AppearanceOptions& options) {
   const uint64_t siteCount = uint64_t{foam.cellCount} * foam.detailCount;
   const uint64_t count = std::min<uint64_t>(siteCount, uint64_t{kSitesPerEntry} * options.codebookSize);
   std::vector<std::vector<glm::vec3>> perSite(count);
@@ -56,7 +59,8 @@ struct AppearanceCoder::Model {
 
 Result<AppearanceCoder> AppearanceCoder::create(const Foam& foam, const Visibility* visibility,
                                                 const AppearanceOptions& options, const Progress& progress) {
-  if (!report(progress, "codebook", 0, 1)) return makeError(ErrorKind::kCancelled, "codebook: stopped on request");
+  if (!report(progress, "codebook", 0, 1))
+    return makeError(ErrorKind::kCancelled, "codebook: stopped on request");
   AppearanceCoder coder;
   coder.foam_ = &foam;
   coder.options_ = options;

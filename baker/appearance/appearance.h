@@ -1,4 +1,5 @@
-// Compresses the colours of a foam: base colours, fewer lobes, axes from a codebook; errors weighed by what is seen.
+// Compresses the colours of a foam: base colours, fewer lobes, axes from a codebook; errors weighed by what
+// is seen.
 #pragma once
 
 #include <cstdint>
@@ -18,39 +19,41 @@ namespace froth {
 
 // Knobs of a preset.
 struct AppearanceOptions {
-  // [display-coded] RMS error allowed per detail site over the directions that see it. That of one that shows typically; where
-  // images show one x times as much, errors weigh more, and it gets errorBound / sqrt(x). Detail sites of a cell share: their
-  // joint error, as images blend them, keeps the bound. Colours are rounded within it.
+  // [display-coded] RMS error allowed per detail site over the directions that see it. That of one that shows
+  // typically; where images show one x times as much, errors weigh more, and it gets errorBound / sqrt(x).
+  // Detail sites of a cell share: their joint error, as images blend them, keeps the bound. Colours are
+  // rounded within it.
   float errorBound = 0;
-  uint32_t lobeLimit = 32;      // most lobes kept per detail site
-  uint32_t codebookSize = 0;    // entries of the axis codebook [0..65536]; 0: none
-  float colourStep = 0;         // [display-coded] lattice of base and lobe colours, a power of two
-  float lobeAxisStep = 0;       // lattice of axes, or of their residuals; a power of two
+  uint32_t lobeLimit = 32;    // most lobes kept per detail site
+  uint32_t codebookSize = 0;  // entries of the axis codebook [0..65536]; 0: none
+  float colourStep = 0;       // [display-coded] lattice of base and lobe colours, a power of two
+  float lobeAxisStep = 0;     // lattice of axes, or of their residuals; a power of two
   uint64_t seed = 1;
 };
 
 // The colours of some cells, in the arrays of ChunkContents.
 struct CellAppearance {
-  std::vector<glm::vec3> cellColours;   // [cells] display-coded, multiples of 1/255
-  std::vector<glm::vec3> baseColours;   // [cells * K]
-  std::vector<uint8_t> colourScales;    // [cells]
-  std::vector<uint8_t> lobeCounts;      // [cells * K]
+  std::vector<glm::vec3> cellColours;  // [cells] display-coded, multiples of 1/255
+  std::vector<glm::vec3> baseColours;  // [cells * K]
+  std::vector<uint8_t> colourScales;   // [cells]
+  std::vector<uint8_t> lobeCounts;     // [cells * K]
   std::vector<glm::vec3> lobeAxes, lobeColours;
-  double squaredError = 0;  // sum over detail sites of weighted squared errors, display-coded, mean over channels
-  double weight = 0;        // sum of the weights
-  double maxError = 0;      // largest error of a channel of a detail site along a direction that counts
+  double squaredError =
+      0;                // sum over detail sites of weighted squared errors, display-coded, mean over channels
+  double weight = 0;    // sum of the weights
+  double maxError = 0;  // largest error of a channel of a detail site along a direction that counts
 };
 
 class AppearanceCoder {
  public:
-  // Keeps references to foam and visibility. `visibility` null: directions are the hemisphere before each face, all alike.
-  // Trains the codebook from a sample of the foam's lobes.
-  static Result<AppearanceCoder> create(const Foam& foam, const Visibility* visibility, const AppearanceOptions& options,
-                                        const Progress& progress = {});
+  // Keeps references to foam and visibility. `visibility` null: directions are the hemisphere before each
+  // face, all alike. Trains the codebook from a sample of the foam's lobes.
+  static Result<AppearanceCoder> create(const Foam& foam, const Visibility* visibility,
+                                        const AppearanceOptions& options, const Progress& progress = {});
 
   const std::vector<glm::vec3>& codebook() const;
-  // Thread-safe. Each cell's result depends on that cell (and the codebook) alone, so the order and grouping of calls do not
-  // matter. Values lie on the lattices of the options and of the codebook.
+  // Thread-safe. Each cell's result depends on that cell (and the codebook) alone, so the order and grouping
+  // of calls do not matter. Values lie on the lattices of the options and of the codebook.
   CellAppearance compress(std::span<const uint32_t> cells) const;
 
  private:

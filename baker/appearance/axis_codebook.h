@@ -1,7 +1,8 @@
 // Nearest entries of a codebook of lobe axes, and its training.
 //
-// Distances are taken between warped axes: a cell's colours depend on exponents -|a| |direction - a / |a||, which a change of
-// `a` by one moves by about one; but the sharper a lobe, the narrower the band of directions in which an exponent matters.
+// Distances are taken between warped axes: a cell's colours depend on exponents -|a| |direction - a / |a||,
+// which a change of `a` by one moves by about one; but the sharper a lobe, the narrower the band of
+// directions in which an exponent matters.
 #pragma once
 
 #include <cstdint>

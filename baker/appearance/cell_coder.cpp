@@ -9,17 +9,19 @@ namespace {
 
 constexpr uint32_t kLargestScale = 15;
 constexpr double kCoarsestStep = 0.25;  // [display-coded] of colours
-constexpr double kRoundingShare = 0.5;  // squared error of rounding colours, relative to what is allowed in all
-constexpr int kRefits = 2;              // of all colours, once every detail site knows what the others get wrong
-constexpr float kMostCarried = 0.3f;    // [display-coded] error of others that a detail site makes up for
+constexpr double kRoundingShare =
+    0.5;                    // squared error of rounding colours, relative to what is allowed in all
+constexpr int kRefits = 2;  // of all colours, once every detail site knows what the others get wrong
+constexpr float kMostCarried = 0.3f;  // [display-coded] error of others that a detail site makes up for
 
 glm::vec3 snapCellColour(const glm::dvec3& colour) {
   return glm::vec3(glm::roundEven(glm::clamp(colour, 0.0, 1.0) * 255.0) / 255.0);
 }
 
-// What an error of `other` looks like where `seen` shows: both are seen from an eye with the same overlap as from all.
-void addCarried(const Observations& seen, const Observations& other, std::span<const glm::vec3> misses, float overlap,
-                std::span<glm::vec3> carried) {
+// What an error of `other` looks like where `seen` shows: both are seen from an eye with the same overlap as
+// from all.
+void addCarried(const Observations& seen, const Observations& other, std::span<const glm::vec3> misses,
+                float overlap, std::span<glm::vec3> carried) {
   for (size_t i = 0, j = 0; i < seen.size(); ++i) {
     while (j < other.size() && other.eyes[j] < seen.eyes[i]) ++j;
     if (j == other.size()) return;
@@ -39,7 +41,8 @@ std::vector<CellCoder::Site> CellCoder::observeCell(uint32_t cell) const {
   return sites;
 }
 
-// The coarsest lattice on which rounding (uniform errors of +- half a step) stays small even where the cell shows most.
+// The coarsest lattice on which rounding (uniform errors of +- half a step) stays small even where the cell
+// shows most.
 uint8_t CellCoder::chooseScale(const std::vector<Site>& sites) const {
   if (!(options_.colourStep > 0)) return 0;
   double weight = 0;
@@ -53,7 +56,8 @@ void CellCoder::codeSites(uint32_t cell, double step, std::vector<Site>& sites) 
   const SiteCoder coder(options_, codebook_, allowedError());
   std::vector<uint32_t> order(sites.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return sites[a].weight < sites[b].weight; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return sites[a].weight < sites[b].weight; });
   for (int round = 0; round <= kRefits; ++round) {
     for (size_t n = 0; n < order.size(); ++n) {
       const uint32_t k = order[n];
@@ -78,7 +82,8 @@ std::vector<glm::vec3> CellCoder::carriedTo(uint32_t cell, uint32_t k, const std
                                             std::span<const uint32_t> others) const {
   std::vector<glm::vec3> carried(sites[k].seen.size(), glm::vec3(0));
   for (uint32_t l : others) {
-    if (l != k) addCarried(sites[k].seen, sites[l].seen, sites[l].misses, observer_.overlap(cell, k, l), carried);
+    if (l != k)
+      addCarried(sites[k].seen, sites[l].seen, sites[l].misses, observer_.overlap(cell, k, l), carried);
   }
   for (glm::vec3& c : carried) c = glm::clamp(c, -kMostCarried, kMostCarried);
   return carried;

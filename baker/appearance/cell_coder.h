@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -13,12 +14,14 @@
 
 namespace froth {
 
-// A detail site is coded after those of its cell that show less, and makes up for what they get wrong where it shows too; then
-// all colours are fitted again, each to what the others left. So the bound holds for the cell: the mean of its detail sites.
+// A detail site is coded after those of its cell that show less, and makes up for what they get wrong where
+// it shows too; then all colours are fitted again, each to what the others left. So the bound holds for the
+// cell: the mean of its detail sites.
 class CellCoder {
  public:
   // Keeps references.
-  CellCoder(const Foam& foam, const Observer& observer, const AxisCodebook& codebook, const AppearanceOptions& options)
+  CellCoder(const Foam& foam, const Observer& observer, const AxisCodebook& codebook,
+            const AppearanceOptions& options)
       : foam_(foam), observer_(observer), codebook_(codebook), options_(options) {}
 
   void append(uint32_t cell, CellAppearance& out) const;
@@ -35,7 +38,8 @@ class CellCoder {
   std::vector<Site> observeCell(uint32_t cell) const;
   uint8_t chooseScale(const std::vector<Site>& sites) const;
   void codeSites(uint32_t cell, double step, std::vector<Site>& sites) const;
-  // [observations of site k] What the errors of `others` (k itself does not count) look like where site k shows.
+  // [observations of site k] What the errors of `others` (k itself does not count) look like where site k
+  // shows.
   std::vector<glm::vec3> carriedTo(uint32_t cell, uint32_t k, const std::vector<Site>& sites,
                                    std::span<const uint32_t> others) const;
 

@@ -51,7 +51,8 @@ std::vector<glm::vec3> trainCodebook(std::span<const glm::vec3> samples, uint32_
       centre.warped += (glm::dvec3(warpAxis(batch[i])) - centre.warped) / centre.weight;
     }
   }
-  std::stable_sort(centres.begin(), centres.end(), [](const Centre& a, const Centre& b) { return a.weight > b.weight; });
+  std::stable_sort(centres.begin(), centres.end(),
+                   [](const Centre& a, const Centre& b) { return a.weight > b.weight; });
 
   std::vector<glm::vec3> entries;
   std::set<std::array<float, 3>> taken;

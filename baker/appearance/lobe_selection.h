@@ -8,7 +8,8 @@
 
 namespace froth {
 
-// Grows a set of lobes one by one: first the one that says most, then the one that lowers the least-squares error most.
+// Grows a set of lobes one by one: first the one that says most, then the one that lowers the least-squares
+// error most.
 class LobeSelection {
  public:
   // Keeps references.

@@ -19,9 +19,11 @@ struct EyeAround {
 };
 constexpr std::array<EyeAround, 2> kAround = {{{0.5f, 0.3f}, {2.5f, 0.2f}}};
 
-constexpr float kHemisphereShare = 0.01f;  // weight of the whole hemisphere beside cameras, in typical detail sites
+constexpr float kHemisphereShare =
+    0.01f;  // weight of the whole hemisphere beside cameras, in typical detail sites
 constexpr uint32_t kDirectionsBesideCameras = 24;
-constexpr uint32_t kDirectionsWithoutCameras = 48;  // 20 degrees apart: as far as lobes of trained foams change
+constexpr uint32_t kDirectionsWithoutCameras =
+    48;  // 20 degrees apart: as far as lobes of trained foams change
 
 // A golden spiral, even in solid angle, about +z.
 std::vector<glm::vec3> spreadHemisphere(uint32_t count) {
@@ -44,14 +46,16 @@ float distanceToNearest(const std::vector<glm::vec3>& eyes, const glm::vec3& eye
 }
 
 // One eye per camera, each in another direction.
-std::vector<glm::vec3> placeEyesAround(const std::vector<glm::vec3>& eyes, float distance, size_t firstDirection) {
+std::vector<glm::vec3> placeEyesAround(const std::vector<glm::vec3>& eyes, float distance,
+                                       size_t firstDirection) {
   constexpr uint32_t kDirections = 24;
   constexpr size_t kStride = 7;  // has no divisor in common with the number of directions: neighbours differ
   const std::vector<glm::vec3> directions = spreadHemisphere(kDirections);
   std::vector<glm::vec3> around(eyes.size());
   for (size_t i = 0; i < eyes.size(); ++i) {
     const float side = i % 2 ? -distance : distance;
-    around[i] = eyes[i] + side * distanceToNearest(eyes, eyes[i]) * directions[(i * kStride + firstDirection) % kDirections];
+    around[i] = eyes[i] + side * distanceToNearest(eyes, eyes[i]) *
+                              directions[(i * kStride + firstDirection) % kDirections];
   }
   return around;
 }
@@ -83,7 +87,8 @@ Observer::Observer(const Foam& foam, const Visibility* visibility)
   }
   uint64_t seen = 0;
   for (float weight : visibility->weights) sum += weight;
-  for (size_t i = 0; i + 1 < visibility->offsets.size(); ++i) seen += visibility->offsets[i + 1] > visibility->offsets[i];
+  for (size_t i = 0; i + 1 < visibility->offsets.size(); ++i)
+    seen += visibility->offsets[i + 1] > visibility->offsets[i];
   if (sum > 0) typicalWeight_ = sum * shares / static_cast<double>(seen);
 }
 
@@ -141,7 +146,8 @@ glm::vec3 Observer::colourAlong(uint64_t site, const glm::vec3& direction) const
   float largest = -std::numeric_limits<float>::max(), weightSum = 0;
   glm::vec3 colourSum(0);
   for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
-    foam::addLobe(foam::lobeExponent(foam_.lobeAxes[m], direction), foam_.lobeColours[m], largest, weightSum, colourSum);
+    foam::addLobe(foam::lobeExponent(foam_.lobeAxes[m], direction), foam_.lobeColours[m], largest, weightSum,
+                  colourSum);
   }
   const glm::vec3 base = foam_.baseColours.empty() ? glm::vec3(0) : foam_.baseColours[site];
   return glm::min(foam::lobeColour(base, weightSum, colourSum), kBrightest);

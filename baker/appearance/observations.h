@@ -15,7 +15,7 @@ namespace froth {
 
 // One entry per eye.
 struct Observations {
-  std::vector<uint32_t> eyes;         // ascending; the same number is the same eye for all detail sites of a cell
+  std::vector<uint32_t> eyes;  // ascending; the same number is the same eye for all detail sites of a cell
   std::vector<glm::vec3> directions;  // unit, from the eye to the detail site
   std::vector<float> weights;         // > 0, in units of a typical detail site
   std::vector<glm::vec3> colours;     // display-coded, 0..1.5
@@ -27,9 +27,9 @@ struct Observations {
 glm::dvec3 meanColour(const Observations& seen);
 double totalWeight(const Observations& seen);
 
-// A game's camera flies between the input's cameras and somewhat beyond: around each that sees a detail site stand others
-// that count less. And where none of the input was, each detail site counts a little along the hemisphere before its face, so
-// every one has some observations. Thread-safe.
+// A game's camera flies between the input's cameras and somewhat beyond: around each that sees a detail site
+// stand others that count less. And where none of the input was, each detail site counts a little along the
+// hemisphere before its face, so every one has some observations. Thread-safe.
 class Observer {
  public:
   // Keeps references. `visibility` null: the hemisphere alone.
@@ -48,9 +48,9 @@ class Observer {
 
   const Foam& foam_;
   const Visibility* visibility_;
-  std::vector<glm::vec3> hemisphere_;  // unit; z: against the face's normal
+  std::vector<glm::vec3> hemisphere_;                           // unit; z: against the face's normal
   std::array<std::vector<glm::vec3>, kEyesAround> eyesAround_;  // [views] each
-  double typicalWeight_ = 1;  // mean over the detail sites that are seen
+  double typicalWeight_ = 1;                                    // mean over the detail sites that are seen
 };
 
 }  // namespace froth

@@ -17,23 +17,24 @@ namespace froth {
 struct VisibilityOptions {
   double nearRatio = 4, nearDepth = 0;  // where a view does not say
   double detailSharpness = 10;
-  uint32_t maxPixelsPerView = 0;        // views are reduced to about this size; 0: the implementation's default
+  uint32_t maxPixelsPerView = 0;  // views are reduced to about this size; 0: the implementation's default
 };
 
-// A detail site shows in a pixel with s = T alpha omega_k / sum omega; an error of its colour counts there as s^2. It is seen
-// from a view with weight sum over pixels of s^2, in pixels of the full-size view. Compressed rows over detail sites; entries
-// ascend by view.
+// A detail site shows in a pixel with s = T alpha omega_k / sum omega; an error of its colour counts there as
+// s^2. It is seen from a view with weight sum over pixels of s^2, in pixels of the full-size view. Compressed
+// rows over detail sites; entries ascend by view.
 struct Visibility {
-  std::vector<glm::vec3> eyes;          // [views] [scene units]
-  std::vector<uint64_t> offsets;        // [N*K + 1]
-  std::vector<uint16_t> views;          // [offsets.back()]
-  std::vector<float> weights;           // [offsets.back()] > 0
-  std::vector<float> overlaps;          // [N * K(K-1)/2] for k < l, row by row: sum s_k s_l / sqrt(sum s_k^2 sum s_l^2) [0..1]
-  std::vector<float> contributions;     // [N] the largest T alpha of the cell in any pixel of any view
+  std::vector<glm::vec3> eyes;    // [views] [scene units]
+  std::vector<uint64_t> offsets;  // [N*K + 1]
+  std::vector<uint16_t> views;    // [offsets.back()]
+  std::vector<float> weights;     // [offsets.back()] > 0
+  std::vector<float>
+      overlaps;  // [N * K(K-1)/2] for k < l, row by row: sum s_k s_l / sqrt(sum s_k^2 sum s_l^2) [0..1]
+  std::vector<float> contributions;  // [N] the largest T alpha of the cell in any pixel of any view
 };
 
 // The same input gives the same bits on any number of threads. Fails with kCancelled.
-Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> views, const VisibilityOptions& options,
-                                     const Progress& progress = {});
+Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> views,
+                                     const VisibilityOptions& options, const Progress& progress = {});
 
 }  // namespace froth

@@ -20,7 +20,9 @@ TEST(AxisCodebook, NearestEntryIsThatOfAFullSearch) {
   for (const glm::vec3& axis : randomAxes(300, 2)) {
     uint32_t nearest = 0;
     for (uint32_t i = 1; i < codebook.entries().size(); ++i) {
-      const auto distance = [&](uint32_t entry) { return glm::distance(warpAxis(codebook.entries()[entry]), warpAxis(axis)); };
+      const auto distance = [&](uint32_t entry) {
+        return glm::distance(warpAxis(codebook.entries()[entry]), warpAxis(axis));
+      };
       if (distance(i) < distance(nearest)) nearest = i;
     }
     EXPECT_EQ(codebook.findNearest(axis), nearest);
@@ -28,7 +30,8 @@ TEST(AxisCodebook, NearestEntryIsThatOfAFullSearch) {
 }
 
 TEST(AxisCodebook, WarpingIsUndone) {
-  for (const glm::vec3& axis : {glm::vec3(0), glm::vec3(1e-3f, 0, 0), glm::vec3(3, -4, 5), glm::vec3(0, 1e4f, 0)}) {
+  for (const glm::vec3& axis :
+       {glm::vec3(0), glm::vec3(1e-3f, 0, 0), glm::vec3(3, -4, 5), glm::vec3(0, 1e4f, 0)}) {
     EXPECT_LE(glm::distance(unwarpAxis(warpAxis(axis)), axis), 1e-4f * (glm::length(axis) + 1e-3f));
   }
 }

@@ -22,14 +22,17 @@ Visibility measure(const Foam& foam, const std::vector<View>& views) {
 
 double weightOf(const Visibility& visibility, uint64_t site) {
   double sum = 0;
-  for (uint64_t i = visibility.offsets[site]; i < visibility.offsets[site + 1]; ++i) sum += visibility.weights[i];
+  for (uint64_t i = visibility.offsets[site]; i < visibility.offsets[site + 1]; ++i)
+    sum += visibility.weights[i];
   return sum;
 }
 
 // One ball without neighbours, solid throughout: a ray's share is alpha = 1 - exp(-density * chord).
 TEST(Visibility, WeightOfALoneBallIsItsSumOfSquaredOpacities) {
-  const Foam foam =
-      foamOf({{.site = {0, 0, 0}, .radius = 1, .density = 0.7f, .orientation = kFaceTowardsPlusZ}});  // rays leave through it
+  const Foam foam = foamOf({{.site = {0, 0, 0},
+                             .radius = 1,
+                             .density = 0.7f,
+                             .orientation = kFaceTowardsPlusZ}});  // rays leave through it
   const View view = lookAt({0.1, 0.2, -4}, {0, 0, 0}, 32, 24, 0.5);
   const Visibility visibility = measure(foam, {view});
   double sum = 0, largest = 0;
@@ -62,7 +65,8 @@ TEST(Visibility, ReducedViewsCountPixelsOfTheFullSize) {
 
 TEST(Visibility, WhatAWallHidesIsNotSeen) {
   //   eye ->   (wall)   (ball)
-  const Foam foam = foamOf({{.site = {0, 0, 0}, .radius = 1, .density = 1000}, {.site = {0, 0, 3}, .radius = 0.5f, .density = 5}});
+  const Foam foam = foamOf(
+      {{.site = {0, 0, 0}, .radius = 1, .density = 1000}, {.site = {0, 0, 3}, .radius = 0.5f, .density = 5}});
   const Visibility front = measure(foam, {lookAt({0.1, 0, -4}, {0, 0, 0}, 32, 32, 0.5)});
   EXPECT_GT(weightOf(front, 0), 0);
   EXPECT_EQ(weightOf(front, 1), 0);
@@ -74,7 +78,8 @@ TEST(Visibility, WhatAWallHidesIsNotSeen) {
 TEST(Visibility, RowsAscendAndOverlapsAreCorrelations) {
   const Foam foam = randomFoam(60, 4, 2, 3);
   std::vector<View> views;
-  for (int i = 0; i < 5; ++i) views.push_back(lookAt({3 * std::cos(i), 0.3 * i, 3 * std::sin(i)}, {0, 0, 0}, 24, 20, 0.6));
+  for (int i = 0; i < 5; ++i)
+    views.push_back(lookAt({3 * std::cos(i), 0.3 * i, 3 * std::sin(i)}, {0, 0, 0}, 24, 20, 0.6));
   const Visibility visibility = measure(foam, views);
   ASSERT_EQ(visibility.offsets.size(), 60 * 4 + 1u);
   ASSERT_EQ(visibility.overlaps.size(), 60 * 6u);
@@ -93,7 +98,8 @@ TEST(Visibility, RowsAscendAndOverlapsAreCorrelations) {
 
 TEST(Visibility, ThreadsDoNotChangeIt) {
   const Foam foam = randomFoam(200, 3, 2, 5);
-  const std::vector<View> views = {lookAt({3, 0.2, 0.5}, {0, 0, 0}, 40, 30, 0.6), lookAt({-3, 0.2, 1}, {0, 0, 0}, 40, 30, 0.6)};
+  const std::vector<View> views = {lookAt({3, 0.2, 0.5}, {0, 0, 0}, 40, 30, 0.6),
+                                   lookAt({-3, 0.2, 1}, {0, 0, 0}, 40, 30, 0.6)};
   const Visibility many = measure(foam, views);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const Visibility alone = measure(foam, views);
