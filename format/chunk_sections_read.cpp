@@ -107,6 +107,25 @@ class ChunkReader {
     return {};
   }
 
+  // Colours on a lattice, in steps of stepOf(i) for entry i; expected(i) was taken off the indices of that entry.
+  template <class StepOf, class Expected>
+  Status loadColours(SectionType type, std::vector<glm::vec3>& array, StepOf stepOf, Expected expected) const {
+    Elements elements;
+    if (Status status = load(type, elements); !status) return status;
+    array.resize(elements.size() / 3);
+    for (size_t i = 0; i < array.size(); ++i) {
+      const auto element = [&](size_t c) { return int64_t{unzigzag(elements[3 * i + c])}; };
+      const std::array<int64_t, 3> indices = joinGreen(element(0), element(1), element(2));
+      const std::array<int32_t, 3> known = expected(i);
+      for (int c = 0; c < 3; ++c) {
+        const int64_t index = indices[static_cast<size_t>(c)] + known[static_cast<size_t>(c)];
+        if (std::abs(index) > kMaxLatticeIndex) return outOfRange(type, 3 * i);
+        array[i][c] = stepOf(i) * static_cast<float>(index);
+      }
+    }
+    return {};
+  }
+
   template <class Vector>
   Status loadFloats(SectionType type, std::vector<Vector>& array, float step) const {
     if (!isOnLattice(type)) return loadAsIs(type, array);
@@ -184,10 +203,11 @@ class ChunkReader {
         !status)
       return status;
     if (Status status = readOrientations(); !status) return status;
-    if (Status status = load(SectionType::kCellColours, cellColours_); !status) return status;
-    chunk_.cellColours.resize(cellColours_.size() / 3);
-    for (size_t i = 0; i < cellColours_.size(); ++i)
-      chunk_.cellColours[i / 3][static_cast<int>(i % 3)] = colourOfByte(cellColours_.bytes()[i]);
+    if (Status status = loadAsIs(SectionType::kCellColours, cellColours_); !status) return status;
+    for (std::array<uint8_t, 3>& colour : cellColours_) {
+      colour = joinGreen(colour[0], colour[1], colour[2]);
+      chunk_.cellColours.emplace_back(colourOfByte(colour[0]), colourOfByte(colour[1]), colourOfByte(colour[2]));
+    }
     return loadFloats(SectionType::kCellHeights, chunk_.cellHeights, asset_.quantization.heightStep);
   }
 
@@ -232,12 +252,14 @@ class ChunkReader {
       if (chunk_.colourScales[cell] > kMaxColourScale) return outOfRange(SectionType::kColourScales, cell);
     if (!isOnLattice(SectionType::kBaseColours))
       return loadAsIs(SectionType::kBaseColours, chunk_.baseColours);
-    const size_t perCell = size_t{asset_.detailCount} * 3;
-    return loadIndices(
-        SectionType::kBaseColours, chunk_.baseColours, [&](size_t i) { return unitOf(i / perCell); },
+    return loadColours(
+        SectionType::kBaseColours, chunk_.baseColours, [&](size_t i) { return unitOf(i / asset_.detailCount); },
         [&](size_t i) {
-          if (chunk_.cellColours.empty()) return 0;
-          return expectedColourIndex(cellColours_.bytes()[i / perCell * 3 + i % 3], unitOf(i / perCell));
+          std::array<int32_t, 3> expected{};
+          if (cellColours_.empty()) return expected;
+          for (size_t c = 0; c < 3; ++c)
+            expected[c] = expectedColourIndex(cellColours_[i / asset_.detailCount][c], unitOf(i / asset_.detailCount));
+          return expected;
         });
   }
 
@@ -255,9 +277,9 @@ class ChunkReader {
     if (!isOnLattice(SectionType::kLobeColours))
       return loadAsIs(SectionType::kLobeColours, chunk_.lobeColours);
     const std::vector<float> units = lobeUnits(static_cast<size_t>(lobes));
-    return loadIndices(
-        SectionType::kLobeColours, chunk_.lobeColours, [&](size_t i) { return units[i / 3]; },
-        [](size_t) { return 0; });
+    return loadColours(
+        SectionType::kLobeColours, chunk_.lobeColours, [&](size_t i) { return units[i]; },
+        [](size_t) { return std::array<int32_t, 3>{}; });
   }
 
   // Lobes of detail site `detail`.
@@ -293,9 +315,15 @@ class ChunkReader {
         !status)
       return status;
     chunk_.lobeAxes.resize(labels.size(), glm::vec3(0));  // absent: no differences
-    for (size_t i = 0; i < labels.size(); ++i) {
-      if (labels[i] >= asset_.axisCodebook.size()) return outOfRange(SectionType::kLobeLabels, i);
-      chunk_.lobeAxes[i] = asset_.axisCodebook[labels[i]] + chunk_.lobeAxes[i];
+    const uint64_t entries = asset_.axisCodebook.size();
+    size_t lobe = 0;
+    for (size_t detail = 0; lobe < labels.size(); ++detail) {
+      uint64_t label = 0;
+      for (const size_t end = lobe + lobesOf(detail); lobe < end; ++lobe) {
+        if (labels[lobe] >= entries) return outOfRange(SectionType::kLobeLabels, lobe);
+        label = (label + labels[lobe]) % entries;
+        chunk_.lobeAxes[lobe] = asset_.axisCodebook[label] + chunk_.lobeAxes[lobe];
+      }
     }
     return {};
   }
@@ -305,7 +333,7 @@ class ChunkReader {
   uint32_t index_;
   const SectionDecoder& decode_;
   const std::string& place_;
-  Elements cellColours_;
+  std::vector<std::array<uint8_t, 3>> cellColours_;  // red, green, blue
   ChunkContents chunk_;
 };
 

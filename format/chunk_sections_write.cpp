@@ -92,16 +92,41 @@ class ChunkPacker {
       raw_.sections.push_back({type, 4, base, narrowTo<uint32_t>(numbers, base)});
   }
 
-  // Signed indices of `numbers`; stepOf(i) is the step of number i, expected(i) is taken off its index.
+  void addSigned(SectionType type, std::span<const int32_t> indices) {
+    std::vector<uint32_t> elements(indices.size());
+    std::transform(indices.begin(), indices.end(), elements.begin(), zigzag);
+    addNumbers(type, elements);
+  }
+
+  // Indices of `numbers`; stepOf(i) is the step of number i, expected(i) is taken off its index.
+  template <class StepOf, class Expected>
+  Status findIndices(SectionType type, std::span<const float> numbers, StepOf stepOf, Expected expected,
+                     std::vector<int32_t>& indices) const {
+    indices.resize(numbers.size());
+    for (size_t i = 0; i < numbers.size(); ++i) {
+      if (!findIndex(numbers[i], stepOf(i), indices[i])) return offLattice(type, i, numbers[i]);
+      indices[i] -= expected(i);
+    }
+    return {};
+  }
+
   template <class StepOf, class Expected>
   Status addIndices(SectionType type, std::span<const float> numbers, StepOf stepOf, Expected expected) {
-    std::vector<uint32_t> elements(numbers.size());
-    for (size_t i = 0; i < numbers.size(); ++i) {
-      int32_t index = 0;
-      if (!findIndex(numbers[i], stepOf(i), index)) return offLattice(type, i, numbers[i]);
-      elements[i] = zigzag(index - expected(i));
+    std::vector<int32_t> indices;
+    if (Status status = findIndices(type, numbers, stepOf, expected, indices); !status) return status;
+    addSigned(type, indices);
+    return {};
+  }
+
+  template <class StepOf, class Expected>
+  Status addColours(SectionType type, std::span<const float> numbers, StepOf stepOf, Expected expected) {
+    std::vector<int32_t> indices;
+    if (Status status = findIndices(type, numbers, stepOf, expected, indices); !status) return status;
+    for (size_t i = 0; i < indices.size(); i += 3) {
+      const auto separated = separateGreen(indices[i], indices[i + 1], indices[i + 2]);
+      std::copy(separated.begin(), separated.end(), indices.begin() + static_cast<ptrdiff_t>(i));
     }
-    addNumbers(type, elements);
+    addSigned(type, indices);
     return {};
   }
 
@@ -187,7 +212,11 @@ class ChunkPacker {
       if (colourOfByte(cellColours_.back()) != number)
         return offLattice(SectionType::kCellColours, cellColours_.size() - 1, number);
     }
-    add(SectionType::kCellColours, 1, cellColours_);
+    std::vector<uint8_t> elements;
+    for (size_t i = 0; i < cellColours_.size(); i += 3)
+      for (const uint8_t byte : separateGreen(cellColours_[i], cellColours_[i + 1], cellColours_[i + 2]))
+        elements.push_back(byte);
+    add(SectionType::kCellColours, 1, std::move(elements));
     return addHeights(SectionType::kCellHeights, chunk_.cellHeights, [](size_t) { return 0; });
   }
 
@@ -245,7 +274,7 @@ class ChunkPacker {
     const auto unit = [&](size_t i) {
       return colourUnit(asset_.quantization.colourStep, scaleOf(i / perCell));
     };
-    return addIndices(SectionType::kBaseColours, colours, unit, [&](size_t i) {
+    return addColours(SectionType::kBaseColours, colours, unit, [&](size_t i) {
       return cellColours_.empty() ? 0 : expectedColourIndex(cellColours_[i / perCell * 3 + i % 3], unit(i));
     });
   }
@@ -262,16 +291,19 @@ class ChunkPacker {
       return {};
     }
     const std::vector<float> units = lobeUnits();
-    return addIndices(
+    return addColours(
         SectionType::kLobeColours, colours, [&](size_t i) { return units[i / 3]; }, [](size_t) { return 0; });
+  }
+
+  uint32_t lobesOf(size_t detail) const {
+    return chunk_.lobeCounts.empty() ? asset_.lobeCount : chunk_.lobeCounts[detail];
   }
 
   // The step of the colour lattice for each lobe.
   std::vector<float> lobeUnits() const {
     std::vector<float> units;
     for (size_t detail = 0; detail < size_t{chunk_.liveCount} * asset_.detailCount; ++detail) {
-      const uint32_t count = chunk_.lobeCounts.empty() ? asset_.lobeCount : chunk_.lobeCounts[detail];
-      units.insert(units.end(), count,
+      units.insert(units.end(), lobesOf(detail),
                    colourUnit(asset_.quantization.colourStep, scaleOf(detail / asset_.detailCount)));
     }
     return units;
@@ -288,15 +320,23 @@ class ChunkPacker {
     return {};
   }
 
+  // Labels as differences to the label before in the same detail site, modulo the codebook's size: lobes of a
+  // site come in ascending order of their labels.
   Status addLabels() {
-    std::vector<uint32_t> labels, residuals;
-    for (size_t i = 0; i < chunk_.lobeAxes.size(); ++i) {
-      const std::optional<AxisCode> code = axes_.find(chunk_.lobeAxes[i]);
-      if (!code) return offLattice(SectionType::kLobeLabels, i, chunk_.lobeAxes[i].x);
-      labels.push_back(code->label);
-      for (const int32_t steps : code->residual) residuals.push_back(zigzag(steps));
+    std::vector<uint32_t> differences, residuals;
+    const uint32_t entries = static_cast<uint32_t>(asset_.axisCodebook.size());
+    size_t lobe = 0;
+    for (size_t detail = 0; lobe < chunk_.lobeAxes.size(); ++detail) {
+      uint32_t before = 0;
+      for (const size_t end = lobe + lobesOf(detail); lobe < end; ++lobe) {
+        const std::optional<AxisCode> code = axes_.find(chunk_.lobeAxes[lobe]);
+        if (!code) return offLattice(SectionType::kLobeLabels, lobe, chunk_.lobeAxes[lobe].x);
+        differences.push_back((code->label + entries - before) % entries);
+        before = code->label;
+        for (const int32_t steps : code->residual) residuals.push_back(zigzag(steps));
+      }
     }
-    addNumbers(SectionType::kLobeLabels, labels);
+    addNumbers(SectionType::kLobeLabels, differences);
     if (std::any_of(residuals.begin(), residuals.end(), [](uint32_t r) { return r != 0; }))
       addNumbers(SectionType::kLobeAxes, residuals);
     return {};

@@ -1,6 +1,7 @@
 // Between lattice indices and the elements of sections: what the two halves of chunk_sections share.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -19,6 +20,16 @@ inline uint32_t zigzag(int32_t value) {
 }
 inline int32_t unzigzag(uint32_t element) {
   return static_cast<int32_t>(element >> 1) ^ -static_cast<int32_t>(element & 1);
+}
+
+// The channels of a colour rise and fall together: green is stored as it is, red and blue as differences to it, in this order.
+template <class Number>
+std::array<Number, 3> separateGreen(Number red, Number green, Number blue) {
+  return {green, static_cast<Number>(red - green), static_cast<Number>(blue - green)};
+}
+template <class Number>
+std::array<Number, 3> joinGreen(Number green, Number redLess, Number blueLess) {
+  return {static_cast<Number>(redLess + green), green, static_cast<Number>(blueLess + green)};
 }
 
 // Cell colours are bytes.

@@ -10,7 +10,7 @@ namespace froth {
 enum class SectionCodec : uint16_t {
   kStored = 0,       // the raw bytes
   kZstd = 1,         // one zstd frame of the raw bytes
-  kBytePlanes = 2,   // one zstd frame of: byte 0 of every element, byte 1 of every element, ...
+  kBytePlanes = 2,   // one zstd frame of: byte 0 of every entry, byte 1 of every entry, ...
   kDeltaPlanes = 3,  // likewise, of each element's difference to the same component of the entry before
   kMortonDelta = 4,  // positions: one zstd frame of byte planes of differences between Morton codes
   kDraco = 5,  // positions: runs of points, each a kd-tree of Draco's, in the order in which that gives them
@@ -23,6 +23,11 @@ struct SectionShape {
 
   bool operator==(const SectionShape&) const = default;
 };
+
+// [bytes]
+constexpr uint32_t entrySize(SectionShape shape) {
+  return shape.elementSize * shape.components;
+}
 
 // Positions are lattice indices; the codecs for positions take no other shape.
 using LatticePoint = std::array<int32_t, 3>;

@@ -60,7 +60,7 @@ Status readZstd(SectionCodec codec, std::span<const uint8_t> stored, std::span<u
   if (codec == SectionCodec::kMortonDelta) return readMortonDeltas(frame, raw);
   if (Status status = frame.start(raw.size()); !status) return status;
   const bool isPlanes = codec != SectionCodec::kZstd;
-  if (Status status = isPlanes ? frame.readPlanes(raw, shape.elementSize) : frame.read(raw); !status)
+  if (Status status = isPlanes ? frame.readPlanes(raw, entrySize(shape)) : frame.read(raw); !status)
     return status;
   if (codec == SectionCodec::kDeltaPlanes) undoDeltas(raw, shape);
   return frame.finish();

@@ -47,8 +47,8 @@ Result<EncodedSection> encodeAs(SectionCodec codec, std::span<const uint8_t> raw
   FrameWriter frame(raw.size(), level);
   const auto write = [&] {
     if (codec == SectionCodec::kZstd) return frame.write(raw, true);
-    if (codec == SectionCodec::kBytePlanes) return frame.writePlanes(raw, shape.elementSize);
-    return frame.writePlanes(deltasOf(raw, shape), shape.elementSize);
+    if (codec == SectionCodec::kBytePlanes) return frame.writePlanes(raw, entrySize(shape));
+    return frame.writePlanes(deltasOf(raw, shape), entrySize(shape));
   };
   if (Status status = write(); !status) return status.error();
   return EncodedSection{codec, frame.take()};
@@ -79,13 +79,12 @@ Result<EncodedSection> encodeMortonDeltas(std::span<const LatticePoint> points) 
 // is different between them shows at once.
 Result<EncodedSection> encodeNumbers(std::span<const uint8_t> raw, SectionShape shape) {
   constexpr size_t kSampleSize = size_t{1} << 20;
-  const size_t entrySize = size_t{shape.elementSize} * shape.components;
-  const size_t sampleSize = std::min(raw.size(), std::max(kSampleSize / entrySize, size_t{1}) * entrySize);
+  const size_t sampleSize = std::min(raw.size(), std::max(kSampleSize / entrySize(shape), size_t{1}) * entrySize(shape));
   SectionCodec best = SectionCodec::kZstd;
   size_t leastSize = SIZE_MAX;
   for (const SectionCodec codec :
        {SectionCodec::kZstd, SectionCodec::kBytePlanes, SectionCodec::kDeltaPlanes}) {
-    if (codec == SectionCodec::kBytePlanes && shape.elementSize == 1)
+    if (codec == SectionCodec::kBytePlanes && entrySize(shape) == 1)
       continue;  // the same bytes as without planes
     const Result<EncodedSection> section = encodeAs(codec, raw.first(sampleSize), shape, kFastLevel);
     if (!section) return section.error();

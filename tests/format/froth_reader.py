@@ -96,10 +96,24 @@ def decode_frame(stored, size):
     return raw
 
 
-def join_planes(raw, dtype):
-    width = np.dtype(dtype).itemsize
+def join_planes(raw, dtype, components=1):
+    width = np.dtype(dtype).itemsize * components
     planes = np.frombuffer(raw, np.uint8).reshape(width, -1)
     return np.ascontiguousarray(planes.T).view(dtype).ravel()
+
+
+def join_green(colours):
+    """Green, red - green, blue - green to red, green, blue; bytes modulo 256."""
+    green = colours[:, 0]
+    return np.stack([colours[:, 1] + green, green, colours[:, 2] + green], axis=1)
+
+
+def sums_within(numbers, counts):
+    """Running sums that begin anew with each of the groups, which have `counts` numbers."""
+    sums = np.cumsum(numbers, dtype=np.int64)
+    first = np.cumsum(counts) - counts
+    before = np.concatenate([[0], sums])[first]
+    return sums - np.repeat(before, counts)
 
 
 def decode_morton(stored, entries):
@@ -124,7 +138,7 @@ def decode(stored, codec, element, entries, components):
         need(element == 4 and components == 3, "Morton delta of something that is no position")
         return decode_morton(stored, entries)
     need(codec in (CODEC_PLANES, CODEC_DELTA), "Draco: not in this reader" if codec == CODEC_DRACO else "unknown codec")
-    elements = join_planes(decode_frame(stored, count * element), dtype)
+    elements = join_planes(decode_frame(stored, count * element), dtype, components)
     if codec == CODEC_DELTA:
         elements = np.cumsum(unfold(elements).reshape(entries, components), axis=0, dtype=dtype).ravel()
     return elements
@@ -332,6 +346,8 @@ class Asset:
             out["orientations"] = (quaternions(self.unsigned(index, 9, live, 2), self.normal_bits) if self.normal_bits
                                    else self.floats(index, 9, live, 4))
         colour_bytes, _ = self.elements(index, 10, live, 3)
+        if colour_bytes is not None:
+            colour_bytes = join_green(colour_bytes)
         height_numbers = self.signed(index, 11, live, 1) if self.height_step else None
         if colour_bytes is not None:
             out["cellColours"] = colour_bytes.astype(np.float32) / np.float32(255)
@@ -380,7 +396,7 @@ class Asset:
             if colour_bytes is not None:
                 base = np.clip(np.rint((colour_bytes / 255 - 0.5) / unit), -MAX_INDEX, MAX_INDEX).astype(np.int64)
                 base = np.repeat(base, k, axis=0)
-            out["baseColours"] = on_lattice(np.repeat(unit, k, axis=0), numbers + base)
+            out["baseColours"] = on_lattice(np.repeat(unit, k, axis=0), join_green(numbers) + base)
 
     def colour_units(self, live, out):
         scales = out.get("colourScales")
@@ -402,6 +418,7 @@ class Asset:
             entries = self.floats(SHARED, 68, self.codebook_size, 3)
             labels = self.unsigned(index, 65, lobes, 1).ravel()
             need(labels.max() < self.codebook_size, "a label beyond the codebook")
+            labels = sums_within(labels, per_site) % self.codebook_size
             axes = entries[labels] if axes is None else entries[labels] + axes
         out["lobeAxes"] = axes
         if not self.colour_step:
@@ -409,7 +426,7 @@ class Asset:
         else:
             cells = np.repeat(np.arange(sites) // self.details, per_site)
             unit = self.colour_units(live, out)[cells][:, None]
-            out["lobeColours"] = on_lattice(unit, self.signed(index, 67, lobes, 3))
+            out["lobeColours"] = on_lattice(unit, join_green(self.signed(index, 67, lobes, 3)))
 
 
 # ---- Comparison
