@@ -32,8 +32,8 @@ class ChunkGeometry {
   }
 
  private:
-  // Visits the neighbours in a cell's row, the alpha-complex first; visit(neighbour, isAlpha). Without a walk graph the rows
-  // hold the pairs of the alpha-complex with a live end.
+  // Visits the neighbours in a cell's row, the alpha-complex first; visit(neighbour, isAlpha). Without a walk graph only live
+  // cells have rows.
   template <class Visit>
   void visitRow(uint32_t local, Visit&& visit) const {
     const std::span<const uint32_t> alpha = rowOf(graphs_.alpha, own_[local]);
@@ -42,18 +42,14 @@ class ChunkGeometry {
       for (const uint32_t neighbour : alpha) visit(neighbour, true);
       next = alpha.begin();
     }
-    for (const uint32_t neighbour : rowOf(graphs_.hasWalkGraph ? graphs_.walk : graphs_.alpha, own_[local])) {
+    if (!graphs_.hasWalkGraph) return;
+    for (const uint32_t neighbour : rowOf(graphs_.walk, own_[local])) {
       if (next != alpha.end() && *next == neighbour) {
         ++next;  // both rows ascend
-      } else if (graphs_.hasWalkGraph || isLive(neighbour)) {
+      } else {
         visit(neighbour, false);
       }
     }
-  }
-
-  bool isLive(uint32_t cell) const {
-    const CellRef ref = plan_.refs[cell];
-    return plan_.localOf(ref) < plan_.chunks[plan_.chunkOf(ref)].liveCount;
   }
 
   void findGhosts() {
