@@ -4,7 +4,7 @@
 froth_reader.py FILE [--layer 0|1|2] [--compare DUMP]
 
 Prints what is in FILE; with DUMP (asset_dump.h) compares every array with the other reader's, bit for bit.
-Exit codes: 0 well, 1 they differ or the file is broken, 77 a package is missing.
+Exit codes: 0 well, 1 they differ or the file is broken, 77 a package is missing, or FILE has Draco sections.
 """
 import argparse
 import struct
@@ -22,6 +22,10 @@ SHARED = 0xFFFFFFFF
 MAX_INDEX = 2**24 - 1
 MAX_WINDOW = 1 << 23
 CODEC_STORED, CODEC_ZSTD, CODEC_PLANES, CODEC_DELTA, CODEC_MORTON, CODEC_DRACO = range(6)
+
+
+class NotHere(Exception):
+    """What the page describes and this reader leaves out."""
 
 
 def need(condition, message):
@@ -137,7 +141,9 @@ def decode(stored, codec, element, entries, components):
     if codec == CODEC_MORTON:
         need(element == 4 and components == 3, "Morton delta of something that is no position")
         return decode_morton(stored, entries)
-    need(codec in (CODEC_PLANES, CODEC_DELTA), "Draco: not in this reader" if codec == CODEC_DRACO else "unknown codec")
+    if codec == CODEC_DRACO:
+        raise NotHere("Draco sections are not in this reader")
+    need(codec in (CODEC_PLANES, CODEC_DELTA), "unknown codec")
     elements = join_planes(decode_frame(stored, count * element), dtype, components)
     if codec == CODEC_DELTA:
         elements = np.cumsum(unfold(elements).reshape(entries, components), axis=0, dtype=dtype).ravel()
@@ -472,4 +478,8 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except NotHere as left_out:
+        print(left_out)
+        sys.exit(77)
