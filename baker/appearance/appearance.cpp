@@ -37,14 +37,18 @@ std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer,
   return kept;
 }
 
-std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer,
-                                  const AppearanceOptions& options) {
+std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer, const AppearanceOptions& options,
+                                  const Progress& progress) {
+  constexpr uint64_t kSlice = 512;  // sites between looks at the progress
   const uint64_t siteCount = uint64_t{foam.cellCount} * foam.detailCount;
   const uint64_t count = std::min<uint64_t>(siteCount, uint64_t{kSitesPerEntry} * options.codebookSize);
   std::vector<std::vector<glm::vec3>> perSite(count);
-  tbb::parallel_for(uint64_t{0}, count, [&](uint64_t i) {
-    perSite[i] = sampleAxes(foam, observer, options, i * siteCount / count);
-  });
+  for (uint64_t first = 0; first < count; first += kSlice) {
+    if (!report(progress, "lobes sampled", first, count)) return {};
+    tbb::parallel_for(first, std::min(first + kSlice, count), [&](uint64_t i) {
+      perSite[i] = sampleAxes(foam, observer, options, i * siteCount / count);
+    });
+  }
   std::vector<glm::vec3> samples;
   for (const auto& some : perSite) samples.insert(samples.end(), some.begin(), some.end());
   return samples;
@@ -59,16 +63,16 @@ struct AppearanceCoder::Model {
 
 Result<AppearanceCoder> AppearanceCoder::create(const Foam& foam, const Visibility* visibility,
                                                 const AppearanceOptions& options, const Progress& progress) {
-  if (!report(progress, "codebook", 0, 1))
-    return makeError(ErrorKind::kCancelled, "codebook: stopped on request");
   AppearanceCoder coder;
   coder.foam_ = &foam;
   coder.options_ = options;
   auto model = std::make_shared<Model>(Model{Observer(foam, visibility), {}});
   if (options.codebookSize > 0) {
-    const auto samples = sampleAxes(foam, model->observer, options);
-    model->codebook = AxisCodebook(trainCodebook(samples, options.codebookSize, options.seed));
+    const auto samples = sampleAxes(foam, model->observer, options, progress);
+    model->codebook = AxisCodebook(trainCodebook(samples, options.codebookSize, options.seed, progress));
   }
+  if (!report(progress, "codebook", 1, 1))
+    return makeError(ErrorKind::kCancelled, "codebook: stopped on request");
   coder.model_ = std::move(model);
   return coder;
 }

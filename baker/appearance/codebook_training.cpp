@@ -34,7 +34,8 @@ std::vector<uint32_t> assign(const std::vector<glm::vec3>& batch, const std::vec
 
 }  // namespace
 
-std::vector<glm::vec3> trainCodebook(std::span<const glm::vec3> samples, uint32_t size, uint64_t seed) {
+std::vector<glm::vec3> trainCodebook(std::span<const glm::vec3> samples, uint32_t size, uint64_t seed,
+                                     const Progress& progress) {
   if (samples.empty() || size == 0) return {};
   std::mt19937_64 random(seed);
   const auto draw = [&] { return samples[random() % samples.size()]; };
@@ -43,6 +44,7 @@ std::vector<glm::vec3> trainCodebook(std::span<const glm::vec3> samples, uint32_
 
   std::vector<glm::vec3> batch(size_t{size} * kSamplesPerEntry);
   for (uint32_t b = 0; b < kBatches; ++b) {
+    if (!report(progress, "codebook", b, kBatches)) return {};
     for (glm::vec3& axis : batch) axis = draw();
     const std::vector<uint32_t> nearest = assign(batch, centres);
     for (size_t i = 0; i < batch.size(); ++i) {

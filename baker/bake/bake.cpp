@@ -26,10 +26,8 @@
 namespace froth {
 namespace {
 
-// Most memory that CGAL takes per site while it triangulates; measured. [bytes]
-constexpr uint64_t kTriangulationBytes = 1000;
-// A region is triangulated with the sites around it.
-constexpr uint64_t kHaloFactor = 3;
+// Larger scenes are triangulated region by region even where memory is plenty: on all cores, and stopped soon.
+constexpr uint32_t kWholeCells = 1u << 18, kRegionCells = 1u << 17;
 
 Error cancelled() {
   return makeError(ErrorKind::kCancelled, "bake stopped on request");
@@ -169,12 +167,13 @@ Status Bake::placeSteiner() {
 }
 
 Status Bake::triangulate() {
-  const bool fits = options_.memoryLimit == 0 || cells_.count() * kTriangulationBytes <= options_.memoryLimit;
-  const uint64_t regionCells = std::max<uint64_t>(options_.memoryLimit / (kTriangulationBytes * kHaloFactor), 1000);
+  const uint32_t count = cells_.count();
+  const uint64_t limit = options_.memoryLimit;
+  const bool isWhole = count <= kWholeCells && (limit == 0 || triangulationBytes(count) <= limit);
+  const uint32_t regionCells = limit == 0 ? kRegionCells : std::min(kRegionCells, regionCellsWithin(count, limit));
   Result<RegularTriangulation> triangulation =
-      fits ? triangulateRegular(cells_.sites, cells_.radii, progress_)
-           : triangulateRegions(cells_.sites, cells_.radii, mortonOrder(cells_.sites),
-                                static_cast<uint32_t>(std::min<uint64_t>(regionCells, cells_.count())), progress_);
+      isWhole ? triangulateRegular(cells_.sites, cells_.radii, progress_)
+              : triangulateRegions(cells_.sites, cells_.radii, mortonOrder(cells_.sites), regionCells, progress_);
   if (!triangulation) return triangulation.error();
   triangulation_ = std::move(*triangulation);
   recorder_.finish("triangulate", cells_.count());

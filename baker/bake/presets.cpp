@@ -13,11 +13,11 @@ BakeKnobs defaultKnobs() {
   knobs.detailSiteBits = 6;
   knobs.heightBits = 5;
   knobs.compressColours = true;
-  knobs.appearance.errorBound = 0.027f;
+  knobs.appearance.errorBound = 0.03f;
   knobs.appearance.lobeLimit = 8;
-  knobs.appearance.codebookSize = 4096;
-  knobs.appearance.colourStep = 0x1p-6f;
-  knobs.appearance.lobeAxisStep = 0;  // the codebook's axes as they are
+  knobs.appearance.codebookSize = 2048;
+  knobs.appearance.colourStep = 0x1p-5f;  // each cell coarsens it by what it shows
+  knobs.appearance.lobeAxisStep = 0.5f;
   return knobs;
 }
 
@@ -48,7 +48,7 @@ BakeKnobs smallKnobs() {
   knobs.appearance.errorBound = 0.06f;
   knobs.appearance.lobeLimit = 4;
   knobs.appearance.codebookSize = 1024;
-  knobs.appearance.colourStep = 0x1p-5f;
+  knobs.appearance.lobeAxisStep = 0;  // the codebook's axes as they are
   return knobs;
 }
 

@@ -53,17 +53,17 @@ class Bench:
 
     def measure(self, flags, truth):
         asset = self.bake(flags)
-        cells = run_json(self.options.froth, "info", asset)["cellCount"]
+        cells = run_json(self.options.froth, "info", asset)["cells"]
         images = self.draw(asset, "images")
         psnr = [run_json(self.options.froth, "compare", a, b)["psnr"] for a, b in zip(truth, images, strict=True)]
         size = asset.stat().st_size
         return {"bytes": size, "bytesPerCell": size / cells, "minPsnr": min(psnr), "meanPsnr": sum(psnr) / len(psnr)}
 
 
-def settings():
+def settings(options):
     for preset in PRESETS[1:]:
         yield "preset", preset, ["--preset", preset]
-    for flag, values in SWEEPS.items():
+    for flag, values in [] if options.presets_only else SWEEPS.items():
         for value in values:
             yield flag.removeprefix("--"), value, ["--preset", "default", flag, value]
 
@@ -95,6 +95,7 @@ def main():
     parser.add_argument("--foam", required=True, help="checkpoint")
     parser.add_argument("--cameras", required=True, help="views that are compared")
     parser.add_argument("--fit", required=True, help="cameras given to the bake")
+    parser.add_argument("--presets-only", action="store_true", help="leave the single knobs out")
     parser.add_argument("--size", help="WxH of the images; default: the views' own")
     parser.add_argument("-o", "--output", required=True, help="name of the .csv and .svg, without ending")
     options = parser.parse_args()
@@ -102,7 +103,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         bench = Bench(options, pathlib.Path(name))
         truth = bench.draw(bench.bake(["--preset", "exact"]), "exact")
-        for knob, value, flags in settings():
+        for knob, value, flags in settings(options):
             rows.append({"knob": knob, "value": value, **bench.measure(flags, truth)})
             print(rows[-1], flush=True)
     output = pathlib.Path(options.output)
@@ -110,7 +111,10 @@ def main():
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
         writer.writerows(rows)
-    plot(rows, output.with_suffix(".svg"))
+    try:
+        plot(rows, output.with_suffix(".svg"))
+    except ImportError:
+        print("no plot: python3-matplotlib is not installed")
 
 
 if __name__ == "__main__":
