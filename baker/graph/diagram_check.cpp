@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "baker/synth/counter_random.h"
+#include "baker/counter_random.h"
 #include "shaders/foam/cell.h"
 
 namespace froth {

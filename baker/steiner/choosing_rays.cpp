@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "baker/synth/counter_random.h"
+#include "baker/counter_random.h"
 
 namespace froth {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "baker/synth/counter_random.h"
+#include "baker/counter_random.h"
 #include "shaders/foam/cell.h"
 
 namespace froth {

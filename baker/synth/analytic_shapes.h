@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "baker/synth/counter_random.h"
+#include "baker/counter_random.h"
 
 namespace froth {
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <tbb/parallel_for.h>
 #include <glm/gtc/quaternion.hpp>
@@ -21,7 +22,6 @@ using glm::dvec4;
 
 namespace {
 
-constexpr uint32_t kDetailCount = 8, kLobeCount = 8;
 constexpr double kDetailSharpness = 10;
 constexpr double kOpticalRadius = 40;    // density * radius: opaque within a few percent of the radius
 constexpr double kContactMargin = 0.25;  // [spacings] sites this close to another solid would cut it
@@ -102,11 +102,11 @@ PlacedSites placeAtMost(uint32_t cellCount, uint64_t seed) {
   return best;
 }
 
-Foam makeCells(const PlacedSites& placed) {
+Foam makeCells(const PlacedSites& placed, uint32_t detailCount, uint32_t lobeCount) {
   Foam foam;
   foam.cellCount = static_cast<uint32_t>(placed.sites.size());
-  foam.detailCount = kDetailCount;
-  foam.lobeCount = kLobeCount;
+  foam.detailCount = detailCount;
+  foam.lobeCount = lobeCount;
   for (const SurfaceSite& site : placed.sites) {
     const glm::dmat3 rows(site.normal, site.tangent, glm::cross(site.normal, site.tangent));
     const glm::dquat q = glm::normalize(glm::quat_cast(glm::transpose(rows)));
@@ -115,11 +115,11 @@ Foam makeCells(const PlacedSites& placed) {
     foam.densities.push_back(static_cast<float>(kOpticalRadius / site.radius));
     foam.orientations.emplace_back(q.w, q.x, q.y, q.z);
   }
-  const size_t details = size_t{foam.cellCount} * kDetailCount;
+  const size_t details = size_t{foam.cellCount} * detailCount;
   foam.detailSites.resize(details);
   foam.detailHeights.resize(details);
-  foam.lobeAxes.resize(details * kLobeCount);
-  foam.lobeColours.resize(details * kLobeCount);
+  foam.lobeAxes.resize(details * lobeCount);
+  foam.lobeColours.resize(details * lobeCount);
   return foam;
 }
 
@@ -153,17 +153,17 @@ std::vector<SeenColour> lookAtPoint(const LitPoint& point) {
 }
 
 // Writes the lobes of one detail site. `shift` is what sharpening adds to every colour.
-void writeLobes(const LitPoint& point, const dvec3& plainColour, const dvec3& shift, glm::vec3* axes,
-                glm::vec3* colours) {
+void writeLobes(const LitPoint& point, const dvec3& plainColour, const dvec3& shift, std::span<glm::vec3> axes,
+                std::span<glm::vec3> colours) {
   if (point.reflectance == dvec3(0)) {
-    std::fill_n(axes, kLobeCount, glm::vec3(-0.01 * point.normal));
-    std::fill_n(colours, kLobeCount, glm::vec3(plainColour + shift - 0.5));
+    std::fill(axes.begin(), axes.end(), glm::vec3(-0.01 * point.normal));
+    std::fill(colours.begin(), colours.end(), glm::vec3(plainColour + shift - 0.5));
     return;
   }
   const std::vector<SeenColour> seen = lookAtPoint(point);
-  const std::vector<dvec3> chosen = chooseLobeAxes(seen, kLobeCount);
+  const std::vector<dvec3> chosen = chooseLobeAxes(seen, static_cast<uint32_t>(axes.size()));
   const std::vector<dvec3> fitted = fitLobeColours(chosen, seen);
-  for (size_t m = 0; m < kLobeCount; ++m) {
+  for (size_t m = 0; m < axes.size(); ++m) {
     axes[m] = chosen[m];
     colours[m] = fitted[m] + shift;
   }
@@ -179,7 +179,7 @@ class CellFitter {
     const FaceFrame<double> frame = faceFrame<double>(foam_.orientations[cell]);
     const dvec3 centre = foam_.sites[cell];
     const double radius = foam_.radii[cell];
-    const FacePatch patch = spreadDetails(cutsOfFace(cell, frame), kDetailCount);
+    const FacePatch patch = spreadDetails(cutsOfFace(cell, frame), foam_.detailCount);
 
     const auto surfacePoint = [&](const dvec2& x, double& height) {
       const dvec3 onFace = centre + radius * (x.x * frame.tangent + x.y * frame.bitangent);
@@ -195,15 +195,17 @@ class CellFitter {
       samples.emplace_back(displayColour(point, usual), height / radius);
     }
     const std::vector<dvec4> values = fitDetailValues(patch, samples, kDetailSharpness);
-    for (uint32_t k = 0; k < kDetailCount; ++k) {
-      const size_t detail = size_t{cell} * kDetailCount + k;
+    for (uint32_t k = 0; k < foam_.detailCount; ++k) {
+      const size_t detail = size_t{cell} * foam_.detailCount + k;
       double height;
       const LitPoint point = surfacePoint(patch.details[k], height);
       const dvec3 plain = displayColour(point, usual);
       foam_.detailSites[detail] = patch.details[k];
       foam_.detailHeights[detail] = static_cast<float>(std::clamp(values[k].w, -kMaxHeight, kMaxHeight));
-      writeLobes(point, plain, dvec3(values[k]) - plain, &foam_.lobeAxes[detail * kLobeCount],
-                 &foam_.lobeColours[detail * kLobeCount]);
+      const size_t firstLobe = detail * foam_.lobeCount;
+      writeLobes(point, plain, dvec3(values[k]) - plain,
+                 std::span(foam_.lobeAxes).subspan(firstLobe, foam_.lobeCount),
+                 std::span(foam_.lobeColours).subspan(firstLobe, foam_.lobeCount));
     }
   }
 
@@ -230,13 +232,13 @@ class CellFitter {
 
 }  // namespace
 
-Result<Foam> synthesizeGallery(uint32_t cellCount, uint64_t seed, const Progress& progress) {
-  const PlacedSites placed = placeAtMost(cellCount, seed);
+Result<Foam> synthesizeGallery(const GallerySize& size, uint64_t seed, const Progress& progress) {
+  const PlacedSites placed = placeAtMost(size.cells, seed);
   if (placed.sites.empty())
     return makeError(ErrorKind::kUsage,
                      "gallery: %u cells do not cover its thin parts; ask for more (the default is 200000)",
-                     cellCount);
-  Foam foam = makeCells(placed);
+                     size.cells);
+  Foam foam = makeCells(placed, size.detailSites, size.lobes);
   const CellGraph pairs = findCechPairs(foam.sites, foam.radii);
   CellFitter fitter(foam, placed.solids, pairs);
   constexpr uint32_t kReports = 100;

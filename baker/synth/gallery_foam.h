@@ -9,8 +9,13 @@
 
 namespace froth {
 
-// At most `cellCount` cells, and within a few percent of it: surfaces take whole rows of cells. K = 8, M = 8.
+struct GallerySize {
+  uint32_t cells = 200000;       // at most; surfaces take whole rows of cells, so it is a few percent less
+  uint32_t detailSites = 8;      // K [1..32]
+  uint32_t lobes = 8;            // M [1..32]
+};
+
 // Fails with kUsage below the number of cells that the thinnest parts need.
-Result<Foam> synthesizeGallery(uint32_t cellCount, uint64_t seed, const Progress& progress);
+Result<Foam> synthesizeGallery(const GallerySize& size, uint64_t seed, const Progress& progress);
 
 }  // namespace froth

@@ -1,6 +1,6 @@
 #include "baker/synth/procedural_textures.h"
 
-#include "baker/synth/counter_random.h"
+#include "baker/counter_random.h"
 
 namespace froth {
 

@@ -7,15 +7,17 @@ namespace froth {
 
 namespace {
 
-constexpr uint32_t kGalleryCells = 200000;
-
 struct Scene {
   const char* name;
   Result<Foam> (*make)(const SynthOptions& options, const Progress& progress);
 };
 
 Result<Foam> makeGallery(const SynthOptions& options, const Progress& progress) {
-  return synthesizeGallery(options.cellCount ? options.cellCount : kGalleryCells, options.seed, progress);
+  GallerySize size;
+  if (options.cellCount) size.cells = options.cellCount;
+  if (options.detailCount) size.detailSites = options.detailCount;
+  if (options.lobeCount) size.lobes = options.lobeCount;
+  return synthesizeGallery(size, options.seed, progress);
 }
 
 constexpr Scene kScenes[] = {

@@ -3,7 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "baker/synth/counter_random.h"
+#include "baker/counter_random.h"
 #include "baker/synth/gallery_scene.h"
 #include "baker/synth/synth.h"
 

@@ -102,6 +102,9 @@ Status checkOptions(const CLI::App& command, const SynthCommandOptions& options)
   if ((isTile || isTruth) && command.count("--cells") + command.count("--seed") > 0) {
     return makeError(ErrorKind::kUsage, "--cells and --seed belong to a foam that is made from nothing");
   }
+  if ((options.synth.name != kGallery || isTruth) && command.count("--detail-sites") + command.count("--lobes") > 0) {
+    return makeError(ErrorKind::kUsage, "--detail-sites and --lobes belong to the gallery's foam");
+  }
   if (!isTruth && !isTile && isAssetPath(options.output)) {
     return makeError(ErrorKind::kUsage,
                      "-o %s: a synthetic foam is a checkpoint; name a .pt and `froth bake` it",
@@ -132,6 +135,10 @@ void addSynthCommand(CLI::App& program, Tool& tool) {
       ->required();
   command->add_option("--cells", options->synth.cellCount, "Cells to make; 0: as many as suit the scene")
       ->check(countBetween(0, std::numeric_limits<uint32_t>::max()));
+  command->add_option("--detail-sites", options->synth.detailCount, "gallery: detail sites per cell; default 8")
+      ->check(countBetween(1, 32));
+  command->add_option("--lobes", options->synth.lobeCount, "gallery: lobes per detail site; default 8")
+      ->check(countBetween(1, 32));
   command->add_option("--seed", options->synth.seed, "Seed of what is random")->capture_default_str();
   command->add_option("--of", options->tileSource, "tile: the checkpoint or asset to copy");
   command->add_option("--count", options->tileCount, "tile: number of copies")

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/synth/counter_random.h"
+#include "baker/counter_random.h"
 #include "shaders/foam/appearance.h"
 
 namespace froth {
