@@ -26,9 +26,6 @@
 namespace froth {
 namespace {
 
-// Larger scenes are triangulated region by region even where memory is plenty: on all cores, and stopped soon.
-constexpr uint32_t kWholeCells = 1u << 18, kRegionCells = 1u << 17;
-
 Error cancelled() {
   return makeError(ErrorKind::kCancelled, "bake stopped on request");
 }
@@ -169,11 +166,11 @@ Status Bake::placeSteiner() {
 Status Bake::triangulate() {
   const uint32_t count = cells_.count();
   const uint64_t limit = options_.memoryLimit;
-  const bool isWhole = count <= kWholeCells && (limit == 0 || triangulationBytes(count) <= limit);
-  const uint32_t regionCells = limit == 0 ? kRegionCells : std::min(kRegionCells, regionCellsWithin(count, limit));
+  const bool isWhole = limit == 0 || triangulationBytes(count) <= limit;
   Result<RegularTriangulation> triangulation =
       isWhole ? triangulateRegular(cells_.sites, cells_.radii, progress_)
-              : triangulateRegions(cells_.sites, cells_.radii, mortonOrder(cells_.sites), regionCells, progress_);
+              : triangulateRegions(cells_.sites, cells_.radii, mortonOrder(cells_.sites),
+                                   regionCellsWithin(count, limit), progress_);
   if (!triangulation) return triangulation.error();
   triangulation_ = std::move(*triangulation);
   recorder_.finish("triangulate", cells_.count());
