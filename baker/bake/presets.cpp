@@ -6,8 +6,8 @@ namespace {
 
 BakeKnobs defaultKnobs() {
   BakeKnobs knobs;
-  knobs.positionBits = 16;
-  knobs.radiusBits = 9;
+  knobs.positionBits = 18;
+  knobs.radiusBits = 11;
   knobs.densityBits = 4;
   knobs.frameBits = 10;
   knobs.detailSiteBits = 6;

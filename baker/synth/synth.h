@@ -16,8 +16,8 @@ namespace froth {
 struct SynthOptions {
   std::string name;        // "gallery", "one", "two", "grid", "shell", "random"
   uint32_t cellCount = 0;  // 0: the scene's default (gallery 200,000)
-  uint32_t detailCount = 0, lobeCount = 0;  // of the gallery, K and M [1..32]; 0: 8 each
   uint64_t seed = 1;
+  uint32_t detailCount = 0, lobeCount = 0;  // of the gallery, K and M [1..32]; 0: 8 each
 };
 
 std::vector<std::string> synthNames();
