@@ -51,7 +51,8 @@ class Lattice : public testing::Test {
 
 TEST_F(Lattice, StepsAreTheKnobs) {
   const Quantization& lattices = result_.contents.quantization;
-  EXPECT_EQ(lattices.positionStep, 8.0 / 65536);  // the foam is just under 10 wide
+  // The foam is just under 10 wide: its extent over 2^bits, rounded down to a power of two.
+  EXPECT_EQ(lattices.positionStep, std::ldexp(8.0, -static_cast<int>(geometryOptions().knobs.positionBits)));
   EXPECT_EQ(lattices.detailSiteStep, std::ldexp(1.0f, -static_cast<int>(geometryOptions().knobs.detailSiteBits)));
 }
 
