@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "format/deltas.h"
 #include "format/quantization.h"
 
 namespace froth {
@@ -14,12 +15,12 @@ inline constexpr int32_t kMaxLatticeIndex = (1 << 24) - 1;
 
 inline constexpr uint8_t kMaxColourScale = 15;
 
-// 0, -1, 1, -2, 2, ... as 0, 1, 2, 3, 4, ...
+// Signed indices as small unsigned elements.
 inline uint32_t zigzag(int32_t value) {
-  return (static_cast<uint32_t>(value) << 1) ^ static_cast<uint32_t>(value >> 31);
+  return foldDelta(static_cast<uint32_t>(value));
 }
 inline int32_t unzigzag(uint32_t element) {
-  return static_cast<int32_t>(element >> 1) ^ -static_cast<int32_t>(element & 1);
+  return static_cast<int32_t>(unfoldDelta(element));
 }
 
 // The channels of a colour rise and fall together: green is stored as it is, red and blue as differences to it, in this order.

@@ -44,7 +44,7 @@ enum class ElementKind {
   kFloat,  // float32
   kInt32,  // two's complement
   kUint32,
-  kGraph,     // unsigned, 2 bytes, or 4 if a chunk has more than 65536 sites
+  kGraph,     // unsigned, 2 bytes, or 4 if a chunk has more than 32768 sites
   kByte,      // unsigned, 1 byte
   kUnsigned,  // 1, 2 or 4 bytes, as the writer finds room; the number is record.base + element
   kSigned,    // 1, 2 or 4 bytes: 0, -1, 1, -2, 2, ... are 0, 1, 2, 3, 4, ...

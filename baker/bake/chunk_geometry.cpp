@@ -10,10 +10,6 @@
 namespace froth {
 namespace {
 
-std::span<const uint32_t> rowOf(const CellGraph& graph, uint32_t cell) {
-  return std::span(graph.neighbours).subspan(graph.offsets[cell], graph.offsets[cell + 1] - graph.offsets[cell]);
-}
-
 class ChunkGeometry {
  public:
   ChunkGeometry(const BakeCells& cells, const ChunkPlan& plan, uint32_t index, const SceneGraphs& graphs)
@@ -36,14 +32,14 @@ class ChunkGeometry {
   // cells have rows.
   template <class Visit>
   void visitRow(uint32_t local, Visit&& visit) const {
-    const std::span<const uint32_t> alpha = rowOf(graphs_.alpha, own_[local]);
+    const std::span<const uint32_t> alpha = neighboursOf(graphs_.alpha, own_[local]);
     auto next = alpha.end();
     if (local < chunk_.liveCount) {
       for (const uint32_t neighbour : alpha) visit(neighbour, true);
       next = alpha.begin();
     }
     if (!graphs_.hasWalkGraph) return;
-    for (const uint32_t neighbour : rowOf(graphs_.walk, own_[local])) {
+    for (const uint32_t neighbour : neighboursOf(graphs_.walk, own_[local])) {
       if (next != alpha.end() && *next == neighbour) {
         ++next;  // both rows ascend
       } else {
