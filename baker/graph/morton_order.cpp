@@ -5,20 +5,12 @@
 #include <tbb/parallel_sort.h>
 
 #include "baker/graph/graph.h"
+#include "format/deltas.h"
 
 namespace froth {
 namespace {
 
 constexpr int kBitsPerAxis = 21;  // 63 of a 64-bit key
-
-// Spreads the low 21 bits of a value to every third bit.
-uint64_t spreadBits(uint64_t value) {
-  value = (value | value << 32) & 0x001f00000000ffff;
-  value = (value | value << 16) & 0x001f0000ff0000ff;
-  value = (value | value << 8) & 0x100f00f00f00f00f;
-  value = (value | value << 4) & 0x10c30c30c30c30c3;
-  return (value | value << 2) & 0x1249249249249249;
-}
 
 }  // namespace
 
@@ -36,8 +28,8 @@ std::vector<uint32_t> mortonOrder(std::span<const glm::vec3> sites) {
 
   std::vector<std::pair<uint64_t, uint32_t>> keys(sites.size());
   for (uint32_t i = 0; i < sites.size(); ++i) {
-    const glm::u64vec3 place((glm::dvec3(sites[i]) - low) * scale);
-    keys[i] = {spreadBits(place.x) | spreadBits(place.y) << 1 | spreadBits(place.z) << 2, i};
+    const glm::uvec3 place((glm::dvec3(sites[i]) - low) * scale);
+    keys[i] = {mortonCode({place.x, place.y, place.z}), i};
   }
   tbb::parallel_sort(keys.begin(), keys.end());
   std::vector<uint32_t> order(sites.size());
