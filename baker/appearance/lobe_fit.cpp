@@ -21,7 +21,7 @@ LobeBasis::LobeBasis(const Observations& seen, std::vector<glm::vec3> axes) : ax
   exponents_.resize(seen.size() * count);
   weights_.resize(seen.size() * count);
   for (size_t i = 0; i < seen.size(); ++i) {
-    float* const exponents = &exponents_[i * count];
+    float* const exponents = exponents_.data() + i * count;
     for (size_t a = 0; a < count; ++a) exponents[a] = foam::lobeExponent(axes_[a], seen.directions[i]);
     const float largest = count > 0 ? *std::max_element(exponents, exponents + count) : 0;
     for (size_t a = 0; a < count; ++a) weights_[i * count + a] = std::exp(double(exponents[a]) - largest);
