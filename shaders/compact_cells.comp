@@ -1,4 +1,5 @@
 // Lists the visible cells in the order of the asset: same grid as cull_cells.comp, whose bits and scanned sums it reads.
+// Cells that find no space are no longer visible: all from the first one on for whom there is no slot or no planes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
@@ -13,34 +14,37 @@ uint orderedBits(float value) {
   return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 
+// Slots that the cells before this thread's take; `word` gets its 32 cells' bits, and its first slot is stored.
+uint slotOfThread(uint group, out uint word) {
+  uint thread = gl_LocalInvocationIndex;
+  uint firstWord = group * kMaskWords;
+  uint slot = FRAME.groupSums.v[group].x;
+  for (uint i = 0; i < thread / 32; ++i) slot += bitCount(FRAME.visibility.v[firstWord + i].x);
+  word = FRAME.visibility.v[firstWord + thread / 32].x;
+  if (thread % 32 == 0) FRAME.visibility.v[firstWord + thread / 32].y = slot;
+  return slot + bitCount(word & ((1u << (thread % 32)) - 1));
+}
+
 void main() {
   uint thread = gl_LocalInvocationIndex;
   Chunk chunk = loadChunk(gl_WorkGroupID.y);
   uint local = gl_GlobalInvocationID.x;
-  uint groups = FRAME.chunkCount * FRAME.groupsPerChunk;
-  uint group = checked(chunk.index * FRAME.groupsPerChunk + gl_WorkGroupID.x, groups);
-  bool isLive = local < chunk.liveCount;
+  uint group = checked(chunk.index * FRAME.groupsPerChunk + gl_WorkGroupID.x, FRAME.chunkCount * FRAME.groupsPerChunk);
 
-  uint slot = FRAME.groupSums.v[group].x;
-  uint word = 0;
-  for (uint i = 0; i <= thread / 32; ++i) {
-    word = FRAME.visibilityMasks.v[group * kMaskWords + i];
-    if (i < thread / 32) slot += bitCount(word);
-  }
-  slot += bitCount(word & ((1u << (thread % 32)) - 1));
+  uint word;
+  uint slot = slotOfThread(group, word);
   bool isVisible = (word >> (thread % 32) & 1u) != 0;
-
   uint planeCount = isVisible ? FRAME.chunks.v[chunk.index].alphaCounts.v[local] : 0;
   uint planeTotal;
-  uint plane = FRAME.groupSums.v[group].y + scanExclusive(planeCount, planeTotal);
-
-  if (isLive) {
-    uint live = checked(chunk.liveStart + local, FRAME.visibleCapacity);
-    FRAME.slotOfCell.v[live] = isVisible ? slot : kNoCell;
-  }
+  uint plane = saturatingAdd(FRAME.groupSums.v[group].y, scanExclusive(planeCount, planeTotal));
   if (!isVisible) return;
+
+  if (slot >= FRAME.visibleCapacity || saturatingAdd(plane, planeCount) > FRAME.planeCapacity) {
+    atomicMin(COUNTERS.visibleCells, slot);
+    atomicAnd(FRAME.visibility.v[group * kMaskWords + thread / 32].x, ~(1u << (thread % 32)));
+    return;
+  }
   Ball ball = ballOfSite(chunk, local);
-  slot = checked(slot, FRAME.visibleCapacity);
   FRAME.visibleCells.v[slot] = uvec4(chunk.index, local, plane, planeCount);
   FRAME.cellKeys.v[slot] = orderedBits(powerOfOrigin(ball.centre, ball.radius));
   FRAME.order.v[slot] = slot;

@@ -35,7 +35,7 @@ void main() {
 
   uint groups = FRAME.chunkCount * FRAME.groupsPerChunk;
   if (thread < kMaskWords) {
-    FRAME.visibilityMasks.v[checked(group * kMaskWords + thread, groups * kMaskWords)] = maskWords[thread];
+    FRAME.visibility.v[checked(group * kMaskWords + thread, groups * kMaskWords)] = uvec2(maskWords[thread], 0);
   }
   if (thread == 0) {
     uint cells = 0;

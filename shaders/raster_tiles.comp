@@ -37,8 +37,10 @@ void meetCell(uint index, vec3 direction, inout Radiance radiance) {
   vec4 ball = balls[index];
   float tNear, tFar;
   if (!intersectBall(ball.xyz, ball.w, direction, tNear, tFar)) return;
+  countWork(kWorkBallHits, 1);
   uint visible = cells[index];
   CellRecord cell = FRAME.records.v[visible];
+  countWork(kWorkPlanes, cell.planeEnd - cell.planeBegin);
   if (clipByPlanes(cell, direction, tNear, tFar)) shadeHit(visible, cell, direction, tNear, tFar, radiance);
 }
 
@@ -82,6 +84,10 @@ void main() {
     barrier();
     if (isLive) atomicOr(liveMask, 1u);
     uint count = gatherBatch(first + lane, range.y, corner);
+    if (lane == 0) {
+      countWork(kWorkEntries, min(range.y - first, kBatch));
+      countWork(kWorkEntriesKept, count);
+    }
     if (liveMask == 0) break;
     if (isLive) {
       for (uint i = 0; i < count && !isSaturated(radiance); ++i) meetCell(i, direction, radiance);

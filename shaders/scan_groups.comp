@@ -15,11 +15,13 @@ uvec2 addPair(uvec2 a, uvec2 b) { return uvec2(saturatingAdd(a.x, b.x), saturati
 uint groupsOf(uint items, uint perGroup) { return items / perGroup + (items % perGroup != 0 ? 1 : 0); }
 
 void planVisible(uvec2 totals) {
-  COUNTERS.visibleCells = totals.x;
-  COUNTERS.planes = totals.y;
-  COUNTERS.visibleDispatch = dispatchOf(groupsOf(totals.x, kGroupSize));
-  COUNTERS.siteDispatch = dispatchOf(groupsOf(totals.x * detailCount, kGroupSize));
-  COUNTERS.cellSortDispatch = dispatchOf(groupsOf(totals.x, kSortKeysPerGroup));
+  uint kept = min(totals.x, FRAME.visibleCapacity);
+  COUNTERS.cellsWanted = totals.x;
+  COUNTERS.planesWanted = totals.y;
+  COUNTERS.visibleCells = kept;  // compact_cells.comp lowers it where planes lack space
+  COUNTERS.visibleDispatch = dispatchOf(groupsOf(kept, kGroupSize));
+  COUNTERS.siteDispatch = dispatchOf(groupsOf(kept * detailCount, kGroupSize));
+  COUNTERS.cellSortDispatch = dispatchOf(groupsOf(kept, kSortKeysPerGroup));
 }
 
 void planPairs(uint total) {

@@ -32,6 +32,7 @@ Step nextStep(Chunk chunk, Step from, vec3 direction) {
   vec3 centre = ballOf(chunk, siteRadius).centre;
   uvec2 row = neighbourRow(chunk, from.site);
   Step next = Step(from.site, from.key, kInfinity, false);
+  countWork(kWorkNeighbours, row.y - row.x);
   for (uint i = row.x; i < row.y; ++i) {
     uint other = neighbourAt(chunk, i);
     vec4 otherSite = siteRadiusOf(chunk, other);
@@ -49,7 +50,10 @@ Step nextStep(Chunk chunk, Step from, vec3 direction) {
 
 uint visibleOfCell(Chunk chunk, uint cell) {
   if (cell >= chunk.liveCount) return kNoCell;
-  return FRAME.slotOfCell.v[checked(chunk.liveStart + cell, FRAME.visibleCapacity)];
+  uint words = FRAME.groupsPerChunk * kMaskWords;
+  uvec2 word = FRAME.visibility.v[checked(chunk.index * words + cell / 32, FRAME.chunkCount * words)];
+  uint bit = 1u << (cell % 32);
+  return (word.x & bit) != 0 ? word.y + bitCount(word.x & (bit - 1)) : kNoCell;
 }
 
 // From the ghost that a step has led to, on to the cell for which it stands.
@@ -63,16 +67,10 @@ void meetCell(uint visible, vec3 direction, float entry, float exit, inout Radia
   CellRecord cell = FRAME.records.v[checked(visible, FRAME.visibleCapacity)];
   float tNear, tFar;
   if (!intersectBall(cell.ball.xyz, cell.ball.w, direction, tNear, tFar)) return;
+  countWork(kWorkBallHits, 1);
   tNear = max(tNear, entry);
   tFar = min(tFar, exit);
   if (tFar > tNear) shadeHit(visible, cell, direction, tNear, tFar, radiance);
-}
-
-void countSteps(uint steps, bool isCut) {
-  if (isCut) atomicAdd(COUNTERS.stepLimit, 1u);
-  if (!checkIndices) return;
-  uint before = atomicAdd(COUNTERS.walkStepsLow, steps);
-  if (before + steps < before) atomicAdd(COUNTERS.walkStepsHigh, 1u);
 }
 
 void main() {
@@ -93,6 +91,7 @@ void main() {
     if (isGhost(chunk, current.site)) enterGhost(chunk, current);
     ++steps;
   }
-  countSteps(steps, current.isInside && !isSaturated(radiance));
+  countWork(kWorkSteps, steps);
+  if (current.isInside && !isSaturated(radiance)) atomicAdd(COUNTERS.stepLimit, 1u);
   writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal);
 }

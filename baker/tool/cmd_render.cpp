@@ -61,6 +61,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 
 std::string describeBits(uint32_t bits) {
   std::string text;
+  if (bits & FROTH_VIEW_CELL_OVERFLOW) text += ", cells overflowed";
   if (bits & FROTH_VIEW_PAIR_OVERFLOW) text += ", pairs overflowed";
   if (bits & FROTH_VIEW_STEP_LIMIT) text += ", walks hit the step limit";
   if (bits & FROTH_VIEW_NOT_READY) text += ", the asset was not ready";
@@ -89,6 +90,7 @@ Status drawViews(const RenderCommandOptions& options, const std::vector<Selected
                                 {"width", view.width},
                                 {"height", view.height},
                                 {"seconds", seconds},
+                                {"cellOverflow", (drawing->statusBits & FROTH_VIEW_CELL_OVERFLOW) != 0},
                                 {"pairOverflow", (drawing->statusBits & FROTH_VIEW_PAIR_OVERFLOW) != 0},
                                 {"stepLimit", (drawing->statusBits & FROTH_VIEW_STEP_LIMIT) != 0}});
   }

@@ -232,7 +232,7 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
     if (Status asked = check(frothGetViewStatus(context, view, &status), "frothGetViewStatus"); !asked) {
       return asked.error();
     }
-    if ((status.bits & FROTH_VIEW_PAIR_OVERFLOW) == 0) break;
+    if ((status.bits & (FROTH_VIEW_CELL_OVERFLOW | FROTH_VIEW_PAIR_OVERFLOW)) == 0) break;
   }
   if (Status silent = checkSilence(status); !silent) return silent.error();
   return status;

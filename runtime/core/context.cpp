@@ -58,7 +58,7 @@ FrothResult Context::create(const FrothContextInfo& info) {
   }
   ring_ = std::move(*ring);
   Result<std::unique_ptr<RenderPipelines>> pipelines =
-      RenderPipelines::create(device_, info.pipelineCache, info.checkIndices != 0);
+      RenderPipelines::create(device_, info.pipelineCache, {info.checkIndices != 0, info.countWork != 0});
   if (!pipelines) {
     return messages.fail(FROTH_ERROR_DEVICE, kCall, "%s", pipelines.error().message.c_str());
   }

@@ -1,5 +1,6 @@
 #include "runtime/render/frame_block.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -31,7 +32,6 @@ uint32_t partsOf(const GpuChunk& chunk) {
 }
 
 void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* chunks) {
-  uint32_t liveStart = 0;
   for (size_t i = 0; i < asset.chunks.size(); ++i) {
     const GpuChunk& chunk = asset.chunks[i];
     const glm::dvec3 offset = glm::dvec3(chunk.origin[0], chunk.origin[1], chunk.origin[2]) - eye;
@@ -56,21 +56,20 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
     entry.liveCount = chunk.liveCount;
     entry.siteCount = chunk.siteCount;
     entry.neighbourCount = chunk.neighbourCount;
-    entry.liveStart = liveStart;
     entry.parts = partsOf(chunk);
-    liveStart += chunk.liveCount;
   }
 }
 
-void fillTransients(const ViewBuffers& buffers, const VkRect2D& region, gpu::FrameBlock& block) {
+void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkRect2D& region,
+                    gpu::FrameBlock& block) {
   const ViewCapacity& capacity = buffers.capacity();
-  block.visibleCapacity = capacity.cells;
+  block.visibleCapacity =
+      static_cast<uint32_t>(std::min(uint64_t{capacity.cells}, capacity.sites / asset.detailCount));
   block.planeCapacity = static_cast<uint32_t>(capacity.planes);
   block.pairCapacity = capacity.pairs;
   block.histogramCapacity = static_cast<uint32_t>(buffers[ViewBuffer::kHistogram].size / sizeof(uint32_t));
   block.groupSums = buffers[ViewBuffer::kGroupSums].address;
-  block.visibilityMasks = buffers[ViewBuffer::kVisibilityMasks].address;
-  block.slotOfCell = buffers[ViewBuffer::kSlotOfCell].address;
+  block.visibility = buffers[ViewBuffer::kVisibility].address;
   block.visibleCells = buffers[ViewBuffer::kVisibleCells].address;
   block.cellKeys = buffers[ViewBuffer::kCellKeys].address;
   block.order = buffers[ViewBuffer::kOrder].address;
@@ -119,7 +118,7 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   const CameraRays rays = computeCameraRays(info.camera, instance);
   fillOutputs(info, block);
   fillCamera(info, rays, instance, block);
-  fillTransients(buffers, region, block);
+  fillTransients(buffers, asset, region, block);
   fillChunks(asset, rays.eye, chunks);
   block.scale = instance.scale;
   block.logCutoff = info.cutoff > 0 ? std::log(info.cutoff) : -std::numeric_limits<float>::infinity();

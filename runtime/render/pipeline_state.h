@@ -49,7 +49,7 @@ using PassPipelines = std::array<VkPipeline, kPassCount>;
 struct RenderPipelines::State {
   Device& device;
   VkPipelineCache cache = VK_NULL_HANDLE;
-  bool checkIndices = false;
+  ShaderOptions options{};
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // the output images
   VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 64 bytes of push constants
   PassPipelines common{};                            // null from kFirstShapedPass on

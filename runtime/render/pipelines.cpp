@@ -61,15 +61,17 @@ struct Specialization {
   VkBool32 checkIndices;
   uint32_t detailCount, lobeCount;
   VkBool32 hasHeights, hasBaseColours, hasLobeOffsets;
+  VkBool32 countWork;
 };
 
-constexpr std::array<VkSpecializationMapEntry, 6> kSpecializationEntries = {{
+constexpr std::array<VkSpecializationMapEntry, 7> kSpecializationEntries = {{
     {gpu::kConstantCheckIndices, offsetof(Specialization, checkIndices), sizeof(VkBool32)},
     {gpu::kConstantDetailCount, offsetof(Specialization, detailCount), sizeof(uint32_t)},
     {gpu::kConstantLobeCount, offsetof(Specialization, lobeCount), sizeof(uint32_t)},
     {gpu::kConstantHasHeights, offsetof(Specialization, hasHeights), sizeof(VkBool32)},
     {gpu::kConstantHasBaseColours, offsetof(Specialization, hasBaseColours), sizeof(VkBool32)},
     {gpu::kConstantHasLobeOffsets, offsetof(Specialization, hasLobeOffsets), sizeof(VkBool32)},
+    {gpu::kConstantCountWork, offsetof(Specialization, countWork), sizeof(VkBool32)},
 }};
 
 Error deviceError(const char* call, const char* object, VkResult result) {
@@ -115,12 +117,13 @@ Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode&
 // Makes passes [first, last) into `pipelines`.
 Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint32_t first, uint32_t last,
                     PassPipelines& pipelines) {
-  const Specialization values{.checkIndices = state.checkIndices,
+  const Specialization values{.checkIndices = state.options.checkIndices,
                               .detailCount = shape.detailCount,
                               .lobeCount = shape.lobeCount,
                               .hasHeights = shape.hasHeights,
                               .hasBaseColours = shape.hasBaseColours,
-                              .hasLobeOffsets = shape.hasLobeOffsets};
+                              .hasLobeOffsets = shape.hasLobeOffsets,
+                              .countWork = state.options.countWork};
   for (uint32_t pass = first; pass < last; ++pass) {
     Result<VkPipeline> pipeline = createPipeline(state, kPassCodes[pass], values);
     if (!pipeline) return pipeline.error();
@@ -186,9 +189,9 @@ RenderPipelines::~RenderPipelines() {
 }
 
 Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device, VkPipelineCache cache,
-                                                                 bool checkIndices) {
+                                                                 ShaderOptions options) {
   std::unique_ptr<RenderPipelines> pipelines(new RenderPipelines);
-  pipelines->state_.reset(new State{.device = device, .cache = cache, .checkIndices = checkIndices});
+  pipelines->state_.reset(new State{.device = device, .cache = cache, .options = options});
   State& state = *pipelines->state_;
   if (const Status status = createLayout(state); !status) return status.error();
   if (const Status status = createPasses(state, {}, 0, kFirstShapedPass, state.common); !status)

@@ -8,11 +8,17 @@
 
 namespace froth {
 
+// What all shaders are specialized to do besides.
+struct ShaderOptions {
+  bool checkIndices = false;  // check every index, count those out of range
+  bool countWork = false;     // count what rays cost
+};
+
 class RenderPipelines {
  public:
-  // Makes what does not depend on an asset. `checkIndices` specializes all shaders to check and count.
+  // Makes what does not depend on an asset.
   static Result<std::unique_ptr<RenderPipelines>> create(Device& device, VkPipelineCache cache,
-                                                         bool checkIndices);
+                                                         ShaderOptions options);
   ~RenderPipelines();
 
   // Makes the pipelines specialized on an asset's shape (K, M, what it holds). Called before the asset becomes

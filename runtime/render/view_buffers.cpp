@@ -31,8 +31,8 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
       return kRecordingsPerFrame * kBlockStride;
     case ViewBuffer::kGroupSums:
       return 8 * VkDeviceSize{std::max(capacity.groups, groupsOver(capacity.cells, gpu::kGroupSize))};
-    case ViewBuffer::kVisibilityMasks:
-      return 4 * gpu::kMaskWords * VkDeviceSize{capacity.groups};
+    case ViewBuffer::kVisibility:
+      return 8 * gpu::kMaskWords * VkDeviceSize{capacity.groups};
     case ViewBuffer::kVisibleCells:
       return 16 * cells;
     case ViewBuffer::kRecords:
@@ -41,7 +41,6 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
       return 16 * capacity.planes;
     case ViewBuffer::kSites:
       return 24 * capacity.sites;
-    case ViewBuffer::kSlotOfCell:
     case ViewBuffer::kCellKeys:
     case ViewBuffer::kCellKeysSwap:
     case ViewBuffer::kOrder:
@@ -69,38 +68,7 @@ BufferKind kindOf(ViewBuffer id) {
   return id == ViewBuffer::kReadback ? BufferKind::kReadback : BufferKind::kDevice;
 }
 
-ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b) {
-  return {std::max(a.frames, b.frames), std::max(a.chunks, b.chunks), std::max(a.groups, b.groups),
-          std::max(a.cells, b.cells),   std::max(a.pairs, b.pairs),   std::max(a.tiles, b.tiles),
-          std::max(a.planes, b.planes), std::max(a.sites, b.sites)};
-}
-
 }  // namespace
-
-uint32_t groupsPerChunk(const GpuAsset& asset) {
-  uint32_t groups = 1;
-  for (const GpuChunk& chunk : asset.chunks)
-    groups = std::max(groups, groupsOver(chunk.liveCount, gpu::kGroupSize));
-  return groups;
-}
-
-void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
-  const auto chunks = static_cast<uint32_t>(asset.chunks.size());
-  ViewCapacity needed;
-  needed.chunks = chunks;
-  needed.groups = chunks * groupsPerChunk(asset);
-  needed.cells = asset.liveCount;
-  needed.planes = asset.alphaTotal;
-  needed.sites = uint64_t{asset.liveCount} * asset.detailCount;
-  capacity = largest(capacity, needed);
-}
-
-bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
-  return asset.chunks.size() <= capacity.chunks &&
-         asset.chunks.size() * groupsPerChunk(asset) <= capacity.groups &&
-         asset.liveCount <= capacity.cells && asset.alphaTotal <= capacity.planes &&
-         uint64_t{asset.liveCount} * asset.detailCount <= capacity.sites;
-}
 
 ViewBuffers::~ViewBuffers() {
   freeRetired(UINT64_MAX);

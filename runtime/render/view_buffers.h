@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/asset/gpu_asset.h"
 #include "runtime/core/device.h"
+#include "runtime/render/view_capacity.h"
 
 namespace froth {
 
@@ -19,8 +19,7 @@ enum class ViewBuffer : uint32_t {
   kReadback,  // Counters of all frames in flight
   kCounters,
   kGroupSums,
-  kVisibilityMasks,
-  kSlotOfCell,
+  kVisibility,
   kVisibleCells,
   kCellKeys,
   kCellKeysSwap,
@@ -38,30 +37,11 @@ enum class ViewBuffer : uint32_t {
   kHistogram,
   kWalkStart,
 };
-inline constexpr uint32_t kViewBufferCount = 23;
+inline constexpr uint32_t kViewBufferCount = 22;
 inline constexpr uint32_t kRecordingsPerFrame = 2;  // a raster and a walk
 
 // [bytes] The space of a FrameBlock and of Counters. The chunk table follows its block.
 inline constexpr VkDeviceSize kBlockStride = 512;
-
-// What a view has space for. Only ever grows.
-struct ViewCapacity {
-  uint32_t frames = 1;  // in flight
-  uint32_t chunks = 1;
-  uint32_t groups = 1;  // chunks times workgroups over the largest chunk's live cells
-  uint32_t cells = 1;   // live
-  uint32_t pairs = 1;
-  uint32_t tiles = 1;
-  uint64_t planes = 1;
-  uint64_t sites = 1;  // live cells times K
-};
-
-// Workgroups over the live cells of an asset's largest chunk.
-uint32_t groupsPerChunk(const GpuAsset& asset);
-
-// Adds what an asset needs.
-void coverAsset(const GpuAsset& asset, ViewCapacity& capacity);
-bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity);
 
 class ViewBuffers {
  public:

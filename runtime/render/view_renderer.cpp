@@ -7,27 +7,33 @@
 namespace froth {
 namespace {
 
-// Space for pairs before the first overflow tells better: a few tiles per cell, and some depth in every tile.
-constexpr uint64_t kLeastPairs = uint64_t{1} << 14;
-constexpr uint64_t kPairsPerCell = 8;
-constexpr uint64_t kPairsPerTile = 32;
-constexpr uint64_t kMostPairs = uint64_t{1} << 30;
-
-uint32_t startPairs(uint64_t cells, uint64_t tiles) {
-  return static_cast<uint32_t>(
-      std::min(std::max(kLeastPairs, kPairsPerCell * cells + kPairsPerTile * tiles), kMostPairs));
+// Pairs of cells that had no space are unknown: the others' share.
+ViewDemand demandOf(const gpu::Counters& counters) {
+  const uint64_t pairs =
+      uint64_t{counters.pairs} * counters.cellsWanted / std::max(counters.visibleCells, 1u);
+  return {counters.cellsWanted, counters.planesWanted, pairs};
 }
 
-// A quarter more than a frame wanted: views move.
-uint32_t pairsFor(uint64_t wanted) {
-  return static_cast<uint32_t>(std::min(wanted + wanted / 4, kMostPairs));
+void addWork(const gpu::Counters& counters, FrothWork& work) {
+  const auto add = [&](uint32_t kind, uint64_t& sum) {
+    sum += uint64_t{counters.work[2 * kind + 1]} << 32 | counters.work[2 * kind];
+  };
+  add(gpu::kWorkEntries, work.entries);
+  add(gpu::kWorkEntriesKept, work.entriesKept);
+  add(gpu::kWorkBallHits, work.ballHits);
+  add(gpu::kWorkPlanes, work.planes);
+  add(gpu::kWorkHeights, work.heights);
+  add(gpu::kWorkColours, work.colours);
+  add(gpu::kWorkSteps, work.steps);
+  add(gpu::kWorkNeighbours, work.neighbours);
 }
 
 void addCounters(const gpu::Counters& counters, FrothViewStatus& status) {
-  status.visibleCells = std::max(status.visibleCells, counters.visibleCells);
+  status.visibleCells = std::max(status.visibleCells, counters.cellsWanted);
   status.pairs += counters.pairs;
-  status.walkSteps += uint64_t{counters.walkStepsHigh} << 32 | counters.walkStepsLow;
   status.indexViolations += counters.violations;
+  addWork(counters, status.work);
+  if (counters.cellsWanted > counters.visibleCells) status.bits |= FROTH_VIEW_CELL_OVERFLOW;
   if (counters.pairs > counters.pairsKept) status.bits |= FROTH_VIEW_PAIR_OVERFLOW;
   if (counters.stepLimit != 0) status.bits |= FROTH_VIEW_STEP_LIMIT;
 }
@@ -45,9 +51,12 @@ void readBack(ViewState& view, uint64_t completedSerial) {
   view.status = {};
   view.status.structSize = sizeof(FrothViewStatus);
   view.status.serial = newest->serial;
+  view.demand = {};
   const auto firstNumber = static_cast<uint32_t>(newest - view.slots.data()) * kRecordingsPerFrame;
   for (uint32_t number = firstNumber; number < firstNumber + newest->recordings; ++number) {
-    addCounters(readCounters(view, number), view.status);
+    const gpu::Counters& counters = readCounters(view, number);
+    addCounters(counters, view.status);
+    view.demand = largest(view.demand, demandOf(counters));
     if (view.timer) view.timer->read(number, view.status);
   }
 }
@@ -77,7 +86,6 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExt
   ViewCapacity capacity;
   capacity.frames = framesInFlight;
   capacity.tiles = tilesAlong(maxExtent.width) * tilesAlong(maxExtent.height);
-  capacity.pairs = startPairs(0, capacity.tiles);
   if (const Status status = renderer->state_->buffers.grow(capacity, 0); !status) return status.error();
   return renderer;
 }
@@ -94,11 +102,10 @@ Status ViewRenderer::prepare(uint64_t completedSerial, const GpuAsset* asset) {
   }
 
   ViewCapacity wanted = view.buffers.capacity();
-  if (asset && !coversAsset(*asset, wanted)) {
+  if (asset) {
     coverAsset(*asset, wanted);
-    wanted.pairs = std::max(wanted.pairs, startPairs(wanted.cells, wanted.tiles));
+    coverDemand(*asset, view.demand, wanted);
   }
-  if (view.status.pairs > wanted.pairs) wanted.pairs = pairsFor(view.status.pairs);
   const VkBuffer oldWalkStart = view.buffers[ViewBuffer::kWalkStart].buffer;
   const Status status = view.buffers.grow(wanted, view.lastSerial);
   const bool isWalkStartKept = view.buffers[ViewBuffer::kWalkStart].buffer == oldWalkStart;

@@ -30,7 +30,8 @@ struct ViewState {
   uint32_t slot = 0;                    // of the frame being recorded
   uint64_t lastSerial = 0;              // newest recorded frame
   const GpuAsset* walkAsset = nullptr;  // whose cell kWalkStart holds
-  FrothViewStatus status{};
+  FrothViewStatus status{};  // of the newest complete frame
+  ViewDemand demand{};       // of that frame
 };
 
 enum class RecordingKind { kRaster, kWalk, kClear };

@@ -42,7 +42,7 @@ Status drawWhole(Host& host, Scene& scene, Painter& painter, Picture picture, co
     if (!drawn) return drawn;
     const Result<FrothViewStatus> status = scene.viewStatus();
     if (!status) return status.error();
-    if ((status->bits & FROTH_VIEW_PAIR_OVERFLOW) == 0) return {};
+    if ((status->bits & (FROTH_VIEW_CELL_OVERFLOW | FROTH_VIEW_PAIR_OVERFLOW)) == 0) return {};
   }
   return makeError(ErrorKind::kUnsupported, "a frame still overflows after %d attempts; use a smaller --size",
                    kMaxAttempts);

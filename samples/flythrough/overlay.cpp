@@ -36,6 +36,7 @@ void layOutPasses(const FrothViewStatus& view) {
 }
 
 void layOutWarnings(const FrothViewStatus& view) {
+  if (view.bits & FROTH_VIEW_CELL_OVERFLOW) ImGui::TextUnformatted("cells overflowed: buffers grow");
   if (view.bits & FROTH_VIEW_PAIR_OVERFLOW) ImGui::TextUnformatted("pairs overflowed: buffers grow");
   if (view.bits & FROTH_VIEW_STEP_LIMIT) ImGui::TextUnformatted("walks hit the step limit");
   if (view.bits & FROTH_VIEW_NO_WALK_GRAPH) ImGui::TextUnformatted("the asset has no walk graph");

@@ -16,15 +16,14 @@ struct Chunk {
   FloatQuadArray siteRadius;
   UintArray neighbourOffsets, neighbours;
   uint cellCount, siteCount, neighbourCount;
-  uint liveCount, liveStart;
+  uint liveCount;
 };
 
 Chunk loadChunk(uint index) {
   uint i = checked(index, FRAME.chunkCount);
   return Chunk(i, FRAME.chunks.v[i].offsetHigh.xyz, FRAME.chunks.v[i].offsetLow.xyz, FRAME.chunks.v[i].siteRadius,
                FRAME.chunks.v[i].neighbourOffsets, FRAME.chunks.v[i].neighbours, FRAME.chunks.v[i].cellCount,
-               FRAME.chunks.v[i].siteCount, FRAME.chunks.v[i].neighbourCount, FRAME.chunks.v[i].liveCount,
-               FRAME.chunks.v[i].liveStart);
+               FRAME.chunks.v[i].siteCount, FRAME.chunks.v[i].neighbourCount, FRAME.chunks.v[i].liveCount);
 }
 
 // The site in its chunk's coordinates, and the radius.

@@ -49,6 +49,7 @@ FROTH_CONST kConstantLobeCount = 2;
 FROTH_CONST kConstantHasHeights = 3;
 FROTH_CONST kConstantHasBaseColours = 4;
 FROTH_CONST kConstantHasLobeOffsets = 5;
+FROTH_CONST kConstantCountWork = 6;
 
 // FrameBlock::flags
 FROTH_CONST kFlagColour = 1;
@@ -82,7 +83,6 @@ struct ChunkEntry {
   uint cellCount, liveCount;
   uint siteCount;  // cells and ghosts
   uint neighbourCount;
-  uint liveStart;  // live cells in the chunks before
   uint parts;
 };
 
@@ -96,20 +96,33 @@ struct CellRecord {
   uint padding;
 };
 
+// Counters::work: what rays cost. Rays count by themselves, entries by workgroup of kSubTileSize x kSubTileSize pixels.
+FROTH_CONST kWorkEntries = 0;      // entries of their tiles' lists that workgroups read
+FROTH_CONST kWorkEntriesKept = 1;  // of these, those that a ray of the workgroup can meet
+FROTH_CONST kWorkBallHits = 2;     // balls met by rays
+FROTH_CONST kWorkPlanes = 3;       // radical planes that clipped a ray's interval in a ball
+FROTH_CONST kWorkHeights = 4;      // sums over detail sites for a height
+FROTH_CONST kWorkColours = 5;      // sums over detail sites for a colour: contributions to a ray
+FROTH_CONST kWorkSteps = 6;        // of walks from cell to cell
+FROTH_CONST kWorkNeighbours = 7;   // neighbours tested in these steps
+FROTH_CONST kWorkKinds = 8;
+
 // Written by the passes, cleared per frame, copied to the host. Each dispatch is a VkDispatchIndirectCommand.
 struct Counters {
-  uint visibleCells;
-  uint planes;      // of the visible cells
-  uint pairs;       // (tile, cell) pairs wanted; saturates
-  uint pairsKept;   // of these, those that had space
-  uint stepLimit;   // pixels whose walk was ended by maxSteps
-  uint violations;  // indices out of range (checkIndices)
-  uint walkStepsLow, walkStepsHigh;  // (checkIndices)
+  uint cellsWanted;   // visible cells
+  uint planesWanted;  // of the visible cells; saturates
+  uint visibleCells;  // of the wanted ones the first, as far as there was space for them and their planes
+  uint pairs;         // (tile, cell) pairs of those; saturates
+  uint pairsKept;     // of these, those that had space
+  uint stepLimit;     // pixels whose walk was ended by maxSteps
+  uint violations;    // indices out of range (checkIndices)
+  uint padding;
   uvec4 visibleDispatch;   // a thread per visible cell
   uvec4 siteDispatch;      // a thread per detail site of a visible cell
   uvec4 cellSortDispatch;  // a workgroup per kSortKeysPerGroup visible cells
   uvec4 pairDispatch;      // a thread per kept pair
   uvec4 pairSortDispatch;  // a workgroup per kSortKeysPerGroup kept pairs
+  uint work[2 * kWorkKinds];  // low, high word by kind; stay zero without kConstantCountWork
 };
 
 #if !defined(__cplusplus)
@@ -136,8 +149,7 @@ struct FrameBlock {
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
   FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] or [groups over visible cells]
-  FROTH_ADDRESS(UintArray) visibilityMasks;    // [chunkCount * groupsPerChunk * kMaskWords]
-  FROTH_ADDRESS(UintArray) slotOfCell;         // [liveCount] kNoCell: not visible
+  FROTH_ADDRESS(UintPairArray) visibility;     // [chunkCount * groupsPerChunk * kMaskWords] 32 bits, slot of the first bit
   FROTH_ADDRESS(UintQuadArray) visibleCells;   // [slot] chunk, local index, first plane, planes
   FROTH_ADDRESS(UintArray) cellKeys;           // [slot] order-preserving bits of the power of the eye
   FROTH_ADDRESS(UintArray) order;              // [visible cell] slot
@@ -172,9 +184,9 @@ struct PassConstants {
 static_assert(sizeof(ChunkEntry) == 160 && offsetof(ChunkEntry, siteRadius) == 32);
 static_assert(offsetof(ChunkEntry, lobeColours) == 128 && offsetof(ChunkEntry, cellCount) == 136);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
-static_assert(sizeof(Counters) == 112 && offsetof(Counters, visibleDispatch) == 32);
+static_assert(offsetof(Counters, visibleDispatch) == 32 && offsetof(Counters, work) == 112 && sizeof(Counters) == 176);
 static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);
-static_assert(offsetof(FrameBlock, counters) == 192 && sizeof(FrameBlock) == 344);
+static_assert(offsetof(FrameBlock, counters) == 192 && sizeof(FrameBlock) == 336);
 static_assert(sizeof(SortConstants) == 56 && sizeof(PassConstants) == 16);
 
 }  // namespace froth::gpu

@@ -3,6 +3,7 @@
 #ifndef FROTH_GPU_SHADE_HIT_GLSL
 #define FROTH_GPU_SHADE_HIT_GLSL
 #include "gpu/frame.glsl"
+#include "gpu/work.glsl"
 #include "foam/appearance.h"
 #include "foam/cell.h"
 #include "foam/compositing.h"
@@ -57,6 +58,7 @@ void shadeHit(uint visible, CellRecord cell, vec3 direction, float tNear, float 
     float tBase = intersectFace(centre, cell.face.xyz, facing, 0.0);
     float tQuery = isInsideFirst ? tNear : max(tNear, tBase);
     vec3 query = faceQuery(tQuery * direction - centre, cell.tangent.xyz, cell.bitangent.xyz, cell.tangent.w);
+    countWork(kWorkHeights, 1);
     height = heightAt(firstSite, query) * cell.ball.w;
   }
   float tFace = intersectFace(centre, cell.face.xyz, facing, height);
@@ -67,6 +69,7 @@ void shadeHit(uint visible, CellRecord cell, vec3 direction, float tNear, float 
   vec3 query = faceQuery(tNear * direction - centre, cell.tangent.xyz, cell.bitangent.xyz, cell.tangent.w);
   float opticalDepth = cell.face.w * (tFar - tNear);
   float weight = exp(radiance.logTransmittance) * opacity(opticalDepth);
+  countWork(kWorkColours, 1);
   radiance.colour += weight * colourAt(firstSite, query);
   radiance.normal += weight * cell.face.xyz;
   float after = radiance.logTransmittance - opticalDepth;

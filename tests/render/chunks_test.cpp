@@ -49,8 +49,8 @@ void expectSameImages(const AssetContents& whole, const AssetContents& chunked, 
     EXPECT_GE(psnr(found[i].walk.colour, expected[i].walk.colour), 95) << "view " << i;
     EXPECT_GE(psnr(found[i].walk.colour, found[i].raster.colour), 60) << "view " << i;
     // Each walk crosses the same cells, up to rounding.
-    const auto steps = static_cast<double>(expected[i].walk.status.walkSteps);
-    EXPECT_NEAR(static_cast<double>(found[i].walk.status.walkSteps), steps, 1e-3 * steps) << "view " << i;
+    const auto steps = static_cast<double>(expected[i].walk.status.work.steps);
+    EXPECT_NEAR(static_cast<double>(found[i].walk.status.work.steps), steps, 1e-3 * steps) << "view " << i;
   }
 }
 

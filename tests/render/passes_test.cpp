@@ -20,7 +20,7 @@ class Passes : public testing::Test {
   Passes()
       : device_(*Device::create(vkGetInstanceProcAddr, sharedHost().instance, sharedHost().physicalDevice,
                                 sharedHost().device)),
-        pipelines_(std::move(*RenderPipelines::create(device_, VK_NULL_HANDLE, true))) {}
+        pipelines_(std::move(*RenderPipelines::create(device_, VK_NULL_HANDLE, {.checkIndices = true}))) {}
 
   ~Passes() override {
     for (GpuBuffer& buffer : buffers_) device_.destroyBuffer(buffer);
@@ -173,7 +173,6 @@ TEST_F(Bin, TilesHoldTheBallsThatTheirPixelsMeetInOrderOfPower) {
   const uint32_t tilesX = tilesAlong(kExtent.width), tilesY = tilesAlong(kExtent.height);
   ViewCapacity capacity;
   capacity.tiles = tilesX * tilesY;
-  capacity.pairs = 1 << 16;
   coverAsset(asset, capacity);
   ASSERT_TRUE(view.buffers.grow(capacity, 0));
 

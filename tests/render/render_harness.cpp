@@ -58,6 +58,7 @@ FrothContext* sharedContext() {
     FrothContextInfo info = sharedHost().contextInfo();
     info.onMessage = onMessage;
     info.checkIndices = 1;
+    info.countWork = 1;
     FrothContext* created = nullptr;
     check(frothCreateContext(&info, &created), "frothCreateContext");
     return created;

@@ -112,6 +112,7 @@ typedef struct FrothContextInfo {
   FrothMessageCallback onMessage; /* may be null */
   void* messageUser;
   uint32_t checkIndices;          /* debug: shaders check every index; counted in FrothViewStatus::indexViolations */
+  uint32_t countWork;             /* for tuning: shaders count FrothViewStatus::work, and are slower for it */
 } FrothContextInfo;
 
 /* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */
@@ -209,6 +210,7 @@ typedef enum FrothViewBit {
   FROTH_VIEW_NO_WALK_GRAPH = 4,  /* the asset was baked without one */
   FROTH_VIEW_NOT_READY = 8,      /* an instance was left out: its asset is OPENING or FAILED, it or the view came after
                                     frothUpdate, or the view's buffers did not fit the budget (a message told) */
+  FROTH_VIEW_CELL_OVERFLOW = 16, /* more visible cells, or planes of them, than space; those last in the asset are missing */
   FROTH_VIEW_BIT_MAX = 0x7fffffff
 } FrothViewBit;
 
@@ -217,18 +219,30 @@ typedef struct FrothPassTime {
   double milliseconds;
 } FrothPassTime;
 
+/* What the rays of a frame cost, summed; with FrothContextInfo::countWork. */
+typedef struct FrothWork {
+  uint64_t entries;     /* raster: list entries read, each once per workgroup of 8 x 8 pixels */
+  uint64_t entriesKept; /* of these, those that a ray of the workgroup can meet */
+  uint64_t ballHits;    /* balls met by rays */
+  uint64_t planes;      /* raster: planes that clipped a ray's interval in a ball */
+  uint64_t heights;     /* sums over a cell's detail sites for a height */
+  uint64_t colours;     /* the same for a colour: contributions to rays */
+  uint64_t steps;       /* walk: from cell to cell */
+  uint64_t neighbours;  /* walk: neighbours tested in these steps */
+} FrothWork;
+
 /* Of the newest frame that is complete (FrothFrame::completedSerial). */
 typedef struct FrothViewStatus {
   uint32_t structSize;
   uint64_t serial; /* of that frame; 0: none yet */
   uint32_t bits;   /* FrothViewBit */
-  uint32_t visibleCells;
+  uint32_t visibleCells;     /* in view, those without space included */
   uint64_t pairs;            /* (tile, cell) pairs */
-  uint64_t walkSteps;        /* summed over rays; counted only with checkIndices */
   uint32_t indexViolations;  /* with FrothContextInfo::checkIndices; must be 0 */
   uint32_t passCount;
   FrothPassTime passes[16];  /* with FrothViewInfo::measurePasses */
   uint64_t deviceBytes;      /* of the view's transients */
+  FrothWork work;
 } FrothViewStatus;
 
 FROTH_API FrothResult frothGetViewStatus(FrothContext* context, FrothView view, FrothViewStatus* status);

@@ -1,0 +1,77 @@
+#include "runtime/render/view_capacity.h"
+
+#include <algorithm>
+
+#include "shaders/gpu/layout.h"
+
+namespace froth {
+namespace {
+
+// The first guess: small foams wholly, of large ones what such an image might show.
+constexpr uint64_t kLeastCells = uint64_t{1} << 14;
+constexpr uint64_t kCellsPerTile = 32;
+constexpr uint64_t kLeastPairs = uint64_t{1} << 14;
+constexpr uint64_t kPairsPerCell = 4;
+constexpr uint64_t kPairsPerTile = 32;
+constexpr uint64_t kMostPairs = uint64_t{1} << 30;
+
+// Half more than a frame wanted once it comes within an eighth of the capacity; never more than there can be.
+uint64_t roomFor(uint64_t wanted, uint64_t capacity, uint64_t most) {
+  if (wanted + wanted / 8 <= capacity) return capacity;
+  return std::max(capacity, std::min(wanted + wanted / 2, most));
+}
+
+}  // namespace
+
+ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b) {
+  return {.frames = std::max(a.frames, b.frames),
+          .chunks = std::max(a.chunks, b.chunks),
+          .groups = std::max(a.groups, b.groups),
+          .tiles = std::max(a.tiles, b.tiles),
+          .cells = std::max(a.cells, b.cells),
+          .planes = std::max(a.planes, b.planes),
+          .sites = std::max(a.sites, b.sites),
+          .pairs = std::max(a.pairs, b.pairs)};
+}
+
+ViewDemand largest(const ViewDemand& a, const ViewDemand& b) {
+  return {std::max(a.cells, b.cells), std::max(a.planes, b.planes), std::max(a.pairs, b.pairs)};
+}
+
+uint32_t groupsPerChunk(const GpuAsset& asset) {
+  uint32_t groups = 1;
+  for (const GpuChunk& chunk : asset.chunks) {
+    groups = std::max(groups, (chunk.liveCount + gpu::kGroupSize - 1) / gpu::kGroupSize);
+  }
+  return groups;
+}
+
+void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
+  const auto chunks = static_cast<uint32_t>(asset.chunks.size());
+  const uint64_t cells = std::min(uint64_t{asset.liveCount}, kLeastCells + kCellsPerTile * capacity.tiles);
+  const uint64_t meanPlanes = asset.alphaTotal / std::max(asset.liveCount, 1u) + 1;
+  ViewCapacity needed;
+  needed.chunks = chunks;
+  needed.groups = chunks * groupsPerChunk(asset);
+  needed.cells = static_cast<uint32_t>(cells);
+  needed.planes = std::min(asset.alphaTotal, cells * meanPlanes);
+  needed.sites = cells * asset.detailCount;
+  needed.pairs = static_cast<uint32_t>(
+      std::clamp(kPairsPerCell * cells + kPairsPerTile * capacity.tiles, kLeastPairs, kMostPairs));
+  capacity = largest(capacity, needed);
+}
+
+bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
+  return asset.chunks.size() <= capacity.chunks &&
+         asset.chunks.size() * groupsPerChunk(asset) <= capacity.groups;
+}
+
+void coverDemand(const GpuAsset& asset, const ViewDemand& demand, ViewCapacity& capacity) {
+  const uint64_t cells = roomFor(demand.cells, capacity.cells, asset.liveCount);
+  capacity.cells = static_cast<uint32_t>(cells);
+  capacity.planes = roomFor(demand.planes, capacity.planes, asset.alphaTotal);
+  capacity.sites = std::max(capacity.sites, cells * asset.detailCount);
+  capacity.pairs = static_cast<uint32_t>(roomFor(demand.pairs, capacity.pairs, kMostPairs));
+}
+
+}  // namespace froth

@@ -1,0 +1,43 @@
+// How much space a view's transients have: what it starts with, and how it grows with what frames wanted.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/asset/gpu_asset.h"
+
+namespace froth {
+
+struct ViewCapacity {
+  // Known before a frame is recorded.
+  uint32_t frames = 1;  // in flight
+  uint32_t chunks = 1;
+  uint32_t groups = 1;  // chunks times workgroups over the largest chunk's live cells
+  uint32_t tiles = 1;
+  // Of visible cells: a guess at first. A frame that wants more is valid without what has no space.
+  uint32_t cells = 1;
+  uint64_t planes = 1;
+  uint64_t sites = 1;  // cells times K
+  uint32_t pairs = 1;
+};
+
+ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b);
+
+// What a frame wanted of the guessed capacities.
+struct ViewDemand {
+  uint64_t cells = 0, planes = 0, pairs = 0;
+};
+
+ViewDemand largest(const ViewDemand& a, const ViewDemand& b);
+
+// Workgroups over the live cells of an asset's largest chunk.
+uint32_t groupsPerChunk(const GpuAsset& asset);
+
+// Adds what an asset needs, and a guess at what is visible of it that does not grow with the asset.
+void coverAsset(const GpuAsset& asset, ViewCapacity& capacity);
+// Whether the asset can be recorded.
+bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity);
+
+// Makes room for frames like the one that wanted this. Ahead of time, so that a camera that moves on overflows nothing.
+void coverDemand(const GpuAsset& asset, const ViewDemand& demand, ViewCapacity& capacity);
+
+}  // namespace froth
