@@ -34,7 +34,7 @@ void main() {
   uint word;
   uint slot = slotOfThread(group, word);
   bool isVisible = (word >> (thread % 32) & 1u) != 0;
-  uint planeCount = isVisible ? FRAME.chunks.v[chunk.index].alphaCounts.v[local] : 0;
+  uint planeCount = isVisible ? alphaCountOf(chunk, local) : 0;
   uint planeTotal;
   uint plane = saturatingAdd(FRAME.groupSums.v[group].y, scanExclusive(planeCount, planeTotal));
   if (!isVisible) return;

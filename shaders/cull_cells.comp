@@ -29,7 +29,7 @@ void main() {
 
   if (local < chunk.liveCount && isVisible(ballOfSite(chunk, local))) {
     atomicOr(maskWords[thread / 32], 1u << (thread % 32));
-    atomicAdd(planes, FRAME.chunks.v[chunk.index].alphaCounts.v[local]);
+    atomicAdd(planes, alphaCountOf(chunk, local));
   }
   barrier();
 

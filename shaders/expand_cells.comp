@@ -2,7 +2,7 @@
 // only lower tFar first.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gpu/asset.glsl"
+#include "gpu/cell_bits.glsl"
 #include "foam/cell.h"
 
 layout(local_size_x = kGroupSize) in;
@@ -38,13 +38,14 @@ void main() {
   uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
   Chunk chunk = loadChunk(cell.x);
   vec4 siteRadius = siteRadiusOf(chunk, cell.y);
-  uint local = checked(cell.y, chunk.liveCount);
   Ball ball = ballOf(chunk, siteRadius);
 
   CellRecord record;
   record.ball = vec4(ball.centre, ball.radius);
-  setFrame(FRAME.chunks.v[chunk.index].orientations.v[local], record);
-  record.face.w = FRAME.chunks.v[chunk.index].densities.v[local];
+  CellCode code = FRAME.chunks.v[chunk.index].code;
+  BitCursor bits = cellBits(chunk.index, cell.y);
+  record.face.w = takeDensity(code, bits);
+  setFrame(takeOrientation(code, bits), record);
   record.tangent.w = 1.0 / ball.radius;
   record.bitangent.w = 0.0;
   record.padding = 0;

@@ -1,10 +1,12 @@
 #include "runtime/asset/asset.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <new>
 #include <numeric>
+
+#include "runtime/asset/bit_writer.h"
+#include "runtime/asset/cell_packer.h"
 
 namespace froth {
 namespace {
@@ -44,14 +46,6 @@ GpuAsset describeShape(const AssetContents& manifest) {
   asset.nearRatio = manifest.nearRatio;
   asset.nearDepth = manifest.nearDepth;
   return asset;
-}
-
-// GpuChunk::lobeOffsets
-std::vector<uint32_t> sumLobeCounts(const std::vector<uint8_t>& counts) {
-  if (counts.empty()) return {};
-  std::vector<uint32_t> offsets(counts.size() + 1, 0);
-  std::inclusive_scan(counts.begin(), counts.end(), offsets.begin() + 1, std::plus<>(), uint32_t{0});
-  return offsets;
 }
 
 // GpuChunk::siteRadius
@@ -142,8 +136,6 @@ Status Asset::openReader() {
 Status Asset::placeChunk(ChunkContents&& contents) {
   growBounds(contents);
   gpu_.hasHeights |= !contents.detailHeights.empty();
-  gpu_.hasBaseColours |= !contents.baseColours.empty();
-  gpu_.hasLobeOffsets |= !contents.lobeCounts.empty();
   gpu_.liveCount += contents.liveCount;
   GpuChunk& chunk = gpu_.chunks.emplace_back();
   chunk.origin = contents.origin;
@@ -156,20 +148,24 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   if (!device_) {
     return {};
   }
+  Result<PackedCells> cells = packCells(contents, gpu_.detailCount, gpu_.lobeCount);
+  if (!cells) {
+    return cells.error();
+  }
+  PackedElements neighbours = packElements(contents.neighbours);
+  PackedElements alphaCounts = packElements(contents.alphaCounts);
+  chunk.neighbourShift = neighbours.shift;
+  chunk.alphaShift = alphaCounts.shift;
+  chunk.cellWordCount = static_cast<uint32_t>(cells->words.size());
+  chunk.code = cells->code;
   Status status = placeArray(joinSitesAndRadii(contents), "sites and radii", chunk.siteRadius);
   if (status)
     status = placeArray(std::move(contents.neighbourOffsets), "neighbour offsets", chunk.neighbourOffsets);
-  if (status) status = placeArray(std::move(contents.neighbours), "neighbours", chunk.neighbours);
+  if (status) status = placeArray(std::move(neighbours.words), "neighbours", chunk.neighbours);
   if (status) status = placeArray(std::move(contents.ghostRefs), "ghost references", chunk.ghostRefs);
-  if (status) status = placeArray(std::move(contents.alphaCounts), "alpha counts", chunk.alphaCounts);
-  if (status) status = placeArray(std::move(contents.densities), "densities", chunk.densities);
-  if (status) status = placeArray(std::move(contents.orientations), "orientations", chunk.orientations);
-  if (status) status = placeArray(std::move(contents.detailSites), "detail sites", chunk.detailSites);
-  if (status) status = placeArray(std::move(contents.detailHeights), "detail heights", chunk.detailHeights);
-  if (status) status = placeArray(std::move(contents.baseColours), "base colours", chunk.baseColours);
-  if (status) status = placeArray(sumLobeCounts(contents.lobeCounts), "lobe offsets", chunk.lobeOffsets);
-  if (status) status = placeArray(std::move(contents.lobeAxes), "lobe axes", chunk.lobeAxes);
-  if (status) status = placeArray(std::move(contents.lobeColours), "lobe colours", chunk.lobeColours);
+  if (status) status = placeArray(std::move(alphaCounts.words), "alpha counts", chunk.alphaCounts);
+  if (status) status = placeArray(std::move(cells->starts), "cell starts", chunk.cellStarts);
+  if (status) status = placeArray(std::move(cells->words), "cells", chunk.cellWords);
   return status;
 }
 

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "runtime/core/device.h"
+#include "shaders/gpu/layout.h"
 
 namespace froth {
 
-// Addresses of one chunk's arrays, those of ChunkContents (format/asset_contents.h), tightly packed: vec3 takes 12 bytes.
-// An absent array has address 0. Arrays by cell hold the chunk's own cells; `sites` are cells, then ghosts.
+// Addresses of one chunk's arrays; an empty array has address 0. Arrays by cell hold the chunk's own cells; sites are cells,
+// then ghosts.
 struct GpuChunk {
   std::array<double, 3> origin{};
   uint32_t cellCount = 0, liveCount = 0;
@@ -19,24 +20,21 @@ struct GpuChunk {
   uint64_t alphaTotal = 0;           // sum of alphaCounts
   VkDeviceAddress siteRadius = 0;    // vec4 [siteCount]: site relative to origin, radius
   VkDeviceAddress neighbourOffsets = 0;  // uint [cellCount + 1]
-  VkDeviceAddress neighbours = 0;        // uint [neighbourCount] sites
+  VkDeviceAddress neighbours = 0;        // uint of 32 >> neighbourShift bits [neighbourCount] sites
   VkDeviceAddress ghostRefs = 0;         // CellRef [siteCount - cellCount]
-  VkDeviceAddress alphaCounts = 0;       // uint [liveCount]
-  VkDeviceAddress densities = 0;         // float [liveCount]
-  VkDeviceAddress orientations = 0;      // vec4 [liveCount] (w, x, y, z)
-  VkDeviceAddress detailSites = 0;       // vec2 [liveCount * K]
-  VkDeviceAddress detailHeights = 0;     // float [liveCount * K]; absent: all zero
-  VkDeviceAddress baseColours = 0;       // vec3 [liveCount * K]; absent: all zero
-  VkDeviceAddress lobeOffsets = 0;       // uint [liveCount * K + 1] first lobe of a detail site; absent: M each
-  VkDeviceAddress lobeAxes = 0;          // vec3 [lobes]
-  VkDeviceAddress lobeColours = 0;       // vec3 [lobes]
+  VkDeviceAddress alphaCounts = 0;       // uint of 32 >> alphaShift bits [liveCount]
+  VkDeviceAddress cellStarts = 0;        // uint [liveCount] first byte of a live cell in cellWords
+  VkDeviceAddress cellWords = 0;         // uint [cellWordCount] PackedCells (runtime/asset/cell_packer.h)
+  uint32_t neighbourShift = 0, alphaShift = 0;
+  uint32_t cellWordCount = 0;
+  gpu::CellCode code{};
 };
 
 struct GpuAsset {
   uint32_t detailCount = 0, lobeCount = 0;  // K, M
   uint32_t localBits = 32;
   bool hasWalkGraph = false;
-  bool hasHeights = false, hasBaseColours = false, hasLobeOffsets = false;  // in any chunk
+  bool hasHeights = false;    // in any chunk
   float detailSharpness = 10.0f, nearRatio = 4.0f, nearDepth = 0.0f;
   uint32_t liveCount = 0;     // over all chunks
   uint64_t alphaTotal = 0;    // over all chunks

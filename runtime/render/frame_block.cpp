@@ -26,11 +26,6 @@ void fillCamera(const FrothRenderInfo& info, const CameraRays& rays, const Rende
   block.worldZ = toFloats(rows[2]);
 }
 
-uint32_t partsOf(const GpuChunk& chunk) {
-  return (chunk.detailHeights ? gpu::kPartHeights : 0) | (chunk.baseColours ? gpu::kPartBaseColours : 0) |
-         (chunk.lobeOffsets ? gpu::kPartLobeOffsets : 0);
-}
-
 void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* chunks) {
   for (size_t i = 0; i < asset.chunks.size(); ++i) {
     const GpuChunk& chunk = asset.chunks[i];
@@ -44,19 +39,16 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
     entry.neighbours = chunk.neighbours;
     entry.ghostRefs = chunk.ghostRefs;
     entry.alphaCounts = chunk.alphaCounts;
-    entry.densities = chunk.densities;
-    entry.orientations = chunk.orientations;
-    entry.detailSites = chunk.detailSites;
-    entry.detailHeights = chunk.detailHeights;
-    entry.baseColours = chunk.baseColours;
-    entry.lobeOffsets = chunk.lobeOffsets;
-    entry.lobeAxes = chunk.lobeAxes;
-    entry.lobeColours = chunk.lobeColours;
+    entry.cellStarts = chunk.cellStarts;
+    entry.cellWords = chunk.cellWords;
     entry.cellCount = chunk.cellCount;
     entry.liveCount = chunk.liveCount;
     entry.siteCount = chunk.siteCount;
     entry.neighbourCount = chunk.neighbourCount;
-    entry.parts = partsOf(chunk);
+    entry.neighbourShift = chunk.neighbourShift;
+    entry.alphaShift = chunk.alphaShift;
+    entry.cellWordCount = chunk.cellWordCount;
+    entry.code = chunk.code;
   }
 }
 

@@ -38,7 +38,7 @@ inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kScanGr
 // What the shaders are specialized on.
 struct AssetShape {
   uint32_t detailCount = 1, lobeCount = 1;
-  bool hasHeights = false, hasBaseColours = false, hasLobeOffsets = false;
+  bool hasHeights = false;
   friend auto operator<=>(const AssetShape&, const AssetShape&) = default;
 };
 

@@ -60,17 +60,15 @@ const std::array<PassCode, kPassCount> kPassCodes = {{
 struct Specialization {
   VkBool32 checkIndices;
   uint32_t detailCount, lobeCount;
-  VkBool32 hasHeights, hasBaseColours, hasLobeOffsets;
+  VkBool32 hasHeights;
   VkBool32 countWork;
 };
 
-constexpr std::array<VkSpecializationMapEntry, 7> kSpecializationEntries = {{
+constexpr std::array<VkSpecializationMapEntry, 5> kSpecializationEntries = {{
     {gpu::kConstantCheckIndices, offsetof(Specialization, checkIndices), sizeof(VkBool32)},
     {gpu::kConstantDetailCount, offsetof(Specialization, detailCount), sizeof(uint32_t)},
     {gpu::kConstantLobeCount, offsetof(Specialization, lobeCount), sizeof(uint32_t)},
     {gpu::kConstantHasHeights, offsetof(Specialization, hasHeights), sizeof(VkBool32)},
-    {gpu::kConstantHasBaseColours, offsetof(Specialization, hasBaseColours), sizeof(VkBool32)},
-    {gpu::kConstantHasLobeOffsets, offsetof(Specialization, hasLobeOffsets), sizeof(VkBool32)},
     {gpu::kConstantCountWork, offsetof(Specialization, countWork), sizeof(VkBool32)},
 }};
 
@@ -121,8 +119,6 @@ Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint
                               .detailCount = shape.detailCount,
                               .lobeCount = shape.lobeCount,
                               .hasHeights = shape.hasHeights,
-                              .hasBaseColours = shape.hasBaseColours,
-                              .hasLobeOffsets = shape.hasLobeOffsets,
                               .countWork = state.options.countWork};
   for (uint32_t pass = first; pass < last; ++pass) {
     Result<VkPipeline> pipeline = createPipeline(state, kPassCodes[pass], values);
@@ -150,7 +146,7 @@ Status createLayout(RenderPipelines::State& state) {
 }  // namespace
 
 AssetShape shapeOf(const GpuAsset& asset) {
-  return {asset.detailCount, asset.lobeCount, asset.hasHeights, asset.hasBaseColours, asset.hasLobeOffsets};
+  return {asset.detailCount, asset.lobeCount, asset.hasHeights};
 }
 
 VkDescriptorSetLayout createOutputSetLayout(Device& device) {

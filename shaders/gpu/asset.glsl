@@ -15,6 +15,7 @@ struct Chunk {
   vec3 offsetHigh, offsetLow;
   FloatQuadArray siteRadius;
   UintArray neighbourOffsets, neighbours;
+  uint neighbourShift;
   uint cellCount, siteCount, neighbourCount;
   uint liveCount;
 };
@@ -22,7 +23,8 @@ struct Chunk {
 Chunk loadChunk(uint index) {
   uint i = checked(index, FRAME.chunkCount);
   return Chunk(i, FRAME.chunks.v[i].offsetHigh.xyz, FRAME.chunks.v[i].offsetLow.xyz, FRAME.chunks.v[i].siteRadius,
-               FRAME.chunks.v[i].neighbourOffsets, FRAME.chunks.v[i].neighbours, FRAME.chunks.v[i].cellCount,
+               FRAME.chunks.v[i].neighbourOffsets, FRAME.chunks.v[i].neighbours, FRAME.chunks.v[i].neighbourShift,
+               FRAME.chunks.v[i].cellCount,
                FRAME.chunks.v[i].siteCount, FRAME.chunks.v[i].neighbourCount, FRAME.chunks.v[i].liveCount);
 }
 
@@ -49,8 +51,23 @@ uvec2 neighbourRow(Chunk chunk, uint cell) {
   return uvec2(chunk.neighbourOffsets.v[local], chunk.neighbourOffsets.v[local + 1]);
 }
 
+// Of an array of elements of 32 >> shift bits.
+uint elementAt(UintArray elements, uint index, uint shift) {
+  uint bits = 32 >> shift;
+  uint place = index & ((1u << shift) - 1);
+  return elements.v[index >> shift] >> (place * bits) & (0xffffffffu >> (32 - bits));
+}
+
 // A site of the chunk.
-uint neighbourAt(Chunk chunk, uint index) { return chunk.neighbours.v[checked(index, chunk.neighbourCount)]; }
+uint neighbourAt(Chunk chunk, uint index) {
+  return elementAt(chunk.neighbours, checked(index, chunk.neighbourCount), chunk.neighbourShift);
+}
+
+// Alpha-complex neighbours of a live cell.
+uint alphaCountOf(Chunk chunk, uint cell) {
+  UintArray counts = FRAME.chunks.v[chunk.index].alphaCounts;
+  return elementAt(counts, checked(cell, chunk.liveCount), FRAME.chunks.v[chunk.index].alphaShift);
+}
 
 bool isGhost(Chunk chunk, uint site) { return site >= chunk.cellCount; }
 

@@ -47,9 +47,7 @@ FROTH_CONST kConstantCheckIndices = 0;
 FROTH_CONST kConstantDetailCount = 1;
 FROTH_CONST kConstantLobeCount = 2;
 FROTH_CONST kConstantHasHeights = 3;
-FROTH_CONST kConstantHasBaseColours = 4;
-FROTH_CONST kConstantHasLobeOffsets = 5;
-FROTH_CONST kConstantCountWork = 6;
+FROTH_CONST kConstantCountWork = 4;
 
 // FrameBlock::flags
 FROTH_CONST kFlagColour = 1;
@@ -58,10 +56,17 @@ FROTH_CONST kFlagNormal = 4;
 FROTH_CONST kFlagDisplayCoded = 8;
 FROTH_CONST kFlagOnlyPaired = 16;  // shade only cells that own a (tile, cell) pair
 
-// ChunkEntry::parts: arrays that a chunk may lack, though the asset has them elsewhere.
-FROTH_CONST kPartHeights = 1;
-FROTH_CONST kPartBaseColours = 2;
-FROTH_CONST kPartLobeOffsets = 4;
+// How the bits of a chunk's live cells are to be read (runtime/asset/cell_packer.h).
+struct CellCode {
+  float placeStep, heightStep, baseStep, axisStep, colourStep;  // what a code is multiplied with; 0: it is a float's bits
+  uint densityShift, densityLowest, densityBits;  // a density is the float of bits (lowest + code) << shift
+  uint scaleBits;              // a cell's colours are in steps of step * 2^scale
+  uint widthBits;              // of the widths in a cell's header
+  uint heightBits, baseBits;   // of a cell's lowest height and base colour
+  uint fewestLobes;            // of a detail site
+  uint axisBits, axisCount;    // a written-out axis' component; axes in the table
+  uint ownAxisBits;            // of the number of axes that a cell writes out beside the table
+};
 
 // One chunk of the asset, seen from this frame's eye. The arrays: GpuChunk (runtime/asset/gpu_asset.h).
 struct ChunkEntry {
@@ -72,18 +77,15 @@ struct ChunkEntry {
   FROTH_ADDRESS(UintArray) neighbours;
   FROTH_ADDRESS(UintArray) ghostRefs;
   FROTH_ADDRESS(UintArray) alphaCounts;
-  FROTH_ADDRESS(FloatArray) densities;
-  FROTH_ADDRESS(FloatQuadArray) orientations;
-  FROTH_ADDRESS(FloatPairArray) detailSites;
-  FROTH_ADDRESS(FloatArray) detailHeights;
-  FROTH_ADDRESS(FloatArray) baseColours;
-  FROTH_ADDRESS(UintArray) lobeOffsets;
-  FROTH_ADDRESS(FloatArray) lobeAxes;
-  FROTH_ADDRESS(FloatArray) lobeColours;
+  FROTH_ADDRESS(UintArray) cellStarts;
+  FROTH_ADDRESS(UintArray) cellWords;
   uint cellCount, liveCount;
   uint siteCount;  // cells and ghosts
   uint neighbourCount;
-  uint parts;
+  uint neighbourShift, alphaShift;  // elements of 32 >> shift bits
+  uint cellWordCount;
+  CellCode code;
+  uint padding0, padding1, padding2;
 };
 
 // A visible cell as the rays meet it. Positions are relative to the eye.
@@ -181,8 +183,8 @@ struct PassConstants {
   uint padding;
 };
 
-static_assert(sizeof(ChunkEntry) == 160 && offsetof(ChunkEntry, siteRadius) == 32);
-static_assert(offsetof(ChunkEntry, lobeColours) == 128 && offsetof(ChunkEntry, cellCount) == 136);
+static_assert(sizeof(ChunkEntry) == 192 && offsetof(ChunkEntry, siteRadius) == 32);
+static_assert(offsetof(ChunkEntry, cellCount) == 88 && offsetof(ChunkEntry, code) == 116 && sizeof(CellCode) == 64);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(offsetof(Counters, visibleDispatch) == 32 && offsetof(Counters, work) == 112 && sizeof(Counters) == 176);
 static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);

@@ -1,0 +1,167 @@
+// Reads what a live cell shows from its bits, whose order runtime/asset/cell_packer.h tells. The numbers are the floats of
+// the asset, bit for bit: a code times a power of two.
+#ifndef FROTH_GPU_CELL_BITS_GLSL
+#define FROTH_GPU_CELL_BITS_GLSL
+#include "gpu/asset.glsl"
+
+struct BitCursor {
+  UintArray words;
+  uint wordCount;
+  uint word, bit;
+};
+
+void skipBits(inout BitCursor cursor, uint count) {
+  uint end = cursor.bit + count;
+  cursor.word += end / 32;
+  cursor.bit = end % 32;
+}
+
+// width 0..32
+uint takeBits(inout BitCursor cursor, uint width) {
+  uint low = cursor.words.v[checked(cursor.word, cursor.wordCount)] >> cursor.bit;
+  uint high = cursor.words.v[checked(cursor.word + 1, cursor.wordCount)] << 1 << (31 - cursor.bit);
+  skipBits(cursor, width);
+  return width > 0 ? (low | high) & (0xffffffffu >> (32 - width)) : 0;
+}
+
+// Two's complement of width 0..31.
+int takeSigned(inout BitCursor cursor, uint width) {
+  uint sign = (1u << width) >> 1;
+  return int(takeBits(cursor, width) ^ sign) - int(sign);
+}
+
+vec3 takeFloats(inout BitCursor cursor) {
+  float x = uintBitsToFloat(takeBits(cursor, 32));
+  float y = uintBitsToFloat(takeBits(cursor, 32));
+  float z = uintBitsToFloat(takeBits(cursor, 32));
+  return vec3(x, y, z);
+}
+
+ivec3 takeSignedTriple(inout BitCursor cursor, uint firstWidth, uint otherWidth) {
+  int x = takeSigned(cursor, firstWidth);
+  int y = takeSigned(cursor, otherWidth);
+  int z = takeSigned(cursor, otherWidth);
+  return ivec3(x, y, z);
+}
+
+// A colour from green, red - green, blue - green.
+vec3 joinGreen(ivec3 code, float unit) { return unit * vec3(code.x + code.y, code.x, code.x + code.z); }
+
+// What stands before a cell's detail sites.
+struct CellHeader {
+  float unit;  // 2^scale of the colours
+  uint place, height, lobes, axis;  // widths
+  uvec2 base, lobe;                 // widths of green and of chroma
+  int lowestHeight;
+  ivec3 lowestBase;
+  BitCursor ownAxes;
+  BitCursor lobeCounts;
+};
+
+BitCursor cellBits(uint chunk, uint cell) {
+  uint start = FRAME.chunks.v[chunk].cellStarts.v[checked(cell, FRAME.chunks.v[chunk].liveCount)];
+  return BitCursor(FRAME.chunks.v[chunk].cellWords, FRAME.chunks.v[chunk].cellWordCount, start / 4, start % 4 * 8);
+}
+
+float takeDensity(CellCode code, inout BitCursor cursor) {
+  return uintBitsToFloat((takeBits(cursor, code.densityBits) + code.densityLowest) << code.densityShift);
+}
+
+vec4 takeOrientation(CellCode code, inout BitCursor cursor) {
+  vec3 wxy = takeFloats(cursor);
+  return vec4(wxy, uintBitsToFloat(takeBits(cursor, 32)));
+}
+
+CellHeader loadCellHeader(CellCode code, uint chunk, uint cell) {
+  BitCursor cursor = cellBits(chunk, cell);
+  skipBits(cursor, code.densityBits + 128);
+  CellHeader header;
+  header.unit = float(1u << takeBits(cursor, code.scaleBits));
+  header.place = takeBits(cursor, code.widthBits);
+  header.height = takeBits(cursor, code.widthBits);
+  header.base.x = takeBits(cursor, code.widthBits);
+  header.base.y = takeBits(cursor, code.widthBits);
+  header.lobes = takeBits(cursor, code.widthBits);
+  header.axis = takeBits(cursor, code.widthBits);
+  header.lobe.x = takeBits(cursor, code.widthBits);
+  header.lobe.y = takeBits(cursor, code.widthBits);
+  header.lowestHeight = takeSigned(cursor, code.heightBits);
+  header.lowestBase = takeSignedTriple(cursor, code.baseBits, code.baseBits);
+  uint ownAxes = takeBits(cursor, code.ownAxisBits);
+  header.ownAxes = cursor;
+  skipBits(cursor, ownAxes * 3 * code.axisBits);
+  header.lobeCounts = cursor;
+  return header;
+}
+
+struct DetailSite {
+  vec2 place;
+  float height;
+  vec3 base;
+};
+
+DetailSite loadDetailSite(CellCode code, CellHeader header, uint detailCount, uint detail) {
+  BitCursor cursor = header.lobeCounts;
+  uint siteBits = 2 * header.place + header.height + header.base.x + 2 * header.base.y;
+  skipBits(cursor, detailCount * header.lobes + detail * siteBits);
+  DetailSite site;
+  if (code.placeStep > 0.0) {
+    site.place.x = code.placeStep * float(takeSigned(cursor, header.place));
+    site.place.y = code.placeStep * float(takeSigned(cursor, header.place));
+  } else {
+    site.place.x = uintBitsToFloat(takeBits(cursor, 32));
+    site.place.y = uintBitsToFloat(takeBits(cursor, 32));
+  }
+  uint height = takeBits(cursor, header.height);
+  site.height = code.heightStep > 0.0 ? code.heightStep * float(header.lowestHeight + int(height)) : uintBitsToFloat(height);
+  if (code.baseStep > 0.0) {
+    int green = int(takeBits(cursor, header.base.x));
+    int redLess = int(takeBits(cursor, header.base.y));
+    int blueLess = int(takeBits(cursor, header.base.y));
+    site.base = joinGreen(header.lowestBase + ivec3(green, redLess, blueLess), code.baseStep * header.unit);
+  } else {
+    site.base = takeFloats(cursor);
+  }
+  return site;
+}
+
+// The lobes of one detail site, to be taken one after the other.
+struct Lobes {
+  BitCursor cursor;
+  uint count;
+};
+
+Lobes loadLobes(CellCode code, CellHeader header, uint detailCount, uint detail) {
+  BitCursor counts = header.lobeCounts;
+  uint before = detail * code.fewestLobes;
+  for (uint k = 0; k < detail; ++k) before += takeBits(counts, header.lobes);
+  Lobes lobes;
+  lobes.count = code.fewestLobes + takeBits(counts, header.lobes);
+  lobes.cursor = header.lobeCounts;
+  uint siteBits = header.lobes + 2 * header.place + header.height + header.base.x + 2 * header.base.y;
+  uint lobeBits = (code.axisCount > 0 ? 1 : 3) * header.axis + header.lobe.x + 2 * header.lobe.y;
+  skipBits(lobes.cursor, detailCount * siteBits + before * lobeBits);
+  return lobes;
+}
+
+vec3 takeAxis(CellCode code, CellHeader header, inout Lobes lobes) {
+  if (!(code.axisStep > 0.0)) return takeFloats(lobes.cursor);
+  if (code.axisCount == 0) return code.axisStep * vec3(takeSignedTriple(lobes.cursor, header.axis, header.axis));
+  uint label = takeBits(lobes.cursor, header.axis);
+  BitCursor axis = header.ownAxes;
+  if (label < code.axisCount) {
+    axis.word = 0;
+    axis.bit = 0;
+  } else {
+    label -= code.axisCount;
+  }
+  skipBits(axis, label * 3 * code.axisBits);
+  return code.axisStep * vec3(takeSignedTriple(axis, code.axisBits, code.axisBits));
+}
+
+vec3 takeLobeColour(CellCode code, CellHeader header, inout Lobes lobes) {
+  if (!(code.colourStep > 0.0)) return takeFloats(lobes.cursor);
+  return joinGreen(takeSignedTriple(lobes.cursor, header.lobe.x, header.lobe.y), code.colourStep * header.unit);
+}
+
+#endif
