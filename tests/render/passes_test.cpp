@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/asset/cell_packer.h"
 #include "runtime/render/pass_recorder.h"
 #include "runtime/render/view_state.h"
 #include "tests/render/random_foam.h"
@@ -148,11 +149,18 @@ class Bin : public Passes {
     chunk.neighbourOffsets = upload(std::vector<uint32_t>(count + 1)).address;
     chunk.neighbours = upload(std::vector<uint32_t>(1)).address;
     chunk.alphaCounts = upload(std::vector<uint32_t>(count)).address;
-    chunk.densities = upload(foam.densities).address;
-    chunk.orientations = upload(foam.orientations).address;
-    chunk.detailSites = upload(foam.detailSites).address;
-    chunk.lobeAxes = upload(foam.lobeAxes).address;
-    chunk.lobeColours = upload(foam.lobeColours).address;
+    ChunkContents contents;
+    contents.cellCount = contents.liveCount = foam.cellCount;
+    contents.densities = foam.densities;
+    contents.orientations = foam.orientations;
+    contents.detailSites = foam.detailSites;
+    contents.lobeAxes = foam.lobeAxes;
+    contents.lobeColours = foam.lobeColours;
+    const PackedCells cells = *packCells(contents, 1, 1);
+    chunk.cellStarts = upload(cells.starts).address;
+    chunk.cellWords = upload(cells.words).address;
+    chunk.cellWordCount = static_cast<uint32_t>(cells.words.size());
+    chunk.code = cells.code;
     asset.chunks = {chunk};
     return asset;
   }
