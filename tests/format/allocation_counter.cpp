@@ -20,12 +20,16 @@ size_t largestAllocation() {
 
 }  // namespace froth
 
-// In a file of their own: where gcc inlines only one of the two, it warns of a mismatch.
-void* operator new(size_t size) {
+// In a file of their own: where gcc inlines only one of the two, it warns of a mismatch. All forms that free by the plain
+// delete are here, for a sanitizer brings its own of those that are not.
+void* operator new(size_t size, const std::nothrow_t&) noexcept {
   size_t seen = froth::largest.load();
   while (seen < size && !froth::largest.compare_exchange_weak(seen, size)) {
   }
-  if (void* memory = std::malloc(size)) return memory;
+  return std::malloc(size);
+}
+void* operator new(size_t size) {
+  if (void* memory = operator new(size, std::nothrow)) return memory;
   throw std::bad_alloc();
 }
 void operator delete(void* memory) noexcept {
