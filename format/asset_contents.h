@@ -13,6 +13,10 @@
 
 namespace froth {
 
+// ChunkContents::solidBalls: largest byte; the cell's own ball.
+inline constexpr uint32_t kMaxSolidByte = 64;
+inline constexpr uint32_t kWholeBall = 0x40202020;
+
 // A reference to a cell anywhere in the asset: (chunk << localBits) | local index. localBits belongs to the asset.
 using CellRef = uint32_t;
 
@@ -41,6 +45,10 @@ struct ChunkContents {
 
   std::vector<float> densities;         // [liveCount] [1 / scene unit]
   std::vector<glm::vec4> orientations;  // [liveCount] unit quaternion (w, x, y, z), rows n, t, b
+
+  // A ball around the solid part of each cell: all points where a ray can gain opacity there, with a margin (shaders/foam/
+  // solid_ball.h). Bytes x, y, z, radius, each <= kMaxSolidByte, from the lowest; empty: kWholeBall each.
+  std::vector<uint32_t> solidBalls;     // [liveCount]
 
   // Layer 0: one colour and one displacement per cell, for readers that stop there. Empty in a foam that has no layers.
   std::vector<glm::vec3> cellColours;   // [liveCount] display-coded, n / 255 with n in 0..255

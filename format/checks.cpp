@@ -156,6 +156,7 @@ Status checkArrays(const AssetContents& asset, const ChunkContents& chunk, const
   arrays.required("orientations", chunk.orientations, live);
   arrays.optional("cell_colours", chunk.cellColours, live);
   arrays.optional("cell_heights", chunk.cellHeights, live);
+  arrays.optional("solid_balls", chunk.solidBalls, live);
   arrays.required("detail_sites", chunk.detailSites, details);
   arrays.optional("detail_heights", chunk.detailHeights, details);
   arrays.optional("base_colours", chunk.baseColours, details);
@@ -167,6 +168,12 @@ Status checkArrays(const AssetContents& asset, const ChunkContents& chunk, const
   arrays.required("lobe_axes", chunk.lobeAxes, *lobes);
   arrays.required("lobe_colours", chunk.lobeColours, *lobes);
   return arrays.status();
+}
+
+bool isSolidBall(uint32_t bytes) {
+  for (uint32_t shift = 0; shift < 32; shift += 8)
+    if ((bytes >> shift & 0xff) > kMaxSolidByte) return false;
+  return true;
 }
 
 Status checkCells(const ChunkContents& chunk, const std::string& place) {
@@ -188,6 +195,11 @@ Status checkCells(const ChunkContents& chunk, const std::string& place) {
                      sectionPlace(place, SectionType::kColourScales).c_str(),
                      static_cast<size_t>(scale - chunk.colourScales.begin()), *scale, kMaxColourScale,
                      kRemedy);
+  const auto ball = std::find_if_not(chunk.solidBalls.begin(), chunk.solidBalls.end(), isSolidBall);
+  if (ball != chunk.solidBalls.end())
+    return makeError(ErrorKind::kBadInput, "%s: cell %zu has bytes %08x, one of them more than %u; %s",
+                     sectionPlace(place, SectionType::kSolidBalls).c_str(),
+                     static_cast<size_t>(ball - chunk.solidBalls.begin()), *ball, kMaxSolidByte, kRemedy);
   const auto ghost =
       std::adjacent_find(chunk.ghostRefs.begin(), chunk.ghostRefs.end(), std::greater_equal<CellRef>());
   if (ghost != chunk.ghostRefs.end())

@@ -208,6 +208,7 @@ class ChunkReader {
       colour = joinGreen(colour[0], colour[1], colour[2]);
       chunk_.cellColours.emplace_back(colourOfByte(colour[0]), colourOfByte(colour[1]), colourOfByte(colour[2]));
     }
+    if (Status status = loadAsIs(SectionType::kSolidBalls, chunk_.solidBalls); !status) return status;
     return loadFloats(SectionType::kCellHeights, chunk_.cellHeights, asset_.quantization.heightStep);
   }
 

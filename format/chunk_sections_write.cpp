@@ -217,7 +217,14 @@ class ChunkPacker {
       for (const uint8_t byte : separateGreen(cellColours_[i], cellColours_[i + 1], cellColours_[i + 2]))
         elements.push_back(byte);
     add(SectionType::kCellColours, 1, std::move(elements));
+    addSolidBalls();
     return addHeights(SectionType::kCellHeights, chunk_.cellHeights, [](size_t) { return 0; });
+  }
+
+  void addSolidBalls() {
+    const std::span<const uint32_t> balls(chunk_.solidBalls);
+    if (std::all_of(balls.begin(), balls.end(), [](uint32_t ball) { return ball == kWholeBall; })) return;
+    add(SectionType::kSolidBalls, 1, bytesOf(balls));
   }
 
   template <class Expected>

@@ -23,6 +23,7 @@ constexpr std::array kSections = {
     SectionInfo{SectionType::kOrientations, "orientations", Layer::kGeometry},
     SectionInfo{SectionType::kCellColours, "cell_colours", Layer::kGeometry},
     SectionInfo{SectionType::kCellHeights, "cell_heights", Layer::kGeometry},
+    SectionInfo{SectionType::kSolidBalls, "solid_balls", Layer::kGeometry},
     SectionInfo{SectionType::kDetailSites, "detail_sites", Layer::kDetails},
     SectionInfo{SectionType::kDetailHeights, "detail_heights", Layer::kDetails},
     SectionInfo{SectionType::kColourScales, "colour_scales", Layer::kDetails},
@@ -77,6 +78,8 @@ uint32_t sectionComponents(SectionType type, const Quantization& quantization) {
       return 3;
     case SectionType::kOrientations:
       return quantization.normalBits > 0 ? 2 : 4;
+    case SectionType::kSolidBalls:
+      return 4;
     case SectionType::kDetailSites:
       return 2;
     default:
@@ -116,6 +119,7 @@ ElementKind sectionKind(SectionType type, const Quantization& quantization) {
       return ElementKind::kFloat;
     case SectionType::kGraphAlphaBits:
     case SectionType::kCellColours:
+    case SectionType::kSolidBalls:
     case SectionType::kColourScales:
     case SectionType::kLobeCounts:
       return ElementKind::kByte;
@@ -158,6 +162,7 @@ uint64_t sectionEntries(SectionType type, const ChunkCounts& counts, uint32_t de
     case SectionType::kOrientations:
     case SectionType::kCellColours:
     case SectionType::kCellHeights:
+    case SectionType::kSolidBalls:
     case SectionType::kColourScales:
       return counts.live;
     case SectionType::kDetailSites:
@@ -188,6 +193,7 @@ Presence sectionPresence(SectionType type, const AssetContents& asset, bool hasC
       return requiredIf(asset.hasWalkGraph);
     case SectionType::kCellColours:
     case SectionType::kCellHeights:
+    case SectionType::kSolidBalls:
     case SectionType::kDetailSites:
     case SectionType::kDetailHeights:
     case SectionType::kBaseColours:

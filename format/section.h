@@ -26,6 +26,7 @@ enum class SectionType : uint32_t {
   kOrientations = 9,    // [L × 2] octahedral normals, or [L × 4] quaternions
   kCellColours = 10,    // [L × 3]
   kCellHeights = 11,    // [L]
+  kSolidBalls = 12,     // [L × 4]
 
   kDetailSites = 32,    // [L × K × 2]
   kDetailHeights = 33,  // [L × K]

@@ -23,6 +23,7 @@ class Dump {
     write("orientations", chunk.orientations);
     write("cellColours", chunk.cellColours);
     write("cellHeights", chunk.cellHeights);
+    write("solidBalls", chunk.solidBalls);
     write("detailSites", chunk.detailSites);
     write("detailHeights", chunk.detailHeights);
     write("baseColours", chunk.baseColours);

@@ -69,6 +69,7 @@ inline void expectSameArrays(const ChunkContents& a, const ChunkContents& b) {
   EXPECT_TRUE(haveSameBits(a.orientations, b.orientations));
   EXPECT_TRUE(haveSameBits(a.cellColours, b.cellColours));
   EXPECT_TRUE(haveSameBits(a.cellHeights, b.cellHeights));
+  EXPECT_TRUE(haveSameBits(a.solidBalls, b.solidBalls));
   EXPECT_TRUE(haveSameBits(a.detailSites, b.detailSites));
   EXPECT_TRUE(haveSameBits(a.detailHeights, b.detailHeights));
   EXPECT_TRUE(haveSameBits(a.baseColours, b.baseColours));

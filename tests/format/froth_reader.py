@@ -358,6 +358,10 @@ class Asset:
         if colour_bytes is not None:
             out["cellColours"] = colour_bytes.astype(np.float32) / np.float32(255)
         out["cellHeights"] = self.stepped(index, 11, live, 1, self.height_step)
+        solid_balls, _ = self.elements(index, 12, live, 4)
+        if solid_balls is not None:
+            need(np.all(solid_balls <= 64), "a solid ball is out of range")
+            out["solidBalls"] = solid_balls.astype("u1")
         if layer == 0:
             out["detailSites"] = np.zeros((live, 2), np.float32)
             out["detailHeights"] = out["cellHeights"]

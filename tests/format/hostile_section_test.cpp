@@ -118,6 +118,8 @@ TEST(HostileSection, WithAnIndexOffItsLatticeIsRefused) {
       HasSubstr("section 'orientations': number 2 is out of range"));
   EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kColourScales, [](auto& scales) { scales[2] = 16; }),
               HasSubstr("section 'colour_scales': number 2 is out of range"));
+  EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kSolidBalls, [](auto& balls) { balls[6] = 65; }),
+              AllOf(HasSubstr("section 'solid_balls': cell 1 has bytes"), HasSubstr("more than 64")));
   EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kLobeLabels, [](auto& labels) { labels[1] = 5; }),
               HasSubstr("section 'lobe_labels': number 1 is out of range"));
 }

@@ -138,21 +138,23 @@ size_t countSections(const AssetContents& contents, SectionType type) {
                     [&](const SectionRecord& record) { return record.type == static_cast<uint32_t>(type); }));
 }
 
-TEST(RoundTrip, LeavesOutArraysThatAreAllZero) {
+TEST(RoundTrip, LeavesOutArraysThatSayNothing) {
   AssetContents contents = makeSampleAsset({.isQuantized = true, .hasLayers = true});
   ChunkContents& chunk = contents.chunks[0];
   std::fill(chunk.detailHeights.begin(), chunk.detailHeights.end(), 0.0f);
   std::fill(chunk.cellHeights.begin(), chunk.cellHeights.end(), 0.0f);
+  std::fill(chunk.solidBalls.begin(), chunk.solidBalls.end(), kWholeBall);
   std::fill(chunk.detailSites.begin(), chunk.detailSites.end(), glm::vec2(0));
   std::fill(chunk.baseColours.begin(), chunk.baseColours.end(), glm::vec3(0));
   std::fill(chunk.colourScales.begin(), chunk.colourScales.end(), uint8_t{0});
   for (const SectionType type :
        {SectionType::kDetailHeights, SectionType::kCellHeights, SectionType::kDetailSites,
-        SectionType::kBaseColours, SectionType::kColourScales})
+        SectionType::kBaseColours, SectionType::kColourScales, SectionType::kSolidBalls})
     EXPECT_EQ(countSections(contents, type), 0u) << sectionName(static_cast<uint32_t>(type));
   const ChunkContents found = decode(encodeOrFail(contents)).chunks[0];
   EXPECT_TRUE(found.detailHeights.empty());
   EXPECT_TRUE(found.cellHeights.empty());
+  EXPECT_TRUE(found.solidBalls.empty());
   EXPECT_TRUE(found.baseColours.empty());
   EXPECT_TRUE(found.colourScales.empty());
   EXPECT_TRUE(haveSameBits(found.detailSites, chunk.detailSites));

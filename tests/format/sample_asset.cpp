@@ -74,6 +74,7 @@ class ChunkMaker {
     for (glm::vec3& colour : chunk_.cellColours)
       for (int i = 0; i < 3; ++i) colour[i] = colourOfByte(static_cast<uint8_t>(random_.below(256)));
     if (options_.hasHeights) random_.fill(chunk_.cellHeights, chunk_.liveCount, lattices().heightStep);
+    for (uint32_t i = 0; i < chunk_.liveCount; ++i) chunk_.solidBalls.push_back(makeSolidBall());
     if (!options_.isQuantized) return;
     for (uint32_t i = 0; i < chunk_.liveCount; ++i)
       chunk_.colourScales.push_back(static_cast<uint8_t>(i == 0 ? 3 : random_.below(4)));
@@ -95,6 +96,12 @@ class ChunkMaker {
     for (int i = 0; i < 3; ++i)
       colour[i] = snapToStep(random_() - 0.5f, colourUnit(lattices().colourStep, scale));
     return colour;
+  }
+
+  uint32_t makeSolidBall() {
+    uint32_t bytes = 0;
+    for (uint32_t shift = 0; shift < 32; shift += 8) bytes |= random_.below(kMaxSolidByte + 1) << shift;
+    return bytes;
   }
 
   glm::vec3 makeAxis() {
