@@ -8,6 +8,7 @@
 #include "baker/appearance/cell_coder.h"
 #include "baker/appearance/lobe_selection.h"
 #include "baker/appearance/observations.h"
+#include "baker/appearance/view_balance.h"
 
 namespace froth {
 namespace {
@@ -37,8 +38,8 @@ std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer,
   return kept;
 }
 
-std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer, const AppearanceOptions& options,
-                                  const Progress& progress) {
+std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer,
+                                  const AppearanceOptions& options, const Progress& progress) {
   constexpr uint64_t kSlice = 512;  // sites between looks at the progress
   const uint64_t siteCount = uint64_t{foam.cellCount} * foam.detailCount;
   const uint64_t count = std::min<uint64_t>(siteCount, uint64_t{kSitesPerEntry} * options.codebookSize);
@@ -66,14 +67,17 @@ Result<AppearanceCoder> AppearanceCoder::create(const Foam& foam, const Visibili
   AppearanceCoder coder;
   coder.foam_ = &foam;
   coder.options_ = options;
-  auto model = std::make_shared<Model>(Model{Observer(foam, visibility), {}});
+  AxisCodebook codebook;
   if (options.codebookSize > 0) {
-    const auto samples = sampleAxes(foam, model->observer, options, progress);
-    model->codebook = AxisCodebook(trainCodebook(samples, options.codebookSize, options.seed, progress));
+    const auto samples = sampleAxes(foam, Observer(foam, visibility), options, progress);
+    codebook = AxisCodebook(trainCodebook(samples, options.codebookSize, options.seed, progress));
   }
+  std::vector<float> viewWeights;
+  if (visibility) viewWeights = balanceViews(foam, *visibility, codebook, options, progress);
   if (!report(progress, "codebook", 1, 1))
     return makeError(ErrorKind::kCancelled, "codebook: stopped on request");
-  coder.model_ = std::move(model);
+  coder.model_ = std::make_shared<const Model>(
+      Model{Observer(foam, visibility, std::move(viewWeights)), std::move(codebook)});
   return coder;
 }
 

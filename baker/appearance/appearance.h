@@ -19,10 +19,8 @@ namespace froth {
 
 // Knobs of a preset.
 struct AppearanceOptions {
-  // [display-coded] RMS error allowed per detail site over the directions that see it. That of one that shows
-  // typically; where images show one x times as much, errors weigh more, and it gets errorBound / sqrt(x).
-  // Detail sites of a cell share: their joint error, as images blend them, keeps the bound. Colours are
-  // rounded within it.
+  // [display-coded] RMS error that a lobe has to take away, of a detail site that shows typically: one that
+  // shows x times as much keeps lobes that take away errorBound / sqrt(x). Colours are rounded accordingly.
   float errorBound = 0;
   uint32_t lobeLimit = 32;    // most lobes kept per detail site
   uint32_t codebookSize = 0;  // entries of the axis codebook [0..65536]; 0: none

@@ -45,7 +45,8 @@ class AxisCodebook {
 };
 
 // Mini-batch k-means (Sculley 2010) over samples: at most `size` entries, the most used ones first. The same
-// samples and seed give the same entries on any number of threads. No samples, or stopped on request: no entries.
+// samples and seed give the same entries on any number of threads. No samples, or stopped on request: no
+// entries.
 std::vector<glm::vec3> trainCodebook(std::span<const glm::vec3> samples, uint32_t size, uint64_t seed,
                                      const Progress& progress = {});
 

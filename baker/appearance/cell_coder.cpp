@@ -10,7 +10,7 @@ namespace {
 constexpr uint32_t kLargestScale = 15;
 constexpr double kCoarsestStep = 0.25;  // [display-coded] of colours
 constexpr double kRoundingShare =
-    0.5;                    // squared error of rounding colours, relative to what is allowed in all
+    0.75;                   // squared error of rounding a detail site's colours, relative to a lobe's price
 constexpr int kRefits = 2;  // of all colours, once every detail site knows what the others get wrong
 constexpr float kMostCarried = 0.3f;  // [display-coded] error of others that a detail site makes up for
 
@@ -47,13 +47,13 @@ uint8_t CellCoder::chooseScale(const std::vector<Site>& sites) const {
   if (!(options_.colourStep > 0)) return 0;
   double weight = 0;
   for (const Site& site : sites) weight = std::max(weight, site.weight);
-  const double step = std::min(std::sqrt(12 * kRoundingShare * allowedError() / weight), kCoarsestStep);
+  const double step = std::min(std::sqrt(12 * kRoundingShare * lobePrice() / weight), kCoarsestStep);
   const double scale = std::floor(std::log2(std::max(step / options_.colourStep, 1.0)));
   return static_cast<uint8_t>(std::min<double>(scale, kLargestScale));
 }
 
 void CellCoder::codeSites(uint32_t cell, double step, std::vector<Site>& sites) const {
-  const SiteCoder coder(options_, codebook_, allowedError());
+  const SiteCoder coder(options_, codebook_, lobePrice());
   std::vector<uint32_t> order(sites.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
@@ -87,6 +87,20 @@ std::vector<glm::vec3> CellCoder::carriedTo(uint32_t cell, uint32_t k, const std
   }
   for (glm::vec3& c : carried) c = glm::clamp(c, -kMostCarried, kMostCarried);
   return carried;
+}
+
+void CellCoder::addViewErrors(uint32_t cell, std::span<double> perView) const {
+  std::vector<Site> sites = observeCell(cell);
+  codeSites(cell, std::ldexp(double(options_.colourStep), chooseScale(sites)), sites);
+  for (const Site& site : sites) {
+    for (size_t i = 0; i < site.seen.size(); ++i) {
+      const std::optional<uint32_t> view = observer_.viewOfEye(site.seen.eyes[i]);
+      if (!view) continue;
+      // Times what the cell's other errors look like there too.
+      const double squared = glm::dot(glm::dvec3(site.misses[i]), glm::dvec3(site.coded.error.misses[i])) / 3;
+      perView[*view] += site.seen.weights[i] / observer_.viewWeight(*view) * squared;
+    }
+  }
 }
 
 void CellCoder::append(uint32_t cell, CellAppearance& out) const {

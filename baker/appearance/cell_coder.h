@@ -15,8 +15,7 @@
 namespace froth {
 
 // A detail site is coded after those of its cell that show less, and makes up for what they get wrong where
-// it shows too; then all colours are fitted again, each to what the others left. So the bound holds for the
-// cell: the mean of its detail sites.
+// it shows too; then all colours are fitted again, each to what the others left.
 class CellCoder {
  public:
   // Keeps references.
@@ -25,6 +24,8 @@ class CellCoder {
       : foam_(foam), observer_(observer), codebook_(codebook), options_(options) {}
 
   void append(uint32_t cell, CellAppearance& out) const;
+  // Adds the cell's squared error in each view, in the unit of observations' weights.
+  void addViewErrors(uint32_t cell, std::span<double> perView) const;
 
  private:
   struct Site {
@@ -34,7 +35,7 @@ class CellCoder {
     std::vector<glm::vec3> misses;  // [observations] shown - wanted
   };
 
-  double allowedError() const { return double(options_.errorBound) * options_.errorBound; }
+  double lobePrice() const { return double(options_.errorBound) * options_.errorBound; }
   std::vector<Site> observeCell(uint32_t cell) const;
   uint8_t chooseScale(const std::vector<Site>& sites) const;
   void codeSites(uint32_t cell, double step, std::vector<Site>& sites) const;

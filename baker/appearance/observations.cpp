@@ -74,9 +74,10 @@ double totalWeight(const Observations& seen) {
   return sum;
 }
 
-Observer::Observer(const Foam& foam, const Visibility* visibility)
+Observer::Observer(const Foam& foam, const Visibility* visibility, std::vector<float> viewWeights)
     : foam_(foam),
       visibility_(visibility),
+      viewWeights_(std::move(viewWeights)),
       hemisphere_(spreadHemisphere(visibility ? kDirectionsBesideCameras : kDirectionsWithoutCameras)) {
   static_assert(kAround.size() == kEyesAround);
   if (!visibility) return;
@@ -86,7 +87,8 @@ Observer::Observer(const Foam& foam, const Visibility* visibility)
     shares += kAround[e].share;
   }
   uint64_t seen = 0;
-  for (float weight : visibility->weights) sum += weight;
+  for (size_t i = 0; i < visibility->weights.size(); ++i)
+    sum += double(visibility->weights[i]) * viewWeight(visibility->views[i]);
   for (size_t i = 0; i + 1 < visibility->offsets.size(); ++i)
     seen += visibility->offsets[i + 1] > visibility->offsets[i];
   if (sum > 0) typicalWeight_ = sum * shares / static_cast<double>(seen);
@@ -103,6 +105,12 @@ Observations Observer::observe(uint64_t site) const {
   seen.colours.reserve(seen.size());
   for (const glm::vec3& direction : seen.directions) seen.colours.push_back(colourAlong(site, direction));
   return seen;
+}
+
+std::optional<uint32_t> Observer::viewOfEye(uint32_t eye) const {
+  if (!visibility_ || eye % (1 + kEyesAround) != 0) return {};
+  const uint32_t view = eye / (1 + kEyesAround);
+  return view < visibility_->eyes.size() ? std::optional(view) : std::nullopt;
 }
 
 float Observer::overlap(uint32_t cell, uint32_t k, uint32_t l) const {
@@ -124,10 +132,10 @@ void Observer::addCameras(uint64_t site, const glm::vec3& position, Observations
   };
   for (uint64_t i = visibility_->offsets[site]; i < visibility_->offsets[site + 1]; ++i) {
     const uint32_t view = visibility_->views[i], number = view * (1 + kEyesAround);
-    add(number, visibility_->eyes[view], visibility_->weights[i]);
-    for (uint32_t e = 0; e < kEyesAround; ++e) {
-      add(number + 1 + e, eyesAround_[e][view], kAround[e].share * visibility_->weights[i]);
-    }
+    const float weight = viewWeight(view) * visibility_->weights[i];
+    add(number, visibility_->eyes[view], weight);
+    for (uint32_t e = 0; e < kEyesAround; ++e)
+      add(number + 1 + e, eyesAround_[e][view], kAround[e].share * weight);
   }
 }
 

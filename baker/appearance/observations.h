@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,8 +33,13 @@ double totalWeight(const Observations& seen);
 // hemisphere before its face, so every one has some observations. Thread-safe.
 class Observer {
  public:
-  // Keeps references. `visibility` null: the hemisphere alone.
-  Observer(const Foam& foam, const Visibility* visibility);
+  // Keeps references. `visibility` null: the hemisphere alone. `viewWeights`: how much an error in each view
+  // counts [views] > 0; empty: all alike.
+  Observer(const Foam& foam, const Visibility* visibility, std::vector<float> viewWeights = {});
+
+  // The view of whose camera an eye is; nothing for eyes around cameras and in the hemisphere.
+  std::optional<uint32_t> viewOfEye(uint32_t eye) const;
+  float viewWeight(uint32_t view) const { return viewWeights_.empty() ? 1.0f : viewWeights_[view]; }
 
   Observations observe(uint64_t site) const;
   // How much of where one detail site of a cell shows the other one shows too [0..1] (Visibility::overlaps).
@@ -48,6 +54,7 @@ class Observer {
 
   const Foam& foam_;
   const Visibility* visibility_;
+  std::vector<float> viewWeights_;
   std::vector<glm::vec3> hemisphere_;                           // unit; z: against the face's normal
   std::array<std::vector<glm::vec3>, kEyesAround> eyesAround_;  // [views] each
   double typicalWeight_ = 1;                                    // mean over the detail sites that are seen

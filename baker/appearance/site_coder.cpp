@@ -10,7 +10,8 @@
 namespace froth {
 namespace {
 
-constexpr double kBrightestLobe = 2;  // [display-coded] largest offset of a lobe from the base
+constexpr double kBrightestLobe = 2;    // [display-coded] largest offset of a lobe from the base
+constexpr double kResidualPrice = 0.4;  // of an axis that is no entry of the codebook, relative to the lobe
 
 glm::dvec3 snapColour(const glm::dvec3& colour, double step) {
   return {snapToStep(colour.x, step), snapToStep(colour.y, step), snapToStep(colour.z, step)};
@@ -47,12 +48,11 @@ CodedSite SiteCoder::code(const Observations& seen, std::span<const glm::vec3> a
   CodedSite best;
   best.base = snapColour(meanColour(seen) - 0.5, step);
   best.error = measureFit(seen, LobeBasis(seen, {}), {}, best.base + 0.5, {});
-  if (best.error.squared > bound_ && !codebook_.isEmpty()) {
-    tryLobes(seen, LobeBasis(seen, candidates(axes, AxisChoice::kEntries)), step, best);
-  }
-  if (best.error.squared > bound_ && (codebook_.isEmpty() || options_.lobeAxisStep > 0)) {
-    tryLobes(seen, LobeBasis(seen, candidates(axes, AxisChoice::kResiduals)), step, best);
-  }
+  double least = best.error.squared;
+  const double price = codebook_.isEmpty() ? price_ : price_ * (1 + kResidualPrice);
+  const bool hasResiduals = codebook_.isEmpty() || options_.lobeAxisStep > 0;
+  if (!codebook_.isEmpty()) tryLobes(seen, axes, AxisChoice::kEntries, price_, step, best, least);
+  if (hasResiduals) tryLobes(seen, axes, AxisChoice::kResiduals, price, step, best, least);
   return best;
 }
 
@@ -68,23 +68,25 @@ void SiteCoder::refit(const Observations& seen, double step, CodedSite& site) co
   if (better.error.squared < site.error.squared) site = std::move(better);
 }
 
-void SiteCoder::tryLobes(const Observations& seen, const LobeBasis& basis, double step,
-                         CodedSite& best) const {
+void SiteCoder::tryLobes(const Observations& seen, std::span<const glm::vec3> axes, AxisChoice choice,
+                         double price, double step, CodedSite& best, double& least) const {
+  if (least <= price) return;
+  const LobeBasis basis(seen, candidates(axes, choice));
   const glm::dvec3 base = best.base + 0.5;
   LobeSelection selection(seen, basis, base);
-  while (selection.chosen().size() < options_.lobeLimit && selection.grow()) {
+  for (uint32_t count = 1; count <= options_.lobeLimit && count * price < least && selection.grow();
+       ++count) {
+    if (selection.leastError() + count * price >= least) continue;
     std::vector<uint32_t> chosen = selection.chosen();
     std::sort(chosen.begin(), chosen.end());
-    const bool isLast = chosen.size() == std::min<size_t>(options_.lobeLimit, basis.axes().size());
-    if (selection.leastError() > bound_ && !isLast) continue;
     auto colours = fitColours(seen, basis, chosen, base, step);
     FitError error = measureFit(seen, basis, chosen, base, colours);
-    if (error.squared >= best.error.squared) continue;
+    if (error.squared + count * price >= least) continue;
+    least = error.squared + count * price;
     best.error = std::move(error);
     best.colours = std::move(colours);
     best.axes.clear();
     for (uint32_t a : chosen) best.axes.push_back(basis.axes()[a]);
-    if (best.error.squared <= bound_) return;
   }
 }
 

@@ -23,9 +23,9 @@ struct CodedSite {
 
 class SiteCoder {
  public:
-  // Keeps references. `bound`: the squared error that is allowed, in the units of FitError.
-  SiteCoder(const AppearanceOptions& options, const AxisCodebook& codebook, double bound)
-      : options_(options), codebook_(codebook), bound_(bound) {}
+  // Keeps references. `price`: the squared error, in the units of FitError, that a lobe has to take away.
+  SiteCoder(const AppearanceOptions& options, const AxisCodebook& codebook, double price)
+      : options_(options), codebook_(codebook), price_(price) {}
 
   // `axes`: the lobes of the input. Colours become multiples of `step` [0: any].
   CodedSite code(const Observations& seen, std::span<const glm::vec3> axes, double step) const;
@@ -37,12 +37,13 @@ class SiteCoder {
   enum class AxisChoice { kEntries, kResiduals };
 
   std::vector<glm::vec3> candidates(std::span<const glm::vec3> axes, AxisChoice choice) const;
-  // Improves `best` until it keeps the bound or lobes run out.
-  void tryLobes(const Observations& seen, const LobeBasis& basis, double step, CodedSite& best) const;
+  // Replaces `best` where it finds less than `least`: squared error + price of the lobes.
+  void tryLobes(const Observations& seen, std::span<const glm::vec3> axes, AxisChoice choice, double price,
+                double step, CodedSite& best, double& least) const;
 
   const AppearanceOptions& options_;
   const AxisCodebook& codebook_;
-  double bound_;
+  double price_;
 };
 
 }  // namespace froth

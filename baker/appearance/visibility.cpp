@@ -123,8 +123,9 @@ class ViewMeasurer {
     }
     const float scale = segment.weight / foam::flooredWeightSum(sum);
     for (float& share : shares) share *= scale;
-    uint64_t* const squares = &sums_.details[segment.rank * shares.size()];
-    uint64_t* const products = &products_[sources_[segment.rank] * (shares.size() * (shares.size() - 1) / 2)];
+    uint64_t* const squares = sums_.details.data() + segment.rank * shares.size();
+    uint64_t* const products =
+        products_.data() + sources_[segment.rank] * (shares.size() * (shares.size() - 1) / 2);
     for (size_t k = 0, pair = 0; k < shares.size(); ++k) {
       addProduct(squares[k], shares[k], shares[k]);
       for (size_t l = k + 1; l < shares.size(); ++l, ++pair) addProduct(products[pair], shares[k], shares[l]);
@@ -233,10 +234,11 @@ Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> vie
     const auto candidates = findCellsInFrustum(geometry, visible, view);
     const auto cells = prepareViewCells<float>(geometry, pairs, candidates, view, reference);
     const ViewSums sums = ViewMeasurer(view, cells, hierarchy, options.detailSharpness, products).measure();
-    const double pixelsPerSample =
-        double(views[v].width) * views[v].height / (double(view.width) * view.height);
+    const double pixels = double(views[v].width) * views[v].height;
+    const double pixelsPerSample = pixels / (double(view.width) * view.height);
     addEntries(cells, sums, pixelsPerSample, entries[v], visibility.contributions, squares);
     visibility.eyes.push_back(eyeOf(view));
+    visibility.pixels.push_back(pixels);
   }
   gatherRows(entries, visibility);
   correlate(K, squares, products, visibility.overlaps);

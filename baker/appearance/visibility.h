@@ -25,6 +25,7 @@ struct VisibilityOptions {
 // rows over detail sites; entries ascend by view.
 struct Visibility {
   std::vector<glm::vec3> eyes;    // [views] [scene units]
+  std::vector<double> pixels;     // [views] of the full-size view
   std::vector<uint64_t> offsets;  // [N*K + 1]
   std::vector<uint16_t> views;    // [offsets.back()]
   std::vector<float> weights;     // [offsets.back()] > 0

@@ -13,7 +13,7 @@ BakeKnobs defaultKnobs() {
   knobs.detailSiteBits = 6;
   knobs.heightBits = 5;
   knobs.compressColours = true;
-  knobs.appearance.errorBound = 0.03f;
+  knobs.appearance.errorBound = 0.019f;
   knobs.appearance.lobeLimit = 8;
   knobs.appearance.codebookSize = 2048;
   knobs.appearance.colourStep = 0x1p-5f;  // each cell coarsens it by what it shows
@@ -29,7 +29,7 @@ BakeKnobs highKnobs() {
   knobs.frameBits = 11;
   knobs.detailSiteBits = 8;
   knobs.heightBits = 8;
-  knobs.appearance.errorBound = 0.01f;
+  knobs.appearance.errorBound = 0.006f;
   knobs.appearance.lobeLimit = 32;
   knobs.appearance.codebookSize = 0;
   knobs.appearance.colourStep = 0x1p-9f;
@@ -45,7 +45,7 @@ BakeKnobs smallKnobs() {
   knobs.frameBits = 8;
   knobs.detailSiteBits = 5;
   knobs.heightBits = 4;
-  knobs.appearance.errorBound = 0.06f;
+  knobs.appearance.errorBound = 0.038f;
   knobs.appearance.lobeLimit = 4;
   knobs.appearance.codebookSize = 1024;
   knobs.appearance.lobeAxisStep = 0;  // the codebook's axes as they are

@@ -57,7 +57,7 @@ void BakeFlags::addColourKnobs(CLI::App& command) {
       knobs.appearance.*knob = value;
     });
   };
-  add("--error-bound", "RMS error allowed per detail site [display-coded, 0..1]", numberBetween(0, 1),
+  add("--error-bound", "RMS error that a lobe must take away to be kept [display-coded, 0..1]", numberBetween(0, 1),
       &AppearanceOptions::errorBound);
   add("--lobes", "Most lobes kept per detail site [0..32]", countBetween(0, 32), &AppearanceOptions::lobeLimit);
   add("--codebook", "Entries of the codebook of lobe axes [0..65536]; 0: none", countBetween(0, 65536),
