@@ -35,7 +35,7 @@ struct RenderCommandOptions {
 // What the two kinds of renderers have in common: draws a view, says what it met.
 struct Drawing {
   RenderedImages images;
-  uint32_t statusBits = 0;  // FrothViewBit; 0 from the reference
+  FrothViewStatus status{};  // zero from the reference
 };
 using DrawView = std::function<Result<Drawing>(const View&)>;
 
@@ -82,7 +82,7 @@ Status drawViews(const RenderCommandOptions& options, const std::vector<Selected
       return written;
     if (options.figures.wantsTable()) {
       fmt::print("{}: view {}, {}x{}, {:.3f} s{}\n", paths[i].string(), views[i].index, view.width,
-                 view.height, seconds, describeBits(drawing->statusBits));
+                 view.height, seconds, describeBits(drawing->status.bits));
     }
     figures["views"].push_back({{"view", views[i].index},
                                 {"name", view.name},
@@ -90,9 +90,12 @@ Status drawViews(const RenderCommandOptions& options, const std::vector<Selected
                                 {"width", view.width},
                                 {"height", view.height},
                                 {"seconds", seconds},
-                                {"cellOverflow", (drawing->statusBits & FROTH_VIEW_CELL_OVERFLOW) != 0},
-                                {"pairOverflow", (drawing->statusBits & FROTH_VIEW_PAIR_OVERFLOW) != 0},
-                                {"stepLimit", (drawing->statusBits & FROTH_VIEW_STEP_LIMIT) != 0}});
+                                {"cellOverflow", (drawing->status.bits & FROTH_VIEW_CELL_OVERFLOW) != 0},
+                                {"pairOverflow", (drawing->status.bits & FROTH_VIEW_PAIR_OVERFLOW) != 0},
+                                {"stepLimit", (drawing->status.bits & FROTH_VIEW_STEP_LIMIT) != 0},
+                                {"visibleCells", drawing->status.visibleCells},
+                                {"pairs", drawing->status.pairs},
+                                {"viewBytes", drawing->status.deviceBytes}});
   }
   return {};
 }
@@ -116,7 +119,7 @@ Status renderReference(const RenderCommandOptions& options, const std::vector<Se
         Result<RenderedImages> images = renderer.render(view, reference, progress);
         if (!images) return images.error();
         if (options.isLinear) decodeColour(*images);
-        return Drawing{std::move(*images), 0};
+        return Drawing{std::move(*images), {}};
       },
       figures);
 }
@@ -140,7 +143,7 @@ Status renderOnDevice(const RenderCommandOptions& options, const std::vector<Sel
       [&](const View& view) -> Result<Drawing> {
         Result<GpuFrame> frame = (*renderer)->render(view, gpu);
         if (!frame) return frame.error();
-        return Drawing{std::move(frame->images), frame->status.bits};
+        return Drawing{std::move(frame->images), frame->status};
       },
       figures);
 }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "shaders/gpu/layout.h"
-
 namespace froth {
 namespace {
 
@@ -36,6 +34,13 @@ ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b) {
 
 ViewDemand largest(const ViewDemand& a, const ViewDemand& b) {
   return {std::max(a.cells, b.cells), std::max(a.planes, b.planes), std::max(a.pairs, b.pairs)};
+}
+
+ViewDemand demandOf(const gpu::Counters& counters) {
+  // Pairs of cells that had no space were not counted: their share of the others'.
+  const uint64_t share = counters.pairs / std::max(counters.visibleCells, 1u) + 1;
+  const uint64_t lostCells = counters.cellsWanted - counters.visibleCells;
+  return {counters.cellsWanted, counters.planesWanted, counters.pairs + std::max(share, kPairsPerCell) * lostCells};
 }
 
 uint32_t groupsPerChunk(const GpuAsset& asset) {

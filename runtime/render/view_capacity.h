@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "runtime/asset/gpu_asset.h"
+#include "shaders/gpu/layout.h"
 
 namespace froth {
 
@@ -27,6 +28,7 @@ struct ViewDemand {
   uint64_t cells = 0, planes = 0, pairs = 0;
 };
 
+ViewDemand demandOf(const gpu::Counters& counters);
 ViewDemand largest(const ViewDemand& a, const ViewDemand& b);
 
 // Workgroups over the live cells of an asset's largest chunk.

@@ -7,13 +7,6 @@
 namespace froth {
 namespace {
 
-// Pairs of cells that had no space are unknown: the others' share.
-ViewDemand demandOf(const gpu::Counters& counters) {
-  const uint64_t pairs =
-      uint64_t{counters.pairs} * counters.cellsWanted / std::max(counters.visibleCells, 1u);
-  return {counters.cellsWanted, counters.planesWanted, pairs};
-}
-
 void addWork(const gpu::Counters& counters, FrothWork& work) {
   const auto add = [&](uint32_t kind, uint64_t& sum) {
     sum += uint64_t{counters.work[2 * kind + 1]} << 32 | counters.work[2 * kind];

@@ -1,0 +1,280 @@
+// Views with too little space draw valid frames and grow to what they want; the smallest and the longest images.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "format/asset_writer.h"
+#include "runtime/asset/asset.h"
+#include "runtime/render/view_state.h"
+#include "tests/render/random_foam.h"
+#include "tests/render/render_harness.h"
+
+namespace froth::test {
+namespace {
+
+constexpr VkExtent2D kExtent{96, 64};
+
+View viewFrom(double distance) {
+  return lookAt({0.1, 0.2, 3 - distance}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6);
+}
+
+// A view whose capacity the test sets.
+class Growth : public testing::Test {
+ protected:
+  struct Drawn {
+    std::vector<float> colour;
+    gpu::Counters counters;
+
+    bool lostCells() const { return counters.cellsWanted > counters.visibleCells; }
+    bool lostPairs() const { return counters.pairs > counters.pairsKept; }
+  };
+
+  Growth()
+      : device_(*Device::create(vkGetInstanceProcAddr, sharedHost().instance, sharedHost().physicalDevice,
+                                sharedHost().device)),
+        pipelines_(std::move(*RenderPipelines::create(device_, VK_NULL_HANDLE, {.checkIndices = true}))),
+        bytes_(*encodeAsset(bakeForTest(makeRandomFoam(400, 3, 2, 5)))),
+        asset_("", bytes_, Layer::kViewDependence, &device_),
+        view_{.device = device_,
+              .buffers = ViewBuffers(device_),
+              .images = std::move(*OutputImages::create(device_, kRecordingsPerFrame)),
+              .timer = nullptr,
+              .slots = std::vector<FrameSlot>(1)} {
+    std::unique_ptr<UploadRing> ring = std::move(*UploadRing::create(device_, 16 << 20));
+    while (!asset_.isDecoded()) {
+      asset_.load(pipelines_.get(), {});
+      EXPECT_FALSE(asset_.hasFailed());
+      asset_.stage(*ring, UINT64_MAX);
+    }
+    submit([&](VkCommandBuffer commandBuffer, uint64_t serial) {
+      ring->record(commandBuffer, serial, UINT64_MAX);
+    });
+    image_ = *sharedHost().createImage(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent);
+  }
+
+  ~Growth() override { sharedHost().destroyImage(image_); }
+
+  void submit(const std::function<void(VkCommandBuffer, uint64_t)>& record) {
+    const Status status = sharedHost().submit([&](VkCommandBuffer commandBuffer, uint64_t serial) -> Status {
+      record(commandBuffer, serial);
+      return {};
+    });
+    EXPECT_TRUE(status) << status.error().message;
+  }
+
+  // All that the asset can need.
+  ViewCapacity wholeCapacity() const {
+    ViewCapacity capacity;
+    capacity.tiles = tilesAlong(kExtent.width) * tilesAlong(kExtent.height);
+    coverAsset(asset_.gpu(), capacity);
+    return capacity;
+  }
+
+  Drawn draw(Method method, const View& camera) {
+    FrothRenderInfo info = infoOf(camera);
+    info.colour = sharedHost().describe(image_);
+    info.camera.scissor = {{0, 0}, kExtent};
+    info.cutoff = 1e-3f;
+    info.depthQuantile = 0.5f;
+    info.maxSteps = 65536;
+    const RenderInstance instance{
+        .asset = &asset_.gpu(), .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
+    const bool isRaster = method == Method::kRaster;
+    submit([&](VkCommandBuffer commandBuffer, uint64_t serial) {
+      view_.slots[0] = {};
+      const Recording recording =
+          beginRecording(view_, commandBuffer, isRaster ? RecordingKind::kRaster : RecordingKind::kWalk, info,
+                         serial, &instance);
+      const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset_.gpu()));
+      const auto record = isRaster ? recordRasterPasses : recordWalkPasses;
+      record(recording, bindRecording(recording, pipelines_->state(), passes), asset_.gpu());
+      endRecording(recording);
+      lastSerial_ = serial;
+    });
+    Result<std::vector<float>> texels = sharedHost().readImage(image_);
+    EXPECT_TRUE(texels) << texels.error().message;
+    const Drawn drawn{*texels, readCounters(view_, 0)};
+    EXPECT_EQ(drawn.counters.violations, 0u);
+    return drawn;
+  }
+
+  void growTo(const ViewCapacity& capacity) {
+    const Status grown = view_.buffers.grow(capacity, lastSerial_);
+    EXPECT_TRUE(grown) << grown.error().message;
+    view_.buffers.freeRetired(lastSerial_);
+    view_.walkAsset = nullptr;
+  }
+
+  // What the view does between frames.
+  void growFor(const Drawn& drawn) {
+    ViewCapacity capacity = view_.buffers.capacity();
+    coverDemand(asset_.gpu(), demandOf(drawn.counters), capacity);
+    growTo(capacity);
+  }
+
+  Device device_;
+  std::unique_ptr<RenderPipelines> pipelines_;
+  std::vector<uint8_t> bytes_;
+  Asset asset_;
+  ViewState view_;
+  HostImage image_;
+  uint64_t lastSerial_ = 0;
+};
+
+enum class Shortage { kCells, kPlanes, kSites, kPairs };
+
+class GrowthAfter : public Growth, public testing::WithParamInterface<Shortage> {
+ protected:
+  ViewCapacity shortCapacity() const {
+    ViewCapacity capacity = wholeCapacity();
+    switch (GetParam()) {
+      case Shortage::kCells:
+        capacity.cells = 70;
+        break;
+      case Shortage::kPlanes:
+        capacity.planes = 500;
+        break;
+      case Shortage::kSites:
+        capacity.sites = 200;
+        break;
+      case Shortage::kPairs:
+        capacity.pairs = 50;
+        break;
+    }
+    return capacity;
+  }
+};
+
+TEST_P(GrowthAfter, AShortageFramesAreWholeAgain) {
+  const View camera = viewFrom(4.5);
+  const bool isPairs = GetParam() == Shortage::kPairs;
+  for (const Method method : {Method::kRaster, Method::kWalk}) {
+    if (isPairs && method == Method::kWalk) continue;  // has none
+    view_.buffers.~ViewBuffers();
+    new (&view_.buffers) ViewBuffers(device_);
+    growTo(shortCapacity());
+    const Drawn first = draw(method, camera);
+    EXPECT_EQ(first.lostPairs(), isPairs);
+    EXPECT_EQ(first.lostCells(), !isPairs);
+    for (const float value : first.colour) ASSERT_TRUE(value >= 0 && value < 100) << value;
+    EXPECT_EQ(draw(method, camera).colour, first.colour) << "what is missing is defined";
+    growFor(first);
+    const Drawn second = draw(method, camera);
+    EXPECT_FALSE(second.lostCells() || second.lostPairs());
+    growTo(wholeCapacity());
+    const Drawn whole = draw(method, camera);
+    EXPECT_NE(first.colour, whole.colour);
+    EXPECT_EQ(second.colour, whole.colour);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, GrowthAfter,
+                         testing::Values(Shortage::kCells, Shortage::kPlanes, Shortage::kSites,
+                                         Shortage::kPairs));
+
+TEST_F(Growth, KeepsAheadOfACameraThatMovesOnAndFollowsOneThatJumps) {
+  for (const Method method : {Method::kRaster, Method::kWalk}) {
+    ViewCapacity least;
+    least.tiles = wholeCapacity().tiles;
+    least.groups = wholeCapacity().groups;
+    view_.buffers.~ViewBuffers();
+    new (&view_.buffers) ViewBuffers(device_);
+    growTo(least);
+    bool lostBefore = false;
+    std::vector<int> lostFrames;
+    for (int frame = 0; frame < 40; ++frame) {
+      const double distance = frame < 30 ? 0.2 + 0.08 * frame : 0.5 + 8.0 * (frame % 2);  // away, then to and fro
+      const Drawn drawn = draw(method, viewFrom(distance));
+      const bool isLost = drawn.lostCells() || drawn.lostPairs();
+      EXPECT_FALSE(isLost && lostBefore) << "frame " << frame;
+      if (isLost) lostFrames.push_back(frame);
+      lostBefore = isLost;
+      growFor(drawn);
+    }
+    ASSERT_FALSE(lostFrames.empty()) << "the first frame had no space";
+    EXPECT_EQ(lostFrames.front(), 0);
+    EXPECT_LE(lostFrames.size(), 2u) << "only the first frame and the jump may lose something";
+  }
+}
+
+TEST(Capacity, OfALargeAssetStartsWithWhatAnImageMightShow) {
+  GpuAsset asset;
+  asset.detailCount = 8;
+  asset.liveCount = 5'000'000;
+  asset.alphaTotal = 7 * uint64_t{asset.liveCount};
+  GpuChunk chunk;
+  chunk.liveCount = asset.liveCount;
+  asset.chunks = {chunk};
+  ViewCapacity small, wide;
+  wide.tiles = 60 * 34;  // 1920 x 1080
+  coverAsset(asset, small);
+  coverAsset(asset, wide);
+  EXPECT_LT(small.cells, 20'000u);
+  EXPECT_LT(wide.cells, 100'000u);
+  EXPECT_TRUE(coversAsset(asset, small));
+  EXPECT_EQ(wide.sites, uint64_t{8} * wide.cells);
+}
+
+TEST(Capacity, NeverExceedsWhatTheAssetCanWant) {
+  GpuAsset asset;
+  asset.detailCount = 4;
+  asset.liveCount = 1000;
+  asset.alphaTotal = 7000;
+  ViewCapacity capacity;
+  coverDemand(asset, {.cells = 900, .planes = 6800, .pairs = 100}, capacity);
+  EXPECT_EQ(capacity.cells, 1000u);
+  EXPECT_EQ(capacity.planes, 7000u);
+  EXPECT_EQ(capacity.sites, 4000u);
+  EXPECT_EQ(capacity.pairs, 150u);
+  const ViewCapacity before = capacity;
+  coverDemand(asset, {.cells = 1000, .planes = 7000, .pairs = 120}, capacity);
+  EXPECT_EQ(capacity.cells, before.cells);
+  EXPECT_EQ(capacity.pairs, before.pairs) << "within the head room nothing grows";
+}
+
+TEST(Extremes, CellsBeyondTheSpaceAreReportedAndTheNextFrameIsWhole) {
+  Foam foam = makeRandomFoam(18000, 1, 1, 6);
+  for (float& radius : foam.radii) radius *= 0.1f;
+  const View view = lookAt({0, 0, 0}, {0, 0, 3}, 32, 32, 0.9);
+  Stage stage(bakeForTest(foam), {view.width, view.height});
+  const Frame first = stage.draw(Method::kRaster, view);
+  EXPECT_EQ(first.status.bits, uint32_t{FROTH_VIEW_CELL_OVERFLOW});
+  const Frame second = stage.draw(Method::kRaster, view);
+  EXPECT_EQ(second.status.bits, 0u);
+  EXPECT_EQ(second.status.visibleCells, first.status.visibleCells);
+  EXPECT_GE(psnr(stage.draw(Method::kWalk, view).colour, second.colour), 60);
+}
+
+TEST(Extremes, AViewThatSeesNoCellIsEmpty) {
+  Stage stage(bakeForTest(makeRandomFoam(50, 2, 1, 3)), kExtent);
+  const View away = lookAt({0, 0, 0}, {0, 0, -3}, kExtent.width, kExtent.height, 0.5);
+  for (const Method method : {Method::kRaster, Method::kWalk}) {
+    const Frame frame = stage.draw(method, away);
+    EXPECT_EQ(frame.status.visibleCells, 0u);
+    EXPECT_EQ(frame.status.bits, 0u);
+    for (const float value : frame.colour.values) ASSERT_EQ(value, 0.0f);
+    for (const float value : frame.distance.values) ASSERT_TRUE(std::isinf(value));
+  }
+}
+
+class ExtremeExtents : public testing::TestWithParam<VkExtent2D> {};
+
+TEST_P(ExtremeExtents, AreDrawnAsTheReferenceDrawsThem) {
+  const Foam foam = makeRandomFoam(60, 2, 2, 4);
+  const double tanHalfFovY = GetParam().height == 1 ? 1e-3 : 0.6;
+  const View view = lookAt({0.1, 0.2, -1}, {0, 0, 3}, GetParam().width, GetParam().height, tanHalfFovY);
+  const RenderedImages expected = renderReference(foam, view);
+  Stage stage(bakeForTest(foam), GetParam());
+  for (const Method method : {Method::kRaster, Method::kWalk}) {
+    const Frame frame = stage.draw(method, view);
+    EXPECT_EQ(frame.status.bits, 0u);
+    EXPECT_GE(psnr(frame.colour, expected.colour), 60);
+    EXPECT_GE(psnr(frame.alpha, expected.alpha), 60);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pixels, ExtremeExtents,
+                         testing::Values(VkExtent2D{1, 1}, VkExtent2D{1, 16384}, VkExtent2D{16384, 1}));
+
+}  // namespace
+}  // namespace froth::test
