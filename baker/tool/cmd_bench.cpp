@@ -1,13 +1,12 @@
-// froth bench: milliseconds by pass, from GPU timestamps.
+// froth bench: milliseconds by pass, from GPU timestamps; or, with --counters, what the rays cost.
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "baker/tool/bench_figures.h"
 #include "baker/tool/commands.h"
 #include "baker/tool/figures.h"
 #include "baker/tool/foam_input.h"
@@ -27,48 +26,12 @@ struct BenchOptions {
   double warmupSeconds = 1.0;  // clocks of an idle GPU take about this long to rise
   uint32_t layers = kAllLayers;
   std::string device;
+  bool isCounting = false;
   FiguresOutput figures;
 };
 
-struct Percentiles {
-  double median = 0, p5 = 0, p95 = 0;
-};
-
-// Nearest rank; `values` not empty.
-Percentiles percentilesOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-  };
-  return {at(0.5), at(0.05), at(0.95)};
-}
-
-nlohmann::ordered_json toJson(const Percentiles& times) {
-  return {{"median", times.median}, {"p5", times.p5}, {"p95", times.p95}};
-}
-
-// All measured frames; a pass that a frame lacks counts nothing there.
-struct Measurement {
-  std::vector<std::string> passOrder;
-  std::map<std::string, std::vector<double>> passTimes;  // [ms]
-  std::vector<double> totals;                            // [ms] of all frames
-  std::vector<std::vector<double>> viewTotals;           // [ms] by view
-  std::vector<FrothViewStatus> viewStatus;               // newest, by view
-};
-
-void addFrame(Measurement& measurement, size_t view, const FrothViewStatus& status) {
-  double total = 0;
-  for (uint32_t pass = 0; pass < status.passCount; ++pass) {
-    const FrothPassTime& time = status.passes[pass];
-    auto [entry, isNew] = measurement.passTimes.try_emplace(time.name);
-    if (isNew) measurement.passOrder.push_back(time.name);
-    entry->second.push_back(time.milliseconds);
-    total += time.milliseconds;
-  }
-  measurement.totals.push_back(total);
-  measurement.viewTotals[view].push_back(total);
-  measurement.viewStatus[view] = status;
-}
+// The noise of a measurement is how far its cycles over the views scatter.
+constexpr uint32_t kLeastCycles = 5;
 
 Status warmUp(GpuRenderer& renderer, const std::vector<SelectedView>& views, const GpuRenderOptions& options,
               double seconds) {
@@ -82,11 +45,12 @@ Status warmUp(GpuRenderer& renderer, const std::vector<SelectedView>& views, con
 }
 
 Result<Measurement> measure(GpuRenderer& renderer, const std::vector<SelectedView>& views,
-                            const GpuRenderOptions& options, uint32_t frames, const Progress& progress) {
+                            const GpuRenderOptions& options, uint32_t cycles, const Progress& progress) {
   Measurement measurement;
+  const size_t frames = cycles * views.size();
   measurement.viewTotals.resize(views.size());
   measurement.viewStatus.resize(views.size());
-  for (uint32_t frame = 0; frame < frames; ++frame) {
+  for (size_t frame = 0; frame < frames; ++frame) {
     if (!report(progress, "measure", frame, frames)) return stoppedError();
     const size_t view = frame % views.size();
     const Result<FrothViewStatus> status = renderer.draw(views[view].view, options);
@@ -101,38 +65,6 @@ Result<Measurement> measure(GpuRenderer& renderer, const std::vector<SelectedVie
   return measurement;
 }
 
-void printMeasurement(const Measurement& measurement) {
-  fmt::print("{:<12} {:>10} {:>10} {:>10}  ms\n", "pass", "median", "p5", "p95");
-  for (const std::string& name : measurement.passOrder) {
-    const Percentiles times = percentilesOf(measurement.passTimes.at(name));
-    fmt::print("{:<12} {:>10.4f} {:>10.4f} {:>10.4f}\n", name, times.median, times.p5, times.p95);
-  }
-  const Percentiles total = percentilesOf(measurement.totals);
-  fmt::print("{:<12} {:>10.4f} {:>10.4f} {:>10.4f}\n", "total", total.median, total.p5, total.p95);
-}
-
-nlohmann::ordered_json measurementAsJson(const Measurement& measurement,
-                                         const std::vector<SelectedView>& views) {
-  nlohmann::ordered_json passes = nlohmann::ordered_json::object();
-  for (const std::string& name : measurement.passOrder) {
-    passes[name] = toJson(percentilesOf(measurement.passTimes.at(name)));
-  }
-  nlohmann::ordered_json perView = nlohmann::ordered_json::array();
-  for (size_t i = 0; i < views.size(); ++i) {
-    if (measurement.viewTotals[i].empty()) continue;  // more views than frames
-    const FrothViewStatus& status = measurement.viewStatus[i];
-    perView.push_back({{"view", views[i].index},
-                       {"total", toJson(percentilesOf(measurement.viewTotals[i]))},
-                       {"visibleCells", status.visibleCells},
-                       {"pairs", status.pairs},
-                       {"stepLimit", (status.bits & FROTH_VIEW_STEP_LIMIT) != 0}});
-  }
-  const double sum = std::accumulate(measurement.totals.begin(), measurement.totals.end(), 0.0);
-  nlohmann::ordered_json total = toJson(percentilesOf(measurement.totals));
-  total["mean"] = sum / static_cast<double>(measurement.totals.size());
-  return {{"unit", "ms"}, {"total", total}, {"passes", passes}, {"views", perView}};
-}
-
 Status runBench(const BenchOptions& options, const Progress& progress) {
   if (Status good = checkLayers(options.input, options.layers); !good) return good;
   const Result<std::vector<SelectedView>> views = selectViews(options.views);
@@ -142,6 +74,7 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
   GpuDeviceOptions device;
   device.device = options.device;
   device.measurePasses = true;
+  device.countWork = options.isCounting;
   Result<std::unique_ptr<GpuRenderer>> created = GpuRenderer::create(device, *asset, progress);
   if (!created) return created.error();
   GpuRenderer& renderer = **created;
@@ -150,21 +83,23 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
   render.method = options.renderer == "walk" ? GpuMethod::kWalk : GpuMethod::kRaster;
   render.cutoff = options.cutoff;
   render.isLinear = true;
+  const auto viewCount = static_cast<uint32_t>(views->size());
+  const uint32_t cycles = std::max(kLeastCycles, (options.frames + viewCount - 1) / viewCount);
   if (Status warm = warmUp(renderer, *views, render, options.warmupSeconds); !warm) return warm;
-  const Result<Measurement> measurement = measure(renderer, *views, render, options.frames, progress);
+  const Result<Measurement> measurement = measure(renderer, *views, render, cycles, progress);
   if (!measurement) return measurement.error();
 
   const FrothAssetStatus status = renderer.assetStatus();
   const View& view = views->front().view;
-  const uint64_t viewBytes = measurement->viewStatus.front().deviceBytes;
+  const FrothViewStatus& viewStatus = measurement->viewStatus.back();  // buffers only grow
   if (options.figures.wantsTable()) {
     fmt::print("{} on {} ({}), {} cells, {}x{}, cut-off {}, {} frames over {} views\n", options.renderer,
                renderer.device().name, renderer.device().driver, status.cellCount, view.width, view.height,
-               options.cutoff, options.frames, views->size());
+               options.cutoff, measurement->totals.size(), views->size());
+    if (options.isCounting) fmt::print("counting: the times are not those of drawing\n");
     printMeasurement(*measurement);
-    fmt::print("memory       asset {:.1f} MiB, view {:.1f} MiB\n",
-               static_cast<double>(status.deviceBytes) / (1 << 20),
-               static_cast<double>(viewBytes) / (1 << 20));
+    if (options.isCounting) printWork(*measurement, *views);
+    printMemory(status, viewStatus);
   }
   nlohmann::ordered_json figures{{"input", options.input.string()},
                                  {"device", renderer.device().name},
@@ -175,10 +110,13 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
                                  {"width", view.width},
                                  {"height", view.height},
                                  {"layers", options.layers},
-                                 {"frames", options.frames},
+                                 {"frames", measurement->totals.size()},
+                                 {"isCounting", options.isCounting},
                                  {"cells", status.cellCount},
                                  {"assetBytes", status.deviceBytes},
-                                 {"viewBytes", viewBytes}};
+                                 {"viewBytes", viewStatus.deviceBytes},
+                                 {"memory", memoryAsJson(status, viewStatus)}};
+  if (options.isCounting) figures["work"] = workAsJson(*measurement, *views);
   figures.update(measurementAsJson(*measurement, *views));
   return options.figures.write(figures);
 }
@@ -197,13 +135,14 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
   command->add_option("--cutoff", options->cutoff, "A ray ends below this transmittance")
       ->capture_default_str()
       ->check(numberBetween(0, 1));
-  command->add_option("--frames", options->frames, "Measured frames, cycling through the views")
+  command->add_option("--frames", options->frames, "Least measured frames; whole cycles through the views, 5 at least")
       ->capture_default_str()
       ->check(countBetween(100, 1000000));
   command
       ->add_option("--warmup", options->warmupSeconds, "Seconds of drawing before the first measured frame")
       ->capture_default_str()
       ->check(numberBetween(0, 3600));
+  command->add_flag("--counters", options->isCounting, "Count what the rays cost; slower");
   addLayersOption(*command, options->layers);
   command->add_option("--device", options->device, "Index or part of a name (`froth devices`)");
   addFiguresOption(*command, options->figures);

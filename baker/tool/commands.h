@@ -23,6 +23,7 @@ void addInfoCommand(CLI::App& program, Tool& tool);
 void addVerifyCommand(CLI::App& program, Tool& tool);
 void addCompareCommand(CLI::App& program, Tool& tool);
 void addBenchCommand(CLI::App& program, Tool& tool);
+void addCompareBenchCommand(CLI::App& program, Tool& tool);
 void addDevicesCommand(CLI::App& program, Tool& tool);
 
 }  // namespace froth

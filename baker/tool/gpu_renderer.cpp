@@ -126,6 +126,7 @@ Status GpuRenderer::State::createContext(const GpuDeviceOptions& deviceOptions) 
 
   FrothContextInfo info = host->contextInfo();
   info.checkIndices = options.validate ? 1 : 0;
+  info.countWork = options.countWork ? 1 : 0;
   info.messageUser = this;
   info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
     if (severity != FROTH_SEVERITY_ERROR) return;

@@ -19,6 +19,7 @@ struct GpuDeviceOptions {
   std::string device;     // index or part of a name; empty: the first suitable one
   bool validate = false;  // validation layers, and shaders that check every index; any message fails a render
   bool measurePasses = false;
+  bool countWork = false;  // FrothViewStatus::work; slower
 };
 
 struct GpuRenderOptions {

@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   froth::addVerifyCommand(program, tool);
   froth::addCompareCommand(program, tool);
   froth::addBenchCommand(program, tool);
+  froth::addCompareBenchCommand(program, tool);
   froth::addDevicesCommand(program, tool);
 
   try {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <new>
 #include <numeric>
+#include <string_view>
 
 #include "runtime/asset/bit_writer.h"
 #include "runtime/asset/cell_packer.h"
@@ -182,10 +183,23 @@ Status Asset::placeArray(std::vector<T>&& values, const char* purpose, VkDeviceA
     return buffer.error();
   }
   buffers_->buffers.push_back(*buffer);
+  addMemory(purpose, buffer->allocatedSize);
   address = buffer->address;
   const auto owner = std::make_shared<const std::vector<T>>(std::move(values));
   arrays_.push_back({std::shared_ptr<const void>(owner, owner->data()), buffer->buffer, size, 0});
   return {};
+}
+
+void Asset::addMemory(const char* name, uint64_t bytes) {
+  FrothMemory* const end = description_.memory + description_.memoryCount;
+  FrothMemory* const found = std::find_if(description_.memory, end, [&](const FrothMemory& part) {
+    return std::string_view(part.name) == name;
+  });
+  if (found == end) {
+    *found = {name, 0};
+    ++description_.memoryCount;
+  }
+  found->bytes += bytes;
 }
 
 void Asset::growBounds(const ChunkContents& contents) {

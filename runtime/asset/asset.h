@@ -70,6 +70,7 @@ class Asset {
   Status placeChunk(ChunkContents&& contents);
   template <class T>
   Status placeArray(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address);
+  void addMemory(const char* name, uint64_t bytes);
   void growBounds(const ChunkContents& contents);
   void fail(FrothResult code, const std::string& text, const Messages& messages);
 

@@ -1,6 +1,7 @@
 #include "runtime/render/view_buffers.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "shaders/gpu/layout.h"
 
@@ -110,6 +111,24 @@ VkDeviceSize ViewBuffers::deviceBytes() const {
   for (const GpuBuffer& buffer : buffers_) bytes += buffer.kind == BufferKind::kDevice ? buffer.size : 0;
   for (const auto& [serial, buffer] : retired_) bytes += buffer.kind == BufferKind::kDevice ? buffer.size : 0;
   return bytes;
+}
+
+void ViewBuffers::describeMemory(FrothViewStatus& status) const {
+  status.deviceBytes = deviceBytes();
+  status.memoryCount = 0;
+  const auto add = [&](const char* name, std::initializer_list<ViewBuffer> ids) {
+    FrothMemory& part = status.memory[status.memoryCount++];
+    part = {name, 0};
+    for (const ViewBuffer id : ids) part.bytes += (*this)[id].size;
+  };
+  using enum ViewBuffer;
+  add("frames", {kFrames, kCounters, kWalkStart});
+  add("visibility of all cells", {kGroupSums, kVisibility});
+  add("visible cells", {kVisibleCells, kCellKeys, kCellKeysSwap, kOrder, kOrderSwap, kTileCounts, kHistogram});
+  add("records", {kRecords});
+  add("planes", {kPlanes});
+  add("sites", {kSites});
+  add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTileRanges});
 }
 
 VkDeviceSize ViewBuffers::recordingStride() const {

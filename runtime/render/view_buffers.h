@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "froth/froth.h"
 #include "runtime/core/device.h"
 #include "runtime/render/view_capacity.h"
 
@@ -56,6 +57,7 @@ class ViewBuffers {
   const GpuBuffer& operator[](ViewBuffer id) const { return buffers_[static_cast<uint32_t>(id)]; }
   const ViewCapacity& capacity() const { return capacity_; }
   VkDeviceSize deviceBytes() const;
+  void describeMemory(FrothViewStatus& status) const;
   VkDeviceSize recordingStride()
       const;  // [bytes] from one recording's block to the next, in kFrames and kStaging
 

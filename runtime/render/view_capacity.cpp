@@ -37,10 +37,11 @@ ViewDemand largest(const ViewDemand& a, const ViewDemand& b) {
 }
 
 ViewDemand demandOf(const gpu::Counters& counters) {
-  // Pairs of cells that had no space were not counted: their share of the others'.
-  const uint64_t share = counters.pairs / std::max(counters.visibleCells, 1u) + 1;
+  // Pairs of cells that had no space were not counted: as many each as the others have.
+  const uint64_t share =
+      counters.visibleCells > 0 ? counters.pairs / counters.visibleCells + 1 : kPairsPerCell;
   const uint64_t lostCells = counters.cellsWanted - counters.visibleCells;
-  return {counters.cellsWanted, counters.planesWanted, counters.pairs + std::max(share, kPairsPerCell) * lostCells};
+  return {counters.cellsWanted, counters.planesWanted, counters.pairs + share * lostCells};
 }
 
 uint32_t groupsPerChunk(const GpuAsset& asset) {

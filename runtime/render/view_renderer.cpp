@@ -103,7 +103,7 @@ Status ViewRenderer::prepare(uint64_t completedSerial, const GpuAsset* asset) {
   const Status status = view.buffers.grow(wanted, view.lastSerial);
   const bool isWalkStartKept = view.buffers[ViewBuffer::kWalkStart].buffer == oldWalkStart;
   if (!isWalkStartKept || view.walkAsset != asset) view.walkAsset = nullptr;
-  view.status.deviceBytes = view.buffers.deviceBytes();
+  view.buffers.describeMemory(view.status);
   return status;
 }
 

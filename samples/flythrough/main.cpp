@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"raster", "walk", "difference"}));
   program.add_option("--device", options.device, "Index or part of a name");
   program.add_flag("--validate", options.validate, "Validation layers; fail on a message");
+  program.add_flag("--counters", options.isCounting, "Window: count what the rays cost; slower");
   CLI::Option* frames = program.add_option("--frames", options.frames, "End after so many frames");
   CLI::Option* output = program.add_option("-o,--output", options.output, "Folder of frames and screenshots");
   CLI::Option* headless =

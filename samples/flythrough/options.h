@@ -17,6 +17,7 @@ struct FlythroughOptions {
   Picture picture = Picture::kRaster;
   std::string device;            // index or part of a name; empty: the first suitable one
   bool validate = false;         // validation layers; a message fails the run
+  bool isCounting = false;       // the overlay shows what rays cost; slower
   uint32_t frames = 0;           // end after so many; 0: until the window is closed
   std::filesystem::path output;  // folder of frames and screenshots
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include <imgui.h>
 
@@ -23,16 +24,34 @@ void decodeStyleColours() {
   }
 }
 
-void layOutPasses(const FrothViewStatus& view) {
-  double total = 0;
-  for (uint32_t i = 0; i < view.passCount; ++i) total += view.passes[i].milliseconds;
-  ImGui::Text("GPU %.3f ms", total);
-  for (uint32_t i = 0; i < view.passCount; ++i) {
-    const float share = total > 0 ? static_cast<float>(view.passes[i].milliseconds / total) : 0.0f;
-    char label[64];
-    std::snprintf(label, sizeof(label), "%s %.3f ms", view.passes[i].name, view.passes[i].milliseconds);
+void layOutPasses(const PassHistory& history) {
+  const Percentiles total = history.total();
+  ImGui::Text("GPU %.3f ms [p5 %.3f, p95 %.3f]", total.median, total.p5, total.p95);
+  for (const PassHistory::Row& pass : history.passes()) {
+    const float share = total.median > 0 ? static_cast<float>(pass.times.median / total.median) : 0.0f;
+    char label[96];
+    std::snprintf(label, sizeof(label), "%s %.3f ms [%.3f, %.3f]", pass.name, pass.times.median, pass.times.p5,
+                  pass.times.p95);
     ImGui::ProgressBar(share, ImVec2(kBarWidth, 0), label);
   }
+}
+
+void layOutParts(const char* owner, uint64_t sum, std::span<const FrothMemory> parts) {
+  const double bytes = static_cast<double>(sum);
+  if (!ImGui::TreeNode(owner, "%s %.1f MiB", owner, bytes / kMebi)) return;
+  for (const FrothMemory& part : parts)
+    ImGui::Text("%8.2f  %s", static_cast<double>(part.bytes) / kMebi, part.name);
+  ImGui::TreePop();
+}
+
+// Counts are zero unless asked for (--counters).
+void layOutWork(const FrothWork& work, VkExtent2D extent) {
+  if (work.ballHits == 0) return;
+  const double rays = static_cast<double>(extent.width) * extent.height;
+  const auto perRay = [&](uint64_t count) { return static_cast<double>(count) / rays; };
+  ImGui::Text("per ray  %.2f balls, %.2f planes, %.2f heights, %.2f colours", perRay(work.ballHits),
+              perRay(work.planes), perRay(work.heights), perRay(work.colours));
+  ImGui::Text("         %.2f steps, %.2f neighbours", perRay(work.steps), perRay(work.neighbours));
 }
 
 void layOutWarnings(const FrothViewStatus& view) {
@@ -171,17 +190,17 @@ void Overlay::layOut(const OverlayContent& content) {
   if (content.asset.state == FROTH_ASSET_OPENING) {
     ImGui::Text("loading, %.1f MiB to go", static_cast<double>(content.frame.uploadBytesQueued) / kMebi);
   }
-  layOutPasses(content.view);
+  history_.add(content.view);
+  layOutPasses(history_);
   ImGui::Separator();
   ImGui::Text("cells    %u drawn, %u live, %u in all", content.view.visibleCells, content.asset.liveCount,
               content.asset.cellCount);
   ImGui::Text("pairs    %llu", static_cast<unsigned long long>(content.view.pairs));
-  ImGui::Text("memory   asset %.1f MiB, view %.1f MiB",
-              static_cast<double>(content.asset.deviceBytes) / kMebi,
-              static_cast<double>(content.view.deviceBytes) / kMebi);
-  ImGui::Text("         device %.1f MiB, host %.1f MiB",
-              static_cast<double>(content.frame.deviceBytes) / kMebi,
+  layOutWork(content.view.work, extent_);
+  ImGui::Text("memory   device %.1f MiB, host %.1f MiB", static_cast<double>(content.frame.deviceBytes) / kMebi,
               static_cast<double>(content.frame.hostBytes) / kMebi);
+  layOutParts("asset", content.asset.deviceBytes, {content.asset.memory, content.asset.memoryCount});
+  layOutParts("view", content.view.deviceBytes, {content.view.memory, content.view.memoryCount});
   layOutWarnings(content.view);
   ImGui::Separator();
   ImGui::TextUnformatted(

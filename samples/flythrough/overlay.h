@@ -1,9 +1,10 @@
-// Dear ImGui over the picture: what Froth did in the newest complete frame, and the keys.
+// Dear ImGui over the picture: what Froth did in the newest complete frames, and the keys.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "samples/flythrough/pass_history.h"
 #include "samples/flythrough/scene.h"
 #include "samples/flythrough/swapchain.h"
 
@@ -40,6 +41,7 @@ class Overlay {
 
   Host& host_;
   VkExtent2D extent_;
+  PassHistory history_;
   bool isStarted_ = false;
   VkRenderPass renderPass_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;

@@ -104,6 +104,7 @@ Status Flythrough::create() {
 
   FrothContextInfo contextInfo = host_->contextInfo();
   contextInfo.framesInFlight = kFramesInFlight;
+  contextInfo.countWork = options_.isCounting ? 1 : 0;
   Result<std::unique_ptr<Scene>> scene = Scene::create(contextInfo, options_.asset);
   if (!scene) return scene.error();
   scene_ = std::move(*scene);

@@ -34,12 +34,7 @@ class Growth : public testing::Test {
                                 sharedHost().device)),
         pipelines_(std::move(*RenderPipelines::create(device_, VK_NULL_HANDLE, {.checkIndices = true}))),
         bytes_(*encodeAsset(bakeForTest(makeRandomFoam(400, 3, 2, 5)))),
-        asset_("", bytes_, Layer::kViewDependence, &device_),
-        view_{.device = device_,
-              .buffers = ViewBuffers(device_),
-              .images = std::move(*OutputImages::create(device_, kRecordingsPerFrame)),
-              .timer = nullptr,
-              .slots = std::vector<FrameSlot>(1)} {
+        asset_("", bytes_, Layer::kViewDependence, &device_) {
     std::unique_ptr<UploadRing> ring = std::move(*UploadRing::create(device_, 16 << 20));
     while (!asset_.isDecoded()) {
       asset_.load(pipelines_.get(), {});
@@ -81,9 +76,9 @@ class Growth : public testing::Test {
         .asset = &asset_.gpu(), .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
     const bool isRaster = method == Method::kRaster;
     submit([&](VkCommandBuffer commandBuffer, uint64_t serial) {
-      view_.slots[0] = {};
+      view_->slots[0] = {};
       const Recording recording =
-          beginRecording(view_, commandBuffer, isRaster ? RecordingKind::kRaster : RecordingKind::kWalk, info,
+          beginRecording(*view_, commandBuffer, isRaster ? RecordingKind::kRaster : RecordingKind::kWalk, info,
                          serial, &instance);
       const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset_.gpu()));
       const auto record = isRaster ? recordRasterPasses : recordWalkPasses;
@@ -93,21 +88,30 @@ class Growth : public testing::Test {
     });
     Result<std::vector<float>> texels = sharedHost().readImage(image_);
     EXPECT_TRUE(texels) << texels.error().message;
-    const Drawn drawn{*texels, readCounters(view_, 0)};
+    const Drawn drawn{*texels, readCounters(*view_, 0)};
     EXPECT_EQ(drawn.counters.violations, 0u);
     return drawn;
   }
 
+  // A new view.
+  void startWith(const ViewCapacity& capacity) {
+    view_.reset(new ViewState{.device = device_,
+                              .buffers = ViewBuffers(device_),
+                              .images = std::move(*OutputImages::create(device_, kRecordingsPerFrame)),
+                              .timer = nullptr,
+                              .slots = std::vector<FrameSlot>(1)});
+    growTo(capacity);
+  }
+
   void growTo(const ViewCapacity& capacity) {
-    const Status grown = view_.buffers.grow(capacity, lastSerial_);
+    const Status grown = view_->buffers.grow(capacity, lastSerial_);
     EXPECT_TRUE(grown) << grown.error().message;
-    view_.buffers.freeRetired(lastSerial_);
-    view_.walkAsset = nullptr;
+    view_->buffers.freeRetired(lastSerial_);
   }
 
   // What the view does between frames.
   void growFor(const Drawn& drawn) {
-    ViewCapacity capacity = view_.buffers.capacity();
+    ViewCapacity capacity = view_->buffers.capacity();
     coverDemand(asset_.gpu(), demandOf(drawn.counters), capacity);
     growTo(capacity);
   }
@@ -116,7 +120,7 @@ class Growth : public testing::Test {
   std::unique_ptr<RenderPipelines> pipelines_;
   std::vector<uint8_t> bytes_;
   Asset asset_;
-  ViewState view_;
+  std::unique_ptr<ViewState> view_;
   HostImage image_;
   uint64_t lastSerial_ = 0;
 };
@@ -150,9 +154,7 @@ TEST_P(GrowthAfter, AShortageFramesAreWholeAgain) {
   const bool isPairs = GetParam() == Shortage::kPairs;
   for (const Method method : {Method::kRaster, Method::kWalk}) {
     if (isPairs && method == Method::kWalk) continue;  // has none
-    view_.buffers.~ViewBuffers();
-    new (&view_.buffers) ViewBuffers(device_);
-    growTo(shortCapacity());
+    startWith(shortCapacity());
     const Drawn first = draw(method, camera);
     EXPECT_EQ(first.lostPairs(), isPairs);
     EXPECT_EQ(first.lostCells(), !isPairs);
@@ -161,7 +163,7 @@ TEST_P(GrowthAfter, AShortageFramesAreWholeAgain) {
     growFor(first);
     const Drawn second = draw(method, camera);
     EXPECT_FALSE(second.lostCells() || second.lostPairs());
-    growTo(wholeCapacity());
+    startWith(wholeCapacity());
     const Drawn whole = draw(method, camera);
     EXPECT_NE(first.colour, whole.colour);
     EXPECT_EQ(second.colour, whole.colour);
@@ -177,9 +179,7 @@ TEST_F(Growth, KeepsAheadOfACameraThatMovesOnAndFollowsOneThatJumps) {
     ViewCapacity least;
     least.tiles = wholeCapacity().tiles;
     least.groups = wholeCapacity().groups;
-    view_.buffers.~ViewBuffers();
-    new (&view_.buffers) ViewBuffers(device_);
-    growTo(least);
+    startWith(least);
     bool lostBefore = false;
     std::vector<int> lostFrames;
     for (int frame = 0; frame < 40; ++frame) {

@@ -126,6 +126,12 @@ typedef struct FrothAsset { uint32_t index, generation; } FrothAsset;
 typedef struct FrothInstance { uint32_t index, generation; } FrothInstance;
 typedef struct FrothView { uint32_t index, generation; } FrothView;
 
+/* A part of what an object holds on the GPU. */
+typedef struct FrothMemory {
+  const char* name; /* static storage */
+  uint64_t bytes;
+} FrothMemory;
+
 /* ---- Assets ---- */
 
 /* READY: its last copies are recorded, so the same frame can draw it. */
@@ -164,6 +170,8 @@ typedef struct FrothAssetStatus {
   uint32_t hasStartView;
   FrothStoredCamera startView;
   uint32_t flightPathCount; /* key frames; frothGetFlightPath */
+  uint32_t memoryCount;
+  FrothMemory memory[16];   /* [memoryCount] deviceBytes by array, over all chunks */
 } FrothAssetStatus;
 
 /* Returns FROTH_OK with the asset OPENING; it loads in the following frothUpdate / frothRecordUpload calls. A bad file makes
@@ -243,6 +251,8 @@ typedef struct FrothViewStatus {
   FrothPassTime passes[16];  /* with FrothViewInfo::measurePasses */
   uint64_t deviceBytes;      /* of the view's transients */
   FrothWork work;
+  uint32_t memoryCount;
+  FrothMemory memory[8];     /* [memoryCount] deviceBytes by purpose */
 } FrothViewStatus;
 
 FROTH_API FrothResult frothGetViewStatus(FrothContext* context, FrothView view, FrothViewStatus* status);
