@@ -20,6 +20,7 @@
 #include "baker/bake/mark_cells.h"
 #include "baker/bake/sample_views.h"
 #include "baker/bake/snap_cells.h"
+#include "baker/bake/solid_balls.h"
 #include "baker/bake/stage_recorder.h"
 #include "baker/steiner/steiner.h"
 
@@ -231,6 +232,7 @@ Result<ChunkContents> Bake::makeChunk(uint32_t index, AttributeErrors& errors) {
       makeChunkGeometry(cells_, plan_, index, {triangulation_.graph, alpha_.graph, options_.walkGraph},
                         contents_.quantization.positionStep);
   fillFaces(foam_, cells_, live, contents_.quantization, chunk, errors);
+  chunk.solidBalls = makeSolidBalls(chunk, contents_.detailCount);
   const StageProgress stage{progress_, "colours", stored_.live, foam_.cellCount};
   if (!colours_.fill(sources, stage, chunk, errors)) return cancelled();
   return chunk;

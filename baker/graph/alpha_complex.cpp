@@ -12,61 +12,18 @@
 #include <tbb/parallel_for.h>
 
 #include "baker/graph/graph.h"
-#include "shaders/foam/cell.h"
+#include "baker/graph/half_space.h"
 
 namespace froth {
 namespace {
 
 constexpr uint32_t kProgressSlabs = 64;
 
-// Rounding of a plane's offset, in units of r: 8 roundings of 2^-53 on terms of the size |d|^2 + r_i^2 +
-// r_j^2, divided by |d| r, doubled.
-constexpr double kOffsetSlack = 0x1p-49;
-// Rounding of the polygon: 8 of 2^-53 per cut, within the unit ball; enough for 2^14 cuts of one polygon.
-constexpr double kPolygonSlack = 0x1p-36;
-
-// The half-space normal . x <= offset that a neighbour leaves to a cell; x in units of the cell's radius,
-// from its site.
-struct HalfSpace {
-  glm::dvec3 normal;  // unit
-  double offset;
-  double slack;  // > rounding of offset
-};
-
 struct Scratch {
   std::vector<HalfSpace> halfSpaces;  // that cut the ball
   std::vector<uint32_t> entries;      // their places in the neighbour array
   std::vector<glm::dvec2> polygon, clipped;
 };
-
-HalfSpace makeHalfSpace(std::span<const glm::vec3> sites, std::span<const float> radii, uint32_t cell,
-                        uint32_t neighbour) {
-  const glm::dvec3 toNeighbour = glm::dvec3(sites[neighbour]) - glm::dvec3(sites[cell]);
-  const double distance = glm::length(toNeighbour);
-  const double radius = radii[cell], neighbourRadius = radii[neighbour];
-  const double scale = 1 / (distance * radius);
-  const double terms = distance * distance + std::abs(radius - neighbourRadius) * (radius + neighbourRadius);
-  return {toNeighbour / distance, foam::radicalOffset(toNeighbour, radius, neighbourRadius) * scale,
-          kPolygonSlack + kOffsetSlack * terms * scale};
-}
-
-// Keeps the part of a convex polygon where across . x <= limit.
-void clipPolygon(std::vector<glm::dvec2>& polygon, const glm::dvec2& across, double limit,
-                 std::vector<glm::dvec2>& clipped) {
-  clipped.clear();
-  glm::dvec2 from = polygon.back();
-  double fromExcess = glm::dot(across, from) - limit;
-  for (const glm::dvec2& to : polygon) {
-    const double toExcess = glm::dot(across, to) - limit;
-    if ((fromExcess > 0) != (toExcess > 0)) {
-      clipped.push_back(from + (to - from) * (fromExcess / (fromExcess - toExcess)));
-    }
-    if (toExcess <= 0) clipped.push_back(to);
-    from = to;
-    fromExcess = toExcess;
-  }
-  polygon.swap(clipped);
-}
 
 // Smallest distance of the origin from the polygon's boundary, squared.
 double squaredDistanceToBoundary(std::span<const glm::dvec2> polygon) {
@@ -90,8 +47,7 @@ bool faceMeetsBall(const HalfSpace& face, Scratch& scratch) {
   const double height = std::abs(face.offset);
   if (height > 1 + face.slack) return false;
   const double discRadius = std::sqrt((1 + face.slack - height) * (1 + face.slack + height));
-  const glm::dvec3 axis = std::abs(face.normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 u = glm::normalize(glm::cross(face.normal, axis)), v = glm::cross(face.normal, u);
+  const auto [u, v] = planeAxes(face.normal);
 
   std::vector<glm::dvec2>& polygon = scratch.polygon;
   polygon = {{-discRadius, -discRadius},

@@ -28,6 +28,7 @@ void expectSameChunk(const ChunkContents& a, const ChunkContents& b) {
   EXPECT_EQ(a.orientations, b.orientations);
   EXPECT_EQ(a.cellColours, b.cellColours);
   EXPECT_EQ(a.cellHeights, b.cellHeights);
+  EXPECT_EQ(a.solidBalls, b.solidBalls);
   EXPECT_EQ(a.detailSites, b.detailSites);
   EXPECT_EQ(a.detailHeights, b.detailHeights);
   EXPECT_EQ(a.baseColours, b.baseColours);

@@ -119,7 +119,7 @@ size_t decodedSize(const ChunkContents& c) {
   return bytesOf(c.sites).size() + bytesOf(c.radii).size() + bytesOf(c.ghostRefs).size() +
          bytesOf(c.neighbourOffsets).size() + bytesOf(c.neighbours).size() + bytesOf(c.alphaCounts).size() +
          bytesOf(c.densities).size() + bytesOf(c.orientations).size() + bytesOf(c.cellColours).size() +
-         bytesOf(c.cellHeights).size() + bytesOf(c.detailSites).size() + bytesOf(c.detailHeights).size() +
+         bytesOf(c.cellHeights).size() + bytesOf(c.solidBalls).size() + bytesOf(c.detailSites).size() + bytesOf(c.detailHeights).size() +
          bytesOf(c.baseColours).size() + bytesOf(c.colourScales).size() + bytesOf(c.lobeCounts).size() +
          bytesOf(c.lobeAxes).size() + bytesOf(c.lobeColours).size();
 }

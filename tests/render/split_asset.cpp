@@ -58,6 +58,7 @@ void copyLiveCell(const ChunkContents& whole, uint32_t cell, uint32_t details, u
   copyValues(whole.orientations, cell, 1, chunk.orientations);
   copyValues(whole.cellColours, cell, 1, chunk.cellColours);
   copyValues(whole.cellHeights, cell, 1, chunk.cellHeights);
+  copyValues(whole.solidBalls, cell, 1, chunk.solidBalls);
   copyValues(whole.detailSites, cell, details, chunk.detailSites);
   copyValues(whole.detailHeights, cell, details, chunk.detailHeights);
   copyValues(whole.baseColours, cell, details, chunk.baseColours);
