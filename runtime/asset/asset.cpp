@@ -149,7 +149,8 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   if (!device_) {
     return {};
   }
-  Result<PackedCells> cells = packCells(contents, gpu_.detailCount, gpu_.lobeCount);
+  Result<PackedCells> cells = packCells(contents, gpu_.detailCount, gpu_.lobeCount,
+                                        reader_->manifest().quantization.normalBits);
   if (!cells) {
     return cells.error();
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace froth {
 namespace {
@@ -16,33 +17,37 @@ uint64_t keyOf(const int32_t* code) {
   return key;
 }
 
+using KeyedLobe = std::pair<uint64_t, uint32_t>;
+
+// The lobes of one axis among all lobes in the order of keys.
 struct Use {
-  uint64_t key;
-  size_t count;
+  size_t begin, end;
+
+  size_t count() const { return end - begin; }
 };
 
 // Most used first; equal counts by key.
-std::vector<Use> countUses(std::vector<uint64_t> keys) {
-  std::sort(keys.begin(), keys.end());
+std::vector<Use> findUses(const std::vector<KeyedLobe>& lobes) {
   std::vector<Use> uses;
-  for (const uint64_t key : keys) {
-    if (uses.empty() || uses.back().key != key) uses.push_back({key, 0});
-    ++uses.back().count;
+  for (size_t i = 0; i < lobes.size(); ++i) {
+    if (i == 0 || lobes[i].first != lobes[i - 1].first) uses.push_back({i, i});
+    uses.back().end = i + 1;
   }
-  std::stable_sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.count > b.count; });
+  std::stable_sort(uses.begin(), uses.end(),
+                   [](const Use& a, const Use& b) { return a.count() > b.count(); });
   return uses;
 }
 
 // How many of the most used axes the table takes, so that labels, table and the axes written out need the
-// fewest bits. Two labels are kept free for the axes that a cell writes out.
+// fewest bits. Some labels are kept free for the axes that a cell writes out.
 size_t chooseTableSize(const std::vector<Use>& uses, size_t lobes, uint32_t componentBits) {
-  constexpr size_t kFreeLabels = 2;
+  constexpr size_t kFreeLabels = 16;
   const size_t axisBits = 3 * componentBits;
   size_t best = 0;
   size_t fewest = lobes * axisBits;
   size_t labelled = 0;
   for (size_t size = 1; size <= uses.size(); ++size) {
-    labelled += uses[size - 1].count;
+    labelled += uses[size - 1].count();
     const size_t labelBits = static_cast<size_t>(std::bit_width(size + kFreeLabels - 1));
     const size_t bits = (size + lobes - labelled) * axisBits + lobes * labelBits;
     if (bits < fewest) {
@@ -65,20 +70,15 @@ AxisLabels labelAxes(const CellNumbers& axes) {
   result.componentBits = range.signedWidth();
   if (result.componentBits > kKeyBits) return result;
 
-  std::vector<uint64_t> keys(lobes);
-  for (size_t lobe = 0; lobe < lobes; ++lobe) keys[lobe] = keyOf(&axes.codes[3 * lobe]);
-  const std::vector<Use> uses = countUses(keys);
-  std::vector<uint64_t> table;
-  for (size_t i = 0; i < chooseTableSize(uses, lobes, result.componentBits); ++i)
-    table.push_back(uses[i].key);
-  std::sort(table.begin(), table.end());
-  result.table.resize(table.size());
-  for (size_t lobe = 0; lobe < lobes; ++lobe) {
-    const auto found = std::lower_bound(table.begin(), table.end(), keys[lobe]);
-    if (found == table.end() || *found != keys[lobe]) continue;
-    const auto label = static_cast<uint32_t>(found - table.begin());
-    result.labels[lobe] = label;
-    std::copy_n(&axes.codes[3 * lobe], 3, result.table[label].begin());
+  std::vector<KeyedLobe> keyed(lobes);
+  for (uint32_t lobe = 0; lobe < lobes; ++lobe) keyed[lobe] = {keyOf(&axes.codes[size_t{3} * lobe]), lobe};
+  std::sort(keyed.begin(), keyed.end());
+  const std::vector<Use> uses = findUses(keyed);
+  result.table.resize(chooseTableSize(uses, lobes, result.componentBits));
+  for (uint32_t label = 0; label < result.table.size(); ++label) {
+    const Use& use = uses[label];
+    std::copy_n(&axes.codes[size_t{3} * keyed[use.begin].second], 3, result.table[label].begin());
+    for (size_t i = use.begin; i < use.end; ++i) result.labels[keyed[i].second] = label;
   }
   return result;
 }

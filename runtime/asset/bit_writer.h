@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace froth {
@@ -11,31 +12,36 @@ class BitWriter {
  public:
   // The lowest `width` bits of value; width 0..32.
   void put(uint32_t value, uint32_t width) {
-    if (width == 0) return;
-    const uint64_t masked = value & (~uint64_t{0} >> (64 - width));
-    const size_t word = static_cast<size_t>(end_ / 32);
-    const uint32_t shift = static_cast<uint32_t>(end_ % 32);
-    end_ += width;
-    words_.resize(static_cast<size_t>((end_ + 31) / 32), 0);
-    words_[word] |= static_cast<uint32_t>(masked << shift);
-    if (shift + width > 32) words_[word + 1] |= static_cast<uint32_t>(masked >> (32 - shift));
+    pending_ |= (value & ((uint64_t{1} << width) - 1)) << filled_;
+    filled_ += width;
+    flush();
   }
 
   // What follows starts at a byte; returns which.
   uint64_t startByte() {
-    end_ = (end_ + 7) / 8 * 8;
-    return end_ / 8;
+    filled_ = (filled_ + 7) / 8 * 8;
+    flush();
+    return uint64_t{words_.size()} * 4 + filled_ / 8;
   }
 
   // The words, and one more: who reads a number may look at the word behind it.
   std::vector<uint32_t> finish() {
-    words_.resize(static_cast<size_t>((end_ + 31) / 32) + 1, 0);
+    if (filled_ > 0) words_.push_back(static_cast<uint32_t>(pending_));
+    words_.push_back(0);
     return std::move(words_);
   }
 
  private:
+  void flush() {
+    if (filled_ < 32) return;
+    words_.push_back(static_cast<uint32_t>(pending_));
+    pending_ >>= 32;
+    filled_ -= 32;
+  }
+
   std::vector<uint32_t> words_;
-  uint64_t end_ = 0;  // [bits]
+  uint64_t pending_ = 0;  // bits behind the words
+  uint32_t filled_ = 0;   // how many; 0..31 between calls
 };
 
 // Unsigned numbers, 2^shift of them in a word.

@@ -48,8 +48,8 @@ CellNumbers toColourNumbers(std::span<const glm::vec3> colours, std::span<const 
   std::vector<float> unscaled;
   unscaled.reserve(3 * colours.size());
   for (size_t i = 0; i < colours.size(); ++i) {
-    const int scale = scales.empty() ? 0 : scales[i];
-    for (int c = 0; c < 3; ++c) unscaled.push_back(std::ldexp(colours[i][c], -scale));
+    const float unit = static_cast<float>(1u << (scales.empty() ? 0 : scales[i]));
+    for (int c = 0; c < 3; ++c) unscaled.push_back(colours[i][c] / unit);
   }
   CellNumbers numbers = toNumbers(unscaled);
   for (size_t i = 0; i < colours.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "format/quantization.h"
 #include "runtime/asset/axis_labels.h"
 #include "runtime/asset/bit_writer.h"
 #include "runtime/asset/cell_numbers.h"
@@ -29,9 +30,27 @@ std::span<const float> floatsOf(const std::vector<Vector>& values) {
   return {reinterpret_cast<const float*>(values.data()), values.size() * sizeof(Vector) / sizeof(float)};
 }
 
+// The row n of the quaternion's matrix.
+glm::dvec3 normalOf(const glm::dvec4& quaternion) {
+  const double w = quaternion.x, x = quaternion.y, y = quaternion.z, z = quaternion.w;
+  return {1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)};
+}
+
+// Octahedral indices of the orientations; empty if one of them is not what orientationOfNormal gives.
+std::vector<std::array<uint32_t, 2>> normalsOf(const std::vector<glm::vec4>& orientations,
+                                               uint32_t normalBits) {
+  std::vector<std::array<uint32_t, 2>> normals;
+  if (normalBits == 0) return normals;
+  for (const glm::vec4& orientation : orientations) {
+    normals.push_back(normalIndices(normalOf(orientation), normalBits));
+    if (orientationOfNormal(normals.back(), normalBits) != orientation) return {};
+  }
+  return normals;
+}
+
 class CellPacker {
  public:
-  CellPacker(const ChunkContents& chunk, uint32_t detailCount, uint32_t lobeCount)
+  CellPacker(const ChunkContents& chunk, uint32_t detailCount, uint32_t lobeCount, uint32_t normalBits)
       : chunk_(chunk), detailCount_(detailCount), lobeCount_(lobeCount) {
     places_ = toNumbers(floatsOf(chunk.detailSites));
     heights_ = toNumbers(chunk.detailHeights);
@@ -44,6 +63,8 @@ class CellPacker {
     bases_ = toColourNumbers(chunk.baseColours, siteScales);
     colours_ = toColourNumbers(chunk.lobeColours, lobeScales);
     labels_ = labelAxes(axes_);
+    normals_ = normalsOf(chunk.orientations, normalBits);
+    code_.normalBits = normals_.empty() ? 0 : normalBits;
   }
 
   Result<PackedCells> pack() {
@@ -72,9 +93,6 @@ class CellPacker {
   size_t siteCount() const { return size_t{chunk_.liveCount} * detailCount_; }
 
   void measureCells() {
-    CodeRange lobeCounts;
-    for (size_t site = 0; site < siteCount(); ++site) lobeCounts.add(static_cast<int32_t>(lobesOf(site)));
-    fewestLobes_ = siteCount() > 0 ? static_cast<uint32_t>(lobeCounts.low) : 0;
     size_t lobe = 0;
     for (uint32_t cell = 0; cell < chunk_.liveCount; ++cell) {
       CellShape shape;
@@ -101,7 +119,7 @@ class CellPacker {
       for (size_t c = 0; c < 2; ++c) places.add(places_.codes[2 * site + c]);
       if (!heights_.codes.empty()) heights.add(heights_.codes[site]);
       for (size_t c = 0; c < 3 && !bases_.codes.empty(); ++c) bases[c].add(bases_.codes[3 * site + c]);
-      lobes.add(static_cast<int32_t>(lobesOf(site) - fewestLobes_));
+      lobes.add(static_cast<int32_t>(lobesOf(site)));
     }
     shape.widths[kPlace] = places_.isRaw() ? kFloatBits : places.signedWidth();
     shape.widths[kHeight] = heights_.isRaw() ? kFloatBits : heights.width();
@@ -162,7 +180,6 @@ class CellPacker {
     code_.ownAxisBits = static_cast<uint32_t>(std::bit_width(ownAxes));
     code_.axisBits = labels_.componentBits;
     code_.axisCount = static_cast<uint32_t>(labels_.table.size());
-    code_.fewestLobes = fewestLobes_;
     code_.placeStep = places_.step;
     code_.heightStep = heights_.step;
     code_.baseStep = bases_.step;
@@ -174,7 +191,6 @@ class CellPacker {
     return static_cast<int32_t>(std::bit_cast<uint32_t>(density) >> code_.densityShift);
   }
 
-  void putFloat(float value) { bits_.put(std::bit_cast<uint32_t>(value), kFloatBits); }
   void putSigned(int32_t value, uint32_t width) { bits_.put(static_cast<uint32_t>(value), width); }
   // A number of a kind, above the lowest one of its cell.
   void putNumber(const CellNumbers& numbers, size_t i, int32_t lowest, uint32_t width) {
@@ -188,7 +204,7 @@ class CellPacker {
     const CellShape& shape = shapes_[cell];
     putSigned(densityCode(chunk_.densities[cell]) - static_cast<int32_t>(code_.densityLowest),
               code_.densityBits);
-    for (int c = 0; c < 4; ++c) putFloat(chunk_.orientations[cell][c]);
+    putOrientation(cell);
     bits_.put(chunk_.colourScales.empty() ? 0 : chunk_.colourScales[cell], code_.scaleBits);
     for (const uint32_t width : shape.widths) bits_.put(width, code_.widthBits);
     putSigned(shape.lowestHeight, code_.heightBits);
@@ -199,11 +215,20 @@ class CellPacker {
     for (size_t lobe = shape.firstLobe; lobe < shape.endLobe; ++lobe) putLobe(shape, lobe);
   }
 
+  void putOrientation(uint32_t cell) {
+    const glm::vec4& orientation = chunk_.orientations[cell];
+    if (normals_.empty()) {
+      for (int c = 0; c < 4; ++c) bits_.put(std::bit_cast<uint32_t>(orientation[c]), kFloatBits);
+      return;
+    }
+    bits_.put(orientation.w > orientation.x, 1);
+    for (const uint32_t index : normals_[cell]) bits_.put(index, code_.normalBits);
+  }
+
   void putSites(uint32_t cell, const CellShape& shape) {
     const size_t first = size_t{cell} * detailCount_;
     const auto& widths = shape.widths;
-    for (size_t site = first; site < first + detailCount_; ++site)
-      bits_.put(lobesOf(site) - fewestLobes_, widths[kLobes]);
+    for (size_t site = first; site < first + detailCount_; ++site) bits_.put(lobesOf(site), widths[kLobes]);
     for (size_t site = first; site < first + detailCount_; ++site) {
       for (size_t c = 0; c < 2; ++c) putNumber(places_, 2 * site + c, 0, widths[kPlace]);
       if (!heights_.codes.empty()) putNumber(heights_, site, shape.lowestHeight, widths[kHeight]);
@@ -232,7 +257,7 @@ class CellPacker {
   uint32_t detailCount_, lobeCount_;
   CellNumbers places_, heights_, bases_, axes_, colours_;
   AxisLabels labels_;
-  uint32_t fewestLobes_ = 0;
+  std::vector<std::array<uint32_t, 2>> normals_;  // empty: orientations are floats
   std::vector<CellShape> shapes_;
   gpu::CellCode code_{};
   BitWriter bits_;
@@ -240,8 +265,9 @@ class CellPacker {
 
 }  // namespace
 
-Result<PackedCells> packCells(const ChunkContents& chunk, uint32_t detailCount, uint32_t lobeCount) {
-  return CellPacker(chunk, detailCount, lobeCount).pack();
+Result<PackedCells> packCells(const ChunkContents& chunk, uint32_t detailCount, uint32_t lobeCount,
+                              uint32_t normalBits) {
+  return CellPacker(chunk, detailCount, lobeCount, normalBits).pack();
 }
 
 }  // namespace froth

@@ -5,12 +5,15 @@
 // lowest bits first:
 //
 //   density           code.densityBits, above code.densityLowest
-//   orientation       4 floats (w, x, y, z)
+//   orientation       a bit and 2 x code.normalBits: orientationOfNormal (format/quantization.h), the bit
+//   tells that its normal
+//                     is nearer to -x; or 4 floats (w, x, y, z). The one thing that shaders compute again, to
+//                     1e-6
 //   colour scale      code.scaleBits
 //   widths            code.widthBits each: place, height, base green, base chroma, lobes, axis, lobe green,
 //   lobe chroma lowest height     code.heightBits, two's complement lowest base       code.baseBits each,
 //   two's complement: green, red - green, blue - green own axes          code.ownAxisBits: how many; then 3 x
-//   code.axisBits each, two's complement numbers of lobes  [K] above code.fewestLobes detail sites      [K]
+//   code.axisBits each, two's complement numbers of lobes  [K] detail sites      [K]
 //   place (u, v), height, base colour lobes             [sum] axis, colour. The axis is a label if the chunk
 //   has a table of axes: of its entries, or
 //                     behind them of the cell's own axes; else its components
@@ -34,7 +37,8 @@ struct PackedCells {
   std::vector<uint32_t> words;
 };
 
-// Fails if the bits of one chunk are beyond 32-bit addresses.
-Result<PackedCells> packCells(const ChunkContents& chunk, uint32_t detailCount, uint32_t lobeCount);
+// normalBits: of the asset's quantization. Fails if the bits of one chunk are beyond 32-bit addresses.
+Result<PackedCells> packCells(const ChunkContents& chunk, uint32_t detailCount, uint32_t lobeCount,
+                              uint32_t normalBits);
 
 }  // namespace froth

@@ -1,5 +1,5 @@
-// Reads what a live cell shows from its bits, whose order runtime/asset/cell_packer.h tells. The numbers are the floats of
-// the asset, bit for bit: a code times a power of two.
+// Reads what a live cell shows from its bits, whose order runtime/asset/cell_packer.h tells. All but octahedral normals
+// are the floats of the asset, bit for bit: a code times a power of two.
 #ifndef FROTH_GPU_CELL_BITS_GLSL
 #define FROTH_GPU_CELL_BITS_GLSL
 #include "gpu/asset.glsl"
@@ -67,14 +67,37 @@ float takeDensity(CellCode code, inout BitCursor cursor) {
   return uintBitsToFloat((takeBits(cursor, code.densityBits) + code.densityLowest) << code.densityShift);
 }
 
+// The quaternion of orientationOfNormal (format/quantization.h). In whole numbers up to the normal's length, so that an index
+// pair is the same normal everywhere.
+vec4 orientationOfNormal(int y, int z, bool isBack, int halfRange) {
+  int x = halfRange - abs(y) - abs(z);
+  vec3 normal = vec3(x, y, z);
+  if (x < 0) {
+    normal.y = float(y < 0 ? abs(z) - halfRange : halfRange - abs(z));
+    normal.z = float(z < 0 ? abs(y) - halfRange : halfRange - abs(y));
+  }
+  normal = normalize(normal);
+  float w = sqrt((1.0 + abs(normal.x)) / 2.0);
+  float scale = 0.5 / w;
+  if (isBack) return vec4(-normal.y * scale, normal.z * scale, 0.0, w);
+  return vec4(w, 0.0, normal.z * scale, -normal.y * scale);
+}
+
 vec4 takeOrientation(CellCode code, inout BitCursor cursor) {
-  vec3 wxy = takeFloats(cursor);
-  return vec4(wxy, uintBitsToFloat(takeBits(cursor, 32)));
+  if (code.normalBits == 0) {
+    vec3 wxy = takeFloats(cursor);
+    return vec4(wxy, uintBitsToFloat(takeBits(cursor, 32)));
+  }
+  bool isBack = takeBits(cursor, 1) != 0;
+  int halfRange = int(1u << (code.normalBits - 1)) - 1;
+  int y = int(takeBits(cursor, code.normalBits)) - halfRange;
+  int z = int(takeBits(cursor, code.normalBits)) - halfRange;
+  return orientationOfNormal(y, z, isBack, halfRange);
 }
 
 CellHeader loadCellHeader(CellCode code, uint chunk, uint cell) {
   BitCursor cursor = cellBits(chunk, cell);
-  skipBits(cursor, code.densityBits + 128);
+  skipBits(cursor, code.densityBits + (code.normalBits > 0 ? 2 * code.normalBits + 1 : 128u));
   CellHeader header;
   header.unit = float(1u << takeBits(cursor, code.scaleBits));
   header.place = takeBits(cursor, code.widthBits);
@@ -133,10 +156,10 @@ struct Lobes {
 
 Lobes loadLobes(CellCode code, CellHeader header, uint detailCount, uint detail) {
   BitCursor counts = header.lobeCounts;
-  uint before = detail * code.fewestLobes;
+  uint before = 0;
   for (uint k = 0; k < detail; ++k) before += takeBits(counts, header.lobes);
   Lobes lobes;
-  lobes.count = code.fewestLobes + takeBits(counts, header.lobes);
+  lobes.count = takeBits(counts, header.lobes);
   lobes.cursor = header.lobeCounts;
   uint siteBits = header.lobes + 2 * header.place + header.height + header.base.x + 2 * header.base.y;
   uint lobeBits = (code.axisCount > 0 ? 1 : 3) * header.axis + header.lobe.x + 2 * header.lobe.y;

@@ -60,10 +60,10 @@ FROTH_CONST kFlagOnlyPaired = 16;  // shade only cells that own a (tile, cell) p
 struct CellCode {
   float placeStep, heightStep, baseStep, axisStep, colourStep;  // what a code is multiplied with; 0: it is a float's bits
   uint densityShift, densityLowest, densityBits;  // a density is the float of bits (lowest + code) << shift
+  uint normalBits;             // per axis of an octahedral normal; 0: the orientation is a quaternion of floats
   uint scaleBits;              // a cell's colours are in steps of step * 2^scale
   uint widthBits;              // of the widths in a cell's header
   uint heightBits, baseBits;   // of a cell's lowest height and base colour
-  uint fewestLobes;            // of a detail site
   uint axisBits, axisCount;    // a written-out axis' component; axes in the table
   uint ownAxisBits;            // of the number of axes that a cell writes out beside the table
 };

@@ -156,7 +156,7 @@ class Bin : public Passes {
     contents.detailSites = foam.detailSites;
     contents.lobeAxes = foam.lobeAxes;
     contents.lobeColours = foam.lobeColours;
-    const PackedCells cells = *packCells(contents, 1, 1);
+    const PackedCells cells = *packCells(contents, 1, 1, 0);
     chunk.cellStarts = upload(cells.starts).address;
     chunk.cellWords = upload(cells.words).address;
     chunk.cellWordCount = static_cast<uint32_t>(cells.words.size());
