@@ -19,6 +19,8 @@ struct ViewCapacity {
   uint64_t planes = 1;
   uint64_t sites = 1;  // cells times K
   uint32_t pairs = 1;
+
+  friend bool operator==(const ViewCapacity&, const ViewCapacity&) = default;
 };
 
 ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b);

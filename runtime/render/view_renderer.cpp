@@ -54,6 +54,18 @@ void readBack(ViewState& view, uint64_t completedSerial) {
   }
 }
 
+Status growBuffers(ViewState& view, const GpuAsset* asset, const ViewCapacity& wanted) {
+  if (wanted == view.buffers.capacity()) return {};
+  const VkDeviceSize heldBytes = view.device.deviceBytes;
+  if (view.refusal && view.refusal->asset == asset && heldBytes >= view.refusal->deviceBytes) {
+    return view.refusal->error;
+  }
+  view.refusal.reset();
+  const Status status = view.buffers.grow(wanted, view.lastSerial);
+  if (!status) view.refusal = {asset, heldBytes, status.error()};
+  return status;
+}
+
 }  // namespace
 
 ViewRenderer::ViewRenderer() = default;
@@ -100,7 +112,7 @@ Status ViewRenderer::prepare(uint64_t completedSerial, const GpuAsset* asset) {
     coverDemand(*asset, view.demand, wanted);
   }
   const VkBuffer oldWalkStart = view.buffers[ViewBuffer::kWalkStart].buffer;
-  const Status status = view.buffers.grow(wanted, view.lastSerial);
+  const Status status = growBuffers(view, asset, wanted);
   const bool isWalkStartKept = view.buffers[ViewBuffer::kWalkStart].buffer == oldWalkStart;
   if (!isWalkStartKept || view.walkAsset != asset) view.walkAsset = nullptr;
   view.buffers.describeMemory(view.status);

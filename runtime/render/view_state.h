@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "runtime/render/frame_block.h"
@@ -21,6 +22,13 @@ struct FrameSlot {
   uint32_t recordings = 0;
 };
 
+// Growth that failed. It is not tried again in every frame, only for another asset or once the context holds less.
+struct GrowthRefusal {
+  const GpuAsset* asset;
+  VkDeviceSize deviceBytes;  // that the context held
+  Error error;
+};
+
 struct ViewState {
   Device& device;
   ViewBuffers buffers;
@@ -32,6 +40,7 @@ struct ViewState {
   const GpuAsset* walkAsset = nullptr;  // whose cell kWalkStart holds
   FrothViewStatus status{};  // of the newest complete frame
   ViewDemand demand{};       // of that frame
+  std::optional<GrowthRefusal> refusal{};
 };
 
 enum class RecordingKind { kRaster, kWalk, kClear };

@@ -256,5 +256,43 @@ TEST(Scenes, AViewThatTheBudgetKeepsFromGrowingGoesOnDrawingWhatItHolds) {
   frothDestroyContext(limited);
 }
 
+// Views besides the stage's, which take memory.
+std::vector<FrothView> createIdleViews(FrothContext* context, VkExtent2D extent) {
+  std::vector<FrothView> views(2);
+  for (FrothView& view : views) {
+    const FrothViewInfo info{sizeof(FrothViewInfo), extent, 0};
+    EXPECT_EQ(frothCreateView(context, &info, &view), FROTH_OK);
+  }
+  return views;
+}
+
+TEST(Scenes, AViewThatTheBudgetKeptFromGrowingGrowsOnceThereIsRoom) {
+  const AssetContents contents = bakeForTest(makeFoamOfManyPairs());
+  const View view = widePairView();
+  const VkExtent2D extent{view.width, view.height};
+  FrothContext* free = createContextOfBudget(0);
+  uint64_t startBytes = 0;
+  {
+    Stage stage(contents, extent, free);
+    createIdleViews(free, extent);
+    startBytes = deviceBytesOf(free);
+  }
+  frothDestroyContext(free);
+
+  FrothContext* limited = createContextOfBudget(startBytes + (64 << 10));
+  {
+    Stage stage(contents, extent, limited);
+    const std::vector<FrothView> idleViews = createIdleViews(limited, extent);
+    EXPECT_LE(deviceBytesOf(limited), startBytes);
+    for (int frame = 0; frame < 2; ++frame) {
+      EXPECT_EQ(stage.draw(Method::kRaster, view).status.bits, uint32_t{FROTH_VIEW_PAIR_OVERFLOW});
+    }
+    for (const FrothView idle : idleViews) EXPECT_EQ(frothDestroyView(limited, idle), FROTH_OK);
+    stage.draw(Method::kRaster, view);  // after it the memory is back
+    EXPECT_EQ(stage.draw(Method::kRaster, view).status.bits, 0u);
+  }
+  frothDestroyContext(limited);
+}
+
 }  // namespace
 }  // namespace froth::test
