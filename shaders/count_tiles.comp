@@ -1,4 +1,4 @@
-// How many tiles each visible cell's ball meets, and the sum of each workgroup. A thread per visible cell, nearest first.
+// How many tiles each visible cell's solid ball meets, and the sum of each workgroup. A thread per visible cell, nearest first.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/tiles.glsl"
@@ -8,7 +8,7 @@ layout(local_size_x = kGroupSize) in;
 
 uint countTiles(uint visible) {
   uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
-  Ball ball = ballOfSite(loadChunk(cell.x), cell.y);
+  Ball ball = visibleBall(cell);
   TileBounds bounds = tileBounds(ball);
   uint count = 0;
   for (int row = bounds.first.y; row <= bounds.last.y; ++row) {

@@ -1,4 +1,4 @@
-// Which live cells this view can see: near tests, then the ball against all rays of the view. A thread per live cell of
+// Which live cells this view can see: near tests, then the solid ball against all rays of the view. A thread per live cell of
 // the chunk gl_WorkGroupID.y; a bit per cell and, per workgroup, the count of visible cells and of their planes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -11,11 +11,12 @@ layout(local_size_x = kGroupSize) in;
 shared uint maskWords[kMaskWords];
 shared uint planes;
 
-bool isVisible(Ball ball) {
+bool isVisible(Ball ball, uint solidBytes) {
   // One load: lavapipe of Mesa 22.3 mixes up the components where a vector and one of its parts are loaded apart.
   vec4 forward = FRAME.forward;
   if (isNearCell(ball.centre, ball.radius, forward.xyz, FRAME.nearRatio, forward.w)) return false;
-  return pixelsMeetBall(ball.centre, ball.radius, uvec2(0), max(FRAME.regionWidth, FRAME.regionHeight));
+  Ball solid = solidBall(ball, solidBytes);
+  return pixelsMeetBall(solid.centre, solid.radius, uvec2(0), max(FRAME.regionWidth, FRAME.regionHeight));
 }
 
 void main() {
@@ -27,7 +28,7 @@ void main() {
   if (thread == 0) planes = 0;
   barrier();
 
-  if (local < chunk.liveCount && isVisible(ballOfSite(chunk, local))) {
+  if (local < chunk.liveCount && isVisible(ballOfSite(chunk, local), solidBallBytes(chunk.index, local))) {
     atomicOr(maskWords[thread / 32], 1u << (thread % 32));
     atomicAdd(planes, alphaCountOf(chunk, local));
   }

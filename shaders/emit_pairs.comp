@@ -9,7 +9,7 @@ layout(local_size_x = kGroupSize) in;
 
 void emitPairs(uint visible, uint pair, uint end) {
   uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
-  Ball ball = ballOfSite(loadChunk(cell.x), cell.y);
+  Ball ball = visibleBall(cell);
   TileBounds bounds = tileBounds(ball);
   for (int row = bounds.first.y; row <= bounds.last.y; ++row) {
     for (int column = bounds.first.x; column <= bounds.last.x; ++column) {

@@ -48,7 +48,7 @@ void main() {
   setFrame(takeOrientation(code, bits), record);
   record.tangent.w = 1.0 / ball.radius;
   record.bitangent.w = 0.0;
-  record.padding = 0;
+  record.solidBall = solidBallBytes(chunk.index, checked(cell.y, chunk.liveCount));
   expandPlanes(chunk, cell, siteRadius, record);
   FRAME.records.v[visible] = record;
 }

@@ -1,7 +1,8 @@
-// Draws 8 x 8 pixels: reads its tile's list front to back in batches, keeps the balls that these pixels can meet, and
+// Draws 8 x 8 pixels: reads its tile's list front to back in batches, keeps the cells whose solid ball these pixels can meet, and
 // composites them. Ends when every pixel is saturated.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "gpu/asset.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
 #include "gpu/shade_hit.glsl"
@@ -44,7 +45,7 @@ void meetCell(uint index, vec3 direction, inout Radiance radiance) {
   if (clipByPlanes(cell, direction, tNear, tFar)) shadeHit(visible, cell, direction, tNear, tFar, radiance);
 }
 
-// Lists the entries of this batch whose ball the 8 x 8 pixels can meet, in order; returns how many.
+// Lists the entries of this batch whose solid ball the 8 x 8 pixels can meet, in order; returns how many.
 uint gatherBatch(uint entry, uint end, uvec2 corner) {
   uint lane = gl_LocalInvocationIndex;
   uint visible = 0;
@@ -53,7 +54,8 @@ uint gatherBatch(uint entry, uint end, uvec2 corner) {
   if (entry < end) {
     visible = checked(FRAME.tileCells.v[checked(entry, FRAME.pairCapacity)], FRAME.visibleCapacity);
     ball = FRAME.records.v[visible].ball;
-    isKept = pixelsMeetBall(ball.xyz, ball.w, corner, kSubTileSize);
+    Ball solid = solidBall(Ball(ball.xyz, ball.w), FRAME.records.v[visible].solidBall);
+    isKept = pixelsMeetBall(solid.centre, solid.radius, corner, kSubTileSize);
   }
   if (isKept) atomicOr(keptMask[lane / 32], 1u << (lane % 32));
   barrier();

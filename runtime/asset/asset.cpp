@@ -168,6 +168,7 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   if (status) status = placeArray(std::move(alphaCounts.words), "alpha counts", chunk.alphaCounts);
   if (status) status = placeArray(std::move(cells->starts), "cell starts", chunk.cellStarts);
   if (status) status = placeArray(std::move(cells->words), "cells", chunk.cellWords);
+  if (status) status = placeArray(std::move(contents.solidBalls), "solid balls", chunk.solidBalls);
   return status;
 }
 

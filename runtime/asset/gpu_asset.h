@@ -25,6 +25,7 @@ struct GpuChunk {
   VkDeviceAddress alphaCounts = 0;       // uint of 32 >> alphaShift bits [liveCount]
   VkDeviceAddress cellStarts = 0;        // uint [liveCount] first byte of a live cell in cellWords
   VkDeviceAddress cellWords = 0;         // uint [cellWordCount] PackedCells (runtime/asset/cell_packer.h)
+  VkDeviceAddress solidBalls = 0;        // uint [liveCount] ChunkContents::solidBalls; absent: kWholeBall each
   uint32_t neighbourShift = 0, alphaShift = 0;
   uint32_t cellWordCount = 0;
   gpu::CellCode code{};

@@ -41,6 +41,8 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
     entry.alphaCounts = chunk.alphaCounts;
     entry.cellStarts = chunk.cellStarts;
     entry.cellWords = chunk.cellWords;
+    entry.solidBalls = chunk.solidBalls;
+    entry.hasSolidBalls = chunk.solidBalls != 0;
     entry.cellCount = chunk.cellCount;
     entry.liveCount = chunk.liveCount;
     entry.siteCount = chunk.siteCount;

@@ -3,6 +3,7 @@
 #ifndef FROTH_GPU_ASSET_GLSL
 #define FROTH_GPU_ASSET_GLSL
 #include "gpu/frame.glsl"
+#include "foam/solid_ball.h"
 
 struct Ball {
   vec3 centre;  // relative to the eye
@@ -38,6 +39,24 @@ Ball ballOf(Chunk chunk, vec4 siteRadius) {
 }
 
 Ball ballOfSite(Chunk chunk, uint site) { return ballOf(chunk, siteRadiusOf(chunk, site)); }
+
+// The bytes of a live cell's solid ball.
+uint solidBallBytes(uint chunk, uint cell) {
+  return FRAME.chunks.v[chunk].hasSolidBalls != 0 ? FRAME.chunks.v[chunk].solidBalls.v[cell] : kWholeBall;
+}
+
+// Rays that miss this ball gain no opacity in the cell.
+Ball solidBall(Ball ball, uint bytes) {
+  vec4 code = vec4(bytes & 255u, bytes >> 8 & 255u, bytes >> 16 & 255u, bytes >> 24);
+  vec4 solid = decodeSolidBall(ball.centre, ball.radius, code);
+  return Ball(solid.xyz, solid.w);
+}
+
+// The solid ball of an entry of FrameBlock::visibleCells.
+Ball visibleBall(uvec4 cell) {
+  Chunk chunk = loadChunk(cell.x);
+  return solidBall(ballOfSite(chunk, cell.y), solidBallBytes(chunk.index, checked(cell.y, chunk.liveCount)));
+}
 
 // Exact where the difference of the sites is.
 vec3 fromSiteToSite(vec3 site, vec3 otherSite) {

@@ -37,6 +37,7 @@ FROTH_CONST kTileSize = 32;           // [pixels] edge of the tiles that own lis
 FROTH_CONST kSubTileSize = 8;         // [pixels] edge of what one workgroup of the raster draws
 FROTH_CONST kMaskWords = 8;           // words of a bit per thread of a workgroup
 FROTH_CONST kNoCell = 0xffffffffu;
+FROTH_CONST kWholeBall = 0x40202020u; // ChunkContents::solidBalls: the cell's own ball
 
 // PassConstants::mode of scan_groups.comp: whose totals it scans.
 FROTH_CONST kScanVisible = 0;
@@ -79,13 +80,14 @@ struct ChunkEntry {
   FROTH_ADDRESS(UintArray) alphaCounts;
   FROTH_ADDRESS(UintArray) cellStarts;
   FROTH_ADDRESS(UintArray) cellWords;
+  FROTH_ADDRESS(UintArray) solidBalls;
   uint cellCount, liveCount;
   uint siteCount;  // cells and ghosts
   uint neighbourCount;
   uint neighbourShift, alphaShift;  // elements of 32 >> shift bits
   uint cellWordCount;
+  uint hasSolidBalls;
   CellCode code;
-  uint padding0, padding1, padding2;
 };
 
 // A visible cell as the rays meet it. Positions are relative to the eye.
@@ -95,7 +97,7 @@ struct CellRecord {
   vec4 tangent;    // t, 1 / radius
   vec4 bitangent;  // b, 0
   uint planeBegin, planeSplit, planeEnd;  // eye planes: [begin, split) only lower tFar, [split, end) only raise tNear
-  uint padding;
+  uint solidBall;  // bytes of GpuChunk::solidBalls
 };
 
 // Counters::work: what rays cost. Rays count by themselves, entries by workgroup of kSubTileSize x kSubTileSize pixels.
@@ -158,7 +160,7 @@ struct FrameBlock {
   FROTH_ADDRESS(RecordArray) records;          // [visible cell]
   FROTH_ADDRESS(FloatQuadArray) planes;        // [planeCapacity] xyz: s = dot(xyz, direction) = 1 / t
   FROTH_ADDRESS(FloatPairArray) sites;         // [visible cell * K * 3] (u, v), (height, r), (g, b)
-  FROTH_ADDRESS(UintArray) tileCounts;         // [visible cell] tiles its ball meets
+  FROTH_ADDRESS(UintArray) tileCounts;         // [visible cell] tiles its solid ball meets
   FROTH_ADDRESS(UintArray) pairTiles;          // [pair] as emitted
   FROTH_ADDRESS(UintArray) pairCells;
   FROTH_ADDRESS(UintArray) tileCells;          // [pair] visible cells in the order of tiles
@@ -184,7 +186,7 @@ struct PassConstants {
 };
 
 static_assert(sizeof(ChunkEntry) == 192 && offsetof(ChunkEntry, siteRadius) == 32);
-static_assert(offsetof(ChunkEntry, cellCount) == 88 && offsetof(ChunkEntry, code) == 116 && sizeof(CellCode) == 64);
+static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 128 && sizeof(CellCode) == 64);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(offsetof(Counters, visibleDispatch) == 32 && offsetof(Counters, work) == 112 && sizeof(Counters) == 176);
 static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);
