@@ -22,7 +22,8 @@ double distanceToBox(const glm::dvec3& point, const glm::dvec3& low, const glm::
 
 }  // namespace
 
-BallTree::BallTree(std::span<const glm::vec3> sites, std::span<const float> radii) : order_(mortonOrder(sites)) {
+BallTree::BallTree(std::span<const glm::vec3> sites, std::span<const float> radii)
+    : order_(mortonOrder(sites)), place_(sites.size()) {
   balls_.resize(sites.size());
   const size_t leaves = std::bit_ceil(std::max<size_t>(1, (sites.size() + kLeafBalls - 1) / kLeafBalls));
   firstLeaf_ = leaves - 1;
@@ -31,6 +32,7 @@ BallTree::BallTree(std::span<const glm::vec3> sites, std::span<const float> radi
     Node& node = nodes_[firstLeaf_ + leaf];
     for (size_t k = leaf * kLeafBalls; k < std::min((leaf + 1) * kLeafBalls, sites.size()); ++k) {
       const Ball ball = balls_[k] = {sites[order_[k]], radii[order_[k]]};
+      place_[order_[k]] = static_cast<uint32_t>(k);
       // nextafter: the sums round, and a bound must never be too tight.
       node.low = glm::min(node.low, ball.site - ball.radius);
       node.high = glm::max(node.high, ball.site + ball.radius);
@@ -49,19 +51,23 @@ BallTree::BallTree(std::span<const glm::vec3> sites, std::span<const float> radi
   }
 }
 
-// Depth first, the nearer child first. `bound` is below every value in a node.
+// Depth first, the nearer child first, until a value below `enough` is found. `bound` is below every value in
+// a node.
 template <class Bound, class Value>
-BallTree::Nearest BallTree::search(const Bound& bound, const Value& value, double enough) const {
+BallTree::Nearest BallTree::search(const Bound& bound, const Value& value, uint32_t known,
+                                   double enough) const {
   constexpr size_t kStackSize = 64;  // one per level of a tree over 2^32 balls, and some
   std::pair<double, size_t> stack[kStackSize];
   size_t depth = 0;
   stack[depth++] = {bound(nodes_[0]), 0};
   Nearest nearest;
+  if (known != kNone) nearest = {known, value(balls_[place_[known]])};
   while (depth > 0) {
     const auto [least, k] = stack[--depth];
     if (!(least < nearest.value)) continue;
     if (k < firstLeaf_) {
-      std::pair<double, size_t> first{bound(nodes_[2 * k + 1]), 2 * k + 1}, second{bound(nodes_[2 * k + 2]), 2 * k + 2};
+      std::pair<double, size_t> first{bound(nodes_[2 * k + 1]), 2 * k + 1},
+          second{bound(nodes_[2 * k + 2]), 2 * k + 2};
       if (second.first < first.first) std::swap(first, second);
       stack[depth++] = second;
       stack[depth++] = first;
@@ -77,16 +83,18 @@ BallTree::Nearest BallTree::search(const Bound& bound, const Value& value, doubl
   return nearest;
 }
 
-BallTree::Nearest BallTree::nearestSurface(const glm::dvec3& point) const {
+BallTree::Nearest BallTree::nearestSurface(const glm::dvec3& point, uint32_t known) const {
   const auto bound = [&](const Node& node) {
     const double distance = distanceToBox(point, node.low, node.high);
     return distance > 0 ? distance : -double{node.largest};
   };
-  const auto value = [&](const Ball& ball) { return glm::length(glm::dvec3(ball.site) - point) - ball.radius; };
-  return search(bound, value, 0);
+  const auto value = [&](const Ball& ball) {
+    return glm::length(glm::dvec3(ball.site) - point) - ball.radius;
+  };
+  return search(bound, value, known, 0);
 }
 
-BallTree::Nearest BallTree::nearestPower(const glm::dvec3& point) const {
+BallTree::Nearest BallTree::nearestPower(const glm::dvec3& point, uint32_t known) const {
   const auto bound = [&](const Node& node) {
     const double distance = distanceToBox(point, node.low, node.high);
     return distance > 0 ? distance * (distance + 2.0 * node.smallest) : -double{node.largest} * node.largest;
@@ -94,7 +102,7 @@ BallTree::Nearest BallTree::nearestPower(const glm::dvec3& point) const {
   const auto value = [&](const Ball& ball) {
     return foam::powerOfOrigin(glm::dvec3(ball.site) - point, double{ball.radius});
   };
-  return search(bound, value, -std::numeric_limits<double>::infinity());
+  return search(bound, value, known, -std::numeric_limits<double>::infinity());
 }
 
 }  // namespace froth

@@ -9,8 +9,9 @@
 
 namespace froth {
 
-// About `count` rays: of the cameras' views and flight path if there are some, and as many again that know no camera, half
-// of them from the surfaces of balls, half from anywhere in the scene's box, as reflections and free flight ask for.
+// About `count` rays: three of four through the cameras' views and flight path, if there are some. The others
+// know no camera: half of them start at the surfaces of balls, half anywhere in the scene's box, as
+// reflections and free flight ask for.
 std::vector<WalkRay> makeChoosingRays(std::span<const glm::vec3> sites, std::span<const float> radii,
                                       const BallTree& tree, const SteinerOptions& options, uint32_t count);
 

@@ -1,10 +1,11 @@
-// Empty balls along rays, and a sparse choice of them: the candidates of Steiner cells.
+// Empty balls along rays: the candidates of Steiner cells.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "baker/steiner/ball_tree.h"
+#include "baker/steiner/ray_cells.h"
 #include "baker/steiner/steiner.h"
 #include "baker/steiner/walk_length.h"
 
@@ -15,14 +16,36 @@ struct EmptyBall {
   float radius;
 };
 
-// Along each ray from one empty ball to the next, until it has crossed enough density: one ball about a random point of
-// every stretch. Each lies on the asset's lattices and keeps a gap from all balls of the tree. In the order of the rays.
-std::vector<EmptyBall> findEmptyBalls(const BallTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
-                                      std::span<const float> densities, std::span<const WalkRay> rays,
-                                      const SteinerOptions& options);
+// Finds balls that lie on the asset's lattices and keep a gap from all balls of the tree. Thread-safe.
+class EmptyBallFinder {
+ public:
+  // Keeps references to all that it is given.
+  EmptyBallFinder(const BallTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
+                  const SteinerOptions& options);
 
-// From the largest to the smallest, each that overlaps no kept one by more than a share of the sum of both radii. `balls`
-// may come in any order.
-std::vector<EmptyBall> thinEmptyBalls(std::vector<EmptyBall> balls);
+  // Appends balls about random points of some of the ray's empty intervals, moved to where there is more
+  // room. `stream`
+  // [< 2^32] tells the random numbers of several rays apart.
+  void findAlong(const WalkRay& ray, const RayCells& cells, uint64_t stream,
+                 std::vector<EmptyBall>& found) const;
+
+ private:
+  struct Place {
+    glm::dvec3 point;
+    BallTree::Nearest nearest;
+  };
+  Place climb(const glm::dvec3& start, uint32_t tries) const;
+  void addBall(const Place& place, std::vector<EmptyBall>& found) const;
+
+  const BallTree& tree_;
+  std::span<const glm::vec3> sites_;
+  std::span<const float> radii_;
+  const SteinerOptions& options_;
+  double leastClearance_ = 0;
+  glm::vec3 low_, high_;  // of the sites: the asset's position lattice reaches no farther
+};
+
+// Keeps the first of all balls that nearly coincide.
+void dropTwins(std::vector<EmptyBall>& balls);
 
 }  // namespace froth

@@ -8,16 +8,16 @@
 namespace froth {
 namespace {
 
-constexpr double kOpaque = 6.9;       // optical depth at which a walk ends
-constexpr double kSolidShare = 0.5;   // of a ball lies behind its face
-constexpr int kWindows = 32;          // of the scene's extent: a ray is followed window by window until it ends
+constexpr double kOpaque = 6.9;      // optical depth at which a walk ends
+constexpr double kSolidShare = 0.5;  // of a ball lies behind its face
+constexpr int kWindows = 32;  // of the scene's extent: a ray is followed window by window until it ends
 
 double crossing(const BallLine& a, const BallLine& b) {
   return (b.offset - a.offset) / (2 * (b.slope - a.slope));
 }
 
-// Finds the cells of one ray from nearest balls of points alone: between two cells, either their lines' crossing lies on
-// the envelope, or the cell there parts the search.
+// Finds the cells of one ray from nearest balls of points alone: between two cells, either their lines'
+// crossing lies on the envelope, or the cell there parts the search.
 class EnvelopeSearch {
  public:
   struct Found {
@@ -26,18 +26,21 @@ class EnvelopeSearch {
     double begin;
   };
 
-  EnvelopeSearch(const BallTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii, const WalkRay& ray)
+  EnvelopeSearch(const BallTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
+                 const WalkRay& ray)
       : tree_(tree), sites_(sites), radii_(radii), ray_(ray) {}
 
-  Found cellAt(double t) const {
-    const uint32_t cell = tree_.nearestPower(glm::dvec3(ray_.origin) + t * glm::dvec3(ray_.direction)).ball;
-    return {cell, lineOf(sites_[cell], radii_[cell], ray_), t};
+  // The cell at a place of the ray, which `known` holds unless another one does.
+  Found cellAt(double t, const Found& known) const {
+    const glm::dvec3 point = glm::dvec3(ray_.origin) + t * glm::dvec3(ray_.direction);
+    return found(tree_.nearestPower(point, known.cell).ball, t);
   }
+  Found firstCell() const { return found(tree_.nearestPower(ray_.origin).ball, 0); }
 
   void findBetween(const Found& first, const Found& last, std::vector<Found>& found) const {
     if (!(first.line.slope < last.line.slope)) return;
     const double t = std::clamp(crossing(first.line, last.line), first.begin, last.begin);
-    const Found middle = cellAt(t);
+    const Found middle = cellAt(t, first);
     const bool parts = middle.line.slope > first.line.slope && middle.line.slope < last.line.slope;
     if (parts && middle.line.at(t) < first.line.at(t)) {
       findBetween(first, middle, found);
@@ -48,16 +51,21 @@ class EnvelopeSearch {
   }
 
  private:
+  Found found(uint32_t cell, double t) const { return {cell, lineOf(sites_[cell], radii_[cell], ray_), t}; }
+
   const BallTree& tree_;
   std::span<const glm::vec3> sites_;
   std::span<const float> radii_;
   const WalkRay& ray_;
 };
 
-double opticalDepth(const glm::vec3& site, float radius, float density, const WalkRay& ray, double begin, double end) {
+double opticalDepth(const glm::vec3& site, float radius, float density, const WalkRay& ray, double begin,
+                    double end) {
   const glm::dvec3 centre = glm::dvec3(site) - glm::dvec3(ray.origin);
   double tNear, tFar;
-  if (foam::isNearCell(centre, double{radius}, glm::dvec3(ray.forward), double{ray.nearRatio}, double{ray.nearDepth})) return 0;
+  if (foam::isNearCell(centre, double{radius}, glm::dvec3(ray.forward), double{ray.nearRatio},
+                       double{ray.nearDepth}))
+    return 0;
   if (!foam::intersectBall(centre, double{radius}, glm::dvec3(ray.direction), tNear, tFar)) return 0;
   return kSolidShare * density * std::max(0.0, std::min(tFar, end) - std::max(tNear, begin));
 }
@@ -74,15 +82,17 @@ RayCells::RayCells(const BallTree& tree, std::span<const glm::vec3> sites, std::
   const EnvelopeSearch search(tree, sites, radii, ray);
   const double extent = glm::length(tree.high() - tree.low());
   const double limit = extent + glm::length(glm::dvec3(ray.origin) - 0.5 * (tree.low() + tree.high()));
-  std::vector<EnvelopeSearch::Found> found{search.cellAt(0)};
+  std::vector<EnvelopeSearch::Found> found{search.firstCell()};
   double depth = 0;
   size_t passed = 0;  // stretches whose end is known and whose density is counted
   for (int window = 1; end_ < limit && depth < kOpaque; ++window) {
     end_ = std::min(limit, window * limit / kWindows);
-    search.findBetween(EnvelopeSearch::Found(found.back()), search.cellAt(end_), found);
+    const EnvelopeSearch::Found last = found.back();
+    search.findBetween(last, search.cellAt(end_, last), found);
     for (; passed + 1 < found.size() && depth < kOpaque; ++passed) {
       const uint32_t cell = found[passed].cell;
-      depth += opticalDepth(sites[cell], radii[cell], densities[cell], ray, found[passed].begin, found[passed + 1].begin);
+      depth += opticalDepth(sites[cell], radii[cell], densities[cell], ray, found[passed].begin,
+                            found[passed + 1].begin);
     }
   }
   if (depth >= kOpaque) {
@@ -108,6 +118,31 @@ RayCells::Cut RayCells::cutOf(const BallLine& ball) const {
   if (cut.left >= 0) cut.begin = crossing(stretches_[cut.left].line, ball);
   if (cut.right < count) cut.end = crossing(stretches_[cut.right].line, ball);
   return cut;
+}
+
+std::vector<RayCells::Interval> RayCells::emptyIntervals() const {
+  std::vector<Interval> intervals;
+  const auto add = [&](double begin, double end) {
+    if (begin < end) intervals.push_back({begin, end});
+  };
+  for (int i = 0; i < static_cast<int>(stretches_.size()); ++i) {
+    const BallLine& line = stretches_[i].line;
+    const double begin = stretches_[i].begin, end = endOf(i);
+    const double halfChordSquared = line.slope * line.slope - line.offset;
+    if (halfChordSquared <= 0) {
+      add(begin, end);
+    } else {
+      const double halfChord = std::sqrt(halfChordSquared);
+      add(begin, std::min(end, line.slope - halfChord));
+      add(std::max(begin, line.slope + halfChord), end);
+    }
+  }
+  return intervals;
+}
+
+int RayCells::savingOf(const BallLine& ball) const {
+  const Cut cut = cutOf(ball);
+  return cut.isEmpty ? 0 : cut.right - cut.left - 2;
 }
 
 void RayCells::add(const BallLine& ball) {

@@ -1,5 +1,6 @@
-// The cells along a ray without any triangulation. Less the square of the distance, the power of a cell along a ray is a
-// straight line, and the cells that the ray crosses are the lower envelope of all lines: a new cell cuts one stretch out of it.
+// The cells along a ray without any triangulation. Less the square of the distance, the power of a cell along
+// a ray is a straight line, and the cells that the ray crosses are the lower envelope of all lines: a new
+// cell cuts one stretch out of it.
 #pragma once
 
 #include <span>
@@ -20,6 +21,10 @@ BallLine lineOf(const glm::vec3& site, float radius, const WalkRay& ray);
 
 class RayCells {
  public:
+  struct Interval {
+    double begin, end;
+  };
+
   RayCells() = default;
   // From the ray's origin until its transmittance falls below a walk's cut-off, with half of each ball solid.
   RayCells(const BallTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
@@ -27,7 +32,15 @@ class RayCells {
 
   size_t count() const { return stretches_.size(); }
 
-  // Adds a cell that is empty, so that the walk ends where it did.
+  // Where the ray is in a cell and outside its ball, and thus outside all balls: up to two intervals per
+  // cell.
+  std::vector<Interval> emptyIntervals() const;
+
+  // An empty cell: it never ends a walk. Whether the ray would cross it, how many cells fewer the walk would
+  // then have
+  // (-1 at least; 0 if it is not crossed), and its addition.
+  bool isCutBy(const BallLine& ball) const { return !cutOf(ball).isEmpty; }
+  int savingOf(const BallLine& ball) const;
   void add(const BallLine& ball);
 
  private:
@@ -35,7 +48,8 @@ class RayCells {
     BallLine line;
     double begin;
   };
-  // Where a ball lies below the envelope: it cuts off the end of `left` (-1: none) and the begin of `right` (count: none).
+  // Where a ball lies below the envelope: it cuts off the end of `left` (-1: none) and the begin of `right`
+  // (count: none).
   struct Cut {
     int left, right;
     double begin, end;

@@ -1,5 +1,6 @@
-// Steiner cells: cells of zero density that fill empty space, so that walks take fewer and better-shaped steps (foam.md
-// "Steiner cells"; Govindarajan et al., "Power Foam" (2026)). They never change an image: no Steiner ball meets a real one.
+// Steiner cells: cells of zero density that fill empty space, so that walks take fewer and better-shaped
+// steps (foam.md "Steiner cells"; Govindarajan et al., "Power Foam" (2026)). They never change an image: no
+// Steiner ball meets a real one.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,10 @@ namespace froth {
 
 struct SteinerOptions {
   uint64_t seed = 1;
-  const CameraSet* cameras = nullptr;  // rays by which cells are chosen; null: random rays between surfaces and from free space
-  double nearRatio = 4, nearDepth = 0; // the asset's defaults: what a primary ray does not meet
-  double positionStep = 0;             // cells lie on the asset's lattices (format/quantization.h)
+  const CameraSet* cameras =
+      nullptr;  // rays by which cells are chosen; null: random rays between surfaces and from free space
+  double nearRatio = 4, nearDepth = 0;  // the asset's defaults: what a primary ray does not meet
+  double positionStep = 0;              // cells lie on the asset's lattices (format/quantization.h)
   uint32_t radiusBits = 23;
 };
 
@@ -30,8 +32,8 @@ struct SteinerCells {
   double walkLengthAfter = 0;
 };
 
-// `sites` and `radii` are those that the asset will hold (already on its lattices), `densities` tell what is empty.
-// The same input and options give the same cells on any number of threads. Fails with kCancelled.
+// `sites` and `radii` are those that the asset will hold (already on its lattices), `densities` tell what is
+// empty. The same input and options give the same cells on any number of threads. Fails with kCancelled.
 Result<SteinerCells> placeSteinerCells(std::span<const glm::vec3> sites, std::span<const float> radii,
                                        std::span<const float> densities, const SteinerOptions& options,
                                        const Progress& progress = {});

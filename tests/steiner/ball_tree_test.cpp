@@ -12,7 +12,8 @@ TEST(BallTree, FindsTheLeastPowerAndTheNearestSurfaceAsBruteForceDoes) {
     const BallTree tree(balls.sites, balls.radii);
     BallSetMaker maker(17);
     for (int i = 0; i < 200; ++i) {
-      const glm::dvec3 point = glm::dvec3(balls.sites[static_cast<size_t>(i) % balls.size()]) + maker.pointInCube(-2, 2);
+      const glm::dvec3 point =
+          glm::dvec3(balls.sites[static_cast<size_t>(i) % balls.size()]) + maker.pointInCube(-2, 2);
       double power = HUGE_VAL, surface = HUGE_VAL;
       for (uint32_t k = 0; k < balls.size(); ++k) {
         const glm::dvec3 centre = glm::dvec3(balls.sites[k]) - point;
