@@ -5,6 +5,8 @@
 #include <functional>
 #include <string_view>
 
+#include "format/result.h"
+
 namespace froth {
 
 // Called from the working thread, at most a few hundred times per stage. `total` may be 0: unknown.
@@ -13,6 +15,11 @@ using Progress = std::function<bool(std::string_view stage, uint64_t done, uint6
 
 inline bool report(const Progress& progress, std::string_view stage, uint64_t done, uint64_t total) {
   return !progress || progress(stage, done, total);
+}
+
+// What a stage fails with that was asked to stop; `what` stopped: "bake", "triangulation".
+inline Error stoppedOnRequest(const char* what) {
+  return makeError(ErrorKind::kCancelled, "%s stopped on request", what);
 }
 
 }  // namespace froth

@@ -74,8 +74,7 @@ Result<AppearanceCoder> AppearanceCoder::create(const Foam& foam, const Visibili
   }
   std::vector<float> viewWeights;
   if (visibility) viewWeights = balanceViews(foam, *visibility, codebook, options, progress);
-  if (!report(progress, "codebook", 1, 1))
-    return makeError(ErrorKind::kCancelled, "codebook: stopped on request");
+  if (!report(progress, "codebook", 1, 1)) return stoppedOnRequest("codebook");
   coder.model_ = std::make_shared<const Model>(
       Model{Observer(foam, visibility, std::move(viewWeights)), std::move(codebook)});
   return coder;

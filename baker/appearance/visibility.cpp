@@ -212,7 +212,8 @@ Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> vie
   }
   const Foam geometry = copyGeometry(foam);
   const std::vector<uint32_t> visible = findVisibleCells(geometry);
-  const CellGraph pairs = findCechPairs(geometry.sites, geometry.radii);
+  const CellGraph pairs = findCechPairs(geometry.sites, geometry.radii, progress);
+  if (pairs.offsets.empty()) return stoppedOnRequest("visibility");
   const BallHierarchy hierarchy(geometry.sites, geometry.radii, visible);
 
   Visibility visibility;
@@ -223,9 +224,7 @@ Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> vie
       products(uint64_t{foam.cellCount} * (K * (K - 1) / 2));
   std::vector<ViewEntries> entries(views.size());
   for (size_t v = 0; v < views.size(); ++v) {
-    if (!report(progress, "visibility", v, views.size())) {
-      return makeError(ErrorKind::kCancelled, "visibility: stopped on request");
-    }
+    if (!report(progress, "visibility", v, views.size())) return stoppedOnRequest("visibility");
     const View view =
         reduceView(views[v], options.maxPixelsPerView > 0 ? options.maxPixelsPerView : kDefaultPixels);
     ReferenceOptions reference;

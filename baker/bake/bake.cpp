@@ -27,10 +27,6 @@
 namespace froth {
 namespace {
 
-Error cancelled() {
-  return makeError(ErrorKind::kCancelled, "bake stopped on request");
-}
-
 StoredCamera storeCamera(const View& view) {
   return {view.worldFromCamera, 0.5 * view.height / view.fy};
 }
@@ -139,7 +135,8 @@ Status Bake::snap() {
   recorder_.finish("snap", foam_.cellCount);
   if (options_.cullUnseen <= 0) return {};
   if (!visibility_) return makeError(ErrorKind::kUsage, "culling unseen cells needs cameras; give some with views");
-  unseenCulled_ = cullUnseenCells(cells_, visibility_->contributions, options_.cullUnseen);
+  unseenCulled_ = cullUnseenCells(cells_, visibility_->contributions, options_.cullUnseen, progress_);
+  if (!report(progress_, "cull", unseenCulled_, unseenCulled_)) return stoppedOnRequest("bake");
   recorder_.finish("cull", unseenCulled_);
   return {};
 }
@@ -165,19 +162,14 @@ Status Bake::placeSteiner() {
 }
 
 Status Bake::triangulate() {
-  const uint32_t count = cells_.count();
-  const uint64_t limit = options_.memoryLimit;
-  const bool isWhole = limit == 0 || triangulationBytes(count) <= limit;
   Result<RegularTriangulation> triangulation =
-      isWhole ? triangulateRegular(cells_.sites, cells_.radii, progress_)
-              : triangulateRegions(cells_.sites, cells_.radii, mortonOrder(cells_.sites),
-                                   regionCellsWithin(count, limit), progress_);
+      triangulateWithin(options_.memoryLimit, cells_.sites, cells_.radii, progress_);
   if (!triangulation) return triangulation.error();
   triangulation_ = std::move(*triangulation);
   recorder_.finish("triangulate", cells_.count());
 
   alpha_ = computeAlphaComplex(cells_.sites, cells_.radii, triangulation_, progress_);
-  if (alpha_.graph.offsets.empty()) return cancelled();
+  if (alpha_.graph.offsets.empty()) return stoppedOnRequest("bake");
   recorder_.finish("alpha-complex", triangulation_.graph.neighbours.size() / 2);
   return {};
 }
@@ -195,7 +187,8 @@ Status Bake::mark() {
 }
 
 Status Bake::check() {
-  result_.validity = checkGraphs(cells_.sites, cells_.radii, triangulation_, alpha_, options_.seed);
+  result_.validity = checkGraphs(cells_.sites, cells_.radii, triangulation_, alpha_, options_.seed, progress_);
+  if (!report(progress_, "check", 1, 1)) return stoppedOnRequest("bake");
   recorder_.finish("check", result_.validity.pointsChecked + result_.validity.raysChecked);
   if (result_.validity.faults.empty()) return {};
   return makeError(ErrorKind::kUnsupported, "graphs: %s; this is a fault of the baker, please report it with the input",
@@ -234,7 +227,7 @@ Result<ChunkContents> Bake::makeChunk(uint32_t index, AttributeErrors& errors) {
   fillFaces(foam_, cells_, live, contents_.quantization, chunk, errors);
   chunk.solidBalls = makeSolidBalls(chunk, contents_.detailCount);
   const StageProgress stage{progress_, "colours", stored_.live, foam_.cellCount};
-  if (!colours_.fill(sources, stage, chunk, errors)) return cancelled();
+  if (!colours_.fill(sources, stage, chunk, errors)) return stoppedOnRequest("bake");
   return chunk;
 }
 

@@ -101,7 +101,7 @@ Result<ChunkPlan> planChunks(const BakeCells& cells, const std::vector<CellState
   };
   if (!splitter.split(live, others, chunkCount, plan.chunks) ||
       !forEachSlice(static_cast<uint32_t>(plan.chunks.size()), 1, {progress, "order", 0, chunkCount}, sortChunk)) {
-    return makeError(ErrorKind::kCancelled, "bake stopped on request");
+    return stoppedOnRequest("bake");
   }
   if (Status status = fillRefs(cells, plan); !status) return status.error();
   return plan;

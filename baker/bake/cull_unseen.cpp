@@ -16,12 +16,14 @@ bool overlapsSeenCell(const CellGraph& overlaps, uint32_t cell, const std::vecto
 
 }  // namespace
 
-uint64_t cullUnseenCells(BakeCells& cells, std::span<const float> contributions, float limit) {
+uint64_t cullUnseenCells(BakeCells& cells, std::span<const float> contributions, float limit,
+                         const Progress& progress) {
   for (uint32_t cell = 0; cell < cells.count(); ++cell) cells.isUnseen[cell] = !(contributions[cell] > limit);
   const uint64_t culled = std::count(cells.isUnseen.begin(), cells.isUnseen.end(), uint8_t{1});
   if (culled == 0) return 0;
 
-  const CellGraph overlaps = findCechPairs(cells.sites, cells.radii);
+  const CellGraph overlaps = findCechPairs(cells.sites, cells.radii, progress);
+  if (overlaps.offsets.empty()) return 0;
   std::vector<uint8_t> stays(cells.count());
   for (uint32_t cell = 0; cell < cells.count(); ++cell)
     stays[cell] = !cells.isUnseen[cell] || overlapsSeenCell(overlaps, cell, cells.isUnseen);

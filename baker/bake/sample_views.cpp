@@ -69,7 +69,7 @@ double clampedDifference(float a, float b) {
 }  // namespace
 
 Result<double> measurePsnr(const Foam& input, const Foam& baked, const BakeOptions& options, const Progress& progress) {
-  const ReferenceRenderer inputRenderer(input), bakedRenderer(baked);
+  const ReferenceRenderer inputRenderer(input, progress), bakedRenderer(baked, progress);
   double squares = 0, values = 0;
   for (const View& view : chooseViews(input, options)) {
     ReferenceOptions reference;

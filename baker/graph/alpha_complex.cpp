@@ -160,6 +160,7 @@ AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<con
   tbb::parallel_for(Range(0, cellCount), [&](const Range& range) {
     for (uint32_t cell = range.begin(); cell < range.end(); ++cell) builder.copyDecisions(cell);
   });
+  if (!report(progress, "alpha-complex", cellCount, cellCount)) return {};
 
   AlphaComplex result;
   result.isEmpty.resize(cellCount);
@@ -167,8 +168,8 @@ AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<con
     for (uint32_t cell = range.begin(); cell < range.end(); ++cell)
       result.isEmpty[cell] = builder.isEmpty(cell);
   });
+  if (!report(progress, "alpha-complex", cellCount, cellCount)) return {};
   result.graph = builder.takeKept();
-  report(progress, "alpha-complex", cellCount, cellCount);
   return result;
 }
 

@@ -48,23 +48,29 @@ struct AlphaComplex {
 AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<const float> radii,
                                  const RegularTriangulation& triangulation, const Progress& progress = {});
 
-// Pairs with |p_i - p_j| < r_i + r_j, in double; over a bounding volume hierarchy or grid, near-linear.
-CellGraph findCechPairs(std::span<const glm::vec3> sites, std::span<const float> radii);
+// Pairs with |p_i - p_j| < r_i + r_j, in double; over a bounding volume hierarchy, near-linear. All cores. When
+// `progress` asks to stop the result is empty (no offsets), as above.
+CellGraph findCechPairs(std::span<const glm::vec3> sites, std::span<const float> radii,
+                        const Progress& progress = {});
+
+// How a scene is cut into regions.
+struct RegionPlan {
+  uint32_t ownCells = 1 << 17;       // of a region, at most [>= 1]
+  uint64_t localCells = UINT32_MAX;  // of a region and around it; one that needs more is halved
+  int threads = 1024;                // regions triangulated at a time, if there are as many cores [>= 1]
+};
 
 // The same graph, region by region: each region is triangulated with as many sites around it as its stars
-// need, proven by the empty orthospheres of their tetrahedra. Memory grows with `regionCells`, not with the
-// scene; regions run on all cores, so this is also the faster way for large scenes. Sites that have no
-// regions (all in a plane, or each next to all others) are triangulated in one piece. `order` lists all
-// cells.
-Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites,
-                                                std::span<const float> radii, std::span<const uint32_t> order,
-                                                uint32_t regionCells, const Progress& progress = {});
+// need, proven by the empty orthospheres of their tetrahedra. Memory grows with the plan's cells, not with
+// CGAL's share of the whole. Sites that have no regions (all in a plane, or fewer than one region's) are
+// triangulated in one piece. kUnsupported: no region is small enough for plan.localCells.
+Result<RegularTriangulation> triangulateRegions(std::span<const glm::vec3> sites, std::span<const float> radii,
+                                                const RegionPlan& plan, const Progress& progress = {});
 
-// Peak memory of triangulateRegular, the result included [bytes].
-uint64_t triangulationBytes(uint64_t cells);
-// The best regionCells for triangulateRegions with a peak within `bytes`, the result included, on the threads
-// that may run. Not below 4096, however little memory there is.
-uint32_t regionCellsWithin(uint64_t cells, uint64_t bytes);
+// In one piece if that fits `memoryLimit` [bytes; 0: none], the result included, else in regions that do.
+// kUsage: the limit is too low for any.
+Result<RegularTriangulation> triangulateWithin(uint64_t memoryLimit, std::span<const glm::vec3> sites,
+                                               std::span<const float> radii, const Progress& progress = {});
 
 // What was checked of the graphs of a bake, and what was found; `faults` is empty when all is well.
 //
@@ -72,7 +78,8 @@ uint32_t regionCellsWithin(uint64_t cells, uint64_t bytes);
 // box, next to faces) a walk down the power over the graph must end in the cell of least power; on random
 // rays every step of a walk must be in the cell of least power, every ball on the ray must be cut alike by
 // alpha planes and by all planes, and none be left out. Least powers and balls on a ray are found without the
-// graphs. All cores; the same for the same seed on any number of them.
+// graphs. All cores; the same for the same seed on any number of them. When `progress` asks to stop the report
+// is unfinished: whoever stopped it drops it.
 struct ValidityReport {
   uint64_t cells = 0, walkPairs = 0, alphaPairs = 0;
   uint64_t pointsChecked = 0, raysChecked = 0;  // against brute force
@@ -80,7 +87,7 @@ struct ValidityReport {
 };
 ValidityReport checkGraphs(std::span<const glm::vec3> sites, std::span<const float> radii,
                            const RegularTriangulation& triangulation, const AlphaComplex& alpha,
-                           uint64_t seed);
+                           uint64_t seed, const Progress& progress = {});
 
 // Cells along a Morton curve of 21 bits per axis over the bounding box; ties by index. order[k] = cell at
 // place k.

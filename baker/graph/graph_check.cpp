@@ -12,22 +12,28 @@ namespace froth {
 namespace {
 
 constexpr size_t kMaxFaults = 16;
-constexpr uint32_t kBlocks = 256;
+constexpr uint32_t kWaves = 16, kBlocksPerWave = 16;
 constexpr uint32_t kPoints = 8192, kRays = 192;
 
 using Faults = std::vector<std::string>;
 
-// Runs check(index, faults) for all indices on all cores; faults come in the order of the indices.
-void checkAll(uint32_t count, Faults& faults, const std::function<void(uint32_t, Faults&)>& check) {
-  std::array<Faults, kBlocks> found;
-  tbb::parallel_for(uint32_t{0}, kBlocks, [&](uint32_t block) {
-    const auto end = static_cast<uint32_t>(uint64_t{count} * (block + 1) / kBlocks);
-    for (auto k = static_cast<uint32_t>(uint64_t{count} * block / kBlocks); k < end; ++k) {
-      if (found[block].size() < kMaxFaults) check(k, found[block]);
-    }
-  });
-  for (Faults& some : found) faults.insert(faults.end(), some.begin(), some.end());
-  faults.resize(std::min(faults.size(), kMaxFaults));
+// Runs check(index, faults) for all indices on all cores; faults come in the order of the indices. False: stopped.
+bool checkAll(uint32_t count, const Progress& progress, Faults& faults,
+              const std::function<void(uint32_t, Faults&)>& check) {
+  for (uint32_t wave = 0; wave < kWaves; ++wave) {
+    if (!report(progress, "check", wave, kWaves)) return false;
+    std::array<Faults, kBlocksPerWave> found;
+    tbb::parallel_for(uint32_t{0}, kBlocksPerWave, [&](uint32_t block) {
+      const auto beginOf = [&](uint64_t k) { return static_cast<uint32_t>(count * k / (kWaves * kBlocksPerWave)); };
+      const uint32_t number = wave * kBlocksPerWave + block;
+      for (uint32_t k = beginOf(number); k < beginOf(number + 1); ++k) {
+        if (found[block].size() < kMaxFaults) check(k, found[block]);
+      }
+    });
+    for (Faults& some : found) faults.insert(faults.end(), some.begin(), some.end());
+    faults.resize(std::min(faults.size(), kMaxFaults));
+  }
+  return true;
 }
 
 // Offsets ascend to the array's end, and neighbours are cells: what must hold before a row is read.
@@ -86,35 +92,37 @@ void checkCell(const RegularTriangulation& triangulation, const AlphaComplex& al
 
 ValidityReport checkGraphs(std::span<const glm::vec3> sites, std::span<const float> radii,
                            const RegularTriangulation& triangulation, const AlphaComplex& alpha,
-                           uint64_t seed) {
+                           uint64_t seed, const Progress& progress) {
   const auto cellCount = static_cast<uint32_t>(sites.size());
-  ValidityReport report;
-  report.cells = cellCount;
-  report.walkPairs = triangulation.graph.neighbours.size() / 2;
-  report.alphaPairs = alpha.graph.neighbours.size() / 2;
+  ValidityReport validity;
+  validity.cells = cellCount;
+  validity.walkPairs = triangulation.graph.neighbours.size() / 2;
+  validity.alphaPairs = alpha.graph.neighbours.size() / 2;
   if (triangulation.isHidden.size() != cellCount || alpha.isEmpty.size() != cellCount) {
-    report.faults.push_back(fmt::format("marks of {} and {} cells for {} cells",
+    validity.faults.push_back(fmt::format("marks of {} and {} cells for {} cells",
                                         triangulation.isHidden.size(), alpha.isEmpty.size(), cellCount));
-    return report;
+    return validity;
   }
-  if (!checkLayout("walk", triangulation.graph, cellCount, report.faults) ||
-      !checkLayout("alpha", alpha.graph, cellCount, report.faults)) {
-    return report;
+  if (!checkLayout("walk", triangulation.graph, cellCount, validity.faults) ||
+      !checkLayout("alpha", alpha.graph, cellCount, validity.faults)) {
+    return validity;
   }
   const auto visible = std::count(triangulation.isHidden.begin(), triangulation.isHidden.end(), uint8_t{0});
-  checkAll(cellCount, report.faults, [&](uint32_t cell, Faults& faults) {
+  const auto checkRows = [&](uint32_t cell, Faults& faults) {
     checkRow("walk", triangulation.graph, cell, faults);
     checkRow("alpha", alpha.graph, cell, faults);
     checkCell(triangulation, alpha, visible == 1, cell, faults);
-  });
-  if (visible == 0) return report;
+  };
+  if (!checkAll(cellCount, progress, validity.faults, checkRows) || visible == 0) return validity;
 
   const DiagramCheck diagram(sites, radii, triangulation, alpha, seed);
-  report.pointsChecked = kPoints;
-  checkAll(kPoints, report.faults, [&](uint32_t k, Faults& faults) { diagram.checkPoint(k, faults); });
-  report.raysChecked = kRays;
-  checkAll(kRays, report.faults, [&](uint32_t k, Faults& faults) { diagram.checkRay(k, faults); });
-  return report;
+  const auto checkPoint = [&](uint32_t k, Faults& faults) { diagram.checkPoint(k, faults); };
+  if (!checkAll(kPoints, progress, validity.faults, checkPoint)) return validity;
+  validity.pointsChecked = kPoints;
+  const auto checkRay = [&](uint32_t k, Faults& faults) { diagram.checkRay(k, faults); };
+  if (!checkAll(kRays, progress, validity.faults, checkRay)) return validity;
+  validity.raysChecked = kRays;
+  return validity;
 }
 
 }  // namespace froth

@@ -1,11 +1,10 @@
 #include "baker/graph/local_triangulation.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
+#include "baker/counter_random.h"
 
 namespace froth {
 
@@ -15,6 +14,15 @@ constexpr uint64_t kProgressSteps = 200;
 constexpr std::chrono::milliseconds kLongestSilence{200};
 constexpr uint32_t kRowsPerLook = 1024;
 constexpr size_t kBatch = 512;  // insertions between two looks at the progress: a few milliseconds
+
+// A biased random insertion order (Amenta, Choi, Rote, "Incremental constructions con BRIO", 2003): an eighth of the
+// sites first, of these an eighth before them, and so on, each round along the curve.
+constexpr int kRounds = 8;
+
+int roundOf(uint32_t place) {
+  const uint64_t random = mixBits(place);
+  return std::min(std::countr_zero(random) / 3, kRounds - 1);
+}
 
 }  // namespace
 
@@ -30,29 +38,32 @@ bool InsertionProgress::add(uint64_t inserted) {
   return !isStopped_;
 }
 
-bool LocalTriangulation::insert(std::vector<uint32_t>& places, InsertionProgress& progress, bool isCounted) {
-  const auto position = [this](uint32_t place) {
-    const glm::vec3& p = sites_.sites[sites_.order[place]];
-    return Kernel::Point_3(p.x, p.y, p.z);
-  };
-  const auto map = boost::make_function_property_map<uint32_t, Kernel::Point_3>(position);
-  CGAL::spatial_sort(places.begin(), places.end(),
-                     CGAL::Spatial_sort_traits_adapter_3<Kernel, decltype(map)>(map));
-
-  for (size_t k = 0; k < places.size(); ++k) {
-    if (k % kBatch == 0 && !progress.add(isCounted ? std::min(k, kBatch) : 0)) return false;
-    const double radius = sites_.radii[sites_.order[places[k]]];  // its square is exact in double
-    const Kernel::Weighted_point_3 point(position(places[k]), radius * radius);
-    Triangulation::Locate_type type;
-    int i, j;
-    // Each search starts where the last one ended.
-    const Triangulation::Cell_handle cell = triangulation_.locate(point, type, i, j, hint_);
-    const Triangulation::Vertex_handle vertex = triangulation_.insert(point, type, cell, i, j);
-    const bool isVisible = vertex != Triangulation::Vertex_handle();
-    if (isVisible) vertex->info() = places[k];
-    hint_ = isVisible ? vertex->cell() : cell;
+bool LocalTriangulation::insert(std::span<const uint32_t> places, InsertionProgress& progress, bool isCounted) {
+  size_t inserted = 0, counted = 0;
+  for (int round = kRounds - 1; round >= 0; --round) {
+    for (const uint32_t place : places) {
+      if (roundOf(place) != round) continue;
+      insertPlace(place);
+      if (++inserted % kBatch != 0) continue;
+      if (!progress.add(isCounted ? kBatch : 0)) return false;
+      counted = inserted;
+    }
   }
-  return progress.add(places.empty() || !isCounted ? 0 : (places.size() - 1) % kBatch + 1);
+  return progress.add(isCounted ? inserted - counted : 0);
+}
+
+void LocalTriangulation::insertPlace(uint32_t place) {
+  const glm::vec3& p = sites_.sites[sites_.order[place]];
+  const double radius = sites_.radii[sites_.order[place]];  // its square is exact in double
+  const Kernel::Weighted_point_3 point(Kernel::Point_3(p.x, p.y, p.z), radius * radius);
+  Triangulation::Locate_type type;
+  int i, j;
+  // Each search starts where the last one ended.
+  const Triangulation::Cell_handle cell = triangulation_.locate(point, type, i, j, hint_);
+  const Triangulation::Vertex_handle vertex = triangulation_.insert(point, type, cell, i, j);
+  const bool isVisible = vertex != Triangulation::Vertex_handle();
+  if (isVisible) vertex->info() = place;
+  hint_ = isVisible ? vertex->cell() : cell;
 }
 
 RowBlock LocalTriangulation::collectRows(uint32_t begin, uint32_t end, InsertionProgress& progress) const {

@@ -58,7 +58,7 @@ class LocalTriangulation {
  public:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   struct CellState {
-    bool isProven = false;  // region_triangulation.cpp
+    bool isProven = false;  // region.h
   };
   using VertexBase =
       CGAL::Triangulation_vertex_base_with_info_3<uint32_t, Kernel,
@@ -71,9 +71,9 @@ class LocalTriangulation {
 
   explicit LocalTriangulation(const PlacedSites& sites) : sites_(sites) {}
 
-  // Inserts the sites at places that are not yet in, in CGAL's biased random order; sorts `places`. Only
-  // what is counted counts as progress. False: stopped on request.
-  bool insert(std::vector<uint32_t>& places, InsertionProgress& progress, bool isCounted = true);
+  // Inserts the sites at places that are not yet in, in a biased random order: fast if the places follow a curve
+  // through space. Only what is counted counts as progress. False: stopped on request.
+  bool insert(std::span<const uint32_t> places, InsertionProgress& progress, bool isCounted = true);
 
   // Rows of the visible cells at places [begin, end); none when stopped.
   RowBlock collectRows(uint32_t begin, uint32_t end, InsertionProgress& progress) const;
@@ -81,6 +81,8 @@ class LocalTriangulation {
   const Triangulation& cgal() const { return triangulation_; }
 
  private:
+  void insertPlace(uint32_t place);
+
   const PlacedSites& sites_;
   Triangulation triangulation_;  // infos are places
   Triangulation::Cell_handle hint_;
@@ -88,10 +90,10 @@ class LocalTriangulation {
 
 // Shared by the triangulation of the whole and of regions.
 Status checkFinite(std::span<const glm::vec3> sites, std::span<const float> radii);
-// The entries of `order` but for duplicates: of coinciding sites the one of largest radius, then lowest index
-// stays.
-std::vector<uint32_t> dropDuplicates(std::span<const glm::vec3> sites, std::span<const float> radii,
-                                     std::span<const uint32_t> order);
+// All cells but for duplicates, along a Morton curve: of coinciding sites the one of largest radius, then lowest
+// index stays. Fails with kCancelled.
+Result<std::vector<uint32_t>> listDistinct(std::span<const glm::vec3> sites, std::span<const float> radii,
+                                           const Progress& progress);
 // The graph from the rows of all visible cells; takes the blocks apart.
 RegularTriangulation assembleRows(const PlacedSites& sites, std::vector<RowBlock>&& blocks);
 

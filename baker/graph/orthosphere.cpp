@@ -102,6 +102,23 @@ PowerForm::Bounds PowerForm::at(const glm::vec3& site, float radius) const {
   return {value - error, value + error};
 }
 
+// With x and c from the site of ball 0, f >= scale (|x - c|^2 - r^2 - (|c|^2 - r_0^2)) - scaleError (|x|^2 + r^2 + r_0^2)
+// - momentError . |x|. If scaleError <= kNarrow scale and |momentError| <= kNarrow scale l, l^2 = |c|^2 + r_0^2, the errors
+// are, by |x| <= |x - c| + |c| and ab <= (a^2 + b^2) / 2, below 4 kNarrow scale (|x - c|^2 + r^2 + l^2); the rounding of
+// c in the scene's coordinates, at most kNarrow l, adds less than as much again. Dividing by 1 + 8 kNarrow leaves kReach.
+std::optional<OuterSphere> PowerForm::outerSphere() const {
+  constexpr double kNarrow = 0x1p-24;
+  const double squaredLength = glm::dot(centre_, centre_) + radius_ * radius_, length = std::sqrt(squaredLength);
+  const glm::dvec3 centre = origin_ + centre_;
+  const double rounding = 0x1p-50 * (glm::length(origin_) + length);
+  if (!(scaleError_ <= kNarrow * scale_ && glm::length(momentError_) <= kNarrow * scale_ * length &&
+        rounding <= kNarrow * length)) {
+    return std::nullopt;
+  }
+  const double squaredRadius = glm::dot(centre_, centre_) - radius_ * radius_;
+  return OuterSphere{centre, squaredRadius + 32 * kNarrow * squaredLength};
+}
+
 double PowerForm::lowerOver(const SiteBox& box) const {
   const glm::dvec3 low = glm::dvec3(box.low) - origin_, high = glm::dvec3(box.high) - origin_;
   const glm::dvec3 reach = glm::max(glm::abs(low), glm::abs(high));

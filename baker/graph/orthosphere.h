@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <glm/glm.hpp>
 
@@ -12,6 +13,14 @@ namespace froth {
 struct Ball {
   glm::dvec3 site;
   double radius;
+};
+
+// A sphere in space, as wide as rounding asks for: a site conflicts with what it stands for only if
+// |p - centre|^2 kReach <= squaredRadius + r^2.
+struct OuterSphere {
+  static constexpr double kReach = 1 - 0x1p-18;
+  glm::dvec3 centre;
+  double squaredRadius;  // may be negative
 };
 
 // The power of sites with respect to a sphere, times a positive number, and what rounding may have done to
@@ -32,6 +41,9 @@ class PowerForm {
     double lower, upper;
   };
   Bounds at(const glm::vec3& site, float radius) const;
+
+  // None for spheres that are too near a half-space for their centre to be known well.
+  std::optional<OuterSphere> outerSphere() const;
 
   // No site of a box has a lower bound below this.
   double lowerOver(const SiteBox& box) const;

@@ -23,9 +23,14 @@ Status checkFinite(std::span<const glm::vec3> sites, std::span<const float> radi
   return {};
 }
 
-std::vector<uint32_t> dropDuplicates(std::span<const glm::vec3> sites, std::span<const float> radii,
-                                     std::span<const uint32_t> order) {
-  std::vector<uint32_t> sorted(order.begin(), order.end());
+// Along a Morton curve.
+Result<std::vector<uint32_t>> listDistinct(std::span<const glm::vec3> sites, std::span<const float> radii,
+                                           const Progress& progress) {
+  const auto isAsked = [&](uint64_t part) { return !report(progress, "sort sites", part, 3); };
+  if (isAsked(0)) return stoppedOnRequest("triangulation");
+  const std::vector<uint32_t> order = mortonOrder(sites);
+  if (isAsked(1)) return stoppedOnRequest("triangulation");
+  std::vector<uint32_t> sorted = order;
   tbb::parallel_sort(sorted.begin(), sorted.end(), [&](uint32_t a, uint32_t b) {
     const glm::vec3 &p = sites[a], &q = sites[b];
     if (p.x != q.x) return p.x < q.x;
@@ -34,6 +39,7 @@ std::vector<uint32_t> dropDuplicates(std::span<const glm::vec3> sites, std::span
     if (radii[a] != radii[b]) return radii[a] > radii[b];
     return a < b;
   });
+  if (isAsked(2)) return stoppedOnRequest("triangulation");
   std::vector<bool> isDropped(sites.size());
   for (size_t k = 1; k < sorted.size(); ++k) {
     if (sites[sorted[k]] == sites[sorted[k - 1]]) isDropped[sorted[k]] = true;
@@ -76,20 +82,20 @@ RegularTriangulation assembleRows(const PlacedSites& sites, std::vector<RowBlock
 Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites,
                                                 std::span<const float> radii, const Progress& progress) {
   if (Status status = checkFinite(sites, radii); !status) return status.error();
-  const std::vector<uint32_t> order = dropDuplicates(sites, radii, mortonOrder(sites));
-  const PlacedSites placed{sites, radii, order};
+  const Result<std::vector<uint32_t>> order = listDistinct(sites, radii, progress);
+  if (!order) return order.error();
+  const PlacedSites placed{sites, radii, *order};
 
   std::vector<uint32_t> places(placed.order.size());
   std::iota(places.begin(), places.end(), 0u);
   InsertionProgress insertion(progress, "triangulate", places.size());
-  const auto cancelled = [] { return makeError(ErrorKind::kCancelled, "triangulation stopped on request"); };
   std::vector<RowBlock> blocks(1);
   {
     LocalTriangulation triangulation(placed);
-    if (!triangulation.insert(places, insertion)) return cancelled();
-    blocks[0] = triangulation.collectRows(0, static_cast<uint32_t>(order.size()), insertion);
+    if (!triangulation.insert(places, insertion)) return stoppedOnRequest("triangulation");
+    blocks[0] = triangulation.collectRows(0, static_cast<uint32_t>(order->size()), insertion);
   }
-  if (!insertion.add(0)) return cancelled();
+  if (!insertion.add(0)) return stoppedOnRequest("triangulation");
   return assembleRows(placed, std::move(blocks));
 }
 

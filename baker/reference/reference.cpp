@@ -72,7 +72,7 @@ class ImageRenderer {
           }
         },
         tbb::auto_partitioner(), context);
-    if (counter.isStopped()) return makeError(ErrorKind::kCancelled, "render: stopped on request");
+    if (counter.isStopped()) return stoppedOnRequest("render");
     return std::move(images_);
   }
 
@@ -106,15 +106,16 @@ class ImageRenderer {
 }  // namespace
 
 struct ReferenceRenderer::State {
-  explicit State(const Foam& source)
+  State(const Foam& source, const Progress& progress)
       : foam(source),
         visible(findVisibleCells(source)),
-        cechPairs(findCechPairs(source.sites, source.radii)),
+        cechPairs(findCechPairs(source.sites, source.radii, progress)),
         hierarchy(source.sites, source.radii, visible) {}
 
   template <class Real>
   Result<RenderedImages> render(const View& view, const ReferenceOptions& options,
                                 const Progress& progress) const {
+    if (cechPairs.offsets.empty()) return stoppedOnRequest("render");
     const ViewCells<Real> cells = prepareViewCells<Real>(foam, cechPairs, visible, view, options);
     return ImageRenderer<Real>(hierarchy, cells, view, options).render(progress);
   }
@@ -125,7 +126,8 @@ struct ReferenceRenderer::State {
   const BallHierarchy hierarchy;
 };
 
-ReferenceRenderer::ReferenceRenderer(const Foam& foam) : state_(std::make_unique<State>(foam)) {}
+ReferenceRenderer::ReferenceRenderer(const Foam& foam, const Progress& progress)
+    : state_(std::make_unique<State>(foam, progress)) {}
 ReferenceRenderer::~ReferenceRenderer() = default;
 
 Result<RenderedImages> ReferenceRenderer::render(const View& view, const ReferenceOptions& options,

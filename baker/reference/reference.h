@@ -33,7 +33,8 @@ struct RenderedImages {
 // Renders with all cores; the same input gives the same bits on any number of threads.
 class ReferenceRenderer {
  public:
-  explicit ReferenceRenderer(const Foam& foam);  // keeps a reference; builds hierarchy and pairs once
+  // Keeps a reference to the foam; builds hierarchy and pairs once. All renders fail when `progress` asked to stop.
+  explicit ReferenceRenderer(const Foam& foam, const Progress& progress = {});
   ~ReferenceRenderer();
   // Near limits are those of `options`, whatever the view says. Fails with kUsage for a view without pixels or with more
   // than 2^28, or a quantile outside 0..1; with kCancelled. May be called from several threads at once.

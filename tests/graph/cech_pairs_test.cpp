@@ -51,6 +51,12 @@ TEST(CechPairs, HoldTheAlphaComplex) {
   }
 }
 
+TEST(CechPairs, AreNotFoundWhenAskedToStop) {
+  const BallSet balls = BallSetMaker(1).foamLike(100);
+  const auto stop = [](std::string_view, uint64_t, uint64_t) { return false; };
+  EXPECT_TRUE(findCechPairs(balls.sites, balls.radii, stop).offsets.empty());
+}
+
 TEST(CechPairs, OfNoBallsAreNone) {
   EXPECT_THAT(findCechPairs({}, {}).offsets, testing::ElementsAre(0));
 }

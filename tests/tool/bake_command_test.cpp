@@ -61,7 +61,7 @@ TEST_F(BakeCommand, AKnobChangesItsLatticeAndNothingElse) {
   EXPECT_EQ(info["errors"]["densities"]["max"], 0);
 }
 
-TEST_F(BakeCommand, BytesAreTheSameOnAnyNumberOfThreadsAndWithAnyMemoryLimit) {
+TEST_F(BakeCommand, BytesAreTheSameOnAnyNumberOfThreads) {
   makeRandomFoam("400");
   for (const std::string preset : {"exact", "default"}) {
     const std::vector<std::string> options{"--preset", preset, "--chunk-cells", "90", "--no-measure"};
@@ -74,8 +74,17 @@ TEST_F(BakeCommand, BytesAreTheSameOnAnyNumberOfThreadsAndWithAnyMemoryLimit) {
     const std::string one = bakeWith("a.froth", "--threads", "1");
     EXPECT_EQ(one, bakeWith("b.froth", "--threads", "2"));
     EXPECT_EQ(one, bakeWith("b.froth", "--threads", "8"));
-    EXPECT_EQ(one, bakeWith("b.froth", "--memory-limit", "64KB"));
   }
+}
+
+TEST_F(BakeCommand, BytesAreTheSameWithAMemoryLimitAndOneTooLowIsRefused) {
+  makeRandomFoam("3000");
+  bake("a.froth");
+  bake("b.froth", {"--memory-limit", "2MB"});
+  EXPECT_EQ(bytesOf("a.froth"), bytesOf("b.froth"));
+  const ProgramRun refused = froth({"bake", "random.pt", "-o", "c.froth", "--memory-limit", "64KB"});
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_NE(refused.err.find("raise the limit"), std::string::npos) << refused.err;
 }
 
 TEST_F(BakeCommand, TheFirstLayersAreCoarserScenes) {
