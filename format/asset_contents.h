@@ -58,6 +58,8 @@ struct ChunkContents {
   std::vector<glm::vec2> detailSites;   // [liveCount * K] in units of the radius
   std::vector<float> detailHeights;     // [liveCount * K] in units of the radius; empty: all zero
   std::vector<glm::vec3> baseColours;   // [liveCount * K] offset from one half; empty: all zero
+  std::vector<uint8_t> detailScales;    // [liveCount] lattices of the cell's detail sites and heights: steps * 2^scale [0..15];
+                                        // empty: all 0
   std::vector<uint8_t> colourScales;    // [liveCount] colour lattice of the cell: step * 2^scale [0..15]; empty: all 0
 
   // Layer 2. The lobes of a detail site follow each other; sum(lobeCounts) in all. A detail site's colour along a unit

@@ -160,6 +160,7 @@ Status checkArrays(const AssetContents& asset, const ChunkContents& chunk, const
   arrays.required("detail_sites", chunk.detailSites, details);
   arrays.optional("detail_heights", chunk.detailHeights, details);
   arrays.optional("base_colours", chunk.baseColours, details);
+  arrays.optional("detail_scales", chunk.detailScales, live);
   arrays.optional("colour_scales", chunk.colourScales, live);
   arrays.optional("lobe_counts", chunk.lobeCounts, details);
   if (!arrays.status()) return arrays.status();
@@ -188,13 +189,14 @@ Status checkCells(const ChunkContents& chunk, const std::string& place) {
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has density %g, not >= 0; %s",
                      sectionPlace(place, SectionType::kDensities).c_str(),
                      static_cast<size_t>(density - chunk.densities.begin()), *density, kRemedy);
-  const auto scale = std::find_if(chunk.colourScales.begin(), chunk.colourScales.end(),
-                                  [](uint8_t s) { return s > kMaxColourScale; });
-  if (scale != chunk.colourScales.end())
-    return makeError(ErrorKind::kBadInput, "%s: cell %zu has scale %u, more than %u; %s",
-                     sectionPlace(place, SectionType::kColourScales).c_str(),
-                     static_cast<size_t>(scale - chunk.colourScales.begin()), *scale, kMaxColourScale,
-                     kRemedy);
+  for (const auto& [type, scales] : {std::pair(SectionType::kDetailScales, std::span(chunk.detailScales)),
+                                     std::pair(SectionType::kColourScales, std::span(chunk.colourScales))}) {
+    const auto scale = std::find_if(scales.begin(), scales.end(), [](uint8_t s) { return s > kMaxScale; });
+    if (scale != scales.end())
+      return makeError(ErrorKind::kBadInput, "%s: cell %zu has scale %u, more than %u; %s",
+                       sectionPlace(place, type).c_str(), static_cast<size_t>(scale - scales.begin()), *scale,
+                       kMaxScale, kRemedy);
+  }
   const auto ball = std::find_if_not(chunk.solidBalls.begin(), chunk.solidBalls.end(), isSolidBall);
   if (ball != chunk.solidBalls.end())
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has bytes %08x, one of them more than %u; %s",

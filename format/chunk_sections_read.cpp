@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 
+#include "format/chunk_lobes.h"
 #include "format/graph_rows.h"
 #include "format/lattice.h"
 
@@ -221,13 +222,41 @@ class ChunkReader {
 
   Status readDetails() {
     const uint32_t count = asset_.detailCount;
-    if (Status status =
-            loadFloats(SectionType::kDetailSites, chunk_.detailSites, asset_.quantization.detailSiteStep);
-        !status)
-      return status;
+    if (Status status = loadScales(SectionType::kDetailScales, chunk_.detailScales); !status) return status;
+    if (Status status = readDetailSites(); !status) return status;
     chunk_.detailSites.resize(size_t{chunk_.liveCount} * count, glm::vec2(0));  // absent: all zero
     if (Status status = readDetailHeights(); !status) return status;
     return readBaseColours();
+  }
+
+  Status loadScales(SectionType type, std::vector<uint8_t>& scales) const {
+    if (Status status = loadAsIs(type, scales); !status) return status;
+    for (size_t cell = 0; cell < scales.size(); ++cell)
+      if (scales[cell] > kMaxScale) return outOfRange(type, cell);
+    return {};
+  }
+
+  // Along u each but the first of a cell as the difference to the one before.
+  Status readDetailSites() {
+    if (!isOnLattice(SectionType::kDetailSites)) return loadAsIs(SectionType::kDetailSites, chunk_.detailSites);
+    Elements elements;
+    if (Status status = load(SectionType::kDetailSites, elements); !status) return status;
+    chunk_.detailSites.resize(elements.size() / 2);
+    int64_t u = 0;
+    for (size_t i = 0; i < chunk_.detailSites.size(); ++i) {
+      if (i % asset_.detailCount == 0) u = 0;
+      u += unzigzag(elements[2 * i]);
+      const int64_t v = unzigzag(elements[2 * i + 1]);
+      if (std::abs(u) > kMaxLatticeIndex || std::abs(v) > kMaxLatticeIndex)
+        return outOfRange(SectionType::kDetailSites, 2 * i);
+      chunk_.detailSites[i] =
+          detailUnit(asset_.quantization.detailSiteStep, i) * glm::vec2(static_cast<float>(u), static_cast<float>(v));
+    }
+    return {};
+  }
+
+  float detailUnit(float step, size_t detail) const {
+    return unitOf(step, chunk_.detailScales, detail / asset_.detailCount);
   }
 
   Status readDetailHeights() {
@@ -235,31 +264,29 @@ class ChunkReader {
       return loadAsIs(SectionType::kDetailHeights, chunk_.detailHeights);
     const float step = asset_.quantization.heightStep;
     return loadIndices(
-        SectionType::kDetailHeights, chunk_.detailHeights, [&](size_t) { return step; },
+        SectionType::kDetailHeights, chunk_.detailHeights, [&](size_t i) { return detailUnit(step, i); },
         [&](size_t i) {
           if (chunk_.cellHeights.empty()) return 0;
-          return static_cast<int32_t>(chunk_.cellHeights[i / asset_.detailCount] / step);
+          const auto cellHeight = static_cast<int32_t>(chunk_.cellHeights[i / asset_.detailCount] / step);
+          return expectedHeightIndex(cellHeight, step, detailUnit(step, i));
         });
   }
 
-  float unitOf(size_t cell) const {
-    return colourUnit(asset_.quantization.colourStep,
-                      chunk_.colourScales.empty() ? uint8_t{0} : chunk_.colourScales[cell]);
+  float colourUnit(size_t detail) const {
+    return unitOf(asset_.quantization.colourStep, chunk_.colourScales, detail / asset_.detailCount);
   }
 
   Status readBaseColours() {
-    if (Status status = loadAsIs(SectionType::kColourScales, chunk_.colourScales); !status) return status;
-    for (size_t cell = 0; cell < chunk_.colourScales.size(); ++cell)
-      if (chunk_.colourScales[cell] > kMaxColourScale) return outOfRange(SectionType::kColourScales, cell);
+    if (Status status = loadScales(SectionType::kColourScales, chunk_.colourScales); !status) return status;
     if (!isOnLattice(SectionType::kBaseColours))
       return loadAsIs(SectionType::kBaseColours, chunk_.baseColours);
     return loadColours(
-        SectionType::kBaseColours, chunk_.baseColours, [&](size_t i) { return unitOf(i / asset_.detailCount); },
+        SectionType::kBaseColours, chunk_.baseColours, [&](size_t i) { return colourUnit(i); },
         [&](size_t i) {
           std::array<int32_t, 3> expected{};
           if (cellColours_.empty()) return expected;
           for (size_t c = 0; c < 3; ++c)
-            expected[c] = expectedColourIndex(cellColours_[i / asset_.detailCount][c], unitOf(i / asset_.detailCount));
+            expected[c] = expectedColourIndex(cellColours_[i / asset_.detailCount][c], colourUnit(i));
           return expected;
         });
   }
@@ -277,15 +304,10 @@ class ChunkReader {
       return status;
     if (!isOnLattice(SectionType::kLobeColours))
       return loadAsIs(SectionType::kLobeColours, chunk_.lobeColours);
-    const std::vector<float> units = lobeUnits(static_cast<size_t>(lobes));
+    const std::vector<float> units = lobeUnits(asset_, chunk_);
     return loadColours(
         SectionType::kLobeColours, chunk_.lobeColours, [&](size_t i) { return units[i]; },
         [](size_t) { return std::array<int32_t, 3>{}; });
-  }
-
-  // Lobes of detail site `detail`.
-  uint32_t lobesOf(size_t detail) const {
-    return chunk_.lobeCounts.empty() ? asset_.lobeCount : chunk_.lobeCounts[detail];
   }
 
   Status checkLobeCounts(uint64_t lobes) const {
@@ -296,16 +318,6 @@ class ChunkReader {
     return makeError(ErrorKind::kBadInput, "%s: %llu lobes, the manifest says %llu; %s",
                      sectionPlace(place_, SectionType::kLobeCounts).c_str(),
                      static_cast<unsigned long long>(sum), static_cast<unsigned long long>(lobes), kRemedy);
-  }
-
-  // The step of the colour lattice for each lobe.
-  std::vector<float> lobeUnits(size_t lobes) const {
-    std::vector<float> units;
-    units.reserve(lobes);
-    const size_t details = size_t{chunk_.liveCount} * asset_.detailCount;
-    for (size_t detail = 0; detail < details; ++detail)
-      units.insert(units.end(), lobesOf(detail), unitOf(detail / asset_.detailCount));
-    return units;
   }
 
   // Axes as entries of the codebook, and the differences to them.
@@ -320,7 +332,7 @@ class ChunkReader {
     size_t lobe = 0;
     for (size_t detail = 0; lobe < labels.size(); ++detail) {
       uint64_t label = 0;
-      for (const size_t end = lobe + lobesOf(detail); lobe < end; ++lobe) {
+      for (const size_t end = lobe + lobeCountOf(asset_, chunk_, detail); lobe < end; ++lobe) {
         if (labels[lobe] >= entries) return outOfRange(SectionType::kLobeLabels, lobe);
         label = (label + labels[lobe]) % entries;
         chunk_.lobeAxes[lobe] = asset_.axisCodebook[label] + chunk_.lobeAxes[lobe];

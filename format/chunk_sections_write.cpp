@@ -5,6 +5,7 @@
 #include <cstring>
 #include <span>
 
+#include "format/chunk_lobes.h"
 #include "format/graph_rows.h"
 #include "format/lattice.h"
 
@@ -218,7 +219,9 @@ class ChunkPacker {
         elements.push_back(byte);
     add(SectionType::kCellColours, 1, std::move(elements));
     addSolidBalls();
-    return addHeights(SectionType::kCellHeights, chunk_.cellHeights, [](size_t) { return 0; });
+    return addHeights(
+        SectionType::kCellHeights, chunk_.cellHeights, [&](size_t) { return asset_.quantization.heightStep; },
+        [](size_t) { return 0; });
   }
 
   void addSolidBalls() {
@@ -227,50 +230,68 @@ class ChunkPacker {
     add(SectionType::kSolidBalls, 1, bytesOf(balls));
   }
 
-  template <class Expected>
-  Status addHeights(SectionType type, const std::vector<float>& heights, Expected expected) {
+  template <class StepOf, class Expected>
+  Status addHeights(SectionType type, const std::vector<float>& heights, StepOf stepOf, Expected expected) {
     if (isZero(heights)) return {};
-    if (isOnLattice(type))
-      return addIndices(
-          type, heights, [&](size_t) { return asset_.quantization.heightStep; }, expected);
+    if (isOnLattice(type)) return addIndices(type, heights, stepOf, expected);
     addFloats(type, heights);
     return {};
   }
 
+  // None if they are all 0. They belong to a section that lies on a lattice.
+  Status addScales(SectionType type, const std::vector<uint8_t>& scales, bool hasLattice) {
+    if (std::all_of(scales.begin(), scales.end(), [](uint8_t scale) { return scale == 0; })) return {};
+    if (!hasLattice)
+      return makeError(ErrorKind::kBadInput, "%s: numbers without lattice have no scales; leave them out",
+                       sectionPlace(place_, type).c_str());
+    add(type, 1, scales);
+    return {};
+  }
+
   Status addDetails() {
-    const uint32_t count = asset_.detailCount;
-    const std::span<const float> sites = floatsOf(chunk_.detailSites);
-    if (!isZero(sites)) {
-      const float step = asset_.quantization.detailSiteStep;
-      if (!isOnLattice(SectionType::kDetailSites))
-        addFloats(SectionType::kDetailSites, sites);
-      else if (Status status = addIndices(
-                   SectionType::kDetailSites, sites, [&](size_t) { return step; }, [](size_t) { return 0; });
-               !status)
-        return status;
-    }
+    const Quantization& lattices = asset_.quantization;
+    if (Status status = addDetailSites(); !status) return status;
+    const auto unit = [&](size_t i) { return detailUnit(lattices.heightStep, i); };
     const auto cellHeight = [&](size_t i) {
       int32_t index = 0;
       if (!chunk_.cellHeights.empty())
-        findIndex(chunk_.cellHeights[i / count], asset_.quantization.heightStep, index);
-      return index;
+        findIndex(chunk_.cellHeights[i / asset_.detailCount], lattices.heightStep, index);
+      return expectedHeightIndex(index, lattices.heightStep, unit(i));
     };
-    if (Status status = addHeights(SectionType::kDetailHeights, chunk_.detailHeights, cellHeight); !status)
+    if (Status status = addHeights(SectionType::kDetailHeights, chunk_.detailHeights, unit, cellHeight); !status)
       return status;
-    return addBaseColours();
+    if (Status status = addBaseColours(); !status) return status;
+    const bool hasLattices = lattices.detailSiteStep > 0 && lattices.heightStep > 0;
+    return addScales(SectionType::kDetailScales, chunk_.detailScales, hasLattices);
   }
 
-  uint8_t scaleOf(size_t cell) const {
-    return chunk_.colourScales.empty() ? uint8_t{0} : chunk_.colourScales[cell];
+  float detailUnit(float step, size_t detail) const {
+    return unitOf(step, chunk_.detailScales, detail / asset_.detailCount);
+  }
+
+  // Along u each but the first of a cell as the difference to the one before: they come in ascending order.
+  Status addDetailSites() {
+    const SectionType type = SectionType::kDetailSites;
+    const std::span<const float> sites = floatsOf(chunk_.detailSites);
+    if (isZero(sites)) return {};
+    if (!isOnLattice(type)) {
+      addFloats(type, sites);
+      return {};
+    }
+    std::vector<int32_t> indices;
+    const auto unit = [&](size_t i) { return detailUnit(asset_.quantization.detailSiteStep, i / 2); };
+    if (Status status = findIndices(type, sites, unit, [](size_t) { return 0; }, indices); !status) return status;
+    for (size_t detail = chunk_.detailSites.size(); detail-- > 0;)
+      if (detail % asset_.detailCount != 0) indices[2 * detail] -= indices[2 * (detail - 1)];
+    addSigned(type, indices);
+    return {};
   }
 
   Status addBaseColours() {
-    const bool hasScales =
-        std::any_of(chunk_.colourScales.begin(), chunk_.colourScales.end(), [](uint8_t s) { return s > 0; });
-    if (hasScales && asset_.quantization.colourStep == 0)
-      return makeError(ErrorKind::kBadInput, "%s: colours without lattice have no scales; leave them out",
-                       sectionPlace(place_, SectionType::kColourScales).c_str());
-    if (hasScales) add(SectionType::kColourScales, 1, chunk_.colourScales);
+    if (Status status =
+            addScales(SectionType::kColourScales, chunk_.colourScales, asset_.quantization.colourStep > 0);
+        !status)
+      return status;
     const std::span<const float> colours = floatsOf(chunk_.baseColours);
     if (isZero(colours)) return {};
     if (!isOnLattice(SectionType::kBaseColours)) {
@@ -279,7 +300,7 @@ class ChunkPacker {
     }
     const size_t perCell = size_t{asset_.detailCount} * 3;
     const auto unit = [&](size_t i) {
-      return colourUnit(asset_.quantization.colourStep, scaleOf(i / perCell));
+      return unitOf(asset_.quantization.colourStep, chunk_.colourScales, i / perCell);
     };
     return addColours(SectionType::kBaseColours, colours, unit, [&](size_t i) {
       return cellColours_.empty() ? 0 : expectedColourIndex(cellColours_[i / perCell * 3 + i % 3], unit(i));
@@ -297,23 +318,9 @@ class ChunkPacker {
       addFloats(SectionType::kLobeColours, colours);
       return {};
     }
-    const std::vector<float> units = lobeUnits();
+    const std::vector<float> units = lobeUnits(asset_, chunk_);
     return addColours(
         SectionType::kLobeColours, colours, [&](size_t i) { return units[i / 3]; }, [](size_t) { return 0; });
-  }
-
-  uint32_t lobesOf(size_t detail) const {
-    return chunk_.lobeCounts.empty() ? asset_.lobeCount : chunk_.lobeCounts[detail];
-  }
-
-  // The step of the colour lattice for each lobe.
-  std::vector<float> lobeUnits() const {
-    std::vector<float> units;
-    for (size_t detail = 0; detail < size_t{chunk_.liveCount} * asset_.detailCount; ++detail) {
-      units.insert(units.end(), lobesOf(detail),
-                   colourUnit(asset_.quantization.colourStep, scaleOf(detail / asset_.detailCount)));
-    }
-    return units;
   }
 
   Status addAxes() {
@@ -335,7 +342,7 @@ class ChunkPacker {
     size_t lobe = 0;
     for (size_t detail = 0; lobe < chunk_.lobeAxes.size(); ++detail) {
       uint32_t before = 0;
-      for (const size_t end = lobe + lobesOf(detail); lobe < end; ++lobe) {
+      for (const size_t end = lobe + lobeCountOf(asset_, chunk_, detail); lobe < end; ++lobe) {
         const std::optional<AxisCode> code = axes_.find(chunk_.lobeAxes[lobe]);
         if (!code) return offLattice(SectionType::kLobeLabels, lobe, chunk_.lobeAxes[lobe].x);
         differences.push_back((code->label + entries - before) % entries);

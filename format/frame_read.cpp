@@ -13,7 +13,9 @@ FrameReader::FrameReader(std::span<const uint8_t> stored, const std::string& pla
 Status FrameReader::start(uint64_t contentSize) {
   if (!context_) return makeError(ErrorKind::kIo, "%s: no memory for zstd", place_.c_str());
   ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, kMaxWindowLog);
-  const unsigned long long found = ZSTD_getFrameContentSize(input_.src, input_.size);
+  atEnd_ = false;
+  const uint8_t* next = static_cast<const uint8_t*>(input_.src) + input_.pos;
+  const unsigned long long found = ZSTD_getFrameContentSize(next, input_.size - input_.pos);
   if (found == contentSize) return {};
   if (found == ZSTD_CONTENTSIZE_ERROR || found == ZSTD_CONTENTSIZE_UNKNOWN)
     return makeError(ErrorKind::kBadInput, "%s: no zstd frame of known size; %s", place_.c_str(),
@@ -37,17 +39,19 @@ Status FrameReader::readPlanes(std::span<uint8_t> elements, uint32_t elementSize
   std::array<uint8_t, 1 << 16> buffer;
   const size_t elementCount = elements.size() / elementSize;
   for (uint32_t plane = 0; plane < elementSize; ++plane) {
+    if (Status status = start(elementCount); !status) return status;
     for (size_t first = 0; first < elementCount; first += buffer.size()) {
       const size_t count = std::min(buffer.size(), elementCount - first);
       if (Status status = read({buffer.data(), count}); !status) return status;
       uint8_t* target = elements.data() + first * elementSize + plane;
       for (size_t i = 0; i < count; ++i) target[i * elementSize] = buffer[i];
     }
+    if (Status status = end(); !status) return status;
   }
   return {};
 }
 
-Status FrameReader::finish() {
+Status FrameReader::end() {
   ZSTD_outBuffer none{nullptr, 0, 0};
   while (!atEnd_) {
     const size_t before = input_.pos;
@@ -56,9 +60,13 @@ Status FrameReader::finish() {
       return makeError(ErrorKind::kBadInput, "%s: the zstd frame does not end; %s", place_.c_str(),
                        kSectionRemedy);
   }
+  return {};
+}
+
+Status FrameReader::finish() const {
   const uint8_t* bytes = static_cast<const uint8_t*>(input_.src);
   if (std::all_of(bytes + input_.pos, bytes + input_.size, [](uint8_t byte) { return byte == 0; })) return {};
-  return makeError(ErrorKind::kBadInput, "%s: bytes after the zstd frame are not zero; %s", place_.c_str(),
+  return makeError(ErrorKind::kBadInput, "%s: bytes after the last zstd frame are not zero; %s", place_.c_str(),
                    kSectionRemedy);
 }
 

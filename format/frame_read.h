@@ -1,4 +1,4 @@
-// One zstd frame whose content is taken in pieces. Internal to the reading half of format/.
+// zstd frames whose contents are taken in pieces. Internal to the reading half of format/.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,20 @@ class FrameReader {
   // Both must outlive the reader. `place` names the section in messages.
   FrameReader(std::span<const uint8_t> stored, const std::string& place);
 
-  // The frame must state this content size.
+  // One frame after the other: start, read ..., end. The frame must state this content size.
   Status start(uint64_t contentSize);
 
   // Fills `out` whole.
   Status read(std::span<uint8_t> out);
 
-  // Reads byte 0 of every element, then byte 1 of every element, ... `elements` is whole elements.
+  // The frame must end here; its checksum is read now.
+  Status end();
+
+  // Reads a frame with byte 0 of every element, then one with byte 1 of every element, ... `elements` is whole elements.
   Status readPlanes(std::span<uint8_t> elements, uint32_t elementSize);
 
-  // The frame must end here (its checksum is read now), and only zeros may follow.
-  Status finish();
+  // Only zeros may follow.
+  Status finish() const;
 
  private:
   Status advance(ZSTD_outBuffer& output);

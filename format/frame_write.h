@@ -12,20 +12,10 @@
 
 namespace froth {
 
-class FrameWriter {
- public:
-  FrameWriter(uint64_t contentSize, int level);
+// Appends a frame of `content` to `stored`.
+Status appendFrame(std::span<const uint8_t> content, int level, std::vector<uint8_t>& stored);
 
-  Status write(std::span<const uint8_t> piece, bool isLast);
-
-  // Writes byte 0 of every element, then byte 1 of every element, ... and ends the frame.
-  Status writePlanes(std::span<const uint8_t> elements, uint32_t elementSize);
-
-  std::vector<uint8_t> take() { return std::move(frame_); }
-
- private:
-  std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context_;
-  std::vector<uint8_t> buffer_, frame_;
-};
+// Appends a frame of byte 0 of every element, then one of byte 1 of every element, ...: planes have little in common.
+Status appendPlanes(std::span<const uint8_t> elements, uint32_t elementSize, int level, std::vector<uint8_t>& stored);
 
 }  // namespace froth

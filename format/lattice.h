@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "format/deltas.h"
 #include "format/quantization.h"
@@ -13,7 +15,7 @@ namespace froth {
 // Indices of values lie within +-kMaxLatticeIndex, so that step * index is an exact float.
 inline constexpr int32_t kMaxLatticeIndex = (1 << 24) - 1;
 
-inline constexpr uint8_t kMaxColourScale = 15;
+inline constexpr uint8_t kMaxScale = 15;
 
 // Signed indices as small unsigned elements.
 inline uint32_t zigzag(int32_t value) {
@@ -38,9 +40,14 @@ inline float colourOfByte(uint8_t byte) {
   return static_cast<float>(byte) / 255.0f;
 }
 
-// The step of the colour lattice of a cell.
-inline float colourUnit(float colourStep, uint8_t scale) {
-  return std::ldexp(colourStep, scale);
+// The step of a lattice in a cell. `scales`: of the chunk's cells; empty: all 0.
+inline float unitOf(float step, std::span<const uint8_t> scales, size_t cell) {
+  return scales.empty() ? step : std::ldexp(step, scales[cell]);
+}
+
+// The index of a detail site's height that its cell's height, on the lattice of scale 0, lets expect; ties to even.
+inline int32_t expectedHeightIndex(int32_t cellHeight, float heightStep, float unit) {
+  return static_cast<int32_t>(std::nearbyint(double{heightStep} * cellHeight / unit));
 }
 
 // The index of a base colour that the cell's colour lets expect; ties to even.

@@ -28,6 +28,7 @@ constexpr std::array kSections = {
     SectionInfo{SectionType::kDetailHeights, "detail_heights", Layer::kDetails},
     SectionInfo{SectionType::kColourScales, "colour_scales", Layer::kDetails},
     SectionInfo{SectionType::kBaseColours, "base_colours", Layer::kDetails},
+    SectionInfo{SectionType::kDetailScales, "detail_scales", Layer::kDetails},
     SectionInfo{SectionType::kLobeCounts, "lobe_counts", Layer::kViewDependence},
     SectionInfo{SectionType::kLobeLabels, "lobe_labels", Layer::kViewDependence},
     SectionInfo{SectionType::kLobeAxes, "lobe_axes", Layer::kViewDependence},
@@ -121,6 +122,7 @@ ElementKind sectionKind(SectionType type, const Quantization& quantization) {
     case SectionType::kCellColours:
     case SectionType::kSolidBalls:
     case SectionType::kColourScales:
+    case SectionType::kDetailScales:
     case SectionType::kLobeCounts:
       return ElementKind::kByte;
   }
@@ -164,6 +166,7 @@ uint64_t sectionEntries(SectionType type, const ChunkCounts& counts, uint32_t de
     case SectionType::kCellHeights:
     case SectionType::kSolidBalls:
     case SectionType::kColourScales:
+    case SectionType::kDetailScales:
       return counts.live;
     case SectionType::kDetailSites:
     case SectionType::kDetailHeights:
@@ -200,6 +203,9 @@ Presence sectionPresence(SectionType type, const AssetContents& asset, bool hasC
       return Presence::kOptional;
     case SectionType::kColourScales:
       return asset.quantization.colourStep > 0 ? Presence::kOptional : Presence::kForbidden;
+    case SectionType::kDetailScales:
+      return asset.quantization.detailSiteStep > 0 && asset.quantization.heightStep > 0 ? Presence::kOptional
+                                                                                        : Presence::kForbidden;
     case SectionType::kLobeCounts:
       return requiredIf(counts.lobes > 0 && counts.lobes < counts.live * asset.detailCount * asset.lobeCount);
     case SectionType::kLobeLabels:

@@ -32,6 +32,7 @@ enum class SectionType : uint32_t {
   kDetailHeights = 33,  // [L × K]
   kColourScales = 34,   // [L]
   kBaseColours = 35,    // [L × K × 3]
+  kDetailScales = 36,   // [L]
 
   kLobeCounts = 64,    // [L × K]
   kLobeLabels = 65,    // [S] entries of the codebook

@@ -10,9 +10,9 @@ namespace froth {
 enum class SectionCodec : uint16_t {
   kStored = 0,       // the raw bytes
   kZstd = 1,         // one zstd frame of the raw bytes
-  kBytePlanes = 2,   // one zstd frame of: byte 0 of every entry, byte 1 of every entry, ...
+  kBytePlanes = 2,   // a zstd frame of byte 0 of every entry, one of byte 1 of every entry, ...
   kDeltaPlanes = 3,  // likewise, of each element's difference to the same component of the entry before
-  kMortonDelta = 4,  // positions: one zstd frame of byte planes of differences between Morton codes
+  kMortonDelta = 4,  // positions: zstd frames of byte planes of differences between Morton codes
   kDraco = 5,  // positions: runs of points, each a kd-tree of Draco's, in the order in which that gives them
 };
 inline constexpr uint16_t kLastSectionCodec = static_cast<uint16_t>(SectionCodec::kDraco);

@@ -32,16 +32,17 @@ void undoDeltas(std::span<uint8_t> raw, SectionShape shape) {
   undoDeltas<uint32_t>(raw, shape.components);
 }
 
-// Frame content: the least coordinates of all points (3 x int32), then the byte planes of the folded
-// differences between the points' Morton codes (uint64).
+// A frame of the least coordinates of all points (3 x int32), then frames of the byte planes of the folded differences
+// between the points' Morton codes (uint64).
 Status readMortonDeltas(FrameReader& frame, std::span<uint8_t> raw) {
   const size_t count = raw.size() / sizeof(std::array<uint32_t, 3>);
   std::array<uint32_t, 3> least;
   std::vector<uint64_t> codes(count);
   const std::span<uint8_t> codeBytes{reinterpret_cast<uint8_t*>(codes.data()), count * sizeof(uint64_t)};
-  if (Status status = frame.start(sizeof(least) + codeBytes.size()); !status) return status;
+  if (Status status = frame.start(sizeof(least)); !status) return status;
   if (Status status = frame.read({reinterpret_cast<uint8_t*>(least.data()), sizeof(least)}); !status)
     return status;
+  if (Status status = frame.end(); !status) return status;
   if (Status status = frame.readPlanes(codeBytes, sizeof(uint64_t)); !status) return status;
 
   uint64_t code = 0;
@@ -58,10 +59,13 @@ Status readZstd(SectionCodec codec, std::span<const uint8_t> stored, std::span<u
                 const std::string& place, SectionShape shape) {
   FrameReader frame(stored, place);
   if (codec == SectionCodec::kMortonDelta) return readMortonDeltas(frame, raw);
-  if (Status status = frame.start(raw.size()); !status) return status;
+  const auto readWhole = [&]() -> Status {
+    if (Status status = frame.start(raw.size()); !status) return status;
+    if (Status status = frame.read(raw); !status) return status;
+    return frame.end();
+  };
   const bool isPlanes = codec != SectionCodec::kZstd;
-  if (Status status = isPlanes ? frame.readPlanes(raw, entrySize(shape)) : frame.read(raw); !status)
-    return status;
+  if (Status status = isPlanes ? frame.readPlanes(raw, entrySize(shape)) : readWhole(); !status) return status;
   if (codec == SectionCodec::kDeltaPlanes) undoDeltas(raw, shape);
   return frame.finish();
 }

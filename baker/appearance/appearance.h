@@ -26,6 +26,7 @@ struct AppearanceOptions {
   uint32_t codebookSize = 0;  // entries of the axis codebook [0..65536]; 0: none
   float colourStep = 0;       // [display-coded] lattice of base and lobe colours, a power of two
   float lobeAxisStep = 0;     // lattice of axes, or of their residuals; a power of two
+  float detailSiteStep = 0;   // [radii] finest lattice of detail sites, for detail scales; a power of two; 0: none
   uint64_t seed = 1;
 };
 
@@ -34,6 +35,7 @@ struct CellAppearance {
   std::vector<glm::vec3> cellColours;  // [cells] display-coded, multiples of 1/255
   std::vector<glm::vec3> baseColours;  // [cells * K]
   std::vector<uint8_t> colourScales;   // [cells]
+  std::vector<uint8_t> detailScales;   // [cells]; empty without detailSiteStep
   std::vector<uint8_t> lobeCounts;     // [cells * K]
   std::vector<glm::vec3> lobeAxes, lobeColours;
   double squaredError =

@@ -14,6 +14,13 @@ constexpr double kRoundingShare =
 constexpr int kRefits = 2;  // of all colours, once every detail site knows what the others get wrong
 constexpr float kMostCarried = 0.3f;  // [display-coded] error of others that a detail site makes up for
 
+// A detail site that lies wrong by x radii shows, as images blend them, as a colour wrong by kShiftGain x
+// times how much it differs from its cell's mean.
+constexpr double kShiftGain = 4;
+constexpr double kLeastDifference = 0.03;  // [display-coded] cells border on others too
+constexpr double kShiftShare = 0.8;  // squared error of a cell's detail sites, relative to a lobe's price
+constexpr double kCoarsestDetailStep = 0x1p-4;  // [radii]
+
 glm::vec3 snapCellColour(const glm::dvec3& colour) {
   return glm::vec3(glm::roundEven(glm::clamp(colour, 0.0, 1.0) * 255.0) / 255.0);
 }
@@ -43,13 +50,37 @@ std::vector<CellCoder::Site> CellCoder::observeCell(uint32_t cell) const {
 
 // The coarsest lattice on which rounding (uniform errors of +- half a step) stays small even where the cell
 // shows most.
-uint8_t CellCoder::chooseScale(const std::vector<Site>& sites) const {
+uint8_t CellCoder::chooseColourScale(const std::vector<Site>& sites) const {
   if (!(options_.colourStep > 0)) return 0;
   double weight = 0;
   for (const Site& site : sites) weight = std::max(weight, site.weight);
   const double step = std::min(std::sqrt(12 * kRoundingShare * lobePrice() / weight), kCoarsestStep);
   const double scale = std::floor(std::log2(std::max(step / options_.colourStep, 1.0)));
   return static_cast<uint8_t>(std::min<double>(scale, kLargestScale));
+}
+
+glm::dvec3 CellCoder::meanOf(const std::vector<Site>& sites) {
+  glm::dvec3 colours(0);
+  double weights = 0;
+  for (const Site& site : sites) {
+    colours += site.weight * meanColour(site.seen);
+    weights += site.weight;
+  }
+  return colours / weights;
+}
+
+double CellCoder::shiftError(const Site& site, const glm::dvec3& cellMean) {
+  const glm::dvec3 difference = meanColour(site.seen) - cellMean;
+  return kShiftGain * kShiftGain *
+         (kLeastDifference * kLeastDifference + glm::dot(difference, difference) / 3);
+}
+
+uint8_t CellCoder::chooseDetailScale(const std::vector<Site>& sites) const {
+  const glm::dvec3 mean = meanOf(sites);
+  double error = 0;
+  for (const Site& site : sites) error += site.weight * shiftError(site, mean);
+  const double step = std::min(std::sqrt(kShiftShare * lobePrice() / error), kCoarsestDetailStep);
+  return static_cast<uint8_t>(std::floor(std::log2(std::max(step / options_.detailSiteStep, 1.0))));
 }
 
 void CellCoder::codeSites(uint32_t cell, double step, std::vector<Site>& sites) const {
@@ -91,26 +122,28 @@ std::vector<glm::vec3> CellCoder::carriedTo(uint32_t cell, uint32_t k, const std
 
 void CellCoder::addViewErrors(uint32_t cell, std::span<double> perView) const {
   std::vector<Site> sites = observeCell(cell);
-  codeSites(cell, std::ldexp(double(options_.colourStep), chooseScale(sites)), sites);
+  codeSites(cell, std::ldexp(double(options_.colourStep), chooseColourScale(sites)), sites);
+  const glm::dvec3 mean = meanOf(sites);
+  const double step =
+      options_.detailSiteStep > 0 ? std::ldexp(options_.detailSiteStep, chooseDetailScale(sites)) : 0;
   for (const Site& site : sites) {
+    const double shifted = step * step * shiftError(site, mean);
     for (size_t i = 0; i < site.seen.size(); ++i) {
       const std::optional<uint32_t> view = observer_.viewOfEye(site.seen.eyes[i]);
       if (!view) continue;
       // Times what the cell's other errors look like there too.
       const double squared = glm::dot(glm::dvec3(site.misses[i]), glm::dvec3(site.coded.error.misses[i])) / 3;
-      perView[*view] += site.seen.weights[i] / observer_.viewWeight(*view) * squared;
+      perView[*view] += site.seen.weights[i] / observer_.viewWeight(*view) * (squared + shifted);
     }
   }
 }
 
 void CellCoder::append(uint32_t cell, CellAppearance& out) const {
   std::vector<Site> sites = observeCell(cell);
-  const uint8_t scale = chooseScale(sites);
+  const uint8_t scale = chooseColourScale(sites);
   codeSites(cell, std::ldexp(double(options_.colourStep), scale), sites);
-  glm::dvec3 colourSum(0);
   double weightSum = 0;
   for (const Site& site : sites) {
-    colourSum += site.weight * meanColour(site.seen);
     weightSum += site.weight;
     out.baseColours.push_back(glm::vec3(site.coded.base));
     out.lobeCounts.push_back(static_cast<uint8_t>(site.coded.axes.size()));
@@ -122,7 +155,8 @@ void CellCoder::append(uint32_t cell, CellAppearance& out) const {
       for (int c = 0; c < 3; ++c) out.maxError = std::max(out.maxError, std::abs(miss[c]));
     }
   }
-  out.cellColours.push_back(snapCellColour(colourSum / weightSum));
+  if (options_.detailSiteStep > 0) out.detailScales.push_back(chooseDetailScale(sites));
+  out.cellColours.push_back(snapCellColour(meanOf(sites)));
   out.colourScales.push_back(scale);
   out.weight += weightSum;
 }

@@ -37,7 +37,12 @@ class CellCoder {
 
   double lobePrice() const { return double(options_.errorBound) * options_.errorBound; }
   std::vector<Site> observeCell(uint32_t cell) const;
-  uint8_t chooseScale(const std::vector<Site>& sites) const;
+  uint8_t chooseColourScale(const std::vector<Site>& sites) const;
+  // The coarsest lattice of detail sites and heights whose error shows little.
+  uint8_t chooseDetailScale(const std::vector<Site>& sites) const;
+  // Squared error of a shown colour, per squared step of a lattice of detail sites [radii].
+  static double shiftError(const Site& site, const glm::dvec3& cellMean);
+  static glm::dvec3 meanOf(const std::vector<Site>& sites);
   void codeSites(uint32_t cell, double step, std::vector<Site>& sites) const;
   // [observations of site k] What the errors of `others` (k itself does not count) look like where site k
   // shows.

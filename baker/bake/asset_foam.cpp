@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 
 #include "baker/bake/bake.h"
+#include "format/chunk_lobes.h"
 
 namespace froth {
 namespace {
-
-// Lobes of all detail sites of a chunk.
-size_t countLobes(const AssetContents& contents, const ChunkContents& chunk) {
-  if (chunk.lobeCounts.empty()) return size_t{chunk.liveCount} * contents.detailCount * contents.lobeCount;
-  return std::accumulate(chunk.lobeCounts.begin(), chunk.lobeCounts.end(), size_t{0});
-}
 
 Status checkChunk(const AssetContents& contents, size_t index) {
   const ChunkContents& chunk = contents.chunks[index];

@@ -21,6 +21,7 @@
 #include "baker/bake/sample_views.h"
 #include "baker/bake/snap_cells.h"
 #include "baker/bake/solid_balls.h"
+#include "baker/bake/sort_details.h"
 #include "baker/bake/stage_recorder.h"
 #include "baker/steiner/steiner.h"
 
@@ -224,10 +225,11 @@ Result<ChunkContents> Bake::makeChunk(uint32_t index, AttributeErrors& errors) {
   ChunkContents chunk =
       makeChunkGeometry(cells_, plan_, index, {triangulation_.graph, alpha_.graph, options_.walkGraph},
                         contents_.quantization.positionStep);
-  fillFaces(foam_, cells_, live, contents_.quantization, chunk, errors);
-  chunk.solidBalls = makeSolidBalls(chunk, contents_.detailCount);
   const StageProgress stage{progress_, "colours", stored_.live, foam_.cellCount};
   if (!colours_.fill(sources, stage, chunk, errors)) return stoppedOnRequest("bake");
+  fillFaces(foam_, cells_, live, contents_.quantization, chunk, errors);
+  chunk.solidBalls = makeSolidBalls(chunk, contents_.detailCount);
+  if (contents_.quantization.detailSiteStep > 0) sortDetails(contents_.detailCount, chunk);
   return chunk;
 }
 

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "baker/bake/snap_cells.h"
+#include "format/lattice.h"
 #include "shaders/foam/appearance.h"
 
 namespace froth {
@@ -104,8 +105,10 @@ void fillFaces(const Foam& foam, const BakeCells& cells, std::span<const uint32_
                ChunkContents& chunk, AttributeErrors& errors) {
   const uint32_t details = foam.detailCount;
   bool isFlat = true;
-  for (const uint32_t cell : live) {
-    const uint32_t source = cells.sources[cell];
+  for (size_t i = 0; i < live.size(); ++i) {
+    const uint32_t cell = live[i], source = cells.sources[cell];
+    const float siteUnit = unitOf(lattices.detailSiteStep, chunk.detailScales, i);
+    const float heightUnit = unitOf(lattices.heightStep, chunk.detailScales, i);
     errors.sites.add(glm::distance(glm::dvec3(cells.sites[cell]), glm::dvec3(foam.sites[source])));
     errors.radii.add(relativeError(cells.radii[cell], foam.radii[source]));
     errors.densities.add(relativeError(cells.densities[cell], foam.densities[source]));
@@ -116,11 +119,11 @@ void fillFaces(const Foam& foam, const BakeCells& cells, std::span<const uint32_
 
     double heightSum = 0;
     for (size_t k = size_t{source} * details; k < (size_t{source} + 1) * details; ++k) {
-      const glm::dvec2 site(foam.detailSites[k]), snapped(snapDetailSite(face, foam.detailSites[k], lattices));
+      const glm::dvec2 site(foam.detailSites[k]), snapped(snapDetailSite(face, foam.detailSites[k], siteUnit));
       errors.detailSites.add(glm::distance(site.x * face.from.tangent + site.y * face.from.bitangent,
                                            snapped.x * face.to.tangent + snapped.y * face.to.bitangent));
       chunk.detailSites.emplace_back(snapped);
-      const float height = snapToStep(foam.detailHeights[k], lattices.heightStep);
+      const float height = snapToStep(foam.detailHeights[k], heightUnit);
       errors.detailHeights.add(double{height} - foam.detailHeights[k]);
       chunk.detailHeights.push_back(height);
       isFlat = isFlat && height == 0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "baker/bake/chunk_attributes.h"
+#include "baker/bake/snap_cells.h"
 
 namespace froth {
 namespace {
@@ -19,6 +20,7 @@ void appendAppearance(const CellAppearance& cells, ChunkContents& chunk, Attribu
   append(chunk.cellColours, cells.cellColours);
   append(chunk.baseColours, cells.baseColours);
   append(chunk.colourScales, cells.colourScales);
+  append(chunk.detailScales, cells.detailScales);
   append(chunk.lobeCounts, cells.lobeCounts);
   append(chunk.lobeAxes, cells.lobeAxes);
   append(chunk.lobeColours, cells.lobeColours);
@@ -37,6 +39,8 @@ Result<ColourSource> ColourSource::create(const Foam& foam, const Visibility* vi
   }
   AppearanceOptions appearance = options.knobs.appearance;
   appearance.seed = options.seed;
+  const BakeKnobs& knobs = options.knobs;
+  if (knobs.heightBits > 0) appearance.detailSiteStep = stepOfBits(knobs.detailSiteBits);  // they share their scales
   Result<AppearanceCoder> coder = AppearanceCoder::create(foam, visibility, appearance, progress);
   if (!coder) return coder.error();
   source.coder_ = std::move(*coder);

@@ -26,7 +26,8 @@ class ColourSource {
   // Detail sites have base colours, and lobes of their own number.
   bool isCompressed() const { return coder_.has_value(); }
 
-  // Fills the colours of a chunk with the live cells `sources`, indices of the input. False: asked to stop.
+  // Fills the colours and detail scales of a chunk with the live cells `sources`, indices of the input. False: asked
+  // to stop.
   bool fill(std::span<const uint32_t> sources, const StageProgress& stage, ChunkContents& chunk,
             AttributeErrors& errors) const;
 

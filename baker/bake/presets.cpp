@@ -4,19 +4,20 @@
 namespace froth {
 namespace {
 
+// `detailSiteBits`, `heightBits` and `colourStep` are the finest lattices: each cell coarsens them by what it shows.
 BakeKnobs defaultKnobs() {
   BakeKnobs knobs;
   knobs.positionBits = 18;
   knobs.radiusBits = 11;
   knobs.densityBits = 4;
   knobs.frameBits = 10;
-  knobs.detailSiteBits = 6;
-  knobs.heightBits = 5;
+  knobs.detailSiteBits = 8;
+  knobs.heightBits = 7;
   knobs.compressColours = true;
   knobs.appearance.errorBound = 0.019f;
   knobs.appearance.lobeLimit = 8;
   knobs.appearance.codebookSize = 2048;
-  knobs.appearance.colourStep = 0x1p-5f;  // each cell coarsens it by what it shows
+  knobs.appearance.colourStep = 0x1p-5f;
   knobs.appearance.lobeAxisStep = 0.5f;
   return knobs;
 }
@@ -27,8 +28,8 @@ BakeKnobs highKnobs() {
   knobs.radiusBits = 12;
   knobs.densityBits = 7;
   knobs.frameBits = 11;
-  knobs.detailSiteBits = 8;
-  knobs.heightBits = 8;
+  knobs.detailSiteBits = 10;
+  knobs.heightBits = 10;
   knobs.appearance.errorBound = 0.006f;
   knobs.appearance.lobeLimit = 32;
   knobs.appearance.codebookSize = 0;
@@ -43,8 +44,6 @@ BakeKnobs smallKnobs() {
   knobs.radiusBits = 8;
   knobs.densityBits = 3;
   knobs.frameBits = 8;
-  knobs.detailSiteBits = 5;
-  knobs.heightBits = 4;
   knobs.appearance.errorBound = 0.038f;
   knobs.appearance.lobeLimit = 4;
   knobs.appearance.codebookSize = 1024;

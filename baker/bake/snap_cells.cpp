@@ -18,11 +18,11 @@ double largestExtent(const Foam& foam) {
   return extent > 0 ? extent : foam.radii[0];  // all sites in one place
 }
 
+}  // namespace
+
 float stepOfBits(uint32_t bits) {
   return bits > 0 ? std::ldexp(1.0f, -static_cast<int>(bits)) : 0.0f;
 }
-
-}  // namespace
 
 Quantization makeLattices(const Foam& foam, const BakeKnobs& knobs) {
   Quantization lattices;
@@ -60,20 +60,20 @@ BakeCells snapCells(const Foam& foam, const Quantization& lattices) {
 }
 
 SnappedFace snapFace(const glm::vec4& orientation, const Quantization& lattices) {
-  SnappedFace face{orientation, faceFrame<double>(orientation), {}};
-  if (lattices.normalBits > 0)
+  SnappedFace face{orientation, faceFrame<double>(orientation), {}, lattices.normalBits > 0};
+  if (face.isTurned)
     face.orientation =
         orientationOfNormal(normalIndices(face.from.normal, lattices.normalBits), lattices.normalBits);
   face.to = faceFrame<double>(face.orientation);
   return face;
 }
 
-glm::vec2 snapDetailSite(const SnappedFace& face, glm::vec2 detailSite, const Quantization& lattices) {
-  if (lattices.normalBits > 0) {
+glm::vec2 snapDetailSite(const SnappedFace& face, glm::vec2 detailSite, float step) {
+  if (face.isTurned) {
     const glm::dvec3 offset = double{detailSite.x} * face.from.tangent + double{detailSite.y} * face.from.bitangent;
     detailSite = glm::vec2(glm::dot(offset, face.to.tangent), glm::dot(offset, face.to.bitangent));
   }
-  return {snapToStep(detailSite.x, lattices.detailSiteStep), snapToStep(detailSite.y, lattices.detailSiteStep)};
+  return {snapToStep(detailSite.x, step), snapToStep(detailSite.y, step)};
 }
 
 }  // namespace froth

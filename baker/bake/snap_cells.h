@@ -8,6 +8,9 @@
 
 namespace froth {
 
+// 2^-bits; 0 bits: 0.
+float stepOfBits(uint32_t bits);
+
 // The lattices that the knobs ask for, fitted to the foam's extent.
 Quantization makeLattices(const Foam& foam, const BakeKnobs& knobs);
 
@@ -18,10 +21,11 @@ BakeCells snapCells(const Foam& foam, const Quantization& lattices);
 struct SnappedFace {
   glm::vec4 orientation;
   FaceFrame<double> from, to;  // frames before and after
+  bool isTurned;               // whether they can differ
 };
 SnappedFace snapFace(const glm::vec4& orientation, const Quantization& lattices);
 
-// A detail site (u, v) [radii] of the old frame, in the new one and on its lattice.
-glm::vec2 snapDetailSite(const SnappedFace& face, glm::vec2 detailSite, const Quantization& lattices);
+// A detail site (u, v) [radii] of the old frame, in the new one and on the lattice of `step`.
+glm::vec2 snapDetailSite(const SnappedFace& face, glm::vec2 detailSite, float step);
 
 }  // namespace froth

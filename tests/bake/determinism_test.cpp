@@ -32,6 +32,7 @@ void expectSameChunk(const ChunkContents& a, const ChunkContents& b) {
   EXPECT_EQ(a.detailSites, b.detailSites);
   EXPECT_EQ(a.detailHeights, b.detailHeights);
   EXPECT_EQ(a.baseColours, b.baseColours);
+  EXPECT_EQ(a.detailScales, b.detailScales);
   EXPECT_EQ(a.colourScales, b.colourScales);
   EXPECT_EQ(a.lobeCounts, b.lobeCounts);
   EXPECT_EQ(a.lobeAxes, b.lobeAxes);

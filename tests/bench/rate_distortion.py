@@ -17,10 +17,10 @@ import tempfile
 PRESETS = ["exact", "high", "default", "small"]
 # One knob at a time, the others as in `default`.
 SWEEPS = {
-    "--error-bound": ["0.004", "0.008", "0.016", "0.032", "0.064"],
+    "--error-bound": ["0.0025", "0.005", "0.01", "0.02", "0.04"],
     "--position-bits": ["12", "13", "14", "15", "16", "18"],
-    "--detail-site-bits": ["3", "4", "5", "6", "8"],
-    "--height-bits": ["3", "4", "5", "6", "8"],
+    "--detail-site-bits": ["4", "5", "6", "7", "8"],
+    "--height-bits": ["3", "4", "5", "6", "7"],
     "--frame-bits": ["6", "7", "8", "10"],
     "--codebook": ["0", "256", "1024", "4096", "16384"],
 }

@@ -27,6 +27,7 @@ class Dump {
     write("detailSites", chunk.detailSites);
     write("detailHeights", chunk.detailHeights);
     write("baseColours", chunk.baseColours);
+    write("detailScales", chunk.detailScales);
     write("colourScales", chunk.colourScales);
     write("lobeCounts", chunk.lobeCounts);
     write("lobeAxes", chunk.lobeAxes);

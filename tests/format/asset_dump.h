@@ -1,4 +1,4 @@
-// An asset's arrays as plain bytes, to be compared with what another reader finds (froth_reader.py).
+// An asset's arrays as plain bytes, to be compared with what another reader finds (compare_asset.py).
 #pragma once
 
 #include <filesystem>

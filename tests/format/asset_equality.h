@@ -73,6 +73,7 @@ inline void expectSameArrays(const ChunkContents& a, const ChunkContents& b) {
   EXPECT_TRUE(haveSameBits(a.detailSites, b.detailSites));
   EXPECT_TRUE(haveSameBits(a.detailHeights, b.detailHeights));
   EXPECT_TRUE(haveSameBits(a.baseColours, b.baseColours));
+  EXPECT_TRUE(haveSameBits(a.detailScales, b.detailScales));
   EXPECT_TRUE(haveSameBits(a.colourScales, b.colourScales));
   EXPECT_TRUE(haveSameBits(a.lobeCounts, b.lobeCounts));
   EXPECT_TRUE(haveSameBits(a.lobeAxes, b.lobeAxes));

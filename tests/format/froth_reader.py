@@ -1,193 +1,17 @@
-#!/usr/bin/python3
 """An independent reader of .froth assets, written from docs/FORMAT.md alone: numpy, zstandard and xxhash, no code of Froth.
 
-froth_reader.py FILE [--layer 0|1|2] [--compare DUMP]
-
-Prints what is in FILE; with DUMP (asset_dump.h) compares every array with the other reader's, bit for bit.
-Exit codes: 0 well, 1 they differ or the file is broken, 77 a package is missing, or FILE has Draco sections.
+Asset(bytes).read_chunk(index, layer) gives a dictionary of arrays.
 """
-import argparse
 import struct
-import sys
 
-try:
-    import numpy as np
-    import xxhash
-    import zstandard
-except ImportError as missing:
-    print(f"{missing}; install python3-numpy python3-zstandard python3-xxhash")
-    sys.exit(77)
+import numpy as np
+import xxhash
 
-SHARED = 0xFFFFFFFF
-MAX_INDEX = 2**24 - 1
-MAX_WINDOW = 1 << 23
-CODEC_STORED, CODEC_ZSTD, CODEC_PLANES, CODEC_DELTA, CODEC_MORTON, CODEC_DRACO = range(6)
+from froth_codecs import (
+    CHUNK, decode, join_green, MAX_INDEX, need, on_lattice, quaternions, SECTION, signed, sums_within, Table,
+    truncated_floats)
 
-
-class NotHere(Exception):
-    """What the page describes and this reader leaves out."""
-
-
-def need(condition, message):
-    if not condition:
-        raise ValueError(message)
-
-
-# ---- FlatBuffers
-
-
-class Table:
-    def __init__(self, buffer, position):
-        self.buffer, self.position = buffer, position
-        vtable = position - struct.unpack_from("<i", buffer, position)[0]
-        size = struct.unpack_from("<H", buffer, vtable)[0]
-        self.offsets = struct.unpack_from(f"<{(size - 4) // 2}H", buffer, vtable + 4)
-
-    def place(self, field):
-        offset = self.offsets[field] if field < len(self.offsets) else 0
-        return self.position + offset if offset else None
-
-    def scalar(self, field, code, default):
-        place = self.place(field)
-        return default if place is None else struct.unpack_from("<" + code, self.buffer, place)[0]
-
-    def target(self, field):
-        place = self.place(field)
-        return None if place is None else place + struct.unpack_from("<I", self.buffer, place)[0]
-
-    def table(self, field):
-        target = self.target(field)
-        return None if target is None else Table(self.buffer, target)
-
-    def text(self, field):
-        target = self.target(field)
-        if target is None:
-            return None
-        size = struct.unpack_from("<I", self.buffer, target)[0]
-        return bytes(self.buffer[target + 4 : target + 4 + size]).decode()
-
-    def structs(self, field, dtype):
-        target = self.target(field)
-        need(target is not None, f"manifest field {field} is missing")
-        count = struct.unpack_from("<I", self.buffer, target)[0]
-        return np.frombuffer(self.buffer, dtype, count, target + 4)
-
-
-CHUNK = np.dtype([("origin", "<f8", 3), ("cells", "<u8"), ("live", "<u8"), ("ghosts", "<u8"), ("pairs", "<u8"),
-                  ("lobes", "<u8"), ("low", "<f8", 3), ("high", "<f8", 3)])
-SECTION = np.dtype([("type", "<u4"), ("chunk", "<u4"), ("flags", "<u2"), ("codec", "<u2"), ("element", "<u2"),
-                    ("reserved0", "<u2"), ("base", "<u4"), ("reserved1", "<u4"), ("offset", "<u8"), ("stored", "<u8"),
-                    ("raw", "<u8"), ("hash", "<u8")])
-assert CHUNK.itemsize == 112 and SECTION.itemsize == 56
-
-
-# ---- Codecs
-
-
-def unfold(numbers):
-    """0, 1, 2, 3, 4 ... -> 0, -1, 1, -2, 2 ..., modulo the width of the unsigned numbers."""
-    one = numbers.dtype.type(1)
-    return np.where(numbers & one, ~(numbers >> one), numbers >> one)
-
-
-def decode_frame(stored, size):
-    frame = zstandard.get_frame_parameters(stored)
-    need(frame.content_size == size, f"frame of {frame.content_size} bytes, expected {size}")
-    need(frame.window_size <= MAX_WINDOW and frame.dict_id == 0, "frame wants a large window or a dictionary")
-    decoder = zstandard.ZstdDecompressor().decompressobj()
-    raw = decoder.decompress(stored)
-    need(len(raw) == size and not any(decoder.unused_data), "bytes after the frame, or too few in it")
-    return raw
-
-
-def join_planes(raw, dtype, components=1):
-    width = np.dtype(dtype).itemsize * components
-    planes = np.frombuffer(raw, np.uint8).reshape(width, -1)
-    return np.ascontiguousarray(planes.T).view(dtype).ravel()
-
-
-def join_green(colours):
-    """Green, red - green, blue - green to red, green, blue; bytes modulo 256."""
-    green = colours[:, 0]
-    return np.stack([colours[:, 1] + green, green, colours[:, 2] + green], axis=1)
-
-
-def sums_within(numbers, counts):
-    """Running sums that begin anew with each of the groups, which have `counts` numbers."""
-    sums = np.cumsum(numbers, dtype=np.int64)
-    first = np.cumsum(counts) - counts
-    before = np.concatenate([[0], sums])[first]
-    return sums - np.repeat(before, counts)
-
-
-def decode_morton(stored, entries):
-    raw = decode_frame(stored, 12 + 8 * entries)
-    least = np.frombuffer(raw, "<u4", 3)
-    codes = np.cumsum(unfold(join_planes(raw[12:], "<u8")), dtype=np.uint64)
-    points = np.zeros((entries, 3), np.uint32)
-    for axis in range(3):
-        for bit in range(21):
-            points[:, axis] |= ((codes >> np.uint64(3 * bit + axis)) & np.uint64(1)).astype(np.uint32) << np.uint32(bit)
-    return (points + least).ravel()
-
-
-def decode(stored, codec, element, entries, components):
-    """Unsigned elements, entries after entries."""
-    count, dtype = entries * components, np.dtype(f"<u{element}")
-    if codec == CODEC_STORED:
-        return np.frombuffer(stored, dtype)
-    if codec == CODEC_ZSTD:
-        return np.frombuffer(decode_frame(stored, count * element), dtype)
-    if codec == CODEC_MORTON:
-        need(element == 4 and components == 3, "Morton delta of something that is no position")
-        return decode_morton(stored, entries)
-    if codec == CODEC_DRACO:
-        raise NotHere("Draco sections are not in this reader")
-    need(codec in (CODEC_PLANES, CODEC_DELTA), "unknown codec")
-    elements = join_planes(decode_frame(stored, count * element), dtype, components)
-    if codec == CODEC_DELTA:
-        elements = np.cumsum(unfold(elements).reshape(entries, components), axis=0, dtype=dtype).ravel()
-    return elements
-
-
-# ---- Values
-
-
-def signed(elements):
-    n = elements.astype(np.int64)
-    return np.where(n & 1, -((n + 1) >> 1), n >> 1)
-
-
-def on_lattice(step, numbers):
-    need(np.all(np.abs(numbers) <= MAX_INDEX), "a lattice index is out of range")
-    return (np.float64(step) * numbers).astype(np.float32)
-
-
-def truncated_floats(numbers, bits):
-    need(np.all(numbers < 2 ** (8 + bits)), "a mantissa is out of range")
-    return (numbers.astype(np.uint32) << np.uint32(23 - bits)).view(np.float32)
-
-
-def quaternions(indices, bits):
-    h = float(2 ** (bits - 1) - 1)
-    need(np.all(indices <= 2**bits - 2), "a normal is out of range")
-    y, z = (indices[:, 0] - h) / h, (indices[:, 1] - h) / h
-    x = 1 - np.abs(y) - np.abs(z)
-
-    def sign(v):
-        return np.where(v < 0, -1.0, 1.0)
-
-    folded_y, folded_z = (1 - np.abs(z)) * sign(y) + 0.0, (1 - np.abs(y)) * sign(z) + 0.0
-    y, z = np.where(x < 0, folded_y, y), np.where(x < 0, folded_z, z)
-    length = np.sqrt((x * x + y * y) + z * z)
-    x, y, z = x / length, y / length, z / length
-    w = np.sqrt((1 + np.abs(x)) / 2)
-    s = 0.5 / w
-    zero = np.zeros_like(x)
-    front = np.stack([w, zero, z * s, -y * s], axis=1)
-    back = np.stack([-y * s, z * s, zero, w], axis=1)
-    return np.where((x >= 0)[:, None], front, back).astype(np.float32)
-
+SHARED = 0xFFFFFFFF  # the chunk of shared sections
 
 # ---- Graph
 
@@ -386,12 +210,24 @@ class Asset:
 
     def read_details(self, index, live, colour_bytes, height_numbers, out):
         k = self.details
-        out["detailSites"] = self.stepped(index, 32, live * k, 2, self.detail_site_step)
+        scales, _ = self.elements(index, 36, live, 1)
+        out["detailScales"] = None if scales is None else scales.ravel()
+        scale = np.repeat(self.scales(live, out, "detailScales"), k)[:, None]
+        if self.detail_site_step:
+            numbers = self.signed(index, 32, live * k, 2)
+            if numbers is not None:
+                numbers = numbers.reshape(live, k, 2).copy()
+                numbers[:, :, 0] = np.cumsum(numbers[:, :, 0], axis=1)
+                out["detailSites"] = on_lattice(self.detail_site_step * scale, numbers.reshape(live * k, 2))
+        else:
+            out["detailSites"] = self.floats(index, 32, live * k, 2)
         if self.height_step:
             numbers = self.signed(index, 33, live * k, 1)
             if numbers is not None:
-                base = 0 if height_numbers is None else np.repeat(height_numbers, k, axis=0)
-                out["detailHeights"] = on_lattice(self.height_step, numbers + base)
+                base = 0
+                if height_numbers is not None:
+                    base = np.rint(np.repeat(height_numbers, k, axis=0) / scale).astype(np.int64)
+                out["detailHeights"] = on_lattice(self.height_step * scale, numbers + base)
         else:
             out["detailHeights"] = self.floats(index, 33, live * k, 1)
         scales, _ = self.elements(index, 34, live, 1)
@@ -408,10 +244,14 @@ class Asset:
                 base = np.repeat(base, k, axis=0)
             out["baseColours"] = on_lattice(np.repeat(unit, k, axis=0), join_green(numbers) + base)
 
-    def colour_units(self, live, out):
-        scales = out.get("colourScales")
+    def scales(self, live, out, name):
+        scales = out.get(name)
         scales = np.zeros(live, np.int64) if scales is None else scales.astype(np.int64)
-        return np.float64(self.colour_step) * 2.0**scales
+        need(np.all(scales <= 15), name)
+        return 2.0**scales
+
+    def colour_units(self, live, out):
+        return np.float64(self.colour_step) * self.scales(live, out, "colourScales")
 
     def read_lobes(self, index, live, lobes, out):
         sites = live * self.details
@@ -437,53 +277,3 @@ class Asset:
             cells = np.repeat(np.arange(sites) // self.details, per_site)
             unit = self.colour_units(live, out)[cells][:, None]
             out["lobeColours"] = on_lattice(unit, join_green(self.signed(index, 67, lobes, 3)))
-
-
-# ---- Comparison
-
-
-def read_dump(path):
-    """{(chunk, array): bytes}; each array is a line "chunk name bytes" and then the bytes."""
-    arrays = {}
-    with open(path, "rb") as dump:
-        while line := dump.readline():
-            chunk, name, size = line.decode().split()
-            arrays[int(chunk), name] = dump.read(int(size))
-    return arrays
-
-
-def compare(found, expected):
-    differing = []
-    for key in sorted(set(found) | set(expected)):
-        mine, theirs = found.get(key, b""), expected.get(key, b"")
-        if mine != theirs:
-            width = next((i for i in range(min(len(mine), len(theirs))) if mine[i] != theirs[i]), None)
-            differing.append(f"chunk {key[0]}, {key[1]}: {len(mine)} and {len(theirs)} bytes, first difference at {width}")
-    return differing
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("file")
-    parser.add_argument("--layer", type=int, default=2)
-    parser.add_argument("--compare")
-    options = parser.parse_args()
-    with open(options.file, "rb") as file:
-        asset = Asset(file.read())
-    found = {}
-    for index in range(len(asset.chunks)):
-        for name, values in asset.read_chunk(index, options.layer).items():
-            found[index, name] = values.tobytes()
-            print(f"chunk {index}: {name} {values.dtype} {values.shape}")
-    if options.compare:
-        differing = compare(found, read_dump(options.compare))
-        print("\n".join(differing) or f"{len(found)} arrays agree")
-        sys.exit(1 if differing else 0)
-
-
-if __name__ == "__main__":
-    try:
-        main()
-    except NotHere as left_out:
-        print(left_out)
-        sys.exit(77)

@@ -118,6 +118,8 @@ TEST(HostileSection, WithAnIndexOffItsLatticeIsRefused) {
       HasSubstr("section 'orientations': number 2 is out of range"));
   EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kColourScales, [](auto& scales) { scales[2] = 16; }),
               HasSubstr("section 'colour_scales': number 2 is out of range"));
+  EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kDetailScales, [](auto& scales) { scales[1] = 16; }),
+              HasSubstr("section 'detail_scales': number 1 is out of range"));
   EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kSolidBalls, [](auto& balls) { balls[6] = 65; }),
               AllOf(HasSubstr("section 'solid_balls': cell 1 has bytes"), HasSubstr("more than 64")));
   EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kLobeLabels, [](auto& labels) { labels[1] = 5; }),
@@ -186,7 +188,7 @@ TEST(HostileSection, IsReadWithZerosAfterItsFrameAndRefusedWithOtherBytes) {
   frame.resize(frame.size() + 20, 0);
   EXPECT_EQ(errorWithRadiiFrame(frame), "no error");
   frame.back() = 1;
-  EXPECT_THAT(errorWithRadiiFrame(frame), HasSubstr("bytes after the zstd frame are not zero"));
+  EXPECT_THAT(errorWithRadiiFrame(frame), HasSubstr("bytes after the last zstd frame are not zero"));
 }
 
 TEST(HostileSection, IsRefusedIfItsFrameHoldsMoreOrLess) {
@@ -222,15 +224,17 @@ TEST(HostileSection, IsRefusedIfItsFrameWantsALargeWindow) {
   const auto errorWithWindow = [](int windowLog) {
     Draft draft = draftOf(makeSampleAsset());
     const size_t index = draft.find(SectionType::kRadii);
-    // Magic; 4-byte content size; window; content size 24; last block, raw, of 24 bytes (RFC 8878, 3.1.1).
-    const std::array<uint8_t, 12> head = {
-        0x28, 0xb5, 0x2f, 0xfd, 0x80,          static_cast<uint8_t>((windowLog - 10) << 3),
-        24,   0,    0,    0,    (24 << 3) | 1, 0};
-    std::vector<uint8_t> frame(head.size() + 1 + 24, 0x3f);
-    std::copy(head.begin(), head.end(), frame.begin());
-    frame[head.size()] = 0;
+    // One frame per plane of 6 radii. Magic; 4-byte content size; window; content size 6; last block, raw, of 6 bytes
+    // (RFC 8878, 3.1.1).
+    const std::array<uint8_t, 13> head = {0x28, 0xb5, 0x2f, 0xfd, 0x80, static_cast<uint8_t>((windowLog - 10) << 3), 6, 0, 0,
+                                          0,    (6 << 3) | 1, 0, 0};
+    std::vector<uint8_t> frames;
+    for (int plane = 0; plane < 4; ++plane) {
+      frames.insert(frames.end(), head.begin(), head.end());
+      frames.insert(frames.end(), 6, 0x3f);
+    }
     draft.records[index].codec = static_cast<uint16_t>(SectionCodec::kBytePlanes);
-    draft.stored[index] = frame;
+    draft.stored[index] = frames;
     return errorOf(draft.assemble());
   };
   EXPECT_EQ(errorWithWindow(kMaxWindowLog), "no error");

@@ -32,7 +32,7 @@ class IndependentReader : public testing::Test {
       ASSERT_TRUE(contents) << contents.error().message;
       writeDump(folder_ / "dump", *contents);
       const std::string layer = std::to_string(static_cast<int>(last));
-      const std::string command = "/usr/bin/python3 '" FROTH_SOURCE_DIR "/tests/format/froth_reader.py' '" +
+      const std::string command = "/usr/bin/python3 -B '" FROTH_SOURCE_DIR "/tests/format/compare_asset.py' '" +
                                   asset.string() + "' --layer " + layer + " --compare '" +
                                   (folder_ / "dump").string() + "' >'" + (folder_ / "out").string() +
                                   "' 2>&1";

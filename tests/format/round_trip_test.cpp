@@ -147,9 +147,10 @@ TEST(RoundTrip, LeavesOutArraysThatSayNothing) {
   std::fill(chunk.detailSites.begin(), chunk.detailSites.end(), glm::vec2(0));
   std::fill(chunk.baseColours.begin(), chunk.baseColours.end(), glm::vec3(0));
   std::fill(chunk.colourScales.begin(), chunk.colourScales.end(), uint8_t{0});
+  std::fill(chunk.detailScales.begin(), chunk.detailScales.end(), uint8_t{0});
   for (const SectionType type :
        {SectionType::kDetailHeights, SectionType::kCellHeights, SectionType::kDetailSites,
-        SectionType::kBaseColours, SectionType::kColourScales, SectionType::kSolidBalls})
+        SectionType::kBaseColours, SectionType::kColourScales, SectionType::kDetailScales, SectionType::kSolidBalls})
     EXPECT_EQ(countSections(contents, type), 0u) << sectionName(static_cast<uint32_t>(type));
   const ChunkContents found = decode(encodeOrFail(contents)).chunks[0];
   EXPECT_TRUE(found.detailHeights.empty());
@@ -157,6 +158,7 @@ TEST(RoundTrip, LeavesOutArraysThatSayNothing) {
   EXPECT_TRUE(found.solidBalls.empty());
   EXPECT_TRUE(found.baseColours.empty());
   EXPECT_TRUE(found.colourScales.empty());
+  EXPECT_TRUE(found.detailScales.empty());
   EXPECT_TRUE(haveSameBits(found.detailSites, chunk.detailSites));
 }
 

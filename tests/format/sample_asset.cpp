@@ -76,13 +76,22 @@ class ChunkMaker {
     if (options_.hasHeights) random_.fill(chunk_.cellHeights, chunk_.liveCount, lattices().heightStep);
     for (uint32_t i = 0; i < chunk_.liveCount; ++i) chunk_.solidBalls.push_back(makeSolidBall());
     if (!options_.isQuantized) return;
-    for (uint32_t i = 0; i < chunk_.liveCount; ++i)
+    for (uint32_t i = 0; i < chunk_.liveCount; ++i) {
+      chunk_.detailScales.push_back(static_cast<uint8_t>(i == 0 ? 2 : random_.below(3)));
       chunk_.colourScales.push_back(static_cast<uint8_t>(i == 0 ? 3 : random_.below(4)));
+    }
   }
 
   void fillDetails() {
     random_.fill(chunk_.detailSites, details_, lattices().detailSiteStep);
     if (options_.hasHeights) random_.fill(chunk_.detailHeights, details_, lattices().heightStep);
+    for (size_t i = 0; i < details_ && !chunk_.detailScales.empty(); ++i) {
+      const float scale = unitOf(1, chunk_.detailScales, i / options_.detailCount);
+      for (int axis = 0; axis < 2; ++axis)
+        chunk_.detailSites[i][axis] = snapToStep(chunk_.detailSites[i][axis], scale * lattices().detailSiteStep);
+      if (options_.hasHeights)
+        chunk_.detailHeights[i] = snapToStep(chunk_.detailHeights[i], scale * lattices().heightStep);
+    }
     if (options_.hasLayers) {
       chunk_.baseColours.resize(details_);
       for (size_t i = 0; i < details_; ++i) chunk_.baseColours[i] = makeColour(i);
@@ -90,11 +99,10 @@ class ChunkMaker {
   }
 
   glm::vec3 makeColour(size_t detail) {
-    const size_t cell = detail / options_.detailCount;
-    const uint8_t scale = chunk_.colourScales.empty() ? uint8_t{0} : chunk_.colourScales[cell];
+    const float unit = unitOf(lattices().colourStep, chunk_.colourScales, detail / options_.detailCount);
     glm::vec3 colour;
     for (int i = 0; i < 3; ++i)
-      colour[i] = snapToStep(random_() - 0.5f, colourUnit(lattices().colourStep, scale));
+      colour[i] = snapToStep(random_() - 0.5f, unit);
     return colour;
   }
 
