@@ -18,8 +18,8 @@ constexpr float kMostCarried = 0.3f;  // [display-coded] error of others that a 
 // times how much it differs from its cell's mean.
 constexpr double kShiftGain = 4;
 constexpr double kLeastDifference = 0.03;  // [display-coded] cells border on others too
-constexpr double kShiftShare = 0.8;  // squared error of a cell's detail sites, relative to a lobe's price
-constexpr double kCoarsestDetailStep = 0x1p-4;  // [radii]
+constexpr double kShiftShare = 0.2;  // squared error of a cell's detail sites, relative to a lobe's price
+constexpr double kCoarsestDetailStep = 0x1p-5;  // [radii]
 
 glm::vec3 snapCellColour(const glm::dvec3& colour) {
   return glm::vec3(glm::roundEven(glm::clamp(colour, 0.0, 1.0) * 255.0) / 255.0);
