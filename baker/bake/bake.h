@@ -40,7 +40,7 @@ struct BakeOptions {
   bool steiner = true;           // ignored without walk graph
   float cullUnseen = 0;          // drops live cells whose largest T alpha in all cameras is not above this; 0: none
   uint32_t chunkCells = 16384;   // most live cells of a chunk
-  uint64_t memoryLimit = 0;      // [bytes] of the bake beside the input; 0: none. Triangulates region by region below it
+  uint64_t memoryLimit = 0;      // of the triangulation, beside the input [bytes]; 0: none. Else in pieces
   uint64_t seed = 1;
   bool measure = true;           // PSNR of a lossy asset on sample views
   std::string source;            // name shown by `froth info`

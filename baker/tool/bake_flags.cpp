@@ -91,7 +91,7 @@ void BakeFlags::addTo(CLI::App& command) {
       ->check(numberBetween(0, 1));
   command
       .add_option("--memory-limit", options_.memoryLimit,
-                  "Of the bake beside the input [bytes, or with KB, MB, GB]; triangulates in pieces; 0: none")
+                  "Of the triangulation beside the input [bytes, or with KB, MB, GB]; works in pieces; 0: none")
       ->transform(CLI::AsSizeValue(false));
   command.add_option("--chunk-cells", options_.chunkCells, "Most live cells of a chunk [1..1048576]")
       ->capture_default_str()
