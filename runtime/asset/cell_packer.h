@@ -4,22 +4,24 @@
 // close together: the cell holds the lowest, its detail sites what they add to it. A cell starts at a byte;
 // lowest bits first:
 //
-//   density           code.densityBits, above code.densityLowest
-//   orientation       a bit and 2 x code.normalBits: orientationOfNormal (format/quantization.h), the bit
-//   tells that its normal
-//                     is nearer to -x; or 4 floats (w, x, y, z). The one thing that shaders compute again, to
-//                     1e-6
-//   colour scale      code.scaleBits
-//   widths            code.widthBits each: place, height, base green, base chroma, lobes, axis, lobe green,
-//   lobe chroma lowest height     code.heightBits, two's complement lowest base       code.baseBits each,
-//   two's complement: green, red - green, blue - green own axes          code.ownAxisBits: how many; then 3 x
-//   code.axisBits each, two's complement numbers of lobes  [K] detail sites      [K]
-//   place (u, v), height, base colour lobes             [sum] axis, colour. The axis is a label if the chunk
-//   has a table of axes: of its entries, or
-//                     behind them of the cell's own axes; else its components
+//   density         code.densityBits, above code.densityLowest
+//   orientation     1 + 2 * code.normalBits: whether the normal is nearer to -x, then its indices
+//                   (orientationOfNormal, format/quantization.h); or 4 floats (w, x, y, z)
+//   colour scale    code.scaleBits
+//   widths          8 of code.widthBits: place, height, base green, base chroma, number of lobes, axis, lobe
+//                   green, lobe chroma
+//   lowest height   code.heightBits, two's complement
+//   lowest base     3 * code.baseBits, two's complement: green, red - green, blue - green
+//   own axes        code.ownAxisBits: how many; then 3 * code.axisBits each, two's complement
+//   lobe counts     [K]
+//   detail sites    [K] place (u, v), height, base colour
+//   lobes           [sum of counts] axis, colour
 //
-// Places, written-out axes and colours of lobes are two's complement. Kinds of step 0 hold floats of 32 bits;
-// colours are then red, green, blue. The table of axes stands before the first cell.
+// An axis is a label if the chunk has a table of axes: of the table's entries, or behind them of the cell's own
+// axes; else it is its components. The table stands before the first cell. Places, written-out axes and colours
+// of lobes are two's complement. Kinds of step 0 hold floats of 32 bits; colours are then red, green, blue.
+// Shaders get the floats of the reader bit for bit, but for orientations of normals, which they compute again,
+// to 1e-6.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,6 @@
 // What arrives on the GPU, seen from the inside: the arrays of a loaded asset are those of its file.
+#include "runtime/asset/bit_writer.h"
+#include "runtime/asset/cell_packer.h"
 #include "runtime/core/context.h"
 #include "runtime_fixture.h"
 
@@ -57,14 +59,14 @@ class Upload : public RuntimeGpuTest {
       for (size_t i = 0; i < chunk.sites.size(); ++i) siteRadius.emplace_back(chunk.sites[i], chunk.radii[i]);
       expectOnGpu(*asset, gpu.siteRadius, siteRadius, "siteRadius");
       expectOnGpu(*asset, gpu.neighbourOffsets, chunk.neighbourOffsets, "neighbourOffsets");
-      expectOnGpu(*asset, gpu.neighbours, chunk.neighbours, "neighbours");
-      expectOnGpu(*asset, gpu.alphaCounts, chunk.alphaCounts, "alphaCounts");
-      expectOnGpu(*asset, gpu.densities, chunk.densities, "densities");
-      expectOnGpu(*asset, gpu.orientations, chunk.orientations, "orientations");
-      expectOnGpu(*asset, gpu.detailSites, chunk.detailSites, "detailSites");
-      expectOnGpu(*asset, gpu.detailHeights, chunk.detailHeights, "detailHeights");
-      expectOnGpu(*asset, gpu.lobeAxes, chunk.lobeAxes, "lobeAxes");
-      expectOnGpu(*asset, gpu.lobeColours, chunk.lobeColours, "lobeColours");
+      expectOnGpu(*asset, gpu.neighbours, packElements(chunk.neighbours).words, "neighbours");
+      expectOnGpu(*asset, gpu.alphaCounts, packElements(chunk.alphaCounts).words, "alphaCounts");
+      const Result<PackedCells> cells =
+          packCells(chunk, contents.detailCount, contents.lobeCount, contents.quantization.normalBits);
+      ASSERT_TRUE(cells);
+      expectOnGpu(*asset, gpu.cellStarts, cells->starts, "cellStarts");
+      expectOnGpu(*asset, gpu.cellWords, cells->words, "cellWords");
+      expectOnGpu(*asset, gpu.solidBalls, chunk.solidBalls, "solidBalls");
     }
   }
 
