@@ -9,6 +9,7 @@
 #include <zstd.h>
 
 #include "file_surgery.h"
+#include "format/frame_read.h"
 #include "format/section_codec_read.h"
 #include "sample_asset.h"
 
@@ -219,20 +220,22 @@ TEST(HostileSection, IsRefusedIfItExpandsBeyondTheLimit) {
   EXPECT_EQ(errorOf(draft.assemble()), "no error");
 }
 
-// Byte planes are taken in pieces, so zstd needs a window, and the frame must not choose its size freely.
+// Planes larger than the piece in which they are taken need a window, and the frame must not choose its size freely.
 TEST(HostileSection, IsRefusedIfItsFrameWantsALargeWindow) {
   const auto errorWithWindow = [](int windowLog) {
-    Draft draft = draftOf(makeSampleAsset());
-    const size_t index = draft.find(SectionType::kRadii);
-    // One frame per plane of 6 radii. Magic; 4-byte content size; window; content size 6; last block, raw, of 6 bytes
-    // (RFC 8878, 3.1.1).
-    const std::array<uint8_t, 13> head = {0x28, 0xb5, 0x2f, 0xfd, 0x80, static_cast<uint8_t>((windowLog - 10) << 3), 6, 0, 0,
-                                          0,    (6 << 3) | 1, 0, 0};
+    Draft draft = draftOf(makeSampleAsset({.cellsPerChunk = 1100, .detailCount = 8, .lobeCount = 8}));
+    const auto lobes = static_cast<uint32_t>(draft.contents.chunks[0].lobeAxes.size());
+    EXPECT_GT(lobes, 1u << 16);
+    // One frame per plane. Magic; 4-byte content size; window; content size; last block, raw (RFC 8878, 3.1.1).
+    std::vector<uint8_t> head = {0x28, 0xb5, 0x2f, 0xfd, 0x80, static_cast<uint8_t>((windowLog - 10) << 3)};
+    for (int shift = 0; shift < 32; shift += 8) head.push_back(static_cast<uint8_t>(lobes >> shift));
+    for (int shift = 0; shift < 24; shift += 8) head.push_back(static_cast<uint8_t>((lobes << 3 | 1) >> shift));
     std::vector<uint8_t> frames;
-    for (int plane = 0; plane < 4; ++plane) {
+    for (size_t plane = 0; plane < sizeof(glm::vec3); ++plane) {
       frames.insert(frames.end(), head.begin(), head.end());
-      frames.insert(frames.end(), 6, 0x3f);
+      frames.insert(frames.end(), lobes, 0x3f);
     }
+    const size_t index = draft.find(SectionType::kLobeAxes);
     draft.records[index].codec = static_cast<uint16_t>(SectionCodec::kBytePlanes);
     draft.stored[index] = frames;
     return errorOf(draft.assemble());
