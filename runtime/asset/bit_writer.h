@@ -24,9 +24,10 @@ class BitWriter {
     return uint64_t{words_.size()} * 4 + filled_ / 8;
   }
 
-  // The words, and one more: who reads a number may look at the word behind it.
+  // The words up to that of the next bit, and one more: who reads a number, if of no bits, looks at its word and at the
+  // one behind it.
   std::vector<uint32_t> finish() {
-    if (filled_ > 0) words_.push_back(static_cast<uint32_t>(pending_));
+    words_.push_back(static_cast<uint32_t>(pending_));
     words_.push_back(0);
     return std::move(words_);
   }

@@ -223,7 +223,7 @@ TEST(HostileSection, IsRefusedIfItExpandsBeyondTheLimit) {
 // Planes larger than the piece in which they are taken need a window, and the frame must not choose its size freely.
 TEST(HostileSection, IsRefusedIfItsFrameWantsALargeWindow) {
   const auto errorWithWindow = [](int windowLog) {
-    Draft draft = draftOf(makeSampleAsset({.cellsPerChunk = 1100, .detailCount = 8, .lobeCount = 8}));
+    Draft draft = draftOf(makeSampleAsset({.cellsPerChunk = 1600, .detailCount = 8, .lobeCount = 8}));
     const auto lobes = static_cast<uint32_t>(draft.contents.chunks[0].lobeAxes.size());
     EXPECT_GT(lobes, 1u << 16);
     // One frame per plane. Magic; 4-byte content size; window; content size; last block, raw (RFC 8878, 3.1.1).

@@ -119,6 +119,12 @@ TEST(PackedElements, TakeTheFewestBitsThatHoldTheLargest) {
   EXPECT_TRUE(packElements({}).words.empty());
 }
 
+TEST(BitWriter, HasTwoWordsBehindAFullOneForReadersOfNoBits) {
+  BitWriter bits;
+  bits.put(7, 32);
+  EXPECT_EQ(bits.finish(), (std::vector<uint32_t>{7, 0, 0}));
+}
+
 TEST(BitWriter, PutsNumbersAcrossWords) {
   BitWriter bits;
   bits.put(0xfffffff5, 4);
