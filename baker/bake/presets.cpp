@@ -14,7 +14,7 @@ BakeKnobs defaultKnobs() {
   knobs.detailSiteBits = 8;
   knobs.heightBits = 7;
   knobs.compressColours = true;
-  knobs.appearance.errorBound = 0.019f;
+  knobs.appearance.errorBound = 0.02f;
   knobs.appearance.lobeLimit = 8;
   knobs.appearance.codebookSize = 2048;
   knobs.appearance.colourStep = 0x1p-5f;
