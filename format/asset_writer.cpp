@@ -77,7 +77,8 @@ class AssetEncoder {
     return std::move(section->stored);
   }
 
-  Result<EncodedChunk> encode(const ChunkContents& chunk, const std::string& place) const {
+  Result<EncodedChunk> encode(const ChunkContents& chunk, const std::string& place,
+                              const std::function<bool()>& isStopped) const {
     EncodedChunk encoded;
     encoded.index.origin = chunk.origin;
     if (Status status = checkChunk(header_, chunk, place); !status) return status.error();
@@ -88,6 +89,7 @@ class AssetEncoder {
     if (Status status = checkChunkIndex(header_, encoded.index, place); !status) return status.error();
     encoded.ghostRefs = highestRefs(chunk.ghostRefs, header_.localBits);
     for (RawSection& section : raw->sections) {
+      if (isStopped && isStopped()) return makeError(ErrorKind::kCancelled, "encoding stopped on request");
       Result<StoredSection> stored = encodeRaw(std::move(section), 0, raw->counts, header_.quantization);
       if (!stored) return stored.error();
       encoded.sections.push_back(std::move(*stored));
@@ -170,8 +172,9 @@ Result<AssetStreamWriter> AssetStreamWriter::create(const std::filesystem::path&
   return writer;
 }
 
-Result<EncodedChunk> AssetStreamWriter::encodeChunk(const ChunkContents& chunk) const {
-  return state_->encoder.encode(chunk, std::string(kContents) + ": a chunk");
+Result<EncodedChunk> AssetStreamWriter::encodeChunk(const ChunkContents& chunk,
+                                                    const std::function<bool()>& isStopped) const {
+  return state_->encoder.encode(chunk, std::string(kContents) + ": a chunk", isStopped);
 }
 
 Status AssetStreamWriter::append(EncodedChunk&& chunk) {
@@ -200,7 +203,7 @@ Result<std::vector<uint8_t>> encodeAsset(const AssetContents& contents) {
   if (!codebook) return codebook.error();
   streams[0] = std::move(*codebook);
   for (uint32_t index = 0; index < contents.chunks.size(); ++index) {
-    Result<EncodedChunk> chunk = encoder->encode(contents.chunks[index], chunkPlace(kContents, index));
+    Result<EncodedChunk> chunk = encoder->encode(contents.chunks[index], chunkPlace(kContents, index), {});
     if (!chunk) return chunk.error();
     const Status added = encoder->add(*chunk, [&](size_t stream, std::vector<uint8_t> bytes) {
       streams[stream].insert(streams[stream].end(), bytes.begin(), bytes.end());

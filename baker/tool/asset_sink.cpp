@@ -5,6 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "baker/tool/progress_printer.h"
+
 namespace froth {
 
 ChunkSink AssetFileSink::sink() {
@@ -23,7 +25,7 @@ Status AssetFileSink::append(std::vector<ChunkContents>&& batch) {
   std::vector<std::optional<Result<EncodedChunk>>> encoded(batch.size());
   tbb::parallel_for(size_t{0}, batch.size(), [&](size_t index) {
     const ChunkContents chunk = std::move(batch[index]);  // freed as soon as it is encoded
-    encoded[index] = writer_->encodeChunk(chunk);
+    encoded[index] = writer_->encodeChunk(chunk, isStopRequested);
   });
   for (std::optional<Result<EncodedChunk>>& chunk : encoded) {
     if (!*chunk) return chunk->error();

@@ -101,6 +101,16 @@ TEST_F(StreamWriter, LeavesNothingBehindIfItIsNotFinished) {
   EXPECT_EQ(*readFile(path_), (std::vector<uint8_t>{1, 2, 3}));
 }
 
+TEST_F(StreamWriter, StopsBetweenSectionsOnRequest) {
+  Result<AssetStreamWriter> writer = AssetStreamWriter::create(path_, fourChunks());
+  ASSERT_TRUE(writer) << writer.error().message;
+  int looks = 0;
+  const Result<EncodedChunk> chunk = writer->encodeChunk(fourChunks().chunks[0], [&] { return ++looks == 3; });
+  ASSERT_FALSE(chunk);
+  EXPECT_EQ(chunk.error().kind, ErrorKind::kCancelled);
+  EXPECT_EQ(looks, 3);
+}
+
 TEST_F(StreamWriter, FindsAGhostWhoseCellNeverCame) {
   AssetContents contents = fourChunks();
   contents.chunks.pop_back();
