@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "baker/bake/bake.h"
+#include "format/checks.h"
 #include "tests/bake/random_foam.h"
 
 namespace froth {
@@ -31,7 +32,8 @@ BakeOptions latticeOptions() {
 // Where a site of a chunk lives: its own cell, or a ghost's.
 CellRef refOf(const AssetContents& contents, uint32_t chunk, uint32_t site) {
   const uint32_t cells = contents.chunks[chunk].cellCount;
-  return site < cells ? chunk << contents.localBits | site : contents.chunks[chunk].ghostRefs[site - cells];
+  if (site >= cells) return contents.chunks[chunk].ghostRefs[site - cells];
+  return static_cast<CellRef>(uint64_t{chunk} << contents.localBits) | site;
 }
 
 // All pairs {from, to}, with whether they are in the alpha part of a row.
@@ -81,8 +83,8 @@ TEST(Chunks, GhostsAreExactCopiesOfCellsElsewhere) {
       EXPECT_TRUE(std::is_sorted(chunk.ghostRefs.begin(), chunk.ghostRefs.end()));
       ASSERT_EQ(chunk.sites.size(), chunk.cellCount + chunk.ghostCount);
       for (uint32_t ghost = 0; ghost < chunk.ghostCount; ++ghost) {
-        const uint32_t home = chunk.ghostRefs[ghost] >> contents.localBits;
-        const uint32_t local = chunk.ghostRefs[ghost] & ((1u << contents.localBits) - 1);
+        const uint32_t home = chunkOf(chunk.ghostRefs[ghost], contents.localBits);
+        const uint32_t local = localOf(chunk.ghostRefs[ghost], contents.localBits);
         ASSERT_NE(home, index);
         ASSERT_LT(local, contents.chunks.at(home).cellCount);
         EXPECT_EQ(worldSite(chunk, chunk.cellCount + ghost), worldSite(contents.chunks[home], local));
@@ -101,8 +103,7 @@ TEST(Chunks, RowsNameTheSameNeighboursHoweverTheSceneIsSplit) {
     std::vector<uint32_t> firstPlace{0};
     for (const ChunkContents& chunk : contents.chunks) firstPlace.push_back(firstPlace.back() + chunk.cellCount);
     const auto sourceOf = [&](CellRef ref) {
-      if (contents.localBits == 32) return result.sourceCells[ref];
-      return result.sourceCells[firstPlace[ref >> contents.localBits] + (ref & ((1u << contents.localBits) - 1))];
+      return result.sourceCells[firstPlace[chunkOf(ref, contents.localBits)] + localOf(ref, contents.localBits)];
     };
     std::map<std::pair<uint32_t, uint32_t>, bool> pairs;
     for (const auto& [pair, isAlpha] : collectPairs(contents)) pairs[{sourceOf(pair.first), sourceOf(pair.second)}] = isAlpha;
@@ -121,8 +122,8 @@ TEST(Chunks, EveryPairIsThereFromBothSides) {
     const AssetContents contents = bakeInChunks(makeMixedFoam(), 50, options).contents;
     const auto pairs = collectPairs(contents);
     const auto isLive = [&](CellRef ref) {
-      const ChunkContents& chunk = contents.chunks[ref >> contents.localBits];
-      return (ref & ((1u << contents.localBits) - 1)) < chunk.liveCount;
+      const ChunkContents& chunk = contents.chunks[chunkOf(ref, contents.localBits)];
+      return localOf(ref, contents.localBits) < chunk.liveCount;
     };
     for (const auto& [pair, isAlpha] : pairs) {
       if (!walkGraph && !isLive(pair.second)) continue;
