@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "format/float_span.h"
 #include "format/lattice.h"
 
 namespace froth {
@@ -85,13 +86,6 @@ Status checkBounds(const Box& bounds, const std::string& place) {
       return makeError(ErrorKind::kBadInput, "%s: live_bounds: %g..%g is no interval; %s", place.c_str(),
                        bounds.min[axis], bounds.max[axis], kRemedy);
   return {};
-}
-
-// The numbers of any array of floats or float vectors.
-template <class Vector>
-std::span<const float> floatsOf(const std::vector<Vector>& array) {
-  static_assert(sizeof(Vector) % sizeof(float) == 0);
-  return {reinterpret_cast<const float*>(array.data()), array.size() * (sizeof(Vector) / sizeof(float))};
 }
 
 // Lengths and finite numbers of a chunk's arrays. Remembers the first that is wrong.

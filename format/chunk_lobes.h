@@ -11,9 +11,9 @@
 
 namespace froth {
 
-// Lobes of detail site `detail`.
-inline uint32_t lobeCountOf(const AssetContents& asset, const ChunkContents& chunk, size_t detail) {
-  return chunk.lobeCounts.empty() ? asset.lobeCount : chunk.lobeCounts[detail];
+// Lobes of detail site `detail`; `lobeCount`: M of the asset.
+inline uint32_t lobeCountOf(const ChunkContents& chunk, uint32_t lobeCount, size_t detail) {
+  return chunk.lobeCounts.empty() ? lobeCount : chunk.lobeCounts[detail];
 }
 
 // Lobes of all detail sites, by their counts.
@@ -27,7 +27,7 @@ inline std::vector<float> lobeUnits(const AssetContents& asset, const ChunkConte
   std::vector<float> units;
   units.reserve(chunk.lobeColours.size());
   for (size_t detail = 0; detail < size_t{chunk.liveCount} * asset.detailCount; ++detail)
-    units.insert(units.end(), lobeCountOf(asset, chunk, detail),
+    units.insert(units.end(), lobeCountOf(chunk, asset.lobeCount, detail),
                  unitOf(asset.quantization.colourStep, chunk.colourScales, detail / asset.detailCount));
   return units;
 }

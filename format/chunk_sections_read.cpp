@@ -332,7 +332,7 @@ class ChunkReader {
     size_t lobe = 0;
     for (size_t detail = 0; lobe < labels.size(); ++detail) {
       uint64_t label = 0;
-      for (const size_t end = lobe + lobeCountOf(asset_, chunk_, detail); lobe < end; ++lobe) {
+      for (const size_t end = lobe + lobeCountOf(chunk_, asset_.lobeCount, detail); lobe < end; ++lobe) {
         if (labels[lobe] >= entries) return outOfRange(SectionType::kLobeLabels, lobe);
         label = (label + labels[lobe]) % entries;
         chunk_.lobeAxes[lobe] = asset_.axisCodebook[label] + chunk_.lobeAxes[lobe];

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "format/chunk_lobes.h"
+#include "format/float_span.h"
 #include "format/graph_rows.h"
 #include "format/lattice.h"
 
@@ -13,11 +14,6 @@ namespace froth {
 namespace {
 
 constexpr char kRemedy[] = "snap it before the asset is built";
-
-template <class Vector>
-std::span<const float> floatsOf(const std::vector<Vector>& array) {
-  return {reinterpret_cast<const float*>(array.data()), array.size() * (sizeof(Vector) / sizeof(float))};
-}
 
 template <class Element>
 std::vector<uint8_t> bytesOf(std::span<const Element> array) {
@@ -188,13 +184,9 @@ class ChunkPacker {
     }
     std::vector<uint32_t> indices;
     for (size_t i = 0; i < chunk_.orientations.size(); ++i) {
-      const glm::dvec4 q(chunk_.orientations[i]);  // w, x, y, z
-      const glm::dvec3 normal(1 - 2 * (q.z * q.z + q.w * q.w), 2 * (q.y * q.z - q.x * q.w),
-                              2 * (q.y * q.w + q.x * q.z));
-      const std::array<uint32_t, 2> pair = normalIndices(normal, bits);
-      if (orientationOfNormal(pair, bits) != chunk_.orientations[i])
-        return offLattice(SectionType::kOrientations, i * 4, chunk_.orientations[i].x);
-      indices.insert(indices.end(), pair.begin(), pair.end());
+      const auto pair = findNormalIndices(chunk_.orientations[i], bits);
+      if (!pair) return offLattice(SectionType::kOrientations, i * 4, chunk_.orientations[i].x);
+      indices.insert(indices.end(), pair->begin(), pair->end());
     }
     addNumbers(SectionType::kOrientations, indices);
     return {};
@@ -342,7 +334,7 @@ class ChunkPacker {
     size_t lobe = 0;
     for (size_t detail = 0; lobe < chunk_.lobeAxes.size(); ++detail) {
       uint32_t before = 0;
-      for (const size_t end = lobe + lobeCountOf(asset_, chunk_, detail); lobe < end; ++lobe) {
+      for (const size_t end = lobe + lobeCountOf(chunk_, asset_.lobeCount, detail); lobe < end; ++lobe) {
         const std::optional<AxisCode> code = axes_.find(chunk_.lobeAxes[lobe]);
         if (!code) return offLattice(SectionType::kLobeLabels, lobe, chunk_.lobeAxes[lobe].x);
         differences.push_back((code->label + entries - before) % entries);

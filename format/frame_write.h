@@ -1,12 +1,9 @@
-// One zstd frame, fed in pieces. Internal to the writing half of format/.
+// zstd frames. Internal to the writing half of format/.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
-
-#include <zstd.h>
 
 #include "format/result.h"
 

@@ -75,4 +75,12 @@ glm::vec4 orientationOfNormal(std::array<uint32_t, 2> indices, uint32_t bits) {
   return glm::vec4(-normal.y * s, normal.z * s, 0, w);
 }
 
+std::optional<std::array<uint32_t, 2>> findNormalIndices(const glm::vec4& orientation, uint32_t bits) {
+  const glm::dvec4 q(orientation);  // w, x, y, z
+  const glm::dvec3 normal(1 - 2 * (q.z * q.z + q.w * q.w), 2 * (q.y * q.z - q.x * q.w), 2 * (q.y * q.w + q.x * q.z));
+  const std::array<uint32_t, 2> indices = normalIndices(normal, bits);
+  if (orientationOfNormal(indices, bits) != orientation) return std::nullopt;
+  return indices;
+}
+
 }  // namespace froth

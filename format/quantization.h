@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include <glm/glm.hpp>
 
@@ -37,5 +38,7 @@ double snapToStep(double value, double step);
 // its first row. A normal alone leaves the rotation about it open; this one is the shortest from the nearer of +x and -x.
 std::array<uint32_t, 2> normalIndices(glm::dvec3 normal, uint32_t bits);
 glm::vec4 orientationOfNormal(std::array<uint32_t, 2> indices, uint32_t bits);
+// The indices of which `orientation` is the orientationOfNormal(), bit for bit; none: it lies off the lattice.
+std::optional<std::array<uint32_t, 2>> findNormalIndices(const glm::vec4& orientation, uint32_t bits);
 
 }  // namespace froth

@@ -74,8 +74,7 @@ void FoamAssembler::appendLobes(const ChunkContents& chunk, size_t bareDetails) 
   if (!hasLobeOffsets_) return;
   const size_t liveDetails = size_t{chunk.liveCount} * foam_.detailCount;
   for (size_t site = 0; site < liveDetails; ++site) {
-    const uint32_t count = chunk.lobeCounts.empty() ? foam_.lobeCount : chunk.lobeCounts[site];
-    foam_.lobeOffsets.push_back(foam_.lobeOffsets.back() + count);
+    foam_.lobeOffsets.push_back(foam_.lobeOffsets.back() + lobeCountOf(chunk, foam_.lobeCount, site));
   }
   foam_.lobeOffsets.insert(foam_.lobeOffsets.end(), bareDetails, foam_.lobeOffsets.back());
 }

@@ -40,7 +40,7 @@ Result<SteinerCells> placeSteinerCells(std::span<const glm::vec3> sites, std::sp
   SteinerCells cells;
   if (sites.empty()) return cells;
   Steps steps(progress, "steiner", kLoops);
-  const Error stopped = makeError(ErrorKind::kCancelled, "placing Steiner cells stopped on request");
+  const Error stopped = stoppedOnRequest("placing Steiner cells");
 
   // 1. Rays, and the cells that they cross.
   if (!steps.advance()) return stopped;

@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 
+#include "format/chunk_lobes.h"
+#include "format/float_span.h"
 #include "format/quantization.h"
 #include "runtime/asset/axis_labels.h"
 #include "runtime/asset/bit_writer.h"
@@ -25,25 +27,15 @@ struct CellShape {
   std::vector<AxisCode> ownAxes;
 };
 
-template <class Vector>
-std::span<const float> floatsOf(const std::vector<Vector>& values) {
-  return {reinterpret_cast<const float*>(values.data()), values.size() * sizeof(Vector) / sizeof(float)};
-}
-
-// The row n of the quaternion's matrix.
-glm::dvec3 normalOf(const glm::dvec4& quaternion) {
-  const double w = quaternion.x, x = quaternion.y, y = quaternion.z, z = quaternion.w;
-  return {1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)};
-}
-
 // Octahedral indices of the orientations; empty if one of them is not what orientationOfNormal gives.
 std::vector<std::array<uint32_t, 2>> normalsOf(const std::vector<glm::vec4>& orientations,
                                                uint32_t normalBits) {
   std::vector<std::array<uint32_t, 2>> normals;
   if (normalBits == 0) return normals;
   for (const glm::vec4& orientation : orientations) {
-    normals.push_back(normalIndices(normalOf(orientation), normalBits));
-    if (orientationOfNormal(normals.back(), normalBits) != orientation) return {};
+    const auto indices = findNormalIndices(orientation, normalBits);
+    if (!indices) return {};
+    normals.push_back(*indices);
   }
   return normals;
 }
@@ -87,9 +79,7 @@ class CellPacker {
   }
 
  private:
-  uint32_t lobesOf(size_t site) const {
-    return chunk_.lobeCounts.empty() ? lobeCount_ : chunk_.lobeCounts[site];
-  }
+  uint32_t lobesOf(size_t site) const { return lobeCountOf(chunk_, lobeCount_, site); }
   size_t siteCount() const { return size_t{chunk_.liveCount} * detailCount_; }
 
   void measureCells() {

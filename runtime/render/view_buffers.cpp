@@ -14,10 +14,6 @@ VkDeviceSize strideOf(const ViewCapacity& capacity) {
   return kBlockStride + VkDeviceSize{capacity.chunks} * sizeof(gpu::ChunkEntry);
 }
 
-uint32_t groupsOver(uint32_t items, uint32_t perGroup) {
-  return (items + perGroup - 1) / perGroup;
-}
-
 VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
   const VkDeviceSize cells = capacity.cells;
   const VkDeviceSize pairs = capacity.pairs;

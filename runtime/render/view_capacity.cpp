@@ -47,7 +47,7 @@ ViewDemand demandOf(const gpu::Counters& counters) {
 uint32_t groupsPerChunk(const GpuAsset& asset) {
   uint32_t groups = 1;
   for (const GpuChunk& chunk : asset.chunks) {
-    groups = std::max(groups, (chunk.liveCount + gpu::kGroupSize - 1) / gpu::kGroupSize);
+    groups = std::max(groups, groupsOver(chunk.liveCount, gpu::kGroupSize));
   }
   return groups;
 }

@@ -33,6 +33,9 @@ struct ViewDemand {
 ViewDemand demandOf(const gpu::Counters& counters);
 ViewDemand largest(const ViewDemand& a, const ViewDemand& b);
 
+// Workgroups over a list.
+inline uint32_t groupsOver(uint32_t items, uint32_t perGroup) { return (items + perGroup - 1) / perGroup; }
+
 // Workgroups over the live cells of an asset's largest chunk.
 uint32_t groupsPerChunk(const GpuAsset& asset);
 

@@ -234,18 +234,36 @@ uint64_t deviceBytesOf(FrothContext* context) {
   return status.deviceBytes;
 }
 
+constexpr size_t kIdleViews = 2;
+
+// Views besides the stage's, which take memory.
+std::vector<FrothView> createIdleViews(FrothContext* context, VkExtent2D extent, size_t count) {
+  std::vector<FrothView> views(count);
+  for (FrothView& view : views) {
+    const FrothViewInfo info{sizeof(FrothViewInfo), extent, 0};
+    EXPECT_EQ(frothCreateView(context, &info, &view), FROTH_OK);
+  }
+  return views;
+}
+
+// [bytes] A stage and idle views before anything is drawn.
+uint64_t measureStart(const AssetContents& contents, VkExtent2D extent, size_t idleViews) {
+  FrothContext* context = createContextOfBudget(0);
+  uint64_t bytes = 0;
+  {
+    Stage stage(contents, extent, context);
+    createIdleViews(context, extent, idleViews);
+    bytes = deviceBytesOf(context);
+  }
+  frothDestroyContext(context);
+  return bytes;
+}
+
 TEST(Scenes, AViewThatTheBudgetKeepsFromGrowingGoesOnDrawingWhatItHolds) {
   const AssetContents contents = makeAssetOfManyPairs();
   const View view = widePairView();
   const VkExtent2D extent{view.width, view.height};
-  FrothContext* free = createContextOfBudget(0);
-  uint64_t startBytes = 0;
-  {
-    Stage stage(contents, extent, free);
-    startBytes = deviceBytesOf(free);
-  }
-  frothDestroyContext(free);
-
+  const uint64_t startBytes = measureStart(contents, extent, 0);
   constexpr uint64_t kSlack = 64 << 10;  // enough to start, too little for the pairs
   FrothContext* limited = createContextOfBudget(startBytes + kSlack);
   {
@@ -258,33 +276,15 @@ TEST(Scenes, AViewThatTheBudgetKeepsFromGrowingGoesOnDrawingWhatItHolds) {
   frothDestroyContext(limited);
 }
 
-// Views besides the stage's, which take memory.
-std::vector<FrothView> createIdleViews(FrothContext* context, VkExtent2D extent) {
-  std::vector<FrothView> views(2);
-  for (FrothView& view : views) {
-    const FrothViewInfo info{sizeof(FrothViewInfo), extent, 0};
-    EXPECT_EQ(frothCreateView(context, &info, &view), FROTH_OK);
-  }
-  return views;
-}
-
 TEST(Scenes, AViewThatTheBudgetKeptFromGrowingGrowsOnceThereIsRoom) {
   const AssetContents contents = makeAssetOfManyPairs();
   const View view = widePairView();
   const VkExtent2D extent{view.width, view.height};
-  FrothContext* free = createContextOfBudget(0);
-  uint64_t startBytes = 0;
-  {
-    Stage stage(contents, extent, free);
-    createIdleViews(free, extent);
-    startBytes = deviceBytesOf(free);
-  }
-  frothDestroyContext(free);
-
+  const uint64_t startBytes = measureStart(contents, extent, kIdleViews);
   FrothContext* limited = createContextOfBudget(startBytes + (64 << 10));
   {
     Stage stage(contents, extent, limited);
-    const std::vector<FrothView> idleViews = createIdleViews(limited, extent);
+    const std::vector<FrothView> idleViews = createIdleViews(limited, extent, kIdleViews);
     EXPECT_LE(deviceBytesOf(limited), startBytes);
     for (int frame = 0; frame < 2; ++frame) {
       EXPECT_EQ(stage.draw(Method::kRaster, view).status.bits, uint32_t{FROTH_VIEW_PAIR_OVERFLOW});
