@@ -58,7 +58,7 @@ Result<Layout> findLayout(const NamedBytes& file) {
 }
 
 Result<TensorView> viewEntry(const NamedBytes& file, const Layout& layout, const PickledEntry& entry,
-                             std::set<const ZipMember*>& checked) {
+                             std::set<const ZipMember*>& checked, const Progress& progress) {
   const ZipMember* member =
       layout.archive.find(fmt::format("{}data/{}", layout.prefix, entry.tensor.storage));
   if (!member) {
@@ -68,7 +68,7 @@ Result<TensorView> viewEntry(const NamedBytes& file, const Layout& layout, const
   }
   Result<TensorView> view = viewTensor(file.name, entry.key, entry.tensor, member->bytes);
   if (view && checked.insert(member).second) {
-    if (Status status = checkZipMember(file, *member); !status) {
+    if (Status status = checkZipMember(file, *member, progress); !status) {
       return status.error();
     }
   }
@@ -77,7 +77,7 @@ Result<TensorView> viewEntry(const NamedBytes& file, const Layout& layout, const
 
 }  // namespace
 
-Result<CheckpointViews> viewCheckpoint(const NamedBytes& file) {
+Result<CheckpointViews> viewCheckpoint(const NamedBytes& file, const Progress& progress) {
   const Result<Layout> layout = findLayout(file);
   if (!layout) {
     return layout.error();
@@ -100,7 +100,7 @@ Result<CheckpointViews> viewCheckpoint(const NamedBytes& file) {
       missing += fmt::format("{}'{}'", missing.empty() ? "" : ", ", kParameterKeys[i]);
       continue;
     }
-    Result<TensorView> view = viewEntry(file, *layout, *entry, checked);
+    Result<TensorView> view = viewEntry(file, *layout, *entry, checked, progress);
     if (!view) {
       return view.error();
     }

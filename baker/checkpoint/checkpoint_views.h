@@ -6,6 +6,7 @@
 #include "baker/checkpoint/bad_input.h"
 #include "baker/checkpoint/parameters.h"
 #include "baker/checkpoint/tensor.h"
+#include "baker/progress.h"
 #include "format/result.h"
 
 namespace froth {
@@ -15,6 +16,6 @@ using CheckpointViews = std::array<TensorView, kParameterCount>;  // by Paramete
 // Reads archive and pickle, compares the checksums of the pickle and of the eight tensors' storages. The
 // views point into `file`. Shapes are as found: only that each view lies inside its storage is certain. Other
 // tensors are not looked at.
-Result<CheckpointViews> viewCheckpoint(const NamedBytes& file);
+Result<CheckpointViews> viewCheckpoint(const NamedBytes& file, const Progress& progress = {});
 
 }  // namespace froth

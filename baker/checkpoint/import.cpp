@@ -15,6 +15,7 @@ namespace {
 constexpr uint64_t kMaxCells = UINT32_MAX;
 // Foam bytes per file byte: 1 as published, 2 from float16, more where tensors are expanded.
 constexpr uint64_t kMaxExpansion = 256;
+constexpr uint64_t kSliceElements = 1 << 21;  // copied between two looks at a request to stop
 
 class Importer {
  public:
@@ -33,8 +34,9 @@ class Importer {
   Status readPlain(Parameter parameter, std::vector<Vec>& out);
   Status readActivated(Parameter parameter, float smallest, std::vector<float>& out);
   Status readOrientations();
+  template <class Real>
+  Status copy(const TensorView& from, Real* out);
   Status checkFinite(const TensorView& view, std::span<const float> values) const;
-  Status reportProgress(const TensorView& view);
   uint64_t totalCount() const;
   const TensorView& view(Parameter parameter) const { return views_[static_cast<size_t>(parameter)]; }
 
@@ -153,17 +155,18 @@ Status Importer::readPlain(Parameter parameter, std::vector<Vec>& out) {
   const TensorView& from = view(parameter);
   out.resize(from.count * sizeof(float) / sizeof(Vec));
   const auto values = reinterpret_cast<float*>(out.data());
-  copyElements(from, values);
-  if (Status status = checkFinite(from, {values, from.count}); !status) {
+  if (Status status = copy(from, values); !status) {
     return status;
   }
-  return reportProgress(from);
+  return checkFinite(from, {values, from.count});
 }
 
 Status Importer::readActivated(Parameter parameter, float smallest, std::vector<float>& out) {
   const TensorView& from = view(parameter);
   std::vector<double> raw(from.count);
-  copyElements(from, raw.data());
+  if (Status status = copy(from, raw.data()); !status) {
+    return status;
+  }
   out.resize(from.count);
   for (size_t i = 0; i < raw.size(); ++i) {
     // Infinity must not pass as the density or radius 0 that it would become.
@@ -179,13 +182,15 @@ Status Importer::readActivated(Parameter parameter, float smallest, std::vector<
                     "tensor '{}': cell {} has the raw value {}, which activates to 0; remove the cell",
                     from.key, cell, raw[static_cast<size_t>(cell)]);
   }
-  return reportProgress(from);
+  return {};
 }
 
 Status Importer::readOrientations() {
   const TensorView& from = view(Parameter::kOrientations);
   std::vector<glm::dvec4> raw(foam_.cellCount);
-  copyElements(from, &raw[0].x);
+  if (Status status = copy(from, &raw[0].x); !status) {
+    return status;
+  }
   foam_.orientations.resize(raw.size());
   for (size_t i = 0; i < raw.size(); ++i) {
     const double length = glm::length(raw[i]);
@@ -196,7 +201,7 @@ Status Importer::readOrientations() {
     }
     foam_.orientations[i] = normaliseQuaternion(raw[i]);
   }
-  return reportProgress(from);
+  return {};
 }
 
 Status Importer::checkFinite(const TensorView& from, std::span<const float> values) const {
@@ -211,10 +216,18 @@ Status Importer::checkFinite(const TensorView& from, std::span<const float> valu
   return {};
 }
 
-Status Importer::reportProgress(const TensorView& finished) {
-  done_ += finished.count;
-  if (!report(progress_, "import", done_, totalCount())) {
-    return Error{ErrorKind::kCancelled, file_.name + ": import stopped on request"};
+// By rows: reading from a slow disk can take long.
+template <class Real>
+Status Importer::copy(const TensorView& from, Real* out) {
+  const uint64_t rows = foam_.cellCount, width = from.count / rows;
+  const uint64_t sliceRows = std::max<uint64_t>(kSliceElements / width, 1);
+  for (uint64_t first = 0; first < rows; first += sliceRows) {
+    const TensorView slice = rowsOf(from, first, std::min(sliceRows, rows - first));
+    copyElements(slice, out + first * width);
+    done_ += slice.count;
+    if (!report(progress_, "import", done_, totalCount())) {
+      return Error{ErrorKind::kCancelled, file_.name + ": import stopped on request"};
+    }
   }
   return {};
 }
@@ -232,7 +245,7 @@ uint64_t Importer::totalCount() const {
 Result<Foam> importCheckpointBytes(std::span<const uint8_t> bytes, const std::string& name,
                                    const Progress& progress) {
   const NamedBytes file{bytes, name};
-  Result<CheckpointViews> views = viewCheckpoint(file);
+  Result<CheckpointViews> views = viewCheckpoint(file, progress);
   if (!views) {
     return views.error();
   }

@@ -151,6 +151,14 @@ Result<TensorView> viewTensor(std::string_view file, std::string_view key, const
                     tensor.shape,     tensor.strides, count};
 }
 
+TensorView rowsOf(const TensorView& view, uint64_t first, uint64_t count) {
+  TensorView rows = view;
+  rows.offset += first * view.strides[0];
+  rows.shape[0] = count;
+  rows.count = view.count / view.shape[0] * count;
+  return rows;
+}
+
 template <class Real>
 void copyElements(const TensorView& view, Real* out) {
   if (std::is_same_v<Real, float> && view.type == ScalarType::kFloat && isContiguous(view)) {

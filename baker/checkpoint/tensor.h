@@ -26,6 +26,9 @@ struct TensorView {
 Result<TensorView> viewTensor(std::string_view file, std::string_view key, const PickledTensor& tensor,
                               std::span<const uint8_t> storage);
 
+// `count` of the view's rows (along its first axis) from `first` on.
+TensorView rowsOf(const TensorView& view, uint64_t first, uint64_t count);
+
 // Writes the view's elements in row-major order; `out` holds `view.count` of them. Real: float or double.
 template <class Real>
 void copyElements(const TensorView& view, Real* out);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "baker/checkpoint/bad_input.h"
+#include "baker/progress.h"
 #include "format/result.h"
 
 namespace froth {
@@ -28,7 +29,7 @@ struct ZipArchive {
 // unique. Refuses compressed, encrypted and split archives by name. Thread-safe.
 Result<ZipArchive> readZipArchive(const NamedBytes& archive);
 
-// Compares the member's checksum with its bytes: reads all of them.
-Status checkZipMember(const NamedBytes& archive, const ZipMember& member);
+// Compares the member's checksum with its bytes: reads all of them. Progress is the place in the archive.
+Status checkZipMember(const NamedBytes& archive, const ZipMember& member, const Progress& progress = {});
 
 }  // namespace froth
