@@ -1,5 +1,6 @@
 // Lists the visible cells in the order of the asset: same grid as cull_cells.comp, whose bits and scanned sums it reads.
-// Cells that find no space are no longer visible: all from the first one on for whom there is no slot or no planes.
+// Cells that find no space are no longer visible: all from the first one on for whom there is no slot or no planes. A walk
+// does without planes that find no space.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
@@ -34,18 +35,19 @@ void main() {
   uint word;
   uint slot = slotOfThread(group, word);
   bool isVisible = (word >> (thread % 32) & 1u) != 0;
-  uint planeCount = isVisible ? alphaCountOf(chunk, local) : 0;
+  uint planeCount = isVisible ? planeCountOf(chunk, local) : 0;
   uint planeTotal;
   uint plane = saturatingAdd(FRAME.groupSums.v[group].y, scanExclusive(planeCount, planeTotal));
   if (!isVisible) return;
 
-  if (slot >= FRAME.visibleCapacity || saturatingAdd(plane, planeCount) > FRAME.planeCapacity) {
+  bool hasPlanes = saturatingAdd(plane, planeCount) <= FRAME.planeCapacity;
+  if (slot >= FRAME.visibleCapacity || (!hasPlanes && (FRAME.flags & kFlagWalk) == 0)) {
     atomicMin(COUNTERS.visibleCells, slot);
     atomicAnd(FRAME.visibility.v[group * kMaskWords + thread / 32].x, ~(1u << (thread % 32)));
     return;
   }
   Ball ball = ballOfSite(chunk, local);
-  FRAME.visibleCells.v[slot] = uvec4(chunk.index, local, plane, planeCount);
+  FRAME.visibleCells.v[slot] = uvec4(chunk.index, local, plane, hasPlanes ? planeCount : 0);
   FRAME.cellKeys.v[slot] = orderedBits(powerOfOrigin(ball.centre, ball.radius));
   FRAME.order.v[slot] = slot;
 }

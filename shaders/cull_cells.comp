@@ -1,5 +1,6 @@
-// Which live cells this view can see: near tests, then the solid ball against all rays of the view. A thread per live cell of
-// the chunk gl_WorkGroupID.y; a bit per cell and, per workgroup, the count of visible cells and of their planes.
+// Which live cells this view can see: near tests, then the solid ball against all rays of the view. For a walk the cells that only
+// guide it are listed too. A thread per cell of the chunk gl_WorkGroupID.y; a bit per cell and, per workgroup, the count of
+// visible cells and of their planes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
@@ -11,11 +12,13 @@ layout(local_size_x = kGroupSize) in;
 shared uint maskWords[kMaskWords];
 shared uint planes;
 
-bool isVisible(Ball ball, uint solidBytes) {
+bool isVisible(Chunk chunk, uint cell) {
+  if (cell >= chunk.liveCount) return cell < chunk.cellCount && (FRAME.flags & kFlagWalk) != 0;
+  Ball ball = ballOfSite(chunk, cell);
   // One load: lavapipe of Mesa 22.3 mixes up the components where a vector and one of its parts are loaded apart.
   vec4 forward = FRAME.forward;
   if (isNearCell(ball.centre, ball.radius, forward.xyz, FRAME.nearRatio, forward.w)) return false;
-  Ball solid = solidBall(ball, solidBytes);
+  Ball solid = solidBall(ball, solidBallBytes(chunk.index, cell));
   return pixelsMeetBall(solid.centre, solid.radius, uvec2(0), max(FRAME.regionWidth, FRAME.regionHeight));
 }
 
@@ -28,9 +31,9 @@ void main() {
   if (thread == 0) planes = 0;
   barrier();
 
-  if (local < chunk.liveCount && isVisible(ballOfSite(chunk, local), solidBallBytes(chunk.index, local))) {
+  if (isVisible(chunk, local)) {
     atomicOr(maskWords[thread / 32], 1u << (thread % 32));
-    atomicAdd(planes, alphaCountOf(chunk, local));
+    atomicAdd(planes, planeCountOf(chunk, local));
   }
   barrier();
 

@@ -1,54 +1,87 @@
 // What every ray through the eye shares of a visible cell: its frame, and its radical planes as eye planes, those that
-// only lower tFar first.
+// only lower tFar first. kLanesPerCell threads per cell share its planes.
+//
+// A walk leaves a cell through a plane of the first kind: the eye lies on the cell's side of it. Each has a link to the cell
+// behind it: where its record is, or kUnlisted and its site.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/cell_bits.glsl"
-#include "foam/cell.h"
+#include "gpu/eye_planes.glsl"
 
 layout(local_size_x = kGroupSize) in;
 
-// Rows n, t, b of the rotation matrix of a unit quaternion (w, x, y, z).
-void setFrame(vec4 quaternion, inout CellRecord record) {
-  float w = quaternion.x, x = quaternion.y, y = quaternion.z, z = quaternion.w;
-  record.face.xyz = vec3(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y));
-  record.tangent.xyz = vec3(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x));
-  record.bitangent.xyz = vec3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y));
+const uint kCells = kGroupSize / kLanesPerCell;
+
+shared uint farMasks[kCells];  // which of the planes at hand lower tFar
+shared uint mostPlanes;
+
+uint linkTo(Chunk chunk, uint site) {
+  uint slot = slotOfCell(isGhost(chunk, site) ? cellOfGhost(chunk, site) : uvec2(chunk.index, site));
+  return slot == kNoCell ? kUnlisted | site : slot;
 }
 
-void expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius, inout CellRecord record) {
-  uint row = neighbourRow(chunk, cell.y).x;
+// Planes of the first kind from the begin of the cell's space up, the others from its end down; returns where they meet.
+uint expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius) {
+  uint lane = gl_LocalInvocationIndex % kLanesPerCell;
+  uint group = gl_LocalInvocationIndex / kLanesPerCell;
+  uint row = cell.w > 0 ? neighbourRow(chunk, cell.y).x : 0;
   uint low = cell.z;
   uint high = cell.z + cell.w;
-  record.planeBegin = low;
-  record.planeEnd = high;
-  for (uint i = 0; i < cell.w; ++i) {
-    vec4 otherSite = siteRadiusOf(chunk, neighbourAt(chunk, row + i));
-    vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
-    float clearance = radicalClearance(record.ball.xyz, toNeighbour, radicalOffset(toNeighbour, siteRadius.w, otherSite.w));
-    uint place = clearance >= 0.0 ? low++ : --high;
-    FRAME.planes.v[checked(place, FRAME.planeCapacity)] = vec4(eyePlane(toNeighbour, clearance), 0.0);
+  for (uint first = 0; first < mostPlanes; first += kLanesPerCell) {
+    if (lane == 0) farMasks[group] = 0;
+    barrier();
+    bool isPlane = first + lane < cell.w;
+    bool isFar = false;
+    vec4 plane = vec4(0.0);
+    if (isPlane) {
+      uint other = neighbourAt(chunk, row + first + lane);
+      plane.xyz = eyePlaneTo(chunk, siteRadius, siteRadiusOf(chunk, other), isFar);
+      if (isFar && (FRAME.flags & kFlagWalk) != 0) plane.w = uintBitsToFloat(linkTo(chunk, other));
+    }
+    if (isFar) atomicOr(farMasks[group], 1u << lane);
+    barrier();
+    uint mask = farMasks[group];
+    uint farBefore = bitCount(mask & ((1u << lane) - 1));
+    uint place = isFar ? low + farBefore : high - 1 - (lane - farBefore);
+    if (isPlane) FRAME.planes.v[checked(place, FRAME.planeCapacity)] = plane;
+    uint farPlanes = bitCount(mask);
+    low += farPlanes;
+    high -= min(cell.w - min(first, cell.w), kLanesPerCell) - farPlanes;
+    barrier();
   }
-  record.planeSplit = low;
+  return low;
 }
 
 void main() {
-  uint visible = linearGroup() * kGroupSize + gl_LocalInvocationIndex;
-  if (visible >= COUNTERS.visibleCells) return;
-  if ((FRAME.flags & kFlagOnlyPaired) != 0 && FRAME.tileCounts.v[visible] == 0) return;
-  uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
+  uint visible = linearGroup() * kCells + gl_LocalInvocationIndex / kLanesPerCell;
+  bool isCell = visible < COUNTERS.visibleCells;
+  if (isCell && (FRAME.flags & kFlagOnlyPaired) != 0) isCell = FRAME.tileCounts.v[visible] != 0;
+  uvec4 cell = isCell ? FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)] : uvec4(0);
+  if (gl_LocalInvocationIndex == 0) mostPlanes = 0;
+  barrier();
+  atomicMax(mostPlanes, cell.w);
+  barrier();
+
   Chunk chunk = loadChunk(cell.x);
   vec4 siteRadius = siteRadiusOf(chunk, cell.y);
+  uint split = expandPlanes(chunk, cell, siteRadius);
+  if (!isCell || gl_LocalInvocationIndex % kLanesPerCell != 0) return;
   Ball ball = ballOf(chunk, siteRadius);
-
   CellRecord record;
-  record.ball = vec4(ball.centre, ball.radius);
-  CellCode code = FRAME.chunks.v[chunk.index].code;
-  BitCursor bits = cellBits(chunk.index, cell.y);
-  record.face.w = takeDensity(code, bits);
-  setFrame(takeOrientation(code, bits), record);
-  record.tangent.w = 1.0 / ball.radius;
-  record.bitangent.w = 0.0;
-  record.solidBall = solidBallBytes(chunk.index, checked(cell.y, chunk.liveCount));
-  expandPlanes(chunk, cell, siteRadius, record);
+  record.planeBegin = cell.z;
+  record.planeSplit = split;
+  record.planeEnd = cell.z + cell.w;
+  record.ball = vec4(ball.centre, 0.0);
+  if (cell.y < chunk.liveCount) {
+    record.ball.w = ball.radius;
+    CellCode code = FRAME.chunks.v[chunk.index].code;
+    BitCursor bits = cellBits(chunk.index, cell.y);
+    record.face.w = takeDensity(code, bits);
+    Frame frame = takeFrame(code, bits);
+    record.face.xyz = frame.normal;
+    record.tangent = vec4(frame.tangent, 1.0 / ball.radius);
+    record.bitangent = vec4(frame.bitangent, 0.0);
+    record.solidBall = solidBallBytes(chunk.index, cell.y);
+  }
   FRAME.records.v[visible] = record;
 }

@@ -20,6 +20,7 @@ void planVisible(uvec2 totals) {
   COUNTERS.planesWanted = totals.y;
   COUNTERS.visibleCells = kept;  // compact_cells.comp lowers it where planes lack space
   COUNTERS.visibleDispatch = dispatchOf(groupsOf(kept, kGroupSize));
+  COUNTERS.expandDispatch = dispatchOf(groupsOf(kept, kGroupSize / kLanesPerCell));
   COUNTERS.siteDispatch = dispatchOf(groupsOf(kept * detailCount, kGroupSize));
   COUNTERS.cellSortDispatch = dispatchOf(groupsOf(kept, kSortKeysPerGroup));
 }

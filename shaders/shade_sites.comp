@@ -32,17 +32,19 @@ void main() {
   if ((FRAME.flags & kFlagOnlyPaired) != 0 && FRAME.tileCounts.v[visible] == 0) return;
 
   uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
+  Chunk chunk = loadChunk(cell.x);
+  if (cell.y >= chunk.liveCount) return;
   CellCode code = FRAME.chunks.v[cell.x].code;
   CellHeader header = loadCellHeader(code, cell.x, cell.y);
   DetailSite site = loadDetailSite(code, header, detailCount, detail);
 
-  CellRecord record = FRAME.records.v[visible];
-  vec3 offset = record.tangent.xyz * site.place.x + record.bitangent.xyz * site.place.y;
-  vec3 toSite = record.ball.xyz + record.ball.w * offset;
+  BitCursor bits = cellBits(cell.x, cell.y);
+  takeDensity(code, bits);
+  Frame frame = takeFrame(code, bits);
+  Ball ball = ballOfSite(chunk, cell.y);
+  vec3 toSite = ball.centre + ball.radius * (frame.tangent * site.place.x + frame.bitangent * site.place.y);
   vec3 colour = siteColour(code, header, detail, site.base, normalize(toSite));
 
-  uint place3 = 3 * index;
-  FRAME.sites.v[place3] = site.place;
-  FRAME.sites.v[place3 + 1] = vec2(site.height, colour.r);
-  FRAME.sites.v[place3 + 2] = colour.gb;
+  FRAME.sites.v[2 * index] = vec4(detailTerms(site.place, FRAME.detailSharpness), site.height);
+  FRAME.sites.v[2 * index + 1] = vec4(colour, 0.0);
 }

@@ -1,13 +1,16 @@
 // One ray per pixel from cell to cell through the regular triangulation. The entry into a cell is the exit of the one
-// before. A ray's state of the chunk it is in stays in registers; a step into a ghost changes the chunk.
+// before.
 //
-// No rounding can make a walk cycle: a step into a site of a chunk, be it a cell or a ghost, has the key
-// dot(direction, site), which is one fixed number for a ray, a chunk and a site. A step is taken only to a greater key, and
-// the key goes with the walk into the next chunk. So no (chunk, site) comes twice, however a cell's key is rounded in its
-// own chunk and in those that know it as a ghost.
+// Most cells on the way are listed: they have a record, and a row of eye planes through which a ray can leave them, each with a
+// link to the next record. From a cell without one (its ball lies outside the view, or there was no space) a ray goes on by the
+// sites around it.
+//
+// No rounding can make a walk cycle: each step has a key, the dot product of the direction and the site it leads to, and is
+// taken only to a greater key. The key of a record is one fixed number for a ray, and so is that of a site of a chunk, be it a
+// cell or a ghost; the key of the last step goes with the walk. So no record and no site comes twice.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gpu/asset.glsl"
+#include "gpu/eye_planes.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
 #include "gpu/shade_hit.glsl"
@@ -15,10 +18,10 @@
 layout(local_size_x = kSubTileSize, local_size_y = kSubTileSize) in;
 
 struct Step {
-  uint site;     // of the chunk in which the step was made
+  uint visible;  // of a listed cell; else kNoCell, and
+  uvec2 cell;    // its chunk and local index
   float key;
   float entry;   // where the ray enters the cell
-  bool isInside; // false: the ray has left the foam
 };
 
 float orderAlong(vec3 direction, vec3 centre) {
@@ -26,45 +29,77 @@ float orderAlong(vec3 direction, vec3 centre) {
   return key;
 }
 
-// The neighbour through whose plane the ray leaves the cell first.
-Step nextStep(Chunk chunk, Step from, vec3 direction) {
-  vec4 siteRadius = siteRadiusOf(chunk, from.site);
-  vec3 centre = ballOf(chunk, siteRadius).centre;
-  uvec2 row = neighbourRow(chunk, from.site);
-  Step next = Step(from.site, from.key, kInfinity, false);
+Step stepTo(uvec2 cell, float key, float entry) { return Step(slotOfCell(cell), cell, key, entry); }
+
+// To a site of the chunk; from a ghost on to the cell for which it stands.
+Step stepToSite(Chunk chunk, uint site, float key, float entry) {
+  return stepTo(isGhost(chunk, site) ? cellOfGhost(chunk, site) : uvec2(chunk.index, site), key, entry);
+}
+
+// The neighbour through whose plane the ray leaves the cell first, by their sites. Returns false: the ray leaves the foam.
+bool findNextSite(inout Step current, vec3 direction) {
+  uvec2 cell = current.visible == kNoCell ? current.cell : FRAME.visibleCells.v[current.visible].xy;
+  Chunk chunk = loadChunk(cell.x);
+  vec4 siteRadius = siteRadiusOf(chunk, cell.y);
+  uvec2 row = neighbourRow(chunk, cell.y);
+  uint next = kNoCell;
+  float nextKey = current.key;
+  float inverseExit = 0.0;
   countWork(kWorkNeighbours, row.y - row.x);
   for (uint i = row.x; i < row.y; ++i) {
     uint other = neighbourAt(chunk, i);
     vec4 otherSite = siteRadiusOf(chunk, other);
     float key = orderAlong(direction, ballOf(chunk, otherSite).centre);
-    if (!(key > from.key)) continue;
-    vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
-    float q = dot(toNeighbour, direction);
-    if (!(q > 0.0)) continue;
-    float exit = radicalClearance(centre, toNeighbour, radicalOffset(toNeighbour, siteRadius.w, otherSite.w)) / q;
-    if (exit < next.entry) next = Step(other, key, exit, true);
+    bool isFar;
+    float inverse = dot(eyePlaneTo(chunk, siteRadius, otherSite, isFar), direction);
+    if (isFar && key > current.key && inverse > inverseExit) {
+      inverseExit = inverse;
+      next = other;
+      nextKey = key;
+    }
   }
-  next.entry = max(next.entry, from.entry);
-  return next;
+  float exit = max(1.0 / inverseExit, current.entry);
+  if (next == kNoCell) {
+    current.entry = exit;
+    return false;
+  }
+  current = stepToSite(chunk, next, nextKey, exit);
+  return true;
 }
 
-uint visibleOfCell(Chunk chunk, uint cell) {
-  if (cell >= chunk.liveCount) return kNoCell;
-  uint words = FRAME.groupsPerChunk * kMaskWords;
-  uvec2 word = FRAME.visibility.v[checked(chunk.index * words + cell / 32, FRAME.chunkCount * words)];
-  uint bit = 1u << (cell % 32);
-  return (word.x & bit) != 0 ? word.y + bitCount(word.x & (bit - 1)) : kNoCell;
+// The same by the record's eye planes.
+bool findNextRecord(inout Step current, CellRecord cell, vec3 direction) {
+  uint link = kNoCell;
+  float inverseExit = 0.0;
+  countWork(kWorkNeighbours, cell.planeSplit - cell.planeBegin);
+  for (uint i = cell.planeBegin; i < cell.planeSplit; ++i) {
+    vec4 plane = FRAME.planes.v[checked(i, FRAME.planeCapacity)];
+    float inverse = dot(plane.xyz, direction);
+    if (inverse > inverseExit) {
+      inverseExit = inverse;
+      link = floatBitsToUint(plane.w);
+    }
+  }
+  float exit = max(1.0 / inverseExit, current.entry);
+  if (link == kNoCell) {
+    current.entry = exit;
+    return false;
+  }
+  if ((link & kUnlisted) != 0) {
+    Chunk chunk = loadChunk(FRAME.visibleCells.v[current.visible].x);
+    uint site = link & ~kUnlisted;
+    float key = orderAlong(direction, ballOfSite(chunk, site).centre);
+    if (!(key > current.key)) return findNextSite(current, direction);
+    current = stepToSite(chunk, site, key, exit);
+    return true;
+  }
+  float key = orderAlong(direction, FRAME.records.v[checked(link, FRAME.visibleCapacity)].ball.xyz);
+  if (!(key > current.key)) return findNextSite(current, direction);
+  current = Step(link, uvec2(0), key, exit);
+  return true;
 }
 
-// From the ghost that a step has led to, on to the cell for which it stands.
-void enterGhost(inout Chunk chunk, inout Step current) {
-  uvec2 cell = cellOfGhost(chunk, current.site);
-  chunk = loadChunk(cell.x);
-  current.site = cell.y;
-}
-
-void meetCell(uint visible, vec3 direction, float entry, float exit, inout Radiance radiance) {
-  CellRecord cell = FRAME.records.v[checked(visible, FRAME.visibleCapacity)];
+void meetCell(uint visible, CellRecord cell, vec3 direction, float entry, float exit, inout Radiance radiance) {
   float tNear, tFar;
   if (!intersectBall(cell.ball.xyz, cell.ball.w, direction, tNear, tFar)) return;
   countWork(kWorkBallHits, 1);
@@ -80,18 +115,23 @@ void main() {
   Radiance radiance = emptyRadiance();
 
   uvec2 start = FRAME.walkStart.v[0];
-  Chunk chunk = loadChunk(start.x);
-  Step current = Step(start.y, orderAlong(direction, ballOfSite(chunk, start.y).centre), 0.0, true);
+  Step current = stepTo(start, orderAlong(direction, ballOfSite(loadChunk(start.x), start.y).centre), 0.0);
+  bool isInside = true;
   uint steps = 0;
-  while (current.isInside && !isSaturated(radiance) && steps < FRAME.maxSteps) {
-    Step next = nextStep(chunk, current, direction);
-    uint visible = visibleOfCell(chunk, current.site);
-    if (visible != kNoCell) meetCell(visible, direction, current.entry, next.entry, radiance);
-    current = next;
-    if (isGhost(chunk, current.site)) enterGhost(chunk, current);
+  while (isInside && !isSaturated(radiance) && steps < FRAME.maxSteps) {
+    uint visible = current.visible;
+    float entry = current.entry;
+    if (visible == kNoCell) {
+      isInside = findNextSite(current, direction);
+    } else {
+      CellRecord cell = FRAME.records.v[checked(visible, FRAME.visibleCapacity)];
+      bool hasRow = cell.planeBegin < cell.planeEnd;
+      isInside = hasRow ? findNextRecord(current, cell, direction) : findNextSite(current, direction);
+      meetCell(visible, cell, direction, entry, current.entry, radiance);
+    }
     ++steps;
   }
   countWork(kWorkSteps, steps);
-  if (current.isInside && !isSaturated(radiance)) atomicAdd(COUNTERS.stepLimit, 1u);
+  if (isInside && !isSaturated(radiance)) atomicAdd(COUNTERS.stepLimit, 1u);
   writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal);
 }

@@ -145,7 +145,9 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   chunk.siteCount = contents.cellCount + contents.ghostCount;
   chunk.neighbourCount = static_cast<uint32_t>(contents.neighbours.size());
   chunk.alphaTotal = std::accumulate(contents.alphaCounts.begin(), contents.alphaCounts.end(), uint64_t{0});
+  gpu_.cellCount += chunk.cellCount;
   gpu_.alphaTotal += chunk.alphaTotal;
+  gpu_.neighbourTotal += chunk.neighbourCount;
   if (!device_) {
     return {};
   }

@@ -38,7 +38,9 @@ struct GpuAsset {
   bool hasHeights = false;    // in any chunk
   float detailSharpness = 10.0f, nearRatio = 4.0f, nearDepth = 0.0f;
   uint32_t liveCount = 0;     // over all chunks
+  uint32_t cellCount = 0;     // over all chunks
   uint64_t alphaTotal = 0;    // over all chunks
+  uint64_t neighbourTotal = 0;  // over all chunks
   std::vector<GpuChunk> chunks;
 };
 

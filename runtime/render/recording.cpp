@@ -17,7 +17,7 @@ void writeBlock(const Recording& recording, const RenderInstance* instance) {
   } else {
     fillFrame(recording.info, *instance, buffers, {recording.blockAddress(), recording.countersAddress()},
               block, reinterpret_cast<gpu::ChunkEntry*>(staged + kBlockStride));
-    block.flags |= recording.kind == RecordingKind::kRaster ? gpu::kFlagOnlyPaired : 0;
+    block.flags |= recording.kind == RecordingKind::kRaster ? gpu::kFlagOnlyPaired : gpu::kFlagWalk;
   }
   std::memcpy(staged, &block, sizeof(block));
 }
@@ -131,8 +131,7 @@ void recordCull(const PassRecorder& recorder, const GpuAsset& asset) {
 }
 
 void recordShade(const PassRecorder& recorder) {
-  recorder.runIndirect(Pass::kExpandCells, offsetof(gpu::Counters, visibleDispatch));
-  recorder.wait();
+  recorder.runIndirect(Pass::kExpandCells, offsetof(gpu::Counters, expandDispatch));
   recorder.runIndirect(Pass::kShadeSites, offsetof(gpu::Counters, siteDispatch));
   recorder.wait();
 }

@@ -37,7 +37,7 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
     case ViewBuffer::kPlanes:
       return 16 * capacity.planes;
     case ViewBuffer::kSites:
-      return 24 * capacity.sites;
+      return 32 * capacity.sites;
     case ViewBuffer::kCellKeys:
     case ViewBuffer::kCellKeysSwap:
     case ViewBuffer::kOrder:

@@ -47,14 +47,14 @@ ViewDemand demandOf(const gpu::Counters& counters) {
 uint32_t groupsPerChunk(const GpuAsset& asset) {
   uint32_t groups = 1;
   for (const GpuChunk& chunk : asset.chunks) {
-    groups = std::max(groups, groupsOver(chunk.liveCount, gpu::kGroupSize));
+    groups = std::max(groups, groupsOver(chunk.cellCount, gpu::kGroupSize));
   }
   return groups;
 }
 
 void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
   const auto chunks = static_cast<uint32_t>(asset.chunks.size());
-  const uint64_t cells = std::min(uint64_t{asset.liveCount}, kLeastCells + kCellsPerTile * capacity.tiles);
+  const uint64_t cells = std::min(uint64_t{asset.cellCount}, kLeastCells + kCellsPerTile * capacity.tiles);
   const uint64_t meanPlanes = asset.alphaTotal / std::max(asset.liveCount, 1u) + 1;
   ViewCapacity needed;
   needed.chunks = chunks;
@@ -73,9 +73,9 @@ bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
 }
 
 void coverDemand(const GpuAsset& asset, const ViewDemand& demand, ViewCapacity& capacity) {
-  const uint64_t cells = roomFor(demand.cells, capacity.cells, asset.liveCount);
+  const uint64_t cells = roomFor(demand.cells, capacity.cells, asset.cellCount);
   capacity.cells = static_cast<uint32_t>(cells);
-  capacity.planes = roomFor(demand.planes, capacity.planes, asset.alphaTotal);
+  capacity.planes = roomFor(demand.planes, capacity.planes, asset.neighbourTotal);
   capacity.sites = std::max(capacity.sites, cells * asset.detailCount);
   capacity.pairs = static_cast<uint32_t>(roomFor(demand.pairs, capacity.pairs, kMostPairs));
 }

@@ -12,7 +12,7 @@ struct ViewCapacity {
   // Known before a frame is recorded.
   uint32_t frames = 1;  // in flight
   uint32_t chunks = 1;
-  uint32_t groups = 1;  // chunks times workgroups over the largest chunk's live cells
+  uint32_t groups = 1;  // chunks times workgroups over the largest chunk's cells
   uint32_t tiles = 1;
   // Of visible cells: a guess at first. A frame that wants more is valid without what has no space.
   uint32_t cells = 1;
@@ -36,7 +36,7 @@ ViewDemand largest(const ViewDemand& a, const ViewDemand& b);
 // Workgroups over a list.
 inline uint32_t groupsOver(uint32_t items, uint32_t perGroup) { return (items + perGroup - 1) / perGroup; }
 
-// Workgroups over the live cells of an asset's largest chunk.
+// Workgroups over the cells of an asset's largest chunk.
 uint32_t groupsPerChunk(const GpuAsset& asset);
 
 // Adds what an asset needs, and a guess at what is visible of it that does not grow with the asset.

@@ -76,7 +76,7 @@ const gpu::Counters& readCounters(const ViewState& view, uint32_t number);
 
 // Cull, list and count the visible cells; shared by raster and walk.
 void recordCull(const PassRecorder& recorder, const GpuAsset& asset);
-// Expand the visible cells and shade their detail sites.
+// Expand the visible cells and shade their detail sites, both at once.
 void recordShade(const PassRecorder& recorder);
 
 void recordRasterPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset);

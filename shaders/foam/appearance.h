@@ -13,11 +13,23 @@ FOAM_FN real3 faceQuery(real3 local, real3 tangent, real3 bitangent, real invers
   return real3(dot(unit, tangent), dot(unit, bitangent), dot(unit, unit));
 }
 
-// exp(-sharpness |x - s|^2 / r^2) for the detail site s = p + r (u t + v b), detail = (u, v).
-// |x - s|^2 is expanded, so a site costs two multiply-adds and an exp; the clamp undoes rounding above zero.
+// The weight of the detail site s = p + r (u t + v b), detail = (u, v), at a query point x is
+// exp(-sharpness |x - s|^2 / r^2). |x - s|^2 is expanded and counted in powers of two, so that once the site's share
+// (detailTerms) and the point's (queryTerm) are known, a weight costs two multiply-adds, an add and an exp2. The clamp undoes
+// rounding above zero.
+FOAM_FN real3 detailTerms(real2 detail, real sharpness) {
+  real scale = sharpness * real(1.4426950408889634);  // log2(e)
+  return real3(real(2) * scale * detail.x, real(2) * scale * detail.y, -scale * dot(detail, detail));
+}
+
+FOAM_FN real queryTerm(real3 query, real sharpness) { return -sharpness * real(1.4426950408889634) * query.z; }
+
+FOAM_FN real detailWeightOfTerms(real3 query, real term, real3 terms) {
+  return exp2(min(query.x * terms.x + (query.y * terms.y + (terms.z + term)), real(0)));
+}
+
 FOAM_FN real detailWeight(real3 query, real2 detail, real sharpness) {
-  real squared = query.z - real(2) * (query.x * detail.x + query.y * detail.y) + dot(detail, detail);
-  return exp(-sharpness * max(squared, real(0)));
+  return detailWeightOfTerms(query, queryTerm(query, sharpness), detailTerms(detail, sharpness));
 }
 
 // Exponent of one lobe seen along `direction` (unit): -tau |direction - axis/tau|, tau = |axis|.

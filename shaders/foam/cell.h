@@ -35,13 +35,16 @@ FOAM_FN bool intersectBall(real3 centre, real radius, real3 direction, FOAM_OUT(
 // Radical plane towards a neighbour, in the cell's local frame x' = x - p, toNeighbour = p_j - p_i:
 // toNeighbour . x' = radicalOffset. The world-space textbook form loses every digit far from the origin.
 FOAM_FN real radicalOffset(real3 toNeighbour, real radius, real neighbourRadius) {
-  return real(0.5) * (dot(toNeighbour, toNeighbour) + (radius - neighbourRadius) * (radius + neighbourRadius));
+  FOAM_PRECISE real offset =
+      real(0.5) * (dot(toNeighbour, toNeighbour) + (radius - neighbourRadius) * (radius + neighbourRadius));
+  return offset;
 }
 
 // Signed clearance c of the ray's origin from a radical plane: the plane is met at t = c / q, q = toNeighbour . direction.
 // c > 0: the origin lies on the cell's side.
 FOAM_FN real radicalClearance(real3 centre, real3 toNeighbour, real offset) {
-  return offset + dot(toNeighbour, centre);
+  FOAM_PRECISE real clearance = offset + dot(toNeighbour, centre);
+  return clearance;
 }
 
 // Cuts [tNear, tFar] by the half-space of one radical plane.
@@ -61,7 +64,16 @@ FOAM_FN void clipByPlane(real clearance, real q, FOAM_INOUT(real) tNear, FOAM_IN
 FOAM_FN real3 eyePlane(real3 toNeighbour, real clearance) {
   real tiny = real(1e-30);
   real guarded = abs(clearance) > tiny ? clearance : (clearance < real(0) ? -tiny : tiny);
-  return toNeighbour / guarded;
+  FOAM_PRECISE real3 plane = toNeighbour / guarded;
+  return plane;
+}
+
+// A ray that runs within rounding along a plane through the origin of all rays may take either side of it, but a walk must find
+// the plane as an exit: no clearance within its rounding below zero counts as negative.
+FOAM_FN real exitClearance(real3 centre, real3 toNeighbour, real offset, real clearance) {
+  FOAM_PRECISE real rounding =
+      real(1e-6) * (sqrt(dot(toNeighbour, toNeighbour) * dot(centre, centre)) + abs(offset));
+  return clearance >= -rounding ? max(clearance, real(0)) : clearance;
 }
 
 // Parameter at which the ray meets the plane n . (x - p) = height; facing = n . direction, kept away from zero.

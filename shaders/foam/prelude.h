@@ -24,6 +24,7 @@ using glm::cross;
 using glm::dot;
 using std::abs;
 using std::exp;
+using std::exp2;
 using std::log;
 using std::max;
 using std::min;

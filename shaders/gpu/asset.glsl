@@ -88,6 +88,13 @@ uint alphaCountOf(Chunk chunk, uint cell) {
   return elementAt(counts, checked(cell, chunk.liveCount), FRAME.chunks.v[chunk.index].alphaShift);
 }
 
+// Planes that a recording expands for a visible cell: of all neighbours for a walk, of those of the alpha-complex else.
+uint planeCountOf(Chunk chunk, uint cell) {
+  if ((FRAME.flags & kFlagWalk) == 0) return alphaCountOf(chunk, cell);
+  uvec2 row = neighbourRow(chunk, cell);
+  return row.y - row.x;
+}
+
 bool isGhost(Chunk chunk, uint site) { return site >= chunk.cellCount; }
 
 // Where a ghost lives.
@@ -95,6 +102,14 @@ uvec2 cellOfGhost(Chunk chunk, uint site) {
   uint ghost = checked(site - chunk.cellCount, chunk.siteCount - chunk.cellCount);
   uint ref = FRAME.chunks.v[chunk.index].ghostRefs.v[ghost];
   return uvec2(ref >> FRAME.localBits, ref & ((1u << FRAME.localBits) - 1));
+}
+
+// The slot of a cell in the list of visible cells, or kNoCell.
+uint slotOfCell(uvec2 cell) {
+  uint words = FRAME.groupsPerChunk * kMaskWords;
+  uvec2 word = FRAME.visibility.v[checked(cell.x * words + cell.y / 32, FRAME.chunkCount * words)];
+  uint bit = 1u << (cell.y % 32);
+  return (word.x & bit) != 0 ? word.y + bitCount(word.x & (bit - 1)) : kNoCell;
 }
 
 #endif

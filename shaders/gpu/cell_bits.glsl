@@ -95,6 +95,18 @@ vec4 takeOrientation(CellCode code, inout BitCursor cursor) {
   return orientationOfNormal(y, z, isBack, halfRange);
 }
 
+struct Frame {
+  vec3 normal, tangent, bitangent;
+};
+
+Frame takeFrame(CellCode code, inout BitCursor cursor) {
+  vec4 quaternion = takeOrientation(code, cursor);  // unit (w, x, y, z); the frame: the rows of its rotation matrix
+  float w = quaternion.x, x = quaternion.y, y = quaternion.z, z = quaternion.w;
+  return Frame(vec3(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+               vec3(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+               vec3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)));
+}
+
 CellHeader loadCellHeader(CellCode code, uint chunk, uint cell) {
   BitCursor cursor = cellBits(chunk, cell);
   skipBits(cursor, code.densityBits + (code.normalBits > 0 ? 2 * code.normalBits + 1 : 128u));

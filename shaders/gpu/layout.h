@@ -21,9 +21,7 @@ using vec4 = std::array<float, 4>;
 #else
 
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer UintArray { uint v[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) buffer FloatArray { float v[]; };
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer UintPairArray { uvec2 v[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) buffer FloatPairArray { vec2 v[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer UintQuadArray { uvec4 v[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer FloatQuadArray { vec4 v[]; };
 #define FROTH_ADDRESS(type) type
@@ -37,6 +35,8 @@ FROTH_CONST kTileSize = 32;           // [pixels] edge of the tiles that own lis
 FROTH_CONST kSubTileSize = 8;         // [pixels] edge of what one workgroup of the raster draws
 FROTH_CONST kMaskWords = 8;           // words of a bit per thread of a workgroup
 FROTH_CONST kNoCell = 0xffffffffu;
+FROTH_CONST kUnlisted = 0x80000000u;  // in a walk's link: the other bits are a site of the chunk, whose cell has no record
+FROTH_CONST kLanesPerCell = 32;       // threads that expand one visible cell
 FROTH_CONST kWholeBall = 0x40202020u; // ChunkContents::solidBalls: the cell's own ball
 
 // PassConstants::mode of scan_groups.comp: whose totals it scans.
@@ -56,6 +56,7 @@ FROTH_CONST kFlagDistance = 2;
 FROTH_CONST kFlagNormal = 4;
 FROTH_CONST kFlagDisplayCoded = 8;
 FROTH_CONST kFlagOnlyPaired = 16;  // shade only cells that own a (tile, cell) pair
+FROTH_CONST kFlagWalk = 32;        // list cells that guide walks too, and the planes of all neighbours
 
 // How the bits of a chunk's live cells are to be read (runtime/asset/cell_packer.h).
 struct CellCode {
@@ -90,9 +91,9 @@ struct ChunkEntry {
   CellCode code;
 };
 
-// A visible cell as the rays meet it. Positions are relative to the eye.
+// A visible cell as the rays meet it; for a walk also a cell that only guides it. Positions are relative to the eye.
 struct CellRecord {
-  vec4 ball;       // centre, radius
+  vec4 ball;       // centre, radius; radius 0: nothing to be seen
   vec4 face;       // normal n, density
   vec4 tangent;    // t, 1 / radius
   vec4 bitangent;  // b, 0
@@ -122,6 +123,7 @@ struct Counters {
   uint violations;    // indices out of range (checkIndices)
   uint padding;
   uvec4 visibleDispatch;   // a thread per visible cell
+  uvec4 expandDispatch;    // kLanesPerCell threads per visible cell
   uvec4 siteDispatch;      // a thread per detail site of a visible cell
   uvec4 cellSortDispatch;  // a workgroup per kSortKeysPerGroup visible cells
   uvec4 pairDispatch;      // a thread per kept pair
@@ -148,7 +150,7 @@ struct FrameBlock {
   float detailSharpness;
   uint flags, maxSteps, localBits;
   uint regionX, regionY, regionWidth, regionHeight;  // [pixels] what is drawn
-  uint tilesX, tilesY, chunkCount, groupsPerChunk;   // groups: workgroups over a chunk's live cells
+  uint tilesX, tilesY, chunkCount, groupsPerChunk;   // groups: workgroups over a chunk's cells
   uint visibleCapacity, planeCapacity, pairCapacity, histogramCapacity;
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
@@ -158,8 +160,8 @@ struct FrameBlock {
   FROTH_ADDRESS(UintArray) cellKeys;           // [slot] order-preserving bits of the power of the eye
   FROTH_ADDRESS(UintArray) order;              // [visible cell] slot
   FROTH_ADDRESS(RecordArray) records;          // [visible cell]
-  FROTH_ADDRESS(FloatQuadArray) planes;        // [planeCapacity] xyz: s = dot(xyz, direction) = 1 / t
-  FROTH_ADDRESS(FloatPairArray) sites;         // [visible cell * K * 3] (u, v), (height, r), (g, b)
+  FROTH_ADDRESS(FloatQuadArray) planes;        // [planeCapacity] xyz: s = dot(xyz, direction) = 1 / t; w for a walk: link
+  FROTH_ADDRESS(FloatQuadArray) sites;         // [visible cell * K * 2] (detailTerms, height), (rgb, 0)
   FROTH_ADDRESS(UintArray) tileCounts;         // [visible cell] tiles its solid ball meets
   FROTH_ADDRESS(UintArray) pairTiles;          // [pair] as emitted
   FROTH_ADDRESS(UintArray) pairCells;
@@ -188,7 +190,7 @@ struct PassConstants {
 static_assert(sizeof(ChunkEntry) == 192 && offsetof(ChunkEntry, siteRadius) == 32);
 static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 128 && sizeof(CellCode) == 64);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
-static_assert(offsetof(Counters, visibleDispatch) == 32 && offsetof(Counters, work) == 112 && sizeof(Counters) == 176);
+static_assert(offsetof(Counters, visibleDispatch) == 32 && offsetof(Counters, work) == 128 && sizeof(Counters) == 192);
 static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);
 static_assert(offsetof(FrameBlock, counters) == 192 && sizeof(FrameBlock) == 336);
 static_assert(sizeof(SortConstants) == 56 && sizeof(PassConstants) == 16);

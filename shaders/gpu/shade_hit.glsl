@@ -24,25 +24,26 @@ bool isSaturated(Radiance radiance) { return radiance.logTransmittance < FRAME.l
 
 // Height of the displaced face at a query point, in units of the radius.
 float heightAt(uint firstSite, vec3 query) {
+  float term = queryTerm(query, FRAME.detailSharpness);
   float weightSum = 0.0;
   float heightSum = 0.0;
   for (uint k = 0; k < detailCount; ++k) {
-    float weight = detailWeight(query, FRAME.sites.v[firstSite + 3 * k], FRAME.detailSharpness);
+    vec4 site = FRAME.sites.v[firstSite + 2 * k];
+    float weight = detailWeightOfTerms(query, term, site.xyz);
     weightSum += weight;
-    heightSum += weight * FRAME.sites.v[firstSite + 3 * k + 1].x;
+    heightSum += weight * site.w;
   }
   return heightSum / flooredWeightSum(weightSum);
 }
 
 vec3 colourAt(uint firstSite, vec3 query) {
+  float term = queryTerm(query, FRAME.detailSharpness);
   float weightSum = 0.0;
   vec3 colourSum = vec3(0.0);
   for (uint k = 0; k < detailCount; ++k) {
-    vec2 place = FRAME.sites.v[firstSite + 3 * k];
-    vec3 colour = vec3(FRAME.sites.v[firstSite + 3 * k + 1].y, FRAME.sites.v[firstSite + 3 * k + 2]);
-    float weight = detailWeight(query, place, FRAME.detailSharpness);
+    float weight = detailWeightOfTerms(query, term, FRAME.sites.v[firstSite + 2 * k].xyz);
     weightSum += weight;
-    colourSum += weight * colour;
+    colourSum += weight * FRAME.sites.v[firstSite + 2 * k + 1].xyz;
   }
   return colourSum / flooredWeightSum(weightSum);
 }
@@ -51,7 +52,7 @@ void shadeHit(uint visible, CellRecord cell, vec3 direction, float tNear, float 
   vec3 centre = cell.ball.xyz;
   float facing = dot(cell.face.xyz, direction);
   bool isInsideFirst = facing >= 0.0;
-  uint firstSite = visible * detailCount * 3;
+  uint firstSite = visible * detailCount * 2;
 
   float height = 0.0;
   if (hasHeights) {

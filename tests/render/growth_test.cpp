@@ -156,8 +156,10 @@ TEST_P(GrowthAfter, AShortageFramesAreWholeAgain) {
     if (isPairs && method == Method::kWalk) continue;  // has none
     startWith(shortCapacity());
     const Drawn first = draw(method, camera);
+    // A walk goes on by the sites where planes are missing: slower, and with the same bits.
+    const bool isWhole = method == Method::kWalk && GetParam() == Shortage::kPlanes;
     EXPECT_EQ(first.lostPairs(), isPairs);
-    EXPECT_EQ(first.lostCells(), !isPairs);
+    EXPECT_EQ(first.lostCells(), !isPairs && !isWhole);
     for (const float value : first.colour) ASSERT_TRUE(value >= 0 && value < 100) << value;
     EXPECT_EQ(draw(method, camera).colour, first.colour) << "what is missing is defined";
     growFor(first);
@@ -165,7 +167,7 @@ TEST_P(GrowthAfter, AShortageFramesAreWholeAgain) {
     EXPECT_FALSE(second.lostCells() || second.lostPairs());
     startWith(wholeCapacity());
     const Drawn whole = draw(method, camera);
-    EXPECT_NE(first.colour, whole.colour);
+    EXPECT_EQ(first.colour == whole.colour, isWhole);
     EXPECT_EQ(second.colour, whole.colour);
   }
 }
@@ -200,10 +202,10 @@ TEST_F(Growth, KeepsAheadOfACameraThatMovesOnAndFollowsOneThatJumps) {
 TEST(Capacity, OfALargeAssetStartsWithWhatAnImageMightShow) {
   GpuAsset asset;
   asset.detailCount = 8;
-  asset.liveCount = 5'000'000;
+  asset.liveCount = asset.cellCount = 5'000'000;
   asset.alphaTotal = 7 * uint64_t{asset.liveCount};
   GpuChunk chunk;
-  chunk.liveCount = asset.liveCount;
+  chunk.liveCount = chunk.cellCount = asset.liveCount;
   asset.chunks = {chunk};
   ViewCapacity small, wide;
   wide.tiles = 60 * 34;  // 1920 x 1080
@@ -218,8 +220,8 @@ TEST(Capacity, OfALargeAssetStartsWithWhatAnImageMightShow) {
 TEST(Capacity, NeverExceedsWhatTheAssetCanWant) {
   GpuAsset asset;
   asset.detailCount = 4;
-  asset.liveCount = 1000;
-  asset.alphaTotal = 7000;
+  asset.cellCount = 1000;
+  asset.neighbourTotal = 7000;
   ViewCapacity capacity;
   coverDemand(asset, {.cells = 900, .planes = 6800, .pairs = 100}, capacity);
   EXPECT_EQ(capacity.cells, 1000u);
@@ -246,11 +248,13 @@ TEST(Extremes, CellsBeyondTheSpaceAreReportedAndTheNextFrameIsWhole) {
 }
 
 TEST(Extremes, AViewThatSeesNoCellIsEmpty) {
-  Stage stage(bakeForTest(makeRandomFoam(50, 2, 1, 3)), kExtent);
+  const AssetContents contents = bakeForTest(makeRandomFoam(50, 2, 1, 3));
+  const uint32_t guides = contents.chunks[0].cellCount - contents.chunks[0].liveCount;
+  Stage stage(contents, kExtent);
   const View away = lookAt({0, 0, 0}, {0, 0, -3}, kExtent.width, kExtent.height, 0.5);
   for (const Method method : {Method::kRaster, Method::kWalk}) {
     const Frame frame = stage.draw(method, away);
-    EXPECT_EQ(frame.status.visibleCells, 0u);
+    EXPECT_EQ(frame.status.visibleCells, method == Method::kRaster ? 0u : guides);
     EXPECT_EQ(frame.status.bits, 0u);
     for (const float value : frame.colour.values) ASSERT_EQ(value, 0.0f);
     for (const float value : frame.distance.values) ASSERT_TRUE(std::isinf(value));

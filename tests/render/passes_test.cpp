@@ -142,7 +142,7 @@ class Bin : public Passes {
     for (size_t i = 0; i < count; ++i) siteRadius.emplace_back(foam.sites[i], foam.radii[i]);
     GpuAsset asset;
     asset.detailCount = asset.lobeCount = 1;
-    asset.liveCount = foam.cellCount;
+    asset.liveCount = asset.cellCount = foam.cellCount;
     GpuChunk chunk;
     chunk.cellCount = chunk.siteCount = chunk.liveCount = foam.cellCount;
     chunk.siteRadius = upload(siteRadius).address;

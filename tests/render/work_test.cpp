@@ -74,8 +74,9 @@ class Counter {
         uint32_t next = cell;
         double exit = INFINITY;
         for (uint32_t i = chunk_.neighbourOffsets[cell]; i < chunk_.neighbourOffsets[cell + 1]; ++i) {
-          ++work.neighbours;
           const uint32_t other = chunk_.neighbours[i];
+          if (clearanceOf(cell, other) < 0) continue;  // the ray has come from there
+          ++work.neighbours;
           const double q = glm::dot(towards(cell, other), ray);
           const double t = q > 0 ? clearanceOf(cell, other) / q : INFINITY;
           if (t < exit) {
@@ -142,6 +143,9 @@ class Counter {
   std::vector<glm::dvec3> rays_;
 };
 
+// All cells are in sight, so a walk finds the planes of each in its record.
+View wholeView() { return lookAt({0.1, 0.2, -6}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6); }
+
 View frontView() {
   return lookAt({0.1, 0.2, 0.6}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6);
 }
@@ -173,8 +177,11 @@ TEST(Work, IsWhatTheCpuCounts) {
   EXPECT_LE(raster.entriesKept, subTiles * contents.chunks[0].liveCount);
   EXPECT_GE(64 * raster.entriesKept, raster.ballHits);
 
-  const FrothWork walk = stage.draw(Method::kWalk, info, kExtent).status.work;
-  const FrothWork expectedWalk = counter.countWalk();
+  FrothRenderInfo wholeInfo = infoOf(wholeView());
+  wholeInfo.cutoff = -1;
+  stage.draw(Method::kWalk, wholeInfo, kExtent);  // after which there is space for all planes
+  const FrothWork walk = stage.draw(Method::kWalk, wholeInfo, kExtent).status.work;
+  const FrothWork expectedWalk = Counter(contents.chunks[0], wholeView()).countWalk();
   expectClose(walk.steps, expectedWalk.steps, "steps");
   expectClose(walk.neighbours, expectedWalk.neighbours, "neighbours");
   expectClose(walk.ballHits, expectedWalk.ballHits, "balls");
