@@ -34,8 +34,8 @@ class Importer {
   Status readPlain(Parameter parameter, std::vector<Vec>& out);
   Status readActivated(Parameter parameter, float smallest, std::vector<float>& out);
   Status readOrientations();
-  template <class Real>
-  Status copy(const TensorView& from, Real* out);
+  template <class Real, class Item>
+  Status copy(const TensorView& from, std::vector<Item>& out);
   Status checkFinite(const TensorView& view, std::span<const float> values) const;
   uint64_t totalCount() const;
   const TensorView& view(Parameter parameter) const { return views_[static_cast<size_t>(parameter)]; }
@@ -153,18 +153,16 @@ Status Importer::fillFoam() {
 template <class Vec>
 Status Importer::readPlain(Parameter parameter, std::vector<Vec>& out) {
   const TensorView& from = view(parameter);
-  out.resize(from.count * sizeof(float) / sizeof(Vec));
-  const auto values = reinterpret_cast<float*>(out.data());
-  if (Status status = copy(from, values); !status) {
+  if (Status status = copy<float>(from, out); !status) {
     return status;
   }
-  return checkFinite(from, {values, from.count});
+  return checkFinite(from, {reinterpret_cast<const float*>(out.data()), from.count});
 }
 
 Status Importer::readActivated(Parameter parameter, float smallest, std::vector<float>& out) {
   const TensorView& from = view(parameter);
-  std::vector<double> raw(from.count);
-  if (Status status = copy(from, raw.data()); !status) {
+  std::vector<double> raw;
+  if (Status status = copy<double>(from, raw); !status) {
     return status;
   }
   out.resize(from.count);
@@ -187,8 +185,8 @@ Status Importer::readActivated(Parameter parameter, float smallest, std::vector<
 
 Status Importer::readOrientations() {
   const TensorView& from = view(Parameter::kOrientations);
-  std::vector<glm::dvec4> raw(foam_.cellCount);
-  if (Status status = copy(from, &raw[0].x); !status) {
+  std::vector<glm::dvec4> raw;
+  if (Status status = copy<double>(from, raw); !status) {
     return status;
   }
   foam_.orientations.resize(raw.size());
@@ -216,14 +214,17 @@ Status Importer::checkFinite(const TensorView& from, std::span<const float> valu
   return {};
 }
 
-// By rows: reading from a slow disk can take long.
-template <class Real>
-Status Importer::copy(const TensorView& from, Real* out) {
+// By rows: reading from a slow disk can take long. `out` is empty, an Item a few Reals.
+template <class Real, class Item>
+Status Importer::copy(const TensorView& from, std::vector<Item>& out) {
+  constexpr size_t kReals = sizeof(Item) / sizeof(Real);
   const uint64_t rows = foam_.cellCount, width = from.count / rows;
+  out.reserve(from.count / kReals);
   const uint64_t sliceRows = std::max<uint64_t>(kSliceElements / width, 1);
   for (uint64_t first = 0; first < rows; first += sliceRows) {
     const TensorView slice = rowsOf(from, first, std::min(sliceRows, rows - first));
-    copyElements(slice, out + first * width);
+    out.resize(out.size() + slice.count / kReals);
+    copyElements(slice, reinterpret_cast<Real*>(out.data() + out.size()) - slice.count);
     done_ += slice.count;
     if (!report(progress_, "import", done_, totalCount())) {
       return Error{ErrorKind::kCancelled, file_.name + ": import stopped on request"};
