@@ -27,14 +27,13 @@ BakeKnobs highKnobs() {
   knobs.positionBits = 19;
   knobs.radiusBits = 12;
   knobs.densityBits = 7;
-  knobs.frameBits = 11;
+  knobs.frameBits = 12;
   knobs.detailSiteBits = 10;
   knobs.heightBits = 10;
-  knobs.appearance.errorBound = 0.006f;
+  knobs.appearance.errorBound = 0.005f;
   knobs.appearance.lobeLimit = 32;
-  knobs.appearance.codebookSize = 0;
-  knobs.appearance.colourStep = 0x1p-9f;
-  knobs.appearance.lobeAxisStep = 0x1p-4f;
+  knobs.appearance.colourStep = 0x1p-6f;
+  knobs.appearance.lobeAxisStep = 0.25f;
   return knobs;
 }
 
