@@ -9,13 +9,12 @@ layout(constant_id = kConstantCheckIndices) const bool checkIndices = false;
 #if defined(FROTH_SORT)
 layout(push_constant) uniform Push {
   FrameRef frame;
-  UintArray keysIn, valuesIn, keysOut, valuesOut, count;
-  uint shift, capacity;
+  UintArray keysIn, valuesIn, keysOut, valuesOut, count, histogram, nextHistogram;
+  uint shift, capacity, step;
 } push;
 #else
 layout(push_constant) uniform Push {
   FrameRef frame;
-  uint mode;
 } push;
 #endif
 
@@ -34,6 +33,8 @@ uint checked(uint index, uint count) {
 
 // Dispatches over long lists are two-dimensional: one dimension may be limited to 65535 workgroups.
 uint linearGroup() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
+uint groupsOver(uint items, uint perGroup) { return items / perGroup + (items % perGroup != 0 ? 1 : 0); }
 
 uvec4 dispatchOf(uint groups) {
   uint rows = (groups + 65534u) / 65535u;

@@ -3,6 +3,7 @@
 #define FROTH_GPU_TILES_GLSL
 #include "gpu/asset.glsl"
 #include "gpu/pixels.glsl"
+#include "gpu/workgroup.glsl"
 
 // First and last column and row of tiles that hold the ball's image; last < first: none.
 struct TileBounds {
@@ -33,9 +34,50 @@ TileBounds tileBounds(Ball ball) {
   return bounds;
 }
 
-bool tileMeetsBall(ivec2 tile, Ball ball) {
-  uvec2 firstPixel = uvec2(tile) * kTileSize;
-  return pixelsMeetBall(ball.centre, ball.radius, firstPixel, kTileSize);
+// The tiles in the bounds of up to kTileCellsPerGroup balls, tested by all threads of a workgroup together: however
+// unlike the balls are in size, every thread has as much to do.
+struct TileCandidate {
+  uint cell;  // place in the workgroup's list
+  uvec2 tile;
+};
+
+shared vec4 balls[kTileCellsPerGroup];
+shared uvec3 corners[kTileCellsPerGroup];  // first column and row, columns
+shared uint starts[kTileCellsPerGroup];    // first candidate
+
+// How many candidates there are. A cell per thread, of the first kTileCellsPerGroup threads; `slot` matters where hasTiles.
+// Holds barriers.
+uint gatherCandidates(bool hasTiles, uint slot) {
+  uint thread = gl_LocalInvocationIndex;
+  uint count = 0;
+  if (hasTiles) {
+    Ball ball = visibleBall(FRAME.visibleCells.v[checked(slot, FRAME.visibleCapacity)]);
+    TileBounds bounds = tileBounds(ball);
+    uvec2 extent = uvec2(max(bounds.last - bounds.first + 1, 0));
+    count = extent.x * extent.y;
+    balls[thread] = vec4(ball.centre, ball.radius);
+    corners[thread] = uvec3(bounds.first, extent.x);
+  }
+  uint total;
+  uint start = scanExclusive(count, total);
+  if (thread < kTileCellsPerGroup) starts[thread] = start;
+  barrier();
+  return total;
+}
+
+TileCandidate candidateAt(uint index) {
+  uint cell = 0;
+  for (uint stride = kTileCellsPerGroup / 2; stride > 0; stride /= 2) {
+    if (starts[cell + stride] <= index) cell += stride;
+  }
+  uvec3 corner = corners[cell];
+  uint place = index - starts[cell];
+  return TileCandidate(cell, uvec2(corner.x + place % corner.z, corner.y + place / corner.z));
+}
+
+bool meetsTile(TileCandidate candidate) {
+  vec4 ball = balls[candidate.cell];
+  return pixelsMeetBall(ball.xyz, ball.w, candidate.tile * kTileSize, kTileSize);
 }
 
 #endif
