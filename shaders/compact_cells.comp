@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
 #include "gpu/histogram.glsl"
+#define FROTH_SCANNED uvec3
 #include "gpu/workgroup.glsl"
 #include "foam/cell.h"
 
@@ -13,21 +14,21 @@ layout(constant_id = kConstantDetailCount) const uint detailCount = 8;
 
 shared uint lostSlot;  // of the first cell that finds no space
 
-// Unsigned keys in the order of the floats, negative ones included.
-uint orderedBits(float value) {
-  uint bits = floatBitsToUint(value);
+// The power of the eye. Unsigned keys are in the order of the floats, negative ones included.
+uint sortKey(Chunk chunk, uint local) {
+  Ball ball = ballOfSite(chunk, local);
+  uint bits = floatBitsToUint(powerOfOrigin(ball.centre, ball.radius));
   return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 
-// Visible cells of the workgroups before, and their planes.
-uvec2 sumBefore(uint group) {
+// Visible cells of the workgroups before, and their planes: this thread's share of the sum.
+uvec2 shareOfSumBefore(uint group) {
   uint thread = gl_LocalInvocationIndex;
   uint ownSuper = group / kGroupSize;
   uvec2 sum = uvec2(0);
   for (uint i = thread; i < ownSuper; i += kGroupSize) sum = saturatingAdd(sum, FRAME.superSums.v[i]);
   uint other = ownSuper * kGroupSize + thread;
-  if (other < group) sum = saturatingAdd(sum, FRAME.groupSums.v[other]);
-  return sumOfThreads(sum);
+  return other < group ? saturatingAdd(sum, FRAME.groupSums.v[other]) : sum;
 }
 
 // Slots that the workgroup's cells before this thread's take, and the word with its bit.
@@ -40,11 +41,10 @@ uint slotInGroup(uint group, out uint word) {
   return slot + bitCount(word & ((1u << (thread % 32)) - 1));
 }
 
-void listCell(uint slot, uvec4 cell, Ball ball) {
+void listCell(uint slot, uvec4 cell, uint key) {
   FRAME.visibleCells.v[slot] = cell;
   FRAME.order.v[slot] = slot;
   if ((FRAME.flags & kFlagOnlyPaired) == 0) return;  // a walk sorts nothing
-  uint key = orderedBits(powerOfOrigin(ball.centre, ball.radius));
   FRAME.cellKeys.v[slot] = key;
   UintArray histogram = FRAME.cellHistogram;
   countDigit(histogram, slot, digitOf(key, 0));
@@ -73,15 +73,18 @@ void main() {
   if (thread == 0) lostSlot = kNoCell;
 
   uint word;
-  uvec2 before = sumBefore(group);
-  uint slot = before.x + slotInGroup(group, word);
-  if (thread % 32 == 0) FRAME.visibility.v[group * kMaskWords + thread / 32].y = slot;
+  uint slot = slotInGroup(group, word);
   bool isVisible = (word >> (thread % 32) & 1u) != 0;
   uint planeCount = isVisible ? alphaCountOf(chunk, local) : 0;
-  uint planeTotal;
-  uint plane = saturatingAdd(before.y, scanExclusive(planeCount, planeTotal));
+  uint key = isVisible ? sortKey(chunk, local) : 0;
+  uvec3 total;
+  uint plane = scanExclusive(uvec3(planeCount, shareOfSumBefore(group)), total).x;
+  uvec2 before = total.yz;
+  slot += before.x;
+  plane = saturatingAdd(plane, before.y);
+  if (thread % 32 == 0) FRAME.visibility.v[group * kMaskWords + thread / 32].y = slot;
   if (isVisible && haveSpace(uvec2(slot + 1, saturatingAdd(plane, planeCount)))) {
-    listCell(slot, uvec4(chunk.index, local, plane, planeCount), ballOfSite(chunk, local));
+    listCell(slot, uvec4(chunk.index, local, plane, planeCount), key);
   } else if (isVisible) {
     atomicMin(lostSlot, slot);
     atomicAnd(FRAME.visibility.v[group * kMaskWords + thread / 32].x, ~(1u << (thread % 32)));

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/tiles.glsl"
+#include "gpu/workgroup.glsl"
 
 layout(local_size_x = kGroupSize) in;
 
@@ -12,7 +13,8 @@ void main() {
   uint slot = linearGroup() * kTileCellsPerGroup + thread;
   bool isCell = thread < kTileCellsPerGroup && slot < COUNTERS.visibleCells;
   if (isCell) counts[thread] = 0;
-  uint candidates = gatherCandidates(isCell, slot);
+  uint candidates;
+  startCandidates(scanExclusive(isCell ? takeCell(slot) : 0, candidates));
 
   for (uint i = thread; i < candidates; i += kGroupSize) {
     TileCandidate candidate = candidateAt(i);

@@ -4,14 +4,16 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/histogram.glsl"
 #include "gpu/tiles.glsl"
+#define FROTH_SCANNED uvec3
+#include "gpu/workgroup.glsl"
 
 layout(local_size_x = kGroupSize) in;
 
 shared uint places[kTileCellsPerGroup];  // [cell] where its next pair goes
-shared uint lostPlace;                   // of the first pair that finds no space
+shared uint pairEnd, candidateEnd;       // of the first cell whose pairs lack space: where they would begin
 
-// Pairs of the cells before the workgroup's.
-uint pairsBefore(uint firstVisible) {
+// Pairs of the cells before the workgroup's: this thread's share of the sum.
+uint shareOfPairsBefore(uint firstVisible) {
   uint thread = gl_LocalInvocationIndex;
   uint ownSum = firstVisible / kCellsPerTileSum;
   uint sum = 0;
@@ -19,7 +21,7 @@ uint pairsBefore(uint firstVisible) {
   for (uint i = ownSum * kCellsPerTileSum + thread; i < firstVisible; i += kGroupSize) {
     sum = saturatingAdd(sum, FRAME.tileCounts.v[i]);
   }
-  return sumOfThreads(uvec2(sum, 0)).x;
+  return sum;
 }
 
 // By the workgroup that loses the first pair, or else by the last one.
@@ -30,26 +32,29 @@ void planPairs(uint kept) {
 
 void main() {
   uint thread = gl_LocalInvocationIndex;
-  uint group = linearGroup();
-  uint firstVisible = group * kTileCellsPerGroup;
+  uint firstVisible = linearGroup() * kTileCellsPerGroup;
   if (firstVisible >= COUNTERS.visibleCells) return;
   bool isLast = firstVisible + kTileCellsPerGroup >= COUNTERS.visibleCells;
   uint visible = firstVisible + thread;
   bool isCell = thread < kTileCellsPerGroup && visible < COUNTERS.visibleCells;
-  if (thread == 0) lostPlace = 0xffffffffu;
+  if (thread == 0) pairEnd = candidateEnd = 0xffffffffu;
 
   uint count = isCell ? FRAME.tileCounts.v[visible] : 0;
-  uint before = pairsBefore(firstVisible);
-  uint total;
-  uint place = saturatingAdd(before, scanExclusive(count, total));
-  bool fits = saturatingAdd(place, count) <= FRAME.pairCapacity;
+  uint share = shareOfPairsBefore(firstVisible);
+  uint candidates = count > 0 ? takeCell(FRAME.order.v[visible]) : 0;
+  uvec3 total;
+  uvec3 start = scanExclusive(uvec3(count, candidates, share), total);
+  uint place = saturatingAdd(total.z, start.x);
   if (isCell) places[thread] = place;
-  if (!fits) atomicMin(lostPlace, place);
-  uint slot = isCell ? FRAME.order.v[visible] : 0;
-  uint candidates = gatherCandidates(isCell && fits && count > 0, slot);
+  if (count > 0 && saturatingAdd(place, count) > FRAME.pairCapacity) {
+    atomicMin(pairEnd, place);
+    atomicMin(candidateEnd, start.y);
+  }
+  startCandidates(start.y);
 
   UintArray histogram = FRAME.pairHistogram;
-  for (uint i = thread; i < candidates; i += kGroupSize) {
+  uint end = min(total.y, candidateEnd);
+  for (uint i = thread; i < end; i += kGroupSize) {
     TileCandidate candidate = candidateAt(i);
     if (!meetsTile(candidate)) continue;
     uint pair = checked(atomicAdd(places[candidate.cell], 1u), FRAME.pairCapacity);
@@ -60,9 +65,7 @@ void main() {
   }
 
   if (thread != 0) return;
-  uint end = saturatingAdd(before, total);
-  if (isLast) COUNTERS.pairs = end;
-  bool losesFirst = before <= FRAME.pairCapacity && end > FRAME.pairCapacity;
-  if (losesFirst) planPairs(lostPlace);
-  else if (isLast && end <= FRAME.pairCapacity) planPairs(end);
+  uint wanted = saturatingAdd(total.z, total.x);
+  if (isLast) COUNTERS.pairs = wanted;
+  if (wanted <= FRAME.pairCapacity ? isLast : total.z <= FRAME.pairCapacity) planPairs(min(wanted, pairEnd));
 }

@@ -12,22 +12,38 @@
 
 layout(local_size_x = kGroupSize) in;
 
-shared uint masks[kSortDigits][kMaskWords];  // [digit] a bit per thread that holds it
-shared uint places[kSortDigits];             // [digit] where its next key goes
+const uint kRounds = kSortKeysPerGroup / kGroupSize;
+const uint kRowQuads = kSortDigits / 4;            // a row is read by so many threads,
+const uint kRowsAtOnce = kGroupSize / kRowQuads;   // so many rows at once
 
-// Where the first key of `group` with this digit goes. A thread per digit.
-uint firstPlace(uint group, uint groups, uint digit) {
+shared uint masks[kSortDigits][kMaskWords];  // [digit] a bit per thread that holds it
+shared uint totals[kSortDigits];             // [digit] keys with it
+shared uint places[kSortDigits];             // [digit] where the workgroup's next key goes
+
+// Sets `totals`, and `places` to the keys of the groups before. Ends with a barrier.
+void sumRows(uint group, uint groups) {
+  uint thread = gl_LocalInvocationIndex;
+  uint quad = thread % kRowQuads;
+  uint firstRow = thread / kRowQuads;
   uint ownSum = group / kSortGroupsPerSum;
-  uint total = 0;
-  uint before = 0;
-  for (uint sum = 0; sum < groupsOver(groups, kSortGroupsPerSum); ++sum) {
-    uint count = push.histogram.v[sumPlace(sum, digit)];
-    total += count;
-    if (sum < ownSum) before += count;
+  uvec4 total = uvec4(0);
+  uvec4 before = uvec4(0);
+  for (uint sum = firstRow; sum < groupsOver(groups, kSortGroupsPerSum); sum += kRowsAtOnce) {
+    uvec4 counts = push.histogram.v[sumRow(sum) * kRowQuads + quad];
+    total += counts;
+    if (sum < ownSum) before += counts;
   }
-  for (uint i = ownSum * kSortGroupsPerSum; i < group; ++i) before += push.histogram.v[rowPlace(i, digit)];
-  uint keys;
-  return scanExclusive(total, keys) + before;
+  for (uint i = ownSum * kSortGroupsPerSum + firstRow; i < group; i += kRowsAtOnce) {
+    before += push.histogram.v[groupRow(i) * kRowQuads + quad];
+  }
+  totals[thread] = 0;
+  places[thread] = 0;
+  barrier();
+  for (uint i = 0; i < 4; ++i) {
+    atomicAdd(totals[4 * quad + i], total[i]);
+    atomicAdd(places[4 * quad + i], before[i]);
+  }
+  barrier();
 }
 
 uint rankAmongEqual(uint digit, uint thread) {
@@ -60,23 +76,31 @@ void moveKey(uint place, uint key, uint value) {
 void main() {
   uint thread = gl_LocalInvocationIndex;
   uint group = linearGroup();
-  uint keys = min(push.count.v[0], push.capacity);
-  uint groups = groupsOver(keys, kSortKeysPerGroup);
+  uint first = group * kSortKeysPerGroup + thread;
+  uint keys[kRounds];  // loaded before anything waits; what lies behind the last key is not used
+  uint values[kRounds];
+  for (uint round = 0; round < kRounds; ++round) {
+    uint index = min(first + round * kGroupSize, push.capacity - 1);
+    keys[round] = push.keysIn.v[index];
+    values[round] = push.valuesIn.v[index];
+  }
+  uint count = min(push.count.v[0], push.capacity);
+  uint groups = groupsOver(count, kSortKeysPerGroup);
   if (group >= groups) return;
-  places[thread] = firstPlace(group, groups, thread);
+  sumRows(group, groups);
+  uint all;
+  places[thread] += scanExclusive(totals[thread], all);
 
-  for (uint round = 0; round < kSortKeysPerGroup; round += kGroupSize) {
+  for (uint round = 0; round < kRounds; ++round) {
     for (uint word = 0; word < kMaskWords; ++word) masks[thread][word] = 0;
     barrier();
-    uint index = group * kSortKeysPerGroup + round + thread;
-    bool isKey = index < keys;
-    uint key = isKey ? push.keysIn.v[index] : 0;
-    uint digit = digitOf(key, push.shift);
+    bool isKey = first + round * kGroupSize < count;
+    uint digit = digitOf(keys[round], push.shift);
     if (isKey) atomicOr(masks[digit][thread / 32], 1u << (thread % 32));
     barrier();
     if (isKey) {
       uint place = checked(places[digit] + rankAmongEqual(digit, thread), push.capacity);
-      moveKey(place, key, push.valuesIn.v[index]);
+      moveKey(place, keys[round], values[round]);
     }
     barrier();
     for (uint word = 0; word < kMaskWords; ++word) places[thread] += bitCount(masks[thread][word]);

@@ -5,7 +5,8 @@
 namespace froth {
 namespace {
 
-// The tiles of a cell do not depend on its place in the order, so they are counted while the first digit is sorted.
+// The tiles of a cell do not depend on its place in the order, so they are counted while the first digit is
+// sorted.
 void recordCellSort(const Recording& recording, const PassRecorder& recorder) {
   const ViewBuffers& buffers = recording.view.buffers;
   const TallyLayout tallies = layOutTallies(buffers.capacity());

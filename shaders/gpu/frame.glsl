@@ -9,7 +9,9 @@ layout(constant_id = kConstantCheckIndices) const bool checkIndices = false;
 #if defined(FROTH_SORT)
 layout(push_constant) uniform Push {
   FrameRef frame;
-  UintArray keysIn, valuesIn, keysOut, valuesOut, count, histogram, nextHistogram;
+  UintArray keysIn, valuesIn, keysOut, valuesOut, count;
+  UintQuadArray histogram;
+  UintArray nextHistogram;
   uint shift, capacity, step;
 } push;
 #else

@@ -8,14 +8,13 @@ const uint kRowsPerSum = kSortGroupsPerSum + 1;
 
 uint digitOf(uint key, uint shift) { return key >> shift & (kSortDigits - 1); }
 
-// Where counts of a digit lie.
-uint sumPlace(uint sum, uint digit) { return sum * kRowsPerSum * kSortDigits + digit; }
-uint rowPlace(uint group, uint digit) { return (group + group / kSortGroupsPerSum + 1) * kSortDigits + digit; }
+uint sumRow(uint sum) { return sum * kRowsPerSum; }
+uint groupRow(uint group) { return group + group / kSortGroupsPerSum + 1; }
 
 void countDigit(UintArray histogram, uint place, uint digit) {
   uint group = place / kSortKeysPerGroup;
-  atomicAdd(histogram.v[rowPlace(group, digit)], 1u);
-  atomicAdd(histogram.v[sumPlace(group / kSortGroupsPerSum, digit)], 1u);
+  atomicAdd(histogram.v[groupRow(group) * kSortDigits + digit], 1u);
+  atomicAdd(histogram.v[sumRow(group / kSortGroupsPerSum) * kSortDigits + digit], 1u);
 }
 
 #endif

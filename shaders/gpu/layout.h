@@ -60,7 +60,7 @@ FROTH_CONST kFlagColour = 1;
 FROTH_CONST kFlagDistance = 2;
 FROTH_CONST kFlagNormal = 4;
 FROTH_CONST kFlagDisplayCoded = 8;
-FROTH_CONST kFlagOnlyPaired = 16;  // shade only cells that own a (tile, cell) pair
+FROTH_CONST kFlagOnlyPaired = 16;  // a raster: sort the cells, shade only those that own a (tile, cell) pair
 
 // How the bits of a chunk's live cells are to be read (runtime/asset/cell_packer.h).
 struct CellCode {

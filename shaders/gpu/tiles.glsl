@@ -3,7 +3,6 @@
 #define FROTH_GPU_TILES_GLSL
 #include "gpu/asset.glsl"
 #include "gpu/pixels.glsl"
-#include "gpu/workgroup.glsl"
 
 // First and last column and row of tiles that hold the ball's image; last < first: none.
 struct TileBounds {
@@ -45,24 +44,20 @@ shared vec4 balls[kTileCellsPerGroup];
 shared uvec3 corners[kTileCellsPerGroup];  // first column and row, columns
 shared uint starts[kTileCellsPerGroup];    // first candidate
 
-// How many candidates there are. A cell per thread, of the first kTileCellsPerGroup threads; `slot` matters where hasTiles.
-// Holds barriers.
-uint gatherCandidates(bool hasTiles, uint slot) {
-  uint thread = gl_LocalInvocationIndex;
-  uint count = 0;
-  if (hasTiles) {
-    Ball ball = visibleBall(FRAME.visibleCells.v[checked(slot, FRAME.visibleCapacity)]);
-    TileBounds bounds = tileBounds(ball);
-    uvec2 extent = uvec2(max(bounds.last - bounds.first + 1, 0));
-    count = extent.x * extent.y;
-    balls[thread] = vec4(ball.centre, ball.radius);
-    corners[thread] = uvec3(bounds.first, extent.x);
-  }
-  uint total;
-  uint start = scanExclusive(count, total);
-  if (thread < kTileCellsPerGroup) starts[thread] = start;
+// Makes the cell of a slot that of this thread, one of the first kTileCellsPerGroup. Returns how many candidates it has.
+uint takeCell(uint slot) {
+  Ball ball = visibleBall(FRAME.visibleCells.v[checked(slot, FRAME.visibleCapacity)]);
+  TileBounds bounds = tileBounds(ball);
+  uvec2 extent = uvec2(max(bounds.last - bounds.first + 1, 0));
+  balls[gl_LocalInvocationIndex] = vec4(ball.centre, ball.radius);
+  corners[gl_LocalInvocationIndex] = uvec3(bounds.first, extent.x);
+  return extent.x * extent.y;
+}
+
+// start: candidates of the threads before. Ends with a barrier.
+void startCandidates(uint start) {
+  if (gl_LocalInvocationIndex < kTileCellsPerGroup) starts[gl_LocalInvocationIndex] = start;
   barrier();
-  return total;
 }
 
 TileCandidate candidateAt(uint index) {

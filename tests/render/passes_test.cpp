@@ -238,14 +238,16 @@ class Bin : public Passes {
                                                          layOutTallies(view.buffers.capacity()).tileRanges);
     for (const auto& [beginInverted, end] : ranges) {
       std::vector<uint32_t>& slots = lists.tileSlots.emplace_back();
-      for (uint32_t pair = ~beginInverted; pair < end; ++pair) slots.push_back(lists.order.at(pairs.at(pair)));
+      for (uint32_t pair = ~beginInverted; pair < end; ++pair)
+        slots.push_back(lists.order.at(pairs.at(pair)));
     }
     return lists;
   }
 };
 
 // What a ray's tile must hold: every ball that one of its pixels' rays meets, nearest power first.
-void expectListsOfPixels(const Foam& foam, const View& camera, const std::vector<std::vector<uint32_t>>& tileCells) {
+void expectListsOfPixels(const Foam& foam, const View& camera,
+                         const std::vector<std::vector<uint32_t>>& tileCells) {
   const auto& world = camera.worldFromCamera;
   const glm::dvec3 right(world[0], world[4], world[8]), down(world[1], world[5], world[9]),
       forward(world[2], world[6], world[10]), eye(world[3], world[7], world[11]);
