@@ -1,4 +1,4 @@
-// How many tiles each visible cell's solid ball meets, and the sum of each workgroup. A thread per visible cell, nearest first.
+// How many tiles each visible cell's solid ball meets, by slot.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/tiles.glsl"
@@ -6,28 +6,20 @@
 
 layout(local_size_x = kGroupSize) in;
 
-uint countTiles(uint visible) {
-  uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
-  Ball ball = visibleBall(cell);
-  TileBounds bounds = tileBounds(ball);
-  uint count = 0;
-  for (int row = bounds.first.y; row <= bounds.last.y; ++row) {
-    for (int column = bounds.first.x; column <= bounds.last.x; ++column) {
-      if (tileMeetsBall(ivec2(column, row), ball)) ++count;
-    }
-  }
-  return count;
-}
+shared uint counts[kTileCellsPerGroup];
 
 void main() {
-  uint group = linearGroup();
-  uint visible = group * kGroupSize + gl_LocalInvocationIndex;
-  uint count = 0;
-  if (visible < COUNTERS.visibleCells) {
-    count = countTiles(visible);
-    FRAME.tileCounts.v[visible] = count;
+  uint thread = gl_LocalInvocationIndex;
+  uint slot = linearGroup() * kTileCellsPerGroup + thread;
+  bool isCell = thread < kTileCellsPerGroup && slot < COUNTERS.visibleCells;
+  if (isCell) counts[thread] = 0;
+  uint candidates;
+  startCandidates(scanExclusive(isCell ? takeCell(slot) : 0, candidates));
+
+  for (uint i = thread; i < candidates; i += kGroupSize) {
+    TileCandidate candidate = candidateAt(i);
+    if (meetsTile(candidate)) atomicAdd(counts[candidate.cell], 1u);
   }
-  uint total;
-  scanExclusive(count, total);
-  if (gl_LocalInvocationIndex == 0 && group * kGroupSize < COUNTERS.visibleCells) FRAME.groupSums.v[group] = uvec2(total, 0);
+  barrier();
+  if (isCell) FRAME.slotTiles.v[slot] = counts[thread];
 }

@@ -1,6 +1,6 @@
 // Which live cells this view can see: near tests, then the solid ball against all rays of the view. For a walk the cells that only
-// guide it are listed too. A thread per cell of the chunk gl_WorkGroupID.y; a bit per cell and, per workgroup, the count of
-// visible cells and of their planes.
+// guide it are listed too. A thread per cell of the chunk gl_WorkGroupID.y; a bit per cell and, per workgroup and per kGroupSize
+// of these, the count of visible cells and of their planes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
@@ -45,5 +45,7 @@ void main() {
     uint cells = 0;
     for (uint word = 0; word < kMaskWords; ++word) cells += bitCount(maskWords[word]);
     FRAME.groupSums.v[checked(group, groups)] = uvec2(cells, planes);
+    if (cells > 0) atomicAdd(FRAME.superSums.v[group / kGroupSize].x, cells);
+    if (planes > 0) atomicAdd(FRAME.superSums.v[group / kGroupSize].y, planes);
   }
 }

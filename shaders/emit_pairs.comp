@@ -1,35 +1,71 @@
-// Writes the (tile, visible cell) pairs in the order of the cells. Pairs beyond the capacity are lost: those of the
-// farthest cells.
+// Writes the (tile, visible cell) pairs in the order of the cells, and plans their sort. The pairs of one cell come in any
+// order. Cells whose pairs do not all find space have none, and so have all cells behind them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "gpu/histogram.glsl"
 #include "gpu/tiles.glsl"
+#define FROTH_SCANNED uvec3
 #include "gpu/workgroup.glsl"
 
 layout(local_size_x = kGroupSize) in;
 
-void emitPairs(uint visible, uint pair, uint end) {
-  uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
-  Ball ball = visibleBall(cell);
-  TileBounds bounds = tileBounds(ball);
-  for (int row = bounds.first.y; row <= bounds.last.y; ++row) {
-    for (int column = bounds.first.x; column <= bounds.last.x; ++column) {
-      if (pair >= end) return;
-      if (!tileMeetsBall(ivec2(column, row), ball)) continue;
-      FRAME.pairTiles.v[pair] = uint(row) * FRAME.tilesX + uint(column);
-      FRAME.pairCells.v[pair] = visible;
-      ++pair;
-    }
+shared uint places[kTileCellsPerGroup];  // [cell] where its next pair goes
+shared uint pairEnd, candidateEnd;       // of the first cell whose pairs lack space: where they would begin
+
+// Pairs of the cells before the workgroup's: this thread's share of the sum.
+uint shareOfPairsBefore(uint firstVisible) {
+  uint thread = gl_LocalInvocationIndex;
+  uint ownSum = firstVisible / kCellsPerTileSum;
+  uint sum = 0;
+  for (uint i = thread; i < ownSum; i += kGroupSize) sum = saturatingAdd(sum, FRAME.tileSums.v[i]);
+  for (uint i = ownSum * kCellsPerTileSum + thread; i < firstVisible; i += kGroupSize) {
+    sum = saturatingAdd(sum, FRAME.tileCounts.v[i]);
   }
+  return sum;
+}
+
+// By the workgroup that loses the first pair, or else by the last one.
+void planPairs(uint kept) {
+  COUNTERS.pairsKept = kept;
+  COUNTERS.pairSortDispatch = dispatchOf(groupsOver(kept, kSortKeysPerGroup));
 }
 
 void main() {
-  uint group = linearGroup();
-  uint visible = group * kGroupSize + gl_LocalInvocationIndex;
-  bool isCell = visible < COUNTERS.visibleCells;
+  uint thread = gl_LocalInvocationIndex;
+  uint firstVisible = linearGroup() * kTileCellsPerGroup;
+  if (firstVisible >= COUNTERS.visibleCells) return;
+  bool isLast = firstVisible + kTileCellsPerGroup >= COUNTERS.visibleCells;
+  uint visible = firstVisible + thread;
+  bool isCell = thread < kTileCellsPerGroup && visible < COUNTERS.visibleCells;
+  if (thread == 0) pairEnd = candidateEnd = 0xffffffffu;
+
   uint count = isCell ? FRAME.tileCounts.v[visible] : 0;
-  uint total;
-  uint before = scanExclusive(count, total);
-  if (!isCell || count == 0) return;
-  uint first = saturatingAdd(FRAME.groupSums.v[group].x, before);
-  emitPairs(visible, first, min(saturatingAdd(first, count), FRAME.pairCapacity));
+  uint share = shareOfPairsBefore(firstVisible);
+  uint candidates = count > 0 ? takeCell(FRAME.order.v[visible]) : 0;
+  uvec3 total;
+  uvec3 start = scanExclusive(uvec3(count, candidates, share), total);
+  uint place = saturatingAdd(total.z, start.x);
+  if (isCell) places[thread] = place;
+  if (count > 0 && saturatingAdd(place, count) > FRAME.pairCapacity) {
+    atomicMin(pairEnd, place);
+    atomicMin(candidateEnd, start.y);
+  }
+  startCandidates(start.y);
+
+  UintArray histogram = FRAME.pairHistogram;
+  uint end = min(total.y, candidateEnd);
+  for (uint i = thread; i < end; i += kGroupSize) {
+    TileCandidate candidate = candidateAt(i);
+    if (!meetsTile(candidate)) continue;
+    uint pair = checked(atomicAdd(places[candidate.cell], 1u), FRAME.pairCapacity);
+    uint tile = candidate.tile.y * FRAME.tilesX + candidate.tile.x;
+    FRAME.pairTiles.v[pair] = tile;
+    FRAME.pairCells.v[pair] = firstVisible + candidate.cell;
+    countDigit(histogram, pair, digitOf(tile, 0));
+  }
+
+  if (thread != 0) return;
+  uint wanted = saturatingAdd(total.z, total.x);
+  if (isLast) COUNTERS.pairs = wanted;
+  if (wanted <= FRAME.pairCapacity ? isLast : total.z <= FRAME.pairCapacity) planPairs(min(wanted, pairEnd));
 }

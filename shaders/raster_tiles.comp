@@ -79,7 +79,7 @@ void main() {
   vec3 direction = normalize(pixelRay(vec2(pixel)));
   Radiance radiance = emptyRadiance();
 
-  for (uint first = range.x; first < range.y; first += kBatch) {
+  for (uint first = ~range.x; first < range.y; first += kBatch) {
     bool isLive = isInside && !isSaturated(radiance);
     if (lane < kBatch / 32) keptMask[lane] = 0;
     if (lane == 0) liveMask = 0;

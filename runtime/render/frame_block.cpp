@@ -61,7 +61,6 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
       static_cast<uint32_t>(std::min(uint64_t{capacity.cells}, capacity.sites / asset.detailCount));
   block.planeCapacity = static_cast<uint32_t>(capacity.planes);
   block.pairCapacity = capacity.pairs;
-  block.histogramCapacity = static_cast<uint32_t>(buffers[ViewBuffer::kHistogram].size / sizeof(uint32_t));
   block.groupSums = buffers[ViewBuffer::kGroupSums].address;
   block.visibility = buffers[ViewBuffer::kVisibility].address;
   block.visibleCells = buffers[ViewBuffer::kVisibleCells].address;
@@ -70,14 +69,19 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
   block.records = buffers[ViewBuffer::kRecords].address;
   block.planes = buffers[ViewBuffer::kPlanes].address;
   block.sites = buffers[ViewBuffer::kSites].address;
+  block.slotTiles = buffers[ViewBuffer::kSlotTiles].address;
   block.tileCounts = buffers[ViewBuffer::kTileCounts].address;
   block.pairTiles = buffers[ViewBuffer::kPairTiles].address;
   block.pairCells = buffers[ViewBuffer::kPairCells].address;
-  const bool endsInSwap = tileDigits(region) % 2 != 0;
-  block.sortedTiles = buffers[endsInSwap ? ViewBuffer::kPairTilesSwap : ViewBuffer::kPairTiles].address;
+  const bool endsInSwap = digitsOf(tilesOf(region)) % 2 != 0;
   block.tileCells = buffers[endsInSwap ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells].address;
-  block.tileRanges = buffers[ViewBuffer::kTileRanges].address;
-  block.histogram = buffers[ViewBuffer::kHistogram].address;
+  const VkDeviceAddress tallies = buffers[ViewBuffer::kTallies].address;
+  const TallyLayout layout = layOutTallies(capacity);
+  block.superSums = tallies + layout.superSums;
+  block.tileRanges = tallies + layout.tileRanges;
+  block.tileSums = tallies + layout.tileSums;
+  block.cellHistogram = tallies + layout.cellHistograms;
+  block.pairHistogram = tallies + layout.pairHistograms;
   block.walkStart = buffers[ViewBuffer::kWalkStart].address;
 }
 
@@ -87,11 +91,8 @@ uint32_t tilesAlong(uint32_t pixels) {
   return (pixels + gpu::kTileSize - 1) / gpu::kTileSize;
 }
 
-uint32_t tileDigits(const VkRect2D& region) {
-  const uint32_t lastTile = tilesAlong(region.extent.width) * tilesAlong(region.extent.height) - 1;
-  uint32_t digits = 1;
-  while (lastTile >> (8 * digits) != 0) ++digits;
-  return digits;
+uint32_t tilesOf(const VkRect2D& region) {
+  return tilesAlong(region.extent.width) * tilesAlong(region.extent.height);
 }
 
 void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block) {

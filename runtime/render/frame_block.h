@@ -19,8 +19,7 @@ struct RecordingPlace {
 // Tiles over a region.
 uint32_t tilesAlong(uint32_t pixels);
 
-// Bytes of a tile number that a stable sort by tile has to look at.
-uint32_t tileDigits(const VkRect2D& region);
+uint32_t tilesOf(const VkRect2D& region);
 
 // What a clear needs: region, outputs, scale.
 void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block);

@@ -2,22 +2,24 @@
 
 #include <utility>
 
+#include "runtime/render/view_capacity.h"
+
 namespace froth {
 
 void PassRecorder::bind(Pass pass) const {
   vk.vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[static_cast<uint32_t>(pass)]);
 }
 
-void PassRecorder::run(Pass pass, uint32_t groupsX, uint32_t groupsY, uint32_t mode) const {
+void PassRecorder::run(Pass pass, uint32_t groupsX, uint32_t groupsY) const {
   bind(pass);
-  const gpu::PassConstants constants{frame, mode, 0};
+  const gpu::PassConstants constants{frame};
   vk.vkCmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
   vk.vkCmdDispatch(commandBuffer, groupsX, groupsY, 1);
 }
 
 void PassRecorder::runIndirect(Pass pass, size_t dispatch) const {
   bind(pass);
-  const gpu::PassConstants constants{frame, 0, 0};
+  const gpu::PassConstants constants{frame};
   vk.vkCmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
   dispatchIndirect(dispatch);
 }
@@ -34,25 +36,31 @@ void PassRecorder::wait() const {
                              VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
-void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits) {
-  gpu::SortConstants constants{
-      recorder.frame, arrays.keys, arrays.values,  arrays.keysSwap, arrays.valuesSwap,
-      arrays.count,   0,           arrays.capacity};
+void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits, uint32_t lastStep) {
+  gpu::SortConstants constants{.frame = recorder.frame,
+                               .keysIn = arrays.keys,
+                               .valuesIn = arrays.values,
+                               .keysOut = arrays.keysSwap,
+                               .valuesOut = arrays.valuesSwap,
+                               .count = arrays.count,
+                               .histogram = arrays.histograms,
+                               .nextHistogram = arrays.histograms + histogramBytes(arrays.capacity),
+                               .shift = 0,
+                               .capacity = arrays.capacity,
+                               .step = gpu::kSortCountNextDigit,
+                               .padding = 0};
+  recorder.bind(Pass::kSortScatter);
   for (uint32_t digit = 0; digit < digits; ++digit) {
     constants.shift = 8 * digit;
+    if (digit + 1 == digits) constants.step = lastStep;
     recorder.vk.vkCmdPushConstants(recorder.commandBuffer, recorder.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                    sizeof(constants), &constants);
-    recorder.bind(Pass::kSortHistogram);
-    recorder.dispatchIndirect(arrays.dispatch);
-    recorder.wait();
-    recorder.bind(Pass::kSortScan);
-    recorder.vk.vkCmdDispatch(recorder.commandBuffer, gpu::kGroupSize, 1, 1);
-    recorder.wait();
-    recorder.bind(Pass::kSortScatter);
     recorder.dispatchIndirect(arrays.dispatch);
     recorder.wait();
     std::swap(constants.keysIn, constants.keysOut);
     std::swap(constants.valuesIn, constants.valuesOut);
+    constants.histogram = constants.nextHistogram;
+    constants.nextHistogram += histogramBytes(arrays.capacity);
   }
 }
 

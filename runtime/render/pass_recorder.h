@@ -18,7 +18,7 @@ struct PassRecorder {
   VkBuffer counters;      // Counters, and where in the buffer
   VkDeviceSize countersOffset;
 
-  void run(Pass pass, uint32_t groupsX, uint32_t groupsY = 1, uint32_t mode = 0) const;
+  void run(Pass pass, uint32_t groupsX, uint32_t groupsY = 1) const;
   // dispatch: offset of the size in gpu::Counters.
   void runIndirect(Pass pass, size_t dispatch) const;
   // Later passes see what earlier ones wrote.
@@ -32,12 +32,13 @@ struct PassRecorder {
 struct SortArrays {
   VkDeviceAddress keys, values, keysSwap, valuesSwap;  // uint [capacity]
   VkDeviceAddress count;                               // uint: how many, at most capacity
+  VkDeviceAddress histograms;  // [digits * histogramBytes(capacity)]: that of the lowest digit, then zeros
   uint32_t capacity;
   size_t dispatch;  // offset in gpu::Counters of a size of one workgroup per kSortKeysPerGroup keys
 };
 
 // Sorts stably by the low `digits` bytes of the keys, ascending. Ends in the swaps if `digits` is odd. Ends
-// with a barrier.
-void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits);
+// with a barrier. lastStep: gpu::kSort..., what the pass over the last digit does besides.
+void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits, uint32_t lastStep);
 
 }  // namespace froth

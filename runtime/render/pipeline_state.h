@@ -13,27 +13,23 @@ namespace froth {
 // The passes that come in two forms write the colour image: rgba16f, rgba32f.
 enum class Pass : uint32_t {
   kCullCells,
-  kCompactCells,
-  kSortHistogram,
-  kSortScan,
   kSortScatter,
   kCountTiles,
   kEmitPairs,
-  kFindRanges,
   kExpandCells,
   kLocate,
   kClear16,
   kClear32,
   // from here on specialized on the asset's shape
-  kScanGroups,
+  kCompactCells,
   kShadeSites,
   kRaster16,
   kRaster32,
   kWalk16,
   kWalk32,
 };
-inline constexpr uint32_t kPassCount = 18;
-inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kScanGroups);
+inline constexpr uint32_t kPassCount = 14;
+inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.
 struct AssetShape {
@@ -51,7 +47,7 @@ struct RenderPipelines::State {
   VkPipelineCache cache = VK_NULL_HANDLE;
   ShaderOptions options{};
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // the output images
-  VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 64 bytes of push constants
+  VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 80 bytes of push constants
   PassPipelines common{};                            // null from kFirstShapedPass on
   std::map<AssetShape, PassPipelines>
       byShape{};  // complete; guarded by `mutex`, entries never change or move

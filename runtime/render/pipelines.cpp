@@ -11,14 +11,10 @@
 #include "spirv/cull_cells.h"
 #include "spirv/emit_pairs.h"
 #include "spirv/expand_cells.h"
-#include "spirv/find_ranges.h"
 #include "spirv/locate.h"
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
-#include "spirv/scan_groups.h"
 #include "spirv/shade_sites.h"
-#include "spirv/sort_histogram.h"
-#include "spirv/sort_scan.h"
 #include "spirv/sort_scatter.h"
 #include "spirv/walk_rgba16f.h"
 #include "spirv/walk_rgba32f.h"
@@ -26,7 +22,7 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kPushConstantBytes = 64;
+constexpr uint32_t kPushConstantBytes = 80;
 static_assert(sizeof(gpu::SortConstants) <= kPushConstantBytes &&
               sizeof(gpu::PassConstants) <= kPushConstantBytes);
 
@@ -38,18 +34,14 @@ struct PassCode {
 // In the order of Pass.
 const std::array<PassCode, kPassCount> kPassCodes = {{
     {"cull_cells", cull_cells_spirv},
-    {"compact_cells", compact_cells_spirv},
-    {"sort_histogram", sort_histogram_spirv},
-    {"sort_scan", sort_scan_spirv},
     {"sort_scatter", sort_scatter_spirv},
     {"count_tiles", count_tiles_spirv},
     {"emit_pairs", emit_pairs_spirv},
-    {"find_ranges", find_ranges_spirv},
     {"expand_cells", expand_cells_spirv},
     {"locate", locate_spirv},
     {"clear_rgba16f", clear_rgba16f_spirv},
     {"clear_rgba32f", clear_rgba32f_spirv},
-    {"scan_groups", scan_groups_spirv},
+    {"compact_cells", compact_cells_spirv},
     {"shade_sites", shade_sites_spirv},
     {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv},
     {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv},

@@ -5,37 +5,36 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kKeyDigits = 4;  // bytes of a cell's key
-
+// The tiles of a cell do not depend on its place in the order, so they are counted while the first digit is
+// sorted.
 void recordCellSort(const Recording& recording, const PassRecorder& recorder) {
   const ViewBuffers& buffers = recording.view.buffers;
+  const TallyLayout tallies = layOutTallies(buffers.capacity());
   const VkDeviceAddress counters = recording.countersAddress();
+  recorder.runIndirect(Pass::kCountTiles, offsetof(gpu::Counters, tileDispatch));
   recordSort(recorder,
              {buffers[ViewBuffer::kCellKeys].address, buffers[ViewBuffer::kOrder].address,
               buffers[ViewBuffer::kCellKeysSwap].address, buffers[ViewBuffer::kOrderSwap].address,
-              counters + offsetof(gpu::Counters, visibleCells), buffers.capacity().cells,
+              counters + offsetof(gpu::Counters, visibleCells),
+              buffers[ViewBuffer::kTallies].address + tallies.cellHistograms, buffers.capacity().cells,
               offsetof(gpu::Counters, cellSortDispatch)},
-             kKeyDigits);
+             kCellKeyDigits, gpu::kSortTakeTileCounts);
 }
 
 // Pairs leave the cells in their order; a stable sort by tile keeps it within each tile.
 void recordBin(const Recording& recording, const PassRecorder& recorder) {
   const ViewBuffers& buffers = recording.view.buffers;
+  const TallyLayout tallies = layOutTallies(buffers.capacity());
   const VkDeviceAddress counters = recording.countersAddress();
-  recorder.runIndirect(Pass::kCountTiles, offsetof(gpu::Counters, visibleDispatch));
-  recorder.wait();
-  recorder.run(Pass::kScanGroups, 1, 1, gpu::kScanPairs);
-  recorder.wait();
-  recorder.runIndirect(Pass::kEmitPairs, offsetof(gpu::Counters, visibleDispatch));
+  recorder.runIndirect(Pass::kEmitPairs, offsetof(gpu::Counters, tileDispatch));
   recorder.wait();
   recordSort(recorder,
              {buffers[ViewBuffer::kPairTiles].address, buffers[ViewBuffer::kPairCells].address,
               buffers[ViewBuffer::kPairTilesSwap].address, buffers[ViewBuffer::kPairCellsSwap].address,
-              counters + offsetof(gpu::Counters, pairsKept), buffers.capacity().pairs,
+              counters + offsetof(gpu::Counters, pairsKept),
+              buffers[ViewBuffer::kTallies].address + tallies.pairHistograms, buffers.capacity().pairs,
               offsetof(gpu::Counters, pairSortDispatch)},
-             tileDigits(recording.info.camera.scissor));
-  recorder.runIndirect(Pass::kFindRanges, offsetof(gpu::Counters, pairDispatch));
-  recorder.wait();
+             digitsOf(tilesOf(recording.info.camera.scissor)), gpu::kSortFindRanges);
 }
 
 }  // namespace

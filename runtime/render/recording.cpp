@@ -33,8 +33,12 @@ void recordUpload(const Recording& recording, const GpuAsset* asset) {
                      buffers[ViewBuffer::kFrames].buffer, 1, &copy);
   vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer,
                      recording.countersOffset(), sizeof(gpu::Counters), 0);
-  if (recording.kind == RecordingKind::kRaster) {
-    vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kTileRanges].buffer, 0, VK_WHOLE_SIZE, 0);
+  if (recording.kind != RecordingKind::kClear) {
+    const TallyLayout tallies = layOutTallies(buffers.capacity());
+    const bool isWalk = recording.kind == RecordingKind::kWalk;
+    const uint64_t first = isWalk ? tallies.superSums : 0;
+    const uint64_t end = isWalk ? tallies.tileSums : tallies.end;
+    vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kTallies].buffer, first, end - first, 0);
   }
   if (recording.kind == RecordingKind::kWalk && view.walkAsset != asset) {
     vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kWalkStart].buffer, 0, VK_WHOLE_SIZE, 0);
@@ -123,8 +127,6 @@ void recordCull(const PassRecorder& recorder, const GpuAsset& asset) {
   const uint32_t groups = groupsPerChunk(asset);
   const auto chunks = static_cast<uint32_t>(asset.chunks.size());
   recorder.run(Pass::kCullCells, groups, chunks);
-  recorder.wait();
-  recorder.run(Pass::kScanGroups, 1, 1, gpu::kScanVisible);
   recorder.wait();
   recorder.run(Pass::kCompactCells, groups, chunks);
   recorder.wait();

@@ -1,6 +1,5 @@
 #include "runtime/render/view_buffers.h"
 
-#include <algorithm>
 #include <initializer_list>
 
 #include "shaders/gpu/layout.h"
@@ -27,7 +26,7 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
     case ViewBuffer::kCounters:
       return kRecordingsPerFrame * kBlockStride;
     case ViewBuffer::kGroupSums:
-      return 8 * VkDeviceSize{std::max(capacity.groups, groupsOver(capacity.cells, gpu::kGroupSize))};
+      return 8 * VkDeviceSize{capacity.groups};
     case ViewBuffer::kVisibility:
       return 8 * gpu::kMaskWords * VkDeviceSize{capacity.groups};
     case ViewBuffer::kVisibleCells:
@@ -42,6 +41,7 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
     case ViewBuffer::kCellKeysSwap:
     case ViewBuffer::kOrder:
     case ViewBuffer::kOrderSwap:
+    case ViewBuffer::kSlotTiles:
     case ViewBuffer::kTileCounts:
       return 4 * cells;
     case ViewBuffer::kPairTiles:
@@ -49,11 +49,8 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
     case ViewBuffer::kPairCells:
     case ViewBuffer::kPairCellsSwap:
       return 4 * pairs;
-    case ViewBuffer::kTileRanges:
-      return 8 * VkDeviceSize{capacity.tiles};
-    case ViewBuffer::kHistogram:
-      return 4 * gpu::kGroupSize *
-             (1 + VkDeviceSize{groupsOver(std::max(capacity.cells, capacity.pairs), gpu::kSortKeysPerGroup)});
+    case ViewBuffer::kTallies:
+      return layOutTallies(capacity).end;
     case ViewBuffer::kWalkStart:
       return 16;
   }
@@ -120,11 +117,11 @@ void ViewBuffers::describeMemory(FrothViewStatus& status) const {
   using enum ViewBuffer;
   add("frames", {kFrames, kCounters, kWalkStart});
   add("visibility of all cells", {kGroupSums, kVisibility});
-  add("visible cells", {kVisibleCells, kCellKeys, kCellKeysSwap, kOrder, kOrderSwap, kTileCounts, kHistogram});
+  add("visible cells", {kVisibleCells, kCellKeys, kCellKeysSwap, kOrder, kOrderSwap, kSlotTiles, kTileCounts});
   add("records", {kRecords});
   add("planes", {kPlanes});
   add("sites", {kSites});
-  add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTileRanges});
+  add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies});
 }
 
 VkDeviceSize ViewBuffers::recordingStride() const {

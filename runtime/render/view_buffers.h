@@ -29,13 +29,13 @@ enum class ViewBuffer : uint32_t {
   kRecords,
   kPlanes,
   kSites,
+  kSlotTiles,
   kTileCounts,
   kPairTiles,
   kPairTilesSwap,
   kPairCells,
   kPairCellsSwap,
-  kTileRanges,
-  kHistogram,
+  kTallies,  // TallyLayout
   kWalkStart,
 };
 inline constexpr uint32_t kViewBufferCount = 22;

@@ -44,6 +44,29 @@ ViewDemand demandOf(const gpu::Counters& counters) {
   return {counters.cellsWanted, counters.planesWanted, counters.pairs + share * lostCells};
 }
 
+uint32_t digitsOf(uint32_t count) {
+  uint32_t digits = 1;
+  while ((count - 1) >> (8 * digits) != 0) ++digits;
+  return digits;
+}
+
+uint64_t histogramBytes(uint32_t keys) {
+  const uint64_t groups = groupsOver(keys, gpu::kSortKeysPerGroup);
+  const uint64_t sums = (groups + gpu::kSortGroupsPerSum - 1) / gpu::kSortGroupsPerSum;
+  return gpu::kSortDigits * sizeof(uint32_t) * (groups + sums);
+}
+
+TallyLayout layOutTallies(const ViewCapacity& capacity) {
+  TallyLayout layout;
+  layout.cellHistograms = 0;
+  layout.pairHistograms = kCellKeyDigits * histogramBytes(capacity.cells);
+  layout.tileRanges = layout.pairHistograms + digitsOf(capacity.tiles) * histogramBytes(capacity.pairs);
+  layout.superSums = layout.tileRanges + sizeof(uint32_t[2]) * capacity.tiles;
+  layout.tileSums = layout.superSums + sizeof(uint32_t[2]) * groupsOver(capacity.groups, gpu::kGroupSize);
+  layout.end = layout.tileSums + sizeof(uint32_t) * groupsOver(capacity.cells, gpu::kCellsPerTileSum);
+  return layout;
+}
+
 uint32_t groupsPerChunk(const GpuAsset& asset) {
   uint32_t groups = 1;
   for (const GpuChunk& chunk : asset.chunks) {

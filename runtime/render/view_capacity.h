@@ -36,6 +36,23 @@ ViewDemand largest(const ViewDemand& a, const ViewDemand& b);
 // Workgroups over a list.
 inline uint32_t groupsOver(uint32_t items, uint32_t perGroup) { return (items + perGroup - 1) / perGroup; }
 
+inline constexpr uint32_t kCellKeyDigits = 4;  // bytes of a cell's sort key
+
+// Bytes of a number below `count` [> 0] that a radix sort has to look at.
+uint32_t digitsOf(uint32_t count);
+
+// Size of the histogram of one digit over a list of up to `keys` (shaders/gpu/histogram.glsl).
+uint64_t histogramBytes(uint32_t keys);
+
+// [bytes] Where in ViewBuffer::kTallies lies what every recording clears: of a walk only the superSums.
+struct TallyLayout {
+  uint64_t cellHistograms, pairHistograms;  // one per digit
+  uint64_t tileRanges, superSums, tileSums;
+  uint64_t end;
+};
+
+TallyLayout layOutTallies(const ViewCapacity& capacity);
+
 // Workgroups over the cells of an asset's largest chunk.
 uint32_t groupsPerChunk(const GpuAsset& asset);
 

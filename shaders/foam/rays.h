@@ -13,10 +13,8 @@ FOAM_FN real guardedRadius(real3 centre, real radius) {
 
 // Whether the ray along `direction` meets the ball. The eye lies outside.
 FOAM_FN bool rayMeetsBall(real3 centre, real radius, real3 direction) {
-  real along = dot(centre, direction);
-  if (!(along > real(0))) return false;
-  real3 perpendicular = centre - direction * (along / dot(direction, direction));
-  return dot(perpendicular, perpendicular) <= radius * radius;
+  real3 moment = cross(centre, direction);
+  return dot(centre, direction) > real(0) && dot(moment, moment) <= radius * radius * dot(direction, direction);
 }
 
 // Whether a ray start + s edge, 0 <= s <= 1, meets the ball: the ray nearest to the centre decides. Where the stationary
@@ -36,6 +34,8 @@ FOAM_FN bool edgeMeetsBall(real3 centre, real radius, real3 start, real3 edge) {
 }
 
 // Whether any ray of the rectangle meets the ball; true for balls that hold the origin. Exact up to a guard that only adds.
+// The ball's image is convex. If the centre has an image, it is part of that, so a ball that meets the rectangle meets the
+// centre or one of the at most two edges that face it.
 FOAM_FN bool rectangleMeetsBall(real3 centre, real exactRadius, real3 corner, real3 edgeX, real3 edgeY) {
   real radius = guardedRadius(centre, exactRadius);
   if (dot(centre, centre) <= radius * radius) return true;
@@ -46,8 +46,15 @@ FOAM_FN bool rectangleMeetsBall(real3 centre, real exactRadius, real3 corner, re
   real ws = dot(centre, cross(edgeY, corner)) / determinant;
   real wt = dot(centre, cross(corner, edgeX)) / determinant;
   if (w > real(0) && ws >= real(0) && ws <= w && wt >= real(0) && wt <= w) return true;
-  return edgeMeetsBall(centre, radius, corner, edgeX) || edgeMeetsBall(centre, radius, corner + edgeY, edgeX) ||
-         edgeMeetsBall(centre, radius, corner, edgeY) || edgeMeetsBall(centre, radius, corner + edgeX, edgeY);
+  bool isBehind = !(w > real(0));
+  real3 alongX = wt > w ? corner + edgeY : corner;
+  real3 alongY = ws > w ? corner + edgeX : corner;
+  if ((isBehind || wt < real(0) || wt > w) && edgeMeetsBall(centre, radius, alongX, edgeX)) return true;
+  if ((isBehind || ws < real(0) || ws > w) && edgeMeetsBall(centre, radius, alongY, edgeY)) return true;
+  if (!isBehind) return false;
+  alongX = wt > w ? corner : corner + edgeY;
+  alongY = ws > w ? corner : corner + edgeX;
+  return edgeMeetsBall(centre, radius, alongX, edgeX) || edgeMeetsBall(centre, radius, alongY, edgeY);
 }
 
 // Interval of x in which planes through the origin with normal n0 + x n1 cut the ball; a ball's image lies between its

@@ -10,12 +10,13 @@ layout(constant_id = kConstantCheckIndices) const bool checkIndices = false;
 layout(push_constant) uniform Push {
   FrameRef frame;
   UintArray keysIn, valuesIn, keysOut, valuesOut, count;
-  uint shift, capacity;
+  UintQuadArray histogram;
+  UintArray nextHistogram;
+  uint shift, capacity, step;
 } push;
 #else
 layout(push_constant) uniform Push {
   FrameRef frame;
-  uint mode;
 } push;
 #endif
 
@@ -34,6 +35,8 @@ uint checked(uint index, uint count) {
 
 // Dispatches over long lists are two-dimensional: one dimension may be limited to 65535 workgroups.
 uint linearGroup() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
+uint groupsOver(uint items, uint perGroup) { return items / perGroup + (items % perGroup != 0 ? 1 : 0); }
 
 uvec4 dispatchOf(uint groups) {
   uint rows = (groups + 65534u) / 65535u;

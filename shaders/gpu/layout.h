@@ -30,7 +30,11 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer FloatQuadAr
 #endif
 
 FROTH_CONST kGroupSize = 256;         // threads of a workgroup in all passes over lists
-FROTH_CONST kSortKeysPerGroup = 1024; // keys one workgroup ranks in a radix pass
+FROTH_CONST kSortDigits = 256;        // values of a digit, as many as a workgroup has threads
+FROTH_CONST kSortKeysPerGroup = 512;  // keys one workgroup ranks in a radix pass
+FROTH_CONST kSortGroupsPerSum = 32;   // rows of a histogram that have a row of sums before them
+FROTH_CONST kTileCellsPerGroup = 64;  // visible cells whose tiles one workgroup tests
+FROTH_CONST kCellsPerTileSum = 1024;  // visible cells whose tiles are summed for the prefixes of pairs
 FROTH_CONST kTileSize = 32;           // [pixels] edge of the tiles that own lists
 FROTH_CONST kSubTileSize = 8;         // [pixels] edge of what one workgroup of the raster draws
 FROTH_CONST kMaskWords = 8;           // words of a bit per thread of a workgroup
@@ -39,9 +43,10 @@ FROTH_CONST kUnlisted = 0x80000000u;  // in a walk's link: the other bits are a 
 FROTH_CONST kLanesPerCell = 32;       // threads that expand one visible cell
 FROTH_CONST kWholeBall = 0x40202020u; // ChunkContents::solidBalls: the cell's own ball
 
-// PassConstants::mode of scan_groups.comp: whose totals it scans.
-FROTH_CONST kScanVisible = 0;
-FROTH_CONST kScanPairs = 1;
+// SortConstants::step: what a pass of the radix sort does with a key besides moving it.
+FROTH_CONST kSortCountNextDigit = 0;
+FROTH_CONST kSortTakeTileCounts = 1;  // last digit of cells
+FROTH_CONST kSortFindRanges = 2;      // last digit of pairs
 
 // Specialization constants of all shaders.
 FROTH_CONST kConstantCheckIndices = 0;
@@ -55,7 +60,7 @@ FROTH_CONST kFlagColour = 1;
 FROTH_CONST kFlagDistance = 2;
 FROTH_CONST kFlagNormal = 4;
 FROTH_CONST kFlagDisplayCoded = 8;
-FROTH_CONST kFlagOnlyPaired = 16;  // shade only cells that own a (tile, cell) pair
+FROTH_CONST kFlagOnlyPaired = 16;  // a raster: sort the cells, shade only those that own a (tile, cell) pair
 FROTH_CONST kFlagWalk = 32;        // list cells that guide walks too, and the planes of all neighbours
 
 // How the bits of a chunk's live cells are to be read (runtime/asset/cell_packer.h).
@@ -122,11 +127,10 @@ struct Counters {
   uint stepLimit;     // pixels whose walk was ended by maxSteps
   uint violations;    // indices out of range (checkIndices)
   uint padding;
-  uvec4 visibleDispatch;   // a thread per visible cell
   uvec4 expandDispatch;    // kLanesPerCell threads per visible cell
   uvec4 siteDispatch;      // a thread per detail site of a visible cell
   uvec4 cellSortDispatch;  // a workgroup per kSortKeysPerGroup visible cells
-  uvec4 pairDispatch;      // a thread per kept pair
+  uvec4 tileDispatch;      // a workgroup per kTileCellsPerGroup visible cells
   uvec4 pairSortDispatch;  // a workgroup per kSortKeysPerGroup kept pairs
   uint work[2 * kWorkKinds];  // low, high word by kind; stay zero without kConstantCountWork
 };
@@ -151,10 +155,11 @@ struct FrameBlock {
   uint flags, maxSteps, localBits;
   uint regionX, regionY, regionWidth, regionHeight;  // [pixels] what is drawn
   uint tilesX, tilesY, chunkCount, groupsPerChunk;   // groups: workgroups over a chunk's cells
-  uint visibleCapacity, planeCapacity, pairCapacity, histogramCapacity;
+  uint visibleCapacity, planeCapacity, pairCapacity, padding;
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
-  FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] or [groups over visible cells]
+  FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] visible cells, their planes
+  FROTH_ADDRESS(UintPairArray) superSums;      // [a kGroupSize-th of that] sums of kGroupSize groupSums
   FROTH_ADDRESS(UintPairArray) visibility;     // [chunkCount * groupsPerChunk * kMaskWords] 32 bits, slot of the first bit
   FROTH_ADDRESS(UintQuadArray) visibleCells;   // [slot] chunk, local index, first plane, planes
   FROTH_ADDRESS(UintArray) cellKeys;           // [slot] order-preserving bits of the power of the eye
@@ -162,13 +167,15 @@ struct FrameBlock {
   FROTH_ADDRESS(RecordArray) records;          // [visible cell]
   FROTH_ADDRESS(FloatQuadArray) planes;        // [planeCapacity] xyz: s = dot(xyz, direction) = 1 / t; w for a walk: link
   FROTH_ADDRESS(FloatQuadArray) sites;         // [visible cell * K * 2] (detailTerms, height), (rgb, 0)
-  FROTH_ADDRESS(UintArray) tileCounts;         // [visible cell] tiles its solid ball meets
+  FROTH_ADDRESS(UintArray) slotTiles;          // [slot] tiles its solid ball meets
+  FROTH_ADDRESS(UintArray) tileCounts;         // [visible cell] the same
+  FROTH_ADDRESS(UintArray) tileSums;           // [visible cell / kCellsPerTileSum] their sums
   FROTH_ADDRESS(UintArray) pairTiles;          // [pair] as emitted
   FROTH_ADDRESS(UintArray) pairCells;
   FROTH_ADDRESS(UintArray) tileCells;          // [pair] visible cells in the order of tiles
-  FROTH_ADDRESS(UintArray) sortedTiles;        // [pair] tile of that pair
-  FROTH_ADDRESS(UintPairArray) tileRanges;     // [tile] begin and end in tileCells
-  FROTH_ADDRESS(UintArray) histogram;          // [kGroupSize + histogramCapacity] totals by digit, then rows by digit
+  FROTH_ADDRESS(UintPairArray) tileRanges;     // [tile] ~begin and end in tileCells: 0 means none, and both only grow
+  FROTH_ADDRESS(UintArray) cellHistogram;      // of the lowest digit of cellKeys (histogram.glsl)
+  FROTH_ADDRESS(UintArray) pairHistogram;      // of the lowest digit of pairTiles
   FROTH_ADDRESS(UintPairArray) walkStart;      // [1] chunk, local index of the cell that holds the eye; kept over frames
 };
 
@@ -176,24 +183,22 @@ struct FrameBlock {
 
 // Push constants of the radix sort.
 struct SortConstants {
-  uint64_t frame, keysIn, valuesIn, keysOut, valuesOut, count;
-  uint shift, capacity;
+  uint64_t frame, keysIn, valuesIn, keysOut, valuesOut, count, histogram, nextHistogram;
+  uint shift, capacity, step, padding;
 };
 
 // Push constants of all other passes.
 struct PassConstants {
   uint64_t frame;
-  uint mode;  // of scan_groups.comp
-  uint padding;
 };
 
 static_assert(sizeof(ChunkEntry) == 192 && offsetof(ChunkEntry, siteRadius) == 32);
 static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 128 && sizeof(CellCode) == 64);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
-static_assert(offsetof(Counters, visibleDispatch) == 32 && offsetof(Counters, work) == 128 && sizeof(Counters) == 192);
+static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 112 && sizeof(Counters) == 176);
 static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);
-static_assert(offsetof(FrameBlock, counters) == 192 && sizeof(FrameBlock) == 336);
-static_assert(sizeof(SortConstants) == 56 && sizeof(PassConstants) == 16);
+static_assert(offsetof(FrameBlock, counters) == 192 && sizeof(FrameBlock) == 360);
+static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);
 
 }  // namespace froth::gpu
 

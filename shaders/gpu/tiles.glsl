@@ -33,9 +33,46 @@ TileBounds tileBounds(Ball ball) {
   return bounds;
 }
 
-bool tileMeetsBall(ivec2 tile, Ball ball) {
-  uvec2 firstPixel = uvec2(tile) * kTileSize;
-  return pixelsMeetBall(ball.centre, ball.radius, firstPixel, kTileSize);
+// The tiles in the bounds of up to kTileCellsPerGroup balls, tested by all threads of a workgroup together: however
+// unlike the balls are in size, every thread has as much to do.
+struct TileCandidate {
+  uint cell;  // place in the workgroup's list
+  uvec2 tile;
+};
+
+shared vec4 balls[kTileCellsPerGroup];
+shared uvec3 corners[kTileCellsPerGroup];  // first column and row, columns
+shared uint starts[kTileCellsPerGroup];    // first candidate
+
+// Makes the cell of a slot that of this thread, one of the first kTileCellsPerGroup. Returns how many candidates it has.
+uint takeCell(uint slot) {
+  Ball ball = visibleBall(FRAME.visibleCells.v[checked(slot, FRAME.visibleCapacity)]);
+  TileBounds bounds = tileBounds(ball);
+  uvec2 extent = uvec2(max(bounds.last - bounds.first + 1, 0));
+  balls[gl_LocalInvocationIndex] = vec4(ball.centre, ball.radius);
+  corners[gl_LocalInvocationIndex] = uvec3(bounds.first, extent.x);
+  return extent.x * extent.y;
+}
+
+// start: candidates of the threads before. Ends with a barrier.
+void startCandidates(uint start) {
+  if (gl_LocalInvocationIndex < kTileCellsPerGroup) starts[gl_LocalInvocationIndex] = start;
+  barrier();
+}
+
+TileCandidate candidateAt(uint index) {
+  uint cell = 0;
+  for (uint stride = kTileCellsPerGroup / 2; stride > 0; stride /= 2) {
+    if (starts[cell + stride] <= index) cell += stride;
+  }
+  uvec3 corner = corners[cell];
+  uint place = index - starts[cell];
+  return TileCandidate(cell, uvec2(corner.x + place % corner.z, corner.y + place / corner.z));
+}
+
+bool meetsTile(TileCandidate candidate) {
+  vec4 ball = balls[candidate.cell];
+  return pixelsMeetBall(ball.xyz, ball.w, candidate.tile * kTileSize, kTileSize);
 }
 
 #endif

@@ -47,10 +47,10 @@ class Passes : public testing::Test {
 
   // What a device buffer of a view holds once the frame is complete.
   template <class T>
-  std::vector<T> copyOut(const GpuBuffer& source, size_t count) {
+  std::vector<T> copyOut(const GpuBuffer& source, size_t count, size_t offset = 0) {
     const GpuBuffer target = upload(std::vector<T>(count));
     submit([&](VkCommandBuffer commandBuffer) {
-      const VkBufferCopy copy{0, 0, count * sizeof(T)};
+      const VkBufferCopy copy{offset, 0, count * sizeof(T)};
       if (count > 0) device_.table.vkCmdCopyBuffer(commandBuffer, source.buffer, target.buffer, 1, &copy);
     });
     return download<T>(target, count);
@@ -81,7 +81,16 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
   const GpuBuffer keyBuffer = upload(keys), valueBuffer = upload(values);
   const GpuBuffer keySwap = upload(keys), valueSwap = upload(values);
   const uint32_t groups = (count + gpu::kSortKeysPerGroup - 1) / gpu::kSortKeysPerGroup;
-  const GpuBuffer histogram = upload(std::vector<uint32_t>(gpu::kGroupSize * (1 + groups)));
+  // Each group of keys has a row of digits, each kSortGroupsPerSum of these a row of sums before them.
+  std::vector<uint32_t> histograms(4 * histogramBytes(std::max(count, 1u)) / sizeof(uint32_t));
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t group = i / gpu::kSortKeysPerGroup, sum = group / gpu::kSortGroupsPerSum;
+    ++histograms[gpu::kSortDigits * (group + sum + 1) + (keys[i] & 255)];
+    ++histograms[gpu::kSortDigits * (gpu::kSortGroupsPerSum + 1) * sum + (keys[i] & 255)];
+  }
+  std::vector<uint32_t> slotTiles(count), tileSums(groupsOver(count, gpu::kCellsPerTileSum));
+  for (uint32_t& tiles : slotTiles) tiles = engine() % 50;
+  const GpuBuffer tileCountBuffer = upload(slotTiles), tileSumBuffer = upload(tileSums);
   gpu::Counters counters{};
   counters.visibleCells = count;
   counters.cellSortDispatch = {groups, 1, 1, 0};
@@ -90,8 +99,11 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
   buffers_.push_back(*counterBuffer);
   gpu::FrameBlock block{};
   block.counters = counterBuffer->address;
-  block.histogram = histogram.address;
-  block.histogramCapacity = gpu::kGroupSize * (1 + groups);
+  block.visibleCapacity = count;
+  block.slotTiles = upload(slotTiles).address;
+  block.tileCounts = tileCountBuffer.address;
+  block.tileSums = tileSumBuffer.address;
+  const VkDeviceAddress histogramAddress = upload(histograms).address;
   const GpuBuffer blockBuffer = upload(std::vector<gpu::FrameBlock>{block});
 
   submit([&](VkCommandBuffer commandBuffer) {
@@ -116,21 +128,26 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
     device_.table.vkCmdPipelineBarrier2(commandBuffer, &dependency);
     recordSort(recorder,
                {keyBuffer.address, valueBuffer.address, keySwap.address, valueSwap.address,
-                counterBuffer->address + offsetof(gpu::Counters, visibleCells), std::max(count, 1u),
-                offsetof(gpu::Counters, cellSortDispatch)},
-               4);
+                counterBuffer->address + offsetof(gpu::Counters, visibleCells), histogramAddress,
+                std::max(count, 1u), offsetof(gpu::Counters, cellSortDispatch)},
+               4, gpu::kSortTakeTileCounts);
   });
 
   std::vector<uint32_t> order = values;
   std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return keys[a] < keys[b]; });
   std::vector<uint32_t> sortedKeys;
   for (const uint32_t index : order) sortedKeys.push_back(keys[index]);
+  std::vector<uint32_t> tileCounts;
+  for (const uint32_t index : order) tileCounts.push_back(slotTiles[index]);
+  for (uint32_t i = 0; i < count; ++i) tileSums[i / gpu::kCellsPerTileSum] += tileCounts[i];
   EXPECT_EQ(download<uint32_t>(keyBuffer, count), sortedKeys);
   EXPECT_EQ(download<uint32_t>(valueBuffer, count), order);
+  EXPECT_EQ(download<uint32_t>(tileCountBuffer, count), tileCounts);
+  EXPECT_EQ(download<uint32_t>(tileSumBuffer, tileSums.size()), tileSums);
   EXPECT_EQ(copyOut<gpu::Counters>(*counterBuffer, 1)[0].violations, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Counts, Sort, testing::Values(0u, 1u, 255u, 256u, 257u, 1025u, 100000u),
+INSTANTIATE_TEST_SUITE_P(Counts, Sort, testing::Values(0u, 1u, 255u, 256u, 257u, 1025u, 100000u, 1000003u),
                          testing::PrintToStringParamName());
 
 // Balls alone: no neighbours, K = M = 1.
@@ -164,62 +181,84 @@ class Bin : public Passes {
     asset.chunks = {chunk};
     return asset;
   }
+
+  // What the passes before the pixels leave behind.
+  struct Lists {
+    gpu::Counters counters;
+    std::vector<gpu::uvec4> visible;               // [slot]
+    std::vector<uint32_t> order;                   // [visible cell] slot
+    std::vector<std::vector<uint32_t>> tileSlots;  // [tile] front to back
+  };
+
+  Lists listCells(const GpuAsset& asset, const View& camera) {
+    EXPECT_TRUE(pipelines_->prepareFor(asset));
+    const VkExtent2D extent{camera.width, camera.height};
+    ViewState view{.device = device_,
+                   .buffers = ViewBuffers(device_),
+                   .images = std::move(*OutputImages::create(device_, kRecordingsPerFrame)),
+                   .timer = nullptr,
+                   .slots = std::vector<FrameSlot>(1)};
+    ViewCapacity capacity;
+    capacity.tiles = tilesOf({{0, 0}, extent});
+    capacity.cells = asset.liveCount;
+    capacity.sites = asset.liveCount;
+    capacity.pairs = 1 << 19;
+    coverAsset(asset, capacity);
+    EXPECT_TRUE(view.buffers.grow(capacity, 0));
+
+    HostImage image = *sharedHost().createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent);
+    FrothRenderInfo info = infoOf(camera);
+    info.colour = sharedHost().describe(image);
+    info.camera.scissor = {{0, 0}, extent};
+    info.depthQuantile = 0.5f;
+    const RenderInstance instance{.asset = &asset, .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
+    submit([&](VkCommandBuffer commandBuffer) {
+      const Recording recording =
+          beginRecording(view, commandBuffer, RecordingKind::kRaster, info, 1, &instance);
+      const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset));
+      recordRasterPasses(recording, bindRecording(recording, pipelines_->state(), passes), asset);
+      endRecording(recording);
+    });
+    sharedHost().destroyImage(image);
+    return readLists(view, capacity.tiles);
+  }
+
+ private:
+  Lists readLists(const ViewState& view, uint32_t tiles) {
+    Lists lists;
+    lists.counters = readCounters(view, 0);
+    EXPECT_EQ(lists.counters.violations, 0u);
+    EXPECT_EQ(lists.counters.pairsKept, lists.counters.pairs);
+    const uint32_t cells = lists.counters.visibleCells;
+    lists.order = copyOut<uint32_t>(view.buffers[ViewBuffer::kOrder], cells);
+    lists.visible = copyOut<gpu::uvec4>(view.buffers[ViewBuffer::kVisibleCells], cells);
+    const ViewBuffer last = digitsOf(tiles) % 2 != 0 ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells;
+    const auto pairs = copyOut<uint32_t>(view.buffers[last], lists.counters.pairs);
+    const auto ranges = copyOut<std::array<uint32_t, 2>>(view.buffers[ViewBuffer::kTallies], tiles,
+                                                         layOutTallies(view.buffers.capacity()).tileRanges);
+    for (const auto& [beginInverted, end] : ranges) {
+      std::vector<uint32_t>& slots = lists.tileSlots.emplace_back();
+      for (uint32_t pair = ~beginInverted; pair < end; ++pair)
+        slots.push_back(lists.order.at(pairs.at(pair)));
+    }
+    return lists;
+  }
 };
 
 // What a ray's tile must hold: every ball that one of its pixels' rays meets, nearest power first.
-TEST_F(Bin, TilesHoldTheBallsThatTheirPixelsMeetInOrderOfPower) {
-  constexpr VkExtent2D kExtent{150, 100};
-  const Foam foam = makeRandomFoam(700, 1, 1, 11);
-  const GpuAsset asset = uploadBalls(foam);
-  ASSERT_TRUE(pipelines_->prepareFor(asset));
-
-  ViewState view{.device = device_,
-                 .buffers = ViewBuffers(device_),
-                 .images = std::move(*OutputImages::create(device_, kRecordingsPerFrame)),
-                 .timer = nullptr,
-                 .slots = std::vector<FrameSlot>(1)};
-  const uint32_t tilesX = tilesAlong(kExtent.width), tilesY = tilesAlong(kExtent.height);
-  ViewCapacity capacity;
-  capacity.tiles = tilesX * tilesY;
-  coverAsset(asset, capacity);
-  ASSERT_TRUE(view.buffers.grow(capacity, 0));
-
-  const View camera = lookAt({0.3, 0.2, 1.2}, {0, 0, 3}, kExtent.width, kExtent.height, 0.7);
-  Result<HostImage> image = sharedHost().createImage(VK_FORMAT_R16G16B16A16_SFLOAT, kExtent);
-  ASSERT_TRUE(image);
-  FrothRenderInfo info = infoOf(camera);
-  info.colour = sharedHost().describe(*image);
-  info.camera.scissor = {{0, 0}, kExtent};
-  info.depthQuantile = 0.5f;
-  const RenderInstance instance{.asset = &asset, .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
-  submit([&](VkCommandBuffer commandBuffer) {
-    const Recording recording =
-        beginRecording(view, commandBuffer, RecordingKind::kRaster, info, 1, &instance);
-    const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset));
-    recordRasterPasses(recording, bindRecording(recording, pipelines_->state(), passes), asset);
-    endRecording(recording);
-  });
-
-  const gpu::Counters counters = readCounters(view, 0);
-  EXPECT_EQ(counters.violations, 0u);
-  const auto order = copyOut<uint32_t>(view.buffers[ViewBuffer::kOrder], counters.visibleCells);
-  const auto visible = copyOut<gpu::uvec4>(view.buffers[ViewBuffer::kVisibleCells], counters.visibleCells);
-  const auto ranges =
-      copyOut<std::array<uint32_t, 2>>(view.buffers[ViewBuffer::kTileRanges], tilesX * tilesY);
-  const auto pairs =
-      copyOut<uint32_t>(view.buffers[ViewBuffer::kPairCellsSwap], counters.pairsKept);  // one digit: odd
-
+void expectListsOfPixels(const Foam& foam, const View& camera,
+                         const std::vector<std::vector<uint32_t>>& tileCells) {
   const auto& world = camera.worldFromCamera;
   const glm::dvec3 right(world[0], world[4], world[8]), down(world[1], world[5], world[9]),
       forward(world[2], world[6], world[10]), eye(world[3], world[7], world[11]);
   const auto ray = [&](double x, double y) {
     return forward + right * ((x - camera.cx) / camera.fx) + down * ((y - camera.cy) / camera.fy);
   };
-  for (uint32_t tile = 0; tile < ranges.size(); ++tile) {
+  const uint32_t tilesX = tilesAlong(camera.width);
+  for (uint32_t tile = 0; tile < tileCells.size(); ++tile) {
     std::vector<bool> isListed(foam.cellCount);
     double lastPower = -INFINITY;
-    for (uint32_t pair = ranges[tile][0]; pair < ranges[tile][1]; ++pair) {
-      const uint32_t cell = visible.at(order.at(pairs[pair]))[1];
+    for (const uint32_t cell : tileCells[tile]) {
       EXPECT_FALSE(isListed[cell]) << "cell " << cell << " twice in tile " << tile;
       isListed[cell] = true;
       const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
@@ -228,8 +267,8 @@ TEST_F(Bin, TilesHoldTheBallsThatTheirPixelsMeetInOrderOfPower) {
       lastPower = power;
     }
     const uint32_t x0 = tile % tilesX * gpu::kTileSize, y0 = tile / tilesX * gpu::kTileSize;
-    const uint32_t x1 = std::min(x0 + gpu::kTileSize, kExtent.width),
-                   y1 = std::min(y0 + gpu::kTileSize, kExtent.height);
+    const uint32_t x1 = std::min(x0 + gpu::kTileSize, camera.width),
+                   y1 = std::min(y0 + gpu::kTileSize, camera.height);
     for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
       const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
       bool isMet = false, isNearby = false;
@@ -239,14 +278,61 @@ TEST_F(Bin, TilesHoldTheBallsThatTheirPixelsMeetInOrderOfPower) {
           const double along = std::max(glm::dot(direction, centre), 0.0);
           const double miss = glm::length(centre - along * direction) - foam.radii[cell];
           isMet |= miss < -1e-6;
-          isNearby |= miss < 0.01;  // a pixel is 0.02 wide at distance 1
+          isNearby |= miss < 0.01;  // a pixel is up to 0.02 wide at distance 1
         }
       }
       EXPECT_FALSE(isMet && !isListed[cell]) << "cell " << cell << " is missing in tile " << tile;
       EXPECT_FALSE(isListed[cell] && !isNearby) << "cell " << cell << " far from tile " << tile;
     }
   }
-  sharedHost().destroyImage(*image);
+}
+
+TEST_F(Bin, TilesHoldTheBallsThatTheirPixelsMeetInOrderOfPower) {
+  const Foam foam = makeRandomFoam(700, 1, 1, 11);
+  const View camera = lookAt({0.3, 0.2, 1.2}, {0, 0, 3}, 150, 100, 0.7);
+  Lists lists = listCells(uploadBalls(foam), camera);
+  for (std::vector<uint32_t>& slots : lists.tileSlots) {
+    for (uint32_t& slot : slots) slot = lists.visible[slot][1];
+  }
+  expectListsOfPixels(foam, camera, lists.tileSlots);
+}
+
+// Balls around the eye, before it, and smaller than a pixel, on more tiles than a workgroup has threads.
+TEST_F(Bin, TilesHoldHugeAndTinyBallsAlike) {
+  Foam foam = makeRandomFoam(40, 1, 1, 12);
+  for (uint32_t i = 0; i < foam.cellCount; ++i) foam.radii[i] *= std::exp2(static_cast<float>(i % 10) - 5);
+  const View camera = lookAt({0.3, 0.2, 1.2}, {0, 0, 3}, 700, 500, 0.7);
+  Lists lists = listCells(uploadBalls(foam), camera);
+  for (std::vector<uint32_t>& slots : lists.tileSlots) {
+    for (uint32_t& slot : slots) slot = lists.visible[slot][1];
+  }
+  expectListsOfPixels(foam, camera, lists.tileSlots);
+}
+
+// So many copies of a chunk that all sums of sums are in use. Equal balls stay in the order of the chunks.
+TEST_F(Bin, CopiesOfAChunkFollowEachOtherInEveryTile) {
+  constexpr uint32_t kCopies = 600;
+  const View camera = lookAt({0.3, 0.2, 1.2}, {0, 0, 3}, 150, 100, 0.7);
+  GpuAsset asset = uploadBalls(makeRandomFoam(60, 1, 1, 13));
+  const Lists single = listCells(asset, camera);
+  asset.chunks.resize(kCopies, asset.chunks[0]);
+  asset.liveCount *= kCopies;
+  const Lists copies = listCells(asset, camera);
+
+  const uint32_t cells = single.counters.visibleCells;
+  ASSERT_EQ(copies.counters.visibleCells, kCopies * cells);
+  ASSERT_EQ(copies.counters.pairs, kCopies * single.counters.pairs);
+  for (uint32_t slot = 0; slot < copies.visible.size(); ++slot) {
+    const gpu::uvec4 expected{slot / cells, single.visible[slot % cells][1], 0, 0};
+    ASSERT_EQ(copies.visible[slot], expected) << "slot " << slot;
+  }
+  for (size_t tile = 0; tile < single.tileSlots.size(); ++tile) {
+    std::vector<uint32_t> expected;
+    for (const uint32_t slot : single.tileSlots[tile]) {
+      for (uint32_t copy = 0; copy < kCopies; ++copy) expected.push_back(copy * cells + slot);
+    }
+    ASSERT_EQ(copies.tileSlots[tile], expected) << "tile " << tile;
+  }
 }
 
 }  // namespace
