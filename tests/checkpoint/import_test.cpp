@@ -178,6 +178,36 @@ TEST(ImportCheckpoint, StopsWhenProgressSaysSo) {
   EXPECT_EQ(stopped.error().kind, ErrorKind::kCancelled);
 }
 
+TEST(ImportCheckpoint, ReadsALargeTensorInSlicesAndStopsBetweenThem) {
+  const std::string bytes = buildCheckpoint(sampleCheckpoint(16000, 2, 32));  // 3,072,000 numbers of axes, as many of colours
+  const std::span data(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
+  size_t slices = 0;
+  const Result<Foam> foam = importCheckpointBytes(data, "model.pt", [&](std::string_view stage, auto, auto) {
+    slices += stage == "import";
+    return true;
+  });
+  ASSERT_TRUE(foam) << foam.error().message;
+  EXPECT_EQ(slices, 10u);
+  ASSERT_EQ(foam->lobeAxes.size(), 1024000u);
+  for (size_t i = 0; i < foam->lobeAxes.size(); ++i) {
+    const glm::vec3 place(3 * i, 3 * i + 1, 3 * i + 2);
+    ASSERT_EQ(foam->lobeAxes[i], 1.0f + place / 64.0f) << i;
+    ASSERT_EQ(foam->lobeColours[i], -1.0f + place / 64.0f) << i;
+  }
+
+  for (const std::string_view stopped : {"checksums", "import"}) {
+    int reports = 0;
+    const auto stopAtTheNinth = [&](std::string_view stage, auto, auto) {
+      EXPECT_LT(reports, 9);
+      reports += stage == stopped;
+      return reports < 9;
+    };
+    const Result<Foam> result = importCheckpointBytes(data, "model.pt", stopAtTheNinth);
+    ASSERT_FALSE(result) << stopped;
+    EXPECT_EQ(result.error().kind, ErrorKind::kCancelled);
+  }
+}
+
 TEST(ImportCheckpoint, RefusesWhatIsNoRegularFile) {
   const std::string folder = testing::TempDir();
   for (const auto& [path, part] : {std::pair<std::string, std::string>{folder, "directory"},
