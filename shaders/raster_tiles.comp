@@ -1,48 +1,69 @@
 // Draws 8 x 8 pixels: reads its tile's list front to back in batches, keeps the cells whose solid ball these pixels can meet, and
-// composites them. Ends when every pixel is saturated.
+// composites them. Ends when every pixel is saturated. A thread draws kRays pixels below each other: what costs is
+// reading the cells, and all of them read the same.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define FROTH_RAYS 2
 #include "gpu/asset.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
 #include "gpu/shade_hit.glsl"
 
-layout(local_size_x = kSubTileSize, local_size_y = kSubTileSize) in;
-
-const uint kBatch = kSubTileSize * kSubTileSize;
+const uint kRows = kSubTileSize / kRays;  // of threads
+const uint kBatch = kSubTileSize * kRows;
+const uint kBatchWords = (kBatch + 31) / 32;
+layout(local_size_x = kSubTileSize, local_size_y = kRows) in;
 
 shared vec4 balls[kBatch];
 shared uint cells[kBatch];
-shared uint keptMask[kBatch / 32];
+shared uint keptMask[kBatchWords];
 shared uint liveMask;
 
-// The part of the ball's interval on the cell's side of all its radical planes.
-bool clipByPlanes(CellRecord cell, vec3 direction, inout float tNear, inout float tFar) {
-  float inverseFar = 1.0 / tFar;
+// The parts of the intervals on the cell's side of all its radical planes. Returns whether any is left.
+bool clipByPlanes(Shading shading, CellRecord cell, vec3 directions[kRays], inout Segment segments[kRays]) {
+  float inverseFar[kRays], inverseNear[kRays];
+  for (uint r = 0; r < kRays; ++r) {
+    inverseFar[r] = 1.0 / segments[r].tFar;
+    inverseNear[r] = kInfinity;
+  }
   for (uint i = cell.planeBegin; i < cell.planeSplit; ++i) {
-    inverseFar = max(inverseFar, dot(FRAME.planes.v[checked(i, FRAME.planeCapacity)].xyz, direction));
+    vec3 plane = shading.planes.v[checked(i, FRAME.planeCapacity)].xyz;
+    for (uint r = 0; r < kRays; ++r) inverseFar[r] = max(inverseFar[r], dot(plane, directions[r]));
   }
-  tFar = 1.0 / inverseFar;
-  if (cell.planeSplit < cell.planeEnd) {
-    float inverseNear = kInfinity;
-    for (uint i = cell.planeSplit; i < cell.planeEnd; ++i) {
-      inverseNear = min(inverseNear, dot(FRAME.planes.v[checked(i, FRAME.planeCapacity)].xyz, direction));
-    }
-    if (!(inverseNear > 0.0)) return false;
-    tNear = max(tNear, 1.0 / inverseNear);
+  for (uint i = cell.planeSplit; i < cell.planeEnd; ++i) {
+    vec3 plane = shading.planes.v[checked(i, FRAME.planeCapacity)].xyz;
+    for (uint r = 0; r < kRays; ++r) inverseNear[r] = min(inverseNear[r], dot(plane, directions[r]));
   }
-  return tFar > tNear;
+  bool isAny = false;
+  for (uint r = 0; r < kRays; ++r) {
+    if (isEmpty(segments[r])) continue;
+    countWork(kWorkPlanes, cell.planeEnd - cell.planeBegin);
+    segments[r].tFar = inverseNear[r] > 0.0 ? 1.0 / inverseFar[r] : 0.0;
+    segments[r].tNear = max(segments[r].tNear, 1.0 / inverseNear[r]);
+    isAny = isAny || !isEmpty(segments[r]);
+  }
+  return isAny;
 }
 
-void meetCell(uint index, vec3 direction, inout Radiance radiance) {
+void meetCell(Shading shading, uint index, vec3 directions[kRays], inout Radiance radiances[kRays]) {
   vec4 ball = balls[index];
-  float tNear, tFar;
-  if (!intersectBall(ball.xyz, ball.w, direction, tNear, tFar)) return;
-  countWork(kWorkBallHits, 1);
+  Segment segments[kRays];
+  bool isAny = false;
+  for (uint r = 0; r < kRays; ++r) {
+    segments[r] = Segment(1.0, 0.0);
+    if (isSaturated(shading, radiances[r])) continue;
+    float tNear, tFar;
+    if (!intersectBall(ball.xyz, ball.w, directions[r], tNear, tFar)) continue;
+    countWork(kWorkBallHits, 1);
+    segments[r] = Segment(tNear, tFar);
+    isAny = true;
+  }
+  if (!isAny) return;
   uint visible = cells[index];
-  CellRecord cell = FRAME.records.v[visible];
-  countWork(kWorkPlanes, cell.planeEnd - cell.planeBegin);
-  if (clipByPlanes(cell, direction, tNear, tFar)) shadeHit(visible, cell, direction, tNear, tFar, radiance);
+  CellRecord cell = shading.records.v[visible];
+  if (clipByPlanes(shading, cell, directions, segments)) {
+    shadeHits(shading, visible, cell, directions, segments, radiances);
+  }
 }
 
 // Lists the entries of this batch whose solid ball the 8 x 8 pixels can meet, in order; returns how many.
@@ -59,29 +80,51 @@ uint gatherBatch(uint entry, uint end, uvec2 corner) {
   }
   if (isKept) atomicOr(keptMask[lane / 32], 1u << (lane % 32));
   barrier();
-  if (isKept) {
-    uint place = bitCount(keptMask[lane / 32] & ((1u << (lane % 32)) - 1)) + (lane >= 32 ? bitCount(keptMask[0]) : 0);
-    balls[place] = ball;
-    cells[place] = visible;
+  uint count = 0;
+  for (uint word = 0; word < kBatchWords; ++word) {
+    uint mask = keptMask[word];
+    if (isKept && word == lane / 32) {
+      uint place = count + bitCount(mask & ((1u << (lane % 32)) - 1));
+      balls[place] = ball;
+      cells[place] = visible;
+    }
+    count += bitCount(mask);
   }
-  uint count = bitCount(keptMask[0]) + bitCount(keptMask[1]);
   barrier();
   return count;
+}
+
+// Saturated from the start where there is no pixel.
+Radiance startOf(uvec2 pixel) {
+  Radiance radiance = emptyRadiance();
+  if (pixel.x >= FRAME.regionWidth || pixel.y >= FRAME.regionHeight) radiance.logTransmittance = -kInfinity;
+  return radiance;
+}
+
+bool areSaturated(Shading shading, Radiance radiances[kRays]) {
+  bool areAll = true;
+  for (uint r = 0; r < kRays; ++r) areAll = areAll && isSaturated(shading, radiances[r]);
+  return areAll;
 }
 
 void main() {
   uint lane = gl_LocalInvocationIndex;
   uvec2 corner = gl_WorkGroupID.xy * kSubTileSize;
-  uvec2 pixel = gl_GlobalInvocationID.xy;
-  bool isInside = pixel.x < FRAME.regionWidth && pixel.y < FRAME.regionHeight;
+  uvec2 firstPixel = corner + gl_LocalInvocationID.xy;
   uvec2 tile = corner / kTileSize;
   uvec2 range = FRAME.tileRanges.v[tile.y * FRAME.tilesX + tile.x];
-  vec3 direction = normalize(pixelRay(vec2(pixel)));
-  Radiance radiance = emptyRadiance();
+  Shading shading = loadShading();
+  vec3 directions[kRays];
+  Radiance radiances[kRays];
+  for (uint r = 0; r < kRays; ++r) {
+    uvec2 pixel = firstPixel + uvec2(0, r * kRows);
+    directions[r] = normalize(pixelRay(vec2(pixel)));
+    radiances[r] = startOf(pixel);
+  }
 
   for (uint first = ~range.x; first < range.y; first += kBatch) {
-    bool isLive = isInside && !isSaturated(radiance);
-    if (lane < kBatch / 32) keptMask[lane] = 0;
+    bool isLive = !areSaturated(shading, radiances);
+    if (lane < kBatchWords) keptMask[lane] = 0;
     if (lane == 0) liveMask = 0;
     barrier();
     if (isLive) atomicOr(liveMask, 1u);
@@ -91,10 +134,13 @@ void main() {
       countWork(kWorkEntriesKept, count);
     }
     if (liveMask == 0) break;
-    if (isLive) {
-      for (uint i = 0; i < count && !isSaturated(radiance); ++i) meetCell(i, direction, radiance);
-    }
+    for (uint i = 0; i < count && !areSaturated(shading, radiances); ++i) meetCell(shading, i, directions, radiances);
     barrier();
   }
-  if (isInside) writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal);
+  for (uint r = 0; r < kRays; ++r) {
+    uvec2 pixel = firstPixel + uvec2(0, r * kRows);
+    if (pixel.x >= FRAME.regionWidth || pixel.y >= FRAME.regionHeight) continue;
+    Radiance radiance = radiances[r];
+    writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal);
+  }
 }

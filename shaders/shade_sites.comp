@@ -45,6 +45,7 @@ void main() {
   vec3 toSite = ball.centre + ball.radius * (frame.tangent * site.place.x + frame.bitangent * site.place.y);
   vec3 colour = siteColour(code, header, detail, site.base, normalize(toSite));
 
-  FRAME.sites.v[2 * index] = vec4(detailTerms(site.place, FRAME.detailSharpness), site.height);
-  FRAME.sites.v[2 * index + 1] = vec4(colour, 0.0);
+  vec3 shown = min(colour, vec3(65504.0));  // the largest half
+  FRAME.sites.v[index] =
+      SiteRecord(site.place, site.height, 0u, uvec2(packHalf2x16(shown.rg), packHalf2x16(vec2(shown.b, 0.0))));
 }

@@ -10,6 +10,7 @@
 // cell or a ghost; the key of the last step goes with the walk. So no record and no site comes twice.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define FROTH_RAYS 1
 #include "gpu/eye_planes.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
@@ -68,12 +69,12 @@ bool findNextSite(inout Step current, vec3 direction) {
 }
 
 // The same by the record's eye planes.
-bool findNextRecord(inout Step current, CellRecord cell, vec3 direction) {
+bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 direction) {
   uint link = kNoCell;
   float inverseExit = 0.0;
   countWork(kWorkNeighbours, cell.planeSplit - cell.planeBegin);
   for (uint i = cell.planeBegin; i < cell.planeSplit; ++i) {
-    vec4 plane = FRAME.planes.v[checked(i, FRAME.planeCapacity)];
+    vec4 plane = shading.planes.v[checked(i, FRAME.planeCapacity)];
     float inverse = dot(plane.xyz, direction);
     if (inverse > inverseExit) {
       inverseExit = inverse;
@@ -93,45 +94,49 @@ bool findNextRecord(inout Step current, CellRecord cell, vec3 direction) {
     current = stepToSite(chunk, site, key, exit);
     return true;
   }
-  float key = orderAlong(direction, FRAME.records.v[checked(link, FRAME.visibleCapacity)].ball.xyz);
+  float key = orderAlong(direction, shading.records.v[checked(link, FRAME.visibleCapacity)].ball.xyz);
   if (!(key > current.key)) return findNextSite(current, direction);
   current = Step(link, uvec2(0), key, exit);
   return true;
 }
 
-void meetCell(uint visible, CellRecord cell, vec3 direction, float entry, float exit, inout Radiance radiance) {
+void meetCell(Shading shading, uint visible, CellRecord cell, vec3 direction, float entry, float exit,
+              inout Radiance radiance[kRays]) {
   float tNear, tFar;
   if (!intersectBall(cell.ball.xyz, cell.ball.w, direction, tNear, tFar)) return;
   countWork(kWorkBallHits, 1);
-  tNear = max(tNear, entry);
-  tFar = min(tFar, exit);
-  if (tFar > tNear) shadeHit(visible, cell, direction, tNear, tFar, radiance);
+  Segment segment = Segment(max(tNear, entry), min(tFar, exit));
+  if (isEmpty(segment)) return;
+  shadeHits(shading, visible, cell, vec3[](direction), Segment[](segment), radiance);
 }
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (pixel.x >= FRAME.regionWidth || pixel.y >= FRAME.regionHeight) return;
   vec3 direction = normalize(pixelRay(vec2(pixel)));
-  Radiance radiance = emptyRadiance();
+  Shading shading = loadShading();
+  Radiance radiances[kRays];
+  radiances[0] = emptyRadiance();
 
   uvec2 start = FRAME.walkStart.v[0];
   Step current = stepTo(start, orderAlong(direction, ballOfSite(loadChunk(start.x), start.y).centre), 0.0);
   bool isInside = true;
   uint steps = 0;
-  while (isInside && !isSaturated(radiance) && steps < FRAME.maxSteps) {
+  while (isInside && !isSaturated(shading, radiances[0]) && steps < FRAME.maxSteps) {
     uint visible = current.visible;
     float entry = current.entry;
     if (visible == kNoCell) {
       isInside = findNextSite(current, direction);
     } else {
-      CellRecord cell = FRAME.records.v[checked(visible, FRAME.visibleCapacity)];
+      CellRecord cell = shading.records.v[checked(visible, FRAME.visibleCapacity)];
       bool hasRow = cell.planeBegin < cell.planeEnd;
-      isInside = hasRow ? findNextRecord(current, cell, direction) : findNextSite(current, direction);
-      meetCell(visible, cell, direction, entry, current.entry, radiance);
+      isInside = hasRow ? findNextRecord(shading, current, cell, direction) : findNextSite(current, direction);
+      meetCell(shading, visible, cell, direction, entry, current.entry, radiances);
     }
     ++steps;
   }
   countWork(kWorkSteps, steps);
-  if (isInside && !isSaturated(radiance)) atomicAdd(COUNTERS.stepLimit, 1u);
+  if (isInside && !isSaturated(shading, radiances[0])) atomicAdd(COUNTERS.stepLimit, 1u);
+  Radiance radiance = radiances[0];
   writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal);
 }

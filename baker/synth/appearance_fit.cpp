@@ -137,7 +137,7 @@ std::vector<dvec4> fitDetailValues(const FacePatch& patch, std::span<const dvec4
     const dvec2& x = patch.samples[s];
     dvec4 residual = sampleValues[s];
     for (size_t k = 0; k < n; ++k)
-      basis[k] = foam::detailWeight(dvec3(x, glm::dot(x, x)), patch.details[k], sharpness);
+      basis[k] = foam::detailWeight(dvec3(x, 0), patch.details[k], sharpness);
     normalizeWeights(basis);
     for (size_t k = 0; k < n; ++k) residual -= basis[k] * values[k];
     addObservation(basis, 1.0, residual, a, correction);

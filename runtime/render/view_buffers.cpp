@@ -36,7 +36,7 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
     case ViewBuffer::kPlanes:
       return 16 * capacity.planes;
     case ViewBuffer::kSites:
-      return 32 * capacity.sites;
+      return sizeof(gpu::SiteRecord) * capacity.sites;
     case ViewBuffer::kCellKeys:
     case ViewBuffer::kCellKeysSwap:
     case ViewBuffer::kOrder:

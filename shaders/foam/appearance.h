@@ -7,29 +7,21 @@
 // Below this the sum of soft Voronoi weights is held, so that values fade out far from all sites.
 FOAM_FN real flooredWeightSum(real sum) { return max(sum, real(1e-20)); }
 
-// A query point on the face, factored: (x' . t / r, x' . b / r, |x'|^2 / r^2) with x' = x - p.
+// A query point x' = x - p in the face's frame: (x' . t / r, x' . b / r), and its squared distance from the face's plane / r^2.
 FOAM_FN real3 faceQuery(real3 local, real3 tangent, real3 bitangent, real inverseRadius) {
   real3 unit = local * inverseRadius;
-  return real3(dot(unit, tangent), dot(unit, bitangent), dot(unit, unit));
+  real x = dot(unit, tangent);
+  real y = dot(unit, bitangent);
+  return real3(x, y, max(dot(unit, unit) - x * x - y * y, real(0)));
 }
 
-// The weight of the detail site s = p + r (u t + v b), detail = (u, v), at a query point x is
-// exp(-sharpness |x - s|^2 / r^2). |x - s|^2 is expanded and counted in powers of two, so that once the site's share
-// (detailTerms) and the point's (queryTerm) are known, a weight costs two multiply-adds, an add and an exp2. The clamp undoes
-// rounding above zero.
-FOAM_FN real3 detailTerms(real2 detail, real sharpness) {
-  real scale = sharpness * real(1.4426950408889634);  // log2(e)
-  return real3(real(2) * scale * detail.x, real(2) * scale * detail.y, -scale * dot(detail, detail));
-}
-
-FOAM_FN real queryTerm(real3 query, real sharpness) { return -sharpness * real(1.4426950408889634) * query.z; }
-
-FOAM_FN real detailWeightOfTerms(real3 query, real term, real3 terms) {
-  return exp2(min(query.x * terms.x + (query.y * terms.y + (terms.z + term)), real(0)));
-}
-
+// exp(-sharpness |x - s|^2 / r^2) for the detail site s = p + r (u t + v b), detail = (u, v). In powers of two, so that a site
+// costs two differences, three multiply-adds and an exp2.
 FOAM_FN real detailWeight(real3 query, real2 detail, real sharpness) {
-  return detailWeightOfTerms(query, queryTerm(query, sharpness), detailTerms(detail, sharpness));
+  real falloff = sharpness * real(1.4426950408889634);  // log2(e)
+  real x = query.x - detail.x;
+  real y = query.y - detail.y;
+  return exp2(-falloff * (x * x + y * y) - falloff * query.z);
 }
 
 // Exponent of one lobe seen along `direction` (unit): -tau |direction - axis/tau|, tau = |axis|.

@@ -15,6 +15,8 @@ namespace froth::gpu {
 using uint = uint32_t;
 using uvec4 = std::array<uint32_t, 4>;
 using vec4 = std::array<float, 4>;
+using uvec2 = std::array<uint32_t, 2>;
+using vec2 = std::array<float, 2>;
 #define FROTH_ADDRESS(type) uint64_t
 #define FROTH_CONST constexpr uint
 
@@ -106,6 +108,15 @@ struct CellRecord {
   uint solidBall;  // bytes of GpuChunk::solidBalls
 };
 
+// A detail site of a visible cell, seen from the eye. What a ray reads most, so it is small: colours are halves, off by at most
+// 2^-12 below 1, a sixteenth of an 8-bit step.
+struct SiteRecord {
+  vec2 place;    // (u, v)
+  float height;
+  uint padding;
+  uvec2 colour;  // halves r, g; b, 0
+};
+
 // Counters::work: what rays cost. Rays count by themselves, entries by workgroup of kSubTileSize x kSubTileSize pixels.
 FROTH_CONST kWorkEntries = 0;      // entries of their tiles' lists that workgroups read
 FROTH_CONST kWorkEntriesKept = 1;  // of these, those that a ray of the workgroup can meet
@@ -138,6 +149,7 @@ struct Counters {
 #if !defined(__cplusplus)
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer ChunkArray { ChunkEntry v[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer RecordArray { CellRecord v[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer SiteArray { SiteRecord v[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer CountersRef { Counters v; };
 #endif
 
@@ -166,7 +178,7 @@ struct FrameBlock {
   FROTH_ADDRESS(UintArray) order;              // [visible cell] slot
   FROTH_ADDRESS(RecordArray) records;          // [visible cell]
   FROTH_ADDRESS(FloatQuadArray) planes;        // [planeCapacity] xyz: s = dot(xyz, direction) = 1 / t; w for a walk: link
-  FROTH_ADDRESS(FloatQuadArray) sites;         // [visible cell * K * 2] (detailTerms, height), (rgb, 0)
+  FROTH_ADDRESS(SiteArray) sites;              // [visible cell * K]
   FROTH_ADDRESS(UintArray) slotTiles;          // [slot] tiles its solid ball meets
   FROTH_ADDRESS(UintArray) tileCounts;         // [visible cell] the same
   FROTH_ADDRESS(UintArray) tileSums;           // [visible cell / kCellsPerTileSum] their sums
@@ -194,6 +206,7 @@ struct PassConstants {
 
 static_assert(sizeof(ChunkEntry) == 192 && offsetof(ChunkEntry, siteRadius) == 32);
 static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 128 && sizeof(CellCode) == 64);
+static_assert(sizeof(SiteRecord) == 24 && offsetof(SiteRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 112 && sizeof(Counters) == 176);
 static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);

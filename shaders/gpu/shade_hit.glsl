@@ -1,5 +1,7 @@
-// What one ray gathers in one visible cell, once its interval in the bounded cell is known (foam.md "What one ray meets
-// in one cell", steps 3 to 7). The same text for the raster and the walk.
+// What rays gather in one visible cell, once their intervals in the bounded cell are known (foam.md "What one ray meets in one
+// cell", steps 3 to 7). The same text for the raster and the walk.
+//
+// FROTH_RAYS rays of a thread meet a cell together: reading its detail sites costs more than working with them.
 #ifndef FROTH_GPU_SHADE_HIT_GLSL
 #define FROTH_GPU_SHADE_HIT_GLSL
 #include "gpu/frame.glsl"
@@ -11,6 +13,8 @@
 layout(constant_id = kConstantDetailCount) const uint detailCount = 8;
 layout(constant_id = kConstantHasHeights) const bool hasHeights = true;
 
+const uint kRays = FROTH_RAYS;
+
 struct Radiance {
   vec3 colour;  // display-coded, premultiplied
   float logTransmittance;
@@ -18,66 +22,121 @@ struct Radiance {
   float distance;  // kInfinity until transmittance falls below the quantile
 };
 
+// What a ray asks of the frame over and over, to be held in registers.
+struct Shading {
+  RecordArray records;
+  FloatQuadArray planes;
+  SiteArray sites;
+  float detailSharpness, logCutoff, logQuantile;
+};
+
+Shading loadShading() {
+  return Shading(FRAME.records, FRAME.planes, FRAME.sites, FRAME.detailSharpness, FRAME.logCutoff, FRAME.logQuantile);
+}
+
+// A ray's interval in a cell; none: tFar <= tNear.
+struct Segment {
+  float tNear, tFar;
+};
+
+bool isEmpty(Segment segment) { return !(segment.tFar > segment.tNear); }
+
 Radiance emptyRadiance() { return Radiance(vec3(0.0), 0.0, vec3(0.0), kInfinity); }
 
-bool isSaturated(Radiance radiance) { return radiance.logTransmittance < FRAME.logCutoff; }
+bool isSaturated(Shading shading, Radiance radiance) { return radiance.logTransmittance < shading.logCutoff; }
 
-// Height of the displaced face at a query point, in units of the radius.
-float heightAt(uint firstSite, vec3 query) {
-  float term = queryTerm(query, FRAME.detailSharpness);
-  float weightSum = 0.0;
-  float heightSum = 0.0;
-  for (uint k = 0; k < detailCount; ++k) {
-    vec4 site = FRAME.sites.v[firstSite + 2 * k];
-    float weight = detailWeightOfTerms(query, term, site.xyz);
-    weightSum += weight;
-    heightSum += weight * site.w;
-  }
-  return heightSum / flooredWeightSum(weightSum);
+vec3 queryAt(CellRecord cell, vec3 direction, float t) {
+  return faceQuery(t * direction - cell.ball.xyz, cell.tangent.xyz, cell.bitangent.xyz, cell.tangent.w);
 }
 
-vec3 colourAt(uint firstSite, vec3 query) {
-  float term = queryTerm(query, FRAME.detailSharpness);
-  float weightSum = 0.0;
-  vec3 colourSum = vec3(0.0);
+// Heights of the displaced face at query points, in units of the radius.
+void heightsAt(Shading shading, uint firstSite, vec3 queries[kRays], out float heights[kRays]) {
+  float weightSums[kRays];
+  for (uint r = 0; r < kRays; ++r) weightSums[r] = heights[r] = 0.0;
   for (uint k = 0; k < detailCount; ++k) {
-    float weight = detailWeightOfTerms(query, term, FRAME.sites.v[firstSite + 2 * k].xyz);
-    weightSum += weight;
-    colourSum += weight * FRAME.sites.v[firstSite + 2 * k + 1].xyz;
+    vec2 place = shading.sites.v[firstSite + k].place;
+    float height = shading.sites.v[firstSite + k].height;
+    for (uint r = 0; r < kRays; ++r) {
+      float weight = detailWeight(queries[r], place, shading.detailSharpness);
+      weightSums[r] += weight;
+      heights[r] += weight * height;
+    }
   }
-  return colourSum / flooredWeightSum(weightSum);
+  for (uint r = 0; r < kRays; ++r) heights[r] /= flooredWeightSum(weightSums[r]);
 }
 
-void shadeHit(uint visible, CellRecord cell, vec3 direction, float tNear, float tFar, inout Radiance radiance) {
+void coloursAt(Shading shading, uint firstSite, vec3 queries[kRays], out vec3 colours[kRays]) {
+  float weightSums[kRays];
+  for (uint r = 0; r < kRays; ++r) {
+    weightSums[r] = 0.0;
+    colours[r] = vec3(0.0);
+  }
+  for (uint k = 0; k < detailCount; ++k) {
+    vec2 place = shading.sites.v[firstSite + k].place;
+    uvec2 halves = shading.sites.v[firstSite + k].colour;
+    vec3 colour = vec3(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y).x);
+    for (uint r = 0; r < kRays; ++r) {
+      float weight = detailWeight(queries[r], place, shading.detailSharpness);
+      weightSums[r] += weight;
+      colours[r] += weight * colour;
+    }
+  }
+  for (uint r = 0; r < kRays; ++r) colours[r] /= flooredWeightSum(weightSums[r]);
+}
+
+// Cuts the intervals by the displaced face.
+void clipByFace(Shading shading, CellRecord cell, uint firstSite, vec3 directions[kRays], inout Segment segments[kRays]) {
   vec3 centre = cell.ball.xyz;
-  float facing = dot(cell.face.xyz, direction);
-  bool isInsideFirst = facing >= 0.0;
-  uint firstSite = visible * detailCount * 2;
-
-  float height = 0.0;
+  float heights[kRays];
+  for (uint r = 0; r < kRays; ++r) heights[r] = 0.0;
   if (hasHeights) {
-    float tBase = intersectFace(centre, cell.face.xyz, facing, 0.0);
-    float tQuery = isInsideFirst ? tNear : max(tNear, tBase);
-    vec3 query = faceQuery(tQuery * direction - centre, cell.tangent.xyz, cell.bitangent.xyz, cell.tangent.w);
-    countWork(kWorkHeights, 1);
-    height = heightAt(firstSite, query) * cell.ball.w;
+    vec3 queries[kRays];
+    for (uint r = 0; r < kRays; ++r) {
+      float facing = dot(cell.face.xyz, directions[r]);
+      float tBase = intersectFace(centre, cell.face.xyz, facing, 0.0);
+      queries[r] = queryAt(cell, directions[r], facing >= 0.0 ? segments[r].tNear : max(segments[r].tNear, tBase));
+      countWork(kWorkHeights, isEmpty(segments[r]) ? 0 : 1);
+    }
+    heightsAt(shading, firstSite, queries, heights);
   }
-  float tFace = intersectFace(centre, cell.face.xyz, facing, height);
-  if (isInsideFirst) tFar = min(tFar, tFace);
-  else tNear = max(tNear, tFace);
-  if (!(tFar > tNear)) return;
+  for (uint r = 0; r < kRays; ++r) {
+    float facing = dot(cell.face.xyz, directions[r]);
+    float tFace = intersectFace(centre, cell.face.xyz, facing, heights[r] * cell.ball.w);
+    if (facing >= 0.0) segments[r].tFar = min(segments[r].tFar, tFace);
+    else segments[r].tNear = max(segments[r].tNear, tFace);
+  }
+}
 
-  vec3 query = faceQuery(tNear * direction - centre, cell.tangent.xyz, cell.bitangent.xyz, cell.tangent.w);
-  float opticalDepth = cell.face.w * (tFar - tNear);
+void composite(Shading shading, CellRecord cell, Segment segment, vec3 colour, inout Radiance radiance) {
+  float opticalDepth = cell.face.w * (segment.tFar - segment.tNear);
   float weight = exp(radiance.logTransmittance) * opacity(opticalDepth);
-  countWork(kWorkColours, 1);
-  radiance.colour += weight * colourAt(firstSite, query);
+  radiance.colour += weight * colour;
   radiance.normal += weight * cell.face.xyz;
   float after = radiance.logTransmittance - opticalDepth;
-  if (radiance.logTransmittance >= FRAME.logQuantile && after < FRAME.logQuantile) {
-    radiance.distance = quantileDistance(tNear, radiance.logTransmittance, FRAME.logQuantile, cell.face.w);
+  if (radiance.logTransmittance >= shading.logQuantile && after < shading.logQuantile) {
+    radiance.distance = quantileDistance(segment.tNear, radiance.logTransmittance, shading.logQuantile, cell.face.w);
   }
   radiance.logTransmittance = after;
+}
+
+void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 directions[kRays], Segment segments[kRays],
+               inout Radiance radiances[kRays]) {
+  uint firstSite = visible * detailCount;
+  clipByFace(shading, cell, firstSite, directions, segments);
+  bool isAny = false;
+  vec3 queries[kRays];
+  for (uint r = 0; r < kRays; ++r) {
+    isAny = isAny || !isEmpty(segments[r]);
+    queries[r] = queryAt(cell, directions[r], segments[r].tNear);
+  }
+  if (!isAny) return;
+  vec3 colours[kRays];
+  coloursAt(shading, firstSite, queries, colours);
+  for (uint r = 0; r < kRays; ++r) {
+    if (isEmpty(segments[r])) continue;
+    countWork(kWorkColours, 1);
+    composite(shading, cell, segments[r], colours[r], radiances[r]);
+  }
 }
 
 #endif

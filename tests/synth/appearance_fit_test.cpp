@@ -20,7 +20,7 @@ dvec4 blend(const std::vector<dvec2>& details, const std::vector<dvec4>& values,
   dvec4 sum(0);
   double weights = 0;
   for (size_t k = 0; k < details.size(); ++k) {
-    const double weight = foam::detailWeight(dvec3(x, glm::dot(x, x)), details[k], kSharpness);
+    const double weight = foam::detailWeight(dvec3(x, 0), details[k], kSharpness);
     sum += weight * values[k];
     weights += weight;
   }
