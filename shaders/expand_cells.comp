@@ -78,9 +78,11 @@ void main() {
     BitCursor bits = cellBits(chunk.index, cell.y);
     record.face.w = takeDensity(code, bits);
     Frame frame = takeFrame(code, bits);
-    record.face.xyz = frame.normal;
-    record.tangent = vec4(frame.tangent, 1.0 / ball.radius);
-    record.bitangent = vec4(frame.bitangent, 0.0);
+    record.face.xyz = frame.normal / ball.radius;
+    vec3 tangent = frame.tangent / ball.radius;
+    vec3 bitangent = frame.bitangent / ball.radius;
+    record.tangent = vec4(tangent, dot(tangent, ball.centre));
+    record.bitangent = vec4(bitangent, dot(bitangent, ball.centre));
     record.solidBall = solidBallBytes(chunk.index, cell.y);
   }
   FRAME.records.v[visible] = record;

@@ -83,10 +83,11 @@ void compositeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>>
                    RayResult<Real>& ray, Visitor&& visit) {
   const Real facing = glm::dot(cell.frame.normal, direction);
   const bool leavesThroughFace = facing >= 0;
-  const auto queryAt = [&](Real t) {
-    return foam::faceQuery(t * direction - cell.centre, cell.frame.tangent, cell.frame.bitangent,
-                           cell.inverseRadius);
+  const auto inFrame = [&](const glm::vec<3, Real>& vector) {
+    return foam::inFaceFrame(vector, cell.frame.tangent, cell.frame.bitangent, cell.frame.normal,
+                             cell.inverseRadius);
   };
+  const auto queryAt = [&](Real t) { return foam::faceQuery(inFrame(t * direction - cell.centre)); };
   const Real tBase = foam::intersectFace(cell.centre, cell.frame.normal, facing, Real(0));
   const Real tQuery = leavesThroughFace ? hit.tNear : std::max(hit.tNear, tBase);
   const Real height = blendHeight(details, queryAt(tQuery), settings.sharpness);

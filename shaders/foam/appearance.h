@@ -7,13 +7,14 @@
 // Below this the sum of soft Voronoi weights is held, so that values fade out far from all sites.
 FOAM_FN real flooredWeightSum(real sum) { return max(sum, real(1e-20)); }
 
-// A query point x' = x - p in the face's frame: (x' . t / r, x' . b / r), and its squared distance from the face's plane / r^2.
-FOAM_FN real3 faceQuery(real3 local, real3 tangent, real3 bitangent, real inverseRadius) {
-  real3 unit = local * inverseRadius;
-  real x = dot(unit, tangent);
-  real y = dot(unit, bitangent);
-  return real3(x, y, max(dot(unit, unit) - x * x - y * y, real(0)));
+// A vector along a face's tangent, bitangent and normal, in units of the cell's radius.
+FOAM_FN real3 inFaceFrame(real3 vector, real3 tangent, real3 bitangent, real3 normal, real inverseRadius) {
+  return real3(dot(vector, tangent), dot(vector, bitangent), dot(vector, normal)) * inverseRadius;
 }
+
+// What detailWeight asks of a point, given relative to the site in the face's frame: its place on the face, and the squared
+// distance from the face's plane.
+FOAM_FN real3 faceQuery(real3 local) { return real3(local.x, local.y, local.z * local.z); }
 
 // exp(-sharpness |x - s|^2 / r^2) for the detail site s = p + r (u t + v b), detail = (u, v). In powers of two, so that a site
 // costs two differences, three multiply-adds and an exp2.

@@ -33,7 +33,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer FloatQuadAr
 
 FROTH_CONST kGroupSize = 256;         // threads of a workgroup in all passes over lists
 FROTH_CONST kSortDigits = 256;        // values of a digit, as many as a workgroup has threads
-FROTH_CONST kSortKeysPerGroup = 512;  // keys one workgroup ranks in a radix pass
+FROTH_CONST kSortKeysPerGroup = 256;  // keys one workgroup ranks in a radix pass
 FROTH_CONST kSortGroupsPerSum = 32;   // rows of a histogram that have a row of sums before them
 FROTH_CONST kTileCellsPerGroup = 64;  // visible cells whose tiles one workgroup tests
 FROTH_CONST kCellsPerTileSum = 1024;  // visible cells whose tiles are summed for the prefixes of pairs
@@ -101,9 +101,9 @@ struct ChunkEntry {
 // A visible cell as the rays meet it; for a walk also a cell that only guides it. Positions are relative to the eye.
 struct CellRecord {
   vec4 ball;       // centre, radius; radius 0: nothing to be seen
-  vec4 face;       // normal n, density
-  vec4 tangent;    // t, 1 / radius
-  vec4 bitangent;  // b, 0
+  vec4 face;       // n / radius, density; the frame's vectors are scaled so that a face is seen in units of the radius
+  vec4 tangent;    // t / radius, its dot product with the centre
+  vec4 bitangent;  // b / radius, its dot product with the centre
   uint planeBegin, planeSplit, planeEnd;  // eye planes: [begin, split) only lower tFar, [split, end) only raise tNear
   uint solidBall;  // bytes of GpuChunk::solidBalls
 };

@@ -45,8 +45,26 @@ Radiance emptyRadiance() { return Radiance(vec3(0.0), 0.0, vec3(0.0), kInfinity)
 
 bool isSaturated(Shading shading, Radiance radiance) { return radiance.logTransmittance < shading.logCutoff; }
 
-vec3 queryAt(CellRecord cell, vec3 direction, float t) {
-  return faceQuery(t * direction - cell.ball.xyz, cell.tangent.xyz, cell.bitangent.xyz, cell.tangent.w);
+// Rays through the eye and a cell's centre, in the frame of its face and in units of its radius.
+struct FaceView {
+  vec3 directions[kRays];
+  vec3 centre;
+};
+
+FaceView faceViewOf(CellRecord cell, vec3 directions[kRays]) {
+  FaceView view;
+  view.centre = vec3(cell.tangent.w, cell.bitangent.w, dot(cell.face.xyz, cell.ball.xyz));
+  for (uint r = 0; r < kRays; ++r) {
+    view.directions[r] = inFaceFrame(directions[r], cell.tangent.xyz, cell.bitangent.xyz, cell.face.xyz, 1.0);
+  }
+  return view;
+}
+
+vec3 queryAt(FaceView view, uint ray, float t) { return faceQuery(t * view.directions[ray] - view.centre); }
+
+// The face in its own frame is the plane z = height.
+float meetFace(FaceView view, uint ray, float height) {
+  return intersectFace(view.centre, vec3(0.0, 0.0, 1.0), view.directions[ray].z, height);
 }
 
 // Heights of the displaced face at query points, in units of the radius.
@@ -85,24 +103,21 @@ void coloursAt(Shading shading, uint firstSite, vec3 queries[kRays], out vec3 co
 }
 
 // Cuts the intervals by the displaced face.
-void clipByFace(Shading shading, CellRecord cell, uint firstSite, vec3 directions[kRays], inout Segment segments[kRays]) {
-  vec3 centre = cell.ball.xyz;
+void clipByFace(Shading shading, FaceView view, uint firstSite, inout Segment segments[kRays]) {
   float heights[kRays];
   for (uint r = 0; r < kRays; ++r) heights[r] = 0.0;
   if (hasHeights) {
     vec3 queries[kRays];
     for (uint r = 0; r < kRays; ++r) {
-      float facing = dot(cell.face.xyz, directions[r]);
-      float tBase = intersectFace(centre, cell.face.xyz, facing, 0.0);
-      queries[r] = queryAt(cell, directions[r], facing >= 0.0 ? segments[r].tNear : max(segments[r].tNear, tBase));
+      bool isInsideFirst = view.directions[r].z >= 0.0;
+      queries[r] = queryAt(view, r, isInsideFirst ? segments[r].tNear : max(segments[r].tNear, meetFace(view, r, 0.0)));
       countWork(kWorkHeights, isEmpty(segments[r]) ? 0 : 1);
     }
     heightsAt(shading, firstSite, queries, heights);
   }
   for (uint r = 0; r < kRays; ++r) {
-    float facing = dot(cell.face.xyz, directions[r]);
-    float tFace = intersectFace(centre, cell.face.xyz, facing, heights[r] * cell.ball.w);
-    if (facing >= 0.0) segments[r].tFar = min(segments[r].tFar, tFace);
+    float tFace = meetFace(view, r, heights[r]);
+    if (view.directions[r].z >= 0.0) segments[r].tFar = min(segments[r].tFar, tFace);
     else segments[r].tNear = max(segments[r].tNear, tFace);
   }
 }
@@ -111,7 +126,7 @@ void composite(Shading shading, CellRecord cell, Segment segment, vec3 colour, i
   float opticalDepth = cell.face.w * (segment.tFar - segment.tNear);
   float weight = exp(radiance.logTransmittance) * opacity(opticalDepth);
   radiance.colour += weight * colour;
-  radiance.normal += weight * cell.face.xyz;
+  radiance.normal += weight * cell.ball.w * cell.face.xyz;
   float after = radiance.logTransmittance - opticalDepth;
   if (radiance.logTransmittance >= shading.logQuantile && after < shading.logQuantile) {
     radiance.distance = quantileDistance(segment.tNear, radiance.logTransmittance, shading.logQuantile, cell.face.w);
@@ -122,12 +137,13 @@ void composite(Shading shading, CellRecord cell, Segment segment, vec3 colour, i
 void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 directions[kRays], Segment segments[kRays],
                inout Radiance radiances[kRays]) {
   uint firstSite = visible * detailCount;
-  clipByFace(shading, cell, firstSite, directions, segments);
+  FaceView view = faceViewOf(cell, directions);
+  clipByFace(shading, view, firstSite, segments);
   bool isAny = false;
   vec3 queries[kRays];
   for (uint r = 0; r < kRays; ++r) {
     isAny = isAny || !isEmpty(segments[r]);
-    queries[r] = queryAt(cell, directions[r], segments[r].tNear);
+    queries[r] = queryAt(view, r, segments[r].tNear);
   }
   if (!isAny) return;
   vec3 colours[kRays];

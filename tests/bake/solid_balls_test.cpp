@@ -69,7 +69,8 @@ class CellRays {
  private:
   float heightAt(const glm::vec3& local) const {
     if (chunk_.detailHeights.empty()) return 0;
-    const glm::vec3 query = foam::faceQuery(local, frame_.tangent, frame_.bitangent, 1 / radius_);
+    const glm::vec3 query = foam::faceQuery(
+        foam::inFaceFrame(local, frame_.tangent, frame_.bitangent, frame_.normal, 1 / radius_));
     float sum = 0, weightSum = 0;
     for (uint32_t k = cell_ * details_; k < (cell_ + 1) * details_; ++k) {
       const float weight = foam::detailWeight(query, chunk_.detailSites[k], kSharpness);

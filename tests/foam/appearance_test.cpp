@@ -33,7 +33,8 @@ TYPED_TEST(AppearanceMathematics, DetailWeightIsTheGaussianOfTheDistanceInRadii)
     const glm::dvec3 t = this->direction(), b = glm::normalize(glm::cross(t, this->direction()));
     const double radius = this->uniform(0.1, 3), u = this->uniform(-1, 1), v = this->uniform(-1, 1);
     const glm::dvec3 local = radius * this->point(1);
-    const Vec3 query = foam::faceQuery(Vec3(local), Vec3(t), Vec3(b), TypeParam(1 / radius));
+    const Vec3 query = foam::faceQuery(
+        foam::inFaceFrame(Vec3(local), Vec3(t), Vec3(b), Vec3(glm::cross(t, b)), TypeParam(1 / radius)));
     const TypeParam weight = foam::detailWeight(query, glm::vec<2, TypeParam>(u, v), TypeParam(10));
     const glm::dvec3 apart = (local - radius * (u * t + v * b)) / radius;
     // The exponent is off by a few epsilon of 10 times squares below 12.
@@ -45,7 +46,7 @@ TYPED_TEST(AppearanceMathematics, RoundingNeverLiftsAWeightAboveOne) {
   using Vec3 = glm::vec<3, TypeParam>;
   for (int i = 0; i < 1000; ++i) {
     const TypeParam u = TypeParam(this->uniform(-1, 1)), v = TypeParam(this->uniform(-1, 1));
-    const Vec3 query = foam::faceQuery(Vec3(u, v, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), TypeParam(1));
+    const Vec3 query = foam::faceQuery(Vec3(u, v, 0));
     EXPECT_LE(foam::detailWeight(query, glm::vec<2, TypeParam>(u, v), TypeParam(10)), TypeParam(1));
   }
 }
