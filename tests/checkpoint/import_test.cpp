@@ -179,7 +179,8 @@ TEST(ImportCheckpoint, StopsWhenProgressSaysSo) {
 }
 
 TEST(ImportCheckpoint, ReadsALargeTensorInSlicesAndStopsBetweenThem) {
-  const std::string bytes = buildCheckpoint(sampleCheckpoint(16000, 2, 32));  // 3,072,000 numbers of axes, as many of colours
+  // 3,072,000 numbers of lobe axes, as many of colours.
+  const std::string bytes = buildCheckpoint(sampleCheckpoint(16000, 2, 32));
   const std::span data(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
   size_t slices = 0;
   const Result<Foam> foam = importCheckpointBytes(data, "model.pt", [&](std::string_view stage, auto, auto) {
