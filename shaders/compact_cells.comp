@@ -44,7 +44,7 @@ uint slotInGroup(uint group, out uint word) {
 void listCell(uint slot, uvec4 cell, uint key) {
   FRAME.visibleCells.v[slot] = cell;
   FRAME.order.v[slot] = slot;
-  if ((FRAME.flags & kFlagOnlyPaired) == 0) return;  // a walk sorts nothing
+  if (isWalk()) return;  // which sorts nothing
   FRAME.cellKeys.v[slot] = key;
   UintArray histogram = FRAME.cellHistogram;
   countDigit(histogram, slot, digitOf(key, 0));
@@ -60,7 +60,7 @@ void planVisible(uint kept) {
 }
 
 bool haveSpace(uvec2 sum) {
-  return sum.x <= FRAME.visibleCapacity && (sum.y <= FRAME.planeCapacity || (FRAME.flags & kFlagWalk) != 0);
+  return sum.x <= FRAME.visibleCapacity && (sum.y <= FRAME.planeCapacity || isWalk());
 }
 
 void main() {

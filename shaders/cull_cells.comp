@@ -13,7 +13,7 @@ shared uint maskWords[kMaskWords];
 shared uint planes;
 
 bool isVisible(Chunk chunk, uint cell) {
-  if (cell >= chunk.liveCount) return cell < chunk.cellCount && (FRAME.flags & kFlagWalk) != 0;
+  if (cell >= chunk.liveCount) return cell < chunk.cellCount && isWalk();
   Ball ball = ballOfSite(chunk, cell);
   // One load: lavapipe of Mesa 22.3 mixes up the components where a vector and one of its parts are loaded apart.
   vec4 forward = FRAME.forward;

@@ -36,7 +36,7 @@ uint expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius) {
     if (isPlane) {
       uint other = neighbourAt(chunk, row + first + lane);
       plane.xyz = eyePlaneTo(chunk, siteRadius, siteRadiusOf(chunk, other), isFar);
-      if (isFar && (FRAME.flags & kFlagWalk) != 0) plane.w = uintBitsToFloat(linkTo(chunk, other));
+      if (isFar && isWalk()) plane.w = uintBitsToFloat(linkTo(chunk, other));
     }
     if (isFar) atomicOr(farMasks[group], 1u << lane);
     barrier();
@@ -55,7 +55,7 @@ uint expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius) {
 void main() {
   uint visible = linearGroup() * kCells + gl_LocalInvocationIndex / kLanesPerCell;
   bool isCell = visible < COUNTERS.visibleCells;
-  if (isCell && (FRAME.flags & kFlagOnlyPaired) != 0) isCell = FRAME.tileCounts.v[visible] != 0;
+  if (isCell && !isWalk()) isCell = FRAME.tileCounts.v[visible] != 0;
   uvec4 cell = isCell ? FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)] : uvec4(0);
   if (gl_LocalInvocationIndex == 0) mostPlanes = 0;
   barrier();

@@ -29,7 +29,7 @@ void main() {
   uint visible = index / detailCount;
   uint detail = index % detailCount;
   if (visible >= COUNTERS.visibleCells) return;
-  if ((FRAME.flags & kFlagOnlyPaired) != 0 && FRAME.tileCounts.v[visible] == 0) return;
+  if (!isWalk() && FRAME.tileCounts.v[visible] == 0) return;
 
   uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
   Chunk chunk = loadChunk(cell.x);

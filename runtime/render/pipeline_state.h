@@ -10,7 +10,8 @@
 
 namespace froth {
 
-// The passes that come in two forms write the colour image: rgba16f, rgba32f.
+// The passes that come in two forms write the colour image: rgba16f, rgba32f. Those of raster and walk are there once more for
+// frames that want normals, which cost time to sum.
 enum class Pass : uint32_t {
   kCullCells,
   kSortScatter,
@@ -25,10 +26,14 @@ enum class Pass : uint32_t {
   kShadeSites,
   kRaster16,
   kRaster32,
+  kRasterNormals16,
+  kRasterNormals32,
   kWalk16,
   kWalk32,
+  kWalkNormals16,
+  kWalkNormals32,
 };
-inline constexpr uint32_t kPassCount = 14;
+inline constexpr uint32_t kPassCount = 18;
 inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.

@@ -29,6 +29,7 @@ static_assert(sizeof(gpu::SortConstants) <= kPushConstantBytes &&
 struct PassCode {
   const char* name;
   std::span<const uint32_t> spirv;
+  bool hasNormals = false;
 };
 
 // In the order of Pass.
@@ -45,8 +46,12 @@ const std::array<PassCode, kPassCount> kPassCodes = {{
     {"shade_sites", shade_sites_spirv},
     {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv},
     {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv},
+    {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv, true},
+    {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv, true},
     {"walk_rgba16f", walk_rgba16f_spirv},
     {"walk_rgba32f", walk_rgba32f_spirv},
+    {"walk_rgba16f", walk_rgba16f_spirv, true},
+    {"walk_rgba32f", walk_rgba32f_spirv, true},
 }};
 
 struct Specialization {
@@ -54,14 +59,16 @@ struct Specialization {
   uint32_t detailCount, lobeCount;
   VkBool32 hasHeights;
   VkBool32 countWork;
+  VkBool32 hasNormals;
 };
 
-constexpr std::array<VkSpecializationMapEntry, 5> kSpecializationEntries = {{
+constexpr std::array<VkSpecializationMapEntry, 6> kSpecializationEntries = {{
     {gpu::kConstantCheckIndices, offsetof(Specialization, checkIndices), sizeof(VkBool32)},
     {gpu::kConstantDetailCount, offsetof(Specialization, detailCount), sizeof(uint32_t)},
     {gpu::kConstantLobeCount, offsetof(Specialization, lobeCount), sizeof(uint32_t)},
     {gpu::kConstantHasHeights, offsetof(Specialization, hasHeights), sizeof(VkBool32)},
     {gpu::kConstantCountWork, offsetof(Specialization, countWork), sizeof(VkBool32)},
+    {gpu::kConstantHasNormals, offsetof(Specialization, hasNormals), sizeof(VkBool32)},
 }};
 
 Error deviceError(const char* call, const char* object, VkResult result) {
@@ -107,12 +114,14 @@ Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode&
 // Makes passes [first, last) into `pipelines`.
 Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint32_t first, uint32_t last,
                     PassPipelines& pipelines) {
-  const Specialization values{.checkIndices = state.options.checkIndices,
-                              .detailCount = shape.detailCount,
-                              .lobeCount = shape.lobeCount,
-                              .hasHeights = shape.hasHeights,
-                              .countWork = state.options.countWork};
+  Specialization values{.checkIndices = state.options.checkIndices,
+                        .detailCount = shape.detailCount,
+                        .lobeCount = shape.lobeCount,
+                        .hasHeights = shape.hasHeights,
+                        .countWork = state.options.countWork,
+                        .hasNormals = false};
   for (uint32_t pass = first; pass < last; ++pass) {
+    values.hasNormals = kPassCodes[pass].hasNormals;
     Result<VkPipeline> pipeline = createPipeline(state, kPassCodes[pass], values);
     if (!pipeline) return pipeline.error();
     pipelines[pass] = *pipeline;

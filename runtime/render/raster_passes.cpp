@@ -48,7 +48,7 @@ void recordRasterPasses(const Recording& recording, const PassRecorder& recorder
   recording.mark("bin");
   recordShade(recorder);
   recording.mark("shade");
-  recordPixels(recording, recorder, isWideColour(recording.info) ? Pass::kRaster32 : Pass::kRaster16);
+  recordPixels(recording, recorder, pixelPass(Pass::kRaster16, recording.info));
   recording.mark("raster");
 }
 

@@ -17,7 +17,7 @@ void writeBlock(const Recording& recording, const RenderInstance* instance) {
   } else {
     fillFrame(recording.info, *instance, buffers, {recording.blockAddress(), recording.countersAddress()},
               block, reinterpret_cast<gpu::ChunkEntry*>(staged + kBlockStride));
-    block.flags |= recording.kind == RecordingKind::kRaster ? gpu::kFlagOnlyPaired : gpu::kFlagWalk;
+    block.flags |= recording.kind == RecordingKind::kWalk ? gpu::kFlagWalk : 0;
   }
   std::memcpy(staged, &block, sizeof(block));
 }
@@ -136,6 +136,11 @@ void recordShade(const PassRecorder& recorder) {
   recorder.runIndirect(Pass::kExpandCells, offsetof(gpu::Counters, expandDispatch));
   recorder.runIndirect(Pass::kShadeSites, offsetof(gpu::Counters, siteDispatch));
   recorder.wait();
+}
+
+Pass pixelPass(Pass plain, const FrothRenderInfo& info) {
+  const uint32_t form = (isWideColour(info) ? 1 : 0) + (info.normal.image ? 2 : 0);
+  return static_cast<Pass>(static_cast<uint32_t>(plain) + form);
 }
 
 void recordPixels(const Recording& recording, const PassRecorder& recorder, Pass pass) {

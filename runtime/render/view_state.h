@@ -82,6 +82,9 @@ void recordShade(const PassRecorder& recorder);
 void recordRasterPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset);
 void recordWalkPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset);
 
+// The pass that writes the wanted images, of a raster or a walk; `plain`: its form for rgba16f without normals, followed by
+// its others.
+Pass pixelPass(Pass plain, const FrothRenderInfo& info);
 // A workgroup per kSubTileSize x kSubTileSize pixels.
 void recordPixels(const Recording& recording, const PassRecorder& recorder, Pass pass);
 

@@ -5,12 +5,10 @@ namespace froth {
 void recordWalkPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset) {
   recordCull(recorder, asset);
   recording.mark("cull");
+  recorder.run(Pass::kLocate, 1);  // needs nothing of the passes around it, so it runs beside them
   recordShade(recorder);
   recording.mark("shade");
-  recorder.run(Pass::kLocate, 1);
-  recorder.wait();
-  recording.mark("locate");
-  recordPixels(recording, recorder, isWideColour(recording.info) ? Pass::kWalk32 : Pass::kWalk16);
+  recordPixels(recording, recorder, pixelPass(Pass::kWalk16, recording.info));
   recording.mark("walk");
 }
 

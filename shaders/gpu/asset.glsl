@@ -90,7 +90,7 @@ uint alphaCountOf(Chunk chunk, uint cell) {
 
 // Planes that a recording expands for a visible cell: of all neighbours for a walk, of those of the alpha-complex else.
 uint planeCountOf(Chunk chunk, uint cell) {
-  if ((FRAME.flags & kFlagWalk) == 0) return alphaCountOf(chunk, cell);
+  if (!isWalk()) return alphaCountOf(chunk, cell);
   uvec2 row = neighbourRow(chunk, cell);
   return row.y - row.x;
 }

@@ -11,7 +11,7 @@ vec3 eyePlaneTo(Chunk chunk, vec4 site, vec4 otherSite, out bool isFar) {
   vec3 toNeighbour = fromSiteToSite(site.xyz, otherSite.xyz);
   float offset = radicalOffset(toNeighbour, site.w, otherSite.w);
   float clearance = radicalClearance(centre, toNeighbour, offset);
-  if ((FRAME.flags & kFlagWalk) != 0) clearance = exitClearance(centre, toNeighbour, offset, clearance);
+  if (isWalk()) clearance = exitClearance(centre, toNeighbour, offset, clearance);
   isFar = clearance >= 0.0;
   return eyePlane(toNeighbour, clearance);
 }

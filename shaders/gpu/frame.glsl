@@ -24,6 +24,8 @@ layout(push_constant) uniform Push {
 #define FRAME push.frame.v
 #define COUNTERS push.frame.v.counters.v
 
+bool isWalk() { return (FRAME.flags & kFlagWalk) != 0; }
+
 // Every access to an array goes through this: with checkIndices an index out of range is counted and clamped.
 uint checked(uint index, uint count) {
   if (checkIndices && index >= count) {

@@ -42,7 +42,7 @@ FROTH_CONST kSubTileSize = 8;         // [pixels] edge of what one workgroup of 
 FROTH_CONST kMaskWords = 8;           // words of a bit per thread of a workgroup
 FROTH_CONST kNoCell = 0xffffffffu;
 FROTH_CONST kUnlisted = 0x80000000u;  // in a walk's link: the other bits are a site of the chunk, whose cell has no record
-FROTH_CONST kLanesPerCell = 32;       // threads that expand one visible cell
+FROTH_CONST kLanesPerCell = 8;        // threads that expand one visible cell
 FROTH_CONST kWholeBall = 0x40202020u; // ChunkContents::solidBalls: the cell's own ball
 
 // SortConstants::step: what a pass of the radix sort does with a key besides moving it.
@@ -56,14 +56,15 @@ FROTH_CONST kConstantDetailCount = 1;
 FROTH_CONST kConstantLobeCount = 2;
 FROTH_CONST kConstantHasHeights = 3;
 FROTH_CONST kConstantCountWork = 4;
+FROTH_CONST kConstantHasNormals = 5;
 
 // FrameBlock::flags
 FROTH_CONST kFlagColour = 1;
 FROTH_CONST kFlagDistance = 2;
 FROTH_CONST kFlagNormal = 4;
 FROTH_CONST kFlagDisplayCoded = 8;
-FROTH_CONST kFlagOnlyPaired = 16;  // a raster: sort the cells, shade only those that own a (tile, cell) pair
-FROTH_CONST kFlagWalk = 32;        // list cells that guide walks too, and the planes of all neighbours
+FROTH_CONST kFlagWalk = 16;  // list cells that guide walks too, and the planes of all neighbours; else a raster: sort the cells,
+                             // shade only those that own a (tile, cell) pair
 
 // How the bits of a chunk's live cells are to be read (runtime/asset/cell_packer.h).
 struct CellCode {

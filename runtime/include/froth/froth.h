@@ -223,7 +223,7 @@ typedef enum FrothViewBit {
 } FrothViewBit;
 
 typedef struct FrothPassTime {
-  const char* name; /* "cull", "sort", "bin", "shade", "raster", "locate", "walk" ...; static storage */
+  const char* name; /* "cull", "sort", "bin", "shade", "raster", "walk" ...; static storage */
   double milliseconds;
 } FrothPassTime;
 
