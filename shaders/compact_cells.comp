@@ -53,7 +53,7 @@ void listCell(uint slot, uvec4 cell, uint key) {
 // By the workgroup that loses the first cell, or else by the last one.
 void planVisible(uint kept) {
   COUNTERS.visibleCells = kept;
-  COUNTERS.expandDispatch = dispatchOf(groupsOver(kept, kGroupSize / kLanesPerCell));
+  COUNTERS.expandDispatch = dispatchOf(groupsOver(kept, kGroupSize / lanesPerCell()));
   COUNTERS.siteDispatch = dispatchOf(groupsOver(kept * detailCount, kGroupSize));
   COUNTERS.cellSortDispatch = dispatchOf(groupsOver(kept, kSortKeysPerGroup));
   COUNTERS.tileDispatch = dispatchOf(groupsOver(kept, kTileCellsPerGroup));

@@ -1,5 +1,5 @@
 // What every ray through the eye shares of a visible cell: its frame, and its radical planes as eye planes, those that
-// only lower tFar first. kLanesPerCell threads per cell share its planes.
+// only lower tFar first. Several threads per cell share its planes.
 //
 // A walk leaves a cell through a plane of the first kind: the eye lies on the cell's side of it. Each has a link to the cell
 // behind it: where its record is, or kUnlisted and its site.
@@ -10,9 +10,8 @@
 
 layout(local_size_x = kGroupSize) in;
 
-const uint kCells = kGroupSize / kLanesPerCell;
 
-shared uint farMasks[kCells];  // which of the planes at hand lower tFar
+shared uint farMasks[kGroupSize / kRasterLanes];  // which of the planes at hand lower tFar
 shared uint mostPlanes;
 
 uint linkTo(Chunk chunk, uint site) {
@@ -22,12 +21,13 @@ uint linkTo(Chunk chunk, uint site) {
 
 // Planes of the first kind from the begin of the cell's space up, the others from its end down; returns where they meet.
 uint expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius) {
-  uint lane = gl_LocalInvocationIndex % kLanesPerCell;
-  uint group = gl_LocalInvocationIndex / kLanesPerCell;
+  uint lanes = lanesPerCell();
+  uint lane = gl_LocalInvocationIndex % lanes;
+  uint group = gl_LocalInvocationIndex / lanes;
   uint row = cell.w > 0 ? neighbourRow(chunk, cell.y).x : 0;
   uint low = cell.z;
   uint high = cell.z + cell.w;
-  for (uint first = 0; first < mostPlanes; first += kLanesPerCell) {
+  for (uint first = 0; first < mostPlanes; first += lanes) {
     if (lane == 0) farMasks[group] = 0;
     barrier();
     bool isPlane = first + lane < cell.w;
@@ -46,14 +46,14 @@ uint expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius) {
     if (isPlane) FRAME.planes.v[checked(place, FRAME.planeCapacity)] = plane;
     uint farPlanes = bitCount(mask);
     low += farPlanes;
-    high -= min(cell.w - min(first, cell.w), kLanesPerCell) - farPlanes;
+    high -= min(cell.w - min(first, cell.w), lanes) - farPlanes;
     barrier();
   }
   return low;
 }
 
 void main() {
-  uint visible = linearGroup() * kCells + gl_LocalInvocationIndex / kLanesPerCell;
+  uint visible = (linearGroup() * kGroupSize + gl_LocalInvocationIndex) / lanesPerCell();
   bool isCell = visible < COUNTERS.visibleCells;
   if (isCell && !isWalk()) isCell = FRAME.tileCounts.v[visible] != 0;
   uvec4 cell = isCell ? FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)] : uvec4(0);
@@ -65,7 +65,7 @@ void main() {
   Chunk chunk = loadChunk(cell.x);
   vec4 siteRadius = siteRadiusOf(chunk, cell.y);
   uint split = expandPlanes(chunk, cell, siteRadius);
-  if (!isCell || gl_LocalInvocationIndex % kLanesPerCell != 0) return;
+  if (!isCell || gl_LocalInvocationIndex % lanesPerCell() != 0) return;
   Ball ball = ballOf(chunk, siteRadius);
   CellRecord record;
   record.planeBegin = cell.z;

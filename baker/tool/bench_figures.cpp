@@ -15,7 +15,7 @@ constexpr double kMebi = 1 << 20;
 constexpr uint32_t kSubTileSize = 8;  // [pixels] of the workgroups that FrothWork speaks of
 
 nlohmann::ordered_json toJson(const Percentiles& times) {
-  return {{"median", times.median}, {"p5", times.p5}, {"p95", times.p95}};
+  return {{"median", times.median}, {"p5", times.p5}, {"p95", times.p95}, {"p999", times.p999}, {"worst", times.worst}};
 }
 
 void printTimes(const std::string& name, const Percentiles& frames, const Percentiles& cycles) {
@@ -99,7 +99,9 @@ void printMeasurement(const Measurement& measurement) {
     printTimes(name, percentilesOf(measurement.passTimes.at(name)),
                percentilesOf(measurement.cyclePasses.at(name)));
   }
-  printTimes("total", percentilesOf(measurement.totals), percentilesOf(measurement.cycleTotals));
+  const Percentiles totals = percentilesOf(measurement.totals);
+  printTimes("total", totals, percentilesOf(measurement.cycleTotals));
+  fmt::print("of all {} frames: p99.9 {:.4f}, worst {:.4f}\n", measurement.totals.size(), totals.p999, totals.worst);
 }
 
 nlohmann::ordered_json measurementAsJson(const Measurement& measurement,

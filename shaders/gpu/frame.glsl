@@ -26,6 +26,8 @@ layout(push_constant) uniform Push {
 
 bool isWalk() { return (FRAME.flags & kFlagWalk) != 0; }
 
+uint lanesPerCell() { return isWalk() ? kWalkLanes : kRasterLanes; }
+
 // Every access to an array goes through this: with checkIndices an index out of range is counted and clamped.
 uint checked(uint index, uint count) {
   if (checkIndices && index >= count) {

@@ -42,7 +42,8 @@ FROTH_CONST kSubTileSize = 8;         // [pixels] edge of what one workgroup of 
 FROTH_CONST kMaskWords = 8;           // words of a bit per thread of a workgroup
 FROTH_CONST kNoCell = 0xffffffffu;
 FROTH_CONST kUnlisted = 0x80000000u;  // in a walk's link: the other bits are a site of the chunk, whose cell has no record
-FROTH_CONST kLanesPerCell = 8;        // threads that expand one visible cell
+FROTH_CONST kRasterLanes = 8;         // threads that expand one visible cell: its alpha-complex neighbours,
+FROTH_CONST kWalkLanes = 32;          // or all of them, hundreds where a cell fills a room
 FROTH_CONST kWholeBall = 0x40202020u; // ChunkContents::solidBalls: the cell's own ball
 
 // SortConstants::step: what a pass of the radix sort does with a key besides moving it.
@@ -139,7 +140,7 @@ struct Counters {
   uint stepLimit;     // pixels whose walk was ended by maxSteps
   uint violations;    // indices out of range (checkIndices)
   uint padding;
-  uvec4 expandDispatch;    // kLanesPerCell threads per visible cell
+  uvec4 expandDispatch;    // kRasterLanes or kWalkLanes threads per visible cell
   uvec4 siteDispatch;      // a thread per detail site of a visible cell
   uvec4 cellSortDispatch;  // a workgroup per kSortKeysPerGroup visible cells
   uvec4 tileDispatch;      // a workgroup per kTileCellsPerGroup visible cells
