@@ -71,8 +71,8 @@ FOAM_FN real3 eyePlane(real3 toNeighbour, real clearance) {
 // A ray that runs within rounding along a plane through the origin of all rays may take either side of it, but a walk must find
 // the plane as an exit: no clearance within its rounding below zero counts as negative.
 FOAM_FN real exitClearance(real3 centre, real3 toNeighbour, real offset, real clearance) {
-  FOAM_PRECISE real rounding =
-      real(1e-6) * (sqrt(dot(toNeighbour, toNeighbour) * dot(centre, centre)) + abs(offset));
+  real squared = dot(toNeighbour, toNeighbour);  // the radii's part of the offset may cancel it
+  FOAM_PRECISE real rounding = real(1e-6) * (sqrt(squared * dot(centre, centre)) + squared + abs(offset));
   return clearance >= -rounding ? max(clearance, real(0)) : clearance;
 }
 

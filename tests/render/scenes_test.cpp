@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "baker/synth/synth.h"
+#include "shaders/foam/cell.h"
 #include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
 
@@ -86,6 +87,33 @@ INSTANTIATE_TEST_SUITE_P(DetailsAndLobes, AssetShapes,
 TEST(Scenes, AnEyeInsideBallsSeesThemWithTheNearTestsOff) {
   View view = lookAt({0.1, 0.0, 3.0}, {0.4, 0.3, 4}, kWidth, kHeight, 1.2);
   expectReference(synthesize("random", 0), view);
+}
+
+// Points on the radical planes of the first cells with their nearest neighbours.
+std::vector<glm::dvec3> pointsOnPlanes(const ChunkContents& chunk, uint32_t cells) {
+  std::vector<glm::dvec3> points;
+  for (uint32_t cell = 0; cell < cells; ++cell) {
+    const uint32_t other = chunk.neighbours[chunk.neighbourOffsets[cell]];
+    const glm::dvec3 site(chunk.sites[cell]), toNeighbour = glm::dvec3(chunk.sites[other]) - site;
+    const double offset = foam::radicalOffset(toNeighbour, double{chunk.radii[cell]}, double{chunk.radii[other]});
+    points.push_back(site + toNeighbour * (offset / glm::dot(toNeighbour, toNeighbour)) +
+                     glm::dvec3(chunk.origin[0], chunk.origin[1], chunk.origin[2]));
+  }
+  return points;
+}
+
+// Rounding says on which side of the plane the eye lies, in each pass for itself.
+TEST(Scenes, AnEyeOnARadicalPlaneWalksAsItRasterizes) {
+  const Foam foam = synthesize("random", 0);
+  const AssetContents contents = bakeForTest(foam);
+  constexpr VkExtent2D kSmall{24, 16};
+  Stage stage(contents, kSmall);
+  for (const glm::dvec3& eye : pointsOnPlanes(contents.chunks[0], 100)) {
+    const View view = lookAt(eye, eye + glm::dvec3(0.3, -0.1, 1), kSmall.width, kSmall.height, 1.2);
+    const Frame walk = stage.draw(Method::kWalk, view);
+    EXPECT_EQ(walk.status.bits & FROTH_VIEW_STEP_LIMIT, 0u);
+    EXPECT_GE(psnr(walk.colour, stage.draw(Method::kRaster, view).colour), 60);
+  }
 }
 
 TEST(Scenes, NearTestsSkipTheCellsThatTheReferenceSkips) {
