@@ -176,6 +176,35 @@ TYPED_TEST(CellMathematics, AnEyeOnThePlaneGivesAFiniteEyePlaneOfTheRightSide) {
   }
 }
 
+TYPED_TEST(CellMathematics, RoundingNeverHidesAnExitFromAnEyeOnThePlane) {
+  using Vec3 = glm::vec<3, TypeParam>;
+  using Exact3 = glm::vec<3, long double>;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 toNeighbour(this->point(1));
+    const TypeParam radius = TypeParam(this->uniform(0.1, 1));
+    // In every other case the radii cancel the distance in the offset, and the eye lies close to the site.
+    const bool isCancelling = i % 2 == 0;
+    const TypeParam other =
+        isCancelling ? std::sqrt(radius * radius + glm::dot(toNeighbour, toNeighbour)) : TypeParam(this->uniform(0.1, 1));
+    const Exact3 d(toNeighbour), aside = glm::cross(d, Exact3(this->point(isCancelling ? 1e-3 : 1)));
+    const long double r = radius, s = other;
+    const long double exactOffset = (glm::dot(d, d) + (r - s) * (r + s)) / 2;
+    const long double beyond = i % 4 == 3 ? 0.01L : 0;  // an eye on the neighbour's side, in units of |d|
+    const Vec3 centre(aside - d * (exactOffset / glm::dot(d, d) + beyond));
+    const long double exact = exactOffset + glm::dot(d, Exact3(centre));
+    const TypeParam offset = foam::radicalOffset(toNeighbour, radius, other);
+    const TypeParam clearance = foam::exitClearance(centre, toNeighbour, offset,
+                                                    foam::radicalClearance(centre, toNeighbour, offset));
+    if (exact >= 0) {
+      EXPECT_GE(clearance, TypeParam(0)) << i;
+    }
+    EXPECT_EQ(beyond > 0, exact < -1e-3L * glm::dot(d, d)) << i;
+    if (exact < -1e-5L * (glm::length(d) * glm::length(Exact3(centre)) + glm::dot(d, d) + r * r + s * s)) {
+      EXPECT_LT(clearance, TypeParam(0)) << i;
+    }
+  }
+}
+
 TYPED_TEST(CellMathematics, TheFaceIsMetAtItsHeightAndAGrazedFaceFarAway) {
   using Vec3 = glm::vec<3, TypeParam>;
   const Vec3 normal(0, 0, -1);
