@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <string_view>
 
 #include "format/result.h"
@@ -18,8 +19,8 @@ inline bool report(const Progress& progress, std::string_view stage, uint64_t do
 }
 
 // What a stage fails with that was asked to stop; `what` stopped: "bake", "triangulation".
-inline Error stoppedOnRequest(const char* what) {
-  return makeError(ErrorKind::kCancelled, "%s stopped on request", what);
+inline Error stoppedOnRequest(const std::string& what) {
+  return makeError(ErrorKind::kCancelled, "%s stopped on request", what.c_str());
 }
 
 }  // namespace froth

@@ -7,6 +7,6 @@ layout(local_size_x = kSubTileSize, local_size_y = kSubTileSize) in;
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
-  if (pixel.x >= FRAME.regionWidth || pixel.y >= FRAME.regionHeight) return;
+  if (!isInRegion(pixel)) return;
   writePixel(pixel, vec3(0.0), 0.0, kInfinity, vec3(0.0));
 }

@@ -78,7 +78,7 @@ void main() {
   uint slot = slotInGroup(group, word);
   bool isVisible = (word >> (thread % 32) & 1u) != 0;
   uint planeCount = isVisible ? planeCountOf(chunk, local) : 0;
-  uint key = isVisible ? sortKey(chunk, local) : 0;
+  uint key = isVisible && !isWalk() ? sortKey(chunk, local) : 0;
   uvec3 total;
   uint plane = scanExclusive(uvec3(planeCount, shareOfSumBefore(group)), total).x;
   uvec2 before = total.yz;

@@ -15,7 +15,7 @@ shared uint farMasks[kGroupSize / kRasterLanes];  // which of the planes at hand
 shared uint mostPlanes;
 
 uint linkTo(Chunk chunk, uint site) {
-  uint slot = slotOfCell(isGhost(chunk, site) ? cellOfGhost(chunk, site) : uvec2(chunk.index, site));
+  uint slot = slotOfCell(cellOfSite(chunk, site));
   return slot == kNoCell ? kUnlisted | site : slot;
 }
 
@@ -54,9 +54,8 @@ uint expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius) {
 
 void main() {
   uint visible = (linearGroup() * kGroupSize + gl_LocalInvocationIndex) / lanesPerCell();
-  bool isCell = visible < COUNTERS.visibleCells;
-  if (isCell && !isWalk()) isCell = FRAME.tileCounts.v[visible] != 0;
-  uvec4 cell = isCell ? FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)] : uvec4(0);
+  bool isCell = isNeeded(visible);
+  uvec4 cell = isCell ? visibleCellAt(visible) : uvec4(0);
   if (gl_LocalInvocationIndex == 0) mostPlanes = 0;
   barrier();
   atomicMax(mostPlanes, cell.w);

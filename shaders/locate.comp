@@ -58,11 +58,8 @@ void main() {
     uint place = places[0];
     barrier();
     if (!(least < power)) break;
-    cell.y = neighbourAt(chunk, place);
-    if (isGhost(chunk, cell.y)) {
-      cell = cellOfGhost(chunk, cell.y);
-      chunk = loadChunk(cell.x);
-    }
+    cell = cellOfSite(chunk, neighbourAt(chunk, place));
+    if (cell.x != chunk.index) chunk = loadChunk(cell.x);
     power = least;
   }
   if (gl_LocalInvocationIndex == 0) FRAME.walkStart.v[0] = cell;

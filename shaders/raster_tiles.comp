@@ -97,7 +97,7 @@ uint gatherBatch(uint entry, uint end, uvec2 corner) {
 // Saturated from the start where there is no pixel.
 Radiance startOf(uvec2 pixel) {
   Radiance radiance = emptyRadiance();
-  if (pixel.x >= FRAME.regionWidth || pixel.y >= FRAME.regionHeight) radiance.logTransmittance = -kInfinity;
+  if (!isInRegion(pixel)) radiance.logTransmittance = -kInfinity;
   return radiance;
 }
 
@@ -139,7 +139,7 @@ void main() {
   }
   for (uint r = 0; r < kRays; ++r) {
     uvec2 pixel = firstPixel + uvec2(0, r * kRows);
-    if (pixel.x >= FRAME.regionWidth || pixel.y >= FRAME.regionHeight) continue;
+    if (!isInRegion(pixel)) continue;
     Radiance radiance = radiances[r];
     writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal);
   }

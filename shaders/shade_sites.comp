@@ -28,10 +28,9 @@ void main() {
   uint index = linearGroup() * kGroupSize + gl_LocalInvocationIndex;
   uint visible = index / detailCount;
   uint detail = index % detailCount;
-  if (visible >= COUNTERS.visibleCells) return;
-  if (!isWalk() && FRAME.tileCounts.v[visible] == 0) return;
+  if (!isNeeded(visible)) return;
 
-  uvec4 cell = FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
+  uvec4 cell = visibleCellAt(visible);
   Chunk chunk = loadChunk(cell.x);
   if (cell.y >= chunk.liveCount) return;
   CellCode code = FRAME.chunks.v[cell.x].code;

@@ -34,7 +34,7 @@ Step stepTo(uvec2 cell, float key, float entry) { return Step(slotOfCell(cell), 
 
 // To a site of the chunk; from a ghost on to the cell for which it stands.
 Step stepToSite(Chunk chunk, uint site, float key, float entry) {
-  return stepTo(isGhost(chunk, site) ? cellOfGhost(chunk, site) : uvec2(chunk.index, site), key, entry);
+  return stepTo(cellOfSite(chunk, site), key, entry);
 }
 
 // The neighbour through whose plane the ray leaves the cell first, by their sites. Returns false: the ray leaves the foam.
@@ -112,7 +112,7 @@ void meetCell(Shading shading, uint visible, CellRecord cell, vec3 direction, fl
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
-  if (pixel.x >= FRAME.regionWidth || pixel.y >= FRAME.regionHeight) return;
+  if (!isInRegion(pixel)) return;
   vec3 direction = normalize(pixelRay(vec2(pixel)));
   Shading shading = loadShading();
   Radiance radiances[kRays];

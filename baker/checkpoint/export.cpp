@@ -160,7 +160,7 @@ Status exportCheckpoint(const std::filesystem::path& path, const Foam& foam, con
   const auto advance = [&](size_t bytes) -> Status {
     done += bytes;
     if (!report(progress, "export", done, total)) {
-      return Error{ErrorKind::kCancelled, path.string() + ": export stopped on request"};
+      return stoppedOnRequest(path.string() + ": export");
     }
     return {};
   };

@@ -8,6 +8,7 @@
 #include "baker/checkpoint/checkpoint.h"
 #include "baker/checkpoint/checkpoint_views.h"
 #include "baker/checkpoint/mapped_file.h"
+#include "format/float_span.h"
 
 namespace froth {
 namespace {
@@ -156,7 +157,7 @@ Status Importer::readPlain(Parameter parameter, std::vector<Vec>& out) {
   if (Status status = copy<float>(from, out); !status) {
     return status;
   }
-  return checkFinite(from, {reinterpret_cast<const float*>(out.data()), from.count});
+  return checkFinite(from, floatsOf(out));
 }
 
 Status Importer::readActivated(Parameter parameter, float smallest, std::vector<float>& out) {
@@ -227,7 +228,7 @@ Status Importer::copy(const TensorView& from, std::vector<Item>& out) {
     copyElements(slice, reinterpret_cast<Real*>(out.data() + out.size()) - slice.count);
     done_ += slice.count;
     if (!report(progress_, "import", done_, totalCount())) {
-      return Error{ErrorKind::kCancelled, file_.name + ": import stopped on request"};
+      return stoppedOnRequest(file_.name + ": import");
     }
   }
   return {};

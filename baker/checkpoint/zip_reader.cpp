@@ -273,7 +273,7 @@ Status checkZipMember(const NamedBytes& archive, const ZipMember& member,
   for (auto rest = member.bytes; !rest.empty();) {
     const auto place = static_cast<uint64_t>(rest.data() - archive.bytes.data());
     if (!report(progress, "checksums", place, archive.bytes.size())) {
-      return Error{ErrorKind::kCancelled, archive.name + ": import stopped on request"};
+      return stoppedOnRequest(archive.name + ": import");
     }
     const auto slice = rest.first(std::min(rest.size(), kSliceBytes));
     found = static_cast<uint32_t>(crc32_z(found, slice.data(), slice.size()));

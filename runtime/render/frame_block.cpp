@@ -88,7 +88,7 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
 }  // namespace
 
 uint32_t tilesAlong(uint32_t pixels) {
-  return (pixels + gpu::kTileSize - 1) / gpu::kTileSize;
+  return groupsOver(pixels, gpu::kTileSize);
 }
 
 uint32_t tilesOf(const VkRect2D& region) {

@@ -144,11 +144,8 @@ Pass pixelPass(Pass plain, const FrothRenderInfo& info) {
 }
 
 void recordPixels(const Recording& recording, const PassRecorder& recorder, Pass pass) {
-  const auto groupsAlong = [](uint32_t pixels) {
-    return (pixels + gpu::kSubTileSize - 1) / gpu::kSubTileSize;
-  };
   const VkExtent2D& extent = recording.info.camera.scissor.extent;
-  recorder.run(pass, groupsAlong(extent.width), groupsAlong(extent.height));
+  recorder.run(pass, groupsOver(extent.width, gpu::kSubTileSize), groupsOver(extent.height, gpu::kSubTileSize));
 }
 
 }  // namespace froth

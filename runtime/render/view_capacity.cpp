@@ -51,9 +51,8 @@ uint32_t digitsOf(uint32_t count) {
 }
 
 uint64_t histogramBytes(uint32_t keys) {
-  const uint64_t groups = groupsOver(keys, gpu::kSortKeysPerGroup);
-  const uint64_t sums = (groups + gpu::kSortGroupsPerSum - 1) / gpu::kSortGroupsPerSum;
-  return gpu::kSortDigits * sizeof(uint32_t) * (groups + sums);
+  const uint32_t groups = groupsOver(keys, gpu::kSortKeysPerGroup);
+  return gpu::kSortDigits * sizeof(uint32_t) * (uint64_t{groups} + groupsOver(groups, gpu::kSortGroupsPerSum));
 }
 
 TallyLayout layOutTallies(const ViewCapacity& capacity) {

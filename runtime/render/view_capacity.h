@@ -33,7 +33,7 @@ struct ViewDemand {
 ViewDemand demandOf(const gpu::Counters& counters);
 ViewDemand largest(const ViewDemand& a, const ViewDemand& b);
 
-// Workgroups over a list.
+// Workgroups over a list or along an image.
 inline uint32_t groupsOver(uint32_t items, uint32_t perGroup) { return (items + perGroup - 1) / perGroup; }
 
 inline constexpr uint32_t kCellKeyDigits = 4;  // bytes of a cell's sort key

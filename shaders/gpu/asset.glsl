@@ -104,12 +104,27 @@ uvec2 cellOfGhost(Chunk chunk, uint site) {
   return uvec2(ref >> FRAME.localBits, ref & ((1u << FRAME.localBits) - 1));
 }
 
+// The cell that a site of the chunk is, or for which it stands as a ghost.
+uvec2 cellOfSite(Chunk chunk, uint site) {
+  return isGhost(chunk, site) ? cellOfGhost(chunk, site) : uvec2(chunk.index, site);
+}
+
 // The slot of a cell in the list of visible cells, or kNoCell.
 uint slotOfCell(uvec2 cell) {
   uint words = FRAME.groupsPerChunk * kMaskWords;
   uvec2 word = FRAME.visibility.v[checked(cell.x * words + cell.y / 32, FRAME.chunkCount * words)];
   uint bit = 1u << (cell.y % 32);
   return (word.x & bit) != 0 ? word.y + bitCount(word.x & (bit - 1)) : kNoCell;
+}
+
+// Whether a recording expands and shades a place in the order of the visible cells: a raster only those with a tile.
+bool isNeeded(uint visible) {
+  return visible < COUNTERS.visibleCells && (isWalk() || FRAME.tileCounts.v[visible] != 0);
+}
+
+// The entry of FrameBlock::visibleCells at a place in the order.
+uvec4 visibleCellAt(uint visible) {
+  return FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
 }
 
 #endif

@@ -8,6 +8,9 @@ layout(set = 0, binding = 0, FROTH_COLOUR_FORMAT) uniform writeonly image2D colo
 layout(set = 0, binding = 1, r32f) uniform writeonly image2D distanceImage;
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D normalImage;
 
+// Workgroups at the right and lower border hang over it.
+bool isInRegion(uvec2 pixel) { return pixel.x < FRAME.regionWidth && pixel.y < FRAME.regionHeight; }
+
 // `pixel` counts from the region's corner; `colour` is display-coded, the normal in the asset's axes.
 void writePixel(uvec2 pixel, vec3 colour, float coverage, float quantileDepth, vec3 normal) {
   ivec2 place = ivec2(pixel + uvec2(FRAME.regionX, FRAME.regionY));

@@ -80,7 +80,7 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
 
   const GpuBuffer keyBuffer = upload(keys), valueBuffer = upload(values);
   const GpuBuffer keySwap = upload(keys), valueSwap = upload(values);
-  const uint32_t groups = (count + gpu::kSortKeysPerGroup - 1) / gpu::kSortKeysPerGroup;
+  const uint32_t groups = groupsOver(count, gpu::kSortKeysPerGroup);
   // Each group of keys has a row of digits, each kSortGroupsPerSum of these a row of sums before them.
   std::vector<uint32_t> histograms(4 * histogramBytes(std::max(count, 1u)) / sizeof(uint32_t));
   for (uint32_t i = 0; i < count; ++i) {
@@ -223,6 +223,15 @@ class Bin : public Passes {
     return readLists(view, capacity.tiles);
   }
 
+  // The cells of each tile.
+  std::vector<std::vector<uint32_t>> listByTile(const Foam& foam, const View& camera) {
+    Lists lists = listCells(uploadBalls(foam), camera);
+    for (std::vector<uint32_t>& slots : lists.tileSlots) {
+      for (uint32_t& slot : slots) slot = lists.visible[slot][1];
+    }
+    return lists.tileSlots;
+  }
+
  private:
   Lists readLists(const ViewState& view, uint32_t tiles) {
     Lists lists;
@@ -290,11 +299,7 @@ void expectListsOfPixels(const Foam& foam, const View& camera,
 TEST_F(Bin, TilesHoldTheBallsThatTheirPixelsMeetInOrderOfPower) {
   const Foam foam = makeRandomFoam(700, 1, 1, 11);
   const View camera = lookAt({0.3, 0.2, 1.2}, {0, 0, 3}, 150, 100, 0.7);
-  Lists lists = listCells(uploadBalls(foam), camera);
-  for (std::vector<uint32_t>& slots : lists.tileSlots) {
-    for (uint32_t& slot : slots) slot = lists.visible[slot][1];
-  }
-  expectListsOfPixels(foam, camera, lists.tileSlots);
+  expectListsOfPixels(foam, camera, listByTile(foam, camera));
 }
 
 // Balls around the eye, before it, and smaller than a pixel, on more tiles than a workgroup has threads.
@@ -302,11 +307,7 @@ TEST_F(Bin, TilesHoldHugeAndTinyBallsAlike) {
   Foam foam = makeRandomFoam(40, 1, 1, 12);
   for (uint32_t i = 0; i < foam.cellCount; ++i) foam.radii[i] *= std::exp2(static_cast<float>(i % 10) - 5);
   const View camera = lookAt({0.3, 0.2, 1.2}, {0, 0, 3}, 700, 500, 0.7);
-  Lists lists = listCells(uploadBalls(foam), camera);
-  for (std::vector<uint32_t>& slots : lists.tileSlots) {
-    for (uint32_t& slot : slots) slot = lists.visible[slot][1];
-  }
-  expectListsOfPixels(foam, camera, lists.tileSlots);
+  expectListsOfPixels(foam, camera, listByTile(foam, camera));
 }
 
 // So many copies of a chunk that all sums of sums are in use. Equal balls stay in the order of the chunks.
