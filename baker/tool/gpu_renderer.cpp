@@ -105,7 +105,7 @@ struct GpuRenderer::State {
 
 GpuRenderer::State::~State() {
   if (host) destroyImages();
-  if (context) frothDestroyContext(context);  // every submission was waited for
+  if (context) frothDestroyContext(context, UINT64_MAX);  // every submission was waited for
 }
 
 Error GpuRenderer::State::error(FrothResult result, const char* call) const {

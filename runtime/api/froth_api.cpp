@@ -1,6 +1,7 @@
 // The C entry points: null pointers, struct sizes, exceptions; everything else is the context's.
 #include "froth/froth.h"
 
+#include <cstddef>
 #include <memory>
 
 #include "runtime/api/call_guard.h"
@@ -9,6 +10,12 @@
 using namespace froth;
 
 namespace {
+
+// The callback of a struct that may be older than it, and has not been checked.
+Messages messagesOf(const FrothContextInfo* info) {
+  const bool hasCallback = info && info->structSize >= offsetof(FrothContextInfo, messageUser) + sizeof(void*);
+  return hasCallback ? Messages{info->onMessage, info->messageUser} : Messages{};
+}
 
 // The calls that make an object: *handle is null unless they succeed.
 template <class Info, class Handle>
@@ -86,7 +93,7 @@ FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** cont
     return FROTH_ERROR_ARGUMENT;
   }
   *context = nullptr;
-  const Messages messages = info ? Messages{info->onMessage, info->messageUser} : Messages{};
+  const Messages messages = messagesOf(info);
   return guard(messages, __func__, [&](const char* call) {
     FrothContextInfo known;
     FrothResult result = readInput(messages, call, info, known);
@@ -94,7 +101,7 @@ FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** cont
       return result;
     }
     auto created = std::make_unique<FrothContext>();
-    result = created->create(known);
+    result = created->create(known, call);
     if (result == FROTH_OK) {
       *context = created.release();
     }
@@ -102,8 +109,42 @@ FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** cont
   });
 }
 
-void frothDestroyContext(FrothContext* context) {
+FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial) {
+  if (context && !context->isDone(completedSerial)) {
+    return FROTH_PENDING;
+  }
   delete context;
+  return FROTH_OK;
+}
+
+FrothResult frothSetBudget(FrothContext* context, uint64_t bytes) {
+  return guard(context, __func__, [&](const char*) {
+    context->setBudget(bytes);
+    return FROTH_OK;
+  });
+}
+
+FrothResult frothGetMemoryReport(FrothContext* context, FrothMemoryReport* report) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothMemoryReport known{};
+    context->describeMemory(known);
+    return writeOutput(context->messages, call, known, report);
+  });
+}
+
+FrothResult frothDeviceLost(FrothContext* context) {
+  return guard(context, __func__, [&](const char*) {
+    context->loseDevice();
+    return FROTH_OK;
+  });
+}
+
+FrothResult frothRestoreDevice(FrothContext* context, const FrothContextInfo* info) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothContextInfo known;
+    const FrothResult result = readInput(context->messages, call, info, known);
+    return result == FROTH_OK ? context->restoreDevice(known, call) : result;
+  });
 }
 
 FrothResult frothOpenAsset(FrothContext* context, const FrothAssetInfo* info, FrothAsset* asset) {

@@ -35,9 +35,10 @@ struct GpuBufferSet {
 // next. One thread at a time.
 class Asset {
  public:
-  // `path` empty: the asset is `bytes`, which the caller keeps until loading has ended. Layers behind
-  // `lastLayer` are not read. `device` null: decodes and checks, and keeps nothing.
-  Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device);
+  // `path` empty: the asset is `bytes`, which the caller keeps until loading has ended; if they stay for as long as the
+  // asset, it can be loaded again. Layers behind `lastLayer` are not read. `device` null: decodes and checks, and keeps
+  // nothing.
+  Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device, bool bytesStay = false);
 
   // Before the first load(): queryFoam() will be there.
   void keepForQueries() { keepsForQueries_ = true; }
@@ -62,6 +63,9 @@ class Asset {
   FrothAssetStatus describe() const;
   std::span<const FrothStoredCamera> flightPath() const { return flightPath_; }
 
+  // The device is gone: frees what lay on it, and begins again. Fails an asset whose bytes are not there any more.
+  void restart(const Messages& messages);
+
   // Takes the buffers out, to be freed once the GPU is done with them.
   std::shared_ptr<GpuBufferSet> releaseBuffers() { return std::move(buffers_); }
 
@@ -79,13 +83,15 @@ class Asset {
   Status placeArray(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address);
   void addMemory(const char* name, uint64_t bytes);
   void growBounds(const ChunkContents& contents);
-  void fail(FrothResult code, const std::string& text, const Messages& messages);
+  void fail(FrothResult code, const char* text, const Messages& messages);
+  void fail(const Error& error, const Messages& messages);
 
   bool isFile_;
   std::string name_;
   std::span<const uint8_t> bytes_;
   Layer lastLayer_;
   Device* device_;
+  bool bytesStay_;
   bool keepsForQueries_ = false;
 
   std::optional<AssetReader> reader_;  // while loading

@@ -39,7 +39,7 @@ extern "C" {
 typedef enum FrothResult {
   FROTH_OK = 0,
   /* information */
-  FROTH_PENDING = 1,    /* started; ask again */
+  FROTH_PENDING = 1,    /* not yet: something is still under way, and nothing was changed; call again */
   FROTH_INCOMPLETE = 2, /* done, with less than asked for; the status bits say what and which setting to raise */
   /* errors; the message callback got the details */
   FROTH_ERROR_ARGUMENT = -1,    /* a null pointer, a size, an extent, a value out of its range */
@@ -57,9 +57,8 @@ typedef enum FrothResult {
 FROTH_API const char* frothResultName(FrothResult result); /* never null */
 
 typedef enum FrothSeverity {
-  FROTH_SEVERITY_INFO = 0,
-  FROTH_SEVERITY_WARNING = 1,
-  FROTH_SEVERITY_ERROR = 2,
+  FROTH_SEVERITY_WARNING = 1, /* the call went well, and something will be missing or slow */
+  FROTH_SEVERITY_ERROR = 2,   /* a call failed, or an object did on its way */
   FROTH_SEVERITY_MAX = 0x7fffffff
 } FrothSeverity;
 
@@ -98,6 +97,28 @@ FROTH_API FrothResult frothRequireFeatures(VkPhysicalDeviceFeatures2* features, 
 
 typedef struct FrothContext FrothContext;
 
+/* Memory that Froth asks its caller for. The fields are what vmaAllocateMemory and vkAllocateMemory want to know. */
+typedef struct FrothMemoryRequest {
+  uint32_t structSize;
+  VkMemoryRequirements requirements;
+  uint32_t memoryTypeIndex;           /* one of requirements.memoryTypeBits */
+  VkMemoryAllocateFlags allocateFlags; /* VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, or 0 */
+  uint32_t isMapped;                  /* 1: host-visible memory that stays mapped; FrothDeviceMemory::mapped is needed */
+  const char* purpose;                /* for people; lives during the call */
+} FrothMemoryRequest;
+
+typedef struct FrothDeviceMemory {
+  VkDeviceMemory memory;
+  VkDeviceSize offset; /* a multiple of requirements.alignment */
+  void* mapped;        /* address of `offset`; null if not isMapped */
+  void* handle;        /* the caller's own, for its free callback */
+} FrothDeviceMemory;
+
+/* Fills *memory, which is zero. VK_SUCCESS, or the failure. Called within frothCreateContext, frothCreateView, frothUpdate
+ * and frothRestoreDevice, never within a record call; must not call Froth. */
+typedef VkResult (*FrothAllocateMemory)(void* user, const FrothMemoryRequest* request, FrothDeviceMemory* memory);
+typedef void (*FrothFreeMemory)(void* user, const FrothDeviceMemory* memory);
+
 typedef struct FrothContextInfo {
   uint32_t structSize;
   uint32_t abiVersion; /* FROTH_ABI_VERSION */
@@ -109,18 +130,60 @@ typedef struct FrothContextInfo {
   uint32_t queueFamily;           /* the compute-capable family that frames are submitted to */
   VkPipelineCache pipelineCache;  /* may be null; used until the context is destroyed */
   uint32_t framesInFlight;        /* most frames begun and not complete, with the one being recorded [1..8]; 0: 2 */
-  uint64_t deviceBudget;          /* [bytes] of device memory for all assets and views, hard; 0: no limit */
+  uint64_t deviceBudget;          /* [bytes] of device memory for all assets and views; frothSetBudget. 0: no limit */
   FrothMessageCallback onMessage; /* may be null */
   void* messageUser;
   uint32_t checkIndices;          /* debug: shaders check every index; counted in FrothViewStatus::indexViolations */
   uint32_t countWork;             /* for tuning: shaders count FrothViewStatus::work, and are slower for it */
+  FrothAllocateMemory allocateMemory; /* both or none: where all VkDeviceMemory comes from; null: vkAllocateMemory */
+  FrothFreeMemory freeMemory;
+  void* memoryUser;
 } FrothContextInfo;
 
 /* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */
 FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
 
-/* The caller has made sure that the device is done with all frames that used it (vkDeviceWaitIdle). */
-FROTH_API void frothDestroyContext(FrothContext* context);
+/* Frees everything at once. `completedSerial` as in FrothFrame; UINT64_MAX after vkDeviceWaitIdle. FROTH_PENDING: frames
+ * beyond it were begun and not dropped; the context stays as it is. A null context is FROTH_OK. */
+FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
+
+/* Changes FrothContextInfo::deviceBudget. What is new never exceeds it. Lowered below what is held: from the next frothUpdate
+ * on, views exchange what they grew for less, one buffer after the other, and cells or pairs beyond are missing
+ * (FROTH_VIEW_CELL_OVERFLOW, FROTH_VIEW_PAIR_OVERFLOW); what cannot shrink (assets, the least that a view needs) stays, and
+ * FrothFrameStatus::excessBytes tells how much it is. Raised: views grow again. */
+FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
+
+/* Memory of one purpose. */
+typedef struct FrothMemoryCategory {
+  const char* name;   /* "assets", "views", "views, host", "uploads, host"; static storage */
+  uint64_t granted;   /* [bytes] of VkDeviceMemory held */
+  uint64_t used;      /* [bytes] of these that hold something */
+  uint64_t peak;      /* most granted since creation or the last frothSetBudget */
+  uint32_t count;     /* allocations */
+  uint32_t isHost;    /* 1: staging and read-back, which the budget does not count */
+} FrothMemoryCategory;
+
+typedef struct FrothMemoryReport {
+  uint32_t structSize;
+  uint32_t categoryCount;
+  uint64_t deviceBudget;
+  uint64_t deviceBytes; /* granted, over the categories that are not host */
+  uint64_t devicePeak;  /* since creation or the last frothSetBudget; <= deviceBudget, except as excessBytes told */
+  FrothMemoryCategory categories[8]; /* [categoryCount] */
+} FrothMemoryReport;
+
+FROTH_API FrothResult frothGetMemoryReport(FrothContext* context, FrothMemoryReport* report);
+
+/* When a Vulkan call anywhere gave VK_ERROR_DEVICE_LOST (a call of Froth then gives FROTH_ERROR_DEVICE and says so): drops all
+ * GPU objects without waiting, by destroying them; call it before vkDestroyDevice. Handles stay valid. Until the device is
+ * restored, assets are OPENING, frame calls give FROTH_ERROR_DEVICE, and objects may be made, changed and destroyed. */
+FROTH_API FrothResult frothDeviceLost(FrothContext* context);
+
+/* Goes on with a new device; all fields of `info` count, as for frothCreateContext. Frames that were in flight are forgotten,
+ * and serials go on growing. Assets load again in the following frames, from their path or from bytes that stay
+ * (FrothAssetInfo::bytesStay; an asset whose bytes do not becomes FAILED), those that were FAILED too. On an error the device
+ * stays lost; call it again. */
+FROTH_API FrothResult frothRestoreDevice(FrothContext* context, const FrothContextInfo* info);
 
 /* Handles are an index and a generation; {0, 0} is null, and what a call that failed gives. */
 typedef struct FrothAsset { uint32_t index, generation; } FrothAsset;
@@ -146,10 +209,11 @@ typedef enum FrothAssetState {
 typedef struct FrothAssetInfo {
   uint32_t structSize;
   const char* path; /* a .froth file, copied; or null, and the bytes: */
-  const void* data; /* the caller keeps them until the asset is READY, FAILED or closed */
+  const void* data; /* the caller keeps them until the asset is READY, FAILED or closed; or for longer: bytesStay */
   uint64_t dataSize;
   uint32_t layers;  /* how many are loaded; each is a whole scene. 1: one colour per cell; 2: detail without view dependence;
                        3 or 0: all */
+  uint32_t bytesStay; /* 1: `data` stays until the asset is closed, so that frothRestoreDevice can load it again */
   uint32_t keepForQueries; /* 1: keeps in host memory what frothCastRays, frothLocate and frothOverlapSphere need */
 } FrothAssetInfo;
 
@@ -275,6 +339,7 @@ typedef struct FrothFrameStatus {
   uint64_t uploadBytesQueued;
   uint64_t deviceBytes;      /* all device memory held by the context */
   uint64_t hostBytes;        /* staging and read-back */
+  uint64_t excessBytes;      /* of deviceBytes, beyond a budget that was lowered */
 } FrothFrameStatus;
 
 /* Begins a frame, which the caller submits or drops. CPU only: retires what is complete, loads assets, grows buffers. Never
