@@ -23,8 +23,8 @@ enum class LensKind : int {
   kKannalaBrandt,     // k1, k2, k3, k4 of OpenCV's fisheye
   kRadialTangential,  // k1, k2, p1, p2 [, k3 [, k4, k5, k6]], OpenCV's order
   kEquirectangular,
-  kOrthographic,
   kRayMap,
+  kOrthographic,
 };
 
 struct Lens {

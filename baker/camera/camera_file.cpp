@@ -17,7 +17,7 @@ using WrittenJson = nlohmann::ordered_json;  // keeps keys in their order; many 
 
 // As cameras.json names the lenses, in the order of LensKind.
 constexpr const char* kLensNames[] = {"pinhole",          "fisheye",      "kannala_brandt", "radial_tangential",
-                                      "equirectangular", "orthographic", "ray_map"};
+                                      "equirectangular", "ray_map",      "orthographic"};
 
 // Fields of one JSON object. The first fault is kept; later reads then return defaults.
 class FieldReader {
@@ -90,7 +90,7 @@ class FieldReader {
     if (found != std::end(kLensNames)) return static_cast<LensKind>(found - std::begin(kLensNames));
     fail(key, describe(*value),
          "give \"pinhole\", \"fisheye\", \"kannala_brandt\", \"radial_tangential\", \"equirectangular\", "
-         "\"orthographic\" or \"ray_map\"");
+         "\"ray_map\" or \"orthographic\"");
     return LensKind::kPinhole;
   }
 

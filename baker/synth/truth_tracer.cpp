@@ -44,7 +44,8 @@ dvec3 tracePixel(const View& view, const ViewRays& rays, uint32_t x, uint32_t y,
 
 Result<Image> traceGalleryTruth(const View& view, uint32_t samples, const Progress& progress) {
   if (samples == 0) return makeError(ErrorKind::kUsage, "samples per pixel: 0; ask for at least 1");
-  if (Status status = checkView(view, "view '" + view.name + "'"); !status) return status.error();
+  if (Status status = checkView(view, "view '" + view.name + "'"); !status)
+    return makeError(ErrorKind::kUsage, "%s", status.error().message.c_str());
   const ViewRays rays(view);
   Image image{view.width, view.height, 3, std::vector<float>(size_t{view.width} * view.height * 3)};
   const CounterRandom random(0, Purpose::kSubpixel);

@@ -17,9 +17,8 @@ const int kLensFisheye = 1;          // equidistant
 const int kLensKannalaBrandt = 2;    // first = (k1, k2, k3, k4)
 const int kLensRadialTangential = 3; // first = (k1, k2, p1, p2), second = (k3, k4, k5, k6)
 const int kLensEquirectangular = 4;
-const int kLensOrthographic = 5;
-const int kLensRayMap = 6;  // a direction per pixel, which the caller gives
-const int kLensKinds = 7;
+const int kLensRayMap = 5;  // a direction per pixel, which the caller gives
+const int kLensOrthographic = 6;
 
 // Newton's steps take far fewer; a guard that halves an interval reaches float's last place.
 const int kMostLensSteps = 60;
