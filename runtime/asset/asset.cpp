@@ -98,6 +98,9 @@ void Asset::load(RenderPipelines* pipelines, const Messages& messages) {
     if (++nextChunk_ < description_.chunkCount) {
       return;
     }
+    if (queryFoam_) {
+      queryFoam_->finish();
+    }
     reader_.reset();
     if (pipelines) {
       if (const Status status = pipelines->prepareFor(gpu_); !status) {
@@ -128,6 +131,9 @@ Status Asset::openReader() {
   const AssetContents& manifest = reader->manifest();
   description_ = describeManifest(manifest);
   gpu_ = describeShape(manifest);
+  if (keepsForQueries_) {
+    queryFoam_.emplace(manifest);
+  }
   std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_),
                  toApi);
   reader_ = std::move(*reader);
@@ -148,6 +154,9 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   gpu_.cellCount += chunk.cellCount;
   gpu_.alphaTotal += chunk.alphaTotal;
   gpu_.neighbourTotal += chunk.neighbourCount;
+  if (queryFoam_) {
+    queryFoam_->addChunk(contents);
+  }
   if (!device_) {
     return {};
   }
@@ -257,6 +266,7 @@ std::span<const GpuBuffer> Asset::buffers() const {
 FrothAssetStatus Asset::describe() const {
   FrothAssetStatus description = description_;
   description.error = error_;
+  description.hostBytes = queryFoam_ ? queryFoam_->bytes() : 0;
   for (const GpuBuffer& buffer : buffers()) {
     description.deviceBytes += buffer.allocatedSize;
   }

@@ -15,6 +15,7 @@
 #include "runtime/core/device.h"
 #include "runtime/core/messages.h"
 #include "runtime/core/upload_ring.h"
+#include "runtime/query/query_foam.h"
 #include "runtime/render/pipelines.h"
 
 namespace froth {
@@ -38,6 +39,10 @@ class Asset {
   // `lastLayer` are not read. `device` null: decodes and checks, and keeps nothing.
   Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device);
 
+  // Before the first load(): queryFoam() will be there.
+  void keepForQueries() { keepsForQueries_ = true; }
+  bool keepsForQueries() const { return keepsForQueries_; }
+
   // At most one chunk's work. An error ends the asset: one message, hasFailed().
   void load(RenderPipelines* pipelines, const Messages& messages);
   // Moves at most `limit` bytes of decoded arrays into the ring; returns how many.
@@ -49,6 +54,8 @@ class Asset {
   uint64_t queuedBytes() const;  // decoded, not staged
 
   const GpuAsset& gpu() const { return gpu_; }
+  // Whole once isDecoded(); null: not kept.
+  const QueryFoam* queryFoam() const { return queryFoam_ ? &*queryFoam_ : nullptr; }
   std::span<const GpuBuffer> buffers() const;  // of gpu()'s arrays
   const std::string& name() const { return name_; }
   // Counts, bounds, cameras; zero before the manifest is read. The state is the context's to tell.
@@ -79,6 +86,7 @@ class Asset {
   std::span<const uint8_t> bytes_;
   Layer lastLayer_;
   Device* device_;
+  bool keepsForQueries_ = false;
 
   std::optional<AssetReader> reader_;  // while loading
   uint32_t nextChunk_ = 0;
@@ -89,6 +97,7 @@ class Asset {
   FrothAssetStatus description_{};
   std::vector<FrothStoredCamera> flightPath_;
   GpuAsset gpu_;
+  std::optional<QueryFoam> queryFoam_;
   std::shared_ptr<GpuBufferSet> buffers_;
 };
 

@@ -93,6 +93,9 @@ FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
   const std::span<const uint8_t> bytes(static_cast<const uint8_t*>(info.data), hasBytes ? info.dataSize : 0);
   handle = assets_.add(std::make_unique<Asset>(info.path ? info.path : std::string(), bytes, lastLayer,
                                                isNull() ? nullptr : &device_));
+  if (info.keepForQueries) {
+    assets_.find(handle)->keepForQueries();
+  }
   return FROTH_OK;
 }
 

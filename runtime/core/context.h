@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "runtime/core/handles.h"
 #include "runtime/core/messages.h"
 #include "runtime/core/upload_ring.h"
+#include "runtime/query/placement.h"
 #include "runtime/render/pipelines.h"
 #include "runtime/render/view_renderer.h"
 
@@ -49,6 +51,11 @@ class Context {
   FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
                      FrothRenderInfo info);
 
+  // Queries; const, so that any number of threads may ask (runtime/query/context_queries.cpp).
+  FrothResult castRays(FrothCastInfo info, std::span<const FrothRay> rays, FrothRayHit* hits) const;
+  FrothResult locate(FrothInstance handle, const double (&point)[3], FrothLocation& location) const;
+  FrothResult overlapSphere(FrothSphere sphere, FrothContact& contact) const;
+
   const Asset* findAsset(FrothAsset handle) const { return assets_.find(handle); }  // null: stale
 
   Messages messages;
@@ -70,6 +77,8 @@ class Context {
 
   bool isNull() const { return device_.device == VK_NULL_HANDLE; }
   FrothAssetState stateOf(const Asset& asset) const;
+  // Instances that queries see; why others were left out, as FrothQueryBit.
+  std::vector<PlacedFoam> gatherFoams(uint32_t& bits) const;
   FrothResult readPlacement(const FrothInstanceInfo& info, const char* call, Instance& instance) const;
   FrothResult beginFrame(const FrothFrame& frame);
   void loadAssets();

@@ -45,6 +45,16 @@ class HandlePool {
     }
   }
 
+  // visit(handle, object)
+  template <class Visit>
+  void forEachNamed(Visit visit) const {
+    for (uint32_t index = 0; index < slots_.size(); ++index) {
+      if (slots_[index].object) {
+        visit(Handle{index, slots_[index].generation}, *slots_[index].object);
+      }
+    }
+  }
+
  private:
   struct Slot {
     std::unique_ptr<T> object;
