@@ -60,8 +60,9 @@ ReferenceHit ReferenceRays::cast(const glm::dvec3& origin, const glm::dvec3& dir
     }
   }
   constexpr double kDetailSharpness = 10;
+  const PrimaryRay<double> primary{glm::dvec3(0), direction};
   const RayResult<double> ray =
-      compositeHits(view, direction, RaySettings<double>{cutoff, std::log(quantile), kDetailSharpness}, hits);
+      compositeHits(view, primary, RaySettings<double>{cutoff, std::log(quantile), kDetailSharpness}, hits);
   return {std::exp(ray.logTransmittance), ray.depth};
 }
 
