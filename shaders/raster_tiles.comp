@@ -94,10 +94,10 @@ uint gatherBatch(uint entry, uint end, uvec2 corner) {
   return count;
 }
 
-// Saturated from the start where there is no pixel.
-Radiance startOf(uvec2 pixel) {
+// Saturated from the start where there is no pixel, or no ray.
+Radiance startOf(uvec2 pixel, vec3 direction) {
   Radiance radiance = emptyRadiance();
-  if (!isInRegion(pixel)) radiance.logTransmittance = -kInfinity;
+  if (!isInRegion(pixel) || seesNothing(direction)) radiance.logTransmittance = -kInfinity;
   return radiance;
 }
 
@@ -118,8 +118,8 @@ void main() {
   Radiance radiances[kRays];
   for (uint r = 0; r < kRays; ++r) {
     uvec2 pixel = firstPixel + uvec2(0, r * kRows);
-    directions[r] = normalize(pixelRay(vec2(pixel)));
-    radiances[r] = startOf(pixel);
+    directions[r] = directionOf(pixel);
+    radiances[r] = startOf(pixel, directions[r]);
   }
 
   for (uint first = ~range.x; first < range.y; first += kBatch) {
@@ -141,6 +141,7 @@ void main() {
     uvec2 pixel = firstPixel + uvec2(0, r * kRows);
     if (!isInRegion(pixel)) continue;
     Radiance radiance = radiances[r];
+    if (seesNothing(directions[r])) radiance = emptyRadiance();
     writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal);
   }
 }

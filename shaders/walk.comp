@@ -113,14 +113,14 @@ void meetCell(Shading shading, uint visible, CellRecord cell, vec3 direction, fl
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (!isInRegion(pixel)) return;
-  vec3 direction = normalize(pixelRay(vec2(pixel)));
+  vec3 direction = directionOf(pixel);
   Shading shading = loadShading();
   Radiance radiances[kRays];
   radiances[0] = emptyRadiance();
 
   uvec2 start = FRAME.walkStart.v[0];
   Step current = stepTo(start, orderAlong(direction, ballOfSite(loadChunk(start.x), start.y).centre), 0.0);
-  bool isInside = true;
+  bool isInside = !seesNothing(direction);
   uint steps = 0;
   while (isInside && !isSaturated(shading, radiances[0]) && steps < FRAME.maxSteps) {
     uint visible = current.visible;

@@ -170,8 +170,14 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
     return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "maxExtent: %u x %u; must be 1 to %u each",
                          extent.width, extent.height, kMaxViewExtent);
   }
+  if ((info.lensClasses & ~lensClasses_) != 0) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView",
+                         "lensClasses: %#x, but the context was made for %#x; raise FrothContextInfo::lensClasses",
+                         info.lensClasses, lensClasses_);
+  }
   auto view = std::make_unique<View>();
   view->maxExtent = extent;
+  view->lensClasses = info.lensClasses;
   view->measurePasses = info.measurePasses != 0;
   if (const Status status = createRenderer(*view); !status) {
     return messages.fail(status.error(), "frothCreateView");
@@ -190,7 +196,8 @@ Status Context::createRenderer(View& view) {
                   "measurePasses: the device lacks timestampComputeAndGraphics; FrothViewStatus::passes stays empty");
   }
   Result<std::unique_ptr<ViewRenderer>> renderer =
-      ViewRenderer::create(device_, view.maxExtent, view.measurePasses && canMeasure, framesInFlight_);
+      ViewRenderer::create(device_, view.maxExtent, view.lensClasses, view.measurePasses && canMeasure,
+                           framesInFlight_);
   if (!renderer) {
     return renderer.error();
   }

@@ -74,6 +74,7 @@ class Context {
   };
   struct View {
     VkExtent2D maxExtent{};
+    uint32_t lensClasses = 0;  // FrothLensClass bits
     bool measurePasses = false;
     std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
     const GpuAsset* preparedFor = nullptr;   // in the newest frothUpdate
@@ -107,6 +108,7 @@ class Context {
   bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
   bool isExcessTold_ = false;  // of this budget
   uint32_t framesInFlight_ = 2;
+  uint32_t lensClasses_ = 0;  // FrothLensClass bits
   std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
   std::unique_ptr<RenderPipelines> pipelines_;  // the same
   HandlePool<Asset, FrothAsset> assets_;

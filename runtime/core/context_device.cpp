@@ -49,6 +49,7 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
     return result;
   }
   framesInFlight_ = info.framesInFlight == 0 ? kDefaultFramesInFlight : info.framesInFlight;
+  lensClasses_ = info.lensClasses;
   isNull_ = !info.device;
   device_.budget = info.deviceBudget;
   const Status status = isNull_ ? Status() : createDeviceObjects(info);
@@ -70,7 +71,7 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
   }
   ring_ = std::move(*ring);
   Result<std::unique_ptr<RenderPipelines>> pipelines =
-      RenderPipelines::create(device_, info.pipelineCache, {info.checkIndices != 0, info.countWork != 0});
+      RenderPipelines::create(device_, info.pipelineCache, {info.checkIndices != 0, info.countWork != 0, lensClasses_});
   if (!pipelines) {
     return pipelines.error();
   }

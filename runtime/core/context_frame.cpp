@@ -216,7 +216,7 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
                          "view {%u, %u}: already drawn in frame %llu; call frothUpdate first", handle.index,
                          handle.generation, static_cast<unsigned long long>(serial_));
   }
-  if (const FrothResult result = resolveRenderInfo(messages, call, view->maxExtent, info);
+  if (const FrothResult result = resolveRenderInfo(messages, call, view->maxExtent, view->lensClasses, info);
       result != FROTH_OK) {
     return result;
   }

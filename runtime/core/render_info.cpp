@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <span>
 
+#include "runtime/render/camera_rays.h"
+
 namespace froth {
 namespace {
 
@@ -98,6 +100,68 @@ FrothResult checkRotation(const Messages& messages, const char* call, const floa
   return FROTH_OK;
 }
 
+FrothResult checkLens(const Messages& messages, const char* call, const FrothCamera& camera) {
+  const FrothLens& lens = camera.lens;
+  const auto kind = static_cast<int32_t>(lens.kind);
+  if (kind < 0 || kind > FROTH_LENS_RAY_MAP) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera.lens.kind: %d; must be a FrothLensKind",
+                         kind);
+  }
+  if (lens.kind == FROTH_LENS_RAY_MAP) {
+    const float (&jitter)[2] = camera.jitter;
+    if (jitter[0] == 0 && jitter[1] == 0) {
+      return FROTH_OK;
+    }
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "camera.jitter: (%g, %g) with a ray map; must be 0; jitter the directions of the map",
+                         double{jitter[0]}, double{jitter[1]});
+  }
+  FrothResult result = checkFinite<float>(messages, call, "lens.centre", lens.centre);
+  if (result == FROTH_OK) {
+    result = checkFinite<float>(messages, call, "lens.coefficients", lens.coefficients);
+  }
+  if (result != FROTH_OK) {
+    return result;
+  }
+  for (const float focal : lens.focal) {
+    if (!(focal > 0 && std::isfinite(focal))) {
+      return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera.lens.focal: %g; must be above 0, in pixels",
+                           double{focal});
+    }
+  }
+  return FROTH_OK;
+}
+
+// The defaults of a lens, and null for what it has no use for.
+void resolveLens(FrothCamera& camera) {
+  FrothLens& lens = camera.lens;
+  if (lens.kind != FROTH_LENS_RAY_MAP) {
+    lens.rayMap = {};
+  }
+  if (lens.kind == FROTH_LENS_EQUIRECTANGULAR && lens.focal[0] == 0 && lens.focal[1] == 0) {
+    constexpr double kPi = 3.14159265358979323846;
+    const double width = camera.viewport.width, height = std::abs(camera.viewport.height);
+    lens.focal[0] = static_cast<float>(width / (2 * kPi));
+    lens.focal[1] = static_cast<float>(height / kPi);
+    lens.centre[0] = static_cast<float>(0.5 * width);
+    lens.centre[1] = static_cast<float>(0.5 * height);
+  }
+}
+
+FrothResult checkLensClass(const Messages& messages, const char* call, const FrothCamera& camera,
+                           uint32_t lensClasses) {
+  const uint32_t lensClass = lensClassOf(camera);
+  if (lensClass == gpu::kLensClassPinhole || (lensClasses >> (lensClass - 1) & 1) != 0) {
+    return FROTH_OK;
+  }
+  return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                       "camera: %s, which the view was not made for; set %s in FrothViewInfo::lensClasses and "
+                       "FrothContextInfo::lensClasses",
+                       lensClass == gpu::kLensClassMapped ? "a lens that is no projection" : "parallel rays",
+                       lensClass == gpu::kLensClassMapped ? "FROTH_LENS_CLASS_MAPPED"
+                                                          : "FROTH_LENS_CLASS_ORTHOGRAPHIC");
+}
+
 FrothResult checkCamera(const Messages& messages, const char* call, const FrothCamera& camera) {
   const VkViewport& viewport = camera.viewport;
   const float viewportValues[] = {viewport.x, viewport.y, viewport.width, viewport.height};
@@ -120,7 +184,8 @@ FrothResult checkCamera(const Messages& messages, const char* call, const FrothC
                          "camera.viewport: %g x %g; width > 0 and height != 0 are needed",
                          double{viewport.width}, double{viewport.height});
   }
-  return checkProjection(messages, call, camera.clipFromView);
+  return camera.lens.kind == FROTH_LENS_PROJECTION ? checkProjection(messages, call, camera.clipFromView)
+                                                   : checkLens(messages, call, camera);
 }
 
 // The pixels that viewport and scissor let through; may be empty.
@@ -177,6 +242,15 @@ FrothResult checkImage(const Messages& messages, const char* call, const char* n
   return FROTH_OK;
 }
 
+FrothResult checkRayMap(const Messages& messages, const char* call, const FrothImage& image,
+                        const VkRect2D& drawn) {
+  if (!image.image) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera.lens.rayMap: null; give the image of directions");
+  }
+  return checkImage(messages, call, "camera.lens.rayMap", image, {VK_FORMAT_R32G32B32A32_SFLOAT},
+                    "R32G32B32A32_SFLOAT", drawn);
+}
+
 FrothResult checkDrawn(const Messages& messages, const char* call, VkExtent2D maxExtent,
                        const VkRect2D& drawn) {
   if (drawn.extent.width == 0 || drawn.extent.height == 0 || drawn.offset.x < 0 || drawn.offset.y < 0) {
@@ -220,8 +294,12 @@ FrothResult resolveLimits(const Messages& messages, const char* call, FrothRende
 }  // namespace
 
 FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExtent2D maxExtent,
-                              FrothRenderInfo& info) {
+                              uint32_t lensClasses, FrothRenderInfo& info) {
+  resolveLens(info.camera);
   if (const FrothResult result = checkCamera(messages, call, info.camera); result != FROTH_OK) {
+    return result;
+  }
+  if (const FrothResult result = checkLensClass(messages, call, info.camera, lensClasses); result != FROTH_OK) {
     return result;
   }
   const VkRect2D drawn = drawnRectangle(info.camera);
@@ -240,6 +318,10 @@ FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExte
     result = checkImage(messages, call, "normal", info.normal, {VK_FORMAT_R16G16B16A16_SFLOAT},
                         "R16G16B16A16_SFLOAT", drawn);
   }
+  const bool isMap = info.camera.lens.kind == FROTH_LENS_RAY_MAP;
+  if (result == FROTH_OK && isMap) {
+    result = checkRayMap(messages, call, info.camera.lens.rayMap, drawn);
+  }
   if (result != FROTH_OK) {
     return result;
   }
@@ -256,6 +338,10 @@ void resolveNearLimits(const GpuAsset& asset, float scale, FrothRenderInfo& info
   }
   if (info.nearDepth == FROTH_NEAR_DEFAULT) {
     info.nearDepth = asset.nearDepth * scale;
+  }
+  const FrothLensKind lens = info.camera.lens.kind;
+  if (lens != FROTH_LENS_PROJECTION && lens != FROTH_LENS_RADIAL_TANGENTIAL) {
+    info.nearDepth = 0;
   }
 }
 

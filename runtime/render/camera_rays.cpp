@@ -1,5 +1,9 @@
 #include "runtime/render/camera_rays.h"
 
+#include <algorithm>
+
+#include "shaders/foam/lens.h"
+
 namespace froth {
 namespace {
 
@@ -11,20 +15,32 @@ glm::dmat3 rotationOf(const std::array<float, 4>& quaternion) {
           2 * (x * z + w * y),     2 * (y * z - w * x),     1 - 2 * (x * x + y * y)};  // column 2
 }
 
-}  // namespace
+static_assert(int{FROTH_LENS_FISHEYE} == foam::kLensFisheye &&
+              int{FROTH_LENS_KANNALA_BRANDT} == foam::kLensKannalaBrandt &&
+              int{FROTH_LENS_RADIAL_TANGENTIAL} == foam::kLensRadialTangential &&
+              int{FROTH_LENS_EQUIRECTANGULAR} == foam::kLensEquirectangular &&
+              int{FROTH_LENS_RAY_MAP} == foam::kLensRayMap);
 
-CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance) {
+glm::dmat3 viewFromWorldOf(const FrothCamera& camera) {
+  glm::dmat3 viewFromWorld;
+  for (int i = 0; i < 9; ++i) viewFromWorld[i / 3][i % 3] = camera.viewFromWorld[i];
+  return viewFromWorld;
+}
+
+// Of the region's first pixel, from the viewport's upper left corner.
+glm::dvec2 firstPixelCentre(const FrothCamera& camera) {
+  const VkViewport& viewport = camera.viewport;
+  const double top = std::min(viewport.y, viewport.y + viewport.height);
+  return {camera.scissor.offset.x + 0.5 - camera.jitter[0] - viewport.x,
+          camera.scissor.offset.y + 0.5 - camera.jitter[1] - top};
+}
+
+void aimPinhole(const FrothCamera& camera, const glm::dmat3& assetFromView, CameraRays& rays) {
   const float* clip = camera.clipFromView;
   // Rows x, y, w of the projection: (x_ndc, y_ndc, 1) w = projection * direction, so w > 0 points forward.
   const glm::dmat3 projection(clip[0], clip[1], clip[3], clip[4], clip[5], clip[7], clip[8], clip[9],
                               clip[11]);
-  glm::dmat3 viewFromWorld;
-  for (int i = 0; i < 9; ++i) viewFromWorld[i / 3][i % 3] = camera.viewFromWorld[i];
-  CameraRays rays;
-  rays.worldFromAsset = rotationOf(instance.rotation);
-  const glm::dmat3 assetFromView = glm::transpose(rays.worldFromAsset) * glm::transpose(viewFromWorld);
   const glm::dmat3 assetFromClip = assetFromView * glm::inverse(projection);
-
   const VkViewport& viewport = camera.viewport;
   const VkRect2D& region = camera.scissor;
   const double left = region.offset.x + 0.5 - camera.jitter[0] - viewport.x;
@@ -39,12 +55,48 @@ CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& in
   rays.stepX *= scale;
   rays.stepY *= scale;
   rays.origin *= scale;
-
   rays.forward = assetFromView * glm::normalize(glm::dvec3(clip[3], clip[7], clip[11]));
+}
+
+}  // namespace
+
+uint32_t lensClassOf(const FrothCamera& camera) {
+  return camera.lens.kind == FROTH_LENS_PROJECTION ? gpu::kLensClassPinhole : gpu::kLensClassMapped;
+}
+
+CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance) {
+  CameraRays rays;
+  rays.worldFromAsset = rotationOf(instance.rotation);
+  const glm::dmat3 assetFromView =
+      glm::transpose(rays.worldFromAsset) * glm::transpose(viewFromWorldOf(camera));
+  if (lensClassOf(camera) == gpu::kLensClassMapped) {
+    rays.stepX = assetFromView[0];
+    rays.stepY = assetFromView[1];
+    rays.origin = rays.forward = assetFromView[2];
+  } else {
+    aimPinhole(camera, assetFromView, rays);
+  }
   const glm::dvec3 eye(camera.eye[0], camera.eye[1], camera.eye[2]);
   const glm::dvec3 position(instance.position[0], instance.position[1], instance.position[2]);
   rays.eye = glm::transpose(rays.worldFromAsset) * (eye - position) / double{instance.scale};
   return rays;
+}
+
+void fillLens(const FrothCamera& camera, gpu::FrameBlock& block) {
+  const FrothLens& lens = camera.lens;
+  block.lensKind = static_cast<uint32_t>(lens.kind);
+  if (lens.kind == FROTH_LENS_RAY_MAP) return;
+  const glm::dvec2 first = firstPixelCentre(camera);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double focal = lens.focal[axis];
+    block.lensPoint[axis] = static_cast<float>((first[axis] - lens.centre[axis]) / focal);
+    block.lensPoint[axis + 2] = static_cast<float>(1 / focal);
+  }
+  std::copy_n(lens.coefficients, 4, block.lensFirst.begin());
+  std::copy_n(lens.coefficients + 4, 4, block.lensSecond.begin());
+  const auto toDouble = [](const gpu::vec4& v) { return glm::dvec4(v[0], v[1], v[2], v[3]); };
+  block.lensRange = static_cast<float>(
+      foam::lensRange(int{lens.kind}, toDouble(block.lensFirst), toDouble(block.lensSecond)));
 }
 
 }  // namespace froth

@@ -6,11 +6,16 @@
 
 #include "froth/froth.h"
 #include "runtime/render/view_renderer.h"
+#include "shaders/gpu/layout.h"
 
 namespace froth {
 
-// The ray of pixel (column, row) of the region runs through the pixel's centre along origin + column stepX +
+// gpu::kLensClass...: how the passes see through this camera.
+uint32_t lensClassOf(const FrothCamera& camera);
+
+// Pinhole: the ray of pixel (column, row) of the region runs through the pixel's centre along origin + column stepX +
 // row stepY, which points forward. Lengths are scaled so that the region's middle ray has length 1.
+// Mapped: the view's axes z, x, y.
 struct CameraRays {
   glm::dvec3 origin, stepX, stepY;
   glm::dvec3 forward;         // unit view axis: gradient of clip w
@@ -21,5 +26,8 @@ struct CameraRays {
 // The region is camera.scissor, resolved. Jitter moves the image by that many pixels, as it would in the
 // engine's own jittered projection.
 CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance);
+
+// What a mapped lens needs: the pixels of the region as foam/lens.h takes them, coefficients, range.
+void fillLens(const FrothCamera& camera, gpu::FrameBlock& block);
 
 }  // namespace froth

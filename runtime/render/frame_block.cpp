@@ -83,6 +83,8 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
   block.cellHistogram = tallies + layout.cellHistograms;
   block.pairHistogram = tallies + layout.pairHistograms;
   block.walkStart = buffers[ViewBuffer::kWalkStart].address;
+  block.rays = buffers[ViewBuffer::kRays].address;
+  block.cones = buffers[ViewBuffer::kCones].address;
 }
 
 }  // namespace
@@ -113,6 +115,7 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   const CameraRays rays = computeCameraRays(info.camera, instance);
   fillOutputs(info, block);
   fillCamera(info, rays, instance, block);
+  if (lensClassOf(info.camera) == gpu::kLensClassMapped) fillLens(info.camera, block);
   fillTransients(buffers, asset, region, block);
   fillChunks(asset, rays.eye, chunks);
   block.scale = instance.scale;
@@ -123,6 +126,8 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   block.localBits = asset.localBits;
   block.tilesX = tilesAlong(region.extent.width);
   block.tilesY = tilesAlong(region.extent.height);
+  block.blocksX = groupsOver(block.tilesX, gpu::kBlockTiles);
+  block.blocksY = groupsOver(block.tilesY, gpu::kBlockTiles);
   block.chunkCount = static_cast<uint32_t>(asset.chunks.size());
   block.groupsPerChunk = groupsPerChunk(asset);
   block.counters = place.counters;

@@ -15,22 +15,22 @@ VkImageMemoryBarrier2 barrierOf(VkImage image) {
   return barrier;
 }
 
-// From the state in which the caller hands an image over.
-VkImageMemoryBarrier2 entryBarrier(const FrothImage& image) {
+// From the state in which the caller hands an image over; access: what the passes do with it.
+VkImageMemoryBarrier2 entryBarrier(const FrothImage& image, VkAccessFlags2 access) {
   VkImageMemoryBarrier2 barrier = barrierOf(image.image);
   barrier.srcStageMask = image.stageIn;
   barrier.srcAccessMask = image.accessIn;
   barrier.oldLayout = image.layoutIn;
   barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  barrier.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  barrier.dstAccessMask = access;
   barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
   return barrier;
 }
 
-VkImageMemoryBarrier2 exitBarrier(const FrothImage& image) {
+VkImageMemoryBarrier2 exitBarrier(const FrothImage& image, VkAccessFlags2 access) {
   VkImageMemoryBarrier2 barrier = barrierOf(image.image);
   barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  barrier.srcAccessMask = access;
   barrier.oldLayout = VK_IMAGE_LAYOUT_GENERAL;
   barrier.dstStageMask = image.stageOut;
   barrier.dstAccessMask = image.accessOut;
@@ -112,7 +112,7 @@ Status OutputImages::createSets(uint32_t recordings) {
   const Result<VkDescriptorSetLayout> layout = createOutputSetLayout(device_);
   if (!layout) return layout.error();
   layout_ = *layout;
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3 * recordings};
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4 * recordings};
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   info.maxSets = recordings;
@@ -134,12 +134,14 @@ Status OutputImages::createSets(uint32_t recordings) {
 }
 
 VkDescriptorSet OutputImages::update(uint32_t recording, const FrothRenderInfo& info) {
-  const std::array<VkImageView, 3> views = {info.colour.image ? info.colour.view : half4_.view,
+  const std::array<VkImageView, 4> views = {info.colour.image ? info.colour.view : half4_.view,
                                             info.distance.image ? info.distance.view : float1_.view,
-                                            info.normal.image ? info.normal.view : half4_.view};
-  std::array<VkDescriptorImageInfo, 3> images{};
-  std::array<VkWriteDescriptorSet, 3> writes{};
-  for (uint32_t i = 0; i < images.size(); ++i) {
+                                            info.normal.image ? info.normal.view : half4_.view,
+                                            info.camera.lens.rayMap.view};
+  const uint32_t count = info.camera.lens.rayMap.image ? 4 : 3;  // only passes that read a ray map have its binding
+  std::array<VkDescriptorImageInfo, 4> images{};
+  std::array<VkWriteDescriptorSet, 4> writes{};
+  for (uint32_t i = 0; i < count; ++i) {
     images[i] = {VK_NULL_HANDLE, views[i], VK_IMAGE_LAYOUT_GENERAL};
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     writes[i].dstSet = sets_[recording];
@@ -148,8 +150,7 @@ VkDescriptorSet OutputImages::update(uint32_t recording, const FrothRenderInfo& 
     writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     writes[i].pImageInfo = &images[i];
   }
-  device_.table.vkUpdateDescriptorSets(device_.device, static_cast<uint32_t>(writes.size()), writes.data(), 0,
-                                       nullptr);
+  device_.table.vkUpdateDescriptorSets(device_.device, count, writes.data(), 0, nullptr);
   return sets_[recording];
 }
 
@@ -163,11 +164,13 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
   memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   memory.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
                          VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-  std::array<VkImageMemoryBarrier2, 5> barriers{};
+  std::array<VkImageMemoryBarrier2, 6> barriers{};
   uint32_t count = 0;
   for (const FrothImage* image : {&info.colour, &info.distance, &info.normal}) {
-    if (image->image) barriers[count++] = entryBarrier(*image);
+    if (image->image) barriers[count++] = entryBarrier(*image, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
   }
+  const FrothImage& rayMap = info.camera.lens.rayMap;
+  if (rayMap.image) barriers[count++] = entryBarrier(rayMap, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
   if (!info.colour.image || !info.normal.image) barriers[count++] = placeholderBarrier(half4_.image);
   if (!info.distance.image) barriers[count++] = placeholderBarrier(float1_.image);
 
@@ -181,11 +184,13 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
 }
 
 void OutputImages::leave(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const {
-  std::array<VkImageMemoryBarrier2, 3> barriers{};
+  std::array<VkImageMemoryBarrier2, 4> barriers{};
   uint32_t count = 0;
   for (const FrothImage* image : {&info.colour, &info.distance, &info.normal}) {
-    if (image->image) barriers[count++] = exitBarrier(*image);
+    if (image->image) barriers[count++] = exitBarrier(*image, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
   }
+  const FrothImage& rayMap = info.camera.lens.rayMap;
+  if (rayMap.image) barriers[count++] = exitBarrier(rayMap, VK_ACCESS_2_NONE);
   VkDependencyInfo dependency{};
   dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   dependency.imageMemoryBarrierCount = count;

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "runtime/render/pipelines.h"
+#include "shaders/gpu/layout.h"
 
 namespace froth {
 
@@ -19,6 +20,9 @@ enum class Pass : uint32_t {
   kEmitPairs,
   kExpandCells,
   kLocate,
+  kAimRays,
+  kAimRaysByImage,
+  kWidenCones,
   kClear16,
   kClear32,
   // from here on specialized on the asset's shape
@@ -33,7 +37,7 @@ enum class Pass : uint32_t {
   kWalkNormals16,
   kWalkNormals32,
 };
-inline constexpr uint32_t kPassCount = 18;
+inline constexpr uint32_t kPassCount = 21;
 inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.
@@ -46,6 +50,7 @@ struct AssetShape {
 AssetShape shapeOf(const GpuAsset& asset);
 
 using PassPipelines = std::array<VkPipeline, kPassCount>;
+using LensPipelines = std::array<PassPipelines, gpu::kLensClassCount>;  // [gpu::kLensClass...]
 
 struct RenderPipelines::State {
   Device& device;
@@ -53,16 +58,17 @@ struct RenderPipelines::State {
   ShaderOptions options{};
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // the output images
   VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 80 bytes of push constants
-  PassPipelines common{};                            // null from kFirstShapedPass on
-  std::map<AssetShape, PassPipelines>
+  LensPipelines common{};                            // null from kFirstShapedPass on, and for other lenses than options name
+  std::map<AssetShape, LensPipelines>
       byShape{};  // complete; guarded by `mutex`, entries never change or move
   std::mutex mutex{};
 
-  // Null if prepareFor was not called for this shape.
-  const PassPipelines* find(const AssetShape& shape);
+  bool hasLensClass(uint32_t lensClass) const;
+  // Null if prepareFor was not called for this shape, or the context has not this class of lenses.
+  const PassPipelines* find(const AssetShape& shape, uint32_t lensClass);
 };
 
-// Storage images 0: colour, 1: distance, 2: normal. Identical layouts are compatible, so views make their
+// Storage images 0: colour, 1: distance, 2: normal, 3: the caller's ray map. Identical layouts are compatible, so views make their
 // own.
 Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device);
 

@@ -4,6 +4,8 @@
 
 #include "runtime/render/pipeline_state.h"
 #include "shaders/gpu/layout.h"
+#include "spirv/aim_rays.h"
+#include "spirv/aim_rays_by_image.h"
 #include "spirv/clear_rgba16f.h"
 #include "spirv/clear_rgba32f.h"
 #include "spirv/compact_cells.h"
@@ -18,6 +20,7 @@
 #include "spirv/sort_scatter.h"
 #include "spirv/walk_rgba16f.h"
 #include "spirv/walk_rgba32f.h"
+#include "spirv/widen_cones.h"
 
 namespace froth {
 namespace {
@@ -26,32 +29,42 @@ constexpr uint32_t kPushConstantBytes = 80;
 static_assert(sizeof(gpu::SortConstants) <= kPushConstantBytes &&
               sizeof(gpu::PassConstants) <= kPushConstantBytes);
 
+// The classes of lenses that a pass has pipelines of its own for. Others take the pinhole's.
+constexpr uint32_t kAnyLens = 1 << gpu::kLensClassPinhole;
+constexpr uint32_t kMapped = 1 << gpu::kLensClassMapped;
+constexpr uint32_t kEyeOrNone = kAnyLens | 1 << gpu::kLensClassOrthographic;  // whether rays share an eye matters
+constexpr uint32_t kEachLens = kEyeOrNone | kMapped;
+
 struct PassCode {
   const char* name;
   std::span<const uint32_t> spirv;
+  uint32_t lensClasses;
   bool hasNormals = false;
 };
 
 // In the order of Pass.
 const std::array<PassCode, kPassCount> kPassCodes = {{
-    {"cull_cells", cull_cells_spirv},
-    {"sort_scatter", sort_scatter_spirv},
-    {"count_tiles", count_tiles_spirv},
-    {"emit_pairs", emit_pairs_spirv},
-    {"expand_cells", expand_cells_spirv},
-    {"locate", locate_spirv},
-    {"clear_rgba16f", clear_rgba16f_spirv},
-    {"clear_rgba32f", clear_rgba32f_spirv},
-    {"compact_cells", compact_cells_spirv},
-    {"shade_sites", shade_sites_spirv},
-    {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv},
-    {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv},
-    {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv, true},
-    {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv, true},
-    {"walk_rgba16f", walk_rgba16f_spirv},
-    {"walk_rgba32f", walk_rgba32f_spirv},
-    {"walk_rgba16f", walk_rgba16f_spirv, true},
-    {"walk_rgba32f", walk_rgba32f_spirv, true},
+    {"cull_cells", cull_cells_spirv, kEachLens},
+    {"sort_scatter", sort_scatter_spirv, kAnyLens},
+    {"count_tiles", count_tiles_spirv, kEachLens},
+    {"emit_pairs", emit_pairs_spirv, kEachLens},
+    {"expand_cells", expand_cells_spirv, kEyeOrNone},
+    {"locate", locate_spirv, kAnyLens},
+    {"aim_rays", aim_rays_spirv, kMapped},
+    {"aim_rays_by_image", aim_rays_by_image_spirv, kMapped},
+    {"widen_cones", widen_cones_spirv, kMapped},
+    {"clear_rgba16f", clear_rgba16f_spirv, kAnyLens},
+    {"clear_rgba32f", clear_rgba32f_spirv, kAnyLens},
+    {"compact_cells", compact_cells_spirv, kEyeOrNone},
+    {"shade_sites", shade_sites_spirv, kEyeOrNone},
+    {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv, kEachLens},
+    {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv, kEachLens},
+    {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv, kEachLens, true},
+    {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv, kEachLens, true},
+    {"walk_rgba16f", walk_rgba16f_spirv, kEachLens},
+    {"walk_rgba32f", walk_rgba32f_spirv, kEachLens},
+    {"walk_rgba16f", walk_rgba16f_spirv, kEachLens, true},
+    {"walk_rgba32f", walk_rgba32f_spirv, kEachLens, true},
 }};
 
 struct Specialization {
@@ -60,15 +73,17 @@ struct Specialization {
   VkBool32 hasHeights;
   VkBool32 countWork;
   VkBool32 hasNormals;
+  uint32_t lensClass;
 };
 
-constexpr std::array<VkSpecializationMapEntry, 6> kSpecializationEntries = {{
+constexpr std::array<VkSpecializationMapEntry, 7> kSpecializationEntries = {{
     {gpu::kConstantCheckIndices, offsetof(Specialization, checkIndices), sizeof(VkBool32)},
     {gpu::kConstantDetailCount, offsetof(Specialization, detailCount), sizeof(uint32_t)},
     {gpu::kConstantLobeCount, offsetof(Specialization, lobeCount), sizeof(uint32_t)},
     {gpu::kConstantHasHeights, offsetof(Specialization, hasHeights), sizeof(VkBool32)},
     {gpu::kConstantCountWork, offsetof(Specialization, countWork), sizeof(VkBool32)},
     {gpu::kConstantHasNormals, offsetof(Specialization, hasNormals), sizeof(VkBool32)},
+    {gpu::kConstantLensClass, offsetof(Specialization, lensClass), sizeof(uint32_t)},
 }};
 
 Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode& code,
@@ -106,22 +121,44 @@ Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode&
   return pipeline;
 }
 
-// Makes passes [first, last) into `pipelines`.
+bool hasOwnPipeline(uint32_t pass, uint32_t lensClass) {
+  return (kPassCodes[pass].lensClasses >> lensClass & 1) != 0;
+}
+
+// Makes passes [first, last) of all classes of lenses into `pipelines`.
 Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint32_t first, uint32_t last,
-                    PassPipelines& pipelines) {
+                    LensPipelines& pipelines) {
   Specialization values{.checkIndices = state.options.checkIndices,
                         .detailCount = shape.detailCount,
                         .lobeCount = shape.lobeCount,
                         .hasHeights = shape.hasHeights,
                         .countWork = state.options.countWork,
-                        .hasNormals = false};
-  for (uint32_t pass = first; pass < last; ++pass) {
-    values.hasNormals = kPassCodes[pass].hasNormals;
-    Result<VkPipeline> pipeline = createPipeline(state, kPassCodes[pass], values);
-    if (!pipeline) return pipeline.error();
-    pipelines[pass] = *pipeline;
+                        .hasNormals = false,
+                        .lensClass = gpu::kLensClassPinhole};
+  for (values.lensClass = 0; values.lensClass < gpu::kLensClassCount; ++values.lensClass) {
+    if (!state.hasLensClass(values.lensClass)) continue;
+    for (uint32_t pass = first; pass < last; ++pass) {
+      VkPipeline& made = pipelines[values.lensClass][pass];
+      if (!hasOwnPipeline(pass, values.lensClass)) {
+        made = pipelines[gpu::kLensClassPinhole][pass];
+        continue;
+      }
+      values.hasNormals = kPassCodes[pass].hasNormals;
+      Result<VkPipeline> pipeline = createPipeline(state, kPassCodes[pass], values);
+      if (!pipeline) return pipeline.error();
+      made = *pipeline;
+    }
   }
   return {};
+}
+
+void destroyPasses(RenderPipelines::State& state, uint32_t first, uint32_t last, LensPipelines& pipelines) {
+  for (uint32_t lensClass = 0; lensClass < gpu::kLensClassCount; ++lensClass) {
+    for (uint32_t pass = first; pass < last; ++pass) {
+      if (hasOwnPipeline(pass, lensClass))
+        state.device.table.vkDestroyPipeline(state.device.device, pipelines[lensClass][pass], nullptr);
+    }
+  }
 }
 
 Status createLayout(RenderPipelines::State& state) {
@@ -148,7 +185,7 @@ AssetShape shapeOf(const GpuAsset& asset) {
 }
 
 Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device) {
-  std::array<VkDescriptorSetLayoutBinding, 3> bindings{};
+  std::array<VkDescriptorSetLayoutBinding, 4> bindings{};
   for (uint32_t i = 0; i < bindings.size(); ++i) {
     bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   }
@@ -162,10 +199,15 @@ Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device) {
   return layout;
 }
 
-const PassPipelines* RenderPipelines::State::find(const AssetShape& shape) {
+bool RenderPipelines::State::hasLensClass(uint32_t lensClass) const {
+  return lensClass == gpu::kLensClassPinhole || (options.lensClasses >> (lensClass - 1) & 1) != 0;
+}
+
+const PassPipelines* RenderPipelines::State::find(const AssetShape& shape, uint32_t lensClass) {
+  if (!hasLensClass(lensClass)) return nullptr;
   const std::lock_guard lock(mutex);
   const auto found = byShape.find(shape);
-  return found == byShape.end() ? nullptr : &found->second;
+  return found == byShape.end() ? nullptr : &found->second[lensClass];
 }
 
 RenderPipelines::RenderPipelines(Device& device, VkPipelineCache cache, ShaderOptions options)
@@ -174,11 +216,9 @@ RenderPipelines::RenderPipelines(Device& device, VkPipelineCache cache, ShaderOp
 RenderPipelines::~RenderPipelines() {
   const DeviceTable& vk = state_->device.table;
   const VkDevice device = state_->device.device;
-  for (auto& [shape, pipelines] : state_->byShape) {
-    for (uint32_t pass = kFirstShapedPass; pass < kPassCount; ++pass)
-      vk.vkDestroyPipeline(device, pipelines[pass], nullptr);
-  }
-  for (VkPipeline pipeline : state_->common) vk.vkDestroyPipeline(device, pipeline, nullptr);
+  for (auto& [shape, pipelines] : state_->byShape)
+    destroyPasses(*state_, kFirstShapedPass, kPassCount, pipelines);
+  destroyPasses(*state_, 0, kFirstShapedPass, state_->common);
   vk.vkDestroyPipelineLayout(device, state_->layout, nullptr);
   vk.vkDestroyDescriptorSetLayout(device, state_->setLayout, nullptr);
 }
@@ -195,14 +235,12 @@ Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device,
 
 Status RenderPipelines::prepareFor(const GpuAsset& asset) {
   const AssetShape shape = shapeOf(asset);
-  if (state_->find(shape)) return {};
-  std::map<AssetShape, PassPipelines> made;  // takes its memory now: what follows cannot lose a pipeline
-  PassPipelines& pipelines = made[shape] = state_->common;
+  if (state_->find(shape, gpu::kLensClassPinhole)) return {};
+  std::map<AssetShape, LensPipelines> made;  // takes its memory now: what follows cannot lose a pipeline
+  LensPipelines& pipelines = made[shape] = state_->common;
   const Status status = createPasses(*state_, shape, kFirstShapedPass, kPassCount, pipelines);
   if (!status) {
-    for (uint32_t pass = kFirstShapedPass; pass < kPassCount; ++pass) {
-      state_->device.table.vkDestroyPipeline(state_->device.device, pipelines[pass], nullptr);
-    }
+    destroyPasses(*state_, kFirstShapedPass, kPassCount, pipelines);
     return status;
   }
   const std::lock_guard lock(state_->mutex);

@@ -12,6 +12,7 @@ namespace froth {
 struct ShaderOptions {
   bool checkIndices = false;  // check every index, count those out of range
   bool countWork = false;     // count what rays cost
+  uint32_t lensClasses = 0;   // FrothLensClass: what cameras they are made for besides pinholes
 };
 
 class RenderPipelines {

@@ -40,7 +40,7 @@ void recordBin(const Recording& recording, const PassRecorder& recorder) {
 }  // namespace
 
 void recordRasterPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset) {
-  recordCull(recorder, asset);
+  recordCull(recording, recorder, asset);
   recording.mark("cull");
   recordCellSort(recording, recorder);
   recording.mark("sort");

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "runtime/render/camera_rays.h"
 #include "runtime/render/view_state.h"
 
 namespace froth {
@@ -48,6 +49,17 @@ void recordUpload(const Recording& recording, const GpuAsset* asset) {
       recording.commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
       VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
+void recordRays(const Recording& recording, const PassRecorder& recorder) {
+  const FrothCamera& camera = recording.info.camera;
+  const uint32_t tilesX = tilesAlong(camera.scissor.extent.width), tilesY = tilesAlong(camera.scissor.extent.height);
+  const bool isByImage = camera.lens.kind == FROTH_LENS_RAY_MAP;
+  recorder.run(isByImage ? Pass::kAimRaysByImage : Pass::kAimRays, tilesX, tilesY);
+  recorder.wait();
+  recorder.run(Pass::kWidenCones, groupsOver(tilesX, gpu::kBlockTiles), groupsOver(tilesY, gpu::kBlockTiles));
+  recorder.wait();
+  recording.mark("aim");
 }
 
 }  // namespace
@@ -123,7 +135,8 @@ const gpu::Counters& readCounters(const ViewState& view, uint32_t number) {
   return *reinterpret_cast<const gpu::Counters*>(readback + number * kBlockStride);
 }
 
-void recordCull(const PassRecorder& recorder, const GpuAsset& asset) {
+void recordCull(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset) {
+  if (lensClassOf(recording.info.camera) == gpu::kLensClassMapped) recordRays(recording, recorder);
   const uint32_t groups = groupsPerChunk(asset);
   const auto chunks = static_cast<uint32_t>(asset.chunks.size());
   recorder.run(Pass::kCullCells, groups, chunks);

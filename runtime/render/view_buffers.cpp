@@ -54,6 +54,10 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
       return layOutTallies(capacity).end;
     case ViewBuffer::kWalkStart:
       return 16;
+    case ViewBuffer::kRays:
+      return 16 * capacity.rays;
+    case ViewBuffer::kCones:  // of sub-tiles, tiles, and at most as many blocks
+      return capacity.rays > 0 ? 16 * (gpu::kSubTilesPerTile + 2) * VkDeviceSize{capacity.tiles} : 0;
   }
   return 0;
 }
@@ -160,6 +164,7 @@ void ViewBuffers::describeMemory(FrothViewStatus& status) const {
   add("records", {kRecords});
   add("planes", {kPlanes});
   add("sites", {kSites});
+  if (capacity_.rays > 0) add("rays", {kRays, kCones});
   add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies});
 }
 

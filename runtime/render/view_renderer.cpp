@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/render/camera_rays.h"
 #include "runtime/render/view_state.h"
 
 namespace froth {
@@ -74,7 +75,8 @@ ViewRenderer::ViewRenderer() = default;
 ViewRenderer::~ViewRenderer() = default;
 
 Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExtent2D maxExtent,
-                                                           bool measurePasses, uint32_t framesInFlight) {
+                                                           uint32_t lensClasses, bool measurePasses,
+                                                           uint32_t framesInFlight) {
   const uint32_t recordings = framesInFlight * kRecordingsPerFrame;
   Result<std::unique_ptr<OutputImages>> images = OutputImages::create(device, recordings);
   if (!images) return images.error();
@@ -93,6 +95,7 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExt
   ViewCapacity capacity;
   capacity.frames = framesInFlight;
   capacity.tiles = tilesAlong(maxExtent.width) * tilesAlong(maxExtent.height);
+  if (lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = uint64_t{maxExtent.width} * maxExtent.height;
   if (const Status status = renderer->state_->buffers.grow(capacity, 0); !status) return status.error();
   return renderer;
 }
@@ -139,7 +142,7 @@ bool ViewRenderer::isShrinking() const {
 uint32_t ViewRenderer::recordRaster(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
                                     const RenderInstance& instance, const FrothRenderInfo& info,
                                     uint64_t serial) {
-  const PassPipelines* passes = pipelines.state().find(shapeOf(*instance.asset));
+  const PassPipelines* passes = pipelines.state().find(shapeOf(*instance.asset), lensClassOf(info.camera));
   if (!passes || !coversAsset(*instance.asset, state_->buffers.capacity())) {
     recordClear(commandBuffer, pipelines, info, serial);
     return FROTH_VIEW_NOT_READY;
@@ -154,7 +157,7 @@ uint32_t ViewRenderer::recordRaster(VkCommandBuffer commandBuffer, RenderPipelin
 uint32_t ViewRenderer::recordWalk(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
                                   const RenderInstance& instance, const FrothRenderInfo& info,
                                   uint64_t serial) {
-  const PassPipelines* passes = pipelines.state().find(shapeOf(*instance.asset));
+  const PassPipelines* passes = pipelines.state().find(shapeOf(*instance.asset), lensClassOf(info.camera));
   const bool isReady = passes && coversAsset(*instance.asset, state_->buffers.capacity());
   if (!isReady || !instance.asset->hasWalkGraph) {
     recordClear(commandBuffer, pipelines, info, serial);
@@ -171,7 +174,7 @@ void ViewRenderer::recordClear(VkCommandBuffer commandBuffer, RenderPipelines& p
                                const FrothRenderInfo& info, uint64_t serial) {
   const Recording recording =
       beginRecording(*state_, commandBuffer, RecordingKind::kClear, info, serial, nullptr);
-  const PassRecorder recorder = bindRecording(recording, pipelines.state(), pipelines.state().common);
+  const PassRecorder recorder = bindRecording(recording, pipelines.state(), pipelines.state().common[gpu::kLensClassPinhole]);
   recordPixels(recording, recorder, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
   recording.mark("clear");
   endRecording(recording);

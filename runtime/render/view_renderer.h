@@ -25,8 +25,8 @@ struct RenderInstance {
 
 class ViewRenderer {
  public:
-  // Allocates transients for the maximum extent; they grow in prepare() only.
-  static Result<std::unique_ptr<ViewRenderer>> create(Device& device, VkExtent2D maxExtent,
+  // Allocates transients for the maximum extent; they grow in prepare() only. lensClasses: FrothLensClass bits of its cameras.
+  static Result<std::unique_ptr<ViewRenderer>> create(Device& device, VkExtent2D maxExtent, uint32_t lensClasses,
                                                       bool measurePasses, uint32_t framesInFlight);
   ~ViewRenderer();  // the GPU must be done with the view
 

@@ -76,8 +76,8 @@ void endRecording(const Recording& recording);
 // Counters of a recording that the GPU has completed.
 const gpu::Counters& readCounters(const ViewState& view, uint32_t number);
 
-// Cull, list and count the visible cells; shared by raster and walk.
-void recordCull(const PassRecorder& recorder, const GpuAsset& asset);
+// Cull, list and count the visible cells, for a mapped lens once its rays are known; shared by raster and walk.
+void recordCull(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset);
 // Expand the visible cells and shade their detail sites, both at once.
 void recordShade(const PassRecorder& recorder);
 

@@ -3,7 +3,7 @@
 namespace froth {
 
 void recordWalkPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset) {
-  recordCull(recorder, asset);
+  recordCull(recording, recorder, asset);
   recording.mark("cull");
   recorder.run(Pass::kLocate, 1);  // needs nothing of the passes around it, so it runs beside them
   recordShade(recorder);

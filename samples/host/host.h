@@ -47,7 +47,8 @@ class Host {
   ~Host();
 
   FrothContextInfo contextInfo() const;  // ready for frothCreateContext; callbacks left null
-  Result<HostImage> createImage(VkFormat format, VkExtent2D extent);  // STORAGE | TRANSFER_SRC | SAMPLED
+  // STORAGE | TRANSFER_SRC | TRANSFER_DST | SAMPLED
+  Result<HostImage> createImage(VkFormat format, VkExtent2D extent);
   void destroyImage(HostImage& image);
   FrothImage describe(const HostImage& image) const;  // UNDEFINED in, GENERAL out to a transfer read
 
@@ -57,6 +58,10 @@ class Host {
 
   // Texels of an image in layout GENERAL as floats, `channels` per texel (1 or 4), halves widened.
   Result<std::vector<float>> readImage(const HostImage& image);
+  // Fills an image of floats, `channels` values per texel; it is in layout GENERAL then.
+  Status writeImage(const HostImage& image, const std::vector<float>& texels);
+  // The same image as an input that keeps its contents and its layout GENERAL.
+  FrothImage describeInput(const HostImage& image) const;
 
   // Messages of the validation layers so far (severity warning or error); tests expect none.
   std::vector<std::string> validationMessages() const;

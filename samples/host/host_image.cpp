@@ -42,19 +42,6 @@ std::vector<float> widenTexels(const void* texels, size_t byteCount, FormatTrait
   return values;
 }
 
-// A host-visible buffer that goes with its scope.
-struct ReadbackBuffer {
-  VkDevice device = VK_NULL_HANDLE;
-  VkBuffer buffer = VK_NULL_HANDLE;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
-  void* mapped = nullptr;
-
-  ~ReadbackBuffer() {
-    vkDestroyBuffer(device, buffer, nullptr);
-    vkFreeMemory(device, memory, nullptr);
-  }
-};
-
 Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements, uint32_t type,
                       VkDeviceMemory& memory) {
   VkMemoryAllocateInfo info{};
@@ -86,6 +73,27 @@ void copyToBuffer(VkCommandBuffer commands, const HostImage& image, VkBuffer buf
   dependency.memoryBarrierCount = 1;
   dependency.pMemoryBarriers = &barrier;
   vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+// Into layout GENERAL, whatever it held before.
+void copyToImage(VkCommandBuffer commands, VkBuffer buffer, const HostImage& image) {
+  VkImageMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+  barrier.dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+  barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image.image;
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.imageMemoryBarrierCount = 1;
+  dependency.pImageMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commands, &dependency);
+  VkBufferImageCopy region{};
+  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.imageExtent = {image.extent.width, image.extent.height, 1};
+  vkCmdCopyBufferToImage(commands, buffer, image.image, VK_IMAGE_LAYOUT_GENERAL, 1, &region);
 }
 
 }  // namespace
@@ -121,7 +129,8 @@ Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent) {
   imageInfo.mipLevels = 1;
   imageInfo.arrayLayers = 1;
   imageInfo.samples = VK_SAMPLE_COUNT_1_BIT;
-  imageInfo.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  imageInfo.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                    VK_IMAGE_USAGE_SAMPLED_BIT;
   if (const VkResult code = vkCreateImage(device, &imageInfo, nullptr, &image.image); code != VK_SUCCESS) {
     return makeError(ErrorKind::kUnsupported, "vkCreateImage of %u x %u gives VkResult %d", extent.width,
                      extent.height, code);
@@ -172,35 +181,50 @@ FrothImage Host::describe(const HostImage& image) const {
   return described;
 }
 
+FrothImage Host::describeInput(const HostImage& image) const {
+  FrothImage described = describe(image);
+  described.layoutIn = VK_IMAGE_LAYOUT_GENERAL;
+  return described;
+}
+
+Status Host::State::createTransferBuffer(VkDevice onDevice, VkDeviceSize bytes, VkBufferUsageFlags usage,
+                                         TransferBuffer& transfer) const {
+  VkBufferCreateInfo bufferInfo{};
+  bufferInfo.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  bufferInfo.size = bytes;
+  bufferInfo.usage = usage;
+  transfer.device = onDevice;
+  if (const VkResult code = vkCreateBuffer(onDevice, &bufferInfo, nullptr, &transfer.buffer); code != VK_SUCCESS) {
+    return makeError(ErrorKind::kUnsupported, "vkCreateBuffer gives VkResult %d", code);
+  }
+  VkMemoryRequirements requirements{};
+  vkGetBufferMemoryRequirements(onDevice, transfer.buffer, &requirements);
+  constexpr VkMemoryPropertyFlags kCoherent =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  uint32_t type = findMemoryType(requirements.memoryTypeBits, kCoherent | VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
+  if (type == UINT32_MAX) {
+    type = findMemoryType(requirements.memoryTypeBits, kCoherent);
+  }
+  if (const Status status = allocateMemory(onDevice, requirements, type, transfer.memory); !status) {
+    return status;
+  }
+  vkBindBufferMemory(onDevice, transfer.buffer, transfer.memory, 0);
+  vkMapMemory(onDevice, transfer.memory, 0, VK_WHOLE_SIZE, 0, &transfer.mapped);
+  return {};
+}
+
 Result<std::vector<float>> Host::readImage(const HostImage& image) {
   const Result<FormatTraits> traits = traitsOf(image.format);
   if (!traits) {
     return traits.error();
   }
-  VkBufferCreateInfo bufferInfo{};
-  bufferInfo.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-  bufferInfo.size = VkDeviceSize{image.extent.width} * image.extent.height * traits->bytesPerTexel;
-  bufferInfo.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  ReadbackBuffer readback;
-  readback.device = device;
-  if (const VkResult code = vkCreateBuffer(device, &bufferInfo, nullptr, &readback.buffer);
-      code != VK_SUCCESS) {
-    return makeError(ErrorKind::kUnsupported, "vkCreateBuffer gives VkResult %d", code);
-  }
-  VkMemoryRequirements requirements{};
-  vkGetBufferMemoryRequirements(device, readback.buffer, &requirements);
-  constexpr VkMemoryPropertyFlags kCoherent =
-      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-  uint32_t type =
-      state_->findMemoryType(requirements.memoryTypeBits, kCoherent | VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
-  if (type == UINT32_MAX) {
-    type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent);
-  }
-  if (const Status status = allocateMemory(device, requirements, type, readback.memory); !status) {
+  const VkDeviceSize bytes = VkDeviceSize{image.extent.width} * image.extent.height * traits->bytesPerTexel;
+  TransferBuffer readback;
+  if (const Status status =
+          state_->createTransferBuffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, readback);
+      !status) {
     return status.error();
   }
-  vkBindBufferMemory(device, readback.buffer, readback.memory, 0);
-  vkMapMemory(device, readback.memory, 0, VK_WHOLE_SIZE, 0, &readback.mapped);
   const Status status = state_->runCommands(device, queue, [&](VkCommandBuffer commands) {
     copyToBuffer(commands, image, readback.buffer);
     return Status();
@@ -208,7 +232,26 @@ Result<std::vector<float>> Host::readImage(const HostImage& image) {
   if (!status) {
     return status.error();
   }
-  return widenTexels(readback.mapped, bufferInfo.size, *traits);
+  return widenTexels(readback.mapped, bytes, *traits);
+}
+
+Status Host::writeImage(const HostImage& image, const std::vector<float>& texels) {
+  const Result<FormatTraits> traits = traitsOf(image.format);
+  const VkDeviceSize bytes = texels.size() * sizeof(float);
+  if (!traits || bytes != VkDeviceSize{image.extent.width} * image.extent.height * traits->bytesPerTexel) {
+    return makeError(ErrorKind::kUsage, "image of %u x %u texels: %zu floats do not fill it", image.extent.width,
+                     image.extent.height, texels.size());
+  }
+  TransferBuffer upload;
+  if (const Status status = state_->createTransferBuffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, upload);
+      !status) {
+    return status;
+  }
+  std::memcpy(upload.mapped, texels.data(), bytes);
+  return state_->runCommands(device, queue, [&](VkCommandBuffer commands) {
+    copyToImage(commands, upload.buffer, image);
+    return Status();
+  });
 }
 
 }  // namespace froth

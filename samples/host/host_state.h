@@ -5,6 +5,19 @@
 
 namespace froth {
 
+// A host-visible buffer that goes with its scope.
+struct TransferBuffer {
+  VkDevice device = VK_NULL_HANDLE;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  void* mapped = nullptr;
+
+  ~TransferBuffer() {
+    vkDestroyBuffer(device, buffer, nullptr);
+    vkFreeMemory(device, memory, nullptr);
+  }
+};
+
 struct Host::State {
   ValidationLog log;  // outlives the instance
   HostInstance instance;
@@ -20,6 +33,8 @@ struct Host::State {
                      const std::function<Status(VkCommandBuffer)>& record);
   // The first memory type that is allowed and has the properties; UINT32_MAX: none.
   uint32_t findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags properties) const;
+  Status createTransferBuffer(VkDevice onDevice, VkDeviceSize bytes, VkBufferUsageFlags usage,
+                              TransferBuffer& transfer) const;
 };
 
 }  // namespace froth

@@ -39,6 +39,8 @@ FROTH_CONST kTileCellsPerGroup = 64;  // visible cells whose tiles one workgroup
 FROTH_CONST kCellsPerTileSum = 1024;  // visible cells whose tiles are summed for the prefixes of pairs
 FROTH_CONST kTileSize = 32;           // [pixels] edge of the tiles that own lists
 FROTH_CONST kSubTileSize = 8;         // [pixels] edge of what one workgroup of the raster draws
+FROTH_CONST kBlockTiles = 8;          // [tiles] edge of the blocks of tiles that have a cone
+FROTH_CONST kSubTilesPerTile = 16;
 FROTH_CONST kMaskWords = 8;           // words of a bit per thread of a workgroup
 FROTH_CONST kNoCell = 0xffffffffu;
 FROTH_CONST kUnlisted = 0x80000000u;  // in a walk's link: the other bits are a site of the chunk, whose cell has no record
@@ -58,6 +60,13 @@ FROTH_CONST kConstantLobeCount = 2;
 FROTH_CONST kConstantHasHeights = 3;
 FROTH_CONST kConstantCountWork = 4;
 FROTH_CONST kConstantHasNormals = 5;
+FROTH_CONST kConstantLensClass = 6;
+
+// How the passes of a pipeline see: kConstantLensClass.
+FROTH_CONST kLensClassPinhole = 0;
+FROTH_CONST kLensClassMapped = 1;  // any rays through one eye: FrameBlock::rays
+FROTH_CONST kLensClassOrthographic = 2;
+FROTH_CONST kLensClassCount = 3;
 
 // FrameBlock::flags
 FROTH_CONST kFlagColour = 1;
@@ -157,19 +166,23 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer CountersRef
 
 // One recording of one view. Directions and lengths are in the asset's axes and units.
 struct FrameBlock {
-  vec4 rayOrigin;  // direction of pixel (column, row) of the region, not normalized:
-  vec4 rayX;       // rayOrigin + column rayX + row rayY
+  vec4 rayOrigin;  // Pinhole: direction of pixel (column, row) of the region, not normalized:
+  vec4 rayX;       // rayOrigin + column rayX + row rayY. Mapped: the view's axes z, x, y.
   vec4 rayY;
   vec4 forward;    // unit view axis, nearDepth
   vec4 worldX;     // rows of the rotation world-from-asset
   vec4 worldY;
   vec4 worldZ;
+  vec4 lensPoint;  // Mapped: pixel (column, row) of the region sees lensPoint.xy + (column, row) lensPoint.zw, as foam/lens.h
+  vec4 lensFirst, lensSecond;  // takes it
   float nearRatio, scale, logCutoff, logQuantile;
   float detailSharpness;
   uint flags, maxSteps, localBits;
   uint regionX, regionY, regionWidth, regionHeight;  // [pixels] what is drawn
   uint tilesX, tilesY, chunkCount, groupsPerChunk;   // groups: workgroups over a chunk's cells
   uint visibleCapacity, planeCapacity, pairCapacity, padding;
+  float lensRange;
+  uint lensKind, blocksX, blocksY;             // blocks of kBlockTiles x kBlockTiles tiles
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
   FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] visible cells, their planes
@@ -191,6 +204,8 @@ struct FrameBlock {
   FROTH_ADDRESS(UintArray) cellHistogram;      // of the lowest digit of cellKeys (histogram.glsl)
   FROTH_ADDRESS(UintArray) pairHistogram;      // of the lowest digit of pairTiles
   FROTH_ADDRESS(UintPairArray) walkStart;      // [1] chunk, local index of the cell that holds the eye; kept over frames
+  FROTH_ADDRESS(FloatQuadArray) rays;          // [row of the region, column] xyz: unit direction; 0: none
+  FROTH_ADDRESS(FloatQuadArray) cones;         // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]
 };
 
 #if defined(__cplusplus)
@@ -211,8 +226,8 @@ static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code
 static_assert(sizeof(SiteRecord) == 24 && offsetof(SiteRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 112 && sizeof(Counters) == 176);
-static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);
-static_assert(offsetof(FrameBlock, counters) == 192 && sizeof(FrameBlock) == 360);
+static_assert(offsetof(FrameBlock, nearRatio) == 160 && offsetof(FrameBlock, regionX) == 192);
+static_assert(offsetof(FrameBlock, counters) == 256 && sizeof(FrameBlock) == 440);
 static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);
 
 }  // namespace froth::gpu

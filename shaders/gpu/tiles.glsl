@@ -16,7 +16,22 @@ ivec2 tileInterval(float low, float high, uint pixels) {
   return interval.x > interval.y ? ivec2(0, -1) : interval / int(kTileSize);
 }
 
+// Of the tiles in all blocks that the ball meets.
+TileBounds blockBounds(Ball ball) {
+  float radius = guardedRadius(ball.centre, ball.radius);
+  TileBounds bounds = TileBounds(ivec2(FRAME.tilesX, FRAME.tilesY), ivec2(-1));
+  for (uint block = 0; block < FRAME.blocksX * FRAME.blocksY; ++block) {
+    if (!blockMeetsBall(block, ball.centre, radius)) continue;
+    ivec2 corner = ivec2(block % FRAME.blocksX, block / FRAME.blocksX) * int(kBlockTiles);
+    bounds.first = min(bounds.first, corner);
+    bounds.last = max(bounds.last, corner + int(kBlockTiles) - 1);
+  }
+  bounds.last = min(bounds.last, ivec2(FRAME.tilesX, FRAME.tilesY) - 1);
+  return bounds;
+}
+
 TileBounds tileBounds(Ball ball) {
+  if (lensClass == kLensClassMapped) return blockBounds(ball);
   vec3 normal = cross(FRAME.rayX.xyz, FRAME.rayY.xyz);
   TileBounds bounds = TileBounds(ivec2(0), ivec2(FRAME.tilesX, FRAME.tilesY) - 1);
   float low, high;

@@ -80,7 +80,7 @@ class Growth : public testing::Test {
       const Recording recording =
           beginRecording(*view_, commandBuffer, isRaster ? RecordingKind::kRaster : RecordingKind::kWalk, info,
                          serial, &instance);
-      const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset_.gpu()));
+      const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset_.gpu()), gpu::kLensClassPinhole);
       const auto record = isRaster ? recordRasterPasses : recordWalkPasses;
       record(recording, bindRecording(recording, pipelines_->state(), passes), asset_.gpu());
       endRecording(recording);

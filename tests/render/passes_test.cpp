@@ -110,7 +110,7 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
     const PassRecorder recorder{.vk = device_.table,
                                 .commandBuffer = commandBuffer,
                                 .layout = pipelines_->state().layout,
-                                .pipelines = pipelines_->state().common,
+                                .pipelines = pipelines_->state().common[gpu::kLensClassPinhole],
                                 .frame = blockBuffer.address,
                                 .counters = counterBuffer->buffer,
                                 .countersOffset = 0};
@@ -215,7 +215,7 @@ class Bin : public Passes {
     submit([&](VkCommandBuffer commandBuffer) {
       const Recording recording =
           beginRecording(view, commandBuffer, RecordingKind::kRaster, info, 1, &instance);
-      const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset));
+      const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset), gpu::kLensClassPinhole);
       recordRasterPasses(recording, bindRecording(recording, pipelines_->state(), passes), asset);
       endRecording(recording);
     });

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "baker/camera/ray_map.h"
 #include "format/asset_writer.h"
 
 namespace froth::test {
@@ -33,6 +34,20 @@ Image channelsOf(const std::vector<float>& texels, uint32_t stride, uint32_t fir
   return image;
 }
 
+FrothLens lensOf(const View& view) {
+  FrothLens lens{};
+  lens.kind = static_cast<FrothLensKind>(view.lens.kind);
+  lens.focal[0] = static_cast<float>(view.fx);
+  lens.focal[1] = static_cast<float>(view.fy);
+  lens.centre[0] = static_cast<float>(view.cx);
+  lens.centre[1] = static_cast<float>(view.cy);
+  for (size_t i = 0; i < view.lens.distortion.size(); ++i)
+    lens.coefficients[i] = static_cast<float>(view.lens.distortion[i]);
+  return lens;
+}
+
+constexpr uint32_t kAllLenses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC;
+
 std::vector<float> readBack(Host& host, const HostImage& image) {
   Result<std::vector<float>> texels = host.readImage(image);
   EXPECT_TRUE(texels) << texels.error().message;
@@ -53,20 +68,29 @@ Host& sharedHost() {
   return *host;
 }
 
+FrothContext* createCheckedContext(uint32_t lensClasses) {
+  FrothContextInfo info = sharedHost().contextInfo();
+  info.onMessage = onMessage;
+  info.checkIndices = 1;
+  info.countWork = 1;
+  info.lensClasses = lensClasses;
+  FrothContext* created = nullptr;
+  check(frothCreateContext(&info, &created), "frothCreateContext");
+  return created;
+}
+
 FrothContext* sharedContext() {
-  static FrothContext* const context = [] {
-    FrothContextInfo info = sharedHost().contextInfo();
-    info.onMessage = onMessage;
-    info.checkIndices = 1;
-    info.countWork = 1;
-    FrothContext* created = nullptr;
-    check(frothCreateContext(&info, &created), "frothCreateContext");
-    return created;
-  }();
+  static FrothContext* const context = createCheckedContext(0);
   return context;
 }
 
-Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context, uint32_t layers)
+FrothContext* lensContext() {
+  static FrothContext* const context = createCheckedContext(kAllLenses);
+  return context;
+}
+
+Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context, uint32_t layers,
+             uint32_t lensClasses)
     : context_(context) {
   Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
   EXPECT_TRUE(bytes) << bytes.error().message;
@@ -77,7 +101,7 @@ Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* 
   assetInfo.dataSize = bytes_.size();
   assetInfo.layers = layers;
   check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
-  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1};
+  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses};
   check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");
   place({});
 
@@ -179,6 +203,15 @@ View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uin
   return view;
 }
 
+HostImage uploadRayMap(const View& view) {
+  std::vector<float> texels;
+  for (const glm::vec3& d : view.lens.rays->directions) texels.insert(texels.end(), {d.x, d.y, d.z, 0});
+  Result<HostImage> image = sharedHost().createImage(VK_FORMAT_R32G32B32A32_SFLOAT, {view.width, view.height});
+  EXPECT_TRUE(image) << image.error().message;
+  EXPECT_TRUE(sharedHost().writeImage(*image, texels));
+  return *image;
+}
+
 FrothRenderInfo infoOf(const View& view) {
   FrothRenderInfo info{};
   info.structSize = sizeof(info);
@@ -192,13 +225,16 @@ FrothRenderInfo infoOf(const View& view) {
       camera.viewFromWorld[axis * 3 + row] = static_cast<float>(view.worldFromCamera[axis * 4 + row]);
     }
   }
+  const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
   camera.clipFromView[0] = static_cast<float>(2 * view.fx / view.width);
   camera.clipFromView[5] = static_cast<float>(2 * view.fy / view.height);
-  camera.clipFromView[8] = static_cast<float>(2 * view.cx / view.width - 1);
-  camera.clipFromView[9] = static_cast<float>(2 * view.cy / view.height - 1);
-  camera.clipFromView[11] = 1.0f;
-  camera.clipFromView[14] = 0.01f;
+  const int shift = isOrthographic ? 12 : 8;
+  camera.clipFromView[shift] = static_cast<float>(2 * view.cx / view.width - 1);
+  camera.clipFromView[shift + 1] = static_cast<float>(2 * view.cy / view.height - 1);
+  camera.clipFromView[isOrthographic ? 15 : 11] = 1.0f;
+  camera.clipFromView[isOrthographic ? 10 : 14] = 0.01f;
   camera.viewport = {0, 0, static_cast<float>(view.width), static_cast<float>(view.height), 0, 1};
+  if (!isOrthographic) camera.lens = lensOf(view);
   return info;
 }
 

@@ -34,11 +34,14 @@ struct Frame {
 Host& sharedHost();
 FrothContext* sharedContext();
 
+// The same for cameras of all lenses.
+FrothContext* lensContext();
+
 // One asset, one instance, one view. Any failing call, validation message or index violation fails the test.
 class Stage {
  public:
   Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context = sharedContext(),
-        uint32_t layers = 0);
+        uint32_t layers = 0, uint32_t lensClasses = 0);
   ~Stage();
 
   void place(const FrothInstanceInfo& placement);  // `asset` is filled in
@@ -66,7 +69,11 @@ class Stage {
 View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height,
             double tanHalfFovY);
 
-// Display-coded, cut-off 1e-3, reversed depth with an infinite far plane; near limits of the view, else off.
+// `size` pixels of R32G32B32A32_SFLOAT with the view's ray map.
+HostImage uploadRayMap(const View& view);
+
+// Display-coded, cut-off 1e-3, reversed depth with an infinite far plane; near limits of the view, else off. A ray map's image is
+// left to the caller.
 FrothRenderInfo infoOf(const View& view);
 
 AssetContents bakeForTest(const Foam& foam);

@@ -95,6 +95,13 @@ FROTH_API FrothResult frothRequireFeatures(VkPhysicalDeviceFeatures2* features, 
 
 /* ---- Context: one per VkDevice ---- */
 
+/* What other cameras than pinholes need: pipelines of a context, memory of a view. */
+typedef enum FrothLensClass {
+  FROTH_LENS_CLASS_MAPPED = 1,       /* FrothLens::kind other than FROTH_LENS_PROJECTION */
+  FROTH_LENS_CLASS_ORTHOGRAPHIC = 2, /* parallel rays */
+  FROTH_LENS_CLASS_MAX = 0x7fffffff
+} FrothLensClass;
+
 typedef struct FrothContext FrothContext;
 
 /* Memory that Froth asks its caller for. The fields are what vmaAllocateMemory and vkAllocateMemory want to know. */
@@ -138,6 +145,7 @@ typedef struct FrothContextInfo {
   FrothAllocateMemory allocateMemory; /* both or none: where all VkDeviceMemory comes from; null: vkAllocateMemory */
   FrothFreeMemory freeMemory;
   void* memoryUser;
+  uint32_t lensClasses;           /* FrothLensClass bits for which pipelines are made; 0: pinholes only */
 } FrothContextInfo;
 
 /* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */
@@ -272,6 +280,8 @@ typedef struct FrothViewInfo {
   uint32_t structSize;
   VkExtent2D maxExtent;     /* <= 16384 x 16384; largest area that a camera draws; smaller ones allocate nothing */
   uint32_t measurePasses;   /* 1: timestamps by pass, read back later without waiting */
+  uint32_t lensClasses;     /* FrothLensClass bits that its cameras may use, of those of the context; 0: pinholes only.
+                               MAPPED costs 16 bytes per pixel of maxExtent */
 } FrothViewInfo;
 
 FROTH_API FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view);
@@ -365,13 +375,38 @@ typedef struct FrothImage {
   VkAccessFlags2 accessIn, accessOut;
 } FrothImage;
 
+/* How a camera sees. All but the first take the view's axes as x right, y down, z forward, and no clipFromView. The centre of
+ * the image's first pixel is (0.5, 0.5) from the viewport's upper left corner; with
+ * (u, v) = (pixel - centre) / focal a pixel sees: */
+typedef enum FrothLensKind {
+  FROTH_LENS_PROJECTION = 0,        /* as clipFromView says; the fields below are not read */
+  FROTH_LENS_FISHEYE = 1,           /* equidistant: |(u, v)| is the angle from the axis */
+  FROTH_LENS_KANNALA_BRANDT = 2,    /* OpenCV's fisheye; coefficients k1, k2, k3, k4 */
+  FROTH_LENS_RADIAL_TANGENTIAL = 3, /* OpenCV's; coefficients k1, k2, p1, p2, k3, k4, k5, k6 */
+  FROTH_LENS_EQUIRECTANGULAR = 4,   /* u is the longitude to the right, v the latitude downwards; focal {0, 0}: the viewport
+                                       holds the whole sphere, and centre is not read */
+  FROTH_LENS_RAY_MAP = 5,           /* the direction that the caller's image gives */
+  FROTH_LENS_MAX = 0x7fffffff
+} FrothLensKind;
+
+/* Pixels that no ray of the lens reaches (beyond half a turn, or where a distortion folds: docs/CAMERAS.md) are cleared. */
+typedef struct FrothLens {
+  FrothLensKind kind;
+  float focal[2];        /* [pixels per radian; RADIAL_TANGENTIAL: per tangent], > 0 */
+  float centre[2];       /* [pixels] */
+  float coefficients[8];
+  FrothImage rayMap;     /* RAY_MAP: R32G32B32A32_SFLOAT with usage STORAGE, read at the pixels that are drawn: xyz a direction of any
+                            length in the view's axes, or 0: the pixel is cleared. All rays start at the eye. */
+} FrothLens;
+
 typedef struct FrothCamera {
   double eye[3];          /* in the world */
   float viewFromWorld[9]; /* rotation, column-major; the view's axes are those that clipFromView takes */
   float clipFromView[16]; /* unjittered; any perspective projection: reversed, infinite, off-centre, oblique */
-  float jitter[2];        /* [pixels], +x right, +y down */
+  float jitter[2];        /* [pixels], +x right, +y down; 0 with a ray map, which can hold it */
   VkViewport viewport;    /* negative height too */
   VkRect2D scissor;       /* zero: the whole viewport. What is left must lie in the images and fit maxExtent */
+  FrothLens lens;         /* zero: clipFromView is all. Others need their bit in FrothViewInfo::lensClasses */
 } FrothCamera;
 
 /* Marks "take the asset's default" in the two near limits. */
@@ -382,7 +417,8 @@ typedef struct FrothRenderInfo {
   FrothCamera camera;
   float cutoff;        /* a ray ends when its transmittance falls below; 0: 1e-3; negative: never */
   float nearRatio;     /* skips cells with |p - eye| < nearRatio * r; 0: off; usually FROTH_NEAR_DEFAULT */
-  float nearDepth;     /* skips cells with forward . (p - eye) < nearDepth [world units]; 0: off; FROTH_NEAR_DEFAULT */
+  float nearDepth;     /* skips cells with forward . (p - eye) < nearDepth [world units]; 0: off; FROTH_NEAR_DEFAULT. Not applied
+                          to lenses that may look sideways or back: all but PROJECTION and RADIAL_TANGENTIAL */
   float depthQuantile; /* 0: one half */
   uint32_t maxSteps;   /* of one walk; 0: 65536 */
   uint32_t displayCoded; /* 1: colour stays display-coded (for files); 0: linear */
