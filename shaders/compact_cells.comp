@@ -14,10 +14,11 @@ layout(constant_id = kConstantDetailCount) const uint detailCount = 8;
 
 shared uint lostSlot;  // of the first cell that finds no space
 
-// The power of the eye. Unsigned keys are in the order of the floats, negative ones included.
+// The power of the eye, or how far along parallel rays a site lies. Unsigned keys are in the order of the floats, negative ones included.
 uint sortKey(Chunk chunk, uint local) {
   Ball ball = ballOfSite(chunk, local);
-  uint bits = floatBitsToUint(powerOfOrigin(ball.centre, ball.radius));
+  bool isParallel = lensClass == kLensClassOrthographic;
+  uint bits = floatBitsToUint(isParallel ? dot(ball.centre, FRAME.forward.xyz) : powerOfOrigin(ball.centre, ball.radius));
   return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 

@@ -20,32 +20,32 @@ shared uint keptMask[kBatchWords];
 shared uint liveMask;
 
 // The parts of the intervals on the cell's side of all its radical planes. Returns whether any is left.
-bool clipByPlanes(Shading shading, CellRecord cell, vec3 directions[kRays], inout Segment segments[kRays]) {
-  float inverseFar[kRays], inverseNear[kRays];
+bool clipByPlanes(Shading shading, CellRecord cell, vec3 rays[kRays], inout Segment segments[kRays]) {
+  float far[kRays], near[kRays];  // nearness of where the intervals end
   for (uint r = 0; r < kRays; ++r) {
-    inverseFar[r] = 1.0 / segments[r].tFar;
-    inverseNear[r] = kInfinity;
+    far[r] = nearnessAt(segments[r].tFar);
+    near[r] = kInfinity;
   }
   for (uint i = cell.planeBegin; i < cell.planeSplit; ++i) {
     vec3 plane = shading.planes.v[checked(i, FRAME.planeCapacity)].xyz;
-    for (uint r = 0; r < kRays; ++r) inverseFar[r] = max(inverseFar[r], dot(plane, directions[r]));
+    for (uint r = 0; r < kRays; ++r) far[r] = max(far[r], dot(plane, rays[r]));
   }
   for (uint i = cell.planeSplit; i < cell.planeEnd; ++i) {
     vec3 plane = shading.planes.v[checked(i, FRAME.planeCapacity)].xyz;
-    for (uint r = 0; r < kRays; ++r) inverseNear[r] = min(inverseNear[r], dot(plane, directions[r]));
+    for (uint r = 0; r < kRays; ++r) near[r] = min(near[r], dot(plane, rays[r]));
   }
   bool isAny = false;
   for (uint r = 0; r < kRays; ++r) {
     if (isEmpty(segments[r])) continue;
     countWork(kWorkPlanes, cell.planeEnd - cell.planeBegin);
-    segments[r].tFar = inverseNear[r] > 0.0 ? 1.0 / inverseFar[r] : 0.0;
-    segments[r].tNear = max(segments[r].tNear, 1.0 / inverseNear[r]);
+    segments[r].tFar = isParallel || near[r] > 0.0 ? distanceAt(far[r]) : 0.0;
+    segments[r].tNear = max(segments[r].tNear, distanceAt(near[r]));
     isAny = isAny || !isEmpty(segments[r]);
   }
   return isAny;
 }
 
-void meetCell(Shading shading, uint index, vec3 directions[kRays], inout Radiance radiances[kRays]) {
+void meetCell(Shading shading, uint index, vec3 rays[kRays], inout Radiance radiances[kRays]) {
   vec4 ball = balls[index];
   Segment segments[kRays];
   bool isAny = false;
@@ -53,7 +53,7 @@ void meetCell(Shading shading, uint index, vec3 directions[kRays], inout Radianc
     segments[r] = Segment(1.0, 0.0);
     if (isSaturated(shading, radiances[r])) continue;
     float tNear, tFar;
-    if (!intersectBall(ball.xyz, ball.w, directions[r], tNear, tFar)) continue;
+    if (!meetBall(ball, rays[r], tNear, tFar)) continue;
     countWork(kWorkBallHits, 1);
     segments[r] = Segment(tNear, tFar);
     isAny = true;
@@ -61,8 +61,8 @@ void meetCell(Shading shading, uint index, vec3 directions[kRays], inout Radianc
   if (!isAny) return;
   uint visible = cells[index];
   CellRecord cell = shading.records.v[visible];
-  if (clipByPlanes(shading, cell, directions, segments)) {
-    shadeHits(shading, visible, cell, directions, segments, radiances);
+  if (clipByPlanes(shading, cell, rays, segments)) {
+    shadeHits(shading, visible, cell, rays, segments, radiances);
   }
 }
 
@@ -95,9 +95,9 @@ uint gatherBatch(uint entry, uint end, uvec2 corner) {
 }
 
 // Saturated from the start where there is no pixel, or no ray.
-Radiance startOf(uvec2 pixel, vec3 direction) {
+Radiance startOf(uvec2 pixel, vec3 ray) {
   Radiance radiance = emptyRadiance();
-  if (!isInRegion(pixel) || seesNothing(direction)) radiance.logTransmittance = -kInfinity;
+  if (!isInRegion(pixel) || seesNothing(ray)) radiance.logTransmittance = -kInfinity;
   return radiance;
 }
 
@@ -114,12 +114,12 @@ void main() {
   uvec2 tile = corner / kTileSize;
   uvec2 range = FRAME.tileRanges.v[tile.y * FRAME.tilesX + tile.x];
   Shading shading = loadShading();
-  vec3 directions[kRays];
+  vec3 rays[kRays];
   Radiance radiances[kRays];
   for (uint r = 0; r < kRays; ++r) {
     uvec2 pixel = firstPixel + uvec2(0, r * kRows);
-    directions[r] = directionOf(pixel);
-    radiances[r] = startOf(pixel, directions[r]);
+    rays[r] = rayOf(pixel);
+    radiances[r] = startOf(pixel, rays[r]);
   }
 
   for (uint first = ~range.x; first < range.y; first += kBatch) {
@@ -134,14 +134,14 @@ void main() {
       countWork(kWorkEntriesKept, count);
     }
     if (liveMask == 0) break;
-    for (uint i = 0; i < count && !areSaturated(shading, radiances); ++i) meetCell(shading, i, directions, radiances);
+    for (uint i = 0; i < count && !areSaturated(shading, radiances); ++i) meetCell(shading, i, rays, radiances);
     barrier();
   }
   for (uint r = 0; r < kRays; ++r) {
     uvec2 pixel = firstPixel + uvec2(0, r * kRows);
     if (!isInRegion(pixel)) continue;
     Radiance radiance = radiances[r];
-    if (seesNothing(directions[r])) radiance = emptyRadiance();
+    if (seesNothing(rays[r])) radiance = emptyRadiance();
     writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal);
   }
 }

@@ -11,6 +11,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define FROTH_RAYS 1
+#include "gpu/descend.glsl"
 #include "gpu/eye_planes.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
@@ -25,6 +26,8 @@ struct Step {
   float entry;   // where the ray enters the cell
 };
 
+float nearnessOfNoExit() { return isParallel ? -kInfinity : 0.0; }
+
 float orderAlong(vec3 direction, vec3 centre) {
   precise float key = direction.x * centre.x + direction.y * centre.y + direction.z * centre.z;
   return key;
@@ -38,28 +41,29 @@ Step stepToSite(Chunk chunk, uint site, float key, float entry) {
 }
 
 // The neighbour through whose plane the ray leaves the cell first, by their sites. Returns false: the ray leaves the foam.
-bool findNextSite(inout Step current, vec3 direction) {
+bool findNextSite(inout Step current, vec3 ray) {
+  vec3 direction = directionOfRay(ray);
   uvec2 cell = current.visible == kNoCell ? current.cell : FRAME.visibleCells.v[current.visible].xy;
   Chunk chunk = loadChunk(cell.x);
   vec4 siteRadius = siteRadiusOf(chunk, cell.y);
   uvec2 row = neighbourRow(chunk, cell.y);
   uint next = kNoCell;
   float nextKey = current.key;
-  float inverseExit = 0.0;
+  float exitNearness = nearnessOfNoExit();
   countWork(kWorkNeighbours, row.y - row.x);
   for (uint i = row.x; i < row.y; ++i) {
     uint other = neighbourAt(chunk, i);
     vec4 otherSite = siteRadiusOf(chunk, other);
     float key = orderAlong(direction, ballOf(chunk, otherSite).centre);
     bool isFar;
-    float inverse = dot(eyePlaneTo(chunk, siteRadius, otherSite, isFar), direction);
-    if (isFar && key > current.key && inverse > inverseExit) {
-      inverseExit = inverse;
+    float nearness = dot(eyePlaneTo(chunk, siteRadius, otherSite, isFar), ray);
+    if (isFar && key > current.key && nearness > exitNearness) {
+      exitNearness = nearness;
       next = other;
       nextKey = key;
     }
   }
-  float exit = max(1.0 / inverseExit, current.entry);
+  float exit = max(distanceAt(exitNearness), current.entry);
   if (next == kNoCell) {
     current.entry = exit;
     return false;
@@ -69,19 +73,20 @@ bool findNextSite(inout Step current, vec3 direction) {
 }
 
 // The same by the record's eye planes.
-bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 direction) {
+bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 ray) {
+  vec3 direction = directionOfRay(ray);
   uint link = kNoCell;
-  float inverseExit = 0.0;
+  float exitNearness = nearnessOfNoExit();
   countWork(kWorkNeighbours, cell.planeSplit - cell.planeBegin);
   for (uint i = cell.planeBegin; i < cell.planeSplit; ++i) {
     vec4 plane = shading.planes.v[checked(i, FRAME.planeCapacity)];
-    float inverse = dot(plane.xyz, direction);
-    if (inverse > inverseExit) {
-      inverseExit = inverse;
+    float nearness = dot(plane.xyz, ray);
+    if (nearness > exitNearness) {
+      exitNearness = nearness;
       link = floatBitsToUint(plane.w);
     }
   }
-  float exit = max(1.0 / inverseExit, current.entry);
+  float exit = max(distanceAt(exitNearness), current.entry);
   if (link == kNoCell) {
     current.entry = exit;
     return false;
@@ -90,48 +95,56 @@ bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 d
     Chunk chunk = loadChunk(FRAME.visibleCells.v[current.visible].x);
     uint site = link & ~kUnlisted;
     float key = orderAlong(direction, ballOfSite(chunk, site).centre);
-    if (!(key > current.key)) return findNextSite(current, direction);
+    if (!(key > current.key)) return findNextSite(current, ray);
     current = stepToSite(chunk, site, key, exit);
     return true;
   }
   float key = orderAlong(direction, shading.records.v[checked(link, FRAME.visibleCapacity)].ball.xyz);
-  if (!(key > current.key)) return findNextSite(current, direction);
+  if (!(key > current.key)) return findNextSite(current, ray);
   current = Step(link, uvec2(0), key, exit);
   return true;
 }
 
-void meetCell(Shading shading, uint visible, CellRecord cell, vec3 direction, float entry, float exit,
+void meetCell(Shading shading, uint visible, CellRecord cell, vec3 ray, float entry, float exit,
               inout Radiance radiance[kRays]) {
   float tNear, tFar;
-  if (!intersectBall(cell.ball.xyz, cell.ball.w, direction, tNear, tFar)) return;
+  if (!meetBall(cell.ball, ray, tNear, tFar)) return;
   countWork(kWorkBallHits, 1);
   Segment segment = Segment(max(tNear, entry), min(tFar, exit));
   if (isEmpty(segment)) return;
-  shadeHits(shading, visible, cell, vec3[](direction), Segment[](segment), radiance);
+  shadeHits(shading, visible, cell, vec3[](ray), Segment[](segment), radiance);
+}
+
+// Parallel rays start in cells of their own, near that of the tile.
+uvec2 startCell(uvec2 pixel, vec3 ray) {
+  if (!isParallel) return FRAME.walkStart.v[0];
+  uvec2 tile = pixel / kTileSize;
+  return cellHolding(startOfRay(ray), FRAME.walkStart.v[tile.y * FRAME.tilesX + tile.x]);
 }
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (!isInRegion(pixel)) return;
-  vec3 direction = directionOf(pixel);
+  vec3 ray = rayOf(pixel);
   Shading shading = loadShading();
   Radiance radiances[kRays];
   radiances[0] = emptyRadiance();
 
-  uvec2 start = FRAME.walkStart.v[0];
-  Step current = stepTo(start, orderAlong(direction, ballOfSite(loadChunk(start.x), start.y).centre), 0.0);
-  bool isInside = !seesNothing(direction);
+  uvec2 start = startCell(pixel, ray);
+  float startKey = orderAlong(directionOfRay(ray), ballOfSite(loadChunk(start.x), start.y).centre);
+  Step current = stepTo(start, startKey, 0.0);
+  bool isInside = !seesNothing(ray);
   uint steps = 0;
   while (isInside && !isSaturated(shading, radiances[0]) && steps < FRAME.maxSteps) {
     uint visible = current.visible;
     float entry = current.entry;
     if (visible == kNoCell) {
-      isInside = findNextSite(current, direction);
+      isInside = findNextSite(current, ray);
     } else {
       CellRecord cell = shading.records.v[checked(visible, FRAME.visibleCapacity)];
       bool hasRow = cell.planeBegin < cell.planeEnd;
-      isInside = hasRow ? findNextRecord(shading, current, cell, direction) : findNextSite(current, direction);
-      meetCell(shading, visible, cell, direction, entry, current.entry, radiances);
+      isInside = hasRow ? findNextRecord(shading, current, cell, ray) : findNextSite(current, ray);
+      meetCell(shading, visible, cell, ray, entry, current.entry, radiances);
     }
     ++steps;
   }

@@ -10,6 +10,7 @@
 #include "baker/tool/commands.h"
 #include "baker/tool/figures.h"
 #include "baker/tool/foam_input.h"
+#include "baker/tool/gpu_camera.h"
 #include "baker/tool/gpu_renderer.h"
 #include "baker/tool/option_checks.h"
 #include "baker/tool/view_selection.h"
@@ -75,6 +76,7 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
   device.device = options.device;
   device.measurePasses = true;
   device.countWork = options.isCounting;
+  device.lensClasses = lensClassesOf(*views);
   Result<std::unique_ptr<GpuRenderer>> created = GpuRenderer::create(device, *asset, progress);
   if (!created) return created.error();
   GpuRenderer& renderer = **created;

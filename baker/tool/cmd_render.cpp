@@ -11,6 +11,7 @@
 #include "baker/tool/commands.h"
 #include "baker/tool/figures.h"
 #include "baker/tool/foam_input.h"
+#include "baker/tool/gpu_camera.h"
 #include "baker/tool/gpu_renderer.h"
 #include "baker/tool/option_checks.h"
 #include "baker/tool/view_selection.h"
@@ -129,7 +130,9 @@ Status renderOnDevice(const RenderCommandOptions& options, const std::vector<Sel
                       nlohmann::ordered_json& figures) {
   const Result<AssetInput> asset = loadAsset(options.input, progress, options.layers);
   if (!asset) return asset.error();
-  Result<std::unique_ptr<GpuRenderer>> renderer = GpuRenderer::create(options.device, *asset, progress);
+  GpuDeviceOptions device = options.device;
+  device.lensClasses = lensClassesOf(views);
+  Result<std::unique_ptr<GpuRenderer>> renderer = GpuRenderer::create(device, *asset, progress);
   if (!renderer) return renderer.error();
   figures["device"] = (*renderer)->device().name;
   figures["driver"] = (*renderer)->device().driver;

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "baker/camera/ray_map.h"
+#include "baker/tool/gpu_camera.h"
 #include "baker/tool/progress_printer.h"
 
 namespace froth {
@@ -36,12 +38,6 @@ Image imageFromTexels(const std::vector<float>& texels, uint32_t stride, uint32_
   return image;
 }
 
-Status checkLens(const View& view) {
-  if (view.lens.kind == LensKind::kPinhole) return {};
-  return makeError(ErrorKind::kUnsupported, "view '%s': its lens is no pinhole; use --renderer reference",
-                   view.name.c_str());
-}
-
 // The runtime says +inf where transmittance never falls to the quantile, files say -1 (foam.md).
 void markMissingDepth(Image& depth) {
   for (float& value : depth.values) {
@@ -58,26 +54,7 @@ FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options) 
   info.nearRatio = view.nearRatio ? static_cast<float>(*view.nearRatio) : FROTH_NEAR_DEFAULT;
   info.nearDepth = view.nearDepth ? static_cast<float>(*view.nearDepth) : FROTH_NEAR_DEFAULT;
   info.displayCoded = options.isLinear ? 0 : 1;
-
-  FrothCamera& camera = info.camera;
-  const auto& world = view.worldFromCamera;
-  for (int axis = 0; axis < 3; ++axis) {
-    camera.eye[axis] = world[axis * 4 + 3];
-    // The inverse of a rotation is its transpose: row `axis` of world-from-camera is column `axis` of the
-    // inverse.
-    for (int row = 0; row < 3; ++row)
-      camera.viewFromWorld[axis * 3 + row] = static_cast<float>(world[axis * 4 + row]);
-  }
-  // View axes x right, y down, z forward are those of Vulkan's clip space; depth is reversed with an infinite
-  // far plane.
-  const double width = view.width, height = view.height;
-  camera.clipFromView[0] = static_cast<float>(2 * view.fx / width);
-  camera.clipFromView[5] = static_cast<float>(2 * view.fy / height);
-  camera.clipFromView[8] = static_cast<float>(2 * view.cx / width - 1);
-  camera.clipFromView[9] = static_cast<float>(2 * view.cy / height - 1);
-  camera.clipFromView[11] = 1.0f;
-  camera.clipFromView[14] = 0.01f;  // device depth of the near plane; no output depends on it
-  camera.viewport = {0, 0, static_cast<float>(width), static_cast<float>(height), 0, 1};
+  info.camera = cameraOf(view);
   return info;
 }
 
@@ -90,6 +67,8 @@ struct GpuRenderer::State {
   Status createContext(const GpuDeviceOptions& options);
   Status openAsset(const AssetInput& input, const Progress& progress);
   Status setExtent(VkExtent2D wanted, bool wantsAllChannels);
+  // Uploads the view's ray map, if it has one.
+  Status setRayMap(const View& wanted);
   void destroyImages();
 
   // Records frothUpdate and the uploads, then draws if `info` is not null.
@@ -105,12 +84,14 @@ struct GpuRenderer::State {
   FrothInstance instance{};
   FrothView view{};
   VkExtent2D extent{};
-  HostImage colour, distance, normal;
+  HostImage colour, distance, normal, rays;
+  std::shared_ptr<const RayMap> uploadedRays;  // what `rays` holds
   std::string lastMessage;
 };
 
 GpuRenderer::State::~State() {
   if (host) destroyImages();
+  if (rays.image) host->destroyImage(rays);
   if (context) frothDestroyContext(context, UINT64_MAX);  // every submission was waited for
 }
 
@@ -133,6 +114,7 @@ Status GpuRenderer::State::createContext(const GpuDeviceOptions& deviceOptions) 
   FrothContextInfo info = host->contextInfo();
   info.checkIndices = options.validate ? 1 : 0;
   info.countWork = options.countWork ? 1 : 0;
+  info.lensClasses = options.lensClasses;
   info.messageUser = this;
   info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
     if (severity != FROTH_SEVERITY_ERROR) return;
@@ -190,6 +172,7 @@ Status GpuRenderer::State::setExtent(VkExtent2D wanted, bool wantsAllChannels) {
   info.structSize = sizeof(info);
   info.maxExtent = wanted;
   info.measurePasses = options.measurePasses ? 1 : 0;
+  info.lensClasses = options.lensClasses;
   if (Status made = check(frothCreateView(context, &info, &view), "frothCreateView"); !made) return made;
   extent = wanted;
 
@@ -203,6 +186,21 @@ Status GpuRenderer::State::setExtent(VkExtent2D wanted, bool wantsAllChannels) {
   if (Status made = make(colour, VK_FORMAT_R32G32B32A32_SFLOAT); !made) return made;
   if (Status made = make(distance, VK_FORMAT_R32_SFLOAT); !made) return made;
   return make(normal, VK_FORMAT_R16G16B16A16_SFLOAT);
+}
+
+Status GpuRenderer::State::setRayMap(const View& wanted) {
+  if (wanted.lens.kind != LensKind::kRayMap || wanted.lens.rays == uploadedRays) return {};
+  if (rays.image) host->destroyImage(rays);
+  uploadedRays.reset();
+  Result<HostImage> made = host->createImage(VK_FORMAT_R32G32B32A32_SFLOAT, extentOf(wanted));
+  if (!made) return made.error();
+  rays = *made;
+  std::vector<float> texels;
+  texels.reserve(wanted.lens.rays->directions.size() * 4);
+  for (const glm::vec3& d : wanted.lens.rays->directions) texels.insert(texels.end(), {d.x, d.y, d.z, 0.0f});
+  if (Status written = host->writeImage(rays, texels); !written) return written;
+  uploadedRays = wanted.lens.rays;
+  return {};
 }
 
 Status GpuRenderer::State::submitFrame(const FrothRenderInfo* info, GpuMethod method) {
@@ -227,6 +225,7 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
   info.colour = host->describe(colour);
   if (distance.image) info.distance = host->describe(distance);
   if (normal.image) info.normal = host->describe(normal);
+  if (info.camera.lens.kind == FROTH_LENS_RAY_MAP) info.camera.lens.rayMap = host->describeInput(rays);
 
   FrothViewStatus status{};
   for (int attempt = 0; attempt <= kMaxRedraws; ++attempt) {
@@ -288,8 +287,8 @@ Result<std::unique_ptr<GpuRenderer>> GpuRenderer::create(const GpuDeviceOptions&
 }
 
 Result<GpuFrame> GpuRenderer::render(const View& view, const GpuRenderOptions& options) {
-  if (Status drawable = checkLens(view); !drawable) return drawable.error();
   if (Status ready = state_->setExtent(extentOf(view), true); !ready) return ready.error();
+  if (Status ready = state_->setRayMap(view); !ready) return ready.error();
   const Result<FrothViewStatus> status = state_->drawAndAsk(renderInfoOf(view, options), options.method);
   if (!status) return status.error();
   Result<RenderedImages> images = state_->readImages();
@@ -298,8 +297,8 @@ Result<GpuFrame> GpuRenderer::render(const View& view, const GpuRenderOptions& o
 }
 
 Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptions& options) {
-  if (Status drawable = checkLens(view); !drawable) return drawable.error();
   if (Status ready = state_->setExtent(extentOf(view), false); !ready) return ready.error();
+  if (Status ready = state_->setRayMap(view); !ready) return ready.error();
   return state_->drawAndAsk(renderInfoOf(view, options), options.method);
 }
 

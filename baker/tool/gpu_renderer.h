@@ -20,6 +20,7 @@ struct GpuDeviceOptions {
   bool validate = false;  // validation layers, and shaders that check every index; any message fails a render
   bool measurePasses = false;
   bool countWork = false;  // FrothViewStatus::work; slower
+  uint32_t lensClasses = 0;  // FrothLensClass bits of the views that will be drawn (gpu_camera.h)
 };
 
 struct GpuRenderOptions {
@@ -55,7 +56,7 @@ class GpuRenderer {
   std::unique_ptr<State> state_;
 };
 
-// What the runtime needs to know of a pinhole view; near limits that the view leaves open become the asset's.
+// What the runtime needs to know of a view but the image of a ray map; near limits that the view leaves open become the asset's.
 FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options);
 
 }  // namespace froth

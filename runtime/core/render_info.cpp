@@ -37,6 +37,26 @@ bool isOrthonormal(const float (&m)[9]) {
   return true;
 }
 
+// An orthographic projection: rows x and y must tell pixels apart.
+FrothResult checkParallel(const Messages& messages, const char* call, const double (&rows)[3][4]) {
+  if (rows[2][3] < 0) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera.clipFromView: its row w is (0, 0, 0, %g); must be above 0",
+                         rows[2][3]);
+  }
+  const double normal[3] = {rows[0][1] * rows[1][2] - rows[0][2] * rows[1][1],
+                            rows[0][2] * rows[1][0] - rows[0][0] * rows[1][2],
+                            rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0]};
+  const double area = std::hypot(normal[0], normal[1], normal[2]);
+  const double lengths =
+      std::hypot(rows[0][0], rows[0][1], rows[0][2]) * std::hypot(rows[1][0], rows[1][1], rows[1][2]);
+  if (!(area > 1e-6 * lengths)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "camera.clipFromView: its rows x, y have the cross product %g: no parallel rays follow from them",
+                         area);
+  }
+  return FROTH_OK;
+}
+
 // Rows x, y and w of the projection give the rays: with the eye at the view's origin their constant parts are
 // zero.
 FrothResult checkProjection(const Messages& messages, const char* call, const float (&clipFromView)[16]) {
@@ -50,10 +70,7 @@ FrothResult checkProjection(const Messages& messages, const char* call, const fl
     lengths[r] = std::hypot(rows[r][0], rows[r][1], rows[r][2]);
   }
   if (lengths[2] == 0 && rows[2][3] != 0) {
-    return messages.fail(
-        FROTH_ERROR_UNSUPPORTED, call,
-        "camera.clipFromView: its row w is (0, 0, 0, %g): an orthographic projection; use a perspective one",
-        rows[2][3]);
+    return checkParallel(messages, call, rows);
   }
   const double determinant = determinantOf(rows);
   // Relative to the rows' lengths this is the volume of three unit vectors; floats resolve it to about 1e-7.
@@ -154,7 +171,7 @@ FrothResult checkLensClass(const Messages& messages, const char* call, const Fro
   if (lensClass == gpu::kLensClassPinhole || (lensClasses >> (lensClass - 1) & 1) != 0) {
     return FROTH_OK;
   }
-  return messages.fail(FROTH_ERROR_ARGUMENT, call,
+  return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
                        "camera: %s, which the view was not made for; set %s in FrothViewInfo::lensClasses and "
                        "FrothContextInfo::lensClasses",
                        lensClass == gpu::kLensClassMapped ? "a lens that is no projection" : "parallel rays",
@@ -340,8 +357,12 @@ void resolveNearLimits(const GpuAsset& asset, float scale, FrothRenderInfo& info
     info.nearDepth = asset.nearDepth * scale;
   }
   const FrothLensKind lens = info.camera.lens.kind;
-  if (lens != FROTH_LENS_PROJECTION && lens != FROTH_LENS_RADIAL_TANGENTIAL) {
+  const bool isParallel = lensClassOf(info.camera) == gpu::kLensClassOrthographic;
+  if (isParallel || (lens != FROTH_LENS_PROJECTION && lens != FROTH_LENS_RADIAL_TANGENTIAL)) {
     info.nearDepth = 0;
+  }
+  if (isParallel) {
+    info.nearRatio = 0;
   }
 }
 

@@ -58,30 +58,29 @@ void aimPinhole(const FrothCamera& camera, const glm::dmat3& assetFromView, Came
   rays.forward = assetFromView * glm::normalize(glm::dvec3(clip[3], clip[7], clip[11]));
 }
 
-}  // namespace
-
-uint32_t lensClassOf(const FrothCamera& camera) {
-  return camera.lens.kind == FROTH_LENS_PROJECTION ? gpu::kLensClassPinhole : gpu::kLensClassMapped;
+// x_ndc and y_ndc are linear in a point's place. The rays run where both stay, away from one who sees x to the right and y down.
+void aimParallel(const FrothCamera& camera, const glm::dmat3& assetFromView, double scale, CameraRays& rays) {
+  const float* clip = camera.clipFromView;
+  const double w = clip[15];
+  const glm::dvec3 alongX = glm::dvec3(clip[0], clip[4], clip[8]) / w, alongY = glm::dvec3(clip[1], clip[5], clip[9]) / w;
+  const glm::dvec3 normal = glm::normalize(glm::cross(alongX, alongY));
+  const glm::dmat3 viewFromClip = glm::inverse(glm::transpose(glm::dmat3(alongX, alongY, normal)));
+  const VkViewport& viewport = camera.viewport;
+  const double left = camera.scissor.offset.x + 0.5 - camera.jitter[0] - viewport.x;
+  const double top = camera.scissor.offset.y + 0.5 - camera.jitter[1] - viewport.y;
+  const double x = 2.0 * left / viewport.width - 1.0 - clip[12] / w, y = 2.0 * top / viewport.height - 1.0 - clip[13] / w;
+  const glm::dmat3 toAsset = assetFromView / scale;
+  rays.stepX = toAsset * viewFromClip[0] * (2.0 / viewport.width);
+  rays.stepY = toAsset * viewFromClip[1] * (2.0 / viewport.height);
+  rays.origin = toAsset * (viewFromClip[0] * x + viewFromClip[1] * y);
+  rays.forward = glm::normalize(glm::cross(rays.stepX, rays.stepY));
 }
 
-CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance) {
-  CameraRays rays;
-  rays.worldFromAsset = rotationOf(instance.rotation);
-  const glm::dmat3 assetFromView =
-      glm::transpose(rays.worldFromAsset) * glm::transpose(viewFromWorldOf(camera));
-  if (lensClassOf(camera) == gpu::kLensClassMapped) {
-    rays.stepX = assetFromView[0];
-    rays.stepY = assetFromView[1];
-    rays.origin = rays.forward = assetFromView[2];
-  } else {
-    aimPinhole(camera, assetFromView, rays);
-  }
-  const glm::dvec3 eye(camera.eye[0], camera.eye[1], camera.eye[2]);
-  const glm::dvec3 position(instance.position[0], instance.position[1], instance.position[2]);
-  rays.eye = glm::transpose(rays.worldFromAsset) * (eye - position) / double{instance.scale};
-  return rays;
+gpu::vec4 toFloats(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
 
+// The lens of foam/lens.h, and the pixels of the region as it takes them.
 void fillLens(const FrothCamera& camera, gpu::FrameBlock& block) {
   const FrothLens& lens = camera.lens;
   block.lensKind = static_cast<uint32_t>(lens.kind);
@@ -97,6 +96,57 @@ void fillLens(const FrothCamera& camera, gpu::FrameBlock& block) {
   const auto toDouble = [](const gpu::vec4& v) { return glm::dvec4(v[0], v[1], v[2], v[3]); };
   block.lensRange = static_cast<float>(
       foam::lensRange(int{lens.kind}, toDouble(block.lensFirst), toDouble(block.lensSecond)));
+}
+
+}  // namespace
+
+uint32_t lensClassOf(const FrothCamera& camera) {
+  if (camera.lens.kind != FROTH_LENS_PROJECTION) return gpu::kLensClassMapped;
+  const float(&clip)[16] = camera.clipFromView;
+  const bool isParallel = clip[3] == 0 && clip[7] == 0 && clip[11] == 0;
+  return isParallel ? gpu::kLensClassOrthographic : gpu::kLensClassPinhole;
+}
+
+CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance) {
+  CameraRays rays;
+  rays.worldFromAsset = rotationOf(instance.rotation);
+  const glm::dmat3 assetFromView =
+      glm::transpose(rays.worldFromAsset) * glm::transpose(viewFromWorldOf(camera));
+  const uint32_t lensClass = lensClassOf(camera);
+  if (lensClass == gpu::kLensClassMapped) {
+    rays.stepX = assetFromView[0];
+    rays.stepY = assetFromView[1];
+    rays.origin = rays.forward = assetFromView[2];
+  } else if (lensClass == gpu::kLensClassOrthographic) {
+    aimParallel(camera, assetFromView, instance.scale, rays);
+  } else {
+    aimPinhole(camera, assetFromView, rays);
+  }
+  const glm::dvec3 eye(camera.eye[0], camera.eye[1], camera.eye[2]);
+  const glm::dvec3 position(instance.position[0], instance.position[1], instance.position[2]);
+  rays.eye = glm::transpose(rays.worldFromAsset) * (eye - position) / double{instance.scale};
+  return rays;
+}
+
+void fillRays(const FrothCamera& camera, const CameraRays& rays, gpu::FrameBlock& block) {
+  const uint32_t lensClass = lensClassOf(camera);
+  block.forward = toFloats(rays.forward);
+  if (lensClass == gpu::kLensClassOrthographic) {
+    const glm::dvec3 u = glm::normalize(rays.stepX), v = glm::cross(rays.forward, u);
+    const auto onPlane = [&](const glm::dvec3& offset) {
+      return toFloats({glm::dot(offset, u), glm::dot(offset, v), 0});
+    };
+    block.lensFirst = toFloats(u);
+    block.lensSecond = toFloats(v);
+    block.rayOrigin = onPlane(rays.origin);
+    block.rayX = onPlane(rays.stepX);
+    block.rayY = onPlane(rays.stepY);
+    return;
+  }
+  block.rayOrigin = toFloats(rays.origin);
+  block.rayX = toFloats(rays.stepX);
+  block.rayY = toFloats(rays.stepY);
+  if (lensClass == gpu::kLensClassMapped) fillLens(camera, block);
 }
 
 }  // namespace froth

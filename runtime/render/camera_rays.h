@@ -15,10 +15,11 @@ uint32_t lensClassOf(const FrothCamera& camera);
 
 // Pinhole: the ray of pixel (column, row) of the region runs through the pixel's centre along origin + column stepX +
 // row stepY, which points forward. Lengths are scaled so that the region's middle ray has length 1.
-// Mapped: the view's axes z, x, y.
+// Mapped: the view's axes z, x, y. Orthographic: the ray of a pixel starts at the eye plus that sum, which is perpendicular to
+// `forward`.
 struct CameraRays {
   glm::dvec3 origin, stepX, stepY;
-  glm::dvec3 forward;         // unit view axis: gradient of clip w
+  glm::dvec3 forward;         // unit view axis: gradient of clip w; of parallel rays their direction
   glm::dvec3 eye;             // relative to the asset's origin
   glm::dmat3 worldFromAsset;  // rotation
 };
@@ -27,7 +28,7 @@ struct CameraRays {
 // engine's own jittered projection.
 CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance);
 
-// What a mapped lens needs: the pixels of the region as foam/lens.h takes them, coefficients, range.
-void fillLens(const FrothCamera& camera, gpu::FrameBlock& block);
+// Fills rays, view axis and lens of the block, as its class of lenses needs them.
+void fillRays(const FrothCamera& camera, const CameraRays& rays, gpu::FrameBlock& block);
 
 }  // namespace froth

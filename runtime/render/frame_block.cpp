@@ -9,16 +9,14 @@
 namespace froth {
 namespace {
 
-gpu::vec4 toFloats(const glm::dvec3& v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+gpu::vec4 toFloats(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
 
 void fillCamera(const FrothRenderInfo& info, const CameraRays& rays, const RenderInstance& instance,
                 gpu::FrameBlock& block) {
-  block.rayOrigin = toFloats(rays.origin);
-  block.rayX = toFloats(rays.stepX);
-  block.rayY = toFloats(rays.stepY);
-  block.forward = toFloats(rays.forward, double{info.nearDepth} / instance.scale);
+  fillRays(info.camera, rays, block);
+  block.forward[3] = static_cast<float>(double{info.nearDepth} / instance.scale);
   block.nearRatio = info.nearRatio;
   const glm::dmat3 rows = glm::transpose(rays.worldFromAsset);
   block.worldX = toFloats(rows[0]);
@@ -115,7 +113,6 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   const CameraRays rays = computeCameraRays(info.camera, instance);
   fillOutputs(info, block);
   fillCamera(info, rays, instance, block);
-  if (lensClassOf(info.camera) == gpu::kLensClassMapped) fillLens(info.camera, block);
   fillTransients(buffers, asset, region, block);
   fillChunks(asset, rays.eye, chunks);
   block.scale = instance.scale;

@@ -49,7 +49,7 @@ const std::array<PassCode, kPassCount> kPassCodes = {{
     {"count_tiles", count_tiles_spirv, kEachLens},
     {"emit_pairs", emit_pairs_spirv, kEachLens},
     {"expand_cells", expand_cells_spirv, kEyeOrNone},
-    {"locate", locate_spirv, kAnyLens},
+    {"locate", locate_spirv, kEyeOrNone},
     {"aim_rays", aim_rays_spirv, kMapped},
     {"aim_rays_by_image", aim_rays_by_image_spirv, kMapped},
     {"widen_cones", widen_cones_spirv, kMapped},

@@ -53,7 +53,7 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
     case ViewBuffer::kTallies:
       return layOutTallies(capacity).end;
     case ViewBuffer::kWalkStart:
-      return 16;
+      return 8 * VkDeviceSize{capacity.walkStarts};
     case ViewBuffer::kRays:
       return 16 * capacity.rays;
     case ViewBuffer::kCones:  // of sub-tiles, tiles, and at most as many blocks

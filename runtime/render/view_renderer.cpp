@@ -95,6 +95,7 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExt
   ViewCapacity capacity;
   capacity.frames = framesInFlight;
   capacity.tiles = tilesAlong(maxExtent.width) * tilesAlong(maxExtent.height);
+  if (lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
   if (lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = uint64_t{maxExtent.width} * maxExtent.height;
   if (const Status status = renderer->state_->buffers.grow(capacity, 0); !status) return status.error();
   return renderer;

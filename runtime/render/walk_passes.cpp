@@ -1,3 +1,4 @@
+#include "runtime/render/camera_rays.h"
 #include "runtime/render/view_state.h"
 
 namespace froth {
@@ -5,7 +6,10 @@ namespace froth {
 void recordWalkPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset) {
   recordCull(recording, recorder, asset);
   recording.mark("cull");
-  recorder.run(Pass::kLocate, 1);  // needs nothing of the passes around it, so it runs beside them
+  const VkExtent2D& extent = recording.info.camera.scissor.extent;
+  const bool isPerTile = lensClassOf(recording.info.camera) == gpu::kLensClassOrthographic;
+  recorder.run(Pass::kLocate, isPerTile ? tilesAlong(extent.width) : 1,
+               isPerTile ? tilesAlong(extent.height) : 1);  // needs nothing of the passes around it, so it runs beside them
   recordShade(recorder);
   recording.mark("shade");
   recordPixels(recording, recorder, pixelPass(Pass::kWalk16, recording.info));

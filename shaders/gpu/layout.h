@@ -168,13 +168,13 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer CountersRef
 struct FrameBlock {
   vec4 rayOrigin;  // Pinhole: direction of pixel (column, row) of the region, not normalized:
   vec4 rayX;       // rayOrigin + column rayX + row rayY. Mapped: the view's axes z, x, y.
-  vec4 rayY;
+  vec4 rayY;       // Orthographic: (u, v) of a pixel, by the same sum.
   vec4 forward;    // unit view axis, nearDepth
   vec4 worldX;     // rows of the rotation world-from-asset
   vec4 worldY;
   vec4 worldZ;
   vec4 lensPoint;  // Mapped: pixel (column, row) of the region sees lensPoint.xy + (column, row) lensPoint.zw, as foam/lens.h
-  vec4 lensFirst, lensSecond;  // takes it
+  vec4 lensFirst, lensSecond;  // takes it. Orthographic: unit vectors along u and v, on the plane through the eye
   float nearRatio, scale, logCutoff, logQuantile;
   float detailSharpness;
   uint flags, maxSteps, localBits;
@@ -189,10 +189,10 @@ struct FrameBlock {
   FROTH_ADDRESS(UintPairArray) superSums;      // [a kGroupSize-th of that] sums of kGroupSize groupSums
   FROTH_ADDRESS(UintPairArray) visibility;     // [chunkCount * groupsPerChunk * kMaskWords] 32 bits, slot of the first bit
   FROTH_ADDRESS(UintQuadArray) visibleCells;   // [slot] chunk, local index, first plane, planes
-  FROTH_ADDRESS(UintArray) cellKeys;           // [slot] order-preserving bits of the power of the eye
+  FROTH_ADDRESS(UintArray) cellKeys;           // [slot] order-preserving bits of the power of the eye, or along parallel rays
   FROTH_ADDRESS(UintArray) order;              // [visible cell] slot
   FROTH_ADDRESS(RecordArray) records;          // [visible cell]
-  FROTH_ADDRESS(FloatQuadArray) planes;        // [planeCapacity] xyz: s = dot(xyz, direction) = 1 / t; w for a walk: link
+  FROTH_ADDRESS(FloatQuadArray) planes;        // [planeCapacity] xyz: gpu/view_rays.glsl; w for a walk: link
   FROTH_ADDRESS(SiteArray) sites;              // [visible cell * K]
   FROTH_ADDRESS(UintArray) slotTiles;          // [slot] tiles its solid ball meets
   FROTH_ADDRESS(UintArray) tileCounts;         // [visible cell] the same
@@ -203,7 +203,8 @@ struct FrameBlock {
   FROTH_ADDRESS(UintPairArray) tileRanges;     // [tile] ~begin and end in tileCells: 0 means none, and both only grow
   FROTH_ADDRESS(UintArray) cellHistogram;      // of the lowest digit of cellKeys (histogram.glsl)
   FROTH_ADDRESS(UintArray) pairHistogram;      // of the lowest digit of pairTiles
-  FROTH_ADDRESS(UintPairArray) walkStart;      // [1] chunk, local index of the cell that holds the eye; kept over frames
+  FROTH_ADDRESS(UintPairArray) walkStart;      // [1] chunk, local index of the cell that holds the eye; orthographic: [tile] of
+                                               // that where its middle ray starts; kept over frames
   FROTH_ADDRESS(FloatQuadArray) rays;          // [row of the region, column] xyz: unit direction; 0: none
   FROTH_ADDRESS(FloatQuadArray) cones;         // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]
 };

@@ -2,6 +2,7 @@
 #ifndef FROTH_GPU_PIXELS_GLSL
 #define FROTH_GPU_PIXELS_GLSL
 #include "gpu/frame.glsl"
+#include "gpu/parallel_pixels.glsl"
 #include "gpu/pixel_cones.glsl"
 #include "foam/rays.h"
 
@@ -11,14 +12,15 @@ const float kPixelGuard = 0.05;
 // Of a pinhole, through the centre of a pixel of the region; not normalized.
 vec3 pixelRay(vec2 pixel) { return FRAME.rayOrigin.xyz + pixel.x * FRAME.rayX.xyz + pixel.y * FRAME.rayY.xyz; }
 
-// Unit direction of a pixel of the region; 0: it sees nothing. Beside the region: anything.
-vec3 directionOf(uvec2 pixel) {
-  if (lensClass != kLensClassMapped) return normalize(pixelRay(vec2(pixel)));
+// The ray of a pixel of the region (gpu/view_rays.glsl); 0: it sees nothing. Beside the region: anything.
+vec3 rayOf(uvec2 pixel) {
+  if (lensClass == kLensClassPinhole) return normalize(pixelRay(vec2(pixel)));
+  if (lensClass == kLensClassOrthographic) return vec3(placeOfPixel(vec2(pixel)), 1.0);
   uvec2 place = min(pixel, uvec2(FRAME.regionWidth, FRAME.regionHeight) - 1);
   return FRAME.rays.v[place.y * FRAME.regionWidth + place.x].xyz;
 }
 
-bool seesNothing(vec3 direction) { return lensClass == kLensClassMapped && direction == vec3(0.0); }
+bool seesNothing(vec3 ray) { return lensClass == kLensClassMapped && ray == vec3(0.0); }
 
 // Whether a ray of the block of `size` x `size` pixels, cut to the region, can meet the ball. A guard around the block
 // keeps the rectangle from vanishing where it holds one pixel.
@@ -27,6 +29,7 @@ bool pixelsMeetBall(vec3 centre, float radius, uvec2 firstPixel, uint size) {
   uvec2 lastPixel = min(firstPixel + size, uvec2(FRAME.regionWidth, FRAME.regionHeight)) - 1;
   vec2 first = vec2(firstPixel) - kPixelGuard;
   vec2 extent = vec2(lastPixel - firstPixel) + 2.0 * kPixelGuard;
+  if (lensClass == kLensClassOrthographic) return parallelPixelsMeetBall(centre, radius, first, first + extent);
   return rectangleMeetsBall(centre, radius, pixelRay(first), FRAME.rayX.xyz * extent.x, FRAME.rayY.xyz * extent.y);
 }
 

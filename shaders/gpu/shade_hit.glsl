@@ -5,6 +5,7 @@
 #ifndef FROTH_GPU_SHADE_HIT_GLSL
 #define FROTH_GPU_SHADE_HIT_GLSL
 #include "gpu/frame.glsl"
+#include "gpu/view_rays.glsl"
 #include "gpu/work.glsl"
 #include "foam/appearance.h"
 #include "foam/cell.h"
@@ -46,26 +47,31 @@ Radiance emptyRadiance() { return Radiance(vec3(0.0), 0.0, vec3(0.0), kInfinity)
 
 bool isSaturated(Shading shading, Radiance radiance) { return radiance.logTransmittance < shading.logCutoff; }
 
-// Rays through the eye and a cell's centre, in the frame of its face and in units of its radius.
+// Rays and a cell's centre as seen from where they start, in the frame of the cell's face and in units of its radius.
 struct FaceView {
   vec3 directions[kRays];
-  vec3 centre;
+  vec3 centres[kRays];
 };
 
-FaceView faceViewOf(CellRecord cell, vec3 directions[kRays]) {
+vec3 inFaceOf(CellRecord cell, vec3 vector) {
+  return inFaceFrame(vector, cell.tangent.xyz, cell.bitangent.xyz, cell.face.xyz, 1.0);
+}
+
+FaceView faceViewOf(CellRecord cell, vec3 rays[kRays]) {
   FaceView view;
-  view.centre = vec3(cell.tangent.w, cell.bitangent.w, dot(cell.face.xyz, cell.ball.xyz));
+  vec3 centre = vec3(cell.tangent.w, cell.bitangent.w, dot(cell.face.xyz, cell.ball.xyz));
   for (uint r = 0; r < kRays; ++r) {
-    view.directions[r] = inFaceFrame(directions[r], cell.tangent.xyz, cell.bitangent.xyz, cell.face.xyz, 1.0);
+    view.directions[r] = inFaceOf(cell, directionOfRay(rays[r]));
+    view.centres[r] = isParallel ? centre - inFaceOf(cell, startOfRay(rays[r])) : centre;
   }
   return view;
 }
 
-vec3 queryAt(FaceView view, uint ray, float t) { return faceQuery(t * view.directions[ray] - view.centre); }
+vec3 queryAt(FaceView view, uint ray, float t) { return faceQuery(t * view.directions[ray] - view.centres[ray]); }
 
 // The face in its own frame is the plane z = height.
 float meetFace(FaceView view, uint ray, float height) {
-  return intersectFace(view.centre, vec3(0.0, 0.0, 1.0), view.directions[ray].z, height);
+  return intersectFace(view.centres[ray], vec3(0.0, 0.0, 1.0), view.directions[ray].z, height);
 }
 
 // Heights of the displaced face at query points, in units of the radius.
@@ -135,10 +141,10 @@ void composite(Shading shading, CellRecord cell, Segment segment, vec3 colour, i
   radiance.logTransmittance = after;
 }
 
-void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 directions[kRays], Segment segments[kRays],
+void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
                inout Radiance radiances[kRays]) {
   uint firstSite = visible * detailCount;
-  FaceView view = faceViewOf(cell, directions);
+  FaceView view = faceViewOf(cell, rays);
   clipByFace(shading, view, firstSite, segments);
   bool isAny = false;
   vec3 queries[kRays];

@@ -30,7 +30,17 @@ TileBounds blockBounds(Ball ball) {
   return bounds;
 }
 
+TileBounds parallelBounds(Ball ball) {
+  vec2 middle, reach;
+  ballOnPixels(ball.centre, ball.radius, middle, reach);
+  if (reach.x < 0.0) return TileBounds(ivec2(0), ivec2(-1));
+  ivec2 columns = tileInterval(middle.x - reach.x, middle.x + reach.x, FRAME.regionWidth);
+  ivec2 rows = tileInterval(middle.y - reach.y, middle.y + reach.y, FRAME.regionHeight);
+  return TileBounds(ivec2(columns.x, rows.x), ivec2(columns.y, rows.y));
+}
+
 TileBounds tileBounds(Ball ball) {
+  if (lensClass == kLensClassOrthographic) return parallelBounds(ball);
   if (lensClass == kLensClassMapped) return blockBounds(ball);
   vec3 normal = cross(FRAME.rayX.xyz, FRAME.rayY.xyz);
   TileBounds bounds = TileBounds(ivec2(0), ivec2(FRAME.tilesX, FRAME.tilesY) - 1);

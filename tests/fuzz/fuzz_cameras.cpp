@@ -10,8 +10,8 @@
 namespace {
 
 bool isSound(const froth::View& view) {
-  bool ok = view.width > 0 && view.height > 0 && view.width <= 65536 && view.height <= 65536 && view.fx > 0 &&
-            view.fy > 0;
+  bool ok = view.width > 0 && view.height > 0 && view.width <= 65536 && view.height <= 65536;
+  if (view.lens.kind != froth::LensKind::kRayMap) ok = ok && view.fx > 0 && view.fy > 0;
   for (const double entry : view.worldFromCamera) ok = ok && std::isfinite(entry);
   return ok;
 }

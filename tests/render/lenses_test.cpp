@@ -1,6 +1,7 @@
 // Cameras of every lens: raster and walk against each other and against the double reference.
 #include <cmath>
 
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
 #include "baker/camera/ray_map.h"
@@ -188,6 +189,61 @@ TEST(Lenses, AnOffCentreAndObliquePinholeAgrees) {
   info.camera.clipFromView[2] = 0.3f;  // an oblique near plane
   info.camera.clipFromView[6] = -0.2f;
   expectAllAgree(view, info);
+}
+
+TEST(Lenses, RasterWalkAndReferenceAgreeForParallelRays) {
+  expectAllAgree(viewOf(LensKind::kOrthographic, 200, 150, 60));
+  expectAllAgree(viewOf(LensKind::kOrthographic, 200, 150, 60, {0.3, 0.2, 2.8}));  // the plane cuts the foam
+  expectAllAgree(viewOf(LensKind::kOrthographic, 33, 65, 30));
+  expectAllAgree(viewOf(LensKind::kOrthographic, 1, 1, 2));
+  View offCentre = viewOf(LensKind::kOrthographic, 150, 120, 55);
+  offCentre.cx = 20.25;
+  offCentre.cy = 100.5;
+  offCentre.fy = 40;
+  expectAllAgree(offCentre);
+}
+
+// The same image from the axes of OpenGL (x right, y up, z backward) and a viewport of negative height.
+TEST(Lenses, ParallelRaysFollowTheMatrixAndTheViewport) {
+  const View view = viewOf(LensKind::kOrthographic, 120, 90, 45);
+  const FrothRenderInfo plain = infoOf(view);
+  FrothRenderInfo turned = plain;
+  FrothCamera& camera = turned.camera;
+  for (int column = 0; column < 3; ++column) {
+    for (const int row : {1, 2}) camera.viewFromWorld[3 * column + row] *= -1;
+  }
+  camera.viewport.y = 90;
+  camera.viewport.height = -90;
+  camera.jitter[0] = 0.25f;
+  View moved = view;
+  moved.cx += 0.25;
+  expectAllAgree(moved, turned);
+}
+
+// An instance that is placed, turned and scaled is seen like its foam from the camera's place within it.
+TEST(Lenses, ParallelRaysMeetAPlacedInstance) {
+  const View view = viewOf(LensKind::kOrthographic, 120, 90, 45);
+  Stage& stage = lensStage();
+  FrothInstanceInfo placement{};
+  placement.position[0] = 100;
+  placement.rotation[1] = 0.6f;
+  placement.rotation[3] = 0.8f;
+  placement.scale = 2;
+  stage.place(placement);
+  const glm::dmat3 rotation = glm::mat3_cast(glm::dquat(0.8, 0, 0.6, 0));
+  View placed = view;
+  for (int column = 0; column < 4; ++column) {
+    const auto& m = view.worldFromCamera;
+    glm::dvec3 v = rotation * glm::dvec3(m[column], m[4 + column], m[8 + column]);
+    if (column == 3) v = 2.0 * v + glm::dvec3(100, 0, 0);
+    for (int row = 0; row < 3; ++row) placed.worldFromCamera[4 * row + column] = v[row];
+  }
+  placed.fx = placed.fy = 22.5;
+  for (const Method method : {Method::kRaster, Method::kWalk}) {
+    const Frame frame = drawLens(method, placed, infoOf(placed));
+    EXPECT_GE(psnr(frame.colour, renderReference(lensFoam(), view, 1e-3).colour), 55);
+  }
+  stage.place({});
 }
 
 TEST(Lenses, WithoutDistortionALensIsAPinhole) {

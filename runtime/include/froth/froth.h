@@ -48,7 +48,7 @@ typedef enum FrothResult {
   FROTH_ERROR_FEATURE = -4,     /* the device lacks, or the caller did not enable, what is required */
   FROTH_ERROR_FILE = -5,        /* the asset is missing, damaged or not one */
   FROTH_ERROR_MEMORY = -6,      /* host or device memory, or the budget, is exhausted */
-  FROTH_ERROR_UNSUPPORTED = -7, /* valid, but this version cannot do it (an orthographic camera, say) */
+  FROTH_ERROR_UNSUPPORTED = -7, /* valid, but this version cannot do it, or the object was not made for it (lensClasses) */
   FROTH_ERROR_DEVICE = -8,      /* a Vulkan call failed; the message names it and its VkResult */
   FROTH_ERROR_STATE = -9,       /* calls out of order (asset not READY, frame serial not growing) */
   FROTH_RESULT_MAX = 0x7fffffff
@@ -402,7 +402,9 @@ typedef struct FrothLens {
 typedef struct FrothCamera {
   double eye[3];          /* in the world */
   float viewFromWorld[9]; /* rotation, column-major; the view's axes are those that clipFromView takes */
-  float clipFromView[16]; /* unjittered; any perspective projection: reversed, infinite, off-centre, oblique */
+  float clipFromView[16]; /* unjittered; any perspective projection: reversed, infinite, off-centre, oblique. Row w = (0, 0, 0, w):
+                             parallel rays, which start on the plane through the eye, perpendicular to them, and run away
+                             from one who sees x to the right and y down on the image; colours as seen along them */
   float jitter[2];        /* [pixels], +x right, +y down; 0 with a ray map, which can hold it */
   VkViewport viewport;    /* negative height too */
   VkRect2D scissor;       /* zero: the whole viewport. What is left must lie in the images and fit maxExtent */
@@ -416,7 +418,7 @@ typedef struct FrothRenderInfo {
   uint32_t structSize;
   FrothCamera camera;
   float cutoff;        /* a ray ends when its transmittance falls below; 0: 1e-3; negative: never */
-  float nearRatio;     /* skips cells with |p - eye| < nearRatio * r; 0: off; usually FROTH_NEAR_DEFAULT */
+  float nearRatio;     /* skips cells with |p - eye| < nearRatio * r; 0: off; usually FROTH_NEAR_DEFAULT. Not for parallel rays */
   float nearDepth;     /* skips cells with forward . (p - eye) < nearDepth [world units]; 0: off; FROTH_NEAR_DEFAULT. Not applied
                           to lenses that may look sideways or back: all but PROJECTION and RADIAL_TANGENTIAL */
   float depthQuantile; /* 0: one half */

@@ -1,0 +1,17 @@
+// A view of cameras.json as the runtime takes it.
+#pragma once
+
+#include "baker/camera/camera.h"
+#include "baker/tool/view_selection.h"
+#include "froth/froth.h"
+
+namespace froth {
+
+// FrothLensClass bits that views need.
+uint32_t lensClassesOf(const View& view);
+uint32_t lensClassesOf(const std::vector<SelectedView>& views);
+
+// Everything but the image of a ray map.
+FrothCamera cameraOf(const View& view);
+
+}  // namespace froth

@@ -1,0 +1,35 @@
+// From cell to cell down to the power cell that holds a point.
+#ifndef FROTH_GPU_DESCEND_GLSL
+#define FROTH_GPU_DESCEND_GLSL
+#include "gpu/asset.glsl"
+#include "foam/cell.h"
+
+float powerAt(vec3 point, Ball ball) { return powerOfOrigin(ball.centre - point, ball.radius); }
+
+// The power goes with the search into the next chunk, where it may be rounded otherwise: it falls with every step, so the
+// search ends. point: relative to the eye.
+uvec2 cellHolding(vec3 point, uvec2 first) {
+  uvec2 cell = first;
+  Chunk chunk = loadChunk(cell.x);
+  float power = powerAt(point, ballOfSite(chunk, cell.y));
+  for (uint steps = 0; steps < FRAME.maxSteps; ++steps) {
+    uvec2 row = neighbourRow(chunk, cell.y);
+    float least = power;
+    uint site = kNoCell;
+    for (uint i = row.x; i < row.y; ++i) {
+      uint other = neighbourAt(chunk, i);
+      float otherPower = powerAt(point, ballOfSite(chunk, other));
+      if (otherPower < least) {
+        least = otherPower;
+        site = other;
+      }
+    }
+    if (site == kNoCell) break;
+    cell = cellOfSite(chunk, site);
+    if (cell.x != chunk.index) chunk = loadChunk(cell.x);
+    power = least;
+  }
+  return cell;
+}
+
+#endif

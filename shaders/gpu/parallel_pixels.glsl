@@ -1,0 +1,28 @@
+// Balls against the parallel rays of an orthographic view.
+#ifndef FROTH_GPU_PARALLEL_PIXELS_GLSL
+#define FROTH_GPU_PARALLEL_PIXELS_GLSL
+#include "gpu/frame.glsl"
+#include "foam/rays.h"
+
+// (u, v) of the centre of a pixel of the region. rayX runs along u.
+vec2 placeOfPixel(vec2 pixel) { return FRAME.rayOrigin.xy + pixel.x * FRAME.rayX.xy + pixel.y * FRAME.rayY.xy; }
+
+// Pixel coordinates of a ball's centre, and how far its image reaches along columns and rows. reach.x < 0: the ball lies behind the
+// camera's plane. Never smaller than the image.
+void ballOnPixels(vec3 centre, float exactRadius, out vec2 middle, out vec2 reach) {
+  float radius = guardedRadius(centre, exactRadius);
+  vec2 place = vec2(dot(centre, FRAME.lensFirst.xyz), dot(centre, FRAME.lensSecond.xyz)) - FRAME.rayOrigin.xy;
+  float row = place.y / FRAME.rayY.y;
+  float shear = FRAME.rayY.x / FRAME.rayY.y;
+  middle = vec2((place.x - place.y * shear) / FRAME.rayX.x, row);
+  reach = radius * abs(vec2(sqrt(1.0 + shear * shear) / FRAME.rayX.x, 1.0 / FRAME.rayY.y));
+  if (!(dot(centre, FRAME.forward.xyz) > -radius)) reach = vec2(-1.0);
+}
+
+bool parallelPixelsMeetBall(vec3 centre, float radius, vec2 first, vec2 last) {
+  vec2 middle, reach;
+  ballOnPixels(centre, radius, middle, reach);
+  return reach.x >= 0.0 && all(lessThanEqual(middle - reach, last)) && all(greaterThanEqual(middle + reach, first));
+}
+
+#endif
