@@ -11,6 +11,8 @@
 
 const uint kRows = kSubTileSize / kRays;  // of threads
 const uint kBatch = kSubTileSize * kRows;
+const uint kSubTilesAlong = kTileSize / kSubTileSize;
+const uint kSubTilesPerTile = kSubTilesAlong * kSubTilesAlong;
 const uint kBatchWords = (kBatch + 31) / 32;
 layout(local_size_x = kSubTileSize, local_size_y = kRows) in;
 
@@ -109,10 +111,15 @@ bool areSaturated(Shading shading, Radiance radiances[kRays]) {
 
 void main() {
   uint lane = gl_LocalInvocationIndex;
-  uvec2 corner = gl_WorkGroupID.xy * kSubTileSize;
+  uint place = linearGroup() / kSubTilesPerTile;
+  if (place >= FRAME.tilesX * FRAME.tilesY) return;
+  uint tile = FRAME.tileOrder.v[place];
+  uint subTile = linearGroup() % kSubTilesPerTile;
+  uvec2 corner = uvec2(tile % FRAME.tilesX, tile / FRAME.tilesX) * kTileSize +
+                 uvec2(subTile % kSubTilesAlong, subTile / kSubTilesAlong) * kSubTileSize;
+  if (corner.x >= FRAME.regionWidth || corner.y >= FRAME.regionHeight) return;
   uvec2 firstPixel = corner + gl_LocalInvocationID.xy;
-  uvec2 tile = corner / kTileSize;
-  uvec2 range = FRAME.tileRanges.v[tile.y * FRAME.tilesX + tile.x];
+  uvec2 range = FRAME.tileRanges.v[tile];
   Shading shading = loadShading();
   vec3 directions[kRays];
   Radiance radiances[kRays];

@@ -75,6 +75,7 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
   block.pairCells = buffers[ViewBuffer::kPairCells].address;
   const bool endsInSwap = digitsOf(tilesOf(region)) % 2 != 0;
   block.tileCells = buffers[endsInSwap ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells].address;
+  block.tileOrder = buffers[ViewBuffer::kTileOrder].address;
   const VkDeviceAddress tallies = buffers[ViewBuffer::kTallies].address;
   const TallyLayout layout = layOutTallies(capacity);
   block.superSums = tallies + layout.superSums;

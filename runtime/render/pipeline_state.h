@@ -17,6 +17,7 @@ enum class Pass : uint32_t {
   kSortScatter,
   kCountTiles,
   kEmitPairs,
+  kOrderTiles,
   kExpandCells,
   kLocate,
   kClear16,
@@ -33,7 +34,7 @@ enum class Pass : uint32_t {
   kWalkNormals16,
   kWalkNormals32,
 };
-inline constexpr uint32_t kPassCount = 18;
+inline constexpr uint32_t kPassCount = 19;
 inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.

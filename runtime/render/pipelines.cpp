@@ -12,6 +12,7 @@
 #include "spirv/emit_pairs.h"
 #include "spirv/expand_cells.h"
 #include "spirv/locate.h"
+#include "spirv/order_tiles.h"
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
 #include "spirv/shade_sites.h"
@@ -38,6 +39,7 @@ const std::array<PassCode, kPassCount> kPassCodes = {{
     {"sort_scatter", sort_scatter_spirv},
     {"count_tiles", count_tiles_spirv},
     {"emit_pairs", emit_pairs_spirv},
+    {"order_tiles", order_tiles_spirv},
     {"expand_cells", expand_cells_spirv},
     {"locate", locate_spirv},
     {"clear_rgba16f", clear_rgba16f_spirv},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 
 #include "runtime/render/view_state.h"
@@ -37,6 +38,15 @@ void recordBin(const Recording& recording, const PassRecorder& recorder) {
              digitsOf(tilesOf(recording.info.camera.scissor)), gpu::kSortFindRanges);
 }
 
+// A workgroup per sub-tile, 16 in a row for each place in the order of the tiles.
+void recordTiles(const Recording& recording, const PassRecorder& recorder) {
+  constexpr uint32_t kAlong = gpu::kTileSize / gpu::kSubTileSize;
+  const uint32_t tiles = tilesOf(recording.info.camera.scissor);
+  constexpr uint32_t kTilesPerRow = 2048;  // one dimension may be limited to 65535 workgroups
+  recorder.run(pixelPass(Pass::kRaster16, recording.info), kAlong * kAlong * std::min(tiles, kTilesPerRow),
+               groupsOver(tiles, kTilesPerRow));
+}
+
 }  // namespace
 
 void recordRasterPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset) {
@@ -46,9 +56,10 @@ void recordRasterPasses(const Recording& recording, const PassRecorder& recorder
   recording.mark("sort");
   recordBin(recording, recorder);
   recording.mark("bin");
+  recorder.run(Pass::kOrderTiles, 1);  // beside the shading
   recordShade(recorder);
   recording.mark("shade");
-  recordPixels(recording, recorder, pixelPass(Pass::kRaster16, recording.info));
+  recordTiles(recording, recorder);
   recording.mark("raster");
 }
 

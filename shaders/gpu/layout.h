@@ -188,6 +188,7 @@ struct FrameBlock {
   FROTH_ADDRESS(UintArray) pairCells;
   FROTH_ADDRESS(UintArray) tileCells;          // [pair] visible cells in the order of tiles
   FROTH_ADDRESS(UintPairArray) tileRanges;     // [tile] ~begin and end in tileCells: 0 means none, and both only grow
+  FROTH_ADDRESS(UintArray) tileOrder;          // [tile] longest lists first
   FROTH_ADDRESS(UintArray) cellHistogram;      // of the lowest digit of cellKeys (histogram.glsl)
   FROTH_ADDRESS(UintArray) pairHistogram;      // of the lowest digit of pairTiles
   FROTH_ADDRESS(UintPairArray) walkStart;      // [1] chunk, local index of the cell that holds the eye; kept over frames
@@ -212,7 +213,7 @@ static_assert(sizeof(SiteRecord) == 24 && offsetof(SiteRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 112 && sizeof(Counters) == 176);
 static_assert(offsetof(FrameBlock, nearRatio) == 112 && offsetof(FrameBlock, regionX) == 144);
-static_assert(offsetof(FrameBlock, counters) == 192 && sizeof(FrameBlock) == 360);
+static_assert(offsetof(FrameBlock, counters) == 192 && sizeof(FrameBlock) == 368);
 static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);
 
 }  // namespace froth::gpu
