@@ -17,6 +17,8 @@ enum class ErrorKind {
   kUsage,        // the caller asked for something that does not exist: exit code 2
   kIo,           // the operating system refused: exit code 1
   kUnsupported,  // the device or this build cannot do it: exit code 1
+  kMemory,       // host or device memory, or a budget, is exhausted: exit code 1
+  kDevice,       // a Vulkan call failed: exit code 1
   kCancelled,    // Ctrl-C or the caller's stop request: exit code 1
 };
 

@@ -41,9 +41,11 @@ View reduceView(const View& view, uint32_t maxPixels) {
   return resizeView(view, reduce(view.width), reduce(view.height));
 }
 
-// Balls that may show in the view: at least partly before the eye and inside the pyramid of its image.
+// Balls that may show in the view: at least partly before the eye and inside the pyramid of its image. Other lenses than a
+// pinhole may see all.
 std::vector<uint32_t> findCellsInFrustum(const Foam& foam, std::span<const uint32_t> cells,
                                          const View& view) {
+  if (view.lens.kind != LensKind::kPinhole) return {cells.begin(), cells.end()};
   const auto& m = view.worldFromCamera;
   const glm::dvec3 eye = eyeOf(view);
   const glm::dvec3 right(m[0], m[4], m[8]), down(m[1], m[5], m[9]), forward(m[2], m[6], m[10]);
@@ -78,7 +80,12 @@ class ViewMeasurer {
  public:
   ViewMeasurer(const View& view, const ViewCells<float>& cells, const BallHierarchy& hierarchy,
                double sharpness, std::vector<uint64_t>& products)
-      : view_(view), cells_(cells), hierarchy_(hierarchy), products_(products), sources_(cells.cells.size()) {
+      : view_(view),
+        rays_(view),
+        cells_(cells),
+        hierarchy_(hierarchy),
+        products_(products),
+        sources_(cells.cells.size()) {
     for (uint32_t cell = 0; cell < cells.rankOf.size(); ++cell) {
       if (cells.rankOf[cell] != ViewCells<float>::kNotDrawn) sources_[cells.rankOf[cell]] = cell;
     }
@@ -101,16 +108,18 @@ class ViewMeasurer {
 
  private:
   void measurePixel(uint32_t x, uint32_t y, std::vector<BallHit<float>>& hits, std::span<float> shares) {
-    const glm::dvec3 exactDirection = pixelDirection(view_, x, y);
-    const glm::vec3 direction(exactDirection);
+    const std::optional<ViewRay> exact = rays_.ofPixel(x, y);
+    if (!exact) return;
+    const PrimaryRay<float> primary{exact->offset, exact->direction};
     hits.clear();
-    hierarchy_.visitAlongRay(eyeOf(view_), exactDirection, [&](uint32_t source) {
+    hierarchy_.visitAlongRay(eyeOf(view_) + exact->offset, exact->direction, [&](uint32_t source) {
       BallHit<float> hit{cells_.rankOf[source], 0, 0};
       if (hit.rank == ViewCells<float>::kNotDrawn) return;
       const ViewCell<float>& cell = cells_.cells[hit.rank];
-      if (foam::intersectBall(cell.centre, cell.radius, direction, hit.tNear, hit.tFar)) hits.push_back(hit);
+      if (foam::intersectBall(cell.centre - primary.offset, cell.radius, primary.direction, hit.tNear, hit.tFar))
+        hits.push_back(hit);
     });
-    compositeHits(cells_, direction, settings_, hits,
+    compositeHits(cells_, primary, settings_, hits,
                   [&](const RaySegment<float>& segment) { addSegment(segment, shares); });
   }
 
@@ -139,6 +148,7 @@ class ViewMeasurer {
   }
 
   const View& view_;
+  const ViewRays rays_;
   const ViewCells<float>& cells_;
   const BallHierarchy& hierarchy_;
   std::vector<uint64_t>& products_;  // [foam cells * K(K-1)/2] of all views

@@ -29,7 +29,9 @@ namespace froth {
 namespace {
 
 StoredCamera storeCamera(const View& view) {
-  return {view.worldFromCamera, 0.5 * view.height / view.fy};
+  StoredCamera camera{.worldFromCamera = view.worldFromCamera};
+  if (view.lens.kind == LensKind::kPinhole) camera.tanHalfFovY = 0.5 * view.height / view.fy;
+  return camera;
 }
 
 void storeCameras(const CameraSet& cameras, AssetContents& contents) {

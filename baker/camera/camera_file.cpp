@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "baker/camera/camera.h"
+#include "baker/camera/ray_map.h"
 #include "baker/camera/view_check.h"
 #include "format/atomic_file.h"
 
@@ -13,6 +14,10 @@ namespace {
 
 using Json = nlohmann::json;
 using WrittenJson = nlohmann::ordered_json;  // keeps keys in their order; many take it quadratic time
+
+// As cameras.json names the lenses, in the order of LensKind.
+constexpr const char* kLensNames[] = {"pinhole",          "fisheye",      "kannala_brandt", "radial_tangential",
+                                      "equirectangular", "ray_map",      "orthographic"};
 
 // Fields of one JSON object. The first fault is kept; later reads then return defaults.
 class FieldReader {
@@ -77,6 +82,32 @@ class FieldReader {
     return name;
   }
 
+  // One of kLensNames.
+  LensKind readLensKind(const char* key) {
+    const Json* value = find(key);
+    if (!value) return LensKind::kPinhole;
+    const auto found = std::find(std::begin(kLensNames), std::end(kLensNames), *value);
+    if (found != std::end(kLensNames)) return static_cast<LensKind>(found - std::begin(kLensNames));
+    fail(key, describe(*value),
+         "give \"pinhole\", \"fisheye\", \"kannala_brandt\", \"radial_tangential\", \"equirectangular\", "
+         "\"ray_map\" or \"orthographic\"");
+    return LensKind::kPinhole;
+  }
+
+  // At most eight.
+  std::vector<double> readNumbers(const char* key) {
+    constexpr size_t kMost = 8;
+    std::vector<double> numbers;
+    const Json* values = find(key);
+    if (!values) return numbers;
+    if (!values->is_array() || values->size() > kMost) {
+      fail(key, describe(*values), "give an array of up to eight numbers");
+      return numbers;
+    }
+    for (const Json& value : *values) numbers.push_back(asNumber(key, value));
+    return numbers;
+  }
+
   std::array<double, 12> readPose(const char* key) {
     std::array<double, 12> pose{};
     const Json* rows = require(key);
@@ -135,19 +166,46 @@ class FieldReader {
   std::optional<Error> error_;
 };
 
+// The lens, and where on the image it looks.
+void readLens(FieldReader& fields, View& view) {
+  Lens& lens = view.lens;
+  lens.kind = fields.readLensKind("lens");
+  lens.distortion = fields.readNumbers("distortion");
+  lens.raysFile = fields.readFileName("rays");
+  const auto isAbsent = [&](const char* key) { return !fields.find(key); };
+  if (lens.kind == LensKind::kRayMap) {
+    if (lens.raysFile.empty()) fields.fail("rays", "nothing", "name the file of the ray map");
+    for (const char* key : {"fx", "fy", "cx", "cy"}) {
+      if (!isAbsent(key)) fields.fail(key, "a value", "remove it: the ray map says it all");
+    }
+    return;
+  }
+  if (!isAbsent("rays")) fields.fail("rays", "a file", "remove it, or write \"lens\": \"ray_map\"");
+  if (lens.kind == LensKind::kEquirectangular && isAbsent("fx") && isAbsent("fy") && isAbsent("cx") &&
+      isAbsent("cy")) {
+    constexpr double kPi = 3.14159265358979323846;
+    view.fx = view.width / (2 * kPi);  // all around
+    view.fy = view.height / kPi;
+    view.cx = 0.5 * view.width;
+    view.cy = 0.5 * view.height;
+    return;
+  }
+  view.fx = fields.readNumber("fx");
+  view.fy = fields.readNumber("fy");
+  view.cx = fields.readNumber("cx");
+  view.cy = fields.readNumber("cy");
+}
+
 Result<View> readView(const Json& object, const std::string& place, const std::string& defaultName) {
   FieldReader fields(object, place);
-  fields.refuseOthers({"photo", "width", "height", "fx", "fy", "cx", "cy", "world_from_camera", "near_depth",
-                       "near_ratio", "golden", "reference_psnr"});
+  fields.refuseOthers({"photo", "width", "height", "lens", "distortion", "rays", "fx", "fy", "cx", "cy",
+                       "world_from_camera", "near_depth", "near_ratio", "golden", "reference_psnr"});
   View view;
   view.name = fields.readText("photo");
   if (view.name.empty()) view.name = defaultName;
   view.width = fields.readSize("width");
   view.height = fields.readSize("height");
-  view.fx = fields.readNumber("fx");
-  view.fy = fields.readNumber("fy");
-  view.cx = fields.readNumber("cx");
-  view.cy = fields.readNumber("cy");
+  readLens(fields, view);
   view.worldFromCamera = fields.readPose("world_from_camera");
   view.nearDepth = fields.readOptionalNumber("near_depth");
   view.nearRatio = fields.readOptionalNumber("near_ratio");
@@ -189,8 +247,15 @@ Result<std::vector<View>> readViews(const Json& root, const char* list, const st
 
 WrittenJson toJson(const View& view) {
   const auto& m = view.worldFromCamera;
-  WrittenJson object = {{"photo", view.name}, {"width", view.width}, {"height", view.height}, {"fx", view.fx},
-                        {"fy", view.fy},      {"cx", view.cx},       {"cy", view.cy}};
+  const Lens& lens = view.lens;
+  WrittenJson object = {{"photo", view.name}, {"width", view.width}, {"height", view.height}};
+  if (lens.kind != LensKind::kPinhole) object["lens"] = kLensNames[static_cast<int>(lens.kind)];
+  if (!lens.distortion.empty()) object["distortion"] = lens.distortion;
+  if (lens.kind == LensKind::kRayMap) {
+    object["rays"] = lens.raysFile;
+  } else {
+    object.update({{"fx", view.fx}, {"fy", view.fy}, {"cx", view.cx}, {"cy", view.cy}});
+  }
   object["world_from_camera"] = {
       {m[0], m[1], m[2], m[3]}, {m[4], m[5], m[6], m[7]}, {m[8], m[9], m[10], m[11]}};
   if (view.nearDepth) object["near_depth"] = *view.nearDepth;
@@ -207,7 +272,17 @@ WrittenJson toJson(const View& view) {
 Result<CameraSet> readCameras(const std::filesystem::path& path) {
   Result<std::vector<uint8_t>> bytes = readFile(path);
   if (!bytes) return bytes.error();
-  return parseCameras(*bytes, path.string());
+  Result<CameraSet> cameras = parseCameras(*bytes, path.string());
+  if (!cameras) return cameras;
+  for (std::vector<View>* views : {&cameras->views, &cameras->flight}) {
+    for (View& view : *views) {
+      if (view.lens.kind != LensKind::kRayMap) continue;
+      Result<RayMap> rays = readRayMap(path.parent_path() / view.lens.raysFile, view.width, view.height);
+      if (!rays) return rays.error();
+      view.lens.rays = std::make_shared<RayMap>(std::move(*rays));
+    }
+  }
+  return cameras;
 }
 
 Result<CameraSet> parseCameras(std::span<const uint8_t> bytes, const std::string& file) {

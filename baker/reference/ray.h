@@ -13,6 +13,12 @@
 
 namespace froth {
 
+// Starts at the eye plus `offset`: ViewRay in the precision of a render.
+template <class Real>
+struct PrimaryRay {
+  glm::vec<3, Real> offset, direction;
+};
+
 // A ball that the ray meets.
 template <class Real>
 struct BallHit {
@@ -43,10 +49,10 @@ struct RaySettings {
 
 // Cuts the interval by all neighbours' planes; false when nothing is left.
 template <class Real>
-bool clipByNeighbours(std::span<const ViewPlane<Real>> planes, const glm::vec<3, Real>& direction,
-                      BallHit<Real>& hit) {
+bool clipByNeighbours(std::span<const ViewPlane<Real>> planes, const PrimaryRay<Real>& ray, BallHit<Real>& hit) {
   for (const ViewPlane<Real>& plane : planes) {
-    foam::clipByPlane(plane.clearance, glm::dot(plane.toNeighbour, direction), hit.tNear, hit.tFar);
+    const Real clearance = plane.clearance - glm::dot(plane.toNeighbour, ray.offset);
+    foam::clipByPlane(clearance, glm::dot(plane.toNeighbour, ray.direction), hit.tNear, hit.tFar);
     if (!(hit.tNear < hit.tFar)) return false;
   }
   return true;
@@ -79,19 +85,20 @@ glm::vec<3, Real> blendColour(std::span<const ViewDetail<Real>> details, const g
 // Steps 3 to 7 for a cell whose interval the planes have cut; visit(segment) if it shows.
 template <class Real, class Visitor>
 void compositeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>> details,
-                   const glm::vec<3, Real>& direction, const RaySettings<Real>& settings, BallHit<Real> hit,
+                   const PrimaryRay<Real>& primary, const RaySettings<Real>& settings, BallHit<Real> hit,
                    RayResult<Real>& ray, Visitor&& visit) {
-  const Real facing = glm::dot(cell.frame.normal, direction);
+  const glm::vec<3, Real> centre = cell.centre - primary.offset;
+  const Real facing = glm::dot(cell.frame.normal, primary.direction);
   const bool leavesThroughFace = facing >= 0;
   const auto inFrame = [&](const glm::vec<3, Real>& vector) {
     return foam::inFaceFrame(vector, cell.frame.tangent, cell.frame.bitangent, cell.frame.normal,
                              cell.inverseRadius);
   };
-  const auto queryAt = [&](Real t) { return foam::faceQuery(inFrame(t * direction - cell.centre)); };
-  const Real tBase = foam::intersectFace(cell.centre, cell.frame.normal, facing, Real(0));
+  const auto queryAt = [&](Real t) { return foam::faceQuery(inFrame(t * primary.direction - centre)); };
+  const Real tBase = foam::intersectFace(centre, cell.frame.normal, facing, Real(0));
   const Real tQuery = leavesThroughFace ? hit.tNear : std::max(hit.tNear, tBase);
   const Real height = blendHeight(details, queryAt(tQuery), settings.sharpness);
-  const Real tFace = foam::intersectFace(cell.centre, cell.frame.normal, facing, height);
+  const Real tFace = foam::intersectFace(centre, cell.frame.normal, facing, height);
   if (leavesThroughFace) {
     hit.tFar = std::min(hit.tFar, tFace);
   } else {
@@ -115,7 +122,7 @@ void compositeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>>
 
 // `hits` in any order; they are sorted front to back. Calls visit(segment) for every cell that shows, front to back.
 template <class Real, class Visitor>
-RayResult<Real> compositeHits(const ViewCells<Real>& view, const glm::vec<3, Real>& direction,
+RayResult<Real> compositeHits(const ViewCells<Real>& view, const PrimaryRay<Real>& primary,
                               const RaySettings<Real>& settings, std::vector<BallHit<Real>>& hits,
                               Visitor&& visit) {
   std::sort(hits.begin(), hits.end(),
@@ -123,17 +130,17 @@ RayResult<Real> compositeHits(const ViewCells<Real>& view, const glm::vec<3, Rea
   RayResult<Real> ray;
   for (BallHit<Real>& hit : hits) {
     const ViewCell<Real>& cell = view.cells[hit.rank];
-    if (!clipByNeighbours(view.planesOf(cell), direction, hit)) continue;
-    compositeCell(cell, view.detailsOf(hit.rank), direction, settings, hit, ray, visit);
+    if (!clipByNeighbours(view.planesOf(cell), primary, hit)) continue;
+    compositeCell(cell, view.detailsOf(hit.rank), primary, settings, hit, ray, visit);
     if (std::exp(ray.logTransmittance) < settings.cutoff) break;
   }
   return ray;
 }
 
 template <class Real>
-RayResult<Real> compositeHits(const ViewCells<Real>& view, const glm::vec<3, Real>& direction,
+RayResult<Real> compositeHits(const ViewCells<Real>& view, const PrimaryRay<Real>& primary,
                               const RaySettings<Real>& settings, std::vector<BallHit<Real>>& hits) {
-  return compositeHits(view, direction, settings, hits, [](const RaySegment<Real>&) {});
+  return compositeHits(view, primary, settings, hits, [](const RaySegment<Real>&) {});
 }
 
 }  // namespace froth

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <mutex>
 
+#include "baker/camera/ray_map.h"
 #include "baker/reference/ball_hierarchy.h"
 #include "baker/reference/ray.h"
 #include "baker/reference/view_cells.h"
@@ -47,12 +48,13 @@ class ImageRenderer {
       : hierarchy_(hierarchy),
         cells_(cells),
         view_(view),
+        rays_(view),
         settings_{Real(options.cutoff), Real(std::log(options.depthQuantile)),
                   Real(options.detailSharpness)} {
     const size_t pixels = size_t{view.width} * view.height;
     images_.colour = {view.width, view.height, 3, std::vector<float>(pixels * 3)};
     images_.alpha = {view.width, view.height, 1, std::vector<float>(pixels)};
-    images_.depth = {view.width, view.height, 1, std::vector<float>(pixels)};
+    images_.depth = {view.width, view.height, 1, std::vector<float>(pixels, -1.0f)};
     images_.normal = {view.width, view.height, 3, std::vector<float>(pixels * 3)};
   }
 
@@ -78,16 +80,18 @@ class ImageRenderer {
 
  private:
   void renderPixel(uint32_t x, uint32_t y, std::vector<BallHit<Real>>& hits) {
-    const glm::dvec3 exactDirection = pixelDirection(view_, x, y);
-    const glm::vec<3, Real> direction(exactDirection);
+    const std::optional<ViewRay> exact = rays_.ofPixel(x, y);
+    if (!exact) return;
+    const PrimaryRay<Real> primary{exact->offset, exact->direction};
     hits.clear();
-    hierarchy_.visitAlongRay(eyeOf(view_), exactDirection, [&](uint32_t source) {
+    hierarchy_.visitAlongRay(eyeOf(view_) + exact->offset, exact->direction, [&](uint32_t source) {
       BallHit<Real> hit{cells_.rankOf[source], 0, 0};
       if (hit.rank == ViewCells<Real>::kNotDrawn) return;
       const ViewCell<Real>& cell = cells_.cells[hit.rank];
-      if (foam::intersectBall(cell.centre, cell.radius, direction, hit.tNear, hit.tFar)) hits.push_back(hit);
+      if (foam::intersectBall(cell.centre - primary.offset, cell.radius, primary.direction, hit.tNear, hit.tFar))
+        hits.push_back(hit);
     });
-    const RayResult<Real> ray = compositeHits(cells_, direction, settings_, hits);
+    const RayResult<Real> ray = compositeHits(cells_, primary, settings_, hits);
     for (int c = 0; c < 3; ++c) {
       images_.colour.pixel(x, y)[c] = static_cast<float>(ray.colour[c]);
       images_.normal.pixel(x, y)[c] = static_cast<float>(ray.normal[c]);
@@ -99,6 +103,7 @@ class ImageRenderer {
   const BallHierarchy& hierarchy_;
   const ViewCells<Real>& cells_;
   const View& view_;
+  const ViewRays rays_;
   const RaySettings<Real> settings_;
   RenderedImages images_;
 };
@@ -135,6 +140,11 @@ Result<RenderedImages> ReferenceRenderer::render(const View& view, const Referen
   if (view.width == 0 || view.height == 0 || uint64_t{view.width} * view.height > kMaxPixels) {
     return makeError(ErrorKind::kUsage, "view '%s': size %u x %u; give 1 to 2^28 pixels", view.name.c_str(),
                      view.width, view.height);
+  }
+  if (view.lens.kind == LensKind::kRayMap &&
+      !(view.lens.rays && view.lens.rays->width == view.width && view.lens.rays->height == view.height)) {
+    return makeError(ErrorKind::kUsage, "view '%s': a ray map without one ray per pixel; read its file",
+                     view.name.c_str());
   }
   if (!(options.depthQuantile > 0 && options.depthQuantile <= 1)) {
     return makeError(ErrorKind::kUsage,

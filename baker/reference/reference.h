@@ -28,7 +28,7 @@ struct RenderedImages {
   Image alpha;   // 1 channel, 1 - T
   Image depth;   // 1 channel, distance along the ray where T falls below depthQuantile; -1: never
   Image normal;  // 3 channels, sum of T alpha n, world axes
-};
+};  // pixels without a ray (shaders/foam/lens.h): 0, 0, -1, 0
 
 // Renders with all cores; the same input gives the same bits on any number of threads.
 class ReferenceRenderer {
@@ -37,7 +37,7 @@ class ReferenceRenderer {
   explicit ReferenceRenderer(const Foam& foam, const Progress& progress = {});
   ~ReferenceRenderer();
   // Near limits are those of `options`, whatever the view says. Fails with kUsage for a view without pixels or with more
-  // than 2^28, or a quantile outside 0..1; with kCancelled. May be called from several threads at once.
+  // than 2^28, a ray map of another size, or a quantile outside 0..1; with kCancelled. May be called from several threads at once.
   Result<RenderedImages> render(const View& view, const ReferenceOptions& options,
                                 const Progress& progress = {}) const;
 

@@ -18,28 +18,33 @@ using Vec3 = glm::vec<3, Real>;
 // Near tests (foam.md "Near cells"): once per cell, in double.
 std::vector<uint32_t> selectDrawnCells(const Foam& foam, std::span<const uint32_t> candidates,
                                        const View& view, const ReferenceOptions& options) {
-  const auto& m = view.worldFromCamera;
-  const glm::dvec3 eye = eyeOf(view), forward = glm::normalize(glm::dvec3(m[2], m[6], m[10]));
+  const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
+  const double nearRatio = isOrthographic ? 0 : options.nearRatio;
+  const double nearDepth = looksForward(view.lens.kind) ? options.nearDepth : 0;
+  const glm::dvec3 eye = eyeOf(view), forward = forwardOf(view);
   std::vector<uint32_t> drawn;
   for (uint32_t cell : candidates) {
     const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
     const double radius = foam.radii[cell];
-    if (!foam::isNearCell(centre, radius, forward, options.nearRatio, options.nearDepth))
-      drawn.push_back(cell);
+    if (!foam::isNearCell(centre, radius, forward, nearRatio, nearDepth)) drawn.push_back(cell);
   }
   return drawn;
 }
 
-// By the power of the eye; equal powers by index (foam.md "Order").
+// By the power of the eye, or along the parallel rays; equals by index (foam.md "Order").
 template <class Real>
-void sortFrontToBack(const Foam& foam, const glm::dvec3& eye, std::vector<uint32_t>& cells) {
-  std::vector<Real> powers(foam.cellCount);
+void sortFrontToBack(const Foam& foam, const View& view, std::vector<uint32_t>& cells) {
+  const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
+  const glm::dvec3 eye = eyeOf(view);
+  const Vec3<Real> forward(forwardOf(view));
+  std::vector<Real> keys(foam.cellCount);
   for (uint32_t cell : cells) {
-    powers[cell] =
-        foam::powerOfOrigin(Vec3<Real>(glm::dvec3(foam.sites[cell]) - eye), Real(foam.radii[cell]));
+    const Vec3<Real> centre(glm::dvec3(foam.sites[cell]) - eye);
+    keys[cell] =
+        isOrthographic ? glm::dot(forward, centre) : foam::powerOfOrigin(centre, Real(foam.radii[cell]));
   }
   std::sort(cells.begin(), cells.end(),
-            [&](uint32_t a, uint32_t b) { return std::pair(powers[a], a) < std::pair(powers[b], b); });
+            [&](uint32_t a, uint32_t b) { return std::pair(keys[a], a) < std::pair(keys[b], b); });
 }
 
 // The colour of a detail site from the eye: its lobes weighed by the direction in which it is seen.
@@ -57,8 +62,10 @@ Vec3<Real> seeDetail(const Foam& foam, size_t site, const Vec3<Real>& direction)
 }
 
 template <class Real>
-void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell,
+void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell, const View& view,
                  std::span<ViewDetail<Real>> details) {
+  const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
+  const Vec3<Real> forward(forwardOf(view));
   for (size_t k = 0; k < details.size(); ++k) {
     const size_t site = size_t{source} * details.size() + k;
     ViewDetail<Real>& detail = details[k];
@@ -66,7 +73,7 @@ void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell,
     detail.height = cell.radius * Real(foam.detailHeights[site]);
     const Vec3<Real> fromEye = cell.centre + cell.radius * (detail.place.x * cell.frame.tangent +
                                                             detail.place.y * cell.frame.bitangent);
-    detail.colour = seeDetail(foam, site, glm::normalize(fromEye));
+    detail.colour = seeDetail(foam, site, isOrthographic ? forward : glm::normalize(fromEye));
   }
 }
 
@@ -97,20 +104,13 @@ std::vector<uint32_t> findVisibleCells(const Foam& foam) {
   return cells;
 }
 
-glm::dvec3 pixelDirection(const View& view, uint32_t x, uint32_t y) {
-  const auto& m = view.worldFromCamera;
-  const glm::dvec3 d((x + 0.5 - view.cx) / view.fx, (y + 0.5 - view.cy) / view.fy, 1);
-  return glm::normalize(glm::dvec3(m[0] * d.x + m[1] * d.y + m[2] * d.z, m[4] * d.x + m[5] * d.y + m[6] * d.z,
-                                   m[8] * d.x + m[9] * d.y + m[10] * d.z));
-}
-
 template <class Real>
 ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
                                  std::span<const uint32_t> candidates, const View& view,
                                  const ReferenceOptions& options) {
   const glm::dvec3 eye = eyeOf(view);
   std::vector<uint32_t> drawn = selectDrawnCells(foam, candidates, view, options);
-  sortFrontToBack<Real>(foam, eye, drawn);
+  sortFrontToBack<Real>(foam, view, drawn);
 
   ViewCells<Real> result;
   result.detailCount = foam.detailCount;
@@ -134,7 +134,7 @@ ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
     cell.inverseRadius = 1 / cell.radius;
     cell.density = foam.densities[source];
     cell.frame = faceFrame<Real>(foam.orientations[source]);
-    fillDetails(foam, source, cell,
+    fillDetails(foam, source, cell, view,
                 std::span(result.details).subspan(rank * foam.detailCount, foam.detailCount));
     const size_t planes = cell.planesEnd - cell.planesBegin;
     fillPlanes(foam, std::span(cechPairs.neighbours).subspan(cechPairs.offsets[source], planes), source, cell,

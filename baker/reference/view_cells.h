@@ -1,4 +1,4 @@
-// A foam as seen from one eye: what all rays of a view share, computed once per cell and view.
+// A foam as seen from one eye, or along one direction: what all rays of a view share, computed once per cell and view.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "baker/camera/camera.h"
+#include "baker/camera/view_rays.h"
 #include "baker/foam.h"
 #include "baker/graph/graph.h"
 #include "baker/reference/reference.h"
@@ -56,18 +56,12 @@ struct ViewCells {
   }
 };
 
-inline glm::dvec3 eyeOf(const View& view) {
-  return {view.worldFromCamera[3], view.worldFromCamera[7], view.worldFromCamera[11]};
-}
-
-// Unit direction [world] of the ray through the centre of a pixel.
-glm::dvec3 pixelDirection(const View& view, uint32_t x, uint32_t y);
-
 // Cells that can show: of coincident sites only the one with the largest radius, then the lowest index,
 // exists; cells without density only cut.
 std::vector<uint32_t> findVisibleCells(const Foam& foam);
 
-// Draws those of `candidates` that pass the near tests. Every Cech neighbour cuts, drawn or not.
+// Draws those of `candidates` that pass the near tests, which are not applied to an orthographic view; `nearDepth` not to lenses
+// that look behind themselves either. Every Cech neighbour cuts, drawn or not.
 template <class Real>
 ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
                                  std::span<const uint32_t> candidates, const View& view,

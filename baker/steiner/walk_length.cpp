@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "baker/camera/view_rays.h"
 #include "baker/counter_random.h"
 #include "shaders/foam/cell.h"
 
@@ -126,20 +127,24 @@ std::vector<glm::vec4> meanFaces(const Foam& foam) {
 std::vector<WalkRay> raysOfViews(std::span<const View> views, uint32_t raysPerView, double nearRatio,
                                  double nearDepth, uint64_t seed) {
   std::vector<WalkRay> rays;
+  uint64_t draws = 0;
   const CounterRandom random(seed, Purpose::kSubpixel);
   for (const View& view : views) {
-    const auto& m = view.worldFromCamera;
-    const glm::dvec3 right(m[0], m[4], m[8]), down(m[1], m[5], m[9]), forward(m[2], m[6], m[10]);
+    const ViewRays viewRays(view);
+    const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
+    const double ownRatio = isOrthographic ? 0 : view.nearRatio.value_or(nearRatio);
+    const double ownDepth = looksForward(view.lens.kind) ? view.nearDepth.value_or(nearDepth) : 0;
     const double pitch = std::sqrt(double(view.width) * view.height / raysPerView);  // [pixels]
     const auto columns = static_cast<uint32_t>(std::max(1.0, view.width / pitch));
     const auto rows = static_cast<uint32_t>(std::max(1.0, view.height / pitch));
     for (uint32_t place = 0; place < columns * rows; ++place) {
-      const double x = (place % columns + random.uniform(2 * rays.size())) * view.width / columns;
-      const double y = (place / columns + random.uniform(2 * rays.size() + 1)) * view.height / rows;
-      const glm::dvec3 direction = (x - view.cx) / view.fx * right + (y - view.cy) / view.fy * down + forward;
-      rays.push_back({glm::dvec3(m[3], m[7], m[11]), glm::normalize(direction), glm::normalize(forward),
-                      static_cast<float>(view.nearRatio.value_or(nearRatio)),
-                      static_cast<float>(view.nearDepth.value_or(nearDepth))});
+      const double x = (place % columns + random.uniform(2 * draws)) * view.width / columns;
+      const double y = (place / columns + random.uniform(2 * draws + 1)) * view.height / rows;
+      ++draws;
+      const std::optional<ViewRay> ray = viewRays.at(x, y);
+      if (!ray) continue;
+      rays.push_back({eyeOf(view) + ray->offset, ray->direction, forwardOf(view), static_cast<float>(ownRatio),
+                      static_cast<float>(ownDepth)});
     }
   }
   return rays;

@@ -3,6 +3,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "baker/camera/view_check.h"
+#include "baker/camera/view_rays.h"
 #include "baker/counter_random.h"
 #include "baker/synth/gallery_scene.h"
 #include "baker/synth/synth.h"
@@ -19,10 +21,9 @@ dvec3 traceRay(const Ray& ray) {
   return displayColour(lightPoint(*hit->solid, hit->position), ray.direction);
 }
 
-dvec3 tracePixel(const View& view, uint32_t x, uint32_t y, uint32_t samples, const CounterRandom& random) {
-  const auto& m = view.worldFromCamera;
-  const dvec3 right(m[0], m[4], m[8]), down(m[1], m[5], m[9]), forward(m[2], m[6], m[10]),
-      eye(m[3], m[7], m[11]);
+// Black where the lens sees nothing.
+dvec3 tracePixel(const View& view, const ViewRays& rays, uint32_t x, uint32_t y, uint32_t samples,
+                 const CounterRandom& random) {
   // Rows of strata as square as the count allows; each sample jitters inside its own.
   const auto rows = static_cast<uint32_t>(std::max(1.0, std::floor(std::sqrt(samples))));
   const uint64_t pixel = uint64_t{y} * view.width + x;
@@ -33,9 +34,8 @@ dvec3 tracePixel(const View& view, uint32_t x, uint32_t y, uint32_t samples, con
     const bool centred = samples == 1;  // one ray through the middle, as the renderers shoot
     const double u = (inRow + (centred ? 0.5 : random.uniform(draw))) / rowLength;
     const double v = (row + (centred ? 0.5 : random.uniform(draw + 1))) / rows;
-    const dvec3 direction =
-        (x + u - view.cx) / view.fx * right + (y + v - view.cy) / view.fy * down + forward;
-    sum += traceRay({eye, glm::normalize(direction)});
+    const std::optional<ViewRay> ray = rays.at(x + u, y + v);
+    if (ray) sum += traceRay({eyeOf(view) + ray->offset, ray->direction});
   }
   return sum / static_cast<double>(samples);
 }
@@ -44,10 +44,9 @@ dvec3 tracePixel(const View& view, uint32_t x, uint32_t y, uint32_t samples, con
 
 Result<Image> traceGalleryTruth(const View& view, uint32_t samples, const Progress& progress) {
   if (samples == 0) return makeError(ErrorKind::kUsage, "samples per pixel: 0; ask for at least 1");
-  if (view.width == 0 || view.height == 0 || !(view.fx > 0) || !(view.fy > 0))
-    return makeError(ErrorKind::kUsage,
-                     "view '%s': %u x %u pixels, focal lengths %g, %g; all must be positive",
-                     view.name.c_str(), view.width, view.height, view.fx, view.fy);
+  if (Status status = checkView(view, "view '" + view.name + "'"); !status)
+    return makeError(ErrorKind::kUsage, "%s", status.error().message.c_str());
+  const ViewRays rays(view);
   Image image{view.width, view.height, 3, std::vector<float>(size_t{view.width} * view.height * 3)};
   const CounterRandom random(0, Purpose::kSubpixel);
   constexpr uint32_t kBand = 16;  // rows between two reports
@@ -56,10 +55,10 @@ Result<Image> traceGalleryTruth(const View& view, uint32_t samples, const Progre
       return makeError(ErrorKind::kCancelled, "tracing of view '%s' was stopped", view.name.c_str());
     const uint32_t end = std::min(band + kBand, view.height);
     tbb::parallel_for(tbb::blocked_range<uint32_t>(band, end, 1),
-                      [&](const tbb::blocked_range<uint32_t>& rows) {
-                        for (uint32_t y = rows.begin(); y < rows.end(); ++y) {
+                      [&](const tbb::blocked_range<uint32_t>& lines) {
+                        for (uint32_t y = lines.begin(); y < lines.end(); ++y) {
                           for (uint32_t x = 0; x < view.width; ++x) {
-                            const dvec3 colour = tracePixel(view, x, y, samples, random);
+                            const dvec3 colour = tracePixel(view, rays, x, y, samples, random);
                             for (int channel = 0; channel < 3; ++channel)
                               image.pixel(x, y)[channel] = static_cast<float>(colour[channel]);
                           }

@@ -20,6 +20,8 @@ inline ExitCode exitCodeOf(ErrorKind kind) {
       return kExitUsage;
     case ErrorKind::kIo:
     case ErrorKind::kUnsupported:
+    case ErrorKind::kMemory:
+    case ErrorKind::kDevice:
     case ErrorKind::kCancelled:
       break;
   }

@@ -36,6 +36,12 @@ Image imageFromTexels(const std::vector<float>& texels, uint32_t stride, uint32_
   return image;
 }
 
+Status checkLens(const View& view) {
+  if (view.lens.kind == LensKind::kPinhole) return {};
+  return makeError(ErrorKind::kUnsupported, "view '%s': its lens is no pinhole; use --renderer reference",
+                   view.name.c_str());
+}
+
 // The runtime says +inf where transmittance never falls to the quantile, files say -1 (foam.md).
 void markMissingDepth(Image& depth) {
   for (float& value : depth.values) {
@@ -105,7 +111,7 @@ struct GpuRenderer::State {
 
 GpuRenderer::State::~State() {
   if (host) destroyImages();
-  if (context) frothDestroyContext(context);  // every submission was waited for
+  if (context) frothDestroyContext(context, UINT64_MAX);  // every submission was waited for
 }
 
 Error GpuRenderer::State::error(FrothResult result, const char* call) const {
@@ -282,6 +288,7 @@ Result<std::unique_ptr<GpuRenderer>> GpuRenderer::create(const GpuDeviceOptions&
 }
 
 Result<GpuFrame> GpuRenderer::render(const View& view, const GpuRenderOptions& options) {
+  if (Status drawable = checkLens(view); !drawable) return drawable.error();
   if (Status ready = state_->setExtent(extentOf(view), true); !ready) return ready.error();
   const Result<FrothViewStatus> status = state_->drawAndAsk(renderInfoOf(view, options), options.method);
   if (!status) return status.error();
@@ -291,6 +298,7 @@ Result<GpuFrame> GpuRenderer::render(const View& view, const GpuRenderOptions& o
 }
 
 Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptions& options) {
+  if (Status drawable = checkLens(view); !drawable) return drawable.error();
   if (Status ready = state_->setExtent(extentOf(view), false); !ready) return ready.error();
   return state_->drawAndAsk(renderInfoOf(view, options), options.method);
 }

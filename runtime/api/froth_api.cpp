@@ -1,67 +1,20 @@
 // The C entry points: null pointers, struct sizes, exceptions; everything else is the context's.
 #include "froth/froth.h"
 
+#include <cstddef>
 #include <memory>
-#include <new>
 
-#include "runtime/api/struct_size.h"
-#include "runtime/core/context.h"
+#include "runtime/api/call_guard.h"
 #include "runtime/core/requirements.h"
 
 using namespace froth;
 
 namespace {
 
-// Runs call(name); no exception crosses the C boundary.
-template <class Call>
-FrothResult guard(const Messages& messages, const char* name, Call call) {
-  try {
-    return call(name);
-  } catch (const std::bad_alloc&) {
-    return messages.fail(FROTH_ERROR_MEMORY, name, "host memory is exhausted");
-  } catch (...) {
-    return messages.fail(FROTH_ERROR_STATE, name, "an unexpected failure inside the library");
-  }
-}
-
-template <class Call>
-FrothResult guard(FrothContext* context, const char* name, Call call) {
-  return context ? guard(context->messages, name, call) : FROTH_ERROR_ARGUMENT;
-}
-
-FrothResult failNull(const FrothContext& context, const char* call, const char* parameter) {
-  return context.messages.fail(FROTH_ERROR_ARGUMENT, call, "%s: null", parameter);
-}
-
-// Reads a caller's struct, with a message where that fails.
-template <class T>
-FrothResult readInput(const Messages& messages, const char* call, const T* given, T& known) {
-  if (!given) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "info: null");
-  }
-  const FrothResult result = readStruct(*given, known);
-  if (result == FROTH_ERROR_ARGUMENT) {
-    return messages.fail(result, call, "structSize: %u; set it to sizeof the struct", given->structSize);
-  }
-  if (result == FROTH_ERROR_VERSION) {
-    return messages.fail(
-        result, call,
-        "structSize: %u, this library knows %zu, and fields beyond are not zero; use a newer library",
-        given->structSize, sizeof(T));
-  }
-  return result;
-}
-
-template <class T>
-FrothResult writeOutput(const Messages& messages, const char* call, const T& known, T* given) {
-  if (!given) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "status: null");
-  }
-  if (!writeStruct(known, *given)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "structSize: %u; set it to sizeof the struct",
-                         given->structSize);
-  }
-  return FROTH_OK;
+// The callback of a struct that may be older than it, and has not been checked.
+Messages messagesOf(const FrothContextInfo* info) {
+  const bool hasCallback = info && info->structSize >= offsetof(FrothContextInfo, messageUser) + sizeof(void*);
+  return hasCallback ? Messages{info->onMessage, info->messageUser} : Messages{};
 }
 
 // The calls that make an object: *handle is null unless they succeed.
@@ -140,7 +93,7 @@ FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** cont
     return FROTH_ERROR_ARGUMENT;
   }
   *context = nullptr;
-  const Messages messages = info ? Messages{info->onMessage, info->messageUser} : Messages{};
+  const Messages messages = messagesOf(info);
   return guard(messages, __func__, [&](const char* call) {
     FrothContextInfo known;
     FrothResult result = readInput(messages, call, info, known);
@@ -148,7 +101,7 @@ FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** cont
       return result;
     }
     auto created = std::make_unique<FrothContext>();
-    result = created->create(known);
+    result = created->create(known, call);
     if (result == FROTH_OK) {
       *context = created.release();
     }
@@ -156,8 +109,42 @@ FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** cont
   });
 }
 
-void frothDestroyContext(FrothContext* context) {
+FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial) {
+  if (context && !context->isDone(completedSerial)) {
+    return FROTH_PENDING;
+  }
   delete context;
+  return FROTH_OK;
+}
+
+FrothResult frothSetBudget(FrothContext* context, uint64_t bytes) {
+  return guard(context, __func__, [&](const char*) {
+    context->setBudget(bytes);
+    return FROTH_OK;
+  });
+}
+
+FrothResult frothGetMemoryReport(FrothContext* context, FrothMemoryReport* report) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothMemoryReport known{};
+    context->describeMemory(known);
+    return writeOutput(context->messages, call, known, report);
+  });
+}
+
+FrothResult frothDeviceLost(FrothContext* context) {
+  return guard(context, __func__, [&](const char*) {
+    context->loseDevice();
+    return FROTH_OK;
+  });
+}
+
+FrothResult frothRestoreDevice(FrothContext* context, const FrothContextInfo* info) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothContextInfo known;
+    const FrothResult result = readInput(context->messages, call, info, known);
+    return result == FROTH_OK ? context->restoreDevice(known, call) : result;
+  });
 }
 
 FrothResult frothOpenAsset(FrothContext* context, const FrothAssetInfo* info, FrothAsset* asset) {

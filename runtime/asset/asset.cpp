@@ -66,12 +66,13 @@ GpuBufferSet::~GpuBufferSet() {
   }
 }
 
-Asset::Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device)
+Asset::Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device, bool bytesStay)
     : isFile_(!path.empty()),
       name_(isFile_ ? std::move(path) : "asset in memory"),
       bytes_(bytes),
       lastLayer_(lastLayer),
-      device_(device) {
+      device_(device),
+      bytesStay_(bytesStay) {
   if (device) {
     buffers_ = std::make_shared<GpuBufferSet>(*device);
   }
@@ -84,24 +85,26 @@ void Asset::load(RenderPipelines* pipelines, const Messages& messages) {
   try {
     if (!reader_) {
       if (const Status status = openReader(); !status) {
-        const bool isNewer = status.error().kind == ErrorKind::kUnsupported;
-        return fail(isNewer ? FROTH_ERROR_VERSION : FROTH_ERROR_FILE, status.error().message, messages);
+        return fail(status.error(), messages);
       }
     }
     Result<ChunkContents> contents = reader_->readChunk(nextChunk_);
     if (!contents) {
-      return fail(FROTH_ERROR_FILE, contents.error().message, messages);
+      return fail(contents.error(), messages);
     }
     if (const Status status = placeChunk(std::move(*contents)); !status) {
-      return fail(FROTH_ERROR_MEMORY, status.error().message, messages);
+      return fail(status.error(), messages);
     }
     if (++nextChunk_ < description_.chunkCount) {
       return;
     }
+    if (queryFoam_) {
+      queryFoam_->finish();
+    }
     reader_.reset();
     if (pipelines) {
       if (const Status status = pipelines->prepareFor(gpu_); !status) {
-        return fail(FROTH_ERROR_DEVICE, status.error().message, messages);
+        return fail(status.error(), messages);
       }
     }
     isDecoded_ = true;
@@ -110,13 +113,38 @@ void Asset::load(RenderPipelines* pipelines, const Messages& messages) {
   }
 }
 
-void Asset::fail(FrothResult code, const std::string& text, const Messages& messages) {
-  // The reader's texts begin with the name, which the message has as its object.
-  const std::string prefix = name_ + ": ";
-  const size_t start = text.starts_with(prefix) ? prefix.size() : 0;
-  error_ = messages.fail(code, name_.c_str(), "%s", text.c_str() + start);
+void Asset::fail(FrothResult code, const char* text, const Messages& messages) {
+  error_ = messages.fail(code, name_.c_str(), "%s", text);
   reader_.reset();
   arrays_.clear();
+}
+
+void Asset::fail(const Error& error, const Messages& messages) {
+  if (device_ && device_->loss) {
+    return;  // not the asset's fault: frothUpdate tells, and restart() follows
+  }
+  // The reader's texts begin with the name, which the message has as its object.
+  const std::string_view text = error.message;
+  const bool hasName = text.starts_with(name_) && text.substr(name_.size()).starts_with(": ");
+  fail(resultOf(error), error.message.c_str() + (hasName ? name_.size() + 2 : 0), messages);
+}
+
+void Asset::restart(const Messages& messages) {
+  reader_.reset();
+  nextChunk_ = 0;
+  arrays_.clear();
+  isDecoded_ = false;
+  error_ = FROTH_OK;
+  description_ = {};
+  flightPath_.clear();
+  gpu_ = {};
+  queryFoam_.reset();
+  buffers_ = device_ ? std::make_shared<GpuBufferSet>(*device_) : nullptr;
+  if (!isFile_ && !bytesStay_) {
+    fail(FROTH_ERROR_STATE,
+         "its bytes are not there any more to load it again; set FrothAssetInfo::bytesStay, or close and open it",
+         messages);
+  }
 }
 
 Status Asset::openReader() {
@@ -128,6 +156,9 @@ Status Asset::openReader() {
   const AssetContents& manifest = reader->manifest();
   description_ = describeManifest(manifest);
   gpu_ = describeShape(manifest);
+  if (keepsForQueries_) {
+    queryFoam_.emplace(manifest);
+  }
   std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_),
                  toApi);
   reader_ = std::move(*reader);
@@ -148,6 +179,9 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   gpu_.cellCount += chunk.cellCount;
   gpu_.alphaTotal += chunk.alphaTotal;
   gpu_.neighbourTotal += chunk.neighbourCount;
+  if (queryFoam_) {
+    queryFoam_->addChunk(contents);
+  }
   if (!device_) {
     return {};
   }
@@ -182,12 +216,13 @@ Status Asset::placeArray(std::vector<T>&& values, const char* purpose, VkDeviceA
   const VkDeviceSize size = values.size() * sizeof(T);
   const std::string fullPurpose =
       "chunk " + std::to_string(gpu_.chunks.size() - 1) + ", array '" + purpose + "'";
-  const Result<GpuBuffer> buffer = device_->createBuffer(BufferKind::kDevice, size, fullPurpose.c_str());
+  buffers_->buffers.reserve(buffers_->buffers.size() + 1);  // so that what is made has its place
+  const Result<GpuBuffer> buffer = device_->createBuffer(MemoryUse::kAssets, BufferKind::kDevice, size, fullPurpose.c_str());
   if (!buffer) {
     return buffer.error();
   }
   buffers_->buffers.push_back(*buffer);
-  addMemory(purpose, buffer->allocatedSize);
+  addMemory(purpose, buffer->memory.granted);
   address = buffer->address;
   const auto owner = std::make_shared<const std::vector<T>>(std::move(values));
   arrays_.push_back({std::shared_ptr<const void>(owner, owner->data()), buffer->buffer, size, 0});
@@ -257,8 +292,9 @@ std::span<const GpuBuffer> Asset::buffers() const {
 FrothAssetStatus Asset::describe() const {
   FrothAssetStatus description = description_;
   description.error = error_;
+  description.hostBytes = queryFoam_ ? queryFoam_->bytes() : 0;
   for (const GpuBuffer& buffer : buffers()) {
-    description.deviceBytes += buffer.allocatedSize;
+    description.deviceBytes += buffer.memory.granted;
   }
   return description;
 }

@@ -15,6 +15,7 @@
 #include "runtime/core/device.h"
 #include "runtime/core/messages.h"
 #include "runtime/core/upload_ring.h"
+#include "runtime/query/query_foam.h"
 #include "runtime/render/pipelines.h"
 
 namespace froth {
@@ -34,9 +35,14 @@ struct GpuBufferSet {
 // next. One thread at a time.
 class Asset {
  public:
-  // `path` empty: the asset is `bytes`, which the caller keeps until loading has ended. Layers behind
-  // `lastLayer` are not read. `device` null: decodes and checks, and keeps nothing.
-  Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device);
+  // `path` empty: the asset is `bytes`, which the caller keeps until loading has ended; if they stay for as long as the
+  // asset, it can be loaded again. Layers behind `lastLayer` are not read. `device` null: decodes and checks, and keeps
+  // nothing.
+  Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device, bool bytesStay = false);
+
+  // Before the first load(): queryFoam() will be there.
+  void keepForQueries() { keepsForQueries_ = true; }
+  bool keepsForQueries() const { return keepsForQueries_; }
 
   // At most one chunk's work. An error ends the asset: one message, hasFailed().
   void load(RenderPipelines* pipelines, const Messages& messages);
@@ -49,11 +55,16 @@ class Asset {
   uint64_t queuedBytes() const;  // decoded, not staged
 
   const GpuAsset& gpu() const { return gpu_; }
+  // Whole once isDecoded(); null: not kept.
+  const QueryFoam* queryFoam() const { return queryFoam_ ? &*queryFoam_ : nullptr; }
   std::span<const GpuBuffer> buffers() const;  // of gpu()'s arrays
   const std::string& name() const { return name_; }
   // Counts, bounds, cameras; zero before the manifest is read. The state is the context's to tell.
   FrothAssetStatus describe() const;
   std::span<const FrothStoredCamera> flightPath() const { return flightPath_; }
+
+  // The device is gone: frees what lay on it, and begins again. Fails an asset whose bytes are not there any more.
+  void restart(const Messages& messages);
 
   // Takes the buffers out, to be freed once the GPU is done with them.
   std::shared_ptr<GpuBufferSet> releaseBuffers() { return std::move(buffers_); }
@@ -72,13 +83,16 @@ class Asset {
   Status placeArray(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address);
   void addMemory(const char* name, uint64_t bytes);
   void growBounds(const ChunkContents& contents);
-  void fail(FrothResult code, const std::string& text, const Messages& messages);
+  void fail(FrothResult code, const char* text, const Messages& messages);
+  void fail(const Error& error, const Messages& messages);
 
   bool isFile_;
   std::string name_;
   std::span<const uint8_t> bytes_;
   Layer lastLayer_;
   Device* device_;
+  bool bytesStay_;
+  bool keepsForQueries_ = false;
 
   std::optional<AssetReader> reader_;  // while loading
   uint32_t nextChunk_ = 0;
@@ -89,6 +103,7 @@ class Asset {
   FrothAssetStatus description_{};
   std::vector<FrothStoredCamera> flightPath_;
   GpuAsset gpu_;
+  std::optional<QueryFoam> queryFoam_;
   std::shared_ptr<GpuBufferSet> buffers_;
 };
 

@@ -68,7 +68,7 @@ class CellPacker {
       const uint64_t start = bits_.startByte();
       if (start > UINT32_MAX) {
         return makeError(
-            ErrorKind::kUnsupported,
+            ErrorKind::kMemory,
             "the cells of one chunk need more than 4 GiB on the GPU; bake the scene in smaller chunks");
       }
       packed.starts.push_back(static_cast<uint32_t>(start));

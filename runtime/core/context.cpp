@@ -1,76 +1,18 @@
+// Assets, instances, views: checked, made, described, given up.
 #include "runtime/core/context.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/core/render_info.h"
-#include "runtime/core/requirements.h"
 
 namespace froth {
 namespace {
 
-constexpr VkDeviceSize kUploadRingBytes = 64u << 20;
-constexpr uint32_t kDefaultFramesInFlight = 2, kMaxFramesInFlight = 8;
 constexpr uint32_t kMaxViewExtent = 16384;
 constexpr uint32_t kLayerCount = 3;
 constexpr double kUnitQuaternionTolerance = 1e-3;  // as for a camera's rotation
 
 }  // namespace
-
-FrothResult Context::create(const FrothContextInfo& info) {
-  messages = {info.onMessage, info.messageUser};
-  constexpr const char* kCall = "frothCreateContext";
-  if (info.abiVersion >> 16 != FROTH_ABI_VERSION >> 16) {
-    return messages.fail(
-        FROTH_ERROR_VERSION, kCall,
-        "abiVersion: 0x%08x, this library is 0x%08x; compile with the header of this library",
-        info.abiVersion, FROTH_ABI_VERSION);
-  }
-  if (info.framesInFlight > kMaxFramesInFlight) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "framesInFlight: %u; at most %u", info.framesInFlight,
-                         kMaxFramesInFlight);
-  }
-  framesInFlight_ = info.framesInFlight == 0 ? kDefaultFramesInFlight : info.framesInFlight;
-  if (!info.device) {
-    return FROTH_OK;
-  }
-  const char* missing = !info.getInstanceProcAddr ? "getInstanceProcAddr"
-                        : !info.instance          ? "instance"
-                        : !info.physicalDevice    ? "physicalDevice"
-                        : !info.enabledFeatures   ? "enabledFeatures"
-                                                  : nullptr;
-  if (missing) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "%s: null; a context on a device needs it", missing);
-  }
-  if (const Status status = checkContextDevice(info); !status) {
-    return messages.fail(FROTH_ERROR_FEATURE, kCall, "%s", status.error().message.c_str());
-  }
-  Result<Device> device =
-      Device::create(info.getInstanceProcAddr, info.instance, info.physicalDevice, info.device);
-  if (!device) {
-    return messages.fail(FROTH_ERROR_DEVICE, kCall, "%s", device.error().message.c_str());
-  }
-  device_ = *device;
-  device_.budget = info.deviceBudget;
-  Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(device_, kUploadRingBytes);
-  if (!ring) {
-    return messages.fail(FROTH_ERROR_MEMORY, kCall, "%s", ring.error().message.c_str());
-  }
-  ring_ = std::move(*ring);
-  Result<std::unique_ptr<RenderPipelines>> pipelines =
-      RenderPipelines::create(device_, info.pipelineCache, {info.checkIndices != 0, info.countWork != 0});
-  if (!pipelines) {
-    return messages.fail(FROTH_ERROR_DEVICE, kCall, "%s", pipelines.error().message.c_str());
-  }
-  pipelines_ = std::move(*pipelines);
-  return FROTH_OK;
-}
-
-void Context::retire(std::shared_ptr<void> object) {
-  if (object) {
-    retired_.emplace_back(serial_, std::move(object));
-  }
-}
 
 // ---- Assets ----
 
@@ -92,7 +34,10 @@ FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
   const auto lastLayer = static_cast<Layer>((info.layers == 0 ? kLayerCount : info.layers) - 1);
   const std::span<const uint8_t> bytes(static_cast<const uint8_t*>(info.data), hasBytes ? info.dataSize : 0);
   handle = assets_.add(std::make_unique<Asset>(info.path ? info.path : std::string(), bytes, lastLayer,
-                                               isNull() ? nullptr : &device_));
+                                               isNull_ ? nullptr : &device_, info.bytesStay != 0));
+  if (info.keepForQueries) {
+    assets_.find(handle)->keepForQueries();
+  }
   return FROTH_OK;
 }
 
@@ -102,7 +47,7 @@ FrothAssetState Context::stateOf(const Asset& asset) const {
     return FROTH_ASSET_FAILED;
   }
   const bool isUploaded = asset.queuedBytes() == 0 && !(ring_ && ring_->isStaged(&asset));
-  return asset.isDecoded() && isUploaded ? FROTH_ASSET_READY : FROTH_ASSET_OPENING;
+  return asset.isDecoded() && isUploaded && !isLost_ ? FROTH_ASSET_READY : FROTH_ASSET_OPENING;
 }
 
 FrothResult Context::describeAsset(FrothAsset handle, FrothAssetStatus& status) const {
@@ -148,7 +93,8 @@ FrothResult Context::closeAsset(FrothAsset handle) {
   if (ring_) {
     ring_->forget(asset);
   }
-  retire(std::shared_ptr<Asset>(assets_.remove(handle)));
+  retired_.reserve(retired_.size() + 1);
+  retire(assets_.remove(handle));
   return FROTH_OK;
 }
 
@@ -226,17 +172,30 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   }
   auto view = std::make_unique<View>();
   view->maxExtent = extent;
-  if (!isNull()) {
-    const bool canMeasure = device_.properties.limits.timestampComputeAndGraphics;
-    Result<std::unique_ptr<ViewRenderer>> renderer =
-        ViewRenderer::create(device_, extent, info.measurePasses != 0 && canMeasure, framesInFlight_);
-    if (!renderer) {
-      return messages.fail(FROTH_ERROR_MEMORY, "frothCreateView", "%s", renderer.error().message.c_str());
-    }
-    view->renderer = std::move(*renderer);
+  view->measurePasses = info.measurePasses != 0;
+  if (const Status status = createRenderer(*view); !status) {
+    return messages.fail(status.error(), "frothCreateView");
   }
   handle = views_.add(std::move(view));
   return FROTH_OK;
+}
+
+Status Context::createRenderer(View& view) {
+  if (!device_.device) {
+    return {};
+  }
+  const bool canMeasure = device_.properties.limits.timestampComputeAndGraphics;
+  if (view.measurePasses && !canMeasure) {
+    messages.warn(FROTH_ERROR_FEATURE, "view",
+                  "measurePasses: the device lacks timestampComputeAndGraphics; FrothViewStatus::passes stays empty");
+  }
+  Result<std::unique_ptr<ViewRenderer>> renderer =
+      ViewRenderer::create(device_, view.maxExtent, view.measurePasses && canMeasure, framesInFlight_);
+  if (!renderer) {
+    return renderer.error();
+  }
+  view.renderer = std::move(*renderer);
+  return {};
 }
 
 FrothResult Context::describeView(FrothView handle, FrothViewStatus& status) const {
@@ -257,7 +216,8 @@ FrothResult Context::destroyView(FrothView handle) {
     return messages.fail(FROTH_ERROR_HANDLE, "frothDestroyView", "view {%u, %u}: destroyed or never created",
                          handle.index, handle.generation);
   }
-  retire(std::shared_ptr<View>(views_.remove(handle)));
+  retired_.reserve(retired_.size() + 1);
+  retire(views_.remove(handle));
   return FROTH_OK;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "runtime/core/handles.h"
 #include "runtime/core/messages.h"
 #include "runtime/core/upload_ring.h"
+#include "runtime/query/placement.h"
 #include "runtime/render/pipelines.h"
 #include "runtime/render/view_renderer.h"
 
@@ -27,7 +29,14 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  FrothResult create(const FrothContextInfo& info);
+  FrothResult create(const FrothContextInfo& info, const char* call);
+  bool isDone(uint64_t completedSerial) const;  // no frame beyond it is in flight
+
+  void setBudget(uint64_t bytes);
+  void describeMemory(FrothMemoryReport& report) const;
+
+  void loseDevice();
+  FrothResult restoreDevice(const FrothContextInfo& info, const char* call);
 
   FrothResult openAsset(const FrothAssetInfo& info, FrothAsset& handle);
   FrothResult describeAsset(FrothAsset handle, FrothAssetStatus& status) const;
@@ -49,6 +58,11 @@ class Context {
   FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
                      FrothRenderInfo info);
 
+  // Queries; const, so that any number of threads may ask (runtime/query/context_queries.cpp).
+  FrothResult castRays(FrothCastInfo info, std::span<const FrothRay> rays, FrothRayHit* hits) const;
+  FrothResult locate(FrothInstance handle, const double (&point)[3], FrothLocation& location) const;
+  FrothResult overlapSphere(FrothSphere sphere, FrothContact& contact) const;
+
   const Asset* findAsset(FrothAsset handle) const { return assets_.find(handle); }  // null: stale
 
   Messages messages;
@@ -60,7 +74,8 @@ class Context {
   };
   struct View {
     VkExtent2D maxExtent{};
-    std::unique_ptr<ViewRenderer> renderer;  // null: null context
+    bool measurePasses = false;
+    std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
     const GpuAsset* preparedFor = nullptr;   // in the newest frothUpdate
     std::string preparationError;            // sent already
     uint64_t renderedSerials[2] = {0, 0};    // newest frame per RenderMethod
@@ -68,22 +83,32 @@ class Context {
         bits;  // recorded frames that left something out: serial, FrothViewBit
   };
 
-  bool isNull() const { return device_.device == VK_NULL_HANDLE; }
+  FrothResult checkInfo(const FrothContextInfo& info, const char* call) const;
+  Status createDeviceObjects(const FrothContextInfo& info);
+  FrothResult checkDevice(const char* call) const;  // of calls that a lost device cannot serve
+  Status createRenderer(View& view);
+  void shrinkViews();
   FrothAssetState stateOf(const Asset& asset) const;
+  // Instances that queries see; why others were left out, as FrothQueryBit.
+  std::vector<PlacedFoam> gatherFoams(uint32_t& bits) const;
   FrothResult readPlacement(const FrothInstanceInfo& info, const char* call, Instance& instance) const;
   FrothResult beginFrame(const FrothFrame& frame);
+  void runFrame(FrothFrameStatus& status);
   void loadAssets();
   void prepareView(View& view);
   FrothResult chooseInstance(const View& view, const char* call, const Instance*& chosen,
                              uint32_t& bits) const;
-  // Frees `object` once all frames that may use it are complete.
+  // Frees `object` once all frames that may use it are complete. retired_ has room for it.
   void retire(std::shared_ptr<void> object);
 
   // What is declared later goes first, and needs what is declared earlier.
   Device device_;
+  bool isNull_ = false;        // no device, for good
+  bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
+  bool isExcessTold_ = false;  // of this budget
   uint32_t framesInFlight_ = 2;
-  std::unique_ptr<UploadRing> ring_;            // null: null context
-  std::unique_ptr<RenderPipelines> pipelines_;  // null: null context
+  std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
+  std::unique_ptr<RenderPipelines> pipelines_;  // the same
   HandlePool<Asset, FrothAsset> assets_;
   HandlePool<Instance, FrothInstance> instances_;
   HandlePool<View, FrothView> views_;

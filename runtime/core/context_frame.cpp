@@ -36,14 +36,38 @@ FrothResult Context::beginFrame(const FrothFrame& frame) {
 }
 
 FrothResult Context::update(const FrothFrame& frame, FrothFrameStatus& status) {
+  constexpr const char* kCall = "frothUpdate";
+  if (const FrothResult result = checkDevice(kCall); result != FROTH_OK) {
+    return result;
+  }
+  const uint64_t previousSerial = serial_;
   if (const FrothResult result = beginFrame(frame); result != FROTH_OK) {
     return result;
   }
+  const auto takeBack = [&] {  // the frame has not begun
+    serialsInFlight_.pop_back();
+    serial_ = previousSerial;
+  };
+  try {
+    runFrame(status);
+  } catch (...) {
+    takeBack();
+    throw;
+  }
+  if (device_.loss) {
+    takeBack();
+    return messages.fail(*device_.loss, kCall);
+  }
+  return FROTH_OK;
+}
+
+void Context::runFrame(FrothFrameStatus& status) {
   std::erase_if(retired_, [&](const auto& retired) { return retired.first <= completedSerial_; });
   if (ring_) {
     ring_->retire(completedSerial_);
   }
   loadAssets();
+  shrinkViews();
   views_.forEach([&](View& view) { prepareView(view); });
 
   assets_.forEach([&](const Asset& asset) {
@@ -51,13 +75,25 @@ FrothResult Context::update(const FrothFrame& frame, FrothFrameStatus& status) {
     status.uploadBytesQueued += asset.queuedBytes();
   });
   status.uploadBytesQueued += ring_ ? ring_->stagedBytes() : 0;
-  status.deviceBytes = device_.deviceBytes;
-  status.hostBytes = device_.hostBytes;
-  return FROTH_OK;
+  status.deviceBytes = device_.ledger.deviceBytes();
+  status.hostBytes = device_.ledger.hostBytes();
+  status.excessBytes = device_.excessBytes();
+}
+
+bool Context::isDone(uint64_t completedSerial) const {
+  return std::all_of(serialsInFlight_.begin(), serialsInFlight_.end(),
+                     [&](uint64_t serial) { return serial <= completedSerial; });
+}
+
+void Context::retire(std::shared_ptr<void> object) {
+  if (object) {
+    retired_.emplace_back(serial_, std::move(object));
+  }
 }
 
 void Context::loadAssets() {
   assets_.forEach([&](Asset& asset) {
+    retired_.reserve(retired_.size() + 1);
     asset.load(pipelines_.get(), messages);
     if (asset.hasFailed() && ring_) {
       ring_->forget(&asset);
@@ -72,6 +108,7 @@ void Context::prepareView(View& view) {
   }
   std::erase_if(view.bits,
                 [&](const auto& recorded) { return recorded.first < view.renderer->status().serial; });
+  view.bits.reserve(view.bits.size() + 2);  // a raster and a walk of this frame
   view.preparedFor = nullptr;
   instances_.forEach([&](const Instance& instance) {
     const Asset* asset = assets_.find(instance.asset);
@@ -80,14 +117,14 @@ void Context::prepareView(View& view) {
     }
   });
   const Status status = view.renderer->prepare(completedSerial_, view.preparedFor);
-  if (status) {
+  if (status || device_.loss) {  // of the loss frothUpdate tells
     view.preparationError.clear();
     return;
   }
   // The view keeps the buffers it had: it goes on drawing what they hold.
   if (view.preparationError != status.error().message) {  // once, not in every frame
     view.preparationError = status.error().message;
-    messages.fail(FROTH_ERROR_MEMORY, "view", "%s", view.preparationError.c_str());
+    messages.fail(status.error(), "view");
   }
 }
 
@@ -95,8 +132,8 @@ FrothResult Context::recordUpload(VkCommandBuffer commandBuffer) {
   if (serial_ == 0) {
     return messages.fail(FROTH_ERROR_STATE, "frothRecordUpload", "no frame; call frothUpdate first");
   }
-  if (isNull()) {
-    return FROTH_OK;
+  if (const FrothResult result = checkDevice("frothRecordUpload"); result != FROTH_OK || isNull_) {
+    return result;
   }
   if (!commandBuffer) {
     return messages.fail(FROTH_ERROR_ARGUMENT, "frothRecordUpload", "commandBuffer: null");
@@ -152,7 +189,7 @@ FrothResult Context::chooseInstance(const View& view, const char* call, const In
                          "%u instances are ready; this version draws one per view", readyCount);
   }
   // An instance that came after frothUpdate: the view has no buffers for it before the next one.
-  if (chosen && !isNull() && view.preparedFor != &assets_.find(chosen->asset)->gpu()) {
+  if (chosen && !isNull_ && view.preparedFor != &assets_.find(chosen->asset)->gpu()) {
     chosen = nullptr;
     bits |= FROTH_VIEW_NOT_READY;
   }
@@ -166,6 +203,9 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   if (!view) {
     return messages.fail(FROTH_ERROR_HANDLE, call, "view {%u, %u}: destroyed or never created", handle.index,
                          handle.generation);
+  }
+  if (const FrothResult result = checkDevice(call); result != FROTH_OK) {
+    return result;
   }
   if (serial_ == 0) {
     return messages.fail(FROTH_ERROR_STATE, call, "no frame; call frothUpdate first");
@@ -183,7 +223,7 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   const Instance* instance = nullptr;
   uint32_t bits = 0;
   if (const FrothResult result = chooseInstance(*view, call, instance, bits);
-      result != FROTH_OK || isNull()) {
+      result != FROTH_OK || isNull_) {
     return result;
   }
   if (!commandBuffer) {

@@ -1,7 +1,9 @@
 #include "runtime/core/device.h"
 
 #include <algorithm>
-#include <optional>
+#include <cstdarg>
+#include <cstdio>
+#include <utility>
 
 namespace froth {
 namespace {
@@ -31,8 +33,8 @@ KindTraits traitsOf(BufferKind kind) {
 }
 
 std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowedTypes,
-                                       const KindTraits& traits) {
-  for (const VkMemoryPropertyFlags wanted : {traits.required | traits.preferred, traits.required}) {
+                                       const MemoryWish& wish) {
+  for (const VkMemoryPropertyFlags wanted : {wish.required | wish.preferred, wish.required}) {
     for (uint32_t type = 0; type < memory.memoryTypeCount; ++type) {
       const bool isAllowed = (allowedTypes >> type & 1) != 0;
       if (isAllowed && (memory.memoryTypes[type].propertyFlags & wanted) == wanted) {
@@ -47,6 +49,15 @@ unsigned long long asPrinted(VkDeviceSize bytes) {
   return bytes;
 }
 
+// Destroyed unless it is taken.
+struct NewBuffer {
+  ~NewBuffer() { device.destroyBuffer(buffer); }
+  GpuBuffer take() { return std::exchange(buffer, {}); }
+
+  Device& device;
+  GpuBuffer buffer;
+};
+
 }  // namespace
 
 Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
@@ -59,7 +70,7 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
       getInstanceProcAddr(instance, "vkGetPhysicalDeviceMemoryProperties"));
   if (!getDeviceProcAddr || !getProperties || !getMemoryProperties) {
     return makeError(
-        ErrorKind::kUnsupported,
+        ErrorKind::kDevice,
         "vkGetInstanceProcAddr: gives no vkGetPhysicalDeviceProperties2 for this instance; create the "
         "instance with VkApplicationInfo::apiVersion of at least 1.3");
   }
@@ -69,7 +80,7 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
 #define FROTH_LOAD(name)                                                                              \
   result.table.name = reinterpret_cast<PFN_##name>(getDeviceProcAddr(device, #name));                 \
   if (!result.table.name) {                                                                           \
-    return makeError(ErrorKind::kUnsupported,                                                         \
+    return makeError(ErrorKind::kDevice,                                                              \
                      "vkGetDeviceProcAddr: gives no " #name "; the device must be a Vulkan 1.3 one"); \
   }
   FROTH_DEVICE_FUNCTIONS(FROTH_LOAD)
@@ -87,78 +98,50 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
   return result;
 }
 
-Result<GpuBuffer> Device::createBuffer(BufferKind kind, VkDeviceSize size, const char* purpose) {
+Result<GpuBuffer> Device::createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose,
+                                       bool mayExceedBudget) {
   if (size > maxAllocationSize) {
     return makeError(
-        ErrorKind::kUnsupported,
+        ErrorKind::kMemory,
         "%s: %llu bytes, but this device allocates at most %llu at once; use a smaller asset or view",
         purpose, asPrinted(size), asPrinted(maxAllocationSize));
   }
+  const KindTraits traits = traitsOf(kind);
   VkBufferCreateInfo bufferInfo{};
   bufferInfo.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   bufferInfo.size = size;
-  bufferInfo.usage = traitsOf(kind).usage;
-  GpuBuffer buffer;
-  buffer.kind = kind;
-  buffer.size = size;
-  if (const VkResult result = table.vkCreateBuffer(device, &bufferInfo, nullptr, &buffer.buffer);
+  bufferInfo.usage = traits.usage;
+  NewBuffer made{*this, {}};
+  made.buffer.kind = kind;
+  made.buffer.size = size;
+  if (const VkResult result = table.vkCreateBuffer(device, &bufferInfo, nullptr, &made.buffer.buffer);
       result != VK_SUCCESS) {
-    return makeError(ErrorKind::kUnsupported, "%s: vkCreateBuffer of %llu bytes gives VkResult %d", purpose,
-                     asPrinted(size), result);
+    return explain(result, "%s: vkCreateBuffer of %llu bytes", purpose, asPrinted(size));
   }
-  if (const Status status = bindMemory(buffer, purpose); !status) {
-    destroyBuffer(buffer);
+  const VkMemoryAllocateFlags flags = traits.hasAddress ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
+  if (const Status status = bindMemory(
+          made.buffer, {use, traits.required, traits.preferred, flags, purpose, mayExceedBudget});
+      !status) {
     return status.error();
   }
-  return buffer;
+  return made.take();
 }
 
-Status Device::bindMemory(GpuBuffer& buffer, const char* purpose) {
-  const KindTraits traits = traitsOf(buffer.kind);
+Status Device::bindMemory(GpuBuffer& buffer, const MemoryWish& wish) {
   VkMemoryRequirements requirements{};
   table.vkGetBufferMemoryRequirements(device, buffer.buffer, &requirements);
-  const bool isCharged = buffer.kind == BufferKind::kDevice && budget != 0;
-  if (isCharged && requirements.size > budget - std::min(budget, deviceBytes)) {
-    return makeError(ErrorKind::kUnsupported,
-                     "%s: %llu bytes do not fit the device budget: %llu of %llu bytes are in use; raise "
-                     "FrothContextInfo::deviceBudget by %llu bytes or close another asset or view",
-                     purpose, asPrinted(requirements.size), asPrinted(deviceBytes), asPrinted(budget),
-                     asPrinted(requirements.size - (budget - std::min(budget, deviceBytes))));
+  const Result<MemoryBlock> block = allocate(requirements, buffer.size, wish);
+  if (!block) {
+    return block.error();
   }
-  const std::optional<uint32_t> type = findMemoryType(memory, requirements.memoryTypeBits, traits);
-  if (!type) {
-    return makeError(ErrorKind::kUnsupported, "%s: no memory type of this device fits (allowed types 0x%x)",
-                     purpose, requirements.memoryTypeBits);
-  }
-
-  VkMemoryAllocateFlagsInfo flags{};
-  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
-  flags.flags = traits.hasAddress ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
-  VkMemoryAllocateInfo allocation{};
-  allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-  allocation.pNext = &flags;
-  allocation.allocationSize = requirements.size;
-  allocation.memoryTypeIndex = *type;
-  if (const VkResult result = table.vkAllocateMemory(device, &allocation, nullptr, &buffer.memory);
+  buffer.memory = *block;
+  buffer.mapped = block->place.mapped;
+  if (const VkResult result =
+          table.vkBindBufferMemory(device, buffer.buffer, block->place.memory, block->place.offset);
       result != VK_SUCCESS) {
-    return makeError(
-        ErrorKind::kUnsupported,
-        "%s: vkAllocateMemory of %llu bytes gives VkResult %d with %llu bytes in use; close another asset "
-        "or view",
-        purpose, asPrinted(requirements.size), result, asPrinted(deviceBytes));
+    return explain(result, "%s: vkBindBufferMemory of %llu bytes", wish.purpose, asPrinted(requirements.size));
   }
-  buffer.allocatedSize = requirements.size;
-  (buffer.kind == BufferKind::kDevice ? deviceBytes : hostBytes) += buffer.allocatedSize;
-
-  VkResult result = table.vkBindBufferMemory(device, buffer.buffer, buffer.memory, 0);
-  if (result == VK_SUCCESS && buffer.kind != BufferKind::kDevice) {
-    result = table.vkMapMemory(device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped);
-  }
-  if (result != VK_SUCCESS) {
-    return makeError(ErrorKind::kUnsupported, "%s: binding %llu bytes of memory gives VkResult %d", purpose,
-                     asPrinted(requirements.size), result);
-  }
-  if (traits.hasAddress) {
+  if (wish.flags & VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT) {
     VkBufferDeviceAddressInfo addressInfo{};
     addressInfo.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
     addressInfo.buffer = buffer.buffer;
@@ -168,10 +151,113 @@ Status Device::bindMemory(GpuBuffer& buffer, const char* purpose) {
 }
 
 void Device::destroyBuffer(GpuBuffer& buffer) {
-  (buffer.kind == BufferKind::kDevice ? deviceBytes : hostBytes) -= buffer.allocatedSize;
   table.vkDestroyBuffer(device, buffer.buffer, nullptr);
-  table.vkFreeMemory(device, buffer.memory, nullptr);  // unmaps
+  release(buffer.memory);
   buffer = {};
+}
+
+// ---- Memory ----
+
+VkDeviceSize Device::excessBytes() const {
+  const VkDeviceSize held = ledger.deviceBytes();
+  return budget != 0 && held > budget ? held - budget : 0;
+}
+
+Status Device::checkBudget(VkDeviceSize size, const MemoryWish& wish) const {
+  const VkDeviceSize held = ledger.deviceBytes();
+  const VkDeviceSize room = budget - std::min(budget, held);
+  if (budget == 0 || isHostUse(wish.use) || wish.mayExceedBudget || size <= room) {
+    return {};
+  }
+  return makeError(ErrorKind::kMemory,
+                   "%s: %llu bytes do not fit the device budget: %llu of %llu bytes are in use; raise "
+                   "FrothContextInfo::deviceBudget by %llu bytes (frothSetBudget), or close another asset or view",
+                   wish.purpose, asPrinted(size), asPrinted(held), asPrinted(budget), asPrinted(size - room));
+}
+
+Result<MemoryBlock> Device::allocate(const VkMemoryRequirements& requirements, VkDeviceSize used,
+                                     const MemoryWish& wish) {
+  if (const Status status = checkBudget(requirements.size, wish); !status) {
+    return status.error();
+  }
+  const std::optional<uint32_t> type = findMemoryType(memory, requirements.memoryTypeBits, wish);
+  if (!type) {
+    return makeError(ErrorKind::kDevice, "%s: no memory type of this device fits (allowed types 0x%x)",
+                     wish.purpose, requirements.memoryTypeBits);
+  }
+  FrothMemoryRequest request{};
+  request.structSize = sizeof(request);
+  request.requirements = requirements;
+  request.memoryTypeIndex = *type;
+  request.allocateFlags = wish.flags;
+  request.isMapped = isHostUse(wish.use);
+  request.purpose = wish.purpose;
+  MemoryBlock block{.place = {}, .granted = requirements.size, .used = used, .use = wish.use};
+  const VkResult result = callbacks.allocate ? callbacks.allocate(callbacks.user, &request, &block.place)
+                                             : allocateOwn(request, block.place);
+  if (result != VK_SUCCESS) {
+    return explain(result, "%s: %s of %llu bytes, with %llu bytes in use,", wish.purpose,
+                   callbacks.allocate ? "FrothContextInfo::allocateMemory" : "vkAllocateMemory",
+                   asPrinted(requirements.size), asPrinted(ledger.deviceBytes()));
+  }
+  ledger.add(block);
+  return block;
+}
+
+VkResult Device::allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place) {
+  VkMemoryAllocateFlagsInfo flags{};
+  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+  flags.flags = request.allocateFlags;
+  VkMemoryAllocateInfo allocation{};
+  allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  allocation.pNext = &flags;
+  allocation.allocationSize = request.requirements.size;
+  allocation.memoryTypeIndex = request.memoryTypeIndex;
+  VkResult result = table.vkAllocateMemory(device, &allocation, nullptr, &place.memory);
+  if (result == VK_SUCCESS && request.isMapped) {
+    result = table.vkMapMemory(device, place.memory, 0, VK_WHOLE_SIZE, 0, &place.mapped);
+    if (result != VK_SUCCESS) {
+      table.vkFreeMemory(device, place.memory, nullptr);
+    }
+  }
+  return result;
+}
+
+void Device::release(MemoryBlock& block) {
+  if (!block.place.memory) {
+    return;
+  }
+  ledger.remove(block);
+  if (callbacks.free) {
+    callbacks.free(callbacks.user, &block.place);
+  } else {
+    table.vkFreeMemory(device, block.place.memory, nullptr);  // unmaps
+  }
+  block = {};
+}
+
+Error Device::explain(VkResult result, const char* format, ...) {
+  char text[512];
+  va_list args;
+  va_start(args, format);
+  std::vsnprintf(text, sizeof(text), format, args);
+  va_end(args);
+  switch (result) {
+    case VK_ERROR_DEVICE_LOST:
+      loss = makeError(ErrorKind::kDevice,
+                       "%s gives VK_ERROR_DEVICE_LOST; call frothDeviceLost, then frothRestoreDevice", text);
+      return *loss;
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+    case VK_ERROR_TOO_MANY_OBJECTS:
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+    case VK_ERROR_FRAGMENTED_POOL:
+    case VK_ERROR_MEMORY_MAP_FAILED:
+      return makeError(ErrorKind::kMemory, "%s gives VkResult %d: memory is exhausted; close another asset or view",
+                       text, result);
+    default:
+      return makeError(ErrorKind::kDevice, "%s gives VkResult %d; update the device's driver", text, result);
+  }
 }
 
 void DeviceTable::recordMemoryBarrier(VkCommandBuffer commandBuffer, VkPipelineStageFlags2 fromStage,

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <optional>
 
 #include <vulkan/vulkan_core.h>
 
 #include "format/result.h"
+#include "runtime/core/device_memory.h"
 
 namespace froth {
 
@@ -44,12 +45,27 @@ enum class BufferKind {
 
 struct GpuBuffer {
   VkBuffer buffer = VK_NULL_HANDLE;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
+  MemoryBlock memory;
   VkDeviceSize size = 0;
   VkDeviceAddress address = 0;  // 0 for kStaging
   void* mapped = nullptr;       // null for kDevice
   BufferKind kind = BufferKind::kDevice;
-  VkDeviceSize allocatedSize = 0;  // what the budget is charged
+};
+
+// What an allocation is for and what memory it wants.
+struct MemoryWish {
+  MemoryUse use;
+  VkMemoryPropertyFlags required, preferred;
+  VkMemoryAllocateFlags flags;
+  const char* purpose;     // for messages
+  bool mayExceedBudget;    // it replaces something larger that goes soon
+};
+
+// The caller's allocator; null: vkAllocateMemory.
+struct MemoryCallbacks {
+  FrothAllocateMemory allocate = nullptr;
+  FrothFreeMemory free = nullptr;
+  void* user = nullptr;
 };
 
 // Owns nothing of the caller's. One thread at a time.
@@ -59,8 +75,20 @@ class Device {
                                VkPhysicalDevice physicalDevice, VkDevice device);
 
   // Fails with a message that names `purpose`, the size and the budget. size > 0.
-  Result<GpuBuffer> createBuffer(BufferKind kind, VkDeviceSize size, const char* purpose);
+  Result<GpuBuffer> createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose,
+                                 bool mayExceedBudget = false);
   void destroyBuffer(GpuBuffer& buffer);  // the GPU must be done with it; resets it to empty
+
+  // `used` of the required bytes will hold something.
+  Result<MemoryBlock> allocate(const VkMemoryRequirements& requirements, VkDeviceSize used, const MemoryWish& wish);
+  void release(MemoryBlock& block);  // resets it to empty
+
+  // The error of a Vulkan call that gave `result`; the text says which call, for what. Remembers a lost device.
+#if defined(__GNUC__)
+  __attribute__((format(printf, 3, 4)))
+#endif
+  Error
+  explain(VkResult result, const char* format, ...);
 
   DeviceTable table;
   VkDevice device = VK_NULL_HANDLE;
@@ -68,11 +96,15 @@ class Device {
   VkPhysicalDeviceMemoryProperties memory{};
   VkDeviceSize maxAllocationSize = 0;  // largest buffer the device promises to accept
   VkDeviceSize budget = 0;             // [bytes] 0: no limit
-  VkDeviceSize deviceBytes = 0;        // held now, kDevice
-  VkDeviceSize hostBytes = 0;          // held now, kStaging and kReadback
+  VkDeviceSize excessBytes() const;    // held beyond the budget
+  MemoryLedger ledger;
+  MemoryCallbacks callbacks;
+  std::optional<Error> loss;  // the call that found the device lost
 
  private:
-  Status bindMemory(GpuBuffer& buffer, const char* purpose);
+  Status checkBudget(VkDeviceSize size, const MemoryWish& wish) const;
+  VkResult allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place);
+  Status bindMemory(GpuBuffer& buffer, const MemoryWish& wish);
 };
 
 }  // namespace froth

@@ -12,7 +12,7 @@ namespace froth {
 template <class T, class Handle>
 class HandlePool {
  public:
-  Handle add(std::unique_ptr<T> object) {
+  Handle add(std::shared_ptr<T> object) {
     uint32_t index = 0;
     while (index < slots_.size() && slots_[index].object) {
       ++index;
@@ -30,7 +30,7 @@ class HandlePool {
   }
 
   // The handle must be live.
-  std::unique_ptr<T> remove(Handle handle) {
+  std::shared_ptr<T> remove(Handle handle) {
     Slot& slot = slots_[handle.index];
     slot.generation = slot.generation == UINT32_MAX ? 1 : slot.generation + 1;
     return std::move(slot.object);
@@ -45,9 +45,19 @@ class HandlePool {
     }
   }
 
+  // visit(handle, object)
+  template <class Visit>
+  void forEachNamed(Visit visit) const {
+    for (uint32_t index = 0; index < slots_.size(); ++index) {
+      if (slots_[index].object) {
+        visit(Handle{index, slots_[index].generation}, *slots_[index].object);
+      }
+    }
+  }
+
  private:
   struct Slot {
-    std::unique_ptr<T> object;
+    std::shared_ptr<T> object;
     uint32_t generation = 1;
   };
   std::vector<Slot> slots_;

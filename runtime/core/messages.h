@@ -1,11 +1,16 @@
 // Sends messages to the caller's callback; never prints.
 #pragma once
 
+#include "format/result.h"
 #include "froth/froth.h"
 
 namespace froth {
 
-// Thread safety: any thread, if the caller's callback allows it.
+// What an error of the format or of Vulkan is to the caller.
+FrothResult resultOf(const Error& error);
+
+// Thread safety: any thread, if the caller's callback allows it. Allocates nothing, so that it can tell that memory is
+// exhausted; texts beyond 4 KiB are cut.
 struct Messages {
   FrothMessageCallback callback = nullptr;  // may be null
   void* user = nullptr;
@@ -16,6 +21,16 @@ struct Messages {
 #endif
   FrothResult
   fail(FrothResult code, const char* object, const char* format, ...) const;
+
+  FrothResult fail(const Error& error, const char* object) const {
+    return fail(resultOf(error), object, "%s", error.message.c_str());
+  }
+
+#if defined(__GNUC__)
+  __attribute__((format(printf, 4, 5)))
+#endif
+  void
+  warn(FrothResult code, const char* object, const char* format, ...) const;
 };
 
 }  // namespace froth

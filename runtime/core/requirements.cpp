@@ -145,7 +145,7 @@ const char* requireFeatures(VkPhysicalDeviceFeatures2& features) {
   return missing;
 }
 
-Status checkContextDevice(const FrothContextInfo& info) {
+FrothResult checkContextDevice(const FrothContextInfo& info, const Messages& messages, const char* call) {
   const FrothRequirements requirements =
       queryRequirements(info.getInstanceProcAddr, info.instance, info.physicalDevice);
   std::string missing;
@@ -156,8 +156,8 @@ Status checkContextDevice(const FrothContextInfo& info) {
     }
   }
   if (!missing.empty()) {
-    return makeError(ErrorKind::kUnsupported,
-                     "the physical device lacks %s; frothGetRequirements tells beforehand", missing.c_str());
+    return messages.fail(FROTH_ERROR_FEATURE, call,
+                         "the physical device lacks %s; frothGetRequirements tells beforehand", missing.c_str());
   }
   for (const RequiredFeature& feature : kRequiredFeatures) {
     if (!isEnabled(*info.enabledFeatures, feature)) {
@@ -165,26 +165,28 @@ Status checkContextDevice(const FrothContextInfo& info) {
     }
   }
   if (!missing.empty()) {
-    return makeError(
-        ErrorKind::kUnsupported,
-        "FrothContextInfo::enabledFeatures: the device was made without %s; call frothRequireFeatures on "
-        "the chain before vkCreateDevice",
-        missing.c_str());
+    return messages.fail(FROTH_ERROR_FEATURE, call,
+                         "enabledFeatures: the device was made without %s; call frothRequireFeatures on the chain "
+                         "before vkCreateDevice",
+                         missing.c_str());
   }
 
   Offer offer;
   linkFeatures(offer);
   queryOffer(info.getInstanceProcAddr, info.instance, info.physicalDevice, offer);
-  const size_t familyCount = offer.queueFamilies.size();
-  if (info.queueFamily >= familyCount ||
-      !(offer.queueFamilies[info.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT)) {
-    return makeError(
-        ErrorKind::kUnsupported,
-        "FrothContextInfo::queueFamily: family %u of %zu has no VK_QUEUE_COMPUTE_BIT; name the family that "
-        "frames are submitted to",
-        info.queueFamily, familyCount);
+  std::string valid;
+  for (size_t family = 0; family < offer.queueFamilies.size(); ++family) {
+    if (offer.queueFamilies[family].queueFlags & VK_QUEUE_COMPUTE_BIT) {
+      if (family == info.queueFamily) {
+        return FROTH_OK;
+      }
+      valid += (valid.empty() ? "" : ", ") + std::to_string(family);
+    }
   }
-  return {};
+  return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                       "queueFamily: %u; those with VK_QUEUE_COMPUTE_BIT are %s; name the one that frames are "
+                       "submitted to",
+                       info.queueFamily, valid.c_str());
 }
 
 }  // namespace froth

@@ -2,8 +2,8 @@
 // creation.
 #pragma once
 
-#include "format/result.h"
 #include "froth/froth.h"
+#include "runtime/core/messages.h"
 
 namespace froth {
 
@@ -15,7 +15,7 @@ FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAdd
 const char* requireFeatures(VkPhysicalDeviceFeatures2& features);
 
 // Repeats the query for a context and looks whether its features were enabled and its queue family can
-// compute. Error: names everything that is missing.
-Status checkContextDevice(const FrothContextInfo& info);
+// compute. The message names everything that is missing.
+FrothResult checkContextDevice(const FrothContextInfo& info, const Messages& messages, const char* call);
 
 }  // namespace froth

@@ -6,7 +6,7 @@
 namespace froth {
 
 Result<std::unique_ptr<UploadRing>> UploadRing::create(Device& device, VkDeviceSize size) {
-  const Result<GpuBuffer> buffer = device.createBuffer(BufferKind::kStaging, size, "upload ring");
+  const Result<GpuBuffer> buffer = device.createBuffer(MemoryUse::kUploadsHost, BufferKind::kStaging, size, "upload ring");
   if (!buffer) {
     return buffer.error();
   }
@@ -20,6 +20,7 @@ UploadRing::~UploadRing() {
 VkDeviceSize UploadRing::stage(const void* owner, VkBuffer target, VkDeviceSize targetOffset,
                                const void* bytes, VkDeviceSize size) {
   VkDeviceSize staged = 0;
+  copies_.reserve(copies_.size() + 2);  // one, or two around the end of the ring
   while (staged < size && used_ < buffer_.size) {
     const VkDeviceSize part = std::min({size - staged, buffer_.size - used_, buffer_.size - head_});
     std::memcpy(static_cast<char*>(buffer_.mapped) + head_, static_cast<const char*>(bytes) + staged, part);
@@ -33,6 +34,7 @@ VkDeviceSize UploadRing::stage(const void* owner, VkBuffer target, VkDeviceSize 
 
 VkDeviceSize UploadRing::record(VkCommandBuffer commandBuffer, uint64_t serial, VkDeviceSize limit) {
   VkDeviceSize recorded = 0;
+  copies_.reserve(copies_.size() + 1);  // one may be split
   for (size_t i = 0; i < copies_.size() && recorded < limit; ++i) {
     if (copies_[i].serial != kStaged) {
       continue;
@@ -51,11 +53,11 @@ void UploadRing::splitCopy(size_t index, VkDeviceSize size) {
   if (rest.region.size <= size) {
     return;
   }
-  copies_[index].region.size = size;
   rest.region.srcOffset += size;
   rest.region.dstOffset += size;
   rest.region.size -= size;
   copies_.insert(copies_.begin() + static_cast<std::ptrdiff_t>(index) + 1, rest);
+  copies_[index].region.size = size;
 }
 
 bool UploadRing::isStaged(const void* owner) const {
@@ -72,10 +74,12 @@ VkDeviceSize UploadRing::stagedBytes() const {
 }
 
 void UploadRing::retire(uint64_t completedSerial) {
-  while (!copies_.empty() && copies_.front().serial <= completedSerial) {
-    used_ -= copies_.front().region.size;
-    copies_.pop_front();
+  const auto isPending = [&](const Copy& copy) { return copy.serial > completedSerial; };
+  const auto firstPending = std::find_if(copies_.begin(), copies_.end(), isPending);
+  for (auto copy = copies_.begin(); copy != firstPending; ++copy) {
+    used_ -= copy->region.size;
   }
+  copies_.erase(copies_.begin(), firstPending);
 }
 
 void UploadRing::drop(uint64_t serial) {

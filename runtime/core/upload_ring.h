@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
+#include <vector>
 
 #include "runtime/core/device.h"
 
@@ -28,6 +28,7 @@ class UploadRing {
 
   bool isStaged(const void* owner) const;  // something of the owner waits to be recorded
   VkDeviceSize stagedBytes() const;        // of all owners
+  VkDeviceSize usedBytes() const { return used_; }  // staged, or recorded and not complete
 
   void retire(uint64_t completedSerial);  // reuses the room of completed copies
   void drop(uint64_t serial);             // that frame will not be submitted: its copies wait again
@@ -52,7 +53,7 @@ class UploadRing {
   GpuBuffer buffer_;
   VkDeviceSize head_ = 0;  // where the next copy goes
   VkDeviceSize used_ = 0;
-  std::deque<Copy> copies_;  // in the order of their places, which follow each other without gaps
+  std::vector<Copy> copies_;  // in the order of their places, which follow each other without gaps
 };
 
 }  // namespace froth

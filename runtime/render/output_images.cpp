@@ -5,11 +5,6 @@
 namespace froth {
 namespace {
 
-Error deviceError(const char* call, VkResult result) {
-  return makeError(ErrorKind::kUnsupported,
-                   "%s: output images of a view give VkResult %d; close another view or asset", call, result);
-}
-
 VkImageMemoryBarrier2 barrierOf(VkImage image) {
   VkImageMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
@@ -59,20 +54,19 @@ VkImageMemoryBarrier2 placeholderBarrier(VkImage image) {
 
 Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint32_t recordings) {
   std::unique_ptr<OutputImages> images(new OutputImages(device));
-  for (const Status& status :
-       {images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, images->half4_),
-        images->createPlaceholder(VK_FORMAT_R32_SFLOAT, images->float1_), images->createSets(recordings)}) {
-    if (!status) return status.error();
-  }
+  Status status = images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, images->half4_);
+  if (status) status = images->createPlaceholder(VK_FORMAT_R32_SFLOAT, images->float1_);
+  if (status) status = images->createSets(recordings);
+  if (!status) return status.error();
   return images;
 }
 
 OutputImages::~OutputImages() {
   const DeviceTable& vk = device_.table;
-  for (const Placeholder& placeholder : {half4_, float1_}) {
-    vk.vkDestroyImageView(device_.device, placeholder.view, nullptr);
-    vk.vkDestroyImage(device_.device, placeholder.image, nullptr);
-    vk.vkFreeMemory(device_.device, placeholder.memory, nullptr);
+  for (Placeholder* placeholder : {&half4_, &float1_}) {
+    vk.vkDestroyImageView(device_.device, placeholder->view, nullptr);
+    vk.vkDestroyImage(device_.device, placeholder->image, nullptr);
+    device_.release(placeholder->memory);
   }
   vk.vkDestroyDescriptorPool(device_.device, pool_, nullptr);
   vk.vkDestroyDescriptorSetLayout(device_.device, layout_, nullptr);
@@ -90,18 +84,17 @@ Status OutputImages::createPlaceholder(VkFormat format, Placeholder& placeholder
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = VK_IMAGE_USAGE_STORAGE_BIT;
   VkResult result = vk.vkCreateImage(device_.device, &info, nullptr, &placeholder.image);
-  if (result != VK_SUCCESS) return deviceError("vkCreateImage", result);
+  if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkCreateImage");
 
   VkMemoryRequirements requirements{};
   vk.vkGetImageMemoryRequirements(device_.device, placeholder.image, &requirements);
-  VkMemoryAllocateInfo allocation{};
-  allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-  allocation.allocationSize = requirements.size;
-  while ((requirements.memoryTypeBits >> allocation.memoryTypeIndex & 1) == 0) ++allocation.memoryTypeIndex;
-  result = vk.vkAllocateMemory(device_.device, &allocation, nullptr, &placeholder.memory);
-  if (result == VK_SUCCESS)
-    result = vk.vkBindImageMemory(device_.device, placeholder.image, placeholder.memory, 0);
-  if (result != VK_SUCCESS) return deviceError("vkAllocateMemory", result);
+  const Result<MemoryBlock> memory =
+      device_.allocate(requirements, requirements.size,
+                       {MemoryUse::kViews, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, "output images of a view", false});
+  if (!memory) return memory.error();
+  placeholder.memory = *memory;
+  result = vk.vkBindImageMemory(device_.device, placeholder.image, memory->place.memory, memory->place.offset);
+  if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkBindImageMemory");
 
   VkImageViewCreateInfo viewInfo{};
   viewInfo.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
@@ -110,13 +103,15 @@ Status OutputImages::createPlaceholder(VkFormat format, Placeholder& placeholder
   viewInfo.format = format;
   viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
   result = vk.vkCreateImageView(device_.device, &viewInfo, nullptr, &placeholder.view);
-  if (result != VK_SUCCESS) return deviceError("vkCreateImageView", result);
+  if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkCreateImageView");
   return {};
 }
 
 Status OutputImages::createSets(uint32_t recordings) {
   const DeviceTable& vk = device_.table;
-  layout_ = createOutputSetLayout(device_);
+  const Result<VkDescriptorSetLayout> layout = createOutputSetLayout(device_);
+  if (!layout) return layout.error();
+  layout_ = *layout;
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3 * recordings};
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
@@ -124,7 +119,7 @@ Status OutputImages::createSets(uint32_t recordings) {
   info.poolSizeCount = 1;
   info.pPoolSizes = &size;
   VkResult result = vk.vkCreateDescriptorPool(device_.device, &info, nullptr, &pool_);
-  if (result != VK_SUCCESS) return deviceError("vkCreateDescriptorPool", result);
+  if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkCreateDescriptorPool");
 
   const std::vector<VkDescriptorSetLayout> layouts(recordings, layout_);
   VkDescriptorSetAllocateInfo allocation{};
@@ -134,7 +129,7 @@ Status OutputImages::createSets(uint32_t recordings) {
   allocation.pSetLayouts = layouts.data();
   sets_.resize(recordings);
   result = vk.vkAllocateDescriptorSets(device_.device, &allocation, sets_.data());
-  if (result != VK_SUCCESS) return deviceError("vkAllocateDescriptorSets", result);
+  if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkAllocateDescriptorSets");
   return {};
 }
 

@@ -32,7 +32,7 @@ class OutputImages {
   // One texel in layout GENERAL that stands where a pipeline needs a valid descriptor; never written.
   struct Placeholder {
     VkImage image = VK_NULL_HANDLE;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
+    MemoryBlock memory;
     VkImageView view = VK_NULL_HANDLE;
   };
 

@@ -13,10 +13,7 @@ Result<std::unique_ptr<PassTimer>> PassTimer::create(Device& device, uint32_t re
   info.queryCount = recordings * kQueries;
   if (const VkResult result = device.table.vkCreateQueryPool(device.device, &info, nullptr, &timer->pool_);
       result != VK_SUCCESS) {
-    return makeError(ErrorKind::kUnsupported,
-                     "vkCreateQueryPool: %u timestamps give VkResult %d; create the view "
-                     "without measurePasses",
-                     info.queryCount, result);
+    return device.explain(result, "vkCreateQueryPool of %u timestamps", info.queryCount);
   }
   timer->names_.resize(recordings);
   for (auto& names : timer->names_) names.reserve(kMaxPasses);
@@ -49,6 +46,9 @@ void PassTimer::read(uint32_t recording, FrothViewStatus& status) const {
   const VkResult result = device_.table.vkGetQueryPoolResults(device_.device, pool_, recording * kQueries,
                                                               passes + 1, sizeof(stamps), stamps.data(),
                                                               sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+  if (result == VK_ERROR_DEVICE_LOST) {
+    (void)device_.explain(result, "vkGetQueryPoolResults");  // frothUpdate tells
+  }
   if (result != VK_SUCCESS) return;
   const double millisecondsPerTick = device_.properties.limits.timestampPeriod * 1e-6;
   for (uint32_t i = 0; i < passes && status.passCount < std::size(status.passes); ++i) {

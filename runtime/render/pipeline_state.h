@@ -65,6 +65,6 @@ struct RenderPipelines::State {
 
 // Storage images 0: colour, 1: distance, 2: normal. Identical layouts are compatible, so views make their
 // own.
-VkDescriptorSetLayout createOutputSetLayout(Device& device);
+Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device);
 
 }  // namespace froth

@@ -73,11 +73,6 @@ constexpr std::array<VkSpecializationMapEntry, 6> kSpecializationEntries = {{
     {gpu::kConstantHasNormals, offsetof(Specialization, hasNormals), sizeof(VkBool32)},
 }};
 
-Error deviceError(const char* call, const char* object, VkResult result) {
-  return makeError(ErrorKind::kUnsupported, "%s: %s gives VkResult %d; update the device's driver", object,
-                   call, result);
-}
-
 Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode& code,
                                   const Specialization& values) {
   const DeviceTable& vk = state.device.table;
@@ -89,7 +84,7 @@ Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode&
   if (const VkResult result =
           vk.vkCreateShaderModule(state.device.device, &moduleInfo, nullptr, &shaderModule);
       result != VK_SUCCESS) {
-    return deviceError("vkCreateShaderModule", code.name, result);
+    return state.device.explain(result, "%s: vkCreateShaderModule", code.name);
   }
 
   VkSpecializationInfo specialization{};
@@ -109,7 +104,7 @@ Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode&
   const VkResult result =
       vk.vkCreateComputePipelines(state.device.device, state.cache, 1, &info, nullptr, &pipeline);
   vk.vkDestroyShaderModule(state.device.device, shaderModule, nullptr);
-  if (result != VK_SUCCESS) return deviceError("vkCreateComputePipelines", code.name, result);
+  if (result != VK_SUCCESS) return state.device.explain(result, "%s: vkCreateComputePipelines", code.name);
   return pipeline;
 }
 
@@ -132,7 +127,9 @@ Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint
 }
 
 Status createLayout(RenderPipelines::State& state) {
-  state.setLayout = createOutputSetLayout(state.device);
+  const Result<VkDescriptorSetLayout> setLayout = createOutputSetLayout(state.device);
+  if (!setLayout) return setLayout.error();
+  state.setLayout = *setLayout;
   const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, kPushConstantBytes};
   VkPipelineLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
@@ -142,7 +139,7 @@ Status createLayout(RenderPipelines::State& state) {
   info.pPushConstantRanges = &range;
   const VkResult result =
       state.device.table.vkCreatePipelineLayout(state.device.device, &info, nullptr, &state.layout);
-  if (result != VK_SUCCESS) return deviceError("vkCreatePipelineLayout", "render passes", result);
+  if (result != VK_SUCCESS) return state.device.explain(result, "vkCreatePipelineLayout");
   return {};
 }
 
@@ -152,7 +149,7 @@ AssetShape shapeOf(const GpuAsset& asset) {
   return {asset.detailCount, asset.lobeCount, asset.hasHeights};
 }
 
-VkDescriptorSetLayout createOutputSetLayout(Device& device) {
+Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device) {
   std::array<VkDescriptorSetLayoutBinding, 3> bindings{};
   for (uint32_t i = 0; i < bindings.size(); ++i) {
     bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
@@ -162,8 +159,8 @@ VkDescriptorSetLayout createOutputSetLayout(Device& device) {
   info.bindingCount = static_cast<uint32_t>(bindings.size());
   info.pBindings = bindings.data();
   VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  device.table.vkCreateDescriptorSetLayout(device.device, &info, nullptr,
-                                           &layout);  // null on failure; the next call fails
+  const VkResult result = device.table.vkCreateDescriptorSetLayout(device.device, &info, nullptr, &layout);
+  if (result != VK_SUCCESS) return device.explain(result, "vkCreateDescriptorSetLayout");
   return layout;
 }
 
@@ -173,7 +170,8 @@ const PassPipelines* RenderPipelines::State::find(const AssetShape& shape) {
   return found == byShape.end() ? nullptr : &found->second;
 }
 
-RenderPipelines::RenderPipelines() = default;
+RenderPipelines::RenderPipelines(Device& device, VkPipelineCache cache, ShaderOptions options)
+    : state_(new State{.device = device, .cache = cache, .options = options}) {}
 
 RenderPipelines::~RenderPipelines() {
   const DeviceTable& vk = state_->device.table;
@@ -189,8 +187,7 @@ RenderPipelines::~RenderPipelines() {
 
 Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device, VkPipelineCache cache,
                                                                  ShaderOptions options) {
-  std::unique_ptr<RenderPipelines> pipelines(new RenderPipelines);
-  pipelines->state_.reset(new State{.device = device, .cache = cache, .options = options});
+  std::unique_ptr<RenderPipelines> pipelines(new RenderPipelines(device, cache, options));
   State& state = *pipelines->state_;
   if (const Status status = createLayout(state); !status) return status.error();
   if (const Status status = createPasses(state, {}, 0, kFirstShapedPass, state.common); !status)
@@ -201,7 +198,8 @@ Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device,
 Status RenderPipelines::prepareFor(const GpuAsset& asset) {
   const AssetShape shape = shapeOf(asset);
   if (state_->find(shape)) return {};
-  PassPipelines pipelines = state_->common;
+  std::map<AssetShape, PassPipelines> made;  // takes its memory now: what follows cannot lose a pipeline
+  PassPipelines& pipelines = made[shape] = state_->common;
   const Status status = createPasses(*state_, shape, kFirstShapedPass, kPassCount, pipelines);
   if (!status) {
     for (uint32_t pass = kFirstShapedPass; pass < kPassCount; ++pass) {
@@ -210,7 +208,7 @@ Status RenderPipelines::prepareFor(const GpuAsset& asset) {
     return status;
   }
   const std::lock_guard lock(state_->mutex);
-  state_->byShape.emplace(shape, pipelines);
+  state_->byShape.merge(made);
   return {};
 }
 

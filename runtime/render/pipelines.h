@@ -29,7 +29,7 @@ class RenderPipelines {
   State& state() { return *state_; }
 
  private:
-  RenderPipelines();
+  RenderPipelines(Device& device, VkPipelineCache cache, ShaderOptions options);
   std::unique_ptr<State> state_;
 };
 

@@ -1,6 +1,7 @@
 #include "runtime/render/view_buffers.h"
 
 #include <initializer_list>
+#include <utility>
 
 #include "shaders/gpu/layout.h"
 
@@ -64,6 +65,10 @@ BufferKind kindOf(ViewBuffer id) {
   return id == ViewBuffer::kReadback ? BufferKind::kReadback : BufferKind::kDevice;
 }
 
+MemoryUse useOf(ViewBuffer id) {
+  return kindOf(id) == BufferKind::kDevice ? MemoryUse::kViews : MemoryUse::kViewsHost;
+}
+
 }  // namespace
 
 ViewBuffers::~ViewBuffers() {
@@ -73,11 +78,13 @@ ViewBuffers::~ViewBuffers() {
 
 Status ViewBuffers::grow(const ViewCapacity& wanted, uint64_t lastSerial) {
   const ViewCapacity grown = largest(capacity_, wanted);
+  retired_.reserve(retired_.size() + kViewBufferCount);
   std::array<GpuBuffer, kViewBufferCount> larger{};
   for (uint32_t i = 0; i < kViewBufferCount; ++i) {
     const auto id = static_cast<ViewBuffer>(i);
     if (buffers_[i].size >= sizeOf(id, grown)) continue;
-    Result<GpuBuffer> buffer = device_.createBuffer(kindOf(id), sizeOf(id, grown), "transients of a view");
+    Result<GpuBuffer> buffer =
+        device_.createBuffer(useOf(id), kindOf(id), sizeOf(id, grown), "transients of a view");
     if (!buffer) {
       for (GpuBuffer& made : larger) device_.destroyBuffer(made);
       return buffer.error();
@@ -99,6 +106,38 @@ void ViewBuffers::freeRetired(uint64_t completedSerial) {
     device_.destroyBuffer(retired.second);
     return true;
   });
+}
+
+Status ViewBuffers::trim(uint64_t lastSerial, uint64_t completedSerial) {
+  retired_.reserve(1);
+  for (uint32_t i = 0; i < kViewBufferCount && retired_.empty(); ++i) {
+    const auto id = static_cast<ViewBuffer>(i);
+    const VkDeviceSize size = sizeOf(id, capacity_);
+    if (buffers_[i].size <= size) continue;
+    Result<GpuBuffer> smaller =
+        device_.createBuffer(useOf(id), kindOf(id), size, "transients of a view, for a lowered budget", true);
+    if (!smaller) return smaller.error();
+    retired_.emplace_back(lastSerial, std::exchange(buffers_[i], *smaller));
+    freeRetired(completedSerial);
+  }
+  return {};
+}
+
+bool ViewBuffers::isTrimmed() const {
+  if (!retired_.empty()) return false;
+  for (uint32_t i = 0; i < kViewBufferCount; ++i) {
+    if (buffers_[i].size > sizeOf(static_cast<ViewBuffer>(i), capacity_)) return false;
+  }
+  return true;
+}
+
+VkDeviceSize bytesOf(const ViewCapacity& capacity) {
+  VkDeviceSize bytes = 0;
+  for (uint32_t i = 0; i < kViewBufferCount; ++i) {
+    const auto id = static_cast<ViewBuffer>(i);
+    bytes += kindOf(id) == BufferKind::kDevice ? sizeOf(id, capacity) : 0;
+  }
+  return bytes;
 }
 
 VkDeviceSize ViewBuffers::deviceBytes() const {

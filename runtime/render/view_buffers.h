@@ -1,5 +1,5 @@
-// The transient buffers of one view. They grow in prepare() only; what they replace is kept until no frame
-// uses it.
+// The transient buffers of one view. They grow and shrink in prepare() only; what is replaced is kept until no
+// frame uses it.
 #pragma once
 
 #include <array>
@@ -55,6 +55,12 @@ class ViewBuffers {
   Status grow(const ViewCapacity& wanted, uint64_t lastSerial);
   void freeRetired(uint64_t completedSerial);
 
+  // For a lowered budget. The next recordings use no more than `lessened`; trim() then replaces the buffers that
+  // are larger, one by one: the next when the one before is freed, so that little more is held meanwhile.
+  void lessen(const ViewCapacity& lessened) { capacity_ = lessened; }
+  Status trim(uint64_t lastSerial, uint64_t completedSerial);
+  bool isTrimmed() const;  // no buffer is larger than the capacity, or waits to be freed
+
   const GpuBuffer& operator[](ViewBuffer id) const { return buffers_[static_cast<uint32_t>(id)]; }
   const ViewCapacity& capacity() const { return capacity_; }
   VkDeviceSize deviceBytes() const;
@@ -68,5 +74,8 @@ class ViewBuffers {
   std::array<GpuBuffer, kViewBufferCount> buffers_{};
   std::vector<std::pair<uint64_t, GpuBuffer>> retired_;
 };
+
+// [bytes] Device memory of buffers that are as large as the capacity.
+VkDeviceSize bytesOf(const ViewCapacity& capacity);
 
 }  // namespace froth

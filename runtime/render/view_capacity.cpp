@@ -12,6 +12,9 @@ constexpr uint64_t kLeastPairs = uint64_t{1} << 14;
 constexpr uint64_t kPairsPerCell = 4;
 constexpr uint64_t kPairsPerTile = 32;
 constexpr uint64_t kMostPairs = uint64_t{1} << 30;
+// What a view keeps of any budget.
+constexpr uint32_t kFewestCells = 1u << 10;
+constexpr uint32_t kFewestPairs = 1u << 12;
 
 // Half more than a frame wanted once it comes within an eighth of the capacity; never more than there can be.
 uint64_t roomFor(uint64_t wanted, uint64_t capacity, uint64_t most) {
@@ -92,6 +95,23 @@ void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
   return asset.chunks.size() <= capacity.chunks &&
          asset.chunks.size() * groupsPerChunk(asset) <= capacity.groups;
+}
+
+ViewCapacity lessened(const ViewCapacity& capacity, double factor) {
+  const auto partOf = [&](uint64_t count, uint64_t fewest) {
+    return std::max(std::min(count, fewest), static_cast<uint64_t>(static_cast<double>(count) * factor));
+  };
+  const uint64_t cells = partOf(capacity.cells, kFewestCells);
+  const auto perCell = [&](uint64_t count) {  // in proportion to the cells
+    return std::max(uint64_t{1}, static_cast<uint64_t>(static_cast<double>(count) * static_cast<double>(cells) /
+                                                       capacity.cells));
+  };
+  ViewCapacity less = capacity;
+  less.cells = static_cast<uint32_t>(cells);
+  less.planes = perCell(capacity.planes);
+  less.sites = perCell(capacity.sites);
+  less.pairs = static_cast<uint32_t>(partOf(capacity.pairs, kFewestPairs));
+  return less;
 }
 
 void coverDemand(const GpuAsset& asset, const ViewDemand& demand, ViewCapacity& capacity) {

@@ -61,6 +61,9 @@ void coverAsset(const GpuAsset& asset, ViewCapacity& capacity);
 // Whether the asset can be recorded.
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity);
 
+// For a lowered budget: `factor` [0..1] of the guessed capacities, and no less than a few cells and pairs.
+ViewCapacity lessened(const ViewCapacity& capacity, double factor);
+
 // Makes room for frames like the one that wanted this. Ahead of time, so that a camera that moves on overflows nothing.
 void coverDemand(const GpuAsset& asset, const ViewDemand& demand, ViewCapacity& capacity);
 

@@ -56,13 +56,15 @@ void readBack(ViewState& view, uint64_t completedSerial) {
 
 Status growBuffers(ViewState& view, const GpuAsset* asset, const ViewCapacity& wanted) {
   if (wanted == view.buffers.capacity()) return {};
-  const VkDeviceSize heldBytes = view.device.deviceBytes;
-  if (view.refusal && view.refusal->asset == asset && heldBytes >= view.refusal->deviceBytes) {
-    return view.refusal->error;
+  const VkDeviceSize heldBytes = view.device.ledger.deviceBytes();
+  const VkDeviceSize budget = view.device.budget;
+  const auto& refusal = view.refusal;
+  if (refusal && refusal->asset == asset && refusal->budget == budget && heldBytes >= refusal->deviceBytes) {
+    return refusal->error;
   }
   view.refusal.reset();
   const Status status = view.buffers.grow(wanted, view.lastSerial);
-  if (!status) view.refusal = {asset, heldBytes, status.error()};
+  if (!status) view.refusal = {asset, budget, heldBytes, status.error()};
   return status;
 }
 
@@ -106,8 +108,10 @@ Status ViewRenderer::prepare(uint64_t completedSerial, const GpuAsset* asset) {
     view.slot = static_cast<uint32_t>(free - view.slots.begin());
   }
 
+  if (const Status status = view.buffers.trim(view.lastSerial, completedSerial); !status) return status;
   ViewCapacity wanted = view.buffers.capacity();
-  if (asset) {
+  const bool isHeldBack = view.device.excessBytes() > 0;  // what views give up now they would take again
+  if (asset && !(isHeldBack && coversAsset(*asset, wanted))) {
     coverAsset(*asset, wanted);
     coverDemand(*asset, view.demand, wanted);
   }
@@ -117,6 +121,19 @@ Status ViewRenderer::prepare(uint64_t completedSerial, const GpuAsset* asset) {
   if (!isWalkStartKept || view.walkAsset != asset) view.walkAsset = nullptr;
   view.buffers.describeMemory(view.status);
   return status;
+}
+
+VkDeviceSize ViewRenderer::shrinkableBytes() const {
+  const ViewCapacity& capacity = state_->buffers.capacity();
+  return bytesOf(capacity) - bytesOf(lessened(capacity, 0));
+}
+
+void ViewRenderer::shrink(double factor) {
+  state_->buffers.lessen(lessened(state_->buffers.capacity(), factor));
+}
+
+bool ViewRenderer::isShrinking() const {
+  return !state_->buffers.isTrimmed();
 }
 
 uint32_t ViewRenderer::recordRaster(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,

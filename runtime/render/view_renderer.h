@@ -35,6 +35,11 @@ class ViewRenderer {
   // use. On an error the buffers are as before; recording goes on with them, if they cover the asset.
   Status prepare(uint64_t completedSerial, const GpuAsset* asset);
 
+  // For a lowered budget. prepare() does the work, over several frames; until it is done isShrinking().
+  VkDeviceSize shrinkableBytes() const;  // [bytes] of device memory that shrink(0) gives back
+  void shrink(double factor);            // keeps `factor` [0..1] of them
+  bool isShrinking() const;
+
   // Between frothUpdate calls; `serial` is that of the frame. Both may be called once per frame.
   // info has been checked and its defaults resolved: camera.scissor is what is drawn, not empty, within
   // maxExtent and the images. Allocates nothing. Returns the FrothViewBit set known at record time.

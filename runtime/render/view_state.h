@@ -22,9 +22,11 @@ struct FrameSlot {
   uint32_t recordings = 0;
 };
 
-// Growth that failed. It is not tried again in every frame, only for another asset or once the context holds less.
+// Growth that failed. It is not tried again in every frame, only for another asset or budget, or once the context
+// holds less.
 struct GrowthRefusal {
   const GpuAsset* asset;
+  VkDeviceSize budget;
   VkDeviceSize deviceBytes;  // that the context held
   Error error;
 };

@@ -40,7 +40,7 @@ Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::s
 }
 
 Scene::~Scene() {
-  if (context_) frothDestroyContext(context_);
+  if (context_) frothDestroyContext(context_, UINT64_MAX);
 }
 
 Status Scene::setExtent(VkExtent2D extent) {

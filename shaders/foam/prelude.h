@@ -23,13 +23,16 @@ namespace froth::foam {
 using glm::cross;
 using glm::dot;
 using std::abs;
+using std::cos;
 using std::exp;
 using std::exp2;
 using std::log;
 using std::max;
 using std::min;
 using std::pow;
+using std::sin;
 using std::sqrt;
+using std::tan;
 
 #else
 

@@ -102,7 +102,8 @@ void expectBruteForceGivesTheSameImage() {
           hits.push_back(hit);
         }
       }
-      const RayResult<Real> ray = compositeHits(cells, direction, settings, hits);
+      const PrimaryRay<Real> primary{glm::vec<3, Real>(0), direction};
+      const RayResult<Real> ray = compositeHits(cells, primary, settings, hits);
       for (int c = 0; c < 3; ++c)
         ASSERT_EQ(images.colour.pixel(x, y)[c], float(ray.colour[c])) << x << ", " << y;
       ASSERT_EQ(*images.depth.pixel(x, y), float(ray.depth)) << x << ", " << y;

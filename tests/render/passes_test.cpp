@@ -31,7 +31,7 @@ class Passes : public testing::Test {
   template <class T>
   GpuBuffer upload(const std::vector<T>& values) {
     Result<GpuBuffer> buffer =
-        device_.createBuffer(BufferKind::kReadback, std::max<size_t>(values.size() * sizeof(T), 16), "test");
+        device_.createBuffer(MemoryUse::kUploadsHost, BufferKind::kReadback, std::max<size_t>(values.size() * sizeof(T), 16), "test");
     EXPECT_TRUE(buffer);
     if (!values.empty()) std::memcpy(buffer->mapped, values.data(), values.size() * sizeof(T));
     buffers_.push_back(*buffer);
@@ -94,7 +94,7 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
   gpu::Counters counters{};
   counters.visibleCells = count;
   counters.cellSortDispatch = {groups, 1, 1, 0};
-  Result<GpuBuffer> counterBuffer = device_.createBuffer(BufferKind::kDevice, sizeof(counters), "test");
+  Result<GpuBuffer> counterBuffer = device_.createBuffer(MemoryUse::kAssets, BufferKind::kDevice, sizeof(counters), "test");
   ASSERT_TRUE(counterBuffer);
   buffers_.push_back(*counterBuffer);
   gpu::FrameBlock block{};

@@ -49,6 +49,8 @@ class Stage {
   // Records only the wanted images of `info`; returns the status of that frame.
   FrothViewStatus submit(Method method, const FrothRenderInfo& info) { return submit({{method, info}}); }
 
+  FrothView view() const { return view_; }
+
   // Several draws in one frame and command buffer.
   FrothViewStatus submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws);
 

@@ -283,7 +283,7 @@ uint64_t measureStart(const AssetContents& contents, VkExtent2D extent, size_t i
     createIdleViews(context, extent, idleViews);
     bytes = deviceBytesOf(context);
   }
-  frothDestroyContext(context);
+  frothDestroyContext(context, UINT64_MAX);
   return bytes;
 }
 
@@ -301,7 +301,7 @@ TEST(Scenes, AViewThatTheBudgetKeepsFromGrowingGoesOnDrawingWhatItHolds) {
     EXPECT_EQ(second.status.bits, uint32_t{FROTH_VIEW_PAIR_OVERFLOW});
     EXPECT_EQ(second.colour.values, first.colour.values);
   }
-  frothDestroyContext(limited);
+  frothDestroyContext(limited, UINT64_MAX);
 }
 
 TEST(Scenes, AViewThatTheBudgetKeptFromGrowingGrowsOnceThereIsRoom) {
@@ -321,7 +321,7 @@ TEST(Scenes, AViewThatTheBudgetKeptFromGrowingGrowsOnceThereIsRoom) {
     stage.draw(Method::kRaster, view);  // after it the memory is back
     EXPECT_EQ(stage.draw(Method::kRaster, view).status.bits, 0u);
   }
-  frothDestroyContext(limited);
+  frothDestroyContext(limited, UINT64_MAX);
 }
 
 }  // namespace

@@ -205,7 +205,7 @@ TEST(Work, IsCountedOnlyOnDemandAndChangesNoImage) {
       EXPECT_EQ(without.status.work.ballHits + without.status.work.heights + without.status.work.steps, 0u);
     }
   }
-  frothDestroyContext(plain);
+  frothDestroyContext(plain, UINT64_MAX);
 }
 
 }  // namespace

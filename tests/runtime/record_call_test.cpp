@@ -78,7 +78,7 @@ TEST_F(RecordCall, RefusesAReflection) {
 }
 
 TEST_F(RecordCall, RefusesToDrawBeforeTheFirstFrame) {
-  frothDestroyContext(context_);
+  frothDestroyContext(context_, UINT64_MAX);
   createContext();
   view_ = createView({64, 64});
   EXPECT_EQ(frothRasterize(context_, view_, nullptr, &info_), FROTH_ERROR_STATE);
@@ -275,7 +275,7 @@ TEST_F(RecordCallOnDevice, OfADroppedFrameIsNeverReadBack) {
 }
 
 TEST_F(RecordCallOnDevice, AFrameDroppedAmongOthersLeavesTheirCountsAlone) {
-  frothDestroyContext(context_);
+  frothDestroyContext(context_, UINT64_MAX);
   FrothContextInfo contextInfo = host_->contextInfo();
   contextInfo.framesInFlight = 3;
   createContext(contextInfo);

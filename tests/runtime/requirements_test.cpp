@@ -159,8 +159,8 @@ TEST_F(ContextCreation, NamesAQueueFamilyThatDoesNotExist) {
   info.queueFamily = 77;
   info.onMessage = logMessage;
   info.messageUser = &messages_;
-  EXPECT_EQ(frothCreateContext(&info, &context_), FROTH_ERROR_FEATURE);
-  EXPECT_THAT(lastText(), HasSubstr("queueFamily: family 77"));
+  EXPECT_EQ(frothCreateContext(&info, &context_), FROTH_ERROR_ARGUMENT);
+  EXPECT_THAT(lastText(), HasSubstr("queueFamily: 77; those with VK_QUEUE_COMPUTE_BIT are 0"));
 }
 
 TEST_F(ContextCreation, WorksTwiceOnOneDevice) {
@@ -168,7 +168,7 @@ TEST_F(ContextCreation, WorksTwiceOnOneDevice) {
   const FrothContextInfo info = host_->contextInfo();
   FrothContext* second = nullptr;
   EXPECT_EQ(frothCreateContext(&info, &second), FROTH_OK);
-  frothDestroyContext(second);
+  frothDestroyContext(second, UINT64_MAX);
 }
 
 }  // namespace

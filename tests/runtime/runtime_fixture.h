@@ -42,7 +42,7 @@ inline void logMessage(void* user, FrothSeverity severity, FrothResult code, con
 class RuntimeTest : public ::testing::Test {
  protected:
   void TearDown() override {
-    frothDestroyContext(context_);
+    frothDestroyContext(context_, UINT64_MAX);
     std::filesystem::remove_all(folder_);
   }
 

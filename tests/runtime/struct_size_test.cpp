@@ -97,7 +97,7 @@ TEST_F(StructSize, NullPointersAreNamedAndDoNotCrash) {
   info.maxExtent = {4, 4};
   EXPECT_EQ(frothCreateView(context_, &info, nullptr), FROTH_ERROR_ARGUMENT);
   EXPECT_EQ(lastText(), "view: null");
-  frothDestroyContext(nullptr);
+  frothDestroyContext(nullptr, UINT64_MAX);
 }
 
 TEST(ResultName, IsNeverNull) {

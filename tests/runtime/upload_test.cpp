@@ -33,7 +33,7 @@ class Upload : public RuntimeGpuTest {
     ASSERT_NE(source, buffers.end()) << name;
     ASSERT_EQ(source->size, expected.size() * sizeof(T)) << name;
     Device reader = device();
-    Result<GpuBuffer> copy = reader.createBuffer(BufferKind::kReadback, source->size, "read-back");
+    Result<GpuBuffer> copy = reader.createBuffer(MemoryUse::kUploadsHost, BufferKind::kReadback, source->size, "read-back");
     ASSERT_TRUE(copy) << copy.error().message;
     const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) {
       const VkBufferCopy region{0, 0, source->size};
@@ -201,7 +201,7 @@ TEST_F(Upload, OfAnAssetThatIsClosedHalfwayStopsAndLeavesTheOther) {
 TEST_F(Upload, ThroughASmallRingWrapsAround) {
   Device gpu = device();
   Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(gpu, 1000);
-  Result<GpuBuffer> target = gpu.createBuffer(BufferKind::kReadback, 4096, "target");
+  Result<GpuBuffer> target = gpu.createBuffer(MemoryUse::kUploadsHost, BufferKind::kReadback, 4096, "target");
   ASSERT_TRUE(ring && target);
   std::vector<uint8_t> bytes(4096);
   for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<uint8_t>(i * 7 + i / 256);
@@ -224,7 +224,7 @@ TEST_F(Upload, ThroughASmallRingWrapsAround) {
 TEST_F(Upload, TakesNothingIntoAFullRingBeforeAFrameIsComplete) {
   Device gpu = device();
   Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(gpu, 1000);
-  Result<GpuBuffer> target = gpu.createBuffer(BufferKind::kDevice, 4096, "target");
+  Result<GpuBuffer> target = gpu.createBuffer(MemoryUse::kAssets, BufferKind::kDevice, 4096, "target");
   ASSERT_TRUE(ring && target);
   const std::vector<uint8_t> bytes(4096);
   EXPECT_EQ((*ring)->stage(this, target->buffer, 0, bytes.data(), 4096), 1000u);
@@ -246,7 +246,7 @@ TEST_F(Upload, TakesNothingIntoAFullRingBeforeAFrameIsComplete) {
 TEST_F(Upload, BufferLargerThanTheDeviceAllowsIsRefusedWithNumbers) {
   Device gpu = device();
   const Result<GpuBuffer> buffer =
-      gpu.createBuffer(BufferKind::kDevice, gpu.maxAllocationSize + 1, "lobe axes");
+      gpu.createBuffer(MemoryUse::kAssets, BufferKind::kDevice, gpu.maxAllocationSize + 1, "lobe axes");
   ASSERT_FALSE(buffer);
   EXPECT_THAT(buffer.error().message, HasSubstr("lobe axes"));
   EXPECT_THAT(buffer.error().message, HasSubstr(std::to_string(gpu.maxAllocationSize)));

@@ -12,6 +12,7 @@
  *
  * Threads: any thread, any time: frothGetRequirements, frothRequireFeatures, frothResultName.
  *          at once on different views: frothRasterize, frothWalk; while no call of the last row runs.
+ *          at once on anything: frothCastRays, frothLocate, frothOverlapSphere; while no call of the last row runs.
  *          one thread at a time per context: everything else.
  *
  * docs/EMBEDDING.md leads through it.
@@ -38,7 +39,7 @@ extern "C" {
 typedef enum FrothResult {
   FROTH_OK = 0,
   /* information */
-  FROTH_PENDING = 1,    /* started; ask again */
+  FROTH_PENDING = 1,    /* not yet: something is still under way, and nothing was changed; call again */
   FROTH_INCOMPLETE = 2, /* done, with less than asked for; the status bits say what and which setting to raise */
   /* errors; the message callback got the details */
   FROTH_ERROR_ARGUMENT = -1,    /* a null pointer, a size, an extent, a value out of its range */
@@ -56,9 +57,8 @@ typedef enum FrothResult {
 FROTH_API const char* frothResultName(FrothResult result); /* never null */
 
 typedef enum FrothSeverity {
-  FROTH_SEVERITY_INFO = 0,
-  FROTH_SEVERITY_WARNING = 1,
-  FROTH_SEVERITY_ERROR = 2,
+  FROTH_SEVERITY_WARNING = 1, /* the call went well, and something will be missing or slow */
+  FROTH_SEVERITY_ERROR = 2,   /* a call failed, or an object did on its way */
   FROTH_SEVERITY_MAX = 0x7fffffff
 } FrothSeverity;
 
@@ -97,6 +97,28 @@ FROTH_API FrothResult frothRequireFeatures(VkPhysicalDeviceFeatures2* features, 
 
 typedef struct FrothContext FrothContext;
 
+/* Memory that Froth asks its caller for. The fields are what vmaAllocateMemory and vkAllocateMemory want to know. */
+typedef struct FrothMemoryRequest {
+  uint32_t structSize;
+  VkMemoryRequirements requirements;
+  uint32_t memoryTypeIndex;           /* one of requirements.memoryTypeBits */
+  VkMemoryAllocateFlags allocateFlags; /* VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, or 0 */
+  uint32_t isMapped;                  /* 1: host-visible memory that stays mapped; FrothDeviceMemory::mapped is needed */
+  const char* purpose;                /* for people; lives during the call */
+} FrothMemoryRequest;
+
+typedef struct FrothDeviceMemory {
+  VkDeviceMemory memory;
+  VkDeviceSize offset; /* a multiple of requirements.alignment */
+  void* mapped;        /* address of `offset`; null if not isMapped */
+  void* handle;        /* the caller's own, for its free callback */
+} FrothDeviceMemory;
+
+/* Fills *memory, which is zero. VK_SUCCESS, or the failure. Called within frothCreateContext, frothCreateView, frothUpdate
+ * and frothRestoreDevice, never within a record call; must not call Froth. */
+typedef VkResult (*FrothAllocateMemory)(void* user, const FrothMemoryRequest* request, FrothDeviceMemory* memory);
+typedef void (*FrothFreeMemory)(void* user, const FrothDeviceMemory* memory);
+
 typedef struct FrothContextInfo {
   uint32_t structSize;
   uint32_t abiVersion; /* FROTH_ABI_VERSION */
@@ -108,18 +130,60 @@ typedef struct FrothContextInfo {
   uint32_t queueFamily;           /* the compute-capable family that frames are submitted to */
   VkPipelineCache pipelineCache;  /* may be null; used until the context is destroyed */
   uint32_t framesInFlight;        /* most frames begun and not complete, with the one being recorded [1..8]; 0: 2 */
-  uint64_t deviceBudget;          /* [bytes] of device memory for all assets and views, hard; 0: no limit */
+  uint64_t deviceBudget;          /* [bytes] of device memory for all assets and views; frothSetBudget. 0: no limit */
   FrothMessageCallback onMessage; /* may be null */
   void* messageUser;
   uint32_t checkIndices;          /* debug: shaders check every index; counted in FrothViewStatus::indexViolations */
   uint32_t countWork;             /* for tuning: shaders count FrothViewStatus::work, and are slower for it */
+  FrothAllocateMemory allocateMemory; /* both or none: where all VkDeviceMemory comes from; null: vkAllocateMemory */
+  FrothFreeMemory freeMemory;
+  void* memoryUser;
 } FrothContextInfo;
 
 /* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */
 FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
 
-/* The caller has made sure that the device is done with all frames that used it (vkDeviceWaitIdle). */
-FROTH_API void frothDestroyContext(FrothContext* context);
+/* Frees everything at once. `completedSerial` as in FrothFrame; UINT64_MAX after vkDeviceWaitIdle. FROTH_PENDING: frames
+ * beyond it were begun and not dropped; the context stays as it is. A null context is FROTH_OK. */
+FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
+
+/* Changes FrothContextInfo::deviceBudget. What is new never exceeds it. Lowered below what is held: from the next frothUpdate
+ * on, views exchange what they grew for less, one buffer after the other, and cells or pairs beyond are missing
+ * (FROTH_VIEW_CELL_OVERFLOW, FROTH_VIEW_PAIR_OVERFLOW); what cannot shrink (assets, the least that a view needs) stays, and
+ * FrothFrameStatus::excessBytes tells how much it is. Raised: views grow again. */
+FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
+
+/* Memory of one purpose. */
+typedef struct FrothMemoryCategory {
+  const char* name;   /* "assets", "views", "views, host", "uploads, host"; static storage */
+  uint64_t granted;   /* [bytes] of VkDeviceMemory held */
+  uint64_t used;      /* [bytes] of these that hold something */
+  uint64_t peak;      /* most granted since creation or the last frothSetBudget */
+  uint32_t count;     /* allocations */
+  uint32_t isHost;    /* 1: staging and read-back, which the budget does not count */
+} FrothMemoryCategory;
+
+typedef struct FrothMemoryReport {
+  uint32_t structSize;
+  uint32_t categoryCount;
+  uint64_t deviceBudget;
+  uint64_t deviceBytes; /* granted, over the categories that are not host */
+  uint64_t devicePeak;  /* since creation or the last frothSetBudget; <= deviceBudget, except as excessBytes told */
+  FrothMemoryCategory categories[8]; /* [categoryCount] */
+} FrothMemoryReport;
+
+FROTH_API FrothResult frothGetMemoryReport(FrothContext* context, FrothMemoryReport* report);
+
+/* When a Vulkan call anywhere gave VK_ERROR_DEVICE_LOST (a call of Froth then gives FROTH_ERROR_DEVICE and says so): drops all
+ * GPU objects without waiting, by destroying them; call it before vkDestroyDevice. Handles stay valid. Until the device is
+ * restored, assets are OPENING, frame calls give FROTH_ERROR_DEVICE, and objects may be made, changed and destroyed. */
+FROTH_API FrothResult frothDeviceLost(FrothContext* context);
+
+/* Goes on with a new device; all fields of `info` count, as for frothCreateContext. Frames that were in flight are forgotten,
+ * and serials go on growing. Assets load again in the following frames, from their path or from bytes that stay
+ * (FrothAssetInfo::bytesStay; an asset whose bytes do not becomes FAILED), those that were FAILED too. On an error the device
+ * stays lost; call it again. */
+FROTH_API FrothResult frothRestoreDevice(FrothContext* context, const FrothContextInfo* info);
 
 /* Handles are an index and a generation; {0, 0} is null, and what a call that failed gives. */
 typedef struct FrothAsset { uint32_t index, generation; } FrothAsset;
@@ -145,10 +209,12 @@ typedef enum FrothAssetState {
 typedef struct FrothAssetInfo {
   uint32_t structSize;
   const char* path; /* a .froth file, copied; or null, and the bytes: */
-  const void* data; /* the caller keeps them until the asset is READY, FAILED or closed */
+  const void* data; /* the caller keeps them until the asset is READY, FAILED or closed; or for longer: bytesStay */
   uint64_t dataSize;
   uint32_t layers;  /* how many are loaded; each is a whole scene. 1: one colour per cell; 2: detail without view dependence;
                        3 or 0: all */
+  uint32_t bytesStay; /* 1: `data` stays until the asset is closed, so that frothRestoreDevice can load it again */
+  uint32_t keepForQueries; /* 1: keeps in host memory what frothCastRays, frothLocate and frothOverlapSphere need */
 } FrothAssetInfo;
 
 typedef struct FrothStoredCamera {
@@ -172,6 +238,7 @@ typedef struct FrothAssetStatus {
   uint32_t flightPathCount; /* key frames; frothGetFlightPath */
   uint32_t memoryCount;
   FrothMemory memory[16];   /* [memoryCount] deviceBytes by array, over all chunks */
+  uint64_t hostBytes;       /* kept for queries */
 } FrothAssetStatus;
 
 /* Returns FROTH_OK with the asset OPENING; it loads in the following frothUpdate / frothRecordUpload calls. A bad file makes
@@ -272,6 +339,7 @@ typedef struct FrothFrameStatus {
   uint64_t uploadBytesQueued;
   uint64_t deviceBytes;      /* all device memory held by the context */
   uint64_t hostBytes;        /* staging and read-back */
+  uint64_t excessBytes;      /* of deviceBytes, beyond a budget that was lowered */
 } FrothFrameStatus;
 
 /* Begins a frame, which the caller submits or drops. CPU only: retires what is complete, loads assets, grows buffers. Never
@@ -333,6 +401,89 @@ FROTH_API FrothResult frothRasterize(FrothContext* context, FrothView view, VkCo
 /* The same image by walking every pixel's ray from cell to cell through the regular triangulation, under the same rules. */
 FROTH_API FrothResult frothWalk(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
                                 const FrothRenderInfo* info);
+
+/* ---- Queries: single rays, points and spheres, on the CPU ----
+ *
+ * For gameplay and servers. They answer on the calling thread, wait for nothing, and need neither a GPU nor a frame: a null
+ * context serves them. They see the instances whose asset is READY and was opened with keepForQueries, as they are placed
+ * now. Positions are in the world, in double. Near tests (FrothRenderInfo::nearRatio) do not apply: they belong to cameras.
+ *
+ * Their errors (a null pointer, a number out of its range: nothing is written) are told on the calling thread. */
+
+/* Why an answer is less than asked for. The call then gives FROTH_INCOMPLETE. */
+typedef enum FrothQueryBit {
+  FROTH_QUERY_STEP_LIMIT = 1,    /* ended by FrothCastInfo::maxSteps: what lies beyond is missing */
+  FROTH_QUERY_NO_WALK_GRAPH = 2, /* an instance was left out: its asset was baked without the graph that queries walk */
+  FROTH_QUERY_NOT_READY = 4,     /* an instance was left out: its asset is OPENING or FAILED */
+  FROTH_QUERY_BIT_MAX = 0x7fffffff
+} FrothQueryBit;
+
+/* The part tMin <= t <= tMax of origin + t direction / |direction|. The foam is met as by a ray that starts at tMin. */
+typedef struct FrothRay {
+  double origin[3];
+  double direction[3]; /* finite, of any length but 0 */
+  double tMin;         /* >= 0, finite [world units] */
+  double tMax;         /* >= 0 [world units]; 0: no end; below tMin: nothing is met */
+} FrothRay;
+
+typedef struct FrothRayHit {
+  double distance;        /* from the origin, where transmittance falls below the quantile [world units]; +inf: never */
+  double position[3];     /* there; 0 if never, as what follows */
+  float normal[3];        /* of the face of the cell that is met there, unit */
+  FrothInstance instance; /* where several overlap: the densest */
+  uint32_t chunk, cell;   /* of its asset */
+  float transmittance;    /* over the ray's part; of a ray that ended early, up to there */
+  uint32_t steps;         /* cells walked through */
+  uint32_t bits;          /* FrothQueryBit; 0: done */
+} FrothRayHit;
+
+typedef struct FrothCastInfo {
+  uint32_t structSize;
+  float quantile;       /* [0 < q < 1] transmittance at which a ray counts as stopped; 0: one half */
+  float cutoff;         /* [< 1] a ray ends when its transmittance falls below; 0: 1e-3; negative: never */
+  uint32_t maxSteps;    /* of one ray in one instance; 0: 65536 */
+  uint32_t closestOnly; /* 1: a ray ends at `distance`; transmittance is then that behind the cell that it met */
+} FrothCastInfo;
+
+/* Casts `count` rays one by one. Where instances overlap, their densities add. info may be null: all defaults. */
+FROTH_API FrothResult frothCastRays(FrothContext* context, const FrothCastInfo* info, const FrothRay* rays,
+                                    FrothRayHit* hits, uint32_t count);
+
+/* The power cell that holds a point: the one with the least |point - site|^2 - radius^2. Every point of space has one. */
+typedef struct FrothLocation {
+  uint32_t structSize;
+  uint32_t chunk, cell;
+  uint32_t isLive; /* 0: a cell that only fills space */
+  double power;    /* that least value [square world units]; negative: inside the cell's ball */
+} FrothLocation;
+
+/* FROTH_ERROR_STATE: the asset is not READY or was opened without keepForQueries. FROTH_ERROR_UNSUPPORTED: it has no walk graph. */
+FROTH_API FrothResult frothLocate(FrothContext* context, FrothInstance instance, const double point[3],
+                                  FrothLocation* location);
+
+/* The solid: the union of the cells that stop light, 1 - exp(-2 radius density) >= opacity. Of each the part of its ball that lies
+ * in its power cell and below its face, which is taken as flat, at the mean of its detail heights. */
+typedef struct FrothSphere {
+  uint32_t structSize;
+  double centre[3];
+  double radius;  /* >= 0, finite [world units]; the time grows with the cells that it meets up to the nearest solid */
+  float opacity;  /* [0 < a < 1] of a cell that counts as solid, across its whole ball; 0: one half */
+} FrothSphere;
+
+/* The deepest contact: the point of the solid that is nearest to the sphere's centre. A centre inside of the solid is led out
+ * through the face of the cell that holds it. */
+typedef struct FrothContact {
+  uint32_t structSize;
+  uint32_t isTouching;    /* 0: the sphere is free, and what follows is 0 but for the bits */
+  double position[3];     /* of the contact, on the solid */
+  float normal[3];        /* unit, from the solid towards the centre */
+  double depth;           /* >= 0: how far to move the sphere along the normal to free it of this cell [world units] */
+  FrothInstance instance;
+  uint32_t chunk, cell;   /* of its asset */
+  uint32_t bits;          /* FrothQueryBit */
+} FrothContact;
+
+FROTH_API FrothResult frothOverlapSphere(FrothContext* context, const FrothSphere* sphere, FrothContact* contact);
 
 #ifdef __cplusplus
 }

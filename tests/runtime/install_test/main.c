@@ -27,6 +27,6 @@ int main(void) {
   if (frothUpdate(context, &frame, NULL) != FROTH_OK) return 4;
   FrothAssetStatus status = {.structSize = sizeof status};
   if (frothGetAssetStatus(context, asset, &status) != FROTH_OK || status.state != FROTH_ASSET_FAILED) return 5;
-  frothDestroyContext(context);
+  frothDestroyContext(context, UINT64_MAX);
   return messages == 1 ? 0 : 6;
 }

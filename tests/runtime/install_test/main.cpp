@@ -28,6 +28,6 @@ int main() {
   if (frothCreateView(context, &viewInfo, &view) != FROTH_OK) return 3;
   if (frothDestroyView(context, view) != FROTH_OK) return 4;
   if (frothDestroyView(context, view) != FROTH_ERROR_HANDLE) return 5;
-  frothDestroyContext(context);
+  frothDestroyContext(context, UINT64_MAX);
   std::puts("well");
 }

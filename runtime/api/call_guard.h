@@ -1,0 +1,63 @@
+// What every C entry point does before and after its work: exceptions, null pointers, struct sizes.
+#pragma once
+
+#include <new>
+
+#include "runtime/api/struct_size.h"
+#include "runtime/core/context.h"
+
+namespace froth {
+
+// Runs call(name); no exception crosses the C boundary.
+template <class Call>
+FrothResult guard(const Messages& messages, const char* name, Call call) {
+  try {
+    return call(name);
+  } catch (const std::bad_alloc&) {
+    return messages.fail(FROTH_ERROR_MEMORY, name, "host memory is exhausted");
+  } catch (...) {
+    return messages.fail(FROTH_ERROR_STATE, name, "an unexpected failure inside the library");
+  }
+}
+
+template <class Call>
+FrothResult guard(FrothContext* context, const char* name, Call call) {
+  return context ? guard(context->messages, name, call) : FROTH_ERROR_ARGUMENT;
+}
+
+inline FrothResult failNull(const FrothContext& context, const char* call, const char* parameter) {
+  return context.messages.fail(FROTH_ERROR_ARGUMENT, call, "%s: null", parameter);
+}
+
+// Reads a caller's struct, with a message where that fails.
+template <class T>
+FrothResult readInput(const Messages& messages, const char* call, const T* given, T& known) {
+  if (!given) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "info: null");
+  }
+  const FrothResult result = readStruct(*given, known);
+  if (result == FROTH_ERROR_ARGUMENT) {
+    return messages.fail(result, call, "structSize: %u; set it to sizeof the struct", given->structSize);
+  }
+  if (result == FROTH_ERROR_VERSION) {
+    return messages.fail(
+        result, call,
+        "structSize: %u, this library knows %zu, and fields beyond are not zero; use a newer library",
+        given->structSize, sizeof(T));
+  }
+  return result;
+}
+
+template <class T>
+FrothResult writeOutput(const Messages& messages, const char* call, const T& known, T* given) {
+  if (!given) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "status: null");
+  }
+  if (!writeStruct(known, *given)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "structSize: %u; set it to sizeof the struct",
+                         given->structSize);
+  }
+  return FROTH_OK;
+}
+
+}  // namespace froth

@@ -1,0 +1,127 @@
+#include "runtime/query/foam_walk.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "shaders/foam/appearance.h"
+#include "shaders/foam/cell.h"
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kNoSite = UINT32_MAX;
+
+// Blended height of the face at a query point in its frame [scene units].
+double heightAt(const QueryDetail* details, uint32_t count, const glm::dvec3& query, double sharpness,
+                double radius) {
+  double sum = 0, weightSum = 0;
+  for (uint32_t k = 0; k < count; ++k) {
+    const double weight = foam::detailWeight(query, glm::dvec2(details[k].place), sharpness);
+    sum += weight * details[k].height;
+    weightSum += weight;
+  }
+  return radius * sum / foam::flooredWeightSum(weightSum);
+}
+
+}  // namespace
+
+FoamWalk::FoamWalk(const QueryFoam& foam, const FoamRay& ray, uint32_t maxSteps)
+    : foam_(&foam),
+      ray_(ray),
+      maxSteps_(maxSteps),
+      current_(foam.locate(ray.origin)),
+      chunk_(&foam.chunk(current_.chunk)),
+      localOrigin_(ray.origin - chunk_->origin),
+      key_(glm::dot(ray.direction, chunk_->siteOf(current_.cell) - localOrigin_)) {}
+
+bool FoamWalk::next(FoamSegment& segment) {
+  while (entry_ < ray_.tEnd) {
+    if (steps_ == maxSteps_) {
+      hitStepLimit_ = true;
+      return false;
+    }
+    ++steps_;
+    const Exit exit = findExit();
+    const CellAddress cell = current_;
+    const QueryChunk& chunk = *chunk_;
+    const glm::dvec3 centre = chunk.siteOf(cell.cell) - localOrigin_;
+    const bool isMet = meetCell(cell, chunk, centre, std::min(exit.t, ray_.tEnd), segment);
+    stepThrough(exit);
+    if (isMet) return true;
+  }
+  return false;
+}
+
+FoamWalk::Exit FoamWalk::findExit() const {
+  const glm::dvec3 site = chunk_->siteOf(current_.cell);
+  const glm::dvec3 centre = site - localOrigin_;
+  const double radius = chunk_->radiusOf(current_.cell);
+  Exit exit{kNoSite, std::numeric_limits<double>::infinity(), key_};
+  const uint32_t end = chunk_->neighbourOffsets[current_.cell + 1];
+  for (uint32_t i = chunk_->neighbourOffsets[current_.cell]; i < end; ++i) {
+    const uint32_t other = chunk_->neighbourAt(i);
+    const glm::dvec3 toNeighbour = chunk_->siteOf(other) - site;
+    const double q = glm::dot(ray_.direction, toNeighbour);
+    if (!(q > 0)) continue;
+    const double offset = foam::radicalOffset(toNeighbour, radius, chunk_->radiusOf(other));
+    const double t = foam::radicalClearance(centre, toNeighbour, offset) / q;
+    if (!(t < exit.t)) continue;
+    const double key = glm::dot(ray_.direction, chunk_->siteOf(other) - localOrigin_);
+    if (key > key_) exit = {other, t, key};
+  }
+  exit.t = std::max(exit.t, entry_);
+  return exit;
+}
+
+void FoamWalk::stepThrough(const Exit& exit) {
+  entry_ = exit.t;
+  if (exit.site == kNoSite) return;  // to infinity
+  key_ = exit.key;
+  const uint32_t from = current_.chunk;
+  current_ = foam_->cellOfSite(from, exit.site);
+  if (current_.chunk == from) return;
+  chunk_ = &foam_->chunk(current_.chunk);
+  localOrigin_ = ray_.origin - chunk_->origin;
+}
+
+// Steps 1 to 5 of foam.md "What one ray meets in one cell"; the walk has cut the interval by the planes.
+bool FoamWalk::meetCell(CellAddress cell, const QueryChunk& chunk, const glm::dvec3& centre, double exit,
+                        FoamSegment& segment) const {
+  segment.density = chunk.densityOf(cell.cell);
+  segment.cell = cell;
+  if (!(segment.density > 0)) return false;
+  if (!foam::intersectBall(centre, chunk.radiusOf(cell.cell), ray_.direction, segment.tNear, segment.tFar)) {
+    return false;
+  }
+  segment.tNear = std::max(segment.tNear, entry_);
+  segment.tFar = std::min(segment.tFar, exit);
+  if (!(segment.tNear < segment.tFar)) return false;
+  clipByFace(chunk, cell.cell, centre, segment);
+  return segment.tNear < segment.tFar;
+}
+
+void FoamWalk::clipByFace(const QueryChunk& chunk, uint32_t cell, const glm::dvec3& centre,
+                          FoamSegment& segment) const {
+  const glm::dmat3 frame = chunk.faceFrameOf(cell);
+  const double facing = glm::dot(frame[0], ray_.direction);
+  const bool leavesThroughFace = facing >= 0;
+  double height = 0;
+  if (!chunk.details.empty()) {
+    const double radius = chunk.radiusOf(cell);
+    const double tBase = foam::intersectFace(centre, frame[0], facing, 0.0);
+    const double tQuery = leavesThroughFace ? segment.tNear : std::max(segment.tNear, tBase);
+    const glm::dvec3 local = foam::inFaceFrame(tQuery * ray_.direction - centre, frame[1], frame[2], frame[0],
+                                               1 / radius);
+    const uint32_t count = foam_->detailCount();
+    height = heightAt(&chunk.details[size_t{cell} * count], count, foam::faceQuery(local),
+                      foam_->detailSharpness(), radius);
+  }
+  const double tFace = foam::intersectFace(centre, frame[0], facing, height);
+  if (leavesThroughFace) {
+    segment.tFar = std::min(segment.tFar, tFace);
+  } else {
+    segment.tNear = std::max(segment.tNear, tFace);
+  }
+}
+
+}  // namespace froth

@@ -1,0 +1,125 @@
+#include "runtime/query/query_foam.h"
+
+#include "format/checks.h"
+
+namespace froth {
+namespace {
+
+// Of this many cells one is an entry: from the nearest of them it is a few steps to any cell. 1 byte per cell.
+constexpr uint32_t kCellsPerEntry = 16;
+
+template <class T>
+uint64_t bytesOf(const std::vector<T>& values) {
+  return values.capacity() * sizeof(T);
+}
+
+double powerOf(const glm::vec4& siteRadius, const glm::dvec3& point) {
+  const glm::dvec3 difference = point - glm::dvec3(siteRadius);
+  return glm::dot(difference, difference) - double{siteRadius.w} * siteRadius.w;
+}
+
+std::vector<QueryDetail> joinDetails(const ChunkContents& contents) {
+  std::vector<QueryDetail> details;
+  details.reserve(contents.detailHeights.size());
+  for (size_t i = 0; i < contents.detailHeights.size(); ++i) {
+    details.push_back({contents.detailSites[i], contents.detailHeights[i]});
+  }
+  return details;
+}
+
+}  // namespace
+
+QueryFoam::QueryFoam(const AssetContents& manifest)
+    : hasWalkGraph_(manifest.hasWalkGraph),
+      detailCount_(manifest.detailCount),
+      localBits_(manifest.localBits),
+      detailSharpness_(manifest.detailSharpness) {}
+
+void QueryFoam::addChunk(const ChunkContents& contents) {
+  if (!hasWalkGraph_) return;
+  QueryChunk& chunk = chunks_.emplace_back();
+  chunk.origin = {contents.origin[0], contents.origin[1], contents.origin[2]};
+  chunk.cellCount = contents.cellCount;
+  chunk.liveCount = contents.liveCount;
+  chunk.siteRadius.reserve(contents.sites.size());
+  for (size_t i = 0; i < contents.sites.size(); ++i) {
+    chunk.siteRadius.push_back(glm::vec4(contents.sites[i], contents.radii[i]));
+  }
+  chunk.neighbourOffsets = contents.neighbourOffsets;
+  chunk.neighbours = packElements(contents.neighbours);
+  chunk.ghostRefs = contents.ghostRefs;
+  chunk.densities = contents.densities;
+  chunk.orientations = contents.orientations;
+  chunk.details = joinDetails(contents);
+  growBounds(chunk);
+  const auto index = static_cast<uint32_t>(chunks_.size() - 1);
+  for (uint32_t cell = 0; cell < chunk.cellCount; cell += kCellsPerEntry) {
+    samples_.push_back({glm::vec3(chunk.origin + chunk.siteOf(cell)), {index, cell}});
+  }
+  bytes_ += sizeof(QueryChunk) + bytesOf(chunk.siteRadius) + bytesOf(chunk.neighbourOffsets) +
+            bytesOf(chunk.neighbours.words) + bytesOf(chunk.ghostRefs) + bytesOf(chunk.densities) +
+            bytesOf(chunk.orientations) + bytesOf(chunk.details);
+}
+
+void QueryFoam::growBounds(const QueryChunk& chunk) {
+  for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) {
+    const glm::dvec3 site = chunk.origin + chunk.siteOf(cell);
+    low_ = glm::min(low_, site - chunk.radiusOf(cell));
+    high_ = glm::max(high_, site + chunk.radiusOf(cell));
+  }
+}
+
+void QueryFoam::finish() {
+  if (samples_.empty()) return;
+  entries_ = EntryTree(std::move(samples_));
+  samples_ = {};
+  bytes_ += entries_.bytes();
+}
+
+double QueryFoam::meanHeightOf(const QueryChunk& chunk, uint32_t cell) const {
+  if (chunk.details.empty()) return 0;
+  double sum = 0;
+  for (uint32_t k = 0; k < detailCount_; ++k) sum += chunk.details[size_t{cell} * detailCount_ + k].height;
+  return sum / detailCount_;
+}
+
+CellAddress QueryFoam::cellOfSite(uint32_t chunk, uint32_t site) const {
+  const uint32_t cellCount = chunks_[chunk].cellCount;
+  if (site < cellCount) return {chunk, site};
+  const CellRef ref = chunks_[chunk].ghostRefs[site - cellCount];
+  return {chunkOf(ref, localBits_), localOf(ref, localBits_)};
+}
+
+double QueryFoam::powerOf(CellAddress cell, const glm::dvec3& point) const {
+  const QueryChunk& chunk = chunks_[cell.chunk];
+  return froth::powerOf(chunk.siteRadius[cell.cell], point - chunk.origin);
+}
+
+// Greedy descent of the power. Over the regular triangulation it ends at the least one. Ends in any graph: each step is
+// taken only to a lower number, and a site of a chunk, be it a cell or a ghost, always has the same.
+CellAddress QueryFoam::locate(const glm::dvec3& point) const {
+  CellAddress current = entries_.find(glm::vec3(point));
+  const QueryChunk* chunk = &chunks_[current.chunk];
+  glm::dvec3 local = point - chunk->origin;
+  double least = froth::powerOf(chunk->siteRadius[current.cell], local);
+  for (;;) {
+    uint32_t best = current.cell;
+    const uint32_t end = chunk->neighbourOffsets[current.cell + 1];
+    for (uint32_t i = chunk->neighbourOffsets[current.cell]; i < end; ++i) {
+      const uint32_t other = chunk->neighbourAt(i);
+      const double power = froth::powerOf(chunk->siteRadius[other], local);
+      if (power < least) {
+        least = power;
+        best = other;
+      }
+    }
+    if (best == current.cell) return current;
+    const uint32_t from = current.chunk;
+    current = cellOfSite(from, best);
+    if (current.chunk == from) continue;
+    chunk = &chunks_[current.chunk];
+    local = point - chunk->origin;
+  }
+}
+
+}  // namespace froth

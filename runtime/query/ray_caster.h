@@ -1,0 +1,56 @@
+// Rays through all instances of a world, with the meeting of their foams.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "froth/froth.h"
+#include "runtime/query/foam_walk.h"
+#include "runtime/query/placement.h"
+
+namespace froth {
+
+struct CastSettings {
+  double logQuantile, logCutoff;
+  uint32_t maxSteps;
+  bool closestOnly;
+};
+
+// Casts one ray after the other; one thread at a time.
+class RayCaster {
+ public:
+  // `foams` outlive it, and can be walked.
+  RayCaster(std::span<const PlacedFoam> foams, const CastSettings& settings);
+
+  // The ray's numbers have been checked.
+  FrothRayHit cast(const FrothRay& ray);
+
+ private:
+  // The segments of one foam along the ray, in world units.
+  struct Stream {
+    const PlacedFoam* placed;
+    FoamWalk walk;
+    double tBase;  // where the walk's t is 0
+    FoamSegment segment;
+    bool isAhead;  // the segment is one; else there are no more
+
+    void advance();
+  };
+
+  // A stretch of the ray with the same foams all along; their densities add.
+  struct Stretch {
+    double tNear, tFar, density;
+    const Stream* densest;
+  };
+
+  void startStreams(const glm::dvec3& origin, const glm::dvec3& direction, double tMin, double tMax);
+  bool findStretch(double passed, Stretch& stretch);
+  static void describePlace(const Stretch& stretch, const glm::dvec3& position, FrothRayHit& hit);
+
+  std::span<const PlacedFoam> foams_;
+  CastSettings settings_;
+  std::vector<Stream> streams_;
+};
+
+}  // namespace froth

@@ -1,0 +1,187 @@
+// Where device memory comes from, and the report of it.
+#include <map>
+
+#include "runtime_fixture.h"
+
+namespace froth {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A caller's allocator: hands out parts of memory at an offset, as one that allocates in blocks does.
+struct CallersMemory {
+  static constexpr VkDeviceSize kOffset = 1 << 16;  // a multiple of every alignment that a buffer asks for
+
+  static VkResult allocate(void* user, const FrothMemoryRequest* request, FrothDeviceMemory* memory) {
+    auto* self = static_cast<CallersMemory*>(user);
+    if (self->live.size() >= self->most) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    const VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr,
+                                          request->allocateFlags, 0};
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags,
+                                    request->requirements.size + kOffset, request->memoryTypeIndex};
+    const VkResult result = vkAllocateMemory(self->device, &info, nullptr, &memory->memory);
+    EXPECT_EQ(result, VK_SUCCESS);
+    EXPECT_EQ(kOffset % request->requirements.alignment, 0u);
+    memory->offset = kOffset;
+    if (request->isMapped) {
+      EXPECT_EQ(vkMapMemory(self->device, memory->memory, kOffset, VK_WHOLE_SIZE, 0, &memory->mapped), VK_SUCCESS);
+    }
+    memory->handle = reinterpret_cast<void*>(++self->count);
+    self->live[memory->handle] = request->requirements.size;
+    return VK_SUCCESS;
+  }
+
+  static void free(void* user, const FrothDeviceMemory* memory) {
+    auto* self = static_cast<CallersMemory*>(user);
+    EXPECT_EQ(self->live.erase(memory->handle), 1u) << "freed twice, or never given";
+    vkFreeMemory(self->device, memory->memory, nullptr);
+  }
+
+  VkDeviceSize bytes() const {
+    VkDeviceSize sum = 0;
+    for (const auto& [handle, size] : live) sum += size;
+    return sum;
+  }
+
+  VkDevice device;
+  size_t most = SIZE_MAX;
+  std::map<void*, VkDeviceSize> live{};
+  uintptr_t count = 0;
+};
+
+class DeviceMemory : public RuntimeGpuTest {
+ protected:
+  FrothContextInfo infoWith(CallersMemory& memory) {
+    FrothContextInfo info = host_->contextInfo();
+    info.allocateMemory = CallersMemory::allocate;
+    info.freeMemory = CallersMemory::free;
+    info.memoryUser = &memory;
+    return info;
+  }
+
+  FrothMemoryReport report() {
+    auto report = makeStruct<FrothMemoryReport>();
+    EXPECT_EQ(frothGetMemoryReport(context_, &report), FROTH_OK) << lastText();
+    return report;
+  }
+
+  // Draws what there is and reads it back.
+  std::vector<float> draw(FrothView view) {
+    Result<HostImage> image = host_->createImage(VK_FORMAT_R16G16B16A16_SFLOAT, {32, 32});
+    auto info = makeStruct<FrothRenderInfo>();
+    info.camera = makeCamera(32, 32);
+    info.camera.eye[2] = 1e6 - 1;  // where the sample lies
+    info.colour = host_->describe(*image);
+    runFrame(0, [&](VkCommandBuffer commands) {
+      EXPECT_EQ(frothRasterize(context_, view, commands, &info), FROTH_OK) << lastText();
+    });
+    const Result<std::vector<float>> texels = host_->readImage(*image);
+    host_->destroyImage(*image);
+    return *texels;
+  }
+
+  // Opens the sample, draws it twice.
+  std::vector<float> drawSample() {
+    const FrothAsset asset = openBytes(encodeSample());
+    const FrothInstance instance = createInstance(asset);
+    const FrothView view = createView({32, 32});
+    runFrame();
+    std::vector<float> texels = draw(view);
+    EXPECT_EQ(frothDestroyView(context_, view), FROTH_OK);
+    EXPECT_EQ(frothDestroyInstance(context_, instance), FROTH_OK);
+    EXPECT_EQ(frothCloseAsset(context_, asset), FROTH_OK);
+    return texels;
+  }
+};
+
+TEST_F(DeviceMemory, OfTheCallersAllocatorServesEverythingAndAllOfItIsGivenBack) {
+  createContext(host_->contextInfo());
+  const std::vector<float> expected = drawSample();
+  EXPECT_NE(expected, std::vector<float>(expected.size())) << "something is to be seen";
+  ASSERT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
+
+  CallersMemory memory{.device = host_->device};
+  createContext(infoWith(memory));
+  EXPECT_EQ(drawSample(), expected);
+  runFrame();
+  const FrothMemoryReport now = report();
+  VkDeviceSize granted = 0;
+  size_t count = 0;
+  for (uint32_t i = 0; i < now.categoryCount; ++i) {
+    granted += now.categories[i].granted;
+    count += now.categories[i].count;
+  }
+  EXPECT_EQ(granted, memory.bytes());
+  EXPECT_EQ(count, memory.live.size());
+  EXPECT_EQ(now.deviceBytes, 0u) << "only staging is left";
+  EXPECT_GT(now.devicePeak, 0u);
+  ASSERT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
+  context_ = nullptr;
+  EXPECT_TRUE(memory.live.empty());
+}
+
+TEST_F(DeviceMemory, ThatTheCallerRefusesIsAnErrorOfMemoryWithText) {
+  CallersMemory memory{.device = host_->device, .most = 0};
+  FrothContextInfo info = infoWith(memory);
+  info.onMessage = logMessage;
+  info.messageUser = &messages_;
+  EXPECT_EQ(frothCreateContext(&info, &context_), FROTH_ERROR_MEMORY);
+  EXPECT_THAT(lastText(), HasSubstr("upload ring: FrothContextInfo::allocateMemory of 67108864 bytes"));
+  memory.most = 3;
+  createContext(info);
+  auto viewInfo = makeStruct<FrothViewInfo>();
+  viewInfo.maxExtent = {16, 16};
+  FrothView view{};
+  EXPECT_EQ(frothCreateView(context_, &viewInfo, &view), FROTH_ERROR_MEMORY);
+  EXPECT_THAT(lastText(), HasSubstr("transients of a view"));
+  EXPECT_EQ(memory.live.size(), 1u) << "what was made before the refusal is given back";
+  const FrothAsset asset = openBytes(encodeSample());
+  runFrame();
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_FAILED);
+  EXPECT_EQ(statusOf(asset).error, FROTH_ERROR_MEMORY);
+  memory.most = SIZE_MAX;
+  ASSERT_EQ(frothCloseAsset(context_, asset), FROTH_OK);
+  EXPECT_EQ(drawSample().size(), size_t{4 * 32 * 32}) << "the context goes on";
+  ASSERT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
+  context_ = nullptr;
+  EXPECT_TRUE(memory.live.empty());
+}
+
+TEST_F(DeviceMemory, CallbacksComeInPairs) {
+  FrothContextInfo info = nullContextInfo();
+  info.freeMemory = CallersMemory::free;
+  info.onMessage = logMessage;
+  info.messageUser = &messages_;
+  EXPECT_EQ(frothCreateContext(&info, &context_), FROTH_ERROR_ARGUMENT);
+  EXPECT_THAT(lastText(), HasSubstr("set both or none"));
+}
+
+TEST_F(DeviceMemory, IsReportedByPurpose) {
+  createContext(host_->contextInfo());
+  const FrothMemoryReport empty = report();
+  ASSERT_EQ(empty.categoryCount, 4u);
+  EXPECT_EQ(empty.deviceBytes, 0u);
+  EXPECT_STREQ(empty.categories[3].name, "uploads, host");
+  EXPECT_EQ(empty.categories[3].granted, 64u << 20);
+  EXPECT_EQ(empty.categories[3].used, 0u);
+  const FrothAsset asset = openBytes(encodeSample());
+  createView({32, 32});
+  runFrame();
+  const FrothMemoryReport loaded = report();
+  EXPECT_STREQ(loaded.categories[0].name, "assets");
+  EXPECT_EQ(loaded.categories[0].granted, statusOf(asset).deviceBytes);
+  EXPECT_LE(loaded.categories[0].used, loaded.categories[0].granted);
+  EXPECT_GT(loaded.categories[0].used, 0u);
+  EXPECT_EQ(loaded.deviceBytes, loaded.categories[0].granted + loaded.categories[1].granted);
+  EXPECT_GT(loaded.categories[3].used, 0u) << "the upload is not known to be complete";
+  ASSERT_EQ(frothCloseAsset(context_, asset), FROTH_OK);
+  runFrame();
+  const FrothMemoryReport closed = report();
+  EXPECT_EQ(closed.categories[0].granted, 0u);
+  EXPECT_EQ(closed.categories[0].count, 0u);
+  EXPECT_EQ(closed.categories[0].peak, loaded.categories[0].peak);
+  EXPECT_EQ(closed.categories[3].used, 0u);
+}
+
+}  // namespace
+}  // namespace froth
