@@ -58,19 +58,12 @@ void takeTileCount(uint visible, uint slot) {
   atomicAdd(FRAME.tileSums.v[visible / kCellsPerTileSum], count);
 }
 
-void extendRange(uint tile, uint pair) {
-  uint i = checked(tile, FRAME.tilesX * FRAME.tilesY);
-  atomicMax(FRAME.tileRanges.v[i].x, ~pair);
-  atomicMax(FRAME.tileRanges.v[i].y, pair + 1);
-}
-
 void moveKey(uint place, uint key, uint value) {
   push.keysOut.v[place] = key;
   push.valuesOut.v[place] = value;
   UintArray nextHistogram = push.nextHistogram;
   if (push.step == kSortCountNextDigit) countDigit(nextHistogram, place, digitOf(key, push.shift + 8));
   if (push.step == kSortTakeTileCounts) takeTileCount(place, value);
-  if (push.step == kSortFindRanges) extendRange(key, place);
 }
 
 void main() {

@@ -75,11 +75,11 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
   block.pairCells = buffers[ViewBuffer::kPairCells].address;
   const bool endsInSwap = digitsOf(tilesOf(region)) % 2 != 0;
   block.tileCells = buffers[endsInSwap ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells].address;
-  block.tileOrder = buffers[ViewBuffer::kTileOrder].address;
+  block.tileLists = buffers[ViewBuffer::kTileLists].address;
   const VkDeviceAddress tallies = buffers[ViewBuffer::kTallies].address;
   const TallyLayout layout = layOutTallies(capacity);
   block.superSums = tallies + layout.superSums;
-  block.tileRanges = tallies + layout.tileRanges;
+  block.tileLengths = tallies + layout.tileLengths;
   block.tileSums = tallies + layout.tileSums;
   block.cellHistogram = tallies + layout.cellHistograms;
   block.pairHistogram = tallies + layout.pairHistograms;

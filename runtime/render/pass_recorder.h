@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "runtime/core/device.h"
 #include "runtime/render/pipeline_state.h"
@@ -38,7 +39,9 @@ struct SortArrays {
 };
 
 // Sorts stably by the low `digits` bytes of the keys, ascending. Ends in the swaps if `digits` is odd. Ends
-// with a barrier. lastStep: gpu::kSort..., what the pass over the last digit does besides.
-void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits, uint32_t lastStep);
+// with a barrier. lastStep: gpu::kSort..., what the pass over the last digit does besides. `recordBeside` records passes that
+// run beside that over a digit, and are waited for with it.
+void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits, uint32_t lastStep,
+                const std::function<void(uint32_t digit)>& recordBeside);
 
 }  // namespace froth

@@ -25,6 +25,10 @@ enum class Pass : uint32_t {
   // from here on specialized on the asset's shape
   kCompactCells,
   kShadeSites,
+  kRasterLong16,  // of tiles with long lists
+  kRasterLong32,
+  kRasterLongNormals16,
+  kRasterLongNormals32,
   kRaster16,
   kRaster32,
   kRasterNormals16,
@@ -34,7 +38,7 @@ enum class Pass : uint32_t {
   kWalkNormals16,
   kWalkNormals32,
 };
-inline constexpr uint32_t kPassCount = 19;
+inline constexpr uint32_t kPassCount = 23;
 inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.

@@ -13,6 +13,8 @@
 #include "spirv/expand_cells.h"
 #include "spirv/locate.h"
 #include "spirv/order_tiles.h"
+#include "spirv/raster_long_tiles_rgba16f.h"
+#include "spirv/raster_long_tiles_rgba32f.h"
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
 #include "spirv/shade_sites.h"
@@ -46,6 +48,10 @@ const std::array<PassCode, kPassCount> kPassCodes = {{
     {"clear_rgba32f", clear_rgba32f_spirv},
     {"compact_cells", compact_cells_spirv},
     {"shade_sites", shade_sites_spirv},
+    {"raster_long_tiles_rgba16f", raster_long_tiles_rgba16f_spirv},
+    {"raster_long_tiles_rgba32f", raster_long_tiles_rgba32f_spirv},
+    {"raster_long_tiles_rgba16f", raster_long_tiles_rgba16f_spirv, true},
+    {"raster_long_tiles_rgba32f", raster_long_tiles_rgba32f_spirv, true},
     {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv},
     {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv},
     {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv, true},

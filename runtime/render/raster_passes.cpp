@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstddef>
 
 #include "runtime/render/view_state.h"
@@ -6,20 +5,22 @@
 namespace froth {
 namespace {
 
-// The tiles of a cell do not depend on its place in the order, so they are counted while the first digit is
-// sorted.
+// The passes of a sort leave most of the GPU idle, so what does not depend on the order runs beside them.
 void recordCellSort(const Recording& recording, const PassRecorder& recorder) {
   const ViewBuffers& buffers = recording.view.buffers;
   const TallyLayout tallies = layOutTallies(buffers.capacity());
   const VkDeviceAddress counters = recording.countersAddress();
-  recorder.runIndirect(Pass::kCountTiles, offsetof(gpu::Counters, tileDispatch));
   recordSort(recorder,
              {buffers[ViewBuffer::kCellKeys].address, buffers[ViewBuffer::kOrder].address,
               buffers[ViewBuffer::kCellKeysSwap].address, buffers[ViewBuffer::kOrderSwap].address,
               counters + offsetof(gpu::Counters, visibleCells),
               buffers[ViewBuffer::kTallies].address + tallies.cellHistograms, buffers.capacity().cells,
               offsetof(gpu::Counters, cellSortDispatch)},
-             kCellKeyDigits, gpu::kSortTakeTileCounts);
+             kCellKeyDigits, gpu::kSortTakeTileCounts, [&](uint32_t digit) {
+               if (digit == 0) recorder.runIndirect(Pass::kCountTiles, offsetof(gpu::Counters, tileDispatch));
+               if (digit == 1) recordExpand(recorder);
+               if (digit == 2) recordShade(recorder);
+             });
 }
 
 // Pairs leave the cells in their order; a stable sort by tile keeps it within each tile.
@@ -35,16 +36,9 @@ void recordBin(const Recording& recording, const PassRecorder& recorder) {
               counters + offsetof(gpu::Counters, pairsKept),
               buffers[ViewBuffer::kTallies].address + tallies.pairHistograms, buffers.capacity().pairs,
               offsetof(gpu::Counters, pairSortDispatch)},
-             digitsOf(tilesOf(recording.info.camera.scissor)), gpu::kSortFindRanges);
-}
-
-// A workgroup per sub-tile, 16 in a row for each place in the order of the tiles.
-void recordTiles(const Recording& recording, const PassRecorder& recorder) {
-  constexpr uint32_t kAlong = gpu::kTileSize / gpu::kSubTileSize;
-  const uint32_t tiles = tilesOf(recording.info.camera.scissor);
-  constexpr uint32_t kTilesPerRow = 2048;  // one dimension may be limited to 65535 workgroups
-  recorder.run(pixelPass(Pass::kRaster16, recording.info), kAlong * kAlong * std::min(tiles, kTilesPerRow),
-               groupsOver(tiles, kTilesPerRow));
+             digitsOf(tilesOf(recording.info.camera.scissor)), gpu::kSortOnlyMove, [&](uint32_t digit) {
+               if (digit == 0) recorder.run(Pass::kOrderTiles, 1);
+             });
 }
 
 }  // namespace
@@ -56,10 +50,8 @@ void recordRasterPasses(const Recording& recording, const PassRecorder& recorder
   recording.mark("sort");
   recordBin(recording, recorder);
   recording.mark("bin");
-  recorder.run(Pass::kOrderTiles, 1);  // beside the shading
-  recordShade(recorder);
-  recording.mark("shade");
-  recordTiles(recording, recorder);
+  recorder.runIndirect(pixelPass(Pass::kRasterLong16, recording.info), offsetof(gpu::Counters, longTileDispatch));
+  recorder.runIndirect(pixelPass(Pass::kRaster16, recording.info), offsetof(gpu::Counters, tileDrawDispatch));
   recording.mark("raster");
 }
 

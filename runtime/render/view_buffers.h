@@ -36,7 +36,7 @@ enum class ViewBuffer : uint32_t {
   kPairCells,
   kPairCellsSwap,
   kTallies,  // TallyLayout
-  kTileOrder,
+  kTileLists,
   kWalkStart,
 };
 inline constexpr uint32_t kViewBufferCount = 23;

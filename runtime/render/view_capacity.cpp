@@ -62,8 +62,8 @@ TallyLayout layOutTallies(const ViewCapacity& capacity) {
   TallyLayout layout;
   layout.cellHistograms = 0;
   layout.pairHistograms = kCellKeyDigits * histogramBytes(capacity.cells);
-  layout.tileRanges = layout.pairHistograms + digitsOf(capacity.tiles) * histogramBytes(capacity.pairs);
-  layout.superSums = layout.tileRanges + sizeof(uint32_t[2]) * capacity.tiles;
+  layout.tileLengths = layout.pairHistograms + digitsOf(capacity.tiles) * histogramBytes(capacity.pairs);
+  layout.superSums = layout.tileLengths + sizeof(uint32_t) * (capacity.tiles + capacity.tiles % 2);
   layout.tileSums = layout.superSums + sizeof(uint32_t[2]) * groupsOver(capacity.groups, gpu::kGroupSize);
   layout.end = layout.tileSums + sizeof(uint32_t) * groupsOver(capacity.cells, gpu::kCellsPerTileSum);
   return layout;

@@ -47,7 +47,7 @@ uint64_t histogramBytes(uint32_t keys);
 // [bytes] Where in ViewBuffer::kTallies lies what every recording clears: of a walk only the superSums.
 struct TallyLayout {
   uint64_t cellHistograms, pairHistograms;  // one per digit
-  uint64_t tileRanges, superSums, tileSums;
+  uint64_t tileLengths, superSums, tileSums;
   uint64_t end;
 };
 

@@ -130,7 +130,7 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
                {keyBuffer.address, valueBuffer.address, keySwap.address, valueSwap.address,
                 counterBuffer->address + offsetof(gpu::Counters, visibleCells), histogramAddress,
                 std::max(count, 1u), offsetof(gpu::Counters, cellSortDispatch)},
-               4, gpu::kSortTakeTileCounts);
+               4, gpu::kSortTakeTileCounts, [](uint32_t) {});
   });
 
   std::vector<uint32_t> order = values;
@@ -243,13 +243,20 @@ class Bin : public Passes {
     lists.visible = copyOut<gpu::uvec4>(view.buffers[ViewBuffer::kVisibleCells], cells);
     const ViewBuffer last = digitsOf(tiles) % 2 != 0 ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells;
     const auto pairs = copyOut<uint32_t>(view.buffers[last], lists.counters.pairs);
-    const auto ranges = copyOut<std::array<uint32_t, 2>>(view.buffers[ViewBuffer::kTallies], tiles,
-                                                         layOutTallies(view.buffers.capacity()).tileRanges);
-    for (const auto& [beginInverted, end] : ranges) {
-      std::vector<uint32_t>& slots = lists.tileSlots.emplace_back();
-      for (uint32_t pair = ~beginInverted; pair < end; ++pair)
-        slots.push_back(lists.order.at(pairs.at(pair)));
+    const auto tileLists = copyOut<gpu::uvec4>(view.buffers[ViewBuffer::kTileLists], tiles);
+    lists.tileSlots.resize(tiles);
+    std::vector<bool> isListed(tiles);
+    uint32_t shortest = UINT32_MAX, longest = 0;
+    for (uint32_t place = 0; place < tiles; ++place) {
+      const auto& [tile, begin, end, padding] = tileLists[place];
+      EXPECT_FALSE(isListed.at(tile)) << "tile " << tile << " twice";
+      isListed[tile] = true;
+      EXPECT_LE(end - begin, 2 * uint64_t{shortest}) << "after a list of half the length";
+      shortest = std::min(shortest, end - begin);
+      if (place >= lists.counters.longTiles) longest = std::max(longest, end - begin);
+      for (uint32_t pair = begin; pair < end; ++pair) lists.tileSlots[tile].push_back(pairs.at(pair));
     }
+    EXPECT_LE(longest, std::max(2 * lists.counters.pairs / gpu::kTilesAtOnce, 1u)) << "drawn as a short list";
     return lists;
   }
 };
