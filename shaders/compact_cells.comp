@@ -55,7 +55,7 @@ void planVisible(uint kept) {
   COUNTERS.visibleCells = kept;
   COUNTERS.expandDispatch = dispatchOf(groupsOver(kept, kGroupSize / lanesPerCell()));
   COUNTERS.siteDispatch = dispatchOf(groupsOver(kept * detailCount, kGroupSize));
-  COUNTERS.cellSortDispatch = dispatchOf(groupsOver(kept, kSortKeysPerGroup));
+  COUNTERS.cellSortDispatch = dispatchOf(groupsOver(kept, keysPerSortGroup()));
   COUNTERS.tileDispatch = dispatchOf(groupsOver(kept, kTileCellsPerGroup));
 }
 

@@ -28,7 +28,7 @@ uint shareOfPairsBefore(uint firstVisible) {
 // By the workgroup that loses the first pair, or else by the last one.
 void planPairs(uint kept) {
   COUNTERS.pairsKept = kept;
-  COUNTERS.pairSortDispatch = dispatchOf(groupsOver(kept, kSortKeysPerGroup));
+  COUNTERS.pairSortDispatch = dispatchOf(groupsOver(kept, keysPerSortGroup()));
 }
 
 void main() {

@@ -61,6 +61,7 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
       static_cast<uint32_t>(std::min(uint64_t{capacity.cells}, capacity.sites / asset.detailCount));
   block.planeCapacity = static_cast<uint32_t>(capacity.planes);
   block.pairCapacity = capacity.pairs;
+  block.sortRounds = sortRoundsOf(capacity.cells);
   block.groupSums = buffers[ViewBuffer::kGroupSums].address;
   block.visibility = buffers[ViewBuffer::kVisibility].address;
   block.visibleCells = buffers[ViewBuffer::kVisibleCells].address;

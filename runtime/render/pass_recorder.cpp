@@ -45,13 +45,13 @@ void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t
                                .valuesOut = arrays.valuesSwap,
                                .count = arrays.count,
                                .histogram = arrays.histograms,
-                               .nextHistogram = arrays.histograms + histogramBytes(arrays.capacity),
+                               .nextHistogram = arrays.histograms + histogramBytes(arrays.capacity, arrays.rounds),
                                .shift = 0,
                                .capacity = arrays.capacity,
                                .step = gpu::kSortCountNextDigit,
                                .padding = 0};
   for (uint32_t digit = 0; digit < digits; ++digit) {
-    recorder.bind(Pass::kSortScatter);
+    recorder.bind(arrays.rounds == 1 ? Pass::kSortScatter : Pass::kSortScatterMany);
     constants.shift = 8 * digit;
     if (digit + 1 == digits) constants.step = lastStep;
     recorder.vk.vkCmdPushConstants(recorder.commandBuffer, recorder.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
@@ -62,7 +62,7 @@ void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t
     std::swap(constants.keysIn, constants.keysOut);
     std::swap(constants.valuesIn, constants.valuesOut);
     constants.histogram = constants.nextHistogram;
-    constants.nextHistogram += histogramBytes(arrays.capacity);
+    constants.nextHistogram += histogramBytes(arrays.capacity, arrays.rounds);
   }
 }
 

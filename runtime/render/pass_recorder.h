@@ -33,9 +33,10 @@ struct PassRecorder {
 struct SortArrays {
   VkDeviceAddress keys, values, keysSwap, valuesSwap;  // uint [capacity]
   VkDeviceAddress count;                               // uint: how many, at most capacity
-  VkDeviceAddress histograms;  // [digits * histogramBytes(capacity)]: that of the lowest digit, then zeros
+  VkDeviceAddress histograms;  // [digits * histogramBytes(capacity, rounds)]: that of the lowest digit, then zeros
   uint32_t capacity;
-  size_t dispatch;  // offset in gpu::Counters of a size of one workgroup per kSortKeysPerGroup keys
+  uint32_t rounds;                                     // FrameBlock::sortRounds
+  size_t dispatch;  // offset in gpu::Counters of a size of one workgroup per rounds * kGroupSize keys
 };
 
 // Sorts stably by the low `digits` bytes of the keys, ascending. Ends in the swaps if `digits` is odd. Ends

@@ -15,6 +15,7 @@ namespace froth {
 enum class Pass : uint32_t {
   kCullCells,
   kSortScatter,
+  kSortScatterMany,  // with gpu::kManyKeysRounds
   kCountTiles,
   kEmitPairs,
   kOrderTiles,
@@ -38,7 +39,7 @@ enum class Pass : uint32_t {
   kWalkNormals16,
   kWalkNormals32,
 };
-inline constexpr uint32_t kPassCount = 23;
+inline constexpr uint32_t kPassCount = 24;
 inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.

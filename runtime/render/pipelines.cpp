@@ -19,6 +19,7 @@
 #include "spirv/raster_tiles_rgba32f.h"
 #include "spirv/shade_sites.h"
 #include "spirv/sort_scatter.h"
+#include "spirv/sort_scatter_many.h"
 #include "spirv/walk_rgba16f.h"
 #include "spirv/walk_rgba32f.h"
 
@@ -39,6 +40,7 @@ struct PassCode {
 const std::array<PassCode, kPassCount> kPassCodes = {{
     {"cull_cells", cull_cells_spirv},
     {"sort_scatter", sort_scatter_spirv},
+    {"sort_scatter_many", sort_scatter_many_spirv},
     {"count_tiles", count_tiles_spirv},
     {"emit_pairs", emit_pairs_spirv},
     {"order_tiles", order_tiles_spirv},

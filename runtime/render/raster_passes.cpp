@@ -15,7 +15,7 @@ void recordCellSort(const Recording& recording, const PassRecorder& recorder) {
               buffers[ViewBuffer::kCellKeysSwap].address, buffers[ViewBuffer::kOrderSwap].address,
               counters + offsetof(gpu::Counters, visibleCells),
               buffers[ViewBuffer::kTallies].address + tallies.cellHistograms, buffers.capacity().cells,
-              offsetof(gpu::Counters, cellSortDispatch)},
+              sortRoundsOf(buffers.capacity().cells), offsetof(gpu::Counters, cellSortDispatch)},
              kCellKeyDigits, gpu::kSortTakeTileCounts, [&](uint32_t digit) {
                if (digit == 0) recorder.runIndirect(Pass::kCountTiles, offsetof(gpu::Counters, tileDispatch));
                if (digit == 1) recordExpand(recorder);
@@ -35,7 +35,7 @@ void recordBin(const Recording& recording, const PassRecorder& recorder) {
               buffers[ViewBuffer::kPairTilesSwap].address, buffers[ViewBuffer::kPairCellsSwap].address,
               counters + offsetof(gpu::Counters, pairsKept),
               buffers[ViewBuffer::kTallies].address + tallies.pairHistograms, buffers.capacity().pairs,
-              offsetof(gpu::Counters, pairSortDispatch)},
+              sortRoundsOf(buffers.capacity().cells), offsetof(gpu::Counters, pairSortDispatch)},
              digitsOf(tilesOf(recording.info.camera.scissor)), gpu::kSortOnlyMove, [&](uint32_t digit) {
                if (digit == 0) recorder.run(Pass::kOrderTiles, 1);
              });

@@ -33,7 +33,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer FloatQuadAr
 
 FROTH_CONST kGroupSize = 256;         // threads of a workgroup in all passes over lists
 FROTH_CONST kSortDigits = 256;        // values of a digit, as many as a workgroup has threads
-FROTH_CONST kSortKeysPerGroup = 256;  // keys one workgroup ranks in a radix pass
+FROTH_CONST kManyKeysRounds = 4;      // FrameBlock::sortRounds of long lists; 1 of others
 FROTH_CONST kSortGroupsPerSum = 32;   // rows of a histogram that have a row of sums before them
 FROTH_CONST kTileCellsPerGroup = 64;  // visible cells whose tiles one workgroup tests
 FROTH_CONST kCellsPerTileSum = 1024;  // visible cells whose tiles are summed for the prefixes of pairs
@@ -144,9 +144,9 @@ struct Counters {
   uint longTiles;     // the first ones of FrameBlock::tileLists
   uvec4 expandDispatch;    // kRasterLanes or kWalkLanes threads per visible cell
   uvec4 siteDispatch;      // a thread per detail site of a visible cell
-  uvec4 cellSortDispatch;  // a workgroup per kSortKeysPerGroup visible cells
+  uvec4 cellSortDispatch;  // a workgroup per sortRounds * kGroupSize visible cells
   uvec4 tileDispatch;      // a workgroup per kTileCellsPerGroup visible cells
-  uvec4 pairSortDispatch;  // a workgroup per kSortKeysPerGroup kept pairs
+  uvec4 pairSortDispatch;  // a workgroup per sortRounds * kGroupSize kept pairs
   uvec4 longTileDispatch;  // a workgroup per sub-tile of the long tiles,
   uvec4 tileDrawDispatch;  // of all others
   uint work[2 * kWorkKinds];  // low, high word by kind; stay zero without kConstantCountWork
@@ -173,7 +173,8 @@ struct FrameBlock {
   uint flags, maxSteps, localBits;
   uint regionX, regionY, regionWidth, regionHeight;  // [pixels] what is drawn
   uint tilesX, tilesY, chunkCount, groupsPerChunk;   // groups: workgroups over a chunk's cells
-  uint visibleCapacity, planeCapacity, pairCapacity, padding;
+  uint visibleCapacity, planeCapacity, pairCapacity;
+  uint sortRounds;  // keys that a thread ranks in a pass of a radix sort
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
   FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] visible cells, their planes

@@ -80,11 +80,12 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
 
   const GpuBuffer keyBuffer = upload(keys), valueBuffer = upload(values);
   const GpuBuffer keySwap = upload(keys), valueSwap = upload(values);
-  const uint32_t groups = groupsOver(count, gpu::kSortKeysPerGroup);
+  const uint32_t rounds = sortRoundsOf(count), keysPerGroup = rounds * gpu::kGroupSize;
+  const uint32_t groups = groupsOver(count, keysPerGroup);
   // Each group of keys has a row of digits, each kSortGroupsPerSum of these a row of sums before them.
-  std::vector<uint32_t> histograms(4 * histogramBytes(std::max(count, 1u)) / sizeof(uint32_t));
+  std::vector<uint32_t> histograms(4 * histogramBytes(std::max(count, 1u), rounds) / sizeof(uint32_t));
   for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t group = i / gpu::kSortKeysPerGroup, sum = group / gpu::kSortGroupsPerSum;
+    const uint32_t group = i / keysPerGroup, sum = group / gpu::kSortGroupsPerSum;
     ++histograms[gpu::kSortDigits * (group + sum + 1) + (keys[i] & 255)];
     ++histograms[gpu::kSortDigits * (gpu::kSortGroupsPerSum + 1) * sum + (keys[i] & 255)];
   }
@@ -100,6 +101,7 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
   gpu::FrameBlock block{};
   block.counters = counterBuffer->address;
   block.visibleCapacity = count;
+  block.sortRounds = rounds;
   block.slotTiles = upload(slotTiles).address;
   block.tileCounts = tileCountBuffer.address;
   block.tileSums = tileSumBuffer.address;
@@ -129,7 +131,7 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
     recordSort(recorder,
                {keyBuffer.address, valueBuffer.address, keySwap.address, valueSwap.address,
                 counterBuffer->address + offsetof(gpu::Counters, visibleCells), histogramAddress,
-                std::max(count, 1u), offsetof(gpu::Counters, cellSortDispatch)},
+                std::max(count, 1u), rounds, offsetof(gpu::Counters, cellSortDispatch)},
                4, gpu::kSortTakeTileCounts, [](uint32_t) {});
   });
 
