@@ -22,7 +22,7 @@ struct FrameSlot {
   uint32_t recordings = 0;
 };
 
-// Growth that failed. It is not tried again in every frame, only for another asset or budget, or once the context
+// Growth that the budget refused. It is not tried again in every frame, only for another asset or budget, or once the context
 // holds less.
 struct GrowthRefusal {
   const GpuAsset* asset;
