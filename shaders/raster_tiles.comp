@@ -110,25 +110,26 @@ bool areSaturated(Shading shading, Radiance radiances[kRays]) {
   return areAll;
 }
 
-// The tile of this workgroup and its list; false: there is none.
-bool findTile(out uvec3 list) {
-  uint place = linearGroup() / kSubTilesPerTile;
+// The tile of this workgroup, and its place in the order; false: there is none.
+bool findTile(out uint tile, out uint place) {
+  place = linearGroup() / kSubTilesPerTile;
   bool isLong = kRays == 1;
   if (!isLong) place += COUNTERS.longTiles;
   if (place >= (isLong ? COUNTERS.longTiles : FRAME.tilesX * FRAME.tilesY)) return false;
-  list = FRAME.tileLists.v[place].xyz;
+  tile = FRAME.tileLists.v[place].x;
   return true;
 }
 
 void main() {
   uint lane = gl_LocalInvocationIndex;
-  uvec3 list;
-  if (!findTile(list)) return;
+  uint tile, place;
+  if (!findTile(tile, place)) return;
   uint subTile = linearGroup() % kSubTilesPerTile;
-  uvec2 corner = uvec2(list.x % FRAME.tilesX, list.x / FRAME.tilesX) * kTileSize +
+  uvec2 corner = uvec2(tile % FRAME.tilesX, tile / FRAME.tilesX) * kTileSize +
                  uvec2(subTile % kSubTilesAlong, subTile / kSubTilesAlong) * kSubTileSize;
   if (!isInRegion(corner)) return;
   uvec2 firstPixel = corner + gl_LocalInvocationID.xy;
+  uvec2 range = FRAME.tileLists.v[place].yz;
   Shading shading = loadShading();
   vec3 directions[kRays];
   Radiance radiances[kRays];
@@ -138,15 +139,15 @@ void main() {
     radiances[r] = startOf(pixel);
   }
 
-  for (uint first = list.y; first < list.z; first += kBatch) {
+  for (uint first = range.x; first < range.y; first += kBatch) {
     bool isLive = !areSaturated(shading, radiances);
     if (lane < kBatchWords) keptMask[lane] = 0;
     if (lane == 0) liveMask = 0;
     barrier();
     if (isLive) atomicOr(liveMask, 1u);
-    uint count = gatherBatch(first + lane, list.z, corner);
+    uint count = gatherBatch(first + lane, range.y, corner);
     if (lane == 0) {
-      countWork(kWorkEntries, min(list.z - first, kBatch));
+      countWork(kWorkEntries, min(range.y - first, kBatch));
       countWork(kWorkEntriesKept, count);
     }
     if (liveMask == 0) break;
