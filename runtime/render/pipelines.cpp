@@ -12,10 +12,14 @@
 #include "spirv/emit_pairs.h"
 #include "spirv/expand_cells.h"
 #include "spirv/locate.h"
+#include "spirv/order_tiles.h"
+#include "spirv/raster_long_tiles_rgba16f.h"
+#include "spirv/raster_long_tiles_rgba32f.h"
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
 #include "spirv/shade_sites.h"
 #include "spirv/sort_scatter.h"
+#include "spirv/sort_scatter_many.h"
 #include "spirv/walk_rgba16f.h"
 #include "spirv/walk_rgba32f.h"
 
@@ -36,14 +40,20 @@ struct PassCode {
 const std::array<PassCode, kPassCount> kPassCodes = {{
     {"cull_cells", cull_cells_spirv},
     {"sort_scatter", sort_scatter_spirv},
+    {"sort_scatter_many", sort_scatter_many_spirv},
     {"count_tiles", count_tiles_spirv},
     {"emit_pairs", emit_pairs_spirv},
+    {"order_tiles", order_tiles_spirv},
     {"expand_cells", expand_cells_spirv},
     {"locate", locate_spirv},
     {"clear_rgba16f", clear_rgba16f_spirv},
     {"clear_rgba32f", clear_rgba32f_spirv},
     {"compact_cells", compact_cells_spirv},
     {"shade_sites", shade_sites_spirv},
+    {"raster_long_tiles_rgba16f", raster_long_tiles_rgba16f_spirv},
+    {"raster_long_tiles_rgba32f", raster_long_tiles_rgba32f_spirv},
+    {"raster_long_tiles_rgba16f", raster_long_tiles_rgba16f_spirv, true},
+    {"raster_long_tiles_rgba32f", raster_long_tiles_rgba32f_spirv, true},
     {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv},
     {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv},
     {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv, true},

@@ -36,9 +36,10 @@ enum class ViewBuffer : uint32_t {
   kPairCells,
   kPairCellsSwap,
   kTallies,  // TallyLayout
+  kTileLists,
   kWalkStart,
 };
-inline constexpr uint32_t kViewBufferCount = 22;
+inline constexpr uint32_t kViewBufferCount = 23;
 inline constexpr uint32_t kRecordingsPerFrame = 2;  // a raster and a walk
 
 // [bytes] The space of a FrameBlock and of Counters. The chunk table follows its block.

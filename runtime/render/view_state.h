@@ -78,7 +78,8 @@ const gpu::Counters& readCounters(const ViewState& view, uint32_t number);
 
 // Cull, list and count the visible cells; shared by raster and walk.
 void recordCull(const PassRecorder& recorder, const GpuAsset& asset);
-// Expand the visible cells and shade their detail sites, both at once.
+// Expand the listed cells; shade their detail sites. Neither needs the other.
+void recordExpand(const PassRecorder& recorder);
 void recordShade(const PassRecorder& recorder);
 
 void recordRasterPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset);

@@ -6,7 +6,9 @@ void recordWalkPasses(const Recording& recording, const PassRecorder& recorder, 
   recordCull(recorder, asset);
   recording.mark("cull");
   recorder.run(Pass::kLocate, 1);  // needs nothing of the passes around it, so it runs beside them
+  recordExpand(recorder);
   recordShade(recorder);
+  recorder.wait();
   recording.mark("shade");
   recordPixels(recording, recorder, pixelPass(Pass::kWalk16, recording.info));
   recording.mark("walk");
