@@ -44,8 +44,8 @@ uint slotInGroup(uint group, out uint word) {
 
 void listCell(uint slot, uvec4 cell, uint key) {
   FRAME.visibleCells.v[slot] = cell;
-  FRAME.order.v[slot] = slot;
   if (isWalk()) return;  // which sorts nothing
+  FRAME.order.v[slot] = slot;
   FRAME.cellKeys.v[slot] = key;
   UintArray histogram = FRAME.cellHistogram;
   countDigit(histogram, slot, digitOf(key, 0));
@@ -56,7 +56,7 @@ void planVisible(uint kept) {
   COUNTERS.visibleCells = kept;
   COUNTERS.expandDispatch = dispatchOf(groupsOver(kept, kGroupSize / lanesPerCell()));
   COUNTERS.siteDispatch = dispatchOf(groupsOver(kept * detailCount, kGroupSize));
-  COUNTERS.cellSortDispatch = dispatchOf(groupsOver(kept, kSortKeysPerGroup));
+  COUNTERS.cellSortDispatch = dispatchOf(groupsOver(kept, keysPerSortGroup()));
   COUNTERS.tileDispatch = dispatchOf(groupsOver(kept, kTileCellsPerGroup));
 }
 

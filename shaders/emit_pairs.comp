@@ -1,4 +1,4 @@
-// Writes the (tile, visible cell) pairs in the order of the cells, and plans their sort. The pairs of one cell come in any
+// Writes the (tile, slot) pairs in the order of the cells, counts them by tile, and plans their sort. The pairs of one cell come in any
 // order. Cells whose pairs do not all find space have none, and so have all cells behind them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -9,6 +9,7 @@
 
 layout(local_size_x = kGroupSize) in;
 
+shared uint slots[kTileCellsPerGroup];
 shared uint places[kTileCellsPerGroup];  // [cell] where its next pair goes
 shared uint pairEnd, candidateEnd;       // of the first cell whose pairs lack space: where they would begin
 
@@ -27,7 +28,7 @@ uint shareOfPairsBefore(uint firstVisible) {
 // By the workgroup that loses the first pair, or else by the last one.
 void planPairs(uint kept) {
   COUNTERS.pairsKept = kept;
-  COUNTERS.pairSortDispatch = dispatchOf(groupsOver(kept, kSortKeysPerGroup));
+  COUNTERS.pairSortDispatch = dispatchOf(groupsOver(kept, keysPerSortGroup()));
 }
 
 void main() {
@@ -41,11 +42,15 @@ void main() {
 
   uint count = isCell ? FRAME.tileCounts.v[visible] : 0;
   uint share = shareOfPairsBefore(firstVisible);
-  uint candidates = count > 0 ? takeCell(FRAME.order.v[visible]) : 0;
+  uint slot = isCell ? FRAME.order.v[visible] : 0;
+  uint candidates = count > 0 ? takeCell(slot) : 0;
   uvec3 total;
   uvec3 start = scanExclusive(uvec3(count, candidates, share), total);
   uint place = saturatingAdd(total.z, start.x);
-  if (isCell) places[thread] = place;
+  if (isCell) {
+    slots[thread] = slot;
+    places[thread] = place;
+  }
   if (count > 0 && saturatingAdd(place, count) > FRAME.pairCapacity) {
     atomicMin(pairEnd, place);
     atomicMin(candidateEnd, start.y);
@@ -60,7 +65,8 @@ void main() {
     uint pair = checked(atomicAdd(places[candidate.cell], 1u), FRAME.pairCapacity);
     uint tile = candidate.tile.y * FRAME.tilesX + candidate.tile.x;
     FRAME.pairTiles.v[pair] = tile;
-    FRAME.pairCells.v[pair] = firstVisible + candidate.cell;
+    FRAME.pairCells.v[pair] = slots[candidate.cell];
+    atomicAdd(FRAME.tileLengths.v[tile], 1u);
     countDigit(histogram, pair, digitOf(tile, 0));
   }
 

@@ -10,7 +10,6 @@
 
 layout(local_size_x = kGroupSize) in;
 
-
 shared uint farMasks[kGroupSize / kRasterLanes];  // which of the planes at hand lower tFar
 shared uint mostPlanes;
 
@@ -53,9 +52,9 @@ uint expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius) {
 }
 
 void main() {
-  uint visible = (linearGroup() * kGroupSize + gl_LocalInvocationIndex) / lanesPerCell();
-  bool isCell = isNeeded(visible);
-  uvec4 cell = isCell ? visibleCellAt(visible) : uvec4(0);
+  uint slot = (linearGroup() * kGroupSize + gl_LocalInvocationIndex) / lanesPerCell();
+  bool isCell = slot < COUNTERS.visibleCells;
+  uvec4 cell = isCell ? FRAME.visibleCells.v[slot] : uvec4(0);
   if (gl_LocalInvocationIndex == 0) mostPlanes = 0;
   barrier();
   atomicMax(mostPlanes, cell.w);
@@ -84,5 +83,5 @@ void main() {
     record.bitangent = vec4(bitangent, dot(bitangent, ball.centre));
     record.solidBall = solidBallBytes(chunk.index, cell.y);
   }
-  FRAME.records.v[visible] = record;
+  FRAME.records.v[slot] = record;
 }

@@ -1,9 +1,9 @@
 // Draws 8 x 8 pixels: reads its tile's list front to back in batches, keeps the cells whose solid ball these pixels can meet, and
-// composites them. Ends when every pixel is saturated. A thread draws kRays pixels below each other: what costs is
-// reading the cells, and all of them read the same.
+// composites them. Ends when every pixel is saturated. A thread draws FROTH_RAYS pixels below each other: what costs is
+// reading the cells, and all of them read the same. Long tiles are drawn by a form with one pixel per thread, which is done with a
+// list sooner though it costs more.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define FROTH_RAYS 2
 #include "gpu/asset.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
@@ -11,33 +11,35 @@
 
 const uint kRows = kSubTileSize / kRays;  // of threads
 const uint kBatch = kSubTileSize * kRows;
+const uint kSubTilesAlong = kTileSize / kSubTileSize;
 const uint kBatchWords = (kBatch + 31) / 32;
 layout(local_size_x = kSubTileSize, local_size_y = kRows) in;
 
 shared vec4 balls[kBatch];
-shared uint cells[kBatch];
+shared uint cells[kBatch];  // slots
+shared uvec3 rows[kBatch];  // of planes: begin, split, end
 shared uint keptMask[kBatchWords];
 shared uint liveMask;
 
 // The parts of the intervals on the cell's side of all its radical planes. Returns whether any is left.
-bool clipByPlanes(Shading shading, CellRecord cell, vec3 rays[kRays], inout Segment segments[kRays]) {
+bool clipByPlanes(Shading shading, uvec3 row, vec3 rays[kRays], inout Segment segments[kRays]) {
   float far[kRays], near[kRays];  // nearness of where the intervals end
   for (uint r = 0; r < kRays; ++r) {
     far[r] = nearnessAt(segments[r].tFar);
     near[r] = kInfinity;
   }
-  for (uint i = cell.planeBegin; i < cell.planeSplit; ++i) {
+  for (uint i = row.x; i < row.y; ++i) {
     vec3 plane = shading.planes.v[checked(i, FRAME.planeCapacity)].xyz;
     for (uint r = 0; r < kRays; ++r) far[r] = max(far[r], dot(plane, rays[r]));
   }
-  for (uint i = cell.planeSplit; i < cell.planeEnd; ++i) {
+  for (uint i = row.y; i < row.z; ++i) {
     vec3 plane = shading.planes.v[checked(i, FRAME.planeCapacity)].xyz;
     for (uint r = 0; r < kRays; ++r) near[r] = min(near[r], dot(plane, rays[r]));
   }
   bool isAny = false;
   for (uint r = 0; r < kRays; ++r) {
     if (isEmpty(segments[r])) continue;
-    countWork(kWorkPlanes, cell.planeEnd - cell.planeBegin);
+    countWork(kWorkPlanes, row.z - row.x);
     segments[r].tFar = isParallel || near[r] > 0.0 ? distanceAt(far[r]) : 0.0;
     segments[r].tNear = max(segments[r].tNear, distanceAt(near[r]));
     isAny = isAny || !isEmpty(segments[r]);
@@ -59,23 +61,23 @@ void meetCell(Shading shading, uint index, vec3 rays[kRays], inout Radiance radi
     isAny = true;
   }
   if (!isAny) return;
-  uint visible = cells[index];
-  CellRecord cell = shading.records.v[visible];
-  if (clipByPlanes(shading, cell, rays, segments)) {
-    shadeHits(shading, visible, cell, rays, segments, radiances);
+  if (clipByPlanes(shading, rows[index], rays, segments)) {
+    shadeHits(shading, cells[index], shading.records.v[cells[index]], rays, segments, radiances);
   }
 }
 
 // Lists the entries of this batch whose solid ball the 8 x 8 pixels can meet, in order; returns how many.
 uint gatherBatch(uint entry, uint end, uvec2 corner) {
   uint lane = gl_LocalInvocationIndex;
-  uint visible = 0;
+  uint slot = 0;
   vec4 ball = vec4(0.0);
+  uvec3 row = uvec3(0);
   bool isKept = false;
   if (entry < end) {
-    visible = checked(FRAME.tileCells.v[checked(entry, FRAME.pairCapacity)], FRAME.visibleCapacity);
-    ball = FRAME.records.v[visible].ball;
-    Ball solid = solidBall(Ball(ball.xyz, ball.w), FRAME.records.v[visible].solidBall);
+    slot = checked(FRAME.tileCells.v[checked(entry, FRAME.pairCapacity)], FRAME.visibleCapacity);
+    ball = FRAME.records.v[slot].ball;
+    row = uvec3(FRAME.records.v[slot].planeBegin, FRAME.records.v[slot].planeSplit, FRAME.records.v[slot].planeEnd);
+    Ball solid = solidBall(Ball(ball.xyz, ball.w), FRAME.records.v[slot].solidBall);
     isKept = pixelsMeetBall(solid.centre, solid.radius, corner, kSubTileSize);
   }
   if (isKept) atomicOr(keptMask[lane / 32], 1u << (lane % 32));
@@ -86,7 +88,8 @@ uint gatherBatch(uint entry, uint end, uvec2 corner) {
     if (isKept && word == lane / 32) {
       uint place = count + bitCount(mask & ((1u << (lane % 32)) - 1));
       balls[place] = ball;
-      cells[place] = visible;
+      cells[place] = slot;
+      rows[place] = row;
     }
     count += bitCount(mask);
   }
@@ -107,12 +110,26 @@ bool areSaturated(Shading shading, Radiance radiances[kRays]) {
   return areAll;
 }
 
+// The tile of this workgroup, and its place in the order; false: there is none.
+bool findTile(out uint tile, out uint place) {
+  place = linearGroup() / kSubTilesPerTile;
+  bool isLong = kRays == 1;
+  if (!isLong) place += COUNTERS.longTiles;
+  if (place >= (isLong ? COUNTERS.longTiles : FRAME.tilesX * FRAME.tilesY)) return false;
+  tile = FRAME.tileLists.v[place].x;
+  return true;
+}
+
 void main() {
   uint lane = gl_LocalInvocationIndex;
-  uvec2 corner = gl_WorkGroupID.xy * kSubTileSize;
+  uint tile, place;
+  if (!findTile(tile, place)) return;
+  uint subTile = linearGroup() % kSubTilesPerTile;
+  uvec2 corner = uvec2(tile % FRAME.tilesX, tile / FRAME.tilesX) * kTileSize +
+                 uvec2(subTile % kSubTilesAlong, subTile / kSubTilesAlong) * kSubTileSize;
+  if (!isInRegion(corner)) return;
   uvec2 firstPixel = corner + gl_LocalInvocationID.xy;
-  uvec2 tile = corner / kTileSize;
-  uvec2 range = FRAME.tileRanges.v[tile.y * FRAME.tilesX + tile.x];
+  uvec2 range = FRAME.tileLists.v[place].yz;
   Shading shading = loadShading();
   vec3 rays[kRays];
   Radiance radiances[kRays];
@@ -122,7 +139,7 @@ void main() {
     radiances[r] = startOf(pixel, rays[r]);
   }
 
-  for (uint first = ~range.x; first < range.y; first += kBatch) {
+  for (uint first = range.x; first < range.y; first += kBatch) {
     bool isLive = !areSaturated(shading, radiances);
     if (lane < kBatchWords) keptMask[lane] = 0;
     if (lane == 0) liveMask = 0;

@@ -26,11 +26,11 @@ vec3 siteColour(CellCode code, CellHeader header, uint detail, vec3 base, vec3 d
 
 void main() {
   uint index = linearGroup() * kGroupSize + gl_LocalInvocationIndex;
-  uint visible = index / detailCount;
+  uint slot = index / detailCount;
   uint detail = index % detailCount;
-  if (!isNeeded(visible)) return;
+  if (slot >= COUNTERS.visibleCells) return;
 
-  uvec4 cell = visibleCellAt(visible);
+  uvec4 cell = FRAME.visibleCells.v[slot];
   Chunk chunk = loadChunk(cell.x);
   if (cell.y >= chunk.liveCount) return;
   CellCode code = FRAME.chunks.v[cell.x].code;

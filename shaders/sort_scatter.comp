@@ -12,7 +12,8 @@
 
 layout(local_size_x = kGroupSize) in;
 
-const uint kRounds = kSortKeysPerGroup / kGroupSize;
+const uint kRounds = FROTH_ROUNDS;  // FrameBlock::sortRounds
+const uint kKeysPerGroup = kRounds * kGroupSize;
 const uint kRowQuads = kSortDigits / 4;            // a row is read by so many threads,
 const uint kRowsAtOnce = kGroupSize / kRowQuads;   // so many rows at once
 
@@ -58,25 +59,18 @@ void takeTileCount(uint visible, uint slot) {
   atomicAdd(FRAME.tileSums.v[visible / kCellsPerTileSum], count);
 }
 
-void extendRange(uint tile, uint pair) {
-  uint i = checked(tile, FRAME.tilesX * FRAME.tilesY);
-  atomicMax(FRAME.tileRanges.v[i].x, ~pair);
-  atomicMax(FRAME.tileRanges.v[i].y, pair + 1);
-}
-
 void moveKey(uint place, uint key, uint value) {
   push.keysOut.v[place] = key;
   push.valuesOut.v[place] = value;
   UintArray nextHistogram = push.nextHistogram;
   if (push.step == kSortCountNextDigit) countDigit(nextHistogram, place, digitOf(key, push.shift + 8));
   if (push.step == kSortTakeTileCounts) takeTileCount(place, value);
-  if (push.step == kSortFindRanges) extendRange(key, place);
 }
 
 void main() {
   uint thread = gl_LocalInvocationIndex;
   uint group = linearGroup();
-  uint first = group * kSortKeysPerGroup + thread;
+  uint first = group * kKeysPerGroup + thread;
   uint keys[kRounds];  // loaded before anything waits; what lies behind the last key is not used
   uint values[kRounds];
   for (uint round = 0; round < kRounds; ++round) {
@@ -85,7 +79,7 @@ void main() {
     values[round] = push.valuesIn.v[index];
   }
   uint count = min(push.count.v[0], push.capacity);
-  uint groups = groupsOver(count, kSortKeysPerGroup);
+  uint groups = groupsOver(count, kKeysPerGroup);
   if (group >= groups) return;
   sumRows(group, groups);
   uint all;

@@ -8,11 +8,14 @@
 
 namespace froth {
 
+// No struct will ever be as large: beyond it structSize was not set.
+inline constexpr uint32_t kMaxStructSize = 1 << 16;
+
 // Copies a caller's struct of another age. FROTH_ERROR_VERSION: longer than known, and what is unknown is not
 // zero.
 template <class T>
 FrothResult readStruct(const T& given, T& known) {
-  if (given.structSize < sizeof(given.structSize)) {
+  if (given.structSize < sizeof(given.structSize) || given.structSize > kMaxStructSize) {
     return FROTH_ERROR_ARGUMENT;
   }
   const auto* bytes = reinterpret_cast<const unsigned char*>(&given);
@@ -30,7 +33,7 @@ FrothResult readStruct(const T& given, T& known) {
 template <class T>
 bool writeStruct(const T& known, T& given) {
   const size_t size = given.structSize;
-  if (size < sizeof(given.structSize)) {
+  if (size < sizeof(given.structSize) || size > kMaxStructSize) {
     return false;
   }
   auto* bytes = reinterpret_cast<unsigned char*>(&given);

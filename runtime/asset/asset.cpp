@@ -117,6 +117,7 @@ void Asset::fail(FrothResult code, const char* text, const Messages& messages) {
   error_ = messages.fail(code, name_.c_str(), "%s", text);
   reader_.reset();
   arrays_.clear();
+  queryFoam_.reset();
 }
 
 void Asset::fail(const Error& error, const Messages& messages) {

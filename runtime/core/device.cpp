@@ -163,12 +163,13 @@ VkDeviceSize Device::excessBytes() const {
   return budget != 0 && held > budget ? held - budget : 0;
 }
 
-Status Device::checkBudget(VkDeviceSize size, const MemoryWish& wish) const {
+Status Device::checkBudget(VkDeviceSize size, const MemoryWish& wish) {
   const VkDeviceSize held = ledger.deviceBytes();
   const VkDeviceSize room = budget - std::min(budget, held);
   if (budget == 0 || isHostUse(wish.use) || wish.mayExceedBudget || size <= room) {
     return {};
   }
+  ++budgetRefusals;
   return makeError(ErrorKind::kMemory,
                    "%s: %llu bytes do not fit the device budget: %llu of %llu bytes are in use; raise "
                    "FrothContextInfo::deviceBudget by %llu bytes (frothSetBudget), or close another asset or view",

@@ -97,12 +97,13 @@ class Device {
   VkDeviceSize maxAllocationSize = 0;  // largest buffer the device promises to accept
   VkDeviceSize budget = 0;             // [bytes] 0: no limit
   VkDeviceSize excessBytes() const;    // held beyond the budget
+  uint64_t budgetRefusals = 0;         // allocations that did not fit it
   MemoryLedger ledger;
   MemoryCallbacks callbacks;
   std::optional<Error> loss;  // the call that found the device lost
 
  private:
-  Status checkBudget(VkDeviceSize size, const MemoryWish& wish) const;
+  Status checkBudget(VkDeviceSize size, const MemoryWish& wish);
   VkResult allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place);
   Status bindMemory(GpuBuffer& buffer, const MemoryWish& wish);
 };

@@ -6,11 +6,14 @@
 namespace froth {
 
 Result<std::unique_ptr<UploadRing>> UploadRing::create(Device& device, VkDeviceSize size) {
-  const Result<GpuBuffer> buffer = device.createBuffer(MemoryUse::kUploadsHost, BufferKind::kStaging, size, "upload ring");
+  std::unique_ptr<UploadRing> ring(new UploadRing(device));
+  const Result<GpuBuffer> buffer =
+      device.createBuffer(MemoryUse::kUploadsHost, BufferKind::kStaging, size, "upload ring");
   if (!buffer) {
     return buffer.error();
   }
-  return std::unique_ptr<UploadRing>(new UploadRing(device, *buffer));
+  ring->buffer_ = *buffer;
+  return ring;
 }
 
 UploadRing::~UploadRing() {

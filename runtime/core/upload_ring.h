@@ -47,7 +47,7 @@ class UploadRing {
 
   void splitCopy(size_t index, VkDeviceSize size);  // into one of at most `size` bytes and the rest behind it
 
-  UploadRing(Device& device, GpuBuffer buffer) : device_(device), buffer_(buffer) {}
+  explicit UploadRing(Device& device) : device_(device) {}
 
   Device& device_;
   GpuBuffer buffer_;

@@ -92,7 +92,7 @@ void SphereOverlap::meetBody(CellAddress cell, const QueryChunk& chunk, const gl
   halfSpaces_.pop_back();
   if (!found) return;
   const double distance = radius * glm::length(point - *found);
-  if (distance > reach_) return;
+  if (!(distance <= reach_)) return;  // NaN too: a file may hold two cells at one site
   const glm::dvec3 fromAsset = centre_ - local;
   const bool isInside = distance <= 1e-12 * radius;
   if (isInside) {

@@ -59,6 +59,7 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
       static_cast<uint32_t>(std::min(uint64_t{capacity.cells}, capacity.sites / asset.detailCount));
   block.planeCapacity = static_cast<uint32_t>(capacity.planes);
   block.pairCapacity = capacity.pairs;
+  block.sortRounds = sortRoundsOf(capacity.cells);
   block.groupSums = buffers[ViewBuffer::kGroupSums].address;
   block.visibility = buffers[ViewBuffer::kVisibility].address;
   block.visibleCells = buffers[ViewBuffer::kVisibleCells].address;
@@ -73,10 +74,11 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
   block.pairCells = buffers[ViewBuffer::kPairCells].address;
   const bool endsInSwap = digitsOf(tilesOf(region)) % 2 != 0;
   block.tileCells = buffers[endsInSwap ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells].address;
+  block.tileLists = buffers[ViewBuffer::kTileLists].address;
   const VkDeviceAddress tallies = buffers[ViewBuffer::kTallies].address;
   const TallyLayout layout = layOutTallies(capacity);
   block.superSums = tallies + layout.superSums;
-  block.tileRanges = tallies + layout.tileRanges;
+  block.tileLengths = tallies + layout.tileLengths;
   block.tileSums = tallies + layout.tileSums;
   block.cellHistogram = tallies + layout.cellHistograms;
   block.pairHistogram = tallies + layout.pairHistograms;

@@ -36,7 +36,8 @@ void PassRecorder::wait() const {
                              VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
-void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits, uint32_t lastStep) {
+void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits, uint32_t lastStep,
+                const std::function<void(uint32_t digit)>& recordBeside) {
   gpu::SortConstants constants{.frame = recorder.frame,
                                .keysIn = arrays.keys,
                                .valuesIn = arrays.values,
@@ -44,23 +45,24 @@ void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t
                                .valuesOut = arrays.valuesSwap,
                                .count = arrays.count,
                                .histogram = arrays.histograms,
-                               .nextHistogram = arrays.histograms + histogramBytes(arrays.capacity),
+                               .nextHistogram = arrays.histograms + histogramBytes(arrays.capacity, arrays.rounds),
                                .shift = 0,
                                .capacity = arrays.capacity,
                                .step = gpu::kSortCountNextDigit,
                                .padding = 0};
-  recorder.bind(Pass::kSortScatter);
   for (uint32_t digit = 0; digit < digits; ++digit) {
+    recorder.bind(arrays.rounds == 1 ? Pass::kSortScatter : Pass::kSortScatterMany);
     constants.shift = 8 * digit;
     if (digit + 1 == digits) constants.step = lastStep;
     recorder.vk.vkCmdPushConstants(recorder.commandBuffer, recorder.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                    sizeof(constants), &constants);
     recorder.dispatchIndirect(arrays.dispatch);
+    recordBeside(digit);
     recorder.wait();
     std::swap(constants.keysIn, constants.keysOut);
     std::swap(constants.valuesIn, constants.valuesOut);
     constants.histogram = constants.nextHistogram;
-    constants.nextHistogram += histogramBytes(arrays.capacity);
+    constants.nextHistogram += histogramBytes(arrays.capacity, arrays.rounds);
   }
 }
 

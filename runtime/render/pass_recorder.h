@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "runtime/core/device.h"
 #include "runtime/render/pipeline_state.h"
@@ -32,13 +33,16 @@ struct PassRecorder {
 struct SortArrays {
   VkDeviceAddress keys, values, keysSwap, valuesSwap;  // uint [capacity]
   VkDeviceAddress count;                               // uint: how many, at most capacity
-  VkDeviceAddress histograms;  // [digits * histogramBytes(capacity)]: that of the lowest digit, then zeros
+  VkDeviceAddress histograms;  // [digits * histogramBytes(capacity, rounds)]: that of the lowest digit, then zeros
   uint32_t capacity;
-  size_t dispatch;  // offset in gpu::Counters of a size of one workgroup per kSortKeysPerGroup keys
+  uint32_t rounds;                                     // FrameBlock::sortRounds
+  size_t dispatch;  // offset in gpu::Counters of a size of one workgroup per rounds * kGroupSize keys
 };
 
 // Sorts stably by the low `digits` bytes of the keys, ascending. Ends in the swaps if `digits` is odd. Ends
-// with a barrier. lastStep: gpu::kSort..., what the pass over the last digit does besides.
-void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits, uint32_t lastStep);
+// with a barrier. lastStep: gpu::kSort..., what the pass over the last digit does besides. `recordBeside` records passes that
+// run beside that over a digit, and are waited for with it.
+void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits, uint32_t lastStep,
+                const std::function<void(uint32_t digit)>& recordBeside);
 
 }  // namespace froth

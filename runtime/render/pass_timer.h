@@ -26,7 +26,7 @@ class PassTimer {
   void read(uint32_t recording, FrothViewStatus& status) const;
 
  private:
-  static constexpr uint32_t kMaxPasses = 8;
+  static constexpr uint32_t kMaxPasses = 7;
   static constexpr uint32_t kQueries = kMaxPasses + 1;
 
   explicit PassTimer(Device& device) : device_(device) {}

@@ -16,8 +16,10 @@ namespace froth {
 enum class Pass : uint32_t {
   kCullCells,
   kSortScatter,
+  kSortScatterMany,  // with gpu::kManyKeysRounds
   kCountTiles,
   kEmitPairs,
+  kOrderTiles,
   kExpandCells,
   kLocate,
   kAimRays,
@@ -28,6 +30,10 @@ enum class Pass : uint32_t {
   // from here on specialized on the asset's shape
   kCompactCells,
   kShadeSites,
+  kRasterLong16,  // of tiles with long lists
+  kRasterLong32,
+  kRasterLongNormals16,
+  kRasterLongNormals32,
   kRaster16,
   kRaster32,
   kRasterNormals16,
@@ -37,7 +43,7 @@ enum class Pass : uint32_t {
   kWalkNormals16,
   kWalkNormals32,
 };
-inline constexpr uint32_t kPassCount = 21;
+inline constexpr uint32_t kPassCount = 27;
 inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.

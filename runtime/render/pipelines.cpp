@@ -14,10 +14,14 @@
 #include "spirv/emit_pairs.h"
 #include "spirv/expand_cells.h"
 #include "spirv/locate.h"
+#include "spirv/order_tiles.h"
+#include "spirv/raster_long_tiles_rgba16f.h"
+#include "spirv/raster_long_tiles_rgba32f.h"
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
 #include "spirv/shade_sites.h"
 #include "spirv/sort_scatter.h"
+#include "spirv/sort_scatter_many.h"
 #include "spirv/walk_rgba16f.h"
 #include "spirv/walk_rgba32f.h"
 #include "spirv/widen_cones.h"
@@ -46,8 +50,10 @@ struct PassCode {
 const std::array<PassCode, kPassCount> kPassCodes = {{
     {"cull_cells", cull_cells_spirv, kEachLens},
     {"sort_scatter", sort_scatter_spirv, kAnyLens},
+    {"sort_scatter_many", sort_scatter_many_spirv, kAnyLens},
     {"count_tiles", count_tiles_spirv, kEachLens},
     {"emit_pairs", emit_pairs_spirv, kEachLens},
+    {"order_tiles", order_tiles_spirv, kAnyLens},
     {"expand_cells", expand_cells_spirv, kEyeOrNone},
     {"locate", locate_spirv, kEyeOrNone},
     {"aim_rays", aim_rays_spirv, kMapped},
@@ -57,6 +63,10 @@ const std::array<PassCode, kPassCount> kPassCodes = {{
     {"clear_rgba32f", clear_rgba32f_spirv, kAnyLens},
     {"compact_cells", compact_cells_spirv, kEyeOrNone},
     {"shade_sites", shade_sites_spirv, kEyeOrNone},
+    {"raster_long_tiles_rgba16f", raster_long_tiles_rgba16f_spirv, kEachLens},
+    {"raster_long_tiles_rgba32f", raster_long_tiles_rgba32f_spirv, kEachLens},
+    {"raster_long_tiles_rgba16f", raster_long_tiles_rgba16f_spirv, kEachLens, true},
+    {"raster_long_tiles_rgba32f", raster_long_tiles_rgba32f_spirv, kEachLens, true},
     {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv, kEachLens},
     {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv, kEachLens},
     {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv, kEachLens, true},

@@ -5,20 +5,22 @@
 namespace froth {
 namespace {
 
-// The tiles of a cell do not depend on its place in the order, so they are counted while the first digit is
-// sorted.
+// The passes of a sort leave most of the GPU idle, so what does not depend on the order runs beside them.
 void recordCellSort(const Recording& recording, const PassRecorder& recorder) {
   const ViewBuffers& buffers = recording.view.buffers;
   const TallyLayout tallies = layOutTallies(buffers.capacity());
   const VkDeviceAddress counters = recording.countersAddress();
-  recorder.runIndirect(Pass::kCountTiles, offsetof(gpu::Counters, tileDispatch));
   recordSort(recorder,
              {buffers[ViewBuffer::kCellKeys].address, buffers[ViewBuffer::kOrder].address,
               buffers[ViewBuffer::kCellKeysSwap].address, buffers[ViewBuffer::kOrderSwap].address,
               counters + offsetof(gpu::Counters, visibleCells),
               buffers[ViewBuffer::kTallies].address + tallies.cellHistograms, buffers.capacity().cells,
-              offsetof(gpu::Counters, cellSortDispatch)},
-             kCellKeyDigits, gpu::kSortTakeTileCounts);
+              sortRoundsOf(buffers.capacity().cells), offsetof(gpu::Counters, cellSortDispatch)},
+             kCellKeyDigits, gpu::kSortTakeTileCounts, [&](uint32_t digit) {
+               if (digit == 0) recorder.runIndirect(Pass::kCountTiles, offsetof(gpu::Counters, tileDispatch));
+               if (digit == 1) recordExpand(recorder);
+               if (digit == 2) recordShade(recorder);
+             });
 }
 
 // Pairs leave the cells in their order; a stable sort by tile keeps it within each tile.
@@ -33,8 +35,10 @@ void recordBin(const Recording& recording, const PassRecorder& recorder) {
               buffers[ViewBuffer::kPairTilesSwap].address, buffers[ViewBuffer::kPairCellsSwap].address,
               counters + offsetof(gpu::Counters, pairsKept),
               buffers[ViewBuffer::kTallies].address + tallies.pairHistograms, buffers.capacity().pairs,
-              offsetof(gpu::Counters, pairSortDispatch)},
-             digitsOf(tilesOf(recording.info.camera.scissor)), gpu::kSortFindRanges);
+              sortRoundsOf(buffers.capacity().cells), offsetof(gpu::Counters, pairSortDispatch)},
+             digitsOf(tilesOf(recording.info.camera.scissor)), gpu::kSortOnlyMove, [&](uint32_t digit) {
+               if (digit == 0) recorder.run(Pass::kOrderTiles, 1);
+             });
 }
 
 }  // namespace
@@ -46,9 +50,8 @@ void recordRasterPasses(const Recording& recording, const PassRecorder& recorder
   recording.mark("sort");
   recordBin(recording, recorder);
   recording.mark("bin");
-  recordShade(recorder);
-  recording.mark("shade");
-  recordPixels(recording, recorder, pixelPass(Pass::kRaster16, recording.info));
+  recorder.runIndirect(pixelPass(Pass::kRasterLong16, recording.info), offsetof(gpu::Counters, longTileDispatch));
+  recorder.runIndirect(pixelPass(Pass::kRaster16, recording.info), offsetof(gpu::Counters, tileDrawDispatch));
   recording.mark("raster");
 }
 

@@ -145,10 +145,12 @@ void recordCull(const Recording& recording, const PassRecorder& recorder, const 
   recorder.wait();
 }
 
-void recordShade(const PassRecorder& recorder) {
+void recordExpand(const PassRecorder& recorder) {
   recorder.runIndirect(Pass::kExpandCells, offsetof(gpu::Counters, expandDispatch));
+}
+
+void recordShade(const PassRecorder& recorder) {
   recorder.runIndirect(Pass::kShadeSites, offsetof(gpu::Counters, siteDispatch));
-  recorder.wait();
 }
 
 Pass pixelPass(Pass plain, const FrothRenderInfo& info) {

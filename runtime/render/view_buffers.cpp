@@ -50,6 +50,8 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
     case ViewBuffer::kPairCells:
     case ViewBuffer::kPairCellsSwap:
       return 4 * pairs;
+    case ViewBuffer::kTileLists:
+      return sizeof(gpu::uvec4) * capacity.tiles;
     case ViewBuffer::kTallies:
       return layOutTallies(capacity).end;
     case ViewBuffer::kWalkStart:
@@ -165,7 +167,7 @@ void ViewBuffers::describeMemory(FrothViewStatus& status) const {
   add("planes", {kPlanes});
   add("sites", {kSites});
   if (capacity_.rays > 0) add("rays", {kRays, kCones});
-  add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies});
+  add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies, kTileLists});
 }
 
 VkDeviceSize ViewBuffers::recordingStride() const {

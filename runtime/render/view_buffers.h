@@ -36,11 +36,12 @@ enum class ViewBuffer : uint32_t {
   kPairCells,
   kPairCellsSwap,
   kTallies,  // TallyLayout
+  kTileLists,
   kWalkStart,
   kRays,   // these two are empty where no lens is mapped
   kCones,
 };
-inline constexpr uint32_t kViewBufferCount = 24;
+inline constexpr uint32_t kViewBufferCount = 25;
 inline constexpr uint32_t kRecordingsPerFrame = 2;  // a raster and a walk
 
 // [bytes] The space of a FrameBlock and of Counters. The chunk table follows its block.

@@ -16,6 +16,8 @@ constexpr uint64_t kMostPairs = uint64_t{1} << 30;
 constexpr uint32_t kFewestCells = 1u << 10;
 constexpr uint32_t kFewestPairs = 1u << 12;
 
+constexpr uint32_t kManyCells = 1u << 17;
+
 // Half more than a frame wanted once it comes within an eighth of the capacity; never more than there can be.
 uint64_t roomFor(uint64_t wanted, uint64_t capacity, uint64_t most) {
   if (wanted + wanted / 8 <= capacity) return capacity;
@@ -55,17 +57,22 @@ uint32_t digitsOf(uint32_t count) {
   return digits;
 }
 
-uint64_t histogramBytes(uint32_t keys) {
-  const uint32_t groups = groupsOver(keys, gpu::kSortKeysPerGroup);
+uint32_t sortRoundsOf(uint32_t cells) {
+  return cells > kManyCells ? gpu::kManyKeysRounds : 1;
+}
+
+uint64_t histogramBytes(uint32_t keys, uint32_t sortRounds) {
+  const uint32_t groups = groupsOver(keys, sortRounds * gpu::kGroupSize);
   return gpu::kSortDigits * sizeof(uint32_t) * (uint64_t{groups} + groupsOver(groups, gpu::kSortGroupsPerSum));
 }
 
 TallyLayout layOutTallies(const ViewCapacity& capacity) {
+  const uint32_t rounds = sortRoundsOf(capacity.cells);
   TallyLayout layout;
   layout.cellHistograms = 0;
-  layout.pairHistograms = kCellKeyDigits * histogramBytes(capacity.cells);
-  layout.tileRanges = layout.pairHistograms + digitsOf(capacity.tiles) * histogramBytes(capacity.pairs);
-  layout.superSums = layout.tileRanges + sizeof(uint32_t[2]) * capacity.tiles;
+  layout.pairHistograms = kCellKeyDigits * histogramBytes(capacity.cells, rounds);
+  layout.tileLengths = layout.pairHistograms + digitsOf(capacity.tiles) * histogramBytes(capacity.pairs, rounds);
+  layout.superSums = layout.tileLengths + sizeof(uint32_t) * (capacity.tiles + capacity.tiles % 2);
   layout.tileSums = layout.superSums + sizeof(uint32_t[2]) * groupsOver(capacity.groups, gpu::kGroupSize);
   layout.end = layout.tileSums + sizeof(uint32_t) * groupsOver(capacity.cells, gpu::kCellsPerTileSum);
   return layout;

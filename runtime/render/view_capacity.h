@@ -43,13 +43,17 @@ inline constexpr uint32_t kCellKeyDigits = 4;  // bytes of a cell's sort key
 // Bytes of a number below `count` [> 0] that a radix sort has to look at.
 uint32_t digitsOf(uint32_t count);
 
+// FrameBlock::sortRounds of a view with room for so many cells: small groups keep a GPU busy with a short list, of a long one
+// each would read the sums of too many others.
+uint32_t sortRoundsOf(uint32_t cells);
+
 // Size of the histogram of one digit over a list of up to `keys` (shaders/gpu/histogram.glsl).
-uint64_t histogramBytes(uint32_t keys);
+uint64_t histogramBytes(uint32_t keys, uint32_t sortRounds);
 
 // [bytes] Where in ViewBuffer::kTallies lies what every recording clears: of a walk only the superSums.
 struct TallyLayout {
   uint64_t cellHistograms, pairHistograms;  // one per digit
-  uint64_t tileRanges, superSums, tileSums;
+  uint64_t tileLengths, superSums, tileSums;
   uint64_t end;
 };
 

@@ -64,8 +64,9 @@ Status growBuffers(ViewState& view, const GpuAsset* asset, const ViewCapacity& w
     return refusal->error;
   }
   view.refusal.reset();
+  const uint64_t budgetRefusals = view.device.budgetRefusals;
   const Status status = view.buffers.grow(wanted, view.lastSerial);
-  if (!status) view.refusal = {asset, budget, heldBytes, status.error()};
+  if (view.device.budgetRefusals != budgetRefusals) view.refusal = {asset, budget, heldBytes, status.error()};
   return status;
 }
 

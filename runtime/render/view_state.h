@@ -22,7 +22,7 @@ struct FrameSlot {
   uint32_t recordings = 0;
 };
 
-// Growth that failed. It is not tried again in every frame, only for another asset or budget, or once the context
+// Growth that the budget refused. It is not tried again in every frame, only for another asset or budget, or once the context
 // holds less.
 struct GrowthRefusal {
   const GpuAsset* asset;
@@ -78,7 +78,8 @@ const gpu::Counters& readCounters(const ViewState& view, uint32_t number);
 
 // Cull, list and count the visible cells, for a mapped lens once its rays are known; shared by raster and walk.
 void recordCull(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset);
-// Expand the visible cells and shade their detail sites, both at once.
+// Expand the listed cells; shade their detail sites. Neither needs the other.
+void recordExpand(const PassRecorder& recorder);
 void recordShade(const PassRecorder& recorder);
 
 void recordRasterPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset);

@@ -10,7 +10,9 @@ void recordWalkPasses(const Recording& recording, const PassRecorder& recorder, 
   const bool isPerTile = lensClassOf(recording.info.camera) == gpu::kLensClassOrthographic;
   recorder.run(Pass::kLocate, isPerTile ? tilesAlong(extent.width) : 1,
                isPerTile ? tilesAlong(extent.height) : 1);  // needs nothing of the passes around it, so it runs beside them
+  recordExpand(recorder);
   recordShade(recorder);
+  recorder.wait();
   recording.mark("shade");
   recordPixels(recording, recorder, pixelPass(Pass::kWalk16, recording.info));
   recording.mark("walk");

@@ -117,14 +117,4 @@ uint slotOfCell(uvec2 cell) {
   return (word.x & bit) != 0 ? word.y + bitCount(word.x & (bit - 1)) : kNoCell;
 }
 
-// Whether a recording expands and shades a place in the order of the visible cells: a raster only those with a tile.
-bool isNeeded(uint visible) {
-  return visible < COUNTERS.visibleCells && (isWalk() || FRAME.tileCounts.v[visible] != 0);
-}
-
-// The entry of FrameBlock::visibleCells at a place in the order.
-uvec4 visibleCellAt(uint visible) {
-  return FRAME.visibleCells.v[checked(FRAME.order.v[visible], FRAME.visibleCapacity)];
-}
-
 #endif

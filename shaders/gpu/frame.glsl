@@ -29,6 +29,9 @@ bool isWalk() { return (FRAME.flags & kFlagWalk) != 0; }
 
 uint lanesPerCell() { return isWalk() ? kWalkLanes : kRasterLanes; }
 
+// Keys that a workgroup ranks in a pass of a radix sort.
+uint keysPerSortGroup() { return kGroupSize * FRAME.sortRounds; }
+
 // Every access to an array goes through this: with checkIndices an index out of range is counted and clamped.
 uint checked(uint index, uint count) {
   if (checkIndices && index >= count) {

@@ -33,7 +33,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer FloatQuadAr
 
 FROTH_CONST kGroupSize = 256;         // threads of a workgroup in all passes over lists
 FROTH_CONST kSortDigits = 256;        // values of a digit, as many as a workgroup has threads
-FROTH_CONST kSortKeysPerGroup = 256;  // keys one workgroup ranks in a radix pass
+FROTH_CONST kManyKeysRounds = 4;      // FrameBlock::sortRounds of long lists; 1 of others
 FROTH_CONST kSortGroupsPerSum = 32;   // rows of a histogram that have a row of sums before them
 FROTH_CONST kTileCellsPerGroup = 64;  // visible cells whose tiles one workgroup tests
 FROTH_CONST kCellsPerTileSum = 1024;  // visible cells whose tiles are summed for the prefixes of pairs
@@ -41,6 +41,7 @@ FROTH_CONST kTileSize = 32;           // [pixels] edge of the tiles that own lis
 FROTH_CONST kSubTileSize = 8;         // [pixels] edge of what one workgroup of the raster draws
 FROTH_CONST kBlockTiles = 8;          // [tiles] edge of the blocks of tiles that have a cone
 FROTH_CONST kSubTilesPerTile = 16;
+FROTH_CONST kTilesAtOnce = 512;       // a list longer than this part of all pairs is a long one: drawn by more threads, and first
 FROTH_CONST kMaskWords = 8;           // words of a bit per thread of a workgroup
 FROTH_CONST kNoCell = 0xffffffffu;
 FROTH_CONST kUnlisted = 0x80000000u;  // in a walk's link: the other bits are a site of the chunk, whose cell has no record
@@ -51,7 +52,7 @@ FROTH_CONST kWholeBall = 0x40202020u; // ChunkContents::solidBalls: the cell's o
 // SortConstants::step: what a pass of the radix sort does with a key besides moving it.
 FROTH_CONST kSortCountNextDigit = 0;
 FROTH_CONST kSortTakeTileCounts = 1;  // last digit of cells
-FROTH_CONST kSortFindRanges = 2;      // last digit of pairs
+FROTH_CONST kSortOnlyMove = 2;        // last digit of pairs
 
 // Specialization constants of all shaders.
 FROTH_CONST kConstantCheckIndices = 0;
@@ -148,12 +149,14 @@ struct Counters {
   uint pairsKept;     // of these, those that had space
   uint stepLimit;     // pixels whose walk was ended by maxSteps
   uint violations;    // indices out of range (checkIndices)
-  uint padding;
+  uint longTiles;     // the first ones of FrameBlock::tileLists
   uvec4 expandDispatch;    // kRasterLanes or kWalkLanes threads per visible cell
   uvec4 siteDispatch;      // a thread per detail site of a visible cell
-  uvec4 cellSortDispatch;  // a workgroup per kSortKeysPerGroup visible cells
+  uvec4 cellSortDispatch;  // a workgroup per sortRounds * kGroupSize visible cells
   uvec4 tileDispatch;      // a workgroup per kTileCellsPerGroup visible cells
-  uvec4 pairSortDispatch;  // a workgroup per kSortKeysPerGroup kept pairs
+  uvec4 pairSortDispatch;  // a workgroup per sortRounds * kGroupSize kept pairs
+  uvec4 longTileDispatch;  // a workgroup per sub-tile of the long tiles,
+  uvec4 tileDrawDispatch;  // of all others
   uint work[2 * kWorkKinds];  // low, high word by kind; stay zero without kConstantCountWork
 };
 
@@ -180,7 +183,8 @@ struct FrameBlock {
   uint flags, maxSteps, localBits;
   uint regionX, regionY, regionWidth, regionHeight;  // [pixels] what is drawn
   uint tilesX, tilesY, chunkCount, groupsPerChunk;   // groups: workgroups over a chunk's cells
-  uint visibleCapacity, planeCapacity, pairCapacity, padding;
+  uint visibleCapacity, planeCapacity, pairCapacity;
+  uint sortRounds;  // keys that a thread ranks in a pass of a radix sort
   float lensRange;
   uint lensKind, blocksX, blocksY;             // blocks of kBlockTiles x kBlockTiles tiles
   FROTH_ADDRESS(CountersRef) counters;
@@ -191,16 +195,17 @@ struct FrameBlock {
   FROTH_ADDRESS(UintQuadArray) visibleCells;   // [slot] chunk, local index, first plane, planes
   FROTH_ADDRESS(UintArray) cellKeys;           // [slot] order-preserving bits of the power of the eye, or along parallel rays
   FROTH_ADDRESS(UintArray) order;              // [visible cell] slot
-  FROTH_ADDRESS(RecordArray) records;          // [visible cell]
+  FROTH_ADDRESS(RecordArray) records;          // [slot]
   FROTH_ADDRESS(FloatQuadArray) planes;        // [planeCapacity] xyz: gpu/view_rays.glsl; w for a walk: link
-  FROTH_ADDRESS(SiteArray) sites;              // [visible cell * K]
+  FROTH_ADDRESS(SiteArray) sites;              // [slot * K]
   FROTH_ADDRESS(UintArray) slotTiles;          // [slot] tiles its solid ball meets
   FROTH_ADDRESS(UintArray) tileCounts;         // [visible cell] the same
   FROTH_ADDRESS(UintArray) tileSums;           // [visible cell / kCellsPerTileSum] their sums
   FROTH_ADDRESS(UintArray) pairTiles;          // [pair] as emitted
-  FROTH_ADDRESS(UintArray) pairCells;
-  FROTH_ADDRESS(UintArray) tileCells;          // [pair] visible cells in the order of tiles
-  FROTH_ADDRESS(UintPairArray) tileRanges;     // [tile] ~begin and end in tileCells: 0 means none, and both only grow
+  FROTH_ADDRESS(UintArray) pairCells;            // slots
+  FROTH_ADDRESS(UintArray) tileCells;          // [pair] slots in the order of tiles
+  FROTH_ADDRESS(UintArray) tileLengths;        // [tile] pairs
+  FROTH_ADDRESS(UintQuadArray) tileLists;      // [tiles, longest lists first] tile, begin and end in tileCells
   FROTH_ADDRESS(UintArray) cellHistogram;      // of the lowest digit of cellKeys (histogram.glsl)
   FROTH_ADDRESS(UintArray) pairHistogram;      // of the lowest digit of pairTiles
   FROTH_ADDRESS(UintPairArray) walkStart;      // [1] chunk, local index of the cell that holds the eye; orthographic: [tile] of
@@ -226,9 +231,9 @@ static_assert(sizeof(ChunkEntry) == 192 && offsetof(ChunkEntry, siteRadius) == 3
 static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 128 && sizeof(CellCode) == 64);
 static_assert(sizeof(SiteRecord) == 24 && offsetof(SiteRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
-static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 112 && sizeof(Counters) == 176);
+static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 144 && sizeof(Counters) == 208);
 static_assert(offsetof(FrameBlock, nearRatio) == 160 && offsetof(FrameBlock, regionX) == 192);
-static_assert(offsetof(FrameBlock, counters) == 256 && sizeof(FrameBlock) == 440);
+static_assert(offsetof(FrameBlock, counters) == 256 && sizeof(FrameBlock) == 448);
 static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);
 
 }  // namespace froth::gpu

@@ -46,6 +46,7 @@ inline FrothRay makeRay(const glm::dvec3& origin, const glm::dvec3& direction, d
 inline AssetContents bakeScene(const Foam& foam, const std::string& preset, uint32_t chunkCells, bool walkGraph = true) {
   BakeOptions options;
   options.knobs = *presetKnobs(preset);
+  options.knobs.compressColours = false;  // queries see none
   options.preset = preset;
   options.chunkCells = chunkCells;
   options.walkGraph = walkGraph;

@@ -80,11 +80,12 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
 
   const GpuBuffer keyBuffer = upload(keys), valueBuffer = upload(values);
   const GpuBuffer keySwap = upload(keys), valueSwap = upload(values);
-  const uint32_t groups = groupsOver(count, gpu::kSortKeysPerGroup);
+  const uint32_t rounds = sortRoundsOf(count), keysPerGroup = rounds * gpu::kGroupSize;
+  const uint32_t groups = groupsOver(count, keysPerGroup);
   // Each group of keys has a row of digits, each kSortGroupsPerSum of these a row of sums before them.
-  std::vector<uint32_t> histograms(4 * histogramBytes(std::max(count, 1u)) / sizeof(uint32_t));
+  std::vector<uint32_t> histograms(4 * histogramBytes(std::max(count, 1u), rounds) / sizeof(uint32_t));
   for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t group = i / gpu::kSortKeysPerGroup, sum = group / gpu::kSortGroupsPerSum;
+    const uint32_t group = i / keysPerGroup, sum = group / gpu::kSortGroupsPerSum;
     ++histograms[gpu::kSortDigits * (group + sum + 1) + (keys[i] & 255)];
     ++histograms[gpu::kSortDigits * (gpu::kSortGroupsPerSum + 1) * sum + (keys[i] & 255)];
   }
@@ -100,6 +101,7 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
   gpu::FrameBlock block{};
   block.counters = counterBuffer->address;
   block.visibleCapacity = count;
+  block.sortRounds = rounds;
   block.slotTiles = upload(slotTiles).address;
   block.tileCounts = tileCountBuffer.address;
   block.tileSums = tileSumBuffer.address;
@@ -129,8 +131,8 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
     recordSort(recorder,
                {keyBuffer.address, valueBuffer.address, keySwap.address, valueSwap.address,
                 counterBuffer->address + offsetof(gpu::Counters, visibleCells), histogramAddress,
-                std::max(count, 1u), offsetof(gpu::Counters, cellSortDispatch)},
-               4, gpu::kSortTakeTileCounts);
+                std::max(count, 1u), rounds, offsetof(gpu::Counters, cellSortDispatch)},
+               4, gpu::kSortTakeTileCounts, [](uint32_t) {});
   });
 
   std::vector<uint32_t> order = values;
@@ -243,13 +245,20 @@ class Bin : public Passes {
     lists.visible = copyOut<gpu::uvec4>(view.buffers[ViewBuffer::kVisibleCells], cells);
     const ViewBuffer last = digitsOf(tiles) % 2 != 0 ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells;
     const auto pairs = copyOut<uint32_t>(view.buffers[last], lists.counters.pairs);
-    const auto ranges = copyOut<std::array<uint32_t, 2>>(view.buffers[ViewBuffer::kTallies], tiles,
-                                                         layOutTallies(view.buffers.capacity()).tileRanges);
-    for (const auto& [beginInverted, end] : ranges) {
-      std::vector<uint32_t>& slots = lists.tileSlots.emplace_back();
-      for (uint32_t pair = ~beginInverted; pair < end; ++pair)
-        slots.push_back(lists.order.at(pairs.at(pair)));
+    const auto tileLists = copyOut<gpu::uvec4>(view.buffers[ViewBuffer::kTileLists], tiles);
+    lists.tileSlots.resize(tiles);
+    std::vector<bool> isListed(tiles);
+    uint32_t shortest = UINT32_MAX, longest = 0;
+    for (uint32_t place = 0; place < tiles; ++place) {
+      const auto& [tile, begin, end, padding] = tileLists[place];
+      EXPECT_FALSE(isListed.at(tile)) << "tile " << tile << " twice";
+      isListed[tile] = true;
+      EXPECT_LE(end - begin, 2 * uint64_t{shortest}) << "after a list of half the length";
+      shortest = std::min(shortest, end - begin);
+      if (place >= lists.counters.longTiles) longest = std::max(longest, end - begin);
+      for (uint32_t pair = begin; pair < end; ++pair) lists.tileSlots[tile].push_back(pairs.at(pair));
     }
+    EXPECT_LE(longest, std::max(2 * lists.counters.pairs / gpu::kTilesAtOnce, 1u)) << "drawn as a short list";
     return lists;
   }
 };

@@ -1,9 +1,11 @@
 // Balls against rectangles of rays (shaders/foam/rays.h) against dense samples.
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "shaders/foam/cones.h"
 #include "shaders/foam/rays.h"
 
 namespace froth::test {
@@ -68,6 +70,66 @@ TEST(Rays, ARectangleMeetsABallIfAndOnlyIfOneOfItsRaysDoes) {
   }
   EXPECT_GT(hits, 1000);
   EXPECT_GT(misses, 1000);
+}
+
+// Around the directions, and around halves of them in turn.
+glm::vec4 coneAround(const std::vector<Vec>& directions) {
+  Vec sum(0);
+  for (const Vec& d : directions) sum += d;
+  const Vec axis = glm::normalize(sum);
+  float chord = 0;
+  for (const Vec& d : directions) chord = std::max(chord, glm::length(d - axis));
+  return foam::coneOfChord(axis, chord);
+}
+
+TEST(Rays, AConeMeetsEveryBallThatOneOfItsRaysMeetsAndFewMore) {
+  std::mt19937 engine(6);
+  int hits = 0, misses = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Case c = makeCase(engine);
+    std::vector<Vec> directions, halves[2];
+    for (int k = 0; k < 64; ++k) {
+      const float s = static_cast<float>(k % 8) / 7, t = static_cast<float>(k / 8) / 7;
+      directions.push_back(glm::normalize(c.corner + 0.3f * (s * c.edgeX + t * c.edgeY)));
+      halves[k / 32].push_back(directions.back());
+    }
+    float nearest = INFINITY;
+    for (const Vec& d : directions) {
+      const float along = std::max(glm::dot(d, c.centre), 0.0f);
+      nearest = std::min(nearest, glm::length(c.centre - along * d) / c.radius - 1);
+    }
+    const glm::vec4 cone = coneAround(directions), first = coneAround(halves[0]), second = coneAround(halves[1]);
+    const Vec axis(cone);
+    const glm::vec4 wider =
+        foam::guardedCone(axis, std::max(foam::sineToHold(axis, first), foam::sineToHold(axis, second)));
+    const float radius = foam::guardedRadius(c.centre, c.radius);
+    if (nearest < 0) {
+      ASSERT_TRUE(foam::coneMeetsBall(cone, c.centre, radius)) << i;
+      ASSERT_TRUE(foam::coneMeetsBall(wider, c.centre, radius)) << i;
+      ++hits;
+    } else if (!foam::coneMeetsBall(cone, c.centre, radius)) {
+      ++misses;
+    }
+    EXPECT_GE(wider.w, 0.99f * cone.w) << "a cone around cones holds what they hold";
+    // A ball that the axis misses by more than the cone's angle and its own.
+    const float angle = std::acos(glm::dot(glm::normalize(c.centre), axis));
+    if (cone.w < 0.8f && glm::length(c.centre) > 1.01f * c.radius &&
+        angle > 1.01f * (std::asin(cone.w) + std::asin(c.radius / glm::length(c.centre))) + 1e-3f) {
+      ASSERT_FALSE(foam::coneMeetsBall(cone, c.centre, radius)) << i;
+    }
+  }
+  EXPECT_GT(hits, 1000);
+  EXPECT_GT(misses, 1000);
+}
+
+TEST(Rays, ConesOfNothingMeetNothingAndWideOnesAll) {
+  const glm::vec4 none(0, 0, 1, foam::kConeOfNone), all(0, 0, 1, foam::kConeOfAll);
+  EXPECT_FALSE(foam::coneMeetsBall(none, Vec(0, 0, 1), 5.0f));
+  EXPECT_TRUE(foam::coneMeetsBall(all, Vec(0, 0, -9), 0.1f));
+  EXPECT_EQ(foam::coneOfChord(Vec(0, 0, 1), 1.2f).w, float(foam::kConeOfAll));
+  EXPECT_EQ(foam::sineToHold(Vec(0, 0, 1), none), 0);
+  EXPECT_EQ(foam::sineToHold(Vec(0, 0, 1), all), foam::kConeOfAll);
+  EXPECT_EQ(foam::sineToHold(Vec(0, 0, 1), glm::vec4(0, 0, -1, 0.1f)), foam::kConeOfAll);
 }
 
 TEST(Rays, TheBoundsOfABallsImageHoldEveryRayThatMeetsIt) {

@@ -66,10 +66,10 @@ class DeviceMemory : public RuntimeGpuTest {
   }
 
   // Draws what there is and reads it back.
-  std::vector<float> draw(FrothView view) {
-    Result<HostImage> image = host_->createImage(VK_FORMAT_R16G16B16A16_SFLOAT, {32, 32});
+  std::vector<float> draw(FrothView view, VkExtent2D extent = {32, 32}) {
+    Result<HostImage> image = host_->createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent);
     auto info = makeStruct<FrothRenderInfo>();
-    info.camera = makeCamera(32, 32);
+    info.camera = makeCamera(extent.width, extent.height);
     info.camera.eye[2] = 1e6 - 1;  // where the sample lies
     info.colour = host_->describe(*image);
     runFrame(0, [&](VkCommandBuffer commands) {
@@ -145,6 +145,25 @@ TEST_F(DeviceMemory, ThatTheCallerRefusesIsAnErrorOfMemoryWithText) {
   ASSERT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
   context_ = nullptr;
   EXPECT_TRUE(memory.live.empty());
+}
+
+TEST_F(DeviceMemory, IsNotTouchedByAWindowThatIsResizedOrMinimized) {
+  createContext(host_->contextInfo());
+  const FrothInstance instance = createInstance(openBytes(encodeSample()));
+  const FrothView view = createView({32, 32});
+  runFrame();
+  const std::vector<float> whole = draw(view);
+  runFrame();
+  const FrothMemoryReport before = report();
+  for (const VkExtent2D extent : {VkExtent2D{16, 8}, VkExtent2D{1, 32}, VkExtent2D{31, 31}}) draw(view, extent);
+  for (int frame = 0; frame < 5; ++frame) runFrame();  // minimized: frames without a picture
+  EXPECT_EQ(draw(view), whole);
+  const FrothMemoryReport after = report();
+  for (uint32_t i = 0; i < after.categoryCount; ++i) {
+    EXPECT_EQ(after.categories[i].count, before.categories[i].count);
+    EXPECT_EQ(after.categories[i].peak, before.categories[i].peak);
+  }
+  EXPECT_EQ(frothDestroyInstance(context_, instance), FROTH_OK);
 }
 
 TEST_F(DeviceMemory, CallbacksComeInPairs) {

@@ -85,10 +85,87 @@ TEST_F(RecordCall, RefusesToDrawBeforeTheFirstFrame) {
   EXPECT_EQ(lastText(), "no frame; call frothUpdate first");
 }
 
-TEST_F(RecordCall, RefusesAnOrthographicProjectionAsUnsupported) {
+TEST_F(RecordCall, RefusesLensesThatTheViewWasNotMadeFor) {
+  info_.camera.lens.kind = FROTH_LENS_FISHEYE;
+  info_.camera.lens.focal[0] = info_.camera.lens.focal[1] = 20;
+  expectResult(FROTH_ERROR_UNSUPPORTED, "FROTH_LENS_CLASS_MAPPED");
+  info_.camera.lens = {};
   info_.camera.clipFromView[11] = 0;
   info_.camera.clipFromView[15] = 1;
-  expectResult(FROTH_ERROR_UNSUPPORTED, "orthographic");
+  expectResult(FROTH_ERROR_UNSUPPORTED, "FROTH_LENS_CLASS_ORTHOGRAPHIC");
+  auto view = makeStruct<FrothViewInfo>();
+  view.maxExtent = {64, 64};
+  view.lensClasses = FROTH_LENS_CLASS_MAPPED;
+  FrothView refused{};
+  EXPECT_EQ(frothCreateView(context_, &view, &refused), FROTH_ERROR_ARGUMENT);
+  EXPECT_THAT(lastText(), HasSubstr("lensClasses: 0x1, but the context was made for 0"));
+}
+
+// In a context and a view for all of them.
+class RecordLens : public RecordCall {
+ protected:
+  void SetUp() override {
+    RecordCall::SetUp();
+    frothDestroyContext(context_, UINT64_MAX);
+    FrothContextInfo context = nullContextInfo();
+    context.lensClasses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC;
+    createContext(context);
+    auto view = makeStruct<FrothViewInfo>();
+    view.maxExtent = {64, 64};
+    view.lensClasses = context.lensClasses;
+    ASSERT_EQ(frothCreateView(context_, &view, &view_), FROTH_OK) << lastText();
+  }
+};
+
+TEST_F(RecordLens, RefusesWhatIsNoLens) {
+  FrothLens& lens = info_.camera.lens;
+  for (const auto kind : {FROTH_LENS_FISHEYE, FROTH_LENS_KANNALA_BRANDT, FROTH_LENS_RADIAL_TANGENTIAL,
+                          FROTH_LENS_EQUIRECTANGULAR}) {
+    lens = {};
+    lens.kind = kind;
+    lens.focal[0] = 20;
+    expectResult(FROTH_ERROR_ARGUMENT, "camera.lens.focal: 0");
+    lens.focal[1] = 20;
+    expectResult(FROTH_OK, "");
+    lens.coefficients[6] = NAN;
+    expectResult(FROTH_ERROR_ARGUMENT, "camera.lens.coefficients: element 6 is nan");
+    lens.coefficients[6] = 0;
+    lens.centre[1] = INFINITY;
+    expectResult(FROTH_ERROR_ARGUMENT, "camera.lens.centre: element 1 is inf");
+  }
+  lens = {};
+  lens.kind = FROTH_LENS_EQUIRECTANGULAR;
+  expectResult(FROTH_OK, "");
+  lens.kind = static_cast<FrothLensKind>(6);
+  expectResult(FROTH_ERROR_ARGUMENT, "camera.lens.kind: 6");
+}
+
+TEST_F(RecordLens, RefusesARayMapThatCannotBeRead) {
+  FrothLens& lens = info_.camera.lens;
+  lens.kind = FROTH_LENS_RAY_MAP;
+  expectResult(FROTH_ERROR_ARGUMENT, "camera.lens.rayMap: null");
+  lens.rayMap = info_.colour;
+  expectResult(FROTH_ERROR_ARGUMENT, "camera.lens.rayMap.format");
+  lens.rayMap.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  expectResult(FROTH_OK, "");
+  lens.rayMap.extent = {64, 32};
+  expectResult(FROTH_ERROR_ARGUMENT, "camera.lens.rayMap.extent: 64 x 32");
+  lens.rayMap.extent = {64, 64};
+  info_.camera.jitter[1] = 0.5f;
+  expectResult(FROTH_ERROR_ARGUMENT, "camera.jitter: (0, 0.5) with a ray map");
+}
+
+TEST_F(RecordLens, RefusesParallelRaysWithoutAnImage) {
+  float(&clip)[16] = info_.camera.clipFromView;
+  clip[11] = 0;
+  clip[15] = 1;
+  expectResult(FROTH_OK, "");
+  clip[15] = -1;
+  expectResult(FROTH_ERROR_ARGUMENT, "row w is (0, 0, 0, -1)");
+  clip[15] = 1;
+  clip[5] = 0;
+  clip[1] = 2;  // row y is twice row x
+  expectResult(FROTH_ERROR_ARGUMENT, "cross product 0");
 }
 
 TEST_F(RecordCall, RefusesAProjectionWithoutRays) {

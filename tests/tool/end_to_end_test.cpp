@@ -1,6 +1,7 @@
 // From a synthetic foam to measured pictures, through the program.
 #include <limits>
 
+#include "baker/camera/ray_map.h"
 #include "tests/tool/program_runner.h"
 
 namespace froth::test {
@@ -84,6 +85,38 @@ TEST_F(EndToEnd, RasterAndWalkDrawWhatTheReferenceDraws) {
       render("random.froth", renderer, "drawn.pfm", {"--channel", channel, "--validate", "--cutoff", "0"});
       EXPECT_GE(psnr("reference.pfm", "drawn.pfm"), 60) << renderer << " " << channel;
     }
+  }
+}
+
+// A fisheye, a panorama, parallel rays and a ray map, each beside the other in one cameras.json.
+TEST_F(EndToEnd, AllRenderersDrawThroughAllLenses) {
+  if (!hasDevice()) GTEST_SKIP() << "no Vulkan device";
+  makeRandomFoam("300");
+  const View pinhole = viewOfRandomFoam(96, 64);
+  CameraSet cameras;
+  const auto add = [&](LensKind kind, double pixelsPerUnit) -> View& {
+    View& view = cameras.views.emplace_back(pinhole);
+    view.lens.kind = kind;
+    view.fx = view.fy = pixelsPerUnit;
+    return view;
+  };
+  add(LensKind::kFisheye, 80);
+  add(LensKind::kEquirectangular, 20);
+  add(LensKind::kOrthographic, 20);
+  RayMap map{96, 64, {}};
+  for (uint32_t i = 0; i < 96 * 64; ++i) {
+    map.directions.push_back({(i % 96 / 96.0f - 0.5f) * 0.8f, (i / 96 / 64.0f - 0.5f) * 0.6f, i % 7 == 0 ? 0.9f : 1.0f});
+  }
+  ASSERT_TRUE(writeRayMap(folder_ / "rays.f32", map));
+  add(LensKind::kRayMap, 1).lens.raysFile = "rays.f32";
+  ASSERT_TRUE(writeCameras(folder_ / "cameras.json", cameras));
+
+  for (const std::string renderer : {"reference", "raster", "walk"}) {
+    frothWell({"render", "random.froth", "--cameras", "cameras.json", "-o", renderer, "--renderer", renderer});
+  }
+  for (const std::string view : {"view_00.pfm", "view_01.pfm", "view_02.pfm", "view_03.pfm"}) {
+    EXPECT_GE(psnr("reference/" + view, "raster/" + view), 55) << view;
+    EXPECT_GE(psnr("raster/" + view, "walk/" + view), 60) << view;
   }
 }
 

@@ -353,7 +353,8 @@ typedef struct FrothFrameStatus {
 } FrothFrameStatus;
 
 /* Begins a frame, which the caller submits or drops. CPU only: retires what is complete, loads assets, grows buffers. Never
- * records, never waits for the GPU. What is created after it is drawn from the next frame on. status may be null. */
+ * records, never waits for the GPU. What is created after it is drawn from the next frame on. status may be null. On an error
+ * no frame has begun: FROTH_ERROR_MEMORY can be tried again, FROTH_ERROR_DEVICE asks for frothDeviceLost. */
 FROTH_API FrothResult frothUpdate(FrothContext* context, const FrothFrame* frame, FrothFrameStatus* status);
 
 /* Records the copies of this frame; outside a render pass. */
@@ -456,7 +457,8 @@ typedef enum FrothQueryBit {
   FROTH_QUERY_BIT_MAX = 0x7fffffff
 } FrothQueryBit;
 
-/* The part tMin <= t <= tMax of origin + t direction / |direction|. The foam is met as by a ray that starts at tMin. */
+/* The part tMin <= t <= tMax of origin + t direction / |direction|. The foam is met as by a ray that starts at tMin. Rays and
+ * hits come in arrays: their layout is fixed. */
 typedef struct FrothRay {
   double origin[3];
   double direction[3]; /* finite, of any length but 0 */

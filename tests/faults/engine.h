@@ -1,0 +1,53 @@
+// An engine that embeds Froth and minds what every call returns: one asset, one instance, one view, frames of both methods.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "froth/froth.h"
+#include "samples/host/host.h"
+
+namespace froth::test {
+
+class Engine {
+ public:
+  // host null: without a device.
+  Engine(Host* host, const std::vector<uint8_t>& assetBytes) : host_(host), bytes_(assetBytes) {}
+  ~Engine();
+
+  // Each gives what the call returned that failed first; then the rest of it was not done, and it can be called again.
+  FrothResult start();          // makes the context
+  FrothResult makeObjects();    // those that are missing
+  FrothResult drawFrame();
+  FrothResult stop();
+
+  // What the engine does about an error; false: the contract knows no way on.
+  bool recover(FrothResult result);
+
+  bool hasContext() const { return context_ != nullptr; }
+  bool isAssetReady();  // a FAILED one is closed, to be opened again by makeObjects()
+
+  std::vector<float> raster, walk;  // of the newest frame
+  struct Message {
+    FrothSeverity severity;
+    FrothResult code;
+    std::string text;
+  };
+  std::vector<Message> messages;
+
+ private:
+  FrothContextInfo contextInfo();
+  FrothResult recordFrame(VkCommandBuffer commands);
+  FrothRenderInfo renderInfo(const HostImage& image) const;
+
+  Host* host_;
+  const std::vector<uint8_t>& bytes_;
+  HostImage rasterImage_, walkImage_;
+  FrothContext* context_ = nullptr;
+  FrothAsset asset_{};
+  FrothInstance instance_{};
+  FrothView view_{};
+  uint64_t serial_ = 0;
+};
+
+}  // namespace froth::test

@@ -1,0 +1,144 @@
+// The calls that froth.h allows at once, at once. For the thread sanitizer; without it the pictures must still be right.
+#include <array>
+#include <atomic>
+#include <thread>
+
+#include "runtime_fixture.h"
+
+namespace froth {
+namespace {
+
+constexpr VkExtent2D kExtent{40, 40};
+
+// What a thread records into.
+class Recorder {
+ public:
+  Recorder(VkDevice device, uint32_t queueFamily) : device_(device) {
+    const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, queueFamily};
+    EXPECT_EQ(vkCreateCommandPool(device, &poolInfo, nullptr, &pool_), VK_SUCCESS);
+    const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
+                                           VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    EXPECT_EQ(vkAllocateCommandBuffers(device, &info, &commands), VK_SUCCESS);
+  }
+  ~Recorder() { vkDestroyCommandPool(device_, pool_, nullptr); }
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  void begin() {
+    vkResetCommandPool(device_, pool_, 0);
+    const VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, 0, nullptr};
+    vkBeginCommandBuffer(commands, &info);
+  }
+
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+
+ private:
+  VkDevice device_;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+};
+
+class Threads : public RuntimeGpuTest {
+ protected:
+  FrothRenderInfo infoFor(const HostImage& image) {
+    auto info = makeStruct<FrothRenderInfo>();
+    info.camera = makeCamera(kExtent.width, kExtent.height);
+    info.camera.eye[2] = 1e6 - 1;  // where the sample lies
+    info.colour = host_->describe(image);
+    return info;
+  }
+
+  FrothAsset openForQueries() {
+    auto info = makeStruct<FrothAssetInfo>();
+    info.data = bytes_.data();
+    info.dataSize = bytes_.size();
+    info.keepForQueries = 1;
+    FrothAsset asset{};
+    EXPECT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_OK);
+    return asset;
+  }
+
+  std::vector<uint8_t> bytes_ = encodeSample();
+};
+
+TEST_F(Threads, RasterizeAndWalkTwoViewsWhileOthersAskAndCast) {
+  createContext(host_->contextInfo());
+  const FrothAsset asset = openForQueries();
+  const FrothInstance instance = createInstance(asset);
+  const std::array<FrothView, 2> views{createView(kExtent), createView(kExtent)};
+  runFrame();
+  ASSERT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
+  std::array<HostImage, 4> images;
+  for (HostImage& image : images) image = *host_->createImage(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent);
+  Recorder recorders[2] = {{host_->device, host_->queueFamily}, {host_->device, host_->queueFamily}};
+
+  std::atomic<bool> isEnding = false;
+  std::thread asker([&] {
+    do {
+      auto requirements = makeStruct<FrothRequirements>();
+      EXPECT_EQ(frothGetRequirements(vkGetInstanceProcAddr, host_->instance, host_->physicalDevice, &requirements),
+                FROTH_OK);
+    } while (!isEnding);
+  });
+  for (int frame = 0; frame < 10; ++frame) {
+    runFrame();
+    std::vector<std::thread> threads;
+    for (size_t i = 0; i < 2; ++i) {
+      threads.emplace_back([&, i] {
+        recorders[i].begin();
+        const FrothRenderInfo raster = infoFor(images[2 * i]), walk = infoFor(images[2 * i + 1]);
+        EXPECT_EQ(frothRasterize(context_, views[i], recorders[i].commands, &raster), FROTH_OK);
+        EXPECT_EQ(frothWalk(context_, views[i], recorders[i].commands, &walk), FROTH_OK);
+        vkEndCommandBuffer(recorders[i].commands);
+      });
+      threads.emplace_back([&] {
+        FrothRay ray{};
+        ray.origin[2] = 1e6 - 1;
+        ray.direction[2] = 1;
+        FrothRayHit hit;
+        for (int cast = 0; cast < 50; ++cast) EXPECT_GE(frothCastRays(context_, nullptr, &ray, &hit, 1), FROTH_OK);
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    const VkCommandBuffer commands[2] = {recorders[0].commands, recorders[1].commands};
+    const VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO, nullptr, 0, nullptr, nullptr, 2, commands, 0, nullptr};
+    ASSERT_EQ(vkQueueSubmit(host_->queue, 1, &submit, VK_NULL_HANDLE), VK_SUCCESS);
+    ASSERT_EQ(vkQueueWaitIdle(host_->queue), VK_SUCCESS);
+  }
+  isEnding = true;
+  asker.join();
+  const std::vector<float> raster = *host_->readImage(images[0]), walk = *host_->readImage(images[1]);
+  EXPECT_NE(raster, std::vector<float>(raster.size()));
+  EXPECT_EQ(*host_->readImage(images[2]), raster);
+  EXPECT_EQ(*host_->readImage(images[3]), walk);
+  for (HostImage& image : images) host_->destroyImage(image);
+  EXPECT_EQ(frothDestroyInstance(context_, instance), FROTH_OK);
+}
+
+TEST_F(Threads, OwnContextsOfOneDeviceShareNothing) {
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 2; ++i) {
+    threads.emplace_back([&] {
+      FrothContextInfo info = host_->contextInfo();
+      FrothContext* context = nullptr;
+      ASSERT_EQ(frothCreateContext(&info, &context), FROTH_OK);
+      auto assetInfo = makeStruct<FrothAssetInfo>();
+      assetInfo.data = bytes_.data();
+      assetInfo.dataSize = bytes_.size();
+      FrothAsset asset{};
+      EXPECT_EQ(frothOpenAsset(context, &assetInfo, &asset), FROTH_OK);
+      auto viewInfo = makeStruct<FrothViewInfo>();
+      viewInfo.maxExtent = kExtent;
+      FrothView view{};
+      EXPECT_EQ(frothCreateView(context, &viewInfo, &view), FROTH_OK);
+      auto frame = makeStruct<FrothFrame>();
+      frame.serial = 1;
+      EXPECT_EQ(frothUpdate(context, &frame, nullptr), FROTH_OK);
+      EXPECT_EQ(frothDropFrame(context, 1), FROTH_OK);
+      EXPECT_EQ(frothDestroyContext(context, 0), FROTH_OK);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+}  // namespace
+}  // namespace froth
