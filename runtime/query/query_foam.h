@@ -29,7 +29,7 @@ struct QueryChunk {
   uint32_t cellCount = 0, liveCount = 0;
   std::vector<glm::vec4> siteRadius;       // [cells, then ghosts]
   std::vector<uint32_t> neighbourOffsets;  // [cellCount + 1]
-  PackedElements neighbours;
+  PackedElements neighbours;               // rows ascending: sites lie along a curve, so that a row reads memory forwards
   std::vector<CellRef> ghostRefs;
   std::vector<float> densities;            // [liveCount]
   std::vector<glm::vec4> orientations;     // [liveCount]
