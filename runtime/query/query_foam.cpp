@@ -81,6 +81,7 @@ void QueryFoam::growBounds(const QueryChunk& chunk) {
 }
 
 void QueryFoam::finish() {
+  isWhole_ = true;
   if (samples_.empty()) return;
   entries_ = EntryTree(std::move(samples_));
   samples_ = {};

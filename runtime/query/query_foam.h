@@ -56,7 +56,8 @@ class QueryFoam {
   explicit QueryFoam(const AssetContents& manifest);
 
   void addChunk(const ChunkContents& contents);  // in the asset's order
-  void finish();                                 // after the last one
+  void finish();                                 // after the last one: now it is whole
+  bool isWhole() const { return isWhole_; }
 
   bool hasWalkGraph() const { return hasWalkGraph_; }
   uint32_t detailCount() const { return detailCount_; }
@@ -82,7 +83,7 @@ class QueryFoam {
  private:
   void growBounds(const QueryChunk& chunk);
 
-  bool hasWalkGraph_;
+  bool hasWalkGraph_, isWhole_ = false;
   uint32_t detailCount_, localBits_;
   double detailSharpness_;
   std::vector<QueryChunk> chunks_;
