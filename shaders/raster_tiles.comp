@@ -66,6 +66,16 @@ void meetCell(Shading shading, uint index, vec3 rays[kRays], inout Radiance radi
   }
 }
 
+// Reads a word of each line of memory that rays in the cell will read, so that the entries of a batch wait for them together and
+// not one after the other. Always true, which no compiler can know.
+bool fetchCell(uint slot, uvec3 row) {
+  uint lastPlane = max(row.z, 1u) - 1;
+  uint firstSite = slot * detailCount;
+  float sum = FRAME.planes.v[min(row.x, lastPlane)].x + FRAME.planes.v[lastPlane].x;
+  sum += FRAME.sites.v[firstSite].place.x + FRAME.sites.v[firstSite + detailCount - 1].place.x;
+  return floatBitsToUint(sum) != 0xffffffffu;
+}
+
 // Lists the entries of this batch whose solid ball the 8 x 8 pixels can meet, in order; returns how many.
 uint gatherBatch(uint entry, uint end, uvec2 corner) {
   uint lane = gl_LocalInvocationIndex;
@@ -78,7 +88,7 @@ uint gatherBatch(uint entry, uint end, uvec2 corner) {
     ball = FRAME.records.v[slot].ball;
     row = uvec3(FRAME.records.v[slot].planeBegin, FRAME.records.v[slot].planeSplit, FRAME.records.v[slot].planeEnd);
     Ball solid = solidBall(Ball(ball.xyz, ball.w), FRAME.records.v[slot].solidBall);
-    isKept = pixelsMeetBall(solid.centre, solid.radius, corner, kSubTileSize);
+    isKept = pixelsMeetBall(solid.centre, solid.radius, corner, kSubTileSize) && fetchCell(slot, row);
   }
   if (isKept) atomicOr(keptMask[lane / 32], 1u << (lane % 32));
   barrier();

@@ -98,7 +98,7 @@ void Asset::load(RenderPipelines* pipelines, const Messages& messages) {
     if (++nextChunk_ < description_.chunkCount) {
       return;
     }
-    if (queryFoam_) {
+    if (isQueryFoamWanted()) {
       queryFoam_->finish();
     }
     reader_.reset();
@@ -139,7 +139,6 @@ void Asset::restart(const Messages& messages) {
   description_ = {};
   flightPath_.clear();
   gpu_ = {};
-  queryFoam_.reset();
   buffers_ = device_ ? std::make_shared<GpuBufferSet>(*device_) : nullptr;
   if (!isFile_ && !bytesStay_) {
     fail(FROTH_ERROR_STATE,
@@ -157,7 +156,7 @@ Status Asset::openReader() {
   const AssetContents& manifest = reader->manifest();
   description_ = describeManifest(manifest);
   gpu_ = describeShape(manifest);
-  if (keepsForQueries_) {
+  if (isQueryFoamWanted()) {
     queryFoam_.emplace(manifest);
   }
   std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_),
@@ -180,7 +179,7 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   gpu_.cellCount += chunk.cellCount;
   gpu_.alphaTotal += chunk.alphaTotal;
   gpu_.neighbourTotal += chunk.neighbourCount;
-  if (queryFoam_) {
+  if (isQueryFoamWanted()) {
     queryFoam_->addChunk(contents);
   }
   if (!device_) {

@@ -55,8 +55,8 @@ class Asset {
   uint64_t queuedBytes() const;  // decoded, not staged
 
   const GpuAsset& gpu() const { return gpu_; }
-  // Whole once isDecoded(); null: not kept.
-  const QueryFoam* queryFoam() const { return queryFoam_ ? &*queryFoam_ : nullptr; }
+  // Null: not kept, or not whole yet. Once there, it outlives the device: it is host memory.
+  const QueryFoam* queryFoam() const { return queryFoam_ && queryFoam_->isWhole() ? &*queryFoam_ : nullptr; }
   std::span<const GpuBuffer> buffers() const;  // of gpu()'s arrays
   const std::string& name() const { return name_; }
   // Counts, bounds, cameras; zero before the manifest is read. The state is the context's to tell.
@@ -83,6 +83,7 @@ class Asset {
   Status placeArray(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address);
   void addMemory(const char* name, uint64_t bytes);
   void growBounds(const ChunkContents& contents);
+  bool isQueryFoamWanted() const { return keepsForQueries_ && !queryFoam(); }
   void fail(FrothResult code, const char* text, const Messages& messages);
   void fail(const Error& error, const Messages& messages);
 

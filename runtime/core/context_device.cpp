@@ -27,7 +27,8 @@ FrothResult Context::checkInfo(const FrothContextInfo& info, const char* call) c
                          kMaxFramesInFlight);
   }
   if (!info.allocateMemory != !info.freeMemory) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "allocateMemory, freeMemory: one is null; set both or none");
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "allocateMemory, freeMemory: one is null; set both or none");
   }
   if (!info.device) {
     return FROTH_OK;
@@ -114,18 +115,20 @@ void Context::shrinkViews() {
     });
   } else if (!isExcessTold_) {
     isExcessTold_ = true;
-    messages.warn(FROTH_ERROR_MEMORY, "frothSetBudget",
-                  "%llu bytes are held and the budget is %llu: assets, and the least that views need, do not shrink; "
-                  "close some, or raise it",
-                  static_cast<unsigned long long>(device_.ledger.deviceBytes()),
-                  static_cast<unsigned long long>(device_.budget));
+    messages.warn(
+        FROTH_ERROR_MEMORY, "frothSetBudget",
+        "%llu bytes are held and the budget is %llu: assets, and the least that views need, do not shrink; "
+        "close some, or raise it",
+        static_cast<unsigned long long>(device_.ledger.deviceBytes()),
+        static_cast<unsigned long long>(device_.budget));
   }
 }
 
 // ---- Device loss ----
 
 FrothResult Context::checkDevice(const char* call) const {
-  return isLost_ ? messages.fail(FROTH_ERROR_DEVICE, call, "the device is lost; call frothRestoreDevice") : FROTH_OK;
+  return isLost_ ? messages.fail(FROTH_ERROR_DEVICE, call, "the device is lost; call frothRestoreDevice")
+                 : FROTH_OK;
 }
 
 void Context::loseDevice() {

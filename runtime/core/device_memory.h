@@ -11,7 +11,9 @@ namespace froth {
 enum class MemoryUse : uint32_t { kAssets, kViews, kViewsHost, kUploadsHost };
 inline constexpr uint32_t kMemoryUseCount = 4;
 
-inline bool isHostUse(MemoryUse use) { return use == MemoryUse::kViewsHost || use == MemoryUse::kUploadsHost; }
+inline bool isHostUse(MemoryUse use) {
+  return use == MemoryUse::kViewsHost || use == MemoryUse::kUploadsHost;
+}
 
 // The memory of one buffer or image.
 struct MemoryBlock {

@@ -9,8 +9,8 @@ namespace froth {
 // What an error of the format or of Vulkan is to the caller.
 FrothResult resultOf(const Error& error);
 
-// Thread safety: any thread, if the caller's callback allows it. Allocates nothing, so that it can tell that memory is
-// exhausted; texts beyond 4 KiB are cut.
+// Thread safety: any thread, if the caller's callback allows it. Allocates nothing, so that it can tell that
+// memory is exhausted; texts beyond 4 KiB are cut.
 struct Messages {
   FrothMessageCallback callback = nullptr;  // may be null
   void* user = nullptr;

@@ -52,7 +52,7 @@ std::vector<PlacedFoam> Context::gatherFoams(uint32_t& bits) const {
   instances_.forEachNamed([&](FrothInstance handle, const Instance& instance) {
     const Asset& asset = *assets_.find(instance.asset);
     if (!asset.keepsForQueries()) return;
-    if (stateOf(asset) != FROTH_ASSET_READY) {
+    if (!asset.queryFoam()) {
       bits |= FROTH_QUERY_NOT_READY;
     } else if (!asset.queryFoam()->hasWalkGraph()) {
       bits |= FROTH_QUERY_NO_WALK_GRAPH;
@@ -108,8 +108,8 @@ FrothResult Context::locate(FrothInstance handle, const double (&point)[3], Frot
     return messages.fail(FROTH_ERROR_STATE, kCall,
                          "%s: opened without queries; set FrothAssetInfo::keepForQueries", asset.name().c_str());
   }
-  if (stateOf(asset) != FROTH_ASSET_READY) {
-    return messages.fail(FROTH_ERROR_STATE, kCall, "%s: not READY", asset.name().c_str());
+  if (!asset.queryFoam()) {
+    return messages.fail(FROTH_ERROR_STATE, kCall, "%s: not loaded yet, or FAILED", asset.name().c_str());
   }
   if (!asset.queryFoam()->hasWalkGraph() || !asset.queryFoam()->hasCells()) {
     return messages.fail(FROTH_ERROR_UNSUPPORTED, kCall, "%s: no walk graph; bake the scene with one",

@@ -1,5 +1,7 @@
 #include "runtime/query/query_foam.h"
 
+#include <algorithm>
+
 #include "format/checks.h"
 
 namespace froth {
@@ -16,6 +18,15 @@ uint64_t bytesOf(const std::vector<T>& values) {
 double powerOf(const glm::vec4& siteRadius, const glm::dvec3& point) {
   const glm::dvec3 difference = point - glm::dvec3(siteRadius);
   return glm::dot(difference, difference) - double{siteRadius.w} * siteRadius.w;
+}
+
+// QueryChunk::neighbours
+std::vector<uint32_t> sortRows(const ChunkContents& contents) {
+  std::vector<uint32_t> sorted = contents.neighbours;
+  for (uint32_t cell = 0; cell < contents.cellCount; ++cell) {
+    std::sort(sorted.begin() + contents.neighbourOffsets[cell], sorted.begin() + contents.neighbourOffsets[cell + 1]);
+  }
+  return sorted;
 }
 
 std::vector<QueryDetail> joinDetails(const ChunkContents& contents) {
@@ -46,7 +57,7 @@ void QueryFoam::addChunk(const ChunkContents& contents) {
     chunk.siteRadius.push_back(glm::vec4(contents.sites[i], contents.radii[i]));
   }
   chunk.neighbourOffsets = contents.neighbourOffsets;
-  chunk.neighbours = packElements(contents.neighbours);
+  chunk.neighbours = packElements(sortRows(contents));
   chunk.ghostRefs = contents.ghostRefs;
   chunk.densities = contents.densities;
   chunk.orientations = contents.orientations;
@@ -70,6 +81,7 @@ void QueryFoam::growBounds(const QueryChunk& chunk) {
 }
 
 void QueryFoam::finish() {
+  isWhole_ = true;
   if (samples_.empty()) return;
   entries_ = EntryTree(std::move(samples_));
   samples_ = {};

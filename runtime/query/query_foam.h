@@ -29,7 +29,7 @@ struct QueryChunk {
   uint32_t cellCount = 0, liveCount = 0;
   std::vector<glm::vec4> siteRadius;       // [cells, then ghosts]
   std::vector<uint32_t> neighbourOffsets;  // [cellCount + 1]
-  PackedElements neighbours;
+  PackedElements neighbours;               // rows ascending: sites lie along a curve, so that a row reads memory forwards
   std::vector<CellRef> ghostRefs;
   std::vector<float> densities;            // [liveCount]
   std::vector<glm::vec4> orientations;     // [liveCount]
@@ -56,7 +56,8 @@ class QueryFoam {
   explicit QueryFoam(const AssetContents& manifest);
 
   void addChunk(const ChunkContents& contents);  // in the asset's order
-  void finish();                                 // after the last one
+  void finish();                                 // after the last one: now it is whole
+  bool isWhole() const { return isWhole_; }
 
   bool hasWalkGraph() const { return hasWalkGraph_; }
   uint32_t detailCount() const { return detailCount_; }
@@ -82,7 +83,7 @@ class QueryFoam {
  private:
   void growBounds(const QueryChunk& chunk);
 
-  bool hasWalkGraph_;
+  bool hasWalkGraph_, isWhole_ = false;
   uint32_t detailCount_, localBits_;
   double detailSharpness_;
   std::vector<QueryChunk> chunks_;

@@ -169,7 +169,8 @@ FrothResult Engine::stop() {
     return given == FROTH_OK;
   };
   if (view_.generation != 0 && !finish(call(frothDestroyView, context_, view_), view_)) return result;
-  if (instance_.generation != 0 && !finish(call(frothDestroyInstance, context_, instance_), instance_)) return result;
+  if (instance_.generation != 0 && !finish(call(frothDestroyInstance, context_, instance_), instance_))
+    return result;
   if (asset_.generation != 0 && !finish(call(frothCloseAsset, context_, asset_), asset_)) return result;
   finish(call(frothDestroyContext, context_, UINT64_MAX), context_);
   return result;

@@ -1,4 +1,5 @@
-// An engine that embeds Froth and minds what every call returns: one asset, one instance, one view, frames of both methods.
+// An engine that embeds Froth and minds what every call returns: one asset, one instance, one view, frames of
+// both methods.
 #pragma once
 
 #include <string>
@@ -15,9 +16,10 @@ class Engine {
   Engine(Host* host, const std::vector<uint8_t>& assetBytes) : host_(host), bytes_(assetBytes) {}
   ~Engine();
 
-  // Each gives what the call returned that failed first; then the rest of it was not done, and it can be called again.
-  FrothResult start();          // makes the context
-  FrothResult makeObjects();    // those that are missing
+  // Each gives what the call returned that failed first; then the rest of it was not done, and it can be
+  // called again.
+  FrothResult start();        // makes the context
+  FrothResult makeObjects();  // those that are missing
   FrothResult drawFrame();
   FrothResult stop();
 

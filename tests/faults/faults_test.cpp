@@ -1,4 +1,5 @@
-// Every call that can fail does, one after the other: each time a status of the contract, one message, and the engine goes on.
+// Every call that can fail does, one after the other: each time a status of the contract, one message, and
+// the engine goes on.
 #include <gtest/gtest.h>
 
 #include "format/asset_writer.h"
@@ -67,14 +68,16 @@ TEST_P(VulkanFault, InAnyCallGivesItsStatusAndOneMessageAndTheEngineGoesOn) {
   EXPECT_NE(well.raster, std::vector<float>(well.raster.size()));
   const size_t calls = VulkanFaults::calls;
   EXPECT_GT(calls, 100u);
-  const size_t stride = GetParam() == VK_ERROR_OUT_OF_HOST_MEMORY ? 8 : 1;  // goes the way of the other memory
+  const size_t stride =
+      GetParam() == VK_ERROR_OUT_OF_HOST_MEMORY ? 8 : 1;  // goes the way of the other memory
   for (size_t number = 0; number < calls; number += stride) {
     Engine engine(host_.get(), bytes);
     VulkanFaults::arm(number, GetParam());
     ASSERT_TRUE(runScenario(engine, expected)) << VulkanFaults::struck << ", call " << number;
     SCOPED_TRACE(VulkanFaults::struck + ", call " + std::to_string(number));
     EXPECT_NE(VulkanFaults::struck, "");
-    const bool isUnimportant = VulkanFaults::struck == "vkGetQueryPoolResults" && expected != FROTH_ERROR_DEVICE;
+    const bool isUnimportant =
+        VulkanFaults::struck == "vkGetQueryPoolResults" && expected != FROTH_ERROR_DEVICE;
     EXPECT_EQ(engine.messages.size(), isUnimportant ? 0u : 1u);
     for (const Engine::Message& message : engine.messages) {
       EXPECT_EQ(message.code, expected) << message.text;
@@ -91,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Of, VulkanFault,
                          testing::Values(VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_OUT_OF_HOST_MEMORY,
                                          VK_ERROR_DEVICE_LOST),
                          [](const auto& test) {
-                           return test.param == VK_ERROR_DEVICE_LOST            ? "Device"
+                           return test.param == VK_ERROR_DEVICE_LOST          ? "Device"
                                   : test.param == VK_ERROR_OUT_OF_HOST_MEMORY ? "HostMemory"
                                                                               : "DeviceMemory";
                          });
@@ -123,7 +126,9 @@ void exhaustHostMemory(Host* host) {
   EXPECT_GT(number, 100u);
 }
 
-TEST(HostFault, InAnyAllocationOfANullContextGivesMemoryAndTheEngineGoesOn) { exhaustHostMemory(nullptr); }
+TEST(HostFault, InAnyAllocationOfANullContextGivesMemoryAndTheEngineGoesOn) {
+  exhaustHostMemory(nullptr);
+}
 
 TEST(HostFault, InAnyAllocationOnADeviceGivesMemoryAndTheEngineGoesOn) {
   Result<std::unique_ptr<Host>> host = Host::create({});

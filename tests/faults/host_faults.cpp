@@ -46,20 +46,44 @@ void HostFaults::arm(size_t number) {
   struck = false;
 }
 
-bool HostFaults::hasStruck() { return struck; }
-long HostFaults::liveCount() { return live; }
-HostFaults::Zone::Zone() { ++zones; }
-HostFaults::Zone::~Zone() { --zones; }
+bool HostFaults::hasStruck() {
+  return struck;
+}
+long HostFaults::liveCount() {
+  return live;
+}
+HostFaults::Zone::Zone() {
+  ++zones;
+}
+HostFaults::Zone::~Zone() {
+  --zones;
+}
 
 // Nested pauses go deeper below zero.
-HostFaults::Pause::Pause() { zones -= 1000; }
-HostFaults::Pause::~Pause() { zones += 1000; }
+HostFaults::Pause::Pause() {
+  zones -= 1000;
+}
+HostFaults::Pause::~Pause() {
+  zones += 1000;
+}
 
 }  // namespace froth::test
 
-void* operator new(size_t size) { return froth::test::allocate(size); }
-void* operator new[](size_t size) { return froth::test::allocate(size); }
-void operator delete(void* memory) noexcept { froth::test::release(memory); }
-void operator delete[](void* memory) noexcept { froth::test::release(memory); }
-void operator delete(void* memory, size_t) noexcept { froth::test::release(memory); }
-void operator delete[](void* memory, size_t) noexcept { froth::test::release(memory); }
+void* operator new(size_t size) {
+  return froth::test::allocate(size);
+}
+void* operator new[](size_t size) {
+  return froth::test::allocate(size);
+}
+void operator delete(void* memory) noexcept {
+  froth::test::release(memory);
+}
+void operator delete[](void* memory) noexcept {
+  froth::test::release(memory);
+}
+void operator delete(void* memory, size_t) noexcept {
+  froth::test::release(memory);
+}
+void operator delete[](void* memory, size_t) noexcept {
+  froth::test::release(memory);
+}

@@ -25,8 +25,12 @@ bool strikes(const char* name) {
   return isIt;
 }
 
-bool isCreation(std::string_view name) { return name.starts_with("vkCreate") || name == "vkAllocateMemory"; }
-bool isDestruction(std::string_view name) { return name.starts_with("vkDestroy") || name == "vkFreeMemory"; }
+bool isCreation(std::string_view name) {
+  return name.starts_with("vkCreate") || name == "vkAllocateMemory";
+}
+bool isDestruction(std::string_view name) {
+  return name.starts_with("vkDestroy") || name == "vkFreeMemory";
+}
 
 // The handle that a creation wrote, the one that a destruction takes.
 template <class... Args>
@@ -42,7 +46,8 @@ template <class... Args>
 void* takenBy(Args... args) {
   if constexpr (sizeof...(Args) >= 2) {
     const auto second = std::get<1>(std::make_tuple(args...));
-    if constexpr (std::is_pointer_v<decltype(second)>) return const_cast<void*>(static_cast<const void*>(second));
+    if constexpr (std::is_pointer_v<decltype(second)>)
+      return const_cast<void*>(static_cast<const void*>(second));
   }
   return nullptr;
 }
@@ -77,9 +82,9 @@ struct Hook<Tag, Return(VKAPI_PTR*)(Args...)> {
   }
 };
 
-#define FROTH_TAG(name)                          \
-  struct Tag_##name {                            \
-    static constexpr const char* kName = #name;  \
+#define FROTH_TAG(name)                         \
+  struct Tag_##name {                           \
+    static constexpr const char* kName = #name; \
   };
 FROTH_DEVICE_FUNCTIONS(FROTH_TAG)
 #undef FROTH_TAG
@@ -91,9 +96,11 @@ std::map<void*, std::string> moduleCodes;
 std::map<void*, int> uses;  // of kept pipelines
 
 VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
-                                                  const VkAllocationCallbacks* allocator, VkShaderModule* module) {
+                                                  const VkAllocationCallbacks* allocator,
+                                                  VkShaderModule* module) {
   const HostFaults::Pause pause;
-  const VkResult result = Hook<Tag_vkCreateShaderModule, PFN_vkCreateShaderModule>::call(device, info, allocator, module);
+  const VkResult result =
+      Hook<Tag_vkCreateShaderModule, PFN_vkCreateShaderModule>::call(device, info, allocator, module);
   if (result == VK_SUCCESS) {
     moduleCodes[*module] = std::string(reinterpret_cast<const char*>(info->pCode), info->codeSize);
   }
@@ -102,12 +109,13 @@ VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShade
 
 VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                       const VkComputePipelineCreateInfo* info,
-                                                      const VkAllocationCallbacks* allocator, VkPipeline* pipeline) {
+                                                      const VkAllocationCallbacks* allocator,
+                                                      VkPipeline* pipeline) {
   const HostFaults::Pause pause;
   if (strikes("vkCreateComputePipelines")) return armedCode;
   const VkSpecializationInfo& constants = *info->stage.pSpecializationInfo;
-  const std::string key =
-      moduleCodes[info->stage.module] + std::string(static_cast<const char*>(constants.pData), constants.dataSize);
+  const std::string key = moduleCodes[info->stage.module] +
+                          std::string(static_cast<const char*>(constants.pData), constants.dataSize);
   VkPipeline& kept = keptPipelines[key];
   if (!kept) {
     const VkResult result = Hook<Tag_vkCreateComputePipelines, PFN_vkCreateComputePipelines>::real(
@@ -132,7 +140,7 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* nam
   const HostFaults::Pause pause;
   const PFN_vkVoidFunction real = vkGetDeviceProcAddr(device, name);
   const auto is = [&](const char* other) { return std::strcmp(name, other) == 0; };
-#define FROTH_HOOK(function)                                                                       \
+#define FROTH_HOOK(function) \
   if (is(#function)) Hook<Tag_##function, PFN_##function>::real = reinterpret_cast<PFN_##function>(real);
   FROTH_DEVICE_FUNCTIONS(FROTH_HOOK)
 #undef FROTH_HOOK
@@ -149,7 +157,8 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* nam
 }  // namespace
 
 PFN_vkVoidFunction VKAPI_CALL VulkanFaults::getInstanceProcAddr(VkInstance instance, const char* name) {
-  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
+  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
+    return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
   const HostFaults::Pause pause;
   return vkGetInstanceProcAddr(instance, name);
 }
@@ -161,7 +170,9 @@ void VulkanFaults::arm(size_t number, VkResult code) {
   armedCode = code;
 }
 
-void VulkanFaults::disarm() { armedNumber = SIZE_MAX; }
+void VulkanFaults::disarm() {
+  armedNumber = SIZE_MAX;
+}
 
 void VulkanFaults::clear(VkDevice device) {
   for (const auto& [key, pipeline] : keptPipelines) vkDestroyPipeline(device, pipeline, nullptr);

@@ -98,6 +98,15 @@ TEST_F(Calls, TellOfAnAssetThatIsNotReady) {
   EXPECT_EQ(frothLocate(context_, instance, point, &location), FROTH_ERROR_STATE);
 }
 
+TEST_F(Calls, GoOnAnsweringWhileTheDeviceIsLost) {
+  createInstance(openReady(scene()));
+  const FrothRay ray = makeRay({0, 0, -3}, {0, 0, 1});
+  const FrothRayHit before = cast({ray})[0];
+  ASSERT_LT(before.transmittance, 1);
+  ASSERT_EQ(frothDeviceLost(context_), FROTH_OK);
+  EXPECT_EQ(cast({ray})[0].transmittance, before.transmittance);
+}
+
 TEST_F(Calls, TellOfAnAssetWithoutAWalkGraph) {
   const FrothAsset asset = openReady(scene(false));
   const FrothInstance instance = createInstance(asset);

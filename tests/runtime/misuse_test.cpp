@@ -26,7 +26,8 @@ class Misuse : public RuntimeTest {
 // A block of exactly `size` bytes, so that the sanitizer sees every byte beyond it that is touched.
 template <class T>
 struct Block {
-  Block(uint32_t structSize, size_t size, unsigned char fill) : bytes(static_cast<unsigned char*>(std::malloc(size))) {
+  Block(uint32_t structSize, size_t size, unsigned char fill)
+      : bytes(static_cast<unsigned char*>(std::malloc(size))) {
     std::memset(bytes, fill, size);
     std::memcpy(bytes, &structSize, sizeof(structSize));
   }
@@ -89,15 +90,16 @@ TEST_F(Misuse, OfStructSizesThatGoIn) {
     FrothInstance made{};
     return frothCreateInstance(context_, info, &made);
   });
-  expectInputSizes<FrothInstanceInfo>("frothSetInstance",
-                                      [&](auto* info) { return frothSetInstance(context_, instance_, info); });
+  expectInputSizes<FrothInstanceInfo>(
+      "frothSetInstance", [&](auto* info) { return frothSetInstance(context_, instance_, info); });
   expectInputSizes<FrothViewInfo>("frothCreateView", [&](auto* info) {
     FrothView made{};
     return frothCreateView(context_, info, &made);
   });
-  expectInputSizes<FrothFrame>("frothUpdate", [&](auto* frame) { return frothUpdate(context_, frame, nullptr); });
-  expectInputSizes<FrothRenderInfo>("frothRasterize",
-                                    [&](auto* info) { return frothRasterize(context_, view_, nullptr, info); });
+  expectInputSizes<FrothFrame>("frothUpdate",
+                               [&](auto* frame) { return frothUpdate(context_, frame, nullptr); });
+  expectInputSizes<FrothRenderInfo>(
+      "frothRasterize", [&](auto* info) { return frothRasterize(context_, view_, nullptr, info); });
   expectInputSizes<FrothRenderInfo>("frothWalk",
                                     [&](auto* info) { return frothWalk(context_, view_, nullptr, info); });
   FrothRay ray{};
@@ -117,10 +119,10 @@ TEST_F(Misuse, OfStructSizesThatComeOut) {
   });
   expectOutputSizes<FrothMemoryReport>("frothGetMemoryReport",
                                        [&](auto* report) { return frothGetMemoryReport(context_, report); });
-  expectOutputSizes<FrothAssetStatus>("frothGetAssetStatus",
-                                      [&](auto* status) { return frothGetAssetStatus(context_, asset_, status); });
-  expectOutputSizes<FrothViewStatus>("frothGetViewStatus",
-                                     [&](auto* status) { return frothGetViewStatus(context_, view_, status); });
+  expectOutputSizes<FrothAssetStatus>(
+      "frothGetAssetStatus", [&](auto* status) { return frothGetAssetStatus(context_, asset_, status); });
+  expectOutputSizes<FrothViewStatus>(
+      "frothGetViewStatus", [&](auto* status) { return frothGetViewStatus(context_, view_, status); });
   uint64_t serial = 1;
   expectOutputSizes<FrothFrameStatus>("frothUpdate", [&](auto* status) {
     auto frame = makeStruct<FrothFrame>();
@@ -131,8 +133,8 @@ TEST_F(Misuse, OfStructSizesThatComeOut) {
     return result;
   });
   const auto sphere = makeStruct<FrothSphere>();
-  expectOutputSizes<FrothContact>("frothOverlapSphere",
-                                  [&](auto* contact) { return frothOverlapSphere(context_, &sphere, contact); });
+  expectOutputSizes<FrothContact>(
+      "frothOverlapSphere", [&](auto* contact) { return frothOverlapSphere(context_, &sphere, contact); });
 }
 
 TEST_F(Misuse, OfStaleHandlesInEveryCallIsAnErrorThatNamesThem) {

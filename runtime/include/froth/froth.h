@@ -444,8 +444,9 @@ FROTH_API FrothResult frothWalk(FrothContext* context, FrothView view, VkCommand
 /* ---- Queries: single rays, points and spheres, on the CPU ----
  *
  * For gameplay and servers. They answer on the calling thread, wait for nothing, and need neither a GPU nor a frame: a null
- * context serves them. They see the instances whose asset is READY and was opened with keepForQueries, as they are placed
- * now. Positions are in the world, in double. Near tests (FrothRenderInfo::nearRatio) do not apply: they belong to cameras.
+ * context serves them. They see the instances whose asset was opened with keepForQueries and has been READY once, as they are
+ * placed now; a lost device changes nothing. Positions are in the world, in double. Near tests (FrothRenderInfo::nearRatio)
+ * do not apply: they belong to cameras.
  *
  * Their errors (a null pointer, a number out of its range: nothing is written) are told on the calling thread. */
 
@@ -453,7 +454,7 @@ FROTH_API FrothResult frothWalk(FrothContext* context, FrothView view, VkCommand
 typedef enum FrothQueryBit {
   FROTH_QUERY_STEP_LIMIT = 1,    /* ended by FrothCastInfo::maxSteps: what lies beyond is missing */
   FROTH_QUERY_NO_WALK_GRAPH = 2, /* an instance was left out: its asset was baked without the graph that queries walk */
-  FROTH_QUERY_NOT_READY = 4,     /* an instance was left out: its asset is OPENING or FAILED */
+  FROTH_QUERY_NOT_READY = 4,     /* an instance was left out: its asset is OPENING for the first time, or FAILED */
   FROTH_QUERY_BIT_MAX = 0x7fffffff
 } FrothQueryBit;
 
@@ -497,7 +498,8 @@ typedef struct FrothLocation {
   double power;    /* that least value [square world units]; negative: inside the cell's ball */
 } FrothLocation;
 
-/* FROTH_ERROR_STATE: the asset is not READY or was opened without keepForQueries. FROTH_ERROR_UNSUPPORTED: it has no walk graph. */
+/* FROTH_ERROR_STATE: the asset was never READY, FAILED or was opened without keepForQueries. FROTH_ERROR_UNSUPPORTED: it has no
+ * walk graph. */
 FROTH_API FrothResult frothLocate(FrothContext* context, FrothInstance instance, const double point[3],
                                   FrothLocation* location);
 
