@@ -300,7 +300,7 @@ typedef enum FrothViewBit {
 } FrothViewBit;
 
 typedef struct FrothPassTime {
-  const char* name; /* "cull", "sort", "bin", "shade", "raster", "walk" ...; static storage */
+  const char* name; /* "aim", "cull", "sort", "bin", "shade", "raster", "walk" ...; static storage */
   double milliseconds;
 } FrothPassTime;
 
