@@ -75,6 +75,17 @@ void* operator new(size_t size) {
 void* operator new[](size_t size) {
   return froth::test::allocate(size);
 }
+// The nothrow forms too: a sanitizer brings its own, which know nothing of headers.
+void* operator new(size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return froth::test::allocate(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+void* operator new[](size_t size, const std::nothrow_t& tag) noexcept {
+  return operator new(size, tag);
+}
 void operator delete(void* memory) noexcept {
   froth::test::release(memory);
 }
@@ -85,5 +96,11 @@ void operator delete(void* memory, size_t) noexcept {
   froth::test::release(memory);
 }
 void operator delete[](void* memory, size_t) noexcept {
+  froth::test::release(memory);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept {
+  froth::test::release(memory);
+}
+void operator delete[](void* memory, const std::nothrow_t&) noexcept {
   froth::test::release(memory);
 }

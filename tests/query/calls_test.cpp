@@ -170,5 +170,27 @@ TEST_F(Calls, CountTheHostMemoryThatTheyKeep) {
   EXPECT_LT(statusOf(asset).hostBytes, 1000 * cells);
 }
 
+class CallsOnADevice : public RuntimeGpuTest {};
+
+TEST_F(CallsOnADevice, AnswerOnceTheAssetIsLoaded) {
+  createContext(host_->contextInfo());
+  const Result<std::vector<uint8_t>> bytes = encodeAsset(bakeScene(synthesize("random", 0), "exact", 64));
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  auto info = makeStruct<FrothAssetInfo>();
+  info.data = bytes->data();
+  info.dataSize = bytes->size();
+  info.keepForQueries = 1;
+  FrothAsset asset{};
+  ASSERT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_OK) << lastText();
+  createInstance(asset);
+  while (statusOf(asset).state == FROTH_ASSET_OPENING && !HasFailure()) runFrame();
+  ASSERT_EQ(statusOf(asset).state, FROTH_ASSET_READY) << lastText();
+  const FrothRay ray = makeRay({0, 0, -3}, {0, 0, 1});
+  FrothRayHit hit{};
+  ASSERT_EQ(frothCastRays(context_, nullptr, &ray, &hit, 1), FROTH_OK) << lastText();
+  EXPECT_LT(hit.transmittance, 1);
+  EXPECT_GT(statusOf(asset).hostBytes, 0u);
+}
+
 }  // namespace
 }  // namespace froth::test
