@@ -11,11 +11,13 @@ vec2 placeOfPixel(vec2 pixel) { return FRAME.rayOrigin.xy + pixel.x * FRAME.rayX
 // camera's plane. Never smaller than the image.
 void ballOnPixels(vec3 centre, float exactRadius, out vec2 middle, out vec2 reach) {
   float radius = guardedRadius(centre, exactRadius);
+  // Whole loads: see cull_cells.comp.
+  vec2 stepX = FRAME.rayX.xy;
+  vec2 stepY = FRAME.rayY.xy;
   vec2 place = vec2(dot(centre, FRAME.lensFirst.xyz), dot(centre, FRAME.lensSecond.xyz)) - FRAME.rayOrigin.xy;
-  float row = place.y / FRAME.rayY.y;
-  float shear = FRAME.rayY.x / FRAME.rayY.y;
-  middle = vec2((place.x - place.y * shear) / FRAME.rayX.x, row);
-  reach = radius * abs(vec2(sqrt(1.0 + shear * shear) / FRAME.rayX.x, 1.0 / FRAME.rayY.y));
+  float shear = stepY.x / stepY.y;
+  middle = vec2((place.x - place.y * shear) / stepX.x, place.y / stepY.y);
+  reach = radius * abs(vec2(sqrt(1.0 + shear * shear) / stepX.x, 1.0 / stepY.y));
   if (!(dot(centre, FRAME.forward.xyz) > -radius)) reach = vec2(-1.0);
 }
 
