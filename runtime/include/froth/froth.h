@@ -397,7 +397,7 @@ typedef struct FrothLens {
   float focal[2];        /* [pixels per radian; RADIAL_TANGENTIAL: per tangent], > 0 */
   float centre[2];       /* [pixels] */
   float coefficients[8];
-  FrothImage rayMap;     /* RAY_MAP: R32G32B32A32_SFLOAT with usage STORAGE, read at the pixels that are drawn: xyz a direction of any
+  FrothImage rayMap;     /* RAY_MAP: R32G32B32A32_SFLOAT with usage SAMPLED, read at the pixels that are drawn: xyz a direction of any
                             length in the view's axes, or 0: the pixel is cleared. All rays start at the eye. */
 } FrothLens;
 
