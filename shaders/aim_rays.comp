@@ -2,6 +2,7 @@
 // per thread. FROTH_RAY_IMAGE: the caller's image gives the directions, in the view's axes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/pixel_cones.glsl"
 #include "foam/lens.h"
 
@@ -11,7 +12,7 @@ const uint kSubTileThreads = kThreads / kSubTilesPerTile;
 layout(local_size_x = kThreads) in;
 
 #if defined(FROTH_RAY_IMAGE)
-layout(set = 0, binding = 3, rgba32f) uniform readonly image2D rayImage;
+layout(set = 0, binding = kBindingRayMap) uniform texture2D rayImage;
 #endif
 
 shared vec3 sums[kThreads];    // of directions
@@ -20,7 +21,7 @@ shared float chords[kThreads];  // longest from an axis to a direction; -1: no d
 // In the view's axes, not normalized; 0: none.
 vec3 lensDirection(uvec2 pixel) {
 #if defined(FROTH_RAY_IMAGE)
-  vec3 given = imageLoad(rayImage, ivec2(pixel + uvec2(FRAME.regionX, FRAME.regionY))).xyz;
+  vec3 given = texelFetch(rayImage, ivec2(pixel + uvec2(FRAME.regionX, FRAME.regionY)), 0).xyz;
   return any(isnan(given)) || any(isinf(given)) ? vec3(0.0) : given;
 #else
   vec2 point = FRAME.lensPoint.xy + vec2(pixel) * FRAME.lensPoint.zw;

@@ -5,6 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
+#include "gpu/device_depth.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
 #include "gpu/shade_hit.glsl"
@@ -47,7 +48,7 @@ bool clipByPlanes(Shading shading, uvec3 row, vec3 rays[kRays], inout Segment se
   return isAny;
 }
 
-void meetCell(Shading shading, uint index, vec3 rays[kRays], inout Radiance radiances[kRays]) {
+void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], inout Radiance radiances[kRays]) {
   vec4 ball = balls[index];
   Segment segments[kRays];
   bool isAny = false;
@@ -57,6 +58,7 @@ void meetCell(Shading shading, uint index, vec3 rays[kRays], inout Radiance radi
     float tNear, tFar;
     if (!meetBall(ball, rays[r], tNear, tFar)) continue;
     countWork(kWorkBallHits, 1);
+    if (isFull) tFar = min(tFar, ends[r]);
     segments[r] = Segment(tNear, tFar);
     isAny = true;
   }
@@ -142,10 +144,12 @@ void main() {
   uvec2 range = FRAME.tileLists.v[place].yz;
   Shading shading = loadShading();
   vec3 rays[kRays];
+  float ends[kRays];  // where the scene stops them
   Radiance radiances[kRays];
   for (uint r = 0; r < kRays; ++r) {
     uvec2 pixel = firstPixel + uvec2(0, r * kRows);
     rays[r] = rayOf(pixel);
+    ends[r] = isInRegion(pixel) ? sceneDistance(pixel, rays[r]) : 0.0;
     radiances[r] = startOf(pixel, rays[r]);
   }
 
@@ -161,7 +165,7 @@ void main() {
       countWork(kWorkEntriesKept, count);
     }
     if (liveMask == 0) break;
-    for (uint i = 0; i < count && !areSaturated(shading, radiances); ++i) meetCell(shading, i, rays, radiances);
+    for (uint i = 0; i < count && !areSaturated(shading, radiances); ++i) meetCell(shading, i, rays, ends, radiances);
     barrier();
   }
   for (uint r = 0; r < kRays; ++r) {
@@ -169,6 +173,7 @@ void main() {
     if (!isInRegion(pixel)) continue;
     Radiance radiance = radiances[r];
     if (seesNothing(rays[r])) radiance = emptyRadiance();
-    writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal);
+    float depth = isFull ? deviceDepthAt(rays[r], radiance.distance) : 0.0;
+    writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal, depth);
   }
 }

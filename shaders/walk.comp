@@ -12,6 +12,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define FROTH_RAYS 1
 #include "gpu/descend.glsl"
+#include "gpu/device_depth.glsl"
 #include "gpu/eye_planes.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
@@ -133,9 +134,14 @@ void main() {
   uvec2 start = startCell(pixel, ray);
   float startKey = orderAlong(directionOfRay(ray), ballOfSite(loadChunk(start.x), start.y).centre);
   Step current = stepTo(start, startKey, 0.0);
+  float end = sceneDistance(pixel, ray);
   bool isInside = !seesNothing(ray);
   uint steps = 0;
   while (isInside && !isSaturated(shading, radiances[0]) && steps < FRAME.maxSteps) {
+    if (isFull && !(current.entry < end)) {
+      isInside = false;
+      break;
+    }
     uint visible = current.visible;
     float entry = current.entry;
     if (visible == kNoCell) {
@@ -144,12 +150,13 @@ void main() {
       CellRecord cell = shading.records.v[checked(visible, FRAME.visibleCapacity)];
       bool hasRow = cell.planeBegin < cell.planeEnd;
       isInside = hasRow ? findNextRecord(shading, current, cell, ray) : findNextSite(current, ray);
-      meetCell(shading, visible, cell, ray, entry, current.entry, radiances);
+      meetCell(shading, visible, cell, ray, entry, isFull ? min(current.entry, end) : current.entry, radiances);
     }
     ++steps;
   }
   countWork(kWorkSteps, steps);
   if (isInside && !isSaturated(shading, radiances[0])) atomicAdd(COUNTERS.stepLimit, 1u);
   Radiance radiance = radiances[0];
-  writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal);
+  float depth = isFull ? deviceDepthAt(ray, radiance.distance) : 0.0;
+  writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal, depth);
 }

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
+#include <limits>
 #include <mutex>
 
 #include "baker/camera/ray_map.h"
@@ -49,6 +50,7 @@ class ImageRenderer {
         cells_(cells),
         view_(view),
         rays_(view),
+        sceneDistance_(options.sceneDistance),
         settings_{Real(options.cutoff), Real(std::log(options.depthQuantile)),
                   Real(options.detailSharpness)} {
     const size_t pixels = size_t{view.width} * view.height;
@@ -83,13 +85,15 @@ class ImageRenderer {
     const std::optional<ViewRay> exact = rays_.ofPixel(x, y);
     if (!exact) return;
     const PrimaryRay<Real> primary{exact->offset, exact->direction};
+    const Real end = sceneDistance_ ? Real(*sceneDistance_->pixel(x, y)) : std::numeric_limits<Real>::infinity();
     hits.clear();
     hierarchy_.visitAlongRay(eyeOf(view_) + exact->offset, exact->direction, [&](uint32_t source) {
       BallHit<Real> hit{cells_.rankOf[source], 0, 0};
       if (hit.rank == ViewCells<Real>::kNotDrawn) return;
       const ViewCell<Real>& cell = cells_.cells[hit.rank];
-      if (foam::intersectBall(cell.centre - primary.offset, cell.radius, primary.direction, hit.tNear, hit.tFar))
-        hits.push_back(hit);
+      if (!foam::intersectBall(cell.centre - primary.offset, cell.radius, primary.direction, hit.tNear, hit.tFar)) return;
+      hit.tFar = std::min(hit.tFar, end);
+      if (hit.tNear < hit.tFar) hits.push_back(hit);
     });
     const RayResult<Real> ray = compositeHits(cells_, primary, settings_, hits);
     for (int c = 0; c < 3; ++c) {
@@ -104,6 +108,7 @@ class ImageRenderer {
   const ViewCells<Real>& cells_;
   const View& view_;
   const ViewRays rays_;
+  const Image* const sceneDistance_;
   const RaySettings<Real> settings_;
   RenderedImages images_;
 };
@@ -145,6 +150,11 @@ Result<RenderedImages> ReferenceRenderer::render(const View& view, const Referen
       !(view.lens.rays && view.lens.rays->width == view.width && view.lens.rays->height == view.height)) {
     return makeError(ErrorKind::kUsage, "view '%s': a ray map without one ray per pixel; read its file",
                      view.name.c_str());
+  }
+  if (options.sceneDistance &&
+      !(options.sceneDistance->width == view.width && options.sceneDistance->height == view.height)) {
+    return makeError(ErrorKind::kUsage, "view '%s': scene distances of %u x %u pixels for %u x %u", view.name.c_str(),
+                     options.sceneDistance->width, options.sceneDistance->height, view.width, view.height);
   }
   if (!(options.depthQuantile > 0 && options.depthQuantile <= 1)) {
     return makeError(ErrorKind::kUsage,

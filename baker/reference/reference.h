@@ -21,6 +21,7 @@ struct ReferenceOptions {
   double nearDepth = 0;         // [scene units]
   double depthQuantile = 0.5;
   double detailSharpness = 10;
+  const Image* sceneDistance = nullptr;  // 1 channel, size of the view: where each ray ends [scene units]; null: nowhere
 };
 
 struct RenderedImages {

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <span>
 
-#include "runtime/render/camera_rays.h"
+#include "runtime/render/device_depth.h"
 
 namespace froth {
 namespace {
@@ -235,8 +235,13 @@ FrothResult checkImage(const Messages& messages, const char* call, const char* n
     return FROTH_OK;
   }
   if (!image.view) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s.view: null; give a 2D view with usage STORAGE",
-                         name);
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s.view: null; give a 2D view of the image", name);
+  }
+  if (image.samples > VK_SAMPLE_COUNT_1_BIT) {
+    return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
+                         "%s.samples: %d; one sample per pixel is needed; resolve the image first, depth with "
+                         "VK_RESOLVE_MODE_MIN_BIT or VK_RESOLVE_MODE_MAX_BIT",
+                         name, image.samples);
   }
   if (std::find(formats.begin(), formats.end(), image.format) == formats.end()) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s.format: VkFormat %d; must be %s", name, image.format,
@@ -266,6 +271,27 @@ FrothResult checkRayMap(const Messages& messages, const char* call, const FrothI
   }
   return checkImage(messages, call, "camera.lens.rayMap", image, {VK_FORMAT_R32G32B32A32_SFLOAT},
                     "R32G32B32A32_SFLOAT", drawn);
+}
+
+FrothResult checkDepths(const Messages& messages, const char* call, const FrothRenderInfo& info,
+                        const VkRect2D& drawn) {
+  FrothResult result = checkImage(messages, call, "depth", info.depth, {VK_FORMAT_R32_SFLOAT}, "R32_SFLOAT", drawn);
+  if (result == FROTH_OK) {
+    result = checkImage(messages, call, "sceneDepth", info.sceneDepth,
+                        {VK_FORMAT_D32_SFLOAT, VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_D24_UNORM_S8_UINT,
+                         VK_FORMAT_X8_D24_UNORM_PACK32, VK_FORMAT_D16_UNORM, VK_FORMAT_R32_SFLOAT},
+                        "D32_SFLOAT, D32_SFLOAT_S8_UINT, D24_UNORM_S8_UINT, X8_D24_UNORM_PACK32, D16_UNORM or "
+                        "R32_SFLOAT",
+                        drawn);
+  }
+  const bool isAsked = info.depth.image || info.sceneDepth.image;
+  if (result != FROTH_OK || !isAsked || info.camera.lens.kind != FROTH_LENS_PROJECTION || hasDepth(info.camera)) {
+    return result;
+  }
+  return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                       "camera: clipFromView has no depth that changes with distance, or viewport.minDepth equals "
+                       "maxDepth (%g); depth and sceneDepth need both",
+                       double{info.camera.viewport.minDepth});
 }
 
 FrothResult checkDrawn(const Messages& messages, const char* call, VkExtent2D maxExtent,
@@ -334,6 +360,9 @@ FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExte
   if (result == FROTH_OK) {
     result = checkImage(messages, call, "normal", info.normal, {VK_FORMAT_R16G16B16A16_SFLOAT},
                         "R16G16B16A16_SFLOAT", drawn);
+  }
+  if (result == FROTH_OK) {
+    result = checkDepths(messages, call, info, drawn);
   }
   const bool isMap = info.camera.lens.kind == FROTH_LENS_RAY_MAP;
   if (result == FROTH_OK && isMap) {

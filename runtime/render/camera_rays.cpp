@@ -107,11 +107,17 @@ uint32_t lensClassOf(const FrothCamera& camera) {
   return isParallel ? gpu::kLensClassOrthographic : gpu::kLensClassPinhole;
 }
 
+glm::dvec3 parallelDirection(const FrothCamera& camera) {
+  CameraRays rays;
+  aimParallel(camera, glm::dmat3(1), 1, rays);
+  return rays.forward;
+}
+
 CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance) {
   CameraRays rays;
   rays.worldFromAsset = rotationOf(instance.rotation);
-  const glm::dmat3 assetFromView =
-      glm::transpose(rays.worldFromAsset) * glm::transpose(viewFromWorldOf(camera));
+  rays.assetFromView = glm::transpose(rays.worldFromAsset) * glm::transpose(viewFromWorldOf(camera));
+  const glm::dmat3& assetFromView = rays.assetFromView;
   const uint32_t lensClass = lensClassOf(camera);
   if (lensClass == gpu::kLensClassMapped) {
     rays.stepX = assetFromView[0];

@@ -12,6 +12,8 @@ namespace froth {
 
 // gpu::kLensClass...: how the passes see through this camera.
 uint32_t lensClassOf(const FrothCamera& camera);
+// The direction of an orthographic camera's rays in the view's axes; unit.
+glm::dvec3 parallelDirection(const FrothCamera& camera);
 
 // Pinhole: the ray of pixel (column, row) of the region runs through the pixel's centre along origin + column stepX +
 // row stepY, which points forward. Lengths are scaled so that the region's middle ray has length 1.
@@ -22,6 +24,7 @@ struct CameraRays {
   glm::dvec3 forward;         // unit view axis: gradient of clip w; of parallel rays their direction
   glm::dvec3 eye;             // relative to the asset's origin
   glm::dmat3 worldFromAsset;  // rotation
+  glm::dmat3 assetFromView;   // rotation
 };
 
 // The region is camera.scissor, resolved. Jitter moves the image by that many pixels, as it would in the

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "runtime/render/camera_rays.h"
+#include "runtime/render/device_depth.h"
 
 namespace froth {
 namespace {
@@ -16,6 +16,7 @@ gpu::vec4 toFloats(const glm::dvec3& v) {
 void fillCamera(const FrothRenderInfo& info, const CameraRays& rays, const RenderInstance& instance,
                 gpu::FrameBlock& block) {
   fillRays(info.camera, rays, block);
+  fillDepthRows(info.camera, rays, instance.scale, block);
   block.forward[3] = static_cast<float>(double{info.nearDepth} / instance.scale);
   block.nearRatio = info.nearRatio;
   const glm::dmat3 rows = glm::transpose(rays.worldFromAsset);
@@ -101,7 +102,9 @@ void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block) {
   const VkRect2D& region = info.camera.scissor;
   block.scale = 1;
   block.flags = (info.colour.image ? gpu::kFlagColour : 0) | (info.distance.image ? gpu::kFlagDistance : 0) |
-                (info.normal.image ? gpu::kFlagNormal : 0) | (info.displayCoded ? gpu::kFlagDisplayCoded : 0);
+                (info.normal.image ? gpu::kFlagNormal : 0) | (info.displayCoded ? gpu::kFlagDisplayCoded : 0) |
+                (info.depth.image ? gpu::kFlagDepth : 0) | (info.sceneDepth.image ? gpu::kFlagSceneDepth : 0);
+  fillDepthRange(info.camera, block);
   block.regionX = static_cast<uint32_t>(region.offset.x);
   block.regionY = static_cast<uint32_t>(region.offset.y);
   block.regionWidth = region.extent.width;

@@ -15,23 +15,52 @@ VkImageMemoryBarrier2 barrierOf(VkImage image) {
   return barrier;
 }
 
-// From the state in which the caller hands an image over; access: what the passes do with it.
-VkImageMemoryBarrier2 entryBarrier(const FrothImage& image, VkAccessFlags2 access) {
+constexpr VkImageLayout kReadLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+
+VkImageAspectFlags aspectOf(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_D16_UNORM:
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+      return VK_IMAGE_ASPECT_DEPTH_BIT;
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+      return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+    default:
+      return VK_IMAGE_ASPECT_COLOR_BIT;
+  }
+}
+
+// What the passes do with an image.
+struct Use {
+  VkAccessFlags2 access;
+  VkImageLayout layout;
+};
+
+Use useOf(uint32_t binding) {
+  if (isInput(binding)) return {VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kReadLayout};
+  return {VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
+}
+
+// From the state in which the caller hands an image over.
+VkImageMemoryBarrier2 entryBarrier(const FrothImage& image, uint32_t binding) {
   VkImageMemoryBarrier2 barrier = barrierOf(image.image);
+  barrier.subresourceRange.aspectMask = aspectOf(image.format);
   barrier.srcStageMask = image.stageIn;
   barrier.srcAccessMask = image.accessIn;
   barrier.oldLayout = image.layoutIn;
   barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  barrier.dstAccessMask = access;
-  barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+  barrier.dstAccessMask = useOf(binding).access;
+  barrier.newLayout = useOf(binding).layout;
   return barrier;
 }
 
-VkImageMemoryBarrier2 exitBarrier(const FrothImage& image, VkAccessFlags2 access) {
+VkImageMemoryBarrier2 exitBarrier(const FrothImage& image, uint32_t binding) {
   VkImageMemoryBarrier2 barrier = barrierOf(image.image);
+  barrier.subresourceRange.aspectMask = aspectOf(image.format);
   barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  barrier.srcAccessMask = access;
-  barrier.oldLayout = VK_IMAGE_LAYOUT_GENERAL;
+  barrier.srcAccessMask = isInput(binding) ? VK_ACCESS_2_NONE : useOf(binding).access;
+  barrier.oldLayout = useOf(binding).layout;
   barrier.dstStageMask = image.stageOut;
   barrier.dstAccessMask = image.accessOut;
   barrier.newLayout = image.layoutOut;
@@ -45,17 +74,28 @@ VkImageMemoryBarrier2 placeholderBarrier(VkImage image) {
   barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
   barrier.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  barrier.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
   barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
   return barrier;
 }
 
 }  // namespace
 
+std::array<const FrothImage*, gpu::kBindingCount> imagesOf(const FrothRenderInfo& info) {
+  return {&info.colour, &info.distance, &info.normal, &info.depth, &info.camera.lens.rayMap, &info.sceneDepth};
+}
+
+const OutputImages::Placeholder& OutputImages::placeholderOf(uint32_t binding) const {
+  if (isInput(binding)) return input_;
+  return binding == gpu::kBindingColour || binding == gpu::kBindingNormal ? half4_ : float1_;
+}
+
 Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint32_t recordings) {
   std::unique_ptr<OutputImages> images(new OutputImages(device));
-  Status status = images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, images->half4_);
-  if (status) status = images->createPlaceholder(VK_FORMAT_R32_SFLOAT, images->float1_);
+  Status status =
+      images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, images->half4_);
+  if (status) status = images->createPlaceholder(VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, images->float1_);
+  if (status) status = images->createPlaceholder(VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT, images->input_);
   if (status) status = images->createSets(recordings);
   if (!status) return status.error();
   return images;
@@ -63,7 +103,7 @@ Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint3
 
 OutputImages::~OutputImages() {
   const DeviceTable& vk = device_.table;
-  for (Placeholder* placeholder : {&half4_, &float1_}) {
+  for (Placeholder* placeholder : {&half4_, &float1_, &input_}) {
     vk.vkDestroyImageView(device_.device, placeholder->view, nullptr);
     vk.vkDestroyImage(device_.device, placeholder->image, nullptr);
     device_.release(placeholder->memory);
@@ -72,7 +112,7 @@ OutputImages::~OutputImages() {
   vk.vkDestroyDescriptorSetLayout(device_.device, layout_, nullptr);
 }
 
-Status OutputImages::createPlaceholder(VkFormat format, Placeholder& placeholder) {
+Status OutputImages::createPlaceholder(VkFormat format, VkImageUsageFlags usage, Placeholder& placeholder) {
   const DeviceTable& vk = device_.table;
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
@@ -82,7 +122,7 @@ Status OutputImages::createPlaceholder(VkFormat format, Placeholder& placeholder
   info.mipLevels = 1;
   info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT;
+  info.usage = usage;
   VkResult result = vk.vkCreateImage(device_.device, &info, nullptr, &placeholder.image);
   if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkCreateImage");
 
@@ -112,12 +152,14 @@ Status OutputImages::createSets(uint32_t recordings) {
   const Result<VkDescriptorSetLayout> layout = createOutputSetLayout(device_);
   if (!layout) return layout.error();
   layout_ = *layout;
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4 * recordings};
+  const VkDescriptorPoolSize sizes[] = {
+      {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, gpu::kBindingRayMap * recordings},
+      {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, (gpu::kBindingCount - gpu::kBindingRayMap) * recordings}};
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   info.maxSets = recordings;
-  info.poolSizeCount = 1;
-  info.pPoolSizes = &size;
+  info.poolSizeCount = 2;
+  info.pPoolSizes = sizes;
   VkResult result = vk.vkCreateDescriptorPool(device_.device, &info, nullptr, &pool_);
   if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkCreateDescriptorPool");
 
@@ -134,23 +176,20 @@ Status OutputImages::createSets(uint32_t recordings) {
 }
 
 VkDescriptorSet OutputImages::update(uint32_t recording, const FrothRenderInfo& info) {
-  const std::array<VkImageView, 4> views = {info.colour.image ? info.colour.view : half4_.view,
-                                            info.distance.image ? info.distance.view : float1_.view,
-                                            info.normal.image ? info.normal.view : half4_.view,
-                                            info.camera.lens.rayMap.view};
-  const uint32_t count = info.camera.lens.rayMap.image ? 4 : 3;  // only passes that read a ray map have its binding
-  std::array<VkDescriptorImageInfo, 4> images{};
-  std::array<VkWriteDescriptorSet, 4> writes{};
-  for (uint32_t i = 0; i < count; ++i) {
-    images[i] = {VK_NULL_HANDLE, views[i], VK_IMAGE_LAYOUT_GENERAL};
+  const auto given = imagesOf(info);
+  std::array<VkDescriptorImageInfo, gpu::kBindingCount> images{};
+  std::array<VkWriteDescriptorSet, gpu::kBindingCount> writes{};
+  for (uint32_t i = 0; i < gpu::kBindingCount; ++i) {
+    images[i] = given[i]->image ? VkDescriptorImageInfo{VK_NULL_HANDLE, given[i]->view, useOf(i).layout}
+                                : VkDescriptorImageInfo{VK_NULL_HANDLE, placeholderOf(i).view, VK_IMAGE_LAYOUT_GENERAL};
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     writes[i].dstSet = sets_[recording];
     writes[i].dstBinding = i;
     writes[i].descriptorCount = 1;
-    writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    writes[i].descriptorType = isInput(i) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     writes[i].pImageInfo = &images[i];
   }
-  device_.table.vkUpdateDescriptorSets(device_.device, count, writes.data(), 0, nullptr);
+  device_.table.vkUpdateDescriptorSets(device_.device, gpu::kBindingCount, writes.data(), 0, nullptr);
   return sets_[recording];
 }
 
@@ -164,15 +203,13 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
   memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   memory.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
                          VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-  std::array<VkImageMemoryBarrier2, 6> barriers{};
+  std::array<VkImageMemoryBarrier2, gpu::kBindingCount + 3> barriers{};
   uint32_t count = 0;
-  for (const FrothImage* image : {&info.colour, &info.distance, &info.normal}) {
-    if (image->image) barriers[count++] = entryBarrier(*image, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+  const auto images = imagesOf(info);
+  for (uint32_t i = 0; i < images.size(); ++i) {
+    if (images[i]->image) barriers[count++] = entryBarrier(*images[i], i);
   }
-  const FrothImage& rayMap = info.camera.lens.rayMap;
-  if (rayMap.image) barriers[count++] = entryBarrier(rayMap, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
-  if (!info.colour.image || !info.normal.image) barriers[count++] = placeholderBarrier(half4_.image);
-  if (!info.distance.image) barriers[count++] = placeholderBarrier(float1_.image);
+  for (const Placeholder* placeholder : {&half4_, &float1_, &input_}) barriers[count++] = placeholderBarrier(placeholder->image);
 
   VkDependencyInfo dependency{};
   dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
@@ -184,13 +221,12 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
 }
 
 void OutputImages::leave(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const {
-  std::array<VkImageMemoryBarrier2, 4> barriers{};
+  std::array<VkImageMemoryBarrier2, gpu::kBindingCount> barriers{};
   uint32_t count = 0;
-  for (const FrothImage* image : {&info.colour, &info.distance, &info.normal}) {
-    if (image->image) barriers[count++] = exitBarrier(*image, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+  const auto images = imagesOf(info);
+  for (uint32_t i = 0; i < images.size(); ++i) {
+    if (images[i]->image) barriers[count++] = exitBarrier(*images[i], i);
   }
-  const FrothImage& rayMap = info.camera.lens.rayMap;
-  if (rayMap.image) barriers[count++] = exitBarrier(rayMap, VK_ACCESS_2_NONE);
   VkDependencyInfo dependency{};
   dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   dependency.imageMemoryBarrierCount = count;

@@ -9,6 +9,7 @@
 
 #include "froth/froth.h"
 #include "runtime/core/device.h"
+#include "shaders/gpu/layout.h"
 
 namespace froth {
 
@@ -29,7 +30,7 @@ class OutputImages {
   void leave(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const;
 
  private:
-  // One texel in layout GENERAL that stands where a pipeline needs a valid descriptor; never written.
+  // One texel in layout GENERAL that stands where a pipeline needs a valid descriptor; neither written nor read.
   struct Placeholder {
     VkImage image = VK_NULL_HANDLE;
     MemoryBlock memory;
@@ -37,15 +38,28 @@ class OutputImages {
   };
 
   explicit OutputImages(Device& device) : device_(device) {}
-  Status createPlaceholder(VkFormat format, Placeholder& placeholder);
+  Status createPlaceholder(VkFormat format, VkImageUsageFlags usage, Placeholder& placeholder);
   Status createSets(uint32_t recordings);
 
   Device& device_;
   VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   std::vector<VkDescriptorSet> sets_;
-  Placeholder half4_, float1_;  // R16G16B16A16_SFLOAT (colour, normal), R32_SFLOAT
+  const Placeholder& placeholderOf(uint32_t binding) const;
+
+  Placeholder half4_, float1_;  // R16G16B16A16_SFLOAT (colour, normal), R32_SFLOAT (distance, depth)
+  Placeholder input_;           // R32_SFLOAT: what is read is never one that is written
 };
+
+// The images of a frame by gpu::kBinding...
+std::array<const FrothImage*, gpu::kBindingCount> imagesOf(const FrothRenderInfo& info);
+// Whether a binding is read, and not written.
+inline bool isInput(uint32_t binding) { return binding >= gpu::kBindingRayMap; }
+
+// Whether it takes more than colour and distance (gpu::kConstantIsFull).
+inline bool isFullFrame(const FrothRenderInfo& info) {
+  return info.normal.image || info.depth.image || info.sceneDepth.image;
+}
 
 // Whether the passes that write rgba32f are meant; else rgba16f, also where no colour is wanted.
 inline bool isWideColour(const FrothRenderInfo& info) {

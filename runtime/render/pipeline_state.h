@@ -12,7 +12,7 @@
 namespace froth {
 
 // The passes that come in two forms write the colour image: rgba16f, rgba32f. Those of raster and walk are there once more for
-// frames that want normals, which cost time to sum.
+// full frames (gpu::kConstantIsFull), which cost time.
 enum class Pass : uint32_t {
   kCullCells,
   kSortScatter,
@@ -32,16 +32,16 @@ enum class Pass : uint32_t {
   kShadeSites,
   kRasterLong16,  // of tiles with long lists
   kRasterLong32,
-  kRasterLongNormals16,
-  kRasterLongNormals32,
+  kRasterLongFull16,
+  kRasterLongFull32,
   kRaster16,
   kRaster32,
-  kRasterNormals16,
-  kRasterNormals32,
+  kRasterFull16,
+  kRasterFull32,
   kWalk16,
   kWalk32,
-  kWalkNormals16,
-  kWalkNormals32,
+  kWalkFull16,
+  kWalkFull32,
 };
 inline constexpr uint32_t kPassCount = 27;
 inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
@@ -74,8 +74,7 @@ struct RenderPipelines::State {
   const PassPipelines* find(const AssetShape& shape, uint32_t lensClass);
 };
 
-// Storage images 0: colour, 1: distance, 2: normal, 3: the caller's ray map. Identical layouts are compatible, so views make their
-// own.
+// The caller's images (gpu::kBinding...). Identical layouts are compatible, so views make their own.
 Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device);
 
 }  // namespace froth

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "runtime/render/output_images.h"
 #include "runtime/render/pipeline_state.h"
 #include "shaders/gpu/layout.h"
 #include "spirv/aim_rays.h"
@@ -43,7 +44,7 @@ struct PassCode {
   const char* name;
   std::span<const uint32_t> spirv;
   uint32_t lensClasses;
-  bool hasNormals = false;
+  bool isFull = false;
 };
 
 // In the order of Pass.
@@ -82,7 +83,7 @@ struct Specialization {
   uint32_t detailCount, lobeCount;
   VkBool32 hasHeights;
   VkBool32 countWork;
-  VkBool32 hasNormals;
+  VkBool32 isFull;
   uint32_t lensClass;
 };
 
@@ -92,7 +93,7 @@ constexpr std::array<VkSpecializationMapEntry, 7> kSpecializationEntries = {{
     {gpu::kConstantLobeCount, offsetof(Specialization, lobeCount), sizeof(uint32_t)},
     {gpu::kConstantHasHeights, offsetof(Specialization, hasHeights), sizeof(VkBool32)},
     {gpu::kConstantCountWork, offsetof(Specialization, countWork), sizeof(VkBool32)},
-    {gpu::kConstantHasNormals, offsetof(Specialization, hasNormals), sizeof(VkBool32)},
+    {gpu::kConstantIsFull, offsetof(Specialization, isFull), sizeof(VkBool32)},
     {gpu::kConstantLensClass, offsetof(Specialization, lensClass), sizeof(uint32_t)},
 }};
 
@@ -143,7 +144,7 @@ Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint
                         .lobeCount = shape.lobeCount,
                         .hasHeights = shape.hasHeights,
                         .countWork = state.options.countWork,
-                        .hasNormals = false,
+                        .isFull = false,
                         .lensClass = gpu::kLensClassPinhole};
   for (values.lensClass = 0; values.lensClass < gpu::kLensClassCount; ++values.lensClass) {
     if (!state.hasLensClass(values.lensClass)) continue;
@@ -153,7 +154,7 @@ Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint
         made = pipelines[gpu::kLensClassPinhole][pass];
         continue;
       }
-      values.hasNormals = kPassCodes[pass].hasNormals;
+      values.isFull = kPassCodes[pass].isFull;
       Result<VkPipeline> pipeline = createPipeline(state, kPassCodes[pass], values);
       if (!pipeline) return pipeline.error();
       made = *pipeline;
@@ -195,9 +196,10 @@ AssetShape shapeOf(const GpuAsset& asset) {
 }
 
 Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device) {
-  std::array<VkDescriptorSetLayoutBinding, 4> bindings{};
+  std::array<VkDescriptorSetLayoutBinding, gpu::kBindingCount> bindings{};
   for (uint32_t i = 0; i < bindings.size(); ++i) {
-    bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+    bindings[i] = {i, isInput(i) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1,
+                   VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   }
   VkDescriptorSetLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;

@@ -154,7 +154,7 @@ void recordShade(const PassRecorder& recorder) {
 }
 
 Pass pixelPass(Pass plain, const FrothRenderInfo& info) {
-  const uint32_t form = (isWideColour(info) ? 1 : 0) + (info.normal.image ? 2 : 0);
+  const uint32_t form = (isWideColour(info) ? 1 : 0) + (isFullFrame(info) ? 2 : 0);
   return static_cast<Pass>(static_cast<uint32_t>(plain) + form);
 }
 

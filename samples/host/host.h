@@ -47,7 +47,7 @@ class Host {
   ~Host();
 
   FrothContextInfo contextInfo() const;  // ready for frothCreateContext; callbacks left null
-  // STORAGE | TRANSFER_SRC | TRANSFER_DST | SAMPLED
+  // TRANSFER_SRC | TRANSFER_DST | SAMPLED, and STORAGE; of depth formats DEPTH_STENCIL_ATTACHMENT and a view of the depth.
   Result<HostImage> createImage(VkFormat format, VkExtent2D extent);
   void destroyImage(HostImage& image);
   FrothImage describe(const HostImage& image) const;  // UNDEFINED in, GENERAL out to a transfer read
@@ -58,7 +58,7 @@ class Host {
 
   // Texels of an image in layout GENERAL as floats, `channels` per texel (1 or 4), halves widened.
   Result<std::vector<float>> readImage(const HostImage& image);
-  // Fills an image of floats, `channels` values per texel; it is in layout GENERAL then.
+  // Fills an image of floats or depths, `channels` values per texel; it is in layout GENERAL then.
   Status writeImage(const HostImage& image, const std::vector<float>& texels);
   // The same image as an input that keeps its contents and its layout GENERAL.
   FrothImage describeInput(const HostImage& image) const;

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstring>
 
 #include <glm/gtc/packing.hpp>
@@ -10,7 +11,12 @@ namespace {
 
 struct FormatTraits {
   uint32_t channels;
-  uint32_t bytesPerTexel;
+  uint32_t bytesPerTexel;  // in buffers; of depth and stencil the depth
+  VkImageAspectFlags aspects = VK_IMAGE_ASPECT_COLOR_BIT;
+
+  // What is copied and seen.
+  VkImageAspectFlags aspect() const { return aspects & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT}; }
+  bool isDepth() const { return aspect() == VK_IMAGE_ASPECT_DEPTH_BIT; }
 };
 
 Result<FormatTraits> traitsOf(VkFormat format) {
@@ -21,12 +27,32 @@ Result<FormatTraits> traitsOf(VkFormat format) {
       return FormatTraits{4, 16};
     case VK_FORMAT_R32_SFLOAT:
       return FormatTraits{1, 4};
+    case VK_FORMAT_D32_SFLOAT:
+      return FormatTraits{1, 4, VK_IMAGE_ASPECT_DEPTH_BIT};
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+      return FormatTraits{1, 4, VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT};
+    case VK_FORMAT_D16_UNORM:
+      return FormatTraits{1, 2, VK_IMAGE_ASPECT_DEPTH_BIT};
     default:
-      return makeError(
-          ErrorKind::kUnsupported,
-          "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT and R32_SFLOAT",
-          format);
+      return makeError(ErrorKind::kUnsupported,
+                       "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT, R32_SFLOAT, "
+                       "D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
+                       format);
   }
+}
+
+// As the image holds them: depths of 16 bits rounded to the nearest, all else as it is.
+std::vector<uint8_t> packTexels(const std::vector<float>& texels, FormatTraits traits) {
+  std::vector<uint8_t> bytes(texels.size() / traits.channels * traits.bytesPerTexel);
+  if (!traits.isDepth() || traits.bytesPerTexel != sizeof(uint16_t)) {
+    std::memcpy(bytes.data(), texels.data(), bytes.size());
+    return bytes;
+  }
+  for (size_t i = 0; i < texels.size(); ++i) {
+    const auto code = static_cast<uint16_t>(std::lround(texels[i] * 65535.0f));
+    std::memcpy(bytes.data() + i * sizeof(code), &code, sizeof(code));
+  }
+  return bytes;
 }
 
 std::vector<float> widenTexels(const void* texels, size_t byteCount, FormatTraits traits) {
@@ -76,7 +102,7 @@ void copyToBuffer(VkCommandBuffer commands, const HostImage& image, VkBuffer buf
 }
 
 // Into layout GENERAL, whatever it held before.
-void copyToImage(VkCommandBuffer commands, VkBuffer buffer, const HostImage& image) {
+void copyToImage(VkCommandBuffer commands, VkBuffer buffer, const HostImage& image, FormatTraits traits) {
   VkImageMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
   barrier.dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
@@ -84,14 +110,14 @@ void copyToImage(VkCommandBuffer commands, VkBuffer buffer, const HostImage& ima
   barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
   barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = image.image;
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  barrier.subresourceRange = {traits.aspects, 0, 1, 0, 1};
   VkDependencyInfo dependency{};
   dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   dependency.imageMemoryBarrierCount = 1;
   dependency.pImageMemoryBarriers = &barrier;
   vkCmdPipelineBarrier2(commands, &dependency);
   VkBufferImageCopy region{};
-  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.imageSubresource = {traits.aspect(), 0, 0, 1};
   region.imageExtent = {image.extent.width, image.extent.height, 1};
   vkCmdCopyBufferToImage(commands, buffer, image.image, VK_IMAGE_LAYOUT_GENERAL, 1, &region);
 }
@@ -129,8 +155,8 @@ Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent) {
   imageInfo.mipLevels = 1;
   imageInfo.arrayLayers = 1;
   imageInfo.samples = VK_SAMPLE_COUNT_1_BIT;
-  imageInfo.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
-                    VK_IMAGE_USAGE_SAMPLED_BIT;
+  imageInfo.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                    (traits->isDepth() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_STORAGE_BIT);
   if (const VkResult code = vkCreateImage(device, &imageInfo, nullptr, &image.image); code != VK_SUCCESS) {
     return makeError(ErrorKind::kUnsupported, "vkCreateImage of %u x %u gives VkResult %d", extent.width,
                      extent.height, code);
@@ -150,7 +176,7 @@ Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent) {
   viewInfo.image = image.image;
   viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
   viewInfo.format = format;
-  viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  viewInfo.subresourceRange = {traits->aspect(), 0, 1, 0, 1};
   if (const VkResult code = vkCreateImageView(device, &viewInfo, nullptr, &image.view); code != VK_SUCCESS) {
     destroyImage(image);
     return makeError(ErrorKind::kUnsupported, "vkCreateImageView gives VkResult %d", code);
@@ -237,19 +263,20 @@ Result<std::vector<float>> Host::readImage(const HostImage& image) {
 
 Status Host::writeImage(const HostImage& image, const std::vector<float>& texels) {
   const Result<FormatTraits> traits = traitsOf(image.format);
-  const VkDeviceSize bytes = texels.size() * sizeof(float);
-  if (!traits || bytes != VkDeviceSize{image.extent.width} * image.extent.height * traits->bytesPerTexel) {
+  if (!traits || texels.size() != size_t{image.extent.width} * image.extent.height * traits->channels) {
     return makeError(ErrorKind::kUsage, "image of %u x %u texels: %zu floats do not fill it", image.extent.width,
                      image.extent.height, texels.size());
   }
+  const std::vector<uint8_t> bytes = packTexels(texels, *traits);
   TransferBuffer upload;
-  if (const Status status = state_->createTransferBuffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, upload);
+  if (const Status status =
+          state_->createTransferBuffer(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, upload);
       !status) {
     return status;
   }
-  std::memcpy(upload.mapped, texels.data(), bytes);
+  std::memcpy(upload.mapped, bytes.data(), bytes.size());
   return state_->runCommands(device, queue, [&](VkCommandBuffer commands) {
-    copyToImage(commands, upload.buffer, image);
+    copyToImage(commands, upload.buffer, image, *traits);
     return Status();
   });
 }

@@ -5,6 +5,7 @@
 #include "gpu/layout.h"
 
 layout(constant_id = kConstantCheckIndices) const bool checkIndices = false;
+layout(constant_id = kConstantIsFull) const bool isFull = true;
 layout(constant_id = kConstantLensClass) const uint lensClass = kLensClassPinhole;
 
 #if defined(FROTH_SORT)

@@ -60,7 +60,7 @@ FROTH_CONST kConstantDetailCount = 1;
 FROTH_CONST kConstantLobeCount = 2;
 FROTH_CONST kConstantHasHeights = 3;
 FROTH_CONST kConstantCountWork = 4;
-FROTH_CONST kConstantHasNormals = 5;
+FROTH_CONST kConstantIsFull = 5;  // the frame wants normals or device depth, or has a scene's depth
 FROTH_CONST kConstantLensClass = 6;
 
 // How the passes of a pipeline see: kConstantLensClass.
@@ -69,11 +69,22 @@ FROTH_CONST kLensClassMapped = 1;  // any rays through one eye: FrameBlock::rays
 FROTH_CONST kLensClassOrthographic = 2;
 FROTH_CONST kLensClassCount = 3;
 
+// The caller's images in the descriptor set: those that are written, then those that are read.
+FROTH_CONST kBindingColour = 0;
+FROTH_CONST kBindingDistance = 1;
+FROTH_CONST kBindingNormal = 2;
+FROTH_CONST kBindingDepth = 3;
+FROTH_CONST kBindingRayMap = 4;
+FROTH_CONST kBindingSceneDepth = 5;
+FROTH_CONST kBindingCount = 6;
+
 // FrameBlock::flags
 FROTH_CONST kFlagColour = 1;
 FROTH_CONST kFlagDistance = 2;
 FROTH_CONST kFlagNormal = 4;
 FROTH_CONST kFlagDisplayCoded = 8;
+FROTH_CONST kFlagDepth = 32;
+FROTH_CONST kFlagSceneDepth = 64;
 FROTH_CONST kFlagWalk = 16;  // list cells that guide walks too, and the planes of all neighbours; else a raster: sort the cells,
                              // shade only those that own a (tile, cell) pair
 
@@ -173,6 +184,9 @@ struct FrameBlock {
   vec4 rayX;       // rayOrigin + column rayX + row rayY. Mapped: the view's axes z, x, y.
   vec4 rayY;       // Orthographic: (u, v) of a pixel, by the same sum.
   vec4 forward;    // unit view axis, nearDepth
+  vec4 depthRow;   // device depth of a point relative to the eye: (depthRow . p) / (depthScale . p), homogeneous
+  vec4 depthScale;
+  vec4 depthRange; // least and most of the viewport, the end (0, 1) that is far, its depth
   vec4 worldX;     // rows of the rotation world-from-asset
   vec4 worldY;
   vec4 worldZ;
@@ -232,8 +246,8 @@ static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code
 static_assert(sizeof(SiteRecord) == 24 && offsetof(SiteRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 144 && sizeof(Counters) == 208);
-static_assert(offsetof(FrameBlock, nearRatio) == 160 && offsetof(FrameBlock, regionX) == 192);
-static_assert(offsetof(FrameBlock, counters) == 256 && sizeof(FrameBlock) == 448);
+static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 240);
+static_assert(offsetof(FrameBlock, counters) == 304 && sizeof(FrameBlock) == 496);
 static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);
 
 }  // namespace froth::gpu

@@ -4,25 +4,27 @@
 #include "gpu/frame.glsl"
 #include "foam/colour.h"
 
-layout(set = 0, binding = 0, FROTH_COLOUR_FORMAT) uniform writeonly image2D colourImage;
-layout(set = 0, binding = 1, r32f) uniform writeonly image2D distanceImage;
-layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D normalImage;
+layout(set = 0, binding = kBindingColour, FROTH_COLOUR_FORMAT) uniform writeonly image2D colourImage;
+layout(set = 0, binding = kBindingDistance, r32f) uniform writeonly image2D distanceImage;
+layout(set = 0, binding = kBindingNormal, rgba16f) uniform writeonly image2D normalImage;
+layout(set = 0, binding = kBindingDepth, r32f) uniform writeonly image2D depthImage;
 
 // Workgroups at the right and lower border hang over it.
 bool isInRegion(uvec2 pixel) { return pixel.x < FRAME.regionWidth && pixel.y < FRAME.regionHeight; }
 
-// `pixel` counts from the region's corner; `colour` is display-coded, the normal in the asset's axes.
-void writePixel(uvec2 pixel, vec3 colour, float coverage, float quantileDepth, vec3 normal) {
+// `pixel` counts from the region's corner; `colour` is display-coded, distance and normal in the asset's units and axes.
+void writePixel(uvec2 pixel, vec3 colour, float coverage, float distance, vec3 normal, float deviceDepth) {
   ivec2 place = ivec2(pixel + uvec2(FRAME.regionX, FRAME.regionY));
   if ((FRAME.flags & kFlagColour) != 0) {
     vec3 coded = (FRAME.flags & kFlagDisplayCoded) != 0 ? colour : linearPremultiplied(colour, coverage);
     imageStore(colourImage, place, vec4(coded, coverage));
   }
-  if ((FRAME.flags & kFlagDistance) != 0) imageStore(distanceImage, place, vec4(quantileDepth * FRAME.scale));
+  if ((FRAME.flags & kFlagDistance) != 0) imageStore(distanceImage, place, vec4(distance * FRAME.scale));
   if ((FRAME.flags & kFlagNormal) != 0) {
     vec3 world = vec3(dot(FRAME.worldX.xyz, normal), dot(FRAME.worldY.xyz, normal), dot(FRAME.worldZ.xyz, normal));
     imageStore(normalImage, place, vec4(world, 0.0));
   }
+  if ((FRAME.flags & kFlagDepth) != 0) imageStore(depthImage, place, vec4(deviceDepth));
 }
 
 #endif

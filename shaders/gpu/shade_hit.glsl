@@ -13,7 +13,6 @@
 
 layout(constant_id = kConstantDetailCount) const uint detailCount = 8;
 layout(constant_id = kConstantHasHeights) const bool hasHeights = true;
-layout(constant_id = kConstantHasNormals) const bool hasNormals = true;  // an image of normals is wanted
 
 const uint kRays = FROTH_RAYS;
 
@@ -133,7 +132,7 @@ void composite(Shading shading, CellRecord cell, Segment segment, vec3 colour, i
   float opticalDepth = cell.face.w * (segment.tFar - segment.tNear);
   float weight = exp(radiance.logTransmittance) * opacity(opticalDepth);
   radiance.colour += weight * colour;
-  if (hasNormals) radiance.normal += weight * cell.ball.w * cell.face.xyz;
+  if (isFull) radiance.normal += weight * cell.ball.w * cell.face.xyz;
   float after = radiance.logTransmittance - opticalDepth;
   if (radiance.logTransmittance >= shading.logQuantile && after < shading.logQuantile) {
     radiance.distance = quantileDistance(segment.tNear, radiance.logTransmittance, shading.logQuantile, cell.face.w);

@@ -164,7 +164,9 @@ Frame Stage::draw(Method method, const FrothRenderInfo& info, VkExtent2D extent,
   Result<HostImage> colour = host.createImage(colourFormat, extent);
   Result<HostImage> distance = host.createImage(VK_FORMAT_R32_SFLOAT, extent);
   Result<HostImage> normal = host.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent);
+  Result<HostImage> depth = host.createImage(VK_FORMAT_R32_SFLOAT, extent);
   FrothRenderInfo wanted = info;
+  wanted.depth = host.describe(*depth);
   wanted.colour = host.describe(*colour);
   wanted.distance = host.describe(*distance);
   wanted.normal = host.describe(*normal);
@@ -175,7 +177,8 @@ Frame Stage::draw(Method method, const FrothRenderInfo& info, VkExtent2D extent,
   frame.alpha = channelsOf(colours, 4, 3, 1, extent);
   frame.distance = channelsOf(readBack(host, *distance), 1, 0, 1, extent);
   frame.normal = channelsOf(readBack(host, *normal), 4, 0, 3, extent);
-  for (HostImage* image : {&*colour, &*distance, &*normal}) host.destroyImage(*image);
+  frame.depth = channelsOf(readBack(host, *depth), 1, 0, 1, extent);
+  for (HostImage* image : {&*colour, &*distance, &*normal, &*depth}) host.destroyImage(*image);
   expectSilence(host);
   return frame;
 }
@@ -244,9 +247,10 @@ AssetContents bakeForTest(const Foam& foam) {
   return baked->contents;
 }
 
-RenderedImages renderReference(const Foam& foam, const View& view, double cutoff) {
+RenderedImages renderReference(const Foam& foam, const View& view, double cutoff, const Image* sceneDistance) {
   ReferenceOptions options;
   options.cutoff = cutoff;
+  options.sceneDistance = sceneDistance;
   options.nearRatio = view.nearRatio.value_or(0);
   options.nearDepth = view.nearDepth.value_or(0);
   Result<RenderedImages> images = ReferenceRenderer(foam).render(view, options);

@@ -26,6 +26,7 @@ struct Frame {
   Image alpha;     // 1 channel
   Image distance;  // 1 channel; +inf: never
   Image normal;    // 3 channels
+  Image depth;     // 1 channel, device depth
   FrothViewStatus status{};
 };
 
@@ -36,6 +37,8 @@ FrothContext* sharedContext();
 
 // The same for cameras of all lenses.
 FrothContext* lensContext();
+// A context of its own, for instances that stay; lenses: FrothContextInfo::lensClasses.
+FrothContext* createCheckedContext(uint32_t lensClasses);
 
 // One asset, one instance, one view. Any failing call, validation message or index violation fails the test.
 class Stage {
@@ -77,7 +80,9 @@ HostImage uploadRayMap(const View& view);
 FrothRenderInfo infoOf(const View& view);
 
 AssetContents bakeForTest(const Foam& foam);
-RenderedImages renderReference(const Foam& foam, const View& view, double cutoff = 0);
+// sceneDistance: ReferenceOptions.
+RenderedImages renderReference(const Foam& foam, const View& view, double cutoff = 0,
+                               const Image* sceneDistance = nullptr);
 
 double psnr(const Image& a, const Image& b);
 double overTwoSteps(const Image& a, const Image& b);

@@ -403,5 +403,28 @@ TEST_F(RecordCallOnDevice, SurvivesClosingAndDestroyingWhatTheFrameUses) {
   EXPECT_EQ(status.deviceBytes, 0u) << "all memory is back once the frame is complete";
 }
 
+TEST_F(RecordCall, RefusesASceneDepthThatItCannotRead) {
+  info_.sceneDepth = info_.colour;
+  info_.sceneDepth.format = VK_FORMAT_D32_SFLOAT;
+  info_.camera.viewport.maxDepth = 1;
+  info_.camera.clipFromView[10] = 0;
+  info_.camera.clipFromView[14] = 0.1f;
+  expectResult(FROTH_OK, "");
+  info_.sceneDepth.samples = VK_SAMPLE_COUNT_4_BIT;
+  expectResult(FROTH_ERROR_UNSUPPORTED, "sceneDepth.samples: 4; one sample per pixel is needed; resolve the image first");
+  info_.sceneDepth.samples = VK_SAMPLE_COUNT_1_BIT;
+  info_.sceneDepth.format = VK_FORMAT_S8_UINT;
+  expectResult(FROTH_ERROR_ARGUMENT, "sceneDepth.format");
+  info_.sceneDepth.format = VK_FORMAT_D16_UNORM;
+  info_.camera.clipFromView[14] = 0;
+  expectResult(FROTH_ERROR_ARGUMENT, "clipFromView has no depth that changes with distance");
+  info_.camera.clipFromView[14] = 0.1f;
+  info_.camera.viewport.maxDepth = 0;
+  expectResult(FROTH_ERROR_ARGUMENT, "viewport.minDepth equals maxDepth");
+  info_.sceneDepth = {};
+  info_.depth = info_.colour;
+  expectResult(FROTH_ERROR_ARGUMENT, "depth.format");
+}
+
 }  // namespace
 }  // namespace froth

@@ -368,12 +368,13 @@ FROTH_API FrothResult frothDropFrame(FrothContext* context, uint64_t serial);
  * state, and remembers nothing in between. layoutIn = UNDEFINED drops the contents. */
 typedef struct FrothImage {
   VkImage image;
-  VkImageView view; /* 2D, one level, identity swizzle, usage STORAGE */
+  VkImageView view; /* 2D, one level, identity swizzle; usage STORAGE, of an input SAMPLED */
   VkFormat format;
   VkExtent2D extent;
   VkImageLayout layoutIn, layoutOut;
   VkPipelineStageFlags2 stageIn, stageOut;
   VkAccessFlags2 accessIn, accessOut;
+  VkSampleCountFlagBits samples; /* 0 or 1; images of several samples are refused */
 } FrothImage;
 
 /* How a camera sees. All but the first take the view's axes as x right, y down, z forward, and no clipFromView. The centre of
@@ -396,7 +397,7 @@ typedef struct FrothLens {
   float focal[2];        /* [pixels per radian; RADIAL_TANGENTIAL: per tangent], > 0 */
   float centre[2];       /* [pixels] */
   float coefficients[8];
-  FrothImage rayMap;     /* RAY_MAP: R32G32B32A32_SFLOAT with usage STORAGE, read at the pixels that are drawn: xyz a direction of any
+  FrothImage rayMap;     /* RAY_MAP: R32G32B32A32_SFLOAT with usage SAMPLED, read at the pixels that are drawn: xyz a direction of any
                             length in the view's axes, or 0: the pixel is cleared. All rays start at the eye. */
 } FrothLens;
 
@@ -429,6 +430,14 @@ typedef struct FrothRenderInfo {
   FrothImage colour;   /* R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: premultiplied colour, alpha = 1 - T */
   FrothImage distance; /* R32_SFLOAT: distance along the ray where T falls below depthQuantile [world units]; +inf: never */
   FrothImage normal;   /* R16G16B16A16_SFLOAT: sum of T alpha n in world axes, not normalized; w = 0 */
+  FrothImage depth;    /* R32_SFLOAT: device depth of the point that `distance` means, as clipFromView and the viewport's depth range
+                          make it; their far end: never. With lenses other than PROJECTION the same as `distance` */
+
+  /* What the engine has drawn, read only: rays stop there, in the middle of a cell if need be. D32_SFLOAT, D32_SFLOAT_S8_UINT,
+   * D24_UNORM_S8_UINT, X8_D24_UNORM_PACK32, D16_UNORM or R32_SFLOAT; a view of the depth aspect. It holds device depth, as
+   * clipFromView and the viewport's depth range make it: reversed and infinite depth need no flag, and the far end stops
+   * nothing. With lenses other than PROJECTION: distance along the ray [world units], +inf where there is nothing. */
+  FrothImage sceneDepth;
 } FrothRenderInfo;
 
 /* Primary visibility by sorted rasterization. Outside a render pass; once per view and frame. On exit compute pipeline, sets
