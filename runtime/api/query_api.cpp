@@ -1,5 +1,5 @@
 // The C entry points of queries.
-#include "froth/froth.h"
+#include "froth/froth_query.h"
 
 #include "runtime/api/call_guard.h"
 

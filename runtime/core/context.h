@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "froth/froth.h"
+#include "froth/froth_query.h"
 #include "runtime/asset/asset.h"
 #include "runtime/core/device.h"
 #include "runtime/core/handles.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "froth/froth.h"
+#include "froth/froth_query.h"
 #include "runtime/query/foam_walk.h"
 #include "runtime/query/placement.h"
 

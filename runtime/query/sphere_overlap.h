@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include "froth/froth_query.h"
 #include "runtime/query/convex_body.h"
 #include "runtime/query/query_foam.h"
 

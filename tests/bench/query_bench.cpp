@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "froth/froth.h"
+#include "froth/froth_query.h"
 
 namespace {
 

@@ -1,14 +1,14 @@
 #!/bin/sh
-# The shared runtime exports exactly the functions of its header, and links no more than it may.
-#   exported_symbols_test.sh libfroth_runtime.so froth.h
+# The shared runtime exports exactly the functions of its headers, and links no more than it may.
+#   exported_symbols_test.sh libfroth_runtime.so folder-of-headers
 set -eu
 library=$1
-header=$2
+headers=$2
 
-declared=$(grep -A1 '^FROTH_API' "$header" | grep -o 'froth[A-Z][A-Za-z]*(' | tr -d '(' | LC_ALL=C sort -u)
+declared=$(cat "$headers"/*.h | grep -A1 '^FROTH_API' | grep -o 'froth[A-Z][A-Za-z]*(' | tr -d '(' | LC_ALL=C sort -u)
 exported=$(nm -D --defined-only "$library" | awk '{print $3}' | LC_ALL=C sort -u)
 if [ "$declared" != "$exported" ]; then
-  echo "declared in $header:" $declared
+  echo "declared in $headers:" $declared
   echo "exported by $library:" $exported
   exit 1
 fi

@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "format/asset_writer.h"
-#include "froth/froth.h"
+#include "froth/froth_query.h"
 #include "samples/host/host.h"
 #include "tests/format/sample_asset.h"
 

@@ -1,6 +1,6 @@
 // A C++17 program that loads Vulkan's functions itself, as with volk.
 #define VK_NO_PROTOTYPES
-#include <froth/froth.h>
+#include <froth/froth_query.h>
 
 #include <cstdio>
 
