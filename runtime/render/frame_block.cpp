@@ -124,6 +124,9 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   block.logCutoff = info.cutoff > 0 ? std::log(info.cutoff) : -std::numeric_limits<float>::infinity();
   block.logQuantile = std::log(info.depthQuantile);
   block.detailSharpness = asset.detailSharpness;
+  block.detailCount = asset.detailCount;
+  block.lobeCount = asset.lobeCount;
+  block.hasHeights = asset.hasHeights;
   block.maxSteps = info.maxSteps;
   block.localBits = asset.localBits;
   block.tilesX = tilesAlong(region.extent.width);

@@ -22,9 +22,15 @@ layout(push_constant) uniform Push {
 } push;
 #endif
 
-#define kInfinity uintBitsToFloat(0x7f800000u)
+// Shaders that see several instances name the one at hand.
+#if defined(FROTH_SEVERAL)
+FrameRef frameAtHand;
+#define FRAME frameAtHand.v
+#else
 #define FRAME push.frame.v
-#define COUNTERS push.frame.v.counters.v
+#endif
+#define COUNTERS FRAME.counters.v
+#define kInfinity uintBitsToFloat(0x7f800000u)
 
 bool isWalk() { return (FRAME.flags & kFlagWalk) != 0; }
 

@@ -201,6 +201,8 @@ struct FrameBlock {
   uint sortRounds;  // keys that a thread ranks in a pass of a radix sort
   float lensRange;
   uint lensKind, blocksX, blocksY;             // blocks of kBlockTiles x kBlockTiles tiles
+  uint detailCount, lobeCount, hasHeights;     // of the asset; passes that are specialized on its shape do not read them
+  uint padding;
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
   FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] visible cells, their planes
@@ -247,7 +249,7 @@ static_assert(sizeof(SiteRecord) == 24 && offsetof(SiteRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 144 && sizeof(Counters) == 208);
 static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 240);
-static_assert(offsetof(FrameBlock, counters) == 304 && sizeof(FrameBlock) == 496);
+static_assert(offsetof(FrameBlock, counters) == 320 && sizeof(FrameBlock) == 512);
 static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);
 
 }  // namespace froth::gpu

@@ -11,8 +11,13 @@
 #include "foam/cell.h"
 #include "foam/compositing.h"
 
+#if defined(FROTH_SEVERAL)
+#define detailCount FRAME.detailCount
+#define hasHeights (FRAME.hasHeights != 0)
+#else
 layout(constant_id = kConstantDetailCount) const uint detailCount = 8;
 layout(constant_id = kConstantHasHeights) const bool hasHeights = true;
+#endif
 
 const uint kRays = FROTH_RAYS;
 
@@ -128,20 +133,22 @@ void clipByFace(Shading shading, FaceView view, uint firstSite, inout Segment se
   }
 }
 
-void composite(Shading shading, CellRecord cell, Segment segment, vec3 colour, inout Radiance radiance) {
-  float opticalDepth = cell.face.w * (segment.tFar - segment.tNear);
+// Adds a stretch of constant density and colour. `normal`: unit.
+void composite(Shading shading, Segment segment, float density, vec3 colour, vec3 normal, inout Radiance radiance) {
+  float opticalDepth = density * (segment.tFar - segment.tNear);
   float weight = exp(radiance.logTransmittance) * opacity(opticalDepth);
   radiance.colour += weight * colour;
-  if (isFull) radiance.normal += weight * cell.ball.w * cell.face.xyz;
+  if (isFull) radiance.normal += weight * normal;
   float after = radiance.logTransmittance - opticalDepth;
   if (radiance.logTransmittance >= shading.logQuantile && after < shading.logQuantile) {
-    radiance.distance = quantileDistance(segment.tNear, radiance.logTransmittance, shading.logQuantile, cell.face.w);
+    radiance.distance = quantileDistance(segment.tNear, radiance.logTransmittance, shading.logQuantile, density);
   }
   radiance.logTransmittance = after;
 }
 
-void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
-               inout Radiance radiances[kRays]) {
+// Cuts the intervals down to what shows, and finds its colours; false: nothing does.
+bool shadeSegments(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], inout Segment segments[kRays],
+                   out vec3 colours[kRays]) {
   uint firstSite = visible * detailCount;
   FaceView view = faceViewOf(cell, rays);
   clipByFace(shading, view, firstSite, segments);
@@ -151,13 +158,18 @@ void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays],
     isAny = isAny || !isEmpty(segments[r]);
     queries[r] = queryAt(view, r, segments[r].tNear);
   }
-  if (!isAny) return;
+  if (isAny) coloursAt(shading, firstSite, queries, colours);
+  return isAny;
+}
+
+void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
+               inout Radiance radiances[kRays]) {
   vec3 colours[kRays];
-  coloursAt(shading, firstSite, queries, colours);
+  if (!shadeSegments(shading, visible, cell, rays, segments, colours)) return;
   for (uint r = 0; r < kRays; ++r) {
     if (isEmpty(segments[r])) continue;
     countWork(kWorkColours, 1);
-    composite(shading, cell, segments[r], colours[r], radiances[r]);
+    composite(shading, segments[r], cell.face.w, colours[r], cell.ball.w * cell.face.xyz, radiances[r]);
   }
 }
 
