@@ -268,6 +268,8 @@ typedef struct FrothInstanceInfo {
   double position[3]; /* of the asset's origin in the world */
   float rotation[4];  /* unit quaternion (x, y, z, w), world from asset; all zero: identity */
   float scale;        /* uniform, > 0; 0: 1 */
+  uint32_t mask;      /* seen by views and rays that share a bit with it; 0: by all */
+  uint32_t userId;    /* the caller's own name for it */
 } FrothInstanceInfo;
 
 FROTH_API FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info, FrothInstance* instance);
