@@ -164,7 +164,7 @@ FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
 
 /* Memory of one purpose. */
 typedef struct FrothMemoryCategory {
-  const char* name;   /* "assets", "views", "walks", "views, host", "uploads, host", "walks, host"; static storage */
+  const char* name;   /* "assets", "views", "views, host", "uploads, host", "walks", "walks, host"; static storage */
   uint64_t granted;   /* [bytes] of VkDeviceMemory held */
   uint64_t used;      /* [bytes] of these that hold something */
   uint64_t peak;      /* most granted since creation or the last frothSetBudget */
