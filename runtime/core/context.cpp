@@ -131,6 +131,8 @@ FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* ca
     instance.placement.rotation = {0, 0, 0, 1};
   }
   instance.placement.scale = info.scale == 0 ? 1 : info.scale;
+  instance.mask = info.mask == 0 ? ~0u : info.mask;
+  instance.userId = info.userId;
   return FROTH_OK;
 }
 
