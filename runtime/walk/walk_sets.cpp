@@ -251,13 +251,17 @@ void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const Walked
   const DeviceTable& vk = device_.table;
   bool isAny = false;
   for (uint32_t i = 0; i < instances.size(); ++i) {
-    if (instances[i].isSeeded) continue;
+    const GpuAsset* asset = instances[i].placement.asset;
+    const bool isSeen = std::any_of(instances.begin(), instances.begin() + i, [&](const WalkedInstance& earlier) {
+      return earlier.placement.asset == asset;
+    });
+    if (instances[i].isSeeded || isSeen) continue;
     if (!isAny) bind(commandBuffer, kSeedEntries);
     isAny = true;
     const SeedConstants constants{i};
     vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
                           &constants);
-    const uint32_t along = instances[i].placement.asset->walkEntriesAlong;
+    const uint32_t along = asset->walkEntriesAlong;
     vk.vkCmdDispatch(commandBuffer, groupsOver(along * along * along, gpu::kRayGroupSize), 1, 1);
   }
   if (!isAny) return;
