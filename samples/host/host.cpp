@@ -191,4 +191,9 @@ std::vector<std::string> Host::validationMessages() const {
   return state_->log.messages;
 }
 
+void Host::forgetValidationMessages() {
+  const std::lock_guard<std::mutex> lock(state_->log.mutex);
+  state_->log.messages.clear();
+}
+
 }  // namespace froth

@@ -65,6 +65,7 @@ class Host {
 
   // Messages of the validation layers so far (severity warning or error); tests expect none.
   std::vector<std::string> validationMessages() const;
+  void forgetValidationMessages();
 
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
