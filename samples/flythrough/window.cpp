@@ -12,12 +12,13 @@
 #include <imgui.h>
 
 #include "samples/flythrough/cameras_json.h"
-#include "samples/flythrough/fly_camera.h"
-#include "samples/flythrough/frame_ring.h"
+#include "samples/host/fly_camera.h"
+#include "samples/host/frame_ring.h"
+#include "samples/host/imgui_layer.h"
 #include "samples/flythrough/overlay.h"
-#include "samples/flythrough/picture_file.h"
-#include "samples/flythrough/vulkan_check.h"
-#include "samples/flythrough/window_system.h"
+#include "samples/host/picture_file.h"
+#include "samples/host/vulkan_check.h"
+#include "samples/host/window_system.h"
 
 namespace froth {
 namespace {
@@ -51,7 +52,8 @@ class Flythrough {
   std::unique_ptr<Host> host_;
   std::unique_ptr<Swapchain> swapchain_;
   std::unique_ptr<FrameRing> frames_;
-  std::unique_ptr<Overlay> overlay_;
+  std::unique_ptr<ImGuiLayer> imgui_;
+  Overlay overlay_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<Painter> painter_;
 
@@ -69,7 +71,7 @@ Flythrough::~Flythrough() {
   vkDeviceWaitIdle(host_->device);
   painter_.reset();
   scene_.reset();
-  overlay_.reset();
+  imgui_.reset();
   frames_.reset();
   swapchain_.reset();
   system_->destroySurface();
@@ -98,9 +100,9 @@ Status Flythrough::create() {
   Result<std::unique_ptr<FrameRing>> frames = FrameRing::create(*host_);
   if (!frames) return frames.error();
   frames_ = std::move(*frames);
-  Result<std::unique_ptr<Overlay>> overlay = Overlay::create(*host_, system_->window(), *swapchain_);
-  if (!overlay) return overlay.error();
-  overlay_ = std::move(*overlay);
+  Result<std::unique_ptr<ImGuiLayer>> imgui = ImGuiLayer::create(*host_, system_->window(), *swapchain_);
+  if (!imgui) return imgui.error();
+  imgui_ = std::move(*imgui);
 
   FrothContextInfo contextInfo = host_->contextInfo();
   contextInfo.framesInFlight = kFramesInFlight;
@@ -117,7 +119,7 @@ Status Flythrough::resize() {
   if (extent.width == 0 || extent.height == 0) return {};  // minimized: there is nothing to draw to
   vkDeviceWaitIdle(host_->device);
   if (Status sized = swapchain_->resize(extent); !sized) return sized;
-  if (Status set = overlay_->setSwapchain(*swapchain_); !set) return set;
+  if (Status set = imgui_->setSwapchain(*swapchain_); !set) return set;
   return painter_->setExtent(*scene_, swapchain_->extent());
 }
 
@@ -223,8 +225,8 @@ Status Flythrough::drawFrame() {
   recorded = painter_->record(commands, *scene_, shown_, currentPose(), VK_PIPELINE_STAGE_2_BLIT_BIT);
   if (!recorded) return recorded;
   recordBlit(commands, target.image);
-  if (isOverlayShown_) overlay_->layOut(overlayContent());
-  overlay_->record(commands, index);
+  if (isOverlayShown_) overlay_.layOut(overlayContent(), swapchain_->extent());
+  imgui_->record(commands, index);
   if (Status submitted = frames_->submit(**slot, target.isDrawn); !submitted) return submitted;
 
   const VkSwapchainKHR handle = swapchain_->handle();
@@ -266,7 +268,7 @@ Status Flythrough::run() {
     }
 
     const Clock::time_point now = Clock::now();
-    overlay_->beginFrame();
+    imgui_->beginFrame();
     handleInput(std::chrono::duration<double>(now - std::exchange(last, now)).count());
     if (Status drawn = drawFrame(); !drawn) return drawn;
     ImGui::EndFrame();  // does nothing if the frame was drawn; else closes what no one rendered
@@ -274,10 +276,7 @@ Status Flythrough::run() {
       if (Status saved = saveScreenshot(); !saved) return saved;
     }
   }
-  const std::vector<std::string> messages = host_->validationMessages();
-  if (messages.empty()) return {};
-  return makeError(ErrorKind::kUnsupported, "%zu validation messages; the first: %s", messages.size(),
-                   messages.front().c_str());
+  return host_->checkSilence();
 }
 
 }  // namespace

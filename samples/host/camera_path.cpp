@@ -1,4 +1,4 @@
-#include "samples/flythrough/camera_path.h"
+#include "samples/host/camera_path.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // A camera that flies where the user steers.
 #pragma once
 
-#include "samples/flythrough/camera_path.h"
+#include "samples/host/camera_path.h"
 
 namespace froth {
 

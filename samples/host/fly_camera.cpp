@@ -1,4 +1,4 @@
-#include "samples/flythrough/fly_camera.h"
+#include "samples/host/fly_camera.h"
 
 #include <cmath>
 

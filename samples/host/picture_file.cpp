@@ -1,4 +1,4 @@
-#include "samples/flythrough/picture_file.h"
+#include "samples/host/picture_file.h"
 
 #include <algorithm>
 #include <cmath>

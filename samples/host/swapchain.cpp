@@ -1,8 +1,8 @@
-#include "samples/flythrough/swapchain.h"
+#include "samples/host/swapchain.h"
 
 #include <algorithm>
 
-#include "samples/flythrough/vulkan_check.h"
+#include "samples/host/vulkan_check.h"
 
 namespace froth {
 

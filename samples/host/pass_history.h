@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "froth/froth.h"
@@ -17,15 +19,19 @@ class PassHistory {
     Percentiles times;  // [ms]
   };
 
-  // Takes each complete frame once.
-  void add(const FrothViewStatus& status);
+  // Takes each complete frame once; names are in static storage.
+  void add(uint64_t serial, std::span<const FrothPassTime> passes);
 
   std::vector<Row> passes() const;  // those of the newest frame
   Percentiles total() const;        // zero before the first frame
 
  private:
   static constexpr size_t kFrames = 240;
-  std::deque<FrothViewStatus> frames_;  // oldest first, at most kFrames
+  struct Frame {
+    uint64_t serial;
+    std::vector<FrothPassTime> passes;
+  };
+  std::deque<Frame> frames_;  // oldest first, at most kFrames
 };
 
 }  // namespace froth

@@ -1,4 +1,4 @@
-#include "samples/flythrough/scene.h"
+#include "samples/host/scene.h"
 
 #include <utility>
 
@@ -13,7 +13,8 @@ Status Scene::check(FrothResult result, const char* call) const {
   return makeError(kind, "%s gives %s", call, frothResultName(result));
 }
 
-Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& assetPath) {
+Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& assetPath,
+                                             bool isQueried) {
   std::unique_ptr<Scene> scene(new Scene());
   info.messageUser = scene.get();
   info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
@@ -26,6 +27,7 @@ Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::s
   FrothAssetInfo assetInfo{};
   assetInfo.structSize = sizeof(assetInfo);
   assetInfo.path = assetPath.c_str();
+  assetInfo.keepForQueries = isQueried ? 1 : 0;
   made = scene->check(frothOpenAsset(scene->context_, &assetInfo, &scene->assetHandle_), "frothOpenAsset");
   if (!made) return made.error();
 
@@ -76,15 +78,18 @@ Status Scene::beginFrame(VkCommandBuffer commands, uint64_t serial, uint64_t com
   return {};
 }
 
-Status Scene::draw(VkCommandBuffer commands, Method method, const Pose& pose, const FrothImage& colour) {
-  FrothRenderInfo info{};
+Status Scene::draw(VkCommandBuffer commands, Method method, FrothRenderInfo info) {
   info.structSize = sizeof(info);
-  info.camera = cameraOf(pose, extent_);
   info.nearRatio = FROTH_NEAR_DEFAULT;
   info.nearDepth = FROTH_NEAR_DEFAULT;
-  info.colour = colour;
   if (method == Method::kWalk) return check(frothWalk(context_, view_, commands, &info), "frothWalk");
   return check(frothRasterize(context_, view_, commands, &info), "frothRasterize");
+}
+
+Status Scene::place(FrothInstanceInfo placement) {
+  placement.structSize = sizeof(placement);
+  placement.asset = assetHandle_;
+  return check(frothSetInstance(context_, instance_, &placement), "frothSetInstance");
 }
 
 Result<FrothViewStatus> Scene::viewStatus() const {
@@ -109,6 +114,37 @@ Result<CameraPath> Scene::path(std::vector<Pose> keys) const {
   }
   if (keys.empty()) return orbitPath(asset_.boundsMin, asset_.boundsMax);
   return CameraPath(std::move(keys));
+}
+
+Status submitFrame(Host& host, Scene& scene, const std::function<Status(VkCommandBuffer)>& record) {
+  return host.submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
+    if (Status begun = scene.beginFrame(commands, serial, serial - 1); !begun) return begun;
+    return record(commands);
+  });
+}
+
+Status waitUntilReady(Host& host, Scene& scene) {
+  while (!scene.isReady()) {
+    if (Status loaded = submitFrame(host, scene, [](VkCommandBuffer) { return Status(); }); !loaded)
+      return loaded;
+  }
+  return {};
+}
+
+Status submitWholeFrame(Host& host, Scene& scene, const std::function<Status(VkCommandBuffer)>& record) {
+  constexpr int kMaxAttempts = 32;
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+    Status drawn = submitFrame(host, scene, record);
+    if (!drawn) return drawn;
+    // What a frame met is known at the start of the next one.
+    drawn = submitFrame(host, scene, [](VkCommandBuffer) { return Status(); });
+    if (!drawn) return drawn;
+    const Result<FrothViewStatus> status = scene.viewStatus();
+    if (!status) return status.error();
+    if ((status->bits & (FROTH_VIEW_CELL_OVERFLOW | FROTH_VIEW_PAIR_OVERFLOW)) == 0) return {};
+  }
+  return makeError(ErrorKind::kUnsupported, "a frame still overflows after %d attempts; use a smaller --size",
+                   kMaxAttempts);
 }
 
 }  // namespace froth

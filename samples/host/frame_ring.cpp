@@ -1,8 +1,8 @@
-#include "samples/flythrough/frame_ring.h"
+#include "samples/host/frame_ring.h"
 
 #include <algorithm>
 
-#include "samples/flythrough/vulkan_check.h"
+#include "samples/host/vulkan_check.h"
 
 namespace froth {
 

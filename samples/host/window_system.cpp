@@ -1,9 +1,9 @@
-#include "samples/flythrough/window_system.h"
+#include "samples/host/window_system.h"
 
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 
-#include "samples/flythrough/vulkan_check.h"
+#include "samples/host/vulkan_check.h"
 
 namespace froth {
 namespace {
