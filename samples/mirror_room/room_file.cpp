@@ -46,11 +46,12 @@ Result<Room> RoomReader::read() {
   for (const tinygltf::Node& node : model_.nodes) {
     if (Status done = readNode(node); !done) return done.error();
   }
-  if (Status found = findMirror(); !found) return found.error();
   const auto missing = [&](const char* what) {
     return makeError(ErrorKind::kBadInput, "%s: %s is missing; add it, as in samples/mirror_room/meshes/room.gltf",
                      path_.c_str(), what);
   };
+  if (Status found = findMirror(); !found) return found.error();
+  if (room_.mirror.normal == glm::dvec3(0)) return missing("a mirror (metal of roughness 0)");
   if (!hasFoam_) return missing("the node 'foam'");
   if (!hasBall_) return missing("the mesh node 'ball'");
   if (!hasCamera_) return missing("a perspective camera");
@@ -186,7 +187,7 @@ Status RoomReader::findMirror() {
     for (uint32_t i = 0; i < part.indexCount; ++i) {
       const RoomVertex& vertex = room_.vertices[room_.indices[part.firstIndex + i]];
       const glm::dvec3 point = node.toWorld(vertex.position);
-      if (!room_.mirror.isThere()) {
+      if (room_.mirror.normal == glm::dvec3(0)) {
         room_.mirror.normal = glm::normalize(node.rotation * glm::dvec3(vertex.normal));
         room_.mirror.offset = -glm::dot(room_.mirror.normal, point);
       }

@@ -40,10 +40,9 @@ struct RoomPart {
 
 // A plane dot(normal, p) + offset = 0 that shows what is on the side of its normal.
 struct MirrorPlane {
-  glm::dvec3 normal{0};  // 0: there is no mirror
+  glm::dvec3 normal{0};
   double offset = 0;
 
-  bool isThere() const { return normal != glm::dvec3(0); }
   glm::dvec3 reflect(const glm::dvec3& point) const { return point - 2 * (glm::dot(normal, point) + offset) * normal; }
 };
 
@@ -62,8 +61,8 @@ struct Room {
 };
 
 // Reads triangles with normals and 16-bit indices, materials without textures and nodes without children. A metal of
-// roughness 0 is a mirror, and all mirrors lie in one plane; roughness below 0.3 is glossy. The nodes "foam" and "ball", a
-// camera and a directional light must be there.
+// roughness 0 is a mirror, and all mirrors lie in one plane; roughness below 0.3 is glossy. A mirror, the nodes "foam" and
+// "ball", a camera and a directional light must be there.
 Result<Room> readRoom(const std::filesystem::path& path);
 
 }  // namespace froth

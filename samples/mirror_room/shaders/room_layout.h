@@ -57,7 +57,7 @@ struct RoomFrame {
   // Through pixel (x, y) goes the ray corner + x stepX + y stepY, whose forward component is 1; the centre of the first
   // pixel is (0.5, 0.5).
   vec4 rayCorner, rayStepX, rayStepY;
-  vec4 mirror;    // the plane dot(xyz, position) + w = 0, xyz unit and on the side that it shows; all 0: no mirror
+  vec4 mirror;    // the plane dot(xyz, position) + w = 0, xyz unit and on the side that it shows
   vec4 toSun;     // w: size of a texel of the shadow map [metres]
   vec4 sun;       // light on a surface that faces it
   vec4 sky, ground;  // surrounding light from above and from below
