@@ -1,6 +1,7 @@
 #include "runtime/asset/asset.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <numeric>
@@ -11,6 +12,9 @@
 
 namespace froth {
 namespace {
+
+// Of the table of entries for rays.
+constexpr uint32_t kCellsPerEntry = 8, kMostEntriesAlong = 32;
 
 FrothStoredCamera toApi(const StoredCamera& camera) {
   FrothStoredCamera result{};
@@ -102,6 +106,11 @@ void Asset::load(RenderPipelines* pipelines, const Messages& messages) {
       queryFoam_->finish();
     }
     reader_.reset();
+    std::copy_n(description_.boundsMin, 3, gpu_.boundsLow.begin());
+    std::copy_n(description_.boundsMax, 3, gpu_.boundsHigh.begin());
+    if (const Status status = placeEntries(); !status) {
+      return fail(status.error(), messages);
+    }
     if (pipelines) {
       if (const Status status = pipelines->prepareFor(gpu_); !status) {
         return fail(status.error(), messages);
@@ -139,6 +148,7 @@ void Asset::restart(const Messages& messages) {
   description_ = {};
   flightPath_.clear();
   gpu_ = {};
+  entriesSerial = 0;
   buffers_ = device_ ? std::make_shared<GpuBufferSet>(*device_) : nullptr;
   if (!isFile_ && !bytesStay_) {
     fail(FROTH_ERROR_STATE,
@@ -226,6 +236,26 @@ Status Asset::placeArray(std::vector<T>&& values, const char* purpose, VkDeviceA
   address = buffer->address;
   const auto owner = std::make_shared<const std::vector<T>>(std::move(values));
   arrays_.push_back({std::shared_ptr<const void>(owner, owner->data()), buffer->buffer, size, 0});
+  return {};
+}
+
+// So many that from the nearest it is a few steps to any cell.
+Status Asset::placeEntries() {
+  if (!keepsForWalks_ || !device_ || !gpu_.hasWalkGraph || gpu_.liveCount == 0) {
+    return {};
+  }
+  const double along = std::cbrt(static_cast<double>(gpu_.cellCount) / kCellsPerEntry);
+  const uint32_t count = std::clamp(static_cast<uint32_t>(along), 1u, kMostEntriesAlong);
+  buffers_->buffers.reserve(buffers_->buffers.size() + 1);
+  const Result<GpuBuffer> buffer = device_->createBuffer(MemoryUse::kAssets, BufferKind::kDevice,
+                                                         8 * VkDeviceSize{count} * count * count, "entries of walks");
+  if (!buffer) {
+    return buffer.error();
+  }
+  buffers_->buffers.push_back(*buffer);
+  addMemory("entries of walks", buffer->memory.granted);
+  gpu_.walkEntriesAlong = count;
+  gpu_.walkEntries = buffer->address;
   return {};
 }
 

@@ -38,6 +38,9 @@ FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
   if (info.keepForQueries) {
     assets_.find(handle)->keepForQueries();
   }
+  if (hasWalkShaders_) {
+    assets_.find(handle)->keepForWalks();
+  }
   return FROTH_OK;
 }
 
@@ -131,6 +134,8 @@ FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* ca
     instance.placement.rotation = {0, 0, 0, 1};
   }
   instance.placement.scale = info.scale == 0 ? 1 : info.scale;
+  instance.mask = info.mask == 0 ? UINT32_MAX : info.mask;
+  instance.userId = info.userId;
   return FROTH_OK;
 }
 

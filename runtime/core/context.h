@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "froth/froth_query.h"
+#include "froth/froth_walk.h"
 #include "runtime/asset/asset.h"
 #include "runtime/core/device.h"
 #include "runtime/core/handles.h"
@@ -17,6 +18,7 @@
 #include "runtime/query/placement.h"
 #include "runtime/render/pipelines.h"
 #include "runtime/render/view_renderer.h"
+#include "runtime/walk/walk_sets.h"
 
 namespace froth {
 
@@ -63,6 +65,13 @@ class Context {
   FrothResult locate(FrothInstance handle, const double (&point)[3], FrothLocation& location) const;
   FrothResult overlapSphere(FrothSphere sphere, FrothContact& contact) const;
 
+  // Rays on the GPU (runtime/walk/context_walks.cpp).
+  FrothResult describeWalkLayout(VkDescriptorSetLayout& layout) const;
+  FrothResult recordWalkSet(VkCommandBuffer commandBuffer, FrothWalkInfo info, VkDescriptorSet& set);
+  FrothResult recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress rays, VkDeviceAddress hits, uint32_t count,
+                         FrothRayKind kind);
+  FrothResult describeWalks(FrothWalkStatus& status) const;
+
   const Asset* findAsset(FrothAsset handle) const { return assets_.find(handle); }  // null: stale
 
   Messages messages;
@@ -71,6 +80,7 @@ class Context {
   struct Instance {
     FrothAsset asset;
     RenderInstance placement;  // its `asset` is filled in when it is drawn
+    uint32_t mask = 0, userId = 0;
   };
   struct View {
     VkExtent2D maxExtent{};
@@ -97,6 +107,9 @@ class Context {
   void runFrame(FrothFrameStatus& status);
   void loadAssets();
   void prepareView(View& view);
+  void prepareWalks();
+  FrothResult checkWalks(const char* call) const;
+  std::vector<WalkedInstance> gatherWalked(bool& isAnyLeftOut) const;
   FrothResult chooseInstance(const View& view, const char* call, const Instance*& chosen,
                              uint32_t& bits) const;
   // Frees `object` once all frames that may use it are complete. retired_ has room for it.
@@ -109,8 +122,11 @@ class Context {
   bool isExcessTold_ = false;  // of this budget
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
+  bool hasWalkShaders_ = false;
+  std::string walkError_;     // of the newest frothUpdate that could not make space; sent already
   std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
   std::unique_ptr<RenderPipelines> pipelines_;  // the same
+  std::unique_ptr<WalkSets> walks_;             // the same; also without FrothContextInfo::walkShaders
   HandlePool<Asset, FrothAsset> assets_;
   HandlePool<Instance, FrothInstance> instances_;
   HandlePool<View, FrothView> views_;

@@ -69,6 +69,7 @@ void Context::runFrame(FrothFrameStatus& status) {
   loadAssets();
   shrinkViews();
   views_.forEach([&](View& view) { prepareView(view); });
+  prepareWalks();
 
   assets_.forEach([&](const Asset& asset) {
     status.assetsOpening += stateOf(asset) == FROTH_ASSET_OPENING;
@@ -167,6 +168,12 @@ FrothResult Context::dropFrame(uint64_t serial) {
     if (view.renderer) {
       view.renderer->dropFrame(serial);
     }
+  });
+  if (walks_) {
+    walks_->dropFrame(serial);
+  }
+  assets_.forEach([&](Asset& asset) {
+    if (asset.entriesSerial == serial) asset.entriesSerial = 0;
   });
   return FROTH_OK;
 }

@@ -8,11 +8,12 @@
 
 namespace froth {
 
-enum class MemoryUse : uint32_t { kAssets, kViews, kViewsHost, kUploadsHost };
-inline constexpr uint32_t kMemoryUseCount = 4;
+// Those of host memory come last.
+enum class MemoryUse : uint32_t { kAssets, kViews, kWalks, kViewsHost, kUploadsHost, kWalksHost };
+inline constexpr uint32_t kMemoryUseCount = 6;
 
 inline bool isHostUse(MemoryUse use) {
-  return use == MemoryUse::kViewsHost || use == MemoryUse::kUploadsHost;
+  return use >= MemoryUse::kViewsHost;
 }
 
 // The memory of one buffer or image.

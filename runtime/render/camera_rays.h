@@ -27,6 +27,10 @@ struct CameraRays {
   glm::dmat3 assetFromView;   // rotation
 };
 
+// World from asset.
+glm::dmat3 rotationOf(const std::array<float, 4>& quaternion);
+glm::dvec3 assetFromWorld(const RenderInstance& instance, const glm::dvec3& point);
+
 // The region is camera.scissor, resolved. Jitter moves the image by that many pixels, as it would in the
 // engine's own jittered projection.
 CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance);

@@ -146,6 +146,7 @@ typedef struct FrothContextInfo {
   FrothFreeMemory freeMemory;
   void* memoryUser;
   uint32_t lensClasses;           /* FrothLensClass bits for which pipelines are made; 0: pinholes only */
+  uint32_t walkShaders;           /* 1: rays in the caller's shaders (froth_walk.h); assets hold a table for their starts */
 } FrothContextInfo;
 
 /* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */
@@ -163,7 +164,7 @@ FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
 
 /* Memory of one purpose. */
 typedef struct FrothMemoryCategory {
-  const char* name;   /* "assets", "views", "views, host", "uploads, host"; static storage */
+  const char* name;   /* "assets", "views", "walks", "views, host", "uploads, host", "walks, host"; static storage */
   uint64_t granted;   /* [bytes] of VkDeviceMemory held */
   uint64_t used;      /* [bytes] of these that hold something */
   uint64_t peak;      /* most granted since creation or the last frothSetBudget */
@@ -268,6 +269,8 @@ typedef struct FrothInstanceInfo {
   double position[3]; /* of the asset's origin in the world */
   float rotation[4];  /* unit quaternion (x, y, z, w), world from asset; all zero: identity */
   float scale;        /* uniform, > 0; 0: 1 */
+  uint32_t mask;      /* seen by views and rays that share a bit with it; 0: by all */
+  uint32_t userId;    /* the caller's own name for it */
 } FrothInstanceInfo;
 
 FROTH_API FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info, FrothInstance* instance);
