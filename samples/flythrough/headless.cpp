@@ -14,7 +14,7 @@ Status flyPath(Host& host, Scene& scene, Painter& painter, const CameraPath& pat
   FrameFiles files(options);
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     const double share = options.frames > 1 ? static_cast<double>(frame) / (options.frames - 1) : 0.0;
-    Status drawn = submitWholeFrame(host, scene, [&](VkCommandBuffer commands) {
+    Status drawn = submitWholeFrame(host, scene, [&](VkCommandBuffer commands, uint64_t) {
       return painter.record(commands, scene, options.picture, path.at(share), VK_PIPELINE_STAGE_2_COPY_BIT);
     });
     if (!drawn) return drawn;

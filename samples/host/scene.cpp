@@ -116,28 +116,28 @@ Result<CameraPath> Scene::path(std::vector<Pose> keys) const {
   return CameraPath(std::move(keys));
 }
 
-Status submitFrame(Host& host, Scene& scene, const std::function<Status(VkCommandBuffer)>& record) {
+Status submitFrame(Host& host, Scene& scene, const RecordFrame& record) {
   return host.submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
     if (Status begun = scene.beginFrame(commands, serial, serial - 1); !begun) return begun;
-    return record(commands);
+    return record(commands, serial);
   });
 }
 
 Status waitUntilReady(Host& host, Scene& scene) {
   while (!scene.isReady()) {
-    if (Status loaded = submitFrame(host, scene, [](VkCommandBuffer) { return Status(); }); !loaded)
+    if (Status loaded = submitFrame(host, scene, [](VkCommandBuffer, uint64_t) { return Status(); }); !loaded)
       return loaded;
   }
   return {};
 }
 
-Status submitWholeFrame(Host& host, Scene& scene, const std::function<Status(VkCommandBuffer)>& record) {
+Status submitWholeFrame(Host& host, Scene& scene, const RecordFrame& record) {
   constexpr int kMaxAttempts = 32;
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     Status drawn = submitFrame(host, scene, record);
     if (!drawn) return drawn;
     // What a frame met is known at the start of the next one.
-    drawn = submitFrame(host, scene, [](VkCommandBuffer) { return Status(); });
+    drawn = submitFrame(host, scene, [](VkCommandBuffer, uint64_t) { return Status(); });
     if (!drawn) return drawn;
     const Result<FrothViewStatus> status = scene.viewStatus();
     if (!status) return status.error();

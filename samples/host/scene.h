@@ -57,9 +57,10 @@ class Scene {
 };
 
 // Host::submit() waits, so the frame before is always complete.
-Status submitFrame(Host& host, Scene& scene, const std::function<Status(VkCommandBuffer)>& record);
+using RecordFrame = std::function<Status(VkCommandBuffer, uint64_t serial)>;
+Status submitFrame(Host& host, Scene& scene, const RecordFrame& record);
 Status waitUntilReady(Host& host, Scene& scene);
 // For files, which should show the whole foam: a frame that overflowed is drawn again, as beginFrame() made room.
-Status submitWholeFrame(Host& host, Scene& scene, const std::function<Status(VkCommandBuffer)>& record);
+Status submitWholeFrame(Host& host, Scene& scene, const RecordFrame& record);
 
 }  // namespace froth

@@ -1,0 +1,73 @@
+#include "samples/mirror_room/stage.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace froth {
+
+HostOptions hostOptionsOf(const MirrorRoomOptions& options) {
+  HostOptions host{options.device, options.validate};
+  host.useGraphics = true;
+  return host;
+}
+
+Result<std::unique_ptr<RoomStage>> RoomStage::create(Host& host, const MirrorRoomOptions& options) {
+  std::unique_ptr<RoomStage> stage(new RoomStage());
+  Result<Room> room = readRoom(options.room);
+  if (!room) return room.error();
+  stage->room_ = std::move(*room);
+  stage->look_ = options.look;
+  stage->hasParticles_ = options.hasParticles;
+  stage->meshes_ = std::make_unique<RoomGeometry>(stage->room_, stage->room_.ball);
+  stage->ball_ = std::make_unique<Ball>(stage->room_);
+
+  FrothContextInfo context = host.contextInfo();
+  context.framesInFlight = kFramesInFlight;
+  context.walkShaders = 1;
+  Result<std::unique_ptr<Scene>> scene = Scene::create(context, options.asset, true);
+  if (!scene) return scene.error();
+  stage->scene_ = std::move(*scene);
+  Result<std::unique_ptr<RoomRenderer>> renderer = RoomRenderer::create(host, stage->room_, *stage->scene_);
+  if (!renderer) return renderer.error();
+  stage->renderer_ = std::move(*renderer);
+  return stage;
+}
+
+Status RoomStage::placeFoam() {
+  const FrothAssetStatus& asset = scene_->assetStatus();
+  const RoomNode& stand = room_.foam;
+  glm::dvec3 low(INFINITY), high(-INFINITY);  // of the turned bounds
+  for (int corner = 0; corner < 8; ++corner) {
+    glm::dvec3 point;
+    for (int axis = 0; axis < 3; ++axis) point[axis] = corner >> axis & 1 ? asset.boundsMax[axis] : asset.boundsMin[axis];
+    low = glm::min(low, stand.rotation * point);
+    high = glm::max(high, stand.rotation * point);
+  }
+  const glm::dvec3 size = high - low;
+  const auto scale = static_cast<float>(stand.scale / std::max({size.x, size.y, size.z}));
+  const glm::dvec3 foot(0.5 * (low.x + high.x), low.y, 0.5 * (low.z + high.z));
+  const glm::dvec3 position = stand.position - double{scale} * foot;
+  FrothInstanceInfo placement{};
+  for (int axis = 0; axis < 3; ++axis) placement.position[axis] = position[axis];
+  const glm::quat rotation(stand.rotation);
+  placement.rotation[0] = rotation.x;
+  placement.rotation[1] = rotation.y;
+  placement.rotation[2] = rotation.z;
+  placement.rotation[3] = rotation.w;
+  placement.scale = scale;
+  return scene_->place(placement);
+}
+
+Status RoomStage::advance(double seconds) {
+  seconds_ += seconds;
+  if (Status stepped = ball_->step(scene_->context(), *meshes_, seconds); !stepped) return stepped;
+  room_.nodes[room_.ball].position = ball_->position();
+  return {};
+}
+
+Status RoomStage::record(VkCommandBuffer commands, const Pose& pose, uint64_t serial, VkPipelineStageFlags2 readStage) {
+  const std::vector<Particle> particles = hasParticles_ ? particlesAt(room_, seconds_) : std::vector<Particle>();
+  return renderer_->record(commands, *scene_, {room_, pose, particles, look_}, serial, readStage);
+}
+
+}  // namespace froth

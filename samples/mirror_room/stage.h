@@ -1,0 +1,48 @@
+// The room with its foam on the way through time: what windows and headless runs have in common.
+#pragma once
+
+#include <memory>
+
+#include "samples/mirror_room/ball.h"
+#include "samples/mirror_room/options.h"
+#include "samples/mirror_room/room_renderer.h"
+
+namespace froth {
+
+class RoomStage {
+ public:
+  // Reads the room and starts to open the asset.
+  static Result<std::unique_ptr<RoomStage>> create(Host& host, const MirrorRoomOptions& options);
+
+  // Puts the foam where the room wants it: its bounds' foot on the stand, its longest edge as long as the stand's cube. Once, when
+  // the scene is ready.
+  Status placeFoam();
+  Status advance(double seconds);  // ball and particles
+
+  // Records one frame, after Scene::beginFrame(); RoomRenderer::record().
+  Status record(VkCommandBuffer commands, const Pose& pose, uint64_t serial, VkPipelineStageFlags2 readStage);
+
+  const Room& room() const { return room_; }
+  const RoomGeometry& meshes() const { return *meshes_; }
+  const Ball& ball() const { return *ball_; }
+  Scene& scene() { return *scene_; }
+  RoomRenderer& renderer() { return *renderer_; }
+  RoomLook& look() { return look_; }
+
+ private:
+  RoomStage() = default;
+
+  Room room_;
+  RoomLook look_;
+  bool hasParticles_ = true;
+  double seconds_ = 0;
+  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<RoomGeometry> meshes_;  // without the ball
+  std::unique_ptr<Ball> ball_;
+  std::unique_ptr<RoomRenderer> renderer_;
+};
+
+// A tool of the host that draws as the stage needs it.
+HostOptions hostOptionsOf(const MirrorRoomOptions& options);
+
+}  // namespace froth
