@@ -179,10 +179,12 @@ float advanceStreams(inout FrothWalk walk, bool isSeen) {
 
 // The next stretch before `end`; false: there is none.
 bool findStretch(inout FrothWalk walk, float end, bool isSeen, out Stretch stretch) {
-  float begin = advanceStreams(walk, isSeen);
-  while (walk.nextInstance != FROTH_NONE && walk.nextEntry - walk.tStart <= min(begin, end)) {
-    startNextStream(walk);
+  float begin;
+  for (;;) {
     begin = advanceStreams(walk, isSeen);
+    bool isInstanceNext = walk.nextInstance != FROTH_NONE && walk.nextEntry - walk.tStart <= min(begin, end);
+    if (!isInstanceNext) break;
+    startNextStream(walk);
   }
   stretch = Stretch(begin, min(end, walk.nextEntry - walk.tStart), 0.0, vec3(0.0), 0u);
   if (!(begin < end)) return false;

@@ -18,11 +18,14 @@ void onMessage(void*, FrothSeverity, FrothResult, const char* object, const char
   ADD_FAILURE() << object << ": " << text;
 }
 
-template <class T>
-Image imageOf(const std::vector<FrothGpuHit>& hits, const View& view, uint32_t channels, T values) {
-  Image image{view.width, view.height, channels, {}};
-  for (const FrothGpuHit& hit : hits) values(hit, image.values);
-  return image;
+FrothContext* createWalkContext(FrothContextInfo info) {
+  info.onMessage = onMessage;
+  info.checkIndices = 1;
+  info.countWork = 1;
+  info.walkShaders = 1;
+  FrothContext* context = nullptr;
+  check(frothCreateContext(&info, &context), "frothCreateContext");
+  return context;
 }
 
 }  // namespace
@@ -64,36 +67,28 @@ std::vector<FrothGpuRay> cameraRays(const View& view) {
   return rays;
 }
 
-Image coloursOf(const std::vector<FrothGpuHit>& hits, const View& view) {
-  return imageOf(hits, view, 3, [](const FrothGpuHit& hit, std::vector<float>& values) {
-    values.insert(values.end(), hit.colour, hit.colour + 3);
-  });
-}
-
-Image alphasOf(const std::vector<FrothGpuHit>& hits, const View& view) {
-  return imageOf(hits, view, 1, [](const FrothGpuHit& hit, std::vector<float>& values) {
-    values.push_back(1 - hit.transmittance);
-  });
-}
-
-Image distancesOf(const std::vector<FrothGpuHit>& hits, const View& view) {
-  return imageOf(hits, view, 1, [](const FrothGpuHit& hit, std::vector<float>& values) { values.push_back(hit.distance); });
+Image imageOf(const std::vector<FrothGpuHit>& hits, const View& view) {
+  Image image{view.width, view.height, 4, {}};
+  for (const FrothGpuHit& hit : hits) {
+    image.values.insert(image.values.end(), hit.colour, hit.colour + 3);
+    image.values.push_back(1 - hit.transmittance);
+  }
+  return image;
 }
 
 WalkStage::WalkStage() {
   FrothContextInfo info = sharedHost().contextInfo();
-  info.onMessage = onMessage;
-  info.checkIndices = 1;
-  info.countWork = 1;
-  info.walkShaders = 1;
-  check(frothCreateContext(&info, &context_), "frothCreateContext");
+  static FrothContext* const context = createWalkContext(info);
+  context_ = context;
   Result<Device> device = Device::create(info.getInstanceProcAddr, info.instance, info.physicalDevice, info.device);
   EXPECT_TRUE(device);
   device_ = *device;
 }
 
 WalkStage::~WalkStage() {
-  check(frothDestroyContext(context_, UINT64_MAX), "frothDestroyContext");
+  for (const FrothInstance instance : instances_) check(frothDestroyInstance(context_, instance), "frothDestroyInstance");
+  for (const FrothAsset asset : assets_) check(frothCloseAsset(context_, asset), "frothCloseAsset");
+  frame(walkInfo(), [](VkCommandBuffer, VkDescriptorSet) {});
   static size_t reported = 0;
   const std::vector<std::string> messages = sharedHost().validationMessages();
   for (; reported < messages.size(); ++reported) ADD_FAILURE() << messages[reported];
@@ -110,6 +105,7 @@ FrothAsset WalkStage::open(const AssetContents& contents) {
   info.keepForQueries = 1;
   FrothAsset asset{};
   check(frothOpenAsset(context_, &info, &asset), "frothOpenAsset");
+  assets_.push_back(asset);
   FrothAssetStatus status{};
   status.structSize = sizeof(status);
   do {
@@ -125,6 +121,7 @@ FrothInstance WalkStage::place(FrothAsset asset, FrothInstanceInfo placement) {
   placement.asset = asset;
   FrothInstance instance{};
   check(frothCreateInstance(context_, &placement, &instance), "frothCreateInstance");
+  instances_.push_back(instance);
   return instance;
 }
 
@@ -180,6 +177,25 @@ std::vector<FrothRayHit> WalkStage::castOnHost(const std::vector<FrothGpuRay>& r
   std::vector<FrothRayHit> hits(rays.size());
   check(frothCastRays(context_, &info, asked.data(), hits.data(), static_cast<uint32_t>(hits.size())), "frothCastRays");
   return hits;
+}
+
+Image WalkStage::rasterize(const View& view) {
+  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), {view.width, view.height}, 0, 0};
+  FrothView handle{};
+  check(frothCreateView(context_, &viewInfo, &handle), "frothCreateView");
+  Host& host = sharedHost();
+  Result<HostImage> image = host.createImage(VK_FORMAT_R32G32B32A32_SFLOAT, {view.width, view.height});
+  FrothRenderInfo info = infoOf(view);
+  info.displayCoded = 0;
+  info.colour = host.describe(*image);
+  frame(walkInfo(), [&](VkCommandBuffer commandBuffer, VkDescriptorSet) {
+    check(frothRasterize(context_, handle, commandBuffer, &info), "frothRasterize");
+  });
+  const Result<std::vector<float>> texels = host.readImage(*image);
+  host.destroyImage(*image);
+  check(frothDestroyView(context_, handle), "frothDestroyView");
+  Image colour{view.width, view.height, 4, *texels};
+  return colour;
 }
 
 FrothWalkStatus WalkStage::status() {

@@ -24,12 +24,10 @@ FrothGpuRay gpuRay(const glm::vec3& origin, const glm::vec3& direction, float tM
 std::vector<FrothGpuRay> cameraRays(const View& view);
 glm::dvec3 eyeOf(const View& view);
 
-// Three and one channel of hits, pixel by pixel.
-Image coloursOf(const std::vector<FrothGpuHit>& hits, const View& view);
-Image alphasOf(const std::vector<FrothGpuHit>& hits, const View& view);
-Image distancesOf(const std::vector<FrothGpuHit>& hits, const View& view);
+// Premultiplied colour and opacity of hits, pixel by pixel.
+Image imageOf(const std::vector<FrothGpuHit>& hits, const View& view);
 
-// One context with assets and instances. Any failing call, validation message or index violation fails the test.
+// Assets and instances of the one context that these tests share: its pipelines take long to make. Any failing call, validation message or index violation fails the test.
 class WalkStage {
  public:
   WalkStage();
@@ -45,14 +43,17 @@ class WalkStage {
   std::vector<FrothGpuHit> cast(const std::vector<FrothGpuRay>& rays, FrothRayKind kind,
                                 const FrothWalkInfo& info = walkInfo());
   std::vector<FrothRayHit> castOnHost(const std::vector<FrothGpuRay>& rays, FrothCastInfo info) const;
+  Image rasterize(const View& view);  // premultiplied linear colour and opacity
   FrothWalkStatus status();  // of the newest frame
 
   FrothContext* context() const { return context_; }
   Device& device() { return device_; }
 
  private:
-  FrothContext* context_ = nullptr;
+  FrothContext* context_;
   Device device_;
+  std::vector<FrothInstance> instances_;
+  std::vector<FrothAsset> assets_;
   std::list<std::vector<uint8_t>> bytes_;
 };
 
