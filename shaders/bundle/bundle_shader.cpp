@@ -26,7 +26,7 @@ const std::set<std::string> kGlslWords = {
 const std::set<std::string> kDirectiveWords = {"define", "undef", "if", "ifdef", "ifndef", "elif", "else", "endif", "defined",
                                                "extension", "require"};
 const std::set<std::string> kPublicFields = {"origin", "direction", "tMin", "tMax", "apex", "mask", "hint", "distance", "normal",
-                                             "instance", "chunk", "cell", "userId", "status", "ray"};
+                                             "instance", "chunk", "cell", "userId", "status", "ray", "hit"};
 // clang-format on
 
 bool startsWith(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
