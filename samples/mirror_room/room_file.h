@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include "format/result.h"
 #include "samples/host/camera_path.h"
 
 namespace froth {

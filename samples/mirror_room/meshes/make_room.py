@@ -19,7 +19,7 @@ MATERIALS = {  # name: (base colour, metallic, roughness)
     "wall": ((0.55, 0.60, 0.62), 0, 1),
     "wood": ((0.23, 0.12, 0.06), 0, 0.9),
     "stone": ((0.50, 0.48, 0.46), 0, 1),
-    "lacquer": ((0.55, 0.04, 0.05), 0, 0.15),
+    "lacquer": ((0.55, 0.04, 0.05), 0, 0.22),
     "silver": ((0.92, 0.93, 0.95), 1, 0),
     "rubber": ((0.80, 0.50, 0.06), 0, 0.8),
 }
@@ -165,22 +165,23 @@ def mirror_and_frame(width, height, bar, depth):
 def main():
     file = File()
     file.node("floor", mesh=file.mesh("floor", *floor_tiles(3.0, 10)))
-    file.node("wall", mesh=file.mesh("wall", Mesh("wall").quad([-3, 0, -2.4], [6, 0, 0], [0, 2.8, 0])))
-    angle = math.radians(28)
+    walls = Mesh("wall").quad([-3, 0, -2.4], [6, 0, 0], [0, 2.8, 0]).quad([-3, 0, 3], [0, 0, -5.4], [0, 2.8, 0])
+    file.node("walls", mesh=file.mesh("walls", walls))
+    angle = math.radians(55)
     file.node("mirror", mesh=file.mesh("mirror", *mirror_and_frame(1.9, 1.9, 0.07, 0.06)),
-              translation=[-1.15, 0.12, -1.45], rotation=[0, math.sin(angle / 2), 0, math.cos(angle / 2)])
+              translation=[-2.0, 0.12, -0.7], rotation=[0, math.sin(angle / 2), 0, math.cos(angle / 2)])
     file.node("pedestal", mesh=file.mesh("pedestal", Mesh("stone").box([-0.45, 0, -0.45], [0.45, 0.3, 0.45])))
     file.node("sphere", mesh=file.mesh("sphere", Mesh("lacquer").sphere(28, 56)), translation=[1.15, 0.34, 0.35],
               scale=[0.34] * 3)
     file.node("ball", mesh=file.mesh("ball", Mesh("rubber").sphere(12, 24)), translation=[0.16, 2.2, 0.12],
               scale=[0.09] * 3)
     file.node("foam", translation=[0, 0.3, 0], rotation=[1, 0, 0, 0], scale=[1.3] * 3)  # captures have -y up
-    eye, target = [1.55, 1.45, 3.3], [-0.2, 0.8, -0.3]
+    eye, target = [0.9, 1.45, 3.5], [-0.45, 0.78, 0.0]
     file.node("camera", camera=0, translation=eye, rotation=look_along([t - e for t, e in zip(target, eye)]))
     file.node("sun", rotation=look_along([-0.55, -1.0, -0.5]), extensions={"KHR_lights_punctual": {"light": 0}})
     file.write(sys.argv[1],
                cameras=[{"type": "perspective", "perspective": {"yfov": 0.80, "znear": 0.01}}],
-               lights=[{"type": "directional", "color": [1, 0.95, 0.86], "intensity": 2.2}])
+               lights=[{"type": "directional", "color": [1, 0.95, 0.86], "intensity": 1.5}])
 
 
 if __name__ == "__main__":
