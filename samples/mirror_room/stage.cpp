@@ -1,6 +1,7 @@
 #include "samples/mirror_room/stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace froth {
@@ -33,9 +34,7 @@ Result<std::unique_ptr<RoomStage>> RoomStage::create(Host& host, const MirrorRoo
   return stage;
 }
 
-Status RoomStage::placeFoam() {
-  const FrothAssetStatus& asset = scene_->assetStatus();
-  const RoomNode& stand = room_.foam;
+FrothInstanceInfo placementOf(const FrothAssetStatus& asset, const RoomNode& stand) {
   glm::dvec3 low(INFINITY), high(-INFINITY);  // of the turned bounds
   for (int corner = 0; corner < 8; ++corner) {
     glm::dvec3 point;
@@ -55,7 +54,12 @@ Status RoomStage::placeFoam() {
   placement.rotation[2] = rotation.z;
   placement.rotation[3] = rotation.w;
   placement.scale = scale;
-  return scene_->place(placement);
+  return placement;
+}
+
+Status RoomStage::placeFoam() {
+  placement_ = placementOf(scene_->assetStatus(), room_.foam);
+  return scene_->place(placement_);
 }
 
 Status RoomStage::advance(double seconds) {
@@ -65,9 +69,13 @@ Status RoomStage::advance(double seconds) {
   return {};
 }
 
+std::vector<Particle> RoomStage::particles() const {
+  return hasParticles_ ? particlesAt(room_, seconds_) : std::vector<Particle>();
+}
+
 Status RoomStage::record(VkCommandBuffer commands, const Pose& pose, uint64_t serial, VkPipelineStageFlags2 readStage) {
-  const std::vector<Particle> particles = hasParticles_ ? particlesAt(room_, seconds_) : std::vector<Particle>();
-  return renderer_->record(commands, *scene_, {room_, pose, particles, look_}, serial, readStage);
+  const std::vector<Particle> motes = particles();
+  return renderer_->record(commands, *scene_, {room_, pose, motes, look_}, serial, readStage);
 }
 
 }  // namespace froth

@@ -1,4 +1,4 @@
-// The room with its foam on the way through time: what windows and headless runs have in common.
+// The room with its foam, ball and motes, and their time: what windows and headless runs have in common.
 #pragma once
 
 #include <memory>
@@ -9,14 +9,15 @@
 
 namespace froth {
 
+// Where a foam stands: the foot of its bounds on the stand, their longest edge as long as the stand's cube. `asset` is left out.
+FrothInstanceInfo placementOf(const FrothAssetStatus& asset, const RoomNode& stand);
+
 class RoomStage {
  public:
   // Reads the room and starts to open the asset.
   static Result<std::unique_ptr<RoomStage>> create(Host& host, const MirrorRoomOptions& options);
 
-  // Puts the foam where the room wants it: its bounds' foot on the stand, its longest edge as long as the stand's cube. Once, when
-  // the scene is ready.
-  Status placeFoam();
+  Status placeFoam();  // on its stand; once, when the scene is ready
   Status advance(double seconds);  // ball and particles
 
   // Records one frame, after Scene::beginFrame(); RoomRenderer::record().
@@ -25,6 +26,8 @@ class RoomStage {
   const Room& room() const { return room_; }
   const RoomGeometry& meshes() const { return *meshes_; }
   const Ball& ball() const { return *ball_; }
+  std::vector<Particle> particles() const;
+  const FrothInstanceInfo& placement() const { return placement_; }
   Scene& scene() { return *scene_; }
   RoomRenderer& renderer() { return *renderer_; }
   RoomLook& look() { return look_; }
@@ -36,13 +39,13 @@ class RoomStage {
   RoomLook look_;
   bool hasParticles_ = true;
   double seconds_ = 0;
+  FrothInstanceInfo placement_{};
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<RoomGeometry> meshes_;  // without the ball
   std::unique_ptr<Ball> ball_;
   std::unique_ptr<RoomRenderer> renderer_;
 };
 
-// A tool of the host that draws as the stage needs it.
 HostOptions hostOptionsOf(const MirrorRoomOptions& options);
 
 }  // namespace froth
