@@ -62,7 +62,7 @@ struct FrothWalk {
   float logTransmittance;
   float nextEntry;    // of the next instance that the ray enters, from the origin
   uint nextInstance;  // FROTH_NONE: there is no more
-  WalkWork work;
+  uint cells;  // walked through
   Stream streams[FROTH_WALK_STREAMS];
 };
 
@@ -136,7 +136,8 @@ FrothWalk frothBeginWalk(FrothRay ray) {
   walk.logTransmittance = 0.0;
   walk.nextEntry = -FROTH_INFINITY;
   walk.nextInstance = FROTH_NONE;
-  walk.work = WalkWork(0u, 0u, 0u, 0u, 0u);
+  walk.cells = 0;
+  countWalkWork(kRayWorkRays, 1u);
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) walk.streams[i].isAhead = false;
   if (!isVersionKnown()) {
     walk.hit.status = FROTH_WALK_VERSION;
@@ -150,27 +151,34 @@ FrothWalk frothBeginWalk(FrothRay ray) {
   return walk;
 }
 
-void startNextStream(inout FrothWalk walk) {
+void startNextStream(inout FrothWalk walk, inout WalkWork work) {
   uint place = 0;
   while (place < FROTH_WALK_STREAMS && walk.streams[place].isAhead) ++place;
   if (place < FROTH_WALK_STREAMS) {
     walk.streams[place] = startStream(walk.nextInstance, walk.start, walk.ray.direction, walk.nextEntry - walk.tStart,
-                                      walk.ray.hint, walk.work);
+                                      walk.ray.hint, work);
   } else {
     walk.hit.status = max(walk.hit.status, FROTH_WALK_STREAM_LIMIT);
   }
   findNextInstance(walk);
 }
 
+void noteStepLimit(inout FrothWalk walk) {
+#if !defined(FROTH_WALK_NO_COUNTERS)
+  if (walk.hit.status == FROTH_WALK_DONE) atomicAdd(walkCounters.v.stepLimit, 1u);
+#endif
+  walk.hit.status = max(walk.hit.status, FROTH_WALK_STEP_LIMIT);
+}
+
 // Where the next segment beyond what is passed begins.
-float advanceStreams(inout FrothWalk walk, bool isSeen) {
+float advanceStreams(inout FrothWalk walk, bool isSeen, inout WalkWork work) {
   float first = FROTH_INFINITY;
   float tEnd = walk.ray.tMax - walk.tStart;
   float behind = walk.tStart + walk.ray.apex;
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
     while (walk.streams[i].isAhead && walk.streams[i].tFar <= walk.passed) {
-      advanceStream(walk.streams[i], walk.start, walk.ray.direction, tEnd, isSeen, behind, walk.work);
-      if (walk.streams[i].isCut) walk.hit.status = max(walk.hit.status, FROTH_WALK_STEP_LIMIT);
+      advanceStream(walk.streams[i], walk.start, walk.ray.direction, tEnd, isSeen, behind, work);
+      if (walk.streams[i].isCut) noteStepLimit(walk);
     }
     if (walk.streams[i].isAhead) first = min(first, max(walk.streams[i].tNear, walk.passed));
   }
@@ -178,13 +186,13 @@ float advanceStreams(inout FrothWalk walk, bool isSeen) {
 }
 
 // The next stretch before `end`; false: there is none.
-bool findStretch(inout FrothWalk walk, float end, bool isSeen, out Stretch stretch) {
+bool findStretch(inout FrothWalk walk, float end, bool isSeen, out Stretch stretch, inout WalkWork work) {
   float begin;
   for (;;) {
-    begin = advanceStreams(walk, isSeen);
+    begin = advanceStreams(walk, isSeen, work);
     bool isInstanceNext = walk.nextInstance != FROTH_NONE && walk.nextEntry - walk.tStart <= min(begin, end);
     if (!isInstanceNext) break;
-    startNextStream(walk);
+    startNextStream(walk, work);
   }
   stretch = Stretch(begin, min(end, walk.nextEntry - walk.tStart), 0.0, vec3(0.0), 0u);
   if (!(begin < end)) return false;
@@ -216,14 +224,23 @@ void describeHit(inout FrothWalk walk, Stretch stretch, float logQuantile) {
   walk.hit.userId = FRAME.userId;
 }
 
+void countWork(WalkWork work) {
+  countWalkWork(kRayWorkDescents, work.descents);
+  countWalkWork(kRayWorkCells, work.cells);
+  countWalkWork(kRayWorkNeighbours, work.neighbours);
+  countWalkWork(kRayWorkMet, work.met);
+  countWalkWork(kRayWorkShaded, work.shaded);
+}
+
 // On to tEnd, or to where the walk ends: premultiplied display-coded colour of this part (isSeen), and its opacity.
 vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   float logCutoff = walkSet.block.logCutoff, logQuantile = walkSet.block.logQuantile;
   float logBefore = walk.logTransmittance;
   float end = min(tEnd, walk.ray.tMax) - walk.tStart;
   vec3 colour = vec3(0.0);
+  WalkWork work = WalkWork(0u, 0u, 0u, 0u, 0u);
   Stretch stretch;
-  while (walk.logTransmittance >= logCutoff && findStretch(walk, end, isSeen, stretch)) {
+  while (walk.logTransmittance >= logCutoff && findStretch(walk, end, isSeen, stretch, work)) {
     float opticalDepth = stretch.density * (stretch.tFar - stretch.tNear);
     if (isSeen) colour += exp(walk.logTransmittance - logBefore) * opacity(opticalDepth) * stretch.colour;
     float logAfter = walk.logTransmittance - opticalDepth;
@@ -233,20 +250,9 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
     walk.logTransmittance = logAfter;
     if (isHit && isClosestOnly) break;
   }
+  walk.cells += work.cells;
+  countWork(work);
   return vec4(colour, opacity(logBefore - walk.logTransmittance));
-}
-
-// Of a walk that will not go on.
-void countWalk(FrothWalk walk) {
-#if !defined(FROTH_WALK_NO_COUNTERS)
-  if (walk.hit.status == FROTH_WALK_STEP_LIMIT) atomicAdd(walkCounters.v.stepLimit, 1u);
-#endif
-  countWalkWork(kRayWorkRays, 1u);
-  countWalkWork(kRayWorkDescents, walk.work.descents);
-  countWalkWork(kRayWorkCells, walk.work.cells);
-  countWalkWork(kRayWorkNeighbours, walk.work.neighbours);
-  countWalkWork(kRayWorkMet, walk.work.met);
-  countWalkWork(kRayWorkShaded, walk.work.shaded);
 }
 
 // Premultiplied linear colour of the ray's part from where the walk stands to tEnd, and 1 - T of this part. Each part is decoded by
@@ -260,7 +266,6 @@ vec4 frothRadianceSegment(inout FrothWalk walk, float tEnd) {
 vec4 frothRadiance(FrothRay ray, out FrothHit hit) {
   FrothWalk walk = frothBeginWalk(ray);
   vec4 radiance = frothRadianceSegment(walk, FROTH_INFINITY);
-  countWalk(walk);
   hit = walk.hit;
   return radiance;
 }
@@ -269,7 +274,6 @@ vec4 frothRadiance(FrothRay ray, out FrothHit hit) {
 float frothTransmittance(FrothRay ray, out uint status) {
   FrothWalk walk = frothBeginWalk(ray);
   gather(walk, FROTH_INFINITY, false, false);
-  countWalk(walk);
   status = walk.hit.status;
   return exp(walk.logTransmittance);
 }
@@ -278,7 +282,6 @@ float frothTransmittance(FrothRay ray, out uint status) {
 bool frothClosest(FrothRay ray, out FrothHit hit) {
   FrothWalk walk = frothBeginWalk(ray);
   gather(walk, FROTH_INFINITY, false, true);
-  countWalk(walk);
   hit = walk.hit;
   return hit.distance < FROTH_INFINITY;
 }

@@ -42,8 +42,10 @@ class ReferenceRenderer {
   Result<RenderedImages> render(const View& view, const ReferenceOptions& options,
                                 const Progress& progress = {}) const;
 
+  struct State;  // reference_state.h
+  const State& state() const { return *state_; }
+
  private:
-  struct State;
   std::unique_ptr<State> state_;
 };
 

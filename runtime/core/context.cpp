@@ -134,7 +134,7 @@ FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* ca
     instance.placement.rotation = {0, 0, 0, 1};
   }
   instance.placement.scale = info.scale == 0 ? 1 : info.scale;
-  instance.mask = info.mask == 0 ? UINT32_MAX : info.mask;
+  instance.mask = info.mask == 0 ? ~0u : info.mask;
   instance.userId = info.userId;
   return FROTH_OK;
 }

@@ -22,8 +22,6 @@
 
 namespace froth {
 
-enum class RenderMethod { kRaster, kWalk };
-
 // The calls of froth.h with their structs already read to today's size. Threads as in froth.h.
 class Context {
  public:
@@ -80,14 +78,16 @@ class Context {
   struct Instance {
     FrothAsset asset;
     RenderInstance placement;  // its `asset` is filled in when it is drawn
-    uint32_t mask = 0, userId = 0;
+    uint32_t mask = ~0u;
+    uint32_t userId = 0;
   };
   struct View {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
     bool measurePasses = false;
     std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
-    const GpuAsset* preparedFor = nullptr;   // in the newest frothUpdate
+    std::vector<RenderInstance> prepared;    // in the newest frothUpdate: those it has buffers for, if they fit the budget
+    std::vector<RenderInstance> visible;     // of the record call under way; has room for all
     std::string preparationError;            // sent already
     uint64_t renderedSerials[2] = {0, 0};    // newest frame per RenderMethod
     std::vector<std::pair<uint64_t, uint32_t>>
@@ -109,9 +109,11 @@ class Context {
   void prepareView(View& view);
   void prepareWalks();
   FrothResult checkWalks(const char* call) const;
-  std::vector<WalkedInstance> gatherWalked(bool& isAnyLeftOut) const;
-  FrothResult chooseInstance(const View& view, const char* call, const Instance*& chosen,
-                             uint32_t& bits) const;
+  // Into walked_; false: some were left out.
+  bool gatherWalked();
+  void preparePipelines();
+  // The instances to be drawn, in view.visible; why others are left out, as FrothViewBit.
+  void gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& bits) const;
   // Frees `object` once all frames that may use it are complete. retired_ has room for it.
   void retire(std::shared_ptr<void> object);
 
@@ -120,6 +122,7 @@ class Context {
   bool isNull_ = false;        // no device, for good
   bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
   bool isExcessTold_ = false;  // of this budget
+  std::string severalError_;   // of prepareForSeveral, sent already
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
   bool hasWalkShaders_ = false;
@@ -127,6 +130,7 @@ class Context {
   std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
   std::unique_ptr<RenderPipelines> pipelines_;  // the same
   std::unique_ptr<WalkSets> walks_;             // the same; also without FrothContextInfo::walkShaders
+  std::vector<WalkedInstance> walked_;          // of the record call under way; has room for all
   HandlePool<Asset, FrothAsset> assets_;
   HandlePool<Instance, FrothInstance> instances_;
   HandlePool<View, FrothView> views_;

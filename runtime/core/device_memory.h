@@ -8,12 +8,11 @@
 
 namespace froth {
 
-// Those of host memory come last.
-enum class MemoryUse : uint32_t { kAssets, kViews, kWalks, kViewsHost, kUploadsHost, kWalksHost };
+enum class MemoryUse : uint32_t { kAssets, kViews, kViewsHost, kUploadsHost, kWalks, kWalksHost };
 inline constexpr uint32_t kMemoryUseCount = 6;
 
 inline bool isHostUse(MemoryUse use) {
-  return use >= MemoryUse::kViewsHost;
+  return use == MemoryUse::kViewsHost || use == MemoryUse::kUploadsHost || use == MemoryUse::kWalksHost;
 }
 
 // The memory of one buffer or image.

@@ -66,7 +66,7 @@ class ViewBuffers {
   const GpuBuffer& operator[](ViewBuffer id) const { return buffers_[static_cast<uint32_t>(id)]; }
   const ViewCapacity& capacity() const { return capacity_; }
   VkDeviceSize deviceBytes() const;
-  void describeMemory(FrothViewStatus& status) const;
+  void addMemory(FrothViewStatus& status) const;
   VkDeviceSize recordingStride()
       const;  // [bytes] from one recording's block to the next, in kFrames and kStaging
 

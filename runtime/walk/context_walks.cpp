@@ -39,6 +39,7 @@ void Context::prepareWalks() {
       chunkCount += static_cast<uint32_t>(asset.gpu().chunks.size());
     }
   });
+  walked_.reserve(FROTH_WALK_MOST_INSTANCES);
   const Status status = walks_->prepare(completedSerial_, chunkCount);
   if (status || device_.loss) {  // of the loss frothUpdate tells
     walkError_.clear();
@@ -48,8 +49,9 @@ void Context::prepareWalks() {
   }
 }
 
-std::vector<WalkedInstance> Context::gatherWalked(bool& isAnyLeftOut) const {
-  std::vector<WalkedInstance> walked;
+bool Context::gatherWalked() {
+  walked_.clear();
+  bool isWhole = true;
   uint32_t chunkCount = 0;
   instances_.forEach([&](const Instance& instance) {
     const Asset& asset = *assets_.find(instance.asset);
@@ -58,16 +60,16 @@ std::vector<WalkedInstance> Context::gatherWalked(bool& isAnyLeftOut) const {
       return;  // nothing to be met
     }
     const uint32_t newCount = chunkCount + static_cast<uint32_t>(asset.gpu().chunks.size());
-    if (!isReady || asset.gpu().walkEntries == 0 || walked.size() == FROTH_WALK_MOST_INSTANCES ||
+    if (!isReady || asset.gpu().walkEntries == 0 || walked_.size() == FROTH_WALK_MOST_INSTANCES ||
         !walks_->hasSpaceFor(newCount)) {
-      isAnyLeftOut = true;
+      isWhole = false;
       return;
     }
     chunkCount = newCount;
-    walked.push_back({instance.placement, instance.mask, instance.userId, asset.entriesSerial != 0});
-    walked.back().placement.asset = &asset.gpu();
+    walked_.push_back({instance.placement, instance.mask, instance.userId, asset.entriesSerial != 0});
+    walked_.back().placement.asset = &asset.gpu();
   });
-  return walked;
+  return isWhole;
 }
 
 FrothResult Context::recordWalkSet(VkCommandBuffer commandBuffer, FrothWalkInfo info, VkDescriptorSet& set) {
@@ -100,15 +102,14 @@ FrothResult Context::recordWalkSet(VkCommandBuffer commandBuffer, FrothWalkInfo 
   if (!commandBuffer) {
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "commandBuffer: null");
   }
-  bool isAnyLeftOut = false;
-  const std::vector<WalkedInstance> walked = gatherWalked(isAnyLeftOut);
-  set = walks_->record(commandBuffer, info, walked, serial_);
+  const bool isWhole = gatherWalked();
+  set = walks_->record(commandBuffer, info, walked_, serial_);
   assets_.forEach([&](Asset& asset) {
-    for (const WalkedInstance& instance : walked) {
+    for (const WalkedInstance& instance : walked_) {
       if (instance.placement.asset == &asset.gpu() && !instance.isSeeded) asset.entriesSerial = serial_;
     }
   });
-  return isAnyLeftOut ? FROTH_INCOMPLETE : FROTH_OK;
+  return isWhole ? FROTH_OK : FROTH_INCOMPLETE;
 }
 
 FrothResult Context::recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress rays, VkDeviceAddress hits,

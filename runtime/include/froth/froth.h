@@ -164,7 +164,7 @@ FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
 
 /* Memory of one purpose. */
 typedef struct FrothMemoryCategory {
-  const char* name;   /* "assets", "views", "walks", "views, host", "uploads, host", "walks, host"; static storage */
+  const char* name;   /* "assets", "views", "views, host", "uploads, host", "walks", "walks, host"; static storage */
   uint64_t granted;   /* [bytes] of VkDeviceMemory held */
   uint64_t used;      /* [bytes] of these that hold something */
   uint64_t peak;      /* most granted since creation or the last frothSetBudget */
@@ -262,7 +262,8 @@ FROTH_API FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset);
 
 /* ---- Instances ---- */
 
-/* Read when a view is drawn. This version draws one: a record call with several READY gives FROTH_ERROR_UNSUPPORTED. */
+/* Read when a view is drawn. A view shows up to 14; where they overlap their densities add, and each colour counts by its share
+ * of the density. The first frothUpdate with a second instance makes pipelines for it. */
 typedef struct FrothInstanceInfo {
   uint32_t structSize;
   FrothAsset asset;
@@ -298,6 +299,7 @@ typedef enum FrothViewBit {
   FROTH_VIEW_NO_WALK_GRAPH = 4,  /* the asset was baked without one */
   FROTH_VIEW_NOT_READY = 8,      /* an instance was left out: its asset is OPENING or FAILED, it or the view came after
                                     frothUpdate, or the view's buffers did not fit the budget (a message told) */
+  FROTH_VIEW_INSTANCE_LIMIT = 32, /* more READY instances than a view shows; those with the highest index are missing */
   FROTH_VIEW_CELL_OVERFLOW = 16, /* more visible cells, or planes of them, than space; those last in the asset are missing */
   FROTH_VIEW_BIT_MAX = 0x7fffffff
 } FrothViewBit;
@@ -428,6 +430,7 @@ typedef struct FrothRenderInfo {
                           to lenses that may look sideways or back: all but PROJECTION and RADIAL_TANGENTIAL */
   float depthQuantile; /* 0: one half */
   uint32_t maxSteps;   /* of one walk; 0: 65536 */
+  uint32_t mask;       /* shows instances that share a bit with it; 0: all */
   uint32_t displayCoded; /* 1: colour stays display-coded (for files); 0: linear */
 
   FrothImage colour;   /* R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: premultiplied colour, alpha = 1 - T */
