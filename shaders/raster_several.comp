@@ -23,9 +23,9 @@ bool meetNext(Shading shading, uvec2 pixel, float end, inout Cursor cursor, out 
   uint slot = checked(FRAME.tileCells.v[checked(cursor.entry, FRAME.pairCapacity)], FRAME.visibleCapacity);
   ++cursor.entry;
   vec3 ray = rayOf(pixel);
-  cell = shading.records.v[slot];
   Segment segments[kRays];
-  if (!meetBall(cell.ball, ray, segments[0].tNear, segments[0].tFar)) return false;
+  if (!meetBall(shading.records.v[slot].ball, ray, segments[0].tNear, segments[0].tFar)) return false;
+  cell = shading.records.v[slot];
   countWork(kWorkBallHits, 1);
   segments[0].tFar = min(segments[0].tFar, end);
   vec3 colours[kRays];

@@ -28,6 +28,7 @@ enum class Pass : uint32_t {
   kClear16,
   kClear32,
   // from here on only where a view draws several instances
+  kShareTiles,
   kRasterSeveral16,
   kRasterSeveral32,
   kRasterSeveralFull16,
@@ -52,8 +53,8 @@ enum class Pass : uint32_t {
   kWalkFull16,
   kWalkFull32,
 };
-inline constexpr uint32_t kPassCount = 35;
-inline constexpr uint32_t kFirstSeveralPass = static_cast<uint32_t>(Pass::kRasterSeveral16);
+inline constexpr uint32_t kPassCount = 36;
+inline constexpr uint32_t kFirstSeveralPass = static_cast<uint32_t>(Pass::kShareTiles);
 inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.

@@ -23,6 +23,7 @@
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
 #include "spirv/shade_sites.h"
+#include "spirv/share_tiles.h"
 #include "spirv/sort_scatter.h"
 #include "spirv/sort_scatter_many.h"
 #include "spirv/walk_rgba16f.h"
@@ -66,6 +67,7 @@ const std::array<PassCode, kPassCount> kPassCodes = {{
     {"widen_cones", widen_cones_spirv, kMapped},
     {"clear_rgba16f", clear_rgba16f_spirv, kAnyLens},
     {"clear_rgba32f", clear_rgba32f_spirv, kAnyLens},
+    {"share_tiles", share_tiles_spirv, kAnyLens},
     {"raster_several_rgba16f", raster_several_rgba16f_spirv, kEachLens},
     {"raster_several_rgba32f", raster_several_rgba32f_spirv, kEachLens},
     {"raster_several_rgba16f", raster_several_rgba16f_spirv, kEachLens, true},

@@ -115,7 +115,9 @@ void recordWalkPasses(const Recording& recording);
 Pass pixelPass(Pass plain, const FrothRenderInfo& info);
 // Tells the passes that write images of all parts.
 void pushParts(const Recording& recording);
-// A workgroup per kSubTileSize x kSubTileSize pixels: a pass of the first part's, or one that draws several.
+// The first part's, for passes that draw several too.
+PassRecorder recorderOf(const Recording& recording, Pass pass);
+// A workgroup per kSubTileSize x kSubTileSize pixels.
 void recordPixels(const Recording& recording, Pass pass);
 
 }  // namespace froth
