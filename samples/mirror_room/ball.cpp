@@ -14,7 +14,13 @@ constexpr double kRestSpeed = 0.15;    // [m/s] below which it no longer bounces
 
 }  // namespace
 
-Ball::Ball(const Room& room) : position_(room.nodes[room.ball].position), radius_(room.nodes[room.ball].scale) {}
+Ball::Ball(const Room& room)
+    : start_(room.nodes[room.ball].position), position_(start_), radius_(room.nodes[room.ball].scale) {}
+
+void Ball::drop() {
+  position_ = start_;
+  velocity_ = glm::dvec3(0);
+}
 
 Status Ball::step(FrothContext* context, const RoomGeometry& meshes, double seconds) {
   for (pending_ += seconds; pending_ >= kStep; pending_ -= kStep) {

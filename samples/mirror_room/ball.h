@@ -11,6 +11,8 @@ class Ball {
   // Starts at rest where the room has its ball.
   explicit Ball(const Room& room);
 
+  void drop();  // from where it started
+
   // Goes on by so many seconds, in small steps, asking Froth on the CPU what it touches. `meshes` are without the ball itself.
   Status step(FrothContext* context, const RoomGeometry& meshes, double seconds);
 
@@ -25,7 +27,7 @@ class Ball {
   void meetMeshes(const RoomGeometry& meshes);
   void bounce(const glm::dvec3& normal, double depth);
 
-  glm::dvec3 position_, velocity_{0};
+  glm::dvec3 start_, position_, velocity_{0};
   double radius_;
   double pending_ = 0;  // [s] not yet a whole step
   double deepest_ = 0;

@@ -58,6 +58,10 @@ FrothInstanceInfo placementOf(const FrothAssetStatus& asset, const RoomNode& sta
 }
 
 Status RoomStage::placeFoam() {
+  if (!scene_->assetStatus().hasWalkGraph) {
+    return makeError(ErrorKind::kBadInput, "the asset has no walk graph, without which the room sees it nowhere but "
+                                           "directly; bake it without --no-walk");
+  }
   placement_ = placementOf(scene_->assetStatus(), room_.foam);
   return scene_->place(placement_);
 }
@@ -70,7 +74,10 @@ Status RoomStage::advance(double seconds) {
 }
 
 std::vector<Particle> RoomStage::particles() const {
-  return hasParticles_ ? particlesAt(room_, seconds_) : std::vector<Particle>();
+  std::vector<Particle> particles = hasParticles_ ? particlesAt(room_, seconds_) : std::vector<Particle>();
+  constexpr double kMarkSize = 0.03;  // [metres]
+  if (marked_) particles.push_back({*marked_, kMarkSize, {1, 0.02f, 0.02f, 1}});
+  return particles;
 }
 
 Status RoomStage::record(VkCommandBuffer commands, const Pose& pose, uint64_t serial, VkPipelineStageFlags2 readStage) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "samples/mirror_room/ball.h"
 #include "samples/mirror_room/options.h"
@@ -19,6 +20,8 @@ class RoomStage {
 
   Status placeFoam();  // on its stand; once, when the scene is ready
   Status advance(double seconds);  // ball and particles
+  void dropBall() { ball_->drop(); }
+  void mark(const glm::dvec3& place) { marked_ = place; }  // with a red mote
 
   // Records one frame, after Scene::beginFrame(); RoomRenderer::record().
   Status record(VkCommandBuffer commands, const Pose& pose, uint64_t serial, VkPipelineStageFlags2 readStage);
@@ -38,6 +41,7 @@ class RoomStage {
   Room room_;
   RoomLook look_;
   bool hasParticles_ = true;
+  std::optional<glm::dvec3> marked_;
   double seconds_ = 0;
   FrothInstanceInfo placement_{};
   std::unique_ptr<Scene> scene_;
