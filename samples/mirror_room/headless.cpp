@@ -17,12 +17,12 @@ namespace {
 
 constexpr double kSecondsPerFrame = 1.0 / 30;
 
-// The room's camera, swung around the foam: from a little to the right to as much to the left.
+// The room's camera, swung around the room's centre: from a little to the right to as much to the left.
 Pose poseAt(const Room& room, uint32_t frame, uint32_t frames) {
   constexpr double kSwing = 24 * std::numbers::pi / 180;
   const double share = frames > 1 ? static_cast<double>(frame) / (frames - 1) : 0.5;
   const glm::dquat turn = glm::angleAxis((0.5 - share) * kSwing, glm::dvec3(0, 1, 0));
-  const glm::dvec3 centre = room.foam.position;
+  const glm::dvec3 centre = room.centre.position;
   return {centre + turn * (room.camera.eye - centre), turn * room.camera.worldFromCamera, room.camera.tanHalfFovY};
 }
 

@@ -1,4 +1,4 @@
-// Glowing motes that drift in and around the foam.
+// Glowing motes that drift around the middle of the room.
 #pragma once
 
 #include <vector>

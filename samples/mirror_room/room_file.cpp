@@ -38,7 +38,7 @@ class RoomReader {
   const std::filesystem::path& path_;
   const tinygltf::Model& model_;
   Room room_;
-  bool hasFoam_ = false, hasBall_ = false, hasCamera_ = false, hasSun_ = false;
+  bool hasFoam_ = false, hasCentre_ = false, hasBall_ = false, hasCamera_ = false, hasSun_ = false;
 };
 
 Result<Room> RoomReader::read() {
@@ -53,6 +53,7 @@ Result<Room> RoomReader::read() {
   if (Status found = findMirror(); !found) return found.error();
   if (room_.mirror.normal == glm::dvec3(0)) return missing("a mirror (metal of roughness 0)");
   if (!hasFoam_) return missing("the node 'foam'");
+  if (!hasCentre_) return missing("the node 'centre'");
   if (!hasBall_) return missing("the mesh node 'ball'");
   if (!hasCamera_) return missing("a perspective camera");
   if (!hasSun_) return missing("a directional light (KHR_lights_punctual)");
@@ -85,7 +86,12 @@ Status RoomReader::readNode(const tinygltf::Node& node) {
   }
   if (made.name == "foam") {
     room_.foam = made;
+    room_.isFoamFitted = !node.scale.empty();
     hasFoam_ = true;
+  }
+  if (made.name == "centre") {
+    room_.centre = made;
+    hasCentre_ = true;
   }
   if (node.camera >= 0) readCamera(made, model_.cameras[static_cast<size_t>(node.camera)].perspective.yfov);
   room_.nodes.push_back(made);

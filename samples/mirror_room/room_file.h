@@ -54,7 +54,10 @@ struct Room {
   std::vector<RoomNode> nodes;
   std::vector<RoomMaterialInfo> materials;
   MirrorPlane mirror;
-  RoomNode foam;           // its position is the middle of the foam's foot, its scale the edge of the cube that holds it
+  RoomNode foam;           // where it stands and how it is turned
+  bool isFoamFitted = false;  // the middle of its foot stands there, and it fills a cube of edge foam.scale; else its origin, in its
+                              // own size
+  RoomNode centre;         // what the camera and the motes turn around; its scale is how far they reach
   uint32_t ball = 0;       // its node; the ball has radius 1 there
   Pose camera;
   glm::dvec3 toSun{0, 1, 0};
@@ -62,8 +65,8 @@ struct Room {
 };
 
 // Reads triangles with normals and 16-bit indices, materials without textures and nodes without children. A metal of
-// roughness 0 is a mirror, and all mirrors lie in one plane; roughness below 0.3 is glossy. A mirror, the nodes "foam" and
-// "ball", a camera and a directional light must be there.
+// roughness 0 is a mirror, and all mirrors lie in one plane; roughness below 0.3 is glossy. A mirror, the nodes "foam", "ball"
+// and "centre", a camera and a directional light must be there.
 Result<Room> readRoom(const std::filesystem::path& path);
 
 }  // namespace froth

@@ -8,6 +8,7 @@
 namespace froth {
 namespace {
 
+#include "foreground.comp.h"  // kForegroundShader
 #include "light_room.comp.h"  // kLightRoomShader
 #include "reflect.comp.h"     // kReflectShader
 #include "sun.comp.h"         // kSunShader
@@ -27,6 +28,7 @@ constexpr ImageUse kColourTarget{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
 constexpr ImageUse kSampled{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 constexpr ImageUse kWritten{VK_IMAGE_LAYOUT_GENERAL, kCompute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 constexpr ImageUse kLoaded{VK_IMAGE_LAYOUT_GENERAL, kCompute, VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
+constexpr ImageUse kLoadedAndWritten{VK_IMAGE_LAYOUT_GENERAL, kCompute, kLoaded.access | kWritten.access};
 
 // An image that Froth writes and the room's passes sample.
 FrothImage foamOutput(const Host& host, const HostImage& image) {
@@ -144,6 +146,7 @@ Status RoomRenderer::createPasses() {
   } wanted[] = {{&passes_.sun, kSunShader},
                 {&passes_.surround, kSurroundShader},
                 {&passes_.reflect, kReflectShader},
+                {&passes_.foreground, kForegroundShader},
                 {&passes_.light, kLightRoomShader}};
   for (const auto& [pass, spirv] : wanted) {
     Result<std::unique_ptr<ComputePass>> made = ComputePass::create(host_, spirv, resources, walkLayout_);
@@ -232,9 +235,12 @@ void RoomRenderer::recordLight(VkCommandBuffer commands, VkDescriptorSet walkSet
   timer_->mark(commands, "surround");
   passes_.reflect->record(commands, extent, walkSet);
   timer_->mark(commands, "reflection");
+  passes_.foreground->record(commands, extent, walkSet);
+  timer_->mark(commands, "foreground");
   for (const HostImage* image : {&images_.sunlight, &images_.surround, &images_.reflection}) {
     imageBarrier(commands, image->image, kWritten, kLoaded);
   }
+  imageBarrier(commands, images_.result.image, kWritten, kLoadedAndWritten);
   passes_.light->record(commands, extent, walkSet);
   timer_->mark(commands, "light");
   imageBarrier(commands, images_.result.image, kWritten,

@@ -41,7 +41,7 @@ class RoomRenderer {
 
  private:
   struct Passes {
-    std::unique_ptr<ComputePass> sun, surround, reflect, light;
+    std::unique_ptr<ComputePass> sun, surround, reflect, foreground, light;
   };
 
   RoomRenderer(Host& host, const Room& room) : host_(host), sun_(room) {}

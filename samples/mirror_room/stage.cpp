@@ -34,7 +34,8 @@ Result<std::unique_ptr<RoomStage>> RoomStage::create(Host& host, const MirrorRoo
   return stage;
 }
 
-FrothInstanceInfo placementOf(const FrothAssetStatus& asset, const RoomNode& stand) {
+FrothInstanceInfo placementOf(const FrothAssetStatus& asset, const Room& room) {
+  const RoomNode& stand = room.foam;
   glm::dvec3 low(INFINITY), high(-INFINITY);  // of the turned bounds
   for (int corner = 0; corner < 8; ++corner) {
     glm::dvec3 point;
@@ -43,8 +44,9 @@ FrothInstanceInfo placementOf(const FrothAssetStatus& asset, const RoomNode& sta
     high = glm::max(high, stand.rotation * point);
   }
   const glm::dvec3 size = high - low;
-  const auto scale = static_cast<float>(stand.scale / std::max({size.x, size.y, size.z}));
-  const glm::dvec3 foot(0.5 * (low.x + high.x), low.y, 0.5 * (low.z + high.z));
+  const float scale = room.isFoamFitted ? static_cast<float>(stand.scale / std::max({size.x, size.y, size.z})) : 1.0f;
+  const glm::dvec3 middle = 0.5 * (low + high);
+  const glm::dvec3 foot = room.isFoamFitted ? glm::dvec3(middle.x, low.y, middle.z) : glm::dvec3(0);
   const glm::dvec3 position = stand.position - double{scale} * foot;
   FrothInstanceInfo placement{};
   for (int axis = 0; axis < 3; ++axis) placement.position[axis] = position[axis];
@@ -62,7 +64,7 @@ Status RoomStage::placeFoam() {
     return makeError(ErrorKind::kBadInput, "the asset has no walk graph, without which the room sees it nowhere but "
                                            "directly; bake it without --no-walk");
   }
-  placement_ = placementOf(scene_->assetStatus(), room_.foam);
+  placement_ = placementOf(scene_->assetStatus(), room_);
   return scene_->place(placement_);
 }
 

@@ -10,8 +10,8 @@
 
 namespace froth {
 
-// Where a foam stands: the foot of its bounds on the stand, their longest edge as long as the stand's cube. `asset` is left out.
-FrothInstanceInfo placementOf(const FrothAssetStatus& asset, const RoomNode& stand);
+// Where the room wants a foam; fitted by its bounds. The field `asset` is left out.
+FrothInstanceInfo placementOf(const FrothAssetStatus& asset, const Room& room);
 
 class RoomStage {
  public:

@@ -16,7 +16,7 @@ class BallOnFoam : public QueryTest {
 
   void placeFoam() {
     const FrothAsset asset = openReady(bakeScene(makeRandomFoam(800, 2, 1, 5), "default", 1u << 20));
-    FrothInstanceInfo placement = placementOf(statusOf(asset), room_.foam);
+    FrothInstanceInfo placement = placementOf(statusOf(asset), room_);
     placement.structSize = sizeof(placement);
     placement.asset = asset;
     FrothInstance instance{};

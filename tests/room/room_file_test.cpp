@@ -55,6 +55,7 @@ TEST_F(RoomFile, OfTheSampleHasAllThatTheRoomNeeds) {
 
 TEST_F(RoomFile, TellsWhatIsWrong) {
   EXPECT_THAT(messageWith("\"name\":\"foam\"", "\"name\":\"foil\""), HasSubstr("the node 'foam' is missing"));
+  EXPECT_THAT(messageWith("\"name\":\"centre\"", "\"name\":\"center\""), HasSubstr("the node 'centre' is missing"));
   EXPECT_THAT(messageWith("\"name\":\"ball\"", "\"name\":\"bell\""), HasSubstr("the mesh node 'ball' is missing"));
   EXPECT_THAT(messageWith("\"type\":\"directional\"", "\"type\":\"point\""), HasSubstr("is not directional"));
   EXPECT_THAT(messageWith("\"metallicFactor\":1", "\"metallicFactor\":0"), HasSubstr("a mirror"));
@@ -63,10 +64,14 @@ TEST_F(RoomFile, TellsWhatIsWrong) {
 }
 
 TEST_F(RoomFile, IsWhatTheScriptWrites) {
-  const std::string script = std::string(FROTH_SOURCE_DIR) + "/samples/mirror_room/meshes/make_room.py";
-  const std::string command = "/usr/bin/env python3 '" + script + "' '" + path_.string() + "'";
-  ASSERT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(readText(path_), readText(FROTH_ROOM_FILE));
+  const std::string folder = std::string(FROTH_SOURCE_DIR) + "/samples/mirror_room/meshes/";
+  for (const std::string name : {"room", "gallery"}) {
+    const std::string command = "/usr/bin/env python3 '" + folder + "make_room.py' " + name + " '" + path_.string() + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_EQ(readText(path_), readText(folder + name + ".gltf"));
+    const Result<Room> room = readRoom(path_);
+    EXPECT_TRUE(room) << room.error().message;
+  }
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Writes room.gltf: the meshes that stand around the foam. Metres, y up; the same bytes on every run.
+"""Writes the meshes that stand around, or in, a foam. Metres, y up; the same bytes on every run.
 
-Usage: make_room.py room.gltf
+Usage: make_room.py room room.gltf        any foam on a pedestal
+       make_room.py gallery gallery.gltf  things that stand in the foam of `froth synth gallery`
 
-What froth_mirror_room reads besides meshes: the nodes "foam" (where the middle of the foam's foot stands, how it is
-turned, and, as scale, the edge of the cube that it fills) and "ball" (where the ball begins to fall), the camera, and the
-directional light (KHR_lights_punctual). Mirrors are metals of roughness 0, all in one plane.
+What froth_mirror_room reads besides meshes: the nodes "foam" (with a scale: where the middle of the foam's foot stands, how
+it is turned, and the edge of the cube that it fills; without: where its origin lies), "ball" (where the ball begins to fall)
+and "centre" (what the camera and the motes turn around, and how far the motes reach), the camera, and the directional light
+(KHR_lights_punctual). Mirrors are metals of roughness 0, all in one plane.
 """
 import base64
 import json
@@ -93,6 +95,11 @@ def look_along(forward):
     return turn_from_axes(right, cross(back, right), back)
 
 
+def turn_about_y(degrees):
+    angle = math.radians(degrees)
+    return [0, math.sin(angle / 2), 0, math.cos(angle / 2)]
+
+
 class File:
     def __init__(self):
         self.bytes, self.views, self.accessors, self.meshes, self.nodes = b"", [], [], [], []
@@ -121,7 +128,18 @@ class File:
     def node(self, name, **fields):
         self.nodes.append({"name": name, **fields})
 
-    def write(self, path, cameras, lights):
+    def sphere(self, name, material, centre, radius):
+        self.node(name, mesh=self.mesh(name, Mesh(material).sphere(28, 56)), translation=centre, scale=[radius] * 3)
+
+    def camera(self, eye, target):
+        self.node("camera", camera=0, translation=eye, rotation=look_along([t - e for t, e in zip(target, eye)]))
+
+    def sun(self, towards):
+        self.node("sun", rotation=look_along([-x for x in towards]), extensions={"KHR_lights_punctual": {"light": 0}})
+
+    def write(self, path):
+        cameras = [{"type": "perspective", "perspective": {"yfov": 0.80, "znear": 0.01}}]
+        lights = [{"type": "directional", "color": [1, 0.95, 0.86], "intensity": 1.5}]
         data = "data:application/octet-stream;base64," + base64.b64encode(self.bytes).decode()
         root = {
             "asset": {"version": "2.0", "generator": "Froth, samples/mirror_room/meshes/make_room.py"},
@@ -162,26 +180,40 @@ def mirror_and_frame(width, height, bar, depth):
     return mirror, frame
 
 
-def main():
-    file = File()
+def room(file):
     file.node("floor", mesh=file.mesh("floor", *floor_tiles(3.0, 10)))
     walls = Mesh("wall").quad([-3, 0, -2.4], [6, 0, 0], [0, 2.8, 0]).quad([-3, 0, 3], [0, 0, -5.4], [0, 2.8, 0])
     file.node("walls", mesh=file.mesh("walls", walls))
-    angle = math.radians(55)
     file.node("mirror", mesh=file.mesh("mirror", *mirror_and_frame(1.9, 1.9, 0.07, 0.06)),
-              translation=[-2.0, 0.12, -0.7], rotation=[0, math.sin(angle / 2), 0, math.cos(angle / 2)])
+              translation=[-2.0, 0.12, -0.7], rotation=turn_about_y(55))
     file.node("pedestal", mesh=file.mesh("pedestal", Mesh("stone").box([-0.45, 0, -0.45], [0.45, 0.3, 0.45])))
-    file.node("sphere", mesh=file.mesh("sphere", Mesh("lacquer").sphere(28, 56)), translation=[1.15, 0.34, 0.35],
-              scale=[0.34] * 3)
-    file.node("ball", mesh=file.mesh("ball", Mesh("rubber").sphere(12, 24)), translation=[0.16, 2.2, 0.12],
-              scale=[0.09] * 3)
+    file.sphere("sphere", "lacquer", [1.15, 0.34, 0.35], 0.34)
+    file.sphere("ball", "rubber", [0.16, 2.2, 0.12], 0.09)
     file.node("foam", translation=[0, 0.3, 0], rotation=[1, 0, 0, 0], scale=[1.3] * 3)  # captures have -y up
-    eye, target = [0.9, 1.45, 3.5], [-0.45, 0.78, 0.0]
-    file.node("camera", camera=0, translation=eye, rotation=look_along([t - e for t, e in zip(target, eye)]))
-    file.node("sun", rotation=look_along([-0.55, -1.0, -0.5]), extensions={"KHR_lights_punctual": {"light": 0}})
-    file.write(sys.argv[1],
-               cameras=[{"type": "perspective", "perspective": {"yfov": 0.80, "znear": 0.01}}],
-               lights=[{"type": "directional", "color": [1, 0.95, 0.86], "intensity": 1.5}])
+    file.node("centre", translation=[0, 0.3, 0], scale=[1.3] * 3)
+    file.camera([0.9, 1.45, 3.5], [-0.45, 0.78, 0.0])
+    file.sun([0.55, 1.0, 0.5])
+
+
+def gallery(file):
+    """The foam has z up and fills 8.2 x 5.9 x 3.2 metres from its origin on: (x, y, z) becomes (x, z, -y)."""
+    file.node("mirror", mesh=file.mesh("mirror", *mirror_and_frame(1.5, 1.8, 0.06, 0.05)),
+              translation=[5.2, 0.1, -4.6], rotation=turn_about_y(-22))
+    file.node("pedestal", mesh=file.mesh("pedestal", Mesh("stone").box([3.0, 0, -4.0], [3.5, 0.5, -3.5])))
+    file.sphere("sphere", "lacquer", [3.25, 0.75, -3.75], 0.25)
+    file.sphere("ball", "rubber", [4.15, 0.85, -3.2], 0.11)
+    half = math.sqrt(0.5)
+    file.node("foam", rotation=[-half, 0, 0, half])
+    file.node("centre", translation=[4.3, 0.5, -3.8], scale=[1.2] * 3)
+    file.camera([4.3, 1.5, -0.9], [4.2, 0.95, -4.0])
+    file.sun([-1.0, 1.4, 0.5])
+
+
+def main():
+    scenes = {"room": room, "gallery": gallery}
+    file = File()
+    scenes[sys.argv[1]](file)
+    file.write(sys.argv[2])
 
 
 if __name__ == "__main__":

@@ -33,8 +33,6 @@ bool findMote(FrothRay ray, float after, out Mote mote) {
   return isFound;
 }
 
-vec4 behind(vec4 front, vec4 back) { return front + (1.0 - front.w) * back; }
-
 // Premultiplied linear light of foam and motes along a ray: the foam in segments from mote to mote.
 vec4 foamAndMotes(FrothRay ray) {
   vec3 foam = vec3(0.0), motes = vec3(0.0);

@@ -1,10 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "foam_rays.glsl"
-#include "foam_light.glsl"
+#include "room.glsl"
 
-// Light on the meshes, what they reflect, and the foam over them.
+// Light on the meshes, and what they reflect, behind the foam that stands before them.
 
 // Mean over the sixteen pixels whose rays were spread together, of those that show the same surface.
 float smoothSurround(ivec2 pixel, Surface surface, bool isInMirror) {
@@ -70,25 +69,11 @@ vec3 lightOfMeshes(ivec2 pixel, Surface surface, vec3 along) {
   return light;
 }
 
-// Foam and motes before the meshes. Where there is no mote the rasterizer has drawn them already.
-vec4 foamBefore(ivec2 pixel, Surface surface, vec3 along) {
-  FrothRay ray = frothRay(vec3(0.0), along);
-  ray.tMax = surface.distance;
-  Mote mote;
-  if (findMote(ray, 0.0, mote)) return foamAndMotes(ray);
-  vec4 foam = texelFetch(foamColourImage, pixel, 0);
-  float distance = texelFetch(foamDistanceImage, pixel, 0).x;
-  vec3 normal = texelFetch(foamNormalImage, pixel, 0).xyz;
-  if (distance < kFar && normal != vec3(0.0)) foam.rgb *= caughtShadow(distance * along, normalize(normal));
-  return foam;
-}
-
 void main() {
   ivec2 pixel = thisPixel();
   if (!isInImage(pixel)) return;
   vec3 along = normalize(rayOf(pixel));
   Surface surface = surfaceAt(pixel);
   vec3 light = lightOfMeshes(pixel, surface, along);
-  vec4 foam = foamBefore(pixel, surface, along);
-  imageStore(resultImage, pixel, behind(foam, vec4(light, 1.0)));
+  imageStore(resultImage, pixel, behind(imageLoad(resultImage, pixel), vec4(light, 1.0)));
 }

@@ -74,6 +74,9 @@ bool isGlossy(Surface surface) {
   return surface.isThere && uint(room.materials[surface.material].looks.w) == kGlossy;
 }
 
+// One premultiplied colour behind another.
+vec4 behind(vec4 front, vec4 back) { return front + (1.0 - front.w) * back; }
+
 // Light from all around, and what is seen where nothing stands.
 vec3 surroundingLight(vec3 direction) { return mix(room.ground.rgb, room.sky.rgb, 0.5 + 0.5 * direction.y); }
 

@@ -39,7 +39,7 @@ ROOM_CONST kBindingFoamNormal = 8;
 ROOM_CONST kBindingSunlight = 9;       // share of the sun that reaches a mesh: x seen directly, y in the mirror
 ROOM_CONST kBindingSurround = 10;      // the same of the surrounding light: ambient occlusion by the foam
 ROOM_CONST kBindingReflection = 11;    // foam and particles that a mirror or a glossy mesh shows, premultiplied
-ROOM_CONST kBindingResult = 12;        // linear light
+ROOM_CONST kBindingResult = 12;        // linear light; first that of foam and motes before the meshes, premultiplied
 
 struct RoomMaterial {
   vec4 colour;  // w: roughness
