@@ -206,36 +206,40 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   chunk.alphaShift = alphaCounts.shift;
   chunk.cellWordCount = static_cast<uint32_t>(cells->words.size());
   chunk.code = cells->code;
-  Status status = placeArray(joinSitesAndRadii(contents), "sites and radii", chunk.siteRadius);
-  if (status)
-    status = placeArray(std::move(contents.neighbourOffsets), "neighbour offsets", chunk.neighbourOffsets);
-  if (status) status = placeArray(std::move(neighbours.words), "neighbours", chunk.neighbours);
-  if (status) status = placeArray(std::move(contents.ghostRefs), "ghost references", chunk.ghostRefs);
-  if (status) status = placeArray(std::move(alphaCounts.words), "alpha counts", chunk.alphaCounts);
-  if (status) status = placeArray(std::move(cells->starts), "cell starts", chunk.cellStarts);
-  if (status) status = placeArray(std::move(cells->words), "cells", chunk.cellWords);
-  if (status) status = placeArray(std::move(contents.solidBalls), "solid balls", chunk.solidBalls);
-  return status;
+  ChunkArrays arrays;
+  arrays.add(joinSitesAndRadii(contents), "sites and radii", chunk.siteRadius);
+  arrays.add(std::move(contents.neighbourOffsets), "neighbour offsets", chunk.neighbourOffsets);
+  arrays.add(std::move(neighbours.words), "neighbours", chunk.neighbours);
+  arrays.add(std::move(contents.ghostRefs), "ghost references", chunk.ghostRefs);
+  arrays.add(std::move(alphaCounts.words), "alpha counts", chunk.alphaCounts);
+  arrays.add(std::move(cells->starts), "cell starts", chunk.cellStarts);
+  arrays.add(std::move(cells->words), "cells", chunk.cellWords);
+  arrays.add(std::move(contents.solidBalls), "solid balls", chunk.solidBalls);
+  return placeArrays(arrays);
 }
 
-template <class T>
-Status Asset::placeArray(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address) {
-  if (values.empty()) {
+// One buffer for all: devices allow few allocations.
+Status Asset::placeArrays(const ChunkArrays& arrays) {
+  if (arrays.size == 0) {
     return {};
   }
-  const VkDeviceSize size = values.size() * sizeof(T);
-  const std::string fullPurpose =
-      "chunk " + std::to_string(gpu_.chunks.size() - 1) + ", array '" + purpose + "'";
+  const std::string purpose = "chunk " + std::to_string(gpu_.chunks.size() - 1);
   buffers_->buffers.reserve(buffers_->buffers.size() + 1);  // so that what is made has its place
-  const Result<GpuBuffer> buffer = device_->createBuffer(MemoryUse::kAssets, BufferKind::kDevice, size, fullPurpose.c_str());
+  arrays_.reserve(arrays.arrays.size());
+  const Result<GpuBuffer> buffer =
+      device_->createBuffer(MemoryUse::kAssets, BufferKind::kDevice, arrays.size, purpose.c_str());
   if (!buffer) {
     return buffer.error();
   }
   buffers_->buffers.push_back(*buffer);
-  addMemory(purpose, buffer->memory.granted);
-  address = buffer->address;
-  const auto owner = std::make_shared<const std::vector<T>>(std::move(values));
-  arrays_.push_back({std::shared_ptr<const void>(owner, owner->data()), buffer->buffer, size, 0});
+  uint64_t named = 0;
+  for (const ChunkArray& array : arrays.arrays) {
+    *array.address = buffer->address + array.offset;
+    arrays_.push_back({array.bytes, buffer->buffer, array.offset, array.size, 0});
+    addMemory(array.purpose, array.size);
+    named += array.size;
+  }
+  addMemory("alignment", buffer->memory.granted - named);
   return {};
 }
 
@@ -295,7 +299,7 @@ VkDeviceSize Asset::stage(UploadRing& ring, VkDeviceSize limit) {
   while (!arrays_.empty()) {
     PendingArray& array = arrays_.front();
     const VkDeviceSize wanted = std::min(array.size - array.staged, limit - staged);
-    const VkDeviceSize taken = ring.stage(this, array.target, array.staged,
+    const VkDeviceSize taken = ring.stage(this, array.target, array.offset + array.staged,
                                           static_cast<const char*>(array.bytes.get()) + array.staged, wanted);
     array.staged += taken;
     staged += taken;

@@ -11,6 +11,7 @@
 
 #include "format/asset_reader.h"
 #include "froth/froth.h"
+#include "runtime/asset/chunk_arrays.h"
 #include "runtime/asset/gpu_asset.h"
 #include "runtime/core/device.h"
 #include "runtime/core/messages.h"
@@ -79,13 +80,12 @@ class Asset {
   struct PendingArray {
     std::shared_ptr<const void> bytes;
     VkBuffer target;
-    VkDeviceSize size, staged;
+    VkDeviceSize offset, size, staged;  // offset: in the target
   };
 
   Status openReader();
   Status placeChunk(ChunkContents&& contents);
-  template <class T>
-  Status placeArray(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address);
+  Status placeArrays(const ChunkArrays& arrays);
   Status placeEntries();
   void addMemory(const char* name, uint64_t bytes);
   void growBounds(const ChunkContents& contents);

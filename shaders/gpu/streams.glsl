@@ -5,7 +5,7 @@
 //   struct Cursor
 //   bool isAtEnd(Cursor cursor, float end)
 //   bool meetNext(Shading shading, uvec2 pixel, float end, inout Cursor cursor, out Segment segment, out vec3 colour,
-//                 out CellRecord cell)  // goes on by one cell; returns whether the ray gains anything in it
+//                 out CellRecord cell)  // goes on by a cell or some; returns whether the ray gains anything in the last of them
 #ifndef FROTH_GPU_STREAMS_GLSL
 #define FROTH_GPU_STREAMS_GLSL
 #include "gpu/device_depth.glsl"
@@ -39,27 +39,27 @@ void startStream(uint part, Cursor cursor) {
   ++streamCount;
 }
 
-// On by one cell. A stream that has ended makes room for another.
+// On by one cell, or a few that the ray misses. A stream that has ended makes room for another.
 void advance(uvec2 pixel, uint index) {
-  Stream stream = streams[index];
-  selectPart(stream.part);
+  selectPart(streams[index].part);
+  Cursor cursor = streams[index].cursor;
   float scale = FRAME.scale;
   float end = rayEnd / scale;
-  if (isAtEnd(stream.cursor, end)) {
+  if (isAtEnd(cursor, end)) {
     streams[index] = streams[--streamCount];
     return;
   }
   Segment segment;
   vec3 colour;
   CellRecord cell;
-  if (meetNext(loadShading(), pixel, end, stream.cursor, segment, colour, cell)) {
-    countWork(kWorkColours, 1);
-    stream.ahead.segment = Segment(segment.tNear * scale, segment.tFar * scale);
-    stream.ahead.density = cell.face.w / scale;
-    stream.ahead.colour = colour;
-    if (isFull) stream.ahead.normal = inWorld(cell.ball.w * cell.face.xyz);
-  }
-  streams[index] = stream;
+  bool isMet = meetNext(loadShading(), pixel, end, cursor, segment, colour, cell);
+  streams[index].cursor = cursor;
+  if (!isMet) return;
+  countWork(kWorkColours, 1);
+  streams[index].ahead.segment = Segment(segment.tNear * scale, segment.tFar * scale);
+  streams[index].ahead.density = cell.face.w / scale;
+  streams[index].ahead.colour = colour;
+  if (isFull) streams[index].ahead.normal = inWorld(cell.ball.w * cell.face.xyz);
 }
 
 // The first stream that has nothing beyond `passed` to offer yet; streamCount: none.
