@@ -194,6 +194,11 @@ std::vector<std::string> Host::validationMessages() const {
   return state_->log.messages;
 }
 
+void Host::forgetValidationMessages() {
+  const std::lock_guard<std::mutex> lock(state_->log.mutex);
+  state_->log.messages.clear();
+}
+
 Status Host::checkSilence() const {
   const std::vector<std::string> messages = validationMessages();
   if (messages.empty()) return {};

@@ -75,6 +75,7 @@ class Host {
 
   // Messages of the validation layers so far (severity warning or error); tests expect none.
   std::vector<std::string> validationMessages() const;
+  void forgetValidationMessages();
   Status checkSilence() const;  // an error with the first of them, if there is any
 
   VkInstance instance = VK_NULL_HANDLE;

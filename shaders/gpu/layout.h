@@ -203,7 +203,7 @@ struct FrameBlock {
   float lensRange;
   uint lensKind, blocksX, blocksY;             // blocks of kBlockTiles x kBlockTiles tiles
   uint detailCount, lobeCount, hasHeights;     // of the asset; passes that are specialized on its shape do not read them
-  uint padding;
+  uint zero;                                   // 0, which compilers do not know
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
   FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] visible cells, their planes
