@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
 #include "gpu/device_depth.glsl"
+#include "gpu/hits.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
 #include "gpu/shade_hit.glsl"
@@ -175,5 +176,6 @@ void main() {
     if (seesNothing(rays[r])) radiance = emptyRadiance();
     float depth = isFull ? deviceDepthAt(rays[r], radiance.distance) : 0.0;
     writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal, depth);
+    if (isFull && wantsHits()) writeHit(pixel, radiance.distance, 0, cellCodeOf(radiance.cell));
   }
 }

@@ -14,6 +14,7 @@
 #include "gpu/descend.glsl"
 #include "gpu/device_depth.glsl"
 #include "gpu/eye_planes.glsl"
+#include "gpu/hits.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
 #include "gpu/shade_hit.glsl"
@@ -159,4 +160,5 @@ void main() {
   Radiance radiance = radiances[0];
   float depth = isFull ? deviceDepthAt(ray, radiance.distance) : 0.0;
   writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal, depth);
+  if (isFull && wantsHits()) writeHit(pixel, radiance.distance, 0, cellCodeOf(radiance.cell));
 }

@@ -32,6 +32,7 @@ struct RayResult {
   glm::vec<3, Real> normal{0};
   Real logTransmittance = 0;
   Real depth = -1;
+  uint32_t rank = UINT32_MAX;  // of the cell at depth, until there of the last one that showed
 };
 
 // What a ray sees of one cell: composited with weight T alpha, its details blended at `query` (foam::faceQuery).
@@ -111,6 +112,7 @@ void compositeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>>
   const Real opticalDepth = cell.density * (hit.tFar - hit.tNear);
   const Real weight = std::exp(ray.logTransmittance) * foam::opacity(opticalDepth);
   const Real logAfter = ray.logTransmittance - opticalDepth;
+  if (ray.depth < 0) ray.rank = hit.rank;
   if (ray.logTransmittance >= settings.logQuantile && logAfter < settings.logQuantile) {
     ray.depth = foam::quantileDistance(hit.tNear, ray.logTransmittance, settings.logQuantile, cell.density);
   }

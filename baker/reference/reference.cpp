@@ -58,6 +58,11 @@ class ImageRenderer {
     images_.alpha = {view.width, view.height, 1, std::vector<float>(pixels)};
     images_.depth = {view.width, view.height, 1, std::vector<float>(pixels, -1.0f)};
     images_.normal = {view.width, view.height, 3, std::vector<float>(pixels * 3)};
+    images_.cells.resize(pixels, UINT32_MAX);
+    sources_.resize(cells.cells.size());
+    for (uint32_t cell = 0; cell < cells.rankOf.size(); ++cell) {
+      if (cells.rankOf[cell] != ViewCells<Real>::kNotDrawn) sources_[cells.rankOf[cell]] = cell;
+    }
   }
 
   Result<RenderedImages> render(const Progress& progress) {
@@ -102,6 +107,7 @@ class ImageRenderer {
     }
     *images_.alpha.pixel(x, y) = static_cast<float>(-std::expm1(ray.logTransmittance));
     *images_.depth.pixel(x, y) = static_cast<float>(ray.depth);
+    if (ray.rank != UINT32_MAX) images_.cells[size_t{y} * view_.width + x] = sources_[ray.rank];
   }
 
   const BallHierarchy& hierarchy_;
@@ -110,6 +116,7 @@ class ImageRenderer {
   const ViewRays rays_;
   const Image* const sceneDistance_;
   const RaySettings<Real> settings_;
+  std::vector<uint32_t> sources_;  // [rank] the foam's cell
   RenderedImages images_;
 };
 

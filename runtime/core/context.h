@@ -1,8 +1,10 @@
 // One per VkDevice: owns assets, instances, views and the memory that they hold on the GPU.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -70,12 +72,15 @@ class Context {
  private:
   struct Instance {
     FrothAsset asset;
-    RenderInstance placement;  // its `asset` is filled in when it is drawn
+    RenderInstance placement;  // its `asset` and `previous` are filled in when it is drawn
+    // Where it stood when the frame movedAfter was drawn; none: there was no such frame, or it jumped.
+    std::optional<RenderInstance> before{};
+    uint64_t movedAfter = 0;
   };
   struct View {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
-    bool measurePasses = false;
+    bool measurePasses = false, keepsHits = false;
     std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
     const GpuAsset* preparedFor = nullptr;   // in the newest frothUpdate
     std::string preparationError;            // sent already
@@ -97,6 +102,7 @@ class Context {
   void runFrame(FrothFrameStatus& status);
   void loadAssets();
   void prepareView(View& view);
+  FrothResult checkHits(const View& view, const FrothRenderInfo& info, const char* call) const;
   FrothResult chooseInstance(const View& view, const char* call, const Instance*& chosen,
                              uint32_t& bits) const;
   // Frees `object` once all frames that may use it are complete. retired_ has room for it.
@@ -109,6 +115,7 @@ class Context {
   bool isExcessTold_ = false;  // of this budget
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
+  bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats
   std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
   std::unique_ptr<RenderPipelines> pipelines_;  // the same
   HandlePool<Asset, FrothAsset> assets_;
@@ -119,6 +126,8 @@ class Context {
   uint64_t serial_ = 0, completedSerial_ = 0;
   std::vector<uint64_t> serialsInFlight_;
   uint64_t uploadBytesLeft_ = 0;  // of this frame
+  std::atomic<uint64_t> drawnSerial_ = 0;  // newest frame in which a view was drawn,
+  uint64_t drawnBeforeSerial_ = 0;         // and the newest before this one
 };
 
 }  // namespace froth

@@ -51,6 +51,7 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
   }
   framesInFlight_ = info.framesInFlight == 0 ? kDefaultFramesInFlight : info.framesInFlight;
   lensClasses_ = info.lensClasses;
+  hasExtendedFormats_ = info.enabledFeatures && info.enabledFeatures->features.shaderStorageImageExtendedFormats;
   isNull_ = !info.device;
   device_.budget = info.deviceBudget;
   const Status status = isNull_ ? Status() : createDeviceObjects(info);
@@ -72,7 +73,8 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
   }
   ring_ = std::move(*ring);
   Result<std::unique_ptr<RenderPipelines>> pipelines =
-      RenderPipelines::create(device_, info.pipelineCache, {info.checkIndices != 0, info.countWork != 0, lensClasses_});
+      RenderPipelines::create(device_, info.pipelineCache,
+                              {info.checkIndices != 0, info.countWork != 0, lensClasses_, hasExtendedFormats_});
   if (!pipelines) {
     return pipelines.error();
   }

@@ -3,6 +3,7 @@
 
 #include "runtime/core/context.h"
 #include "runtime/core/render_info.h"
+#include "runtime/render/hit_block.h"
 
 namespace froth {
 
@@ -30,6 +31,7 @@ FrothResult Context::beginFrame(const FrothFrame& frame) {
   }
   serialsInFlight_.push_back(frame.serial);
   serial_ = frame.serial;
+  drawnBeforeSerial_ = drawnSerial_;
   completedSerial_ = frame.completedSerial;
   uploadBytesLeft_ = frame.uploadBytes == 0 ? UINT64_MAX : frame.uploadBytes;
   return FROTH_OK;
@@ -171,6 +173,21 @@ FrothResult Context::dropFrame(uint64_t serial) {
   return FROTH_OK;
 }
 
+// What id and motion need of the device and the view.
+FrothResult Context::checkHits(const View& view, const FrothRenderInfo& info, const char* call) const {
+  if (!wantsHits(info)) {
+    return FROTH_OK;
+  }
+  if (!isNull_ && !hasExtendedFormats_) {
+    return messages.fail(FROTH_ERROR_FEATURE, call,
+                         "id, motion: the device was made without shaderStorageImageExtendedFormats; enable it where "
+                         "frothGetRequirements says that it is present");
+  }
+  return view.keepsHits ? FROTH_OK
+                        : messages.fail(FROTH_ERROR_UNSUPPORTED, call,
+                                        "id, motion: the view was not made for them; set FrothViewInfo::keepsHits");
+}
+
 // The one ready instance; null: none. Several: this version cannot merge them.
 FrothResult Context::chooseInstance(const View& view, const char* call, const Instance*& chosen,
                                     uint32_t& bits) const {
@@ -220,6 +237,9 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
       result != FROTH_OK) {
     return result;
   }
+  if (const FrothResult result = checkHits(*view, info, call); result != FROTH_OK) {
+    return result;
+  }
   const Instance* instance = nullptr;
   uint32_t bits = 0;
   if (const FrothResult result = chooseInstance(*view, call, instance, bits);
@@ -231,9 +251,12 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   }
 
   renderedSerial = serial_;
+  drawnSerial_ = serial_;
   if (instance) {
     RenderInstance placed = instance->placement;
     placed.asset = view->preparedFor;
+    const bool hasMoved = instance->movedAfter == drawnBeforeSerial_ && instance->before;
+    placed.previous = hasMoved ? &*instance->before : nullptr;
     resolveNearLimits(*placed.asset, placed.scale, info);
     const auto record =
         method == RenderMethod::kRaster ? &ViewRenderer::recordRaster : &ViewRenderer::recordWalk;

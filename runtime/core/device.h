@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <vulkan/vulkan_core.h>
 
@@ -78,6 +79,9 @@ class Device {
   Result<GpuBuffer> createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose,
                                  bool mayExceedBudget = false);
   void destroyBuffer(GpuBuffer& buffer);  // the GPU must be done with it; resets it to empty
+
+  // `name` is for messages.
+  Result<VkShaderModule> createShaderModule(const char* name, std::span<const uint32_t> spirv);
 
   // `used` of the required bytes will hold something.
   Result<MemoryBlock> allocate(const VkMemoryRequirements& requirements, VkDeviceSize used, const MemoryWish& wish);

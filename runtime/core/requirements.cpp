@@ -124,6 +124,8 @@ FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAdd
   }
   addItem(requirements, "timestampComputeAndGraphics", "the times of passes (FrothViewStatus::passes)",
           offer.properties.limits.timestampComputeAndGraphics, false);
+  addItem(requirements, "shaderStorageImageExtendedFormats", "the images id and motion (FrothRenderInfo)",
+          offer.features.features.shaderStorageImageExtendedFormats, true);
 
   requirements.isSatisfied = 1;
   for (uint32_t i = 0; i < requirements.itemCount; ++i) {

@@ -10,6 +10,9 @@
 
 namespace froth {
 
+// World from asset; `quaternion` (x, y, z, w) of any length but 0.
+glm::dmat3 rotationOf(const std::array<float, 4>& quaternion);
+
 // gpu::kLensClass...: how the passes see through this camera.
 uint32_t lensClassOf(const FrothCamera& camera);
 // The direction of an orthographic camera's rays in the view's axes; unit.
@@ -33,5 +36,7 @@ CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& in
 
 // Fills rays, view axis and lens of the block, as its class of lenses needs them.
 void fillRays(const FrothCamera& camera, const CameraRays& rays, gpu::FrameBlock& block);
+// Of a mapped lens: the lens of foam/lens.h, and the pixels of the region as it takes them.
+void fillLens(const FrothCamera& camera, gpu::FrameBlock& block);
 
 }  // namespace froth

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 
+#include "runtime/render/image_pass.h"
 #include "runtime/render/pipelines.h"
 #include "shaders/gpu/layout.h"
 
@@ -65,6 +66,7 @@ struct RenderPipelines::State {
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // the output images
   VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 80 bytes of push constants
   LensPipelines common{};                            // null from kFirstShapedPass on, and for other lenses than options name
+  std::unique_ptr<ImagePass> writeIds{}, writeMotion{};  // null without ShaderOptions::hasExtendedFormats
   std::map<AssetShape, LensPipelines>
       byShape{};  // complete; guarded by `mutex`, entries never change or move
   std::mutex mutex{};

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "runtime/render/camera_rays.h"
+#include "runtime/render/hit_passes.h"
 #include "runtime/render/view_state.h"
 
 namespace froth {
@@ -20,6 +21,7 @@ void writeBlock(const Recording& recording, const RenderInstance* instance) {
               block, reinterpret_cast<gpu::ChunkEntry*>(staged + kBlockStride));
     block.flags |= recording.kind == RecordingKind::kWalk ? gpu::kFlagWalk : 0;
   }
+  writeHits(recording, instance, block, staged);
   std::memcpy(staged, &block, sizeof(block));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/render/camera_rays.h"
+#include "runtime/render/hit_passes.h"
 #include "runtime/render/view_state.h"
 
 namespace froth {
@@ -75,14 +76,19 @@ Status growBuffers(ViewState& view, const GpuAsset* asset, const ViewCapacity& w
 ViewRenderer::ViewRenderer() = default;
 ViewRenderer::~ViewRenderer() = default;
 
-Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExtent2D maxExtent,
-                                                           uint32_t lensClasses, bool measurePasses,
-                                                           uint32_t framesInFlight) {
-  const uint32_t recordings = framesInFlight * kRecordingsPerFrame;
+Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const ViewOptions& options) {
+  const uint32_t recordings = options.framesInFlight * kRecordingsPerFrame;
   Result<std::unique_ptr<OutputImages>> images = OutputImages::create(device, recordings);
   if (!images) return images.error();
   std::unique_ptr<PassTimer> timer;
-  if (measurePasses) {
+  std::unique_ptr<ImageSets> hitSets;
+  if (options.keepsHits) {
+    Result<std::unique_ptr<ImageSets>> made =
+        ImageSets::create(device, {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, 2 * recordings);
+    if (!made) return made.error();
+    hitSets = std::move(*made);
+  }
+  if (options.measurePasses) {
     Result<std::unique_ptr<PassTimer>> made = PassTimer::create(device, recordings);
     if (!made) return made.error();
     timer = std::move(*made);
@@ -91,13 +97,17 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExt
   renderer->state_.reset(new ViewState{.device = device,
                                        .buffers = ViewBuffers(device),
                                        .images = std::move(*images),
+                                       .hitSets = std::move(hitSets),
                                        .timer = std::move(timer),
-                                       .slots = std::vector<FrameSlot>(framesInFlight)});
+                                       .slots = std::vector<FrameSlot>(options.framesInFlight)});
   ViewCapacity capacity;
-  capacity.frames = framesInFlight;
-  capacity.tiles = tilesAlong(maxExtent.width) * tilesAlong(maxExtent.height);
-  if (lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
-  if (lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = uint64_t{maxExtent.width} * maxExtent.height;
+  const VkExtent2D extent = options.maxExtent;
+  const uint64_t pixels = uint64_t{extent.width} * extent.height;
+  capacity.frames = options.framesInFlight;
+  capacity.tiles = tilesAlong(extent.width) * tilesAlong(extent.height);
+  if (options.lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
+  if (options.lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = pixels;
+  if (options.keepsHits) capacity.hits = pixels;
   if (const Status status = renderer->state_->buffers.grow(capacity, 0); !status) return status.error();
   return renderer;
 }
@@ -152,6 +162,7 @@ uint32_t ViewRenderer::recordRaster(VkCommandBuffer commandBuffer, RenderPipelin
   const Recording recording =
       beginRecording(*state_, commandBuffer, RecordingKind::kRaster, info, serial, &instance);
   recordRasterPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
+  recordHitPasses(recording, pipelines.state());
   endRecording(recording);
   return 0;
 }
@@ -168,6 +179,7 @@ uint32_t ViewRenderer::recordWalk(VkCommandBuffer commandBuffer, RenderPipelines
   const Recording recording =
       beginRecording(*state_, commandBuffer, RecordingKind::kWalk, info, serial, &instance);
   recordWalkPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
+  recordHitPasses(recording, pipelines.state());
   endRecording(recording);
   return 0;
 }
@@ -179,6 +191,7 @@ void ViewRenderer::recordClear(VkCommandBuffer commandBuffer, RenderPipelines& p
   const PassRecorder recorder = bindRecording(recording, pipelines.state(), pipelines.state().common[gpu::kLensClassPinhole]);
   recordPixels(recording, recorder, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
   recording.mark("clear");
+  recordHitPasses(recording, pipelines.state());
   endRecording(recording);
 }
 

@@ -21,13 +21,22 @@ struct RenderInstance {
   std::array<double, 3> position{};
   std::array<float, 4> rotation{0, 0, 0, 1};  // unit quaternion (x, y, z, w), world from asset
   float scale = 1;
+  uint32_t userId = 0;
+  const RenderInstance* previous = nullptr;  // where it stood in the frame before; null: here
+};
+
+struct ViewOptions {
+  VkExtent2D maxExtent{};
+  uint32_t lensClasses = 0;  // FrothLensClass bits of its cameras
+  uint32_t framesInFlight = 1;
+  bool measurePasses = false;
+  bool keepsHits = false;    // for id and motion
 };
 
 class ViewRenderer {
  public:
-  // Allocates transients for the maximum extent; they grow in prepare() only. lensClasses: FrothLensClass bits of its cameras.
-  static Result<std::unique_ptr<ViewRenderer>> create(Device& device, VkExtent2D maxExtent, uint32_t lensClasses,
-                                                      bool measurePasses, uint32_t framesInFlight);
+  // Allocates transients for the maximum extent; they grow in prepare() only.
+  static Result<std::unique_ptr<ViewRenderer>> create(Device& device, const ViewOptions& options);
   ~ViewRenderer();  // the GPU must be done with the view
 
   // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `asset` (may be

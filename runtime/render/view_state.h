@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/render/frame_block.h"
+#include "runtime/render/image_pass.h"
 #include "runtime/render/output_images.h"
 #include "runtime/render/pass_recorder.h"
 #include "runtime/render/pass_timer.h"
@@ -35,6 +36,7 @@ struct ViewState {
   Device& device;
   ViewBuffers buffers;
   std::unique_ptr<OutputImages> images;
+  std::unique_ptr<ImageSets> hitSets{};    // two per recording; null: the view keeps no hits
   std::unique_ptr<PassTimer> timer;     // null: not measured
   std::vector<FrameSlot> slots;         // [frames in flight]
   uint32_t slot = 0;                    // of the frame being recorded

@@ -82,6 +82,9 @@ Status Host::createDevice(const std::vector<const char*>& extensions) {
     return makeError(ErrorKind::kUnsupported, "froth needs features of %s, which this host does not know",
                      missing);
   }
+  VkPhysicalDeviceFeatures offered{};
+  vkGetPhysicalDeviceFeatures(physicalDevice, &offered);
+  state.features.features.shaderStorageImageExtendedFormats = offered.shaderStorageImageExtendedFormats;
 
   queueFamily = findComputeFamily(physicalDevice);
   const float priority = 1.0f;

@@ -27,6 +27,10 @@ Result<FormatTraits> traitsOf(VkFormat format) {
       return FormatTraits{4, 16};
     case VK_FORMAT_R32_SFLOAT:
       return FormatTraits{1, 4};
+    case VK_FORMAT_R16G16_SFLOAT:
+      return FormatTraits{2, 4};
+    case VK_FORMAT_R32G32_UINT:
+      return FormatTraits{2, 8};
     case VK_FORMAT_D32_SFLOAT:
       return FormatTraits{1, 4, VK_IMAGE_ASPECT_DEPTH_BIT};
     case VK_FORMAT_D32_SFLOAT_S8_UINT:
@@ -36,7 +40,7 @@ Result<FormatTraits> traitsOf(VkFormat format) {
     default:
       return makeError(ErrorKind::kUnsupported,
                        "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT, R32_SFLOAT, "
-                       "D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
+                       "R16G16_SFLOAT, R32G32_UINT, D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
                        format);
   }
 }

@@ -237,6 +237,7 @@ typedef struct FrothAssetStatus {
   uint32_t cellCount;       /* cells in the asset */
   uint32_t liveCount;       /* cells that can be seen */
   uint32_t detailCount, lobeCount, chunkCount;
+  uint32_t cellBits;        /* of a cell code (FrothRenderInfo::id): chunk = (uint64_t)code >> cellBits; cell: the bits below */
   uint32_t hasWalkGraph;
   float nearRatio, nearDepth; /* the asset's defaults */
   float boundsMin[3], boundsMax[3]; /* of the balls of live cells [scene units] */
@@ -261,7 +262,8 @@ FROTH_API FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset);
 
 /* ---- Instances ---- */
 
-/* Read when a view is drawn. This version draws one: a record call with several READY gives FROTH_ERROR_UNSUPPORTED. */
+/* Read when a view is drawn. Motion leads from where it is drawn to where it stood when the newest frame before was; new instances
+ * have none. This version draws one: a record call with several READY gives FROTH_ERROR_UNSUPPORTED. */
 typedef struct FrothInstanceInfo {
   uint32_t structSize;
   FrothAsset asset;
@@ -269,7 +271,8 @@ typedef struct FrothInstanceInfo {
   float rotation[4];  /* unit quaternion (x, y, z, w), world from asset; all zero: identity */
   float scale;        /* uniform, > 0; 0: 1 */
   uint32_t mask;      /* seen by views and rays that share a bit with it; 0: by all */
-  uint32_t userId;    /* the caller's own name for it */
+  uint32_t userId;    /* the caller's own name for it; in the id image */
+  uint32_t hasJumped; /* of frothSetInstance, 1: it did not move here: no motion from where it was */
 } FrothInstanceInfo;
 
 FROTH_API FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info, FrothInstance* instance);
@@ -284,6 +287,7 @@ typedef struct FrothViewInfo {
   uint32_t measurePasses;   /* 1: timestamps by pass, read back later without waiting */
   uint32_t lensClasses;     /* FrothLensClass bits that its cameras may use, of those of the context; 0: pinholes only.
                                MAPPED costs 16 bytes per pixel of maxExtent */
+  uint32_t keepsHits;       /* 1: its cameras may ask for id and motion; costs 12 bytes per pixel of maxExtent */
 } FrothViewInfo;
 
 FROTH_API FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view);
@@ -331,7 +335,7 @@ typedef struct FrothViewStatus {
   uint64_t deviceBytes;      /* of the view's transients */
   FrothWork work;
   uint32_t memoryCount;
-  FrothMemory memory[8];     /* [memoryCount] deviceBytes by purpose */
+  FrothMemory memory[16];    /* [memoryCount] deviceBytes by purpose */
 } FrothViewStatus;
 
 FROTH_API FrothResult frothGetViewStatus(FrothContext* context, FrothView view, FrothViewStatus* status);
@@ -434,6 +438,16 @@ typedef struct FrothRenderInfo {
   FrothImage normal;   /* R16G16B16A16_SFLOAT: sum of T alpha n in world axes, not normalized; w = 0 */
   FrothImage depth;    /* R32_SFLOAT: device depth of the point that `distance` means, as clipFromView and the viewport's depth range
                           make it; their far end: never. With lenses other than PROJECTION the same as `distance` */
+
+  /* These two need the feature shaderStorageImageExtendedFormats and FrothViewInfo::keepsHits. */
+  FrothImage id;       /* R32G32_UINT: userId of the instance and code of the cell (FrothAssetStatus::cellBits) at the point that
+                          `depth` means; where there is none, of the last cell that the ray met; UINT32_MAX twice: it met none */
+  FrothImage motion;   /* R16G16_SFLOAT: from the pixel to where that point was seen by previousCamera, in pixels times motionScale, both
+                          without jitter; where there is none, of a background at infinity (of parallel rays: on the plane through
+                          the eye). 32768 pixels: it was not in front of that camera */
+  float motionScale[2];       /* 0: 1 */
+  FrothCamera previousCamera; /* of the frame before, for motion; jitter and scissor are not read. All zero: there is none (a cut, the
+                                 first frame), and motion is 0. Motion knows no ray maps, now or then */
 
   /* What the engine has drawn, read only: rays stop there, in the middle of a cell if need be. D32_SFLOAT, D32_SFLOAT_S8_UINT,
    * D24_UNORM_S8_UINT, X8_D24_UNORM_PACK32, D16_UNORM or R32_SFLOAT; a view of the depth aspect. It holds device depth, as
