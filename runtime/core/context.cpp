@@ -118,6 +118,9 @@ FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* ca
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "scale: %g; must be positive, or 0 for 1",
                          double{info.scale});
   }
+  if (!(info.exposure >= 0) || !std::isfinite(info.exposure)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "exposure: %g; must be positive, or 0 for 1", double{info.exposure});
+  }
   for (const double part : info.position) {
     if (!std::isfinite(part)) {
       return messages.fail(FROTH_ERROR_ARGUMENT, call, "position: %g; must be finite", part);
@@ -132,6 +135,7 @@ FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* ca
   }
   instance.placement.scale = info.scale == 0 ? 1 : info.scale;
   instance.placement.userId = info.userId;
+  instance.placement.exposure = info.exposure == 0 ? 1 : info.exposure;
   return FROTH_OK;
 }
 

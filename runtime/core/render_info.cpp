@@ -160,6 +160,18 @@ FrothResult checkDrawn(const Messages& messages, const char* call, VkExtent2D ma
   return FROTH_OK;
 }
 
+FrothResult checkToneCurve(const Messages& messages, const char* call, const FrothRenderInfo& info) {
+  const auto curve = static_cast<int32_t>(info.toneCurve);
+  if (curve < 0 || curve > FROTH_TONE_KHRONOS_NEUTRAL) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "toneCurve: %d; must be a FrothToneCurve", curve);
+  }
+  if (curve != FROTH_TONE_NONE && info.displayCoded) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "toneCurve: %d with displayCoded; a display-coded image is the capture; set one of them", curve);
+  }
+  return FROTH_OK;
+}
+
 // NaN fails every comparison, so each condition says what is right.
 FrothResult resolveLimits(const Messages& messages, const char* call, FrothRenderInfo& info) {
   info.cutoff = info.cutoff == 0 ? kDefaultCutoff : info.cutoff < 0 ? 0 : info.cutoff;
@@ -230,7 +242,8 @@ FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExte
     return messages.fail(FROTH_ERROR_ARGUMENT, call,
                          "colour, distance, normal, depth, id, motion: all null; at least one is needed");
   }
-  return resolveLimits(messages, call, info);
+  result = checkToneCurve(messages, call, info);
+  return result == FROTH_OK ? resolveLimits(messages, call, info) : result;
 }
 
 void resolveNearLimits(const GpuAsset& asset, float scale, FrothRenderInfo& info) {

@@ -58,7 +58,8 @@ inline bool isInput(uint32_t binding) { return binding >= gpu::kBindingRayMap; }
 
 // Whether it takes more than colour and distance (gpu::kConstantIsFull).
 inline bool isFullFrame(const FrothRenderInfo& info) {
-  return info.normal.image || info.depth.image || info.sceneDepth.image || info.id.image || info.motion.image;
+  return info.normal.image || info.depth.image || info.sceneDepth.image || info.id.image || info.motion.image ||
+         info.toneCurve != FROTH_TONE_NONE;
 }
 
 // Whether the passes that write rgba32f are meant; else rgba16f, also where no colour is wanted.

@@ -22,6 +22,7 @@ struct RenderInstance {
   std::array<float, 4> rotation{0, 0, 0, 1};  // unit quaternion (x, y, z, w), world from asset
   float scale = 1;
   uint32_t userId = 0;
+  float exposure = 1;
   const RenderInstance* previous = nullptr;  // where it stood in the frame before; null: here
 };
 

@@ -86,6 +86,7 @@ FROTH_CONST kFlagDisplayCoded = 8;
 FROTH_CONST kFlagDepth = 32;
 FROTH_CONST kFlagSceneDepth = 64;
 FROTH_CONST kFlagHits = 128;
+FROTH_CONST kToneCurveShift = 16;  // above it: foam/tone.h
 FROTH_CONST kFlagWalk = 16;  // list cells that guide walks too, and the planes of all neighbours; else a raster: sort the cells,
                              // shade only those that own a (tile, cell) pair
 
@@ -203,7 +204,7 @@ struct FrameBlock {
   float lensRange;
   uint lensKind, blocksX, blocksY;             // blocks of kBlockTiles x kBlockTiles tiles
   uint detailCount, lobeCount, hasHeights;     // of the asset; passes that are specialized on its shape do not read them
-  uint padding;
+  float exposure;
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
   FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] visible cells, their planes

@@ -1,4 +1,4 @@
-// What record calls refuse of the images id and motion.
+// What record calls refuse of the images id and motion, and of colours.
 #include <cmath>
 
 #include "runtime_fixture.h"
@@ -80,6 +80,16 @@ TEST_F(OutputCalls, RefuseMotionThatHasNoMeaning) {
   EXPECT_THAT(messages_.back().object, HasSubstr("previousCamera"));
   info_.previousCamera.lens.kind = FROTH_LENS_RAY_MAP;
   expectResult(view, FROTH_ERROR_UNSUPPORTED, "with a ray map");
+}
+
+TEST_F(OutputCalls, RefuseAToneCurveThatIsNoneOrMeetsADisplayCodedImage) {
+  const FrothView view = createHitView(0);
+  info_.toneCurve = static_cast<FrothToneCurve>(9);
+  expectResult(view, FROTH_ERROR_ARGUMENT, "toneCurve: 9");
+  info_.toneCurve = FROTH_TONE_REINHARD;
+  expectResult(view, FROTH_OK, "");
+  info_.displayCoded = 1;
+  expectResult(view, FROTH_ERROR_ARGUMENT, "toneCurve: 1 with displayCoded");
 }
 
 class OutputCallsOnDevice : public RuntimeGpuTest {};

@@ -106,6 +106,7 @@ typedef struct FrothInstanceInfo {
   float scale;        /* uniform, > 0; 0: 1 */
   uint32_t mask;      /* seen by views and rays that share a bit with it; 0: by all */
   uint32_t userId;    /* the caller's own name for it; in the id image */
+  float exposure;     /* factor on its linear light, >= 0; 0: 1 */
   uint32_t hasJumped; /* of frothSetInstance, 1: it did not move here: no motion from where it was */
 } FrothInstanceInfo;
 
@@ -253,6 +254,15 @@ typedef struct FrothCamera {
   FrothLens lens;         /* zero: clipFromView is all. Others need their bit in FrothViewInfo::lensClasses */
 } FrothCamera;
 
+/* A curve that the engine ends its frame with, from x, scene-linear, to linear light of the display. Per channel but for the last. */
+typedef enum FrothToneCurve {
+  FROTH_TONE_NONE = 0,
+  FROTH_TONE_REINHARD = 1,        /* x / (1 + x) */
+  FROTH_TONE_ACES_NARKOWICZ = 2,  /* x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14) */
+  FROTH_TONE_KHRONOS_NEUTRAL = 3, /* Khronos PBR Neutral */
+  FROTH_TONE_MAX = 0x7fffffff
+} FrothToneCurve;
+
 /* Marks "take the asset's default" in the two near limits. */
 #define FROTH_NEAR_DEFAULT (-1.0f)
 
@@ -266,6 +276,8 @@ typedef struct FrothRenderInfo {
   float depthQuantile; /* 0: one half */
   uint32_t maxSteps;   /* of one walk; 0: 65536 */
   uint32_t displayCoded; /* 1: colour stays display-coded (for files); 0: linear */
+  FrothToneCurve toneCurve; /* of linear colour: what this curve turns into the capture, times exposure. Its white is 255/256, so that
+                               no light is above 255 */
 
   FrothImage colour;   /* R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: premultiplied colour, alpha = 1 - T */
   FrothImage distance; /* R32_SFLOAT: distance along the ray where T falls below depthQuantile [world units]; +inf: never */
