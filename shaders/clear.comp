@@ -9,6 +9,6 @@ layout(local_size_x = kSubTileSize, local_size_y = kSubTileSize) in;
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (!isInRegion(pixel)) return;
-  writePixel(pixel, vec3(0.0), 0.0, kInfinity, vec3(0.0), FRAME.depthRange.w);
+  writePixel(pixel, vec3(0.0), 0.0, 1.0, kInfinity, vec3(0.0), FRAME.depthRange.w);
   if (wantsHits()) writeHit(pixel, kInfinity, 0, kNoCell);
 }

@@ -42,7 +42,11 @@ void main() {
     uint length = tile < tiles ? FRAME.tileLengths.v[tile] : 0;
     uint total;
     uint before = begin + scanExclusive(length, total);
-    if (tile < tiles) FRAME.tileLists.v[atomicAdd(places[classOf(length)], 1u)] = uvec4(tile, before, before + length, 0u);
+    if (tile < tiles) {
+      uint place = atomicAdd(places[classOf(length)], 1u);
+      FRAME.tileLists.v[place] = uvec4(tile, before, before + length, 0u);
+      FRAME.tileLengths.v[tile] = place;
+    }
     begin += total;
   }
   if (thread != 0) return;

@@ -1,15 +1,16 @@
 // Draws 8 x 8 pixels: reads its tile's list front to back in batches, keeps the cells whose solid ball these pixels can meet, and
 // composites them. Ends when every pixel is saturated. A thread draws FROTH_RAYS pixels below each other: what costs is
 // reading the cells, and all of them read the same. Long tiles are drawn by a form with one pixel per thread, which is done with a
-// list sooner though it costs more.
+// list sooner though it costs more. Of several instances each draws the tiles in which it is alone.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
+#include "gpu/clip_planes.glsl"
 #include "gpu/device_depth.glsl"
 #include "gpu/hits.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
-#include "gpu/shade_hit.glsl"
+#include "gpu/shared_tiles.glsl"
 
 const uint kRows = kSubTileSize / kRays;  // of threads
 const uint kBatch = kSubTileSize * kRows;
@@ -22,32 +23,6 @@ shared uint cells[kBatch];  // slots
 shared uvec3 rows[kBatch];  // of planes: begin, split, end
 shared uint keptMask[kBatchWords];
 shared uint liveMask;
-
-// The parts of the intervals on the cell's side of all its radical planes. Returns whether any is left.
-bool clipByPlanes(Shading shading, uvec3 row, vec3 rays[kRays], inout Segment segments[kRays]) {
-  float far[kRays], near[kRays];  // nearness of where the intervals end
-  for (uint r = 0; r < kRays; ++r) {
-    far[r] = nearnessAt(segments[r].tFar);
-    near[r] = kInfinity;
-  }
-  for (uint i = row.x; i < row.y; ++i) {
-    vec3 plane = shading.planes.v[checked(i, FRAME.planeCapacity)].xyz;
-    for (uint r = 0; r < kRays; ++r) far[r] = max(far[r], dot(plane, rays[r]));
-  }
-  for (uint i = row.y; i < row.z; ++i) {
-    vec3 plane = shading.planes.v[checked(i, FRAME.planeCapacity)].xyz;
-    for (uint r = 0; r < kRays; ++r) near[r] = min(near[r], dot(plane, rays[r]));
-  }
-  bool isAny = false;
-  for (uint r = 0; r < kRays; ++r) {
-    if (isEmpty(segments[r])) continue;
-    countWork(kWorkPlanes, row.z - row.x);
-    segments[r].tFar = isParallel || near[r] > 0.0 ? distanceAt(far[r]) : 0.0;
-    segments[r].tNear = max(segments[r].tNear, distanceAt(near[r]));
-    isAny = isAny || !isEmpty(segments[r]);
-  }
-  return isAny;
-}
 
 void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], inout Radiance radiances[kRays]) {
   vec4 ball = balls[index];
@@ -123,6 +98,12 @@ bool areSaturated(Shading shading, Radiance radiances[kRays]) {
   return areAll;
 }
 
+// Whether no other instance has cells in a tile, whose list has this place.
+bool isOwnTile(uint tile, uint place) {
+  uvec2 range = FRAME.tileLists.v[place].yz;
+  return range.x < range.y && partsIn(tile) == 1;
+}
+
 // The tile of this workgroup, and its place in the order; false: there is none.
 bool findTile(out uint tile, out uint place) {
   place = linearGroup() / kSubTilesPerTile;
@@ -130,7 +111,7 @@ bool findTile(out uint tile, out uint place) {
   if (!isLong) place += COUNTERS.longTiles;
   if (place >= (isLong ? COUNTERS.longTiles : FRAME.tilesX * FRAME.tilesY)) return false;
   tile = FRAME.tileLists.v[place].x;
-  return true;
+  return push.partCount == 1 || isOwnTile(tile, place);
 }
 
 void main() {
@@ -175,7 +156,9 @@ void main() {
     Radiance radiance = radiances[r];
     if (seesNothing(rays[r])) radiance = emptyRadiance();
     float depth = isFull ? deviceDepthAt(rays[r], radiance.distance) : 0.0;
-    writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal, depth);
-    if (isFull && wantsHits()) writeHit(pixel, radiance.distance, 0, cellCodeOf(radiance.cell));
+    float distance = radiance.distance * FRAME.scale;
+    writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), FRAME.exposure, distance,
+               isFull ? inWorld(radiance.normal) : vec3(0.0), depth);
+    if (isFull && wantsHits()) writeHit(pixel, distance, FRAME.part, cellCodeOf(radiance.cell));
   }
 }

@@ -83,11 +83,17 @@ glm::vec<3, Real> blendColour(std::span<const ViewDetail<Real>> details, const g
   return sum / foam::flooredWeightSum(weightSum);
 }
 
-// Steps 3 to 7 for a cell whose interval the planes have cut; visit(segment) if it shows.
-template <class Real, class Visitor>
-void compositeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>> details,
-                   const PrimaryRay<Real>& primary, const RaySettings<Real>& settings, BallHit<Real> hit,
-                   RayResult<Real>& ray, Visitor&& visit) {
+// Where a ray gains opacity in one cell, with constant density and colour; none: tFar <= tNear.
+template <class Real>
+struct CellStretch {
+  Real tNear = 0, tFar = 0;
+  glm::vec<3, Real> query{0}, colour{0};
+};
+
+// Steps 3 to 6 for a cell whose interval the planes have cut.
+template <class Real>
+CellStretch<Real> shadeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>> details,
+                            const PrimaryRay<Real>& primary, Real sharpness, BallHit<Real> hit) {
   const glm::vec<3, Real> centre = cell.centre - primary.offset;
   const Real facing = glm::dot(cell.frame.normal, primary.direction);
   const bool leavesThroughFace = facing >= 0;
@@ -98,28 +104,35 @@ void compositeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>>
   const auto queryAt = [&](Real t) { return foam::faceQuery(inFrame(t * primary.direction - centre)); };
   const Real tBase = foam::intersectFace(centre, cell.frame.normal, facing, Real(0));
   const Real tQuery = leavesThroughFace ? hit.tNear : std::max(hit.tNear, tBase);
-  const Real height = blendHeight(details, queryAt(tQuery), settings.sharpness);
+  const Real height = blendHeight(details, queryAt(tQuery), sharpness);
   const Real tFace = foam::intersectFace(centre, cell.frame.normal, facing, height);
   if (leavesThroughFace) {
     hit.tFar = std::min(hit.tFar, tFace);
   } else {
     hit.tNear = std::max(hit.tNear, tFace);
   }
-  if (!(hit.tNear < hit.tFar)) return;
+  CellStretch<Real> stretch{hit.tNear, hit.tFar, {}, {}};
+  if (stretch.tNear < stretch.tFar) {
+    stretch.query = queryAt(stretch.tNear);
+    stretch.colour = blendColour(details, stretch.query, sharpness);
+  }
+  return stretch;
+}
 
-  const glm::vec<3, Real> query = queryAt(hit.tNear);
-  const glm::vec<3, Real> colour = blendColour(details, query, settings.sharpness);
-  const Real opticalDepth = cell.density * (hit.tFar - hit.tNear);
+// Step 7: a stretch of constant density. Returns its weight, T alpha.
+template <class Real>
+Real compositeStretch(Real tNear, Real tFar, Real density, const glm::vec<3, Real>& colour,
+                      const glm::vec<3, Real>& normal, Real logQuantile, RayResult<Real>& ray) {
+  const Real opticalDepth = density * (tFar - tNear);
   const Real weight = std::exp(ray.logTransmittance) * foam::opacity(opticalDepth);
   const Real logAfter = ray.logTransmittance - opticalDepth;
-  if (ray.depth < 0) ray.rank = hit.rank;
-  if (ray.logTransmittance >= settings.logQuantile && logAfter < settings.logQuantile) {
-    ray.depth = foam::quantileDistance(hit.tNear, ray.logTransmittance, settings.logQuantile, cell.density);
+  if (ray.logTransmittance >= logQuantile && logAfter < logQuantile) {
+    ray.depth = foam::quantileDistance(tNear, ray.logTransmittance, logQuantile, density);
   }
   ray.colour += weight * colour;
-  ray.normal += weight * cell.frame.normal;
+  ray.normal += weight * normal;
   ray.logTransmittance = logAfter;
-  visit(RaySegment<Real>{hit.rank, weight, query});
+  return weight;
 }
 
 // `hits` in any order; they are sorted front to back. Calls visit(segment) for every cell that shows, front to back.
@@ -133,7 +146,13 @@ RayResult<Real> compositeHits(const ViewCells<Real>& view, const PrimaryRay<Real
   for (BallHit<Real>& hit : hits) {
     const ViewCell<Real>& cell = view.cells[hit.rank];
     if (!clipByNeighbours(view.planesOf(cell), primary, hit)) continue;
-    compositeCell(cell, view.detailsOf(hit.rank), primary, settings, hit, ray, visit);
+    const CellStretch<Real> stretch =
+        shadeCell(cell, view.detailsOf(hit.rank), primary, settings.sharpness, hit);
+    if (!(stretch.tNear < stretch.tFar)) continue;
+    if (ray.depth < 0) ray.rank = hit.rank;
+    const Real weight = compositeStretch(stretch.tNear, stretch.tFar, cell.density, stretch.colour, cell.frame.normal,
+                                         settings.logQuantile, ray);
+    visit(RaySegment<Real>{hit.rank, weight, stretch.query});
     if (std::exp(ray.logTransmittance) < settings.cutoff) break;
   }
   return ray;

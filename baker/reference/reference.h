@@ -29,7 +29,7 @@ struct RenderedImages {
   Image alpha;   // 1 channel, 1 - T
   Image depth;   // 1 channel, distance along the ray where T falls below depthQuantile; -1: never
   Image normal;  // 3 channels, sum of T alpha n, world axes
-  std::vector<uint32_t> cells;  // [pixels] the one at depth, until there the last one that was met; UINT32_MAX: none
+  std::vector<uint32_t> cells;  // [pixels] the one at depth, until there the last one that was met; UINT32_MAX: none, and of several foams
 };  // pixels without a ray (shaders/foam/lens.h): 0, 0, -1, 0, none
 
 // Renders with all cores; the same input gives the same bits on any number of threads.
@@ -43,8 +43,10 @@ class ReferenceRenderer {
   Result<RenderedImages> render(const View& view, const ReferenceOptions& options,
                                 const Progress& progress = {}) const;
 
+  struct State;  // reference_state.h
+  const State& state() const { return *state_; }
+
  private:
-  struct State;
   std::unique_ptr<State> state_;
 };
 

@@ -136,6 +136,7 @@ FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* ca
   instance.placement.scale = info.scale == 0 ? 1 : info.scale;
   instance.placement.userId = info.userId;
   instance.placement.exposure = info.exposure == 0 ? 1 : info.exposure;
+  instance.mask = info.mask == 0 ? ~0u : info.mask;
   return FROTH_OK;
 }
 

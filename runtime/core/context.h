@@ -22,8 +22,6 @@
 
 namespace froth {
 
-enum class RenderMethod { kRaster, kWalk };
-
 // The calls of froth.h with their structs already read to today's size. Threads as in froth.h.
 class Context {
  public:
@@ -76,13 +74,15 @@ class Context {
     // Where it stood when the frame movedAfter was drawn; none: there was no such frame, or it jumped.
     std::optional<RenderInstance> before{};
     uint64_t movedAfter = 0;
+    uint32_t mask = ~0u;
   };
   struct View {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
     bool measurePasses = false, keepsHits = false;
     std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
-    const GpuAsset* preparedFor = nullptr;   // in the newest frothUpdate
+    std::vector<RenderInstance> prepared;    // in the newest frothUpdate: those it has buffers for, if they fit the budget
+    std::vector<RenderInstance> visible;     // of the record call under way; has room for all
     std::string preparationError;            // sent already
     uint64_t renderedSerials[2] = {0, 0};    // newest frame per RenderMethod
     std::vector<std::pair<uint64_t, uint32_t>>
@@ -103,8 +103,9 @@ class Context {
   void loadAssets();
   void prepareView(View& view);
   FrothResult checkHits(const View& view, const FrothRenderInfo& info, const char* call) const;
-  FrothResult chooseInstance(const View& view, const char* call, const Instance*& chosen,
-                             uint32_t& bits) const;
+  void preparePipelines();
+  // The instances to be drawn, in view.visible; why others are left out, as FrothViewBit.
+  void gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& bits) const;
   // Frees `object` once all frames that may use it are complete. retired_ has room for it.
   void retire(std::shared_ptr<void> object);
 
@@ -113,6 +114,7 @@ class Context {
   bool isNull_ = false;        // no device, for good
   bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
   bool isExcessTold_ = false;  // of this budget
+  std::string severalError_;   // of prepareForSeveral, sent already
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
   bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats

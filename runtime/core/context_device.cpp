@@ -136,7 +136,7 @@ FrothResult Context::checkDevice(const char* call) const {
 void Context::loseDevice() {
   views_.forEach([](View& view) {
     view.renderer.reset();
-    view.preparedFor = nullptr;
+    view.prepared.clear();
     view.preparationError.clear();
     view.bits.clear();
   });

@@ -69,6 +69,7 @@ void Context::runFrame(FrothFrameStatus& status) {
     ring_->retire(completedSerial_);
   }
   loadAssets();
+  preparePipelines();
   shrinkViews();
   views_.forEach([&](View& view) { prepareView(view); });
 
@@ -111,14 +112,17 @@ void Context::prepareView(View& view) {
   std::erase_if(view.bits,
                 [&](const auto& recorded) { return recorded.first < view.renderer->status().serial; });
   view.bits.reserve(view.bits.size() + 2);  // a raster and a walk of this frame
-  view.preparedFor = nullptr;
-  instances_.forEach([&](const Instance& instance) {
+  view.prepared.clear();
+  instances_.forEachNamed([&](FrothInstance handle, const Instance& instance) {
     const Asset* asset = assets_.find(instance.asset);
-    if (!view.preparedFor && asset->isDecoded()) {
-      view.preparedFor = &asset->gpu();
+    if (asset->isDecoded() && view.prepared.size() < gpu::kMostInstances) {
+      view.prepared.push_back(instance.placement);
+      view.prepared.back().handle = handle;
+      view.prepared.back().asset = &asset->gpu();
     }
   });
-  const Status status = view.renderer->prepare(completedSerial_, view.preparedFor);
+  view.visible.reserve(gpu::kMostInstances);
+  const Status status = view.renderer->prepare(completedSerial_, view.prepared);
   if (status || device_.loss) {  // of the loss frothUpdate tells
     view.preparationError.clear();
     return;
@@ -188,29 +192,50 @@ FrothResult Context::checkHits(const View& view, const FrothRenderInfo& info, co
                                         "id, motion: the view was not made for them; set FrothViewInfo::keepsHits");
 }
 
-// The one ready instance; null: none. Several: this version cannot merge them.
-FrothResult Context::chooseInstance(const View& view, const char* call, const Instance*& chosen,
-                                    uint32_t& bits) const {
-  uint32_t readyCount = 0;
-  instances_.forEach([&](const Instance& instance) {
+// Before a view draws two instances.
+void Context::preparePipelines() {
+  uint32_t count = 0;
+  instances_.forEach([&](const Instance&) { ++count; });
+  if (count < 2 || !pipelines_) {
+    return;
+  }
+  const Status status = pipelines_->prepareForSeveral();
+  if (!status && severalError_ != status.error().message) {  // once, not in every frame
+    severalError_ = status.error().message;
+    messages.fail(status.error(), "several instances");
+  }
+}
+
+void Context::gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& bits) const {
+  view.visible.clear();
+  instances_.forEachNamed([&](FrothInstance handle, const Instance& instance) {
+    if ((instance.mask & info.mask) == 0) {
+      return;
+    }
     const Asset& asset = *assets_.find(instance.asset);
     if (stateOf(asset) != FROTH_ASSET_READY) {
       bits |= FROTH_VIEW_NOT_READY;
       return;
     }
-    chosen = &instance;
-    ++readyCount;
+    if (isNull_) {
+      return;
+    }
+      // An instance that came after frothUpdate: the view has no buffers for it before the next one.
+    const auto isIt = [&](const RenderInstance& prepared) {
+      return prepared.handle.index == handle.index && prepared.handle.generation == handle.generation &&
+             prepared.asset == &asset.gpu();
+    };
+    if (std::none_of(view.prepared.begin(), view.prepared.end(), isIt)) {
+      bits |= view.prepared.size() == gpu::kMostInstances ? FROTH_VIEW_INSTANCE_LIMIT : FROTH_VIEW_NOT_READY;
+      return;
+    }
+    RenderInstance& visible = view.visible.emplace_back(instance.placement);
+    visible.handle = handle;
+    visible.asset = &asset.gpu();
+    const bool hasMoved = instance.movedAfter == drawnBeforeSerial_ && instance.before;
+    visible.previous = hasMoved ? &*instance.before : nullptr;
+    resolveNearLimits(info, visible);
   });
-  if (readyCount > 1) {
-    return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
-                         "%u instances are ready; this version draws one per view", readyCount);
-  }
-  // An instance that came after frothUpdate: the view has no buffers for it before the next one.
-  if (chosen && !isNull_ && view.preparedFor != &assets_.find(chosen->asset)->gpu()) {
-    chosen = nullptr;
-    bits |= FROTH_VIEW_NOT_READY;
-  }
-  return FROTH_OK;
 }
 
 FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
@@ -240,30 +265,17 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   if (const FrothResult result = checkHits(*view, info, call); result != FROTH_OK) {
     return result;
   }
-  const Instance* instance = nullptr;
   uint32_t bits = 0;
-  if (const FrothResult result = chooseInstance(*view, call, instance, bits);
-      result != FROTH_OK || isNull_) {
-    return result;
+  gatherVisible(*view, info, bits);
+  if (isNull_) {
+    return FROTH_OK;
   }
   if (!commandBuffer) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "commandBuffer: null");
   }
-
   renderedSerial = serial_;
   drawnSerial_ = serial_;
-  if (instance) {
-    RenderInstance placed = instance->placement;
-    placed.asset = view->preparedFor;
-    const bool hasMoved = instance->movedAfter == drawnBeforeSerial_ && instance->before;
-    placed.previous = hasMoved ? &*instance->before : nullptr;
-    resolveNearLimits(*placed.asset, placed.scale, info);
-    const auto record =
-        method == RenderMethod::kRaster ? &ViewRenderer::recordRaster : &ViewRenderer::recordWalk;
-    bits |= (view->renderer.get()->*record)(commandBuffer, *pipelines_, placed, info, serial_);
-  } else {
-    view->renderer->recordClear(commandBuffer, *pipelines_, info, serial_);
-  }
+  bits |= view->renderer->record(method, commandBuffer, *pipelines_, view->visible, info, serial_);
   if (bits != 0) {
     view->bits.emplace_back(serial_, bits);
   }

@@ -177,6 +177,7 @@ FrothResult resolveLimits(const Messages& messages, const char* call, FrothRende
   info.cutoff = info.cutoff == 0 ? kDefaultCutoff : info.cutoff < 0 ? 0 : info.cutoff;
   info.depthQuantile = info.depthQuantile == 0 ? kDefaultDepthQuantile : info.depthQuantile;
   info.maxSteps = info.maxSteps == 0 ? kDefaultMaxSteps : info.maxSteps;
+  info.mask = info.mask == 0 ? ~0u : info.mask;
   if (!(info.cutoff < 1)) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "cutoff: %g; must be below 1", double{info.cutoff});
   }
@@ -246,20 +247,17 @@ FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExte
   return result == FROTH_OK ? resolveLimits(messages, call, info) : result;
 }
 
-void resolveNearLimits(const GpuAsset& asset, float scale, FrothRenderInfo& info) {
-  if (info.nearRatio == FROTH_NEAR_DEFAULT) {
-    info.nearRatio = asset.nearRatio;
-  }
-  if (info.nearDepth == FROTH_NEAR_DEFAULT) {
-    info.nearDepth = asset.nearDepth * scale;
-  }
+void resolveNearLimits(const FrothRenderInfo& info, RenderInstance& instance) {
+  const GpuAsset& asset = *instance.asset;
+  instance.nearRatio = info.nearRatio == FROTH_NEAR_DEFAULT ? asset.nearRatio : info.nearRatio;
+  instance.nearDepth = info.nearDepth == FROTH_NEAR_DEFAULT ? asset.nearDepth * instance.scale : info.nearDepth;
   const FrothLensKind lens = info.camera.lens.kind;
   const bool isParallel = lensClassOf(info.camera) == gpu::kLensClassOrthographic;
   if (isParallel || (lens != FROTH_LENS_PROJECTION && lens != FROTH_LENS_RADIAL_TANGENTIAL)) {
-    info.nearDepth = 0;
+    instance.nearDepth = 0;
   }
   if (isParallel) {
-    info.nearRatio = 0;
+    instance.nearRatio = 0;
   }
 }
 

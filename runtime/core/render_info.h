@@ -2,8 +2,8 @@
 #pragma once
 
 #include "froth/froth.h"
-#include "runtime/asset/gpu_asset.h"
 #include "runtime/core/messages.h"
+#include "runtime/render/view_renderer.h"
 
 namespace froth {
 
@@ -14,8 +14,7 @@ namespace froth {
 FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExtent2D maxExtent,
                               uint32_t lensClasses, FrothRenderInfo& info);
 
-// Takes the asset's near limits where the caller left them to it, and drops those that the lens has no use for. `scale` of the
-// instance: nearDepth is in world units.
-void resolveNearLimits(const GpuAsset& asset, float scale, FrothRenderInfo& info);
+// Fills in the near limits of an instance: the asset's where the caller left them to it, none where the lens has no use for them.
+void resolveNearLimits(const FrothRenderInfo& info, RenderInstance& instance);
 
 }  // namespace froth

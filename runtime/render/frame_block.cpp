@@ -21,8 +21,8 @@ void fillCamera(const FrothRenderInfo& info, const CameraRays& rays, const Rende
                 gpu::FrameBlock& block) {
   fillRays(info.camera, rays, block);
   fillDepthRows(info.camera, rays, instance.scale, block);
-  block.forward[3] = static_cast<float>(double{info.nearDepth} / instance.scale);
-  block.nearRatio = info.nearRatio;
+  block.forward[3] = static_cast<float>(double{instance.nearDepth} / instance.scale);
+  block.nearRatio = instance.nearRatio;
   const glm::dmat3 rows = glm::transpose(rays.worldFromAsset);
   block.worldX = toFloats(rows[0]);
   block.worldY = toFloats(rows[1]);

@@ -9,12 +9,17 @@ namespace {
 
 constexpr VkDeviceSize kHitInstancesOffset = gpu::kHitBlockOffset + 288;
 static_assert(gpu::kHitBlockOffset + sizeof(gpu::HitBlock) <= kHitInstancesOffset && kHitInstancesOffset % 16 == 0);
-static_assert(kHitInstancesOffset + sizeof(gpu::HitInstance) <= kBlockStride);
+static_assert(kHitInstancesOffset + gpu::kMostInstances * sizeof(gpu::HitInstance) <= kBlockStride);
+
+// Of all instances of the view.
+VkDeviceAddress addressOfHits(const ViewState& view) {
+  return view.spaces.front()->buffers[ViewBuffer::kHits].address;
+}
 
 // Writes `image` with a workgroup per kSubTileSize x kSubTileSize pixels. set: of the recording's two.
 void recordHitPass(const Recording& recording, const ImagePass& pass, const FrothImage& image, uint32_t set) {
   const VkDescriptorImageInfo target{VK_NULL_HANDLE, image.view, VK_IMAGE_LAYOUT_GENERAL};
-  const VkDeviceAddress block = recording.blockAddress() + gpu::kHitBlockOffset;
+  const VkDeviceAddress block = recording.parts().front().recorder.frame + gpu::kHitBlockOffset;
   const VkExtent2D& extent = recording.info.camera.scissor.extent;
   pass.bind(recording.commandBuffer, recording.view.hitSets->update(2 * recording.number + set, {&target, 1}),
             std::as_bytes(std::span(&block, 1)));
@@ -24,28 +29,37 @@ void recordHitPass(const Recording& recording, const ImagePass& pass, const Frot
 
 }  // namespace
 
-void writeHits(const Recording& recording, const RenderInstance* instance, gpu::FrameBlock& block, char* staged) {
+void describeHits(const Recording& recording, uint32_t part, gpu::FrameBlock& block) {
   if (!wantsHits(recording.info)) return;
   block.flags |= gpu::kFlagHits;
-  block.hits = recording.view.buffers[ViewBuffer::kHits].address;
-  gpu::HitBlock hits{};
-  fillHitBlock(recording.info, hits);
-  hits.hits = block.hits;
-  hits.instances = recording.blockAddress() + kHitInstancesOffset;
-  std::memcpy(staged + gpu::kHitBlockOffset, &hits, sizeof(hits));
-  if (!instance) return;
-  const gpu::HitInstance described = describeHitInstance(recording.info, *instance);
-  std::memcpy(staged + kHitInstancesOffset, &described, sizeof(described));
+  block.hits = addressOfHits(recording.view);
+  block.part = part;
 }
 
-void recordHitPasses(const Recording& recording, const RenderPipelines::State& pipelines) {
+void writeHits(const Recording& recording, uint32_t part, const RenderInstance* instance) {
+  if (!wantsHits(recording.info)) return;
+  const RecordingPart& first = recording.parts().front();
+  const ViewBuffers& buffers = first.space.buffers;
+  char* staged =
+      static_cast<char*>(buffers[ViewBuffer::kStaging].mapped) + recording.number * buffers.recordingStride();
+  if (part == 0) {
+    gpu::HitBlock hits{};
+    fillHitBlock(recording.info, hits);
+    hits.hits = addressOfHits(recording.view);
+    hits.instances = first.recorder.frame + kHitInstancesOffset;
+    std::memcpy(staged + gpu::kHitBlockOffset, &hits, sizeof(hits));
+  }
+  if (!instance) return;
+  const gpu::HitInstance described = describeHitInstance(recording.info, *instance);
+  std::memcpy(staged + kHitInstancesOffset + part * sizeof(described), &described, sizeof(described));
+}
+
+void recordHitPasses(const Recording& recording) {
   const FrothRenderInfo& info = recording.info;
   if (!wantsHits(info)) return;
-  recording.view.device.table.recordMemoryBarrier(
-      recording.commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
-  if (info.id.image) recordHitPass(recording, *pipelines.writeIds, info.id, 0);
-  if (info.motion.image) recordHitPass(recording, *pipelines.writeMotion, info.motion, 1);
+  recording.wait();
+  if (info.id.image) recordHitPass(recording, *recording.pipelines.writeIds, info.id, 0);
+  if (info.motion.image) recordHitPass(recording, *recording.pipelines.writeMotion, info.motion, 1);
   recording.mark("hits");
 }
 

@@ -5,10 +5,12 @@
 
 namespace froth {
 
-// Fills what a recording that wants hits needs besides: of its FrameBlock, and the HitBlock behind it in `staged`. instance: null
-// for a clear.
-void writeHits(const Recording& recording, const RenderInstance* instance, gpu::FrameBlock& block, char* staged);
+// Fills what `part` of a recording that wants hits needs besides, of its FrameBlock.
+void describeHits(const Recording& recording, uint32_t part, gpu::FrameBlock& block);
 
-void recordHitPasses(const Recording& recording, const RenderPipelines::State& pipelines);
+// Fills the HitBlock, which lies behind the FrameBlock of the first part. instance: of each part; null for a clear.
+void writeHits(const Recording& recording, uint32_t part, const RenderInstance* instance);
+
+void recordHitPasses(const Recording& recording);
 
 }  // namespace froth

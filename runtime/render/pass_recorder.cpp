@@ -7,7 +7,7 @@
 namespace froth {
 
 void PassRecorder::bind(Pass pass) const {
-  vk.vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[static_cast<uint32_t>(pass)]);
+  vk.vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, (*pipelines)[static_cast<uint32_t>(pass)]);
 }
 
 void PassRecorder::run(Pass pass, uint32_t groupsX, uint32_t groupsY) const {
@@ -36,34 +36,28 @@ void PassRecorder::wait() const {
                              VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
-void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits, uint32_t lastStep,
-                const std::function<void(uint32_t digit)>& recordBeside) {
+void recordSortDigit(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digit, uint32_t step) {
+  const uint64_t histogram = arrays.histograms + digit * histogramBytes(arrays.capacity, arrays.rounds);
   gpu::SortConstants constants{.frame = recorder.frame,
                                .keysIn = arrays.keys,
                                .valuesIn = arrays.values,
                                .keysOut = arrays.keysSwap,
                                .valuesOut = arrays.valuesSwap,
                                .count = arrays.count,
-                               .histogram = arrays.histograms,
-                               .nextHistogram = arrays.histograms + histogramBytes(arrays.capacity, arrays.rounds),
-                               .shift = 0,
+                               .histogram = histogram,
+                               .nextHistogram = histogram + histogramBytes(arrays.capacity, arrays.rounds),
+                               .shift = 8 * digit,
                                .capacity = arrays.capacity,
-                               .step = gpu::kSortCountNextDigit,
+                               .step = step,
                                .padding = 0};
-  for (uint32_t digit = 0; digit < digits; ++digit) {
-    recorder.bind(arrays.rounds == 1 ? Pass::kSortScatter : Pass::kSortScatterMany);
-    constants.shift = 8 * digit;
-    if (digit + 1 == digits) constants.step = lastStep;
-    recorder.vk.vkCmdPushConstants(recorder.commandBuffer, recorder.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                   sizeof(constants), &constants);
-    recorder.dispatchIndirect(arrays.dispatch);
-    recordBeside(digit);
-    recorder.wait();
+  if (digit % 2 != 0) {
     std::swap(constants.keysIn, constants.keysOut);
     std::swap(constants.valuesIn, constants.valuesOut);
-    constants.histogram = constants.nextHistogram;
-    constants.nextHistogram += histogramBytes(arrays.capacity, arrays.rounds);
   }
+  recorder.bind(arrays.rounds == 1 ? Pass::kSortScatter : Pass::kSortScatterMany);
+  recorder.vk.vkCmdPushConstants(recorder.commandBuffer, recorder.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                 sizeof(constants), &constants);
+  recorder.dispatchIndirect(arrays.dispatch);
 }
 
 }  // namespace froth

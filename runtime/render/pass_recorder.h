@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "runtime/core/device.h"
 #include "runtime/render/pipeline_state.h"
@@ -14,7 +13,7 @@ struct PassRecorder {
   const DeviceTable& vk;
   VkCommandBuffer commandBuffer;
   VkPipelineLayout layout;
-  const PassPipelines& pipelines;
+  const PassPipelines* pipelines;
   VkDeviceAddress frame;  // FrameBlock
   VkBuffer counters;      // Counters, and where in the buffer
   VkDeviceSize countersOffset;
@@ -39,10 +38,8 @@ struct SortArrays {
   size_t dispatch;  // offset in gpu::Counters of a size of one workgroup per rounds * kGroupSize keys
 };
 
-// Sorts stably by the low `digits` bytes of the keys, ascending. Ends in the swaps if `digits` is odd. Ends
-// with a barrier. lastStep: gpu::kSort..., what the pass over the last digit does besides. `recordBeside` records passes that
-// run beside that over a digit, and are waited for with it.
-void recordSort(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digits, uint32_t lastStep,
-                const std::function<void(uint32_t digit)>& recordBeside);
+// Sorts stably by byte `digit` of the keys, after the bytes below it; done for all bytes the keys ascend, in the swaps if the
+// bytes are odd in number. Between two digits: a barrier. step: gpu::kSort..., what the pass does besides.
+void recordSortDigit(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digit, uint32_t step);
 
 }  // namespace froth

@@ -28,6 +28,15 @@ enum class Pass : uint32_t {
   kWidenCones,
   kClear16,
   kClear32,
+  // from here on only where a view draws several instances
+  kRasterSeveral16,
+  kRasterSeveral32,
+  kRasterSeveralFull16,
+  kRasterSeveralFull32,
+  kWalkSeveral16,
+  kWalkSeveral32,
+  kWalkSeveralFull16,
+  kWalkSeveralFull32,
   // from here on specialized on the asset's shape
   kCompactCells,
   kShadeSites,
@@ -44,7 +53,8 @@ enum class Pass : uint32_t {
   kWalkFull16,
   kWalkFull32,
 };
-inline constexpr uint32_t kPassCount = 27;
+inline constexpr uint32_t kPassCount = 35;
+inline constexpr uint32_t kFirstSeveralPass = static_cast<uint32_t>(Pass::kRasterSeveral16);
 inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.
@@ -64,8 +74,10 @@ struct RenderPipelines::State {
   VkPipelineCache cache = VK_NULL_HANDLE;
   ShaderOptions options{};
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // the output images
-  VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 80 bytes of push constants
-  LensPipelines common{};                            // null from kFirstShapedPass on, and for other lenses than options name
+  VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 128 bytes of push constants
+  LensPipelines common{};  // null from kFirstSeveralPass on, and for other lenses than options name
+  LensPipelines several{};  // from there to kFirstShapedPass, once made
+  bool hasSeveral = false;
   std::unique_ptr<ImagePass> writeIds{}, writeMotion{};  // null without ShaderOptions::hasExtendedFormats
   std::map<AssetShape, LensPipelines>
       byShape{};  // complete; guarded by `mutex`, entries never change or move

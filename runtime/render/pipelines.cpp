@@ -18,6 +18,8 @@
 #include "spirv/order_tiles.h"
 #include "spirv/raster_long_tiles_rgba16f.h"
 #include "spirv/raster_long_tiles_rgba32f.h"
+#include "spirv/raster_several_rgba16f.h"
+#include "spirv/raster_several_rgba32f.h"
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
 #include "spirv/shade_sites.h"
@@ -25,6 +27,8 @@
 #include "spirv/sort_scatter_many.h"
 #include "spirv/walk_rgba16f.h"
 #include "spirv/walk_rgba32f.h"
+#include "spirv/walk_several_rgba16f.h"
+#include "spirv/walk_several_rgba32f.h"
 #include "spirv/widen_cones.h"
 #include "spirv/write_ids.h"
 #include "spirv/write_motion.h"
@@ -32,9 +36,9 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kPushConstantBytes = 80;
+constexpr uint32_t kPushConstantBytes = 128;
 static_assert(sizeof(gpu::SortConstants) <= kPushConstantBytes &&
-              sizeof(gpu::PassConstants) <= kPushConstantBytes);
+              sizeof(gpu::PassConstants) + sizeof(gpu::PartConstants) <= kPushConstantBytes);
 
 // The classes of lenses that a pass has pipelines of its own for. Others take the pinhole's.
 constexpr uint32_t kAnyLens = 1 << gpu::kLensClassPinhole;
@@ -64,6 +68,14 @@ const std::array<PassCode, kPassCount> kPassCodes = {{
     {"widen_cones", widen_cones_spirv, kMapped},
     {"clear_rgba16f", clear_rgba16f_spirv, kAnyLens},
     {"clear_rgba32f", clear_rgba32f_spirv, kAnyLens},
+    {"raster_several_rgba16f", raster_several_rgba16f_spirv, kEachLens},
+    {"raster_several_rgba32f", raster_several_rgba32f_spirv, kEachLens},
+    {"raster_several_rgba16f", raster_several_rgba16f_spirv, kEachLens, true},
+    {"raster_several_rgba32f", raster_several_rgba32f_spirv, kEachLens, true},
+    {"walk_several_rgba16f", walk_several_rgba16f_spirv, kEachLens},
+    {"walk_several_rgba32f", walk_several_rgba32f_spirv, kEachLens},
+    {"walk_several_rgba16f", walk_several_rgba16f_spirv, kEachLens, true},
+    {"walk_several_rgba32f", walk_several_rgba32f_spirv, kEachLens, true},
     {"compact_cells", compact_cells_spirv, kEyeOrNone},
     {"shade_sites", shade_sites_spirv, kEyeOrNone},
     {"raster_long_tiles_rgba16f", raster_long_tiles_rgba16f_spirv, kEachLens},
@@ -238,7 +250,8 @@ RenderPipelines::~RenderPipelines() {
   const VkDevice device = state_->device.device;
   for (auto& [shape, pipelines] : state_->byShape)
     destroyPasses(*state_, kFirstShapedPass, kPassCount, pipelines);
-  destroyPasses(*state_, 0, kFirstShapedPass, state_->common);
+  destroyPasses(*state_, 0, kFirstSeveralPass, state_->common);
+  destroyPasses(*state_, kFirstSeveralPass, kFirstShapedPass, state_->several);
   vk.vkDestroyPipelineLayout(device, state_->layout, nullptr);
   vk.vkDestroyDescriptorSetLayout(device, state_->setLayout, nullptr);
 }
@@ -248,7 +261,7 @@ Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device,
   std::unique_ptr<RenderPipelines> pipelines(new RenderPipelines(device, cache, options));
   State& state = *pipelines->state_;
   if (const Status status = createLayout(state); !status) return status.error();
-  if (const Status status = createPasses(state, {}, 0, kFirstShapedPass, state.common); !status)
+  if (const Status status = createPasses(state, {}, 0, kFirstSeveralPass, state.common); !status)
     return status.error();
   if (const Status status = createHitPasses(state); !status) return status.error();
   return pipelines;
@@ -266,6 +279,18 @@ Status RenderPipelines::prepareFor(const GpuAsset& asset) {
   }
   const std::lock_guard lock(state_->mutex);
   state_->byShape.merge(made);
+  return {};
+}
+
+Status RenderPipelines::prepareForSeveral() {
+  if (state_->hasSeveral) return {};
+  const Status status = createPasses(*state_, {}, kFirstSeveralPass, kFirstShapedPass, state_->several);
+  if (!status) {
+    destroyPasses(*state_, kFirstSeveralPass, kFirstShapedPass, state_->several);
+    state_->several = {};
+    return status;
+  }
+  state_->hasSeveral = true;
   return {};
 }
 

@@ -27,6 +27,9 @@ class RenderPipelines {
   // READY; idempotent.
   Status prepareFor(const GpuAsset& asset);
 
+  // Makes those that draw several instances. Called before a view draws two; idempotent.
+  Status prepareForSeveral();
+
   struct State;
   State& state() { return *state_; }
 

@@ -5,53 +5,88 @@
 namespace froth {
 namespace {
 
+SortArrays cellSortOf(const RecordingPart& part) {
+  const ViewBuffers& buffers = part.space.buffers;
+  const VkDeviceAddress counters = buffers[ViewBuffer::kCounters].address + part.recorder.countersOffset;
+  const uint32_t capacity = buffers.capacity().cells;
+  return {buffers[ViewBuffer::kCellKeys].address,
+          buffers[ViewBuffer::kOrder].address,
+          buffers[ViewBuffer::kCellKeysSwap].address,
+          buffers[ViewBuffer::kOrderSwap].address,
+          counters + offsetof(gpu::Counters, visibleCells),
+          buffers[ViewBuffer::kTallies].address + layOutTallies(buffers.capacity()).cellHistograms,
+          capacity,
+          sortRoundsOf(capacity),
+          offsetof(gpu::Counters, cellSortDispatch)};
+}
+
+SortArrays pairSortOf(const RecordingPart& part) {
+  const ViewBuffers& buffers = part.space.buffers;
+  const VkDeviceAddress counters = buffers[ViewBuffer::kCounters].address + part.recorder.countersOffset;
+  return {buffers[ViewBuffer::kPairTiles].address,
+          buffers[ViewBuffer::kPairCells].address,
+          buffers[ViewBuffer::kPairTilesSwap].address,
+          buffers[ViewBuffer::kPairCellsSwap].address,
+          counters + offsetof(gpu::Counters, pairsKept),
+          buffers[ViewBuffer::kTallies].address + layOutTallies(buffers.capacity()).pairHistograms,
+          buffers.capacity().pairs,
+          sortRoundsOf(buffers.capacity().cells),
+          offsetof(gpu::Counters, pairSortDispatch)};
+}
+
+void recordTileTests(const Recording& recording, Pass pass) {
+  for (const RecordingPart& part : recording.parts()) {
+    part.recorder.runIndirect(pass, offsetof(gpu::Counters, tileDispatch));
+  }
+}
+
 // The passes of a sort leave most of the GPU idle, so what does not depend on the order runs beside them.
-void recordCellSort(const Recording& recording, const PassRecorder& recorder) {
-  const ViewBuffers& buffers = recording.view.buffers;
-  const TallyLayout tallies = layOutTallies(buffers.capacity());
-  const VkDeviceAddress counters = recording.countersAddress();
-  recordSort(recorder,
-             {buffers[ViewBuffer::kCellKeys].address, buffers[ViewBuffer::kOrder].address,
-              buffers[ViewBuffer::kCellKeysSwap].address, buffers[ViewBuffer::kOrderSwap].address,
-              counters + offsetof(gpu::Counters, visibleCells),
-              buffers[ViewBuffer::kTallies].address + tallies.cellHistograms, buffers.capacity().cells,
-              sortRoundsOf(buffers.capacity().cells), offsetof(gpu::Counters, cellSortDispatch)},
-             kCellKeyDigits, gpu::kSortTakeTileCounts, [&](uint32_t digit) {
-               if (digit == 0) recorder.runIndirect(Pass::kCountTiles, offsetof(gpu::Counters, tileDispatch));
-               if (digit == 1) recordExpand(recorder);
-               if (digit == 2) recordShade(recorder);
-             });
+void recordCellSort(const Recording& recording) {
+  for (uint32_t digit = 0; digit < kCellKeyDigits; ++digit) {
+    const uint32_t step = digit + 1 == kCellKeyDigits ? gpu::kSortTakeTileCounts : gpu::kSortCountNextDigit;
+    for (const RecordingPart& part : recording.parts()) recordSortDigit(part.recorder, cellSortOf(part), digit, step);
+    if (digit == 0) recordTileTests(recording, Pass::kCountTiles);
+    if (digit == 1) recordExpand(recording);
+    if (digit == 2) recordShade(recording);
+    recording.wait();
+  }
 }
 
 // Pairs leave the cells in their order; a stable sort by tile keeps it within each tile.
-void recordBin(const Recording& recording, const PassRecorder& recorder) {
-  const ViewBuffers& buffers = recording.view.buffers;
-  const TallyLayout tallies = layOutTallies(buffers.capacity());
-  const VkDeviceAddress counters = recording.countersAddress();
-  recorder.runIndirect(Pass::kEmitPairs, offsetof(gpu::Counters, tileDispatch));
-  recorder.wait();
-  recordSort(recorder,
-             {buffers[ViewBuffer::kPairTiles].address, buffers[ViewBuffer::kPairCells].address,
-              buffers[ViewBuffer::kPairTilesSwap].address, buffers[ViewBuffer::kPairCellsSwap].address,
-              counters + offsetof(gpu::Counters, pairsKept),
-              buffers[ViewBuffer::kTallies].address + tallies.pairHistograms, buffers.capacity().pairs,
-              sortRoundsOf(buffers.capacity().cells), offsetof(gpu::Counters, pairSortDispatch)},
-             digitsOf(tilesOf(recording.info.camera.scissor)), gpu::kSortOnlyMove, [&](uint32_t digit) {
-               if (digit == 0) recorder.run(Pass::kOrderTiles, 1);
-             });
+void recordBin(const Recording& recording) {
+  recordTileTests(recording, Pass::kEmitPairs);
+  recording.wait();
+  const uint32_t digits = digitsOf(tilesOf(recording.info.camera.scissor));
+  for (uint32_t digit = 0; digit < digits; ++digit) {
+    const uint32_t step = digit + 1 == digits ? gpu::kSortOnlyMove : gpu::kSortCountNextDigit;
+    for (const RecordingPart& part : recording.parts()) {
+      recordSortDigit(part.recorder, pairSortOf(part), digit, step);
+      if (digit == 0) part.recorder.run(Pass::kOrderTiles, 1);
+    }
+    recording.wait();
+  }
+}
+
+// Each instance draws the tiles in which it is alone.
+void recordTiles(const Recording& recording) {
+  pushParts(recording);
+  for (const RecordingPart& part : recording.parts()) {
+    part.recorder.runIndirect(pixelPass(Pass::kRasterLong16, recording.info), offsetof(gpu::Counters, longTileDispatch));
+    part.recorder.runIndirect(pixelPass(Pass::kRaster16, recording.info), offsetof(gpu::Counters, tileDrawDispatch));
+  }
+  if (recording.parts().size() > 1) recordPixels(recording, pixelPass(Pass::kRasterSeveral16, recording.info));
 }
 
 }  // namespace
 
-void recordRasterPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset) {
-  recordCull(recording, recorder, asset);
+void recordRasterPasses(const Recording& recording) {
+  recordCull(recording);
   recording.mark("cull");
-  recordCellSort(recording, recorder);
+  recordCellSort(recording);
   recording.mark("sort");
-  recordBin(recording, recorder);
+  recordBin(recording);
   recording.mark("bin");
-  recorder.runIndirect(pixelPass(Pass::kRasterLong16, recording.info), offsetof(gpu::Counters, longTileDispatch));
-  recorder.runIndirect(pixelPass(Pass::kRaster16, recording.info), offsetof(gpu::Counters, tileDrawDispatch));
+  recordTiles(recording);
   recording.mark("raster");
 }
 

@@ -9,70 +9,64 @@
 namespace froth {
 namespace {
 
-void writeBlock(const Recording& recording, const RenderInstance* instance) {
-  const ViewBuffers& buffers = recording.view.buffers;
+void writeBlock(const Recording& recording, const RecordingPart& part, const RenderInstance* instance) {
+  const ViewBuffers& buffers = part.space.buffers;
   char* staged =
       static_cast<char*>(buffers[ViewBuffer::kStaging].mapped) + recording.number * buffers.recordingStride();
   gpu::FrameBlock block{};
   if (!instance) {
     fillOutputs(recording.info, block);
   } else {
-    fillFrame(recording.info, *instance, buffers, {recording.blockAddress(), recording.countersAddress()},
-              block, reinterpret_cast<gpu::ChunkEntry*>(staged + kBlockStride));
+    const VkDeviceAddress counters = buffers[ViewBuffer::kCounters].address + recording.countersOffset();
+    fillFrame(recording.info, *instance, buffers, {part.recorder.frame, counters}, block,
+              reinterpret_cast<gpu::ChunkEntry*>(staged + kBlockStride));
     block.flags |= recording.kind == RecordingKind::kWalk ? gpu::kFlagWalk : 0;
   }
-  writeHits(recording, instance, block, staged);
+  const auto index = static_cast<uint32_t>(recording.parts().size() - 1);
+  describeHits(recording, index, block);
   std::memcpy(staged, &block, sizeof(block));
+  writeHits(recording, index, instance);
 }
 
 // Copies the block to the device and clears what the passes count in or only partly write.
-void recordUpload(const Recording& recording, const GpuAsset* asset) {
-  ViewState& view = recording.view;
-  const ViewBuffers& buffers = view.buffers;
-  const DeviceTable& vk = view.device.table;
-  const VkDeviceSize stride = buffers.recordingStride();
+void recordUpload(const Recording& recording, const RecordingPart& part) {
+  InstanceSpace& space = part.space;
+  const DeviceTable& vk = recording.view.device.table;
+  const VkDeviceSize stride = space.buffers.recordingStride();
   const VkBufferCopy copy{recording.number * stride, recording.place * stride, stride};
-  vk.vkCmdCopyBuffer(recording.commandBuffer, buffers[ViewBuffer::kStaging].buffer,
-                     buffers[ViewBuffer::kFrames].buffer, 1, &copy);
-  vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer,
+  vk.vkCmdCopyBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kStaging].buffer,
+                     space.buffers[ViewBuffer::kFrames].buffer, 1, &copy);
+  vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kCounters].buffer,
                      recording.countersOffset(), sizeof(gpu::Counters), 0);
   if (recording.kind != RecordingKind::kClear) {
-    const TallyLayout tallies = layOutTallies(buffers.capacity());
+    const TallyLayout tallies = layOutTallies(space.buffers.capacity());
     const bool isWalk = recording.kind == RecordingKind::kWalk;
     const uint64_t first = isWalk ? tallies.superSums : 0;
     const uint64_t end = isWalk ? tallies.tileSums : tallies.end;
-    vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kTallies].buffer, first, end - first, 0);
+    vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kTallies].buffer, first, end - first, 0);
   }
-  if (recording.kind == RecordingKind::kWalk && view.walkAsset != asset) {
-    vk.vkCmdFillBuffer(recording.commandBuffer, buffers[ViewBuffer::kWalkStart].buffer, 0, VK_WHOLE_SIZE, 0);
-    view.walkAsset = asset;
+  if (recording.kind == RecordingKind::kWalk && space.walkAsset != part.asset) {
+    vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kWalkStart].buffer, 0, VK_WHOLE_SIZE, 0);
+    space.walkAsset = part.asset;
   }
-  recording.view.device.table.recordMemoryBarrier(
-      recording.commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
-void recordRays(const Recording& recording, const PassRecorder& recorder) {
+void recordRays(const Recording& recording) {
   const FrothCamera& camera = recording.info.camera;
   const uint32_t tilesX = tilesAlong(camera.scissor.extent.width), tilesY = tilesAlong(camera.scissor.extent.height);
   const bool isByImage = camera.lens.kind == FROTH_LENS_RAY_MAP;
-  recorder.run(isByImage ? Pass::kAimRaysByImage : Pass::kAimRays, tilesX, tilesY);
-  recorder.wait();
-  recorder.run(Pass::kWidenCones, groupsOver(tilesX, gpu::kBlockTiles), groupsOver(tilesY, gpu::kBlockTiles));
-  recorder.wait();
+  for (const RecordingPart& part : recording.parts()) {
+    part.recorder.run(isByImage ? Pass::kAimRaysByImage : Pass::kAimRays, tilesX, tilesY);
+  }
+  recording.wait();
+  for (const RecordingPart& part : recording.parts()) {
+    part.recorder.run(Pass::kWidenCones, groupsOver(tilesX, gpu::kBlockTiles), groupsOver(tilesY, gpu::kBlockTiles));
+  }
+  recording.wait();
   recording.mark("aim");
 }
 
 }  // namespace
-
-VkDeviceAddress Recording::blockAddress() const {
-  return view.buffers[ViewBuffer::kFrames].address + place * view.buffers.recordingStride();
-}
-
-VkDeviceAddress Recording::countersAddress() const {
-  return view.buffers[ViewBuffer::kCounters].address + countersOffset();
-}
 
 VkDeviceSize Recording::countersOffset() const {
   return place * kBlockStride;
@@ -82,77 +76,99 @@ void Recording::mark(const char* pass) const {
   if (view.timer) view.timer->mark(commandBuffer, number, pass);
 }
 
-Recording beginRecording(ViewState& view, VkCommandBuffer commandBuffer, RecordingKind kind,
-                         const FrothRenderInfo& info, uint64_t serial, const RenderInstance* instance) {
+void Recording::wait() const {
+  view.parts.front().recorder.wait();
+}
+
+Recording beginRecording(ViewState& view, const RenderPipelines::State& pipelines, VkCommandBuffer commandBuffer,
+                         RecordingKind kind, const FrothRenderInfo& info, uint64_t serial) {
   FrameSlot& slot = view.slots[view.slot];
   const uint32_t place = slot.recordings % kRecordingsPerFrame;
-  Recording recording{.view = view,
-                      .info = info,
-                      .commandBuffer = commandBuffer,
-                      .kind = kind,
-                      .place = place,
-                      .number = view.slot * kRecordingsPerFrame + place};
+  const Recording recording{.view = view,
+                            .pipelines = pipelines,
+                            .info = info,
+                            .commandBuffer = commandBuffer,
+                            .kind = kind,
+                            .place = place,
+                            .number = view.slot * kRecordingsPerFrame + place};
   slot.serial = serial;
   slot.recordings = place + 1;
   view.lastSerial = serial;
-
+  view.parts.clear();
   view.images->enter(commandBuffer, info);
   if (view.timer) view.timer->begin(commandBuffer, recording.number);
-  writeBlock(recording, instance);
-  recordUpload(recording, instance ? instance->asset : nullptr);
   return recording;
 }
 
-PassRecorder bindRecording(const Recording& recording, const RenderPipelines::State& pipelines,
-                           const PassPipelines& passes) {
+void addPart(const Recording& recording, InstanceSpace& space, const RenderInstance* instance,
+             const PassPipelines& passes) {
+  space.serials[recording.number] = space.lastSerial = recording.view.lastSerial;
+  const VkDeviceAddress block =
+      space.buffers[ViewBuffer::kFrames].address + recording.place * space.buffers.recordingStride();
+  recording.view.parts.push_back({.space = space,
+                                  .asset = instance ? instance->asset : nullptr,
+                                  .recorder = {.vk = recording.view.device.table,
+                                               .commandBuffer = recording.commandBuffer,
+                                               .layout = recording.pipelines.layout,
+                                               .pipelines = &passes,
+                                               .frame = block,
+                                               .counters = space.buffers[ViewBuffer::kCounters].buffer,
+                                               .countersOffset = recording.countersOffset()}});
+  writeBlock(recording, recording.view.parts.back(), instance);
+  recordUpload(recording, recording.view.parts.back());
+}
+
+void startPasses(const Recording& recording) {
   const DeviceTable& vk = recording.view.device.table;
+  vk.recordMemoryBarrier(recording.commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                         VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                         VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
   const VkDescriptorSet set = recording.view.images->update(recording.number, recording.info);
-  vk.vkCmdBindDescriptorSets(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.layout, 0, 1,
-                             &set, 0, nullptr);
-  return {.vk = vk,
-          .commandBuffer = recording.commandBuffer,
-          .layout = pipelines.layout,
-          .pipelines = passes,
-          .frame = recording.blockAddress(),
-          .counters = recording.view.buffers[ViewBuffer::kCounters].buffer,
-          .countersOffset = recording.countersOffset()};
+  vk.vkCmdBindDescriptorSets(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE,
+                             recording.pipelines.layout, 0, 1, &set, 0, nullptr);
 }
 
 void endRecording(const Recording& recording) {
-  const ViewBuffers& buffers = recording.view.buffers;
-  recording.view.device.table.recordMemoryBarrier(
-      recording.commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-      VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+  const DeviceTable& vk = recording.view.device.table;
+  vk.recordMemoryBarrier(recording.commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                         VK_ACCESS_2_TRANSFER_READ_BIT);
   const VkBufferCopy copy{recording.countersOffset(), recording.number * kBlockStride, sizeof(gpu::Counters)};
-  recording.view.device.table.vkCmdCopyBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer,
-                                              buffers[ViewBuffer::kReadback].buffer, 1, &copy);
-  recording.view.device.table.recordMemoryBarrier(
-      recording.commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+  for (const RecordingPart& part : recording.parts()) {
+    const ViewBuffers& buffers = part.space.buffers;
+    vk.vkCmdCopyBuffer(recording.commandBuffer, buffers[ViewBuffer::kCounters].buffer,
+                       buffers[ViewBuffer::kReadback].buffer, 1, &copy);
+  }
+  vk.recordMemoryBarrier(recording.commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                         VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   recording.view.images->leave(recording.commandBuffer, recording.info);
 }
 
-const gpu::Counters& readCounters(const ViewState& view, uint32_t number) {
-  const char* readback = static_cast<const char*>(view.buffers[ViewBuffer::kReadback].mapped);
+const gpu::Counters& readCounters(const InstanceSpace& space, uint32_t number) {
+  const char* readback = static_cast<const char*>(space.buffers[ViewBuffer::kReadback].mapped);
   return *reinterpret_cast<const gpu::Counters*>(readback + number * kBlockStride);
 }
 
-void recordCull(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset) {
-  if (lensClassOf(recording.info.camera) == gpu::kLensClassMapped) recordRays(recording, recorder);
-  const uint32_t groups = groupsPerChunk(asset);
-  const auto chunks = static_cast<uint32_t>(asset.chunks.size());
-  recorder.run(Pass::kCullCells, groups, chunks);
-  recorder.wait();
-  recorder.run(Pass::kCompactCells, groups, chunks);
-  recorder.wait();
+void recordCull(const Recording& recording) {
+  if (lensClassOf(recording.info.camera) == gpu::kLensClassMapped) recordRays(recording);
+  for (const Pass pass : {Pass::kCullCells, Pass::kCompactCells}) {
+    for (const RecordingPart& part : recording.parts()) {
+      part.recorder.run(pass, groupsPerChunk(*part.asset), static_cast<uint32_t>(part.asset->chunks.size()));
+    }
+    recording.wait();
+  }
 }
 
-void recordExpand(const PassRecorder& recorder) {
-  recorder.runIndirect(Pass::kExpandCells, offsetof(gpu::Counters, expandDispatch));
+void recordExpand(const Recording& recording) {
+  for (const RecordingPart& part : recording.parts()) {
+    part.recorder.runIndirect(Pass::kExpandCells, offsetof(gpu::Counters, expandDispatch));
+  }
 }
 
-void recordShade(const PassRecorder& recorder) {
-  recorder.runIndirect(Pass::kShadeSites, offsetof(gpu::Counters, siteDispatch));
+void recordShade(const Recording& recording) {
+  for (const RecordingPart& part : recording.parts()) {
+    part.recorder.runIndirect(Pass::kShadeSites, offsetof(gpu::Counters, siteDispatch));
+  }
 }
 
 Pass pixelPass(Pass plain, const FrothRenderInfo& info) {
@@ -160,8 +176,21 @@ Pass pixelPass(Pass plain, const FrothRenderInfo& info) {
   return static_cast<Pass>(static_cast<uint32_t>(plain) + form);
 }
 
-void recordPixels(const Recording& recording, const PassRecorder& recorder, Pass pass) {
+void pushParts(const Recording& recording) {
+  gpu::PartConstants constants{};
+  for (const RecordingPart& part : recording.parts()) constants.parts[constants.partCount++] = part.recorder.frame;
+  recording.view.device.table.vkCmdPushConstants(recording.commandBuffer, recording.pipelines.layout,
+                                                 VK_SHADER_STAGE_COMPUTE_BIT, sizeof(gpu::PassConstants),
+                                                 sizeof(constants), &constants);
+}
+
+void recordPixels(const Recording& recording, Pass pass) {
   const VkExtent2D& extent = recording.info.camera.scissor.extent;
+  PassRecorder recorder = recording.parts().front().recorder;
+  const auto index = static_cast<uint32_t>(pass);
+  if (index >= kFirstSeveralPass && index < kFirstShapedPass) {
+    recorder.pipelines = &recording.pipelines.several[lensClassOf(recording.info.camera)];
+  }
   recorder.run(pass, groupsOver(extent.width, gpu::kSubTileSize), groupsOver(extent.height, gpu::kSubTileSize));
 }
 

@@ -1,5 +1,6 @@
 #include "runtime/render/view_buffers.h"
 
+#include <cstring>
 #include <initializer_list>
 #include <utility>
 
@@ -153,13 +154,13 @@ VkDeviceSize ViewBuffers::deviceBytes() const {
   return bytes;
 }
 
-void ViewBuffers::describeMemory(FrothViewStatus& status) const {
-  status.deviceBytes = deviceBytes();
-  status.memoryCount = 0;
+void ViewBuffers::addMemory(FrothViewStatus& status) const {
+  status.deviceBytes += deviceBytes();
   const auto add = [&](const char* name, std::initializer_list<ViewBuffer> ids) {
-    FrothMemory& part = status.memory[status.memoryCount++];
-    part = {name, 0};
-    for (const ViewBuffer id : ids) part.bytes += (*this)[id].size;
+    uint32_t place = 0;
+    while (place < status.memoryCount && std::strcmp(status.memory[place].name, name) != 0) ++place;
+    if (place == status.memoryCount) status.memory[status.memoryCount++] = {name, 0};
+    for (const ViewBuffer id : ids) status.memory[place].bytes += (*this)[id].size;
   };
   using enum ViewBuffer;
   add("frames", {kFrames, kCounters, kWalkStart});

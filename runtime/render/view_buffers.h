@@ -46,7 +46,7 @@ inline constexpr uint32_t kViewBufferCount = 26;
 inline constexpr uint32_t kRecordingsPerFrame = 2;  // a raster and a walk
 
 // [bytes] The space of a FrameBlock with its HitBlock, and of Counters. The chunk table follows its block.
-inline constexpr VkDeviceSize kBlockStride = 1024;
+inline constexpr VkDeviceSize kBlockStride = 2048;
 
 class ViewBuffers {
  public:
@@ -67,7 +67,7 @@ class ViewBuffers {
   const GpuBuffer& operator[](ViewBuffer id) const { return buffers_[static_cast<uint32_t>(id)]; }
   const ViewCapacity& capacity() const { return capacity_; }
   VkDeviceSize deviceBytes() const;
-  void describeMemory(FrothViewStatus& status) const;
+  void addMemory(FrothViewStatus& status) const;
   VkDeviceSize recordingStride()
       const;  // [bytes] from one recording's block to the next, in kFrames and kStaging
 

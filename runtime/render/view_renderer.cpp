@@ -1,6 +1,7 @@
 #include "runtime/render/view_renderer.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "runtime/render/camera_rays.h"
 #include "runtime/render/hit_passes.h"
@@ -23,14 +24,31 @@ void addWork(const gpu::Counters& counters, FrothWork& work) {
   add(gpu::kWorkNeighbours, work.neighbours);
 }
 
-void addCounters(const gpu::Counters& counters, FrothViewStatus& status) {
-  status.visibleCells = std::max(status.visibleCells, counters.cellsWanted);
+// Of all parts of a recording.
+struct PartSums {
+  uint32_t visibleCells = 0;
+};
+
+void addCounters(const gpu::Counters& counters, FrothViewStatus& status, PartSums& sums) {
+  sums.visibleCells += counters.cellsWanted;
   status.pairs += counters.pairs;
   status.indexViolations += counters.violations;
   addWork(counters, status.work);
   if (counters.cellsWanted > counters.visibleCells) status.bits |= FROTH_VIEW_CELL_OVERFLOW;
   if (counters.pairs > counters.pairsKept) status.bits |= FROTH_VIEW_PAIR_OVERFLOW;
   if (counters.stepLimit != 0) status.bits |= FROTH_VIEW_STEP_LIMIT;
+}
+
+void readRecording(ViewState& view, uint32_t number) {
+  PartSums sums;
+  for (const auto& space : view.spaces) {
+    if (space->serials[number] != view.status.serial) continue;
+    const gpu::Counters& counters = readCounters(*space, number);
+    addCounters(counters, view.status, sums);
+    space->demand = largest(space->demand, demandOf(counters));
+  }
+  view.status.visibleCells = std::max(view.status.visibleCells, sums.visibleCells);
+  if (view.timer) view.timer->read(number, view.status);
 }
 
 // Takes over counts and times of the newest frame that is complete.
@@ -46,29 +64,102 @@ void readBack(ViewState& view, uint64_t completedSerial) {
   view.status = {};
   view.status.structSize = sizeof(FrothViewStatus);
   view.status.serial = newest->serial;
-  view.demand = {};
+  for (const auto& space : view.spaces) space->demand = {};
   const auto firstNumber = static_cast<uint32_t>(newest - view.slots.data()) * kRecordingsPerFrame;
-  for (uint32_t number = firstNumber; number < firstNumber + newest->recordings; ++number) {
-    const gpu::Counters& counters = readCounters(view, number);
-    addCounters(counters, view.status);
-    view.demand = largest(view.demand, demandOf(counters));
-    if (view.timer) view.timer->read(number, view.status);
-  }
+  for (uint32_t number = firstNumber; number < firstNumber + newest->recordings; ++number) readRecording(view, number);
 }
 
-Status growBuffers(ViewState& view, const GpuAsset* asset, const ViewCapacity& wanted) {
-  if (wanted == view.buffers.capacity()) return {};
-  const VkDeviceSize heldBytes = view.device.ledger.deviceBytes();
-  const VkDeviceSize budget = view.device.budget;
-  const auto& refusal = view.refusal;
+Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, const ViewCapacity& wanted) {
+  if (wanted == space.buffers.capacity()) return {};
+  const VkDeviceSize heldBytes = device.ledger.deviceBytes();
+  const VkDeviceSize budget = device.budget;
+  const auto& refusal = space.refusal;
   if (refusal && refusal->asset == asset && refusal->budget == budget && heldBytes >= refusal->deviceBytes) {
     return refusal->error;
   }
-  view.refusal.reset();
-  const uint64_t budgetRefusals = view.device.budgetRefusals;
-  const Status status = view.buffers.grow(wanted, view.lastSerial);
-  if (view.device.budgetRefusals != budgetRefusals) view.refusal = {asset, budget, heldBytes, status.error()};
+  space.refusal.reset();
+  const uint64_t budgetRefusals = device.budgetRefusals;
+  const Status status = space.buffers.grow(wanted, space.lastSerial);
+  if (device.budgetRefusals != budgetRefusals) space.refusal = {asset, budget, heldBytes, status.error()};
   return status;
+}
+
+// asset: null for a space that nobody has.
+Status prepareSpace(ViewState& view, InstanceSpace& space, uint64_t completedSerial, const GpuAsset* asset) {
+  space.buffers.freeRetired(completedSerial);
+  if (const Status status = space.buffers.trim(space.lastSerial, completedSerial); !status) return status;
+  ViewCapacity wanted = largest(space.buffers.capacity(), view.leastCapacity);
+  const bool isHeldBack = view.device.excessBytes() > 0;  // what views give up now they would take again
+  if (asset && !(isHeldBack && coversAsset(*asset, wanted))) {
+    coverAsset(*asset, wanted);
+    coverDemand(*asset, space.demand, wanted);
+  }
+  const VkBuffer oldWalkStart = space.buffers[ViewBuffer::kWalkStart].buffer;
+  const Status status = growBuffers(view.device, space, asset, wanted);
+  const bool isWalkStartKept = space.buffers[ViewBuffer::kWalkStart].buffer == oldWalkStart;
+  if (!isWalkStartKept || space.walkAsset != asset) space.walkAsset = nullptr;
+  return status;
+}
+
+InstanceSpace* findSpace(const ViewState& view, FrothInstance instance) {
+  for (const auto& space : view.spaces) {
+    const bool isOfInstance = space->instance.index == instance.index && space->instance.generation == instance.generation;
+    if (space->isTaken && isOfInstance) return space.get();
+  }
+  return nullptr;
+}
+
+// The instance's own of the last frame; else one that nobody has; else a new one.
+InstanceSpace& takeSpace(ViewState& view, FrothInstance instance) {
+  InstanceSpace* space = findSpace(view, instance);
+  for (size_t i = 0; i < view.spaces.size() && !space; ++i) {
+    if (!view.spaces[i]->isTaken) space = view.spaces[i].get();
+  }
+  if (!space) {
+    const auto recordings = static_cast<uint32_t>(view.slots.size()) * kRecordingsPerFrame;
+    space = view.spaces.emplace_back(std::make_unique<InstanceSpace>(view.device, recordings)).get();
+  }
+  space->instance = instance;
+  space->isTaken = true;
+  return *space;
+}
+
+// Spaces whose instances are gone are there for others; what is then left over is freed.
+void giveUpSpaces(ViewState& view, uint64_t completedSerial, std::span<const RenderInstance> instances) {
+  for (const auto& space : view.spaces) {
+    const auto isIts = [&](const RenderInstance& instance) { return findSpace(view, instance.handle) == space.get(); };
+    space->isTaken = space->isTaken && std::any_of(instances.begin(), instances.end(), isIts);
+  }
+  const auto isLeftOver = [&](const std::unique_ptr<InstanceSpace>& space) {
+    return !space->isTaken && space->lastSerial <= completedSerial;
+  };
+  const size_t most = std::max<size_t>(instances.size(), 1);
+  for (size_t i = view.spaces.size(); i-- > 1 && view.spaces.size() > most;) {
+    if (isLeftOver(view.spaces[i])) view.spaces.erase(view.spaces.begin() + static_cast<ptrdiff_t>(i));
+  }
+}
+
+void describeMemory(ViewState& view) {
+  view.status.deviceBytes = view.status.memoryCount = 0;
+  for (const auto& space : view.spaces) space->buffers.addMemory(view.status);
+}
+
+// What can be drawn of the instances, as parts of the recording.
+uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines, std::span<const RenderInstance> instances) {
+  uint32_t bits = 0;
+  for (const RenderInstance& instance : instances) {
+    InstanceSpace* space = findSpace(recording.view, instance.handle);
+    const PassPipelines* passes = pipelines.find(shapeOf(*instance.asset), lensClassOf(recording.info.camera));
+    const bool isFirst = recording.view.parts.empty();
+    if (!space || !passes || !coversAsset(*instance.asset, space->buffers.capacity()) || !(isFirst || pipelines.hasSeveral)) {
+      bits |= FROTH_VIEW_NOT_READY;
+    } else if (recording.kind == RecordingKind::kWalk && !instance.asset->hasWalkGraph) {
+      bits |= FROTH_VIEW_NO_WALK_GRAPH;
+    } else {
+      addPart(recording, *space, &instance, *passes);
+    }
+  }
+  return bits;
 }
 
 }  // namespace
@@ -95,27 +186,30 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   }
   std::unique_ptr<ViewRenderer> renderer(new ViewRenderer);
   renderer->state_.reset(new ViewState{.device = device,
-                                       .buffers = ViewBuffers(device),
+                                       .spaces = {},
                                        .images = std::move(*images),
                                        .hitSets = std::move(hitSets),
                                        .timer = std::move(timer),
                                        .slots = std::vector<FrameSlot>(options.framesInFlight)});
-  ViewCapacity capacity;
+  ViewState& view = *renderer->state_;
+  ViewCapacity& capacity = view.leastCapacity;
   const VkExtent2D extent = options.maxExtent;
   const uint64_t pixels = uint64_t{extent.width} * extent.height;
   capacity.frames = options.framesInFlight;
   capacity.tiles = tilesAlong(extent.width) * tilesAlong(extent.height);
   if (options.lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
   if (options.lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = pixels;
-  if (options.keepsHits) capacity.hits = pixels;
-  if (const Status status = renderer->state_->buffers.grow(capacity, 0); !status) return status.error();
+  view.parts.reserve(gpu::kMostInstances);
+  view.spaces.push_back(std::make_unique<InstanceSpace>(device, recordings));
+  ViewCapacity first = capacity;  // the hits of all instances are there
+  if (options.keepsHits) first.hits = pixels;
+  if (const Status status = view.spaces.front()->buffers.grow(first, 0); !status) return status.error();
   return renderer;
 }
 
-Status ViewRenderer::prepare(uint64_t completedSerial, const GpuAsset* asset) {
+Status ViewRenderer::prepare(uint64_t completedSerial, std::span<const RenderInstance> instances) {
   ViewState& view = *state_;
   readBack(view, completedSerial);
-  view.buffers.freeRetired(completedSerial);
   if (view.slots[view.slot].recordings != 0) {  // frames can be dropped in any order, so any slot may be free
     const auto free = std::find_if(view.slots.begin(), view.slots.end(),
                                    [&](const FrameSlot& slot) { return slot.serial <= completedSerial; });
@@ -123,83 +217,66 @@ Status ViewRenderer::prepare(uint64_t completedSerial, const GpuAsset* asset) {
     view.slot = static_cast<uint32_t>(free - view.slots.begin());
   }
 
-  if (const Status status = view.buffers.trim(view.lastSerial, completedSerial); !status) return status;
-  ViewCapacity wanted = view.buffers.capacity();
-  const bool isHeldBack = view.device.excessBytes() > 0;  // what views give up now they would take again
-  if (asset && !(isHeldBack && coversAsset(*asset, wanted))) {
-    coverAsset(*asset, wanted);
-    coverDemand(*asset, view.demand, wanted);
+  giveUpSpaces(view, completedSerial, instances);
+  Status result;
+  const auto prepareFor = [&](InstanceSpace& space, const GpuAsset* asset) {
+    const Status status = prepareSpace(view, space, completedSerial, asset);
+    if (result && !status) result = status;
+  };
+  for (const RenderInstance& instance : instances) prepareFor(takeSpace(view, instance.handle), instance.asset);
+  for (const auto& space : view.spaces) {
+    if (!space->isTaken) prepareFor(*space, nullptr);
   }
-  const VkBuffer oldWalkStart = view.buffers[ViewBuffer::kWalkStart].buffer;
-  const Status status = growBuffers(view, asset, wanted);
-  const bool isWalkStartKept = view.buffers[ViewBuffer::kWalkStart].buffer == oldWalkStart;
-  if (!isWalkStartKept || view.walkAsset != asset) view.walkAsset = nullptr;
-  view.buffers.describeMemory(view.status);
-  return status;
+  describeMemory(view);
+  return result;
 }
 
 VkDeviceSize ViewRenderer::shrinkableBytes() const {
-  const ViewCapacity& capacity = state_->buffers.capacity();
-  return bytesOf(capacity) - bytesOf(lessened(capacity, 0));
+  VkDeviceSize bytes = 0;
+  for (const auto& space : state_->spaces) {
+    const ViewCapacity& capacity = space->buffers.capacity();
+    bytes += bytesOf(capacity) - bytesOf(lessened(capacity, 0));
+  }
+  return bytes;
 }
 
 void ViewRenderer::shrink(double factor) {
-  state_->buffers.lessen(lessened(state_->buffers.capacity(), factor));
+  for (const auto& space : state_->spaces) space->buffers.lessen(lessened(space->buffers.capacity(), factor));
 }
 
 bool ViewRenderer::isShrinking() const {
-  return !state_->buffers.isTrimmed();
+  return !std::all_of(state_->spaces.begin(), state_->spaces.end(),
+                      [](const auto& space) { return space->buffers.isTrimmed(); });
 }
 
-uint32_t ViewRenderer::recordRaster(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
-                                    const RenderInstance& instance, const FrothRenderInfo& info,
-                                    uint64_t serial) {
-  const PassPipelines* passes = pipelines.state().find(shapeOf(*instance.asset), lensClassOf(info.camera));
-  if (!passes || !coversAsset(*instance.asset, state_->buffers.capacity())) {
-    recordClear(commandBuffer, pipelines, info, serial);
-    return FROTH_VIEW_NOT_READY;
+uint32_t ViewRenderer::record(RenderMethod method, VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
+                              std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial) {
+  ViewState& view = *state_;
+  const bool isRaster = method == RenderMethod::kRaster;
+  Recording recording = beginRecording(view, pipelines.state(), commandBuffer,
+                                       isRaster ? RecordingKind::kRaster : RecordingKind::kWalk, info, serial);
+  const uint32_t bits = addParts(recording, pipelines.state(), instances);
+  if (view.parts.empty()) {
+    recording.kind = RecordingKind::kClear;
+    addPart(recording, *view.spaces.front(), nullptr, pipelines.state().common[gpu::kLensClassPinhole]);
   }
-  const Recording recording =
-      beginRecording(*state_, commandBuffer, RecordingKind::kRaster, info, serial, &instance);
-  recordRasterPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
-  recordHitPasses(recording, pipelines.state());
-  endRecording(recording);
-  return 0;
-}
-
-uint32_t ViewRenderer::recordWalk(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
-                                  const RenderInstance& instance, const FrothRenderInfo& info,
-                                  uint64_t serial) {
-  const PassPipelines* passes = pipelines.state().find(shapeOf(*instance.asset), lensClassOf(info.camera));
-  const bool isReady = passes && coversAsset(*instance.asset, state_->buffers.capacity());
-  if (!isReady || !instance.asset->hasWalkGraph) {
-    recordClear(commandBuffer, pipelines, info, serial);
-    return isReady ? FROTH_VIEW_NO_WALK_GRAPH : FROTH_VIEW_NOT_READY;
+  startPasses(recording);
+  if (recording.kind == RecordingKind::kRaster) recordRasterPasses(recording);
+  if (recording.kind == RecordingKind::kWalk) recordWalkPasses(recording);
+  if (recording.kind == RecordingKind::kClear) {
+    recordPixels(recording, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
+    recording.mark("clear");
   }
-  const Recording recording =
-      beginRecording(*state_, commandBuffer, RecordingKind::kWalk, info, serial, &instance);
-  recordWalkPasses(recording, bindRecording(recording, pipelines.state(), *passes), *instance.asset);
-  recordHitPasses(recording, pipelines.state());
+  recordHitPasses(recording);
   endRecording(recording);
-  return 0;
-}
-
-void ViewRenderer::recordClear(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
-                               const FrothRenderInfo& info, uint64_t serial) {
-  const Recording recording =
-      beginRecording(*state_, commandBuffer, RecordingKind::kClear, info, serial, nullptr);
-  const PassRecorder recorder = bindRecording(recording, pipelines.state(), pipelines.state().common[gpu::kLensClassPinhole]);
-  recordPixels(recording, recorder, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
-  recording.mark("clear");
-  recordHitPasses(recording, pipelines.state());
-  endRecording(recording);
+  return bits;
 }
 
 void ViewRenderer::dropFrame(uint64_t serial) {
   for (FrameSlot& slot : state_->slots) {
     if (slot.serial == serial) slot = {};
   }
-  state_->walkAsset = nullptr;  // it may be that frame that would have found the start
+  for (const auto& space : state_->spaces) space->walkAsset = nullptr;  // it may be that frame that would have found the start
 }
 
 const FrothViewStatus& ViewRenderer::status() const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "froth/froth.h"
 #include "runtime/asset/gpu_asset.h"
@@ -15,12 +16,16 @@ struct ViewState;       // view_state.h
 class RenderPipelines;  // runtime/render/pipelines.h: layouts and pipelines, made once per context and per
                         // asset shape
 
+enum class RenderMethod { kRaster, kWalk };
+
 // One instance as the passes see it.
 struct RenderInstance {
+  FrothInstance handle{};
   const GpuAsset* asset = nullptr;
   std::array<double, 3> position{};
   std::array<float, 4> rotation{0, 0, 0, 1};  // unit quaternion (x, y, z, w), world from asset
   float scale = 1;
+  float nearRatio = 0, nearDepth = 0;  // FrothRenderInfo's, resolved; 0: off
   uint32_t userId = 0;
   float exposure = 1;
   const RenderInstance* previous = nullptr;  // where it stood in the frame before; null: here
@@ -40,27 +45,21 @@ class ViewRenderer {
   static Result<std::unique_ptr<ViewRenderer>> create(Device& device, const ViewOptions& options);
   ~ViewRenderer();  // the GPU must be done with the view
 
-  // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `asset` (may be
-  // null) and for the overflows seen; replaced buffers are freed once `completedSerial` has passed their last
-  // use. On an error the buffers are as before; recording goes on with them, if they cover the asset.
-  Status prepare(uint64_t completedSerial, const GpuAsset* asset);
+  // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `instances` (of which only handle and
+  // asset count; at most gpu::kMostInstances) and for the overflows seen; replaced buffers are freed once `completedSerial` has passed
+  // their last use. On an error the buffers are as before; recording goes on with those instances that they cover.
+  Status prepare(uint64_t completedSerial, std::span<const RenderInstance> instances);
 
   // For a lowered budget. prepare() does the work, over several frames; until it is done isShrinking().
   VkDeviceSize shrinkableBytes() const;  // [bytes] of device memory that shrink(0) gives back
   void shrink(double factor);            // keeps `factor` [0..1] of them
   bool isShrinking() const;
 
-  // Between frothUpdate calls; `serial` is that of the frame. Both may be called once per frame.
-  // info has been checked and its defaults resolved: camera.scissor is what is drawn, not empty, within
-  // maxExtent and the images. Allocates nothing. Returns the FrothViewBit set known at record time.
-  uint32_t recordRaster(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
-                        const RenderInstance& instance, const FrothRenderInfo& info, uint64_t serial);
-  uint32_t recordWalk(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
-                      const RenderInstance& instance, const FrothRenderInfo& info, uint64_t serial);
-
-  // With no instance that is ready: clears the wanted outputs (colour 0, distance +inf, normal 0).
-  void recordClear(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothRenderInfo& info,
-                   uint64_t serial);
+  // Between frothUpdate calls, once per frame and method; `serial` is that of the frame. `instances`: all that are to be seen; none
+  // clears the wanted outputs (colour 0, distance +inf, normal 0). info has been checked and its defaults resolved: camera.scissor is what is
+  // drawn, not empty, within maxExtent and the images. Allocates nothing. Returns the FrothViewBit set known at record time.
+  uint32_t record(RenderMethod method, VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
+                  std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial);
 
   // The frame with this serial was recorded and will never be submitted: its counts are not read, its place
   // is free.

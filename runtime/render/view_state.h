@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "runtime/render/frame_block.h"
@@ -32,19 +33,39 @@ struct GrowthRefusal {
   Error error;
 };
 
+// The transients of one instance in a view.
+struct InstanceSpace {
+  InstanceSpace(Device& device, uint32_t recordings) : buffers(device), serials(recordings) {}
+
+  ViewBuffers buffers;
+  std::vector<uint64_t> serials;        // [recordings in flight] the frame of what each holds; 0: nothing
+  FrothInstance instance{};             // whose it was in the newest prepare()
+  bool isTaken = false;                 // by an instance, in the newest prepare()
+  uint64_t lastSerial = 0;              // newest frame recorded with it
+  const GpuAsset* walkAsset = nullptr;  // whose cell kWalkStart holds
+  ViewDemand demand{};                  // of the newest complete frame
+  std::optional<GrowthRefusal> refusal{};
+};
+
+// One instance of a recording.
+struct RecordingPart {
+  InstanceSpace& space;
+  const GpuAsset* asset;  // null: a clear
+  PassRecorder recorder;
+};
+
 struct ViewState {
   Device& device;
-  ViewBuffers buffers;
+  std::vector<std::unique_ptr<InstanceSpace>> spaces;  // the first stays
   std::unique_ptr<OutputImages> images;
-  std::unique_ptr<ImageSets> hitSets{};    // two per recording; null: the view keeps no hits
-  std::unique_ptr<PassTimer> timer;     // null: not measured
-  std::vector<FrameSlot> slots;         // [frames in flight]
-  uint32_t slot = 0;                    // of the frame being recorded
-  uint64_t lastSerial = 0;              // newest recorded frame
-  const GpuAsset* walkAsset = nullptr;  // whose cell kWalkStart holds
-  FrothViewStatus status{};  // of the newest complete frame
-  ViewDemand demand{};       // of that frame
-  std::optional<GrowthRefusal> refusal{};
+  std::unique_ptr<ImageSets> hitSets{};  // two per recording; null: the view keeps no hits
+  std::unique_ptr<PassTimer> timer;  // null: not measured
+  std::vector<FrameSlot> slots;      // [frames in flight]
+  ViewCapacity leastCapacity{};      // of every space
+  uint32_t slot = 0;                 // of the frame being recorded
+  uint64_t lastSerial = 0;           // newest recorded frame
+  FrothViewStatus status{};          // of the newest complete frame
+  std::vector<RecordingPart> parts{};  // of the recording under way; has room for gpu::kMostInstances
 };
 
 enum class RecordingKind { kRaster, kWalk, kClear };
@@ -52,45 +73,51 @@ enum class RecordingKind { kRaster, kWalk, kClear };
 // From the first barrier to the last of one raster, walk or clear.
 struct Recording {
   ViewState& view;
+  const RenderPipelines::State& pipelines;
   const FrothRenderInfo& info;
   VkCommandBuffer commandBuffer;
   RecordingKind kind;
   uint32_t place;   // within the frame: device block, counters
   uint32_t number;  // among all recordings in flight: descriptor set, staging, read-back
 
-  VkDeviceAddress blockAddress() const;
-  VkDeviceAddress countersAddress() const;
+  std::span<const RecordingPart> parts() const { return view.parts; }
   VkDeviceSize countersOffset() const;  // in kCounters
   void mark(const char* pass) const;    // the passes since the last mark are timed under this name
+  void wait() const;                    // later passes see what earlier ones wrote
 };
 
-// Enters the images, uploads the frame's block, clears the counters. instance: null for a clear.
-Recording beginRecording(ViewState& view, VkCommandBuffer commandBuffer, RecordingKind kind,
-                         const FrothRenderInfo& info, uint64_t serial, const RenderInstance* instance);
+// Enters the images.
+Recording beginRecording(ViewState& view, const RenderPipelines::State& pipelines, VkCommandBuffer commandBuffer,
+                         RecordingKind kind, const FrothRenderInfo& info, uint64_t serial);
 
-// Binds the images; the passes can be recorded.
-PassRecorder bindRecording(const Recording& recording, const RenderPipelines::State& pipelines,
-                           const PassPipelines& passes);
+// Uploads the block of an instance in its space and clears the counters. instance: null for a clear.
+void addPart(const Recording& recording, InstanceSpace& space, const RenderInstance* instance,
+             const PassPipelines& passes);
+
+// Once all parts are there: binds the images; the passes can be recorded.
+void startPasses(const Recording& recording);
 
 // Copies the counters to the host, leaves the images.
 void endRecording(const Recording& recording);
 
 // Counters of a recording that the GPU has completed.
-const gpu::Counters& readCounters(const ViewState& view, uint32_t number);
+const gpu::Counters& readCounters(const InstanceSpace& space, uint32_t number);
 
 // Cull, list and count the visible cells, for a mapped lens once its rays are known; shared by raster and walk.
-void recordCull(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset);
+void recordCull(const Recording& recording);
 // Expand the listed cells; shade their detail sites. Neither needs the other.
-void recordExpand(const PassRecorder& recorder);
-void recordShade(const PassRecorder& recorder);
+void recordExpand(const Recording& recording);
+void recordShade(const Recording& recording);
 
-void recordRasterPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset);
-void recordWalkPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset);
+void recordRasterPasses(const Recording& recording);
+void recordWalkPasses(const Recording& recording);
 
 // The pass that writes the wanted images, of a raster or a walk; `plain`: its form for rgba16f without normals, followed by
 // its others.
 Pass pixelPass(Pass plain, const FrothRenderInfo& info);
-// A workgroup per kSubTileSize x kSubTileSize pixels.
-void recordPixels(const Recording& recording, const PassRecorder& recorder, Pass pass);
+// Tells the passes that write images of all parts.
+void pushParts(const Recording& recording);
+// A workgroup per kSubTileSize x kSubTileSize pixels: a pass of the first part's, or one that draws several.
+void recordPixels(const Recording& recording, Pass pass);
 
 }  // namespace froth

@@ -3,18 +3,21 @@
 
 namespace froth {
 
-void recordWalkPasses(const Recording& recording, const PassRecorder& recorder, const GpuAsset& asset) {
-  recordCull(recording, recorder, asset);
+void recordWalkPasses(const Recording& recording) {
+  recordCull(recording);
   recording.mark("cull");
   const VkExtent2D& extent = recording.info.camera.scissor.extent;
   const bool isPerTile = lensClassOf(recording.info.camera) == gpu::kLensClassOrthographic;
-  recorder.run(Pass::kLocate, isPerTile ? tilesAlong(extent.width) : 1,
-               isPerTile ? tilesAlong(extent.height) : 1);  // needs nothing of the passes around it, so it runs beside them
-  recordExpand(recorder);
-  recordShade(recorder);
-  recorder.wait();
+  for (const RecordingPart& part : recording.parts()) {  // needs nothing of the passes around it, so it runs beside them
+    part.recorder.run(Pass::kLocate, isPerTile ? tilesAlong(extent.width) : 1, isPerTile ? tilesAlong(extent.height) : 1);
+  }
+  recordExpand(recording);
+  recordShade(recording);
+  recording.wait();
   recording.mark("shade");
-  recordPixels(recording, recorder, pixelPass(Pass::kWalk16, recording.info));
+  pushParts(recording);
+  const bool isSeveral = recording.parts().size() > 1;
+  recordPixels(recording, pixelPass(isSeveral ? Pass::kWalkSeveral16 : Pass::kWalk16, recording.info));
   recording.mark("walk");
 }
 

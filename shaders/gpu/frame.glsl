@@ -19,6 +19,8 @@ layout(push_constant) uniform Push {
 #else
 layout(push_constant) uniform Push {
   FrameRef frame;
+  uint partCount, padding;
+  FrameRef parts[kMostInstances];
 } push;
 #endif
 

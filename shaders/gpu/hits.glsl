@@ -10,11 +10,11 @@ uint cellCodeOf(uint slot) {
   return FRAME.localBits < 32 ? cell.x << FRAME.localBits | cell.y : cell.y;
 }
 
-// `pixel` counts from the region's corner; distance in the asset's units.
-void writeHit(uvec2 pixel, float distance, uint instance, uint cellCode) {
+// `pixel` counts from the region's corner; distance in world units; part: of the instance in the recording.
+void writeHit(uvec2 pixel, float distance, uint part, uint cellCode) {
   uint place = kHitWords * (pixel.y * FRAME.regionWidth + pixel.x);
-  FRAME.hits.v[place] = floatBitsToUint(distance * FRAME.scale);
-  FRAME.hits.v[place + 1] = instance;
+  FRAME.hits.v[place] = floatBitsToUint(distance);
+  FRAME.hits.v[place + 1] = part;
   FRAME.hits.v[place + 2] = cellCode;
 }
 

@@ -43,6 +43,7 @@ FROTH_CONST kBlockTiles = 8;          // [tiles] edge of the blocks of tiles tha
 FROTH_CONST kSubTilesPerTile = 16;
 FROTH_CONST kTilesAtOnce = 512;       // a list longer than this part of all pairs is a long one: drawn by more threads, and first
 FROTH_CONST kMaskWords = 8;           // words of a bit per thread of a workgroup
+FROTH_CONST kMostInstances = 14;       // that one recording draws: what push constants hold
 FROTH_CONST kNoCell = 0xffffffffu;
 FROTH_CONST kUnlisted = 0x80000000u;  // in a walk's link: the other bits are a site of the chunk, whose cell has no record
 FROTH_CONST kRasterLanes = 8;         // threads that expand one visible cell: its alpha-complex neighbours,
@@ -222,7 +223,7 @@ struct FrameBlock {
   FROTH_ADDRESS(UintArray) pairTiles;          // [pair] as emitted
   FROTH_ADDRESS(UintArray) pairCells;            // slots
   FROTH_ADDRESS(UintArray) tileCells;          // [pair] slots in the order of tiles
-  FROTH_ADDRESS(UintArray) tileLengths;        // [tile] pairs
+  FROTH_ADDRESS(UintArray) tileLengths;        // [tile] pairs; order_tiles.comp makes that the place in tileLists
   FROTH_ADDRESS(UintQuadArray) tileLists;      // [tiles, longest lists first] tile, begin and end in tileCells
   FROTH_ADDRESS(UintArray) cellHistogram;      // of the lowest digit of cellKeys (histogram.glsl)
   FROTH_ADDRESS(UintArray) pairHistogram;      // of the lowest digit of pairTiles
@@ -231,6 +232,7 @@ struct FrameBlock {
   FROTH_ADDRESS(FloatQuadArray) rays;          // [row of the region, column] xyz: unit direction; 0: none
   FROTH_ADDRESS(FloatQuadArray) cones;         // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]
   FROTH_ADDRESS(UintArray) hits;               // [row of the region, column] kHitWords each, with kFlagHits
+  uint part, padding;                          // which instance of the recording it is
 };
 
 // A hit: where a pixel's ray was stopped, by bits of a float [world units] (+inf: nowhere), the instance (an index of
@@ -281,16 +283,23 @@ struct PassConstants {
   uint64_t frame;
 };
 
+// Push constants of the passes that write the caller's images, behind PassConstants: all instances of the recording.
+struct PartConstants {
+  uint partCount, padding;
+  std::array<uint64_t, kMostInstances> parts;  // FrameBlock
+};
+
 static_assert(sizeof(ChunkEntry) == 192 && offsetof(ChunkEntry, siteRadius) == 32);
 static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 128 && sizeof(CellCode) == 64);
 static_assert(sizeof(SiteRecord) == 24 && offsetof(SiteRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 144 && sizeof(Counters) == 208);
 static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 240);
-static_assert(offsetof(FrameBlock, counters) == 320 && sizeof(FrameBlock) == 520);
+static_assert(offsetof(FrameBlock, counters) == 320 && sizeof(FrameBlock) == 528);
 static_assert(sizeof(FrameBlock) <= kHitBlockOffset && sizeof(HitInstance) == 64);
 static_assert(offsetof(HitBlock, pixels) == 208 && offsetof(HitBlock, hasPrevious) == 256 && sizeof(HitBlock) == 280);
 static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);
+static_assert(sizeof(PassConstants) + sizeof(PartConstants) <= 128, "what every device has");
 
 }  // namespace froth::gpu
 

@@ -14,9 +14,8 @@ layout(set = 0, binding = kBindingDepth, r32f) uniform writeonly image2D depthIm
 bool isInRegion(uvec2 pixel) { return pixel.x < FRAME.regionWidth && pixel.y < FRAME.regionHeight; }
 
 // What the colour image takes of a display-coded colour; both premultiplied.
-vec3 outputColour(vec3 colour, float coverage) {
+vec3 outputColour(vec3 colour, float coverage, float exposure) {
   bool isCoded = (FRAME.flags & kFlagDisplayCoded) != 0;
-  float exposure = FRAME.exposure;
   if (isCoded && exposure == 1.0) return colour;
   vec3 light = linearPremultiplied(colour, coverage);
   int curve = int(FRAME.flags >> kToneCurveShift);
@@ -25,17 +24,19 @@ vec3 outputColour(vec3 colour, float coverage) {
   return isCoded ? displayPremultiplied(light, coverage) : light;
 }
 
-// `pixel` counts from the region's corner; `colour` is display-coded, distance and normal in the asset's units and axes.
-void writePixel(uvec2 pixel, vec3 colour, float coverage, float distance, vec3 normal, float deviceDepth) {
+// A vector of the asset's axes.
+vec3 inWorld(vec3 vector) {
+  return vec3(dot(FRAME.worldX.xyz, vector), dot(FRAME.worldY.xyz, vector), dot(FRAME.worldZ.xyz, vector));
+}
+
+// `pixel` counts from the region's corner; `colour` is display-coded, distance and normal in the world's units and axes.
+void writePixel(uvec2 pixel, vec3 colour, float coverage, float exposure, float distance, vec3 normal, float deviceDepth) {
   ivec2 place = ivec2(pixel + uvec2(FRAME.regionX, FRAME.regionY));
   if ((FRAME.flags & kFlagColour) != 0) {
-    imageStore(colourImage, place, vec4(outputColour(colour, coverage), coverage));
+    imageStore(colourImage, place, vec4(outputColour(colour, coverage, exposure), coverage));
   }
-  if ((FRAME.flags & kFlagDistance) != 0) imageStore(distanceImage, place, vec4(distance * FRAME.scale));
-  if ((FRAME.flags & kFlagNormal) != 0) {
-    vec3 world = vec3(dot(FRAME.worldX.xyz, normal), dot(FRAME.worldY.xyz, normal), dot(FRAME.worldZ.xyz, normal));
-    imageStore(normalImage, place, vec4(world, 0.0));
-  }
+  if ((FRAME.flags & kFlagDistance) != 0) imageStore(distanceImage, place, vec4(distance));
+  if ((FRAME.flags & kFlagNormal) != 0) imageStore(normalImage, place, vec4(normal, 0.0));
   if ((FRAME.flags & kFlagDepth) != 0) imageStore(depthImage, place, vec4(deviceDepth));
 }
 

@@ -96,6 +96,32 @@ TEST(Colour, ExposureScalesTheLightOfAnInstance) {
   stage().place({});
 }
 
+// Where instances meet in a pixel their exposures are weighed by what each contributes; alike they are the one of all.
+TEST(Colour, ExposuresOfSeveralInstancesMeetWithoutSeams) {
+  FrothRenderInfo info = infoOf(viewOf(LensKind::kPinhole));
+  info.displayCoded = 0;
+  Stage other(bakeForTest(makeRandomFoam(250, 2, 0, 7)), {kWidth, kHeight}, stage().context());
+  const auto drawWith = [&](float first, float second) {
+    FrothInstanceInfo one{}, two = placementOf({0.7, 0.2, 0.3}, {0, 0, 0, 1}, 0.8f);
+    one.exposure = first;
+    two.exposure = second;
+    stage().place(one);
+    other.place(two);
+    return stage().draw(Method::kRaster, info, {kWidth, kHeight});
+  };
+  const Frame plain = drawWith(1, 1), alike = drawWith(2.5f, 2.5f), mixed = drawWith(1, 2.5f);
+  size_t between = 0;
+  for (size_t i = 0; i < plain.colour.values.size(); ++i) {
+    const float low = plain.colour.values[i], high = alike.colour.values[i], found = mixed.colour.values[i];
+    ASSERT_NEAR(high, 2.5f * low, 1e-5f * (1 + high));
+    ASSERT_GE(found, low - 1e-5f * (1 + high));
+    ASSERT_LE(found, high + 1e-5f * (1 + high));
+    between += found > 1.1f * low && found < 2.4f * low;
+  }
+  EXPECT_GT(between, 0u);
+  stage().place({});
+}
+
 TEST(Colour, ExposureReachesTheDisplayCodedImageToo) {
   FrothInstanceInfo dim{};
   dim.exposure = 0.3f;

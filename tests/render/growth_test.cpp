@@ -78,17 +78,18 @@ class Growth : public testing::Test {
     submit([&](VkCommandBuffer commandBuffer, uint64_t serial) {
       view_->slots[0] = {};
       const Recording recording =
-          beginRecording(*view_, commandBuffer, isRaster ? RecordingKind::kRaster : RecordingKind::kWalk, info,
-                         serial, &instance);
-      const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset_.gpu()), gpu::kLensClassPinhole);
+          beginRecording(*view_, pipelines_->state(), commandBuffer,
+                         isRaster ? RecordingKind::kRaster : RecordingKind::kWalk, info, serial);
+      addPart(recording, space(), &instance, *pipelines_->state().find(shapeOf(asset_.gpu()), gpu::kLensClassPinhole));
+      startPasses(recording);
       const auto record = isRaster ? recordRasterPasses : recordWalkPasses;
-      record(recording, bindRecording(recording, pipelines_->state(), passes), asset_.gpu());
+      record(recording);
       endRecording(recording);
       lastSerial_ = serial;
     });
     Result<std::vector<float>> texels = sharedHost().readImage(image_);
     EXPECT_TRUE(texels) << texels.error().message;
-    const Drawn drawn{*texels, readCounters(*view_, 0)};
+    const Drawn drawn{*texels, readCounters(space(), 0)};
     EXPECT_EQ(drawn.counters.violations, 0u);
     return drawn;
   }
@@ -96,22 +97,26 @@ class Growth : public testing::Test {
   // A new view.
   void startWith(const ViewCapacity& capacity) {
     view_.reset(new ViewState{.device = device_,
-                              .buffers = ViewBuffers(device_),
+                              .spaces = {},
                               .images = std::move(*OutputImages::create(device_, kRecordingsPerFrame)),
                               .timer = nullptr,
                               .slots = std::vector<FrameSlot>(1)});
+    view_->parts.reserve(1);
+    view_->spaces.push_back(std::make_unique<InstanceSpace>(device_, kRecordingsPerFrame));
     growTo(capacity);
   }
 
+  InstanceSpace& space() { return *view_->spaces.front(); }
+
   void growTo(const ViewCapacity& capacity) {
-    const Status grown = view_->buffers.grow(capacity, lastSerial_);
+    const Status grown = space().buffers.grow(capacity, lastSerial_);
     EXPECT_TRUE(grown) << grown.error().message;
-    view_->buffers.freeRetired(lastSerial_);
+    space().buffers.freeRetired(lastSerial_);
   }
 
   // What the view does between frames.
   void growFor(const Drawn& drawn) {
-    ViewCapacity capacity = view_->buffers.capacity();
+    ViewCapacity capacity = space().buffers.capacity();
     coverDemand(asset_.gpu(), demandOf(drawn.counters), capacity);
     growTo(capacity);
   }

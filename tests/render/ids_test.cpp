@@ -145,6 +145,40 @@ TEST(Ids, NameTheCellThatAQueryFindsThere) {
   EXPECT_LE(differing, found / 200);
 }
 
+// Two foams crossing each other: what a query meets first, in both.
+TEST(Ids, NameTheInstanceThatAQueryMeetsWhereSeveralOverlap) {
+  const Foam second = makeRandomFoam(250, 2, 0, 7);
+  Stage other(bakeForTest(second), {kWidth, kHeight}, context(), 0, kLenses, true);
+  FrothInstanceInfo placement = placementOf({0.4, 0.1, 0.5}, {0, 0.6f, 0, 0.8f}, 0.75f);
+  placement.position[0] -= 2;  // the foam's centre lies at z = 3, turned about the origin
+  placement.position[2] += 2;
+  placement.userId = 12;
+  other.place(placement);
+  const View view = viewOf(LensKind::kPinhole, 85);
+  const ViewRays rays(view);
+  for (const Method method : {Method::kRaster, Method::kWalk}) {
+    const Frame frame = stage().draw(method, view);
+    size_t found[2] = {0, 0}, differing = 0;
+    for (uint32_t y = 0; y < kHeight; ++y) {
+      for (uint32_t x = 0; x < kWidth; ++x) {
+        const glm::dvec3 eye = eyeOf(view), d = rays.ofPixel(x, y)->direction;
+        const FrothRay ray{{eye.x, eye.y, eye.z}, {d.x, d.y, d.z}, 0, 0};
+        FrothRayHit hit{};
+        ASSERT_EQ(frothCastRays(context(), nullptr, &ray, &hit, 1), FROTH_OK);
+        if (std::isinf(hit.distance)) continue;
+        const bool isOther = hit.instance.index == other.instance().index;
+        const uint32_t bits = (isOther ? other : stage()).assetStatus().cellBits;
+        const Id expected = {isOther ? 12 : kUser, static_cast<uint32_t>(uint64_t{hit.chunk} << bits | hit.cell)};
+        ++found[isOther];
+        differing += frame.id[y * kWidth + x] != expected;
+      }
+    }
+    EXPECT_GT(found[0], kWidth * kHeight / 20);
+    EXPECT_GT(found[1], kWidth * kHeight / 20);
+    EXPECT_LE(differing, (found[0] + found[1]) / 200);
+  }
+}
+
 TEST(Ids, OfAnEmptyViewAreNone) {
   FrothInstanceInfo away = namedPlacement();
   away.position[0] = 1000;

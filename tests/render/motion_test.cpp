@@ -216,6 +216,42 @@ TEST(Motion, OfAnInstanceIsAddedToThatOfTheCamera) {
   stage().place({});
 }
 
+// Two that move apart: each pixel has the motion of the instance that its id names.
+TEST(Motion, OfSeveralInstancesIsThatOfEach) {
+  Stage other(bakeForTest(makeRandomFoam(250, 2, 0, 7)), {kWidth, kHeight}, context(), 0, kLenses, true);
+  const Pose otherNow{{0.7, 0.2, 0.3}, {1, 0, 0, 0}, 0.8}, otherBefore{{0.8, 0.15, 0.3}, {1, 0, 0, 0}, 0.8};
+  const View view = viewOf(LensKind::kPinhole), before = viewOf(LensKind::kPinhole, {0.5, -0.45, 0.38});
+  const ViewRays rays(view);
+  for (const Method method : {Method::kRaster, Method::kWalk}) {
+    stage().place({});
+    other.place(infoOf(otherBefore));
+    stage().draw(method, before);
+    stage().place(infoOf(kTurned));
+    FrothInstanceInfo moved = infoOf(otherNow);
+    moved.userId = 1;
+    other.place(moved);
+    const Frame frame = stage().draw(method, infoOf({view, before}), {kWidth, kHeight});
+    size_t found[2] = {0, 0};
+    for (uint32_t y = 0; y < kHeight; ++y) {
+      for (uint32_t x = 0; x < kWidth; ++x) {
+        const double t = *frame.distance.pixel(x, y);
+        if (std::isinf(t)) continue;
+        const uint32_t user = frame.id[y * kWidth + x][0];
+        ASSERT_LE(user, 1u);
+        ++found[user];
+        const glm::dvec3 point = eyeOf(view) + t * rays.ofPixel(x, y)->direction;
+        const glm::dvec3 was = user == 0 ? toWorld({}, toAsset(kTurned, point)) : toWorld(otherBefore, toAsset(otherNow, point));
+        const glm::dvec2 expected = pixelOf(before, was, false) - glm::dvec2(x + 0.5, y + 0.5);
+        for (int axis = 0; axis < 2; ++axis)
+          ASSERT_NEAR(frame.motion.pixel(x, y)[axis], expected[axis], 1e-3 + std::abs(expected[axis]) / 1024) << x << ", " << y;
+      }
+    }
+    EXPECT_GT(found[0], kWidth * kHeight / 25);
+    EXPECT_GT(found[1], kWidth * kHeight / 25);
+  }
+  stage().place({});
+}
+
 // Eye and instance 10^6 units away move as they do at home.
 TEST(Motion, IsAsExactFarFromTheOrigin) {
   const glm::dvec3 away(1e6, -2e6, 5e5);

@@ -112,7 +112,7 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
     const PassRecorder recorder{.vk = device_.table,
                                 .commandBuffer = commandBuffer,
                                 .layout = pipelines_->state().layout,
-                                .pipelines = pipelines_->state().common[gpu::kLensClassPinhole],
+                                .pipelines = &pipelines_->state().common[gpu::kLensClassPinhole],
                                 .frame = blockBuffer.address,
                                 .counters = counterBuffer->buffer,
                                 .countersOffset = 0};
@@ -128,11 +128,15 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
     dependency.memoryBarrierCount = 1;
     dependency.pMemoryBarriers = &memory;
     device_.table.vkCmdPipelineBarrier2(commandBuffer, &dependency);
-    recordSort(recorder,
+    const SortArrays arrays =
                {keyBuffer.address, valueBuffer.address, keySwap.address, valueSwap.address,
                 counterBuffer->address + offsetof(gpu::Counters, visibleCells), histogramAddress,
-                std::max(count, 1u), rounds, offsetof(gpu::Counters, cellSortDispatch)},
-               4, gpu::kSortTakeTileCounts, [](uint32_t) {});
+                std::max(count, 1u), rounds, offsetof(gpu::Counters, cellSortDispatch)};
+    for (uint32_t digit = 0; digit < kCellKeyDigits; ++digit) {
+      const bool isLast = digit + 1 == kCellKeyDigits;
+      recordSortDigit(recorder, arrays, digit, isLast ? gpu::kSortTakeTileCounts : gpu::kSortCountNextDigit);
+      recorder.wait();
+    }
   });
 
   std::vector<uint32_t> order = values;
@@ -196,7 +200,7 @@ class Bin : public Passes {
     EXPECT_TRUE(pipelines_->prepareFor(asset));
     const VkExtent2D extent{camera.width, camera.height};
     ViewState view{.device = device_,
-                   .buffers = ViewBuffers(device_),
+                   .spaces = {},
                    .images = std::move(*OutputImages::create(device_, kRecordingsPerFrame)),
                    .timer = nullptr,
                    .slots = std::vector<FrameSlot>(1)};
@@ -206,7 +210,9 @@ class Bin : public Passes {
     capacity.sites = asset.liveCount;
     capacity.pairs = 1 << 19;
     coverAsset(asset, capacity);
-    EXPECT_TRUE(view.buffers.grow(capacity, 0));
+    view.parts.reserve(1);
+    InstanceSpace& space = *view.spaces.emplace_back(std::make_unique<InstanceSpace>(device_, kRecordingsPerFrame));
+    EXPECT_TRUE(space.buffers.grow(capacity, 0));
 
     HostImage image = *sharedHost().createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent);
     FrothRenderInfo info = infoOf(camera);
@@ -216,13 +222,14 @@ class Bin : public Passes {
     const RenderInstance instance{.asset = &asset, .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
     submit([&](VkCommandBuffer commandBuffer) {
       const Recording recording =
-          beginRecording(view, commandBuffer, RecordingKind::kRaster, info, 1, &instance);
-      const PassPipelines& passes = *pipelines_->state().find(shapeOf(asset), gpu::kLensClassPinhole);
-      recordRasterPasses(recording, bindRecording(recording, pipelines_->state(), passes), asset);
+          beginRecording(view, pipelines_->state(), commandBuffer, RecordingKind::kRaster, info, 1);
+      addPart(recording, space, &instance, *pipelines_->state().find(shapeOf(asset), gpu::kLensClassPinhole));
+      startPasses(recording);
+      recordRasterPasses(recording);
       endRecording(recording);
     });
     sharedHost().destroyImage(image);
-    return readLists(view, capacity.tiles);
+    return readLists(space, capacity.tiles);
   }
 
   // The cells of each tile.
@@ -235,17 +242,17 @@ class Bin : public Passes {
   }
 
  private:
-  Lists readLists(const ViewState& view, uint32_t tiles) {
+  Lists readLists(const InstanceSpace& space, uint32_t tiles) {
     Lists lists;
-    lists.counters = readCounters(view, 0);
+    lists.counters = readCounters(space, 0);
     EXPECT_EQ(lists.counters.violations, 0u);
     EXPECT_EQ(lists.counters.pairsKept, lists.counters.pairs);
     const uint32_t cells = lists.counters.visibleCells;
-    lists.order = copyOut<uint32_t>(view.buffers[ViewBuffer::kOrder], cells);
-    lists.visible = copyOut<gpu::uvec4>(view.buffers[ViewBuffer::kVisibleCells], cells);
+    lists.order = copyOut<uint32_t>(space.buffers[ViewBuffer::kOrder], cells);
+    lists.visible = copyOut<gpu::uvec4>(space.buffers[ViewBuffer::kVisibleCells], cells);
     const ViewBuffer last = digitsOf(tiles) % 2 != 0 ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells;
-    const auto pairs = copyOut<uint32_t>(view.buffers[last], lists.counters.pairs);
-    const auto tileLists = copyOut<gpu::uvec4>(view.buffers[ViewBuffer::kTileLists], tiles);
+    const auto pairs = copyOut<uint32_t>(space.buffers[last], lists.counters.pairs);
+    const auto tileLists = copyOut<gpu::uvec4>(space.buffers[ViewBuffer::kTileLists], tiles);
     lists.tileSlots.resize(tiles);
     std::vector<bool> isListed(tiles);
     uint32_t shortest = UINT32_MAX, longest = 0;

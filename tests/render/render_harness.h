@@ -62,6 +62,7 @@ class Stage {
   FrothView view() const { return view_; }
   FrothAssetStatus assetStatus() const;
   FrothInstance instance() const { return instance_; }
+  FrothContext* context() const { return context_; }
 
   // Several draws in one frame and command buffer. afterUpdate: called between frothUpdate and the first of them.
   FrothViewStatus submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws,

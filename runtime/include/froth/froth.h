@@ -96,8 +96,9 @@ FROTH_API FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset);
 
 /* ---- Instances ---- */
 
-/* Read when a view is drawn. Motion leads from where it is drawn to where it stood when the newest frame before was; new instances
- * have none. This version draws one: a record call with several READY gives FROTH_ERROR_UNSUPPORTED. */
+/* Read when a view is drawn. A view shows up to 14; where they overlap their densities add, and each colour counts by its share
+ * of the density. The first frothUpdate with a second instance makes pipelines for it. Motion leads from where an instance is drawn
+ * to where it stood when the newest frame before was; new ones have none. */
 typedef struct FrothInstanceInfo {
   uint32_t structSize;
   FrothAsset asset;
@@ -136,6 +137,7 @@ typedef enum FrothViewBit {
   FROTH_VIEW_NO_WALK_GRAPH = 4,  /* the asset was baked without one */
   FROTH_VIEW_NOT_READY = 8,      /* an instance was left out: its asset is OPENING or FAILED, it or the view came after
                                     frothUpdate, or the view's buffers did not fit the budget (a message told) */
+  FROTH_VIEW_INSTANCE_LIMIT = 32, /* more READY instances than a view shows; those with the highest index are missing */
   FROTH_VIEW_CELL_OVERFLOW = 16, /* more visible cells, or planes of them, than space; those last in the asset are missing */
   FROTH_VIEW_BIT_MAX = 0x7fffffff
 } FrothViewBit;
@@ -275,6 +277,7 @@ typedef struct FrothRenderInfo {
                           to lenses that may look sideways or back: all but PROJECTION and RADIAL_TANGENTIAL */
   float depthQuantile; /* 0: one half */
   uint32_t maxSteps;   /* of one walk; 0: 65536 */
+  uint32_t mask;       /* shows instances that share a bit with it; 0: all */
   uint32_t displayCoded; /* 1: colour stays display-coded (for files); 0: linear */
   FrothToneCurve toneCurve; /* of linear colour: what this curve turns into the capture, times exposure. Its white is 255/256, so that
                                no light is above 255 */

@@ -1,0 +1,61 @@
+// What the renders of one foam and of several have in common.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "baker/reference/ball_hierarchy.h"
+#include "baker/reference/ray.h"
+#include "baker/reference/reference.h"
+#include "baker/reference/view_cells.h"
+
+namespace froth {
+
+struct ReferenceRenderer::State {
+  State(const Foam& source, const Progress& progress)
+      : foam(source),
+        visible(findVisibleCells(source)),
+        cechPairs(findCechPairs(source.sites, source.radii, progress)),
+        hierarchy(source.sites, source.radii, visible) {}
+
+  const Foam& foam;
+  const std::vector<uint32_t> visible;
+  const CellGraph cechPairs;  // without offsets: stopped on request
+  const BallHierarchy hierarchy;
+};
+
+// Of a view and options that a caller gave.
+Status checkRender(const View& view, const ReferenceOptions& options);
+
+// Without anything in them.
+RenderedImages emptyImages(const View& view);
+
+// Calls renderRow(y) from all threads, and reports about a hundred times. Fails with kCancelled.
+Status renderRows(uint32_t rows, const Progress& progress, const std::function<void(uint32_t y)>& renderRow);
+
+// The balls that a ray from `origin` meets before `end`. primary: in the precision of the render, as the cells are.
+template <class Real>
+void gatherHits(const BallHierarchy& hierarchy, const ViewCells<Real>& cells, const glm::dvec3& origin,
+                const PrimaryRay<Real>& primary, Real end, std::vector<BallHit<Real>>& hits) {
+  hits.clear();
+  hierarchy.visitAlongRay(origin, glm::dvec3(primary.direction), [&](uint32_t source) {
+    BallHit<Real> hit{cells.rankOf[source], 0, 0};
+    if (hit.rank == ViewCells<Real>::kNotDrawn) return;
+    const ViewCell<Real>& cell = cells.cells[hit.rank];
+    if (!foam::intersectBall(cell.centre - primary.offset, cell.radius, primary.direction, hit.tNear, hit.tFar)) return;
+    hit.tFar = std::min(hit.tFar, end);
+    if (hit.tNear < hit.tFar) hits.push_back(hit);
+  });
+}
+
+template <class Real>
+void writePixel(const RayResult<Real>& ray, uint32_t x, uint32_t y, RenderedImages& images) {
+  for (int c = 0; c < 3; ++c) {
+    images.colour.pixel(x, y)[c] = static_cast<float>(ray.colour[c]);
+    images.normal.pixel(x, y)[c] = static_cast<float>(ray.normal[c]);
+  }
+  *images.alpha.pixel(x, y) = static_cast<float>(-std::expm1(ray.logTransmittance));
+  *images.depth.pixel(x, y) = static_cast<float>(ray.depth);
+}
+
+}  // namespace froth

@@ -1,0 +1,163 @@
+// A ray through several instances. What each shows along it comes as a stream of stretches, front to back, and the streams are
+// merged by distance. Where stretches of several overlap, their densities add, and each colour counts by its share of the density.
+//
+// The shader that includes this defines how a stream goes on in one instance, in the asset's units, with frameAtHand set:
+//   struct Cursor
+//   bool isAtEnd(Cursor cursor, float end)
+//   bool meetNext(Shading shading, uvec2 pixel, float end, inout Cursor cursor, out Segment segment, out vec3 colour,
+//                 out uint slot, out CellRecord cell)  // goes on by one cell; returns whether the ray gains anything in it
+#ifndef FROTH_GPU_STREAMS_GLSL
+#define FROTH_GPU_STREAMS_GLSL
+#include "gpu/device_depth.glsl"
+#include "gpu/hits.glsl"
+#include "gpu/outputs.glsl"
+#include "gpu/shade_hit.glsl"
+
+// In the world's units and axes.
+struct Stretch {
+  Segment segment;
+  float density, exposure;
+  vec3 colour, normal;
+  uint part, cellCode;  // of the densest
+};
+
+struct Stream {
+  uint part;
+  Cursor cursor;
+  Stretch ahead;  // the newest one; behind the ray's present place once that has passed its end
+};
+
+// The streams of a ray that have not ended.
+Stream streams[kMostInstances];
+uint streamCount;
+float rayEnd;  // [world units] where the scene stops the ray
+
+void selectPart(uint part) { frameAtHand = push.parts[part]; }
+
+void startStream(uint part, Cursor cursor) {
+  streams[streamCount].part = part;
+  streams[streamCount].cursor = cursor;
+  streams[streamCount].ahead.segment = Segment(0.0, 0.0);
+  ++streamCount;
+}
+
+// On by one cell. A stream that has ended makes room for another.
+void advance(uvec2 pixel, uint index) {
+  Stream stream = streams[index];
+  selectPart(stream.part);
+  float scale = FRAME.scale;
+  float end = rayEnd / scale;
+  if (isAtEnd(stream.cursor, end)) {
+    streams[index] = streams[--streamCount];
+    return;
+  }
+  Segment segment;
+  vec3 colour;
+  uint slot;
+  CellRecord cell;
+  if (meetNext(loadShading(), pixel, end, stream.cursor, segment, colour, slot, cell)) {
+    countWork(kWorkColours, 1);
+    stream.ahead.segment = Segment(segment.tNear * scale, segment.tFar * scale);
+    stream.ahead.density = cell.face.w / scale;
+    stream.ahead.colour = colour;
+    stream.ahead.exposure = FRAME.exposure;
+    if (isFull) {
+      stream.ahead.normal = inWorld(cell.ball.w * cell.face.xyz);
+      stream.ahead.part = stream.part;
+      stream.ahead.cellCode = cellCodeOf(slot);
+    }
+  }
+  streams[index] = stream;
+}
+
+// The first stream that has nothing beyond `passed` to offer yet; streamCount: none.
+uint streamBehind(float passed) {
+  for (uint i = 0; i < streamCount; ++i) {
+    if (!(streams[i].ahead.segment.tFar > passed)) return i;
+  }
+  return streamCount;
+}
+
+// The first stretch beyond `passed` in which no stream begins or ends, once all have something ahead.
+Stretch findStretch(float passed) {
+  Stretch stretch = Stretch(Segment(kInfinity, kInfinity), 0.0, 0.0, vec3(0.0), vec3(0.0), 0, kNoCell);
+  float densest = 0.0;
+  for (uint i = 0; i < streamCount; ++i) {
+    stretch.segment.tNear = min(stretch.segment.tNear, max(streams[i].ahead.segment.tNear, passed));
+  }
+  for (uint i = 0; i < streamCount; ++i) {
+    Stretch ahead = streams[i].ahead;
+    if (ahead.segment.tNear > stretch.segment.tNear) {
+      stretch.segment.tFar = min(stretch.segment.tFar, ahead.segment.tNear);
+      continue;
+    }
+    stretch.segment.tFar = min(stretch.segment.tFar, ahead.segment.tFar);
+    stretch.density += ahead.density;
+    stretch.colour += ahead.density * ahead.colour;
+    stretch.exposure += ahead.density * ahead.exposure;
+    if (!isFull) continue;
+    stretch.normal += ahead.density * ahead.normal;
+    if (ahead.density > densest) {
+      densest = ahead.density;
+      stretch.part = ahead.part;
+      stretch.cellCode = ahead.cellCode;
+    }
+  }
+  stretch.colour /= stretch.density;
+  stretch.exposure /= stretch.density;
+  stretch.normal /= stretch.density;
+  return stretch;
+}
+
+// What a pixel shows. Its exposure is the mean of what the instances contribute to it.
+struct Merged {
+  Radiance radiance;  // with the code of its cell
+  uint part;          // whose that is
+  float exposure;
+};
+
+// Composites what the started streams hold. One loop that goes on by a cell or composites a stretch, not a loop within another: the
+// rays of a workgroup wait for each other at every turn.
+Merged mergeStreams(uvec2 pixel) {
+  Radiance radiance = emptyRadiance();
+  float exposures = 0.0;
+  uint part = 0;
+  selectPart(0);  // its limits are those of all
+  Shading limits = loadShading();
+  float passed = 0.0;
+  while (streamCount > 0 && !isSaturated(limits, radiance)) {
+    uint behind = streamBehind(passed);
+    if (behind < streamCount) {
+      advance(pixel, behind);
+      continue;
+    }
+    Stretch stretch = findStretch(passed);
+    if (stretch.density > 0.0) {
+      if (isFull && isinf(radiance.distance)) {
+        part = stretch.part;
+        radiance.cell = stretch.cellCode;
+      }
+      float before = radiance.logTransmittance;
+      composite(limits, stretch.segment, stretch.density, stretch.colour, stretch.normal, radiance);
+      exposures += stretch.exposure * exp(before) * opacity(before - radiance.logTransmittance);
+    }
+    passed = stretch.segment.tFar;
+  }
+  float coverage = opacity(-radiance.logTransmittance);
+  return Merged(radiance, part, coverage > 0.0 ? exposures / coverage : 1.0);
+}
+
+void findRayEnd(uvec2 pixel) {
+  selectPart(0);
+  rayEnd = isFull ? sceneDistance(pixel, rayOf(pixel)) * FRAME.scale : kInfinity;
+}
+
+void writeMerged(uvec2 pixel, Merged merged) {
+  Radiance radiance = merged.radiance;
+  selectPart(0);
+  float depth = isFull ? deviceDepthAt(rayOf(pixel), radiance.distance / FRAME.scale) : 0.0;
+  writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), merged.exposure, radiance.distance, radiance.normal, depth);
+  if (isFull && wantsHits()) writeHit(pixel, radiance.distance, merged.part, radiance.cell);
+}
+
+#endif

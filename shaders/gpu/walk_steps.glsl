@@ -1,0 +1,132 @@
+// A ray's steps from cell to cell through the regular triangulation.
+//
+// Most cells on the way are listed: they have a record, and a row of eye planes through which a ray can leave them, each with a
+// link to the next record. From a cell without one (its ball lies outside the view, or there was no space) a ray goes on by the
+// sites around it.
+//
+// No rounding can make a walk cycle: each step has a key, the dot product of the direction and the site it leads to, and is
+// taken only to a greater key. The key of a record is one fixed number for a ray, and so is that of a site of a chunk, be it a
+// cell or a ghost; the key of the last step goes with the walk. So no record and no site comes twice.
+#ifndef FROTH_GPU_WALK_STEPS_GLSL
+#define FROTH_GPU_WALK_STEPS_GLSL
+#include "gpu/descend.glsl"
+#include "gpu/eye_planes.glsl"
+#include "gpu/shade_hit.glsl"
+
+struct Step {
+  uint visible;  // of a listed cell; else kNoCell, and
+  uvec2 cell;    // its chunk and local index
+  float key;
+  float entry;   // where the ray enters the cell
+};
+
+float nearnessOfNoExit() { return isParallel ? -kInfinity : 0.0; }
+
+float orderAlong(vec3 direction, vec3 centre) {
+  precise float key = direction.x * centre.x + direction.y * centre.y + direction.z * centre.z;
+  return key;
+}
+
+Step stepTo(uvec2 cell, float key, float entry) { return Step(slotOfCell(cell), cell, key, entry); }
+
+// To a site of the chunk; from a ghost on to the cell for which it stands.
+Step stepToSite(Chunk chunk, uint site, float key, float entry) {
+  return stepTo(cellOfSite(chunk, site), key, entry);
+}
+
+// The neighbour through whose plane the ray leaves the cell first, by their sites. Returns false: the ray leaves the foam.
+bool findNextSite(inout Step current, vec3 ray) {
+  vec3 direction = directionOfRay(ray);
+  uvec2 cell = current.visible == kNoCell ? current.cell : FRAME.visibleCells.v[current.visible].xy;
+  Chunk chunk = loadChunk(cell.x);
+  vec4 siteRadius = siteRadiusOf(chunk, cell.y);
+  uvec2 row = neighbourRow(chunk, cell.y);
+  uint next = kNoCell;
+  float nextKey = current.key;
+  float exitNearness = nearnessOfNoExit();
+  countWork(kWorkNeighbours, row.y - row.x);
+  for (uint i = row.x; i < row.y; ++i) {
+    uint other = neighbourAt(chunk, i);
+    vec4 otherSite = siteRadiusOf(chunk, other);
+    float key = orderAlong(direction, ballOf(chunk, otherSite).centre);
+    bool isFar;
+    float nearness = dot(eyePlaneTo(chunk, siteRadius, otherSite, isFar), ray);
+    if (isFar && key > current.key && nearness > exitNearness) {
+      exitNearness = nearness;
+      next = other;
+      nextKey = key;
+    }
+  }
+  float exit = max(distanceAt(exitNearness), current.entry);
+  if (next == kNoCell) {
+    current.entry = exit;
+    return false;
+  }
+  current = stepToSite(chunk, next, nextKey, exit);
+  return true;
+}
+
+// The same by the record's eye planes.
+bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 ray) {
+  vec3 direction = directionOfRay(ray);
+  uint link = kNoCell;
+  float exitNearness = nearnessOfNoExit();
+  countWork(kWorkNeighbours, cell.planeSplit - cell.planeBegin);
+  for (uint i = cell.planeBegin; i < cell.planeSplit; ++i) {
+    vec4 plane = shading.planes.v[checked(i, FRAME.planeCapacity)];
+    float nearness = dot(plane.xyz, ray);
+    if (nearness > exitNearness) {
+      exitNearness = nearness;
+      link = floatBitsToUint(plane.w);
+    }
+  }
+  float exit = max(distanceAt(exitNearness), current.entry);
+  if (link == kNoCell) {
+    current.entry = exit;
+    return false;
+  }
+  if ((link & kUnlisted) != 0) {
+    Chunk chunk = loadChunk(FRAME.visibleCells.v[current.visible].x);
+    uint site = link & ~kUnlisted;
+    float key = orderAlong(direction, ballOfSite(chunk, site).centre);
+    if (!(key > current.key)) return findNextSite(current, ray);
+    current = stepToSite(chunk, site, key, exit);
+    return true;
+  }
+  float key = orderAlong(direction, shading.records.v[checked(link, FRAME.visibleCapacity)].ball.xyz);
+  if (!(key > current.key)) return findNextSite(current, ray);
+  current = Step(link, uvec2(0), key, exit);
+  return true;
+}
+
+// Parallel rays start in cells of their own, near that of the tile.
+uvec2 startCell(uvec2 pixel, vec3 ray) {
+  if (!isParallel) return FRAME.walkStart.v[0];
+  uvec2 tile = pixel / kTileSize;
+  return cellHolding(startOfRay(ray), FRAME.walkStart.v[tile.y * FRAME.tilesX + tile.x]);
+}
+
+Step firstStep(uvec2 pixel, vec3 ray) {
+  uvec2 start = startCell(pixel, ray);
+  return stepTo(start, orderAlong(directionOfRay(ray), ballOfSite(loadChunk(start.x), start.y).centre), 0.0);
+}
+
+// On to the next cell. Returns false: the ray leaves the foam; current.entry is where it leaves the present cell either way. The cell that
+// was left: `visible`, kNoCell if it has no record.
+bool takeStep(Shading shading, inout Step current, vec3 ray, out uint visible, out CellRecord cell) {
+  visible = current.visible;
+  if (visible == kNoCell) return findNextSite(current, ray);
+  cell = shading.records.v[checked(visible, FRAME.visibleCapacity)];
+  bool hasRow = cell.planeBegin < cell.planeEnd;
+  return hasRow ? findNextRecord(shading, current, cell, ray) : findNextSite(current, ray);
+}
+
+// What a ray meets in the ball of a listed cell between entry and exit.
+Segment meetInside(CellRecord cell, vec3 ray, float entry, float exit) {
+  float tNear, tFar;
+  if (!meetBall(cell.ball, ray, tNear, tFar)) return Segment(1.0, 0.0);
+  countWork(kWorkBallHits, 1);
+  return Segment(max(tNear, entry), min(tFar, exit));
+}
+
+#endif
