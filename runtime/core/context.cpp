@@ -217,7 +217,8 @@ Status Context::createRenderer(View& view) {
                                      .lensClasses = view.lensClasses,
                                      .framesInFlight = framesInFlight_,
                                      .measurePasses = view.measurePasses && canMeasure,
-                                     .keepsHits = view.keepsHits && hasExtendedFormats_});
+                                     .keepsHits = view.keepsHits && hasExtendedFormats_,
+                                     .composites = compositeFormat_ != VK_FORMAT_UNDEFINED});
   if (!renderer) {
     return renderer.error();
   }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "froth/froth_composite.h"
 #include "froth/froth_query.h"
 #include "runtime/asset/asset.h"
 #include "runtime/core/device.h"
@@ -58,6 +59,8 @@ class Context {
   FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
                      FrothRenderInfo info);
 
+  FrothResult composite(FrothView handle, VkCommandBuffer commandBuffer, FrothCompositeInfo info);
+
   // Queries; const, so that any number of threads may ask (runtime/query/context_queries.cpp).
   FrothResult castRays(FrothCastInfo info, std::span<const FrothRay> rays, FrothRayHit* hits) const;
   FrothResult locate(FrothInstance handle, const double (&point)[3], FrothLocation& location) const;
@@ -85,11 +88,13 @@ class Context {
     std::vector<RenderInstance> visible;     // of the record call under way; has room for all
     std::string preparationError;            // sent already
     uint64_t renderedSerials[2] = {0, 0};    // newest frame per RenderMethod
+    uint64_t compositedSerial = 0;           // the same of frothComposite
     std::vector<std::pair<uint64_t, uint32_t>>
         bits;  // recorded frames that left something out: serial, FrothViewBit
   };
 
   FrothResult checkInfo(const FrothContextInfo& info, const char* call) const;
+  FrothResult checkEngineFormats(const FrothContextInfo& info, const char* call) const;
   Status createDeviceObjects(const FrothContextInfo& info);
   FrothResult checkDevice(const char* call) const;  // of calls that a lost device cannot serve
   Status createRenderer(View& view);
@@ -102,6 +107,7 @@ class Context {
   void runFrame(FrothFrameStatus& status);
   void loadAssets();
   void prepareView(View& view);
+  View* findDrawn(FrothView handle, const char* call, uint64_t View::*newestCall, FrothResult& result);
   FrothResult checkHits(const View& view, const FrothRenderInfo& info, const char* call) const;
   void preparePipelines();
   // The instances to be drawn, in view.visible; why others are left out, as FrothViewBit.
@@ -117,6 +123,7 @@ class Context {
   std::string severalError_;   // of prepareForSeveral, sent already
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
+  VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED;
   bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats
   std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
   std::unique_ptr<RenderPipelines> pipelines_;  // the same

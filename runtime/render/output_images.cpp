@@ -1,71 +1,12 @@
 #include "runtime/render/output_images.h"
 
+#include "runtime/render/image_barriers.h"
 #include "runtime/render/pipeline_state.h"
 
 namespace froth {
 namespace {
 
-VkImageMemoryBarrier2 barrierOf(VkImage image) {
-  VkImageMemoryBarrier2 barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.image = image;
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  return barrier;
-}
-
-constexpr VkImageLayout kReadLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-
-VkImageAspectFlags aspectOf(VkFormat format) {
-  switch (format) {
-    case VK_FORMAT_D32_SFLOAT:
-    case VK_FORMAT_D16_UNORM:
-    case VK_FORMAT_X8_D24_UNORM_PACK32:
-      return VK_IMAGE_ASPECT_DEPTH_BIT;
-    case VK_FORMAT_D32_SFLOAT_S8_UINT:
-    case VK_FORMAT_D24_UNORM_S8_UINT:
-      return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
-    default:
-      return VK_IMAGE_ASPECT_COLOR_BIT;
-  }
-}
-
-// What the passes do with an image.
-struct Use {
-  VkAccessFlags2 access;
-  VkImageLayout layout;
-};
-
-Use useOf(bool isRead) {
-  if (isRead) return {VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kReadLayout};
-  return {VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
-}
-
-// From the state in which the caller hands an image over.
-VkImageMemoryBarrier2 entryBarrier(const FrothImage& image, bool isRead) {
-  VkImageMemoryBarrier2 barrier = barrierOf(image.image);
-  barrier.subresourceRange.aspectMask = aspectOf(image.format);
-  barrier.srcStageMask = image.stageIn;
-  barrier.srcAccessMask = image.accessIn;
-  barrier.oldLayout = image.layoutIn;
-  barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  barrier.dstAccessMask = useOf(isRead).access;
-  barrier.newLayout = useOf(isRead).layout;
-  return barrier;
-}
-
-VkImageMemoryBarrier2 exitBarrier(const FrothImage& image, bool isRead) {
-  VkImageMemoryBarrier2 barrier = barrierOf(image.image);
-  barrier.subresourceRange.aspectMask = aspectOf(image.format);
-  barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  barrier.srcAccessMask = isRead ? VK_ACCESS_2_NONE : useOf(isRead).access;
-  barrier.oldLayout = useOf(isRead).layout;
-  barrier.dstStageMask = image.stageOut;
-  barrier.dstAccessMask = image.accessOut;
-  barrier.newLayout = image.layoutOut;
-  return barrier;
-}
+const ImageUse& useOf(bool isRead) { return isRead ? kImageSampled : kImageWritten; }
 
 // All images of a frame: those that the set binds, and those that passes of their own write.
 constexpr uint32_t kMostImages = gpu::kBindingCount + 2;
@@ -219,7 +160,7 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
                          VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
   std::array<VkImageMemoryBarrier2, kMostImages + 3> barriers{};
   uint32_t count = 0;
-  forEachImage(info, [&](const FrothImage& image, bool isRead) { barriers[count++] = entryBarrier(image, isRead); });
+  forEachImage(info, [&](const FrothImage& image, bool isRead) { barriers[count++] = entryBarrier(image, useOf(isRead)); });
   for (const Placeholder* placeholder : {&half4_, &float1_, &input_}) barriers[count++] = placeholderBarrier(placeholder->image);
 
   VkDependencyInfo dependency{};
@@ -234,7 +175,7 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
 void OutputImages::leave(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const {
   std::array<VkImageMemoryBarrier2, kMostImages> barriers{};
   uint32_t count = 0;
-  forEachImage(info, [&](const FrothImage& image, bool isRead) { barriers[count++] = exitBarrier(image, isRead); });
+  forEachImage(info, [&](const FrothImage& image, bool isRead) { barriers[count++] = exitBarrier(image, useOf(isRead)); });
   VkDependencyInfo dependency{};
   dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   dependency.imageMemoryBarrierCount = count;

@@ -79,6 +79,7 @@ struct RenderPipelines::State {
   LensPipelines several{};  // from there to kFirstShapedPass, once made
   bool hasSeveral = false;
   std::unique_ptr<ImagePass> writeIds{}, writeMotion{};  // null without ShaderOptions::hasExtendedFormats
+  std::unique_ptr<ImagePass> composite{};  // null without ShaderOptions::compositeFormat
   std::map<AssetShape, LensPipelines>
       byShape{};  // complete; guarded by `mutex`, entries never change or move
   std::mutex mutex{};

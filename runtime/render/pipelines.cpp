@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "runtime/render/composite.h"
 #include "runtime/render/output_images.h"
 #include "runtime/render/pipeline_state.h"
 #include "shaders/gpu/layout.h"
@@ -264,6 +265,11 @@ Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device,
   if (const Status status = createPasses(state, {}, 0, kFirstSeveralPass, state.common); !status)
     return status.error();
   if (const Status status = createHitPasses(state); !status) return status.error();
+  if (options.compositeFormat != VK_FORMAT_UNDEFINED) {
+    Result<std::unique_ptr<ImagePass>> made = createCompositePass(device, cache, options.compositeFormat);
+    if (!made) return made.error();
+    state.composite = std::move(*made);
+  }
   return pipelines;
 }
 

@@ -14,6 +14,7 @@ struct ShaderOptions {
   bool countWork = false;     // count what rays cost
   uint32_t lensClasses = 0;   // FrothLensClass: what cameras they are made for besides pinholes
   bool hasExtendedFormats = false;  // the device has shaderStorageImageExtendedFormats
+  VkFormat compositeFormat = VK_FORMAT_UNDEFINED;  // of the engine's colour; UNDEFINED: no pass for it
 };
 
 class RenderPipelines {

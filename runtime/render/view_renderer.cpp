@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "runtime/render/camera_rays.h"
+#include "runtime/render/composite.h"
 #include "runtime/render/hit_passes.h"
 #include "runtime/render/view_state.h"
 
@@ -162,6 +163,13 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
   return bits;
 }
 
+Status createSets(Device& device, const DescriptorTypes& types, uint32_t count, std::unique_ptr<ImageSets>& sets) {
+  Result<std::unique_ptr<ImageSets>> made = ImageSets::create(device, types, count);
+  if (!made) return made.error();
+  sets = std::move(*made);
+  return {};
+}
+
 }  // namespace
 
 ViewRenderer::ViewRenderer() = default;
@@ -172,13 +180,11 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   Result<std::unique_ptr<OutputImages>> images = OutputImages::create(device, recordings);
   if (!images) return images.error();
   std::unique_ptr<PassTimer> timer;
-  std::unique_ptr<ImageSets> hitSets;
-  if (options.keepsHits) {
-    Result<std::unique_ptr<ImageSets>> made =
-        ImageSets::create(device, {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, 2 * recordings);
-    if (!made) return made.error();
-    hitSets = std::move(*made);
-  }
+  std::unique_ptr<ImageSets> hitSets, compositeSets;
+  Status sets;
+  if (options.keepsHits) sets = createSets(device, {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, 2 * recordings, hitSets);
+  if (sets && options.composites) sets = createSets(device, compositeDescriptors(), options.framesInFlight, compositeSets);
+  if (!sets) return sets.error();
   if (options.measurePasses) {
     Result<std::unique_ptr<PassTimer>> made = PassTimer::create(device, recordings);
     if (!made) return made.error();
@@ -189,6 +195,7 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
                                        .spaces = {},
                                        .images = std::move(*images),
                                        .hitSets = std::move(hitSets),
+                                       .compositeSets = std::move(compositeSets),
                                        .timer = std::move(timer),
                                        .slots = std::vector<FrameSlot>(options.framesInFlight)});
   ViewState& view = *renderer->state_;
@@ -270,6 +277,10 @@ uint32_t ViewRenderer::record(RenderMethod method, VkCommandBuffer commandBuffer
   recordHitPasses(recording);
   endRecording(recording);
   return bits;
+}
+
+void ViewRenderer::composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info) {
+  recordComposite(state_->device.table, commandBuffer, *pipelines.state().composite, *state_->compositeSets, state_->slot, info);
 }
 
 void ViewRenderer::dropFrame(uint64_t serial) {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "froth/froth.h"
+#include "froth/froth_composite.h"
 #include "runtime/asset/gpu_asset.h"
 #include "runtime/core/device.h"
 
@@ -37,6 +37,7 @@ struct ViewOptions {
   uint32_t framesInFlight = 1;
   bool measurePasses = false;
   bool keepsHits = false;    // for id and motion
+  bool composites = false;
 };
 
 class ViewRenderer {
@@ -60,6 +61,9 @@ class ViewRenderer {
   // drawn, not empty, within maxExtent and the images. Allocates nothing. Returns the FrothViewBit set known at record time.
   uint32_t record(RenderMethod method, VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
                   std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial);
+
+  // Blends the foam's colour over the engine's; after record() and once per frame. info has been checked, its region is final.
+  void composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info);
 
   // The frame with this serial was recorded and will never be submitted: its counts are not read, its place
   // is free.

@@ -59,6 +59,7 @@ struct ViewState {
   std::vector<std::unique_ptr<InstanceSpace>> spaces;  // the first stays
   std::unique_ptr<OutputImages> images;
   std::unique_ptr<ImageSets> hitSets{};  // two per recording; null: the view keeps no hits
+  std::unique_ptr<ImageSets> compositeSets{};  // one per frame in flight; null: the context cannot composite
   std::unique_ptr<PassTimer> timer;  // null: not measured
   std::vector<FrameSlot> slots;      // [frames in flight]
   ViewCapacity leastCapacity{};      // of every space

@@ -27,6 +27,8 @@ Result<FormatTraits> traitsOf(VkFormat format) {
       return FormatTraits{4, 16};
     case VK_FORMAT_R32_SFLOAT:
       return FormatTraits{1, 4};
+    case VK_FORMAT_B10G11R11_UFLOAT_PACK32:  // as one channel
+      return FormatTraits{1, 4};
     case VK_FORMAT_R16G16_SFLOAT:
       return FormatTraits{2, 4};
     case VK_FORMAT_R32G32_UINT:
@@ -40,14 +42,21 @@ Result<FormatTraits> traitsOf(VkFormat format) {
     default:
       return makeError(ErrorKind::kUnsupported,
                        "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT, R32_SFLOAT, "
-                       "R16G16_SFLOAT, R32G32_UINT, D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
+                       "R16G16_SFLOAT, R32G32_UINT, B10G11R11_UFLOAT_PACK32, D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
                        format);
   }
 }
 
-// As the image holds them: depths of 16 bits rounded to the nearest, all else as it is.
+// As the image holds them: halves, and depths of 16 bits, rounded to the nearest; all else as it is.
 std::vector<uint8_t> packTexels(const std::vector<float>& texels, FormatTraits traits) {
   std::vector<uint8_t> bytes(texels.size() / traits.channels * traits.bytesPerTexel);
+  if (traits.bytesPerTexel == traits.channels * sizeof(uint16_t) && !traits.isDepth()) {
+    for (size_t i = 0; i < texels.size(); ++i) {
+      const uint16_t half = glm::packHalf1x16(texels[i]);
+      std::memcpy(bytes.data() + i * sizeof(half), &half, sizeof(half));
+    }
+    return bytes;
+  }
   if (!traits.isDepth() || traits.bytesPerTexel != sizeof(uint16_t)) {
     std::memcpy(bytes.data(), texels.data(), bytes.size());
     return bytes;

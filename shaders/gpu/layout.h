@@ -270,6 +270,12 @@ struct HitBlock {
   FROTH_ADDRESS(HitInstanceArray) instances;
 };
 
+// Push constants of composite.comp. [pixels]
+struct CompositeConstants {
+  uint x, y, width, height;
+  uint hasShadow;
+};
+
 #if defined(__cplusplus)
 
 // Push constants of the radix sort.

@@ -75,12 +75,17 @@ Host& sharedHost() {
   return *host;
 }
 
-FrothContext* createCheckedContext(uint32_t lensClasses) {
+FrothContextInfo checkedContextInfo(uint32_t lensClasses) {
   FrothContextInfo info = sharedHost().contextInfo();
   info.onMessage = onMessage;
   info.checkIndices = 1;
   info.countWork = 1;
   info.lensClasses = lensClasses;
+  return info;
+}
+
+FrothContext* createCheckedContext(uint32_t lensClasses) {
+  const FrothContextInfo info = checkedContextInfo(lensClasses);
   FrothContext* created = nullptr;
   check(frothCreateContext(&info, &created), "frothCreateContext");
   return created;
@@ -145,7 +150,8 @@ void Stage::place(const FrothInstanceInfo& placement) {
 }
 
 FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws,
-                              const std::function<void()>& afterUpdate) {
+                              const std::function<void()>& afterUpdate,
+                              const std::function<void(VkCommandBuffer)>& afterDraws) {
   const auto record = [&](VkCommandBuffer commandBuffer, uint64_t serial, bool isDrawn) -> Status {
     const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0};
     check(frothUpdate(context_, &frame, nullptr), "frothUpdate");
@@ -157,6 +163,7 @@ FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInf
                                       : frothWalk(context_, view_, commandBuffer, &info),
             "draw");
     }
+    if (isDrawn && afterDraws) afterDraws(commandBuffer);
     return {};
   };
   // The frame after it brings its status.

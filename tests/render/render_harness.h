@@ -41,6 +41,8 @@ FrothContext* sharedContext();
 
 // The same for cameras of all lenses.
 FrothContext* lensContext();
+// Of such contexts; lenses: FrothContextInfo::lensClasses.
+FrothContextInfo checkedContextInfo(uint32_t lensClasses);
 // A context of its own, for instances that stay; lenses: FrothContextInfo::lensClasses.
 FrothContext* createCheckedContext(uint32_t lensClasses);
 
@@ -64,9 +66,11 @@ class Stage {
   FrothInstance instance() const { return instance_; }
   FrothContext* context() const { return context_; }
 
-  // Several draws in one frame and command buffer. afterUpdate: called between frothUpdate and the first of them.
+  // Several draws in one frame and command buffer. afterUpdate: called between frothUpdate and the first of them; afterDraws:
+  // after the last.
   FrothViewStatus submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws,
-                         const std::function<void()>& afterUpdate = {});
+                         const std::function<void()>& afterUpdate = {},
+                         const std::function<void(VkCommandBuffer)>& afterDraws = {});
 
  private:
   FrothContext* context_;

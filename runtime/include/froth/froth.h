@@ -11,12 +11,12 @@
  * Structs begin with structSize = sizeof(the struct); zero is every field's default. Booleans are uint32_t.
  *
  * Threads: any thread, any time: frothGetRequirements, frothRequireFeatures, frothResultName.
- *          at once on different views: frothRasterize, frothWalk; while no call of the last row runs.
+ *          at once on different views: frothRasterize, frothWalk, frothComposite; while no call of the last row runs.
  *          at once on anything: frothCastRays, frothLocate, frothOverlapSphere; while no call of the last row runs.
  *          one thread at a time per context: everything else.
  *
  * Results, requirements, contexts, memory: froth_context.h, which this includes. Single rays, points and spheres on the CPU:
- * froth_query.h. docs/EMBEDDING.md leads through it.
+ * froth_query.h. Into the engine's images: froth_composite.h. docs/EMBEDDING.md leads through it.
  */
 #ifndef FROTH_FROTH_H
 #define FROTH_FROTH_H

@@ -130,6 +130,8 @@ typedef struct FrothContextInfo {
   FrothFreeMemory freeMemory;
   void* memoryUser;
   uint32_t lensClasses;           /* FrothLensClass bits for which pipelines are made; 0: pinholes only */
+  VkFormat compositeFormat;       /* of frothComposite's target (froth_composite.h): R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT or, with
+                                     shaderStorageImageExtendedFormats, B10G11R11_UFLOAT_PACK32; UNDEFINED: it is not called */
 } FrothContextInfo;
 
 /* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */
