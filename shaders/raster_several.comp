@@ -11,6 +11,8 @@
 
 layout(local_size_x = kSubTileSize, local_size_y = kSubTileSize) in;
 
+const uint kMostMisses = 8;  // cells of the list that a ray misses before it waits for the others
+
 // In the list of a tile.
 struct Cursor {
   uint entry, end;
@@ -20,12 +22,16 @@ bool isAtEnd(Cursor cursor, float end) { return cursor.entry >= cursor.end; }
 
 bool meetNext(Shading shading, uvec2 pixel, float end, inout Cursor cursor, out Segment segment, out vec3 colour,
               out uint slot, out CellRecord cell) {
-  slot = checked(FRAME.tileCells.v[checked(cursor.entry, FRAME.pairCapacity)], FRAME.visibleCapacity);
-  ++cursor.entry;
   vec3 ray = rayOf(pixel);
-  cell = shading.records.v[slot];
   Segment segments[kRays];
-  if (!meetBall(cell.ball, ray, segments[0].tNear, segments[0].tFar)) return false;
+  bool isMet = false;
+  for (uint i = 0; i < kMostMisses && cursor.entry < cursor.end && !isMet; ++i) {
+    slot = checked(FRAME.tileCells.v[checked(cursor.entry, FRAME.pairCapacity)], FRAME.visibleCapacity);
+    isMet = meetBall(shading.records.v[slot].ball, ray, segments[0].tNear, segments[0].tFar);
+    ++cursor.entry;
+  }
+  if (!isMet) return false;
+  cell = shading.records.v[slot];
   countWork(kWorkBallHits, 1);
   segments[0].tFar = min(segments[0].tFar, end);
   vec3 colours[kRays];

@@ -1,7 +1,7 @@
 // Draws 8 x 8 pixels: reads its tile's list front to back in batches, keeps the cells whose solid ball these pixels can meet, and
 // composites them. Ends when every pixel is saturated. A thread draws FROTH_RAYS pixels below each other: what costs is
 // reading the cells, and all of them read the same. Long tiles are drawn by a form with one pixel per thread, which is done with a
-// list sooner though it costs more. Of several instances each draws the tiles in which it is alone.
+// list sooner though it costs more. Tiles that several instances share are drawn by raster_several.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
@@ -10,7 +10,6 @@
 #include "gpu/hits.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
-#include "gpu/shared_tiles.glsl"
 
 const uint kRows = kSubTileSize / kRays;  // of threads
 const uint kBatch = kSubTileSize * kRows;
@@ -98,12 +97,6 @@ bool areSaturated(Shading shading, Radiance radiances[kRays]) {
   return areAll;
 }
 
-// Whether no other instance has cells in a tile, whose list has this place.
-bool isOwnTile(uint tile, uint place) {
-  uvec2 range = FRAME.tileLists.v[place].yz;
-  return range.x < range.y && partsIn(tile) == 1;
-}
-
 // The tile of this workgroup, and its place in the order; false: there is none.
 bool findTile(out uint tile, out uint place) {
   place = linearGroup() / kSubTilesPerTile;
@@ -111,7 +104,7 @@ bool findTile(out uint tile, out uint place) {
   if (!isLong) place += COUNTERS.longTiles;
   if (place >= (isLong ? COUNTERS.longTiles : FRAME.tilesX * FRAME.tilesY)) return false;
   tile = FRAME.tileLists.v[place].x;
-  return push.partCount == 1 || isOwnTile(tile, place);
+  return true;
 }
 
 void main() {

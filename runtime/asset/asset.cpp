@@ -1,6 +1,7 @@
 #include "runtime/asset/asset.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <numeric>
@@ -11,6 +12,9 @@
 
 namespace froth {
 namespace {
+
+// Of the table of entries for rays.
+constexpr uint32_t kCellsPerEntry = 8, kMostEntriesAlong = 32;
 
 FrothStoredCamera toApi(const StoredCamera& camera) {
   FrothStoredCamera result{};
@@ -103,6 +107,11 @@ void Asset::load(RenderPipelines* pipelines, const Messages& messages) {
       queryFoam_->finish();
     }
     reader_.reset();
+    std::copy_n(description_.boundsMin, 3, gpu_.boundsLow.begin());
+    std::copy_n(description_.boundsMax, 3, gpu_.boundsHigh.begin());
+    if (const Status status = placeEntries(); !status) {
+      return fail(status.error(), messages);
+    }
     if (pipelines) {
       if (const Status status = pipelines->prepareFor(gpu_); !status) {
         return fail(status.error(), messages);
@@ -140,6 +149,7 @@ void Asset::restart(const Messages& messages) {
   description_ = {};
   flightPath_.clear();
   gpu_ = {};
+  entriesSerial = 0;
   buffers_ = device_ ? std::make_shared<GpuBufferSet>(*device_) : nullptr;
   if (!isFile_ && !bytesStay_) {
     fail(FROTH_ERROR_STATE,
@@ -197,36 +207,60 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   chunk.alphaShift = alphaCounts.shift;
   chunk.cellWordCount = static_cast<uint32_t>(cells->words.size());
   chunk.code = cells->code;
-  Status status = placeArray(joinSitesAndRadii(contents), "sites and radii", chunk.siteRadius);
-  if (status)
-    status = placeArray(std::move(contents.neighbourOffsets), "neighbour offsets", chunk.neighbourOffsets);
-  if (status) status = placeArray(std::move(neighbours.words), "neighbours", chunk.neighbours);
-  if (status) status = placeArray(std::move(contents.ghostRefs), "ghost references", chunk.ghostRefs);
-  if (status) status = placeArray(std::move(alphaCounts.words), "alpha counts", chunk.alphaCounts);
-  if (status) status = placeArray(std::move(cells->starts), "cell starts", chunk.cellStarts);
-  if (status) status = placeArray(std::move(cells->words), "cells", chunk.cellWords);
-  if (status) status = placeArray(std::move(contents.solidBalls), "solid balls", chunk.solidBalls);
-  return status;
+  ChunkArrays arrays;
+  arrays.add(joinSitesAndRadii(contents), "sites and radii", chunk.siteRadius);
+  arrays.add(std::move(contents.neighbourOffsets), "neighbour offsets", chunk.neighbourOffsets);
+  arrays.add(std::move(neighbours.words), "neighbours", chunk.neighbours);
+  arrays.add(std::move(contents.ghostRefs), "ghost references", chunk.ghostRefs);
+  arrays.add(std::move(alphaCounts.words), "alpha counts", chunk.alphaCounts);
+  arrays.add(std::move(cells->starts), "cell starts", chunk.cellStarts);
+  arrays.add(std::move(cells->words), "cells", chunk.cellWords);
+  arrays.add(std::move(contents.solidBalls), "solid balls", chunk.solidBalls);
+  return placeArrays(arrays);
 }
 
-template <class T>
-Status Asset::placeArray(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address) {
-  if (values.empty()) {
+// One buffer for all: devices allow few allocations.
+Status Asset::placeArrays(const ChunkArrays& arrays) {
+  if (arrays.size == 0) {
     return {};
   }
-  const VkDeviceSize size = values.size() * sizeof(T);
-  const std::string fullPurpose =
-      "chunk " + std::to_string(gpu_.chunks.size() - 1) + ", array '" + purpose + "'";
+  const std::string purpose = "chunk " + std::to_string(gpu_.chunks.size() - 1);
   buffers_->buffers.reserve(buffers_->buffers.size() + 1);  // so that what is made has its place
-  const Result<GpuBuffer> buffer = device_->createBuffer(MemoryUse::kAssets, BufferKind::kDevice, size, fullPurpose.c_str());
+  arrays_.reserve(arrays.arrays.size());
+  const Result<GpuBuffer> buffer =
+      device_->createBuffer(MemoryUse::kAssets, BufferKind::kDevice, arrays.size, purpose.c_str());
   if (!buffer) {
     return buffer.error();
   }
   buffers_->buffers.push_back(*buffer);
-  addMemory(purpose, buffer->memory.granted);
-  address = buffer->address;
-  const auto owner = std::make_shared<const std::vector<T>>(std::move(values));
-  arrays_.push_back({std::shared_ptr<const void>(owner, owner->data()), buffer->buffer, size, 0});
+  uint64_t named = 0;
+  for (const ChunkArray& array : arrays.arrays) {
+    *array.address = buffer->address + array.offset;
+    arrays_.push_back({array.bytes, buffer->buffer, array.offset, array.size, 0});
+    addMemory(array.purpose, array.size);
+    named += array.size;
+  }
+  addMemory("alignment", buffer->memory.granted - named);
+  return {};
+}
+
+// So many that from the nearest it is a few steps to any cell.
+Status Asset::placeEntries() {
+  if (!keepsForWalks_ || !device_ || !gpu_.hasWalkGraph || gpu_.liveCount == 0) {
+    return {};
+  }
+  const double along = std::cbrt(static_cast<double>(gpu_.cellCount) / kCellsPerEntry);
+  const uint32_t count = std::clamp(static_cast<uint32_t>(along), 1u, kMostEntriesAlong);
+  buffers_->buffers.reserve(buffers_->buffers.size() + 1);
+  const Result<GpuBuffer> buffer = device_->createBuffer(MemoryUse::kAssets, BufferKind::kDevice,
+                                                         8 * VkDeviceSize{count} * count * count, "entries of walks");
+  if (!buffer) {
+    return buffer.error();
+  }
+  buffers_->buffers.push_back(*buffer);
+  addMemory("entries of walks", buffer->memory.granted);
+  gpu_.walkEntriesAlong = count;
+  gpu_.walkEntries = buffer->address;
   return {};
 }
 
@@ -266,7 +300,7 @@ VkDeviceSize Asset::stage(UploadRing& ring, VkDeviceSize limit) {
   while (!arrays_.empty()) {
     PendingArray& array = arrays_.front();
     const VkDeviceSize wanted = std::min(array.size - array.staged, limit - staged);
-    const VkDeviceSize taken = ring.stage(this, array.target, array.staged,
+    const VkDeviceSize taken = ring.stage(this, array.target, array.offset + array.staged,
                                           static_cast<const char*>(array.bytes.get()) + array.staged, wanted);
     array.staged += taken;
     staged += taken;

@@ -11,6 +11,7 @@
 
 #include "format/asset_reader.h"
 #include "froth/froth.h"
+#include "runtime/asset/chunk_arrays.h"
 #include "runtime/asset/gpu_asset.h"
 #include "runtime/core/device.h"
 #include "runtime/core/messages.h"
@@ -44,6 +45,11 @@ class Asset {
   void keepForQueries() { keepsForQueries_ = true; }
   bool keepsForQueries() const { return keepsForQueries_; }
 
+  // Before the first load(): gpu() will have a table of entries for rays, which walk sets fill.
+  void keepForWalks() { keepsForWalks_ = true; }
+  // The frame that fills it; 0: none does yet.
+  uint64_t entriesSerial = 0;
+
   // At most one chunk's work. An error ends the asset: one message, hasFailed().
   void load(RenderPipelines* pipelines, const Messages& messages);
   // Moves at most `limit` bytes of decoded arrays into the ring; returns how many.
@@ -74,13 +80,13 @@ class Asset {
   struct PendingArray {
     std::shared_ptr<const void> bytes;
     VkBuffer target;
-    VkDeviceSize size, staged;
+    VkDeviceSize offset, size, staged;  // offset: in the target
   };
 
   Status openReader();
   Status placeChunk(ChunkContents&& contents);
-  template <class T>
-  Status placeArray(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address);
+  Status placeArrays(const ChunkArrays& arrays);
+  Status placeEntries();
   void addMemory(const char* name, uint64_t bytes);
   void growBounds(const ChunkContents& contents);
   bool isQueryFoamWanted() const { return keepsForQueries_ && !queryFoam(); }
@@ -93,7 +99,7 @@ class Asset {
   Layer lastLayer_;
   Device* device_;
   bool bytesStay_;
-  bool keepsForQueries_ = false;
+  bool keepsForQueries_ = false, keepsForWalks_ = false;
 
   std::optional<AssetReader> reader_;  // while loading
   uint32_t nextChunk_ = 0;

@@ -38,6 +38,9 @@ FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
   if (info.keepForQueries) {
     assets_.find(handle)->keepForQueries();
   }
+  if (hasWalkShaders_) {
+    assets_.find(handle)->keepForWalks();
+  }
   return FROTH_OK;
 }
 

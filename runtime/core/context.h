@@ -12,6 +12,7 @@
 
 #include "froth/froth_composite.h"
 #include "froth/froth_query.h"
+#include "froth/froth_walk.h"
 #include "runtime/asset/asset.h"
 #include "runtime/core/device.h"
 #include "runtime/core/handles.h"
@@ -20,6 +21,7 @@
 #include "runtime/query/placement.h"
 #include "runtime/render/pipelines.h"
 #include "runtime/render/view_renderer.h"
+#include "runtime/walk/walk_sets.h"
 
 namespace froth {
 
@@ -66,6 +68,13 @@ class Context {
   FrothResult locate(FrothInstance handle, const double (&point)[3], FrothLocation& location) const;
   FrothResult overlapSphere(FrothSphere sphere, FrothContact& contact) const;
 
+  // Rays on the GPU (runtime/walk/context_walks.cpp).
+  FrothResult describeWalkLayout(VkDescriptorSetLayout& layout) const;
+  FrothResult recordWalkSet(VkCommandBuffer commandBuffer, FrothWalkInfo info, VkDescriptorSet& set);
+  FrothResult recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress rays, VkDeviceAddress hits, uint32_t count,
+                         FrothRayKind kind);
+  FrothResult describeWalks(FrothWalkStatus& status) const;
+
   const Asset* findAsset(FrothAsset handle) const { return assets_.find(handle); }  // null: stale
 
   Messages messages;
@@ -109,6 +118,10 @@ class Context {
   void prepareView(View& view);
   View* findDrawn(FrothView handle, const char* call, uint64_t View::*newestCall, FrothResult& result);
   FrothResult checkHits(const View& view, const FrothRenderInfo& info, const char* call) const;
+  void prepareWalks();
+  FrothResult checkWalks(const char* call) const;
+  // Into walked_; false: some were left out.
+  bool gatherWalked();
   void preparePipelines();
   // The instances to be drawn, in view.visible; why others are left out, as FrothViewBit.
   void gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& bits) const;
@@ -125,8 +138,12 @@ class Context {
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
   VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED;
   bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats
+  bool hasWalkShaders_ = false;
+  std::string walkError_;     // of the newest frothUpdate that could not make space; sent already
   std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
   std::unique_ptr<RenderPipelines> pipelines_;  // the same
+  std::unique_ptr<WalkSets> walks_;             // the same; also without FrothContextInfo::walkShaders
+  std::vector<WalkedInstance> walked_;          // of the record call under way; has room for all
   HandlePool<Asset, FrothAsset> assets_;
   HandlePool<Instance, FrothInstance> instances_;
   HandlePool<View, FrothView> views_;

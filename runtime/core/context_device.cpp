@@ -72,6 +72,7 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
   lensClasses_ = info.lensClasses;
   compositeFormat_ = info.compositeFormat;
   hasExtendedFormats_ = info.enabledFeatures && info.enabledFeatures->features.shaderStorageImageExtendedFormats;
+  hasWalkShaders_ = info.walkShaders != 0;
   isNull_ = !info.device;
   device_.budget = info.deviceBudget;
   const Status status = isNull_ ? Status() : createDeviceObjects(info);
@@ -103,6 +104,15 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
     return pipelines.error();
   }
   pipelines_ = std::move(*pipelines);
+  if (!hasWalkShaders_) {
+    return {};
+  }
+  Result<std::unique_ptr<WalkSets>> walks = WalkSets::create(
+      device_, info.pipelineCache, {info.checkIndices != 0, info.countWork != 0}, framesInFlight_);
+  if (!walks) {
+    return walks.error();
+  }
+  walks_ = std::move(*walks);
   return {};
 }
 
@@ -167,6 +177,8 @@ void Context::loseDevice() {
   retired_.clear();
   assets_.forEach([](Asset& asset) { asset.releaseBuffers(); });
   ring_.reset();
+  walks_.reset();
+  walkError_.clear();
   pipelines_.reset();
   device_.device = VK_NULL_HANDLE;
   serialsInFlight_.clear();

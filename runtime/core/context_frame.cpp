@@ -72,6 +72,7 @@ void Context::runFrame(FrothFrameStatus& status) {
   preparePipelines();
   shrinkViews();
   views_.forEach([&](View& view) { prepareView(view); });
+  prepareWalks();
 
   assets_.forEach([&](const Asset& asset) {
     status.assetsOpening += stateOf(asset) == FROTH_ASSET_OPENING;
@@ -173,6 +174,12 @@ FrothResult Context::dropFrame(uint64_t serial) {
     if (view.renderer) {
       view.renderer->dropFrame(serial);
     }
+  });
+  if (walks_) {
+    walks_->dropFrame(serial);
+  }
+  assets_.forEach([&](Asset& asset) {
+    if (asset.entriesSerial == serial) asset.entriesSerial = 0;
   });
   return FROTH_OK;
 }

@@ -29,7 +29,7 @@ KindTraits traitsOf(BufferKind kind) {
     case BufferKind::kDevice:
       break;
   }
-  return {kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true};
+  return {kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true};
 }
 
 std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowedTypes,

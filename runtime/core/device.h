@@ -25,7 +25,9 @@ namespace froth {
   X(vkCmdDispatch) X(vkCmdDispatchIndirect) X(vkCmdPipelineBarrier2) X(vkCmdCopyBuffer) \
   X(vkCmdFillBuffer) X(vkCmdUpdateBuffer) \
   X(vkCmdResetQueryPool) X(vkCmdWriteTimestamp2) X(vkCreateImage) X(vkDestroyImage) \
-  X(vkGetImageMemoryRequirements) X(vkBindImageMemory) X(vkCreateImageView) X(vkDestroyImageView)
+  X(vkGetImageMemoryRequirements) X(vkBindImageMemory) X(vkCreateImageView) X(vkDestroyImageView) \
+  X(vkCreateGraphicsPipelines) X(vkCmdBeginRendering) X(vkCmdEndRendering) X(vkCmdSetViewport) X(vkCmdSetScissor) \
+  X(vkCmdSetDepthCompareOp) X(vkCmdDraw)
 // clang-format on
 
 struct DeviceTable {

@@ -6,7 +6,8 @@ namespace froth {
 namespace {
 
 // In the order of MemoryUse.
-constexpr const char* kUseNames[kMemoryUseCount] = {"assets", "views", "views, host", "uploads, host"};
+constexpr const char* kUseNames[kMemoryUseCount] = {"assets",        "views", "views, host",
+                                                    "uploads, host", "walks", "walks, host"};
 
 }  // namespace
 

@@ -8,11 +8,11 @@
 
 namespace froth {
 
-enum class MemoryUse : uint32_t { kAssets, kViews, kViewsHost, kUploadsHost };
-inline constexpr uint32_t kMemoryUseCount = 4;
+enum class MemoryUse : uint32_t { kAssets, kViews, kViewsHost, kUploadsHost, kWalks, kWalksHost };
+inline constexpr uint32_t kMemoryUseCount = 6;
 
 inline bool isHostUse(MemoryUse use) {
-  return use == MemoryUse::kViewsHost || use == MemoryUse::kUploadsHost;
+  return use == MemoryUse::kViewsHost || use == MemoryUse::kUploadsHost || use == MemoryUse::kWalksHost;
 }
 
 // The memory of one buffer or image.

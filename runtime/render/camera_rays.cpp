@@ -74,14 +74,6 @@ gpu::vec4 toFloats(const glm::dvec3& v) {
 
 }  // namespace
 
-glm::dmat3 rotationOf(const std::array<float, 4>& quaternion) {
-  const glm::dvec4 q = glm::normalize(glm::dvec4(quaternion[0], quaternion[1], quaternion[2], quaternion[3]));
-  const double x = q.x, y = q.y, z = q.z, w = q.w;
-  return {1 - 2 * (y * y + z * z), 2 * (x * y + w * z),     2 * (x * z - w * y),       // column 0
-          2 * (x * y - w * z),     1 - 2 * (x * x + z * z), 2 * (y * z + w * x),       // column 1
-          2 * (x * z + w * y),     2 * (y * z - w * x),     1 - 2 * (x * x + y * y)};  // column 2
-}
-
 uint32_t lensClassOf(const FrothCamera& camera) {
   if (camera.lens.kind != FROTH_LENS_PROJECTION) return gpu::kLensClassMapped;
   const float(&clip)[16] = camera.clipFromView;
@@ -93,6 +85,19 @@ glm::dvec3 parallelDirection(const FrothCamera& camera) {
   CameraRays rays;
   aimParallel(camera, glm::dmat3(1), 1, rays);
   return rays.forward;
+}
+
+glm::dmat3 rotationOf(const std::array<float, 4>& quaternion) {
+  const glm::dvec4 q = glm::normalize(glm::dvec4(quaternion[0], quaternion[1], quaternion[2], quaternion[3]));
+  const double x = q.x, y = q.y, z = q.z, w = q.w;
+  return {1 - 2 * (y * y + z * z), 2 * (x * y + w * z),     2 * (x * z - w * y),       // column 0
+          2 * (x * y - w * z),     1 - 2 * (x * x + z * z), 2 * (y * z + w * x),       // column 1
+          2 * (x * z + w * y),     2 * (y * z - w * x),     1 - 2 * (x * x + y * y)};  // column 2
+}
+
+glm::dvec3 assetFromWorld(const RenderInstance& instance, const glm::dvec3& point) {
+  const glm::dvec3 position(instance.position[0], instance.position[1], instance.position[2]);
+  return glm::transpose(rotationOf(instance.rotation)) * (point - position) / double{instance.scale};
 }
 
 CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& instance) {
@@ -110,9 +115,7 @@ CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& in
   } else {
     aimPinhole(camera, assetFromView, rays);
   }
-  const glm::dvec3 eye(camera.eye[0], camera.eye[1], camera.eye[2]);
-  const glm::dvec3 position(instance.position[0], instance.position[1], instance.position[2]);
-  rays.eye = glm::transpose(rays.worldFromAsset) * (eye - position) / double{instance.scale};
+  rays.eye = assetFromWorld(instance, glm::dvec3(camera.eye[0], camera.eye[1], camera.eye[2]));
   return rays;
 }
 

@@ -10,9 +10,6 @@
 
 namespace froth {
 
-// World from asset; `quaternion` (x, y, z, w) of any length but 0.
-glm::dmat3 rotationOf(const std::array<float, 4>& quaternion);
-
 // gpu::kLensClass...: how the passes see through this camera.
 uint32_t lensClassOf(const FrothCamera& camera);
 // The direction of an orthographic camera's rays in the view's axes; unit.
@@ -29,6 +26,10 @@ struct CameraRays {
   glm::dmat3 worldFromAsset;  // rotation
   glm::dmat3 assetFromView;   // rotation
 };
+
+// World from asset.
+glm::dmat3 rotationOf(const std::array<float, 4>& quaternion);
+glm::dvec3 assetFromWorld(const RenderInstance& instance, const glm::dvec3& point);
 
 // The region is camera.scissor, resolved. Jitter moves the image by that many pixels, as it would in the
 // engine's own jittered projection.

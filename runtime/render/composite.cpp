@@ -47,20 +47,19 @@ void recordBarriers(const DeviceTable& vk, VkCommandBuffer commandBuffer, const 
 
 }  // namespace
 
-DescriptorTypes compositeDescriptors() {
-  return {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
+ImageBindings compositeBindings() {
+  return {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}};
 }
 
 bool canComposite(VkFormat format) { return !codeOf(format).empty(); }
 
 Result<std::unique_ptr<ImagePass>> createCompositePass(Device& device, VkPipelineCache cache, VkFormat format) {
   return ImagePass::create(device, cache,
-                           {"composite", codeOf(format), compositeDescriptors(), sizeof(gpu::CompositeConstants)});
+                           {"composite", codeOf(format), compositeBindings(), sizeof(gpu::CompositeConstants)});
 }
 
 void recordComposite(const DeviceTable& vk, VkCommandBuffer commandBuffer, const ImagePass& pass, const ImageSets& sets,
-                     uint32_t set, const FrothCompositeInfo& info) {
-  const VkRect2D& region = info.region;
+                     uint32_t set, const FrothCompositeInfo& info, const VkRect2D& region) {
   const gpu::CompositeConstants constants{static_cast<uint32_t>(region.offset.x), static_cast<uint32_t>(region.offset.y),
                                           region.extent.width, region.extent.height, info.shadowFactor.image != nullptr};
   const VkImageView shadow = info.shadowFactor.image ? info.shadowFactor.view : info.foam.view;  // bound, and not read

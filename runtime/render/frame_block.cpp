@@ -29,34 +29,6 @@ void fillCamera(const FrothRenderInfo& info, const CameraRays& rays, const Rende
   block.worldZ = toFloats(rows[2]);
 }
 
-void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* chunks) {
-  for (size_t i = 0; i < asset.chunks.size(); ++i) {
-    const GpuChunk& chunk = asset.chunks[i];
-    const glm::dvec3 offset = glm::dvec3(chunk.origin[0], chunk.origin[1], chunk.origin[2]) - eye;
-    const gpu::vec4 high = toFloats(offset);
-    gpu::ChunkEntry& entry = chunks[i];
-    entry.offsetHigh = high;
-    entry.offsetLow = toFloats(offset - glm::dvec3(high[0], high[1], high[2]));
-    entry.siteRadius = chunk.siteRadius;
-    entry.neighbourOffsets = chunk.neighbourOffsets;
-    entry.neighbours = chunk.neighbours;
-    entry.ghostRefs = chunk.ghostRefs;
-    entry.alphaCounts = chunk.alphaCounts;
-    entry.cellStarts = chunk.cellStarts;
-    entry.cellWords = chunk.cellWords;
-    entry.solidBalls = chunk.solidBalls;
-    entry.hasSolidBalls = chunk.solidBalls != 0;
-    entry.cellCount = chunk.cellCount;
-    entry.liveCount = chunk.liveCount;
-    entry.siteCount = chunk.siteCount;
-    entry.neighbourCount = chunk.neighbourCount;
-    entry.neighbourShift = chunk.neighbourShift;
-    entry.alphaShift = chunk.alphaShift;
-    entry.cellWordCount = chunk.cellWordCount;
-    entry.code = chunk.code;
-  }
-}
-
 void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkRect2D& region,
                     gpu::FrameBlock& block) {
   const ViewCapacity& capacity = buffers.capacity();
@@ -93,6 +65,34 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
 }
 
 }  // namespace
+
+void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* chunks) {
+  for (size_t i = 0; i < asset.chunks.size(); ++i) {
+    const GpuChunk& chunk = asset.chunks[i];
+    const glm::dvec3 offset = glm::dvec3(chunk.origin[0], chunk.origin[1], chunk.origin[2]) - eye;
+    const gpu::vec4 high = toFloats(offset);
+    gpu::ChunkEntry& entry = chunks[i];
+    entry.offsetHigh = high;
+    entry.offsetLow = toFloats(offset - glm::dvec3(high[0], high[1], high[2]));
+    entry.siteRadius = chunk.siteRadius;
+    entry.neighbourOffsets = chunk.neighbourOffsets;
+    entry.neighbours = chunk.neighbours;
+    entry.ghostRefs = chunk.ghostRefs;
+    entry.alphaCounts = chunk.alphaCounts;
+    entry.cellStarts = chunk.cellStarts;
+    entry.cellWords = chunk.cellWords;
+    entry.solidBalls = chunk.solidBalls;
+    entry.hasSolidBalls = chunk.solidBalls != 0;
+    entry.cellCount = chunk.cellCount;
+    entry.liveCount = chunk.liveCount;
+    entry.siteCount = chunk.siteCount;
+    entry.neighbourCount = chunk.neighbourCount;
+    entry.neighbourShift = chunk.neighbourShift;
+    entry.alphaShift = chunk.alphaShift;
+    entry.cellWordCount = chunk.cellWordCount;
+    entry.code = chunk.code;
+  }
+}
 
 uint32_t tilesAlong(uint32_t pixels) {
   return groupsOver(pixels, gpu::kTileSize);

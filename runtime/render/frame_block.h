@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include <glm/glm.hpp>
+
 #include "froth/froth.h"
 #include "runtime/render/view_buffers.h"
 #include "runtime/render/view_renderer.h"
@@ -20,6 +22,9 @@ struct RecordingPlace {
 uint32_t tilesAlong(uint32_t pixels);
 
 uint32_t tilesOf(const VkRect2D& region);
+
+// The chunk table of an asset as seen from a point of its axes. chunks: [asset.chunks.size()].
+void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* chunks);
 
 // What a clear needs: region, outputs, scale.
 void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block);

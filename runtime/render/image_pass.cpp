@@ -3,13 +3,11 @@
 #include <cstddef>
 
 namespace froth {
-namespace {
 
-// Identical layouts are compatible, so passes and sets make their own.
-Result<VkDescriptorSetLayout> createSetLayout(Device& device, const DescriptorTypes& types) {
+Result<VkDescriptorSetLayout> createSetLayout(Device& device, const ImageBindings& given) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
-  for (const VkDescriptorType type : types) {
-    bindings.push_back({static_cast<uint32_t>(bindings.size()), type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+  for (const VkDescriptorType type : given.types) {
+    bindings.push_back({static_cast<uint32_t>(bindings.size()), type, 1, given.stage, nullptr});
   }
   VkDescriptorSetLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
@@ -20,8 +18,6 @@ Result<VkDescriptorSetLayout> createSetLayout(Device& device, const DescriptorTy
   if (result != VK_SUCCESS) return device.explain(result, "vkCreateDescriptorSetLayout");
   return layout;
 }
-
-}  // namespace
 
 Result<std::unique_ptr<ImagePass>> ImagePass::create(Device& device, VkPipelineCache cache, const ImagePassCode& code) {
   std::unique_ptr<ImagePass> pass(new ImagePass(device));
@@ -39,7 +35,7 @@ ImagePass::~ImagePass() {
 }
 
 Status ImagePass::createLayout(const ImagePassCode& code) {
-  const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device_, code.types);
+  const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device_, code.bindings);
   if (!setLayout) return setLayout.error();
   setLayout_ = *setLayout;
   const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, code.pushBytes};
@@ -79,15 +75,15 @@ void ImagePass::bind(VkCommandBuffer commandBuffer, VkDescriptorSet set, std::sp
                         push.data());
 }
 
-Result<std::unique_ptr<ImageSets>> ImageSets::create(Device& device, const DescriptorTypes& types, uint32_t count) {
+Result<std::unique_ptr<ImageSets>> ImageSets::create(Device& device, const ImageBindings& bindings, uint32_t count) {
   std::unique_ptr<ImageSets> made(new ImageSets(device));
-  made->types_ = types;
+  made->bindings_ = bindings;
   const DeviceTable& vk = device.table;
-  const Result<VkDescriptorSetLayout> layout = createSetLayout(device, types);
+  const Result<VkDescriptorSetLayout> layout = createSetLayout(device, bindings);
   if (!layout) return layout.error();
   made->layout_ = *layout;
   std::vector<VkDescriptorPoolSize> sizes;
-  for (const VkDescriptorType type : types) sizes.push_back({type, count});
+  for (const VkDescriptorType type : bindings.types) sizes.push_back({type, count});
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   info.maxSets = count;
@@ -120,7 +116,7 @@ VkDescriptorSet ImageSets::update(uint32_t index, std::span<const VkDescriptorIm
   write.descriptorCount = 1;
   for (uint32_t binding = 0; binding < images.size(); ++binding) {
     write.dstBinding = binding;
-    write.descriptorType = types_[binding];
+    write.descriptorType = bindings_.types[binding];
     write.pImageInfo = &images[binding];
     device_.table.vkUpdateDescriptorSets(device_.device, 1, &write, 0, nullptr);
   }

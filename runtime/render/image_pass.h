@@ -11,12 +11,19 @@
 
 namespace froth {
 
-using DescriptorTypes = std::vector<VkDescriptorType>;  // of the bindings of set 0, in their order
+// Set 0.
+struct ImageBindings {
+  std::vector<VkDescriptorType> types;
+  VkShaderStageFlags stage = VK_SHADER_STAGE_COMPUTE_BIT;
+};
+
+// Identical layouts are compatible, so passes and sets make their own.
+Result<VkDescriptorSetLayout> createSetLayout(Device& device, const ImageBindings& bindings);
 
 struct ImagePassCode {
   const char* name;
   std::span<const uint32_t> spirv;
-  DescriptorTypes types;
+  ImageBindings bindings;
   uint32_t pushBytes;
 };
 
@@ -39,10 +46,10 @@ class ImagePass {
   VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 
-// Sets for passes whose bindings have the same types.
+// Sets for passes whose bindings are alike.
 class ImageSets {
  public:
-  static Result<std::unique_ptr<ImageSets>> create(Device& device, const DescriptorTypes& types, uint32_t count);
+  static Result<std::unique_ptr<ImageSets>> create(Device& device, const ImageBindings& bindings, uint32_t count);
   ~ImageSets();
 
   // Points a set [index < count] to images, one per binding. What used it before must be complete.
@@ -52,7 +59,7 @@ class ImageSets {
   explicit ImageSets(Device& device) : device_(device) {}
 
   Device& device_;
-  DescriptorTypes types_;
+  ImageBindings bindings_;
   VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   std::vector<VkDescriptorSet> sets_;

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 
+#include "runtime/render/depth_export.h"
 #include "runtime/render/image_pass.h"
 #include "runtime/render/pipelines.h"
 #include "shaders/gpu/layout.h"
@@ -29,6 +30,7 @@ enum class Pass : uint32_t {
   kClear16,
   kClear32,
   // from here on only where a view draws several instances
+  kShareTiles,
   kRasterSeveral16,
   kRasterSeveral32,
   kRasterSeveralFull16,
@@ -53,8 +55,8 @@ enum class Pass : uint32_t {
   kWalkFull16,
   kWalkFull32,
 };
-inline constexpr uint32_t kPassCount = 35;
-inline constexpr uint32_t kFirstSeveralPass = static_cast<uint32_t>(Pass::kRasterSeveral16);
+inline constexpr uint32_t kPassCount = 36;
+inline constexpr uint32_t kFirstSeveralPass = static_cast<uint32_t>(Pass::kShareTiles);
 inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.
@@ -79,7 +81,8 @@ struct RenderPipelines::State {
   LensPipelines several{};  // from there to kFirstShapedPass, once made
   bool hasSeveral = false;
   std::unique_ptr<ImagePass> writeIds{}, writeMotion{};  // null without ShaderOptions::hasExtendedFormats
-  std::unique_ptr<ImagePass> composite{};  // null without ShaderOptions::compositeFormat
+  std::unique_ptr<ImagePass> composite{};       // null without ShaderOptions::compositeFormat,
+  std::unique_ptr<DepthExport> depthExport{};   // depthExportFormat
   std::map<AssetShape, LensPipelines>
       byShape{};  // complete; guarded by `mutex`, entries never change or move
   std::mutex mutex{};

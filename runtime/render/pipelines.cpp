@@ -3,6 +3,7 @@
 #include <span>
 
 #include "runtime/render/composite.h"
+#include "runtime/render/depth_export.h"
 #include "runtime/render/output_images.h"
 #include "runtime/render/pipeline_state.h"
 #include "shaders/gpu/layout.h"
@@ -24,6 +25,7 @@
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
 #include "spirv/shade_sites.h"
+#include "spirv/share_tiles.h"
 #include "spirv/sort_scatter.h"
 #include "spirv/sort_scatter_many.h"
 #include "spirv/walk_rgba16f.h"
@@ -69,6 +71,7 @@ const std::array<PassCode, kPassCount> kPassCodes = {{
     {"widen_cones", widen_cones_spirv, kMapped},
     {"clear_rgba16f", clear_rgba16f_spirv, kAnyLens},
     {"clear_rgba32f", clear_rgba32f_spirv, kAnyLens},
+    {"share_tiles", share_tiles_spirv, kAnyLens},
     {"raster_several_rgba16f", raster_several_rgba16f_spirv, kEachLens},
     {"raster_several_rgba32f", raster_several_rgba32f_spirv, kEachLens},
     {"raster_several_rgba16f", raster_several_rgba16f_spirv, kEachLens, true},
@@ -201,7 +204,7 @@ Status createHitPasses(RenderPipelines::State& state) {
   if (!state.options.hasExtendedFormats) return {};
   const auto create = [&](const char* name, std::span<const uint32_t> spirv, std::unique_ptr<ImagePass>& pass) -> Status {
     Result<std::unique_ptr<ImagePass>> made = ImagePass::create(
-        state.device, state.cache, {name, spirv, {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, sizeof(VkDeviceAddress)});
+        state.device, state.cache, {name, spirv, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, sizeof(VkDeviceAddress)});
     if (!made) return made.error();
     pass = std::move(*made);
     return {};
@@ -269,6 +272,11 @@ Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device,
     Result<std::unique_ptr<ImagePass>> made = createCompositePass(device, cache, options.compositeFormat);
     if (!made) return made.error();
     state.composite = std::move(*made);
+  }
+  if (options.depthExportFormat != VK_FORMAT_UNDEFINED) {
+    Result<std::unique_ptr<DepthExport>> made = DepthExport::create(device, cache, options.depthExportFormat);
+    if (!made) return made.error();
+    state.depthExport = std::move(*made);
   }
   return pipelines;
 }

@@ -70,6 +70,11 @@ void recordBin(const Recording& recording) {
 // Each instance draws the tiles in which it is alone.
 void recordTiles(const Recording& recording) {
   pushParts(recording);
+  if (recording.parts().size() > 1) {
+    const uint32_t groups = groupsOver(tilesOf(recording.info.camera.scissor), gpu::kGroupSize);
+    recorderOf(recording, Pass::kShareTiles).run(Pass::kShareTiles, groups);
+    recording.wait();
+  }
   for (const RecordingPart& part : recording.parts()) {
     part.recorder.runIndirect(pixelPass(Pass::kRasterLong16, recording.info), offsetof(gpu::Counters, longTileDispatch));
     part.recorder.runIndirect(pixelPass(Pass::kRaster16, recording.info), offsetof(gpu::Counters, tileDrawDispatch));

@@ -184,14 +184,19 @@ void pushParts(const Recording& recording) {
                                                  sizeof(constants), &constants);
 }
 
-void recordPixels(const Recording& recording, Pass pass) {
-  const VkExtent2D& extent = recording.info.camera.scissor.extent;
+PassRecorder recorderOf(const Recording& recording, Pass pass) {
   PassRecorder recorder = recording.parts().front().recorder;
   const auto index = static_cast<uint32_t>(pass);
   if (index >= kFirstSeveralPass && index < kFirstShapedPass) {
     recorder.pipelines = &recording.pipelines.several[lensClassOf(recording.info.camera)];
   }
-  recorder.run(pass, groupsOver(extent.width, gpu::kSubTileSize), groupsOver(extent.height, gpu::kSubTileSize));
+  return recorder;
+}
+
+void recordPixels(const Recording& recording, Pass pass) {
+  const VkExtent2D& extent = recording.info.camera.scissor.extent;
+  recorderOf(recording, pass)
+      .run(pass, groupsOver(extent.width, gpu::kSubTileSize), groupsOver(extent.height, gpu::kSubTileSize));
 }
 
 }  // namespace froth

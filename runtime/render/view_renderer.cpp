@@ -163,8 +163,8 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
   return bits;
 }
 
-Status createSets(Device& device, const DescriptorTypes& types, uint32_t count, std::unique_ptr<ImageSets>& sets) {
-  Result<std::unique_ptr<ImageSets>> made = ImageSets::create(device, types, count);
+Status createSets(Device& device, const ImageBindings& bindings, uint32_t count, std::unique_ptr<ImageSets>& sets) {
+  Result<std::unique_ptr<ImageSets>> made = ImageSets::create(device, bindings, count);
   if (!made) return made.error();
   sets = std::move(*made);
   return {};
@@ -180,10 +180,11 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   Result<std::unique_ptr<OutputImages>> images = OutputImages::create(device, recordings);
   if (!images) return images.error();
   std::unique_ptr<PassTimer> timer;
-  std::unique_ptr<ImageSets> hitSets, compositeSets;
+  std::unique_ptr<ImageSets> hitSets, compositeSets, exportSets;
   Status sets;
-  if (options.keepsHits) sets = createSets(device, {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, 2 * recordings, hitSets);
-  if (sets && options.composites) sets = createSets(device, compositeDescriptors(), options.framesInFlight, compositeSets);
+  if (options.keepsHits) sets = createSets(device, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, 2 * recordings, hitSets);
+  if (sets && options.composites) sets = createSets(device, compositeBindings(), options.framesInFlight, compositeSets);
+  if (sets && options.exportsDepth) sets = createSets(device, DepthExport::bindings(), options.framesInFlight, exportSets);
   if (!sets) return sets.error();
   if (options.measurePasses) {
     Result<std::unique_ptr<PassTimer>> made = PassTimer::create(device, recordings);
@@ -196,6 +197,7 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
                                        .images = std::move(*images),
                                        .hitSets = std::move(hitSets),
                                        .compositeSets = std::move(compositeSets),
+                                       .exportSets = std::move(exportSets),
                                        .timer = std::move(timer),
                                        .slots = std::vector<FrameSlot>(options.framesInFlight)});
   ViewState& view = *renderer->state_;
@@ -279,8 +281,17 @@ uint32_t ViewRenderer::record(RenderMethod method, VkCommandBuffer commandBuffer
   return bits;
 }
 
-void ViewRenderer::composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info) {
-  recordComposite(state_->device.table, commandBuffer, *pipelines.state().composite, *state_->compositeSets, state_->slot, info);
+void ViewRenderer::composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info,
+                             const VkRect2D& region) {
+  recordComposite(state_->device.table, commandBuffer, *pipelines.state().composite, *state_->compositeSets, state_->slot, info,
+                  region);
+}
+
+void ViewRenderer::exportDepth(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothDepthExportInfo& info,
+                               const VkRect2D& region, bool isReversed) {
+  const VkDescriptorImageInfo image{VK_NULL_HANDLE, info.depth.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  const VkDescriptorSet set = state_->exportSets->update(state_->slot, {&image, 1});
+  pipelines.state().depthExport->record(commandBuffer, set, info, region, isReversed);
 }
 
 void ViewRenderer::dropFrame(uint64_t serial) {

@@ -37,7 +37,7 @@ struct ViewOptions {
   uint32_t framesInFlight = 1;
   bool measurePasses = false;
   bool keepsHits = false;    // for id and motion
-  bool composites = false;
+  bool composites = false, exportsDepth = false;
 };
 
 class ViewRenderer {
@@ -62,8 +62,11 @@ class ViewRenderer {
   uint32_t record(RenderMethod method, VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
                   std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial);
 
-  // Blends the foam's colour over the engine's; after record() and once per frame. info has been checked, its region is final.
-  void composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info);
+  // Into the engine's images; after record() and once per frame. info has been checked. region: what was drawn.
+  void composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info,
+                 const VkRect2D& region);
+  void exportDepth(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothDepthExportInfo& info,
+                   const VkRect2D& region, bool isReversed);
 
   // The frame with this serial was recorded and will never be submitted: its counts are not read, its place
   // is free.

@@ -59,7 +59,7 @@ struct ViewState {
   std::vector<std::unique_ptr<InstanceSpace>> spaces;  // the first stays
   std::unique_ptr<OutputImages> images;
   std::unique_ptr<ImageSets> hitSets{};  // two per recording; null: the view keeps no hits
-  std::unique_ptr<ImageSets> compositeSets{};  // one per frame in flight; null: the context cannot composite
+  std::unique_ptr<ImageSets> compositeSets{}, exportSets{};  // one per frame in flight; null: the context does not do that
   std::unique_ptr<PassTimer> timer;  // null: not measured
   std::vector<FrameSlot> slots;      // [frames in flight]
   ViewCapacity leastCapacity{};      // of every space
@@ -118,7 +118,9 @@ void recordWalkPasses(const Recording& recording);
 Pass pixelPass(Pass plain, const FrothRenderInfo& info);
 // Tells the passes that write images of all parts.
 void pushParts(const Recording& recording);
-// A workgroup per kSubTileSize x kSubTileSize pixels: a pass of the first part's, or one that draws several.
+// The first part's, for passes that draw several too.
+PassRecorder recorderOf(const Recording& recording, Pass pass);
+// A workgroup per kSubTileSize x kSubTileSize pixels.
 void recordPixels(const Recording& recording, Pass pass);
 
 }  // namespace froth

@@ -2,7 +2,11 @@
 // cells are sites of the same chunk, its own cells first and ghosts of cells of other chunks behind them.
 #ifndef FROTH_GPU_ASSET_GLSL
 #define FROTH_GPU_ASSET_GLSL
+#if defined(FROTH_WALK)
+#include "gpu/walk_set.glsl"
+#else
 #include "gpu/frame.glsl"
+#endif
 #include "foam/solid_ball.h"
 
 struct Ball {
@@ -88,12 +92,14 @@ uint alphaCountOf(Chunk chunk, uint cell) {
   return elementAt(counts, checked(cell, chunk.liveCount), FRAME.chunks.v[chunk.index].alphaShift);
 }
 
+#if !defined(FROTH_WALK)
 // Planes that a recording expands for a visible cell: of all neighbours for a walk, of those of the alpha-complex else.
 uint planeCountOf(Chunk chunk, uint cell) {
   if (!isWalk()) return alphaCountOf(chunk, cell);
   uvec2 row = neighbourRow(chunk, cell);
   return row.y - row.x;
 }
+#endif
 
 bool isGhost(Chunk chunk, uint site) { return site >= chunk.cellCount; }
 
@@ -109,6 +115,7 @@ uvec2 cellOfSite(Chunk chunk, uint site) {
   return isGhost(chunk, site) ? cellOfGhost(chunk, site) : uvec2(chunk.index, site);
 }
 
+#if !defined(FROTH_WALK)
 // The slot of a cell in the list of visible cells, or kNoCell.
 uint slotOfCell(uvec2 cell) {
   uint words = FRAME.groupsPerChunk * kMaskWords;
@@ -116,5 +123,6 @@ uint slotOfCell(uvec2 cell) {
   uint bit = 1u << (cell.y % 32);
   return (word.x & bit) != 0 ? word.y + bitCount(word.x & (bit - 1)) : kNoCell;
 }
+#endif
 
 #endif

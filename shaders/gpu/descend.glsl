@@ -7,12 +7,12 @@
 float powerAt(vec3 point, Ball ball) { return powerOfOrigin(ball.centre - point, ball.radius); }
 
 // The power goes with the search into the next chunk, where it may be rounded otherwise: it falls with every step, so the
-// search ends. point: relative to the eye.
-uvec2 cellHolding(vec3 point, uvec2 first) {
+// search ends. point: relative to the eye. steps: how many it took.
+uvec2 descendTo(vec3 point, uvec2 first, out uint steps) {
   uvec2 cell = first;
   Chunk chunk = loadChunk(cell.x);
   float power = powerAt(point, ballOfSite(chunk, cell.y));
-  for (uint steps = 0; steps < FRAME.maxSteps; ++steps) {
+  for (steps = 0; steps < FRAME.maxSteps; ++steps) {
     uvec2 row = neighbourRow(chunk, cell.y);
     float least = power;
     uint site = kNoCell;
@@ -30,6 +30,11 @@ uvec2 cellHolding(vec3 point, uvec2 first) {
     power = least;
   }
   return cell;
+}
+
+uvec2 cellHolding(vec3 point, uvec2 first) {
+  uint steps;
+  return descendTo(point, first, steps);
 }
 
 #endif

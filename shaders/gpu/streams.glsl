@@ -5,7 +5,8 @@
 //   struct Cursor
 //   bool isAtEnd(Cursor cursor, float end)
 //   bool meetNext(Shading shading, uvec2 pixel, float end, inout Cursor cursor, out Segment segment, out vec3 colour,
-//                 out uint slot, out CellRecord cell)  // goes on by one cell; returns whether the ray gains anything in it
+//                 out uint slot, out CellRecord cell)  // goes on by a cell or some; returns whether the ray gains anything in the last
+//                                                      // of them
 #ifndef FROTH_GPU_STREAMS_GLSL
 #define FROTH_GPU_STREAMS_GLSL
 #include "gpu/device_depth.glsl"
@@ -41,13 +42,13 @@ void startStream(uint part, Cursor cursor) {
   ++streamCount;
 }
 
-// On by one cell. A stream that has ended makes room for another.
+// On by one cell, or a few that the ray misses. A stream that has ended makes room for another.
 void advance(uvec2 pixel, uint index) {
-  Stream stream = streams[index];
-  selectPart(stream.part);
+  selectPart(streams[index].part);
+  Cursor cursor = streams[index].cursor;
   float scale = FRAME.scale;
   float end = rayEnd / scale;
-  if (isAtEnd(stream.cursor, end)) {
+  if (isAtEnd(cursor, end)) {
     streams[index] = streams[--streamCount];
     return;
   }
@@ -55,19 +56,18 @@ void advance(uvec2 pixel, uint index) {
   vec3 colour;
   uint slot;
   CellRecord cell;
-  if (meetNext(loadShading(), pixel, end, stream.cursor, segment, colour, slot, cell)) {
-    countWork(kWorkColours, 1);
-    stream.ahead.segment = Segment(segment.tNear * scale, segment.tFar * scale);
-    stream.ahead.density = cell.face.w / scale;
-    stream.ahead.colour = colour;
-    stream.ahead.exposure = FRAME.exposure;
-    if (isFull) {
-      stream.ahead.normal = inWorld(cell.ball.w * cell.face.xyz);
-      stream.ahead.part = stream.part;
-      stream.ahead.cellCode = cellCodeOf(slot);
-    }
+  bool isMet = meetNext(loadShading(), pixel, end, cursor, segment, colour, slot, cell);
+  streams[index].cursor = cursor;
+  if (!isMet) return;
+  countWork(kWorkColours, 1);
+  streams[index].ahead.segment = Segment(segment.tNear * scale, segment.tFar * scale);
+  streams[index].ahead.density = cell.face.w / scale;
+  streams[index].ahead.exposure = FRAME.exposure;
+  streams[index].ahead.colour = colour;
+  if (isFull) {
+    streams[index].ahead.normal = inWorld(cell.ball.w * cell.face.xyz);
+    streams[index].ahead.cellCode = cellCodeOf(slot);
   }
-  streams[index] = stream;
 }
 
 // The first stream that has nothing beyond `passed` to offer yet; streamCount: none.
@@ -99,7 +99,7 @@ Stretch findStretch(float passed) {
     stretch.normal += ahead.density * ahead.normal;
     if (ahead.density > densest) {
       densest = ahead.density;
-      stretch.part = ahead.part;
+      stretch.part = streams[i].part;
       stretch.cellCode = ahead.cellCode;
     }
   }

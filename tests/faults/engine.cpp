@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "froth/froth_walk.h"
 #include "tests/faults/host_faults.h"
 #include "tests/faults/vulkan_faults.h"
 
@@ -45,6 +46,7 @@ FrothContextInfo Engine::contextInfo() {
     static_cast<Engine*>(user)->messages.push_back({severity, code, text});
   };
   info.messageUser = this;
+  info.walkShaders = 1;
   return info;
 }
 
@@ -106,6 +108,10 @@ FrothResult Engine::recordFrame(VkCommandBuffer commands) {
   serial_ = frame.serial;
   result = call(frothRecordUpload, context_, commands);
   if (result != FROTH_OK) return result;
+  const auto raysInfo = makeStruct<FrothWalkInfo>();
+  VkDescriptorSet set = VK_NULL_HANDLE;
+  result = call(frothRecordWalkSet, context_, commands, &raysInfo, &set);
+  if (result < 0) return result;
   const FrothRenderInfo rasterInfo = renderInfo(rasterImage_), walkInfo = renderInfo(walkImage_);
   result = call(frothRasterize, context_, view_, commands, &rasterInfo);
   if (result < 0) return result;

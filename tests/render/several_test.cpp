@@ -132,6 +132,26 @@ TEST_F(Several, AFarAndLargeFoamBehindANearAndSmallOneKeepsTheOrder) {
   expectLikeReference(lookAt({0, 0, -2}, {0, 0, 3}, 150, 110, 0.5));
 }
 
+// More cells than a workgroup gathers before its rays set out.
+TEST_F(Several, ThousandsOfCellsBehindAFewPixelsAreAllMet) {
+  const Foam dense = makeRandomFoam(4000, 1, 0, 3);
+  const ReferenceRenderer renderer(dense);
+  Stage first(bakeForTest(dense), {64, 48}, context(), 0, kLenses), second(bakeForTest(dense), {8, 8}, context(), 0, kLenses);
+  placed_ = {{&renderer, {0, 0, 0}, {1, 0, 0, 0}, 1}, {&renderer, {0.2, 0.1, 0.3}, {1, 0, 0, 0}, 1}};
+  second.place(placementOf(placed_[1]));
+  for (const auto& stage : stages_) {
+    FrothInstanceInfo hidden{};
+    hidden.mask = 2;
+    stage->place(hidden);
+  }
+  const View view = lookAt({0.1, 0.2, -20}, {0.1, 0.1, 3}, 64, 48, 0.3);
+  FrothRenderInfo info = infoOf(view);
+  info.mask = 1;
+  const RenderedImages expected = reference(view);
+  EXPECT_GE(psnr(first.draw(Method::kRaster, info, {64, 48}).colour, expected.colour), 55);
+  EXPECT_GE(psnr(first.draw(Method::kWalk, info, {64, 48}).colour, expected.colour), 55);
+}
+
 // A tile that one instance has for itself is drawn by the pass for one.
 TEST_F(Several, FoamsBesideEachOtherLookAsIfDrawnAlone) {
   place(0, {-2.2, 0, 0}, {1, 0, 0, 0}, 1);

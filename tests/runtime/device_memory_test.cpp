@@ -181,7 +181,7 @@ TEST_F(DeviceMemory, CallbacksComeInPairs) {
 TEST_F(DeviceMemory, IsReportedByPurpose) {
   createContext(host_->contextInfo());
   const FrothMemoryReport empty = report();
-  ASSERT_EQ(empty.categoryCount, 4u);
+  ASSERT_EQ(empty.categoryCount, 6u);
   EXPECT_EQ(empty.deviceBytes, 0u);
   EXPECT_STREQ(empty.categories[3].name, "uploads, host");
   EXPECT_EQ(empty.categories[3].granted, 64u << 20);

@@ -11,7 +11,8 @@
  * Structs begin with structSize = sizeof(the struct); zero is every field's default. Booleans are uint32_t.
  *
  * Threads: any thread, any time: frothGetRequirements, frothRequireFeatures, frothResultName.
- *          at once on different views: frothRasterize, frothWalk, frothComposite; while no call of the last row runs.
+ *          at once on different views: frothRasterize, frothWalk, frothComposite, frothRecordDepthExport; while no call of the last
+ *          row runs.
  *          at once on anything: frothCastRays, frothLocate, frothOverlapSphere; while no call of the last row runs.
  *          one thread at a time per context: everything else.
  *

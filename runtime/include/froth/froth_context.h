@@ -130,8 +130,11 @@ typedef struct FrothContextInfo {
   FrothFreeMemory freeMemory;
   void* memoryUser;
   uint32_t lensClasses;           /* FrothLensClass bits for which pipelines are made; 0: pinholes only */
+  uint32_t walkShaders;           /* 1: rays in the caller's shaders (froth_walk.h); assets hold a table for their starts */
   VkFormat compositeFormat;       /* of frothComposite's target (froth_composite.h): R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT or, with
                                      shaderStorageImageExtendedFormats, B10G11R11_UFLOAT_PACK32; UNDEFINED: it is not called */
+  VkFormat depthExportFormat;     /* of frothRecordDepthExport's attachment, one that the device has; needs dynamicRendering, and a
+                                     queue family with GRAPHICS; UNDEFINED: it is not called */
 } FrothContextInfo;
 
 /* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */
@@ -149,7 +152,7 @@ FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
 
 /* Memory of one purpose. */
 typedef struct FrothMemoryCategory {
-  const char* name;   /* "assets", "views", "views, host", "uploads, host"; static storage */
+  const char* name;   /* "assets", "views", "views, host", "uploads, host", "walks", "walks, host"; static storage */
   uint64_t granted;   /* [bytes] of VkDeviceMemory held */
   uint64_t used;      /* [bytes] of these that hold something */
   uint64_t peak;      /* most granted since creation or the last frothSetBudget */

@@ -1,0 +1,282 @@
+#include "runtime/walk/walk_sets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "runtime/render/camera_rays.h"
+#include "runtime/render/frame_block.h"
+#include "runtime/render/view_capacity.h"
+#include "shaders/gpu/walk_layout.h"
+
+namespace froth {
+namespace {
+
+// A slot of the tables: WalkBlock, WalkInstance [most], ChunkEntry [capacity]; each slot where a uniform buffer may begin.
+constexpr VkDeviceSize kAlignment = 256;
+constexpr VkDeviceSize kInstancesOffset = kAlignment;
+constexpr VkDeviceSize kChunksOffset = kInstancesOffset + FROTH_WALK_MOST_INSTANCES * sizeof(gpu::WalkInstance);
+constexpr VkDeviceSize kCountersStride = kAlignment;
+static_assert(kChunksOffset % 16 == 0 && sizeof(gpu::WalkCounters) <= kCountersStride);
+
+constexpr uint32_t kMostGroupsAlong = 65535;
+
+gpu::vec4 toFloats(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+}
+
+gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye, uint32_t maxSteps) {
+  const RenderInstance& placement = instance.placement;
+  const GpuAsset& asset = *placement.asset;
+  gpu::WalkInstance entry{};
+  const glm::dmat3 rows = glm::transpose(rotationOf(placement.rotation));
+  entry.worldX = toFloats(rows[0]);
+  entry.worldY = toFloats(rows[1]);
+  entry.worldZ = toFloats(rows[2]);
+  const glm::dvec3 low(asset.boundsLow[0], asset.boundsLow[1], asset.boundsLow[2]);
+  const glm::dvec3 high(asset.boundsHigh[0], asset.boundsHigh[1], asset.boundsHigh[2]);
+  const glm::dvec3 padding = 1e-5 * (glm::abs(low - eye) + glm::abs(high - eye));  // more than rounding
+  entry.boxLow = toFloats(low - eye - padding);
+  entry.boxHigh = toFloats(high - eye + padding);
+  entry.scale = placement.scale;
+  entry.detailSharpness = asset.detailSharpness;
+  entry.mask = instance.mask;
+  entry.userId = instance.userId;
+  entry.chunkCount = static_cast<uint32_t>(asset.chunks.size());
+  entry.localBits = asset.localBits;
+  entry.maxSteps = maxSteps;
+  entry.detailCount = asset.detailCount;
+  entry.lobeCount = asset.lobeCount;
+  entry.hasHeights = asset.hasHeights;
+  entry.entriesAlong = asset.walkEntriesAlong;
+  entry.entries = asset.walkEntries;
+  return entry;
+}
+
+uint64_t sumOf(const gpu::WalkCounters& counters, uint32_t kind) {
+  return counters.work[2 * kind] | uint64_t{counters.work[2 * kind + 1]} << 32;
+}
+
+}  // namespace
+
+WalkSets::WalkSets(Device& device, bool countsWork, uint32_t framesInFlight)
+    : device_(device), countsWork_(countsWork), slots_(framesInFlight) {}
+
+Result<std::unique_ptr<WalkSets>> WalkSets::create(Device& device, VkPipelineCache cache, const WalkOptions& options,
+                                                   uint32_t framesInFlight) {
+  std::unique_ptr<WalkSets> sets(new WalkSets(device, options.countsWork, framesInFlight));
+  Result<std::unique_ptr<WalkPipelines>> pipelines = WalkPipelines::create(device, cache, options);
+  if (!pipelines) return pipelines.error();
+  sets->pipelines_ = std::move(*pipelines);
+  if (const Status status = sets->createSets(); !status) return status.error();
+  // In host memory: they are read every frame, and written only by rays that fail, or for tuning.
+  const Result<GpuBuffer> counters = device.createBuffer(MemoryUse::kWalksHost, BufferKind::kReadback,
+                                                         framesInFlight * kCountersStride, "counters of walk sets");
+  if (!counters) return counters.error();
+  sets->counters_ = *counters;
+  if (const Status status = sets->grow(0); !status) return status.error();
+  return sets;
+}
+
+WalkSets::~WalkSets() {
+  for (GpuBuffer* buffer : {&tables_, &staging_, &counters_}) device_.destroyBuffer(*buffer);
+  for (auto& [serial, buffer] : retired_) device_.destroyBuffer(buffer);
+  device_.table.vkDestroyDescriptorPool(device_.device, pool_, nullptr);
+}
+
+Status WalkSets::createSets() {
+  const auto count = static_cast<uint32_t>(slots_.size());
+  const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
+                                        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}};
+  VkDescriptorPoolCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  info.maxSets = count;
+  info.poolSizeCount = 2;
+  info.pPoolSizes = sizes;
+  VkResult result = device_.table.vkCreateDescriptorPool(device_.device, &info, nullptr, &pool_);
+  if (result != VK_SUCCESS) return device_.explain(result, "walk sets: vkCreateDescriptorPool");
+  const std::vector<VkDescriptorSetLayout> layouts(count, layout());
+  std::vector<VkDescriptorSet> sets(count);
+  VkDescriptorSetAllocateInfo allocation{};
+  allocation.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  allocation.descriptorPool = pool_;
+  allocation.descriptorSetCount = count;
+  allocation.pSetLayouts = layouts.data();
+  result = device_.table.vkAllocateDescriptorSets(device_.device, &allocation, sets.data());
+  if (result != VK_SUCCESS) return device_.explain(result, "walk sets: vkAllocateDescriptorSets");
+  for (uint32_t i = 0; i < count; ++i) slots_[i].set = sets[i];
+  return {};
+}
+
+// ---- Memory ----
+
+VkDeviceSize WalkSets::stride() const {
+  const VkDeviceSize bytes = kChunksOffset + chunkCapacity_ * sizeof(gpu::ChunkEntry);
+  return (bytes + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+Status WalkSets::grow(uint32_t chunkCount) {
+  const uint32_t oldCapacity = chunkCapacity_;
+  chunkCapacity_ = chunkCount;
+  const VkDeviceSize size = slots_.size() * stride();
+  retired_.reserve(retired_.size() + 2);  // so that what is replaced has its place
+  Result<GpuBuffer> tables = device_.createBuffer(MemoryUse::kWalks, BufferKind::kDevice, size, "walk sets");
+  Result<GpuBuffer> staging =
+      tables ? device_.createBuffer(MemoryUse::kWalksHost, BufferKind::kStaging, size, "staging of walk sets")
+             : Result<GpuBuffer>(tables.error());
+  if (!staging) {
+    if (tables) device_.destroyBuffer(*tables);
+    chunkCapacity_ = oldCapacity;
+    return staging.error();
+  }
+  if (tables_.buffer) retired_.emplace_back(recordedSerial_, tables_);
+  if (staging_.buffer) retired_.emplace_back(recordedSerial_, staging_);
+  tables_ = *tables;
+  staging_ = *staging;
+  return {};
+}
+
+Status WalkSets::prepare(uint64_t completedSerial, uint32_t chunkCount) {
+  completedSerial_ = completedSerial;
+  for (Slot& slot : slots_) {
+    if (slot.serial == 0 || slot.serial > completedSerial) continue;
+    readCounters(slot);
+    slot.serial = 0;
+  }
+  std::erase_if(retired_, [&](auto& retired) {
+    if (retired.first > completedSerial) return false;
+    device_.destroyBuffer(retired.second);
+    return true;
+  });
+  return hasSpaceFor(chunkCount) ? Status() : grow(std::max(chunkCount, 2 * chunkCapacity_));
+}
+
+void WalkSets::readCounters(const Slot& slot) {
+  if (slot.serial <= status_.serial) return;
+  const auto number = static_cast<size_t>(&slot - slots_.data());
+  gpu::WalkCounters counters;
+  std::memcpy(&counters, static_cast<const char*>(counters_.mapped) + number * kCountersStride, sizeof(counters));
+  status_.serial = slot.serial;
+  status_.stepLimits = counters.stepLimit;
+  status_.versions = counters.version;
+  status_.indexViolations = counters.violations;
+  status_.rays = sumOf(counters, gpu::kRayWorkRays);
+  status_.descents = sumOf(counters, gpu::kRayWorkDescents);
+  status_.cells = sumOf(counters, gpu::kRayWorkCells);
+  status_.neighbours = sumOf(counters, gpu::kRayWorkNeighbours);
+  status_.cellsMet = sumOf(counters, gpu::kRayWorkMet);
+  status_.sites = sumOf(counters, gpu::kRayWorkShaded);
+}
+
+void WalkSets::dropFrame(uint64_t serial) {
+  for (Slot& slot : slots_) {
+    if (slot.serial == serial) slot.serial = 0;
+  }
+}
+
+// ---- Recording ----
+
+void WalkSets::writeTables(uint32_t slot, const FrothWalkInfo& info, std::span<const WalkedInstance> instances) {
+  char* staged = static_cast<char*>(staging_.mapped) + slot * stride();
+  const VkDeviceAddress address = tables_.address + slot * stride();
+  const glm::dvec3 eye(info.eye[0], info.eye[1], info.eye[2]);
+  gpu::WalkBlock block{};
+  block.abi = FROTH_WALK_ABI;
+  block.instanceCount = static_cast<uint32_t>(instances.size());
+  block.logCutoff = info.cutoff > 0 ? std::log(info.cutoff) : -std::numeric_limits<float>::infinity();
+  block.logQuantile = std::log(info.quantile);
+  block.flags = countsWork_ ? gpu::kWalkCountsWork : 0;
+  block.instances = address + kInstancesOffset;
+  std::memcpy(staged, &block, sizeof(block));
+  VkDeviceSize chunks = kChunksOffset;
+  for (size_t i = 0; i < instances.size(); ++i) {
+    const glm::dvec3 localEye = assetFromWorld(instances[i].placement, eye);
+    gpu::WalkInstance entry = describe(instances[i], localEye, info.maxSteps);
+    entry.chunks = address + chunks;
+    std::memcpy(staged + kInstancesOffset + i * sizeof(entry), &entry, sizeof(entry));
+    fillChunks(*instances[i].placement.asset, localEye, reinterpret_cast<gpu::ChunkEntry*>(staged + chunks));
+    chunks += entry.chunkCount * sizeof(gpu::ChunkEntry);
+  }
+}
+
+void WalkSets::updateSet(uint32_t slot) {
+  const VkDescriptorBufferInfo buffers[] = {{tables_.buffer, slot * stride(), sizeof(gpu::WalkBlock)},
+                                            {counters_.buffer, slot * kCountersStride, sizeof(gpu::WalkCounters)}};
+  VkWriteDescriptorSet writes[2]{};
+  for (uint32_t binding = 0; binding < 2; ++binding) {
+    writes[binding].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    writes[binding].dstSet = slots_[slot].set;
+    writes[binding].dstBinding = binding;
+    writes[binding].descriptorCount = 1;
+    writes[binding].descriptorType =
+        binding == gpu::kBindingWalk ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    writes[binding].pBufferInfo = &buffers[binding];
+  }
+  device_.table.vkUpdateDescriptorSets(device_.device, 2, writes, 0, nullptr);
+}
+
+// Uploads of assets, of this frame or earlier, were made visible to compute shaders only.
+void WalkSets::recordCopies(VkCommandBuffer commandBuffer, uint32_t slot, VkPipelineStageFlags2 stages) const {
+  const DeviceTable& vk = device_.table;
+  const VkBufferCopy copy{slot * stride(), slot * stride(), stride()};
+  vk.vkCmdCopyBuffer(commandBuffer, staging_.buffer, tables_.buffer, 1, &copy);
+  vk.vkCmdFillBuffer(commandBuffer, counters_.buffer, slot * kCountersStride, sizeof(gpu::WalkCounters), 0);
+  vk.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                         stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                         VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
+VkDescriptorSet WalkSets::record(VkCommandBuffer commandBuffer, const FrothWalkInfo& info,
+                                 std::span<const WalkedInstance> instances, uint64_t serial) {
+  const auto isFree = [](const Slot& slot) { return slot.serial == 0; };
+  const auto free = std::find_if(slots_.begin(), slots_.end(), isFree);
+  current_ = static_cast<uint32_t>(free - slots_.begin());
+  free->serial = serial;
+  recordedSerial_ = serial;
+  writeTables(current_, info, instances);
+  updateSet(current_);
+  recordCopies(commandBuffer, current_, info.stages);
+  seedEntries(commandBuffer, instances, info.stages);
+  return free->set;
+}
+
+void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
+                           VkPipelineStageFlags2 stages) const {
+  const DeviceTable& vk = device_.table;
+  bool isAny = false;
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].isSeeded) continue;
+    if (!isAny) bind(commandBuffer, kSeedPipeline);
+    isAny = true;
+    const SeedConstants constants{i};
+    vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
+                          &constants);
+    const uint32_t along = instances[i].placement.asset->walkEntriesAlong;
+    vk.vkCmdDispatch(commandBuffer, groupsOver(along * along * along, gpu::kRayGroupSize), 1, 1);
+  }
+  if (!isAny) return;
+  vk.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                         stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+}
+
+void WalkSets::bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const {
+  const DeviceTable& vk = device_.table;
+  vk.vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, (*pipelines_)[pipeline]);
+  vk.vkCmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->layout(), 0, 1,
+                             &slots_[current_].set, 0, nullptr);
+}
+
+void WalkSets::recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress rays, VkDeviceAddress hits, uint32_t count,
+                          FrothRayKind kind) const {
+  const DeviceTable& vk = device_.table;
+  bind(commandBuffer, kind);
+  const CastConstants constants{rays, hits, count, 0};
+  vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
+  const uint32_t groups = groupsOver(count, gpu::kRayGroupSize);
+  const uint32_t rows = groupsOver(groups, kMostGroupsAlong);
+  vk.vkCmdDispatch(commandBuffer, groupsOver(groups, rows), rows, 1);
+}
+
+}  // namespace froth

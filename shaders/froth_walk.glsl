@@ -1,0 +1,300 @@
+// Rays through Froth's foams, for compute, fragment and ray generation shaders of an engine:
+//
+//   #define FROTH_WALK_SET 2  // the number of the descriptor set that frothRecordWalkSet gives
+//   #include "froth_walk.glsl"
+//
+// To be included once, before any declaration (it enables GL_EXT_buffer_reference), in GLSL 4.60 for Vulkan 1.2 or later. All
+// names begin with froth, Froth or FROTH. Places are relative to FrothWalkInfo::eye; directions, lengths: world axes and units.
+//
+// May be defined before:
+//   FROTH_WALK_NO_COUNTERS  no binding 1: in stages without atomics (fragmentStoresAndAtomics); frothGetWalkStatus counts nothing
+//   FROTH_WALK_STREAMS      most instances that a ray may be in at the same time [4]; 1: faster where none overlap
+#ifndef FROTH_WALK_GLSL
+#define FROTH_WALK_GLSL
+
+#define FROTH_WALK_ABI 1u
+
+// FrothHit::status
+#define FROTH_WALK_DONE 0u
+#define FROTH_WALK_STEP_LIMIT 1u    // ended by FrothWalkInfo::maxSteps: what lies beyond is missing
+#define FROTH_WALK_STREAM_LIMIT 2u  // an instance was left out: more overlap than FROTH_WALK_STREAMS
+#define FROTH_WALK_VERSION 3u       // the set is one of another library; nothing was met
+
+#define FROTH_INFINITY uintBitsToFloat(0x7f800000u)
+#define FROTH_NONE 0xffffffffu  // no instance, no cell
+
+#if !defined(FROTH_WALK_STREAMS)
+#define FROTH_WALK_STREAMS 4
+#endif
+
+#include "gpu/walk_stream.glsl"
+#include "foam/colour.h"
+#include "foam/compositing.h"
+
+struct FrothRay {
+  vec3 origin;
+  vec3 direction;  // unit
+  float tMin;      // where the ray begins,
+  float tMax;      // and ends; FROTH_INFINITY: nowhere
+  float apex;      // colours are seen from the point that lies this far behind the origin. 0: the origin itself. Of a ray that a plane
+                   // mirror reflects: the length of its path from the camera, for there the mirrored camera stands
+  uint mask;       // meets instances whose FrothInstanceInfo::mask shares a bit with it
+  uvec4 hint;      // where to look for the cell in which the walk begins: instance, chunk, cell of a hit nearby
+};
+
+struct FrothHit {
+  float distance;  // where transmittance falls below FrothWalkInfo::quantile; FROTH_INFINITY: never, and what follows is 0 or
+  vec3 normal;     // FROTH_NONE. Of the face of the cell that is met there; unit
+  uint instance;   // of the walk set; where several overlap the densest
+  uint chunk;
+  uint cell;
+  uint userId;     // FrothInstanceInfo::userId
+  uint status;     // FROTH_WALK_...
+};
+
+// A walk that goes on, segment by segment.
+struct FrothWalk {
+  FrothRay ray;
+  FrothHit hit;  // as far as the walk has come
+  vec3 start;    // where the ray enters the first instance: t of what follows counts from here,
+  float tStart;  // which is so far from the origin
+  float passed;
+  float logTransmittance;
+  float nextEntry;    // of the next instance that the ray enters, from the origin
+  uint nextInstance;  // FROTH_NONE: there is no more
+  uint cells;  // walked through
+  Stream streams[FROTH_WALK_STREAMS];
+};
+
+// A stretch of the ray with the same cells all along: their densities add, their colours mix by them.
+struct Stretch {
+  float tNear, tFar, density;
+  vec3 colour;
+  uint densest;  // stream
+};
+
+uvec4 frothNoHint() { return uvec4(FROTH_NONE); }
+
+FrothRay frothRay(vec3 origin, vec3 direction) {
+  return FrothRay(origin, direction, 0.0, FROTH_INFINITY, 0.0, FROTH_NONE, frothNoHint());
+}
+
+bool isVersionKnown() {
+  bool isKnown = walkSet.block.abi == FROTH_WALK_ABI;
+#if !defined(FROTH_WALK_NO_COUNTERS)
+  if (!isKnown) atomicAdd(walkCounters.v.version, 1u);
+#endif
+  return isKnown;
+}
+
+// Where the ray enters the box of an instance, from its origin; false: it does not.
+bool entersInstance(FrothRay ray, uint instance, out float entry) {
+  instanceAtHand = instance;
+  entry = ray.tMin;
+  if ((FRAME.mask & ray.mask) == 0) return false;
+  LocalRay local = localRay(ray.origin, ray.direction);
+  float scale = FRAME.scale;
+  vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
+  precise float tNear = ray.tMin;
+  precise float tFar = ray.tMax;
+  for (uint axis = 0; axis < 3; ++axis) {
+    float along = local.direction[axis];
+    precise float inverse = scale / (abs(along) > 1e-30 ? along : 1e-30);  // 0 * infinity would be NaN
+    precise float tLow = (low[axis] - local.origin[axis]) * inverse;
+    precise float tHigh = (high[axis] - local.origin[axis]) * inverse;
+    tNear = max(tNear, min(tLow, tHigh));
+    tFar = min(tFar, max(tLow, tHigh));
+  }
+  entry = tNear;
+  return tNear < tFar;
+}
+
+// The instance that the ray enters after the last one that was found, in order of entries, then numbers.
+void findNextInstance(inout FrothWalk walk) {
+  float last = walk.nextEntry;
+  uint lastInstance = walk.nextInstance;
+  walk.nextEntry = FROTH_INFINITY;
+  walk.nextInstance = FROTH_NONE;
+  for (uint i = 0; i < walkSet.block.instanceCount; ++i) {
+    float entry;
+    if (!entersInstance(walk.ray, i, entry)) continue;
+    bool isLater = entry > last || (entry == last && i > lastInstance);
+    if (isLater && entry < walk.nextEntry) {
+      walk.nextEntry = entry;
+      walk.nextInstance = i;
+    }
+  }
+}
+
+FrothWalk frothBeginWalk(FrothRay ray) {
+  FrothWalk walk;
+  walk.ray = ray;
+  walk.hit = FrothHit(FROTH_INFINITY, vec3(0.0), FROTH_NONE, FROTH_NONE, FROTH_NONE, 0u, FROTH_WALK_DONE);
+  walk.start = ray.origin;
+  walk.tStart = 0.0;
+  walk.passed = -FROTH_INFINITY;
+  walk.logTransmittance = 0.0;
+  walk.nextEntry = -FROTH_INFINITY;
+  walk.nextInstance = FROTH_NONE;
+  walk.cells = 0;
+  countWalkWork(kRayWorkRays, 1u);
+  for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) walk.streams[i].isAhead = false;
+  if (!isVersionKnown()) {
+    walk.hit.status = FROTH_WALK_VERSION;
+    return walk;
+  }
+  findNextInstance(walk);
+  if (walk.nextInstance != FROTH_NONE) {
+    walk.tStart = walk.nextEntry;
+    walk.start = ray.origin + walk.tStart * ray.direction;
+  }
+  return walk;
+}
+
+void startNextStream(inout FrothWalk walk, inout WalkWork work) {
+  uint place = 0;
+  while (place < FROTH_WALK_STREAMS && walk.streams[place].isAhead) ++place;
+  if (place < FROTH_WALK_STREAMS) {
+    walk.streams[place] = startStream(walk.nextInstance, walk.start, walk.ray.direction, walk.nextEntry - walk.tStart,
+                                      walk.ray.hint, work);
+  } else {
+    walk.hit.status = max(walk.hit.status, FROTH_WALK_STREAM_LIMIT);
+  }
+  findNextInstance(walk);
+}
+
+void noteStepLimit(inout FrothWalk walk) {
+#if !defined(FROTH_WALK_NO_COUNTERS)
+  if (walk.hit.status == FROTH_WALK_DONE) atomicAdd(walkCounters.v.stepLimit, 1u);
+#endif
+  walk.hit.status = max(walk.hit.status, FROTH_WALK_STEP_LIMIT);
+}
+
+// Where the next segment beyond what is passed begins.
+float advanceStreams(inout FrothWalk walk, bool isSeen, inout WalkWork work) {
+  float first = FROTH_INFINITY;
+  float tEnd = walk.ray.tMax - walk.tStart;
+  float behind = walk.tStart + walk.ray.apex;
+  for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
+    while (walk.streams[i].isAhead && walk.streams[i].tFar <= walk.passed) {
+      advanceStream(walk.streams[i], walk.start, walk.ray.direction, tEnd, isSeen, behind, work);
+      if (walk.streams[i].isCut) noteStepLimit(walk);
+    }
+    if (walk.streams[i].isAhead) first = min(first, max(walk.streams[i].tNear, walk.passed));
+  }
+  return first;
+}
+
+// The next stretch before `end`; false: there is none.
+bool findStretch(inout FrothWalk walk, float end, bool isSeen, out Stretch stretch, inout WalkWork work) {
+  float begin;
+  for (;;) {
+    begin = advanceStreams(walk, isSeen, work);
+    bool isInstanceNext = walk.nextInstance != FROTH_NONE && walk.nextEntry - walk.tStart <= min(begin, end);
+    if (!isInstanceNext) break;
+    startNextStream(walk, work);
+  }
+  stretch = Stretch(begin, min(end, walk.nextEntry - walk.tStart), 0.0, vec3(0.0), 0u);
+  if (!(begin < end)) return false;
+  float most = 0.0;
+  for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
+    if (!walk.streams[i].isAhead) continue;
+    if (walk.streams[i].tNear > begin) {
+      stretch.tFar = min(stretch.tFar, walk.streams[i].tNear);
+      continue;
+    }
+    float density = walk.streams[i].density;
+    stretch.tFar = min(stretch.tFar, walk.streams[i].tFar);
+    stretch.density += density;
+    stretch.colour += density * walk.streams[i].colour;
+    if (density > most) stretch.densest = i;
+    most = max(most, density);
+  }
+  stretch.colour /= stretch.density;
+  return true;
+}
+
+void describeHit(inout FrothWalk walk, Stretch stretch, float logQuantile) {
+  Stream met = walk.streams[stretch.densest];
+  walk.hit.distance = walk.tStart + quantileDistance(stretch.tNear, walk.logTransmittance, logQuantile, stretch.density);
+  walk.hit.instance = met.instance;
+  walk.hit.chunk = met.metCell.x;
+  walk.hit.cell = met.metCell.y;
+  walk.hit.normal = normalOf(met.instance, met.metCell);
+  walk.hit.userId = FRAME.userId;
+}
+
+void countWork(WalkWork work) {
+  countWalkWork(kRayWorkDescents, work.descents);
+  countWalkWork(kRayWorkCells, work.cells);
+  countWalkWork(kRayWorkNeighbours, work.neighbours);
+  countWalkWork(kRayWorkMet, work.met);
+  countWalkWork(kRayWorkShaded, work.shaded);
+}
+
+// On to tEnd, or to where the walk ends: premultiplied display-coded colour of this part (isSeen), and its opacity.
+vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
+  float logCutoff = walkSet.block.logCutoff, logQuantile = walkSet.block.logQuantile;
+  float logBefore = walk.logTransmittance;
+  float end = min(tEnd, walk.ray.tMax) - walk.tStart;
+  vec3 colour = vec3(0.0);
+  WalkWork work = WalkWork(0u, 0u, 0u, 0u, 0u);
+  Stretch stretch;
+  while (walk.logTransmittance >= logCutoff && findStretch(walk, end, isSeen, stretch, work)) {
+    float opticalDepth = stretch.density * (stretch.tFar - stretch.tNear);
+    if (isSeen) colour += exp(walk.logTransmittance - logBefore) * opacity(opticalDepth) * stretch.colour;
+    float logAfter = walk.logTransmittance - opticalDepth;
+    bool isHit = walk.logTransmittance >= logQuantile && logAfter < logQuantile;
+    if (isHit) describeHit(walk, stretch, logQuantile);
+    walk.passed = stretch.tFar;
+    walk.logTransmittance = logAfter;
+    if (isHit && isClosestOnly) break;
+  }
+  walk.cells += work.cells;
+  countWork(work);
+  return vec4(colour, opacity(logBefore - walk.logTransmittance));
+}
+
+// Premultiplied linear colour of the ray's part from where the walk stands to tEnd, and 1 - T of this part. Each part is decoded by
+// itself: over a part in front of it, it blends as colour += T * part, T *= 1 - part.w.
+vec4 frothRadianceSegment(inout FrothWalk walk, float tEnd) {
+  vec4 part = gather(walk, tEnd, true, false);
+  return vec4(linearPremultiplied(part.rgb, part.a), part.a);
+}
+
+// Premultiplied linear colour and 1 - T over [tMin, tMax]; ends below the cut-off.
+vec4 frothRadiance(FrothRay ray, out FrothHit hit) {
+  FrothWalk walk = frothBeginWalk(ray);
+  vec4 radiance = frothRadianceSegment(walk, FROTH_INFINITY);
+  hit = walk.hit;
+  return radiance;
+}
+
+// T over [tMin, tMax]; ends below the cut-off. status: as FrothHit::status.
+float frothTransmittance(FrothRay ray, out uint status) {
+  FrothWalk walk = frothBeginWalk(ray);
+  gather(walk, FROTH_INFINITY, false, false);
+  status = walk.hit.status;
+  return exp(walk.logTransmittance);
+}
+
+// Where transmittance falls below the quantile; false: it does not.
+bool frothClosest(FrothRay ray, out FrothHit hit) {
+  FrothWalk walk = frothBeginWalk(ray);
+  gather(walk, FROTH_INFINITY, false, true);
+  hit = walk.hit;
+  return hit.distance < FROTH_INFINITY;
+}
+
+// The power cell (chunk, cell) of an instance of the set that holds a point. first: a cell near to it, or uvec2(FROTH_NONE). false:
+// there is no such instance.
+bool frothLocate(uint instance, vec3 point, uvec2 first, out uvec2 cell) {
+  cell = uvec2(FROTH_NONE);
+  if (!isVersionKnown() || instance >= walkSet.block.instanceCount) return false;
+  instanceAtHand = instance;
+  uint steps;
+  cell = locateFrom(assetFromWorld(point) / FRAME.scale, first, steps);
+  return true;
+}
+
+#endif

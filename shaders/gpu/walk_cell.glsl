@@ -1,0 +1,80 @@
+// What one ray meets in one cell, from the cell's bits (foam.md "What one ray meets in one cell").
+#ifndef FROTH_GPU_WALK_CELL_GLSL
+#define FROTH_GPU_WALK_CELL_GLSL
+#include "gpu/site_colour.glsl"
+#include "foam/cell.h"
+
+// A detail site with less than this part of all weights is not looked up for a colour: together they weigh less than a
+// hundredth of an 8-bit step.
+const float kLeastShare = 1e-5;
+
+// A ray in the axes and units of the instance at hand.
+struct LocalRay {
+  vec3 origin;  // relative to the eye
+  vec3 direction;
+};
+
+// A live cell that a ray meets, and its face.
+struct MetCell {
+  uvec2 cell;
+  vec3 centre;  // as seen from the ray's origin
+  float radius;
+};
+
+vec3 faceQueryAt(MetCell met, Frame frame, vec3 direction, float t) {
+  return faceQuery(inFaceFrame(t * direction - met.centre, frame.tangent, frame.bitangent, frame.normal, 1.0 / met.radius));
+}
+
+// Blended height of the face at a query point, in units of the radius.
+float heightAt(CellCode code, CellHeader header, vec3 query) {
+  float weightSum = 0.0;
+  float heightSum = 0.0;
+  for (uint k = 0; k < FRAME.detailCount; ++k) {
+    DetailSite site = loadDetailSite(code, header, FRAME.detailCount, k);
+    float weight = detailWeight(query, site.place, FRAME.detailSharpness);
+    weightSum += weight;
+    heightSum += weight * site.height;
+  }
+  return heightSum / flooredWeightSum(weightSum);
+}
+
+// Cuts the interval by the displaced face.
+void clipByFace(CellCode code, MetCell met, Frame frame, vec3 direction, inout float tNear, inout float tFar) {
+  float facing = dot(frame.normal, direction);
+  bool leavesThroughFace = facing >= 0.0;
+  float height = 0.0;
+  if (FRAME.hasHeights != 0) {
+    float tBase = intersectFace(met.centre, frame.normal, facing, 0.0);
+    float tQuery = leavesThroughFace ? tNear : max(tNear, tBase);
+    CellHeader header = loadCellHeader(code, met.cell.x, met.cell.y);
+    height = met.radius * heightAt(code, header, faceQueryAt(met, frame, direction, tQuery));
+  }
+  float tFace = intersectFace(met.centre, frame.normal, facing, height);
+  if (leavesThroughFace) tFar = min(tFar, tFace);
+  else tNear = max(tNear, tFace);
+}
+
+// Display-coded colour at t, seen from the point that lies `behind` the ray's origin. shaded: how many detail sites took part.
+vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, float behind, out uint shaded) {
+  CellHeader header = loadCellHeader(code, met.cell.x, met.cell.y);
+  uint siteCount = FRAME.detailCount;
+  vec3 query = faceQueryAt(met, frame, direction, t);
+  float weightSum = 0.0;
+  for (uint k = 0; k < siteCount; ++k) {
+    weightSum += detailWeight(query, loadDetailSite(code, header, siteCount, k).place, FRAME.detailSharpness);
+  }
+  vec3 colour = vec3(0.0);
+  shaded = 0;
+  for (uint k = 0; k < siteCount; ++k) {
+    DetailSite site = loadDetailSite(code, header, siteCount, k);
+    float weight = detailWeight(query, site.place, FRAME.detailSharpness);
+    if (!(weight > kLeastShare * weightSum)) continue;
+    vec3 toSite = met.centre + behind * direction +
+                  met.radius * (frame.tangent * site.place.x + frame.bitangent * site.place.y);
+    colour += weight * siteColour(code, header, siteCount, FRAME.lobeCount > 0, k, site.base, normalize(toSite));
+    ++shaded;
+  }
+  return colour / flooredWeightSum(weightSum);
+}
+
+#endif

@@ -1,0 +1,188 @@
+// A ray through one instance, from cell to cell: the same walk as runtime/query/foam_walk.cpp.
+//
+// No rounding can make a walk cycle: each step has a key, the dot product of the direction and the site it leads to, and is
+// taken only to a greater key; the key of a site of a chunk, be it a cell or a ghost, is one fixed number for a ray. NaN compares
+// as no, so a ray of them goes nowhere.
+#ifndef FROTH_GPU_WALK_STREAM_GLSL
+#define FROTH_GPU_WALK_STREAM_GLSL
+#include "gpu/descend.glsl"
+#include "gpu/walk_cell.glsl"
+
+// t counts from the walk's start, in world units; only `entry` is in the instance's.
+struct Stream {
+  uint instance;
+  uvec2 cell;   // where the walk stands,
+  float entry;  // where the ray enters it,
+  float key;    // and its order along the ray
+  uint steps;
+  bool isAhead;  // the segment is one, or will be; else there are no more,
+  bool isCut;    // but for the limit of steps
+  // Where the ray gains opacity next; tFar = -infinity: nowhere yet.
+  float tNear, tFar, density;
+  uvec2 metCell;
+  vec3 colour;
+};
+
+struct WalkWork {
+  uint descents, cells, neighbours, met, shaded;
+};
+
+vec3 assetFromWorld(vec3 vector) {
+  vec4 x = FRAME.worldX, y = FRAME.worldY, z = FRAME.worldZ;
+  return vector.x * x.xyz + vector.y * y.xyz + vector.z * z.xyz;
+}
+
+vec3 worldFromAsset(vec3 vector) {
+  vec4 x = FRAME.worldX, y = FRAME.worldY, z = FRAME.worldZ;
+  return vec3(dot(vector, x.xyz), dot(vector, y.xyz), dot(vector, z.xyz));
+}
+
+LocalRay localRay(vec3 origin, vec3 direction) {
+  return LocalRay(assetFromWorld(origin) / FRAME.scale, assetFromWorld(direction));
+}
+
+bool isCell(uvec2 cell) { return cell.x < FRAME.chunkCount && cell.y < FRAME.chunks.v[cell.x].cellCount; }
+
+// A cell near a point of the box.
+uvec2 entryCell(vec3 point) {
+  vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
+  float along = float(FRAME.entriesAlong);
+  vec3 place = clamp(floor((point - low.xyz) / (high.xyz - low.xyz) * along), vec3(0.0), vec3(along - 1.0));
+  uvec3 entry = min(uvec3(place), uvec3(FRAME.entriesAlong - 1));
+  return FRAME.entries.v[(entry.z * FRAME.entriesAlong + entry.y) * FRAME.entriesAlong + entry.x];
+}
+
+// The power cell that holds a point; first: where to look, if it is a cell.
+uvec2 locateFrom(vec3 point, uvec2 first, out uint steps) {
+  uvec2 cell = isCell(first) ? first : entryCell(point);
+  return descendTo(point, isCell(cell) ? cell : uvec2(0), steps);
+}
+
+float orderAlong(vec3 direction, vec3 centre) {
+  precise float key = direction.x * centre.x + direction.y * centre.y + direction.z * centre.z;
+  return key;
+}
+
+// The ray's origin in a chunk's coordinates, where sites are.
+vec3 originIn(Chunk chunk, vec3 origin) {
+  precise vec3 local = (origin - chunk.offsetHigh) - chunk.offsetLow;
+  return local;
+}
+
+// entry: where the ray enters the instance [world units from its origin]. hint: as FrothRay::hint.
+Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, uvec4 hint, inout WalkWork work) {
+  instanceAtHand = instance;
+  LocalRay ray = localRay(origin, direction);
+  Stream stream;
+  stream.instance = instance;
+  stream.entry = entry / FRAME.scale;
+  uint steps;
+  stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, hint.x == instance ? hint.yz : uvec2(kNoCell), steps);
+  work.descents += steps;
+  Chunk chunk = loadChunk(stream.cell.x);
+  stream.key = orderAlong(ray.direction, siteRadiusOf(chunk, stream.cell.y).xyz - originIn(chunk, ray.origin));
+  stream.steps = 0;
+  stream.isAhead = true;
+  stream.isCut = false;
+  stream.tFar = -kInfinity;
+  stream.tNear = stream.density = 0.0;
+  stream.metCell = uvec2(kNoCell);
+  stream.colour = vec3(0.0);
+  return stream;
+}
+
+// Neighbour through whose plane the ray leaves a cell.
+struct Exit {
+  uint site;  // kNoCell: it never does
+  float t, key;
+};
+
+Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 direction, float key, inout WalkWork work) {
+  vec3 centre = siteRadius.xyz - origin;
+  Exit found = Exit(kNoCell, kInfinity, key);
+  uvec2 row = neighbourRow(chunk, cell);
+  work.neighbours += row.y - row.x;
+  for (uint i = row.x; i < row.y; ++i) {
+    uint other = neighbourAt(chunk, i);
+    vec4 otherSite = siteRadiusOf(chunk, other);
+    vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
+    float q = dot(direction, toNeighbour);
+    float offset = radicalOffset(toNeighbour, siteRadius.w, otherSite.w);
+    float t = radicalClearance(centre, toNeighbour, offset) / q;
+    if (!(q > 0.0 && t < found.t)) continue;
+    float otherKey = orderAlong(direction, otherSite.xyz - origin);
+    if (otherKey > key) found = Exit(other, t, otherKey);
+  }
+  return found;
+}
+
+// Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it; false: there is none up to tEnd.
+bool walkToCell(inout Stream stream, LocalRay ray, float tEnd, out MetCell met, out float tNear, out float tFar,
+                inout WalkWork work) {
+  Chunk chunk = loadChunk(stream.cell.x);
+  vec3 origin = originIn(chunk, ray.origin);
+  while (stream.entry < tEnd && stream.steps < FRAME.maxSteps) {
+    ++stream.steps;
+    ++work.cells;
+    vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);
+    Exit exit = findExit(chunk, stream.cell.y, siteRadius, origin, ray.direction, stream.key, work);
+    met = MetCell(stream.cell, siteRadius.xyz - origin, siteRadius.w);
+    bool isMet = stream.cell.y < chunk.liveCount && intersectBall(met.centre, met.radius, ray.direction, tNear, tFar);
+    if (isMet) {
+      tNear = max(tNear, stream.entry);
+      tFar = min(tFar, min(exit.t, tEnd));
+    }
+    stream.entry = max(exit.t, stream.entry);
+    if (exit.site != kNoCell) {
+      stream.key = exit.key;
+      stream.cell = cellOfSite(chunk, exit.site);
+      if (stream.cell.x != chunk.index) {
+        chunk = loadChunk(stream.cell.x);
+        origin = originIn(chunk, ray.origin);
+      }
+    }
+    if (isMet && tNear < tFar) return true;
+  }
+  stream.isCut = stream.entry < tEnd;
+  return false;
+}
+
+// On to the next segment, if it is one: a face may leave nothing of it. isSeen: with its colour, seen from `behind` the origin.
+void advanceStream(inout Stream stream, vec3 origin, vec3 direction, float tEnd, bool isSeen, float behind,
+                   inout WalkWork work) {
+  instanceAtHand = stream.instance;
+  LocalRay ray = localRay(origin, direction);
+  float scale = FRAME.scale;
+  MetCell met;
+  float tNear, tFar;
+  stream.isAhead = walkToCell(stream, ray, tEnd / scale, met, tNear, tFar, work);
+  stream.tFar = -kInfinity;
+  if (!stream.isAhead) return;
+  ++work.met;
+  CellCode code = FRAME.chunks.v[met.cell.x].code;
+  BitCursor bits = cellBits(met.cell.x, met.cell.y);
+  float density = takeDensity(code, bits);
+  Frame frame = takeFrame(code, bits);
+  clipByFace(code, met, frame, ray.direction, tNear, tFar);
+  if (!(tNear < tFar && density > 0.0)) return;
+  if (isSeen) {
+    uint shaded;
+    stream.colour = colourAt(code, met, frame, ray.direction, tNear, behind / scale, shaded);
+    work.shaded += shaded;
+  }
+  stream.metCell = met.cell;
+  stream.tNear = tNear * scale;
+  stream.tFar = tFar * scale;
+  stream.density = density / scale;
+}
+
+// World axes, unit.
+vec3 normalOf(uint instance, uvec2 cell) {
+  instanceAtHand = instance;
+  CellCode code = FRAME.chunks.v[cell.x].code;
+  BitCursor bits = cellBits(cell.x, cell.y);
+  takeDensity(code, bits);
+  return worldFromAsset(takeFrame(code, bits).normal);
+}
+
+#endif

@@ -1,0 +1,23 @@
+// The entries of a new asset: for each box of the grid the cell that holds its middle. A thread per entry.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#include "gpu/walk_stream.glsl"
+
+layout(local_size_x = kRayGroupSize) in;
+
+layout(push_constant) uniform Push {
+  uint instance;
+} push;
+
+void main() {
+  instanceAtHand = push.instance;
+  uint index = gl_GlobalInvocationID.x;
+  uint along = FRAME.entriesAlong;
+  if (index >= along * along * along) return;
+  uvec3 entry = uvec3(index % along, index / along % along, index / (along * along));
+  vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
+  vec3 middle = low.xyz + (vec3(entry) + 0.5) / float(along) * (high.xyz - low.xyz);
+  uint steps;
+  FRAME.entries.v[index] = descendTo(middle, uvec2(0), steps);
+}

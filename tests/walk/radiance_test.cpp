@@ -1,0 +1,79 @@
+// Colours of rays on the GPU against pictures of the raster and of the reference in double.
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "baker/synth/synth.h"
+#include "shaders/foam/colour.h"
+#include "tests/query/query_fixture.h"
+#include "tests/render/random_foam.h"
+#include "tests/render/render_harness.h"
+#include "tests/walk/walk_stage.h"
+
+namespace froth::test {
+namespace {
+
+// Premultiplied linear colour and opacity, of the reference's display-coded colour.
+Image linearOf(const RenderedImages& images) {
+  Image result{images.colour.width, images.colour.height, 4, {}};
+  for (size_t pixel = 0; pixel < images.alpha.values.size(); ++pixel) {
+    const float alpha = images.alpha.values[pixel];
+    const float* colour = &images.colour.values[3 * pixel];
+    const glm::vec3 linear = foam::linearPremultiplied(glm::vec3(colour[0], colour[1], colour[2]), alpha);
+    result.values.insert(result.values.end(), {linear.x, linear.y, linear.z, alpha});
+  }
+  return result;
+}
+
+void print(const char* name, double psnr) { std::printf("%s: %.1f dB\n", name, psnr); }
+
+void expectPictures(const Foam& foam, const View& view) {
+  WalkStage stage;
+  stage.place(stage.open(bakeForTest(foam)));
+  const Image rays = imageOf(stage.cast(cameraRays(view), FROTH_RAY_RADIANCE, walkInfo(eyeOf(view))), view);
+  const FrothWalkStatus status = stage.status();
+  std::printf("%.1f cells, %.1f cells met, %.1f detail sites per ray\n", double(status.cells) / double(status.rays),
+              double(status.cellsMet) / double(status.rays), double(status.sites) / double(status.rays));
+  const double toRaster = psnr(rays, stage.rasterize(view));
+  const double toReference = psnr(rays, linearOf(renderReference(foam, view)));
+  print("rays and raster", toRaster);
+  print("rays and reference", toReference);
+  EXPECT_GE(toRaster, 60);
+  EXPECT_GE(toReference, 55);
+}
+
+TEST(GpuRadiance, OfACamerasRaysIsThePictureOfARandomFoam) {
+  expectPictures(makeRandomFoam(200, 4, 2, 3), lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, 96, 64, 0.5));
+}
+
+TEST(GpuRadiance, OfACamerasRaysIsThePictureOfAGallery) {
+  expectPictures(synthesize("gallery", 5000), resizeView(galleryCameras().views.at(0), 120, 80));
+}
+
+// What a mirror shows, its rays seen from their apex, is the picture of the mirrored camera.
+//
+//      mirrored camera   .  apex
+//                       / \  .
+//     ---------------------------- mirror, from where the rays start
+//                     /     \  .
+//                  ( foam )
+TEST(GpuRadiance, OfMirroredRaysIsThePictureOfTheMirroredCamera) {
+  const Foam foam = makeRandomFoam(200, 4, 2, 3);
+  const View view = lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, 96, 64, 0.4);
+  WalkStage stage;
+  stage.place(stage.open(bakeForTest(foam)));
+  const glm::vec3 normal(0.3f, 0.2f, 0.9f);
+  std::vector<FrothGpuRay> rays = cameraRays(view);
+  for (FrothGpuRay& ray : rays) {
+    const glm::vec3 direction(ray.direction[0], ray.direction[1], ray.direction[2]);
+    ray.apex = 2.2f / glm::dot(normal, direction);
+    for (int axis = 0; axis < 3; ++axis) ray.origin[axis] = ray.apex * direction[axis];
+  }
+  const Image mirrored = imageOf(stage.cast(rays, FROTH_RAY_RADIANCE, walkInfo(eyeOf(view))), view);
+  const double toRaster = psnr(mirrored, stage.rasterize(view));
+  print("mirrored rays and raster", toRaster);
+  EXPECT_GE(toRaster, 60);
+}
+
+}  // namespace
+}  // namespace froth::test

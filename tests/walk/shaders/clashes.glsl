@@ -1,0 +1,10 @@
+// Names of an engine that froth_walk.glsl must not mind, as macros and as names.
+#define FRAME 17
+#define opacity(x) nothing
+#define real half
+#define Stretch nothing nothing
+#define centre 3
+struct Ball { float x; };
+struct Segment { int a; };
+const int kRays = 3;
+float checked(float x) { return x; }
