@@ -13,3 +13,12 @@ FrothResult frothComposite(FrothContext* context, FrothView view, VkCommandBuffe
     return result == FROTH_OK ? context->composite(view, commandBuffer, known) : result;
   });
 }
+
+FrothResult frothRecordDepthExport(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
+                                   const FrothDepthExportInfo* info) {
+  return guard(context, __func__, [&](const char* call) {
+    FrothDepthExportInfo known;
+    const FrothResult result = readInput(context->messages, call, info, known);
+    return result == FROTH_OK ? context->exportDepth(view, commandBuffer, known) : result;
+  });
+}

@@ -221,7 +221,8 @@ Status Context::createRenderer(View& view) {
                                      .framesInFlight = framesInFlight_,
                                      .measurePasses = view.measurePasses && canMeasure,
                                      .keepsHits = view.keepsHits && hasExtendedFormats_,
-                                     .composites = compositeFormat_ != VK_FORMAT_UNDEFINED});
+                                     .composites = compositeFormat_ != VK_FORMAT_UNDEFINED,
+                                     .exportsDepth = depthExportFormat_ != VK_FORMAT_UNDEFINED});
   if (!renderer) {
     return renderer.error();
   }

@@ -61,7 +61,8 @@ class Context {
   FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
                      FrothRenderInfo info);
 
-  FrothResult composite(FrothView handle, VkCommandBuffer commandBuffer, FrothCompositeInfo info);
+  FrothResult composite(FrothView handle, VkCommandBuffer commandBuffer, const FrothCompositeInfo& info);
+  FrothResult exportDepth(FrothView handle, VkCommandBuffer commandBuffer, const FrothDepthExportInfo& info);
 
   // Queries; const, so that any number of threads may ask (runtime/query/context_queries.cpp).
   FrothResult castRays(FrothCastInfo info, std::span<const FrothRay> rays, FrothRayHit* hits) const;
@@ -88,6 +89,11 @@ class Context {
     uint64_t movedAfter = 0;
     uint32_t mask = ~0u;
   };
+  // What later calls of its frame have to know of a record call.
+  struct DrawnView {
+    VkRect2D region{};
+    bool isProjection = true, isDepthReversed = false;
+  };
   struct View {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
@@ -97,7 +103,8 @@ class Context {
     std::vector<RenderInstance> visible;     // of the record call under way; has room for all
     std::string preparationError;            // sent already
     uint64_t renderedSerials[2] = {0, 0};    // newest frame per RenderMethod
-    uint64_t compositedSerial = 0;           // the same of frothComposite
+    DrawnView drawn{};                       // by the newest of those
+    uint64_t compositedSerial = 0, exportedSerial = 0;  // newest frames of frothComposite, frothRecordDepthExport
     std::vector<std::pair<uint64_t, uint32_t>>
         bits;  // recorded frames that left something out: serial, FrothViewBit
   };
@@ -136,7 +143,7 @@ class Context {
   std::string severalError_;   // of prepareForSeveral, sent already
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
-  VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED;
+  VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED, depthExportFormat_ = VK_FORMAT_UNDEFINED;
   bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats
   bool hasWalkShaders_ = false;
   std::string walkError_;     // of the newest frothUpdate that could not make space; sent already

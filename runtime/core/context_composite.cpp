@@ -6,34 +6,52 @@
 namespace froth {
 namespace {
 
-// Zero: all pixels of `image`. FROTH_OK: not empty, at an offset >= 0.
-FrothResult resolveRegion(const Messages& messages, const char* call, const FrothImage& image, VkRect2D& region) {
-  if (region.extent.width == 0 && region.extent.height == 0) {
-    region = {{0, 0}, image.extent};
+// Of an image whose contents are used.
+FrothResult checkHeld(const Messages& messages, const char* call, const char* name, const FrothImage& image) {
+  if (!image.image) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s: null", name);
   }
-  if (region.extent.width > 0 && region.extent.height > 0 && region.offset.x >= 0 && region.offset.y >= 0) {
-    return FROTH_OK;
-  }
-  return messages.fail(FROTH_ERROR_ARGUMENT, call, "region: %u x %u pixels at (%d, %d); at least one at an offset >= 0 is needed",
-                       region.extent.width, region.extent.height, region.offset.x, region.offset.y);
+  return image.layoutIn == VK_IMAGE_LAYOUT_UNDEFINED
+             ? messages.fail(FROTH_ERROR_ARGUMENT, call,
+                             "%s.layoutIn: VK_IMAGE_LAYOUT_UNDEFINED, which drops its contents; name the layout that it is in", name)
+             : FROTH_OK;
 }
 
-FrothResult resolveComposite(const Messages& messages, const char* call, VkFormat format, FrothCompositeInfo& info) {
-  if (!info.foam.image || !info.target.image) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s: null", info.foam.image ? "target" : "foam");
+FrothResult checkComposite(const Messages& messages, const char* call, VkFormat format, const VkRect2D& region,
+                           const FrothCompositeInfo& info) {
+  FrothResult result = checkHeld(messages, call, "foam", info.foam);
+  if (result == FROTH_OK) {
+    result = checkHeld(messages, call, "target", info.target);
   }
-  FrothResult result = resolveRegion(messages, call, info.foam, info.region);
+  if (result == FROTH_OK && info.shadowFactor.image) {
+    result = checkHeld(messages, call, "shadowFactor", info.shadowFactor);
+  }
   if (result == FROTH_OK) {
     result = checkImage(messages, call, "foam", info.foam, {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT},
-                        "R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT", info.region);
+                        "R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT", region);
   }
   if (result == FROTH_OK) {
-    result = checkImage(messages, call, "target", info.target, {format}, "FrothContextInfo::compositeFormat", info.region);
+    result = checkImage(messages, call, "target", info.target, {format}, "FrothContextInfo::compositeFormat", region);
   }
   if (result == FROTH_OK) {
     result = checkImage(messages, call, "shadowFactor", info.shadowFactor,
                         {VK_FORMAT_R8_UNORM, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT},
-                        "R8_UNORM, R16_SFLOAT or R32_SFLOAT", info.region);
+                        "R8_UNORM, R16_SFLOAT or R32_SFLOAT", region);
+  }
+  return result;
+}
+
+FrothResult checkDepthExport(const Messages& messages, const char* call, VkFormat format, const VkRect2D& region,
+                             const FrothDepthExportInfo& info) {
+  FrothResult result = checkHeld(messages, call, "depth", info.depth);
+  if (result == FROTH_OK) {
+    result = checkHeld(messages, call, "attachment", info.attachment);
+  }
+  if (result == FROTH_OK) {
+    result = checkImage(messages, call, "depth", info.depth, {VK_FORMAT_R32_SFLOAT}, "R32_SFLOAT", region);
+  }
+  if (result == FROTH_OK) {
+    result = checkImage(messages, call, "attachment", info.attachment, {format}, "FrothContextInfo::depthExportFormat", region);
   }
   return result;
 }
@@ -58,7 +76,7 @@ Context::View* Context::findDrawn(FrothView handle, const char* call, uint64_t V
   return result == FROTH_OK ? view : nullptr;
 }
 
-FrothResult Context::composite(FrothView handle, VkCommandBuffer commandBuffer, FrothCompositeInfo info) {
+FrothResult Context::composite(FrothView handle, VkCommandBuffer commandBuffer, const FrothCompositeInfo& info) {
   constexpr const char* kCall = "frothComposite";
   FrothResult result = FROTH_OK;
   View* view = findDrawn(handle, kCall, &View::compositedSerial, result);
@@ -68,14 +86,40 @@ FrothResult Context::composite(FrothView handle, VkCommandBuffer commandBuffer, 
   if (compositeFormat_ == VK_FORMAT_UNDEFINED) {
     return messages.fail(FROTH_ERROR_UNSUPPORTED, kCall, "the context was not made for it; set FrothContextInfo::compositeFormat");
   }
-  if (result = resolveComposite(messages, kCall, compositeFormat_, info); result != FROTH_OK || isNull_) {
+  result = checkComposite(messages, kCall, compositeFormat_, view->drawn.region, info);
+  if (result != FROTH_OK || isNull_) {
     return result;
   }
   if (!commandBuffer) {
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "commandBuffer: null");
   }
   view->compositedSerial = serial_;
-  view->renderer->composite(commandBuffer, *pipelines_, info);
+  view->renderer->composite(commandBuffer, *pipelines_, info, view->drawn.region);
+  return FROTH_OK;
+}
+
+FrothResult Context::exportDepth(FrothView handle, VkCommandBuffer commandBuffer, const FrothDepthExportInfo& info) {
+  constexpr const char* kCall = "frothRecordDepthExport";
+  FrothResult result = FROTH_OK;
+  View* view = findDrawn(handle, kCall, &View::exportedSerial, result);
+  if (!view) {
+    return result;
+  }
+  if (depthExportFormat_ == VK_FORMAT_UNDEFINED || !view->drawn.isProjection) {
+    return messages.fail(FROTH_ERROR_UNSUPPORTED, kCall,
+                         view->drawn.isProjection
+                             ? "the context was not made for it; set FrothContextInfo::depthExportFormat"
+                             : "the view was drawn with a lens that is no projection: its depth is a distance");
+  }
+  result = checkDepthExport(messages, kCall, depthExportFormat_, view->drawn.region, info);
+  if (result != FROTH_OK || isNull_) {
+    return result;
+  }
+  if (!commandBuffer) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "commandBuffer: null");
+  }
+  view->exportedSerial = serial_;
+  view->renderer->exportDepth(commandBuffer, *pipelines_, info, view->drawn.region, view->drawn.isDepthReversed);
   return FROTH_OK;
 }
 

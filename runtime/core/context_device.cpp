@@ -60,7 +60,7 @@ FrothResult Context::checkEngineFormats(const FrothContextInfo& info, const char
                          "compositeFormat: B10G11R11_UFLOAT_PACK32, and the device was made without "
                          "shaderStorageImageExtendedFormats; enable it, or use another format");
   }
-  return FROTH_OK;
+  return info.depthExportFormat == VK_FORMAT_UNDEFINED ? FROTH_OK : checkDepthExportDevice(info, messages, call);
 }
 
 FrothResult Context::create(const FrothContextInfo& info, const char* call) {
@@ -71,6 +71,7 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
   framesInFlight_ = info.framesInFlight == 0 ? kDefaultFramesInFlight : info.framesInFlight;
   lensClasses_ = info.lensClasses;
   compositeFormat_ = info.compositeFormat;
+  depthExportFormat_ = info.depthExportFormat;
   hasExtendedFormats_ = info.enabledFeatures && info.enabledFeatures->features.shaderStorageImageExtendedFormats;
   hasWalkShaders_ = info.walkShaders != 0;
   isNull_ = !info.device;
@@ -99,7 +100,8 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
                                .countWork = info.countWork != 0,
                                .lensClasses = lensClasses_,
                                .hasExtendedFormats = hasExtendedFormats_,
-                               .compositeFormat = compositeFormat_});
+                               .compositeFormat = compositeFormat_,
+                               .depthExportFormat = depthExportFormat_});
   if (!pipelines) {
     return pipelines.error();
   }

@@ -3,6 +3,7 @@
 
 #include "runtime/core/context.h"
 #include "runtime/core/render_info.h"
+#include "runtime/render/device_depth.h"
 #include "runtime/render/hit_block.h"
 
 namespace froth {
@@ -272,6 +273,7 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   if (const FrothResult result = checkHits(*view, info, call); result != FROTH_OK) {
     return result;
   }
+  view->drawn = {info.camera.scissor, info.camera.lens.kind == FROTH_LENS_PROJECTION, isDepthReversed(info.camera)};
   uint32_t bits = 0;
   gatherVisible(*view, info, bits);
   if (isNull_) {

@@ -82,9 +82,14 @@ Status Host::createDevice(const std::vector<const char*>& extensions) {
     return makeError(ErrorKind::kUnsupported, "froth needs features of %s, which this host does not know",
                      missing);
   }
-  VkPhysicalDeviceFeatures offered{};
-  vkGetPhysicalDeviceFeatures(physicalDevice, &offered);
-  state.features.features.shaderStorageImageExtendedFormats = offered.shaderStorageImageExtendedFormats;
+  VkPhysicalDeviceVulkan13Features offered13{};
+  offered13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  VkPhysicalDeviceFeatures2 offered{};
+  offered.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  offered.pNext = &offered13;
+  vkGetPhysicalDeviceFeatures2(physicalDevice, &offered);
+  state.features.features.shaderStorageImageExtendedFormats = offered.features.shaderStorageImageExtendedFormats;
+  state.features13.dynamicRendering = offered13.dynamicRendering;
 
   queueFamily = findComputeFamily(physicalDevice);
   const float priority = 1.0f;

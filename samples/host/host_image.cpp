@@ -74,9 +74,9 @@ std::vector<float> widenTexels(const void* texels, size_t byteCount, FormatTrait
     std::memcpy(values.data(), texels, byteCount);
     return values;
   }
-  const auto* halves = static_cast<const uint16_t*>(texels);
+  const auto* codes = static_cast<const uint16_t*>(texels);
   for (size_t i = 0; i < values.size(); ++i) {
-    values[i] = glm::unpackHalf1x16(halves[i]);
+    values[i] = traits.isDepth() ? static_cast<float>(codes[i]) / 65535.0f : glm::unpackHalf1x16(codes[i]);
   }
   return values;
 }
@@ -96,9 +96,9 @@ Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements,
   return {};
 }
 
-void copyToBuffer(VkCommandBuffer commands, const HostImage& image, VkBuffer buffer) {
+void copyToBuffer(VkCommandBuffer commands, const HostImage& image, FormatTraits traits, VkBuffer buffer) {
   VkBufferImageCopy region{};
-  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.imageSubresource = {traits.aspect(), 0, 0, 1};
   region.imageExtent = {image.extent.width, image.extent.height, 1};
   vkCmdCopyImageToBuffer(commands, image.image, VK_IMAGE_LAYOUT_GENERAL, buffer, 1, &region);
   VkMemoryBarrier2 barrier{};
@@ -265,7 +265,7 @@ Result<std::vector<float>> Host::readImage(const HostImage& image) {
     return status.error();
   }
   const Status status = state_->runCommands(device, queue, [&](VkCommandBuffer commands) {
-    copyToBuffer(commands, image, readback.buffer);
+    copyToBuffer(commands, image, *traits, readback.buffer);
     return Status();
   });
   if (!status) {

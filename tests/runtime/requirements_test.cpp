@@ -27,6 +27,7 @@ TEST(Requirements, AreListedInGeneralWithoutADevice) {
   }
   EXPECT_THAT(findItem(requirements, "timestampComputeAndGraphics")->loss, HasSubstr("times"));
   EXPECT_THAT(findItem(requirements, "shaderStorageImageExtendedFormats")->loss, HasSubstr("id and motion"));
+  EXPECT_THAT(findItem(requirements, "dynamicRendering")->loss, HasSubstr("frothRecordDepthExport"));
 }
 
 TEST(Requirements, AreMetByTheDeviceOfTheTests) {
