@@ -21,10 +21,9 @@ struct Cursor {
 bool isAtEnd(Cursor cursor, float end) { return cursor.entry >= cursor.end; }
 
 bool meetNext(Shading shading, uvec2 pixel, float end, inout Cursor cursor, out Segment segment, out vec3 colour,
-              out CellRecord cell) {
+              out uint slot, out CellRecord cell) {
   vec3 ray = rayOf(pixel);
   Segment segments[kRays];
-  uint slot;
   bool isMet = false;
   for (uint i = 0; i < kMostMisses && cursor.entry < cursor.end && !isMet; ++i) {
     slot = checked(FRAME.tileCells.v[checked(cursor.entry, FRAME.pairCapacity)], FRAME.visibleCapacity);

@@ -7,6 +7,7 @@
 #include "gpu/asset.glsl"
 #include "gpu/clip_planes.glsl"
 #include "gpu/device_depth.glsl"
+#include "gpu/hits.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
 
@@ -171,7 +172,9 @@ void main() {
     Radiance radiance = radiances[r];
     if (seesNothing(rays[r])) radiance = emptyRadiance();
     float depth = isFull ? deviceDepthAt(rays[r], radiance.distance) : 0.0;
-    writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance * FRAME.scale,
+    float distance = radiance.distance * FRAME.scale;
+    writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), FRAME.exposure, distance,
                isFull ? inWorld(radiance.normal) : vec3(0.0), depth);
+    if (isFull && wantsHits()) writeHit(pixel, distance, FRAME.part, cellCodeOf(radiance.cell));
   }
 }

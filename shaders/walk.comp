@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define FROTH_RAYS 1
 #include "gpu/device_depth.glsl"
+#include "gpu/hits.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
 #include "gpu/walk_steps.glsl"
@@ -40,6 +41,7 @@ void main() {
   if (isInside && !isSaturated(shading, radiances[0])) atomicAdd(COUNTERS.stepLimit, 1u);
   Radiance radiance = radiances[0];
   float depth = isFull ? deviceDepthAt(ray, radiance.distance) : 0.0;
-  writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance * FRAME.scale,
-             inWorld(radiance.normal), depth);
+  float distance = radiance.distance * FRAME.scale;
+  writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), FRAME.exposure, distance, inWorld(radiance.normal), depth);
+  if (isFull && wantsHits()) writeHit(pixel, distance, FRAME.part, cellCodeOf(radiance.cell));
 }

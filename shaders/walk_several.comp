@@ -22,12 +22,11 @@ bool isAtEnd(Cursor cursor, float end) {
 }
 
 bool meetNext(Shading shading, uvec2 pixel, float end, inout Cursor cursor, out Segment segment, out vec3 colour,
-              out CellRecord cell) {
+              out uint visible, out CellRecord cell) {
   vec3 ray = rayOf(pixel);
   ++cursor.steps;
   countWork(kWorkSteps, 1);
   float entry = cursor.current.entry;
-  uint visible;
   cursor.isInside = takeStep(shading, cursor.current, ray, visible, cell);
   if (visible == kNoCell) return false;
   Segment segments[kRays];

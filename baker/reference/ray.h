@@ -32,6 +32,7 @@ struct RayResult {
   glm::vec<3, Real> normal{0};
   Real logTransmittance = 0;
   Real depth = -1;
+  uint32_t rank = UINT32_MAX;  // of the cell at depth, until there of the last one that showed
 };
 
 // What a ray sees of one cell: composited with weight T alpha, its details blended at `query` (foam::faceQuery).
@@ -148,6 +149,7 @@ RayResult<Real> compositeHits(const ViewCells<Real>& view, const PrimaryRay<Real
     const CellStretch<Real> stretch =
         shadeCell(cell, view.detailsOf(hit.rank), primary, settings.sharpness, hit);
     if (!(stretch.tNear < stretch.tFar)) continue;
+    if (ray.depth < 0) ray.rank = hit.rank;
     const Real weight = compositeStretch(stretch.tNear, stretch.tFar, cell.density, stretch.colour, cell.frame.normal,
                                          settings.logQuantile, ray);
     visit(RaySegment<Real>{hit.rank, weight, stretch.query});

@@ -21,6 +21,10 @@ class ImageRenderer {
         settings_{Real(options.cutoff), Real(std::log(options.depthQuantile)),
                   Real(options.detailSharpness)} {
     images_ = emptyImages(view);
+    sources_.resize(cells.cells.size());
+    for (uint32_t cell = 0; cell < cells.rankOf.size(); ++cell) {
+      if (cells.rankOf[cell] != ViewCells<Real>::kNotDrawn) sources_[cells.rankOf[cell]] = cell;
+    }
   }
 
   Result<RenderedImages> render(const Progress& progress) {
@@ -41,6 +45,7 @@ class ImageRenderer {
     gatherHits(hierarchy_, cells_, eyeOf(view_) + exact->offset, primary, end, hits);
     const RayResult<Real> ray = compositeHits(cells_, primary, settings_, hits);
     writePixel(ray, x, y, images_);
+    if (ray.rank != UINT32_MAX) images_.cells[size_t{y} * view_.width + x] = sources_[ray.rank];
   }
 
   const BallHierarchy& hierarchy_;
@@ -49,6 +54,7 @@ class ImageRenderer {
   const ViewRays rays_;
   const Image* const sceneDistance_;
   const RaySettings<Real> settings_;
+  std::vector<uint32_t> sources_;  // [rank] the foam's cell
   RenderedImages images_;
 };
 

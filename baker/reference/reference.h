@@ -29,7 +29,8 @@ struct RenderedImages {
   Image alpha;   // 1 channel, 1 - T
   Image depth;   // 1 channel, distance along the ray where T falls below depthQuantile; -1: never
   Image normal;  // 3 channels, sum of T alpha n, world axes
-};  // pixels without a ray (shaders/foam/lens.h): 0, 0, -1, 0
+  std::vector<uint32_t> cells;  // [pixels] the one at depth, until there the last one that was met; UINT32_MAX: none, and of several foams
+};  // pixels without a ray (shaders/foam/lens.h): 0, 0, -1, 0, none
 
 // Renders with all cores; the same input gives the same bits on any number of threads.
 class ReferenceRenderer {

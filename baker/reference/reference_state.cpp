@@ -69,6 +69,7 @@ RenderedImages emptyImages(const View& view) {
   images.alpha = {view.width, view.height, 1, std::vector<float>(pixels)};
   images.depth = {view.width, view.height, 1, std::vector<float>(pixels, -1.0f)};
   images.normal = {view.width, view.height, 3, std::vector<float>(pixels * 3)};
+  images.cells.resize(pixels, UINT32_MAX);
   return images;
 }
 

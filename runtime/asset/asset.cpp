@@ -32,6 +32,7 @@ FrothAssetStatus describeManifest(const AssetContents& manifest) {
   description.detailCount = manifest.detailCount;
   description.lobeCount = manifest.lobeCount;
   description.chunkCount = static_cast<uint32_t>(manifest.chunks.size());
+  description.cellBits = manifest.localBits;
   description.hasWalkGraph = manifest.hasWalkGraph;
   description.nearRatio = manifest.nearRatio;
   description.nearDepth = manifest.nearDepth;

@@ -121,6 +121,9 @@ FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* ca
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "scale: %g; must be positive, or 0 for 1",
                          double{info.scale});
   }
+  if (!(info.exposure >= 0) || !std::isfinite(info.exposure)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "exposure: %g; must be positive, or 0 for 1", double{info.exposure});
+  }
   for (const double part : info.position) {
     if (!std::isfinite(part)) {
       return messages.fail(FROTH_ERROR_ARGUMENT, call, "position: %g; must be finite", part);
@@ -134,8 +137,9 @@ FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* ca
     instance.placement.rotation = {0, 0, 0, 1};
   }
   instance.placement.scale = info.scale == 0 ? 1 : info.scale;
+  instance.placement.userId = info.userId;
+  instance.placement.exposure = info.exposure == 0 ? 1 : info.exposure;
   instance.mask = info.mask == 0 ? ~0u : info.mask;
-  instance.userId = info.userId;
   return FROTH_OK;
 }
 
@@ -143,6 +147,7 @@ FrothResult Context::createInstance(const FrothInstanceInfo& info, FrothInstance
   auto instance = std::make_unique<Instance>();
   const FrothResult result = readPlacement(info, "frothCreateInstance", *instance);
   if (result == FROTH_OK) {
+    instance->movedAfter = drawnSerial_;
     handle = instances_.add(std::move(instance));
   }
   return result;
@@ -154,7 +159,16 @@ FrothResult Context::setInstance(FrothInstance handle, const FrothInstanceInfo& 
     return messages.fail(FROTH_ERROR_HANDLE, "frothSetInstance",
                          "instance {%u, %u}: destroyed or never created", handle.index, handle.generation);
   }
-  return readPlacement(info, "frothSetInstance", *instance);
+  const RenderInstance old = instance->placement;
+  const FrothResult result = readPlacement(info, "frothSetInstance", *instance);
+  if (result == FROTH_OK && instance->movedAfter != drawnSerial_) {
+    instance->before = old;
+    instance->movedAfter = drawnSerial_;
+  }
+  if (result == FROTH_OK && info.hasJumped) {
+    instance->before.reset();
+  }
+  return result;
 }
 
 FrothResult Context::destroyInstance(FrothInstance handle) {
@@ -184,6 +198,7 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   view->maxExtent = extent;
   view->lensClasses = info.lensClasses;
   view->measurePasses = info.measurePasses != 0;
+  view->keepsHits = info.keepsHits != 0;
   if (const Status status = createRenderer(*view); !status) {
     return messages.fail(status.error(), "frothCreateView");
   }
@@ -201,8 +216,13 @@ Status Context::createRenderer(View& view) {
                   "measurePasses: the device lacks timestampComputeAndGraphics; FrothViewStatus::passes stays empty");
   }
   Result<std::unique_ptr<ViewRenderer>> renderer =
-      ViewRenderer::create(device_, view.maxExtent, view.lensClasses, view.measurePasses && canMeasure,
-                           framesInFlight_);
+      ViewRenderer::create(device_, {.maxExtent = view.maxExtent,
+                                     .lensClasses = view.lensClasses,
+                                     .framesInFlight = framesInFlight_,
+                                     .measurePasses = view.measurePasses && canMeasure,
+                                     .keepsHits = view.keepsHits && hasExtendedFormats_,
+                                     .composites = compositeFormat_ != VK_FORMAT_UNDEFINED,
+                                     .exportsDepth = depthExportFormat_ != VK_FORMAT_UNDEFINED});
   if (!renderer) {
     return renderer.error();
   }

@@ -1,13 +1,16 @@
 // One per VkDevice: owns assets, instances, views and the memory that they hold on the GPU.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "froth/froth_composite.h"
 #include "froth/froth_query.h"
 #include "froth/froth_walk.h"
 #include "runtime/asset/asset.h"
@@ -58,6 +61,9 @@ class Context {
   FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
                      FrothRenderInfo info);
 
+  FrothResult composite(FrothView handle, VkCommandBuffer commandBuffer, const FrothCompositeInfo& info);
+  FrothResult exportDepth(FrothView handle, VkCommandBuffer commandBuffer, const FrothDepthExportInfo& info);
+
   // Queries; const, so that any number of threads may ask (runtime/query/context_queries.cpp).
   FrothResult castRays(FrothCastInfo info, std::span<const FrothRay> rays, FrothRayHit* hits) const;
   FrothResult locate(FrothInstance handle, const double (&point)[3], FrothLocation& location) const;
@@ -77,24 +83,34 @@ class Context {
  private:
   struct Instance {
     FrothAsset asset;
-    RenderInstance placement;  // its `asset` is filled in when it is drawn
+    RenderInstance placement;  // its `asset` and `previous` are filled in when it is drawn
+    // Where it stood when the frame movedAfter was drawn; none: there was no such frame, or it jumped.
+    std::optional<RenderInstance> before{};
+    uint64_t movedAfter = 0;
     uint32_t mask = ~0u;
-    uint32_t userId = 0;
+  };
+  // What later calls of its frame have to know of a record call.
+  struct DrawnView {
+    VkRect2D region{};
+    bool isProjection = true, isDepthReversed = false;
   };
   struct View {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
-    bool measurePasses = false;
+    bool measurePasses = false, keepsHits = false;
     std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
     std::vector<RenderInstance> prepared;    // in the newest frothUpdate: those it has buffers for, if they fit the budget
     std::vector<RenderInstance> visible;     // of the record call under way; has room for all
     std::string preparationError;            // sent already
     uint64_t renderedSerials[2] = {0, 0};    // newest frame per RenderMethod
+    DrawnView drawn{};                       // by the newest of those
+    uint64_t compositedSerial = 0, exportedSerial = 0;  // newest frames of frothComposite, frothRecordDepthExport
     std::vector<std::pair<uint64_t, uint32_t>>
         bits;  // recorded frames that left something out: serial, FrothViewBit
   };
 
   FrothResult checkInfo(const FrothContextInfo& info, const char* call) const;
+  FrothResult checkEngineFormats(const FrothContextInfo& info, const char* call) const;
   Status createDeviceObjects(const FrothContextInfo& info);
   FrothResult checkDevice(const char* call) const;  // of calls that a lost device cannot serve
   Status createRenderer(View& view);
@@ -107,6 +123,8 @@ class Context {
   void runFrame(FrothFrameStatus& status);
   void loadAssets();
   void prepareView(View& view);
+  View* findDrawn(FrothView handle, const char* call, uint64_t View::*newestCall, FrothResult& result);
+  FrothResult checkHits(const View& view, const FrothRenderInfo& info, const char* call) const;
   void prepareWalks();
   FrothResult checkWalks(const char* call) const;
   // Into walked_; false: some were left out.
@@ -125,6 +143,8 @@ class Context {
   std::string severalError_;   // of prepareForSeveral, sent already
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
+  VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED, depthExportFormat_ = VK_FORMAT_UNDEFINED;
+  bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats
   bool hasWalkShaders_ = false;
   std::string walkError_;     // of the newest frothUpdate that could not make space; sent already
   std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
@@ -139,6 +159,8 @@ class Context {
   uint64_t serial_ = 0, completedSerial_ = 0;
   std::vector<uint64_t> serialsInFlight_;
   uint64_t uploadBytesLeft_ = 0;  // of this frame
+  std::atomic<uint64_t> drawnSerial_ = 0;  // newest frame in which a view was drawn,
+  uint64_t drawnBeforeSerial_ = 0;         // and the newest before this one
 };
 
 }  // namespace froth

@@ -3,6 +3,7 @@
 
 #include "runtime/core/context.h"
 #include "runtime/core/requirements.h"
+#include "runtime/render/composite.h"
 
 namespace froth {
 namespace {
@@ -30,6 +31,12 @@ FrothResult Context::checkInfo(const FrothContextInfo& info, const char* call) c
     return messages.fail(FROTH_ERROR_ARGUMENT, call,
                          "allocateMemory, freeMemory: one is null; set both or none");
   }
+  if (info.compositeFormat != VK_FORMAT_UNDEFINED && !canComposite(info.compositeFormat)) {
+    return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
+                         "compositeFormat: VkFormat %d; must be R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT or "
+                         "B10G11R11_UFLOAT_PACK32",
+                         info.compositeFormat);
+  }
   if (!info.device) {
     return FROTH_OK;
   }
@@ -41,7 +48,19 @@ FrothResult Context::checkInfo(const FrothContextInfo& info, const char* call) c
   if (missing) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s: null; a context on a device needs it", missing);
   }
-  return checkContextDevice(info, messages, call);
+  const FrothResult result = checkContextDevice(info, messages, call);
+  return result == FROTH_OK ? checkEngineFormats(info, call) : result;
+}
+
+// What the passes into the engine's images need.
+FrothResult Context::checkEngineFormats(const FrothContextInfo& info, const char* call) const {
+  const bool isPacked = info.compositeFormat == VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+  if (isPacked && !info.enabledFeatures->features.shaderStorageImageExtendedFormats) {
+    return messages.fail(FROTH_ERROR_FEATURE, call,
+                         "compositeFormat: B10G11R11_UFLOAT_PACK32, and the device was made without "
+                         "shaderStorageImageExtendedFormats; enable it, or use another format");
+  }
+  return info.depthExportFormat == VK_FORMAT_UNDEFINED ? FROTH_OK : checkDepthExportDevice(info, messages, call);
 }
 
 FrothResult Context::create(const FrothContextInfo& info, const char* call) {
@@ -51,6 +70,9 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
   }
   framesInFlight_ = info.framesInFlight == 0 ? kDefaultFramesInFlight : info.framesInFlight;
   lensClasses_ = info.lensClasses;
+  compositeFormat_ = info.compositeFormat;
+  depthExportFormat_ = info.depthExportFormat;
+  hasExtendedFormats_ = info.enabledFeatures && info.enabledFeatures->features.shaderStorageImageExtendedFormats;
   hasWalkShaders_ = info.walkShaders != 0;
   isNull_ = !info.device;
   device_.budget = info.deviceBudget;
@@ -73,7 +95,13 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
   }
   ring_ = std::move(*ring);
   Result<std::unique_ptr<RenderPipelines>> pipelines =
-      RenderPipelines::create(device_, info.pipelineCache, {info.checkIndices != 0, info.countWork != 0, lensClasses_});
+      RenderPipelines::create(device_, info.pipelineCache,
+                              {.checkIndices = info.checkIndices != 0,
+                               .countWork = info.countWork != 0,
+                               .lensClasses = lensClasses_,
+                               .hasExtendedFormats = hasExtendedFormats_,
+                               .compositeFormat = compositeFormat_,
+                               .depthExportFormat = depthExportFormat_});
   if (!pipelines) {
     return pipelines.error();
   }

@@ -3,6 +3,8 @@
 
 #include "runtime/core/context.h"
 #include "runtime/core/render_info.h"
+#include "runtime/render/device_depth.h"
+#include "runtime/render/hit_block.h"
 
 namespace froth {
 
@@ -30,6 +32,7 @@ FrothResult Context::beginFrame(const FrothFrame& frame) {
   }
   serialsInFlight_.push_back(frame.serial);
   serial_ = frame.serial;
+  drawnBeforeSerial_ = drawnSerial_;
   completedSerial_ = frame.completedSerial;
   uploadBytesLeft_ = frame.uploadBytes == 0 ? UINT64_MAX : frame.uploadBytes;
   return FROTH_OK;
@@ -182,6 +185,21 @@ FrothResult Context::dropFrame(uint64_t serial) {
   return FROTH_OK;
 }
 
+// What id and motion need of the device and the view.
+FrothResult Context::checkHits(const View& view, const FrothRenderInfo& info, const char* call) const {
+  if (!wantsHits(info)) {
+    return FROTH_OK;
+  }
+  if (!isNull_ && !hasExtendedFormats_) {
+    return messages.fail(FROTH_ERROR_FEATURE, call,
+                         "id, motion: the device was made without shaderStorageImageExtendedFormats; enable it where "
+                         "frothGetRequirements says that it is present");
+  }
+  return view.keepsHits ? FROTH_OK
+                        : messages.fail(FROTH_ERROR_UNSUPPORTED, call,
+                                        "id, motion: the view was not made for them; set FrothViewInfo::keepsHits");
+}
+
 // Before a view draws two instances.
 void Context::preparePipelines() {
   uint32_t count = 0;
@@ -222,6 +240,8 @@ void Context::gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& b
     RenderInstance& visible = view.visible.emplace_back(instance.placement);
     visible.handle = handle;
     visible.asset = &asset.gpu();
+    const bool hasMoved = instance.movedAfter == drawnBeforeSerial_ && instance.before;
+    visible.previous = hasMoved ? &*instance.before : nullptr;
     resolveNearLimits(info, visible);
   });
 }
@@ -250,6 +270,10 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
       result != FROTH_OK) {
     return result;
   }
+  if (const FrothResult result = checkHits(*view, info, call); result != FROTH_OK) {
+    return result;
+  }
+  view->drawn = {info.camera.scissor, info.camera.lens.kind == FROTH_LENS_PROJECTION, isDepthReversed(info.camera)};
   uint32_t bits = 0;
   gatherVisible(*view, info, bits);
   if (isNull_) {
@@ -259,6 +283,7 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "commandBuffer: null");
   }
   renderedSerial = serial_;
+  drawnSerial_ = serial_;
   bits |= view->renderer->record(method, commandBuffer, *pipelines_, view->visible, info, serial_);
   if (bits != 0) {
     view->bits.emplace_back(serial_, bits);

@@ -241,6 +241,17 @@ void Device::release(MemoryBlock& block) {
   block = {};
 }
 
+Result<VkShaderModule> Device::createShaderModule(const char* name, std::span<const uint32_t> spirv) {
+  VkShaderModuleCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  info.codeSize = spirv.size_bytes();
+  info.pCode = spirv.data();
+  VkShaderModule shaderModule = VK_NULL_HANDLE;
+  const VkResult result = table.vkCreateShaderModule(device, &info, nullptr, &shaderModule);
+  if (result != VK_SUCCESS) return explain(result, "%s: vkCreateShaderModule", name);
+  return shaderModule;
+}
+
 Error Device::explain(VkResult result, const char* format, ...) {
   char text[512];
   va_list args;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <vulkan/vulkan_core.h>
 
@@ -24,7 +25,9 @@ namespace froth {
   X(vkCmdDispatch) X(vkCmdDispatchIndirect) X(vkCmdPipelineBarrier2) X(vkCmdCopyBuffer) \
   X(vkCmdFillBuffer) X(vkCmdUpdateBuffer) \
   X(vkCmdResetQueryPool) X(vkCmdWriteTimestamp2) X(vkCreateImage) X(vkDestroyImage) \
-  X(vkGetImageMemoryRequirements) X(vkBindImageMemory) X(vkCreateImageView) X(vkDestroyImageView)
+  X(vkGetImageMemoryRequirements) X(vkBindImageMemory) X(vkCreateImageView) X(vkDestroyImageView) \
+  X(vkCreateGraphicsPipelines) X(vkCmdBeginRendering) X(vkCmdEndRendering) X(vkCmdSetViewport) X(vkCmdSetScissor) \
+  X(vkCmdSetDepthCompareOp) X(vkCmdDraw)
 // clang-format on
 
 struct DeviceTable {
@@ -85,6 +88,9 @@ class Device {
   Result<GpuBuffer> createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose,
                                  bool mayExceedBudget = false);
   void destroyBuffer(GpuBuffer& buffer);  // the GPU must be done with it; resets it to empty
+
+  // `name` is for messages.
+  Result<VkShaderModule> createShaderModule(const char* name, std::span<const uint32_t> spirv);
 
   // `used` of the required bytes will hold something.
   Result<MemoryBlock> allocate(const VkMemoryRequirements& requirements, VkDeviceSize used, const MemoryWish& wish);

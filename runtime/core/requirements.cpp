@@ -34,6 +34,11 @@ constexpr RequiredFeature kRequiredFeatures[] = {
       FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
                  VkPhysicalDeviceSynchronization2Features, synchronization2)}},
 };
+constexpr RequiredFeature kDynamicRendering = {
+    "dynamicRendering",
+    {FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, VkPhysicalDeviceVulkan13Features, dynamicRendering),
+     FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, VkPhysicalDeviceDynamicRenderingFeatures,
+                dynamicRendering)}};
 #undef FROTH_HOME
 
 constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
@@ -124,6 +129,9 @@ FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAdd
   }
   addItem(requirements, "timestampComputeAndGraphics", "the times of passes (FrothViewStatus::passes)",
           offer.properties.limits.timestampComputeAndGraphics, false);
+  addItem(requirements, "shaderStorageImageExtendedFormats", "the images id and motion (FrothRenderInfo)",
+          offer.features.features.shaderStorageImageExtendedFormats, true);
+  addItem(requirements, kDynamicRendering.name, "frothRecordDepthExport", isEnabled(offer.features, kDynamicRendering), true);
 
   requirements.isSatisfied = 1;
   for (uint32_t i = 0; i < requirements.itemCount; ++i) {
@@ -187,6 +195,30 @@ FrothResult checkContextDevice(const FrothContextInfo& info, const Messages& mes
                        "queueFamily: %u; those with VK_QUEUE_COMPUTE_BIT are %s; name the one that frames are "
                        "submitted to",
                        info.queueFamily, valid.c_str());
+}
+
+FrothResult checkDepthExportDevice(const FrothContextInfo& info, const Messages& messages, const char* call) {
+  if (!isEnabled(*info.enabledFeatures, kDynamicRendering)) {
+    return messages.fail(FROTH_ERROR_FEATURE, call,
+                         "depthExportFormat: the device was made without dynamicRendering; enable it where frothGetRequirements "
+                         "says that it is present");
+  }
+  Offer offer;
+  linkFeatures(offer);
+  queryOffer(info.getInstanceProcAddr, info.instance, info.physicalDevice, offer);
+  if (!(offer.queueFamilies[info.queueFamily].queueFlags & VK_QUEUE_GRAPHICS_BIT)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "depthExportFormat: queue family %u cannot draw; name one with VK_QUEUE_GRAPHICS_BIT", info.queueFamily);
+  }
+  const auto getFormat = reinterpret_cast<PFN_vkGetPhysicalDeviceFormatProperties>(
+      info.getInstanceProcAddr(info.instance, "vkGetPhysicalDeviceFormatProperties"));
+  VkFormatProperties properties{};
+  getFormat(info.physicalDevice, info.depthExportFormat, &properties);
+  return properties.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT
+             ? FROTH_OK
+             : messages.fail(FROTH_ERROR_UNSUPPORTED, call,
+                             "depthExportFormat: VkFormat %d cannot be a depth attachment on this device; D16_UNORM always can",
+                             info.depthExportFormat);
 }
 
 }  // namespace froth

@@ -18,4 +18,7 @@ const char* requireFeatures(VkPhysicalDeviceFeatures2& features);
 // compute. The message names everything that is missing.
 FrothResult checkContextDevice(const FrothContextInfo& info, const Messages& messages, const char* call);
 
+// What frothRecordDepthExport needs besides, of a device that passed checkContextDevice. FrothContextInfo::depthExportFormat is set.
+FrothResult checkDepthExportDevice(const FrothContextInfo& info, const Messages& messages, const char* call);
+
 }  // namespace froth

@@ -72,24 +72,6 @@ gpu::vec4 toFloats(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
 
-// The lens of foam/lens.h, and the pixels of the region as it takes them.
-void fillLens(const FrothCamera& camera, gpu::FrameBlock& block) {
-  const FrothLens& lens = camera.lens;
-  block.lensKind = static_cast<uint32_t>(lens.kind);
-  if (lens.kind == FROTH_LENS_RAY_MAP) return;
-  const glm::dvec2 first = firstPixelCentre(camera);
-  for (int axis = 0; axis < 2; ++axis) {
-    const double focal = lens.focal[axis];
-    block.lensPoint[axis] = static_cast<float>((first[axis] - lens.centre[axis]) / focal);
-    block.lensPoint[axis + 2] = static_cast<float>(1 / focal);
-  }
-  std::copy_n(lens.coefficients, 4, block.lensFirst.begin());
-  std::copy_n(lens.coefficients + 4, 4, block.lensSecond.begin());
-  const auto toDouble = [](const gpu::vec4& v) { return glm::dvec4(v[0], v[1], v[2], v[3]); };
-  block.lensRange = static_cast<float>(
-      foam::lensRange(int{lens.kind}, toDouble(block.lensFirst), toDouble(block.lensSecond)));
-}
-
 }  // namespace
 
 uint32_t lensClassOf(const FrothCamera& camera) {
@@ -156,6 +138,23 @@ void fillRays(const FrothCamera& camera, const CameraRays& rays, gpu::FrameBlock
   block.rayX = toFloats(rays.stepX);
   block.rayY = toFloats(rays.stepY);
   if (lensClass == gpu::kLensClassMapped) fillLens(camera, block);
+}
+
+void fillLens(const FrothCamera& camera, gpu::FrameBlock& block) {
+  const FrothLens& lens = camera.lens;
+  block.lensKind = static_cast<uint32_t>(lens.kind);
+  if (lens.kind == FROTH_LENS_RAY_MAP) return;
+  const glm::dvec2 first = firstPixelCentre(camera);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double focal = lens.focal[axis];
+    block.lensPoint[axis] = static_cast<float>((first[axis] - lens.centre[axis]) / focal);
+    block.lensPoint[axis + 2] = static_cast<float>(1 / focal);
+  }
+  std::copy_n(lens.coefficients, 4, block.lensFirst.begin());
+  std::copy_n(lens.coefficients + 4, 4, block.lensSecond.begin());
+  const auto toDouble = [](const gpu::vec4& v) { return glm::dvec4(v[0], v[1], v[2], v[3]); };
+  block.lensRange = static_cast<float>(
+      foam::lensRange(int{lens.kind}, toDouble(block.lensFirst), toDouble(block.lensSecond)));
 }
 
 }  // namespace froth

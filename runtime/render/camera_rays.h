@@ -37,5 +37,7 @@ CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& in
 
 // Fills rays, view axis and lens of the block, as its class of lenses needs them.
 void fillRays(const FrothCamera& camera, const CameraRays& rays, gpu::FrameBlock& block);
+// Of a mapped lens: the lens of foam/lens.h, and the pixels of the region as it takes them.
+void fillLens(const FrothCamera& camera, gpu::FrameBlock& block);
 
 }  // namespace froth

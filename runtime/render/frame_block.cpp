@@ -5,9 +5,13 @@
 #include <limits>
 
 #include "runtime/render/device_depth.h"
+#include "shaders/foam/tone.h"
 
 namespace froth {
 namespace {
+
+static_assert(int{FROTH_TONE_REINHARD} == foam::kToneReinhard && int{FROTH_TONE_ACES_NARKOWICZ} == foam::kToneAcesNarkowicz &&
+              int{FROTH_TONE_KHRONOS_NEUTRAL} == foam::kToneKhronosNeutral);
 
 gpu::vec4 toFloats(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
@@ -103,6 +107,7 @@ void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block) {
   block.scale = 1;
   block.flags = (info.colour.image ? gpu::kFlagColour : 0) | (info.distance.image ? gpu::kFlagDistance : 0) |
                 (info.normal.image ? gpu::kFlagNormal : 0) | (info.displayCoded ? gpu::kFlagDisplayCoded : 0) |
+                static_cast<uint32_t>(info.toneCurve) << gpu::kToneCurveShift |
                 (info.depth.image ? gpu::kFlagDepth : 0) | (info.sceneDepth.image ? gpu::kFlagSceneDepth : 0);
   fillDepthRange(info.camera, block);
   block.regionX = static_cast<uint32_t>(region.offset.x);
@@ -121,6 +126,7 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   fillTransients(buffers, asset, region, block);
   fillChunks(asset, rays.eye, chunks);
   block.scale = instance.scale;
+  block.exposure = instance.exposure;
   block.logCutoff = info.cutoff > 0 ? std::log(info.cutoff) : -std::numeric_limits<float>::infinity();
   block.logQuantile = std::log(info.depthQuantile);
   block.detailSharpness = asset.detailSharpness;

@@ -1,70 +1,25 @@
 #include "runtime/render/output_images.h"
 
+#include "runtime/render/image_barriers.h"
 #include "runtime/render/pipeline_state.h"
 
 namespace froth {
 namespace {
 
-VkImageMemoryBarrier2 barrierOf(VkImage image) {
-  VkImageMemoryBarrier2 barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.image = image;
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  return barrier;
-}
+const ImageUse& useOf(bool isRead) { return isRead ? kImageSampled : kImageWritten; }
 
-constexpr VkImageLayout kReadLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+// All images of a frame: those that the set binds, and those that passes of their own write.
+constexpr uint32_t kMostImages = gpu::kBindingCount + 2;
 
-VkImageAspectFlags aspectOf(VkFormat format) {
-  switch (format) {
-    case VK_FORMAT_D32_SFLOAT:
-    case VK_FORMAT_D16_UNORM:
-    case VK_FORMAT_X8_D24_UNORM_PACK32:
-      return VK_IMAGE_ASPECT_DEPTH_BIT;
-    case VK_FORMAT_D32_SFLOAT_S8_UINT:
-    case VK_FORMAT_D24_UNORM_S8_UINT:
-      return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
-    default:
-      return VK_IMAGE_ASPECT_COLOR_BIT;
+template <class Visitor>
+void forEachImage(const FrothRenderInfo& info, Visitor&& visit) {
+  const auto bound = imagesOf(info);
+  for (uint32_t i = 0; i < bound.size(); ++i) {
+    if (bound[i]->image) visit(*bound[i], isInput(i));
   }
-}
-
-// What the passes do with an image.
-struct Use {
-  VkAccessFlags2 access;
-  VkImageLayout layout;
-};
-
-Use useOf(uint32_t binding) {
-  if (isInput(binding)) return {VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kReadLayout};
-  return {VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
-}
-
-// From the state in which the caller hands an image over.
-VkImageMemoryBarrier2 entryBarrier(const FrothImage& image, uint32_t binding) {
-  VkImageMemoryBarrier2 barrier = barrierOf(image.image);
-  barrier.subresourceRange.aspectMask = aspectOf(image.format);
-  barrier.srcStageMask = image.stageIn;
-  barrier.srcAccessMask = image.accessIn;
-  barrier.oldLayout = image.layoutIn;
-  barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  barrier.dstAccessMask = useOf(binding).access;
-  barrier.newLayout = useOf(binding).layout;
-  return barrier;
-}
-
-VkImageMemoryBarrier2 exitBarrier(const FrothImage& image, uint32_t binding) {
-  VkImageMemoryBarrier2 barrier = barrierOf(image.image);
-  barrier.subresourceRange.aspectMask = aspectOf(image.format);
-  barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  barrier.srcAccessMask = isInput(binding) ? VK_ACCESS_2_NONE : useOf(binding).access;
-  barrier.oldLayout = useOf(binding).layout;
-  barrier.dstStageMask = image.stageOut;
-  barrier.dstAccessMask = image.accessOut;
-  barrier.newLayout = image.layoutOut;
-  return barrier;
+  for (const FrothImage* image : {&info.id, &info.motion}) {
+    if (image->image) visit(*image, false);
+  }
 }
 
 // A placeholder has no contents to keep: any earlier layout will do.
@@ -180,7 +135,7 @@ VkDescriptorSet OutputImages::update(uint32_t recording, const FrothRenderInfo& 
   std::array<VkDescriptorImageInfo, gpu::kBindingCount> images{};
   std::array<VkWriteDescriptorSet, gpu::kBindingCount> writes{};
   for (uint32_t i = 0; i < gpu::kBindingCount; ++i) {
-    images[i] = given[i]->image ? VkDescriptorImageInfo{VK_NULL_HANDLE, given[i]->view, useOf(i).layout}
+    images[i] = given[i]->image ? VkDescriptorImageInfo{VK_NULL_HANDLE, given[i]->view, useOf(isInput(i)).layout}
                                 : VkDescriptorImageInfo{VK_NULL_HANDLE, placeholderOf(i).view, VK_IMAGE_LAYOUT_GENERAL};
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     writes[i].dstSet = sets_[recording];
@@ -203,12 +158,9 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
   memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   memory.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
                          VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-  std::array<VkImageMemoryBarrier2, gpu::kBindingCount + 3> barriers{};
+  std::array<VkImageMemoryBarrier2, kMostImages + 3> barriers{};
   uint32_t count = 0;
-  const auto images = imagesOf(info);
-  for (uint32_t i = 0; i < images.size(); ++i) {
-    if (images[i]->image) barriers[count++] = entryBarrier(*images[i], i);
-  }
+  forEachImage(info, [&](const FrothImage& image, bool isRead) { barriers[count++] = entryBarrier(image, useOf(isRead)); });
   for (const Placeholder* placeholder : {&half4_, &float1_, &input_}) barriers[count++] = placeholderBarrier(placeholder->image);
 
   VkDependencyInfo dependency{};
@@ -221,12 +173,9 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
 }
 
 void OutputImages::leave(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const {
-  std::array<VkImageMemoryBarrier2, gpu::kBindingCount> barriers{};
+  std::array<VkImageMemoryBarrier2, kMostImages> barriers{};
   uint32_t count = 0;
-  const auto images = imagesOf(info);
-  for (uint32_t i = 0; i < images.size(); ++i) {
-    if (images[i]->image) barriers[count++] = exitBarrier(*images[i], i);
-  }
+  forEachImage(info, [&](const FrothImage& image, bool isRead) { barriers[count++] = exitBarrier(image, useOf(isRead)); });
   VkDependencyInfo dependency{};
   dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   dependency.imageMemoryBarrierCount = count;

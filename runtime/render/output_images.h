@@ -51,14 +51,15 @@ class OutputImages {
   Placeholder input_;           // R32_SFLOAT: what is read is never one that is written
 };
 
-// The images of a frame by gpu::kBinding...
+// The images of a frame that are in the set, by gpu::kBinding...
 std::array<const FrothImage*, gpu::kBindingCount> imagesOf(const FrothRenderInfo& info);
 // Whether a binding is read, and not written.
 inline bool isInput(uint32_t binding) { return binding >= gpu::kBindingRayMap; }
 
 // Whether it takes more than colour and distance (gpu::kConstantIsFull).
 inline bool isFullFrame(const FrothRenderInfo& info) {
-  return info.normal.image || info.depth.image || info.sceneDepth.image;
+  return info.normal.image || info.depth.image || info.sceneDepth.image || info.id.image || info.motion.image ||
+         info.toneCurve != FROTH_TONE_NONE;
 }
 
 // Whether the passes that write rgba32f are meant; else rgba16f, also where no colour is wanted.

@@ -6,6 +6,8 @@
 #include <map>
 #include <mutex>
 
+#include "runtime/render/depth_export.h"
+#include "runtime/render/image_pass.h"
 #include "runtime/render/pipelines.h"
 #include "shaders/gpu/layout.h"
 
@@ -78,6 +80,9 @@ struct RenderPipelines::State {
   LensPipelines common{};  // null from kFirstSeveralPass on, and for other lenses than options name
   LensPipelines several{};  // from there to kFirstShapedPass, once made
   bool hasSeveral = false;
+  std::unique_ptr<ImagePass> writeIds{}, writeMotion{};  // null without ShaderOptions::hasExtendedFormats
+  std::unique_ptr<ImagePass> composite{};       // null without ShaderOptions::compositeFormat,
+  std::unique_ptr<DepthExport> depthExport{};   // depthExportFormat
   std::map<AssetShape, LensPipelines>
       byShape{};  // complete; guarded by `mutex`, entries never change or move
   std::mutex mutex{};

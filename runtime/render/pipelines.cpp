@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "runtime/render/composite.h"
+#include "runtime/render/depth_export.h"
 #include "runtime/render/output_images.h"
 #include "runtime/render/pipeline_state.h"
 #include "shaders/gpu/layout.h"
@@ -31,6 +33,8 @@
 #include "spirv/walk_several_rgba16f.h"
 #include "spirv/walk_several_rgba32f.h"
 #include "spirv/widen_cones.h"
+#include "spirv/write_ids.h"
+#include "spirv/write_motion.h"
 
 namespace froth {
 namespace {
@@ -114,16 +118,8 @@ constexpr std::array<VkSpecializationMapEntry, 7> kSpecializationEntries = {{
 Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode& code,
                                   const Specialization& values) {
   const DeviceTable& vk = state.device.table;
-  VkShaderModuleCreateInfo moduleInfo{};
-  moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  moduleInfo.codeSize = code.spirv.size_bytes();
-  moduleInfo.pCode = code.spirv.data();
-  VkShaderModule shaderModule = VK_NULL_HANDLE;
-  if (const VkResult result =
-          vk.vkCreateShaderModule(state.device.device, &moduleInfo, nullptr, &shaderModule);
-      result != VK_SUCCESS) {
-    return state.device.explain(result, "%s: vkCreateShaderModule", code.name);
-  }
+  const Result<VkShaderModule> shaderModule = state.device.createShaderModule(code.name, code.spirv);
+  if (!shaderModule) return shaderModule.error();
 
   VkSpecializationInfo specialization{};
   specialization.mapEntryCount = static_cast<uint32_t>(kSpecializationEntries.size());
@@ -134,14 +130,14 @@ Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode&
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
   info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  info.stage.module = shaderModule;
+  info.stage.module = *shaderModule;
   info.stage.pName = "main";
   info.stage.pSpecializationInfo = &specialization;
   info.layout = state.layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
   const VkResult result =
       vk.vkCreateComputePipelines(state.device.device, state.cache, 1, &info, nullptr, &pipeline);
-  vk.vkDestroyShaderModule(state.device.device, shaderModule, nullptr);
+  vk.vkDestroyShaderModule(state.device.device, *shaderModule, nullptr);
   if (result != VK_SUCCESS) return state.device.explain(result, "%s: vkCreateComputePipelines", code.name);
   return pipeline;
 }
@@ -203,6 +199,20 @@ Status createLayout(RenderPipelines::State& state) {
   return {};
 }
 
+// The passes over hits, whose images have formats that not every device can write.
+Status createHitPasses(RenderPipelines::State& state) {
+  if (!state.options.hasExtendedFormats) return {};
+  const auto create = [&](const char* name, std::span<const uint32_t> spirv, std::unique_ptr<ImagePass>& pass) -> Status {
+    Result<std::unique_ptr<ImagePass>> made = ImagePass::create(
+        state.device, state.cache, {name, spirv, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, sizeof(VkDeviceAddress)});
+    if (!made) return made.error();
+    pass = std::move(*made);
+    return {};
+  };
+  const Status status = create("write_ids", write_ids_spirv, state.writeIds);
+  return status ? create("write_motion", write_motion_spirv, state.writeMotion) : status;
+}
+
 }  // namespace
 
 AssetShape shapeOf(const GpuAsset& asset) {
@@ -257,6 +267,17 @@ Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device,
   if (const Status status = createLayout(state); !status) return status.error();
   if (const Status status = createPasses(state, {}, 0, kFirstSeveralPass, state.common); !status)
     return status.error();
+  if (const Status status = createHitPasses(state); !status) return status.error();
+  if (options.compositeFormat != VK_FORMAT_UNDEFINED) {
+    Result<std::unique_ptr<ImagePass>> made = createCompositePass(device, cache, options.compositeFormat);
+    if (!made) return made.error();
+    state.composite = std::move(*made);
+  }
+  if (options.depthExportFormat != VK_FORMAT_UNDEFINED) {
+    Result<std::unique_ptr<DepthExport>> made = DepthExport::create(device, cache, options.depthExportFormat);
+    if (!made) return made.error();
+    state.depthExport = std::move(*made);
+  }
   return pipelines;
 }
 

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "runtime/render/camera_rays.h"
+#include "runtime/render/hit_passes.h"
 #include "runtime/render/view_state.h"
 
 namespace froth {
@@ -21,7 +22,10 @@ void writeBlock(const Recording& recording, const RecordingPart& part, const Ren
               reinterpret_cast<gpu::ChunkEntry*>(staged + kBlockStride));
     block.flags |= recording.kind == RecordingKind::kWalk ? gpu::kFlagWalk : 0;
   }
+  const auto index = static_cast<uint32_t>(recording.parts().size() - 1);
+  describeHits(recording, index, block);
   std::memcpy(staged, &block, sizeof(block));
+  writeHits(recording, index, instance);
 }
 
 // Copies the block to the device and clears what the passes count in or only partly write.

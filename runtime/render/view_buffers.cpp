@@ -61,6 +61,8 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
       return 16 * capacity.rays;
     case ViewBuffer::kCones:  // of sub-tiles, tiles, and at most as many blocks
       return capacity.rays > 0 ? 16 * (gpu::kSubTilesPerTile + 2) * VkDeviceSize{capacity.tiles} : 0;
+    case ViewBuffer::kHits:
+      return gpu::kHitWords * sizeof(uint32_t) * capacity.hits;
   }
   return 0;
 }
@@ -168,6 +170,7 @@ void ViewBuffers::addMemory(FrothViewStatus& status) const {
   add("planes", {kPlanes});
   add("sites", {kSites});
   if (capacity_.rays > 0) add("rays", {kRays, kCones});
+  if (capacity_.hits > 0) add("hits", {kHits});
   add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies, kTileLists});
 }
 

@@ -40,12 +40,13 @@ enum class ViewBuffer : uint32_t {
   kWalkStart,
   kRays,   // these two are empty where no lens is mapped
   kCones,
+  kHits,   // empty where the view does not keep them
 };
-inline constexpr uint32_t kViewBufferCount = 25;
+inline constexpr uint32_t kViewBufferCount = 26;
 inline constexpr uint32_t kRecordingsPerFrame = 2;  // a raster and a walk
 
-// [bytes] The space of a FrameBlock and of Counters. The chunk table follows its block.
-inline constexpr VkDeviceSize kBlockStride = 512;
+// [bytes] The space of a FrameBlock with its HitBlock, and of Counters. The chunk table follows its block.
+inline constexpr VkDeviceSize kBlockStride = 2048;
 
 class ViewBuffers {
  public:

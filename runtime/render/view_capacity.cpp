@@ -32,6 +32,7 @@ ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b) {
           .groups = std::max(a.groups, b.groups),
           .tiles = std::max(a.tiles, b.tiles),
           .rays = std::max(a.rays, b.rays),
+          .hits = std::max(a.hits, b.hits),
           .walkStarts = std::max(a.walkStarts, b.walkStarts),
           .cells = std::max(a.cells, b.cells),
           .planes = std::max(a.planes, b.planes),

@@ -15,6 +15,7 @@ struct ViewCapacity {
   uint32_t groups = 1;  // chunks times workgroups over the largest chunk's cells
   uint32_t tiles = 1;
   uint64_t rays = 0;    // pixels of a view that mapped lenses draw; else 0
+  uint64_t hits = 0;    // pixels of a view that keeps hits; else 0
   uint32_t walkStarts = 1;  // as many as tiles where rays may be parallel
   // Of visible cells: a guess at first. A frame that wants more is valid without what has no space.
   uint32_t cells = 1;

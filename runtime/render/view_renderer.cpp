@@ -4,6 +4,8 @@
 #include <cstddef>
 
 #include "runtime/render/camera_rays.h"
+#include "runtime/render/composite.h"
+#include "runtime/render/hit_passes.h"
 #include "runtime/render/view_state.h"
 
 namespace froth {
@@ -161,19 +163,30 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
   return bits;
 }
 
+Status createSets(Device& device, const ImageBindings& bindings, uint32_t count, std::unique_ptr<ImageSets>& sets) {
+  Result<std::unique_ptr<ImageSets>> made = ImageSets::create(device, bindings, count);
+  if (!made) return made.error();
+  sets = std::move(*made);
+  return {};
+}
+
 }  // namespace
 
 ViewRenderer::ViewRenderer() = default;
 ViewRenderer::~ViewRenderer() = default;
 
-Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExtent2D maxExtent,
-                                                           uint32_t lensClasses, bool measurePasses,
-                                                           uint32_t framesInFlight) {
-  const uint32_t recordings = framesInFlight * kRecordingsPerFrame;
+Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const ViewOptions& options) {
+  const uint32_t recordings = options.framesInFlight * kRecordingsPerFrame;
   Result<std::unique_ptr<OutputImages>> images = OutputImages::create(device, recordings);
   if (!images) return images.error();
   std::unique_ptr<PassTimer> timer;
-  if (measurePasses) {
+  std::unique_ptr<ImageSets> hitSets, compositeSets, exportSets;
+  Status sets;
+  if (options.keepsHits) sets = createSets(device, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, 2 * recordings, hitSets);
+  if (sets && options.composites) sets = createSets(device, compositeBindings(), options.framesInFlight, compositeSets);
+  if (sets && options.exportsDepth) sets = createSets(device, DepthExport::bindings(), options.framesInFlight, exportSets);
+  if (!sets) return sets.error();
+  if (options.measurePasses) {
     Result<std::unique_ptr<PassTimer>> made = PassTimer::create(device, recordings);
     if (!made) return made.error();
     timer = std::move(*made);
@@ -182,17 +195,24 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, VkExt
   renderer->state_.reset(new ViewState{.device = device,
                                        .spaces = {},
                                        .images = std::move(*images),
+                                       .hitSets = std::move(hitSets),
+                                       .compositeSets = std::move(compositeSets),
+                                       .exportSets = std::move(exportSets),
                                        .timer = std::move(timer),
-                                       .slots = std::vector<FrameSlot>(framesInFlight)});
+                                       .slots = std::vector<FrameSlot>(options.framesInFlight)});
   ViewState& view = *renderer->state_;
   ViewCapacity& capacity = view.leastCapacity;
-  capacity.frames = framesInFlight;
-  capacity.tiles = tilesAlong(maxExtent.width) * tilesAlong(maxExtent.height);
-  if (lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
-  if (lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = uint64_t{maxExtent.width} * maxExtent.height;
+  const VkExtent2D extent = options.maxExtent;
+  const uint64_t pixels = uint64_t{extent.width} * extent.height;
+  capacity.frames = options.framesInFlight;
+  capacity.tiles = tilesAlong(extent.width) * tilesAlong(extent.height);
+  if (options.lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
+  if (options.lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = pixels;
   view.parts.reserve(gpu::kMostInstances);
   view.spaces.push_back(std::make_unique<InstanceSpace>(device, recordings));
-  if (const Status status = view.spaces.front()->buffers.grow(capacity, 0); !status) return status.error();
+  ViewCapacity first = capacity;  // the hits of all instances are there
+  if (options.keepsHits) first.hits = pixels;
+  if (const Status status = view.spaces.front()->buffers.grow(first, 0); !status) return status.error();
   return renderer;
 }
 
@@ -256,8 +276,22 @@ uint32_t ViewRenderer::record(RenderMethod method, VkCommandBuffer commandBuffer
     recordPixels(recording, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
     recording.mark("clear");
   }
+  recordHitPasses(recording);
   endRecording(recording);
   return bits;
+}
+
+void ViewRenderer::composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info,
+                             const VkRect2D& region) {
+  recordComposite(state_->device.table, commandBuffer, *pipelines.state().composite, *state_->compositeSets, state_->slot, info,
+                  region);
+}
+
+void ViewRenderer::exportDepth(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothDepthExportInfo& info,
+                               const VkRect2D& region, bool isReversed) {
+  const VkDescriptorImageInfo image{VK_NULL_HANDLE, info.depth.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  const VkDescriptorSet set = state_->exportSets->update(state_->slot, {&image, 1});
+  pipelines.state().depthExport->record(commandBuffer, set, info, region, isReversed);
 }
 
 void ViewRenderer::dropFrame(uint64_t serial) {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "froth/froth.h"
+#include "froth/froth_composite.h"
 #include "runtime/asset/gpu_asset.h"
 #include "runtime/core/device.h"
 
@@ -26,13 +26,24 @@ struct RenderInstance {
   std::array<float, 4> rotation{0, 0, 0, 1};  // unit quaternion (x, y, z, w), world from asset
   float scale = 1;
   float nearRatio = 0, nearDepth = 0;  // FrothRenderInfo's, resolved; 0: off
+  uint32_t userId = 0;
+  float exposure = 1;
+  const RenderInstance* previous = nullptr;  // where it stood in the frame before; null: here
+};
+
+struct ViewOptions {
+  VkExtent2D maxExtent{};
+  uint32_t lensClasses = 0;  // FrothLensClass bits of its cameras
+  uint32_t framesInFlight = 1;
+  bool measurePasses = false;
+  bool keepsHits = false;    // for id and motion
+  bool composites = false, exportsDepth = false;
 };
 
 class ViewRenderer {
  public:
-  // Allocates transients for the maximum extent; they grow in prepare() only. lensClasses: FrothLensClass bits of its cameras.
-  static Result<std::unique_ptr<ViewRenderer>> create(Device& device, VkExtent2D maxExtent, uint32_t lensClasses,
-                                                      bool measurePasses, uint32_t framesInFlight);
+  // Allocates transients for the maximum extent; they grow in prepare() only.
+  static Result<std::unique_ptr<ViewRenderer>> create(Device& device, const ViewOptions& options);
   ~ViewRenderer();  // the GPU must be done with the view
 
   // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `instances` (of which only handle and
@@ -50,6 +61,12 @@ class ViewRenderer {
   // drawn, not empty, within maxExtent and the images. Allocates nothing. Returns the FrothViewBit set known at record time.
   uint32_t record(RenderMethod method, VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
                   std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial);
+
+  // Into the engine's images; after record() and once per frame. info has been checked. region: what was drawn.
+  void composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info,
+                 const VkRect2D& region);
+  void exportDepth(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothDepthExportInfo& info,
+                   const VkRect2D& region, bool isReversed);
 
   // The frame with this serial was recorded and will never be submitted: its counts are not read, its place
   // is free.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/render/frame_block.h"
+#include "runtime/render/image_pass.h"
 #include "runtime/render/output_images.h"
 #include "runtime/render/pass_recorder.h"
 #include "runtime/render/pass_timer.h"
@@ -57,6 +58,8 @@ struct ViewState {
   Device& device;
   std::vector<std::unique_ptr<InstanceSpace>> spaces;  // the first stays
   std::unique_ptr<OutputImages> images;
+  std::unique_ptr<ImageSets> hitSets{};  // two per recording; null: the view keeps no hits
+  std::unique_ptr<ImageSets> compositeSets{}, exportSets{};  // one per frame in flight; null: the context does not do that
   std::unique_ptr<PassTimer> timer;  // null: not measured
   std::vector<FrameSlot> slots;      // [frames in flight]
   ViewCapacity leastCapacity{};      // of every space

@@ -82,6 +82,14 @@ Status Host::createDevice(const HostOptions& options) {
     return makeError(ErrorKind::kUnsupported, "froth needs features of %s, which this host does not know",
                      missing);
   }
+  VkPhysicalDeviceVulkan13Features offered13{};
+  offered13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  VkPhysicalDeviceFeatures2 offered{};
+  offered.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  offered.pNext = &offered13;
+  vkGetPhysicalDeviceFeatures2(physicalDevice, &offered);
+  state.features.features.shaderStorageImageExtendedFormats = offered.features.shaderStorageImageExtendedFormats;
+  state.features13.dynamicRendering = offered13.dynamicRendering;
 
   state.features13.dynamicRendering = options.useGraphics ? VK_TRUE : VK_FALSE;
 

@@ -66,7 +66,8 @@ class Host {
   Status submit(const std::function<Status(VkCommandBuffer, uint64_t serial)>& record);
   uint64_t nextSerial() const;
 
-  // Texels of an image in layout GENERAL as floats, `channels` per texel (1 or 4), halves widened.
+  // Texels of an image in layout GENERAL as floats, `channels` per texel (1, 2 or 4), halves and depths of 16 bits widened; integers and packed
+  // colours as the bits of floats.
   Result<std::vector<float>> readImage(const HostImage& image);
   // Fills an image of floats or depths, `channels` values per texel; it is in layout GENERAL then.
   Status writeImage(const HostImage& image, const std::vector<float>& texels);

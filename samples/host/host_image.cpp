@@ -27,6 +27,12 @@ Result<FormatTraits> traitsOf(VkFormat format) {
       return FormatTraits{4, 16};
     case VK_FORMAT_R32_SFLOAT:
       return FormatTraits{1, 4};
+    case VK_FORMAT_B10G11R11_UFLOAT_PACK32:  // as one channel
+      return FormatTraits{1, 4};
+    case VK_FORMAT_R16G16_SFLOAT:
+      return FormatTraits{2, 4};
+    case VK_FORMAT_R32G32_UINT:
+      return FormatTraits{2, 8};
     case VK_FORMAT_D32_SFLOAT:
       return FormatTraits{1, 4, VK_IMAGE_ASPECT_DEPTH_BIT};
     case VK_FORMAT_D32_SFLOAT_S8_UINT:
@@ -36,14 +42,21 @@ Result<FormatTraits> traitsOf(VkFormat format) {
     default:
       return makeError(ErrorKind::kUnsupported,
                        "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT, R32_SFLOAT, "
-                       "D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
+                       "R16G16_SFLOAT, R32G32_UINT, B10G11R11_UFLOAT_PACK32, D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
                        format);
   }
 }
 
-// As the image holds them: depths of 16 bits rounded to the nearest, all else as it is.
+// As the image holds them: halves, and depths of 16 bits, rounded to the nearest; all else as it is.
 std::vector<uint8_t> packTexels(const std::vector<float>& texels, FormatTraits traits) {
   std::vector<uint8_t> bytes(texels.size() / traits.channels * traits.bytesPerTexel);
+  if (traits.bytesPerTexel == traits.channels * sizeof(uint16_t) && !traits.isDepth()) {
+    for (size_t i = 0; i < texels.size(); ++i) {
+      const uint16_t half = glm::packHalf1x16(texels[i]);
+      std::memcpy(bytes.data() + i * sizeof(half), &half, sizeof(half));
+    }
+    return bytes;
+  }
   if (!traits.isDepth() || traits.bytesPerTexel != sizeof(uint16_t)) {
     std::memcpy(bytes.data(), texels.data(), bytes.size());
     return bytes;
@@ -61,9 +74,9 @@ std::vector<float> widenTexels(const void* texels, size_t byteCount, FormatTrait
     std::memcpy(values.data(), texels, byteCount);
     return values;
   }
-  const auto* halves = static_cast<const uint16_t*>(texels);
+  const auto* codes = static_cast<const uint16_t*>(texels);
   for (size_t i = 0; i < values.size(); ++i) {
-    values[i] = glm::unpackHalf1x16(halves[i]);
+    values[i] = traits.isDepth() ? static_cast<float>(codes[i]) / 65535.0f : glm::unpackHalf1x16(codes[i]);
   }
   return values;
 }
@@ -83,9 +96,9 @@ Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements,
   return {};
 }
 
-void copyToBuffer(VkCommandBuffer commands, const HostImage& image, VkBuffer buffer) {
+void copyToBuffer(VkCommandBuffer commands, const HostImage& image, FormatTraits traits, VkBuffer buffer) {
   VkBufferImageCopy region{};
-  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.imageSubresource = {traits.aspect(), 0, 0, 1};
   region.imageExtent = {image.extent.width, image.extent.height, 1};
   vkCmdCopyImageToBuffer(commands, image.image, VK_IMAGE_LAYOUT_GENERAL, buffer, 1, &region);
   VkMemoryBarrier2 barrier{};
@@ -282,7 +295,7 @@ Result<std::vector<float>> Host::readImage(const HostImage& image) {
     return status.error();
   }
   const Status status = state_->runCommands(device, queue, [&](VkCommandBuffer commands) {
-    copyToBuffer(commands, image, readback.buffer);
+    copyToBuffer(commands, image, *traits, readback.buffer);
     return Status();
   });
   if (!status) {

@@ -1,4 +1,4 @@
-// Lenses: from a point of the image to the ray that it sees.
+// Lenses: from a point of the image to the ray that it sees, and back.
 //
 // A point of the image is given as ((x - cx) / fx, (y - cy) / fy), with x, y in pixels. What that is the lens says: tangents of
 // angles (pinhole, radial-tangential), angles (fisheye, Kannala-Brandt: the distance from the centre; equirectangular:
@@ -11,6 +11,11 @@
 #ifndef FROTH_FOAM_LENS_H
 #define FROTH_FOAM_LENS_H
 #include "prelude.h"
+
+#if defined(__cplusplus)
+// GLSL's atan of two arguments.
+FOAM_FN real atan(real y, real x) { return std::atan2(y, x); }
+#endif
 
 const int kLensPinhole = 0;
 const int kLensFisheye = 1;          // equidistant
@@ -180,6 +185,31 @@ FOAM_FN bool lensRay(int kind, real2 point, real4 first, real4 second, real rang
   if (kind == kLensEquirectangular) return equirectangularRay(point, direction);
   if (kind == kLensPinhole) direction = real3(point.x, point.y, real(1));
   return true;
+}
+
+// The other way: the point of the image that a direction of any length [> 0] is seen at; false: nowhere. Not of ray maps and
+// orthographic lenses.
+FOAM_FN bool lensPoint(int kind, real3 direction, real4 first, real4 second, real range, FOAM_OUT(real2) point) {
+  real2 across = real2(direction.x, direction.y);
+  real extent = sqrt(dot(across, across));
+  point = real2(real(0), real(0));
+  if (kind == kLensPinhole || kind == kLensRadialTangential) {
+    if (!(direction.z > real(0))) return false;
+    point = across / direction.z;
+    if (kind == kLensPinhole) return true;
+    bool isInRange = dot(point, point) <= range * range;
+    real3 jacobian;
+    point = distortTangents(point, first, second, jacobian);
+    return isInRange && jacobian.x * jacobian.z > jacobian.y * jacobian.y;
+  }
+  if (kind == kLensEquirectangular) {
+    point = real2(atan(direction.x, direction.z), atan(direction.y, sqrt(direction.x * direction.x + direction.z * direction.z)));
+    return true;
+  }
+  real theta = atan(extent, direction.z);
+  real radius = kind == kLensKannalaBrandt ? kannalaBrandtRadius(theta, first) : theta;
+  if (extent > real(0)) point = across * (radius / extent);
+  return kind == kLensFisheye ? extent > real(0) || direction.z > real(0) : theta <= range;
 }
 
 #include "postlude.h"

@@ -61,7 +61,7 @@ FROTH_CONST kConstantDetailCount = 1;
 FROTH_CONST kConstantLobeCount = 2;
 FROTH_CONST kConstantHasHeights = 3;
 FROTH_CONST kConstantCountWork = 4;
-FROTH_CONST kConstantIsFull = 5;  // the frame wants normals or device depth, or has a scene's depth
+FROTH_CONST kConstantIsFull = 5;  // the frame wants more than colour and distance, or has a scene's depth
 FROTH_CONST kConstantLensClass = 6;
 
 // How the passes of a pipeline see: kConstantLensClass.
@@ -86,6 +86,8 @@ FROTH_CONST kFlagNormal = 4;
 FROTH_CONST kFlagDisplayCoded = 8;
 FROTH_CONST kFlagDepth = 32;
 FROTH_CONST kFlagSceneDepth = 64;
+FROTH_CONST kFlagHits = 128;
+FROTH_CONST kToneCurveShift = 16;  // above it: foam/tone.h
 FROTH_CONST kFlagWalk = 16;  // list cells that guide walks too, and the planes of all neighbours; else a raster: sort the cells,
                              // shade only those that own a (tile, cell) pair
 
@@ -203,7 +205,7 @@ struct FrameBlock {
   float lensRange;
   uint lensKind, blocksX, blocksY;             // blocks of kBlockTiles x kBlockTiles tiles
   uint detailCount, lobeCount, hasHeights;     // of the asset; passes that are specialized on its shape do not read them
-  uint zero;                                   // 0, which compilers do not know
+  float exposure;
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
   FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] visible cells, their planes
@@ -229,6 +231,50 @@ struct FrameBlock {
                                                // that where its middle ray starts; kept over frames
   FROTH_ADDRESS(FloatQuadArray) rays;          // [row of the region, column] xyz: unit direction; 0: none
   FROTH_ADDRESS(FloatQuadArray) cones;         // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]
+  FROTH_ADDRESS(UintArray) hits;               // [row of the region, column] kHitWords each, with kFlagHits
+  uint part;                                   // which instance of the recording it is
+  uint zero;                                   // 0, which compilers do not know
+};
+
+// A hit: where a pixel's ray was stopped, by bits of a float [world units] (+inf: nowhere), the instance (an index of
+// HitBlock::instances), and the code of the cell there, or of the last one that the ray met: chunk << localBits | cell, or kNoCell.
+FROTH_CONST kHitWords = 3;
+
+// Lies at this offset in the space of a FrameBlock.
+FROTH_CONST kHitBlockOffset = 640;
+
+struct HitInstance {
+  vec4 rows[3];  // as HitBlock::backgroundRows
+  uint userId;
+  uint padding[3];
+};
+
+#if !defined(__cplusplus)
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer HitInstanceArray { HitInstance v[]; };
+#endif
+
+// What the passes over hits know. All vectors are in world axes and units, relative to the eye.
+struct HitBlock {
+  vec4 rayOrigin, rayX, rayY, forward;           // as in FrameBlock
+  vec4 lensPoint, lensFirst, lensSecond;
+  vec4 previousFirst, previousSecond;            // the same of the frame before
+  vec4 previousPixels;                           // its lens' focal lengths and centre [pixels]
+  vec4 backgroundRows[3];  // (point, 1) or (direction, 0) -> by a projection of the frame before: x w, y w, w with x, y in pixels;
+                           // by another lens: the point in that view's axes
+  vec4 pixels;             // unjittered place of the region's first pixel, motionScale
+  uint lensKind, previousKind;                   // foam/lens.h
+  float lensRange, previousRange;
+  uint regionX, regionY, regionWidth, regionHeight;
+  uint hasPrevious;
+  uint padding;
+  FROTH_ADDRESS(UintArray) hits;
+  FROTH_ADDRESS(HitInstanceArray) instances;
+};
+
+// Push constants of composite.comp. [pixels]
+struct CompositeConstants {
+  uint x, y, width, height;
+  uint hasShadow;
 };
 
 #if defined(__cplusplus)
@@ -256,7 +302,9 @@ static_assert(sizeof(SiteRecord) == 24 && offsetof(SiteRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 144 && sizeof(Counters) == 208);
 static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 240);
-static_assert(offsetof(FrameBlock, counters) == 320 && sizeof(FrameBlock) == 512);
+static_assert(offsetof(FrameBlock, counters) == 320 && sizeof(FrameBlock) == 528);
+static_assert(sizeof(FrameBlock) <= kHitBlockOffset && sizeof(HitInstance) == 64);
+static_assert(offsetof(HitBlock, pixels) == 208 && offsetof(HitBlock, hasPrevious) == 256 && sizeof(HitBlock) == 280);
 static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);
 static_assert(sizeof(PassConstants) + sizeof(PartConstants) <= 128, "what every device has");
 
@@ -265,6 +313,7 @@ static_assert(sizeof(PassConstants) + sizeof(PartConstants) <= 128, "what every 
 #else
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer FrameRef { FrameBlock v; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer HitRef { HitBlock v; };
 
 #endif
 

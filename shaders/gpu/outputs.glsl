@@ -3,6 +3,7 @@
 #define FROTH_GPU_OUTPUTS_GLSL
 #include "gpu/frame.glsl"
 #include "foam/colour.h"
+#include "foam/tone.h"
 
 layout(set = 0, binding = kBindingColour, FROTH_COLOUR_FORMAT) uniform writeonly image2D colourImage;
 layout(set = 0, binding = kBindingDistance, r32f) uniform writeonly image2D distanceImage;
@@ -12,17 +13,27 @@ layout(set = 0, binding = kBindingDepth, r32f) uniform writeonly image2D depthIm
 // Workgroups at the right and lower border hang over it.
 bool isInRegion(uvec2 pixel) { return pixel.x < FRAME.regionWidth && pixel.y < FRAME.regionHeight; }
 
+// What the colour image takes of a display-coded colour; both premultiplied.
+vec3 outputColour(vec3 colour, float coverage, float exposure) {
+  bool isCoded = (FRAME.flags & kFlagDisplayCoded) != 0;
+  if (isCoded && exposure == 1.0) return colour;
+  vec3 light = linearPremultiplied(colour, coverage);
+  int curve = int(FRAME.flags >> kToneCurveShift);
+  if (isFull && curve != kToneNone && coverage > 0.0) light = coverage * sceneFromDisplay(curve, light / coverage);
+  light *= exposure;
+  return isCoded ? displayPremultiplied(light, coverage) : light;
+}
+
 // A vector of the asset's axes.
 vec3 inWorld(vec3 vector) {
   return vec3(dot(FRAME.worldX.xyz, vector), dot(FRAME.worldY.xyz, vector), dot(FRAME.worldZ.xyz, vector));
 }
 
 // `pixel` counts from the region's corner; `colour` is display-coded, distance and normal in the world's units and axes.
-void writePixel(uvec2 pixel, vec3 colour, float coverage, float distance, vec3 normal, float deviceDepth) {
+void writePixel(uvec2 pixel, vec3 colour, float coverage, float exposure, float distance, vec3 normal, float deviceDepth) {
   ivec2 place = ivec2(pixel + uvec2(FRAME.regionX, FRAME.regionY));
   if ((FRAME.flags & kFlagColour) != 0) {
-    vec3 coded = (FRAME.flags & kFlagDisplayCoded) != 0 ? colour : linearPremultiplied(colour, coverage);
-    imageStore(colourImage, place, vec4(coded, coverage));
+    imageStore(colourImage, place, vec4(outputColour(colour, coverage, exposure), coverage));
   }
   if ((FRAME.flags & kFlagDistance) != 0) imageStore(distanceImage, place, vec4(distance));
   if ((FRAME.flags & kFlagNormal) != 0) imageStore(normalImage, place, vec4(normal, 0.0));

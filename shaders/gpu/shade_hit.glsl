@@ -26,6 +26,7 @@ struct Radiance {
   float logTransmittance;
   vec3 normal;
   float distance;  // kInfinity until transmittance falls below the quantile
+  uint cell;       // slot of the one in which that happened, until then of the last one that was met; kNoCell: none
 };
 
 // What a ray asks of the frame over and over, to be held in registers.
@@ -47,7 +48,7 @@ struct Segment {
 
 bool isEmpty(Segment segment) { return !(segment.tFar > segment.tNear); }
 
-Radiance emptyRadiance() { return Radiance(vec3(0.0), 0.0, vec3(0.0), kInfinity); }
+Radiance emptyRadiance() { return Radiance(vec3(0.0), 0.0, vec3(0.0), kInfinity, kNoCell); }
 
 bool isSaturated(Shading shading, Radiance radiance) { return radiance.logTransmittance < shading.logCutoff; }
 
@@ -169,6 +170,7 @@ void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays],
   for (uint r = 0; r < kRays; ++r) {
     if (isEmpty(segments[r])) continue;
     countWork(kWorkColours, 1);
+    if (isFull && radiances[r].distance == kInfinity) radiances[r].cell = visible;
     composite(shading, segments[r], cell.face.w, colours[r], cell.ball.w * cell.face.xyz, radiances[r]);
   }
 }

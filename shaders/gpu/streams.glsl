@@ -5,18 +5,21 @@
 //   struct Cursor
 //   bool isAtEnd(Cursor cursor, float end)
 //   bool meetNext(Shading shading, uvec2 pixel, float end, inout Cursor cursor, out Segment segment, out vec3 colour,
-//                 out CellRecord cell)  // goes on by a cell or some; returns whether the ray gains anything in the last of them
+//                 out uint slot, out CellRecord cell)  // goes on by a cell or some; returns whether the ray gains anything in the last
+//                                                      // of them
 #ifndef FROTH_GPU_STREAMS_GLSL
 #define FROTH_GPU_STREAMS_GLSL
 #include "gpu/device_depth.glsl"
+#include "gpu/hits.glsl"
 #include "gpu/outputs.glsl"
 #include "gpu/shade_hit.glsl"
 
 // In the world's units and axes.
 struct Stretch {
   Segment segment;
-  float density;
+  float density, exposure;
   vec3 colour, normal;
+  uint part, cellCode;  // of the densest
 };
 
 struct Stream {
@@ -51,15 +54,20 @@ void advance(uvec2 pixel, uint index) {
   }
   Segment segment;
   vec3 colour;
+  uint slot;
   CellRecord cell;
-  bool isMet = meetNext(loadShading(), pixel, end, cursor, segment, colour, cell);
+  bool isMet = meetNext(loadShading(), pixel, end, cursor, segment, colour, slot, cell);
   streams[index].cursor = cursor;
   if (!isMet) return;
   countWork(kWorkColours, 1);
   streams[index].ahead.segment = Segment(segment.tNear * scale, segment.tFar * scale);
   streams[index].ahead.density = cell.face.w / scale;
+  streams[index].ahead.exposure = FRAME.exposure;
   streams[index].ahead.colour = colour;
-  if (isFull) streams[index].ahead.normal = inWorld(cell.ball.w * cell.face.xyz);
+  if (isFull) {
+    streams[index].ahead.normal = inWorld(cell.ball.w * cell.face.xyz);
+    streams[index].ahead.cellCode = cellCodeOf(slot);
+  }
 }
 
 // The first stream that has nothing beyond `passed` to offer yet; streamCount: none.
@@ -72,7 +80,8 @@ uint streamBehind(float passed) {
 
 // The first stretch beyond `passed` in which no stream begins or ends, once all have something ahead.
 Stretch findStretch(float passed) {
-  Stretch stretch = Stretch(Segment(kInfinity, kInfinity), 0.0, vec3(0.0), vec3(0.0));
+  Stretch stretch = Stretch(Segment(kInfinity, kInfinity), 0.0, 0.0, vec3(0.0), vec3(0.0), 0, kNoCell);
+  float densest = 0.0;
   for (uint i = 0; i < streamCount; ++i) {
     stretch.segment.tNear = min(stretch.segment.tNear, max(streams[i].ahead.segment.tNear, passed));
   }
@@ -85,17 +94,34 @@ Stretch findStretch(float passed) {
     stretch.segment.tFar = min(stretch.segment.tFar, ahead.segment.tFar);
     stretch.density += ahead.density;
     stretch.colour += ahead.density * ahead.colour;
-    if (isFull) stretch.normal += ahead.density * ahead.normal;
+    stretch.exposure += ahead.density * ahead.exposure;
+    if (!isFull) continue;
+    stretch.normal += ahead.density * ahead.normal;
+    if (ahead.density > densest) {
+      densest = ahead.density;
+      stretch.part = streams[i].part;
+      stretch.cellCode = ahead.cellCode;
+    }
   }
   stretch.colour /= stretch.density;
+  stretch.exposure /= stretch.density;
   stretch.normal /= stretch.density;
   return stretch;
 }
 
+// What a pixel shows. Its exposure is the mean of what the instances contribute to it.
+struct Merged {
+  Radiance radiance;  // with the code of its cell
+  uint part;          // whose that is
+  float exposure;
+};
+
 // Composites what the started streams hold. One loop that goes on by a cell or composites a stretch, not a loop within another: the
 // rays of a workgroup wait for each other at every turn.
-Radiance mergeStreams(uvec2 pixel) {
+Merged mergeStreams(uvec2 pixel) {
   Radiance radiance = emptyRadiance();
+  float exposures = 0.0;
+  uint part = 0;
   selectPart(0);  // its limits are those of all
   Shading limits = loadShading();
   float passed = 0.0;
@@ -107,11 +133,18 @@ Radiance mergeStreams(uvec2 pixel) {
     }
     Stretch stretch = findStretch(passed);
     if (stretch.density > 0.0) {
+      if (isFull && isinf(radiance.distance)) {
+        part = stretch.part;
+        radiance.cell = stretch.cellCode;
+      }
+      float before = radiance.logTransmittance;
       composite(limits, stretch.segment, stretch.density, stretch.colour, stretch.normal, radiance);
+      exposures += stretch.exposure * exp(before) * opacity(before - radiance.logTransmittance);
     }
     passed = stretch.segment.tFar;
   }
-  return radiance;
+  float coverage = opacity(-radiance.logTransmittance);
+  return Merged(radiance, part, coverage > 0.0 ? exposures / coverage : 1.0);
 }
 
 void findRayEnd(uvec2 pixel) {
@@ -119,10 +152,12 @@ void findRayEnd(uvec2 pixel) {
   rayEnd = isFull ? sceneDistance(pixel, rayOf(pixel)) * FRAME.scale : kInfinity;
 }
 
-void writeMerged(uvec2 pixel, Radiance radiance) {
+void writeMerged(uvec2 pixel, Merged merged) {
+  Radiance radiance = merged.radiance;
   selectPart(0);
   float depth = isFull ? deviceDepthAt(rayOf(pixel), radiance.distance / FRAME.scale) : 0.0;
-  writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), radiance.distance, radiance.normal, depth);
+  writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), merged.exposure, radiance.distance, radiance.normal, depth);
+  if (isFull && wantsHits()) writeHit(pixel, radiance.distance, merged.part, radiance.cell);
 }
 
 #endif

@@ -46,12 +46,29 @@ bool lookUp(int kind, const dvec2& point, const dvec4& first, const dvec4& secon
   return isSeen;
 }
 
+template <class Real>
+bool draw(int kind, const dvec3& direction, const dvec4& first, const dvec4& second, dvec2& point) {
+  using Vec4 = glm::vec<4, Real>;
+  const Real range = foam::lensRange(kind, Vec4(first), Vec4(second));
+  glm::vec<2, Real> found;
+  const bool isSeen = foam::lensPoint(kind, glm::vec<3, Real>(direction), Vec4(first), Vec4(second), range, found);
+  point = dvec2(found);
+  return isSeen;
+}
+
 void expectFound(int kind, const dvec3& direction, const dvec2& point, const dvec4& first, const dvec4& second) {
   dvec3 found;
   ASSERT_TRUE(lookUp<double>(kind, point, first, second, found)) << point.x << ", " << point.y;
   EXPECT_LT(glm::length(found - direction), 1e-9) << point.x << ", " << point.y;
   ASSERT_TRUE(lookUp<float>(kind, point, first, second, found)) << point.x << ", " << point.y;
   EXPECT_LT(glm::length(found - direction), 5e-6) << point.x << ", " << point.y;
+  dvec2 drawn;
+  ASSERT_TRUE(draw<double>(kind, 3.0 * direction, first, second, drawn)) << point.x << ", " << point.y;
+  ASSERT_TRUE(lookUp<double>(kind, drawn, first, second, found)) << "not seen where it is drawn: " << drawn.x << ", " << drawn.y;
+  EXPECT_LT(glm::length(found - direction), 1e-9) << drawn.x << ", " << drawn.y;
+  dvec2 drawnAsFloat;
+  ASSERT_TRUE(draw<float>(kind, direction, first, second, drawnAsFloat)) << point.x << ", " << point.y;
+  EXPECT_LT(glm::length(drawnAsFloat - drawn), 1e-5 * (1 + glm::length(point))) << point.x << ", " << point.y;
 }
 
 constexpr dvec4 kNone(0);

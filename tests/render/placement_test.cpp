@@ -125,7 +125,7 @@ TEST_F(Placement, PixelsOutsideTheScissorKeepTheirValues) {
 }
 
 TEST_F(Placement, AnInstanceAMillionUnitsAwayLooksTheSame) {
-  stage_->place({.structSize = 0, .asset = {}, .position = {kFar, -kFar, kFar}, .rotation = {}, .scale = 0, .mask = 0, .userId = 0});
+  stage_->place(placementOf({kFar, -kFar, kFar}, glm::vec4(0), 0));
   FrothRenderInfo info = infoOf(frontView());
   info.camera.eye[0] += kFar;
   info.camera.eye[1] -= kFar;
@@ -137,8 +137,7 @@ TEST_F(Placement, AnInstanceAMillionUnitsAwayLooksTheSame) {
 TEST_F(Placement, ATurnedAndScaledInstanceSeenAccordinglyLooksTheSame) {
   // A quarter turn about z and twice the size: world = 2 (-y, x, z) + (5, 6, 7).
   const float half = std::sqrt(0.5f);
-  stage_->place(
-      {.structSize = 0, .asset = {}, .position = {5, 6, 7}, .rotation = {0, 0, half, half}, .scale = 2, .mask = 0, .userId = 0});
+  stage_->place(placementOf({5, 6, 7}, {0, 0, half, half}, 2));
   FrothRenderInfo info = infoOf(frontView());
   const std::array<double, 3> eye = {info.camera.eye[0], info.camera.eye[1], info.camera.eye[2]};
   info.camera.eye[0] = -2 * eye[1] + 5;

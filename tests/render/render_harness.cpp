@@ -1,6 +1,7 @@
 #include "tests/render/render_harness.h"
 
 #include <cmath>
+#include <cstring>
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,12 @@ Image channelsOf(const std::vector<float>& texels, uint32_t stride, uint32_t fir
     for (uint32_t c = 0; c < channels; ++c) image.values.push_back(texels[pixel * stride + first + c]);
   }
   return image;
+}
+
+std::vector<std::array<uint32_t, 2>> idsOf(const std::vector<float>& texels) {
+  std::vector<std::array<uint32_t, 2>> ids(texels.size() / 2);
+  std::memcpy(ids.data(), texels.data(), texels.size() * sizeof(float));
+  return ids;
 }
 
 FrothLens lensOf(const View& view) {
@@ -68,12 +75,17 @@ Host& sharedHost() {
   return *host;
 }
 
-FrothContext* createCheckedContext(uint32_t lensClasses) {
+FrothContextInfo checkedContextInfo(uint32_t lensClasses) {
   FrothContextInfo info = sharedHost().contextInfo();
   info.onMessage = onMessage;
   info.checkIndices = 1;
   info.countWork = 1;
   info.lensClasses = lensClasses;
+  return info;
+}
+
+FrothContext* createCheckedContext(uint32_t lensClasses) {
+  const FrothContextInfo info = checkedContextInfo(lensClasses);
   FrothContext* created = nullptr;
   check(frothCreateContext(&info, &created), "frothCreateContext");
   return created;
@@ -90,8 +102,8 @@ FrothContext* lensContext() {
 }
 
 Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context, uint32_t layers,
-             uint32_t lensClasses)
-    : context_(context) {
+             uint32_t lensClasses, bool keepsHits)
+    : context_(context), keepsHits_(keepsHits) {
   Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
   EXPECT_TRUE(bytes) << bytes.error().message;
   bytes_ = std::move(*bytes);
@@ -100,18 +112,23 @@ Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* 
   assetInfo.data = bytes_.data();
   assetInfo.dataSize = bytes_.size();
   assetInfo.layers = layers;
+  assetInfo.keepForQueries = 1;
   check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
-  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses};
+  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses, keepsHits};
   check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");
   place({});
 
-  FrothAssetStatus status{};
-  status.structSize = sizeof(status);
   do {
     submit({});
-    check(frothGetAssetStatus(context_, asset_, &status), "frothGetAssetStatus");
-  } while (status.state == FROTH_ASSET_OPENING && !testing::Test::HasFailure());
-  EXPECT_EQ(status.state, FROTH_ASSET_READY);
+  } while (assetStatus().state == FROTH_ASSET_OPENING && !testing::Test::HasFailure());
+  EXPECT_EQ(assetStatus().state, FROTH_ASSET_READY);
+}
+
+FrothAssetStatus Stage::assetStatus() const {
+  FrothAssetStatus status{};
+  status.structSize = sizeof(status);
+  check(frothGetAssetStatus(context_, asset_, &status), "frothGetAssetStatus");
+  return status;
 }
 
 Stage::~Stage() {
@@ -132,17 +149,21 @@ void Stage::place(const FrothInstanceInfo& placement) {
   }
 }
 
-FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws) {
+FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws,
+                              const std::function<void()>& afterUpdate,
+                              const std::function<void(VkCommandBuffer)>& afterDraws) {
   const auto record = [&](VkCommandBuffer commandBuffer, uint64_t serial, bool isDrawn) -> Status {
     const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0};
     check(frothUpdate(context_, &frame, nullptr), "frothUpdate");
     check(frothRecordUpload(context_, commandBuffer), "frothRecordUpload");
+    if (isDrawn && afterUpdate) afterUpdate();
     for (const auto& [method, info] : draws) {
       if (!isDrawn) break;
       check(method == Method::kRaster ? frothRasterize(context_, view_, commandBuffer, &info)
                                       : frothWalk(context_, view_, commandBuffer, &info),
             "draw");
     }
+    if (isDrawn && afterDraws) afterDraws(commandBuffer);
     return {};
   };
   // The frame after it brings its status.
@@ -159,32 +180,47 @@ FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInf
   return status;
 }
 
-Frame Stage::draw(Method method, const FrothRenderInfo& info, VkExtent2D extent, VkFormat colourFormat) {
+Frame Stage::draw(Method method, const FrothRenderInfo& info, VkExtent2D extent, VkFormat colourFormat,
+                  const std::function<void()>& afterUpdate) {
   Host& host = sharedHost();
   Result<HostImage> colour = host.createImage(colourFormat, extent);
   Result<HostImage> distance = host.createImage(VK_FORMAT_R32_SFLOAT, extent);
   Result<HostImage> normal = host.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent);
   Result<HostImage> depth = host.createImage(VK_FORMAT_R32_SFLOAT, extent);
+  Result<HostImage> id = host.createImage(VK_FORMAT_R32G32_UINT, extent);
+  Result<HostImage> motion = host.createImage(VK_FORMAT_R16G16_SFLOAT, extent);
   FrothRenderInfo wanted = info;
+  if (keepsHits_) wanted.id = host.describe(*id);
+  if (keepsHits_ && info.camera.lens.kind != FROTH_LENS_RAY_MAP) wanted.motion = host.describe(*motion);
   wanted.depth = host.describe(*depth);
   wanted.colour = host.describe(*colour);
   wanted.distance = host.describe(*distance);
   wanted.normal = host.describe(*normal);
   Frame frame;
-  frame.status = submit(method, wanted);
+  frame.status = submit({{method, wanted}}, afterUpdate);
   const std::vector<float> colours = readBack(host, *colour);
   frame.colour = channelsOf(colours, 4, 0, 3, extent);
   frame.alpha = channelsOf(colours, 4, 3, 1, extent);
   frame.distance = channelsOf(readBack(host, *distance), 1, 0, 1, extent);
   frame.normal = channelsOf(readBack(host, *normal), 4, 0, 3, extent);
   frame.depth = channelsOf(readBack(host, *depth), 1, 0, 1, extent);
-  for (HostImage* image : {&*colour, &*distance, &*normal, &*depth}) host.destroyImage(*image);
+  if (wanted.id.image) frame.id = idsOf(readBack(host, *id));
+  if (wanted.motion.image) frame.motion = channelsOf(readBack(host, *motion), 2, 0, 2, extent);
+  for (HostImage* image : {&*colour, &*distance, &*normal, &*depth, &*id, &*motion}) host.destroyImage(*image);
   expectSilence(host);
   return frame;
 }
 
 Frame Stage::draw(Method method, const View& view) {
   return draw(method, infoOf(view), {view.width, view.height});
+}
+
+FrothInstanceInfo placementOf(const glm::dvec3& position, const glm::vec4& rotation, float scale) {
+  FrothInstanceInfo info{};
+  for (int axis = 0; axis < 3; ++axis) info.position[axis] = position[axis];
+  for (int part = 0; part < 4; ++part) info.rotation[part] = rotation[part];
+  info.scale = scale;
+  return info;
 }
 
 View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height,

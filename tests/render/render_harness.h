@@ -2,6 +2,8 @@
 // image.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -27,6 +29,8 @@ struct Frame {
   Image distance;  // 1 channel; +inf: never
   Image normal;    // 3 channels
   Image depth;     // 1 channel, device depth
+  std::vector<std::array<uint32_t, 2>> id;  // of a view that keeps hits; else empty, as what follows
+  Image motion;    // 2 channels
   FrothViewStatus status{};
 };
 
@@ -37,6 +41,8 @@ FrothContext* sharedContext();
 
 // The same for cameras of all lenses.
 FrothContext* lensContext();
+// Of such contexts; lenses: FrothContextInfo::lensClasses.
+FrothContextInfo checkedContextInfo(uint32_t lensClasses);
 // A context of its own, for instances that stay; lenses: FrothContextInfo::lensClasses.
 FrothContext* createCheckedContext(uint32_t lensClasses);
 
@@ -44,21 +50,27 @@ FrothContext* createCheckedContext(uint32_t lensClasses);
 class Stage {
  public:
   Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context = sharedContext(),
-        uint32_t layers = 0, uint32_t lensClasses = 0);
+        uint32_t layers = 0, uint32_t lensClasses = 0, bool keepsHits = false);
   ~Stage();
 
   void place(const FrothInstanceInfo& placement);  // `asset` is filled in
   Frame draw(Method method, const FrothRenderInfo& info, VkExtent2D extent,
-             VkFormat colourFormat = VK_FORMAT_R32G32B32A32_SFLOAT);
+             VkFormat colourFormat = VK_FORMAT_R32G32B32A32_SFLOAT, const std::function<void()>& afterUpdate = {});
   Frame draw(Method method, const View& view);
 
   // Records only the wanted images of `info`; returns the status of that frame.
   FrothViewStatus submit(Method method, const FrothRenderInfo& info) { return submit({{method, info}}); }
 
   FrothView view() const { return view_; }
+  FrothAssetStatus assetStatus() const;
+  FrothInstance instance() const { return instance_; }
+  FrothContext* context() const { return context_; }
 
-  // Several draws in one frame and command buffer.
-  FrothViewStatus submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws);
+  // Several draws in one frame and command buffer. afterUpdate: called between frothUpdate and the first of them; afterDraws:
+  // after the last.
+  FrothViewStatus submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws,
+                         const std::function<void()>& afterUpdate = {},
+                         const std::function<void(VkCommandBuffer)>& afterDraws = {});
 
  private:
   FrothContext* context_;
@@ -66,7 +78,10 @@ class Stage {
   FrothAsset asset_{};
   FrothInstance instance_{};
   FrothView view_{};
+  bool keepsHits_;
 };
+
+FrothInstanceInfo placementOf(const glm::dvec3& position, const glm::vec4& rotation, float scale);
 
 // A camera at `eye` that looks at `target`, `width` x `height` pixels, with the given half-angle's tangent.
 View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height,

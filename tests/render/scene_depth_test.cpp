@@ -195,7 +195,7 @@ TEST(SceneDepthPlacement, IsOfTheWorldWhateverTheInstancesScale) {
   for (float& radius : half.radii) radius *= 0.5f;
   for (float& density : half.densities) density *= 2;
   Stage scaled(bakeForTest(half), {kWidth, kHeight});
-  scaled.place({.structSize = 0, .asset = {}, .position = {}, .rotation = {}, .scale = 2, .mask = 0, .userId = 0});
+  scaled.place(placementOf({}, glm::vec4(0), 2));
   Result<HostImage> sceneDepth = sharedHost().createImage(VK_FORMAT_D32_SFLOAT, {kWidth, kHeight});
   ASSERT_TRUE(sceneDepth && sharedHost().writeImage(*sceneDepth, wall.texels));
   FrothRenderInfo stopped = info;

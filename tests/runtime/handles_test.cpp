@@ -78,6 +78,10 @@ TEST_F(Handles, OfInstancesRefuseWhatIsNoSimilarity) {
   EXPECT_EQ(frothCreateInstance(context_, &info, &instance), FROTH_ERROR_ARGUMENT);
   EXPECT_THAT(lastText(), HasSubstr("scale: -2"));
   info.scale = 2;
+  info.exposure = -1;
+  EXPECT_EQ(frothCreateInstance(context_, &info, &instance), FROTH_ERROR_ARGUMENT);
+  EXPECT_THAT(lastText(), HasSubstr("exposure: -1"));
+  info.exposure = 0;
   info.rotation[0] = 1;
   info.rotation[3] = 1;
   EXPECT_EQ(frothCreateInstance(context_, &info, &instance), FROTH_ERROR_ARGUMENT);

@@ -11,188 +11,22 @@
  * Structs begin with structSize = sizeof(the struct); zero is every field's default. Booleans are uint32_t.
  *
  * Threads: any thread, any time: frothGetRequirements, frothRequireFeatures, frothResultName.
- *          at once on different views: frothRasterize, frothWalk; while no call of the last row runs.
+ *          at once on different views: frothRasterize, frothWalk, frothComposite, frothRecordDepthExport; while no call of the last
+ *          row runs.
  *          at once on anything: frothCastRays, frothLocate, frothOverlapSphere; while no call of the last row runs.
  *          one thread at a time per context: everything else.
  *
- * Single rays, points and spheres on the CPU: froth_query.h; rays on the GPU: froth_walk.h. docs/EMBEDDING.md leads through it.
+ * Results, requirements, contexts, memory: froth_context.h, which this includes. Single rays, points and spheres on the CPU:
+ * froth_query.h; rays on the GPU: froth_walk.h. Into the engine's images: froth_composite.h. docs/EMBEDDING.md leads through it.
  */
 #ifndef FROTH_FROTH_H
 #define FROTH_FROTH_H
 
-#include <stdint.h>
-#include <vulkan/vulkan_core.h>
+#include "froth/froth_context.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#if defined(FROTH_BUILD) && defined(__GNUC__)
-#define FROTH_API __attribute__((visibility("default")))
-#else
-#define FROTH_API
-#endif
-
-/* Major in the upper, minor in the lower 16 bits. Creation fails with FROTH_ERROR_VERSION if the major differs. */
-#define FROTH_ABI_VERSION 0x00010000u
-
-typedef enum FrothResult {
-  FROTH_OK = 0,
-  /* information */
-  FROTH_PENDING = 1,    /* not yet: something is still under way, and nothing was changed; call again */
-  FROTH_INCOMPLETE = 2, /* done, with less than asked for; the status bits say what and which setting to raise */
-  /* errors; the message callback got the details */
-  FROTH_ERROR_ARGUMENT = -1,    /* a null pointer, a size, an extent, a value out of its range */
-  FROTH_ERROR_HANDLE = -2,      /* a stale or foreign handle */
-  FROTH_ERROR_VERSION = -3,     /* header and library, or file and library, do not fit */
-  FROTH_ERROR_FEATURE = -4,     /* the device lacks, or the caller did not enable, what is required */
-  FROTH_ERROR_FILE = -5,        /* the asset is missing, damaged or not one */
-  FROTH_ERROR_MEMORY = -6,      /* host or device memory, or the budget, is exhausted */
-  FROTH_ERROR_UNSUPPORTED = -7, /* valid, but this version cannot do it, or the object was not made for it (lensClasses) */
-  FROTH_ERROR_DEVICE = -8,      /* a Vulkan call failed; the message names it and its VkResult */
-  FROTH_ERROR_STATE = -9,       /* calls out of order (asset not READY, frame serial not growing) */
-  FROTH_RESULT_MAX = 0x7fffffff
-} FrothResult;
-
-FROTH_API const char* frothResultName(FrothResult result); /* never null */
-
-typedef enum FrothSeverity {
-  FROTH_SEVERITY_WARNING = 1, /* the call went well, and something will be missing or slow */
-  FROTH_SEVERITY_ERROR = 2,   /* a call failed, or an object did on its way */
-  FROTH_SEVERITY_MAX = 0x7fffffff
-} FrothSeverity;
-
-/* Called on the thread of the failing call. `object` names the asset's path, the view or the call. `text` says cause,
- * place, found value, remedy; it lives during the call only. Must not call Froth. */
-typedef void (*FrothMessageCallback)(void* user, FrothSeverity severity, FrothResult code, const char* object,
-                                     const char* text);
-
-/* ---- Requirements: pure functions, before a VkDevice exists ---- */
-
-typedef struct FrothRequirement {
-  const char* name;   /* "bufferDeviceAddress", "timestampComputeAndGraphics" */
-  const char* loss;   /* what is lost without it; null: it is required */
-  uint32_t isPresent; /* on the physical device that was asked about; 0 where that was null */
-  uint32_t isFeature; /* 1: a feature bit, 0: an extension or limit */
-} FrothRequirement;
-
-typedef struct FrothRequirements {
-  uint32_t structSize;
-  uint32_t apiVersion;  /* least VkApplicationInfo::apiVersion */
-  uint32_t isSatisfied; /* all required items are present; 0 where no physical device was given */
-  uint32_t itemCount;
-  FrothRequirement items[16]; /* [itemCount] strings are static */
-} FrothRequirements;
-
-/* `physicalDevice` may be null (then so may the others): the list in general. Sends no messages: the items tell. */
-FROTH_API FrothResult frothGetRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
-                                           VkPhysicalDevice physicalDevice, FrothRequirements* requirements);
-
-/* ORs the required feature bits into the caller's own chain: VkPhysicalDeviceFeatures2 with, in pNext,
- * VkPhysicalDeviceVulkan12Features and VkPhysicalDeviceVulkan13Features, or the single structures of those features.
- * FROTH_ERROR_FEATURE: *missingStructure (may be null) names the structure to add. */
-FROTH_API FrothResult frothRequireFeatures(VkPhysicalDeviceFeatures2* features, const char** missingStructure);
-
-/* ---- Context: one per VkDevice ---- */
-
-/* What other cameras than pinholes need: pipelines of a context, memory of a view. */
-typedef enum FrothLensClass {
-  FROTH_LENS_CLASS_MAPPED = 1,       /* FrothLens::kind other than FROTH_LENS_PROJECTION */
-  FROTH_LENS_CLASS_ORTHOGRAPHIC = 2, /* parallel rays */
-  FROTH_LENS_CLASS_MAX = 0x7fffffff
-} FrothLensClass;
-
-typedef struct FrothContext FrothContext;
-
-/* Memory that Froth asks its caller for. The fields are what vmaAllocateMemory and vkAllocateMemory want to know. */
-typedef struct FrothMemoryRequest {
-  uint32_t structSize;
-  VkMemoryRequirements requirements;
-  uint32_t memoryTypeIndex;           /* one of requirements.memoryTypeBits */
-  VkMemoryAllocateFlags allocateFlags; /* VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, or 0 */
-  uint32_t isMapped;                  /* 1: host-visible memory that stays mapped; FrothDeviceMemory::mapped is needed */
-  const char* purpose;                /* for people; lives during the call */
-} FrothMemoryRequest;
-
-typedef struct FrothDeviceMemory {
-  VkDeviceMemory memory;
-  VkDeviceSize offset; /* a multiple of requirements.alignment */
-  void* mapped;        /* address of `offset`; null if not isMapped */
-  void* handle;        /* the caller's own, for its free callback */
-} FrothDeviceMemory;
-
-/* Fills *memory, which is zero. VK_SUCCESS, or the failure. Called within frothCreateContext, frothCreateView, frothUpdate
- * and frothRestoreDevice, never within a record call; must not call Froth. */
-typedef VkResult (*FrothAllocateMemory)(void* user, const FrothMemoryRequest* request, FrothDeviceMemory* memory);
-typedef void (*FrothFreeMemory)(void* user, const FrothDeviceMemory* memory);
-
-typedef struct FrothContextInfo {
-  uint32_t structSize;
-  uint32_t abiVersion; /* FROTH_ABI_VERSION */
-  PFN_vkGetInstanceProcAddr getInstanceProcAddr;
-  VkInstance instance;
-  VkPhysicalDevice physicalDevice;
-  VkDevice device;                /* null: null context; handles and states work, record calls do nothing */
-  const VkPhysicalDeviceFeatures2* enabledFeatures; /* the chain the device was made with; read during the call */
-  uint32_t queueFamily;           /* the compute-capable family that frames are submitted to */
-  VkPipelineCache pipelineCache;  /* may be null; used until the context is destroyed */
-  uint32_t framesInFlight;        /* most frames begun and not complete, with the one being recorded [1..8]; 0: 2 */
-  uint64_t deviceBudget;          /* [bytes] of device memory for all assets and views; frothSetBudget. 0: no limit */
-  FrothMessageCallback onMessage; /* may be null */
-  void* messageUser;
-  uint32_t checkIndices;          /* debug: shaders check every index; counted in FrothViewStatus::indexViolations */
-  uint32_t countWork;             /* for tuning: shaders count FrothViewStatus::work, and are slower for it */
-  FrothAllocateMemory allocateMemory; /* both or none: where all VkDeviceMemory comes from; null: vkAllocateMemory */
-  FrothFreeMemory freeMemory;
-  void* memoryUser;
-  uint32_t lensClasses;           /* FrothLensClass bits for which pipelines are made; 0: pinholes only */
-  uint32_t walkShaders;           /* 1: rays in the caller's shaders (froth_walk.h); assets hold a table for their starts */
-} FrothContextInfo;
-
-/* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */
-FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
-
-/* Frees everything at once. `completedSerial` as in FrothFrame; UINT64_MAX after vkDeviceWaitIdle. FROTH_PENDING: frames
- * beyond it were begun and not dropped; the context stays as it is. A null context is FROTH_OK. */
-FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
-
-/* Changes FrothContextInfo::deviceBudget. What is new never exceeds it. Lowered below what is held: from the next frothUpdate
- * on, views exchange what they grew for less, one buffer after the other, and cells or pairs beyond are missing
- * (FROTH_VIEW_CELL_OVERFLOW, FROTH_VIEW_PAIR_OVERFLOW); what cannot shrink (assets, the least that a view needs) stays, and
- * FrothFrameStatus::excessBytes tells how much it is. Raised: views grow again. */
-FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
-
-/* Memory of one purpose. */
-typedef struct FrothMemoryCategory {
-  const char* name;   /* "assets", "views", "views, host", "uploads, host", "walks", "walks, host"; static storage */
-  uint64_t granted;   /* [bytes] of VkDeviceMemory held */
-  uint64_t used;      /* [bytes] of these that hold something */
-  uint64_t peak;      /* most granted since creation or the last frothSetBudget */
-  uint32_t count;     /* allocations */
-  uint32_t isHost;    /* 1: staging and read-back, which the budget does not count */
-} FrothMemoryCategory;
-
-typedef struct FrothMemoryReport {
-  uint32_t structSize;
-  uint32_t categoryCount;
-  uint64_t deviceBudget;
-  uint64_t deviceBytes; /* granted, over the categories that are not host */
-  uint64_t devicePeak;  /* since creation or the last frothSetBudget; <= deviceBudget, except as excessBytes told */
-  FrothMemoryCategory categories[8]; /* [categoryCount] */
-} FrothMemoryReport;
-
-FROTH_API FrothResult frothGetMemoryReport(FrothContext* context, FrothMemoryReport* report);
-
-/* When a Vulkan call anywhere gave VK_ERROR_DEVICE_LOST (a call of Froth then gives FROTH_ERROR_DEVICE and says so): drops all
- * GPU objects without waiting, by destroying them; call it before vkDestroyDevice. Handles stay valid. Until the device is
- * restored, assets are OPENING, frame calls give FROTH_ERROR_DEVICE, and objects may be made, changed and destroyed. */
-FROTH_API FrothResult frothDeviceLost(FrothContext* context);
-
-/* Goes on with a new device; all fields of `info` count, as for frothCreateContext. Frames that were in flight are forgotten,
- * and serials go on growing. Assets load again in the following frames, from their path or from bytes that stay
- * (FrothAssetInfo::bytesStay; an asset whose bytes do not becomes FAILED), those that were FAILED too. On an error the device
- * stays lost; call it again. */
-FROTH_API FrothResult frothRestoreDevice(FrothContext* context, const FrothContextInfo* info);
 
 /* Handles are an index and a generation; {0, 0} is null, and what a call that failed gives. */
 typedef struct FrothAsset { uint32_t index, generation; } FrothAsset;
@@ -238,6 +72,7 @@ typedef struct FrothAssetStatus {
   uint32_t cellCount;       /* cells in the asset */
   uint32_t liveCount;       /* cells that can be seen */
   uint32_t detailCount, lobeCount, chunkCount;
+  uint32_t cellBits;        /* of a cell code (FrothRenderInfo::id): chunk = (uint64_t)code >> cellBits; cell: the bits below */
   uint32_t hasWalkGraph;
   float nearRatio, nearDepth; /* the asset's defaults */
   float boundsMin[3], boundsMax[3]; /* of the balls of live cells [scene units] */
@@ -263,7 +98,8 @@ FROTH_API FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset);
 /* ---- Instances ---- */
 
 /* Read when a view is drawn. A view shows up to 14; where they overlap their densities add, and each colour counts by its share
- * of the density. The first frothUpdate with a second instance makes pipelines for it. */
+ * of the density. The first frothUpdate with a second instance makes pipelines for it. Motion leads from where an instance is drawn
+ * to where it stood when the newest frame before was; new ones have none. */
 typedef struct FrothInstanceInfo {
   uint32_t structSize;
   FrothAsset asset;
@@ -271,7 +107,9 @@ typedef struct FrothInstanceInfo {
   float rotation[4];  /* unit quaternion (x, y, z, w), world from asset; all zero: identity */
   float scale;        /* uniform, > 0; 0: 1 */
   uint32_t mask;      /* seen by views and rays that share a bit with it; 0: by all */
-  uint32_t userId;    /* the caller's own name for it */
+  uint32_t userId;    /* the caller's own name for it; in the id image */
+  float exposure;     /* factor on its linear light, >= 0; 0: 1 */
+  uint32_t hasJumped; /* of frothSetInstance, 1: it did not move here: no motion from where it was */
 } FrothInstanceInfo;
 
 FROTH_API FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info, FrothInstance* instance);
@@ -286,6 +124,7 @@ typedef struct FrothViewInfo {
   uint32_t measurePasses;   /* 1: timestamps by pass, read back later without waiting */
   uint32_t lensClasses;     /* FrothLensClass bits that its cameras may use, of those of the context; 0: pinholes only.
                                MAPPED costs 16 bytes per pixel of maxExtent */
+  uint32_t keepsHits;       /* 1: its cameras may ask for id and motion; costs 12 bytes per pixel of maxExtent */
 } FrothViewInfo;
 
 FROTH_API FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view);
@@ -334,7 +173,7 @@ typedef struct FrothViewStatus {
   uint64_t deviceBytes;      /* of the view's transients */
   FrothWork work;
   uint32_t memoryCount;
-  FrothMemory memory[8];     /* [memoryCount] deviceBytes by purpose */
+  FrothMemory memory[16];    /* [memoryCount] deviceBytes by purpose */
 } FrothViewStatus;
 
 FROTH_API FrothResult frothGetViewStatus(FrothContext* context, FrothView view, FrothViewStatus* status);
@@ -418,6 +257,15 @@ typedef struct FrothCamera {
   FrothLens lens;         /* zero: clipFromView is all. Others need their bit in FrothViewInfo::lensClasses */
 } FrothCamera;
 
+/* A curve that the engine ends its frame with, from x, scene-linear, to linear light of the display. Per channel but for the last. */
+typedef enum FrothToneCurve {
+  FROTH_TONE_NONE = 0,
+  FROTH_TONE_REINHARD = 1,        /* x / (1 + x) */
+  FROTH_TONE_ACES_NARKOWICZ = 2,  /* x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14) */
+  FROTH_TONE_KHRONOS_NEUTRAL = 3, /* Khronos PBR Neutral */
+  FROTH_TONE_MAX = 0x7fffffff
+} FrothToneCurve;
+
 /* Marks "take the asset's default" in the two near limits. */
 #define FROTH_NEAR_DEFAULT (-1.0f)
 
@@ -432,12 +280,24 @@ typedef struct FrothRenderInfo {
   uint32_t maxSteps;   /* of one walk; 0: 65536 */
   uint32_t mask;       /* shows instances that share a bit with it; 0: all */
   uint32_t displayCoded; /* 1: colour stays display-coded (for files); 0: linear */
+  FrothToneCurve toneCurve; /* of linear colour: what this curve turns into the capture, times exposure. Its white is 255/256, so that
+                               no light is above 255 */
 
   FrothImage colour;   /* R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: premultiplied colour, alpha = 1 - T */
   FrothImage distance; /* R32_SFLOAT: distance along the ray where T falls below depthQuantile [world units]; +inf: never */
   FrothImage normal;   /* R16G16B16A16_SFLOAT: sum of T alpha n in world axes, not normalized; w = 0 */
   FrothImage depth;    /* R32_SFLOAT: device depth of the point that `distance` means, as clipFromView and the viewport's depth range
                           make it; their far end: never. With lenses other than PROJECTION the same as `distance` */
+
+  /* These two need the feature shaderStorageImageExtendedFormats and FrothViewInfo::keepsHits. */
+  FrothImage id;       /* R32G32_UINT: userId of the instance and code of the cell (FrothAssetStatus::cellBits) at the point that
+                          `depth` means; where there is none, of the last cell that the ray met; UINT32_MAX twice: it met none */
+  FrothImage motion;   /* R16G16_SFLOAT: from the pixel to where that point was seen by previousCamera, in pixels times motionScale, both
+                          without jitter; where there is none, of a background at infinity (of parallel rays: on the plane through
+                          the eye). 32768 pixels: it was not in front of that camera */
+  float motionScale[2];       /* 0: 1 */
+  FrothCamera previousCamera; /* of the frame before, for motion; jitter and scissor are not read. All zero: there is none (a cut, the
+                                 first frame), and motion is 0. Motion knows no ray maps, now or then */
 
   /* What the engine has drawn, read only: rays stop there, in the middle of a cell if need be. D32_SFLOAT, D32_SFLOAT_S8_UINT,
    * D24_UNORM_S8_UINT, X8_D24_UNORM_PACK32, D16_UNORM or R32_SFLOAT; a view of the depth aspect. It holds device depth, as

@@ -1,0 +1,68 @@
+// Small passes over whole images, each with a pipeline and descriptor sets of its own: no pass of Froth relies on more than the
+// four storage images that every device can bind at once.
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "runtime/core/device.h"
+
+namespace froth {
+
+// Set 0.
+struct ImageBindings {
+  std::vector<VkDescriptorType> types;
+  VkShaderStageFlags stage = VK_SHADER_STAGE_COMPUTE_BIT;
+};
+
+// Identical layouts are compatible, so passes and sets make their own.
+Result<VkDescriptorSetLayout> createSetLayout(Device& device, const ImageBindings& bindings);
+
+struct ImagePassCode {
+  const char* name;
+  std::span<const uint32_t> spirv;
+  ImageBindings bindings;
+  uint32_t pushBytes;
+};
+
+class ImagePass {
+ public:
+  static Result<std::unique_ptr<ImagePass>> create(Device& device, VkPipelineCache cache, const ImagePassCode& code);
+  ~ImagePass();
+
+  // Binds pipeline, set and push constants; the caller dispatches.
+  void bind(VkCommandBuffer commandBuffer, VkDescriptorSet set, std::span<const std::byte> push) const;
+
+ private:
+  explicit ImagePass(Device& device) : device_(device) {}
+  Status createLayout(const ImagePassCode& code);
+  Status createPipeline(VkPipelineCache cache, const ImagePassCode& code);
+
+  Device& device_;
+  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+// Sets for passes whose bindings are alike.
+class ImageSets {
+ public:
+  static Result<std::unique_ptr<ImageSets>> create(Device& device, const ImageBindings& bindings, uint32_t count);
+  ~ImageSets();
+
+  // Points a set [index < count] to images, one per binding. What used it before must be complete.
+  VkDescriptorSet update(uint32_t index, std::span<const VkDescriptorImageInfo> images) const;
+
+ private:
+  explicit ImageSets(Device& device) : device_(device) {}
+
+  Device& device_;
+  ImageBindings bindings_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  std::vector<VkDescriptorSet> sets_;
+};
+
+}  // namespace froth

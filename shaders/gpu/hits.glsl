@@ -1,0 +1,23 @@
+// Leaves where the ray of a pixel was stopped for the passes over hits (write_ids.comp, write_motion.comp).
+#ifndef FROTH_GPU_HITS_GLSL
+#define FROTH_GPU_HITS_GLSL
+#include "gpu/frame.glsl"
+
+// Of the cell in a slot of the list of visible cells; kNoCell stays.
+uint cellCodeOf(uint slot) {
+  if (slot == kNoCell) return kNoCell;
+  uvec4 cell = FRAME.visibleCells.v[checked(slot, FRAME.visibleCapacity)];
+  return FRAME.localBits < 32 ? cell.x << FRAME.localBits | cell.y : cell.y;
+}
+
+// `pixel` counts from the region's corner; distance in world units; part: of the instance in the recording.
+void writeHit(uvec2 pixel, float distance, uint part, uint cellCode) {
+  uint place = kHitWords * (pixel.y * FRAME.regionWidth + pixel.x);
+  FRAME.hits.v[place] = floatBitsToUint(distance);
+  FRAME.hits.v[place + 1] = part;
+  FRAME.hits.v[place + 2] = cellCode;
+}
+
+bool wantsHits() { return (FRAME.flags & kFlagHits) != 0; }
+
+#endif

@@ -1,0 +1,117 @@
+// What record calls refuse of the images id and motion, and of colours.
+#include <cmath>
+
+#include "runtime_fixture.h"
+
+namespace froth {
+namespace {
+
+using ::testing::HasSubstr;
+
+FrothImage fakeImage(VkFormat format) {
+  FrothImage image{};
+  image.image = reinterpret_cast<VkImage>(1);
+  image.view = reinterpret_cast<VkImageView>(1);
+  image.format = format;
+  image.extent = {16, 16};
+  image.layoutOut = VK_IMAGE_LAYOUT_GENERAL;
+  return image;
+}
+
+FrothRenderInfo makeInfo() {
+  auto info = makeStruct<FrothRenderInfo>();
+  info.camera = makeCamera(16, 16);
+  info.colour = fakeImage(VK_FORMAT_R16G16B16A16_SFLOAT);
+  return info;
+}
+
+class OutputCalls : public RuntimeTest {
+ protected:
+  void SetUp() override { createContext(); }
+
+  FrothView createHitView(uint32_t keepsHits) {
+    auto info = makeStruct<FrothViewInfo>();
+    info.maxExtent = {16, 16};
+    info.keepsHits = keepsHits;
+    FrothView view{};
+    EXPECT_EQ(frothCreateView(context_, &info, &view), FROTH_OK) << lastText();
+    return view;
+  }
+
+  void expectResult(FrothView view, FrothResult expected, const char* text) {
+    ASSERT_EQ(update(++serial_), FROTH_OK);
+    messages_.clear();
+    EXPECT_EQ(frothRasterize(context_, view, nullptr, &info_), expected) << lastText();
+    EXPECT_EQ(frothWalk(context_, view, nullptr, &info_), expected) << lastText();
+    if (expected < 0) {
+      EXPECT_THAT(lastText(), HasSubstr(text));
+    }
+  }
+
+  FrothRenderInfo info_ = makeInfo();
+  uint64_t serial_ = 0;
+};
+
+TEST_F(OutputCalls, RefuseIdAndMotionOfAViewThatKeepsNoHits) {
+  info_.id = fakeImage(VK_FORMAT_R32G32_UINT);
+  expectResult(createHitView(0), FROTH_ERROR_UNSUPPORTED, "set FrothViewInfo::keepsHits");
+  expectResult(createHitView(1), FROTH_OK, "");
+}
+
+TEST_F(OutputCalls, RefuseIdAndMotionOfOtherFormats) {
+  const FrothView view = createHitView(1);
+  info_.id = info_.motion = info_.colour;
+  expectResult(view, FROTH_ERROR_ARGUMENT, "id.format: VkFormat 97; must be R32G32_UINT");
+  info_.id = {};
+  expectResult(view, FROTH_ERROR_ARGUMENT, "motion.format: VkFormat 97; must be R16G16_SFLOAT");
+}
+
+TEST_F(OutputCalls, RefuseMotionThatHasNoMeaning) {
+  const FrothView view = createHitView(1);
+  info_.motion = fakeImage(VK_FORMAT_R16G16_SFLOAT);
+  info_.motionScale[1] = INFINITY;
+  expectResult(view, FROTH_ERROR_ARGUMENT, "motionScale: inf");
+  info_.motionScale[1] = 0;
+  expectResult(view, FROTH_OK, "");
+  info_.previousCamera = info_.camera;
+  expectResult(view, FROTH_OK, "");
+  info_.previousCamera.viewFromWorld[0] = 2;
+  expectResult(view, FROTH_ERROR_ARGUMENT, "viewFromWorld: not a rotation");
+  EXPECT_THAT(messages_.back().object, HasSubstr("previousCamera"));
+  info_.previousCamera.lens.kind = FROTH_LENS_RAY_MAP;
+  expectResult(view, FROTH_ERROR_UNSUPPORTED, "with a ray map");
+}
+
+TEST_F(OutputCalls, RefuseAToneCurveThatIsNoneOrMeetsADisplayCodedImage) {
+  const FrothView view = createHitView(0);
+  info_.toneCurve = static_cast<FrothToneCurve>(9);
+  expectResult(view, FROTH_ERROR_ARGUMENT, "toneCurve: 9");
+  info_.toneCurve = FROTH_TONE_REINHARD;
+  expectResult(view, FROTH_OK, "");
+  info_.displayCoded = 1;
+  expectResult(view, FROTH_ERROR_ARGUMENT, "toneCurve: 1 with displayCoded");
+}
+
+class OutputCallsOnDevice : public RuntimeGpuTest {};
+
+TEST_F(OutputCallsOnDevice, NameTheFeatureThatIdAndMotionNeed) {
+  FrothContextInfo contextInfo = host_->contextInfo();
+  VkPhysicalDeviceFeatures2 features = *contextInfo.enabledFeatures;
+  features.features.shaderStorageImageExtendedFormats = VK_FALSE;
+  contextInfo.enabledFeatures = &features;
+  createContext(contextInfo);
+  auto viewInfo = makeStruct<FrothViewInfo>();
+  viewInfo.maxExtent = {16, 16};
+  viewInfo.keepsHits = 1;
+  FrothView view{};
+  ASSERT_EQ(frothCreateView(context_, &viewInfo, &view), FROTH_OK) << "the engine's code is the same on all devices";
+  runFrame(0, [&](VkCommandBuffer commands) {
+    FrothRenderInfo info = makeInfo();
+    info.id = fakeImage(VK_FORMAT_R32G32_UINT);
+    EXPECT_EQ(frothRasterize(context_, view, commands, &info), FROTH_ERROR_FEATURE);
+    EXPECT_THAT(lastText(), HasSubstr("made without shaderStorageImageExtendedFormats"));
+  });
+}
+
+}  // namespace
+}  // namespace froth
