@@ -6,7 +6,7 @@
 
 // A detail site with less than this part of all weights is not looked up for a colour: the error is far below an
 // 8-bit step.
-const float kLeastShare = 1.0 / 2048.0;
+const float kLeastShare = 1.0 / 1024.0;
 
 // A ray in the axes and units of the instance at hand.
 struct LocalRay {
@@ -68,6 +68,7 @@ vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, 
     weightSum += detailWeight(query, loadDetailSite(code, header, siteCount, k).place, sharpness);
   }
   vec3 colour = vec3(0.0);
+  float shownSum = 0.0;
   shaded = 0;
   for (uint k = 0; k < siteCount; ++k) {
     DetailSite site = loadDetailSite(code, header, siteCount, k);
@@ -76,9 +77,10 @@ vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, 
     vec3 toSite = met.centre + behind * direction +
                   met.radius * (frame.tangent * site.place.x + frame.bitangent * site.place.y);
     colour += weight * siteColour(code, header, siteCount, hasLobes, k, site.base, normalize(toSite));
+    shownSum += weight;
     ++shaded;
   }
-  return colour / flooredWeightSum(weightSum);
+  return colour / flooredWeightSum(weightSum) * (shownSum > 0.0 ? weightSum / shownSum : 0.0);
 }
 
 #endif

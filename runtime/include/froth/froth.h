@@ -15,7 +15,7 @@
  *          at once on anything: frothCastRays, frothLocate, frothOverlapSphere; while no call of the last row runs.
  *          one thread at a time per context: everything else.
  *
- * Single rays, points and spheres on the CPU: froth_query.h. docs/EMBEDDING.md leads through it.
+ * Single rays, points and spheres on the CPU: froth_query.h; rays on the GPU: froth_walk.h. docs/EMBEDDING.md leads through it.
  */
 #ifndef FROTH_FROTH_H
 #define FROTH_FROTH_H
