@@ -7,7 +7,6 @@
 #define FROTH_GPU_WALK_STREAM_GLSL
 #include "gpu/descend.glsl"
 #include "gpu/walk_cell.glsl"
-#include "foam/rays.h"
 
 // t counts from the walk's start, in world units; only `entry` is in the instance's.
 struct Stream {
@@ -124,14 +123,6 @@ Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 directi
   return Exit(site, site == kNoCell ? kInfinity : clearance / q, siteKey);
 }
 
-// Whether the ray can gain opacity in this interval: without reading the cell, by its solid ball.
-bool gainsOpacity(Chunk chunk, MetCell met, vec3 direction, float tNear, float tFar) {
-  Ball solid = solidBall(Ball(met.centre, met.radius), solidBallBytes(chunk.index, met.cell.y));
-  float tIn, tOut;
-  return intersectBall(solid.centre, guardedRadius(solid.centre, solid.radius), direction, tIn, tOut) &&
-         max(tIn, tNear) < min(tOut, tFar);
-}
-
 // Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it; false: there is none up to tEnd.
 bool walkToCell(inout Stream stream, LocalRay ray, float tEnd, out MetCell met, out float tNear, out float tFar,
                 inout WalkWork work) {
@@ -148,7 +139,6 @@ bool walkToCell(inout Stream stream, LocalRay ray, float tEnd, out MetCell met, 
     if (isMet) {
       tNear = max(tNear, stream.entry);
       tFar = min(tFar, min(exit.t, tEnd));
-      isMet = tNear < tFar && gainsOpacity(chunk, met, ray.direction, tNear, tFar);
     }
     stream.entry = max(exit.t, stream.entry);
     if (exit.site != kNoCell) {
@@ -159,7 +149,7 @@ bool walkToCell(inout Stream stream, LocalRay ray, float tEnd, out MetCell met, 
         origin = originIn(chunk, ray.origin);
       }
     }
-    if (isMet) return true;
+    if (isMet && tNear < tFar) return true;
   }
   stream.isCut = stream.entry < tEnd;
   return false;
