@@ -94,19 +94,12 @@ bool entersInstance(FrothRay ray, uint instance, out float entry) {
   if ((FRAME.mask & ray.mask) == 0) return false;
   LocalRay local = localRay(ray.origin, ray.direction);
   float scale = FRAME.scale;
-  vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
-  precise float tNear = ray.tMin;
-  precise float tFar = ray.tMax;
-  for (uint axis = 0; axis < 3; ++axis) {
-    float along = local.direction[axis];
-    precise float inverse = scale / (abs(along) > 1e-30 ? along : 1e-30);  // 0 * infinity would be NaN
-    precise float tLow = (low[axis] - local.origin[axis]) * inverse;
-    precise float tHigh = (high[axis] - local.origin[axis]) * inverse;
-    tNear = max(tNear, min(tLow, tHigh));
-    tFar = min(tFar, max(tLow, tHigh));
-  }
-  entry = tNear;
-  return tNear < tFar;
+  precise float tNear = ray.tMin / scale;
+  precise float tFar = ray.tMax / scale;
+  bool isMet = clipByBox(local, tNear, tFar);
+  precise float tWorld = tNear * scale;
+  entry = tWorld;
+  return isMet;
 }
 
 // The instance that the ray enters after the last one that was found, in order of entries, then numbers.
@@ -156,7 +149,7 @@ void startNextStream(inout FrothWalk walk, inout WalkWork work) {
   while (place < FROTH_WALK_STREAMS && walk.streams[place].isAhead) ++place;
   if (place < FROTH_WALK_STREAMS) {
     walk.streams[place] = startStream(walk.nextInstance, walk.start, walk.ray.direction, walk.nextEntry - walk.tStart,
-                                      walk.ray.hint, work);
+                                      walk.ray.tMax - walk.tStart, walk.ray.hint, work);
   } else {
     walk.hit.status = max(walk.hit.status, FROTH_WALK_STREAM_LIMIT);
   }
@@ -173,11 +166,10 @@ void noteStepLimit(inout FrothWalk walk) {
 // Where the next segment beyond what is passed begins.
 float advanceStreams(inout FrothWalk walk, bool isSeen, inout WalkWork work) {
   float first = FROTH_INFINITY;
-  float tEnd = walk.ray.tMax - walk.tStart;
   float behind = walk.tStart + walk.ray.apex;
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
     while (walk.streams[i].isAhead && walk.streams[i].tFar <= walk.passed) {
-      advanceStream(walk.streams[i], walk.start, walk.ray.direction, tEnd, isSeen, behind, work);
+      advanceStream(walk.streams[i], walk.start, walk.ray.direction, isSeen, behind, work);
       if (walk.streams[i].isCut) noteStepLimit(walk);
     }
     if (walk.streams[i].isAhead) first = min(first, max(walk.streams[i].tNear, walk.passed));

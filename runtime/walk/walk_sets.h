@@ -62,6 +62,7 @@ class WalkSets {
   void updateSet(uint32_t slot);
   void seedEntries(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
                    VkPipelineStageFlags2 stages) const;
+  void recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uint32_t instance, const GpuAsset& asset) const;
   void bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const;
   void recordCopies(VkCommandBuffer commandBuffer, uint32_t slot, VkPipelineStageFlags2 stages) const;
 
