@@ -35,7 +35,6 @@ Status writeTimes(const MirrorRoomOptions& options, const PassHistory& history) 
     passes[pass.name] = {{"median", pass.times.median}, {"p5", pass.times.p5}, {"p95", pass.times.p95}};
   }
   std::printf("\n");
-  if (options.json.empty()) return {};
   const nlohmann::ordered_json root = {{"width", options.extent.width},
                                        {"height", options.extent.height},
                                        {"frames", options.frames},
@@ -55,24 +54,37 @@ Status tellPick(RoomStage& stage, const Pose& pose, const MirrorRoomOptions& opt
   return {};
 }
 
+Status drawFrame(Host& host, RoomStage& stage, const Pose& pose) {
+  return submitWholeFrame(host, stage.scene(), [&](VkCommandBuffer commands, uint64_t serial) {
+    return stage.record(commands, pose, serial, VK_PIPELINE_STAGE_2_COPY_BIT);
+  });
+}
+
+// One frame after the other: a GPU that waits for pictures to be written slows its clocks down.
+Status timeFrames(Host& host, RoomStage& stage, const MirrorRoomOptions& options) {
+  PassHistory history;
+  for (uint32_t frame = 0; frame < options.frames; ++frame) {
+    if (Status drawn = drawFrame(host, stage, poseAt(stage.room(), frame, options.frames)); !drawn) return drawn;
+    const GpuTimer::Times times = stage.renderer().times(host.nextSerial() - 1);
+    history.add(times.serial, times.passes);
+  }
+  return writeTimes(options, history);
+}
+
 Status showFrames(Host& host, RoomStage& stage, const MirrorRoomOptions& options) {
   FrameFiles files(options);
-  PassHistory history;
   Pose pose;
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     pose = poseAt(stage.room(), frame, options.frames);
-    const Status drawn = submitWholeFrame(host, stage.scene(), [&](VkCommandBuffer commands, uint64_t serial) {
-      return stage.record(commands, pose, serial, VK_PIPELINE_STAGE_2_COPY_BIT);
-    });
-    if (!drawn) return drawn;
-    const GpuTimer::Times times = stage.renderer().times(host.nextSerial() - 1);
-    history.add(times.serial, times.passes);
+    if (Status drawn = drawFrame(host, stage, pose); !drawn) return drawn;
     const Result<std::vector<float>> texels = host.readImage(stage.renderer().result());
     if (!texels) return texels.error();
     if (Status added = files.add(encodePicture(*texels, options.extent)); !added) return added;
     if (Status moved = stage.advance(kSecondsPerFrame); !moved) return moved;
   }
-  if (Status written = writeTimes(options, history); !written) return written;
+  if (!options.json.empty()) {
+    if (Status timed = timeFrames(host, stage, options); !timed) return timed;
+  }
   if (options.picked) {
     if (Status told = tellPick(stage, pose, options); !told) return told;
   }

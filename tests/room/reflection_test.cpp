@@ -76,7 +76,7 @@ TEST(Reflection, OfTheFoamIsTheRasterOfTheMirroredCamera) {
   ASSERT_GT(pixels, 300u);
   EXPECT_GT(foam / pixels, 0.1) << "the mirror hardly shows the foam";
   const double psnr = -10 * std::log10(sum / pixels);
-  EXPECT_GE(psnr, 45);
+  EXPECT_GE(psnr, 70);  // colours as seen from where the ray is reflected: 59
   std::printf("reflected foam against the raster of the mirrored camera: %.2f dB over %u pixels\n", psnr, pixels);
 }
 

@@ -22,6 +22,19 @@ std::filesystem::path writeAsset(const Foam& foam, const std::filesystem::path& 
   return path;
 }
 
+// The shipped room with the foam let down, so that the pedestal stands in it.
+std::filesystem::path writeRoom(const std::filesystem::path& folder) {
+  std::ifstream shipped(FROTH_ROOM_FILE, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(shipped), {}};
+  const std::string place = "\"name\":\"foam\",\"translation\":[0,0.3,0]";
+  const size_t at = text.find(place);
+  EXPECT_NE(at, std::string::npos);
+  text.replace(at, place.size(), "\"name\":\"foam\",\"translation\":[0,0.02,0]");
+  const std::filesystem::path path = folder / "room.gltf";
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
 }  // namespace
 
 RoomUnderTest::RoomUnderTest(const RoomLook& look, bool hasParticles, double seconds)
@@ -30,6 +43,7 @@ RoomUnderTest::RoomUnderTest(const RoomLook& look, bool hasParticles, double sec
   folder_ = mkdtemp(pattern.data());
   MirrorRoomOptions options;
   options.asset = writeAsset(foam_, folder_);
+  options.room = writeRoom(folder_);
   options.validate = true;
   options.look = look;
   options.hasParticles = hasParticles;

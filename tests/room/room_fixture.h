@@ -1,4 +1,4 @@
-// A small foam in the room that the sample ships, drawn small, with validation.
+// A small foam in the room that the sample ships, its pedestal in the foam, drawn small, with validation.
 #pragma once
 
 #include <filesystem>
