@@ -36,8 +36,8 @@ struct FrothRay {
   vec3 direction;  // unit
   float tMin;      // where the ray begins,
   float tMax;      // and ends; FROTH_INFINITY: nowhere
-  float apex;      // colours are seen from the point that lies this far behind the origin. 0: the origin itself. Of a ray that a plane
-                   // mirror reflects: the length of its path from the camera, for there the mirrored camera stands
+  float apex;      // colours are seen from the point that lies this far behind the origin. 0: the origin itself. Of a ray that a
+                   // plane mirror reflects: the length of its path from the camera, for there the mirrored camera stands
   uint mask;       // meets instances whose FrothInstanceInfo::mask shares a bit with it
   uvec4 hint;      // where to look for the cell in which the walk begins: instance, chunk, cell of a hit nearby
 };
@@ -62,7 +62,7 @@ struct FrothWalk {
   float logTransmittance;
   float nextEntry;    // of the next instance that the ray enters, from the origin
   uint nextInstance;  // FROTH_NONE: there is no more
-  uint cells;  // walked through
+  uint cells;         // walked through
   Stream streams[FROTH_WALK_STREAMS];
 };
 
@@ -247,8 +247,8 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   return vec4(colour, opacity(logBefore - walk.logTransmittance));
 }
 
-// Premultiplied linear colour of the ray's part from where the walk stands to tEnd, and 1 - T of this part. Each part is decoded by
-// itself: over a part in front of it, it blends as colour += T * part, T *= 1 - part.w.
+// Premultiplied linear colour of the ray's part from where the walk stands to tEnd, and 1 - T of this part. Each part is decoded
+// by itself: over a part in front of it, it blends as colour += T * part, T *= 1 - part.w.
 vec4 frothRadianceSegment(inout FrothWalk walk, float tEnd) {
   vec4 part = gather(walk, tEnd, true, false);
   return vec4(linearPremultiplied(part.rgb, part.a), part.a);
@@ -278,8 +278,8 @@ bool frothClosest(FrothRay ray, out FrothHit hit) {
   return hit.distance < FROTH_INFINITY;
 }
 
-// The power cell (chunk, cell) of an instance of the set that holds a point. first: a cell near to it, or uvec2(FROTH_NONE). false:
-// there is no such instance.
+// The power cell (chunk, cell) of an instance of the set that holds a point. first: a cell near to it, or uvec2(FROTH_NONE).
+// false: there is no such instance.
 bool frothLocate(uint instance, vec3 point, uvec2 first, out uvec2 cell) {
   cell = uvec2(FROTH_NONE);
   if (!isVersionKnown() || instance >= walkSet.block.instanceCount) return false;

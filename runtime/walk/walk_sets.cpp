@@ -138,7 +138,6 @@ Status WalkSets::grow(uint32_t chunkCount) {
 }
 
 Status WalkSets::prepare(uint64_t completedSerial, uint32_t instanceCount, uint32_t chunkCount) {
-  completedSerial_ = completedSerial;
   for (Slot& slot : slots_) {
     if (slot.serial == 0 || slot.serial > completedSerial) continue;
     readCounters(slot);
