@@ -31,8 +31,13 @@ void main() {
     CellRecord cell;
     isInside = takeStep(shading, current, ray, visible, cell);
     if (visible != kNoCell) {
-      Segment segment = meetInside(cell, ray, entry, isFull ? min(current.entry, end) : current.entry);
-      if (!isEmpty(segment)) shadeHits(shading, visible, cell, vec3[](ray), Segment[](segment), radiances);
+      Segment segments[kRays];
+      segments[0] = meetInside(cell, ray, entry, isFull ? min(current.entry, end) : current.entry);
+      vec3 colours[kRays];
+      if (!isEmpty(segments[0]) && shadeSegments(shading, visible, cell, vec3[](ray), segments, colours)) {
+        countWork(kWorkColours, 1);
+        composite(shading, segments[0], cell.face.w, colours[0], cell.ball.w * cell.face.xyz, radiances[0]);
+      }
     }
     ++steps;
   }

@@ -162,7 +162,7 @@ bool shadeSegments(Shading shading, uint visible, CellRecord cell, vec3 rays[kRa
   return isAny;
 }
 
-// shadeSegments and composite in one: called apart they cost the raster 6 % more.
+// shadeSegments and composite in one: the raster is 6 % slower where it calls them apart, the walk is faster for it.
 void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
                inout Radiance radiances[kRays]) {
   uint firstSite = visible * detailCount;

@@ -8,6 +8,7 @@
 #include "gpu/descend.glsl"
 #include "gpu/walk_cell.glsl"
 #include "gpu/walk_entries.glsl"
+#include "foam/rays.h"
 
 // t counts from the walk's start, in world units; only `entry` and `end` are in the instance's.
 struct Stream {
@@ -125,9 +126,10 @@ Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 directi
     vec4 otherSite = siteRadiusOf(chunk, other);
     vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
     float otherQ = dot(direction, toNeighbour);
+    if (!(otherQ > 0.0)) continue;
     float offset = radicalOffset(toNeighbour, siteRadius.w, otherSite.w);
     float otherClearance = radicalClearance(centre, toNeighbour, offset);
-    if (!(otherQ > 0.0 && otherClearance * q < clearance * otherQ)) continue;
+    if (!(otherClearance * q < clearance * otherQ)) continue;
     float otherKey = orderAlong(direction, otherSite.xyz - origin);
     if (!(otherKey > key)) continue;
     site = other;
@@ -136,6 +138,14 @@ Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 directi
     q = otherQ;
   }
   return Exit(site, site == kNoCell ? kInfinity : clearance / q, siteKey);
+}
+
+// Whether the ray can gain opacity in this interval: without reading the cell, by its solid ball.
+bool gainsOpacity(Chunk chunk, MetCell met, vec3 direction, float tNear, float tFar) {
+  Ball solid = solidBall(Ball(met.centre, met.radius), solidBallBytes(chunk.index, met.cell.y));
+  float tIn, tOut;
+  return intersectBall(solid.centre, guardedRadius(solid.centre, solid.radius), direction, tIn, tOut) &&
+         max(tIn, tNear) < min(tOut, tFar);
 }
 
 // Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it; false: there is none.
@@ -154,6 +164,7 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
     if (isMet) {
       tNear = max(tNear, stream.entry);
       tFar = min(tFar, min(exit.t, stream.end));
+      isMet = tNear < tFar && gainsOpacity(chunk, met, ray.direction, tNear, tFar);
     }
     stream.entry = max(exit.t, stream.entry);
     if (exit.site != kNoCell) {
@@ -164,7 +175,7 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
         origin = originIn(chunk, ray.origin);
       }
     }
-    if (isMet && tNear < tFar) return true;
+    if (isMet) return true;
   }
   stream.isCut = stream.entry < stream.end;
   return false;
