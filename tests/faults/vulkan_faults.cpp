@@ -113,9 +113,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelin
                                                       VkPipeline* pipeline) {
   const HostFaults::Pause pause;
   if (strikes("vkCreateComputePipelines")) return armedCode;
-  const VkSpecializationInfo& constants = *info->stage.pSpecializationInfo;
-  const std::string key = moduleCodes[info->stage.module] +
-                          std::string(static_cast<const char*>(constants.pData), constants.dataSize);
+  std::string key = moduleCodes[info->stage.module];
+  if (const VkSpecializationInfo* constants = info->stage.pSpecializationInfo)
+    key.append(static_cast<const char*>(constants->pData), constants->dataSize);
   VkPipeline& kept = keptPipelines[key];
   if (!kept) {
     const VkResult result = Hook<Tag_vkCreateComputePipelines, PFN_vkCreateComputePipelines>::real(

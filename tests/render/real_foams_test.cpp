@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "baker/checkpoint/checkpoint.h"
+#include "format/asset_writer.h"
 #include "tests/render/render_harness.h"
 
 namespace froth::test {
@@ -75,6 +76,65 @@ TEST(RealFoam, TheRoughTankardIsRasterizedAsPublishedAndItsWalksEnd) {
   Stage stage(foam.contents, {1152, 1152});
   expectGolden(foam, stage, 2, 52);
   expectWalkAgrees(foam, stage, 2);
+}
+
+// The two budgets of an integrator's first hour. 1 MB: refused with both numbers. 100 MB: all of it, never above; and when it is
+// taken down to less than the view wants, a coarser frame at once and the same one again when it is given back.
+TEST(RealFoam, MikuPlushIsRefusedAt1MegabyteAndWholeAt100) {
+  const std::filesystem::path folder = folderOf("miku_plush");
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder << "; set FROTH_DATA";
+  const RealFoam foam = loadFoam(folder);
+  const View full = withNearLimits(foam, 0), view = resizeView(full, full.width / 4, full.height / 4);
+  std::vector<std::string> messages;
+  FrothContextInfo info = sharedHost().contextInfo();
+  info.deviceBudget = 1'000'000;
+  info.onMessage = [](void* user, FrothSeverity, FrothResult, const char*, const char* text) {
+    static_cast<std::vector<std::string>*>(user)->emplace_back(text);
+  };
+  info.messageUser = &messages;
+  FrothContext* context = nullptr;
+  ASSERT_EQ(frothCreateContext(&info, &context), FROTH_OK);
+  FrothMemoryReport report{};
+  report.structSize = sizeof(report);
+  {
+    const Result<std::vector<uint8_t>> bytes = encodeAsset(foam.contents);
+    ASSERT_TRUE(bytes);
+    FrothAssetInfo assetInfo{};
+    assetInfo.structSize = sizeof(assetInfo);
+    assetInfo.data = bytes->data();
+    assetInfo.dataSize = bytes->size();
+    FrothAsset asset{};
+    ASSERT_EQ(frothOpenAsset(context, &assetInfo, &asset), FROTH_OK);
+    const FrothFrame frame{sizeof(FrothFrame), 1, 0, 0};
+    ASSERT_EQ(frothUpdate(context, &frame, nullptr), FROTH_OK);
+    FrothAssetStatus status{};
+    status.structSize = sizeof(status);
+    ASSERT_EQ(frothGetAssetStatus(context, asset, &status), FROTH_OK);
+    EXPECT_EQ(status.error, FROTH_ERROR_MEMORY);
+    ASSERT_EQ(messages.size(), 1u);
+    EXPECT_NE(messages[0].find("of 1000000 bytes are in use; raise FrothContextInfo::deviceBudget by"), std::string::npos) << messages[0];
+    ASSERT_EQ(frothCloseAsset(context, asset), FROTH_OK);
+  }
+  constexpr uint64_t kBudget = 100'000'000;
+  ASSERT_EQ(frothSetBudget(context, kBudget), FROTH_OK);
+  {
+    Stage stage(foam.contents, {view.width, view.height}, context);
+    const Frame whole = stage.draw(Method::kRaster, view);
+    EXPECT_EQ(whole.status.bits, 0u);
+    ASSERT_EQ(frothGetMemoryReport(context, &report), FROTH_OK);
+    EXPECT_LE(report.devicePeak, kBudget);
+    std::printf("[  BYTES   ] miku_plush: %.1f MB held of 100\n", 1e-6 * static_cast<double>(report.deviceBytes));
+    const uint64_t lowered = report.categories[0].granted + report.categories[1].granted / 2;  // assets, views
+    ASSERT_EQ(frothSetBudget(context, lowered), FROTH_OK);
+    const Frame less = stage.draw(Method::kRaster, view);
+    EXPECT_GT(less.status.visibleCells, 0u);
+    ASSERT_EQ(frothGetMemoryReport(context, &report), FROTH_OK);
+    EXPECT_LE(report.deviceBytes, lowered);
+    ASSERT_EQ(frothSetBudget(context, kBudget), FROTH_OK);
+    stage.draw(Method::kRaster, view);
+    EXPECT_EQ(stage.draw(Method::kRaster, view).colour.values, whole.colour.values);
+  }
+  EXPECT_EQ(frothDestroyContext(context, UINT64_MAX), FROTH_OK);
 }
 
 }  // namespace
