@@ -44,13 +44,14 @@ void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], 
 }
 
 // Reads a word of each line of memory that rays in the cell will read, so that the entries of a batch wait for them together and
-// not one after the other. Always true, which no compiler can know.
+// not one after the other. Always true, which no compiler can know. (What is read may be anything: a cell need not have planes.)
 bool fetchCell(uint slot, uvec3 row) {
   uint lastPlane = max(row.z, 1u) - 1;
   uint firstSite = slot * detailCount;
-  float sum = FRAME.planes.v[min(row.x, lastPlane)].x + FRAME.planes.v[lastPlane].x;
-  sum += FRAME.sites.v[firstSite].place.x + FRAME.sites.v[firstSite + detailCount - 1].place.x;
-  return floatBitsToUint(sum) != 0xffffffffu;
+  uint bits = floatBitsToUint(FRAME.planes.v[min(row.x, lastPlane)].x) ^ floatBitsToUint(FRAME.planes.v[lastPlane].x);
+  bits ^= floatBitsToUint(FRAME.sites.v[firstSite].place.x);
+  bits ^= floatBitsToUint(FRAME.sites.v[firstSite + detailCount - 1].place.x);
+  return (bits & FRAME.zero) == 0;
 }
 
 // Lists the entries of this batch whose solid ball the 8 x 8 pixels can meet, in order; returns how many.

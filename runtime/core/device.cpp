@@ -85,6 +85,10 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
   }
   FROTH_DEVICE_FUNCTIONS(FROTH_LOAD)
 #undef FROTH_LOAD
+  result.table.vkCmdBeginDebugUtilsLabelEXT = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
+      getDeviceProcAddr(device, "vkCmdBeginDebugUtilsLabelEXT"));
+  result.table.vkCmdEndDebugUtilsLabelEXT =
+      reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(getDeviceProcAddr(device, "vkCmdEndDebugUtilsLabelEXT"));
 
   VkPhysicalDeviceMaintenance3Properties limits{};
   limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
@@ -269,6 +273,22 @@ Error Device::explain(VkResult result, const char* format, ...) {
                        text, result);
     default:
       return makeError(ErrorKind::kDevice, "%s gives VkResult %d; update the device's driver", text, result);
+  }
+}
+
+void DeviceTable::beginLabel(VkCommandBuffer commandBuffer, const char* name) const {
+  if (!vkCmdBeginDebugUtilsLabelEXT) {
+    return;
+  }
+  VkDebugUtilsLabelEXT label{};
+  label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
+  label.pLabelName = name;
+  vkCmdBeginDebugUtilsLabelEXT(commandBuffer, &label);
+}
+
+void DeviceTable::endLabel(VkCommandBuffer commandBuffer) const {
+  if (vkCmdEndDebugUtilsLabelEXT) {
+    vkCmdEndDebugUtilsLabelEXT(commandBuffer);
   }
 }
 

@@ -34,6 +34,13 @@ struct DeviceTable {
 #define FROTH_DECLARE(name) PFN_##name name = nullptr;
   FROTH_DEVICE_FUNCTIONS(FROTH_DECLARE)
 #undef FROTH_DECLARE
+  // Null where the instance has no VK_EXT_debug_utils.
+  PFN_vkCmdBeginDebugUtilsLabelEXT vkCmdBeginDebugUtilsLabelEXT = nullptr;
+  PFN_vkCmdEndDebugUtilsLabelEXT vkCmdEndDebugUtilsLabelEXT = nullptr;
+
+  // What is recorded in between bears this name in captures and messages of the validation layers.
+  void beginLabel(VkCommandBuffer commandBuffer, const char* name) const;
+  void endLabel(VkCommandBuffer commandBuffer) const;
 
   // One global memory barrier between two uses of buffers.
   void recordMemoryBarrier(VkCommandBuffer commandBuffer, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,

@@ -95,6 +95,7 @@ Recording beginRecording(ViewState& view, const RenderPipelines::State& pipeline
   slot.recordings = place + 1;
   view.lastSerial = serial;
   view.parts.clear();
+  view.device.table.beginLabel(commandBuffer, kind == RecordingKind::kRaster ? "froth raster" : "froth walk");
   view.images->enter(commandBuffer, info);
   if (view.timer) view.timer->begin(commandBuffer, recording.number);
   return recording;
@@ -142,6 +143,7 @@ void endRecording(const Recording& recording) {
   vk.recordMemoryBarrier(recording.commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                          VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   recording.view.images->leave(recording.commandBuffer, recording.info);
+  vk.endLabel(recording.commandBuffer);
 }
 
 const gpu::Counters& readCounters(const InstanceSpace& space, uint32_t number) {

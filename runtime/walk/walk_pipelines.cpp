@@ -6,6 +6,7 @@
 
 #include "shaders/gpu/walk_layout.h"
 #include "spirv/cast_rays.h"
+#include "spirv/cast_rays_several.h"
 #include "spirv/seed_entries.h"
 
 namespace froth {
@@ -24,16 +25,24 @@ constexpr std::array<VkSpecializationMapEntry, 2> kSpecializationEntries = {{
     {1, offsetof(Specialization, kind), sizeof(uint32_t)},
 }};
 
+struct ShaderCode {
+  const char* name;
+  std::span<const uint32_t> spirv;
+};
+
+ShaderCode codeOf(uint32_t index) {
+  if (index == kSeedEntries) return {"seed_entries", seed_entries_spirv};
+  if (index < kSeedEntries) return {"cast_rays", cast_rays_spirv};
+  return {"cast_rays_several", cast_rays_several_spirv};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<WalkPipelines>> WalkPipelines::create(Device& device, VkPipelineCache cache,
                                                              const WalkOptions& options) {
-  std::unique_ptr<WalkPipelines> made(new WalkPipelines(device));
-  Status status = made->createLayouts();
-  for (uint32_t index = 0; status && index < kWalkPipelineCount; ++index) {
-    status = made->createPipeline(index, cache, options);
-  }
-  if (!status) return status.error();
+  std::unique_ptr<WalkPipelines> made(new WalkPipelines(device, cache, options));
+  if (const Status status = made->createLayouts(); !status) return status.error();
+  if (const Status status = made->createPipelines(0, kCastSeveral); !status) return status.error();
   return made;
 }
 
@@ -42,6 +51,19 @@ WalkPipelines::~WalkPipelines() {
   for (const VkPipeline pipeline : pipelines_) vk.vkDestroyPipeline(device_.device, pipeline, nullptr);
   vk.vkDestroyPipelineLayout(device_.device, layout_, nullptr);
   vk.vkDestroyDescriptorSetLayout(device_.device, setLayout_, nullptr);
+}
+
+Status WalkPipelines::prepareForSeveral() {
+  return createPipelines(kCastSeveral, kWalkPipelineCount);
+}
+
+// Those that are missing.
+Status WalkPipelines::createPipelines(uint32_t first, uint32_t last) {
+  for (uint32_t index = first; index < last; ++index) {
+    if (pipelines_[index]) continue;
+    if (const Status status = createPipeline(index); !status) return status;
+  }
+  return {};
 }
 
 Status WalkPipelines::createLayouts() {
@@ -68,20 +90,18 @@ Status WalkPipelines::createLayouts() {
   return {};
 }
 
-Status WalkPipelines::createPipeline(uint32_t index, VkPipelineCache cache, const WalkOptions& options) {
+Status WalkPipelines::createPipeline(uint32_t index) {
   const DeviceTable& vk = device_.table;
-  const bool isSeed = index == kSeedPipeline;
-  const char* name = isSeed ? "seed_entries" : "cast_rays";
-  const std::span<const uint32_t> code = isSeed ? std::span<const uint32_t>(seed_entries_spirv) : cast_rays_spirv;
+  const ShaderCode shader = codeOf(index);
   VkShaderModuleCreateInfo moduleInfo{};
   moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  moduleInfo.codeSize = code.size_bytes();
-  moduleInfo.pCode = code.data();
+  moduleInfo.codeSize = shader.spirv.size_bytes();
+  moduleInfo.pCode = shader.spirv.data();
   VkShaderModule shaderModule = VK_NULL_HANDLE;
   VkResult result = vk.vkCreateShaderModule(device_.device, &moduleInfo, nullptr, &shaderModule);
-  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkCreateShaderModule", name);
+  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkCreateShaderModule", shader.name);
 
-  const Specialization values{options.checkIndices, index};
+  const Specialization values{options_.checkIndices, index % kCastSeveral};
   VkSpecializationInfo specialization{};
   specialization.mapEntryCount = static_cast<uint32_t>(kSpecializationEntries.size());
   specialization.pMapEntries = kSpecializationEntries.data();
@@ -95,9 +115,9 @@ Status WalkPipelines::createPipeline(uint32_t index, VkPipelineCache cache, cons
   info.stage.pName = "main";
   info.stage.pSpecializationInfo = &specialization;
   info.layout = layout_;
-  result = vk.vkCreateComputePipelines(device_.device, cache, 1, &info, nullptr, &pipelines_[index]);
+  result = vk.vkCreateComputePipelines(device_.device, cache_, 1, &info, nullptr, &pipelines_[index]);
   vk.vkDestroyShaderModule(device_.device, shaderModule, nullptr);
-  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkCreateComputePipelines", name);
+  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkCreateComputePipelines", shader.name);
   return {};
 }
 

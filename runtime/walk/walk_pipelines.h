@@ -12,8 +12,8 @@ struct WalkOptions {
   bool checkIndices = false, countsWork = false;
 };
 
-// By FrothRayKind, then that which seeds the entries of an asset.
-inline constexpr uint32_t kWalkPipelineCount = 4, kSeedPipeline = 3;
+// Those that cast rays of a FrothRayKind through one instance at a time begin at 0, through several at once at kCastSeveral.
+inline constexpr uint32_t kSeedEntries = 3, kCastSeveral = 4, kWalkPipelineCount = 7;
 
 struct CastConstants {
   VkDeviceAddress rays, hits;
@@ -29,16 +29,24 @@ class WalkPipelines {
   static Result<std::unique_ptr<WalkPipelines>> create(Device& device, VkPipelineCache cache, const WalkOptions& options);
   ~WalkPipelines();
 
+  // Makes those from kCastSeveral on. Called before there are two instances; idempotent.
+  Status prepareForSeveral();
+  bool hasSeveral() const { return pipelines_.back() != VK_NULL_HANDLE; }
+
   VkDescriptorSetLayout setLayout() const { return setLayout_; }
   VkPipelineLayout layout() const { return layout_; }
   VkPipeline operator[](uint32_t pipeline) const { return pipelines_[pipeline]; }
 
  private:
-  explicit WalkPipelines(Device& device) : device_(device) {}
+  WalkPipelines(Device& device, VkPipelineCache cache, const WalkOptions& options)
+      : device_(device), cache_(cache), options_(options) {}
   Status createLayouts();
-  Status createPipeline(uint32_t index, VkPipelineCache cache, const WalkOptions& options);
+  Status createPipelines(uint32_t first, uint32_t last);
+  Status createPipeline(uint32_t index);
 
   Device& device_;
+  VkPipelineCache cache_;
+  WalkOptions options_;
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::array<VkPipeline, kWalkPipelineCount> pipelines_{};

@@ -137,7 +137,7 @@ Status WalkSets::grow(uint32_t chunkCount) {
   return {};
 }
 
-Status WalkSets::prepare(uint64_t completedSerial, uint32_t chunkCount) {
+Status WalkSets::prepare(uint64_t completedSerial, uint32_t instanceCount, uint32_t chunkCount) {
   completedSerial_ = completedSerial;
   for (Slot& slot : slots_) {
     if (slot.serial == 0 || slot.serial > completedSerial) continue;
@@ -149,7 +149,10 @@ Status WalkSets::prepare(uint64_t completedSerial, uint32_t chunkCount) {
     device_.destroyBuffer(retired.second);
     return true;
   });
-  return hasSpaceFor(chunkCount) ? Status() : grow(std::max(chunkCount, 2 * chunkCapacity_));
+  if (!hasSpaceFor(chunkCount)) {
+    if (const Status status = grow(std::max(chunkCount, 2 * chunkCapacity_)); !status) return status;
+  }
+  return instanceCount < 2 ? Status() : pipelines_->prepareForSeveral();
 }
 
 void WalkSets::readCounters(const Slot& slot) {
@@ -235,6 +238,7 @@ VkDescriptorSet WalkSets::record(VkCommandBuffer commandBuffer, const FrothWalkI
   current_ = static_cast<uint32_t>(free - slots_.begin());
   free->serial = serial;
   recordedSerial_ = serial;
+  instanceCount_ = static_cast<uint32_t>(instances.size());
   writeTables(current_, info, instances);
   updateSet(current_);
   recordCopies(commandBuffer, current_, info.stages);
@@ -247,13 +251,17 @@ void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const Walked
   const DeviceTable& vk = device_.table;
   bool isAny = false;
   for (uint32_t i = 0; i < instances.size(); ++i) {
-    if (instances[i].isSeeded) continue;
-    if (!isAny) bind(commandBuffer, kSeedPipeline);
+    const GpuAsset* asset = instances[i].placement.asset;
+    const bool isSeen = std::any_of(instances.begin(), instances.begin() + i, [&](const WalkedInstance& earlier) {
+      return earlier.placement.asset == asset;
+    });
+    if (instances[i].isSeeded || isSeen) continue;
+    if (!isAny) bind(commandBuffer, kSeedEntries);
     isAny = true;
     const SeedConstants constants{i};
     vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
                           &constants);
-    const uint32_t along = instances[i].placement.asset->walkEntriesAlong;
+    const uint32_t along = asset->walkEntriesAlong;
     vk.vkCmdDispatch(commandBuffer, groupsOver(along * along * along, gpu::kRayGroupSize), 1, 1);
   }
   if (!isAny) return;
@@ -271,7 +279,8 @@ void WalkSets::bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const {
 void WalkSets::recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress rays, VkDeviceAddress hits, uint32_t count,
                           FrothRayKind kind) const {
   const DeviceTable& vk = device_.table;
-  bind(commandBuffer, kind);
+  const bool isSeveral = instanceCount_ > 1 && pipelines_->hasSeveral();
+  bind(commandBuffer, kind + (isSeveral ? kCastSeveral : 0));
   const CastConstants constants{rays, hits, count, 0};
   vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
   const uint32_t groups = groupsOver(count, gpu::kRayGroupSize);

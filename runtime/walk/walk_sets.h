@@ -31,9 +31,9 @@ class WalkSets {
 
   VkDescriptorSetLayout layout() const { return pipelines_->setLayout(); }
 
-  // In frothUpdate: reads counters of complete frames, grows tables to so many chunks, frees what was replaced. On an error they
-  // are as before.
-  Status prepare(uint64_t completedSerial, uint32_t chunkCount);
+  // In frothUpdate: reads counters of complete frames, frees what was replaced, grows tables to so many chunks of all instances
+  // together. On an error they are as before.
+  Status prepare(uint64_t completedSerial, uint32_t instanceCount, uint32_t chunkCount);
   bool hasSpaceFor(uint32_t chunkCount) const { return chunkCount <= chunkCapacity_; }
 
   // info: defaults resolved. Instances: at most FROTH_WALK_MOST_INSTANCES, with space for all their chunks. Once per frame.
@@ -72,7 +72,8 @@ class WalkSets {
   std::vector<Slot> slots_;  // [frames in flight]
   GpuBuffer tables_, staging_, counters_;
   uint32_t chunkCapacity_ = 0;
-  uint32_t current_ = 0;  // slot of the newest recording
+  uint32_t current_ = 0;        // slot of the newest recording
+  uint32_t instanceCount_ = 0;  // in it
   uint64_t recordedSerial_ = 0, completedSerial_ = 0;
   std::vector<std::pair<uint64_t, GpuBuffer>> retired_;  // newest serial that may use it
   FrothWalkStatus status_{};

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "samples/flythrough/camera_path.h"
+#include "samples/host/camera_path.h"
 #include "samples/host/host.h"
 
 namespace froth {

@@ -2,9 +2,21 @@
 
 #include <utility>
 
-#include "samples/flythrough/vulkan_check.h"
+#include "samples/host/vulkan_check.h"
 
 namespace froth {
+namespace {
+
+#include "difference.comp.h"  // kDifferenceShader, made from difference.comp
+
+FrothRenderInfo renderInfo(const Pose& pose, const FrothImage& colour) {
+  FrothRenderInfo info{};
+  info.camera = cameraOf(pose, colour.extent);
+  info.colour = colour;
+  return info;
+}
+
+}  // namespace
 
 const char* nameOf(Picture picture) {
   switch (picture) {
@@ -34,7 +46,8 @@ Status Painter::setExtent(Scene& scene, VkExtent2D extent) {
     if (!made) return made.error();
     *image = *made;
   }
-  Result<std::unique_ptr<DifferencePass>> difference = DifferencePass::create(host_, first_, second_);
+  const PassResource images[] = {storageImage(first_), storageImage(second_)};
+  Result<std::unique_ptr<ComputePass>> difference = ComputePass::create(host_, kDifferenceShader, images);
   if (!difference) return difference.error();
   difference_ = std::move(*difference);
   return scene.setExtent(extent);
@@ -46,7 +59,7 @@ Status Painter::record(VkCommandBuffer commands, Scene& scene, Picture picture, 
   FrothImage target = host_.describe(first_);
   target.stageOut = readStage;
   target.accessOut = VK_ACCESS_2_TRANSFER_READ_BIT;
-  return scene.draw(commands, picture == Picture::kWalk ? Method::kWalk : Method::kRaster, pose, target);
+  return scene.draw(commands, picture == Picture::kWalk ? Method::kWalk : Method::kRaster, renderInfo(pose, target));
 }
 
 Status Painter::recordDifference(VkCommandBuffer commands, Scene& scene, const Pose& pose,
@@ -55,9 +68,9 @@ Status Painter::recordDifference(VkCommandBuffer commands, Scene& scene, const P
   raster.stageOut = walk.stageOut = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   raster.accessOut = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
   walk.accessOut = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
-  if (Status drawn = scene.draw(commands, Method::kRaster, pose, raster); !drawn) return drawn;
-  if (Status drawn = scene.draw(commands, Method::kWalk, pose, walk); !drawn) return drawn;
-  difference_->record(commands);
+  if (Status drawn = scene.draw(commands, Method::kRaster, renderInfo(pose, raster)); !drawn) return drawn;
+  if (Status drawn = scene.draw(commands, Method::kWalk, renderInfo(pose, walk)); !drawn) return drawn;
+  difference_->record(commands, first_.extent);
   imageBarrier(
       commands, first_.image,
       {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},

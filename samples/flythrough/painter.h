@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "samples/flythrough/difference_pass.h"
-#include "samples/flythrough/scene.h"
+#include "samples/host/compute_pass.h"
+#include "samples/host/scene.h"
 
 namespace froth {
 
@@ -36,7 +36,7 @@ class Painter {
 
   Host& host_;
   HostImage first_, second_;  // the second holds the walk while the two are compared
-  std::unique_ptr<DifferencePass> difference_;
+  std::unique_ptr<ComputePass> difference_;
 };
 
 }  // namespace froth

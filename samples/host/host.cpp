@@ -6,13 +6,13 @@
 namespace froth {
 namespace {
 
-uint32_t findComputeFamily(VkPhysicalDevice physicalDevice) {
+uint32_t findQueueFamily(VkPhysicalDevice physicalDevice, VkQueueFlags wanted) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, families.data());
   uint32_t family = 0;  // a suitable device has one
-  while (family + 1 < count && !(families[family].queueFlags & VK_QUEUE_COMPUTE_BIT)) {
+  while (family + 1 < count && (families[family].queueFlags & wanted) != wanted) {
     ++family;
   }
   return family;
@@ -64,13 +64,13 @@ Result<std::unique_ptr<Host>> Host::create(const HostOptions& options) {
   host->physicalDevice = choice->physicalDevice;
   host->info = choice->info;
   vkGetPhysicalDeviceMemoryProperties(host->physicalDevice, &state.memory);
-  if (const Status status = host->createDevice(options.deviceExtensions); !status) {
+  if (const Status status = host->createDevice(options); !status) {
     return status.error();
   }
   return host;
 }
 
-Status Host::createDevice(const std::vector<const char*>& extensions) {
+Status Host::createDevice(const HostOptions& options) {
   State& state = *state_;
   state.features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
   state.features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
@@ -91,7 +91,8 @@ Status Host::createDevice(const std::vector<const char*>& extensions) {
   state.features.features.shaderStorageImageExtendedFormats = offered.features.shaderStorageImageExtendedFormats;
   state.features13.dynamicRendering = offered13.dynamicRendering;
 
-  queueFamily = findComputeFamily(physicalDevice);
+  const VkQueueFlags graphics = options.useGraphics ? VK_QUEUE_GRAPHICS_BIT : 0;
+  queueFamily = findQueueFamily(physicalDevice, VK_QUEUE_COMPUTE_BIT | graphics);
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queueInfo{};
   queueInfo.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -103,8 +104,8 @@ Status Host::createDevice(const std::vector<const char*>& extensions) {
   deviceInfo.pNext = &state.features;
   deviceInfo.queueCreateInfoCount = 1;
   deviceInfo.pQueueCreateInfos = &queueInfo;
-  deviceInfo.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
-  deviceInfo.ppEnabledExtensionNames = extensions.data();
+  deviceInfo.enabledExtensionCount = static_cast<uint32_t>(options.deviceExtensions.size());
+  deviceInfo.ppEnabledExtensionNames = options.deviceExtensions.data();
   if (const VkResult code = vkCreateDevice(physicalDevice, &deviceInfo, nullptr, &device);
       code != VK_SUCCESS) {
     return failed("vkCreateDevice", code);
@@ -197,6 +198,18 @@ Status Host::State::runCommands(VkDevice onDevice, VkQueue onQueue,
 std::vector<std::string> Host::validationMessages() const {
   const std::lock_guard<std::mutex> lock(state_->log.mutex);
   return state_->log.messages;
+}
+
+void Host::forgetValidationMessages() {
+  const std::lock_guard<std::mutex> lock(state_->log.mutex);
+  state_->log.messages.clear();
+}
+
+Status Host::checkSilence() const {
+  const std::vector<std::string> messages = validationMessages();
+  if (messages.empty()) return {};
+  return makeError(ErrorKind::kUnsupported, "%zu validation messages; the first: %s", messages.size(),
+                   messages.front().c_str());
 }
 
 }  // namespace froth

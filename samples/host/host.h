@@ -27,7 +27,8 @@ Result<std::vector<HostDeviceInfo>> listHostDevices();
 
 struct HostOptions {
   std::string device;        // index or part of a name; empty: first suitable, GPUs before CPUs
-  bool useValidation = false; // core and synchronization validation; fails if the layer is not installed
+  bool useValidation = false;  // core and synchronization validation; fails if the layer is not installed
+  bool useGraphics = false;    // dynamic rendering into images; a queue family with graphics
   // What a window needs, if the caller makes one; names live as long as the call.
   std::vector<const char*> instanceExtensions = {};
   std::vector<const char*> deviceExtensions = {};
@@ -41,15 +42,24 @@ struct HostImage {
   VkExtent2D extent{};
 };
 
+struct HostBuffer {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  void* mapped = nullptr;  // host-visible and coherent, of the device's own memory where it has such
+};
+
 class Host {
  public:
   static Result<std::unique_ptr<Host>> create(const HostOptions& options);
   ~Host();
 
   FrothContextInfo contextInfo() const;  // ready for frothCreateContext; callbacks left null
-  // TRANSFER_SRC | TRANSFER_DST | SAMPLED, and STORAGE; of depth formats DEPTH_STENCIL_ATTACHMENT and a view of the depth.
+  // TRANSFER_SRC | TRANSFER_DST | SAMPLED, and STORAGE; of depth formats DEPTH_STENCIL_ATTACHMENT and a view of the depth; with
+  // useGraphics of all others COLOR_ATTACHMENT.
   Result<HostImage> createImage(VkFormat format, VkExtent2D extent);
   void destroyImage(HostImage& image);
+  Result<HostBuffer> createBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage);
+  void destroyBuffer(HostBuffer& buffer);
   FrothImage describe(const HostImage& image) const;  // UNDEFINED in, GENERAL out to a transfer read
 
   // Records, submits and waits. `record` gets the command buffer and the frame's serial (completedSerial is serial - 1).
@@ -66,6 +76,8 @@ class Host {
 
   // Messages of the validation layers so far (severity warning or error); tests expect none.
   std::vector<std::string> validationMessages() const;
+  void forgetValidationMessages();
+  Status checkSilence() const;  // an error with the first of them, if there is any
 
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
@@ -76,7 +88,7 @@ class Host {
 
  private:
   Host();
-  Status createDevice(const std::vector<const char*>& extensions);
+  Status createDevice(const HostOptions& options);
   struct State;
   std::unique_ptr<State> state_;
 };

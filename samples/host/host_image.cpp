@@ -170,6 +170,7 @@ Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent) {
   imageInfo.samples = VK_SAMPLE_COUNT_1_BIT;
   imageInfo.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                     (traits->isDepth() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_STORAGE_BIT);
+  if (state_->features13.dynamicRendering && !traits->isDepth()) imageInfo.usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   if (const VkResult code = vkCreateImage(device, &imageInfo, nullptr, &image.image); code != VK_SUCCESS) {
     return makeError(ErrorKind::kUnsupported, "vkCreateImage of %u x %u gives VkResult %d", extent.width,
                      extent.height, code);
@@ -250,6 +251,35 @@ Status Host::State::createTransferBuffer(VkDevice onDevice, VkDeviceSize bytes, 
   vkBindBufferMemory(onDevice, transfer.buffer, transfer.memory, 0);
   vkMapMemory(onDevice, transfer.memory, 0, VK_WHOLE_SIZE, 0, &transfer.mapped);
   return {};
+}
+
+Result<HostBuffer> Host::createBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage) {
+  VkBufferCreateInfo bufferInfo{};
+  bufferInfo.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  bufferInfo.size = bytes;
+  bufferInfo.usage = usage;
+  HostBuffer buffer;
+  if (const VkResult code = vkCreateBuffer(device, &bufferInfo, nullptr, &buffer.buffer); code != VK_SUCCESS) {
+    return makeError(ErrorKind::kUnsupported, "vkCreateBuffer gives VkResult %d", code);
+  }
+  VkMemoryRequirements requirements{};
+  vkGetBufferMemoryRequirements(device, buffer.buffer, &requirements);
+  constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  uint32_t type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  if (type == UINT32_MAX) type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent);
+  if (const Status status = allocateMemory(device, requirements, type, buffer.memory); !status) {
+    destroyBuffer(buffer);
+    return status.error();
+  }
+  vkBindBufferMemory(device, buffer.buffer, buffer.memory, 0);
+  vkMapMemory(device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped);
+  return buffer;
+}
+
+void Host::destroyBuffer(HostBuffer& buffer) {
+  vkDestroyBuffer(device, buffer.buffer, nullptr);
+  vkFreeMemory(device, buffer.memory, nullptr);
+  buffer = {};
 }
 
 Result<std::vector<float>> Host::readImage(const HostImage& image) {

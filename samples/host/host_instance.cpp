@@ -12,8 +12,10 @@ VKAPI_ATTR VkBool32 VKAPI_CALL logMessage(VkDebugUtilsMessageSeverityFlagBitsEXT
                                           VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
   auto* log = static_cast<ValidationLog*>(user);
+  std::string text;
+  for (uint32_t i = 0; i < data->cmdBufLabelCount; ++i) text += std::string("[") + data->pCmdBufLabels[i].pLabelName + "] ";
   const std::lock_guard<std::mutex> lock(log->mutex);
-  log->messages.emplace_back(data->pMessage);
+  log->messages.push_back(text + data->pMessage);
   return VK_FALSE;
 }
 

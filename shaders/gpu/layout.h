@@ -205,7 +205,7 @@ struct FrameBlock {
   float lensRange;
   uint lensKind, blocksX, blocksY;             // blocks of kBlockTiles x kBlockTiles tiles
   uint detailCount, lobeCount, hasHeights;     // of the asset; passes that are specialized on its shape do not read them
-  float exposure;
+  uint zero;                                   // 0, which compilers do not know
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
   FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] visible cells, their planes
@@ -232,7 +232,8 @@ struct FrameBlock {
   FROTH_ADDRESS(FloatQuadArray) rays;          // [row of the region, column] xyz: unit direction; 0: none
   FROTH_ADDRESS(FloatQuadArray) cones;         // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]
   FROTH_ADDRESS(UintArray) hits;               // [row of the region, column] kHitWords each, with kFlagHits
-  uint part, padding;                          // which instance of the recording it is
+  uint part;                                   // which instance of the recording it is
+  float exposure;
 };
 
 // A hit: where a pixel's ray was stopped, by bits of a float [world units] (+inf: nowhere), the instance (an index of

@@ -4,9 +4,9 @@
 #include "gpu/site_colour.glsl"
 #include "foam/cell.h"
 
-// A detail site with less than this part of all weights is not looked up for a colour: together they weigh less than a
-// hundredth of an 8-bit step.
-const float kLeastShare = 1e-5;
+// A detail site with less than this part of all weights is not looked up for a colour: the error is far below an
+// 8-bit step.
+const float kLeastShare = 1.0 / 1024.0;
 
 // A ray in the axes and units of the instance at hand.
 struct LocalRay {
@@ -27,11 +27,13 @@ vec3 faceQueryAt(MetCell met, Frame frame, vec3 direction, float t) {
 
 // Blended height of the face at a query point, in units of the radius.
 float heightAt(CellCode code, CellHeader header, vec3 query) {
+  uint siteCount = FRAME.detailCount;
+  float sharpness = FRAME.detailSharpness;
   float weightSum = 0.0;
   float heightSum = 0.0;
-  for (uint k = 0; k < FRAME.detailCount; ++k) {
-    DetailSite site = loadDetailSite(code, header, FRAME.detailCount, k);
-    float weight = detailWeight(query, site.place, FRAME.detailSharpness);
+  for (uint k = 0; k < siteCount; ++k) {
+    DetailSite site = loadDetailSite(code, header, siteCount, k);
+    float weight = detailWeight(query, site.place, sharpness);
     weightSum += weight;
     heightSum += weight * site.height;
   }
@@ -58,23 +60,27 @@ void clipByFace(CellCode code, MetCell met, Frame frame, vec3 direction, inout f
 vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, float behind, out uint shaded) {
   CellHeader header = loadCellHeader(code, met.cell.x, met.cell.y);
   uint siteCount = FRAME.detailCount;
+  float sharpness = FRAME.detailSharpness;
+  bool hasLobes = FRAME.lobeCount > 0;
   vec3 query = faceQueryAt(met, frame, direction, t);
   float weightSum = 0.0;
   for (uint k = 0; k < siteCount; ++k) {
-    weightSum += detailWeight(query, loadDetailSite(code, header, siteCount, k).place, FRAME.detailSharpness);
+    weightSum += detailWeight(query, loadDetailSite(code, header, siteCount, k).place, sharpness);
   }
   vec3 colour = vec3(0.0);
+  float shownSum = 0.0;
   shaded = 0;
   for (uint k = 0; k < siteCount; ++k) {
     DetailSite site = loadDetailSite(code, header, siteCount, k);
-    float weight = detailWeight(query, site.place, FRAME.detailSharpness);
+    float weight = detailWeight(query, site.place, sharpness);
     if (!(weight > kLeastShare * weightSum)) continue;
     vec3 toSite = met.centre + behind * direction +
                   met.radius * (frame.tangent * site.place.x + frame.bitangent * site.place.y);
-    colour += weight * siteColour(code, header, siteCount, FRAME.lobeCount > 0, k, site.base, normalize(toSite));
+    colour += weight * siteColour(code, header, siteCount, hasLobes, k, site.base, normalize(toSite));
+    shownSum += weight;
     ++shaded;
   }
-  return colour / flooredWeightSum(weightSum);
+  return colour / flooredWeightSum(weightSum) * (shownSum > 0.0 ? weightSum / shownSum : 0.0);
 }
 
 #endif

@@ -99,21 +99,27 @@ struct Exit {
 
 Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 direction, float key, inout WalkWork work) {
   vec3 centre = siteRadius.xyz - origin;
-  Exit found = Exit(kNoCell, kInfinity, key);
+  uint site = kNoCell;
+  float siteKey = key;
+  float clearance = 1.0, q = 0.0;  // of the nearest plane: t = clearance / q
   uvec2 row = neighbourRow(chunk, cell);
   work.neighbours += row.y - row.x;
   for (uint i = row.x; i < row.y; ++i) {
     uint other = neighbourAt(chunk, i);
     vec4 otherSite = siteRadiusOf(chunk, other);
     vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
-    float q = dot(direction, toNeighbour);
+    float otherQ = dot(direction, toNeighbour);
     float offset = radicalOffset(toNeighbour, siteRadius.w, otherSite.w);
-    float t = radicalClearance(centre, toNeighbour, offset) / q;
-    if (!(q > 0.0 && t < found.t)) continue;
+    float otherClearance = radicalClearance(centre, toNeighbour, offset);
+    if (!(otherQ > 0.0 && otherClearance * q < clearance * otherQ)) continue;
     float otherKey = orderAlong(direction, otherSite.xyz - origin);
-    if (otherKey > key) found = Exit(other, t, otherKey);
+    if (!(otherKey > key)) continue;
+    site = other;
+    siteKey = otherKey;
+    clearance = otherClearance;
+    q = otherQ;
   }
-  return found;
+  return Exit(site, site == kNoCell ? kInfinity : clearance / q, siteKey);
 }
 
 // Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it; false: there is none up to tEnd.
@@ -121,7 +127,8 @@ bool walkToCell(inout Stream stream, LocalRay ray, float tEnd, out MetCell met, 
                 inout WalkWork work) {
   Chunk chunk = loadChunk(stream.cell.x);
   vec3 origin = originIn(chunk, ray.origin);
-  while (stream.entry < tEnd && stream.steps < FRAME.maxSteps) {
+  uint maxSteps = FRAME.maxSteps;
+  while (stream.entry < tEnd && stream.steps < maxSteps) {
     ++stream.steps;
     ++work.cells;
     vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);

@@ -29,11 +29,11 @@ class Growth : public testing::Test {
     bool lostPairs() const { return counters.pairs > counters.pairsKept; }
   };
 
-  Growth()
+  explicit Growth(uint32_t cells = 400)
       : device_(*Device::create(vkGetInstanceProcAddr, sharedHost().instance, sharedHost().physicalDevice,
                                 sharedHost().device)),
         pipelines_(std::move(*RenderPipelines::create(device_, VK_NULL_HANDLE, {.checkIndices = true}))),
-        bytes_(*encodeAsset(bakeForTest(makeRandomFoam(400, 3, 2, 5)))),
+        bytes_(*encodeAsset(bakeForTest(makeRandomFoam(cells, 3, 2, 5)))),
         asset_("", bytes_, Layer::kViewDependence, &device_) {
     std::unique_ptr<UploadRing> ring = std::move(*UploadRing::create(device_, 16 << 20));
     while (!asset_.isDecoded()) {
@@ -114,6 +114,29 @@ class Growth : public testing::Test {
     space().buffers.freeRetired(lastSerial_);
   }
 
+  // What transients hold before their first use is anything.
+  void fillTransients(uint32_t word) {
+    submit([&](VkCommandBuffer commandBuffer, uint64_t) {
+      for (uint32_t i = 0; i < kViewBufferCount; ++i) {
+        const GpuBuffer& buffer = space().buffers[static_cast<ViewBuffer>(i)];
+        if (buffer.kind != BufferKind::kDevice || buffer.size == 0) continue;
+        device_.table.vkCmdFillBuffer(commandBuffer, buffer.buffer, 0, VK_WHOLE_SIZE, word);
+      }
+    });
+  }
+
+  void expectNoTraceOfTransients() {
+    for (const Method method : {Method::kRaster, Method::kWalk}) {
+      std::vector<float> colours[2];
+      for (const uint32_t word : {0u, 0xffffffffu}) {
+        startWith(wholeCapacity());
+        fillTransients(word);
+        colours[word & 1] = draw(method, viewFrom(4.5)).colour;
+      }
+      EXPECT_EQ(colours[0], colours[1]);
+    }
+  }
+
   // What the view does between frames.
   void growFor(const Drawn& drawn) {
     ViewCapacity capacity = space().buffers.capacity();
@@ -129,6 +152,16 @@ class Growth : public testing::Test {
   HostImage image_;
   uint64_t lastSerial_ = 0;
 };
+
+TEST_F(Growth, WhatTransientsHeldBeforeIsNotSeen) { expectNoTraceOfTransients(); }
+
+// Without neighbours, so without planes.
+class LoneCell : public Growth {
+ protected:
+  LoneCell() : Growth(1) {}
+};
+
+TEST_F(LoneCell, WhatTransientsHeldBeforeIsNotSeen) { expectNoTraceOfTransients(); }
 
 enum class Shortage { kCells, kPlanes, kSites, kPairs };
 

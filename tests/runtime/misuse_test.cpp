@@ -1,6 +1,7 @@
 // Every call with every struct of a wrong size, and with every handle stale.
 #include <cstdlib>
 
+#include "froth/froth_walk.h"
 #include "runtime_fixture.h"
 
 namespace froth {
@@ -102,6 +103,15 @@ TEST_F(Misuse, OfStructSizesThatGoIn) {
       "frothRasterize", [&](auto* info) { return frothRasterize(context_, view_, nullptr, info); });
   expectInputSizes<FrothRenderInfo>("frothWalk",
                                     [&](auto* info) { return frothWalk(context_, view_, nullptr, info); });
+  auto contextInfo = nullContextInfo();
+  contextInfo.walkShaders = 1;
+  FrothContext* walking = nullptr;
+  ASSERT_EQ(frothCreateContext(&contextInfo, &walking), FROTH_OK);
+  expectInputSizes<FrothWalkInfo>("frothRecordWalkSet", [&](auto* info) {
+    VkDescriptorSet set;
+    return frothRecordWalkSet(walking, nullptr, info, &set);
+  });
+  EXPECT_EQ(frothDestroyContext(walking, UINT64_MAX), FROTH_OK);
   FrothRay ray{};
   ray.direction[0] = 1;
   FrothRayHit hit;

@@ -166,6 +166,24 @@ TEST_F(RecordCallOnDevice, SurvivesClosingAndDestroyingWhatTheFrameUses) {
   EXPECT_EQ(status.deviceBytes, 0u) << "all memory is back once the frame is complete";
 }
 
+// The engine's own mistake, told as the engine's: its image, within the label of Froth's call.
+TEST_F(RecordCallOnDevice, AWrongEntryLayoutIsNamedWithTheImageAndTheCall) {
+  FrothRenderInfo info = renderInfo();
+  info.colour.layoutIn = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+  runFrame(0, [&](VkCommandBuffer commands) {
+    const FrothRenderInfo good = renderInfo();
+    EXPECT_EQ(frothRasterize(context_, view_, commands, &good), FROTH_OK);  // leaves the image in GENERAL
+    EXPECT_EQ(frothWalk(context_, view_, commands, &info), FROTH_OK);
+  });
+  const std::vector<std::string> messages = host_->validationMessages();
+  ASSERT_FALSE(messages.empty());
+  char image[32];
+  std::snprintf(image, sizeof(image), "%#llx", reinterpret_cast<unsigned long long>(image_.image));
+  EXPECT_THAT(messages[0], ::testing::HasSubstr("[froth walk]"));
+  EXPECT_THAT(messages[0], ::testing::HasSubstr(image));
+  host_->forgetValidationMessages();
+}
+
 TEST_F(RecordCallOnDevice, ShowsFourteenInstancesAndTellsOfMore) {
   const FrothAsset asset = openBytes(encodeSample());
   for (int i = 0; i < 14; ++i) createInstance(asset);

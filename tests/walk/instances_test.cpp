@@ -100,6 +100,33 @@ TEST_F(GpuInstances, AtTheSamePlaceMixTheirColours) {
   EXPECT_GE(psnr(images[0], images[1]), 60);
 }
 
+TEST_F(GpuInstances, ThatCrossAreThePictureOfTheRaster) {
+  stage_.place(asset_);
+  stage_.place(asset_, placeAt({0.3, -0.2, 0.5}, 0.8f, {0, 0.6f, 0, 0.8f}));
+  const View view = lookAt({0.2, 0.3, -1}, {0, 0, 3}, 64, 48, 0.4);
+  const Image rays = imageOf(stage_.cast(cameraRays(view), FROTH_RAY_RADIANCE, walkInfo(eyeOf(view))), view);
+  EXPECT_GE(psnr(rays, stage_.rasterize(view)), 60);
+}
+
+// What a dropped frame would have filled is filled again.
+TEST_F(GpuInstances, AreMetAfterTheFirstFrameThatSawThemWasDropped) {
+  stage_.place(asset_);
+  const FrothWalkInfo info = walkInfo();
+  uint64_t dropped = 0;
+  const Status submitted = sharedHost().submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
+    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0};
+    EXPECT_EQ(frothUpdate(stage_.context(), &frame, nullptr), FROTH_OK);
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    EXPECT_EQ(frothRecordWalkSet(stage_.context(), commands, &info, &set), FROTH_OK);
+    dropped = serial;
+    return makeError(ErrorKind::kUnsupported, "not submitted");
+  });
+  EXPECT_FALSE(submitted);
+  EXPECT_EQ(frothDropFrame(stage_.context(), dropped), FROTH_OK);
+  expectAsOnHost(raysThrough({-2, -2, 0}, {2, 2, 5}));
+  EXPECT_LT(stage_.status().descents, 2 * 2000u);
+}
+
 TEST_F(GpuInstances, BeyondWhatARayCanBeInAtOnceAreToldOf) {
   for (int i = 0; i < 5; ++i) stage_.place(asset_, placeAt({0.01 * i, 0, 0}));
   const auto hits = stage_.cast({gpuRay({0, 0, 0}, {0, 0, 1})}, FROTH_RAY_TRANSMITTANCE, info_);

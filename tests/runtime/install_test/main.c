@@ -1,5 +1,6 @@
 /* A C11 program without a device: asks, creates, opens a file that does not exist, and gets a message. */
 #include <froth/froth_query.h>
+#include <froth/froth_walk.h>
 #include <stdio.h>
 
 static void print_message(void* user, FrothSeverity severity, FrothResult code, const char* object, const char* text) {
