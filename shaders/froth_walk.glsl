@@ -36,8 +36,8 @@ struct FrothRay {
   vec3 direction;  // unit
   float tMin;      // where the ray begins,
   float tMax;      // and ends; FROTH_INFINITY: nowhere
-  float apex;      // colours are seen from the point that lies this far behind the origin. 0: the origin itself. Of a ray that a plane
-                   // mirror reflects: the length of its path from the camera, for there the mirrored camera stands
+  float apex;      // colours are seen from the point that lies this far behind the origin. 0: the origin itself. Of a ray that a
+                   // plane mirror reflects: the length of its path from the camera, for there the mirrored camera stands
   uint mask;       // meets instances whose FrothInstanceInfo::mask shares a bit with it
   uvec4 hint;      // where to look for the cell in which the walk begins: instance, chunk, cell of a hit nearby
 };
@@ -62,7 +62,7 @@ struct FrothWalk {
   float logTransmittance;
   float nextEntry;    // of the next instance that the ray enters, from the origin
   uint nextInstance;  // FROTH_NONE: there is no more
-  uint cells;  // walked through
+  uint cells;         // walked through
   Stream streams[FROTH_WALK_STREAMS];
 };
 
@@ -94,19 +94,12 @@ bool entersInstance(FrothRay ray, uint instance, out float entry) {
   if ((FRAME.mask & ray.mask) == 0) return false;
   LocalRay local = localRay(ray.origin, ray.direction);
   float scale = FRAME.scale;
-  vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
-  precise float tNear = ray.tMin;
-  precise float tFar = ray.tMax;
-  for (uint axis = 0; axis < 3; ++axis) {
-    float along = local.direction[axis];
-    precise float inverse = scale / (abs(along) > 1e-30 ? along : 1e-30);  // 0 * infinity would be NaN
-    precise float tLow = (low[axis] - local.origin[axis]) * inverse;
-    precise float tHigh = (high[axis] - local.origin[axis]) * inverse;
-    tNear = max(tNear, min(tLow, tHigh));
-    tFar = min(tFar, max(tLow, tHigh));
-  }
-  entry = tNear;
-  return tNear < tFar;
+  precise float tNear = ray.tMin / scale;
+  precise float tFar = ray.tMax / scale;
+  bool isMet = clipByBox(local, tNear, tFar);
+  precise float tWorld = tNear * scale;
+  entry = tWorld;
+  return isMet;
 }
 
 // The instance that the ray enters after the last one that was found, in order of entries, then numbers.
@@ -156,7 +149,7 @@ void startNextStream(inout FrothWalk walk, inout WalkWork work) {
   while (place < FROTH_WALK_STREAMS && walk.streams[place].isAhead) ++place;
   if (place < FROTH_WALK_STREAMS) {
     walk.streams[place] = startStream(walk.nextInstance, walk.start, walk.ray.direction, walk.nextEntry - walk.tStart,
-                                      walk.ray.hint, work);
+                                      walk.ray.tMax - walk.tStart, walk.ray.hint, work);
   } else {
     walk.hit.status = max(walk.hit.status, FROTH_WALK_STREAM_LIMIT);
   }
@@ -173,11 +166,10 @@ void noteStepLimit(inout FrothWalk walk) {
 // Where the next segment beyond what is passed begins.
 float advanceStreams(inout FrothWalk walk, bool isSeen, inout WalkWork work) {
   float first = FROTH_INFINITY;
-  float tEnd = walk.ray.tMax - walk.tStart;
   float behind = walk.tStart + walk.ray.apex;
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
     while (walk.streams[i].isAhead && walk.streams[i].tFar <= walk.passed) {
-      advanceStream(walk.streams[i], walk.start, walk.ray.direction, tEnd, isSeen, behind, work);
+      advanceStream(walk.streams[i], walk.start, walk.ray.direction, isSeen, behind, work);
       if (walk.streams[i].isCut) noteStepLimit(walk);
     }
     if (walk.streams[i].isAhead) first = min(first, max(walk.streams[i].tNear, walk.passed));
@@ -255,8 +247,8 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   return vec4(colour, opacity(logBefore - walk.logTransmittance));
 }
 
-// Premultiplied linear colour of the ray's part from where the walk stands to tEnd, and 1 - T of this part. Each part is decoded by
-// itself: over a part in front of it, it blends as colour += T * part, T *= 1 - part.w.
+// Premultiplied linear colour of the ray's part from where the walk stands to tEnd, and 1 - T of this part. Each part is decoded
+// by itself: over a part in front of it, it blends as colour += T * part, T *= 1 - part.w.
 vec4 frothRadianceSegment(inout FrothWalk walk, float tEnd) {
   vec4 part = gather(walk, tEnd, true, false);
   return vec4(linearPremultiplied(part.rgb, part.a), part.a);
@@ -286,8 +278,8 @@ bool frothClosest(FrothRay ray, out FrothHit hit) {
   return hit.distance < FROTH_INFINITY;
 }
 
-// The power cell (chunk, cell) of an instance of the set that holds a point. first: a cell near to it, or uvec2(FROTH_NONE). false:
-// there is no such instance.
+// The power cell (chunk, cell) of an instance of the set that holds a point. first: a cell near to it, or uvec2(FROTH_NONE).
+// false: there is no such instance.
 bool frothLocate(uint instance, vec3 point, uvec2 first, out uvec2 cell) {
   cell = uvec2(FROTH_NONE);
   if (!isVersionKnown() || instance >= walkSet.block.instanceCount) return false;

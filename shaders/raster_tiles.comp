@@ -23,6 +23,28 @@ shared uvec3 rows[kBatch];  // of planes: begin, split, end
 shared uint keptMask[kBatchWords];
 shared uint liveMask;
 
+// shadeHits in one piece: two rays per thread are 6 % slower through its two functions, single rays of a walk 6 % faster.
+void shadeHitsAtOnce(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
+                     inout Radiance radiances[kRays]) {
+  uint firstSite = visible * detailCount;
+  FaceView view = faceViewOf(cell, rays);
+  clipByFace(shading, view, firstSite, segments);
+  bool isAny = false;
+  vec3 queries[kRays];
+  for (uint r = 0; r < kRays; ++r) {
+    isAny = isAny || !isEmpty(segments[r]);
+    queries[r] = queryAt(view, r, segments[r].tNear);
+  }
+  if (!isAny) return;
+  vec3 colours[kRays];
+  coloursAt(shading, firstSite, queries, colours);
+  for (uint r = 0; r < kRays; ++r) {
+    if (isEmpty(segments[r])) continue;
+    countWork(kWorkColours, 1);
+    composite(shading, segments[r], cell.face.w, colours[r], cell.ball.w * cell.face.xyz, radiances[r]);
+  }
+}
+
 void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], inout Radiance radiances[kRays]) {
   vec4 ball = balls[index];
   Segment segments[kRays];
@@ -39,7 +61,7 @@ void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], 
   }
   if (!isAny) return;
   if (clipByPlanes(shading, rows[index], rays, segments)) {
-    shadeHits(shading, cells[index], shading.records.v[cells[index]], rays, segments, radiances);
+    shadeHitsAtOnce(shading, cells[index], shading.records.v[cells[index]], rays, segments, radiances);
   }
 }
 

@@ -1,8 +1,9 @@
-// The entries of a new asset: for each box of the grid the cell that holds its middle. A thread per entry.
+// The entries of a new asset: for each box of the grid the cell that holds its middle, and no marked part. A thread per entry.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
-#include "gpu/walk_stream.glsl"
+#include "gpu/descend.glsl"
+#include "gpu/walk_entries.glsl"
 
 layout(local_size_x = kRayGroupSize) in;
 
@@ -18,6 +19,5 @@ void main() {
   uvec3 entry = uvec3(index % along, index / along % along, index / (along * along));
   vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
   vec3 middle = low.xyz + (vec3(entry) + 0.5) / float(along) * (high.xyz - low.xyz);
-  uint steps;
-  FRAME.entries.v[index] = descendTo(middle, uvec2(0), steps);
+  FRAME.entries.v[index] = uvec4(cellHolding(middle, uvec2(0)), 0u, 0u);
 }

@@ -14,7 +14,7 @@ namespace froth {
 namespace {
 
 // Of the table of entries for rays.
-constexpr uint32_t kCellsPerEntry = 8, kMostEntriesAlong = 32;
+constexpr uint32_t kCellsPerEntry = 4, kMostEntriesAlong = 32;
 
 FrothStoredCamera toApi(const StoredCamera& camera) {
   FrothStoredCamera result{};
@@ -253,7 +253,7 @@ Status Asset::placeEntries() {
   const uint32_t count = std::clamp(static_cast<uint32_t>(along), 1u, kMostEntriesAlong);
   buffers_->buffers.reserve(buffers_->buffers.size() + 1);
   const Result<GpuBuffer> buffer = device_->createBuffer(MemoryUse::kAssets, BufferKind::kDevice,
-                                                         8 * VkDeviceSize{count} * count * count, "entries of walks");
+                                                         sizeof(gpu::uvec4) * VkDeviceSize{count} * count * count, "entries of walks");
   if (!buffer) {
     return buffer.error();
   }

@@ -7,6 +7,7 @@
 #include "shaders/gpu/walk_layout.h"
 #include "spirv/cast_rays.h"
 #include "spirv/cast_rays_several.h"
+#include "spirv/mark_entries.h"
 #include "spirv/seed_entries.h"
 
 namespace froth {
@@ -32,6 +33,7 @@ struct ShaderCode {
 
 ShaderCode codeOf(uint32_t index) {
   if (index == kSeedEntries) return {"seed_entries", seed_entries_spirv};
+  if (index == kMarkEntries) return {"mark_entries", mark_entries_spirv};
   if (index < kSeedEntries) return {"cast_rays", cast_rays_spirv};
   return {"cast_rays_several", cast_rays_several_spirv};
 }

@@ -13,7 +13,7 @@ struct WalkOptions {
 };
 
 // Those that cast rays of a FrothRayKind through one instance at a time begin at 0, through several at once at kCastSeveral.
-inline constexpr uint32_t kSeedEntries = 3, kCastSeveral = 4, kWalkPipelineCount = 7;
+inline constexpr uint32_t kSeedEntries = 3, kMarkEntries = 4, kCastSeveral = 5, kWalkPipelineCount = 8;
 
 struct CastConstants {
   VkDeviceAddress rays, hits;

@@ -138,7 +138,6 @@ Status WalkSets::grow(uint32_t chunkCount) {
 }
 
 Status WalkSets::prepare(uint64_t completedSerial, uint32_t instanceCount, uint32_t chunkCount) {
-  completedSerial_ = completedSerial;
   for (Slot& slot : slots_) {
     if (slot.serial == 0 || slot.serial > completedSerial) continue;
     readCounters(slot);
@@ -246,27 +245,36 @@ VkDescriptorSet WalkSets::record(VkCommandBuffer commandBuffer, const FrothWalkI
   return free->set;
 }
 
+// Of assets that are seen for the first time: the cells of all, then the marks of all.
 void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
                            VkPipelineStageFlags2 stages) const {
-  const DeviceTable& vk = device_.table;
-  bool isAny = false;
-  for (uint32_t i = 0; i < instances.size(); ++i) {
-    const GpuAsset* asset = instances[i].placement.asset;
-    const bool isSeen = std::any_of(instances.begin(), instances.begin() + i, [&](const WalkedInstance& earlier) {
-      return earlier.placement.asset == asset;
-    });
-    if (instances[i].isSeeded || isSeen) continue;
-    if (!isAny) bind(commandBuffer, kSeedEntries);
-    isAny = true;
-    const SeedConstants constants{i};
-    vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
-                          &constants);
-    const uint32_t along = asset->walkEntriesAlong;
-    vk.vkCmdDispatch(commandBuffer, groupsOver(along * along * along, gpu::kRayGroupSize), 1, 1);
+  const auto isNew = [&](const WalkedInstance& instance) {
+    const auto isSame = [&](const WalkedInstance& other) { return other.placement.asset == instance.placement.asset; };
+    return !instance.isSeeded && &*std::find_if(instances.begin(), instances.end(), isSame) == &instance;
+  };
+  if (std::none_of(instances.begin(), instances.end(), isNew)) return;
+  for (const uint32_t pipeline : {kSeedEntries, kMarkEntries}) {
+    bind(commandBuffer, pipeline);
+    for (uint32_t i = 0; i < instances.size(); ++i) {
+      if (isNew(instances[i])) recordSeeds(commandBuffer, pipeline, i, *instances[i].placement.asset);
+    }
+    device_.table.recordMemoryBarrier(
+        commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+        stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
   }
-  if (!isAny) return;
-  vk.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                         stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+}
+
+void WalkSets::recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uint32_t instance, const GpuAsset& asset) const {
+  const DeviceTable& vk = device_.table;
+  const SeedConstants constants{instance};
+  vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
+  const uint32_t along = asset.walkEntriesAlong;
+  uint32_t mostCells = 0;
+  for (const GpuChunk& chunk : asset.chunks) mostCells = std::max(mostCells, chunk.liveCount);
+  const bool isByEntry = pipeline == kSeedEntries;
+  const uint32_t groups = groupsOver(isByEntry ? along * along * along : mostCells, gpu::kRayGroupSize);
+  vk.vkCmdDispatch(commandBuffer, groups, isByEntry ? 1 : static_cast<uint32_t>(asset.chunks.size()), 1);
 }
 
 void WalkSets::bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const {

@@ -62,6 +62,7 @@ class WalkSets {
   void updateSet(uint32_t slot);
   void seedEntries(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
                    VkPipelineStageFlags2 stages) const;
+  void recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uint32_t instance, const GpuAsset& asset) const;
   void bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const;
   void recordCopies(VkCommandBuffer commandBuffer, uint32_t slot, VkPipelineStageFlags2 stages) const;
 
@@ -74,7 +75,7 @@ class WalkSets {
   uint32_t chunkCapacity_ = 0;
   uint32_t current_ = 0;        // slot of the newest recording
   uint32_t instanceCount_ = 0;  // in it
-  uint64_t recordedSerial_ = 0, completedSerial_ = 0;
+  uint64_t recordedSerial_ = 0;
   std::vector<std::pair<uint64_t, GpuBuffer>> retired_;  // newest serial that may use it
   FrothWalkStatus status_{};
 };

@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t kShadowMapEdge = 2048;
 
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-constexpr ImageUse kNewDepth{VK_IMAGE_LAYOUT_UNDEFINED, kCompute, VK_ACCESS_2_NONE};  // after the reads of the frame before
+constexpr ImageUse kNew{VK_IMAGE_LAYOUT_UNDEFINED, kCompute, VK_ACCESS_2_NONE};  // after the reads of the frame before
 constexpr ImageUse kDepthTarget{
     VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
@@ -186,10 +186,10 @@ void RoomRenderer::recordMeshes(VkCommandBuffer commands, const RoomShot& shot) 
   const VkExtent2D extent = images_.result.extent;
   constexpr VkImageAspectFlags kDepthAspect = VK_IMAGE_ASPECT_DEPTH_BIT;
   for (const HostImage* depth : {&images_.shadowMap, &images_.depth, &images_.mirroredDepth}) {
-    imageBarrier(commands, depth->image, kNewDepth, kDepthTarget, kDepthAspect);
+    imageBarrier(commands, depth->image, kNew, kDepthTarget, kDepthAspect);
   }
   for (const HostImage* surface : {&images_.surface, &images_.mirroredSurface}) {
-    imageBarrier(commands, surface->image, kNewDepth, kColourTarget);
+    imageBarrier(commands, surface->image, kNew, kColourTarget);
   }
   meshes_->record(commands, MeshPass::Kind::kShadow, shot.room, {sun_.clipFromWorld, glm::dvec3(0), nullptr},
                   {images_.shadowMap.view, VK_NULL_HANDLE, images_.shadowMap.extent});
@@ -226,7 +226,7 @@ Status RoomRenderer::recordFoam(VkCommandBuffer commands, Scene& scene, const Ro
 void RoomRenderer::recordLight(VkCommandBuffer commands, VkDescriptorSet walkSet, VkPipelineStageFlags2 readStage) const {
   const VkExtent2D extent = images_.result.extent;
   for (const HostImage* image : {&images_.sunlight, &images_.surround, &images_.reflection}) {
-    imageBarrier(commands, image->image, {VK_IMAGE_LAYOUT_UNDEFINED, kCompute, VK_ACCESS_2_NONE}, kWritten);
+    imageBarrier(commands, image->image, kNew, kWritten);
   }
   imageBarrier(commands, images_.result.image, {VK_IMAGE_LAYOUT_UNDEFINED, readStage, VK_ACCESS_2_NONE}, kWritten);
   passes_.sun->record(commands, extent, walkSet);

@@ -205,7 +205,7 @@ struct FrameBlock {
   float lensRange;
   uint lensKind, blocksX, blocksY;             // blocks of kBlockTiles x kBlockTiles tiles
   uint detailCount, lobeCount, hasHeights;     // of the asset; passes that are specialized on its shape do not read them
-  uint zero;                                   // 0, which compilers do not know
+  float exposure;
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
   FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] visible cells, their planes
@@ -233,7 +233,7 @@ struct FrameBlock {
   FROTH_ADDRESS(FloatQuadArray) cones;         // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]
   FROTH_ADDRESS(UintArray) hits;               // [row of the region, column] kHitWords each, with kFlagHits
   uint part;                                   // which instance of the recording it is
-  float exposure;
+  uint zero;                                   // 0, which compilers do not know
 };
 
 // A hit: where a pixel's ray was stopped, by bits of a float [world units] (+inf: nowhere), the instance (an index of

@@ -163,21 +163,10 @@ bool shadeSegments(Shading shading, uint visible, CellRecord cell, vec3 rays[kRa
   return isAny;
 }
 
-// shadeSegments and composite in one: called apart they cost the raster 6 % more.
 void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
                inout Radiance radiances[kRays]) {
-  uint firstSite = visible * detailCount;
-  FaceView view = faceViewOf(cell, rays);
-  clipByFace(shading, view, firstSite, segments);
-  bool isAny = false;
-  vec3 queries[kRays];
-  for (uint r = 0; r < kRays; ++r) {
-    isAny = isAny || !isEmpty(segments[r]);
-    queries[r] = queryAt(view, r, segments[r].tNear);
-  }
-  if (!isAny) return;
   vec3 colours[kRays];
-  coloursAt(shading, firstSite, queries, colours);
+  if (!shadeSegments(shading, visible, cell, rays, segments, colours)) return;
   for (uint r = 0; r < kRays; ++r) {
     if (isEmpty(segments[r])) continue;
     countWork(kWorkColours, 1);

@@ -53,7 +53,8 @@ struct WalkInstance {
   uint entriesAlong;  // edge of the grid of entries
   uint padding;
   FROTH_ADDRESS(ChunkArray) chunks;       // [chunkCount]
-  FROTH_ADDRESS(UintPairArray) entries;   // [entriesAlong^3] over the box, x first: chunk, local index of the cell at its middle
+  FROTH_ADDRESS(UintQuadArray) entries;   // [entriesAlong^3] over the box, x first: chunk, local index of the cell at its middle,
+                                          // 64 bits of parts (gpu/walk_entries.glsl)
 };
 
 #if !defined(__cplusplus)

@@ -7,13 +7,15 @@
 #define FROTH_GPU_WALK_STREAM_GLSL
 #include "gpu/descend.glsl"
 #include "gpu/walk_cell.glsl"
+#include "gpu/walk_entries.glsl"
 
-// t counts from the walk's start, in world units; only `entry` is in the instance's.
+// t counts from the walk's start, in world units; only `entry` and `end` are in the instance's.
 struct Stream {
   uint instance;
   uvec2 cell;   // where the walk stands,
   float entry;  // where the ray enters it,
   float key;    // and its order along the ray
+  float end;    // where no more is to come
   uint steps;
   bool isAhead;  // the segment is one, or will be; else there are no more,
   bool isCut;    // but for the limit of steps
@@ -44,13 +46,7 @@ LocalRay localRay(vec3 origin, vec3 direction) {
 bool isCell(uvec2 cell) { return cell.x < FRAME.chunkCount && cell.y < FRAME.chunks.v[cell.x].cellCount; }
 
 // A cell near a point of the box.
-uvec2 entryCell(vec3 point) {
-  vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
-  float along = float(FRAME.entriesAlong);
-  vec3 place = clamp(floor((point - low.xyz) / (high.xyz - low.xyz) * along), vec3(0.0), vec3(along - 1.0));
-  uvec3 entry = min(uvec3(place), uvec3(FRAME.entriesAlong - 1));
-  return FRAME.entries.v[(entry.z * FRAME.entriesAlong + entry.y) * FRAME.entriesAlong + entry.x];
-}
+uvec2 entryCell(vec3 point) { return FRAME.entries.v[entryOfPart(partAt(placeInParts(point)))].xy; }
 
 // The power cell that holds a point; first: where to look, if it is a cell.
 uvec2 locateFrom(vec3 point, uvec2 first, out uint steps) {
@@ -69,15 +65,35 @@ vec3 originIn(Chunk chunk, vec3 origin) {
   return local;
 }
 
-// entry: where the ray enters the instance [world units from its origin]. hint: as FrothRay::hint.
-Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, uvec4 hint, inout WalkWork work) {
+// Cuts [tNear, tFar] by the instance's box; false: nothing is left.
+bool clipByBox(LocalRay ray, inout float tNear, inout float tFar) {
+  vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
+  for (uint axis = 0; axis < 3; ++axis) {
+    float along = ray.direction[axis];
+    precise float inverse = 1.0 / (abs(along) > 1e-30 ? along : 1e-30);  // 0 * infinity would be NaN
+    precise float tLow = (low[axis] - ray.origin[axis]) * inverse;
+    precise float tHigh = (high[axis] - ray.origin[axis]) * inverse;
+    tNear = max(tNear, min(tLow, tHigh));
+    tFar = min(tFar, max(tLow, tHigh));
+  }
+  return tNear < tFar;
+}
+
+// In the box from `entry` to tEnd [world units from the ray's origin], but for what is empty. hint: as FrothRay::hint.
+Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, float tEnd, uvec4 hint, inout WalkWork work) {
   instanceAtHand = instance;
   LocalRay ray = localRay(origin, direction);
   Stream stream;
   stream.instance = instance;
-  stream.entry = entry / FRAME.scale;
-  uint steps;
-  stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, hint.x == instance ? hint.yz : uvec2(kNoCell), steps);
+  float tNear = entry / FRAME.scale, tFar = tEnd / FRAME.scale;
+  clipByBox(ray, tNear, tFar);
+  stream.entry = skipEmptyParts(ray.origin, ray.direction, tNear, tFar);
+  stream.end = tFar - skipEmptyParts(ray.origin + tFar * ray.direction, -ray.direction, 0.0, tFar - stream.entry);
+  bool isHinted = hint.x == instance && stream.entry == tNear;  // it lies where the ray begins
+  uint steps = 0;
+  stream.cell = uvec2(0);
+  if (stream.entry < stream.end)
+    stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, isHinted ? hint.yz : uvec2(kNoCell), steps);
   work.descents += steps;
   Chunk chunk = loadChunk(stream.cell.x);
   stream.key = orderAlong(ray.direction, siteRadiusOf(chunk, stream.cell.y).xyz - originIn(chunk, ray.origin));
@@ -109,9 +125,10 @@ Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 directi
     vec4 otherSite = siteRadiusOf(chunk, other);
     vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
     float otherQ = dot(direction, toNeighbour);
+    if (!(otherQ > 0.0)) continue;
     float offset = radicalOffset(toNeighbour, siteRadius.w, otherSite.w);
     float otherClearance = radicalClearance(centre, toNeighbour, offset);
-    if (!(otherQ > 0.0 && otherClearance * q < clearance * otherQ)) continue;
+    if (!(otherClearance * q < clearance * otherQ)) continue;
     float otherKey = orderAlong(direction, otherSite.xyz - origin);
     if (!(otherKey > key)) continue;
     site = other;
@@ -122,13 +139,13 @@ Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 directi
   return Exit(site, site == kNoCell ? kInfinity : clearance / q, siteKey);
 }
 
-// Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it; false: there is none up to tEnd.
-bool walkToCell(inout Stream stream, LocalRay ray, float tEnd, out MetCell met, out float tNear, out float tFar,
+// Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it; false: there is none.
+bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tNear, out float tFar,
                 inout WalkWork work) {
   Chunk chunk = loadChunk(stream.cell.x);
   vec3 origin = originIn(chunk, ray.origin);
   uint maxSteps = FRAME.maxSteps;
-  while (stream.entry < tEnd && stream.steps < maxSteps) {
+  while (stream.entry < stream.end && stream.steps < maxSteps) {
     ++stream.steps;
     ++work.cells;
     vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);
@@ -137,7 +154,7 @@ bool walkToCell(inout Stream stream, LocalRay ray, float tEnd, out MetCell met, 
     bool isMet = stream.cell.y < chunk.liveCount && intersectBall(met.centre, met.radius, ray.direction, tNear, tFar);
     if (isMet) {
       tNear = max(tNear, stream.entry);
-      tFar = min(tFar, min(exit.t, tEnd));
+      tFar = min(tFar, min(exit.t, stream.end));
     }
     stream.entry = max(exit.t, stream.entry);
     if (exit.site != kNoCell) {
@@ -150,19 +167,18 @@ bool walkToCell(inout Stream stream, LocalRay ray, float tEnd, out MetCell met, 
     }
     if (isMet && tNear < tFar) return true;
   }
-  stream.isCut = stream.entry < tEnd;
+  stream.isCut = stream.entry < stream.end;
   return false;
 }
 
 // On to the next segment, if it is one: a face may leave nothing of it. isSeen: with its colour, seen from `behind` the origin.
-void advanceStream(inout Stream stream, vec3 origin, vec3 direction, float tEnd, bool isSeen, float behind,
-                   inout WalkWork work) {
+void advanceStream(inout Stream stream, vec3 origin, vec3 direction, bool isSeen, float behind, inout WalkWork work) {
   instanceAtHand = stream.instance;
   LocalRay ray = localRay(origin, direction);
   float scale = FRAME.scale;
   MetCell met;
   float tNear, tFar;
-  stream.isAhead = walkToCell(stream, ray, tEnd / scale, met, tNear, tFar, work);
+  stream.isAhead = walkToCell(stream, ray, met, tNear, tFar, work);
   stream.tFar = -kInfinity;
   if (!stream.isAhead) return;
   ++work.met;

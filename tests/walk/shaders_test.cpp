@@ -1,6 +1,8 @@
 // froth_walk.glsl in shaders of an engine: a compute and a fragment shader with names of their own.
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <vulkan/vulkan.h>
@@ -83,6 +85,12 @@ class EngineShader : public testing::Test {
   FrothAsset asset_;
   FrothInstance instance_{};
 };
+
+TEST(FrothWalkShader, HasTheAbiOfTheHeader) {
+  std::ifstream file(FROTH_SHADER_DIR "/froth_walk.glsl");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  EXPECT_NE(text.find("#define FROTH_WALK_ABI " + std::to_string(FROTH_WALK_ABI) + "u\n"), std::string::npos);
+}
 
 // The decode to linear light is not that of a sum: only opacities are exact, and colours where one part is empty.
 TEST_F(EngineShader, SegmentsBlendToTheWholeRay) {

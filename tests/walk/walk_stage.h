@@ -27,7 +27,8 @@ glm::dvec3 eyeOf(const View& view);
 // Premultiplied colour and opacity of hits, pixel by pixel.
 Image imageOf(const std::vector<FrothGpuHit>& hits, const View& view);
 
-// Assets and instances of the one context that these tests share: its pipelines take long to make. Any failing call, validation message or index violation fails the test.
+// Assets and instances of the one context that these tests share: its pipelines take long to make. Any failing call, validation
+// message or index violation fails the test.
 class WalkStage {
  public:
   WalkStage();

@@ -17,7 +17,7 @@
  *          one thread at a time per context: everything else.
  *
  * Results, requirements, contexts, memory: froth_context.h, which this includes. Single rays, points and spheres on the CPU:
- * froth_query.h; rays on the GPU: froth_walk.h; into the engine's images: froth_composite.h. docs/EMBEDDING.md leads through it.
+ * froth_query.h; rays on the GPU: froth_walk.h. Into the engine's images: froth_composite.h. docs/EMBEDDING.md leads through it.
  */
 #ifndef FROTH_FROTH_H
 #define FROTH_FROTH_H

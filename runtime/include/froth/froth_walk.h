@@ -1,7 +1,7 @@
 /* Froth, rays on the GPU: in the caller's own shaders (froth_walk.glsl), or cast by Froth from a buffer.
  *
- * For shadows, mirrors, probes, picking. A frame: frothUpdate -> frothRecordUpload(cmd) -> frothRecordWalkSet(cmd) -> the caller's
- * passes with the set bound, or frothRecordRays(cmd). Needs FrothContextInfo::walkShaders. Near tests
+ * For shadows, mirrors, probes, picking. A frame: frothUpdate -> frothRecordUpload(cmd) -> frothRecordWalkSet(cmd) -> the
+ * caller's passes with the set bound, or frothRecordRays(cmd). Needs FrothContextInfo::walkShaders. Near tests
  * (FrothRenderInfo::nearRatio) do not apply: they belong to cameras.
  *
  * Threads: one at a time per context, as frothUpdate. */

@@ -1,0 +1,49 @@
+// Marks the parts of the grid that the balls of a new asset's live cells meet. A thread per cell; a row of workgroups per chunk.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#include "gpu/walk_entries.glsl"
+
+layout(local_size_x = kRayGroupSize) in;
+
+layout(push_constant) uniform Push {
+  uint instance;
+} push;
+
+const uint kMostOwnParts = 4096;  // a larger ball marks whole entries
+
+void markPart(uvec3 part) {
+  uint entry = entryOfPart(part);
+  uint bit = bitOfPart(part);
+  if (bit < 32) atomicOr(FRAME.entries.v[entry].z, 1u << bit);
+  else atomicOr(FRAME.entries.v[entry].w, 1u << (bit - 32));
+}
+
+void markEntry(uvec3 part) {
+  uint entry = entryOfPart(part);
+  atomicOr(FRAME.entries.v[entry].z, ~0u);
+  atomicOr(FRAME.entries.v[entry].w, ~0u);
+}
+
+void main() {
+  instanceAtHand = push.instance;
+  uint cell = gl_GlobalInvocationID.x;
+  Chunk chunk = loadChunk(gl_WorkGroupID.y);
+  if (cell >= chunk.liveCount) return;
+  Ball ball = ballOfSite(chunk, cell);
+  vec3 reach = ball.radius * partsPerUnit() + kPartGuard;
+  uvec3 low = partAt(placeInParts(ball.centre) - reach);
+  uvec3 high = partAt(placeInParts(ball.centre) + reach);
+  uvec3 extent = high - low + 1;
+  bool isLarge = extent.x * extent.y * extent.z > kMostOwnParts;
+  uint step = isLarge ? kPartsAlong : 1;
+  if (isLarge) low -= low % kPartsAlong;
+  for (uint z = low.z; z <= high.z; z += step) {
+    for (uint y = low.y; y <= high.y; y += step) {
+      for (uint x = low.x; x <= high.x; x += step) {
+        if (isLarge) markEntry(uvec3(x, y, z));
+        else markPart(uvec3(x, y, z));
+      }
+    }
+  }
+}
