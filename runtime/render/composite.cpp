@@ -66,11 +66,13 @@ void recordComposite(const DeviceTable& vk, VkCommandBuffer commandBuffer, const
   const VkDescriptorImageInfo images[] = {{VK_NULL_HANDLE, info.target.view, kImageBlended.layout},
                                           {VK_NULL_HANDLE, info.foam.view, kImageSampled.layout},
                                           {VK_NULL_HANDLE, shadow, kImageSampled.layout}};
+  vk.beginLabel(commandBuffer, "froth composite");
   recordBarriers(vk, commandBuffer, info, entryBarrier);
   pass.bind(commandBuffer, sets.update(set, images), std::as_bytes(std::span(&constants, 1)));
   vk.vkCmdDispatch(commandBuffer, groupsOver(region.extent.width, gpu::kSubTileSize),
                    groupsOver(region.extent.height, gpu::kSubTileSize), 1);
   recordBarriers(vk, commandBuffer, info, exitBarrier);
+  vk.endLabel(commandBuffer);
 }
 
 }  // namespace froth

@@ -160,9 +160,11 @@ void DepthExport::draw(VkCommandBuffer commandBuffer, VkDescriptorSet set, const
 
 void DepthExport::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const FrothDepthExportInfo& info,
                          const VkRect2D& region, bool isReversed) const {
+  device_.table.beginLabel(commandBuffer, "froth depth export");
   recordBarriers(device_.table, commandBuffer, info, entryBarrier);
   draw(commandBuffer, set, info.attachment, region, isReversed);
   recordBarriers(device_.table, commandBuffer, info, exitBarrier);
+  device_.table.endLabel(commandBuffer);
 }
 
 }  // namespace froth

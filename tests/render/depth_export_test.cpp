@@ -76,6 +76,8 @@ class DepthExport : public testing::TestWithParam<Form> {
   static float rounded(float depth) {
     return GetParam().format == VK_FORMAT_D16_UNORM ? std::round(depth * 65535) / 65535 : depth;
   }
+  // Devices round as they like.
+  static float tolerance() { return GetParam().format == VK_FORMAT_D16_UNORM ? 1.01f / 65535 : 1e-7f; }
   static float nearer(float a, float b) { return GetParam().isReversed ? std::max(a, b) : std::min(a, b); }
   static float farEnd() { return GetParam().isReversed ? 0.0f : 1.0f; }
 
@@ -97,7 +99,7 @@ TEST_P(DepthExport, LeavesWhatIsNearer) {
   }
   ASSERT_LT(least, most) << "the foam has no depth";
   for (uint32_t i = 0; i < kPixels; ++i) {
-    EXPECT_NEAR(depths[i], rounded(foam_[i]), 1e-7) << "of an empty attachment";
+    ASSERT_NEAR(depths[i], rounded(foam_[i]), tolerance()) << "of an empty attachment";
     const float across = static_cast<float>(i % 10) / 9;
     engine[i] = i % 3 == 0 ? farEnd() : rounded(least + across * (most - least));
   }
@@ -105,7 +107,7 @@ TEST_P(DepthExport, LeavesWhatIsNearer) {
   uint32_t ofFoam = 0, ofEngine = 0;
   for (uint32_t i = 0; i < kPixels; ++i) {
     const float expected = nearer(engine[i], foam_[i]);
-    ASSERT_NEAR(found[i], rounded(expected), GetParam().format == VK_FORMAT_D16_UNORM ? 1.01 / 65535 : 1e-7) << i;
+    ASSERT_NEAR(found[i], rounded(expected), tolerance()) << i;
     ofFoam += expected != engine[i];
     ofEngine += expected == engine[i] && engine[i] != farEnd() && foam_[i] != farEnd();
   }
@@ -120,7 +122,7 @@ TEST_P(DepthExport, LeavesPixelsThatWereNotDrawnAlone) {
   for (uint32_t i = 0; i < kPixels; ++i) {
     const uint32_t x = i % kExtent.width, y = i / kExtent.width;
     const bool isInside = x >= 20 && y >= 15 && x < 60 && y < 45;
-    ASSERT_NEAR(found[i], isInside ? rounded(foam_[i]) : farEnd(), 1e-7) << x << ", " << y;
+    ASSERT_NEAR(found[i], isInside ? rounded(foam_[i]) : farEnd(), isInside ? tolerance() : 0) << x << ", " << y;
     ofFoam += isInside && foam_[i] != farEnd();
   }
   EXPECT_GT(ofFoam, 100u);
