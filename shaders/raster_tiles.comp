@@ -38,11 +38,7 @@ void shadeHitsAtOnce(Shading shading, uint visible, CellRecord cell, vec3 rays[k
   if (!isAny) return;
   vec3 colours[kRays];
   coloursAt(shading, firstSite, queries, colours);
-  for (uint r = 0; r < kRays; ++r) {
-    if (isEmpty(segments[r])) continue;
-    countWork(kWorkColours, 1);
-    composite(shading, segments[r], cell.face.w, colours[r], cell.ball.w * cell.face.xyz, radiances[r]);
-  }
+  compositeCell(shading, visible, cell, segments, colours, radiances);
 }
 
 void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], inout Radiance radiances[kRays]) {

@@ -163,16 +163,21 @@ bool shadeSegments(Shading shading, uint visible, CellRecord cell, vec3 rays[kRa
   return isAny;
 }
 
-void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
-               inout Radiance radiances[kRays]) {
-  vec3 colours[kRays];
-  if (!shadeSegments(shading, visible, cell, rays, segments, colours)) return;
+void compositeCell(Shading shading, uint visible, CellRecord cell, Segment segments[kRays], vec3 colours[kRays],
+                   inout Radiance radiances[kRays]) {
   for (uint r = 0; r < kRays; ++r) {
     if (isEmpty(segments[r])) continue;
     countWork(kWorkColours, 1);
     if (isFull && radiances[r].distance == kInfinity) radiances[r].cell = visible;
     composite(shading, segments[r], cell.face.w, colours[r], cell.ball.w * cell.face.xyz, radiances[r]);
   }
+}
+
+void shadeHits(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
+               inout Radiance radiances[kRays]) {
+  vec3 colours[kRays];
+  if (!shadeSegments(shading, visible, cell, rays, segments, colours)) return;
+  compositeCell(shading, visible, cell, segments, colours, radiances);
 }
 
 #endif
