@@ -194,8 +194,12 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
                          "lensClasses: %#x, but the context was made for %#x; raise FrothContextInfo::lensClasses",
                          info.lensClasses, lensClasses_);
   }
+  if (info.eyeCount > kMostEyes) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "eyeCount: %u; at most %u", info.eyeCount, kMostEyes);
+  }
   auto view = std::make_unique<View>();
   view->maxExtent = extent;
+  view->eyeCount = info.eyeCount == 0 ? 1 : info.eyeCount;
   view->lensClasses = info.lensClasses;
   view->measurePasses = info.measurePasses != 0;
   view->keepsHits = info.keepsHits != 0;

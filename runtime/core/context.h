@@ -94,6 +94,11 @@ class Context {
     VkRect2D region{};
     bool isProjection = true, isDepthReversed = false;
   };
+  struct Eye {
+    uint64_t renderedSerials[2] = {0, 0};  // newest frame per RenderMethod
+    DrawnView drawn{};                     // by the newest of those
+    uint64_t compositedSerial = 0, exportedSerial = 0;  // newest frames of frothComposite, frothRecordDepthExport
+  };
   struct View {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
@@ -102,9 +107,8 @@ class Context {
     std::vector<RenderInstance> prepared;    // in the newest frothUpdate: those it has buffers for, if they fit the budget
     std::vector<RenderInstance> visible;     // of the record call under way; has room for all
     std::string preparationError;            // sent already
-    uint64_t renderedSerials[2] = {0, 0};    // newest frame per RenderMethod
-    DrawnView drawn{};                       // by the newest of those
-    uint64_t compositedSerial = 0, exportedSerial = 0;  // newest frames of frothComposite, frothRecordDepthExport
+    uint32_t eyeCount = 1;
+    Eye eyes[kMostEyes];
     std::vector<std::pair<uint64_t, uint32_t>>
         bits;  // recorded frames that left something out: serial, FrothViewBit
   };
@@ -123,7 +127,9 @@ class Context {
   void runFrame(FrothFrameStatus& status);
   void loadAssets();
   void prepareView(View& view);
-  View* findDrawn(FrothView handle, const char* call, uint64_t View::*newestCall, FrothResult& result);
+  // The view, if this eye of it was drawn in this frame and the call was not made yet; else null, and a message.
+  View* findDrawn(FrothView handle, uint32_t eye, const char* call, uint64_t Eye::*newestCall, FrothResult& result);
+  FrothResult checkEye(const View& view, uint32_t eye, const char* call) const;
   FrothResult checkHits(const View& view, const FrothRenderInfo& info, const char* call) const;
   void prepareWalks();
   FrothResult checkWalks(const char* call) const;

@@ -58,18 +58,21 @@ FrothResult checkDepthExport(const Messages& messages, const char* call, VkForma
 
 }  // namespace
 
-// The view, if it was drawn in this frame and the call was not made yet; else null, and a message.
-Context::View* Context::findDrawn(FrothView handle, const char* call, uint64_t View::*newestCall, FrothResult& result) {
+Context::View* Context::findDrawn(FrothView handle, uint32_t eye, const char* call, uint64_t Eye::*newestCall,
+                                  FrothResult& result) {
   View* view = views_.find(handle);
   if (!view) {
     result = messages.fail(FROTH_ERROR_HANDLE, call, "view {%u, %u}: destroyed or never created", handle.index,
                            handle.generation);
+  } else if (result = checkEye(*view, eye, call); result != FROTH_OK) {
+    return nullptr;
   } else if (result = checkDevice(call); result == FROTH_OK && serial_ == 0) {
     result = messages.fail(FROTH_ERROR_STATE, call, "no frame; call frothUpdate first");
-  } else if (result == FROTH_OK && !isNull_ && view->renderedSerials[0] != serial_ && view->renderedSerials[1] != serial_) {
+  } else if (result == FROTH_OK && !isNull_ && view->eyes[eye].renderedSerials[0] != serial_ &&
+             view->eyes[eye].renderedSerials[1] != serial_) {
     result = messages.fail(FROTH_ERROR_STATE, call, "view {%u, %u}: not drawn in frame %llu; call it after frothRasterize or frothWalk",
                            handle.index, handle.generation, static_cast<unsigned long long>(serial_));
-  } else if (result == FROTH_OK && view->*newestCall == serial_) {
+  } else if (result == FROTH_OK && view->eyes[eye].*newestCall == serial_) {
     result = messages.fail(FROTH_ERROR_STATE, call, "view {%u, %u}: called already in frame %llu", handle.index,
                            handle.generation, static_cast<unsigned long long>(serial_));
   }
@@ -79,47 +82,47 @@ Context::View* Context::findDrawn(FrothView handle, const char* call, uint64_t V
 FrothResult Context::composite(FrothView handle, VkCommandBuffer commandBuffer, const FrothCompositeInfo& info) {
   constexpr const char* kCall = "frothComposite";
   FrothResult result = FROTH_OK;
-  View* view = findDrawn(handle, kCall, &View::compositedSerial, result);
+  View* view = findDrawn(handle, info.eye, kCall, &Eye::compositedSerial, result);
   if (!view) {
     return result;
   }
   if (compositeFormat_ == VK_FORMAT_UNDEFINED) {
     return messages.fail(FROTH_ERROR_UNSUPPORTED, kCall, "the context was not made for it; set FrothContextInfo::compositeFormat");
   }
-  result = checkComposite(messages, kCall, compositeFormat_, view->drawn.region, info);
+  result = checkComposite(messages, kCall, compositeFormat_, view->eyes[info.eye].drawn.region, info);
   if (result != FROTH_OK || isNull_) {
     return result;
   }
   if (!commandBuffer) {
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "commandBuffer: null");
   }
-  view->compositedSerial = serial_;
-  view->renderer->composite(commandBuffer, *pipelines_, info, view->drawn.region);
+  view->eyes[info.eye].compositedSerial = serial_;
+  view->renderer->composite(commandBuffer, *pipelines_, info, view->eyes[info.eye].drawn.region);
   return FROTH_OK;
 }
 
 FrothResult Context::exportDepth(FrothView handle, VkCommandBuffer commandBuffer, const FrothDepthExportInfo& info) {
   constexpr const char* kCall = "frothRecordDepthExport";
   FrothResult result = FROTH_OK;
-  View* view = findDrawn(handle, kCall, &View::exportedSerial, result);
+  View* view = findDrawn(handle, info.eye, kCall, &Eye::exportedSerial, result);
   if (!view) {
     return result;
   }
-  if (depthExportFormat_ == VK_FORMAT_UNDEFINED || !view->drawn.isProjection) {
+  if (depthExportFormat_ == VK_FORMAT_UNDEFINED || !view->eyes[info.eye].drawn.isProjection) {
     return messages.fail(FROTH_ERROR_UNSUPPORTED, kCall,
-                         view->drawn.isProjection
+                         view->eyes[info.eye].drawn.isProjection
                              ? "the context was not made for it; set FrothContextInfo::depthExportFormat"
                              : "the view was drawn with a lens that is no projection: its depth is a distance");
   }
-  result = checkDepthExport(messages, kCall, depthExportFormat_, view->drawn.region, info);
+  result = checkDepthExport(messages, kCall, depthExportFormat_, view->eyes[info.eye].drawn.region, info);
   if (result != FROTH_OK || isNull_) {
     return result;
   }
   if (!commandBuffer) {
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "commandBuffer: null");
   }
-  view->exportedSerial = serial_;
-  view->renderer->exportDepth(commandBuffer, *pipelines_, info, view->drawn.region, view->drawn.isDepthReversed);
+  view->eyes[info.eye].exportedSerial = serial_;
+  view->renderer->exportDepth(commandBuffer, *pipelines_, info, view->eyes[info.eye].drawn.region, view->eyes[info.eye].drawn.isDepthReversed);
   return FROTH_OK;
 }
 

@@ -113,7 +113,7 @@ void Context::prepareView(View& view) {
   }
   std::erase_if(view.bits,
                 [&](const auto& recorded) { return recorded.first < view.renderer->status().serial; });
-  view.bits.reserve(view.bits.size() + 2);  // a raster and a walk of this frame
+  view.bits.reserve(view.bits.size() + 2 * kMostEyes);  // a raster and a walk of each
   view.prepared.clear();
   instances_.forEachNamed([&](FrothInstance handle, const Instance& instance) {
     const Asset* asset = assets_.find(instance.asset);
@@ -246,6 +246,12 @@ void Context::gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& b
   });
 }
 
+FrothResult Context::checkEye(const View& view, uint32_t eye, const char* call) const {
+  return eye < view.eyeCount ? FROTH_OK
+                             : messages.fail(FROTH_ERROR_ARGUMENT, call, "eye: %u, and the view has %u; set FrothViewInfo::eyeCount",
+                                             eye, view.eyeCount);
+}
+
 FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
                             FrothRenderInfo info) {
   const char* call = method == RenderMethod::kRaster ? "frothRasterize" : "frothWalk";
@@ -260,7 +266,11 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   if (serial_ == 0) {
     return messages.fail(FROTH_ERROR_STATE, call, "no frame; call frothUpdate first");
   }
-  uint64_t& renderedSerial = view->renderedSerials[static_cast<size_t>(method)];
+  if (const FrothResult result = checkEye(*view, info.eye, call); result != FROTH_OK) {
+    return result;
+  }
+  Eye& eye = view->eyes[info.eye];
+  uint64_t& renderedSerial = eye.renderedSerials[static_cast<size_t>(method)];
   if (renderedSerial == serial_) {
     return messages.fail(FROTH_ERROR_STATE, call,
                          "view {%u, %u}: already drawn in frame %llu; call frothUpdate first", handle.index,
@@ -273,7 +283,7 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   if (const FrothResult result = checkHits(*view, info, call); result != FROTH_OK) {
     return result;
   }
-  view->drawn = {info.camera.scissor, info.camera.lens.kind == FROTH_LENS_PROJECTION, isDepthReversed(info.camera)};
+  eye.drawn = {info.camera.scissor, info.camera.lens.kind == FROTH_LENS_PROJECTION, isDepthReversed(info.camera)};
   uint32_t bits = 0;
   gatherVisible(*view, info, bits);
   if (isNull_) {

@@ -34,6 +34,7 @@ VkImageMemoryBarrier2 barrierOf(VkImage image) {
 VkImageMemoryBarrier2 entryBarrier(const FrothImage& image, const ImageUse& use) {
   VkImageMemoryBarrier2 barrier = barrierOf(image.image);
   barrier.subresourceRange.aspectMask = aspectOf(image.format);
+  barrier.subresourceRange.baseArrayLayer = image.layer;
   barrier.srcStageMask = image.stageIn;
   barrier.srcAccessMask = image.accessIn;
   barrier.oldLayout = image.layoutIn;
@@ -46,6 +47,7 @@ VkImageMemoryBarrier2 entryBarrier(const FrothImage& image, const ImageUse& use)
 VkImageMemoryBarrier2 exitBarrier(const FrothImage& image, const ImageUse& use) {
   VkImageMemoryBarrier2 barrier = barrierOf(image.image);
   barrier.subresourceRange.aspectMask = aspectOf(image.format);
+  barrier.subresourceRange.baseArrayLayer = image.layer;
   barrier.srcStageMask = use.stage;
   barrier.srcAccessMask = use.access & kWrites;
   barrier.oldLayout = use.layout;

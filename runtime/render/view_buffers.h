@@ -43,7 +43,7 @@ enum class ViewBuffer : uint32_t {
   kHits,   // empty where the view does not keep them
 };
 inline constexpr uint32_t kViewBufferCount = 26;
-inline constexpr uint32_t kRecordingsPerFrame = 2;  // a raster and a walk
+inline constexpr uint32_t kRecordingsPerFrame = 4;  // a raster and a walk of two eyes
 
 // [bytes] The space of a FrameBlock with its HitBlock, and of Counters. The chunk table follows its block.
 inline constexpr VkDeviceSize kBlockStride = 2048;

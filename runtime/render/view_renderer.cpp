@@ -183,8 +183,8 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   std::unique_ptr<ImageSets> hitSets, compositeSets, exportSets;
   Status sets;
   if (options.keepsHits) sets = createSets(device, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, 2 * recordings, hitSets);
-  if (sets && options.composites) sets = createSets(device, compositeBindings(), options.framesInFlight, compositeSets);
-  if (sets && options.exportsDepth) sets = createSets(device, DepthExport::bindings(), options.framesInFlight, exportSets);
+  if (sets && options.composites) sets = createSets(device, compositeBindings(), kMostEyes * options.framesInFlight, compositeSets);
+  if (sets && options.exportsDepth) sets = createSets(device, DepthExport::bindings(), kMostEyes * options.framesInFlight, exportSets);
   if (!sets) return sets.error();
   if (options.measurePasses) {
     Result<std::unique_ptr<PassTimer>> made = PassTimer::create(device, recordings);
@@ -283,14 +283,14 @@ uint32_t ViewRenderer::record(RenderMethod method, VkCommandBuffer commandBuffer
 
 void ViewRenderer::composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info,
                              const VkRect2D& region) {
-  recordComposite(state_->device.table, commandBuffer, *pipelines.state().composite, *state_->compositeSets, state_->slot, info,
-                  region);
+  recordComposite(state_->device.table, commandBuffer, *pipelines.state().composite, *state_->compositeSets,
+                  kMostEyes * state_->slot + info.eye, info, region);
 }
 
 void ViewRenderer::exportDepth(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothDepthExportInfo& info,
                                const VkRect2D& region, bool isReversed) {
   const VkDescriptorImageInfo image{VK_NULL_HANDLE, info.depth.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-  const VkDescriptorSet set = state_->exportSets->update(state_->slot, {&image, 1});
+  const VkDescriptorSet set = state_->exportSets->update(kMostEyes * state_->slot + info.eye, {&image, 1});
   pipelines.state().depthExport->record(commandBuffer, set, info, region, isReversed);
 }
 

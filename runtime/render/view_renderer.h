@@ -17,6 +17,7 @@ class RenderPipelines;  // runtime/render/pipelines.h: layouts and pipelines, ma
                         // asset shape
 
 enum class RenderMethod { kRaster, kWalk };
+inline constexpr uint32_t kMostEyes = 2;
 
 // One instance as the passes see it.
 struct RenderInstance {

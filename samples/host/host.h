@@ -56,7 +56,8 @@ class Host {
   FrothContextInfo contextInfo() const;  // ready for frothCreateContext; callbacks left null
   // TRANSFER_SRC | TRANSFER_DST | SAMPLED, and STORAGE; of depth formats DEPTH_STENCIL_ATTACHMENT and a view of the depth; with
   // useGraphics of all others COLOR_ATTACHMENT.
-  Result<HostImage> createImage(VkFormat format, VkExtent2D extent);
+  // The view is of the first of the layers.
+  Result<HostImage> createImage(VkFormat format, VkExtent2D extent, uint32_t layers = 1);
   void destroyImage(HostImage& image);
   Result<HostBuffer> createBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage);
   void destroyBuffer(HostBuffer& buffer);
@@ -68,7 +69,7 @@ class Host {
 
   // Texels of an image in layout GENERAL as floats, `channels` per texel (1, 2 or 4), halves and depths of 16 bits widened; integers and packed
   // colours as the bits of floats.
-  Result<std::vector<float>> readImage(const HostImage& image);
+  Result<std::vector<float>> readImage(const HostImage& image, uint32_t layer = 0);
   // Fills an image of floats or depths, `channels` values per texel; it is in layout GENERAL then.
   Status writeImage(const HostImage& image, const std::vector<float>& texels);
   // The same image as an input that keeps its contents and its layout GENERAL.

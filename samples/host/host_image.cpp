@@ -96,9 +96,9 @@ Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements,
   return {};
 }
 
-void copyToBuffer(VkCommandBuffer commands, const HostImage& image, FormatTraits traits, VkBuffer buffer) {
+void copyToBuffer(VkCommandBuffer commands, const HostImage& image, uint32_t layer, FormatTraits traits, VkBuffer buffer) {
   VkBufferImageCopy region{};
-  region.imageSubresource = {traits.aspect(), 0, 0, 1};
+  region.imageSubresource = {traits.aspect(), 0, layer, 1};
   region.imageExtent = {image.extent.width, image.extent.height, 1};
   vkCmdCopyImageToBuffer(commands, image.image, VK_IMAGE_LAYOUT_GENERAL, buffer, 1, &region);
   VkMemoryBarrier2 barrier{};
@@ -146,7 +146,7 @@ uint32_t Host::State::findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlag
   return UINT32_MAX;
 }
 
-Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent) {
+Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent, uint32_t layers) {
   const Result<FormatTraits> traits = traitsOf(format);
   if (!traits) return traits.error();
   // What every device must allow (Vulkan specification, VkImageFormatProperties::maxResourceSize); lavapipe
@@ -166,7 +166,7 @@ Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent) {
   imageInfo.format = format;
   imageInfo.extent = {extent.width, extent.height, 1};
   imageInfo.mipLevels = 1;
-  imageInfo.arrayLayers = 1;
+  imageInfo.arrayLayers = layers;
   imageInfo.samples = VK_SAMPLE_COUNT_1_BIT;
   imageInfo.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                     (traits->isDepth() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_STORAGE_BIT);
@@ -282,7 +282,7 @@ void Host::destroyBuffer(HostBuffer& buffer) {
   buffer = {};
 }
 
-Result<std::vector<float>> Host::readImage(const HostImage& image) {
+Result<std::vector<float>> Host::readImage(const HostImage& image, uint32_t layer) {
   const Result<FormatTraits> traits = traitsOf(image.format);
   if (!traits) {
     return traits.error();
@@ -295,7 +295,7 @@ Result<std::vector<float>> Host::readImage(const HostImage& image) {
     return status.error();
   }
   const Status status = state_->runCommands(device, queue, [&](VkCommandBuffer commands) {
-    copyToBuffer(commands, image, *traits, readback.buffer);
+    copyToBuffer(commands, image, layer, *traits, readback.buffer);
     return Status();
   });
   if (!status) {

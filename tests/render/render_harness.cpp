@@ -102,7 +102,7 @@ FrothContext* lensContext() {
 }
 
 Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context, uint32_t layers,
-             uint32_t lensClasses, bool keepsHits)
+             uint32_t lensClasses, bool keepsHits, uint32_t eyeCount)
     : context_(context), keepsHits_(keepsHits) {
   Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
   EXPECT_TRUE(bytes) << bytes.error().message;
@@ -114,7 +114,7 @@ Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* 
   assetInfo.layers = layers;
   assetInfo.keepForQueries = 1;
   check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
-  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses, keepsHits};
+  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses, keepsHits, eyeCount};
   check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");
   place({});
 

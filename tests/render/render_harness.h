@@ -50,7 +50,7 @@ FrothContext* createCheckedContext(uint32_t lensClasses);
 class Stage {
  public:
   Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context = sharedContext(),
-        uint32_t layers = 0, uint32_t lensClasses = 0, bool keepsHits = false);
+        uint32_t layers = 0, uint32_t lensClasses = 0, bool keepsHits = false, uint32_t eyeCount = 0);
   ~Stage();
 
   void place(const FrothInstanceInfo& placement);  // `asset` is filled in

@@ -125,6 +125,7 @@ typedef struct FrothViewInfo {
   uint32_t lensClasses;     /* FrothLensClass bits that its cameras may use, of those of the context; 0: pinholes only.
                                MAPPED costs 16 bytes per pixel of maxExtent */
   uint32_t keepsHits;       /* 1: its cameras may ask for id and motion; costs 12 bytes per pixel of maxExtent */
+  uint32_t eyeCount;        /* 1 or 2; 0: 1. Two eyes are drawn one after the other, with all memory in common */
 } FrothViewInfo;
 
 FROTH_API FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view);
@@ -169,7 +170,7 @@ typedef struct FrothViewStatus {
   uint64_t pairs;            /* (tile, cell) pairs */
   uint32_t indexViolations;  /* with FrothContextInfo::checkIndices; must be 0 */
   uint32_t passCount;
-  FrothPassTime passes[16];  /* with FrothViewInfo::measurePasses */
+  FrothPassTime passes[32];  /* with FrothViewInfo::measurePasses */
   uint64_t deviceBytes;      /* of the view's transients */
   FrothWork work;
   uint32_t memoryCount;
@@ -213,6 +214,7 @@ FROTH_API FrothResult frothDropFrame(FrothContext* context, uint64_t serial);
 typedef struct FrothImage {
   VkImage image;
   VkImageView view; /* 2D, one level, identity swizzle; usage STORAGE, of an input SAMPLED */
+  uint32_t layer;   /* array layer that `view` shows: the only one that Froth touches */
   VkFormat format;
   VkExtent2D extent;
   VkImageLayout layoutIn, layoutOut;
@@ -271,6 +273,7 @@ typedef enum FrothToneCurve {
 
 typedef struct FrothRenderInfo {
   uint32_t structSize;
+  uint32_t eye;        /* < FrothViewInfo::eyeCount: images of its own, layers of the same, or a rectangle by the viewport */
   FrothCamera camera;
   float cutoff;        /* a ray ends when its transmittance falls below; 0: 1e-3; negative: never */
   float nearRatio;     /* skips cells with |p - eye| < nearRatio * r; 0: off; usually FROTH_NEAR_DEFAULT. Not for parallel rays */
@@ -306,7 +309,7 @@ typedef struct FrothRenderInfo {
   FrothImage sceneDepth;
 } FrothRenderInfo;
 
-/* Primary visibility by sorted rasterization. Outside a render pass; once per view and frame. On exit compute pipeline, sets
+/* Primary visibility by sorted rasterization. Outside a render pass; once per view, eye and frame. On exit compute pipeline, sets
  * and push constants are undefined, graphics state is untouched. FROTH_INCOMPLETE: recorded, but something was left out, and
  * without any instance the images are cleared (FrothViewStatus::bits of this frame will say why). */
 FROTH_API FrothResult frothRasterize(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,

@@ -2,7 +2,7 @@
  *
  * An engine can blend by itself (premultiplied: ONE, ONE_MINUS_SRC_ALPHA), and read FrothRenderInfo::depth; this is for those that
  * would have to write a pass for it. Both are called outside a render pass, after the record call that drew the view in this frame,
- * and write the pixels that it drew; once per view and frame, else FROTH_ERROR_STATE. What is not declared at context creation costs
+ * and write the pixels that it drew; once per view, eye and frame, else FROTH_ERROR_STATE. What is not declared at context creation costs
  * nothing, and gives FROTH_ERROR_UNSUPPORTED. Threads: at once on different views, as frothRasterize. */
 #ifndef FROTH_FROTH_COMPOSITE_H
 #define FROTH_FROTH_COMPOSITE_H
@@ -15,6 +15,7 @@ extern "C" {
 
 typedef struct FrothCompositeInfo {
   uint32_t structSize;
+  uint32_t eye;            /* as it was drawn */
   FrothImage foam;         /* FrothRenderInfo::colour of this frame; usage SAMPLED too */
   FrothImage target;       /* the engine's colour, of FrothContextInfo::compositeFormat; usage STORAGE. layoutIn UNDEFINED is refused */
   FrothImage shadowFactor; /* a factor on the foam's colour, not on its alpha: 1 = lit. R8_UNORM, R16_SFLOAT or R32_SFLOAT, usage
@@ -28,6 +29,7 @@ FROTH_API FrothResult frothComposite(FrothContext* context, FrothView view, VkCo
 
 typedef struct FrothDepthExportInfo {
   uint32_t structSize;
+  uint32_t eye;          /* as it was drawn */
   FrothImage depth;      /* FrothRenderInfo::depth of this frame; usage SAMPLED too */
   FrothImage attachment; /* the engine's depth, of FrothContextInfo::depthExportFormat; usage DEPTH_STENCIL_ATTACHMENT. What is nearer
                             stays, by the camera that the view was drawn with; stencil stays */
