@@ -53,7 +53,7 @@ typedef struct FrothGpuRay {
 } FrothGpuRay;
 
 typedef struct FrothGpuHit {
-  float colour[3];     /* premultiplied, linear; with FROTH_RAY_RADIANCE */
+  float colour[3];     /* premultiplied, linear, without FrothInstanceInfo::exposure; with FROTH_RAY_RADIANCE */
   float transmittance; /* over the ray's part; of a ray that ended early, up to there */
   float normal[3];     /* of the face of the cell that stops the ray, in world axes, unit; 0: none does */
   float distance;      /* where transmittance falls below the quantile [world units]; +inf: never */
