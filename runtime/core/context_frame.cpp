@@ -230,8 +230,7 @@ void Context::gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& b
     }
       // An instance that came after frothUpdate: the view has no buffers for it before the next one.
     const auto isIt = [&](const RenderInstance& prepared) {
-      return prepared.handle.index == handle.index && prepared.handle.generation == handle.generation &&
-             prepared.asset == &asset.gpu();
+      return isSame(prepared.handle, handle) && prepared.asset == &asset.gpu();
     };
     if (std::none_of(view.prepared.begin(), view.prepared.end(), isIt)) {
       bits |= view.prepared.size() == gpu::kMostInstances ? FROTH_VIEW_INSTANCE_LIMIT : FROTH_VIEW_NOT_READY;

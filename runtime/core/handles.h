@@ -7,6 +7,12 @@
 
 namespace froth {
 
+// Handles of one kind.
+template <class Handle>
+bool isSame(Handle a, Handle b) {
+  return a.index == b.index && a.generation == b.generation;
+}
+
 // `Handle` has the fields index and generation; {0, 0} is never handed out. One thread at a time for add and
 // remove.
 template <class T, class Handle>

@@ -47,7 +47,7 @@ void recordBarriers(const DeviceTable& vk, VkCommandBuffer commandBuffer, const 
 
 }  // namespace
 
-ImageBindings compositeBindings() {
+SetBindings compositeBindings() {
   return {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}};
 }
 

@@ -6,7 +6,7 @@
 
 namespace froth {
 
-ImageBindings compositeBindings();
+SetBindings compositeBindings();
 
 // Whether there is a pass for the engine's format.
 bool canComposite(VkFormat format);

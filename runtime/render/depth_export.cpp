@@ -70,7 +70,7 @@ struct FixedState {
 
 }  // namespace
 
-ImageBindings DepthExport::bindings() {
+SetBindings DepthExport::bindings() {
   return {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, VK_SHADER_STAGE_FRAGMENT_BIT};
 }
 
@@ -90,15 +90,12 @@ DepthExport::~DepthExport() {
 }
 
 Status DepthExport::createLayout() {
-  const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device_, bindings());
+  const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device_, "export_depth", bindings());
   if (!setLayout) return setLayout.error();
   setLayout_ = *setLayout;
-  VkPipelineLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-  info.setLayoutCount = 1;
-  info.pSetLayouts = &setLayout_;
-  const VkResult result = device_.table.vkCreatePipelineLayout(device_.device, &info, nullptr, &layout_);
-  if (result != VK_SUCCESS) return device_.explain(result, "export_depth: vkCreatePipelineLayout");
+  const Result<VkPipelineLayout> layout = createPipelineLayout(device_, "export_depth", setLayout_, 0);
+  if (!layout) return layout.error();
+  layout_ = *layout;
   return {};
 }
 

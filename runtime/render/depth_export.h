@@ -8,7 +8,7 @@ namespace froth {
 
 class DepthExport {
  public:
-  static ImageBindings bindings();
+  static SetBindings bindings();
 
   // format: of the attachment.
   static Result<std::unique_ptr<DepthExport>> create(Device& device, VkPipelineCache cache, VkFormat format);

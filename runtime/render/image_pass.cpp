@@ -4,26 +4,17 @@
 
 namespace froth {
 
-Result<VkDescriptorSetLayout> createSetLayout(Device& device, const ImageBindings& given) {
-  std::vector<VkDescriptorSetLayoutBinding> bindings;
-  for (const VkDescriptorType type : given.types) {
-    bindings.push_back({static_cast<uint32_t>(bindings.size()), type, 1, given.stage, nullptr});
-  }
-  VkDescriptorSetLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  info.bindingCount = static_cast<uint32_t>(bindings.size());
-  info.pBindings = bindings.data();
-  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  const VkResult result = device.table.vkCreateDescriptorSetLayout(device.device, &info, nullptr, &layout);
-  if (result != VK_SUCCESS) return device.explain(result, "vkCreateDescriptorSetLayout");
-  return layout;
-}
-
 Result<std::unique_ptr<ImagePass>> ImagePass::create(Device& device, VkPipelineCache cache, const ImagePassCode& code) {
   std::unique_ptr<ImagePass> pass(new ImagePass(device));
-  Status status = pass->createLayout(code);
-  if (status) status = pass->createPipeline(cache, code);
-  if (!status) return status.error();
+  const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device, code.name, code.bindings);
+  if (!setLayout) return setLayout.error();
+  pass->setLayout_ = *setLayout;
+  const Result<VkPipelineLayout> layout = createPipelineLayout(device, code.name, pass->setLayout_, code.pushBytes);
+  if (!layout) return layout.error();
+  pass->layout_ = *layout;
+  const Result<VkPipeline> pipeline = createComputePipeline(device, cache, code.name, code.spirv, nullptr, pass->layout_);
+  if (!pipeline) return pipeline.error();
+  pass->pipeline_ = *pipeline;
   return pass;
 }
 
@@ -34,39 +25,6 @@ ImagePass::~ImagePass() {
   vk.vkDestroyDescriptorSetLayout(device_.device, setLayout_, nullptr);
 }
 
-Status ImagePass::createLayout(const ImagePassCode& code) {
-  const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device_, code.bindings);
-  if (!setLayout) return setLayout.error();
-  setLayout_ = *setLayout;
-  const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, code.pushBytes};
-  VkPipelineLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-  info.setLayoutCount = 1;
-  info.pSetLayouts = &setLayout_;
-  info.pushConstantRangeCount = 1;
-  info.pPushConstantRanges = &range;
-  const VkResult result = device_.table.vkCreatePipelineLayout(device_.device, &info, nullptr, &layout_);
-  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkCreatePipelineLayout", code.name);
-  return {};
-}
-
-Status ImagePass::createPipeline(VkPipelineCache cache, const ImagePassCode& code) {
-  const DeviceTable& vk = device_.table;
-  const Result<VkShaderModule> shader = device_.createShaderModule(code.name, code.spirv);
-  if (!shader) return shader.error();
-  VkComputePipelineCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  info.stage.module = *shader;
-  info.stage.pName = "main";
-  info.layout = layout_;
-  const VkResult result = vk.vkCreateComputePipelines(device_.device, cache, 1, &info, nullptr, &pipeline_);
-  vk.vkDestroyShaderModule(device_.device, *shader, nullptr);
-  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkCreateComputePipelines", code.name);
-  return {};
-}
-
 void ImagePass::bind(VkCommandBuffer commandBuffer, VkDescriptorSet set, std::span<const std::byte> push) const {
   const DeviceTable& vk = device_.table;
   vk.vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
@@ -75,11 +33,11 @@ void ImagePass::bind(VkCommandBuffer commandBuffer, VkDescriptorSet set, std::sp
                         push.data());
 }
 
-Result<std::unique_ptr<ImageSets>> ImageSets::create(Device& device, const ImageBindings& bindings, uint32_t count) {
+Result<std::unique_ptr<ImageSets>> ImageSets::create(Device& device, const SetBindings& bindings, uint32_t count) {
   std::unique_ptr<ImageSets> made(new ImageSets(device));
   made->bindings_ = bindings;
   const DeviceTable& vk = device.table;
-  const Result<VkDescriptorSetLayout> layout = createSetLayout(device, bindings);
+  const Result<VkDescriptorSetLayout> layout = createSetLayout(device, "image sets of a view", bindings);
   if (!layout) return layout.error();
   made->layout_ = *layout;
   std::vector<VkDescriptorPoolSize> sizes;

@@ -7,23 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "runtime/core/device.h"
+#include "runtime/core/pipeline_objects.h"
 
 namespace froth {
-
-// Set 0.
-struct ImageBindings {
-  std::vector<VkDescriptorType> types;
-  VkShaderStageFlags stage = VK_SHADER_STAGE_COMPUTE_BIT;
-};
-
-// Identical layouts are compatible, so passes and sets make their own.
-Result<VkDescriptorSetLayout> createSetLayout(Device& device, const ImageBindings& bindings);
 
 struct ImagePassCode {
   const char* name;
   std::span<const uint32_t> spirv;
-  ImageBindings bindings;
+  SetBindings bindings;
   uint32_t pushBytes;
 };
 
@@ -37,8 +28,6 @@ class ImagePass {
 
  private:
   explicit ImagePass(Device& device) : device_(device) {}
-  Status createLayout(const ImagePassCode& code);
-  Status createPipeline(VkPipelineCache cache, const ImagePassCode& code);
 
   Device& device_;
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
@@ -49,7 +38,7 @@ class ImagePass {
 // Sets for passes whose bindings are alike.
 class ImageSets {
  public:
-  static Result<std::unique_ptr<ImageSets>> create(Device& device, const ImageBindings& bindings, uint32_t count);
+  static Result<std::unique_ptr<ImageSets>> create(Device& device, const SetBindings& bindings, uint32_t count);
   ~ImageSets();
 
   // Points a set [index < count] to images, one per binding. What used it before must be complete.
@@ -59,7 +48,7 @@ class ImageSets {
   explicit ImageSets(Device& device) : device_(device) {}
 
   Device& device_;
-  ImageBindings bindings_;
+  SetBindings bindings_;
   VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   std::vector<VkDescriptorSet> sets_;

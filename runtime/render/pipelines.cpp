@@ -117,29 +117,12 @@ constexpr std::array<VkSpecializationMapEntry, 7> kSpecializationEntries = {{
 
 Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode& code,
                                   const Specialization& values) {
-  const DeviceTable& vk = state.device.table;
-  const Result<VkShaderModule> shaderModule = state.device.createShaderModule(code.name, code.spirv);
-  if (!shaderModule) return shaderModule.error();
-
   VkSpecializationInfo specialization{};
   specialization.mapEntryCount = static_cast<uint32_t>(kSpecializationEntries.size());
   specialization.pMapEntries = kSpecializationEntries.data();
   specialization.dataSize = sizeof(values);
   specialization.pData = &values;
-  VkComputePipelineCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  info.stage.module = *shaderModule;
-  info.stage.pName = "main";
-  info.stage.pSpecializationInfo = &specialization;
-  info.layout = state.layout;
-  VkPipeline pipeline = VK_NULL_HANDLE;
-  const VkResult result =
-      vk.vkCreateComputePipelines(state.device.device, state.cache, 1, &info, nullptr, &pipeline);
-  vk.vkDestroyShaderModule(state.device.device, *shaderModule, nullptr);
-  if (result != VK_SUCCESS) return state.device.explain(result, "%s: vkCreateComputePipelines", code.name);
-  return pipeline;
+  return createComputePipeline(state.device, state.cache, code.name, code.spirv, &specialization, state.layout);
 }
 
 bool hasOwnPipeline(uint32_t pass, uint32_t lensClass) {
@@ -220,19 +203,11 @@ AssetShape shapeOf(const GpuAsset& asset) {
 }
 
 Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device) {
-  std::array<VkDescriptorSetLayoutBinding, gpu::kBindingCount> bindings{};
-  for (uint32_t i = 0; i < bindings.size(); ++i) {
-    bindings[i] = {i, isInput(i) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1,
-                   VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+  SetBindings bindings;
+  for (uint32_t i = 0; i < gpu::kBindingCount; ++i) {
+    bindings.types.push_back(isInput(i) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
   }
-  VkDescriptorSetLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  info.bindingCount = static_cast<uint32_t>(bindings.size());
-  info.pBindings = bindings.data();
-  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  const VkResult result = device.table.vkCreateDescriptorSetLayout(device.device, &info, nullptr, &layout);
-  if (result != VK_SUCCESS) return device.explain(result, "vkCreateDescriptorSetLayout");
-  return layout;
+  return createSetLayout(device, "output images", bindings);
 }
 
 bool RenderPipelines::State::hasLensClass(uint32_t lensClass) const {

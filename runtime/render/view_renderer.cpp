@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "runtime/core/handles.h"
 #include "runtime/render/camera_rays.h"
 #include "runtime/render/composite.h"
 #include "runtime/render/hit_passes.h"
@@ -25,13 +26,7 @@ void addWork(const gpu::Counters& counters, FrothWork& work) {
   add(gpu::kWorkNeighbours, work.neighbours);
 }
 
-// Of all parts of a recording.
-struct PartSums {
-  uint32_t visibleCells = 0;
-};
-
-void addCounters(const gpu::Counters& counters, FrothViewStatus& status, PartSums& sums) {
-  sums.visibleCells += counters.cellsWanted;
+void addCounters(const gpu::Counters& counters, FrothViewStatus& status) {
   status.pairs += counters.pairs;
   status.indexViolations += counters.violations;
   addWork(counters, status.work);
@@ -41,14 +36,15 @@ void addCounters(const gpu::Counters& counters, FrothViewStatus& status, PartSum
 }
 
 void readRecording(ViewState& view, uint32_t number) {
-  PartSums sums;
+  uint32_t visibleCells = 0;  // of all parts
   for (const auto& space : view.spaces) {
     if (space->serials[number] != view.status.serial) continue;
     const gpu::Counters& counters = readCounters(*space, number);
-    addCounters(counters, view.status, sums);
+    addCounters(counters, view.status);
+    visibleCells += counters.cellsWanted;
     space->demand = largest(space->demand, demandOf(counters));
   }
-  view.status.visibleCells = std::max(view.status.visibleCells, sums.visibleCells);
+  view.status.visibleCells = std::max(view.status.visibleCells, visibleCells);
   if (view.timer) view.timer->read(number, view.status);
 }
 
@@ -104,8 +100,7 @@ Status prepareSpace(ViewState& view, InstanceSpace& space, uint64_t completedSer
 
 InstanceSpace* findSpace(const ViewState& view, FrothInstance instance) {
   for (const auto& space : view.spaces) {
-    const bool isOfInstance = space->instance.index == instance.index && space->instance.generation == instance.generation;
-    if (space->isTaken && isOfInstance) return space.get();
+    if (space->isTaken && isSame(space->instance, instance)) return space.get();
   }
   return nullptr;
 }
@@ -163,7 +158,7 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
   return bits;
 }
 
-Status createSets(Device& device, const ImageBindings& bindings, uint32_t count, std::unique_ptr<ImageSets>& sets) {
+Status createSets(Device& device, const SetBindings& bindings, uint32_t count, std::unique_ptr<ImageSets>& sets) {
   Result<std::unique_ptr<ImageSets>> made = ImageSets::create(device, bindings, count);
   if (!made) return made.error();
   sets = std::move(*made);

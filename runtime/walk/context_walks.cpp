@@ -68,7 +68,7 @@ bool Context::gatherWalked() {
       return;
     }
     chunkCount = newCount;
-    walked_.push_back({instance.placement, instance.mask, instance.placement.userId, asset.entriesSerial != 0});
+    walked_.push_back({instance.placement, instance.mask, asset.entriesSerial != 0});
     walked_.back().placement.asset = &asset.gpu();
   });
   return isWhole;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "runtime/core/pipeline_objects.h"
 #include "shaders/gpu/walk_layout.h"
 #include "spirv/cast_rays.h"
 #include "spirv/cast_rays_several.h"
@@ -69,57 +70,30 @@ Status WalkPipelines::createPipelines(uint32_t first, uint32_t last) {
 }
 
 Status WalkPipelines::createLayouts() {
-  const std::array<VkDescriptorSetLayoutBinding, gpu::kWalkBindingCount> bindings = {{
-      {gpu::kBindingWalk, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr},
-      {gpu::kBindingWalkCounters, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr},
-  }};
-  VkDescriptorSetLayoutCreateInfo setInfo{};
-  setInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  setInfo.bindingCount = static_cast<uint32_t>(bindings.size());
-  setInfo.pBindings = bindings.data();
-  VkResult result = device_.table.vkCreateDescriptorSetLayout(device_.device, &setInfo, nullptr, &setLayout_);
-  if (result != VK_SUCCESS) return device_.explain(result, "walk sets: vkCreateDescriptorSetLayout");
-
-  const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, kPushConstantBytes};
-  VkPipelineLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-  info.setLayoutCount = 1;
-  info.pSetLayouts = &setLayout_;
-  info.pushConstantRangeCount = 1;
-  info.pPushConstantRanges = &range;
-  result = device_.table.vkCreatePipelineLayout(device_.device, &info, nullptr, &layout_);
-  if (result != VK_SUCCESS) return device_.explain(result, "walk sets: vkCreatePipelineLayout");
+  constexpr const char* kName = "walk sets";
+  static_assert(gpu::kBindingWalk == 0 && gpu::kBindingWalkCounters == 1);
+  const SetBindings bindings{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, VK_SHADER_STAGE_ALL};
+  const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device_, kName, bindings);
+  if (!setLayout) return setLayout.error();
+  setLayout_ = *setLayout;
+  const Result<VkPipelineLayout> layout = createPipelineLayout(device_, kName, setLayout_, kPushConstantBytes);
+  if (!layout) return layout.error();
+  layout_ = *layout;
   return {};
 }
 
 Status WalkPipelines::createPipeline(uint32_t index) {
-  const DeviceTable& vk = device_.table;
-  const ShaderCode shader = codeOf(index);
-  VkShaderModuleCreateInfo moduleInfo{};
-  moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  moduleInfo.codeSize = shader.spirv.size_bytes();
-  moduleInfo.pCode = shader.spirv.data();
-  VkShaderModule shaderModule = VK_NULL_HANDLE;
-  VkResult result = vk.vkCreateShaderModule(device_.device, &moduleInfo, nullptr, &shaderModule);
-  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkCreateShaderModule", shader.name);
-
   const Specialization values{options_.checkIndices, index % kCastSeveral};
   VkSpecializationInfo specialization{};
   specialization.mapEntryCount = static_cast<uint32_t>(kSpecializationEntries.size());
   specialization.pMapEntries = kSpecializationEntries.data();
   specialization.dataSize = sizeof(values);
   specialization.pData = &values;
-  VkComputePipelineCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  info.stage.module = shaderModule;
-  info.stage.pName = "main";
-  info.stage.pSpecializationInfo = &specialization;
-  info.layout = layout_;
-  result = vk.vkCreateComputePipelines(device_.device, cache_, 1, &info, nullptr, &pipelines_[index]);
-  vk.vkDestroyShaderModule(device_.device, shaderModule, nullptr);
-  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkCreateComputePipelines", shader.name);
+  const ShaderCode shader = codeOf(index);
+  const Result<VkPipeline> pipeline =
+      createComputePipeline(device_, cache_, shader.name, shader.spirv, &specialization, layout_);
+  if (!pipeline) return pipeline.error();
+  pipelines_[index] = *pipeline;
   return {};
 }
 

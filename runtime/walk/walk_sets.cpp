@@ -42,7 +42,7 @@ gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye
   entry.scale = placement.scale;
   entry.detailSharpness = asset.detailSharpness;
   entry.mask = instance.mask;
-  entry.userId = instance.userId;
+  entry.userId = instance.placement.userId;
   entry.chunkCount = static_cast<uint32_t>(asset.chunks.size());
   entry.localBits = asset.localBits;
   entry.maxSteps = maxSteps;

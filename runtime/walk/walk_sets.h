@@ -18,7 +18,7 @@ namespace froth {
 // One instance, drawable: its asset has a walk graph and live cells.
 struct WalkedInstance {
   RenderInstance placement;
-  uint32_t mask, userId;
+  uint32_t mask;
   bool isSeeded;  // the asset's entries are there, or on their way in an earlier command
 };
 

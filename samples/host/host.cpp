@@ -91,6 +91,7 @@ Status Host::createDevice(const HostOptions& options) {
   state.features.features.shaderStorageImageExtendedFormats = offered.features.shaderStorageImageExtendedFormats;
   state.features13.dynamicRendering = offered13.dynamicRendering;
 
+  state.usesGraphics = options.useGraphics;
   const VkQueueFlags graphics = options.useGraphics ? VK_QUEUE_GRAPHICS_BIT : 0;
   queueFamily = findQueueFamily(physicalDevice, VK_QUEUE_COMPUTE_BIT | graphics);
   const float priority = 1.0f;

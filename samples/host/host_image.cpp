@@ -170,7 +170,7 @@ Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent, uint32_t
   imageInfo.samples = VK_SAMPLE_COUNT_1_BIT;
   imageInfo.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                     (traits->isDepth() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_STORAGE_BIT);
-  if (state_->features13.dynamicRendering && !traits->isDepth()) imageInfo.usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  if (state_->usesGraphics && !traits->isDepth()) imageInfo.usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   if (const VkResult code = vkCreateImage(device, &imageInfo, nullptr, &image.image); code != VK_SUCCESS) {
     return makeError(ErrorKind::kUnsupported, "vkCreateImage of %u x %u gives VkResult %d", extent.width,
                      extent.height, code);

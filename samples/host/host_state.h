@@ -22,6 +22,7 @@ struct Host::State {
   ValidationLog log;  // outlives the instance
   HostInstance instance;
   VkPhysicalDeviceMemoryProperties memory{};
+  bool usesGraphics = false;  // HostOptions
   VkPhysicalDeviceVulkan13Features features13{};
   VkPhysicalDeviceVulkan12Features features12{};
   VkPhysicalDeviceFeatures2 features{};  // the chain the device was made with

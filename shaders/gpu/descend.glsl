@@ -1,8 +1,14 @@
-// From cell to cell down to the power cell that holds a point.
+// From cell to cell: along a ray, and down to the power cell that holds a point.
 #ifndef FROTH_GPU_DESCEND_GLSL
 #define FROTH_GPU_DESCEND_GLSL
 #include "gpu/asset.glsl"
 #include "foam/cell.h"
+
+// The key of a step along a ray: the same bits wherever the same site is stepped to.
+float orderAlong(vec3 direction, vec3 centre) {
+  precise float key = direction.x * centre.x + direction.y * centre.y + direction.z * centre.z;
+  return key;
+}
 
 float powerAt(vec3 point, Ball ball) { return powerOfOrigin(ball.centre - point, ball.radius); }
 

@@ -22,11 +22,6 @@ struct Step {
 
 float nearnessOfNoExit() { return isParallel ? -kInfinity : 0.0; }
 
-float orderAlong(vec3 direction, vec3 centre) {
-  precise float key = direction.x * centre.x + direction.y * centre.y + direction.z * centre.z;
-  return key;
-}
-
 Step stepTo(uvec2 cell, float key, float entry) { return Step(slotOfCell(cell), cell, key, entry); }
 
 // To a site of the chunk; from a ghost on to the cell for which it stands.

@@ -54,11 +54,6 @@ uvec2 locateFrom(vec3 point, uvec2 first, out uint steps) {
   return descendTo(point, isCell(cell) ? cell : uvec2(0), steps);
 }
 
-float orderAlong(vec3 direction, vec3 centre) {
-  precise float key = direction.x * centre.x + direction.y * centre.y + direction.z * centre.z;
-  return key;
-}
-
 // The ray's origin in a chunk's coordinates, where sites are.
 vec3 originIn(Chunk chunk, vec3 origin) {
   precise vec3 local = (origin - chunk.offsetHigh) - chunk.offsetLow;

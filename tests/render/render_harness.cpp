@@ -11,14 +11,6 @@
 namespace froth::test {
 namespace {
 
-void check(FrothResult result, const char* call) {
-  EXPECT_EQ(result, FROTH_OK) << call << ": " << frothResultName(result);
-}
-
-void onMessage(void*, FrothSeverity, FrothResult, const char* object, const char* text) {
-  ADD_FAILURE() << object << ": " << text;
-}
-
 // Fails once for each message of the validation layers.
 void expectSilence(const Host& host) {
   static size_t reported = 0;
@@ -63,6 +55,14 @@ std::vector<float> readBack(Host& host, const HostImage& image) {
 
 }  // namespace
 
+void check(FrothResult result, const char* call) {
+  EXPECT_EQ(result, FROTH_OK) << call << ": " << frothResultName(result);
+}
+
+void failOnMessage(void*, FrothSeverity, FrothResult, const char* object, const char* text) {
+  ADD_FAILURE() << object << ": " << text;
+}
+
 Host& sharedHost() {
   static const std::unique_ptr<Host> host = [] {
     Result<std::unique_ptr<Host>> created = Host::create({.device = {}, .useValidation = true});
@@ -77,7 +77,7 @@ Host& sharedHost() {
 
 FrothContextInfo checkedContextInfo(uint32_t lensClasses) {
   FrothContextInfo info = sharedHost().contextInfo();
-  info.onMessage = onMessage;
+  info.onMessage = failOnMessage;
   info.checkIndices = 1;
   info.countWork = 1;
   info.lensClasses = lensClasses;

@@ -34,6 +34,11 @@ struct Frame {
   FrothViewStatus status{};
 };
 
+// Fails the test for another result than FROTH_OK.
+void check(FrothResult result, const char* call);
+// FrothContextInfo::onMessage that fails the test.
+void failOnMessage(void* user, FrothSeverity severity, FrothResult code, const char* object, const char* text);
+
 // One device with validation layers, and one context that checks indices, for all tests of the program:
 // pipelines are made once per asset shape.
 Host& sharedHost();

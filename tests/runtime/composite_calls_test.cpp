@@ -7,16 +7,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-FrothImage fakeImage(VkFormat format) {
-  FrothImage image{};
-  image.image = reinterpret_cast<VkImage>(1);
-  image.view = reinterpret_cast<VkImageView>(1);
-  image.format = format;
-  image.extent = {16, 16};
-  image.layoutIn = image.layoutOut = VK_IMAGE_LAYOUT_GENERAL;
-  return image;
-}
-
 class CompositeCalls : public RuntimeTest {
  protected:
   void open(VkFormat format) {

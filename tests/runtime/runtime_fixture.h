@@ -179,4 +179,15 @@ inline FrothCamera makeCamera(uint32_t width, uint32_t height) {
   return camera;
 }
 
+// Of 16 x 16 pixels in GENERAL, for checks that a null context makes: no call looks behind its handles.
+inline FrothImage fakeImage(VkFormat format) {
+  FrothImage image{};
+  image.image = reinterpret_cast<VkImage>(1);
+  image.view = reinterpret_cast<VkImageView>(1);
+  image.format = format;
+  image.extent = {16, 16};
+  image.layoutIn = image.layoutOut = VK_IMAGE_LAYOUT_GENERAL;
+  return image;
+}
+
 }  // namespace froth

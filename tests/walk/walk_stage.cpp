@@ -10,16 +10,8 @@
 namespace froth::test {
 namespace {
 
-void check(FrothResult result, const char* call) {
-  EXPECT_EQ(result, FROTH_OK) << call << ": " << frothResultName(result);
-}
-
-void onMessage(void*, FrothSeverity, FrothResult, const char* object, const char* text) {
-  ADD_FAILURE() << object << ": " << text;
-}
-
 FrothContext* createWalkContext(FrothContextInfo info) {
-  info.onMessage = onMessage;
+  info.onMessage = failOnMessage;
   info.checkIndices = 1;
   info.countWork = 1;
   info.walkShaders = 1;

@@ -139,8 +139,8 @@ typedef enum FrothViewBit {
   FROTH_VIEW_NO_WALK_GRAPH = 4,  /* the asset was baked without one */
   FROTH_VIEW_NOT_READY = 8,      /* an instance was left out: its asset is OPENING or FAILED, it or the view came after
                                     frothUpdate, or the view's buffers did not fit the budget (a message told) */
-  FROTH_VIEW_INSTANCE_LIMIT = 32, /* more READY instances than a view shows; those with the highest index are missing */
   FROTH_VIEW_CELL_OVERFLOW = 16, /* more visible cells, or planes of them, than space; those last in the asset are missing */
+  FROTH_VIEW_INSTANCE_LIMIT = 32, /* more READY instances than a view shows; those with the highest index are missing */
   FROTH_VIEW_BIT_MAX = 0x7fffffff
 } FrothViewBit;
 
