@@ -1,0 +1,136 @@
+// What `froth report` has measured of one scene: the input of report.html, report.json and report.csv.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "format/result.h"
+
+namespace froth {
+
+// Of one image, or the mean over views (worst: the largest over views). Colours display-coded.
+struct ErrorFigures {
+  double psnr = 0;         // [dB]; +inf: equal. The mean over views is of the squares, not of the decibels
+  double ssim = 0;
+  double flip = 0;         // mean FLIP [0..1]
+  double meanError = 0;    // mean absolute difference: falls with the first power of a step, at edges too
+  double maxError = 0;
+  double overOneStep = 0;  // share of pixels with a channel off by more than 1/255
+  double depthError = 0;   // median |depth - reference| where both have one [scene units]
+};
+
+struct ViewErrors {
+  uint32_t view = 0;  // in cameras.json
+  ErrorFigures errors;
+  uint32_t worstX = 0, worstY = 0;  // the pixel with the largest difference
+};
+
+// Milliseconds of a frame, mean over the views; from repeated cycles over them.
+struct Interval {
+  double median = 0, p5 = 0, p95 = 0;
+};
+struct PassTimes {
+  std::string pass;
+  Interval time;  // [ms]
+};
+
+// One knob turned away from the default.
+struct Setting {
+  std::string knob;   // "positionBits"
+  std::string value;  // as text: "14", "off"
+  double number = 0;  // as a number for axes; the index among the knob's values where it is none
+};
+
+// One configuration that was measured.
+struct ReportPoint {
+  std::string id;                 // "raster positionBits=14": stable, so that an interrupted run can go on
+  std::string renderer;           // "raster", "walk", or "cpu"
+  std::vector<Setting> settings;  // away from the default; empty: the default itself
+  ErrorFigures errors;            // against the double reference of the unquantized foam
+  std::optional<ErrorFigures> photoErrors;
+  std::vector<ViewErrors> views;
+  Interval total;                 // [ms]
+  std::vector<PassTimes> passes;  // empty with --cpu
+  uint64_t diskBytes = 0;
+  uint64_t residentBytes = 0;     // asset and view on the GPU
+  double bakeSeconds = 0;         // 0: no bake of its own
+};
+
+// A knob, alone, around the default.
+struct Sweep {
+  std::string knob, meaning;  // "cutoff": "A ray ends below this transmittance"
+  std::string unit;           // of Setting::number
+  bool isLogarithmic = false;
+  // Convergence: the mean error falls as step^order, with step = number, or 2^-number for bits; 0: no such law.
+  double expectedOrder = 0;
+  bool isBits = false;
+  std::vector<std::string> points;  // ids, by growing number
+};
+
+// log-log slope by least squares over the points above the floor.
+struct Slope {
+  std::string what;            // "raster: mean error over cutoff"
+  double expected = 0, measured = 0;
+  std::string verdict;         // "as derived", "floor", "does not fall", "too few points"
+  std::string note;            // names the floor or what is suspected
+  std::vector<double> x, y;    // all points, in the order of x
+  uint32_t fitted = 0;         // how many of them the slope is of
+};
+
+// Something that the scene does not need, or does not use.
+struct FeatureCost {
+  std::string feature;  // "displacement"
+  bool isUsed = false;  // by this scene as it is
+  std::string variant;  // what was measured against: "heights of 2^-20 radii put in", "heights taken out"
+  int64_t diskBytes = 0, residentBytes = 0;  // what the feature costs: with minus without
+  Interval rasterWithout, rasterWith, walkWithout, walkWith;  // [ms]
+  double psnr = 0;      // of taking it out, where it is used
+};
+
+// A picture for report.html.
+struct ReportImage {
+  std::string title, caption;
+  std::vector<uint8_t> png;
+};
+
+struct Report {
+  std::string scene, input, credit;  // credit: of photos and foam; shown at the foot
+  std::string device, driver, version, command;
+  uint32_t width = 0, height = 0, frames = 0;
+  std::vector<uint32_t> views;       // in cameras.json
+  uint32_t cells = 0, detailCount = 0, lobeCount = 0;
+  bool isLinearTime = true;          // times from GPU timestamps; false: seconds of the CPU renderer
+  std::vector<ReportPoint> points;   // the first is the default
+  std::vector<Sweep> sweeps;
+  std::vector<std::string> frontOverTime, frontOverBytes;  // ids, from cheap to dear
+  std::string chosen;                // id that the report picks, and why
+  std::string choice;
+  std::vector<Slope> slopes;
+  std::vector<FeatureCost> features;
+  std::vector<ReportImage> images;   // empty with --no-images
+  std::vector<std::string> notes;    // what was not measured, and why
+};
+
+nlohmann::ordered_json reportAsJson(const Report& report);     // images left out
+nlohmann::ordered_json pointAsJson(const ReportPoint& point);
+Result<ReportPoint> pointFromJson(const nlohmann::ordered_json& json);  // of `froth report --resume`
+std::string reportAsCsv(const Report& report);                 // a row per point
+// One self-contained file: no script, font or picture from elsewhere.
+std::string reportAsHtml(const Report& report);
+
+// Whether noise alone can explain the difference: the intervals overlap.
+bool isTie(const Interval& a, const Interval& b);
+
+// Ids of the points that no other beats in both error and cost, from cheap to dear; of ties in cost the one with less error.
+enum class Cost { kTime, kDiskBytes };
+std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, const std::string& renderer, Cost cost);
+
+// Fits the slope of y over x in log-log. Points whose y is within `floorFactor` of the smallest y are the floor and left out.
+Slope fitSlope(const std::string& what, double expected, std::vector<double> x, std::vector<double> y,
+               double floorFactor = 2);
+
+}  // namespace froth

@@ -1,0 +1,30 @@
+// A stiff case: a small foam, the views that make it hard, and what follows from that for its image.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "baker/camera/camera.h"
+#include "baker/foam.h"
+#include "format/result.h"
+
+namespace froth {
+
+struct StiffCase {
+  std::string name;      // "sites/duplicate_equal": family and case, [a-z0-9_/]
+  std::string what;      // one line: what is extreme here
+  std::string analysis;  // one or two sentences: what conditions the image, and so what the bound grows with
+  Foam foam;
+  std::vector<View> views;  // small; with near limits of their own (0: off)
+  double storageError = 0;  // [display-coded] what the runtime's storage of a colour adds to rounding, where it is not the usual one
+};
+
+// All built-in cases, in the order of the table. The same on every call and machine.
+std::vector<StiffCase> builtInCases();
+
+// The cases that transform a user's foam: moved by 10^3, 10^6 and 10^9 units, in units of 1e-6 and 1e6, with eyes on its sites,
+// spheres, radical planes and vertices. `views` are some of the user's own.
+std::vector<StiffCase> casesOfFoam(const Foam& foam, const std::vector<View>& views);
+
+}  // namespace froth
