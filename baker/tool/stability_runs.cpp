@@ -16,6 +16,7 @@
 #include "baker/stability/image_bound.h"
 #include "format/asset_reader.h"
 #include "format/asset_writer.h"
+#include "format/atomic_file.h"
 
 namespace froth {
 
@@ -115,11 +116,12 @@ void addTrace(const WalkTrace& trace, WalkTrace& sum) {
 Result<Foam> importCase(const Foam& foam) {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / fmt::format("froth_stability_{}.pt", getpid());
-  if (Status written = exportCheckpoint(path, foam); !written) return written.error();
-  Result<Foam> read = importCheckpoint(path);
+  if (Status written = exportUnchecked(path, foam); !written) return written.error();
+  const Result<std::vector<uint8_t>> bytes = readFile(path);
   std::error_code ignored;
   std::filesystem::remove(path, ignored);
-  return read;
+  if (!bytes) return bytes.error();
+  return importCheckpointBytes(*bytes, "case.pt");
 }
 
 void findFaults(const PresetOutcome& preset, std::vector<std::string>& faults) {
