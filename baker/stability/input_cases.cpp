@@ -61,6 +61,12 @@ std::vector<StiffCase> inputCases() {
     cases.push_back(withValue(tensor, "nan", std::numeric_limits<float>::quiet_NaN()));
     cases.push_back(withValue(tensor, "infinity", std::numeric_limits<float>::infinity()));
     cases.push_back(withValue(tensor, "denormal", 1e-40f));
+    if (std::string(tensor.name) == "density") {
+      // Its raw value is an ordinary number.
+      cases.back().what = "a density that activates to a denormal number";
+      cases.back().analysis = "It becomes 0: a density below the smallest normal number shows nothing at any size.";
+      cases.back().refusal.clear();
+    }
   }
   return cases;
 }
