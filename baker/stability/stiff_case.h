@@ -17,6 +17,7 @@ struct StiffCase {
   std::string analysis;  // one or two sentences: what conditions the image, and so what the bound grows with
   Foam foam;
   std::vector<View> views;  // small; with near limits of their own (0: off)
+  glm::dvec3 moved{0};      // [scene units] where a renderer of assets places the foam, and moves the eyes to; the image is that of 0
   double storageError = 0;  // [display-coded] what the runtime's storage of a colour adds to rounding, where it is not the usual one
 };
 
