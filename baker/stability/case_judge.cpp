@@ -64,7 +64,8 @@ CaseJudge judgeByAll(std::vector<CaseJudge> judges) {
   };
 }
 
-CaseJudge judgeOfReference(const BoundOptions& options) {
+CaseJudge judgeOfReference(BoundOptions options) {
+  options.storage = options.storageError = 0;
   return [options](const StiffCase& stiffCase) -> Result<std::optional<CaseFault>> {
     const ReferenceRenderer renderer(stiffCase.foam);
     for (size_t i = 0; i < stiffCase.views.size(); ++i) {

@@ -25,8 +25,8 @@ using CaseJudge = std::function<Result<std::optional<CaseFault>>(const StiffCase
 // The first fault that any of them finds.
 CaseJudge judgeByAll(std::vector<CaseJudge> judges);
 
-// The exact bounds of all views first, then the float reference against them: finite, within its bound, the same on a second run.
-CaseJudge judgeOfReference(const BoundOptions& options = {});
+// The float reference of every view against its bound, which has no share of storage: finite, within it, the same on a second run.
+CaseJudge judgeOfReference(BoundOptions options = {});
 
 // The options under which a case's view is rendered by every renderer: its own near limits, no cut-off.
 ReferenceOptions optionsOfCase(const View& view);
