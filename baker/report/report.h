@@ -68,18 +68,27 @@ struct Sweep {
   // Convergence: the mean error falls as step^order, with step = number, or 2^-number for bits; 0: no such law.
   double expectedOrder = 0;
   bool isBits = false;
+  Setting base;                     // the knob's place in points whose settings do not name it
   std::vector<std::string> points;  // ids, by growing number
 };
 
 // log-log slope by least squares over the points above the floor.
 struct Slope {
-  std::string what;            // "raster: mean error over cutoff"
+  std::string what;            // "raster: mean error over cutoff": y over x
   double expected = 0, measured = 0;
-  std::string verdict;         // "as derived", "floor", "does not fall", "too few points"
+  std::string verdict;         // one of the kVerdict... below
   std::string note;            // names the floor or what is suspected
   std::vector<double> x, y;    // all points, in the order of x
   uint32_t fitted = 0;         // how many of them the slope is of
+  double atOne = 0;            // the line: y = atOne x^measured; 0: none could be fitted
+  double floor = 0;            // y where it levels off; 0: it does not
 };
+
+inline constexpr const char* kVerdictAsDerived = "as derived";
+inline constexpr const char* kVerdictFloor = "floor";              // as derived, down to a level that it keeps
+inline constexpr const char* kVerdictDoesNotFall = "does not fall";
+inline constexpr const char* kVerdictOtherOrder = "other order";   // it falls, by another power
+inline constexpr const char* kVerdictTooFew = "too few points";
 
 // Something that the scene does not need, or does not use.
 struct FeatureCost {
