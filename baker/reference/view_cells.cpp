@@ -146,6 +146,8 @@ ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
     cell.density = rounding.of(Real(foam.densities[source]));
     const FaceFrame<Real> frame = faceFrame<Real>(foam.orientations[source]);
     cell.frame = {rounding.of(frame.normal), rounding.of(frame.tangent), rounding.of(frame.bitangent)};
+    cell.nearError = rounding.of(Real(0), Real(1));
+    cell.farError = rounding.of(Real(0), Real(1));
     fillDetails(foam, source, cell, view, rounding,
                 std::span(result.details).subspan(rank * foam.detailCount, foam.detailCount));
     const size_t planes = cell.planesEnd - cell.planesBegin;
