@@ -19,6 +19,9 @@ struct StiffCase {
   std::vector<View> views;  // small; with near limits of their own (0: off)
   glm::dvec3 moved{0};      // [scene units] where a renderer of assets places the foam, and moves the eyes to; the image is that of 0
   double storageError = 0;  // [display-coded] what the runtime's storage of a colour adds to rounding, where it is not the usual one
+  bool isImported = false;  // the foam is written as a checkpoint and read back first, as a trained one is
+  std::string refusal{};    // part of the message with which it must be refused; empty: it must not
+  std::string knownCause{}; // why it falls short of its bound, if it is known to; empty: it must not
 };
 
 // All built-in cases, in the order of the table. The same on every call and machine.
