@@ -59,7 +59,7 @@ Vec3<Real> seeDetail(const Foam& foam, size_t site, const Vec3<Real>& direction,
   Vec3<Real> colourSum(0);
   for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
     const Real exponent = rounding.of(foam::lobeExponent(Vec3<Real>(foam.lobeAxes[m]), direction));
-    foam::addLobe(exponent, Vec3<Real>(foam.lobeColours[m]), largest, weightSum, colourSum);
+    foam::addLobe(exponent, rounding.of(Vec3<Real>(foam.lobeColours[m])), largest, weightSum, colourSum);
   }
   const Vec3<Real> base = foam.baseColours.empty() ? Vec3<Real>(0) : Vec3<Real>(foam.baseColours[site]);
   return foam::lobeColour(base, weightSum, colourSum);

@@ -106,6 +106,14 @@ class FieldReader {
     return {};
   }
 
+  bool readFlag(const char* key) {
+    const Json* value = require(key);
+    if (!value) return false;
+    if (value->is_boolean()) return value->get<bool>();
+    fail(key, std::string("found ") + value->type_name() + "; give true or false");
+    return false;
+  }
+
   uint32_t readCount(const char* key, uint32_t most) {
     const Json* value = require(key);
     if (!value) return 0;
@@ -234,6 +242,8 @@ Result<StiffCase> parseCase(std::span<const uint8_t> bytes, const std::string& f
   found.analysis = root.readText("analysis");
   found.storageError = root.readNumber<double>("storage_error");
   found.moved = root.readVector<glm::dvec3>("moved");
+  found.isImported = root.readFlag("imported");
+  found.knownCause = root.readText("known_cause");
   readFoam(root, file, error, found.foam);
   if (error) return *error;
   if (const Status status = checkFoam(found.foam); !status) {
@@ -266,6 +276,8 @@ Status writeCase(const std::filesystem::path& path, const StiffCase& stiffCase) 
                             {"analysis", stiffCase.analysis},
                             {"storage_error", stiffCase.storageError},
                             {"moved", toJson(stiffCase.moved)},
+                            {"imported", stiffCase.isImported},
+                            {"known_cause", stiffCase.knownCause},
                             {"most_lobes", foam.lobeCount},
                             {"cells", std::move(cells)},
                             {"views", WrittenJson::parse(*views)["views"]}};

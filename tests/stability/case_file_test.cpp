@@ -71,9 +71,13 @@ TEST_F(CaseFile, EveryNumberComesBackWithTheSameBits) {
     StiffCase drawn = drawCase(seed);
     drawn.moved = {1e6 + 0.1, -1e9, 1.0 / 3};
     drawn.storageError = 1.0 / 255;
+    drawn.isImported = seed % 2 == 0;
+    drawn.knownCause = "a \"cause\"";
     const StiffCase read = writeAndRead(drawn);
     EXPECT_EQ(read.name, drawn.name);
     EXPECT_EQ(read.moved, drawn.moved);
+    EXPECT_EQ(read.isImported, drawn.isImported);
+    EXPECT_EQ(read.knownCause, drawn.knownCause);
     EXPECT_EQ(read.storageError, drawn.storageError);
     expectSameFoam(read.foam, drawn.foam);
     ASSERT_EQ(read.views.size(), drawn.views.size());
