@@ -16,11 +16,11 @@ struct Colour {
   float x = 0, y = 0, z = 0;
 };
 
-// --- Colour spaces. sRGB primaries in CIE XYZ, as fractions, so that the rows sum to the white point (IEC 61966-2-1).
-constexpr double kXyzFromRgb[3][3] = {
-    {10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
-    {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
-    {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
+// --- Colour spaces. sRGB primaries in CIE XYZ, as fractions, so that the rows sum to the white point (IEC
+// 61966-2-1).
+constexpr double kXyzFromRgb[3][3] = {{10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
+                                      {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
+                                      {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
 constexpr double kRgbFromXyz[3][3] = {{3.241003275, -1.537398934, -0.498615861},
                                       {-0.969224334, 1.875930071, 0.041554224},
                                       {0.055639423, -0.204011202, 1.057148933}};
@@ -71,7 +71,8 @@ float hybridDistance(Colour a, Colour b) {
   return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-// --- Filters. All of them are products of a filter along rows and one along columns; the image's edge goes on outside it.
+// --- Filters. All of them are products of a filter along rows and one along columns; the image's edge goes
+// on outside it.
 using Plane = std::vector<float>;
 using Kernel = std::vector<float>;  // of odd length, centred
 
@@ -140,8 +141,8 @@ Plane filterBoth(const Plane& plane, uint32_t width, uint32_t height, const Kern
   return filterColumns(filterRows(plane, width, height, kernel), width, height, kernel);
 }
 
-// --- The eye's contrast sensitivity as Gaussians over degrees, a sqrt(pi/b) exp(-pi^2 x^2 / b) (table 1). Blue-yellow
-// is a sum of two.
+// --- The eye's contrast sensitivity as Gaussians over degrees, a sqrt(pi/b) exp(-pi^2 x^2 / b) (table 1).
+// Blue-yellow is a sum of two.
 constexpr double kLuminanceB = 0.0047, kRedGreenB = 0.0053;
 constexpr double kBlueYellow[2][2] = {{34.1, 0.04}, {13.5, 0.025}};  // a, b
 
@@ -152,22 +153,27 @@ struct ContrastKernels {
     // Three deviations of the widest Gaussian.
     const int radius = int(std::ceil(3 * std::sqrt(kBlueYellow[0][1] / (2 * kPi * kPi)) * pixelsPerDegree));
     const auto gaussian = [&](double b) {
-      return sampleKernel(radius, [&](double i) { return std::exp(-kPi * kPi * i * i / (pixelsPerDegree * pixelsPerDegree * b)); });
+      return sampleKernel(radius, [&](double i) {
+        return std::exp(-kPi * kPi * i * i / (pixelsPerDegree * pixelsPerDegree * b));
+      });
     };
     luminance = normalized(gaussian(kLuminanceB));
     redGreen = normalized(gaussian(kRedGreenB));
-    // The sum over both Gaussians and both directions is one; each direction carries the square root of the share.
+    // The sum over both Gaussians and both directions is one; each direction carries the square root of the
+    // share.
     double weights[2], total = 0;
     for (int g = 0; g < 2; ++g) {
       const double line = sumOf(gaussian(kBlueYellow[g][1]));
       weights[g] = kBlueYellow[g][0] * std::sqrt(kPi / kBlueYellow[g][1]);
       total += weights[g] * line * line;
     }
-    for (int g = 0; g < 2; ++g) blueYellow[g] = scaled(gaussian(kBlueYellow[g][1]), std::sqrt(weights[g] / total));
+    for (int g = 0; g < 2; ++g)
+      blueYellow[g] = scaled(gaussian(kBlueYellow[g][1]), std::sqrt(weights[g] / total));
   }
 };
 
-// First and second derivatives of a Gaussian of the width that the eye resolves edges and points with (section 4.2).
+// First and second derivatives of a Gaussian of the width that the eye resolves edges and points with
+// (section 4.2).
 struct FeatureKernels {
   Kernel smooth, edge, point;
 
@@ -178,12 +184,14 @@ struct FeatureKernels {
     const auto gaussian = [&](double i) { return std::exp(-i * i / (2 * deviation * deviation)); };
     smooth = normalized(sampleKernel(radius, gaussian));
     edge = balanced(sampleKernel(radius, [&](double i) { return -i * gaussian(i); }));
-    point = balanced(sampleKernel(radius, [&](double i) { return (i * i / (deviation * deviation) - 1) * gaussian(i); }));
+    point = balanced(
+        sampleKernel(radius, [&](double i) { return (i * i / (deviation * deviation) - 1) * gaussian(i); }));
   }
 };
 
 // Length of the vector of the detector's answers along x and y.
-Plane featureLength(const Plane& grey, uint32_t width, uint32_t height, const Kernel& detector, const Kernel& smooth) {
+Plane featureLength(const Plane& grey, uint32_t width, uint32_t height, const Kernel& detector,
+                    const Kernel& smooth) {
   const Plane alongX = filterColumns(filterRows(grey, width, height, detector), width, height, smooth);
   Plane length = filterRows(filterColumns(grey, width, height, detector), width, height, smooth);
   for (size_t p = 0; p < length.size(); ++p) length[p] = std::hypot(alongX[p], length[p]);
@@ -238,8 +246,9 @@ float featureDifference(float edgeA, float edgeB, float pointA, float pointB) {
 
 Result<FlipImage> prepareFlip(const Image& image, double pixelsPerDegree) {
   if (image.width == 0 || image.height == 0 || !(pixelsPerDegree > 0) || !std::isfinite(pixelsPerDegree)) {
-    return makeError(ErrorKind::kBadInput, "FLIP of %u x %u pixels at %g pixels per degree: all must be above 0",
-                     image.width, image.height, pixelsPerDegree);
+    return makeError(ErrorKind::kBadInput,
+                     "FLIP of %u x %u pixels at %g pixels per degree: all must be above 0", image.width,
+                     image.height, pixelsPerDegree);
   }
   const uint32_t width = image.width, height = image.height;
   Opponents planes = splitOpponents(image);
@@ -297,16 +306,26 @@ Result<FlipDifference> compareFlip(const FlipImage& reference, const FlipImage& 
 }
 
 Image colourErrorMap(const Image& map) {
-  // Every 15th of the 256 colours of matplotlib's magma (S. van der Walt, N. Smith; CC0); between them linear.
-  constexpr std::array<Colour, 18> kMagma{{{0.0015f, 0.0005f, 0.0139f}, {0.0355f, 0.0284f, 0.1252f},
-                                           {0.1028f, 0.0630f, 0.2579f}, {0.1915f, 0.0648f, 0.3962f},
-                                           {0.2914f, 0.0646f, 0.4755f}, {0.3843f, 0.0979f, 0.5010f},
-                                           {0.4758f, 0.1346f, 0.5079f}, {0.5692f, 0.1675f, 0.5041f},
-                                           {0.6649f, 0.1981f, 0.4888f}, {0.7611f, 0.2312f, 0.4602f},
-                                           {0.8521f, 0.2761f, 0.4186f}, {0.9259f, 0.3468f, 0.3750f},
-                                           {0.9697f, 0.4469f, 0.3603f}, {0.9894f, 0.5579f, 0.3917f},
-                                           {0.9966f, 0.6683f, 0.4562f}, {0.9967f, 0.7768f, 0.5410f},
-                                           {0.9924f, 0.8843f, 0.6401f}, {0.9871f, 0.9914f, 0.7495f}}};
+  // Every 15th of the 256 colours of matplotlib's magma (S. van der Walt, N. Smith; CC0); between them
+  // linear.
+  constexpr std::array<Colour, 18> kMagma{{{0.0015f, 0.0005f, 0.0139f},
+                                           {0.0355f, 0.0284f, 0.1252f},
+                                           {0.1028f, 0.0630f, 0.2579f},
+                                           {0.1915f, 0.0648f, 0.3962f},
+                                           {0.2914f, 0.0646f, 0.4755f},
+                                           {0.3843f, 0.0979f, 0.5010f},
+                                           {0.4758f, 0.1346f, 0.5079f},
+                                           {0.5692f, 0.1675f, 0.5041f},
+                                           {0.6649f, 0.1981f, 0.4888f},
+                                           {0.7611f, 0.2312f, 0.4602f},
+                                           {0.8521f, 0.2761f, 0.4186f},
+                                           {0.9259f, 0.3468f, 0.3750f},
+                                           {0.9697f, 0.4469f, 0.3603f},
+                                           {0.9894f, 0.5579f, 0.3917f},
+                                           {0.9966f, 0.6683f, 0.4562f},
+                                           {0.9967f, 0.7768f, 0.5410f},
+                                           {0.9924f, 0.8843f, 0.6401f},
+                                           {0.9871f, 0.9914f, 0.7495f}}};
   Image picture{map.width, map.height, 3, {}};
   picture.values.reserve(map.values.size() * 3);
   for (float value : map.values) {

@@ -70,6 +70,9 @@ struct Sweep {
   bool isBits = false;
   Setting base;                     // the knob's place in points whose settings do not name it
   std::vector<std::string> points;  // ids, by growing number
+  // Where the default stands on this knob; it is drawn among the points, for each renderer. No value: it is among them.
+  std::string defaultValue;
+  double defaultNumber = 0;
 };
 
 // log-log slope by least squares over the points above the floor.
@@ -124,7 +127,8 @@ struct Report {
   std::vector<std::string> notes;    // what was not measured, and why
 };
 
-nlohmann::ordered_json reportAsJson(const Report& report);     // images left out
+// Images left out. Infinity and NaN, which JSON does not know, are the texts "inf", "-inf" and "nan".
+nlohmann::ordered_json reportAsJson(const Report& report);
 nlohmann::ordered_json pointAsJson(const ReportPoint& point);
 Result<ReportPoint> pointFromJson(const nlohmann::ordered_json& json);  // of `froth report --resume`
 std::string reportAsCsv(const Report& report);                 // a row per point
@@ -141,5 +145,8 @@ std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, con
 // Fits the slope of y over x in log-log. Points whose y is within `floorFactor` of the smallest y are the floor and left out.
 Slope fitSlope(const std::string& what, double expected, std::vector<double> x, std::vector<double> y,
                double floorFactor = 2);
+
+// fitSlope of a sweep's mean errors over its steps, for one renderer; the default is among them.
+Slope fitConvergence(const std::vector<ReportPoint>& points, const Sweep& sweep, const std::string& renderer);
 
 }  // namespace froth
