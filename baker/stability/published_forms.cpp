@@ -32,7 +32,7 @@ FormSeries largestErrors(const char* name, const std::vector<double>& abscissae,
     double largest = 0;
     for (uint64_t input = 0; input < kInputs; ++input) {
       const double error = errorOf(abscissa, input);
-      largest = std::max(largest, error < kLostDigits ? error : kLostDigits);  // NaN too
+      largest = std::max(largest, error < kLargestError ? error : kLargestError);  // NaN too
     }
     series.errors.push_back(largest);
   }
@@ -212,7 +212,7 @@ std::string tableOf(const PublishedForm& form) {
     table += fmt::format("| {:.2g} |", form.abscissae[i]);
     for (const FormSeries& series : form.series) {
       const double error = series.errors[i];
-      table += error < kLostDigits ? fmt::format(" {:.1e} |", error) : std::string(" lost |");
+      table += error < kLargestError ? fmt::format(" {:.1e} |", error) : std::string(" ≥ 10 |");
     }
     table += '\n';
   }
@@ -223,7 +223,7 @@ Plot plotOf(const PublishedForm& form) {
   Plot plot;
   plot.title = form.what;
   plot.x = {form.abscissa, true, {}, {}, {}};
-  plot.y = {form.error, true, {}, 1e-9, kLostDigits};
+  plot.y = {form.error, true, {}, 1e-9, kLargestError};
   for (const FormSeries& series : form.series) {
     PlotSeries line;
     line.name = series.name;

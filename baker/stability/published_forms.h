@@ -11,11 +11,11 @@ namespace froth {
 
 struct FormSeries {
   std::string name;            // "published, fp16"
-  std::vector<double> errors;  // [abscissae] largest of some hundred random inputs; at most kLostDigits
+  std::vector<double> errors;  // [abscissae] largest of some hundred random inputs; at most kLargestError
 };
 
-// Where an error is this large nothing of the value is left; larger ones, infinity and NaN are cut to it.
-inline constexpr double kLostDigits = 10;
+// Larger errors, infinity and NaN are cut to it: nothing of the value is left.
+inline constexpr double kLargestError = 10;
 
 struct PublishedForm {
   std::string name;        // "radical_planes"
