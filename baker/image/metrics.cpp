@@ -102,16 +102,23 @@ Result<ImageDifference> compareImages(const Image& a, const Image& b) {
   ImageDifference difference;
   std::vector<double> squares(a.channels, 0.0);
   size_t overOne = 0, overTwo = 0;
+  double absolute = 0;
   for (size_t p = 0; p < pixels; ++p) {
     double worst = 0;
     for (uint32_t c = 0; c < a.channels; ++c) {
       const float va = a.values[p * a.channels + c], vb = b.values[p * a.channels + c];
       const double clamped = clampUnit(va) - clampUnit(vb);
       squares[c] += clamped * clamped;
-      const double error = std::abs(double(va) - vb);
-      worst = std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(worst, error);
+      const double exact = std::abs(double(va) - vb);
+      const double error = std::isnan(exact) ? std::numeric_limits<double>::infinity() : exact;
+      worst = std::max(worst, error);
+      absolute += error;
     }
-    difference.maxError = std::max(difference.maxError, worst);
+    if (worst > difference.maxError) {
+      difference.maxError = worst;
+      difference.worstX = uint32_t(p % a.width);
+      difference.worstY = uint32_t(p / a.width);
+    }
     overOne += worst > kStep;
     overTwo += worst > 2 * kStep;
   }
@@ -121,6 +128,7 @@ Result<ImageDifference> compareImages(const Image& a, const Image& b) {
     difference.psnrChannelMean += decibels(sum / double(pixels)) / a.channels;
   }
   difference.psnr = decibels(meanSquare);
+  difference.meanError = absolute / (double(pixels) * a.channels);
   difference.ssim = meanSimilarity(a, b);
   difference.overOneStep = double(overOne) / double(pixels);
   difference.overTwoSteps = double(overTwo) / double(pixels);

@@ -17,6 +17,8 @@ struct ImageDifference {
   // fewer than 11 pixels.
   double ssim = 0;
   double maxError = 0;     // largest absolute difference, not clamped; +inf where a value is NaN
+  double meanError = 0;    // mean absolute difference over pixels and channels, not clamped; +inf where a value is NaN
+  uint32_t worstX = 0, worstY = 0;  // the first pixel with the largest difference
   double overOneStep = 0;  // share of pixels with a channel off by more than 1/255
   double overTwoSteps = 0; // ... by more than 2/255
 };

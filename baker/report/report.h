@@ -68,18 +68,30 @@ struct Sweep {
   // Convergence: the mean error falls as step^order, with step = number, or 2^-number for bits; 0: no such law.
   double expectedOrder = 0;
   bool isBits = false;
+  Setting base;                     // the knob's place in points whose settings do not name it
   std::vector<std::string> points;  // ids, by growing number
+  // Where the default stands on this knob; it is drawn among the points, for each renderer. No value: it is among them.
+  std::string defaultValue;
+  double defaultNumber = 0;
 };
 
 // log-log slope by least squares over the points above the floor.
 struct Slope {
-  std::string what;            // "raster: mean error over cutoff"
+  std::string what;            // "raster: mean error over cutoff": y over x
   double expected = 0, measured = 0;
-  std::string verdict;         // "as derived", "floor", "does not fall", "too few points"
+  std::string verdict;         // one of the kVerdict... below
   std::string note;            // names the floor or what is suspected
   std::vector<double> x, y;    // all points, in the order of x
   uint32_t fitted = 0;         // how many of them the slope is of
+  double atOne = 0;            // the line: y = atOne x^measured; 0: none could be fitted
+  double floor = 0;            // y where it levels off; 0: it does not
 };
+
+inline constexpr const char* kVerdictAsDerived = "as derived";
+inline constexpr const char* kVerdictFloor = "floor";              // as derived, down to a level that it keeps
+inline constexpr const char* kVerdictDoesNotFall = "does not fall";
+inline constexpr const char* kVerdictOtherOrder = "other order";   // it falls, by another power
+inline constexpr const char* kVerdictTooFew = "too few points";
 
 // Something that the scene does not need, or does not use.
 struct FeatureCost {
@@ -115,7 +127,8 @@ struct Report {
   std::vector<std::string> notes;    // what was not measured, and why
 };
 
-nlohmann::ordered_json reportAsJson(const Report& report);     // images left out
+// Images left out. Infinity and NaN, which JSON does not know, are the texts "inf", "-inf" and "nan".
+nlohmann::ordered_json reportAsJson(const Report& report);
 nlohmann::ordered_json pointAsJson(const ReportPoint& point);
 Result<ReportPoint> pointFromJson(const nlohmann::ordered_json& json);  // of `froth report --resume`
 std::string reportAsCsv(const Report& report);                 // a row per point
@@ -132,5 +145,8 @@ std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, con
 // Fits the slope of y over x in log-log. Points whose y is within `floorFactor` of the smallest y are the floor and left out.
 Slope fitSlope(const std::string& what, double expected, std::vector<double> x, std::vector<double> y,
                double floorFactor = 2);
+
+// fitSlope of a sweep's mean errors over its steps, for one renderer; the default is among them.
+Slope fitConvergence(const std::vector<ReportPoint>& points, const Sweep& sweep, const std::string& renderer);
 
 }  // namespace froth

@@ -63,6 +63,27 @@ TEST(Metrics, ANotANumberIsNeverAGoodScore) {
   EXPECT_EQ(d.overTwoSteps, 1.0 / 144);
 }
 
+TEST(Metrics, TheMeanErrorIsOfAllChannelsAndTheWorstPixelIsTheFirstOfTheLargest) {
+  Image a = flat(4, 3, {0.5f, 0.5f, 0.5f}), b = a;
+  b.pixel(1, 2)[2] = 1.0f;
+  b.pixel(3, 2)[0] = 0.0f;
+  b.pixel(0, 0)[1] = 0.25f;
+  const ImageDifference d = *compareImages(a, b);
+  EXPECT_NEAR(d.meanError, (0.5 + 0.5 + 0.25) / 36, 1e-12);
+  EXPECT_EQ(d.worstX, 1u);
+  EXPECT_EQ(d.worstY, 2u);
+}
+
+TEST(Metrics, ANotANumberIsTheWorstPixel) {
+  Image a = flat(4, 3, {0.5f}), b = a;
+  *b.pixel(0, 0) = 100;
+  *b.pixel(2, 1) = std::nanf("");
+  const ImageDifference d = *compareImages(a, b);
+  EXPECT_EQ(d.meanError, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(d.worstX, 2u);
+  EXPECT_EQ(d.worstY, 1u);
+}
+
 // With one window only, SSIM has a closed form: a flat image against a flat one has no variance.
 TEST(Metrics, SsimOfFlatImagesIsTheLuminanceTerm) {
   const Image a = flat(11, 11, {0.25f}), b = flat(11, 11, {0.75f});

@@ -1,0 +1,158 @@
+#include "baker/report/html_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "baker/report/svg_plot.h"
+
+namespace froth {
+
+const ReportPoint* findPoint(const Report& report, const std::string& id) {
+  for (const ReportPoint& point : report.points) {
+    if (point.id == id) return &point;
+  }
+  return nullptr;
+}
+
+const ReportPoint* defaultOf(const Report& report, const std::string& renderer) {
+  for (const ReportPoint& point : report.points) {
+    if (point.renderer == renderer && isDefault(point)) return &point;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> renderersOf(const Report& report) {
+  std::vector<std::string> renderers;
+  for (const ReportPoint& point : report.points) {
+    if (std::find(renderers.begin(), renderers.end(), point.renderer) == renderers.end()) {
+      renderers.push_back(point.renderer);
+    }
+  }
+  return renderers;
+}
+
+bool isDefault(const ReportPoint& point) {
+  return point.settings.empty();
+}
+
+bool hasPhotos(const Report& report) {
+  return std::any_of(report.points.begin(), report.points.end(),
+                     [](const ReportPoint& point) { return point.photoErrors.has_value(); });
+}
+
+std::string settingsText(const ReportPoint& point) {
+  if (isDefault(point)) return "default";
+  std::string text;
+  for (const Setting& setting : point.settings) {
+    text += (text.empty() ? "" : ", ") + setting.knob + " " + setting.value;
+  }
+  return text;
+}
+
+int colourOf(const Report& report, const std::string& renderer) {
+  const std::vector<std::string> renderers = renderersOf(report);
+  return int(std::find(renderers.begin(), renderers.end(), renderer) - renderers.begin());
+}
+
+std::string milliseconds(double value) {
+  return shortNumber(value) + " ms";
+}
+
+std::string intervalText(const Interval& interval) {
+  return fmt::format("{} ({} to {})", milliseconds(interval.median), shortNumber(interval.p5),
+                     shortNumber(interval.p95));
+}
+
+std::string bytesText(double bytes) {
+  const double size = std::abs(bytes);
+  if (size >= 1e9) return shortNumber(bytes / 1e9) + " GB";
+  if (size >= 1e6) return shortNumber(bytes / 1e6) + " MB";
+  if (size >= 1e3) return shortNumber(bytes / 1e3) + " kB";
+  return shortNumber(bytes) + " B";
+}
+
+std::string decibels(double value) {
+  if (std::isnan(value)) return "not a number";
+  return std::isinf(value) ? shortNumber(value) : fmt::format("{:.2f}", value);
+}
+
+std::string percent(double share) {
+  return share == 0 ? "0 %" : shortNumber(share * 100) + " %";
+}
+
+Cell textCell(const std::string& text) {
+  return {escapeMarkup(text), "text"};
+}
+
+Cell numberCell(const std::string& text) {
+  return {escapeMarkup(text), "number"};
+}
+
+Cell timeCell(const Interval& interval) {
+  if (interval.median == 0 && interval.p95 == 0) return numberCell("–");
+  return {fmt::format("{} <small>{}–{}</small>", shortNumber(interval.median), shortNumber(interval.p5),
+                      shortNumber(interval.p95)),
+          "number"};
+}
+
+Cell changeCell(const Interval& interval, const Interval& base) {
+  if (!(interval.median > 0) || !(base.median > 0)) return numberCell("–");
+  if (isTie(interval, base)) return {"<span class=\"soft\">tie</span>", "number"};
+  const double change = (interval.median / base.median - 1) * 100;
+  return {fmt::format("<span class=\"{}\">{}{:.1f} %</span>", change < 0 ? "better" : "worse",
+                      change < 0 ? "−" : "+", std::abs(change)),
+          "number"};
+}
+
+Cell pointCell(const Report& report, const ReportPoint& point) {
+  std::string html = escapeMarkup(settingsText(point));
+  if (isDefault(point)) html = "<b>default</b>";
+  if (point.id == report.chosen) html += " <span class=\"badge pick\">picked</span>";
+  return {html, "text"};
+}
+
+Table::Table(const std::vector<std::string>& head) {
+  for (const std::string& title : head) head_ += "<th>" + escapeMarkup(title) + "</th>";
+}
+
+void Table::add(const std::vector<Cell>& cells, bool isMarked) {
+  rows_ += isMarked ? "<tr class=\"marked\">" : "<tr>";
+  for (const Cell& cell : cells) rows_ += "<td class=\"" + cell.style + "\">" + cell.html + "</td>";
+  rows_ += "</tr>\n";
+}
+
+std::string Table::html() const {
+  return "<div class=\"scroll\"><table><thead><tr>" + head_ + "</tr></thead><tbody>\n" + rows_ +
+         "</tbody></table></div>\n";
+}
+
+std::vector<std::string> errorHead() {
+  return {"PSNR [dB]", "SSIM", "FLIP", "mean error", "max error", "> 1/255", "depth error"};
+}
+
+std::vector<Cell> errorCells(const ErrorFigures& errors) {
+  return {numberCell(decibels(errors.psnr)),
+          numberCell(std::isnan(errors.ssim) ? "–" : fmt::format("{:.5f}", errors.ssim)),
+          numberCell(shortNumber(errors.flip)),
+          numberCell(shortNumber(errors.meanError)),
+          numberCell(shortNumber(errors.maxError)),
+          numberCell(percent(errors.overOneStep)),
+          numberCell(shortNumber(errors.depthError))};
+}
+
+std::string section(const std::string& anchor, const std::string& heading, const std::string& body) {
+  return "<section id=\"" + anchor + "\"><h2>" + escapeMarkup(heading) + "</h2>\n" + body + "</section>\n";
+}
+
+std::string paragraph(const std::string& text) {
+  return text.empty() ? "" : "<p>" + escapeMarkup(text) + "</p>\n";
+}
+
+std::string figure(const std::string& content, const std::string& caption) {
+  return "<figure>" + content +
+         (caption.empty() ? "" : "<figcaption>" + escapeMarkup(caption) + "</figcaption>") + "</figure>\n";
+}
+
+}  // namespace froth
