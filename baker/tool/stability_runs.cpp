@@ -37,8 +37,8 @@ ReferenceOptions referenceOptions(const View& view) {
   return options;
 }
 
-View relativeTo(const glm::dvec3& base, View view) {
-  for (int axis = 0; axis < 3; ++axis) view.worldFromCamera[4 * axis + 3] -= base[axis];
+View movedBy(const glm::dvec3& by, View view) {
+  for (int axis = 0; axis < 3; ++axis) view.worldFromCamera[4 * axis + 3] += by[axis];
   return view;
 }
 
@@ -176,7 +176,7 @@ Result<std::unique_ptr<StabilityRunner>> StabilityRunner::create(const GpuDevice
 }
 
 Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const BakedCase& baked, PresetOutcome& outcome) {
-  const View view = relativeTo(baked.base, stiff.views[index]);
+  const View view = movedBy(-baked.base, stiff.views[index]);
   ReferenceOptions options = referenceOptions(view);
   BoundOptions boundOptions;
   boundOptions.storageError = stiff.storageError;
@@ -190,15 +190,16 @@ Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const Bake
   if (!inFloat) return inFloat.error();
   addCheck(checkBound(*bound, *inFloat), index, rendererOf(outcome, "float"));
 
+  const View placed = movedBy(stiff.moved, stiff.views[index]);
   std::vector<RenderedImages> drawn;
   for (const GpuMethod method : {GpuMethod::kRaster, GpuMethod::kWalk}) {
     GpuRenderOptions gpu;
     gpu.method = method;
     gpu.cutoff = 0;
     gpu.maxSteps = baked.foam.cellCount;
-    Result<GpuFrame> frame = gpu_->render(stiff.views[index], gpu);
+    Result<GpuFrame> frame = gpu_->render(placed, gpu);
     if (!frame) return frame.error();
-    const Result<GpuFrame> again = gpu_->render(stiff.views[index], gpu);
+    const Result<GpuFrame> again = gpu_->render(placed, gpu);
     if (!again) return again.error();
     RendererOutcome& renderer = rendererOf(outcome, method == GpuMethod::kRaster ? "raster" : "walk");
     addCheck(checkBound(*bound, frame->images), index, renderer);
@@ -216,11 +217,11 @@ Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, cons
   if (Status status = bakeCase(foam, outcome.preset, baked, progress); !status) return status;
   const Result<RegularTriangulation> triangulation = triangulateRegular(baked.foam.sites, baked.foam.radii);
   if (!triangulation) return triangulation.error();
-  if (Status loaded = gpu_->load(baked.asset, progress); !loaded) return loaded;
+  if (Status loaded = gpu_->load(baked.asset, progress, stiff.moved); !loaded) return loaded;
   outcome.encodingPsnr = std::numeric_limits<double>::infinity();
   for (size_t index = 0; index < stiff.views.size(); ++index) {
     if (Status run = runView(stiff, index, baked, outcome); !run) return run;
-    const View view = relativeTo(baked.base, stiff.views[index]);
+    const View view = movedBy(-baked.base, stiff.views[index]);
     addTrace(traceWalks(baked.foam, triangulation->graph, view), outcome.walks);
     const Result<RenderedImages> decoded = baked.reference->render(view, referenceOptions(view));
     if (!decoded) return decoded.error();
