@@ -85,11 +85,12 @@ StiffCase grid(const std::string& name, const std::string& what, double jitter) 
 // A cell in the middle of a sphere of sites, each of which is its neighbour.
 Foam hubOf(int spokes) {
   const double golden = glm::pi<double>() * (3 - std::sqrt(5.0));
-  std::vector<CaseCell> cells = {{{0, 0, 0}, 0.95f, 1.5f, kFaceToViewer, 5, 0}};
+  const float reach = 5.6f / std::sqrt(static_cast<float>(spokes));  // some 30 spokes overlap each
+  std::vector<CaseCell> cells = {{{0, 0, 0}, 1 - reach / 4, 1.5f, kFaceToViewer, 5, 0}};
   for (int i = 0; i < spokes; ++i) {
     const double z = 1 - (2 * i + 1.0) / spokes, radius = std::sqrt(1 - z * z);
     const glm::vec3 site(radius * std::cos(golden * i), radius * std::sin(golden * i), z);
-    cells.push_back({site, 0.1f, i % 3 == 0 ? 30.0f : 0.0f, kFaceToViewer, 5, static_cast<uint32_t>(i % 97)});
+    cells.push_back({site, reach, i % 3 == 0 ? 30.0f : 0.0f, kFaceToViewer, 5, static_cast<uint32_t>(i % 97)});
   }
   return foamOfCells(cells);
 }
