@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "baker/counter_random.h"
+#include "format/float_span.h"
 
 namespace froth {
 namespace {
@@ -135,17 +137,32 @@ void drawLobes(Dice& dice, Foam& foam) {
   }
 }
 
+// Few, as a GPU compiles its shaders for each: detail sites of a cell, lobes of a detail site.
+constexpr std::array<uint32_t, 2> kShapes[] = {{1, 1}, {4, 2}, {4, 2}, {8, 8}};
+
+// One number of one array far outside of what the others are, where its square is a float yet.
+void spoil(Dice& dice, Foam& foam) {
+  const std::span<float> arrays[] = {floatsOf(foam.sites),         floatsOf(foam.radii),    floatsOf(foam.densities),
+                                     floatsOf(foam.detailSites),   floatsOf(foam.detailHeights), floatsOf(foam.lobeAxes),
+                                     floatsOf(foam.lobeColours)};
+  const std::span<float> numbers = dice.pick(arrays);
+  float& number = numbers[dice.below(numbers.size())];
+  number = std::copysign(static_cast<float>(dice.logUniform(1e-15, 1e15)), number);
+}
+
 Foam drawFoam(Dice& dice, double unit) {
   Foam foam;
   foam.cellCount = static_cast<uint32_t>(dice.logUniform(2, 41));
-  foam.detailCount = dice.pick({1u, 1u, 2u, 8u});
-  foam.lobeCount = dice.pick({1u, 1u, 2u, 8u});
+  const auto [details, lobes] = dice.pick(kShapes);
+  foam.detailCount = details;
+  foam.lobeCount = lobes;
   drawSites(dice, foam, unit);
   drawRadii(dice, foam, unit);
   drawDensities(dice, foam, unit);
   drawOrientations(dice, foam);
   drawDetails(dice, foam);
   drawLobes(dice, foam);
+  if (dice.chance(0.2)) spoil(dice, foam);
   return foam;
 }
 

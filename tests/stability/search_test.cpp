@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "baker/bake/check_foam.h"
 #include "baker/camera/view_check.h"
+#include "baker/stability/case_file.h"
 #include "baker/stability/random_case.h"
 #include "baker/stability/random_search.h"
 #include "baker/stability/shrink.h"
@@ -102,6 +104,20 @@ TEST(Shrinking, EndsAfterItsTries) {
   EXPECT_EQ(shrunk->smallest.foam.sites, drawn.foam.sites) << "a fault of another kind was taken";
 }
 
+// What searches have found, in this folder's found/: `froth stability --search` writes such files.
+TEST(FoundCases, HoldOnTheCpu) {
+  uint32_t count = 0;
+  for (const auto& file : std::filesystem::directory_iterator(FROTH_SOURCE_DIR "/tests/stability/found")) {
+    const Result<StiffCase> found = readCase(file.path());
+    ASSERT_TRUE(found) << found.error().message;
+    const auto fault = judgeOfReference()(*found);
+    ASSERT_TRUE(fault) << found->name << ": " << fault.error().message;
+    EXPECT_EQ(fault->has_value(), !found->knownCause.empty()) << found->name << ": " << (*fault ? (*fault)->what : "holds now");
+    ++count;
+  }
+  EXPECT_GE(count, 6u);
+}
+
 TEST(Search, FindsNamesAndShrinksTheSameFaultsAgain) {
   SearchOptions options;
   options.seconds = 0.5;
@@ -116,6 +132,27 @@ TEST(Search, FindsNamesAndShrinksTheSameFaultsAgain) {
     EXPECT_EQ(first->found[i].shrunk.name, second->found[i].shrunk.name);
     EXPECT_EQ(first->found[i].shrunk.foam.sites, second->found[i].shrunk.foam.sites);
     EXPECT_EQ(first->found[i].shrunk.foam.cellCount, 2u);
+  }
+}
+
+// A bound that knows of no rounding is a planted fault: floats break it.
+TEST(Search, ShrinksARealFaultToAFewCellsThatTheTrueBoundHolds) {
+  BoundOptions tooTight;
+  tooTight.rounding = 0;
+  SearchOptions options;
+  options.seconds = 1;
+  options.mostOfOneKind = 2;
+  const CaseJudge judge = judgeOfReference(tooTight);
+  const Result<SearchResult> result = searchCases(options, judge);
+  ASSERT_TRUE(result) << result.error().message;
+  ASSERT_FALSE(result->found.empty()) << "of " << result->tried;
+  for (const FoundCase& found : result->found) {
+    EXPECT_LE(found.shrunk.foam.cellCount, 3u);
+    EXPECT_EQ(found.fault.kind, "float: over its bound");
+    const auto again = judge(found.shrunk), truly = judgeOfReference()(found.shrunk);
+    ASSERT_TRUE(again && truly);
+    EXPECT_TRUE(*again) << "the shrunk case does not fail";
+    EXPECT_FALSE(*truly) << (*truly)->what;
   }
 }
 
