@@ -142,8 +142,9 @@ enum class Cost { kTime, kDiskBytes };
 std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, const std::string& renderer, Cost cost);
 
 // Fits the slope of y over x in log-log. Points whose y is within `floorFactor` of the smallest y are the floor and left out.
+inline constexpr double kFloorFactor = 2;
 Slope fitSlope(const std::string& what, double expected, std::vector<double> x, std::vector<double> y,
-               double floorFactor = 2);
+               double floorFactor = kFloorFactor);
 
 // fitSlope of a sweep's mean errors over its steps, for one renderer; the default is among them.
 Slope fitConvergence(const std::vector<ReportPoint>& points, const Sweep& sweep, const std::string& renderer);
