@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "baker/image/image.h"
 #include "format/result.h"
 
 namespace froth {
@@ -133,6 +134,11 @@ Result<ReportPoint> pointFromJson(const nlohmann::ordered_json& json);  // of `f
 std::string reportAsCsv(const Report& report);                 // a row per point
 // One self-contained file: no script, font or picture from elsewhere.
 std::string reportAsHtml(const Report& report);
+
+// The FLIP map of a view with a frame around its worst pixel, and what is in the frame, enlarged: reference, image, difference.
+// Display-coded images of one size.
+Result<std::vector<ReportImage>> picturesOfError(const std::string& title, const Image& reference, const Image& test,
+                                                 uint32_t worstX, uint32_t worstY);
 
 // Whether noise alone can explain the difference: the intervals overlap.
 bool isTie(const Interval& a, const Interval& b);
