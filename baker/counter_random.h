@@ -31,12 +31,13 @@ enum class Purpose : uint64_t {
   kAxis,
   kTemperature,
   kColour,
-  kSurface,  // last: one stream for each surface follows
+  kSurface,             // one stream for each surface follows
+  kRounding = 1 << 30,  // last: one stream for each cell follows
 };
 
 class CounterRandom {
  public:
-  // `stream` tells several streams of one purpose apart; only kSurface has them.
+  // `stream` tells several streams of one purpose apart; only the last two have them.
   CounterRandom(uint64_t seed, Purpose purpose, uint64_t stream = 0)
       : key_(mixBits(mixBits(seed + kGolden) + (static_cast<uint64_t>(purpose) + stream) * kGolden)) {}
 

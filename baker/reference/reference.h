@@ -21,6 +21,11 @@ struct ReferenceOptions {
   double nearDepth = 0;         // [scene units]
   double depthQuantile = 0.5;
   double detailSharpness = 10;
+  // Every value that a cell is drawn with gets a relative error of up to this, of its own and random by the seed: positions by
+  // their distance from the eye. What the image then changes by, a renderer may err by that rounds so (Monte Carlo
+  // arithmetic). 0: none.
+  double rounding = 0;
+  uint64_t roundingSeed = 0;
   const Image* sceneDistance = nullptr;  // 1 channel, size of the view: where each ray ends [scene units]; null: nowhere
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "baker/reference/rounding.h"
 #include "shaders/foam/appearance.h"
 #include "shaders/foam/cell.h"
 
@@ -33,15 +34,18 @@ std::vector<uint32_t> selectDrawnCells(const Foam& foam, std::span<const uint32_
 
 // By the power of the eye, or along the parallel rays; equals by index (foam.md "Order").
 template <class Real>
-void sortFrontToBack(const Foam& foam, const View& view, std::vector<uint32_t>& cells) {
+void sortFrontToBack(const Foam& foam, const View& view, const ReferenceOptions& options, std::vector<uint32_t>& cells) {
   const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
   const glm::dvec3 eye = eyeOf(view);
   const Vec3<Real> forward(forwardOf(view));
   std::vector<Real> keys(foam.cellCount);
   for (uint32_t cell : cells) {
     const Vec3<Real> centre(glm::dvec3(foam.sites[cell]) - eye);
-    keys[cell] =
-        isOrthographic ? glm::dot(forward, centre) : foam::powerOfOrigin(centre, Real(foam.radii[cell]));
+    const Real radius = foam.radii[cell];
+    Rounding rounding(options.rounding, options.roundingSeed + 1, cell);
+    keys[cell] = isOrthographic
+                     ? rounding.of(glm::dot(forward, centre), glm::length(centre))
+                     : rounding.of(foam::powerOfOrigin(centre, radius), glm::dot(centre, centre) + radius * radius);
   }
   std::sort(cells.begin(), cells.end(),
             [&](uint32_t a, uint32_t b) { return std::pair(keys[a], a) < std::pair(keys[b], b); });
@@ -49,12 +53,12 @@ void sortFrontToBack(const Foam& foam, const View& view, std::vector<uint32_t>& 
 
 // The colour of a detail site from the eye: its lobes weighed by the direction in which it is seen.
 template <class Real>
-Vec3<Real> seeDetail(const Foam& foam, size_t site, const Vec3<Real>& direction) {
+Vec3<Real> seeDetail(const Foam& foam, size_t site, const Vec3<Real>& direction, Rounding& rounding) {
   const LobeRange lobes = lobesOf(foam, site);
   Real largest = -std::numeric_limits<Real>::max(), weightSum = 0;
   Vec3<Real> colourSum(0);
   for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
-    const Real exponent = foam::lobeExponent(Vec3<Real>(foam.lobeAxes[m]), direction);
+    const Real exponent = rounding.of(foam::lobeExponent(Vec3<Real>(foam.lobeAxes[m]), direction));
     foam::addLobe(exponent, Vec3<Real>(foam.lobeColours[m]), largest, weightSum, colourSum);
   }
   const Vec3<Real> base = foam.baseColours.empty() ? Vec3<Real>(0) : Vec3<Real>(foam.baseColours[site]);
@@ -62,29 +66,35 @@ Vec3<Real> seeDetail(const Foam& foam, size_t site, const Vec3<Real>& direction)
 }
 
 template <class Real>
-void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell, const View& view,
+void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell, const View& view, Rounding& rounding,
                  std::span<ViewDetail<Real>> details) {
   const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
   const Vec3<Real> forward(forwardOf(view));
   for (size_t k = 0; k < details.size(); ++k) {
     const size_t site = size_t{source} * details.size() + k;
     ViewDetail<Real>& detail = details[k];
-    detail.place = foam.detailSites[site];
-    detail.height = cell.radius * Real(foam.detailHeights[site]);
+    const glm::vec2 place = foam.detailSites[site];
+    detail.place = {rounding.of(Real(place.x)), rounding.of(Real(place.y))};
+    detail.height = rounding.of(cell.radius * Real(foam.detailHeights[site]));
     const Vec3<Real> fromEye = cell.centre + cell.radius * (detail.place.x * cell.frame.tangent +
                                                             detail.place.y * cell.frame.bitangent);
-    detail.colour = seeDetail(foam, site, isOrthographic ? forward : glm::normalize(fromEye));
+    const Vec3<Real> direction = isOrthographic ? forward : glm::normalize(fromEye);
+    const Vec3<Real> colour = seeDetail(foam, site, rounding.of(direction), rounding);
+    detail.colour = {rounding.of(colour.x), rounding.of(colour.y), rounding.of(colour.z)};
   }
 }
 
 template <class Real>
 void fillPlanes(const Foam& foam, std::span<const uint32_t> neighbours, uint32_t source,
-                const ViewCell<Real>& cell, std::span<ViewPlane<Real>> planes) {
+                const ViewCell<Real>& cell, Rounding& rounding, std::span<ViewPlane<Real>> planes) {
   for (size_t i = 0; i < planes.size(); ++i) {
     const uint32_t other = neighbours[i];
     const Vec3<Real> toNeighbour(glm::dvec3(foam.sites[other]) - glm::dvec3(foam.sites[source]));
     const Real offset = foam::radicalOffset(toNeighbour, cell.radius, Real(foam.radii[other]));
-    planes[i] = {toNeighbour, foam::radicalClearance(cell.centre, toNeighbour, offset)};
+    const Real clearance = foam::radicalClearance(cell.centre, toNeighbour, offset);
+    const Real size = glm::length(toNeighbour);
+    planes[i] = {rounding.of(toNeighbour),
+                 rounding.of(clearance, size * (size + glm::length(cell.centre)) + std::abs(offset))};
   }
 }
 
@@ -110,7 +120,7 @@ ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
                                  const ReferenceOptions& options) {
   const glm::dvec3 eye = eyeOf(view);
   std::vector<uint32_t> drawn = selectDrawnCells(foam, candidates, view, options);
-  sortFrontToBack<Real>(foam, view, drawn);
+  sortFrontToBack<Real>(foam, view, options, drawn);
 
   ViewCells<Real> result;
   result.detailCount = foam.detailCount;
@@ -129,15 +139,17 @@ ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
   tbb::parallel_for(size_t{0}, drawn.size(), [&](size_t rank) {
     const uint32_t source = drawn[rank];
     ViewCell<Real>& cell = result.cells[rank];
-    cell.centre = glm::dvec3(foam.sites[source]) - eye;
-    cell.radius = foam.radii[source];
+    Rounding rounding(options.rounding, options.roundingSeed, source);
+    cell.centre = rounding.of(Vec3<Real>(glm::dvec3(foam.sites[source]) - eye));
+    cell.radius = rounding.of(Real(foam.radii[source]));
     cell.inverseRadius = 1 / cell.radius;
-    cell.density = foam.densities[source];
-    cell.frame = faceFrame<Real>(foam.orientations[source]);
-    fillDetails(foam, source, cell, view,
+    cell.density = rounding.of(Real(foam.densities[source]));
+    const FaceFrame<Real> frame = faceFrame<Real>(foam.orientations[source]);
+    cell.frame = {rounding.of(frame.normal), rounding.of(frame.tangent), rounding.of(frame.bitangent)};
+    fillDetails(foam, source, cell, view, rounding,
                 std::span(result.details).subspan(rank * foam.detailCount, foam.detailCount));
     const size_t planes = cell.planesEnd - cell.planesBegin;
-    fillPlanes(foam, std::span(cechPairs.neighbours).subspan(cechPairs.offsets[source], planes), source, cell,
+    fillPlanes(foam, std::span(cechPairs.neighbours).subspan(cechPairs.offsets[source], planes), source, cell, rounding,
                std::span(result.planes).subspan(cell.planesBegin, planes));
   });
   return result;

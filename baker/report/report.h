@@ -69,6 +69,7 @@ struct Sweep {
   // Convergence: the mean error falls as step^order, with step = number, or 2^-number for bits; 0: no such law.
   double expectedOrder = 0;
   bool isBits = false;
+  Setting base;                     // the knob's place in points whose settings do not name it
   std::vector<std::string> points;  // ids, by growing number
   // Where the default stands on this knob; it is drawn among the points, for each renderer. No value: it is among them.
   std::string defaultValue;

@@ -77,9 +77,10 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
   device.measurePasses = true;
   device.countWork = options.isCounting;
   device.lensClasses = lensClassesOf(*views);
-  Result<std::unique_ptr<GpuRenderer>> created = GpuRenderer::create(device, *asset, progress);
+  Result<std::unique_ptr<GpuRenderer>> created = GpuRenderer::create(device);
   if (!created) return created.error();
   GpuRenderer& renderer = **created;
+  if (Status loaded = renderer.load(*asset, progress); !loaded) return loaded;
 
   GpuRenderOptions render;
   render.method = options.renderer == "walk" ? GpuMethod::kWalk : GpuMethod::kRaster;

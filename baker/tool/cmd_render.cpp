@@ -132,8 +132,9 @@ Status renderOnDevice(const RenderCommandOptions& options, const std::vector<Sel
   if (!asset) return asset.error();
   GpuDeviceOptions device = options.device;
   device.lensClasses = lensClassesOf(views);
-  Result<std::unique_ptr<GpuRenderer>> renderer = GpuRenderer::create(device, *asset, progress);
+  Result<std::unique_ptr<GpuRenderer>> renderer = GpuRenderer::create(device);
   if (!renderer) return renderer.error();
+  if (Status loaded = (*renderer)->load(*asset, progress); !loaded) return loaded;
   figures["device"] = (*renderer)->device().name;
   figures["driver"] = (*renderer)->device().driver;
 

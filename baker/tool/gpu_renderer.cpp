@@ -54,6 +54,7 @@ FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options) 
   info.nearRatio = view.nearRatio ? static_cast<float>(*view.nearRatio) : FROTH_NEAR_DEFAULT;
   info.nearDepth = view.nearDepth ? static_cast<float>(*view.nearDepth) : FROTH_NEAR_DEFAULT;
   info.displayCoded = options.isLinear ? 0 : 1;
+  info.maxSteps = options.maxSteps;
   info.camera = cameraOf(view);
   return info;
 }
@@ -65,7 +66,9 @@ struct GpuRenderer::State {
   Status check(FrothResult result, const char* call) const;
 
   Status createContext(const GpuDeviceOptions& options);
+  Status closeAsset();
   Status openAsset(const AssetInput& input, const Progress& progress);
+  Status place(const glm::dvec3& position);
   Status setExtent(VkExtent2D wanted, bool wantsAllChannels);
   // Uploads the view's ray map, if it has one.
   Status setRayMap(const View& wanted);
@@ -74,7 +77,7 @@ struct GpuRenderer::State {
   // Records frothUpdate and the uploads, then draws if `info` is not null.
   Status submitFrame(const FrothRenderInfo* info, GpuMethod method);
   Result<FrothViewStatus> drawAndAsk(const FrothRenderInfo& info, GpuMethod method);
-  Status checkSilence(const FrothViewStatus& status) const;
+  Status checkSilence(const FrothViewStatus& status);
   Result<RenderedImages> readImages();
 
   GpuDeviceOptions options;
@@ -82,6 +85,7 @@ struct GpuRenderer::State {
   FrothContext* context = nullptr;
   FrothAsset asset{};
   FrothInstance instance{};
+  bool hasAsset = false, hasInstance = false;
   FrothView view{};
   VkExtent2D extent{};
   HostImage colour, distance, normal, rays;
@@ -123,6 +127,18 @@ Status GpuRenderer::State::createContext(const GpuDeviceOptions& deviceOptions) 
   return check(frothCreateContext(&info, &context), "frothCreateContext");
 }
 
+Status GpuRenderer::State::closeAsset() {
+  if (hasInstance) {
+    if (Status gone = check(frothDestroyInstance(context, instance), "frothDestroyInstance"); !gone) return gone;
+  }
+  hasInstance = false;
+  if (hasAsset) {
+    if (Status gone = check(frothCloseAsset(context, asset), "frothCloseAsset"); !gone) return gone;
+  }
+  hasAsset = false;
+  return {};
+}
+
 Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& progress) {
   const std::string path = input.path.string();
   FrothAssetInfo info{};
@@ -135,6 +151,7 @@ Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& pr
     info.dataSize = input.bytes.size();
   }
   if (Status opened = check(frothOpenAsset(context, &info, &asset), "frothOpenAsset"); !opened) return opened;
+  hasAsset = true;
 
   for (uint64_t frame = 0;; ++frame) {
     if (!report(progress, "upload", frame, 0)) return stoppedError();
@@ -144,12 +161,18 @@ Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& pr
     if (Status asked = check(frothGetAssetStatus(context, asset, &status), "frothGetAssetStatus"); !asked)
       return asked;
     if (status.state == FROTH_ASSET_FAILED) return error(status.error, "frothOpenAsset");
-    if (status.state == FROTH_ASSET_READY) break;
+    if (status.state == FROTH_ASSET_READY) return {};
   }
-  FrothInstanceInfo instanceInfo{};
-  instanceInfo.structSize = sizeof(instanceInfo);
-  instanceInfo.asset = asset;
-  return check(frothCreateInstance(context, &instanceInfo, &instance), "frothCreateInstance");
+}
+
+Status GpuRenderer::State::place(const glm::dvec3& position) {
+  FrothInstanceInfo info{};
+  info.structSize = sizeof(info);
+  info.asset = asset;
+  for (int axis = 0; axis < 3; ++axis) info.position[axis] = position[axis];
+  const Status placed = check(frothCreateInstance(context, &info, &instance), "frothCreateInstance");
+  hasInstance = static_cast<bool>(placed);
+  return placed;
 }
 
 void GpuRenderer::State::destroyImages() {
@@ -244,7 +267,7 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
   return status;
 }
 
-Status GpuRenderer::State::checkSilence(const FrothViewStatus& status) const {
+Status GpuRenderer::State::checkSilence(const FrothViewStatus& status) {
   if (status.bits & FROTH_VIEW_NO_WALK_GRAPH) {
     return makeError(ErrorKind::kUnsupported, "the asset holds no walk graph; use --renderer raster");
   }
@@ -254,6 +277,7 @@ Status GpuRenderer::State::checkSilence(const FrothViewStatus& status) const {
   }
   const std::vector<std::string> messages = host->validationMessages();
   if (messages.empty()) return {};
+  host->forgetValidationMessages();  // told once
   return makeError(ErrorKind::kUnsupported, "%zu validation messages; the first: %s", messages.size(),
                    messages.front().c_str());
 }
@@ -278,12 +302,17 @@ Result<RenderedImages> GpuRenderer::State::readImages() {
 GpuRenderer::GpuRenderer() : state_(std::make_unique<State>()) {}
 GpuRenderer::~GpuRenderer() = default;
 
-Result<std::unique_ptr<GpuRenderer>> GpuRenderer::create(const GpuDeviceOptions& options,
-                                                         const AssetInput& asset, const Progress& progress) {
+Result<std::unique_ptr<GpuRenderer>> GpuRenderer::create(const GpuDeviceOptions& options) {
   std::unique_ptr<GpuRenderer> renderer(new GpuRenderer());
   if (Status made = renderer->state_->createContext(options); !made) return made.error();
-  if (Status opened = renderer->state_->openAsset(asset, progress); !opened) return opened.error();
   return renderer;
+}
+
+Status GpuRenderer::load(const AssetInput& asset, const Progress& progress, const glm::dvec3& position) {
+  state_->lastMessage.clear();
+  if (Status closed = state_->closeAsset(); !closed) return closed;
+  if (Status opened = state_->openAsset(asset, progress); !opened) return opened;
+  return state_->place(position);
 }
 
 Result<GpuFrame> GpuRenderer::render(const View& view, const GpuRenderOptions& options) {
@@ -309,7 +338,7 @@ const HostDeviceInfo& GpuRenderer::device() const {
 FrothAssetStatus GpuRenderer::assetStatus() const {
   FrothAssetStatus status{};
   status.structSize = sizeof(status);
-  frothGetAssetStatus(state_->context, state_->asset, &status);  // the handle is good: create() opened it
+  frothGetAssetStatus(state_->context, state_->asset, &status);  // fails, and leaves zero, without one
   return status;
 }
 

@@ -27,6 +27,7 @@ struct GpuRenderOptions {
   GpuMethod method = GpuMethod::kRaster;
   float cutoff = 1e-3f;   // 0: a ray never ends early
   bool isLinear = false;  // colour decoded to linear light
+  uint32_t maxSteps = 0;  // of one walk; 0: the runtime's default
 };
 
 struct GpuFrame {
@@ -37,10 +38,12 @@ struct GpuFrame {
 // One thread at a time.
 class GpuRenderer {
  public:
-  // Opens the asset and waits until it is ready.
-  static Result<std::unique_ptr<GpuRenderer>> create(const GpuDeviceOptions& options, const AssetInput& asset,
-                                                     const Progress& progress);
+  static Result<std::unique_ptr<GpuRenderer>> create(const GpuDeviceOptions& options);
   ~GpuRenderer();
+
+  // Opens the asset, in place of the one before, puts its origin there in the world and waits until it is ready. `asset` is
+  // read only now. Without success there is none.
+  Status load(const AssetInput& asset, const Progress& progress, const glm::dvec3& position = glm::dvec3(0));
 
   // All channels in float. Draws again while a limit that grows by itself was hit.
   Result<GpuFrame> render(const View& view, const GpuRenderOptions& options);
@@ -48,7 +51,7 @@ class GpuRenderer {
   Result<FrothViewStatus> draw(const View& view, const GpuRenderOptions& options);
 
   const HostDeviceInfo& device() const;
-  FrothAssetStatus assetStatus() const;
+  FrothAssetStatus assetStatus() const;  // zero without an asset
 
  private:
   GpuRenderer();

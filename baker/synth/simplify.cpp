@@ -1,0 +1,179 @@
+#include "baker/synth/simplify.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include <glm/gtc/constants.hpp>
+
+#include "shaders/foam/appearance.h"
+
+namespace froth {
+namespace {
+
+constexpr int kDirections = 32;        // over a hemisphere
+constexpr float kSomeHeight = 0x1p-4f;  // [radii]
+constexpr float kSomeColour = 0x1p-4f;  // [display-coded]
+
+// Fibonacci points on the hemisphere around +z.
+std::array<glm::vec3, kDirections> hemisphere() {
+  std::array<glm::vec3, kDirections> directions;
+  for (int i = 0; i < kDirections; ++i) {
+    const double z = (i + 0.5) / kDirections;
+    const double angle = i * glm::pi<double>() * (3 - std::sqrt(5.0));
+    const double radius = std::sqrt(1 - z * z);
+    directions[i] = glm::vec3(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return directions;
+}
+
+glm::vec3 seenColour(const Foam& foam, uint64_t site, const glm::vec3& direction) {
+  const LobeRange lobes = lobesOf(foam, site);
+  float largest = -std::numeric_limits<float>::max(), weightSum = 0;
+  glm::vec3 colourSum(0);
+  for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m)
+    foam::addLobe(foam::lobeExponent(foam.lobeAxes[m], direction), foam.lobeColours[m], largest, weightSum, colourSum);
+  const glm::vec3 base = foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[site];
+  return foam::lobeColour(base, weightSum, colourSum);
+}
+
+// Shares of the unit disc that are nearest to each of a cell's detail sites, on a grid.
+std::vector<int> faceShares(const Foam& foam, uint32_t cell) {
+  constexpr int kGrid = 16;
+  std::vector<int> shares(foam.detailCount, 0);
+  const glm::vec2* sites = &foam.detailSites[size_t{cell} * foam.detailCount];
+  for (int y = 0; y < kGrid; ++y) {
+    for (int x = 0; x < kGrid; ++x) {
+      const glm::vec2 place = glm::vec2(x + 0.5f, y + 0.5f) * (2.0f / kGrid) - 1.0f;
+      if (glm::dot(place, place) > 1) continue;
+      const auto nearer = [&](const glm::vec2& a, const glm::vec2& b) {
+        return glm::dot(a - place, a - place) < glm::dot(b - place, b - place);
+      };
+      ++shares[std::min_element(sites, sites + foam.detailCount, nearer) - sites];
+    }
+  }
+  return shares;
+}
+
+std::vector<uint32_t> largestShares(const Foam& foam, uint32_t cell, uint32_t count) {
+  const std::vector<int> shares = faceShares(foam, cell);
+  std::vector<uint32_t> order(foam.detailCount);
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return shares[a] > shares[b]; });
+  order.resize(count);
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
+template <class Value>
+std::vector<Value> repeatEach(const std::vector<Value>& values, size_t times) {
+  std::vector<Value> result;
+  result.reserve(values.size() * times);
+  for (const Value& value : values) result.insert(result.end(), times, value);
+  return result;
+}
+
+}  // namespace
+
+Foam withoutViewDependence(const Foam& foam) {
+  Foam flat = foam;
+  const std::array<glm::vec3, kDirections> before = hemisphere();
+  const size_t sites = size_t{foam.cellCount} * foam.detailCount;
+  flat.lobeCount = 1;
+  flat.lobeOffsets.clear();
+  flat.baseColours.clear();
+  flat.lobeAxes.assign(sites, glm::vec3(0));
+  flat.lobeColours.resize(sites);
+  tbb::parallel_for(uint32_t{0}, foam.cellCount, [&](uint32_t cell) {
+    const FaceFrame<float> frame = faceFrame<float>(foam.orientations[cell]);
+    for (uint32_t k = 0; k < foam.detailCount; ++k) {
+      const uint64_t site = uint64_t{cell} * foam.detailCount + k;
+      glm::vec3 sum(0);
+      for (const glm::vec3& d : before)
+        sum += seenColour(foam, site, -(d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.normal));
+      flat.lobeColours[site] = sum / static_cast<float>(kDirections) - 0.5f;
+    }
+  });
+  return flat;
+}
+
+Foam withoutDisplacement(const Foam& foam) {
+  Foam plain = foam;
+  std::fill(plain.detailHeights.begin(), plain.detailHeights.end(), 0.0f);
+  return plain;
+}
+
+Foam withFewerDetailSites(const Foam& foam, uint32_t count) {
+  Foam fewer = foam;
+  fewer.detailCount = count;
+  fewer.detailSites.clear();
+  fewer.detailHeights.clear();
+  fewer.lobeAxes.clear();
+  fewer.lobeColours.clear();
+  fewer.baseColours.clear();
+  if (!foam.lobeOffsets.empty()) fewer.lobeOffsets = {0};
+  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
+    for (uint32_t k : largestShares(foam, cell, count)) {
+      const uint64_t site = uint64_t{cell} * foam.detailCount + k;
+      fewer.detailSites.push_back(foam.detailSites[site]);
+      fewer.detailHeights.push_back(foam.detailHeights[site]);
+      if (!foam.baseColours.empty()) fewer.baseColours.push_back(foam.baseColours[site]);
+      const LobeRange lobes = lobesOf(foam, site);
+      const auto axes = foam.lobeAxes.begin() + static_cast<std::ptrdiff_t>(lobes.first);
+      const auto colours = foam.lobeColours.begin() + static_cast<std::ptrdiff_t>(lobes.first);
+      fewer.lobeAxes.insert(fewer.lobeAxes.end(), axes, axes + lobes.count);
+      fewer.lobeColours.insert(fewer.lobeColours.end(), colours, colours + lobes.count);
+      if (!foam.lobeOffsets.empty()) fewer.lobeOffsets.push_back(fewer.lobeColours.size());
+    }
+  }
+  return fewer;
+}
+
+Foam withSomeDisplacement(const Foam& foam) {
+  Foam displaced = foam;
+  for (size_t i = 0; i < displaced.detailHeights.size(); ++i)
+    displaced.detailHeights[i] = i % 2 ? kSomeHeight : -kSomeHeight;
+  return displaced;
+}
+
+Foam withSomeDetailSites(const Foam& foam) {
+  Foam detailed = foam;
+  detailed.detailCount = 2;
+  detailed.detailSites = repeatEach(foam.detailSites, 2);
+  detailed.detailHeights = repeatEach(foam.detailHeights, 2);
+  detailed.lobeAxes.clear();
+  detailed.lobeColours.clear();
+  detailed.baseColours = repeatEach(foam.baseColours, 2);
+  if (!foam.lobeOffsets.empty()) detailed.lobeOffsets = {0};
+  for (size_t site = 0; site < detailed.detailSites.size(); ++site) {
+    const float sign = site % 2 ? 1.0f : -1.0f;
+    detailed.detailSites[site].x += sign * 0.5f;
+    const LobeRange lobes = lobesOf(foam, site / 2);
+    for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
+      detailed.lobeAxes.push_back(foam.lobeAxes[m]);
+      detailed.lobeColours.push_back(foam.lobeColours[m] + sign * kSomeColour);
+    }
+    if (!foam.lobeOffsets.empty()) detailed.lobeOffsets.push_back(detailed.lobeColours.size());
+  }
+  return detailed;
+}
+
+Foam withSomeViewDependence(const Foam& foam) {
+  Foam varied = withoutViewDependence(foam);
+  varied.lobeCount = 2;
+  varied.lobeColours = repeatEach(varied.lobeColours, 2);
+  varied.lobeAxes.assign(varied.lobeColours.size(), glm::vec3(2, 0, 0));
+  for (size_t m = 0; m < varied.lobeColours.size(); m += 2) {
+    varied.lobeColours[m] += kSomeColour;
+    varied.lobeColours[m + 1] -= kSomeColour;
+    varied.lobeAxes[m + 1] = glm::vec3(-2, 0, 0);
+  }
+  return varied;
+}
+
+}  // namespace froth

@@ -1,0 +1,42 @@
+// What the images of a report are compared with: the double-precision reference of the foam as it was given, and photos.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "baker/report/report.h"
+#include "baker/tool/foam_input.h"
+#include "baker/tool/view_selection.h"
+
+namespace froth {
+
+struct PointErrors {
+  std::vector<ViewErrors> views;
+  ErrorFigures errors;                      // mean over the views
+  std::optional<ErrorFigures> photoErrors;  // the same against the photos
+};
+
+class ReportTruth {
+ public:
+  // Draws every view in double, never ending a ray early. `photos`: a folder that holds them by the views' names; empty: none.
+  // Fails if a photo is missing or has another size than its view.
+  static Result<ReportTruth> create(const FoamInput& input, const std::vector<SelectedView>& views,
+                                    const std::filesystem::path& photos, const Progress& progress);
+
+  // One image per view, of its size or smaller: enlarged bilinearly then.
+  Result<PointErrors> compare(std::vector<RenderedImages> images) const;
+
+  const RenderedImages& exact(size_t view) const { return exact_[view]; }
+
+ private:
+  std::vector<SelectedView> views_;
+  std::vector<RenderedImages> exact_;
+  std::vector<Image> photos_;  // empty: none
+};
+
+// Means over views; PSNR of the mean square, maxError the largest.
+ErrorFigures meanOf(const std::vector<ErrorFigures>& figures);
+
+}  // namespace froth
