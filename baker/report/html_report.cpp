@@ -24,9 +24,8 @@ nav{margin:10px 0 4px}nav a{margin-right:14px}a{color:inherit}
 .scroll{overflow-x:auto;margin:6px 0 12px}
 table{border-collapse:collapse;font-size:12.5px;font-variant-numeric:tabular-nums}
 th{text-align:right;font-weight:600;color:var(--soft);border-bottom:1px solid var(--line);padding:3px 9px;vertical-align:bottom}
-th:first-child{text-align:left}
-td{padding:2.5px 9px;border-bottom:1px solid var(--line)}td.number{text-align:right;white-space:nowrap}
-td.text{text-align:left}td.small{font-size:11px;color:var(--soft)}tr.marked td{background:var(--mark)}
+td{padding:2.5px 9px;border-bottom:1px solid var(--line)}td.number{text-align:right;white-space:nowrap}td:first-child{white-space:nowrap}
+th.text,th.bars{text-align:left}td.text{text-align:left}td.small{font-size:11px;color:var(--soft)}tr.marked td{background:var(--mark)}
 td.bars{min-width:220px}.share{display:inline-block;height:9px;background:var(--bar);margin-right:6px;max-width:75%}
 .badge{display:inline-block;border:1px solid currentColor;border-radius:9px;padding:0 7px;font-size:11px;color:var(--soft);white-space:nowrap}
 .good,.better{color:var(--good)}.fair{color:var(--fair)}.bad,.worse{color:var(--bad)}.pick{color:var(--pick)}
@@ -41,8 +40,8 @@ std::string lead(const Report& report) {
   return fmt::format(
       "{} cells, {} x {} pixels, {} views, {} configurations, {} frames each on {}. Errors are against the "
       "double-precision image of the unquantized foam.",
-      report.cells, report.width, report.height, report.views.size(), report.points.size(), report.frames,
-      report.device);
+      countText(report.cells), report.width, report.height, report.views.size(), report.points.size(),
+      report.frames, report.device);
 }
 
 // The link texts of the sections that are there.

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "baker/image/image.h"
 #include "format/result.h"
 
 namespace froth {
@@ -135,6 +136,11 @@ std::string reportAsCsv(const Report& report);                 // a row per poin
 // One self-contained file: no script, font or picture from elsewhere.
 std::string reportAsHtml(const Report& report);
 
+// The FLIP map of a view with a frame around its worst pixel, and what is in the frame, enlarged: reference, image, difference.
+// Display-coded images of one size.
+Result<std::vector<ReportImage>> picturesOfError(const std::string& title, const Image& reference, const Image& test,
+                                                 uint32_t worstX, uint32_t worstY);
+
 // Whether noise alone can explain the difference: the intervals overlap.
 bool isTie(const Interval& a, const Interval& b);
 
@@ -143,8 +149,9 @@ enum class Cost { kTime, kDiskBytes };
 std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, const std::string& renderer, Cost cost);
 
 // Fits the slope of y over x in log-log. Points whose y is within `floorFactor` of the smallest y are the floor and left out.
+inline constexpr double kFloorFactor = 2;
 Slope fitSlope(const std::string& what, double expected, std::vector<double> x, std::vector<double> y,
-               double floorFactor = 2);
+               double floorFactor = kFloorFactor);
 
 // fitSlope of a sweep's mean errors over its steps, for one renderer; the default is among them.
 Slope fitConvergence(const std::vector<ReportPoint>& points, const Sweep& sweep, const std::string& renderer);

@@ -64,6 +64,22 @@ bool isAsDerived(const Slope& slope) {
   return std::abs(slope.measured - slope.expected) <= kSlopeTolerance * std::abs(slope.expected);
 }
 
+// At least two points share the least y: what sets it is not x, and the law can be read from the others
+// alone.
+void judgeAboveFloor(Slope& slope, const std::vector<size_t>& above) {
+  if (above.size() >= 2 && slope.x[above.back()] > slope.x[above.front()]) setLine(slope, above);
+  slope.note = fmt::format("levels off at {}", shortNumber(slope.floor));
+  if (above.size() < kLeastPoints) {
+    slope.note += fmt::format("; {} of {} points lie above", above.size(), slope.x.size());
+  } else if (isAsDerived(slope)) {
+    slope.verdict = kVerdictFloor;
+  } else {
+    slope.verdict = kVerdictOtherOrder;
+    slope.note += fmt::format(", and falls to it with the power {:.2f} where {:g} is derived", slope.measured,
+                              slope.expected);
+  }
+}
+
 double stepOf(const Sweep& sweep, double number) {
   return sweep.isBits ? std::exp2(-number) : number;
 }
@@ -120,24 +136,13 @@ Slope fitSlope(const std::string& what, double expected, std::vector<double> x, 
     slope.verdict = kVerdictAsDerived;
     return slope;
   }
-  if (hasSpread(above, slope.x) && usable.size() - above.size() >= 2) {
-    const Line whole{slope.measured, slope.atOne};
-    setLine(slope, above);
-    if (isAsDerived(slope)) {
-      slope.verdict = kVerdictFloor;
-      slope.floor = least;
-      const size_t firstAbove = expected > 0 ? above.front() : above.back();
-      slope.note =
-          fmt::format("levels off at {} beyond x = {}", shortNumber(least), shortNumber(slope.x[firstAbove]));
-      return slope;
-    }
-    slope.measured = whole.slope;
-    slope.atOne = whole.atOne;
-    slope.fitted = uint32_t(usable.size());
+  if (usable.size() - above.size() >= 2) {
+    slope.floor = least;
+    judgeAboveFloor(slope, above);
+    return slope;
   }
   slope.verdict = kVerdictOtherOrder;
-  slope.note = fmt::format("changes with the power {} where {} is derived", shortNumber(slope.measured),
-                           shortNumber(expected));
+  slope.note = fmt::format("changes with the power {:.2f} where {:g} is derived", slope.measured, expected);
   return slope;
 }
 

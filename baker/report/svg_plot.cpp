@@ -118,10 +118,11 @@ class Drawing {
     body_ += '\n';
   }
 
+  // Of colour and marker.
+  int look(size_t s) const { return plot_.series[s].colour < 0 ? int(s) : plot_.series[s].colour; }
+  bool isNeutral(size_t s) const { return plot_.series[s].colour == PlotSeries::kNeutral; }
   std::string colourClass(size_t s) const {
-    const int chosen = plot_.series[s].colour;
-    if (chosen == PlotSeries::kNeutral) return "cn";
-    return fmt::format("c{}", (chosen < 0 ? int(s) : chosen) % kColours);
+    return isNeutral(s) ? "cn" : fmt::format("c{}", look(s) % kColours);
   }
 
   // Title and legend; what they need is taken from the top of the area.
@@ -217,7 +218,20 @@ class Drawing {
         path += fmt::format("L{} {}", x, y);
       }
     }
+    if (series.isStepped) keepClear(series);
     if (!path.empty()) add("<path class=\"line {} {}\" d=\"{}\"/>", colourClass(s), dashClass(series), path);
+  }
+
+  // Labels keep off the steps of a line.
+  void keepClear(const PlotSeries& series) {
+    constexpr double kHalf = 1.5;
+    for (size_t i = 1; i < series.points.size(); ++i) {
+      if (!shows(series.points[i - 1]) || !shows(series.points[i])) continue;
+      const double x0 = x_.pixel(series.points[i - 1].x), y0 = y_.pixel(series.points[i - 1].y);
+      const double x1 = x_.pixel(series.points[i].x), y1 = y_.pixel(series.points[i].y);
+      taken_.push_back({std::min(x0, x1), y0 - kHalf, std::max(x0, x1), y0 + kHalf});
+      taken_.push_back({x1 - kHalf, std::min(y0, y1), x1 + kHalf, std::max(y0, y1)});
+    }
   }
 
   void drawBars(size_t s) {
@@ -240,7 +254,7 @@ class Drawing {
   void addMarker(size_t s, const PlotPoint& point, double x, double y) {
     const double r = kMarker;
     std::string shape;
-    switch (plot_.series[s].colour == PlotSeries::kNeutral ? 0 : s % 4) {
+    switch (isNeutral(s) ? 0 : look(s) % 4) {
       case 0:
         shape = fmt::format("M{} {}a{r} {r} 0 1 0 {} 0a{r} {r} 0 1 0 {} 0Z", number(x - r), number(y),
                             number(2 * r), number(-2 * r), fmt::arg("r", number(r)));
