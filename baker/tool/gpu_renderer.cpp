@@ -196,6 +196,7 @@ Status GpuRenderer::State::setExtent(VkExtent2D wanted, bool wantsAllChannels) {
   info.maxExtent = wanted;
   info.measurePasses = options.measurePasses ? 1 : 0;
   info.lensClasses = options.lensClasses;
+  info.keepsHits = options.keepsHits ? 1 : 0;
   if (Status made = check(frothCreateView(context, &info, &view), "frothCreateView"); !made) return made;
   extent = wanted;
 
@@ -326,7 +327,7 @@ Result<GpuFrame> GpuRenderer::render(const View& view, const GpuRenderOptions& o
 }
 
 Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptions& options) {
-  if (Status ready = state_->setExtent(extentOf(view), false); !ready) return ready.error();
+  if (Status ready = state_->setExtent(extentOf(view), options.isFull); !ready) return ready.error();
   if (Status ready = state_->setRayMap(view); !ready) return ready.error();
   return state_->drawAndAsk(renderInfoOf(view, options), options.method);
 }
