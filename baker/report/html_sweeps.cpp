@@ -163,7 +163,7 @@ std::string sweepTable(const Report& report, const Sweep& sweep) {
   std::vector<std::string> head{sweep.knob + (sweep.unit.empty() ? "" : " [" + sweep.unit + "]"), "renderer"};
   for (const std::string& title : errorHead()) head.push_back(title);
   if (hasPhotos(report)) head.push_back("PSNR, photos");
-  head.insert(head.end(), {"ms", "to default", "on disk", "resident"});
+  head.insert(head.end(), {"ms", "against default", "on disk", "resident"});
   Table table(head);
   for (const std::string& renderer : renderersOf(report)) {
     const ReportPoint* standard = defaultOf(report, renderer);

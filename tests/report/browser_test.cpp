@@ -28,8 +28,9 @@ std::string readText(const fs::path& path) {
 // reached.
 std::string openPage(const fs::path& page, const fs::path& picture, int height,
                      const std::string& options = "") {
-  const fs::path log = kFolder / "chromium.log", profile = kFolder / "chromium_profile",
-                 loads = profile / "loads.json";
+  const std::string name = picture.stem().string();  // tests may run side by side
+  const fs::path log = kFolder / (name + ".log"), profile = kFolder / (name + "_profile");
+  const fs::path loads = profile / "loads.json";
   const std::string command =
       "chromium --headless=new --no-sandbox --disable-gpu --no-first-run --disable-background-networking "
       "--disable-component-update --host-resolver-rules='MAP * ~NOTFOUND' --hide-scrollbars "
@@ -103,7 +104,7 @@ TEST_F(Browser, ShowsTheReportWithoutAWordOnTheConsole) {
 }
 
 TEST_F(Browser, ShowsItOnDarkPaperToo) {
-  const fs::path page = writePage("report.html", reportAsHtml(test::makeSampleReport())),
+  const fs::path page = writePage("report_dark.html", reportAsHtml(test::makeSampleReport())),
                  picture = kFolder / "report_dark.png";
   EXPECT_EQ(openPage(page, picture, 2400, "--blink-settings=preferredColorScheme=0"), "");
   const Result<Image> image = readImage(picture);
