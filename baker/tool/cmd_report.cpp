@@ -29,7 +29,7 @@ struct ReportOptions {
   double minutes = 1;
   uint64_t seed = 1;
   std::string device, credit, title;
-  bool isCpu = false, isWithoutImages = false, resumes = false;
+  bool isCpu = false, isWithoutImages = false, resumes = false, keepsWork = false;
   Rounds rounds;
 };
 
@@ -161,7 +161,7 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
               input->foam, bench, result);
   if (Status filled = fillReport(points, bench, !options.isWithoutImages, result); !filled) return filled;
   if (Status written = writeReport(options.output, result); !written) return written;
-  std::filesystem::remove_all(work, error);
+  if (!options.keepsWork) std::filesystem::remove_all(work, error);
   return {};
 }
 
@@ -197,6 +197,7 @@ void addReportCommand(CLI::App& program, Tool& tool) {
   command->add_option("--title", options->title, "Name of the scene; default: the input's");
   command->add_option("--credit", options->credit, "Whose photos and foam: shown at the foot");
   command->add_flag("--resume", options->resumes, "Go on where an interrupted report of the same folder stopped");
+  command->add_flag("--keep-work", options->keepsWork, "Leave the assets and the log of measurements in the folder's `work`");
   command->callback([&tool, options] {
     tool.action = [&tool, options] { return checkAndRunReport(*options, tool.progress.callback()); };
   });

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "baker/tool/report/pictures.h"
 #include "format/atomic_file.h"
 
 namespace froth {
@@ -53,6 +52,19 @@ void choosePreset(const PointList& points, Report& report) {
   }
 }
 
+Status addPictures(const PlannedPoint& planned, const Bench& bench, Report& report) {
+  const Result<std::vector<RenderedImages>> images = bench.drawer.render(drawOf(bench, planned.config), {});
+  if (!images) return images.error();
+  for (size_t i = 0; i < images->size(); ++i) {
+    const ViewErrors& errors = planned.point.views[i];
+    const Result<std::vector<ReportImage>> pictures = picturesOfError(
+        fmt::format("View {}", errors.view), bench.truth.exact(i), (*images)[i].colour, errors.worstX, errors.worstY);
+    if (!pictures) return pictures.error();
+    report.images.insert(report.images.end(), pictures->begin(), pictures->end());
+  }
+  return {};
+}
+
 }  // namespace
 
 void describeRun(const RunDescription& run, const Foam& foam, const Bench& bench, Report& report) {
@@ -92,10 +104,7 @@ Status fillReport(const PointList& points, const Bench& bench, bool hasImages, R
   report.frontOverBytes = paretoFront(timed, renderer, Cost::kDiskBytes);
   choosePreset(points, report);
   if (!hasImages) return {};
-  Result<std::vector<ReportImage>> pictures = drawPictures(bench, points.all().front());
-  if (!pictures) return pictures.error();
-  report.images = std::move(*pictures);
-  return {};
+  return addPictures(points.all().front(), bench, report);
 }
 
 Status writeReport(const std::filesystem::path& folder, const Report& report) {

@@ -12,6 +12,8 @@ namespace {
 constexpr uint32_t kMaxCells = 500'000;  // of the most copies, unless the foam alone has more
 constexpr uint32_t kMaxCopies = 16;
 constexpr uint32_t kOutsideViews = 4;
+// What a half float loses of a colour below one: detail sites are kept in halves between the passes (shaders/shade_sites.comp).
+constexpr double kHalfRounding = 0x1p-12;
 constexpr double kFixedCost = 1;  // fitSlope's factor: no floor is cut off
 
 double numberOf(const Sweep& sweep, const ReportPoint& point) {
@@ -75,6 +77,8 @@ std::vector<Slope> errorSlopes(const std::vector<Sweep>& sweeps, PointList& poin
     const std::string renderer = points.at(sweep.points.front()).point.renderer;
     slopes.push_back(fitSlope(fmt::format("{}: mean error over {}", renderer, sweep.isBits ? "step of " + sweep.knob : sweep.knob),
                               sweep.expectedOrder, x, y));
+    Slope& slope = slopes.back();
+    if (slope.floor > 0 && slope.floor < kHalfRounding) slope.note += "; half-float colours of detail sites between the passes";
   }
   return slopes;
 }
