@@ -1,6 +1,7 @@
 // The sections of report.html on fronts: error over milliseconds and over bytes.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -44,6 +45,17 @@ int rankOf(const Report& report, const ReportPoint& point, const std::vector<std
   return isDefault(point) ? 0 : point.id == report.chosen ? 1 : holds(front, point.id) ? 2 : 3;
 }
 
+// Fronts are what the eye shall go to: points far worse than all of them would press them together.
+double lowestDrawn(const Report& report, const std::vector<std::string>& front) {
+  constexpr double kBelowFronts = 6;  // [dB]
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const ReportPoint& point : report.points) {
+    const bool counts = isDefault(point) || point.id == report.chosen || holds(front, point.id);
+    if (counts) lowest = std::min(lowest, point.errors.psnr);
+  }
+  return lowest - kBelowFronts;
+}
+
 Plot frontPlot(const Report& report, Cost cost, const std::vector<std::string>& front) {
   Plot plot;
   plot.title = cost == Cost::kTime ? "Error over milliseconds" : "Error over bytes";
@@ -55,6 +67,11 @@ Plot frontPlot(const Report& report, Cost cost, const std::vector<std::string>& 
   plot.y.label = "PSNR [dB], up is better";
   plot.width = 1080;
   plot.height = 460;
+  const double lowest = lowestDrawn(report, front);
+  if (std::any_of(report.points.begin(), report.points.end(),
+                  [&](const ReportPoint& point) { return point.errors.psnr < lowest; })) {
+    plot.y.from = lowest;
+  }
   for (const std::string& renderer : renderersOf(report)) {
     std::vector<const ReportPoint*> points;
     PlotSeries drawn{renderer, {}}, line;
@@ -126,8 +143,15 @@ std::string frontSection(const Report& report, Cost cost) {
       "Filled: on the front, no other point is surely cheaper and as good. Hollow: beaten, or a tie with a "
       "point of less error. Ringed: the default, and what this report picks. Point at a marker for its "
       "figures.");
-  const auto equal = std::count_if(report.points.begin(), report.points.end(),
-                                   [](const ReportPoint& point) { return std::isinf(point.errors.psnr); });
+  const auto countWhere = [&](const auto& holdsFor) {
+    return std::count_if(report.points.begin(), report.points.end(), holdsFor);
+  };
+  const double lowest = lowestDrawn(report, front);
+  const auto equal = countWhere([](const ReportPoint& point) { return std::isinf(point.errors.psnr); });
+  const auto below = countWhere([&](const ReportPoint& point) { return point.errors.psnr < lowest; });
+  if (below > 0)
+    body += paragraph(
+        fmt::format("{} points with less than {} dB lie below the drawing.", below, decibels(lowest)));
   if (equal > 0)
     body += paragraph(
         fmt::format("{} points equal the reference and have no place on the axis of decibels.", equal));

@@ -30,7 +30,7 @@ td.bars{min-width:220px}.share{display:inline-block;height:9px;background:var(--
 .badge{display:inline-block;border:1px solid currentColor;border-radius:9px;padding:0 7px;font-size:11px;color:var(--soft);white-space:nowrap}
 .good,.better{color:var(--good)}.fair{color:var(--fair)}.bad,.worse{color:var(--bad)}.pick{color:var(--pick)}
 .plots{display:flex;flex-wrap:wrap;gap:10px 14px;margin:6px 0}
-figure{margin:10px 0}figcaption{font-size:12px;margin:2px 0 4px}
+figure{margin:10px 0;overflow-x:auto}figure svg.plot{min-width:720px}figcaption{font-size:12px;margin:2px 0 4px}
 .images{display:grid;grid-template-columns:repeat(auto-fit,minmax(320px,1fr));gap:14px}
 .images img{max-width:100%;image-rendering:pixelated;display:block}
 details summary{cursor:pointer}

@@ -19,26 +19,18 @@ struct SweepPoint {
   double number;
 };
 
-// With the default among them; none where the knob is none of this renderer's.
+bool isTimed(const ReportPoint& point) {
+  return point.total.median > 0;
+}
+
+// By growing number; none where the knob is none of this renderer's.
 std::vector<SweepPoint> pointsOf(const Report& report, const Sweep& sweep, const std::string& renderer) {
   std::vector<SweepPoint> points;
   for (const std::string& id : sweep.points) {
     const ReportPoint* point = findPoint(report, id);
     if (!point || point->renderer != renderer) continue;
-    const auto setting = std::find_if(point->settings.begin(), point->settings.end(),
-                                      [&](const Setting& s) { return s.knob == sweep.knob; });
-    if (setting != point->settings.end()) {
-      points.push_back({point, setting->value, setting->number});
-    } else if (isDefault(*point)) {
-      points.push_back({point, sweep.defaultValue, sweep.defaultNumber});
-    }
-  }
-  if (points.empty()) return {};
-  const ReportPoint* standard = defaultOf(report, renderer);
-  const bool isThere =
-      std::any_of(points.begin(), points.end(), [&](const SweepPoint& p) { return p.point == standard; });
-  if (standard && !isThere && !sweep.defaultValue.empty()) {
-    points.push_back({standard, sweep.defaultValue, sweep.defaultNumber});
+    const Setting& place = placeOnSweep(sweep, *point);
+    points.push_back({point, place.value, place.number});
   }
   std::stable_sort(points.begin(), points.end(),
                    [](const SweepPoint& a, const SweepPoint& b) { return a.number < b.number; });
@@ -91,7 +83,7 @@ PlotPoint sweepMarker(const SweepPoint& swept, double x, const ReportPoint* stan
   } else if (figure == SweepFigure::kBytes) {
     drawn.y = double(swept.point->diskBytes) / 1e6;
   } else {
-    const double base = standard ? standard->total.median : swept.point->total.median;
+    const double base = standard && isTimed(*standard) ? standard->total.median : swept.point->total.median;
     drawn.y = swept.point->total.median / base;
     drawn.yLow = swept.point->total.p5 / base;
     drawn.yHigh = swept.point->total.p95 / base;
@@ -140,6 +132,7 @@ Plot sweepPlot(const Report& report, const Sweep& sweep, SweepFigure figure) {
     PlotSeries series{figure == SweepFigure::kBytes ? "" : renderer, {}, PlotLine::kSolid};
     series.colour = colourOf(report, renderer);
     for (const SweepPoint& swept : pointsOf(report, sweep, renderer)) {
+      if (figure == SweepFigure::kTime && !isTimed(*swept.point)) continue;
       series.points.push_back(
           sweepMarker(swept, places.of(swept.number), defaultOf(report, renderer), figure));
     }
@@ -149,6 +142,13 @@ Plot sweepPlot(const Report& report, const Sweep& sweep, SweepFigure figure) {
   }
   widenAxis(plot, figure);
   return plot;
+}
+
+bool hasTimes(const Report& report, const Sweep& sweep) {
+  return std::any_of(sweep.points.begin(), sweep.points.end(), [&](const std::string& id) {
+    const ReportPoint* point = findPoint(report, id);
+    return point && isTimed(*point);
+  });
 }
 
 bool changesBytes(const Report& report, const Sweep& sweep) {
@@ -163,7 +163,7 @@ std::string sweepTable(const Report& report, const Sweep& sweep) {
   std::vector<std::string> head{sweep.knob + (sweep.unit.empty() ? "" : " [" + sweep.unit + "]"), "renderer"};
   for (const std::string& title : errorHead()) head.push_back(title);
   if (hasPhotos(report)) head.push_back("PSNR, photos");
-  head.insert(head.end(), {"ms", "to default", "on disk", "resident"});
+  head.insert(head.end(), {"ms", "against default", "on disk", "resident"});
   Table table(head);
   for (const std::string& renderer : renderersOf(report)) {
     const ReportPoint* standard = defaultOf(report, renderer);
@@ -190,7 +190,7 @@ std::string sweepPart(const Report& report, const Sweep& sweep) {
   std::string html =
       "<h3>" + escapeMarkup(sweep.knob) + "</h3>\n" + paragraph(sweep.meaning) + "<div class=\"plots\">\n";
   html += drawPlot(sweepPlot(report, sweep, SweepFigure::kError));
-  html += drawPlot(sweepPlot(report, sweep, SweepFigure::kTime));
+  if (hasTimes(report, sweep)) html += drawPlot(sweepPlot(report, sweep, SweepFigure::kTime));
   if (changesBytes(report, sweep)) html += drawPlot(sweepPlot(report, sweep, SweepFigure::kBytes));
   return html + "</div>\n" + sweepTable(report, sweep);
 }

@@ -38,7 +38,7 @@ std::string tilesOf(const Report& report, const ReportPoint& point) {
   const double cells = std::max(1.0, double(report.cells));
   std::string tiles =
       tile(point.renderer + ", a frame", milliseconds(point.total.median),
-           fmt::format("5 % to 95 %: {} to {}", shortNumber(point.total.p5), shortNumber(point.total.p95)));
+           fmt::format("5–95 %: {}–{}", shortNumber(point.total.p5), shortNumber(point.total.p95)));
   tiles += tile("PSNR", decibels(point.errors.psnr) + " dB",
                 point.photoErrors ? decibels(point.photoErrors->psnr) + " dB against photos"
                                   : "against double precision");
@@ -194,7 +194,7 @@ std::string pointsSection(const Report& report) {
   if (report.points.empty()) return "";
   std::vector<std::string> head{"renderer", "settings"};
   for (const std::string& title : errorHead()) head.push_back(title);
-  head.insert(head.end(), {"ms", "to default", "on disk", "resident", "bake [s]"});
+  head.insert(head.end(), {"ms", "against default", "on disk", "resident", "bake [s]"});
   Table table(head);
   for (const ReportPoint& point : report.points) {
     const ReportPoint* standard = defaultOf(report, point.renderer);

@@ -80,10 +80,6 @@ void judgeAboveFloor(Slope& slope, const std::vector<size_t>& above) {
   }
 }
 
-double stepOf(const Sweep& sweep, double number) {
-  return sweep.isBits ? std::exp2(-number) : number;
-}
-
 }  // namespace
 
 Slope fitSlope(const std::string& what, double expected, std::vector<double> x, std::vector<double> y,
@@ -146,16 +142,21 @@ Slope fitSlope(const std::string& what, double expected, std::vector<double> x, 
   return slope;
 }
 
+const Setting& placeOnSweep(const Sweep& sweep, const ReportPoint& point) {
+  const auto found = std::find_if(point.settings.begin(), point.settings.end(),
+                                  [&](const Setting& setting) { return setting.knob == sweep.knob; });
+  return found == point.settings.end() ? sweep.base : *found;
+}
+
 Slope fitConvergence(const std::vector<ReportPoint>& points, const Sweep& sweep,
                      const std::string& renderer) {
   std::vector<double> steps, errors;
   for (const ReportPoint& point : points) {
-    if (point.renderer != renderer) continue;
-    const bool isDefault = point.settings.empty() && !sweep.defaultValue.empty();
     const bool isOfSweep =
         std::find(sweep.points.begin(), sweep.points.end(), point.id) != sweep.points.end();
-    if (!isDefault && (!isOfSweep || point.settings.size() != 1)) continue;
-    steps.push_back(stepOf(sweep, isDefault ? sweep.defaultNumber : point.settings.front().number));
+    if (point.renderer != renderer || !isOfSweep) continue;
+    const double number = placeOnSweep(sweep, point).number;
+    steps.push_back(sweep.isBits ? std::exp2(-number) : number);
     errors.push_back(point.errors.meanError);
   }
   return fitSlope(renderer + ": mean error over " + (sweep.isBits ? "step of " : "") + sweep.knob,

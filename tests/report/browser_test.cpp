@@ -24,24 +24,35 @@ std::string readText(const fs::path& path) {
   return text.str();
 }
 
-// What the page wrote to its console; no host can be reached, so a load from elsewhere writes an error there
-// too.
+// What the page wrote to its console, and a line for each load over the network that it began. No host can be
+// reached.
 std::string openPage(const fs::path& page, const fs::path& picture, int height,
                      const std::string& options = "") {
-  const fs::path log = kFolder / "chromium.log", profile = kFolder / "chromium_profile";
+  const std::string name = picture.stem().string();  // tests may run side by side
+  const fs::path log = kFolder / (name + ".log"), profile = kFolder / (name + "_profile");
+  const fs::path loads = profile / "loads.json";
   const std::string command =
       "chromium --headless=new --no-sandbox --disable-gpu --no-first-run --disable-background-networking "
       "--disable-component-update --host-resolver-rules='MAP * ~NOTFOUND' --hide-scrollbars "
       "--virtual-time-budget=5000 --enable-logging=stderr --v=0 " +
-      options + " --user-data-dir='" + profile.string() + "' --window-size=1200," + std::to_string(height) +
-      " --screenshot='" + picture.string() + "' 'file://" + page.string() + "' > '" + log.string() + "' 2>&1";
+      options + " --log-net-log='" + loads.string() + "' --user-data-dir='" + profile.string() +
+      "' --window-size=1200," + std::to_string(height) + " --screenshot='" + picture.string() + "' 'file://" +
+      page.string() + "' > '" + log.string() + "' 2>&1";
   fs::remove(picture);
+  fs::create_directories(profile);
   EXPECT_EQ(std::system(command.c_str()), 0) << readText(log);
   std::istringstream lines(readText(log));
   std::string console;
   for (std::string line; std::getline(lines, line);) {
     if (line.find("CONSOLE") != std::string::npos) console += line + "\n";
   }
+  // What the browser loads for itself has no page that began it.
+  const std::string requests = readText(loads), begun = "\"initiator\":\"";
+  for (size_t at = requests.find(begun); at != std::string::npos; at = requests.find(begun, at + 1)) {
+    if (requests.compare(at + begun.size(), 13, "not an origin") != 0)
+      console += requests.substr(at, 400) + "\n";
+  }
+  EXPECT_FALSE(requests.empty());
   fs::remove_all(profile);
   return console;
 }
@@ -93,7 +104,7 @@ TEST_F(Browser, ShowsTheReportWithoutAWordOnTheConsole) {
 }
 
 TEST_F(Browser, ShowsItOnDarkPaperToo) {
-  const fs::path page = writePage("report.html", reportAsHtml(test::makeSampleReport())),
+  const fs::path page = writePage("report_dark.html", reportAsHtml(test::makeSampleReport())),
                  picture = kFolder / "report_dark.png";
   EXPECT_EQ(openPage(page, picture, 2400, "--blink-settings=preferredColorScheme=0"), "");
   const Result<Image> image = readImage(picture);
@@ -110,9 +121,10 @@ TEST_F(Browser, WouldHaveShownErrorsAndLoads) {
                      picture, 200)
                 .find("planted"),
             std::string::npos);
-  EXPECT_NE(openPage(writePage("planted.html", "<!doctype html><img src='http://example.org/a.png'>"),
-                     picture, 200),
-            "");
+  EXPECT_NE(
+      openPage(writePage("planted.html", "<!doctype html><img src='http://example.org/a.png'>"), picture, 200)
+          .find("example.org"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ TEST(ReportHtml, NoTextReachesThePageUnescaped) {
   }
   for (Sweep& sweep : report.sweeps) {
     sweep.knob += evil;
-    sweep.meaning = sweep.unit = sweep.defaultValue = evil;
+    sweep.meaning = sweep.unit = sweep.base.value = evil;
   }
   for (ReportPoint& point : report.points) {
     point.renderer += evil;

@@ -1,5 +1,6 @@
 #include "tests/report/sample_report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -256,8 +257,9 @@ std::vector<Knob> makeKnobs() {
 void addSweeps(Report& report) {
   size_t seed = 10;
   for (const Knob& knob : makeKnobs()) {
-    Sweep sweep{knob.name,   knob.meaning, knob.unit,         knob.isLogarithmic, knob.order,
-                knob.isBits, {},           knob.defaultValue, knob.defaultNumber};
+    Sweep sweep{knob.name, knob.meaning, knob.unit, knob.isLogarithmic, knob.order, knob.isBits, {}, {}};
+    sweep.base = {knob.name, knob.defaultValue, knob.defaultNumber};
+    sweep.points = {"raster"};
     for (const auto& [value, number] : knob.values) {
       for (const std::string renderer : {"raster", "walk"}) {
         const bool isForOne =
@@ -271,6 +273,10 @@ void addSweeps(Report& report) {
         sweep.points.push_back(report.points.back().id);
       }
     }
+    const auto isOfWalk = [](const std::string& id) { return id.starts_with("walk"); };
+    const auto firstOfWalk = std::find_if(sweep.points.begin(), sweep.points.end(), isOfWalk);
+    if (firstOfWalk != sweep.points.end()) sweep.points.push_back("walk");
+    if (sweep.knob == "stepLimit") sweep.points.erase(sweep.points.begin());
     report.sweeps.push_back(sweep);
   }
 }

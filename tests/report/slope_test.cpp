@@ -92,8 +92,8 @@ TEST(Slope, OfASweepOfBitsIsOverTheStep) {
   sweep.knob = "positionBits";
   sweep.isBits = true;
   sweep.expectedOrder = 1;
-  sweep.defaultValue = "14";
-  sweep.defaultNumber = 14;
+  sweep.base = {"positionBits", "14", 14};
+  sweep.points = {"raster", "walk"};
   points[0].id = points[0].renderer = "raster";
   points[0].errors.meanError = std::exp2(-14);
   points[1].id = points[1].renderer = "walk";
