@@ -12,6 +12,8 @@
 
 namespace froth {
 
+struct BakedCase;  // stability_runs.cpp
+
 // One renderer on the bake of one preset, over all views of a case.
 struct RendererOutcome {
   std::string renderer{};     // "float", "raster", "walk"
@@ -60,9 +62,9 @@ class StabilityRunner {
 
   Status runPreset(const StiffCase& stiff, const Foam& foam, const std::vector<RenderedImages>& originals, PresetOutcome& outcome,
                    const Progress& progress);
-  Status drawTwice(const StiffCase& stiff, size_t index, const struct BakedCase& baked, GpuMethod method, RendererOutcome& renderer,
+  Status drawTwice(const StiffCase& stiff, size_t index, const BakedCase& baked, GpuMethod method, RendererOutcome& renderer,
                    RenderedImages& images);
-  Status runView(const StiffCase& stiff, size_t index, const struct BakedCase& baked, PresetOutcome& outcome);
+  Status runView(const StiffCase& stiff, size_t index, const BakedCase& baked, PresetOutcome& outcome);
 
   std::unique_ptr<GpuRenderer> gpu_;
 };
