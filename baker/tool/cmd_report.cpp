@@ -29,6 +29,7 @@ struct ReportOptions {
   double minutes = 1;
   uint64_t seed = 1;
   std::string device, credit, title;
+  std::vector<std::string> knobs;  // empty: all
   bool isCpu = false, isWithoutImages = false, resumes = false, keepsWork = false;
   Rounds rounds;
 };
@@ -76,13 +77,26 @@ Result<bool> canWalk(const ReportOptions& options, bool hasFoam) {
   return reader->manifest().hasWalkGraph;
 }
 
-std::vector<Knob> chooseKnobs(const ReportOptions& options, bool hasFoam, bool walks) {
+// Those of --knobs, by their names up to a comma: "cutoff" is the cut-off with all else exact too.
+Result<std::vector<Knob>> chooseKnobs(const ReportOptions& options, bool hasFoam, bool walks) {
   std::vector<Knob> knobs = drawingKnobs(walks);
   if (hasFoam) {
     for (Knob& knob : encodingKnobs()) {
       if (!options.isCpu || knob.method == GpuMethod::kRaster) knobs.push_back(std::move(knob));
     }
   }
+  if (options.knobs.empty()) return knobs;
+  const std::vector<std::string>& wanted = options.knobs;
+  const auto nameOf = [](const Knob& knob) { return knob.sweep.knob.substr(0, knob.sweep.knob.find(',')); };
+  for (const std::string& name : wanted) {
+    if (name == "none" || std::any_of(knobs.begin(), knobs.end(), [&](const Knob& knob) { return nameOf(knob) == name; })) continue;
+    std::string names;
+    for (const Knob& knob : knobs) {
+      if (names.find(nameOf(knob)) == std::string::npos) names += " " + nameOf(knob);
+    }
+    return makeError(ErrorKind::kUsage, "--knobs: '%s' is not one of this input; give `none` or some of%s", name.c_str(), names.c_str());
+  }
+  std::erase_if(knobs, [&](const Knob& knob) { return std::find(wanted.begin(), wanted.end(), nameOf(knob)) == wanted.end(); });
   return knobs;
 }
 
@@ -140,17 +154,18 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
   const Result<bool> walks = canWalk(options, hasFoam);
   if (!walks) return walks.error();
   const Bench bench{workshop, **drawer, *truth, views, *log, options.rounds, *walks};
-  const std::vector<Knob> knobs = chooseKnobs(options, hasFoam, *walks);
+  const Result<std::vector<Knob>> knobs = chooseKnobs(options, hasFoam, *walks);
+  if (!knobs) return knobs.error();
   PointList points(options.isCpu);
   points.add(defaultConfig(), {}, true);
   Report result;
-  result.sweeps = points.addSweeps(knobs);
+  result.sweeps = points.addSweeps(*knobs);
   takeOver(log->found(), points);
-  if (Status measured = measureAll(options, bench, knobs, points, progress); !measured) return measured;
+  if (Status measured = measureAll(options, bench, *knobs, points, progress); !measured) return measured;
   if (Status measured = measureFeatures(options, bench, *input, *cameras, device, hasFoam, result, progress); !measured)
     return measured;
   result.slopes = errorSlopes(result.sweeps, points);
-  if (!options.isCpu) {
+  if (!options.isCpu && options.knobs.empty()) {
     const Result<std::vector<Slope>> times = timeSlopes(bench, *input, hasFoam, progress);
     if (!times) return times.error();
     result.slopes.insert(result.slopes.end(), times->begin(), times->end());
@@ -184,6 +199,8 @@ void addReportCommand(CLI::App& program, Tool& tool) {
       ->capture_default_str()
       ->check(countBetween(0, 100000));
   command->add_option("--photos", options->photos, "Folder of the photos, by the views' names");
+  command->add_option("--knobs", options->knobs, "Turn only these, as in preset,cutoff; `none`: what parts of the scene cost alone")
+      ->delimiter(',');
   command->add_option("--minutes", options->minutes, "For the search over several knobs at once")
       ->capture_default_str()
       ->check(numberBetween(0, 10000));

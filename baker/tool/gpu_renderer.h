@@ -30,6 +30,7 @@ struct GpuRenderOptions {
   bool isLinear = false;  // colour decoded to linear light
   uint32_t maxSteps = 0;  // of one walk; 0: the runtime's default
   bool isFull = false;    // of draw(): distance and normal too, all in float
+  bool readsNormal = true;  // of render(); else the image is empty
 };
 
 struct GpuFrame {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include "baker/tool/progress_printer.h"
 
@@ -14,23 +15,42 @@ View shrink(const View& view, double pixelSize) {
   return resizeView(view, side(view.width), side(view.height));
 }
 
-Status measureErrors(const Bench& bench, PlannedPoint& planned, const Progress& progress) {
-  Result<std::vector<RenderedImages>> images = bench.drawer.render(drawOf(bench, planned.config), progress);
-  if (!images) return images.error();
-  Result<PointErrors> errors = bench.truth.compare(std::move(*images));
-  if (!errors) return errors.error();
-  ReportPoint& point = planned.point;
-  point.errors = errors->errors;
-  point.photoErrors = errors->photoErrors;
-  point.views = std::move(errors->views);
+Status describeAsset(const Bench& bench, PlannedPoint& planned) {
   const Result<BakeRecord> record = bench.workshop.recordOf(planned.config);
   if (!record) return record.error();
-  point.bakeSeconds = record->seconds;
+  planned.point.bakeSeconds = record->seconds;
+  const std::filesystem::path asset = bench.workshop.assetOf(planned.config);
   std::error_code error;
-  point.diskBytes = std::filesystem::file_size(bench.workshop.assetOf(planned.config), error);
-  if (error) return makeError(ErrorKind::kIo, "%s: %s", bench.workshop.assetOf(planned.config).c_str(), error.message().c_str());
+  planned.point.diskBytes = std::filesystem::file_size(asset, error);
+  if (error) return makeError(ErrorKind::kIo, "%s: %s", asset.c_str(), error.message().c_str());
+  return {};
+}
+
+Status keepErrors(const Bench& bench, Result<PointErrors> errors, PlannedPoint& planned) {
+  if (!errors) return errors.error();
+  planned.point.errors = errors->errors;
+  planned.point.photoErrors = errors->photoErrors;
+  planned.point.views = std::move(errors->views);
   planned.hasErrors = true;
-  return bench.log.append(point);
+  return bench.log.append(planned.point);
+}
+
+// Images are compared while the next are drawn.
+Status measureErrors(const Bench& bench, const std::vector<PlannedPoint*>& points, const Progress& progress) {
+  std::future<Result<PointErrors>> compared;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (!report(progress, "errors", i, points.size())) return stoppedError();
+    Result<std::vector<RenderedImages>> images = bench.drawer.render(drawOf(bench, points[i]->config), {});
+    if (!images) return images.error();
+    if (Status described = describeAsset(bench, *points[i]); !described) return described;
+    if (i > 0) {
+      if (Status kept = keepErrors(bench, compared.get(), *points[i - 1]); !kept) return kept;
+    }
+    compared = std::async(std::launch::async, [&truth = bench.truth, taken = std::move(*images)]() mutable {
+      return truth.compare(std::move(taken));
+    });
+  }
+  return points.empty() ? Status() : keepErrors(bench, compared.get(), *points.back());
 }
 
 Status measureTimes(const Bench& bench, const std::vector<PlannedPoint*>& points, const Progress& progress) {
@@ -61,6 +81,7 @@ Draw drawOf(const Bench& bench, const ReportConfig& config) {
   draw.options.method = config.method;
   draw.options.cutoff = config.cutoff;
   draw.options.maxSteps = config.maxSteps;
+  draw.options.readsNormal = false;
   for (const SelectedView& view : bench.views) draw.views.push_back(shrink(view.view, config.pixelSize));
   return draw;
 }
@@ -80,10 +101,7 @@ Status measurePoints(const Bench& bench, std::vector<PlannedPoint*> points, cons
     if (!planned->hasErrors || (planned->isTimed && !planned->hasTimes)) configs.push_back(planned->config);
   }
   if (Status baked = bench.workshop.bake(configs, progress); !baked) return baked;
-  for (size_t i = 0; i < unseen.size(); ++i) {
-    if (!report(progress, "errors", i, unseen.size())) return stoppedError();
-    if (Status measured = measureErrors(bench, *unseen[i], {}); !measured) return measured;
-  }
+  if (Status measured = measureErrors(bench, unseen, progress); !measured) return measured;
   return measureTimes(bench, untimed, progress);
 }
 

@@ -27,6 +27,8 @@ class CandidateSource {
     }
   }
 
+  bool isEmpty() const { return knobs_.empty(); }
+
   // Turns one or two more knobs of a point on a front.
   std::optional<Candidate> next(const PointList& points, const std::vector<const PlannedPoint*>& parents) {
     for (int i = 0; i < kMaxDraws; ++i) {
@@ -77,7 +79,7 @@ Status searchJointly(const Bench& bench, const std::vector<Knob>& knobs, double 
   for (double spent = 0; spent < minutes * 60; spent = Seconds(std::chrono::steady_clock::now() - start).count()) {
     if (!report(progress, "search [s]", static_cast<uint64_t>(spent), static_cast<uint64_t>(minutes * 60))) return stoppedError();
     const std::vector<const PlannedPoint*> parents = pointsOnFronts(points, renderer);
-    if (parents.empty()) return {};
+    if (parents.empty() || source.isEmpty()) return {};
     std::vector<Candidate> batch;
     for (size_t i = 0; i < kBatch; ++i) {
       const std::optional<Candidate> candidate = source.next(points, parents);
