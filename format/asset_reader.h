@@ -48,7 +48,7 @@ class AssetReader {
 Result<AssetContents> readAsset(const std::filesystem::path& path, Layer last = Layer::kViewDependence);
 
 // What `froth verify` does beyond reading: every section decodes, the graph is symmetric (also across chunks) and
-// without loops or double entries, alpha rows are prefixes in nearest-first order, live cells have a finite frame.
+// without loops or double entries, alpha rows are prefixes in nearest-first order.
 Status verifyAsset(const std::filesystem::path& path);
 
 }  // namespace froth

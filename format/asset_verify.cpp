@@ -1,7 +1,5 @@
 // The checks of `froth verify` that need more than one chunk, or more time than every reader should spend.
 #include <algorithm>
-#include <cfloat>
-#include <cmath>
 #include <tuple>
 #include <vector>
 
@@ -13,11 +11,6 @@ namespace froth {
 namespace {
 
 constexpr char kRemedy[] = "bake the scene again";
-
-// A quaternion normalised in float: its length carries some 4 roundings of half of FLT_EPSILON and each
-// component one or two of its own, so |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is
-// allowed.
-constexpr double kUnitTolerance = 12 * FLT_EPSILON;
 
 // A pair across two chunks, as one of them sees it.
 struct CrossPair {
@@ -51,7 +44,6 @@ class Verifier {
   Status addChunk(const AssetReader& reader, uint32_t index) {
     Result<ChunkContents> contents = reader.readChunk(index);
     if (!contents) return contents.error();
-    if (Status status = checkFrames(*contents, index); !status) return status;
     const Box told = reader.liveBounds(index), found = liveBoundsOf(*contents);
     if (told.min != found.min || told.max != found.max)
       return makeError(ErrorKind::kBadInput, "%s: live_bounds are not those of its live cells; %s",
@@ -66,17 +58,6 @@ class Verifier {
     kept.sites = std::move(contents->sites);
     kept.radii = std::move(contents->radii);
     kept.ghostRefs = std::move(contents->ghostRefs);
-    return {};
-  }
-
-  Status checkFrames(const ChunkContents& chunk, uint32_t index) const {
-    for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) {
-      const glm::dvec4 q(chunk.orientations[cell]);
-      if (std::abs(glm::dot(q, q) - 1) <= kUnitTolerance) continue;
-      return makeError(ErrorKind::kBadInput, "%s: cell %u: quaternion of length %.9g, not 1; %s",
-                       sectionPlace(chunkPlace(file_, index), SectionType::kOrientations).c_str(), cell,
-                       std::sqrt(glm::dot(q, q)), kRemedy);
-    }
     return {};
   }
 

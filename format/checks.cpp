@@ -183,6 +183,11 @@ Status checkCells(const ChunkContents& chunk, const std::string& place) {
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has density %g, not >= 0; %s",
                      sectionPlace(place, SectionType::kDensities).c_str(),
                      static_cast<size_t>(density - chunk.densities.begin()), *density, kRemedy);
+  const auto frame = std::find_if_not(chunk.orientations.begin(), chunk.orientations.end(), isUnitQuaternion);
+  if (frame != chunk.orientations.end())
+    return makeError(ErrorKind::kBadInput, "%s: cell %zu has (%g, %g, %g, %g), no unit quaternion; %s",
+                     sectionPlace(place, SectionType::kOrientations).c_str(),
+                     static_cast<size_t>(frame - chunk.orientations.begin()), frame->x, frame->y, frame->z, frame->w, kRemedy);
   for (const auto& [type, scales] : {std::pair(SectionType::kDetailScales, std::span(chunk.detailScales)),
                                      std::pair(SectionType::kColourScales, std::span(chunk.colourScales))}) {
     const auto scale = std::find_if(scales.begin(), scales.end(), [](uint8_t s) { return s > kMaxScale; });

@@ -1,6 +1,8 @@
 // What must hold for contents to be an asset: asked by the reader after, and by the writer before, the bytes.
 #pragma once
 
+#include <cfloat>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -29,6 +31,15 @@ Status checkChunk(const AssetContents& asset, const ChunkContents& chunk, const 
 // Ghosts live in another chunk, in a cell that exists.
 Status checkGhostRefs(const AssetContents& asset, std::span<const ChunkIndex> chunks, uint32_t index,
                       std::span<const CellRef> ghosts, const std::string& place);
+
+// Normalised in float, a quaternion's length carries some 4 roundings of half of FLT_EPSILON and each component one or two of its
+// own, so |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is allowed. A longer one would scale its frame, beyond the
+// floats at last.
+inline bool isUnitQuaternion(const glm::vec4& orientation) {
+  constexpr double kTolerance = 12 * FLT_EPSILON;
+  const glm::dvec4 q(orientation);
+  return std::abs(glm::dot(q, q) - 1) <= kTolerance;  // false for NaN
+}
 
 // Box of the balls of live cells, relative to the chunk's origin.
 Box liveBoundsOf(const ChunkContents& chunk);

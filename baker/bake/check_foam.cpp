@@ -1,6 +1,10 @@
 #include "baker/bake/check_foam.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "format/checks.h"
 
 namespace froth {
 namespace {
@@ -42,7 +46,21 @@ bool isFinite(const Vector& value) {
   return true;
 }
 
-// The numbers on which geometry is built; those of colours are checked when they are written.
+// The first entry that is not finite of an array of detail sites, or of lobes.
+Status checkDetailNumbers(const Foam& foam, const char* name, std::span<const glm::vec3> values, bool areLobes) {
+  const auto bad = std::find_if_not(values.begin(), values.end(), [](const glm::vec3& value) { return isFinite(value); });
+  if (bad == values.end()) return {};
+  uint64_t site = static_cast<uint64_t>(bad - values.begin());
+  if (areLobes && foam.lobeOffsets.empty()) site /= foam.lobeCount;
+  if (areLobes && !foam.lobeOffsets.empty()) {
+    const auto& offsets = foam.lobeOffsets;
+    site = static_cast<uint64_t>(std::upper_bound(offsets.begin(), offsets.end(), site) - offsets.begin()) - 1;
+  }
+  return makeError(ErrorKind::kBadInput, "cell %llu, detail site %llu: array '%s' holds (%g, %g, %g), not finite; repair the foam",
+                   static_cast<unsigned long long>(site / foam.detailCount),
+                   static_cast<unsigned long long>(site % foam.detailCount), name, double{bad->x}, double{bad->y}, double{bad->z});
+}
+
 Status checkNumbers(const Foam& foam) {
   for (uint32_t i = 0; i < foam.cellCount; ++i) {
     const glm::vec3& site = foam.sites[i];
@@ -59,8 +77,10 @@ Status checkNumbers(const Foam& foam) {
       return makeError(ErrorKind::kBadInput, "cell %u: density %g is not a number >= 0; repair the foam", i,
                        double{density});
     }
-    if (!isFinite(foam.orientations[i]) || foam.orientations[i] == glm::vec4(0)) {
-      return makeError(ErrorKind::kBadInput, "cell %u: its orientation is no unit quaternion; repair the foam", i);
+    const glm::vec4& q = foam.orientations[i];
+    if (!isUnitQuaternion(q)) {
+      return makeError(ErrorKind::kBadInput, "cell %u: orientation (%g, %g, %g, %g) is no unit quaternion; repair the foam", i,
+                       double{q.x}, double{q.y}, double{q.z}, double{q.w});
     }
   }
   for (size_t k = 0; k < foam.detailSites.size(); ++k) {
@@ -68,7 +88,10 @@ Status checkNumbers(const Foam& foam) {
     return makeError(ErrorKind::kBadInput, "cell %zu: a detail site or height is not finite; repair the foam",
                      k / foam.detailCount);
   }
-  return {};
+  Status status = checkDetailNumbers(foam, "baseColours", foam.baseColours, false);
+  if (status) status = checkDetailNumbers(foam, "lobeAxes", foam.lobeAxes, true);
+  if (status) status = checkDetailNumbers(foam, "lobeColours", foam.lobeColours, true);
+  return status;
 }
 
 struct KnobRange {

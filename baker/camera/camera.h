@@ -65,6 +65,8 @@ Result<CameraSet> readCameras(const std::filesystem::path& path);
 Result<CameraSet> parseCameras(std::span<const uint8_t> bytes, const std::string& file);
 // Ray maps are named; writeRayMap writes them.
 Status writeCameras(const std::filesystem::path& path, const CameraSet& cameras);
+// What that writes; `file` stands for it in messages.
+Result<std::string> camerasText(const CameraSet& cameras, const std::string& file);
 
 // The same view at another size: intrinsics times W'/W and H'/H, ray maps interpolated; near limits stay.
 View resizeView(const View& view, uint32_t width, uint32_t height);

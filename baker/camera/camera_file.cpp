@@ -312,6 +312,12 @@ Result<CameraSet> parseCameras(std::span<const uint8_t> bytes, const std::string
 }
 
 Status writeCameras(const std::filesystem::path& path, const CameraSet& cameras) {
+  const Result<std::string> text = camerasText(cameras, path.string());
+  if (!text) return text.error();
+  return writeFileAtomically(path, {reinterpret_cast<const uint8_t*>(text->data()), text->size()});
+}
+
+Result<std::string> camerasText(const CameraSet& cameras, const std::string& file) {
   WrittenJson root;
   if (!cameras.scene.empty()) root["scene"] = cameras.scene;
   root["convention"] =
@@ -322,15 +328,14 @@ Status writeCameras(const std::filesystem::path& path, const CameraSet& cameras)
   for (const auto& [list, views] : lists) {
     WrittenJson array = WrittenJson::array();
     for (size_t i = 0; i < views.size(); ++i) {
-      if (Status status = checkView(views[i], viewPlace(path.string(), list, i)); !status) return status;
+      if (Status status = checkView(views[i], viewPlace(file, list, i)); !status) return status.error();
       array.push_back(toJson(views[i]));
     }
     if (!views.empty() || &views == &cameras.views) root[list] = std::move(array);
   }
   // File names need not be UTF-8; a name that is not is written with replacement characters instead of
   // failing.
-  const std::string text = root.dump(1, ' ', false, WrittenJson::error_handler_t::replace) + "\n";
-  return writeFileAtomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  return root.dump(1, ' ', false, WrittenJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace froth

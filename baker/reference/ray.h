@@ -111,6 +111,8 @@ CellStretch<Real> shadeCell(const ViewCell<Real>& cell, std::span<const ViewDeta
   } else {
     hit.tNear = std::max(hit.tNear, tFace);
   }
+  hit.tNear += cell.nearError * hit.tNear;
+  hit.tFar += cell.farError * hit.tFar;
   CellStretch<Real> stretch{hit.tNear, hit.tFar, {}, {}};
   if (stretch.tNear < stretch.tFar) {
     stretch.query = queryAt(stretch.tNear);

@@ -59,7 +59,7 @@ Vec3<Real> seeDetail(const Foam& foam, size_t site, const Vec3<Real>& direction,
   Vec3<Real> colourSum(0);
   for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
     const Real exponent = rounding.of(foam::lobeExponent(Vec3<Real>(foam.lobeAxes[m]), direction));
-    foam::addLobe(exponent, Vec3<Real>(foam.lobeColours[m]), largest, weightSum, colourSum);
+    foam::addLobe(exponent, rounding.of(Vec3<Real>(foam.lobeColours[m])), largest, weightSum, colourSum);
   }
   const Vec3<Real> base = foam.baseColours.empty() ? Vec3<Real>(0) : Vec3<Real>(foam.baseColours[site]);
   return foam::lobeColour(base, weightSum, colourSum);
@@ -78,7 +78,7 @@ void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell, 
     detail.height = rounding.of(cell.radius * Real(foam.detailHeights[site]));
     const Vec3<Real> fromEye = cell.centre + cell.radius * (detail.place.x * cell.frame.tangent +
                                                             detail.place.y * cell.frame.bitangent);
-    const Vec3<Real> direction = isOrthographic ? forward : glm::normalize(fromEye);
+    const Vec3<Real> direction = isOrthographic ? forward : foam::directionToSite(fromEye, cell.frame.normal);
     const Vec3<Real> colour = seeDetail(foam, site, rounding.of(direction), rounding);
     detail.colour = {rounding.of(colour.x), rounding.of(colour.y), rounding.of(colour.z)};
   }
@@ -146,6 +146,8 @@ ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
     cell.density = rounding.of(Real(foam.densities[source]));
     const FaceFrame<Real> frame = faceFrame<Real>(foam.orientations[source]);
     cell.frame = {rounding.of(frame.normal), rounding.of(frame.tangent), rounding.of(frame.bitangent)};
+    cell.nearError = rounding.of(Real(0), Real(1));
+    cell.farError = rounding.of(Real(0), Real(1));
     fillDetails(foam, source, cell, view, rounding,
                 std::span(result.details).subspan(rank * foam.detailCount, foam.detailCount));
     const size_t planes = cell.planesEnd - cell.planesBegin;

@@ -21,6 +21,7 @@ struct ViewCell {
   Real radius, inverseRadius;
   Real density;
   FaceFrame<Real> frame;
+  Real nearError = 0, farError = 0;  // relative, of the distances at which a ray enters and leaves: ReferenceOptions::rounding
   uint64_t planesBegin, planesEnd;  // in ViewCells::planes
 };
 

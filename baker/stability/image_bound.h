@@ -4,6 +4,17 @@
 // operation gives the exact result of inputs that are off by a few roundings. So the double image is drawn again with every value
 // that a cell is drawn with off by that much (ReferenceOptions::rounding; Monte Carlo arithmetic, Parker 1997); what a pixel
 // then changes by is what it is entitled to.
+//
+//   bound = safety * spread + (storage + (cells + 8) u) * exact + storageError + u / 16,   u = 2^-24
+//
+// spread: the largest change of the pixel in any sample. safety: a renderer's errors are one more draw, and need not be spread as the
+// samples' are; one beyond four times the largest of 12 is no draw of the kind. A pixel that jumps (a ray within rounding of an edge)
+// jumps in the samples too, but one that does so rarely may not in 12 of them: whoever finds a pixel over its bound asks again with
+// kSurerSamples.
+// storage: colours of detail sites are halves between passes (shaders/gpu/layout.h, SiteRecord), off by at most 2^-11 of themselves;
+// a pixel is a sum of them with weights >= 0 that are floats, and is off by no more.
+// cells + 8: a sum of n products of values >= 0 is off by at most (n + 1) u of itself; exp is good to 3 u + 2 |x| u, which
+// times T is below 4 u.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +26,15 @@
 
 namespace froth {
 
+inline constexpr uint32_t kSurerSamples = 256;
+
 struct BoundOptions {
   double rounding = 0x1p-21;  // relative: 2^-24 of float, for a chain of some eight operations
   uint32_t samples = 12;      // double images with other roundings
-  double storageError = 0;    // [display-coded] of colours between passes
+  double safety = 4;
+  double storage = 0x1p-11;   // relative, of colours between passes
+  uint32_t cells = 64;        // that a ray composites
+  double storageError = 0;    // [display-coded] more of it, absolute
 };
 
 // Of one view: the exact image, and per pixel and channel how far another may be from it.
@@ -34,13 +50,15 @@ Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& vie
 
 // How an image keeps to it.
 struct BoundCheck {
-  bool isFinite = true;       // every value of colour, alpha and depth
+  bool isFinite = true;       // every value of colour, alpha, depth and normal; and no 0 of colour or alpha is -0
   double maxError = 0;        // [display-coded] of colour
-  double worstExcess = 0;     // largest error over its pixel's bound; <= 1: all keep to it
+  double worstExcess = 0;     // largest error over its pixel's bound, of colour and alpha; <= 1: all keep to it
   uint32_t worstX = 0, worstY = 0;
   double shareOver = 0;       // pixels over their bound
 };
 
 BoundCheck checkBound(const ImageBound& bound, const RenderedImages& image);
+// The same of two images that each may err so, against each other: their difference over twice the bound.
+BoundCheck checkBound(const ImageBound& bound, const RenderedImages& image, const RenderedImages& other);
 
 }  // namespace froth

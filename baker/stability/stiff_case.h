@@ -17,14 +17,19 @@ struct StiffCase {
   std::string analysis;  // one or two sentences: what conditions the image, and so what the bound grows with
   Foam foam;
   std::vector<View> views;  // small; with near limits of their own (0: off)
+  glm::dvec3 moved{0};      // [scene units] where a renderer of assets places the foam, and moves the eyes to; the image is that of 0
   double storageError = 0;  // [display-coded] what the runtime's storage of a colour adds to rounding, where it is not the usual one
+  bool isImported = false;  // the foam is written as a checkpoint and read back first, as a trained one is
+  std::string refusal{};    // part of the message with which it must be refused; empty: it must not
+  std::string knownCause{}; // why it falls short of its bound, if it is known to; empty: it must not
 };
 
 // All built-in cases, in the order of the table. The same on every call and machine.
 std::vector<StiffCase> builtInCases();
 
-// The cases that transform a user's foam: moved by 10^3, 10^6 and 10^9 units, in units of 1e-6 and 1e6, with eyes on its sites,
-// spheres, radical planes and vertices. `views` are some of the user's own.
+// The cases that transform a user's foam: placed, and saved in float, 10^3, 10^6 and 10^9 units away; in units of 1e-6 and 1e6;
+// with the eye on a site, sphere, radical plane and vertex (if it has one) of the cell in the middle of the first view. `views` are
+// some of the user's own, drawn at most 160 pixels wide; without limits of their own their near tests are those of published models.
 std::vector<StiffCase> casesOfFoam(const Foam& foam, const std::vector<View>& views);
 
 }  // namespace froth

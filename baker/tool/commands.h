@@ -25,6 +25,7 @@ void addCompareCommand(CLI::App& program, Tool& tool);
 void addBenchCommand(CLI::App& program, Tool& tool);
 void addCompareBenchCommand(CLI::App& program, Tool& tool);
 void addReportCommand(CLI::App& program, Tool& tool);
+void addStabilityCommand(CLI::App& program, Tool& tool);
 void addDevicesCommand(CLI::App& program, Tool& tool);
 
 }  // namespace froth

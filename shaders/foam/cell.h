@@ -72,7 +72,8 @@ FOAM_FN real3 eyePlane(real3 toNeighbour, real clearance) {
 // the plane as an exit: no clearance within its rounding below zero counts as negative.
 FOAM_FN real exitClearance(real3 centre, real3 toNeighbour, real offset, real clearance) {
   real squared = dot(toNeighbour, toNeighbour);  // the radii's part of the offset may cancel it
-  FOAM_PRECISE real rounding = real(1e-6) * (sqrt(squared * dot(centre, centre)) + squared + abs(offset));
+  real lengths = sqrt(squared) * sqrt(dot(centre, centre));  // the root of the product leaves the floats beyond 4e9 units
+  FOAM_PRECISE real rounding = real(1e-6) * (lengths + squared + abs(offset));
   return clearance >= -rounding ? max(clearance, real(0)) : clearance;
 }
 

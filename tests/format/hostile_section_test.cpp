@@ -85,6 +85,18 @@ TEST(HostileSection, WithARadiusOrDensityOutOfRangeIsRefused) {
       HasSubstr("cell 1 has density -2, not >= 0"));
 }
 
+TEST(HostileSection, WithAFrameThatIsNoRotationIsRefused) {
+  const AssetContents contents = makeSampleAsset();
+  for (const float length : {0.0f, 1e-20f, 0.99f, 1.001f, 2.0f, 1e30f}) {
+    EXPECT_THAT(errorAfter<float>(contents, SectionType::kOrientations,
+                                  [&](auto& numbers) {
+                                    for (size_t i = 8; i < 12; ++i) numbers[i] = i == 8 ? length : 0;
+                                  }),
+                AllOf(HasSubstr("section 'orientations': cell 2 has ("), HasSubstr("no unit quaternion")))
+        << length;
+  }
+}
+
 TEST(HostileSection, WithAGhostThatLivesNowhereIsRefused) {
   const auto errorWithGhost = [](size_t ghost, CellRef ref) {
     return errorAfter<CellRef>(quantizedAsset(), SectionType::kGhostRefs,

@@ -101,14 +101,6 @@ TEST(VerifyAsset, FindsTwoNeighboursAtOnePoint) {
   EXPECT_THAT(verifyContents(contents), HasSubstr("the same point"));
 }
 
-TEST(VerifyAsset, FindsAFrameThatIsNoRotation) {
-  AssetContents contents = makeSampleAsset();
-  contents.chunks[0].orientations[2] = {2, 0, 0, 0};
-  EXPECT_THAT(
-      verifyContents(contents),
-      AllOf(HasSubstr("section 'orientations': cell 2: quaternion of length 2, not 1"), HasSubstr("bake")));
-}
-
 TEST(VerifyAsset, FindsBoundsThatAreNotThoseOfTheCells) {
   Draft draft = draftOf(makeSampleAsset());
   draft.chunks[0].liveBounds = {};

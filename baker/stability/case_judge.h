@@ -1,0 +1,34 @@
+// What finds a fault in a stiff case: the one thing that search, shrinking and the replay of found cases ask.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "baker/stability/image_bound.h"
+#include "baker/stability/stiff_case.h"
+#include "format/result.h"
+
+namespace froth {
+
+struct CaseFault {
+  std::string kind;  // "float: over its bound": the same for the same fault in another case
+  std::string what;  // one line with the numbers found
+  size_t view = 0;   // where it is worst
+  uint32_t x = 0, y = 0;  // [pixels]
+};
+
+// Nothing: the case holds. An error is for what is no fault of the case: cancelled, no device.
+using CaseJudge = std::function<Result<std::optional<CaseFault>>(const StiffCase&)>;
+
+// The first fault that any of them finds.
+CaseJudge judgeByAll(std::vector<CaseJudge> judges);
+
+// The float reference of every view against its bound, which has no share of storage: finite, within it, the same on a second run.
+CaseJudge judgeOfReference(BoundOptions options = {});
+
+// The options under which a case's view is rendered by every renderer: its own near limits, no cut-off.
+ReferenceOptions optionsOfCase(const View& view);
+
+}  // namespace froth

@@ -1,0 +1,46 @@
+// Images and lenses at their limits.
+#include <cmath>
+
+#include "baker/stability/case_parts.h"
+
+namespace froth {
+namespace {
+
+StiffCase seen(const std::string& name, const std::string& what, const std::string& analysis, std::vector<View> views) {
+  return {name, what, analysis, foamOfCells(cloud(40, 71)), std::move(views)};
+}
+
+View fisheye(uint32_t size) {
+  View view = caseView({0.1, 0.2, -0.3}, {0, 0, 1}, size, size);
+  view.lens.kind = LensKind::kFisheye;
+  view.fx = view.fy = size / (2 * glm::pi<double>());
+  return view;
+}
+
+View around() {
+  View view = caseView({0.1, 0.2, -0.3}, {0, 0, 1}, 48, 24);
+  view.lens.kind = LensKind::kEquirectangular;
+  view.fx = view.fy = 24 / glm::pi<double>();
+  return view;
+}
+
+}  // namespace
+
+std::vector<StiffCase> viewCases() {
+  const double degree = glm::pi<double>() / 180;
+  return {seen("views/1_degree", "a field of view of 1 degree from 100 units away",
+               "Neighbouring rays differ by 1e-3 of the scene: errors of eps D are 1e-5 of it.",
+               {caseView({0, 0, -100}, {0, 0, 0}, 32, 24, std::tan(0.5 * degree))}),
+          seen("views/179_degrees", "a field of view of 179 degrees",
+               "Rays at the border are normalised from vectors of length 100; nothing is close to a limit.",
+               {caseView({0.1, 0.2, -0.3}, {0, 0, 1}, 32, 24, std::tan(89.5 * degree)),
+                caseView({0, 0, -1.5}, {0, 0, 0}, 32, 24, std::tan(89.5 * degree))}),
+          seen("views/1x1", "an image of one pixel", "As any other.", {caseView({0, 0, -3}, {0, 0, 0}, 1, 1)}),
+          seen("views/16384x1", "an image of 16384 x 1 pixels", "As any other.", {caseView({0, 0, -3}, {0, 0, 0}, 16384, 1, 0.5 / 8192)}),
+          seen("views/all_around", "a full fisheye and a panorama from within", "Directions behind and at the poles are as good as others.",
+               {fisheye(32), around()}),
+          seen("views/parallel", "an orthographic view from within, in the middle of cells",
+               "Rays begin on a plane through cells; what is behind it is not seen.", {orthographicView({0, 0, 0}, {0.3, 0.2, 1}, 1.2)})};
+}
+
+}  // namespace froth

@@ -1,0 +1,123 @@
+// froth stability: the stiff set through all renderers and presets, against derived bounds.
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "baker/stability/stiff_case.h"
+#include "baker/tool/commands.h"
+#include "baker/tool/figures.h"
+#include "baker/tool/foam_input.h"
+#include "baker/tool/gpu_camera.h"
+#include "baker/tool/output_file.h"
+#include "baker/tool/stability_runs.h"
+#include "baker/tool/stability_table.h"
+
+namespace froth {
+namespace {
+
+struct StabilityOptions {
+  std::filesystem::path input, cameras;  // empty: built-in cases alone
+  std::filesystem::path markdown;
+  std::string only = "*";
+  GpuDeviceOptions device;
+  FiguresOutput figures;
+};
+
+// Views of a user's own that its cases start from.
+constexpr size_t kInputViews = 2;
+
+Result<std::vector<StiffCase>> casesOfInput(const StabilityOptions& options, const Progress& progress) {
+  const Result<FoamInput> input = loadFoam(options.input, progress);
+  if (!input) return input.error();
+  Result<CameraSet> cameras = readCameras(options.cameras);
+  if (!cameras) return cameras.error();
+  std::vector<View>& views = cameras->views;
+  views.resize(std::min(views.size(), kInputViews));
+  for (View& view : views) {
+    view.nearRatio = view.nearRatio.value_or(input->nearRatio);
+    view.nearDepth = view.nearDepth.value_or(input->nearDepth);
+  }
+  return casesOfFoam(input->foam, views);
+}
+
+Result<std::vector<StiffCase>> selectCases(const StabilityOptions& options, const Progress& progress) {
+  std::vector<StiffCase> cases = builtInCases();
+  if (!options.input.empty()) {
+    Result<std::vector<StiffCase>> own = casesOfInput(options, progress);
+    if (!own) return own.error();
+    cases.insert(cases.end(), std::make_move_iterator(own->begin()), std::make_move_iterator(own->end()));
+  }
+  std::erase_if(cases, [&](const StiffCase& stiff) { return fnmatch(options.only.c_str(), stiff.name.c_str(), 0) != 0; });
+  if (!cases.empty()) return cases;
+  return makeError(ErrorKind::kUsage, "--only %s: no case has such a name; docs/STABILITY.md lists them", options.only.c_str());
+}
+
+Result<std::vector<JudgedCase>> runCases(const StabilityOptions& options, std::vector<StiffCase> cases, StabilityRunner& runner,
+                                         Tool& tool) {
+  const Progress progress = tool.progress.callback();
+  std::vector<JudgedCase> judged;
+  for (StiffCase& stiff : cases) {
+    if (!report(progress, "stability: " + stiff.name, judged.size(), cases.size())) return stoppedError();
+    // Stages within a case are too short to be told; they only ask whether to go on.
+    Result<CaseOutcome> outcome = runner.run(stiff, [](std::string_view, uint64_t, uint64_t) { return !isStopRequested(); });
+    if (!outcome) return outcome.error();
+    judged.push_back({std::move(stiff), std::move(*outcome)});
+    tool.progress.finishLine();
+    if (options.figures.wantsTable()) printCase(judged.back());
+  }
+  return judged;
+}
+
+Status runStability(const StabilityOptions& options, Tool& tool) {
+  if (!options.markdown.empty()) {
+    if (Status writable = checkWritable(options.markdown); !writable) return writable;
+  }
+  Result<std::vector<StiffCase>> cases = selectCases(options, tool.progress.callback());
+  if (!cases) return cases.error();
+  GpuDeviceOptions device = options.device;
+  for (const StiffCase& stiff : *cases) {
+    for (const View& view : stiff.views) device.lensClasses |= lensClassesOf(view);
+  }
+  const Result<std::unique_ptr<StabilityRunner>> runner = StabilityRunner::create(device);
+  if (!runner) return runner.error();
+  const Result<std::vector<JudgedCase>> judged = runCases(options, std::move(*cases), **runner, tool);
+  if (!judged) return judged.error();
+
+  nlohmann::ordered_json figures = {{"device", (*runner)->device().name}, {"driver", (*runner)->device().driver}};
+  size_t failures = 0;
+  for (const JudgedCase& one : *judged) {
+    figures["cases"].push_back(caseAsJson(one));
+    if (one.outcome.verdict == CaseVerdict::kFails) ++failures;
+  }
+  if (Status written = options.figures.write(figures); !written) return written;
+  if (!options.markdown.empty()) {
+    if (Status written = writeMarkdown(options.markdown, *judged, (*runner)->device()); !written) return written;
+  }
+  if (failures == 0) return {};
+  return makeError(ErrorKind::kUnsupported, "%zu of %zu cases fall short of their bounds; this is a fault of Froth", failures, judged->size());
+}
+
+}  // namespace
+
+void addStabilityCommand(CLI::App& program, Tool& tool) {
+  CLI::App* command = program.add_subcommand("stability", "Stiff and extreme cases through all renderers and presets, against derived bounds");
+  auto options = std::make_shared<StabilityOptions>();
+  options->device.validate = true;
+  CLI::Option* input = command->add_option("INPUT", options->input, "A checkpoint or asset, whose transformations are run too");
+  CLI::Option* cameras = command->add_option("--cameras", options->cameras, "cameras.json of INPUT; its first two views are taken");
+  input->needs(cameras);
+  cameras->needs(input);
+  command->add_option("--only", options->only, "Only cases whose name fits the pattern: 'sites/*'");
+  command->add_option("--device", options->device.device, "Index or part of a name from `froth devices`");
+  command->add_flag_callback(
+      "--no-validation", [options] { options->device.validate = false; }, "Where no validation layers are installed");
+  command->add_option("--markdown", options->markdown, "Put the tables into this file, between its markers");
+  addFiguresOption(*command, options->figures);
+  command->callback([&tool, options] { tool.action = [&tool, options] { return runStability(*options, tool); }; });
+}
+
+}  // namespace froth

@@ -1,0 +1,126 @@
+#include "baker/tool/stability_table.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "format/atomic_file.h"
+
+namespace froth {
+namespace {
+
+constexpr const char* kBegin = "<!-- made by `froth stability --markdown`: begin -->\n";
+constexpr const char* kEnd = "<!-- end -->\n";
+
+std::string numberText(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
+
+std::string psnrText(double psnr) { return std::isinf(psnr) ? "equal" : fmt::format("{:.1f}", psnr); }
+
+const RendererOutcome* findRenderer(const PresetOutcome& preset, const std::string& name) {
+  for (const RendererOutcome& renderer : preset.renderers) {
+    if (renderer.renderer == name) return &renderer;
+  }
+  return nullptr;
+}
+
+// Largest error, and how much of its bound the worst pixel takes.
+std::string errorText(const PresetOutcome& preset, const std::string& name) {
+  const RendererOutcome* renderer = findRenderer(preset, name);
+  if (!renderer) return "-";
+  return fmt::format("{} ({:.2g})", numberText(renderer->maxError), renderer->worstExcess);
+}
+
+std::string markdownOf(const JudgedCase& judged) {
+  const StiffCase& stiff = judged.stiff;
+  std::string text = fmt::format("| `{}` | {} | {} ", stiff.name, stiff.what, verdictName(judged.outcome.verdict));
+  if (judged.outcome.presets.empty()) return text + "| - | - | - | - | - |\n";
+  bool isFirst = true;
+  for (const PresetOutcome& preset : judged.outcome.presets) {
+    if (!isFirst) text += "| | | ";
+    isFirst = false;
+    text += fmt::format("| {} | {} / {} | {} | {} | {} | {} |\n", preset.preset, numberText(preset.boundLargest),
+                        numberText(preset.boundMean), errorText(preset, "float"), errorText(preset, "raster"),
+                        errorText(preset, "walk"), psnrText(preset.encodingPsnr));
+  }
+  return text;
+}
+
+std::string tables(const std::vector<JudgedCase>& cases, const HostDeviceInfo& device) {
+  std::string text = fmt::format("Drawn on {} ({}).\n\n", device.name, device.driver);
+  text += "| case | what | verdict | preset | bound: largest / mean | CPU float | raster | walk | encoding [dB] |\n"
+          "|---|---|---|---|---|---|---|---|---|\n";
+  for (const JudgedCase& judged : cases) text += markdownOf(judged);
+  text += "\n## What conditions each image\n\n";
+  for (const JudgedCase& judged : cases) {
+    text += fmt::format("- `{}`: {}\n", judged.stiff.name, judged.stiff.analysis);
+    if (!judged.outcome.refusal.empty()) text += fmt::format("  Refused: \"{}\".\n", judged.outcome.refusal);
+    if (!judged.outcome.faults.empty() && !judged.stiff.knownCause.empty())
+      text += fmt::format("  **Falls short**: {}.\n", judged.stiff.knownCause);
+    for (const std::string& fault : judged.outcome.faults) text += fmt::format("  - {}\n", fault);
+  }
+  return text;
+}
+
+}  // namespace
+
+void printCase(const JudgedCase& judged) {
+  fmt::print("{:<30} {}\n", judged.stiff.name, verdictName(judged.outcome.verdict));
+  for (const PresetOutcome& preset : judged.outcome.presets) {
+    fmt::print("  {:<8} bound {:>8} / {:>8}, float {}, raster {}, walk {}, encoding {} dB\n", preset.preset,
+               numberText(preset.boundLargest), numberText(preset.boundMean), errorText(preset, "float"),
+               errorText(preset, "raster"), errorText(preset, "walk"), psnrText(preset.encodingPsnr));
+  }
+  for (const std::string& fault : judged.outcome.faults) fmt::print("  {}\n", fault);
+  std::fflush(stdout);
+}
+
+nlohmann::ordered_json caseAsJson(const JudgedCase& judged) {
+  nlohmann::ordered_json json = {{"name", judged.stiff.name},
+                                 {"what", judged.stiff.what},
+                                 {"analysis", judged.stiff.analysis},
+                                 {"verdict", verdictName(judged.outcome.verdict)},
+                                 {"refusal", judged.outcome.refusal},
+                                 {"knownCause", judged.stiff.knownCause},
+                                 {"faults", judged.outcome.faults}};
+  for (const PresetOutcome& preset : judged.outcome.presets) {
+    nlohmann::ordered_json renderers = nlohmann::ordered_json::object();
+    for (const RendererOutcome& run : preset.renderers) {
+      renderers[run.renderer] = {{"maxError", run.maxError},   {"worstExcess", run.worstExcess},   {"shareOver", run.shareOver},
+                                 {"worstPlace", run.worstPlace}, {"isFinite", run.isFinite},
+                                 {"isRepeatable", run.isRepeatable}, {"endsInTime", run.endsInTime}};
+    }
+    json["presets"].push_back({{"preset", preset.preset},
+                               {"boundLargest", preset.boundLargest},
+                               {"boundMean", preset.boundMean},
+                               {"renderers", renderers},
+                               {"rasterWalkExcess", preset.rasterWalkExcess},
+                               {"walks",
+                                {{"rays", preset.walks.rays},
+                                 {"steps", preset.walks.steps},
+                                 {"mostSteps", preset.walks.mostSteps},
+                                 {"violations", preset.walks.violations},
+                                 {"lost", preset.walks.lost}}},
+                               {"encodingPsnr", preset.encodingPsnr},
+                               {"encodingMax", preset.encodingMax}});
+  }
+  return json;
+}
+
+Status writeMarkdown(const std::filesystem::path& path, const std::vector<JudgedCase>& cases, const HostDeviceInfo& device) {
+  std::string text = std::string(kBegin) + kEnd;
+  if (std::filesystem::exists(path)) {
+    const Result<std::vector<uint8_t>> old = readFile(path);
+    if (!old) return old.error();
+    text.assign(old->begin(), old->end());
+  }
+  const size_t begin = text.find(kBegin), end = text.find(kEnd, begin);
+  if (begin == std::string::npos || end == std::string::npos) {
+    return makeError(ErrorKind::kBadInput, "%s: the lines '%.*s' and '%.*s' are not there; put them where the tables go", path.c_str(),
+                     static_cast<int>(std::string(kBegin).size() - 1), kBegin, static_cast<int>(std::string(kEnd).size() - 1), kEnd);
+  }
+  const size_t inside = begin + std::string(kBegin).size();
+  text.replace(inside, end - inside, tables(cases, device));
+  return writeFileAtomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace froth

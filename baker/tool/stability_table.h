@@ -1,0 +1,24 @@
+// What `froth stability` writes of its outcomes.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "baker/tool/stability_runs.h"
+
+namespace froth {
+
+struct JudgedCase {
+  StiffCase stiff;
+  CaseOutcome outcome;
+};
+
+void printCase(const JudgedCase& judged);
+nlohmann::ordered_json caseAsJson(const JudgedCase& judged);
+
+// Puts the tables between the file's two markers, in place of what is there; makes the file if it does not exist.
+Status writeMarkdown(const std::filesystem::path& path, const std::vector<JudgedCase>& cases, const HostDeviceInfo& device);
+
+}  // namespace froth
