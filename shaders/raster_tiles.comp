@@ -169,7 +169,7 @@ void main() {
     if (seesNothing(rays[r])) radiance = emptyRadiance();
     float depth = isFull ? deviceDepthAt(rays[r], radiance.distance) : 0.0;
     float distance = radiance.distance * FRAME.scale;
-    writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), FRAME.exposure, distance,
+    writePixel(pixel, radiance.colour, coverageOf(radiance.logTransmittance), FRAME.exposure, distance,
                isFull ? inWorld(radiance.normal) : vec3(0.0), depth);
     if (isFull && wantsHits()) writeHit(pixel, distance, FRAME.part, cellCodeOf(radiance.cell));
   }

@@ -25,7 +25,7 @@ void main() {
   Frame frame = takeFrame(code, bits);
   Ball ball = ballOfSite(chunk, cell.y);
   vec3 toSite = ball.centre + ball.radius * (frame.tangent * site.place.x + frame.bitangent * site.place.y);
-  vec3 direction = lensClass == kLensClassOrthographic ? FRAME.forward.xyz : normalize(toSite);
+  vec3 direction = lensClass == kLensClassOrthographic ? FRAME.forward.xyz : directionToSite(toSite, frame.normal);
   vec3 colour = siteColour(code, header, detailCount, lobeCount > 0, detail, site.base, direction);
 
   vec3 shown = min(colour, vec3(65504.0));  // the largest half

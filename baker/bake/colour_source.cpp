@@ -39,6 +39,7 @@ Result<ColourSource> ColourSource::create(const Foam& foam, const Visibility* vi
   }
   AppearanceOptions appearance = options.knobs.appearance;
   appearance.seed = options.seed;
+  if (!isViewDependent(foam)) appearance.lobeLimit = 0;
   const BakeKnobs& knobs = options.knobs;
   if (knobs.heightBits > 0) appearance.detailSiteStep = stepOfBits(knobs.detailSiteBits);  // they share their scales
   Result<AppearanceCoder> coder = AppearanceCoder::create(foam, visibility, appearance, progress);

@@ -123,23 +123,12 @@ Status writeArchive(ZipWriter& archive, std::span<const ExportedTensor> tensors,
   return status ? archive.finish() : status;
 }
 
-}  // namespace
-
-Status exportCheckpoint(const std::filesystem::path& path, const Foam& foam, const Progress& progress) {
-  if (Status status = checkFoam(path.string(), foam); !status) {
-    return status;
-  }
-  const std::vector<float> radii = deactivate(foam.radii), densities = deactivate(foam.densities);
-  const CellGraph graph = findWrittenPairs(foam, radii);
-  if (graph.neighbours.size() > INT32_MAX) {
-    return makeError(ErrorKind::kUnsupported,
-                     "%s: %zu neighbours, the layout's int32 offsets end at 2^31 - 1; export fewer cells",
-                     path.c_str(), graph.neighbours.size());
-  }
-
+Status writeFoam(const std::filesystem::path& path, const Foam& foam, const std::vector<float>& radii, const CellGraph* adjacency,
+                 const Progress& progress) {
+  const std::vector<float> densities = deactivate(foam.densities);
   const uint64_t cells = foam.cellCount, details = foam.detailCount, lobes = foam.lobeCount;
   const auto keyOf = [](Parameter parameter) { return kParameterKeys[static_cast<size_t>(parameter)]; };
-  const ExportedTensor tensors[] = {
+  std::vector<ExportedTensor> tensors = {
       {{keyOf(Parameter::kPoints), ScalarType::kFloat, {cells, 3}}, asBytes(foam.sites)},
       {{keyOf(Parameter::kDensity), ScalarType::kFloat, {cells}}, asBytes(densities)},
       {{keyOf(Parameter::kRadii), ScalarType::kFloat, {cells}}, asBytes(radii)},
@@ -149,10 +138,12 @@ Status exportCheckpoint(const std::filesystem::path& path, const Foam& foam, con
        asBytes(foam.lobeAxes)},
       {{keyOf(Parameter::kLobeColours), ScalarType::kFloat, {cells, details, 3 * lobes}},
        asBytes(foam.lobeColours)},
-      {{keyOf(Parameter::kDetailHeights), ScalarType::kFloat, {cells, details}}, asBytes(foam.detailHeights)},
-      {{kAdjacencyKey, ScalarType::kInt, {graph.neighbours.size()}}, asBytes(graph.neighbours)},
-      {{kAdjacencyOffsetsKey, ScalarType::kInt, {graph.offsets.size()}}, asBytes(graph.offsets)},
-  };
+      {{keyOf(Parameter::kDetailHeights), ScalarType::kFloat, {cells, details}}, asBytes(foam.detailHeights)}};
+  if (adjacency) {
+    const CellGraph& graph = *adjacency;
+    tensors.push_back({{kAdjacencyKey, ScalarType::kInt, {graph.neighbours.size()}}, asBytes(graph.neighbours)});
+    tensors.push_back({{kAdjacencyOffsetsKey, ScalarType::kInt, {graph.offsets.size()}}, asBytes(graph.offsets)});
+  }
   uint64_t done = 0, total = 0;
   for (const ExportedTensor& tensor : tensors) {
     total += tensor.bytes.size();
@@ -168,6 +159,26 @@ Status exportCheckpoint(const std::filesystem::path& path, const Foam& foam, con
     ZipWriter archive(sink);
     return writeArchive(archive, tensors, advance);
   });
+}
+
+}  // namespace
+
+Status exportCheckpoint(const std::filesystem::path& path, const Foam& foam, const Progress& progress) {
+  if (Status status = checkFoam(path.string(), foam); !status) {
+    return status;
+  }
+  const std::vector<float> radii = deactivate(foam.radii);
+  const CellGraph graph = findWrittenPairs(foam, radii);
+  if (graph.neighbours.size() > INT32_MAX) {
+    return makeError(ErrorKind::kUnsupported,
+                     "%s: %zu neighbours, the layout's int32 offsets end at 2^31 - 1; export fewer cells",
+                     path.c_str(), graph.neighbours.size());
+  }
+  return writeFoam(path, foam, radii, &graph, progress);
+}
+
+Status exportUnchecked(const std::filesystem::path& path, const Foam& foam) {
+  return writeFoam(path, foam, deactivate(foam.radii), nullptr, {});
 }
 
 }  // namespace froth

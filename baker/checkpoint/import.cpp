@@ -18,6 +18,11 @@ constexpr uint64_t kMaxCells = UINT32_MAX;
 constexpr uint64_t kMaxExpansion = 256;
 constexpr uint64_t kSliceElements = 1 << 21;  // copied between two looks at a request to stop
 
+// What may reach a shader: a device may take denormal numbers for 0, and so divide by 0 where a processor does not.
+bool isPlain(float value) {
+  return std::isnormal(value) || value == 0;
+}
+
 class Importer {
  public:
   Importer(const NamedBytes& file, CheckpointViews views, const Progress& progress)
@@ -37,7 +42,8 @@ class Importer {
   Status readOrientations();
   template <class Real, class Item>
   Status copy(const TensorView& from, std::vector<Item>& out);
-  Status checkFinite(const TensorView& view, std::span<const float> values) const;
+  Error refuseValue(const TensorView& from, uint64_t cell, float value) const;
+  Status checkPlain(const TensorView& view, std::span<const float> values) const;
   uint64_t totalCount() const;
   const TensorView& view(Parameter parameter) const { return views_[static_cast<size_t>(parameter)]; }
 
@@ -139,7 +145,7 @@ Status Importer::checkExpansion() const {
 }
 
 Status Importer::fillFoam() {
-  constexpr float kSmallestRadius = std::numeric_limits<float>::denorm_min(), kSmallestDensity = 0;
+  constexpr float kSmallestRadius = std::numeric_limits<float>::min(), kSmallestDensity = 0;
   Status status = readPlain(Parameter::kPoints, foam_.sites);
   if (status) status = readActivated(Parameter::kRadii, kSmallestRadius, foam_.radii);
   if (status) status = readActivated(Parameter::kDensity, kSmallestDensity, foam_.densities);
@@ -157,7 +163,7 @@ Status Importer::readPlain(Parameter parameter, std::vector<Vec>& out) {
   if (Status status = copy<float>(from, out); !status) {
     return status;
   }
-  return checkFinite(from, floatsOf(out));
+  return checkPlain(from, floatsOf(out));
 }
 
 Status Importer::readActivated(Parameter parameter, float smallest, std::vector<float>& out) {
@@ -168,10 +174,12 @@ Status Importer::readActivated(Parameter parameter, float smallest, std::vector<
   }
   out.resize(from.count);
   for (size_t i = 0; i < raw.size(); ++i) {
-    // Infinity must not pass as the density or radius 0 that it would become.
-    out[i] = static_cast<float>(std::isfinite(raw[i]) ? softplus(raw[i]) : raw[i]);
+    out[i] = static_cast<float>(raw[i]);
+    if (!isPlain(out[i])) continue;  // told below: infinity must not pass as the density 0 that it would become
+    out[i] = static_cast<float>(softplus(raw[i]));
+    if (out[i] < std::numeric_limits<float>::min()) out[i] = 0;
   }
-  if (Status status = checkFinite(from, out); !status) {
+  if (Status status = checkPlain(from, out); !status) {
     return status;
   }
   const auto low = std::find_if(out.begin(), out.end(), [&](float value) { return value < smallest; });
@@ -193,6 +201,10 @@ Status Importer::readOrientations() {
   foam_.orientations.resize(raw.size());
   for (size_t i = 0; i < raw.size(); ++i) {
     const double length = glm::length(raw[i]);
+    const glm::vec4 asFloats(raw[i]);
+    for (int component = 0; component < 4; ++component) {
+      if (std::fpclassify(asFloats[component]) == FP_SUBNORMAL) return refuseValue(from, i, asFloats[component]);
+    }
     if (!(length > 0) || std::isinf(length)) {
       return badInput(file_.name,
                       "tensor '{}': the quaternion of cell {} has length {}; remove the cell or train again",
@@ -203,16 +215,15 @@ Status Importer::readOrientations() {
   return {};
 }
 
-Status Importer::checkFinite(const TensorView& from, std::span<const float> values) const {
-  const auto bad =
-      std::find_if_not(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
-  if (bad != values.end()) {
-    const auto cell = static_cast<uint64_t>(bad - values.begin()) / (from.count / foam_.cellCount);
-    return badInput(file_.name,
-                    "tensor '{}': cell {} of {} holds {} (as float32); remove the cell or train again",
-                    from.key, cell, foam_.cellCount, *bad);
-  }
-  return {};
+Error Importer::refuseValue(const TensorView& from, uint64_t cell, float value) const {
+  return badInput(file_.name, "tensor '{}': cell {} of {} holds {} (as float32); remove the cell or train again", from.key, cell,
+                  foam_.cellCount, value);
+}
+
+Status Importer::checkPlain(const TensorView& from, std::span<const float> values) const {
+  const auto bad = std::find_if_not(values.begin(), values.end(), isPlain);
+  if (bad == values.end()) return {};
+  return refuseValue(from, static_cast<uint64_t>(bad - values.begin()) / (from.count / foam_.cellCount), *bad);
 }
 
 // By rows: reading from a slow disk can take long. `out` is empty, an Item a few Reals.

@@ -54,7 +54,7 @@ void writePixel(const RayResult<Real>& ray, uint32_t x, uint32_t y, RenderedImag
     images.colour.pixel(x, y)[c] = static_cast<float>(ray.colour[c]);
     images.normal.pixel(x, y)[c] = static_cast<float>(ray.normal[c]);
   }
-  *images.alpha.pixel(x, y) = static_cast<float>(-std::expm1(ray.logTransmittance));
+  *images.alpha.pixel(x, y) = static_cast<float>(foam::coverageOf(ray.logTransmittance));
   *images.depth.pixel(x, y) = static_cast<float>(ray.depth);
 }
 

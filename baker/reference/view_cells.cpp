@@ -78,7 +78,7 @@ void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell, 
     detail.height = rounding.of(cell.radius * Real(foam.detailHeights[site]));
     const Vec3<Real> fromEye = cell.centre + cell.radius * (detail.place.x * cell.frame.tangent +
                                                             detail.place.y * cell.frame.bitangent);
-    const Vec3<Real> direction = isOrthographic ? forward : glm::normalize(fromEye);
+    const Vec3<Real> direction = isOrthographic ? forward : foam::directionToSite(fromEye, cell.frame.normal);
     const Vec3<Real> colour = seeDetail(foam, site, rounding.of(direction), rounding);
     detail.colour = {rounding.of(colour.x), rounding.of(colour.y), rounding.of(colour.z)};
   }

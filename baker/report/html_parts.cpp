@@ -70,7 +70,7 @@ std::string bytesText(double bytes) {
   if (size >= 1e9) return shortNumber(bytes / 1e9) + " GB";
   if (size >= 1e6) return shortNumber(bytes / 1e6) + " MB";
   if (size >= 1e3) return shortNumber(bytes / 1e3) + " kB";
-  return shortNumber(bytes) + " B";
+  return fmt::format("{:.0f} B", bytes);
 }
 
 std::string decibels(double value) {
@@ -80,6 +80,27 @@ std::string decibels(double value) {
 
 std::string percent(double share) {
   return share == 0 ? "0 %" : shortNumber(share * 100) + " %";
+}
+
+std::string countText(uint64_t count) {
+  std::string text = std::to_string(count);
+  for (size_t at = text.size(); at > 3;)
+    text.insert(at -= 3, "\u202f");  // a narrow space that does not break
+  return text;
+}
+
+std::string signedText(double value, int decimals) {
+  const std::string size = fmt::format("{:.{}f}", std::abs(value), decimals);
+  const bool isZero = size.find_first_not_of("0.") == std::string::npos;
+  return (isZero ? "" : value < 0 ? "−" : "+") + size;
+}
+
+std::string tooltipOf(const ReportPoint& point) {
+  return fmt::format("{}: {}; {} dB, FLIP {}, mean error {}, max {}; {}; {} on disk, {} resident",
+                     point.renderer, settingsText(point), decibels(point.errors.psnr),
+                     shortNumber(point.errors.flip), shortNumber(point.errors.meanError),
+                     shortNumber(point.errors.maxError), intervalText(point.total),
+                     bytesText(double(point.diskBytes)), bytesText(double(point.residentBytes)));
 }
 
 Cell textCell(const std::string& text) {
@@ -101,9 +122,9 @@ Cell changeCell(const Interval& interval, const Interval& base) {
   if (!(interval.median > 0) || !(base.median > 0)) return numberCell("–");
   if (isTie(interval, base)) return {"<span class=\"soft\">tie</span>", "number"};
   const double change = (interval.median / base.median - 1) * 100;
-  return {fmt::format("<span class=\"{}\">{}{:.1f} %</span>", change < 0 ? "better" : "worse",
-                      change < 0 ? "−" : "+", std::abs(change)),
-          "number"};
+  return {
+      fmt::format("<span class=\"{}\">{} %</span>", change < 0 ? "better" : "worse", signedText(change, 1)),
+      "number"};
 }
 
 Cell pointCell(const Report& report, const ReportPoint& point) {
@@ -113,23 +134,29 @@ Cell pointCell(const Report& report, const ReportPoint& point) {
   return {html, "text"};
 }
 
-Table::Table(const std::vector<std::string>& head) {
-  for (const std::string& title : head) head_ += "<th>" + escapeMarkup(title) + "</th>";
-}
+Table::Table(const std::vector<std::string>& head) : head_(head) {}
 
 void Table::add(const std::vector<Cell>& cells, bool isMarked) {
+  if (styles_.empty()) {
+    for (const Cell& cell : cells) styles_.push_back(cell.style);
+  }
   rows_ += isMarked ? "<tr class=\"marked\">" : "<tr>";
-  for (const Cell& cell : cells) rows_ += "<td class=\"" + cell.style + "\">" + cell.html + "</td>";
+  for (const Cell& cell : cells) rows_ += fmt::format("<td class=\"{}\">{}</td>", cell.style, cell.html);
   rows_ += "</tr>\n";
 }
 
 std::string Table::html() const {
-  return "<div class=\"scroll\"><table><thead><tr>" + head_ + "</tr></thead><tbody>\n" + rows_ +
+  std::string titles;
+  for (size_t i = 0; i < head_.size(); ++i) {
+    titles += fmt::format("<th class=\"{}\">{}</th>", i < styles_.size() ? styles_[i] : "text",
+                          escapeMarkup(head_[i]));
+  }
+  return "<div class=\"scroll\"><table><thead><tr>" + titles + "</tr></thead><tbody>\n" + rows_ +
          "</tbody></table></div>\n";
 }
 
 std::vector<std::string> errorHead() {
-  return {"PSNR [dB]", "SSIM", "FLIP", "mean error", "max error", "> 1/255", "depth error"};
+  return {"PSNR [dB]", "SSIM", "FLIP", "mean error", "max error", ">\u00a01/255", "depth error"};
 }
 
 std::vector<Cell> errorCells(const ErrorFigures& errors) {

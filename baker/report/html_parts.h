@@ -25,6 +25,9 @@ std::string intervalText(const Interval& interval);  // "1.23 ms (1.2 to 1.31)"
 std::string bytesText(double bytes);                 // "12.3 MB", of 10^6
 std::string decibels(double value);
 std::string percent(double share);
+std::string countText(uint64_t count);               // "499 712"
+std::string signedText(double value, int decimals);  // "+1.20", "−0.31", "0.00"
+std::string tooltipOf(const ReportPoint& point);
 
 // --- Cells of tables; escaped already.
 struct Cell {
@@ -46,7 +49,9 @@ class Table {
   std::string html() const;
 
  private:
-  std::string rows_, head_;
+  std::vector<std::string> head_;
+  std::string rows_;
+  std::vector<std::string> styles_;  // of the first row: a column's title stands as its cells do
 };
 
 // The error columns that every table of points shares.

@@ -24,14 +24,13 @@ nav{margin:10px 0 4px}nav a{margin-right:14px}a{color:inherit}
 .scroll{overflow-x:auto;margin:6px 0 12px}
 table{border-collapse:collapse;font-size:12.5px;font-variant-numeric:tabular-nums}
 th{text-align:right;font-weight:600;color:var(--soft);border-bottom:1px solid var(--line);padding:3px 9px;vertical-align:bottom}
-th:first-child{text-align:left}
-td{padding:2.5px 9px;border-bottom:1px solid var(--line)}td.number{text-align:right;white-space:nowrap}
-td.text{text-align:left}td.small{font-size:11px;color:var(--soft)}tr.marked td{background:var(--mark)}
+td{padding:2.5px 9px;border-bottom:1px solid var(--line)}td.number{text-align:right;white-space:nowrap}td:first-child{white-space:nowrap}
+th.text,th.bars{text-align:left}td.text{text-align:left}td.small{font-size:11px;color:var(--soft)}tr.marked td{background:var(--mark)}
 td.bars{min-width:220px}.share{display:inline-block;height:9px;background:var(--bar);margin-right:6px;max-width:75%}
 .badge{display:inline-block;border:1px solid currentColor;border-radius:9px;padding:0 7px;font-size:11px;color:var(--soft);white-space:nowrap}
 .good,.better{color:var(--good)}.fair{color:var(--fair)}.bad,.worse{color:var(--bad)}.pick{color:var(--pick)}
 .plots{display:flex;flex-wrap:wrap;gap:10px 14px;margin:6px 0}
-figure{margin:10px 0}figcaption{font-size:12px;margin:2px 0 4px}
+figure{margin:10px 0;overflow-x:auto}figure svg.plot{min-width:720px}figcaption{font-size:12px;margin:2px 0 4px}
 .images{display:grid;grid-template-columns:repeat(auto-fit,minmax(320px,1fr));gap:14px}
 .images img{max-width:100%;image-rendering:pixelated;display:block}
 details summary{cursor:pointer}
@@ -41,8 +40,8 @@ std::string lead(const Report& report) {
   return fmt::format(
       "{} cells, {} x {} pixels, {} views, {} configurations, {} frames each on {}. Errors are against the "
       "double-precision image of the unquantized foam.",
-      report.cells, report.width, report.height, report.views.size(), report.points.size(), report.frames,
-      report.device);
+      countText(report.cells), report.width, report.height, report.views.size(), report.points.size(),
+      report.frames, report.device);
 }
 
 // The link texts of the sections that are there.

@@ -37,15 +37,16 @@ std::string tile(const std::string& name, const std::string& value, const std::s
 std::string tilesOf(const Report& report, const ReportPoint& point) {
   const double cells = std::max(1.0, double(report.cells));
   std::string tiles =
-      tile(point.renderer, milliseconds(point.total.median),
-           fmt::format("5 % to 95 %: {} to {}", shortNumber(point.total.p5), shortNumber(point.total.p95)));
+      tile(point.renderer + ", a frame", milliseconds(point.total.median),
+           fmt::format("5–95 %: {}–{}", shortNumber(point.total.p5), shortNumber(point.total.p95)));
   tiles += tile("PSNR", decibels(point.errors.psnr) + " dB",
                 point.photoErrors ? decibels(point.photoErrors->psnr) + " dB against photos"
                                   : "against double precision");
   tiles += tile("FLIP", shortNumber(point.errors.flip), fmt::format("SSIM {:.5f}", point.errors.ssim));
   tiles += tile("Mean error", shortNumber(point.errors.meanError),
                 "largest " + shortNumber(point.errors.maxError));
-  tiles += tile("Off by > 1/255", percent(point.errors.overOneStep), "of pixels");
+  tiles += tile("Off by > 1/255", percent(point.errors.overOneStep),
+                "depth off by " + shortNumber(point.errors.depthError));
   tiles += tile("On disk", bytesText(double(point.diskBytes)),
                 fmt::format("{} bytes a cell", shortNumber(double(point.diskBytes) / cells)));
   tiles += tile("Resident", bytesText(double(point.residentBytes)), "asset and view");
@@ -55,7 +56,7 @@ std::string tilesOf(const Report& report, const ReportPoint& point) {
 std::string differenceText(double now, double before, const char* unit) {
   const double difference = now - before;
   if (!std::isfinite(difference)) return "–";
-  return fmt::format("{}{:.2f} {}", difference < 0 ? "−" : "+", std::abs(difference), unit);
+  return signedText(difference, 2) + " " + unit;
 }
 
 std::string pickTable(const ReportPoint& standard, const ReportPoint& chosen) {
@@ -74,10 +75,8 @@ std::string pickTable(const ReportPoint& standard, const ReportPoint& chosen) {
              changeCell(chosen.total, standard.total)});
   const auto bytesRow = [&](const char* name, uint64_t before, uint64_t now) {
     const double change = before ? (double(now) / double(before) - 1) * 100 : 0;
-    table.add(
-        {textCell(name), numberCell(bytesText(double(before))), numberCell(bytesText(double(now))),
-         numberCell(now == before ? "none"
-                                  : fmt::format("{}{:.1f} %", change < 0 ? "−" : "+", std::abs(change)))});
+    table.add({textCell(name), numberCell(bytesText(double(before))), numberCell(bytesText(double(now))),
+               numberCell(now == before ? "none" : signedText(change, 1) + " %")});
   };
   bytesRow("on disk", standard.diskBytes, chosen.diskBytes);
   bytesRow("resident", standard.residentBytes, chosen.residentBytes);
@@ -195,7 +194,7 @@ std::string pointsSection(const Report& report) {
   if (report.points.empty()) return "";
   std::vector<std::string> head{"renderer", "settings"};
   for (const std::string& title : errorHead()) head.push_back(title);
-  head.insert(head.end(), {"ms", "to default", "on disk", "resident", "bake [s]"});
+  head.insert(head.end(), {"ms", "against default", "on disk", "resident", "bake [s]"});
   Table table(head);
   for (const ReportPoint& point : report.points) {
     const ReportPoint* standard = defaultOf(report, point.renderer);
@@ -223,8 +222,8 @@ std::string originSection(const Report& report) {
   };
   row("scene", report.scene);
   row("input", report.input);
-  row("foam", fmt::format("{} cells, {} detail sites, {} lobes a site", report.cells, report.detailCount,
-                          report.lobeCount));
+  row("foam", fmt::format("{} cells, {} detail sites, {} lobes a site", countText(report.cells),
+                          report.detailCount, report.lobeCount));
   row("images", fmt::format("{} x {} pixels, views {}", report.width, report.height, views));
   row("time", fmt::format("{} frames; {}", report.frames,
                           report.isLinearTime ? "GPU timestamps" : "wall clock of the CPU renderer"));

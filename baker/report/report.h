@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "baker/image/image.h"
 #include "format/result.h"
 
 namespace froth {
@@ -68,11 +69,8 @@ struct Sweep {
   // Convergence: the mean error falls as step^order, with step = number, or 2^-number for bits; 0: no such law.
   double expectedOrder = 0;
   bool isBits = false;
-  Setting base;                     // the knob's place in points whose settings do not name it
+  Setting base;  // the knob's place in points whose settings do not name it: the default, where it is among the points
   std::vector<std::string> points;  // ids, by growing number
-  // Where the default stands on this knob; it is drawn among the points, for each renderer. No value: it is among them.
-  std::string defaultValue;
-  double defaultNumber = 0;
 };
 
 // log-log slope by least squares over the points above the floor.
@@ -135,6 +133,11 @@ std::string reportAsCsv(const Report& report);                 // a row per poin
 // One self-contained file: no script, font or picture from elsewhere.
 std::string reportAsHtml(const Report& report);
 
+// The FLIP map of a view with a frame around its worst pixel, and what is in the frame, enlarged: reference, image, difference.
+// Display-coded images of one size.
+Result<std::vector<ReportImage>> picturesOfError(const std::string& title, const Image& reference, const Image& test,
+                                                 uint32_t worstX, uint32_t worstY);
+
 // Whether noise alone can explain the difference: the intervals overlap.
 bool isTie(const Interval& a, const Interval& b);
 
@@ -142,11 +145,15 @@ bool isTie(const Interval& a, const Interval& b);
 enum class Cost { kTime, kDiskBytes };
 std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, const std::string& renderer, Cost cost);
 
-// Fits the slope of y over x in log-log. Points whose y is within `floorFactor` of the smallest y are the floor and left out.
-Slope fitSlope(const std::string& what, double expected, std::vector<double> x, std::vector<double> y,
-               double floorFactor = 2);
+// Where a point stands on a sweep's knob.
+const Setting& placeOnSweep(const Sweep& sweep, const ReportPoint& point);
 
-// fitSlope of a sweep's mean errors over its steps, for one renderer; the default is among them.
+// Fits the slope of y over x in log-log. Points whose y is within `floorFactor` of the smallest y are the floor and left out.
+inline constexpr double kFloorFactor = 2;
+Slope fitSlope(const std::string& what, double expected, std::vector<double> x, std::vector<double> y,
+               double floorFactor = kFloorFactor);
+
+// fitSlope of a sweep's mean errors over its steps, for one renderer.
 Slope fitConvergence(const std::vector<ReportPoint>& points, const Sweep& sweep, const std::string& renderer);
 
 }  // namespace froth

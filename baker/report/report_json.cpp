@@ -28,6 +28,10 @@ Json intervalAsJson(const Interval& interval) {
   return {{"median", figure(interval.median)}, {"p5", figure(interval.p5)}, {"p95", figure(interval.p95)}};
 }
 
+Json settingAsJson(const Setting& setting) {
+  return {{"knob", setting.knob}, {"value", setting.value}, {"number", figure(setting.number)}};
+}
+
 Json sweepAsJson(const Sweep& sweep) {
   return {{"knob", sweep.knob},
           {"meaning", sweep.meaning},
@@ -35,9 +39,8 @@ Json sweepAsJson(const Sweep& sweep) {
           {"isLogarithmic", sweep.isLogarithmic},
           {"expectedOrder", figure(sweep.expectedOrder)},
           {"isBits", sweep.isBits},
-          {"points", sweep.points},
-          {"defaultValue", sweep.defaultValue},
-          {"defaultNumber", figure(sweep.defaultNumber)}};
+          {"base", settingAsJson(sweep.base)},
+          {"points", sweep.points}};
 }
 
 Json slopeAsJson(const Slope& slope) {
@@ -184,10 +187,7 @@ void readPass(Reader& reader, PassTimes& pass) {
 
 Json pointAsJson(const ReportPoint& point) {
   Json settings = Json::array(), views = Json::array(), passes = Json::array();
-  for (const Setting& setting : point.settings) {
-    settings.push_back(
-        {{"knob", setting.knob}, {"value", setting.value}, {"number", figure(setting.number)}});
-  }
+  for (const Setting& setting : point.settings) settings.push_back(settingAsJson(setting));
   for (const ViewErrors& view : point.views) {
     views.push_back({{"view", view.view},
                      {"errors", errorsAsJson(view.errors)},

@@ -64,8 +64,20 @@ bool isAsDerived(const Slope& slope) {
   return std::abs(slope.measured - slope.expected) <= kSlopeTolerance * std::abs(slope.expected);
 }
 
-double stepOf(const Sweep& sweep, double number) {
-  return sweep.isBits ? std::exp2(-number) : number;
+// At least two points share the least y: what sets it is not x, and the law can be read from the others
+// alone.
+void judgeAboveFloor(Slope& slope, const std::vector<size_t>& above) {
+  if (above.size() >= 2 && slope.x[above.back()] > slope.x[above.front()]) setLine(slope, above);
+  slope.note = fmt::format("levels off at {}", shortNumber(slope.floor));
+  if (above.size() < kLeastPoints) {
+    slope.note += fmt::format("; {} of {} points lie above", above.size(), slope.x.size());
+  } else if (isAsDerived(slope)) {
+    slope.verdict = kVerdictFloor;
+  } else {
+    slope.verdict = kVerdictOtherOrder;
+    slope.note += fmt::format(", and falls to it with the power {:.2f} where {:g} is derived", slope.measured,
+                              slope.expected);
+  }
 }
 
 }  // namespace
@@ -120,37 +132,31 @@ Slope fitSlope(const std::string& what, double expected, std::vector<double> x, 
     slope.verdict = kVerdictAsDerived;
     return slope;
   }
-  if (hasSpread(above, slope.x) && usable.size() - above.size() >= 2) {
-    const Line whole{slope.measured, slope.atOne};
-    setLine(slope, above);
-    if (isAsDerived(slope)) {
-      slope.verdict = kVerdictFloor;
-      slope.floor = least;
-      const size_t firstAbove = expected > 0 ? above.front() : above.back();
-      slope.note =
-          fmt::format("levels off at {} beyond x = {}", shortNumber(least), shortNumber(slope.x[firstAbove]));
-      return slope;
-    }
-    slope.measured = whole.slope;
-    slope.atOne = whole.atOne;
-    slope.fitted = uint32_t(usable.size());
+  if (usable.size() - above.size() >= 2) {
+    slope.floor = least;
+    judgeAboveFloor(slope, above);
+    return slope;
   }
   slope.verdict = kVerdictOtherOrder;
-  slope.note = fmt::format("changes with the power {} where {} is derived", shortNumber(slope.measured),
-                           shortNumber(expected));
+  slope.note = fmt::format("changes with the power {:.2f} where {:g} is derived", slope.measured, expected);
   return slope;
+}
+
+const Setting& placeOnSweep(const Sweep& sweep, const ReportPoint& point) {
+  const auto found = std::find_if(point.settings.begin(), point.settings.end(),
+                                  [&](const Setting& setting) { return setting.knob == sweep.knob; });
+  return found == point.settings.end() ? sweep.base : *found;
 }
 
 Slope fitConvergence(const std::vector<ReportPoint>& points, const Sweep& sweep,
                      const std::string& renderer) {
   std::vector<double> steps, errors;
   for (const ReportPoint& point : points) {
-    if (point.renderer != renderer) continue;
-    const bool isDefault = point.settings.empty() && !sweep.defaultValue.empty();
     const bool isOfSweep =
         std::find(sweep.points.begin(), sweep.points.end(), point.id) != sweep.points.end();
-    if (!isDefault && (!isOfSweep || point.settings.size() != 1)) continue;
-    steps.push_back(stepOf(sweep, isDefault ? sweep.defaultNumber : point.settings.front().number));
+    if (point.renderer != renderer || !isOfSweep) continue;
+    const double number = placeOnSweep(sweep, point).number;
+    steps.push_back(sweep.isBits ? std::exp2(-number) : number);
     errors.push_back(point.errors.meanError);
   }
   return fitSlope(renderer + ": mean error over " + (sweep.isBits ? "step of " : "") + sweep.knob,

@@ -17,6 +17,13 @@ std::string tickLabel(double value, double step) {
   return fmt::format("{}{:.{}f}", value < 0 ? "−" : "", size, decimals);
 }
 
+// Of a digit times a power of ten, which needs no zeros behind it: "0.01", "2e-4".
+std::string roundLabel(double value) {
+  if (value >= 0.9e-3 && value < 0.9e6) return fmt::format("{:.6g}", value);
+  const int decade = int(std::floor(std::log10(value) + 1e-9));
+  return fmt::format("{:.0f}e{}", value / std::pow(10, decade), decade);
+}
+
 std::vector<PlotTick> linearTicks(double from, double to, int most) {
   const double least = (to - from) / std::max(most - 1, 1);
   const double decade = std::pow(10, std::floor(std::log10(least)));
@@ -42,7 +49,7 @@ std::vector<PlotTick> logarithmicTicks(double from, double to, int most) {
       for (double factor : factors) {
         const double value = factor * std::pow(10, decade);
         if (value >= from * (1 - 1e-9) && value <= to * (1 + 1e-9))
-          ticks.push_back({value, shortNumber(value)});
+          ticks.push_back({value, roundLabel(value)});
       }
     }
     return ticks;
@@ -69,18 +76,11 @@ std::string shortNumber(double value) {
   if (size < 0.9995e-3 || size >= 1e6) {
     const std::string text = fmt::format("{:.2e}", size);
     const size_t e = text.find('e');
-    std::string mantissa = text.substr(0, e);
-    mantissa.erase(mantissa.find_last_not_of('0') + 1);
-    if (mantissa.back() == '.') mantissa.pop_back();
-    return fmt::format("{}{}e{}", sign, mantissa, std::stoi(text.substr(e + 1)));
+    return fmt::format("{}{}e{}", sign, text.substr(0, e), std::stoi(text.substr(e + 1)));
   }
-  const int decimals = std::max(0, 2 - int(std::floor(std::log10(size))));
-  std::string text = fmt::format("{:.{}f}", size, decimals);
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-  }
-  return sign + text;
+  // The third digit that counts; 9.996 is 10.0.
+  const int decimals = std::max(0, 2 - int(std::floor(std::log10(size * 1.0005))));
+  return fmt::format("{}{:.{}f}", sign, size, decimals);
 }
 
 std::vector<PlotTick> chooseTicks(double from, double to, bool isLogarithmic, int most) {

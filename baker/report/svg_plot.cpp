@@ -42,13 +42,17 @@ struct Scale {
   double from = 0, to = 1;  // values
   double pixelFrom = 0, pixelTo = 1;
 
-  bool shows(double value) const { return std::isfinite(value) && (!isLogarithmic || value > 0); }
+  bool hasPlace(double value) const { return std::isfinite(value) && (!isLogarithmic || value > 0); }
+  bool shows(double value) const {
+    const double slack = 1e-6 * (place(to) - place(from));
+    return hasPlace(value) && place(value) >= place(from) - slack && place(value) <= place(to) + slack;
+  }
   double place(double value) const { return isLogarithmic ? std::log10(value) : value; }
   double pixel(double value) const {
     return pixelFrom + (place(value) - place(from)) / (place(to) - place(from)) * (pixelTo - pixelFrom);
   }
   double clampedPixel(double value) const {
-    if (!shows(value)) return pixelFrom;
+    if (!hasPlace(value)) return pixelFrom;
     return std::clamp(pixel(value), std::min(pixelFrom, pixelTo), std::max(pixelFrom, pixelTo));
   }
 };
@@ -58,7 +62,7 @@ Scale fitScale(const PlotAxis& axis, const std::vector<double>& values) {
   Scale scale{axis.isLogarithmic};
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (double value : values) {
-    if (!scale.shows(value)) continue;
+    if (!scale.hasPlace(value)) continue;
     low = std::min(low, scale.place(value));
     high = std::max(high, scale.place(value));
   }
@@ -118,10 +122,11 @@ class Drawing {
     body_ += '\n';
   }
 
+  // Of colour and marker.
+  int look(size_t s) const { return plot_.series[s].colour < 0 ? int(s) : plot_.series[s].colour; }
+  bool isNeutral(size_t s) const { return plot_.series[s].colour == PlotSeries::kNeutral; }
   std::string colourClass(size_t s) const {
-    const int chosen = plot_.series[s].colour;
-    if (chosen == PlotSeries::kNeutral) return "cn";
-    return fmt::format("c{}", (chosen < 0 ? int(s) : chosen) % kColours);
+    return isNeutral(s) ? "cn" : fmt::format("c{}", look(s) % kColours);
   }
 
   // Title and legend; what they need is taken from the top of the area.
@@ -217,7 +222,20 @@ class Drawing {
         path += fmt::format("L{} {}", x, y);
       }
     }
+    if (series.isStepped) keepClear(series);
     if (!path.empty()) add("<path class=\"line {} {}\" d=\"{}\"/>", colourClass(s), dashClass(series), path);
+  }
+
+  // Labels keep off the steps of a line.
+  void keepClear(const PlotSeries& series) {
+    constexpr double kHalf = 1.5;
+    for (size_t i = 1; i < series.points.size(); ++i) {
+      if (!shows(series.points[i - 1]) || !shows(series.points[i])) continue;
+      const double x0 = x_.pixel(series.points[i - 1].x), y0 = y_.pixel(series.points[i - 1].y);
+      const double x1 = x_.pixel(series.points[i].x), y1 = y_.pixel(series.points[i].y);
+      taken_.push_back({std::min(x0, x1), y0 - kHalf, std::max(x0, x1), y0 + kHalf});
+      taken_.push_back({x1 - kHalf, std::min(y0, y1), x1 + kHalf, std::max(y0, y1)});
+    }
   }
 
   void drawBars(size_t s) {
@@ -240,7 +258,7 @@ class Drawing {
   void addMarker(size_t s, const PlotPoint& point, double x, double y) {
     const double r = kMarker;
     std::string shape;
-    switch (plot_.series[s].colour == PlotSeries::kNeutral ? 0 : s % 4) {
+    switch (isNeutral(s) ? 0 : look(s) % 4) {
       case 0:
         shape = fmt::format("M{} {}a{r} {r} 0 1 0 {} 0a{r} {r} 0 1 0 {} 0Z", number(x - r), number(y),
                             number(2 * r), number(-2 * r), fmt::arg("r", number(r)));
@@ -269,7 +287,9 @@ class Drawing {
 
   void drawMarkers(size_t s) {
     if (!plot_.series[s].hasMarkers) return;
-    for (const PlotPoint& point : plot_.series[s].points) {
+    const std::vector<PlotPoint>& points = plot_.series[s].points;
+    for (auto it = points.rbegin(); it != points.rend(); ++it) {  // the first, which matter most, on top
+      const PlotPoint& point = *it;
       if (!shows(point)) continue;
       const double x = x_.pixel(point.x), y = y_.pixel(point.y), r = kMarker + (point.isRinged ? 4 : 0);
       addMarker(s, point, x, y);
@@ -331,60 +351,6 @@ std::string drawPlot(const Plot& plot) {
 
 std::string drawPlotFile(const Plot& plot) {
   return Drawing(plot).draw(true);
-}
-
-std::string plotStyle() {
-  // Colours that stay apart for colour-blind readers, once for light and once for dark paper.
-  return R"css(
-svg.plot{--ink:#24292f;--soft:#6b7280;--grid:#e3e6ea;--paper:#ffffff;--c0:#0b63ce;--c1:#c2410c;--c2:#0f7b55;--c3:#8b3fc4;
---c4:#a16207;--c5:#0e7490;--c6:#be185d;--c7:#4b5563;font:11px system-ui,sans-serif;max-width:100%;height:auto}
-@media(prefers-color-scheme:dark){svg.plot{--ink:#e6e8eb;--soft:#9aa4b1;--grid:#30363d;--paper:#14171b;--c0:#6cb0ff;
---c1:#ff9a5c;--c2:#4fd1a0;--c3:#cf9bff;--c4:#e5c454;--c5:#5fd4ea;--c6:#ff8cc0;--c7:#b4bcc6}}
-svg.plot text{fill:var(--ink)}svg.plot .tick{fill:var(--soft)}svg.plot .title{font-weight:600;font-size:13px}
-svg.plot .paper{fill:var(--paper)}
-svg.plot .grid{stroke:var(--grid);fill:none}svg.plot .axis{stroke:var(--soft);fill:none}
-svg.plot .label{paint-order:stroke;stroke:var(--paper);stroke-width:3px}
-svg.plot .leader{stroke:var(--soft);stroke-width:.7;fill:none}
-svg.plot .line{fill:none;stroke:var(--c);stroke-width:1.5}svg.plot .dashed{stroke-dasharray:6 4}
-svg.plot .dotted{stroke-dasharray:1.5 3}
-svg.plot .bar{fill:none;stroke:var(--c);stroke-width:1;opacity:.65}
-svg.plot .mark{fill:var(--c);stroke:var(--paper);stroke-width:.8}
-svg.plot .hollow{fill:var(--paper);stroke:var(--c);stroke-width:1.5}
-svg.plot .ring{fill:none;stroke:var(--c);stroke-width:1.6}
-svg.plot .c0{--c:var(--c0)}svg.plot .c1{--c:var(--c1)}svg.plot .c2{--c:var(--c2)}svg.plot .c3{--c:var(--c3)}
-svg.plot .c4{--c:var(--c4)}svg.plot .c5{--c:var(--c5)}svg.plot .c6{--c:var(--c6)}svg.plot .c7{--c:var(--c7)}
-svg.plot .cn{--c:var(--soft)}
-)css";
-}
-
-std::string escapeMarkup(const std::string& text) {
-  std::string escaped;
-  for (char c : text) {
-    switch (c) {
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      case '\n':
-      case '\t':
-        escaped += ' ';
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) escaped += c;
-    }
-  }
-  return escaped;
 }
 
 }  // namespace froth

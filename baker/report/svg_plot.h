@@ -18,7 +18,7 @@ struct PlotAxis {
   std::string label;               // with its unit: "time [ms]"
   bool isLogarithmic = false;      // values <= 0 are then left out
   std::vector<PlotTick> ticks;     // empty: chosen to suit
-  std::optional<double> from, to;  // empty: the data and a margin
+  std::optional<double> from, to;  // empty: the data and a margin; what lies outside is left out
 };
 
 struct PlotPoint {

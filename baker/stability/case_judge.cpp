@@ -7,9 +7,6 @@
 namespace froth {
 namespace {
 
-// A bound is the largest of a sample: by chance too small in one image of thousands. A fault must stand against so many.
-constexpr uint32_t kSurerSamples = 256;
-
 bool isSameImage(const Image& a, const Image& b) {
   return a.values.size() == b.values.size() &&
          std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)) == 0;

@@ -16,25 +16,12 @@ void addSpread(const Image& exact, const Image& sample, Image& spread) {
     spread.values[i] = std::max(spread.values[i], std::abs(sample.values[i] - exact.values[i]));
 }
 
-float largestAround(const Image& image, uint32_t x, uint32_t y, uint32_t channel) {
-  float largest = 0;
-  for (uint32_t row = y - std::min(y, 1u); row <= std::min(y + 1, image.height - 1); ++row) {
-    for (uint32_t column = x - std::min(x, 1u); column <= std::min(x + 1, image.width - 1); ++column)
-      largest = std::max(largest, image.pixel(column, row)[channel]);
-  }
-  return largest;
-}
-
 // From the spread to the bound; `relative` of the exact value.
 Image boundOf(const Image& exact, const Image& spread, double safety, double relative, double absolute) {
   Image bound = exact;
-  for (uint32_t y = 0; y < exact.height; ++y) {
-    for (uint32_t x = 0; x < exact.width; ++x) {
-      for (uint32_t channel = 0; channel < exact.channels; ++channel) {
-        const double value = std::abs(exact.pixel(x, y)[channel]);
-        bound.pixel(x, y)[channel] = static_cast<float>(safety * largestAround(spread, x, y, channel) + relative * value + absolute);
-      }
-    }
+  for (size_t i = 0; i < bound.values.size(); ++i) {
+    const double value = std::abs(exact.values[i]);
+    bound.values[i] = static_cast<float>(safety * spread.values[i] + relative * value + absolute);
   }
   return bound;
 }
@@ -47,6 +34,10 @@ Image zerosLike(const Image& image) {
 
 bool isFinite(const Image& image) {
   return std::all_of(image.values.begin(), image.values.end(), [](float value) { return std::isfinite(value); });
+}
+
+bool hasNegativeZero(const Image& image) {
+  return std::any_of(image.values.begin(), image.values.end(), [](float value) { return value == 0 && std::signbit(value); });
 }
 
 // The largest error of a pixel, and that over its bound; NaN is infinitely far off.
@@ -81,7 +72,8 @@ BoundCheck compare(const ImageBound& bound, const RenderedImages& a, const Rende
     }
   }
   check.shareOver = static_cast<double>(over) / (double{1} * a.colour.width * a.colour.height);
-  check.isFinite = isFinite(a.colour) && isFinite(a.alpha) && isFinite(a.depth) && isFinite(a.normal);
+  check.isFinite = isFinite(a.colour) && isFinite(a.alpha) && isFinite(a.depth) && isFinite(a.normal) &&
+                   !hasNegativeZero(a.colour) && !hasNegativeZero(a.alpha);
   return check;
 }
 

@@ -7,11 +7,12 @@
 //
 //   bound = safety * spread + (storage + (cells + 8) u) * exact + storageError + u / 16,   u = 2^-24
 //
-// spread: the largest change of the pixel and its eight neighbours in any sample; the neighbours, so that an edge that lies within
-// rounding of a ray is seen to move. safety: a renderer's errors are one more draw, and need not be spread evenly; the largest of
-// 9 * 12 draws lies within a fourth of that of all.
-// storage: colours of detail sites are halves between passes, off by at most 2^-11 of themselves; a pixel is a sum of them with
-// weights >= 0 that are not stored so, and is off by no more. Without a cell in front nothing is stored: the bound is then u / 16.
+// spread: the largest change of the pixel in any sample. safety: a renderer's errors are one more draw, and need not be spread as the
+// samples' are; one beyond four times the largest of 12 is no draw of the kind. A pixel that jumps (a ray within rounding of an edge)
+// jumps in the samples too, but one that does so rarely may not in 12 of them: whoever finds a pixel over its bound asks again with
+// kSurerSamples.
+// storage: colours of detail sites are halves between passes (shaders/gpu/layout.h, SiteRecord), off by at most 2^-11 of themselves;
+// a pixel is a sum of them with weights >= 0 that are floats, and is off by no more.
 // cells + 8: a sum of n products of values >= 0 is off by at most (n + 1) u of itself; exp is good to 3 u + 2 |x| u, which
 // times T is below 4 u.
 #pragma once
@@ -24,6 +25,8 @@
 #include "format/result.h"
 
 namespace froth {
+
+inline constexpr uint32_t kSurerSamples = 256;
 
 struct BoundOptions {
   double rounding = 0x1p-21;  // relative: 2^-24 of float, for a chain of some eight operations
@@ -47,7 +50,7 @@ Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& vie
 
 // How an image keeps to it.
 struct BoundCheck {
-  bool isFinite = true;       // every value of colour, alpha, depth and normal
+  bool isFinite = true;       // every value of colour, alpha, depth and normal; and no 0 of colour or alpha is -0
   double maxError = 0;        // [display-coded] of colour
   double worstExcess = 0;     // largest error over its pixel's bound, of colour and alpha; <= 1: all keep to it
   uint32_t worstX = 0, worstY = 0;

@@ -20,6 +20,18 @@ StiffCase decades() {
           {caseView({0, 0, -4}, {1, 0, 0}), caseView({0, 0, -4e-3}, {1e-3, 0, 0}), caseView({0, 0, -4e-6}, {1e-6, 0, 0})}};
 }
 
+StiffCase smallAndFar() {
+  std::vector<CaseCell> cells;
+  for (const CaseCell& cell : cloud(30, 33)) {
+    cells.push_back(cell);
+    cells.back().density *= 1.5f;
+  }
+  return {"sizes/small_and_far", "a scene 1e-3 units wide, 20 units away",
+          "Distances along the ray err by eps D, and so does the length that a ray has in a cell: by D / r times more than its own "
+          "roundings.",
+          scaledFoam(foamOfCells(cells), 5e-4f), {caseView({0, 0, -20}, {0, 0, 0}, 32, 24, 3e-5)}};
+}
+
 StiffCase vanishing() {
   std::vector<CaseCell> cells = cloud(30, 31);
   for (size_t i = 0; i < cells.size(); i += 3) cells[i].radius = i % 2 == 0 ? 1e-20f : 1e-30f;
@@ -68,7 +80,7 @@ StiffCase lens() {
 }  // namespace
 
 std::vector<StiffCase> sizeCases() {
-  return {decades(), vanishing(), larger(), thin(), lens()};
+  return {decades(), smallAndFar(), vanishing(), larger(), thin(), lens()};
 }
 
 }  // namespace froth

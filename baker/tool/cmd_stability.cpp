@@ -1,6 +1,8 @@
 // froth stability: the stiff set through all renderers and presets, against derived bounds.
 #include <fnmatch.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include "baker/stability/stiff_case.h"
 #include "baker/tool/commands.h"
 #include "baker/tool/figures.h"
+#include "baker/tool/foam_input.h"
 #include "baker/tool/gpu_camera.h"
 #include "baker/tool/output_file.h"
 #include "baker/tool/stability_runs.h"
@@ -17,14 +20,37 @@ namespace froth {
 namespace {
 
 struct StabilityOptions {
+  std::filesystem::path input, cameras;  // empty: built-in cases alone
   std::filesystem::path markdown;
   std::string only = "*";
   GpuDeviceOptions device;
   FiguresOutput figures;
 };
 
-Result<std::vector<StiffCase>> selectCases(const StabilityOptions& options) {
+// Views of a user's own that its cases start from.
+constexpr size_t kInputViews = 2;
+
+Result<std::vector<StiffCase>> casesOfInput(const StabilityOptions& options, const Progress& progress) {
+  const Result<FoamInput> input = loadFoam(options.input, progress);
+  if (!input) return input.error();
+  Result<CameraSet> cameras = readCameras(options.cameras);
+  if (!cameras) return cameras.error();
+  std::vector<View>& views = cameras->views;
+  views.resize(std::min(views.size(), kInputViews));
+  for (View& view : views) {
+    view.nearRatio = view.nearRatio.value_or(input->nearRatio);
+    view.nearDepth = view.nearDepth.value_or(input->nearDepth);
+  }
+  return casesOfFoam(input->foam, views);
+}
+
+Result<std::vector<StiffCase>> selectCases(const StabilityOptions& options, const Progress& progress) {
   std::vector<StiffCase> cases = builtInCases();
+  if (!options.input.empty()) {
+    Result<std::vector<StiffCase>> own = casesOfInput(options, progress);
+    if (!own) return own.error();
+    cases.insert(cases.end(), std::make_move_iterator(own->begin()), std::make_move_iterator(own->end()));
+  }
   std::erase_if(cases, [&](const StiffCase& stiff) { return fnmatch(options.only.c_str(), stiff.name.c_str(), 0) != 0; });
   if (!cases.empty()) return cases;
   return makeError(ErrorKind::kUsage, "--only %s: no case has such a name; docs/STABILITY.md lists them", options.only.c_str());
@@ -50,7 +76,7 @@ Status runStability(const StabilityOptions& options, Tool& tool) {
   if (!options.markdown.empty()) {
     if (Status writable = checkWritable(options.markdown); !writable) return writable;
   }
-  Result<std::vector<StiffCase>> cases = selectCases(options);
+  Result<std::vector<StiffCase>> cases = selectCases(options, tool.progress.callback());
   if (!cases) return cases.error();
   GpuDeviceOptions device = options.device;
   for (const StiffCase& stiff : *cases) {
@@ -81,6 +107,10 @@ void addStabilityCommand(CLI::App& program, Tool& tool) {
   CLI::App* command = program.add_subcommand("stability", "Stiff and extreme cases through all renderers and presets, against derived bounds");
   auto options = std::make_shared<StabilityOptions>();
   options->device.validate = true;
+  CLI::Option* input = command->add_option("INPUT", options->input, "A checkpoint or asset, whose transformations are run too");
+  CLI::Option* cameras = command->add_option("--cameras", options->cameras, "cameras.json of INPUT; its first two views are taken");
+  input->needs(cameras);
+  cameras->needs(input);
   command->add_option("--only", options->only, "Only cases whose name fits the pattern: 'sites/*'");
   command->add_option("--device", options->device.device, "Index or part of a name from `froth devices`");
   command->add_flag_callback(

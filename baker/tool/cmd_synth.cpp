@@ -7,6 +7,7 @@
 
 #include "baker/bake/bake.h"
 #include "baker/checkpoint/checkpoint.h"
+#include "baker/synth/simplify.h"
 #include "baker/synth/synth.h"
 #include "baker/tool/commands.h"
 #include "baker/tool/foam_input.h"
@@ -24,6 +25,7 @@ constexpr const char* kTile = "tile";
 struct SynthCommandOptions {
   SynthOptions synth;
   std::filesystem::path output;
+  bool isFlat = false, isPlain = false;
 
   std::filesystem::path tileSource;
   uint32_t tileCount = 0;
@@ -39,8 +41,10 @@ Status writeFoamFile(const std::filesystem::path& path, const Foam& foam, const 
 }
 
 Status runNamedScene(const SynthCommandOptions& options, const Progress& progress) {
-  const Result<Foam> foam = synthesizeFoam(options.synth, progress);
+  Result<Foam> foam = synthesizeFoam(options.synth, progress);
   if (!foam) return foam.error();
+  if (options.isFlat) *foam = withoutViewDependence(*foam);
+  if (options.isPlain) *foam = withoutDisplacement(*foam);
   if (Status written = writeFoamFile(options.output, *foam, progress); !written) return written;
   if (options.synth.name != kGallery) return {};
 
@@ -99,8 +103,10 @@ Status checkOptions(const CLI::App& command, const SynthCommandOptions& options)
   if (!isTruth && command.count("--samples") + command.count("--view") + command.count("--size") > 0) {
     return makeError(ErrorKind::kUsage, "--samples, --view and --size belong to --truth");
   }
-  if ((isTile || isTruth) && command.count("--cells") + command.count("--seed") > 0) {
-    return makeError(ErrorKind::kUsage, "--cells and --seed belong to a foam that is made from nothing");
+  if ((isTile || isTruth) && command.count("--cells") + command.count("--seed") + command.count("--flat-colours") +
+                                     command.count("--plain-faces") > 0) {
+    return makeError(ErrorKind::kUsage,
+                     "--cells, --seed, --flat-colours and --plain-faces belong to a foam that is made from nothing");
   }
   if ((options.synth.name != kGallery || isTruth) && command.count("--detail-sites") + command.count("--lobes") > 0) {
     return makeError(ErrorKind::kUsage, "--detail-sites and --lobes belong to the gallery's foam");
@@ -139,6 +145,8 @@ void addSynthCommand(CLI::App& program, Tool& tool) {
       ->check(countBetween(1, 32));
   command->add_option("--lobes", options->synth.lobeCount, "gallery: lobes per detail site; default 8")
       ->check(countBetween(1, 32));
+  command->add_flag("--flat-colours", options->isFlat, "The same colours from everywhere");
+  command->add_flag("--plain-faces", options->isPlain, "No displacement");
   command->add_option("--seed", options->synth.seed, "Seed of what is random")->capture_default_str();
   command->add_option("--of", options->tileSource, "tile: the checkpoint or asset to copy");
   command->add_option("--count", options->tileCount, "tile: number of copies")

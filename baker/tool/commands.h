@@ -24,6 +24,7 @@ void addVerifyCommand(CLI::App& program, Tool& tool);
 void addCompareCommand(CLI::App& program, Tool& tool);
 void addBenchCommand(CLI::App& program, Tool& tool);
 void addCompareBenchCommand(CLI::App& program, Tool& tool);
+void addReportCommand(CLI::App& program, Tool& tool);
 void addStabilityCommand(CLI::App& program, Tool& tool);
 void addDevicesCommand(CLI::App& program, Tool& tool);
 

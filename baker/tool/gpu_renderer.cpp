@@ -78,7 +78,7 @@ struct GpuRenderer::State {
   Status submitFrame(const FrothRenderInfo* info, GpuMethod method);
   Result<FrothViewStatus> drawAndAsk(const FrothRenderInfo& info, GpuMethod method);
   Status checkSilence(const FrothViewStatus& status);
-  Result<RenderedImages> readImages();
+  Result<RenderedImages> readImages(bool readsNormal);
 
   GpuDeviceOptions options;
   std::unique_ptr<Host> host;
@@ -196,6 +196,7 @@ Status GpuRenderer::State::setExtent(VkExtent2D wanted, bool wantsAllChannels) {
   info.maxExtent = wanted;
   info.measurePasses = options.measurePasses ? 1 : 0;
   info.lensClasses = options.lensClasses;
+  info.keepsHits = options.keepsHits ? 1 : 0;
   if (Status made = check(frothCreateView(context, &info, &view), "frothCreateView"); !made) return made;
   extent = wanted;
 
@@ -282,20 +283,20 @@ Status GpuRenderer::State::checkSilence(const FrothViewStatus& status) {
                    messages.front().c_str());
 }
 
-Result<RenderedImages> GpuRenderer::State::readImages() {
+Result<RenderedImages> GpuRenderer::State::readImages(bool readsNormal) {
   Result<std::vector<float>> colours = host->readImage(colour);
   if (!colours) return colours.error();
   Result<std::vector<float>> distances = host->readImage(distance);
   if (!distances) return distances.error();
-  Result<std::vector<float>> normals = host->readImage(normal);
-  if (!normals) return normals.error();
-
   RenderedImages images;
   images.colour = imageFromTexels(*colours, 4, 0, 3, extent);
   images.alpha = imageFromTexels(*colours, 4, 3, 1, extent);
   images.depth = imageFromTexels(*distances, 1, 0, 1, extent);
-  images.normal = imageFromTexels(*normals, 4, 0, 3, extent);
   markMissingDepth(images.depth);
+  if (!readsNormal) return images;
+  Result<std::vector<float>> normals = host->readImage(normal);
+  if (!normals) return normals.error();
+  images.normal = imageFromTexels(*normals, 4, 0, 3, extent);
   return images;
 }
 
@@ -320,13 +321,13 @@ Result<GpuFrame> GpuRenderer::render(const View& view, const GpuRenderOptions& o
   if (Status ready = state_->setRayMap(view); !ready) return ready.error();
   const Result<FrothViewStatus> status = state_->drawAndAsk(renderInfoOf(view, options), options.method);
   if (!status) return status.error();
-  Result<RenderedImages> images = state_->readImages();
+  Result<RenderedImages> images = state_->readImages(options.readsNormal);
   if (!images) return images.error();
   return GpuFrame{std::move(*images), *status};
 }
 
 Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptions& options) {
-  if (Status ready = state_->setExtent(extentOf(view), false); !ready) return ready.error();
+  if (Status ready = state_->setExtent(extentOf(view), options.isFull); !ready) return ready.error();
   if (Status ready = state_->setRayMap(view); !ready) return ready.error();
   return state_->drawAndAsk(renderInfoOf(view, options), options.method);
 }

@@ -21,6 +21,7 @@ struct GpuDeviceOptions {
   bool measurePasses = false;
   bool countWork = false;  // FrothViewStatus::work; slower
   uint32_t lensClasses = 0;  // FrothLensClass bits of the views that will be drawn (gpu_camera.h)
+  bool keepsHits = false;    // views have what ids and motion need
 };
 
 struct GpuRenderOptions {
@@ -28,6 +29,8 @@ struct GpuRenderOptions {
   float cutoff = 1e-3f;   // 0: a ray never ends early
   bool isLinear = false;  // colour decoded to linear light
   uint32_t maxSteps = 0;  // of one walk; 0: the runtime's default
+  bool isFull = false;    // of draw(): distance and normal too, all in float
+  bool readsNormal = true;  // of render(); else the image is empty
 };
 
 struct GpuFrame {
@@ -47,7 +50,7 @@ class GpuRenderer {
 
   // All channels in float. Draws again while a limit that grows by itself was hit.
   Result<GpuFrame> render(const View& view, const GpuRenderOptions& options);
-  // What a game draws: linear half-float colour only, left on the device. The status is of this very frame.
+  // What a game draws: half-float colour only, left on the device. The status is of this very frame.
   Result<FrothViewStatus> draw(const View& view, const GpuRenderOptions& options);
 
   const HostDeviceInfo& device() const;

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   froth::addCompareCommand(program, tool);
   froth::addBenchCommand(program, tool);
   froth::addCompareBenchCommand(program, tool);
+  froth::addReportCommand(program, tool);
   froth::addStabilityCommand(program, tool);
   froth::addDevicesCommand(program, tool);
 

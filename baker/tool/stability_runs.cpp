@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "baker/stability/image_bound.h"
 #include "format/asset_reader.h"
 #include "format/asset_writer.h"
+#include "format/atomic_file.h"
 
 namespace froth {
 
@@ -36,8 +38,8 @@ ReferenceOptions referenceOptions(const View& view) {
   return options;
 }
 
-View relativeTo(const glm::dvec3& base, View view) {
-  for (int axis = 0; axis < 3; ++axis) view.worldFromCamera[4 * axis + 3] -= base[axis];
+View movedBy(const glm::dvec3& by, View view) {
+  for (int axis = 0; axis < 3; ++axis) view.worldFromCamera[4 * axis + 3] += by[axis];
   return view;
 }
 
@@ -80,15 +82,6 @@ Status bakeCase(const Foam& foam, const std::string& preset, BakedCase& baked, c
   return {};
 }
 
-RendererOutcome& rendererOf(PresetOutcome& outcome, const std::string& name) {
-  for (RendererOutcome& renderer : outcome.renderers) {
-    if (renderer.renderer == name) return renderer;
-  }
-  outcome.renderers.emplace_back();
-  outcome.renderers.back().renderer = name;
-  return outcome.renderers.back();
-}
-
 void addCheck(const BoundCheck& check, size_t view, RendererOutcome& renderer) {
   renderer.isFinite = renderer.isFinite && check.isFinite;
   renderer.maxError = std::max(renderer.maxError, check.maxError);
@@ -115,17 +108,18 @@ void addTrace(const WalkTrace& trace, WalkTrace& sum) {
 Result<Foam> importCase(const Foam& foam) {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / fmt::format("froth_stability_{}.pt", getpid());
-  if (Status written = exportCheckpoint(path, foam); !written) return written.error();
-  Result<Foam> read = importCheckpoint(path);
+  if (Status written = exportUnchecked(path, foam); !written) return written.error();
+  const Result<std::vector<uint8_t>> bytes = readFile(path);
   std::error_code ignored;
   std::filesystem::remove(path, ignored);
-  return read;
+  if (!bytes) return bytes.error();
+  return importCheckpointBytes(*bytes, "case.pt");
 }
 
 void findFaults(const PresetOutcome& preset, std::vector<std::string>& faults) {
   for (const RendererOutcome& run : preset.renderers) {
     const std::string who = preset.preset + ", " + run.renderer;
-    if (!run.isFinite) faults.push_back(who + ": a value is not finite");
+    if (!run.isFinite) faults.push_back(who + ": a value is not finite, or -0");
     if (!run.isRepeatable) faults.push_back(who + ": a second run gives other bits");
     if (!run.endsInTime) faults.push_back(who + ": walks take more steps than there are cells");
     if (run.worstExcess > 1)
@@ -173,39 +167,52 @@ Result<std::unique_ptr<StabilityRunner>> StabilityRunner::create(const GpuDevice
   return std::unique_ptr<StabilityRunner>(new StabilityRunner(std::move(*gpu)));
 }
 
+// Draws by a method twice.
+Status StabilityRunner::drawTwice(const StiffCase& stiff, size_t index, const BakedCase& baked, GpuMethod method,
+                                  RendererOutcome& renderer, RenderedImages& images) {
+  const View view = movedBy(stiff.moved, stiff.views[index]);
+  GpuRenderOptions options;
+  options.method = method;
+  options.cutoff = 0;
+  options.maxSteps = baked.foam.cellCount;
+  Result<GpuFrame> frame = gpu_->render(view, options);
+  if (!frame) return frame.error();
+  const Result<GpuFrame> again = gpu_->render(view, options);
+  if (!again) return again.error();
+  renderer.isRepeatable = renderer.isRepeatable && hasSameBits(frame->images, again->images);
+  renderer.endsInTime = renderer.endsInTime && (frame->status.bits & FROTH_VIEW_STEP_LIMIT) == 0;
+  images = std::move(frame->images);
+  return {};
+}
+
 Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const BakedCase& baked, PresetOutcome& outcome) {
-  const View view = relativeTo(baked.base, stiff.views[index]);
+  const View view = movedBy(-baked.base, stiff.views[index]);
   ReferenceOptions options = referenceOptions(view);
+  options.precision = Precision::kFloat;
+  Result<RenderedImages> inFloat = baked.reference->render(view, options);
+  if (!inFloat) return inFloat.error();
+  std::array<RenderedImages, 3> drawn = {std::move(*inFloat), {}, {}};  // as PresetOutcome::renderers
+  if (Status done = drawTwice(stiff, index, baked, GpuMethod::kRaster, outcome.renderers[1], drawn[1]); !done) return done;
+  if (Status done = drawTwice(stiff, index, baked, GpuMethod::kWalk, outcome.renderers[2], drawn[2]); !done) return done;
+
   BoundOptions boundOptions;
   boundOptions.storageError = stiff.storageError;
-  const Result<ImageBound> bound = boundImage(*baked.reference, view, options, boundOptions);
-  if (!bound) return bound.error();
-  outcome.boundLargest = std::max(outcome.boundLargest, bound->largest);
-  outcome.boundMean = std::max(outcome.boundMean, bound->mean);
-
-  options.precision = Precision::kFloat;
-  const Result<RenderedImages> inFloat = baked.reference->render(view, options);
-  if (!inFloat) return inFloat.error();
-  addCheck(checkBound(*bound, *inFloat), index, rendererOf(outcome, "float"));
-
-  std::vector<RenderedImages> drawn;
-  for (const GpuMethod method : {GpuMethod::kRaster, GpuMethod::kWalk}) {
-    GpuRenderOptions gpu;
-    gpu.method = method;
-    gpu.cutoff = 0;
-    gpu.maxSteps = baked.foam.cellCount;
-    Result<GpuFrame> frame = gpu_->render(stiff.views[index], gpu);
-    if (!frame) return frame.error();
-    const Result<GpuFrame> again = gpu_->render(stiff.views[index], gpu);
-    if (!again) return again.error();
-    RendererOutcome& renderer = rendererOf(outcome, method == GpuMethod::kRaster ? "raster" : "walk");
-    addCheck(checkBound(*bound, frame->images), index, renderer);
-    renderer.isRepeatable = renderer.isRepeatable && hasSameBits(frame->images, again->images);
-    renderer.endsInTime = renderer.endsInTime && (frame->status.bits & FROTH_VIEW_STEP_LIMIT) == 0;
-    drawn.push_back(std::move(frame->images));
+  for (;;) {
+    const Result<ImageBound> bound = boundImage(*baked.reference, view, options, boundOptions);
+    if (!bound) return bound.error();
+    std::array<BoundCheck, 3> checks;
+    for (size_t i = 0; i < checks.size(); ++i) checks[i] = checkBound(*bound, drawn[i]);
+    const bool isOver = std::any_of(checks.begin(), checks.end(), [](const BoundCheck& check) { return check.worstExcess > 1; });
+    if (isOver && boundOptions.samples < kSurerSamples) {
+      boundOptions.samples = kSurerSamples;
+      continue;
+    }
+    outcome.boundLargest = std::max(outcome.boundLargest, bound->largest);
+    outcome.boundMean = std::max(outcome.boundMean, bound->mean);
+    for (size_t i = 0; i < checks.size(); ++i) addCheck(checks[i], index, outcome.renderers[i]);
+    outcome.rasterWalkExcess = std::max(outcome.rasterWalkExcess, checkBound(*bound, drawn[1], drawn[2]).worstExcess);
+    return {};
   }
-  outcome.rasterWalkExcess = std::max(outcome.rasterWalkExcess, checkBound(*bound, drawn[0], drawn[1]).worstExcess);
-  return {};
 }
 
 Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, const std::vector<RenderedImages>& originals,
@@ -214,11 +221,11 @@ Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, cons
   if (Status status = bakeCase(foam, outcome.preset, baked, progress); !status) return status;
   const Result<RegularTriangulation> triangulation = triangulateRegular(baked.foam.sites, baked.foam.radii);
   if (!triangulation) return triangulation.error();
-  if (Status loaded = gpu_->load(baked.asset, progress); !loaded) return loaded;
+  if (Status loaded = gpu_->load(baked.asset, progress, stiff.moved); !loaded) return loaded;
   outcome.encodingPsnr = std::numeric_limits<double>::infinity();
   for (size_t index = 0; index < stiff.views.size(); ++index) {
     if (Status run = runView(stiff, index, baked, outcome); !run) return run;
-    const View view = relativeTo(baked.base, stiff.views[index]);
+    const View view = movedBy(-baked.base, stiff.views[index]);
     addTrace(traceWalks(baked.foam, triangulation->graph, view), outcome.walks);
     const Result<RenderedImages> decoded = baked.reference->render(view, referenceOptions(view));
     if (!decoded) return decoded.error();
@@ -251,6 +258,7 @@ Result<CaseOutcome> StabilityRunner::run(const StiffCase& stiff, const Progress&
     for (const std::string& preset : stabilityPresets()) {
       outcome.presets.emplace_back();
       outcome.presets.back().preset = preset;
+      for (const char* renderer : {"float", "raster", "walk"}) outcome.presets.back().renderers.push_back({renderer});
       const Status run = runPreset(stiff, foam, originals, outcome.presets.back(), progress);
       if (!run && run.error().kind == ErrorKind::kCancelled) return run.error();
       if (!run) outcome.faults.push_back(preset + ": " + run.error().message);

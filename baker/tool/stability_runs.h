@@ -14,20 +14,20 @@ namespace froth {
 
 // One renderer on the bake of one preset, over all views of a case.
 struct RendererOutcome {
-  std::string renderer;       // "float", "raster", "walk"
-  bool isFinite = true;       // every value of every channel
+  std::string renderer{};     // "float", "raster", "walk"
+  bool isFinite = true;       // every value of every channel; and no -0
   bool isRepeatable = true;   // the same bits on a second run
   bool endsInTime = true;     // no walk takes more steps than there are cells
   double maxError = 0;        // [display-coded] of colour
   double worstExcess = 0;     // largest error over its pixel's bound; <= 1: within
   double shareOver = 0;       // of the pixels of the worst view
-  std::string worstPlace;     // view and pixel of the worst excess
+  std::string worstPlace{};   // view and pixel of the worst excess
 };
 
 struct PresetOutcome {
   std::string preset;
   double boundLargest = 0, boundMean = 0;  // [display-coded]
-  std::vector<RendererOutcome> renderers;
+  std::vector<RendererOutcome> renderers;  // float, raster, walk
   double rasterWalkExcess = 0;  // difference of raster and walk over twice the bound
   WalkTrace walks;
   double encodingPsnr = 0, encodingMax = 0;  // of what the bake shows against the foam itself, both exact; least and largest of the views
@@ -60,6 +60,8 @@ class StabilityRunner {
 
   Status runPreset(const StiffCase& stiff, const Foam& foam, const std::vector<RenderedImages>& originals, PresetOutcome& outcome,
                    const Progress& progress);
+  Status drawTwice(const StiffCase& stiff, size_t index, const struct BakedCase& baked, GpuMethod method, RendererOutcome& renderer,
+                   RenderedImages& images);
   Status runView(const StiffCase& stiff, size_t index, const struct BakedCase& baked, PresetOutcome& outcome);
 
   std::unique_ptr<GpuRenderer> gpu_;

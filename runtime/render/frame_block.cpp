@@ -1,6 +1,7 @@
 #include "runtime/render/frame_block.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -66,14 +67,21 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
 
 }  // namespace
 
+// The first 24 bits of a double, all that a float holds. Not by a float and back, which GCC 12 takes for the identity where it
+// vectorizes (-O2 and above): low parts were 0.
+double leadingBits(double value) {
+  constexpr uint64_t kBehindFloat = (uint64_t{1} << 29) - 1;
+  return std::bit_cast<double>(std::bit_cast<uint64_t>(value) & ~kBehindFloat);
+}
+
 void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* chunks) {
   for (size_t i = 0; i < asset.chunks.size(); ++i) {
     const GpuChunk& chunk = asset.chunks[i];
     const glm::dvec3 offset = glm::dvec3(chunk.origin[0], chunk.origin[1], chunk.origin[2]) - eye;
-    const gpu::vec4 high = toFloats(offset);
+    const glm::dvec3 high(leadingBits(offset.x), leadingBits(offset.y), leadingBits(offset.z));
     gpu::ChunkEntry& entry = chunks[i];
-    entry.offsetHigh = high;
-    entry.offsetLow = toFloats(offset - glm::dvec3(high[0], high[1], high[2]));
+    entry.offsetHigh = toFloats(high);
+    entry.offsetLow = toFloats(offset - high);
     entry.siteRadius = chunk.siteRadius;
     entry.neighbourOffsets = chunk.neighbourOffsets;
     entry.neighbours = chunk.neighbours;

@@ -25,6 +25,13 @@ FOAM_FN real detailWeight(real3 query, real2 detail, real sharpness) {
   return exp2(-falloff * (x * x + y * y) - falloff * query.z);
 }
 
+// The unit direction in which a detail site is seen, `toSite` from the eye. From the site itself it is seen as from just before the
+// face, whose normal points to the empty side.
+FOAM_FN real3 directionToSite(real3 toSite, real3 normal) {
+  real squared = dot(toSite, toSite);
+  return squared > real(0) ? toSite / sqrt(squared) : -normal;
+}
+
 // Exponent of one lobe seen along `direction` (unit): -tau |direction - axis/tau|, tau = |axis|.
 FOAM_FN real lobeExponent(real3 axis, real3 direction) {
   real temperature = sqrt(dot(axis, axis));

@@ -18,6 +18,9 @@ FOAM_FN real opacity(real opticalDepth) {
 #endif
 }
 
+// 1 - T of a ray; 0, not -0, where it met nothing.
+FOAM_FN real coverageOf(real logTransmittance) { return opacity(abs(logTransmittance)); }
+
 // Distance at which transmittance falls to `quantile` inside a cell that the ray enters at tNear with T > quantile.
 FOAM_FN real quantileDistance(real tNear, real logTransmittance, real logQuantile, real density) {
   return tNear + (logTransmittance - logQuantile) / density;

@@ -143,7 +143,7 @@ Merged mergeStreams(uvec2 pixel) {
     }
     passed = stretch.segment.tFar;
   }
-  float coverage = opacity(-radiance.logTransmittance);
+  float coverage = coverageOf(radiance.logTransmittance);
   return Merged(radiance, part, coverage > 0.0 ? exposures / coverage : 1.0);
 }
 
@@ -156,7 +156,7 @@ void writeMerged(uvec2 pixel, Merged merged) {
   Radiance radiance = merged.radiance;
   selectPart(0);
   float depth = isFull ? deviceDepthAt(rayOf(pixel), radiance.distance / FRAME.scale) : 0.0;
-  writePixel(pixel, radiance.colour, opacity(-radiance.logTransmittance), merged.exposure, radiance.distance, radiance.normal, depth);
+  writePixel(pixel, radiance.colour, coverageOf(radiance.logTransmittance), merged.exposure, radiance.distance, radiance.normal, depth);
   if (isFull && wantsHits()) writeHit(pixel, radiance.distance, merged.part, radiance.cell);
 }
 

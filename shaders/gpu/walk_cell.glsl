@@ -76,7 +76,8 @@ vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, 
     if (!(weight > kLeastShare * weightSum)) continue;
     vec3 toSite = met.centre + behind * direction +
                   met.radius * (frame.tangent * site.place.x + frame.bitangent * site.place.y);
-    colour += weight * siteColour(code, header, siteCount, hasLobes, k, site.base, normalize(toSite));
+    vec3 seen = directionToSite(toSite, frame.normal);
+    colour += weight * siteColour(code, header, siteCount, hasLobes, k, site.base, seen);
     shownSum += weight;
     ++shaded;
   }

@@ -79,7 +79,7 @@ TEST(ImportCheckpoint, ReadsExpandedTensorsWhoseStridesAreZero) {
   EXPECT_EQ(foam->detailHeights, std::vector<float>(6, 0.5f));
 }
 
-// Bit patterns of 1, -2, 0.5 and the smallest normal and subnormal number of each type.
+// Bit patterns of 1, -2, 0.5 and of small numbers: the smallest that are normal as float32, and a subnormal half, which is.
 TEST(ImportCheckpoint, ReadsHalfBFloat16AndDouble) {
   struct Case {
     const char* storageClass;
@@ -91,11 +91,11 @@ TEST(ImportCheckpoint, ReadsHalfBFloat16AndDouble) {
        packNumbers<uint16_t>({0x3c00, 0xc000, 0x3800, 0x0400, 0x8001, 0x0000}),
        {1, -2, 0.5f, 0x1p-14f, -0x1p-24f, 0}},
       {"BFloat16Storage",
-       packNumbers<uint16_t>({0x3f80, 0xc000, 0x3f00, 0x0080, 0x8001, 0x0000}),
-       {1, -2, 0.5f, 0x1p-126f, -0x1p-133f, 0}},
+       packNumbers<uint16_t>({0x3f80, 0xc000, 0x3f00, 0x0080, 0x8081, 0x0000}),
+       {1, -2, 0.5f, 0x1p-126f, -0x1.02p-126f, 0}},
       {"DoubleStorage",
-       packNumbers<double>({1, -2, 0.5, 0x1p-126, -0x1p-149, 1e-60}),
-       {1, -2, 0.5f, 0x1p-126f, -0x1p-149f, 0}},
+       packNumbers<double>({1, -2, 0.5, 0x1p-126, -0x1.02p-126, 1e-60}),
+       {1, -2, 0.5f, 0x1p-126f, -0x1.02p-126f, 0}},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.storageClass);
@@ -106,6 +106,15 @@ TEST(ImportCheckpoint, ReadsHalfBFloat16AndDouble) {
     ASSERT_TRUE(foam) << foam.error().message;
     EXPECT_EQ(foam->detailHeights, c.values);
   }
+}
+
+TEST(ImportCheckpoint, RefusesNumbersThatAreDenormalAsFloat32) {
+  CheckpointSpec checkpoint = sampleCheckpoint();
+  checkpoint.tensor("texel_height").storageClass = "DoubleStorage";
+  checkpoint.storages["texel_height"] = packNumbers<double>({1, 2, 3, 4, 1e-42, 6});
+  const Result<Foam> foam = importSpec(checkpoint);
+  ASSERT_FALSE(foam);
+  EXPECT_NE(foam.error().message.find("tensor 'texel_height': cell 1 of 2 holds"), std::string::npos) << foam.error().message;
 }
 
 TEST(ImportCheckpoint, IgnoresOtherKeysAndLeavesTheirTensorsUnread) {

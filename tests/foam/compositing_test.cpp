@@ -11,6 +11,13 @@ template <class Real>
 class CompositingMathematics : public InBothPrecisions<Real> {};
 TYPED_TEST_SUITE(CompositingMathematics, Precisions);
 
+TYPED_TEST(CompositingMathematics, ARayThatMetNothingCoversZeroAndNotMinusZero) {
+  const TypeParam coverage = foam::coverageOf(TypeParam(0));
+  EXPECT_EQ(coverage, 0);
+  EXPECT_FALSE(std::signbit(coverage));
+  EXPECT_NEAR(foam::coverageOf(TypeParam(-1)), 1 - std::exp(-1.0), 1e-6);
+}
+
 TYPED_TEST(CompositingMathematics, OpacityKeepsItsDigitsInThinCells) {
   for (double depth = 1e-30; depth < 50; depth *= 1.7) {
     const TypeParam rounded = TypeParam(depth);

@@ -1,14 +1,160 @@
+// report.html as text; browser_test.cpp opens it.
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <cmath>
+#include <regex>
+#include <set>
 
+#include "baker/image/formats.h"
+#include "baker/report/report.h"
 #include "tests/report/sample_report.h"
 
-namespace froth::test {
-TEST(Html, Slice) {
-  const Report report = makeSampleReport();
-  std::ofstream("/tmp/lenses_report.html") << reportAsHtml(report);
-  std::ofstream("/tmp/lenses_report.json") << reportAsJson(report).dump(1);
-  std::ofstream("/tmp/lenses_report.csv") << reportAsCsv(report);
+namespace froth {
+namespace {
+
+// The first thing that keeps the tags from being balanced; empty: nothing.
+std::string firstUnbalanced(const std::string& html) {
+  static const std::set<std::string> kEmpty{"!doctype", "meta", "link", "img", "br"};
+  std::vector<std::string> open;
+  for (size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
+    const size_t end = html.find('>', at);
+    if (end == std::string::npos) return "a tag without an end";
+    const bool closes = html[at + 1] == '/', isWhole = html[end - 1] == '/';
+    const size_t from = at + 1 + closes;
+    const std::string name = html.substr(from, html.find_first_of(" />", from) - from);
+    if (closes) {
+      if (open.empty() || open.back() != name) return "</" + name + "> at byte " + std::to_string(at);
+      open.pop_back();
+    } else if (!isWhole && !kEmpty.contains(name)) {
+      open.push_back(name);
+    }
+    at = end;
+  }
+  return open.empty() ? "" : "<" + open.back() + "> is left open";
 }
-}  // namespace froth::test
+
+TEST(ReportHtml, TagsAreBalanced) {
+  EXPECT_EQ(firstUnbalanced("<p><b>x</b></p>"), "");
+  EXPECT_NE(firstUnbalanced("<p><b>x</p></b>"), "");
+  EXPECT_EQ(firstUnbalanced(reportAsHtml(test::makeSampleReport())), "");
+}
+
+TEST(ReportHtml, LoadsNothingFromElsewhere) {
+  Report report = test::makeSampleReport();
+  const std::string html = reportAsHtml(report);
+  report.images.clear();  // base64 may hold two slashes
+  EXPECT_FALSE(std::regex_search(reportAsHtml(report), std::regex("(https?:)?//[a-z]", std::regex::icase)));
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_EQ(html.find("@import"), std::string::npos);
+  EXPECT_EQ(html.find("url("), std::string::npos);
+  const std::regex sources(" (?:src|href)=\"([^\"]{0,5})");
+  for (std::sregex_iterator it(html.begin(), html.end(), sources), end; it != end; ++it) {
+    const std::string target = (*it)[1];
+    EXPECT_TRUE(target.starts_with("#") || target.starts_with("data:")) << target;
+  }
+}
+
+TEST(ReportHtml, LinksWithinThePageLeadSomewhere) {
+  const std::string html = reportAsHtml(test::makeSampleReport());
+  const std::regex links("href=\"#([a-z]+)\"");
+  size_t count = 0;
+  for (std::sregex_iterator it(html.begin(), html.end(), links), end; it != end; ++it, ++count) {
+    EXPECT_NE(html.find("id=\"" + (*it)[1].str() + "\""), std::string::npos) << (*it)[1];
+  }
+  EXPECT_EQ(count, 11u);  // all sections
+}
+
+TEST(ReportHtml, TheSameReportGivesTheSameBytes) {
+  EXPECT_EQ(reportAsHtml(test::makeSampleReport()), reportAsHtml(test::makeSampleReport()));
+  EXPECT_EQ(reportAsCsv(test::makeSampleReport()), reportAsCsv(test::makeSampleReport()));
+}
+
+TEST(ReportHtml, WithoutPicturesItStaysBelowTwoMegabytes) {
+  Report report = test::makeSampleReport();
+  report.images.clear();
+  const std::string html = reportAsHtml(report);
+  EXPECT_LT(html.size(), 2'000'000u);
+  EXPECT_EQ(html.find("<img"), std::string::npos);
+}
+
+// Every text of a report, put to the test.
+TEST(ReportHtml, NoTextReachesThePageUnescaped) {
+  const std::string evil = "<script>alert('x')</script>&\"";
+  Report report = test::makeSampleReport();
+  for (std::string* text :
+       {&report.scene, &report.input, &report.credit, &report.device, &report.driver, &report.version,
+        &report.command, &report.choice, &report.notes[0], &report.slopes[0].what, &report.slopes[0].note,
+        &report.slopes[0].verdict, &report.features[0].feature, &report.features[0].variant,
+        &report.images[0].title, &report.images[0].caption}) {
+    *text = evil;
+  }
+  for (Sweep& sweep : report.sweeps) {
+    sweep.knob += evil;
+    sweep.meaning = sweep.unit = sweep.base.value = evil;
+  }
+  for (ReportPoint& point : report.points) {
+    point.renderer += evil;
+    for (Setting& setting : point.settings) setting.knob += evil, setting.value += evil;
+    for (PassTimes& pass : point.passes) pass.pass = evil;
+  }
+  const std::string html = reportAsHtml(report);
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_NE(html.find("&lt;script&gt;"), std::string::npos);
+  EXPECT_EQ(firstUnbalanced(html), "");
+}
+
+TEST(ReportHtml, DegenerateReportsAreStillPages) {
+  EXPECT_EQ(firstUnbalanced(reportAsHtml(Report{})), "");
+  Report report;
+  report.points.resize(1);
+  report.points[0].id = report.points[0].renderer = "raster";
+  report.points[0].errors.psnr = INFINITY;
+  report.points[0].errors.ssim = NAN;
+  report.sweeps.resize(1);
+  report.sweeps[0].points = {"raster", "unknown"};
+  report.slopes.resize(1);
+  report.features.resize(1);
+  report.images.resize(1);
+  report.chosen = "unknown";
+  report.frontOverTime = {"unknown"};
+  const std::string html = reportAsHtml(report);
+  EXPECT_EQ(firstUnbalanced(html), "");
+  EXPECT_NE(html.find("equal the reference"), std::string::npos);
+}
+
+TEST(ReportHtml, SaysWhatIsATie) {
+  const Report report = test::makeSampleReport();
+  const std::string html = reportAsHtml(report);
+  EXPECT_NE(html.find(">tie<"), std::string::npos);
+  EXPECT_NE(html.find("ties with it in time"), std::string::npos);
+}
+
+TEST(ErrorPictures, FrameTheWorstPixelAndStayWithinTheImage) {
+  Image reference{60, 50, 3, std::vector<float>(60 * 50 * 3, 0.5f)}, image = reference;
+  image.pixel(59, 0)[1] = 0.6f;
+  const Result<std::vector<ReportImage>> pictures = picturesOfError("view 3", reference, image, 59, 0);
+  ASSERT_TRUE(pictures) << pictures.error().message;
+  ASSERT_EQ(pictures->size(), 2u);
+  const Image map = *decodePng((*pictures)[0].png, "map"), crop = *decodePng((*pictures)[1].png, "crop");
+  EXPECT_EQ(map.width, 60u);
+  EXPECT_EQ(map.height, 50u);
+  EXPECT_GT(map.pixel(20, 49)[1], 0.9f);  // the frame: below 49 rows, and left of 49 columns
+  EXPECT_GT(map.pixel(10, 20)[1], 0.9f);
+  EXPECT_LT(map.pixel(5, 20)[1], 0.1f);
+  EXPECT_EQ(crop.height, 49u * 4);
+  EXPECT_NE((*pictures)[1].caption.find("(59, 0)"), std::string::npos);
+  EXPECT_NE((*pictures)[1].caption.find("times 8"), std::string::npos) << (*pictures)[1].caption;
+  // The last crop: the difference times 8 at its upper right corner, 0 elsewhere.
+  EXPECT_NEAR(crop.pixel(crop.width - 1, 0)[1], 0.8, 0.01);
+  EXPECT_EQ(crop.pixel(crop.width - 1, 100)[1], 0);
+}
+
+TEST(ErrorPictures, OfImagesThatDoNotFitAreRefused) {
+  const Image image{4, 4, 3, std::vector<float>(48, 0.5f)}, other{4, 3, 3, std::vector<float>(36, 0.5f)};
+  EXPECT_TRUE(picturesOfError("", image, image, 3, 3));
+  EXPECT_FALSE(picturesOfError("", image, image, 4, 0));
+  EXPECT_FALSE(picturesOfError("", image, other, 0, 0));
+}
+
+}  // namespace
+}  // namespace froth

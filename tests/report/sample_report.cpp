@@ -1,11 +1,11 @@
 #include "tests/report/sample_report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "baker/image/flip.h"
-#include "baker/image/formats.h"
+#include "baker/image/image.h"
 
 namespace froth::test {
 namespace {
@@ -257,8 +257,9 @@ std::vector<Knob> makeKnobs() {
 void addSweeps(Report& report) {
   size_t seed = 10;
   for (const Knob& knob : makeKnobs()) {
-    Sweep sweep{knob.name,   knob.meaning, knob.unit,         knob.isLogarithmic, knob.order,
-                knob.isBits, {},           knob.defaultValue, knob.defaultNumber};
+    Sweep sweep{knob.name, knob.meaning, knob.unit, knob.isLogarithmic, knob.order, knob.isBits, {}, {}};
+    sweep.base = {knob.name, knob.defaultValue, knob.defaultNumber};
+    sweep.points = {"raster"};
     for (const auto& [value, number] : knob.values) {
       for (const std::string renderer : {"raster", "walk"}) {
         const bool isForOne =
@@ -272,6 +273,10 @@ void addSweeps(Report& report) {
         sweep.points.push_back(report.points.back().id);
       }
     }
+    const auto isOfWalk = [](const std::string& id) { return id.starts_with("walk"); };
+    const auto firstOfWalk = std::find_if(sweep.points.begin(), sweep.points.end(), isOfWalk);
+    if (firstOfWalk != sweep.points.end()) sweep.points.push_back("walk");
+    if (sweep.knob == "stepLimit") sweep.points.erase(sweep.points.begin());
     report.sweeps.push_back(sweep);
   }
 }
@@ -317,13 +322,21 @@ void addFeatures(Report& report) {
                       around(1.42, 0.01), around(4.8, 0.02), around(4.9, 0.02), 29.9}};
 }
 
-std::vector<uint8_t> makePicture() {
-  Image map{96, 64, 1, {}};
-  for (uint32_t y = 0; y < 64; ++y) {
-    for (uint32_t x = 0; x < 96; ++x)
-      map.values.push_back(float(0.5 + 0.5 * std::sin(x * 0.2) * std::cos(y * 0.15)));
+std::vector<ReportImage> makePictures() {
+  Image reference{192, 128, 3, {}};
+  for (uint32_t y = 0; y < reference.height; ++y) {
+    for (uint32_t x = 0; x < reference.width; ++x) {
+      for (uint32_t c = 0; c < 3; ++c)
+        reference.values.push_back(float(0.5 + 0.4 * std::sin(x * 0.11 + c) * std::cos(y * 0.08 * (c + 1))));
+    }
   }
-  return *encodePng(colourErrorMap(map), "sample.png");
+  Image test = reference;
+  for (size_t i = 0; i < test.values.size(); ++i) test.values[i] += float(0.004 * wobble(i, 7));
+  for (uint32_t y = 70; y < 76; ++y) {
+    for (uint32_t x = 130; x < 150; ++x) test.pixel(x, y)[0] += 0.06f;
+  }
+  test.pixel(140, 73)[0] += 0.12f;
+  return *picturesOfError("Raster, view 16", reference, test, 140, 73);
 }
 
 }  // namespace
@@ -356,10 +369,7 @@ Report makeSampleReport() {
   report.choice = "The fastest of the front that keeps the test PSNR within 0.05 dB and 100 bytes a cell.";
   addSlopes(report);
   addFeatures(report);
-  report.images = {
-      {"View 16, the worst", "FLIP, raster default; the square is the crop beside it", makePicture()},
-      {"Around the worst pixel", "64 x 64 pixels around (248, 272): reference, image, difference times 16",
-       makePicture()}};
+  report.images = makePictures();
   report.notes = {"The walk was measured on 9 of the 12 knobs: the others do not reach it.",
                   "Level of detail <off>: the scene has one level."};
   return report;

@@ -17,6 +17,7 @@ struct ReportConfig {
   bool walkGraph = true, steiner = true;
   uint32_t detailsKept = 0;  // detail sites per cell; 0: all
   uint32_t copies = 1;       // of the foam, side by side (tileFoam)
+  bool hasCameras = true;    // errors weigh by what the cameras see
   // How it is drawn.
   GpuMethod method = GpuMethod::kRaster;
   float cutoff = 1e-3f;  // 0: never

@@ -1,12 +1,7 @@
 #include "baker/tool/report/drawing.h"
 
 #include <algorithm>
-#include <chrono>
-#include <map>
-#include <optional>
-#include <utility>
 
-#include "baker/tool/progress_printer.h"
 #include "samples/host/percentiles.h"
 
 namespace froth {
@@ -14,208 +9,16 @@ namespace {
 
 constexpr uint32_t kLeastCycles = 3;  // of a round
 
+}  // namespace
+
 Interval intervalOf(const std::vector<double>& cycles) {
   const Percentiles p = percentilesOf(cycles);
   return {p.median, p.p5, p.p95};
 }
 
-uint32_t cyclesOf(const Draw& draw, uint32_t rounds, uint32_t frames) {
-  const auto perCycle = static_cast<uint32_t>(draw.views.size()) * rounds;
-  return std::max(kLeastCycles, (frames + perCycle - 1) / perCycle);
-}
-
-// Mean frames of cycles over the views.
-struct CycleTimes {
-  std::vector<double> totals;
-  std::vector<std::string> passOrder;
-  std::map<std::string, std::vector<double>> passes;
-  uint64_t residentBytes = 0;
-
-  DrawTimes result() const {
-    DrawTimes times{intervalOf(totals), {}, residentBytes};
-    for (const std::string& pass : passOrder) times.passes.push_back({pass, intervalOf(passes.at(pass))});
-    return times;
-  }
-};
-
-class GpuDrawer : public Drawer {
- public:
-  explicit GpuDrawer(std::unique_ptr<GpuRenderer> renderer) : renderer_(std::move(renderer)) {}
-
-  std::string device() const override { return renderer_->device().name; }
-  std::string driver() const override { return renderer_->device().driver; }
-
-  Result<std::vector<RenderedImages>> render(const Draw& draw, const Progress& progress) override {
-    if (Status loaded = load(draw, progress); !loaded) return loaded.error();
-    std::vector<RenderedImages> images;
-    for (const View& view : draw.views) {
-      Result<GpuFrame> frame = renderer_->render(view, draw.options);
-      if (!frame) return frame.error();
-      images.push_back(std::move(frame->images));
-    }
-    return images;
-  }
-
-  Result<std::vector<DrawTimes>> time(const std::vector<Draw>& draws, uint32_t rounds, uint32_t frames,
-                                      const Progress& progress) override {
-    std::vector<CycleTimes> cycles(draws.size());
-    if (Status warm = draws.empty() ? Status() : warmUp(draws.front(), progress); !warm) return warm.error();
-    for (uint32_t round = 0; round < rounds; ++round) {
-      for (size_t i = 0; i < draws.size(); ++i) {
-        if (!report(progress, "time", round * draws.size() + i, rounds * draws.size())) return stoppedError();
-        if (Status timed = timeRound(draws[i], cyclesOf(draws[i], rounds, frames), cycles[i]); !timed) return timed.error();
-      }
-    }
-    std::vector<DrawTimes> times;
-    for (const CycleTimes& one : cycles) times.push_back(one.result());
-    return times;
-  }
-
- private:
-  Status load(const Draw& draw, const Progress& progress) {
-    if (loaded_ == std::pair(draw.asset, draw.layers)) return {};
-    loaded_ = {};
-    AssetInput input;
-    input.path = draw.asset;
-    input.layers = draw.layers;
-    if (Status loaded = renderer_->load(input, progress); !loaded) return loaded;
-    loaded_ = {draw.asset, draw.layers};
-    return {};
-  }
-
-  // Clocks of an idle GPU take about a second to rise.
-  Status warmUp(const Draw& draw, const Progress& progress) {
-    if (Status loaded = load(draw, progress); !loaded) return loaded;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
-    for (size_t frame = 0; std::chrono::steady_clock::now() < end; ++frame) {
-      const Result<FrothViewStatus> status = renderer_->draw(draw.views[frame % draw.views.size()], draw.options);
-      if (!status) return status.error();
-    }
-    return {};
-  }
-
-  Status timeRound(const Draw& draw, uint32_t count, CycleTimes& cycles) {
-    if (Status loaded = load(draw, {}); !loaded) return loaded;
-    CycleTimes warm;
-    if (Status drawn = timeCycle(draw, warm); !drawn) return drawn;  // buffers grow to what the hungriest view needs
-    for (uint32_t cycle = 0; cycle < count; ++cycle) {
-      if (Status drawn = timeCycle(draw, cycles); !drawn) return drawn;
-    }
-    return {};
-  }
-
-  Status timeCycle(const Draw& draw, CycleTimes& cycles) {
-    std::map<std::string, double> passes;
-    double total = 0;
-    for (const View& view : draw.views) {
-      const Result<FrothViewStatus> status = renderer_->draw(view, draw.options);
-      if (!status) return status.error();
-      if (status->passCount == 0) {
-        return makeError(ErrorKind::kUnsupported, "device %s gives no timestamps on its compute queue; pick another, or --cpu",
-                         renderer_->device().name.c_str());
-      }
-      for (uint32_t i = 0; i < status->passCount; ++i) {
-        const FrothPassTime& pass = status->passes[i];
-        if (passes.emplace(pass.name, 0).second &&
-            std::find(cycles.passOrder.begin(), cycles.passOrder.end(), pass.name) == cycles.passOrder.end())
-          cycles.passOrder.push_back(pass.name);
-        passes[pass.name] += pass.milliseconds;
-        total += pass.milliseconds;
-      }
-      cycles.residentBytes = std::max(cycles.residentBytes, renderer_->assetStatus().deviceBytes + status->deviceBytes);
-    }
-    const auto views = static_cast<double>(draw.views.size());
-    cycles.totals.push_back(total / views);
-    for (const auto& [name, sum] : passes) cycles.passes[name].push_back(sum / views);
-    return {};
-  }
-
-  std::unique_ptr<GpuRenderer> renderer_;
-  std::pair<std::filesystem::path, uint32_t> loaded_{};
-};
-
-// The reference renderer in float, on all cores.
-class CpuDrawer : public Drawer {
- public:
-  std::string device() const override { return "CPU"; }
-  std::string driver() const override { return "reference renderer, float"; }
-
-  Result<std::vector<RenderedImages>> render(const Draw& draw, const Progress& progress) override {
-    if (Status loaded = load(draw, progress); !loaded) return loaded.error();
-    std::vector<RenderedImages> images;
-    for (const View& view : draw.views) {
-      Result<RenderedImages> image = drawView(draw, view, progress);
-      if (!image) return image.error();
-      images.push_back(std::move(*image));
-    }
-    return images;
-  }
-
-  Result<std::vector<DrawTimes>> time(const std::vector<Draw>& draws, uint32_t rounds, uint32_t frames,
-                                      const Progress& progress) override {
-    std::vector<std::vector<double>> cycles(draws.size());
-    for (uint32_t round = 0; round < rounds; ++round) {
-      for (size_t i = 0; i < draws.size(); ++i) {
-        if (!report(progress, "time", round * draws.size() + i, rounds * draws.size())) return stoppedError();
-        if (Status loaded = load(draws[i], progress); !loaded) return loaded.error();
-        const uint32_t count = cyclesOf(draws[i], rounds, frames);
-        for (uint32_t cycle = 0; cycle < count; ++cycle) {
-          const auto start = std::chrono::steady_clock::now();
-          for (const View& view : draws[i].views) {
-            if (const Result<RenderedImages> image = drawView(draws[i], view, {}); !image) return image.error();
-          }
-          const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-          cycles[i].push_back(spent.count() / static_cast<double>(draws[i].views.size()));
-        }
-      }
-    }
-    std::vector<DrawTimes> times;
-    for (const std::vector<double>& one : cycles) times.push_back({intervalOf(one), {}, 0});
-    return times;
-  }
-
- private:
-  Status load(const Draw& draw, const Progress& progress) {
-    if (loaded_ == std::pair(draw.asset, draw.layers)) return {};
-    loaded_ = {};
-    renderer_.reset();
-    Result<FoamInput> input = loadFoam(draw.asset, progress, draw.layers);
-    if (!input) return input.error();
-    input_ = std::move(*input);
-    renderer_.emplace(input_.foam, progress);
-    loaded_ = {draw.asset, draw.layers};
-    return {};
-  }
-
-  Result<RenderedImages> drawView(const Draw& draw, const View& view, const Progress& progress) {
-    ReferenceOptions options;
-    options.precision = Precision::kFloat;
-    options.cutoff = draw.options.cutoff;
-    options.nearRatio = view.nearRatio.value_or(input_.nearRatio);
-    options.nearDepth = view.nearDepth.value_or(input_.nearDepth);
-    options.detailSharpness = input_.detailSharpness;
-    return renderer_->render(view, options, progress);
-  }
-
-  FoamInput input_;
-  std::optional<ReferenceRenderer> renderer_;
-  std::pair<std::filesystem::path, uint32_t> loaded_{};
-};
-
-}  // namespace
-
-Result<std::unique_ptr<Drawer>> createGpuDrawer(const std::string& device, uint32_t lensClasses) {
-  GpuDeviceOptions options;
-  options.device = device;
-  options.measurePasses = true;
-  options.lensClasses = lensClasses;
-  Result<std::unique_ptr<GpuRenderer>> renderer = GpuRenderer::create(options);
-  if (!renderer) return renderer.error();
-  return std::unique_ptr<Drawer>(std::make_unique<GpuDrawer>(std::move(*renderer)));
-}
-
-std::unique_ptr<Drawer> createCpuDrawer() {
-  return std::make_unique<CpuDrawer>();
+uint32_t cyclesOf(const Draw& draw, const Rounds& rounds) {
+  const auto perCycle = static_cast<uint32_t>(draw.views.size()) * rounds.count;
+  return std::max(kLeastCycles, (rounds.frames + perCycle - 1) / perCycle);
 }
 
 }  // namespace froth

@@ -25,6 +25,12 @@ struct DrawTimes {
   uint64_t residentBytes = 0;     // asset and view; 0 on the CPU
 };
 
+// A round draws at least three cycles over the views, and all rounds at least `frames` frames.
+struct Rounds {
+  uint32_t count = 3;
+  uint32_t frames = 50;
+};
+
 class Drawer {
  public:
   virtual ~Drawer() = default;
@@ -32,14 +38,15 @@ class Drawer {
   virtual std::string driver() const = 0;
   // Colour, opacity, depth, normal of every view.
   virtual Result<std::vector<RenderedImages>> render(const Draw& draw, const Progress& progress) = 0;
-  // Times all draws in turn, `rounds` times over, so that slow changes of the device meet all alike; a round draws at least three
-  // cycles over the views, and all rounds at least `frames` frames.
-  virtual Result<std::vector<DrawTimes>> time(const std::vector<Draw>& draws, uint32_t rounds, uint32_t frames,
+  // Times all draws in turn, round after round, so that slow changes of the device meet all alike.
+  virtual Result<std::vector<DrawTimes>> time(const std::vector<Draw>& draws, const Rounds& rounds,
                                               const Progress& progress) = 0;
 };
 
-// `device`: index or part of a name; empty: the first suitable one.
-Result<std::unique_ptr<Drawer>> createGpuDrawer(const std::string& device, uint32_t lensClasses);
+Interval intervalOf(const std::vector<double>& cycles);
+uint32_t cyclesOf(const Draw& draw, const Rounds& rounds);  // of one round
+
+Result<std::unique_ptr<Drawer>> createGpuDrawer(GpuDeviceOptions options);  // passes are measured whatever they say
 std::unique_ptr<Drawer> createCpuDrawer();
 
 }  // namespace froth

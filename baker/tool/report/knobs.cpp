@@ -95,15 +95,15 @@ Knob walkGraphKnob() {
 std::vector<Knob> colourKnobs() {
   std::vector<Knob> knobs;
   knobs.push_back(logarithmic(knobOf("errorBound", "RMS error that a lobe must take away to be kept", "display-coded",
-                                     {0.01, 0.014, 0.02, 0.03, 0.045},
+                                     {0.01, 0.014, 0.02, 0.03},
                                      [](ReportConfig& c, double v) { c.knobs.appearance.errorBound = static_cast<float>(v); })));
-  knobs.push_back(knobOf("lobes", "Most lobes kept per detail site", "", {0, 1, 2, 4, 8},
+  knobs.push_back(knobOf("lobes", "Most lobes kept per detail site", "", {0, 2, 4, 8},
                          [](ReportConfig& c, double v) { c.knobs.appearance.lobeLimit = static_cast<uint32_t>(v); }));
-  knobs.push_back(knobOf("colourBits", "Lattice of colours, 2^-bits", "bits", {4, 5, 6, 7},
+  knobs.push_back(knobOf("colourBits", "Lattice of colours, 2^-bits", "bits", {4, 5, 6},
                          [](ReportConfig& c, double v) { c.knobs.appearance.colourStep = static_cast<float>(std::exp2(-v)); }));
-  knobs.push_back(knobOf("codebook", "Entries of the codebook of lobe axes", "", {0, 512, 2048, 8192},
+  knobs.push_back(knobOf("codebook", "Entries of the codebook of lobe axes", "", {0, 2048, 8192},
                          [](ReportConfig& c, double v) { c.knobs.appearance.codebookSize = static_cast<uint32_t>(v); }));
-  knobs.push_back(knobOf("lobeAxisStep", "Lattice of lobe axes", "", {0, 0.25, 0.5, 1},
+  knobs.push_back(knobOf("lobeAxisStep", "Lattice of lobe axes", "", {0, 0.25, 0.5},
                          [](ReportConfig& c, double v) { c.knobs.appearance.lobeAxisStep = static_cast<float>(v); }));
   return knobs;
 }

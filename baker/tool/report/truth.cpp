@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baker/image/flip.h"
 #include "baker/image/metrics.h"
 
 namespace froth {
@@ -32,10 +31,12 @@ double medianDepthError(const Image& depth, const Image& exact) {
   return *middle;
 }
 
-Result<ViewErrors> compareColours(const Image& image, const Image& exact) {
-  const Result<ImageDifference> difference = compareImages(image, exact);
+Result<ViewErrors> compareColours(const Image& image, const TruthImage& truth) {
+  const Result<ImageDifference> difference = compareImages(image, truth.colour);
   if (!difference) return difference.error();
-  const Result<FlipError> flip = compareFlip(exact, image);
+  const Result<FlipImage> seen = prepareFlip(image);
+  if (!seen) return seen.error();
+  const Result<FlipDifference> flip = compareFlip(truth.flip, *seen);
   if (!flip) return flip.error();
   ViewErrors errors;
   errors.worstX = difference->worstX;
@@ -43,6 +44,12 @@ Result<ViewErrors> compareColours(const Image& image, const Image& exact) {
   errors.errors = {difference->psnr,     difference->ssim,        flip->mean, difference->meanError,
                    difference->maxError, difference->overOneStep, 0};
   return errors;
+}
+
+Result<TruthImage> prepareTruth(Image colour) {
+  Result<FlipImage> flip = prepareFlip(colour);
+  if (!flip) return flip.error();
+  return TruthImage{std::move(colour), std::move(*flip)};
 }
 
 float bilinear(const Image& image, double x, double y, uint32_t channel) {
@@ -112,7 +119,9 @@ Result<ReportTruth> ReportTruth::create(const FoamInput& input, const std::vecto
     if (!photos.empty()) {
       Result<Image> photo = readPhoto(photos, selected.view);
       if (!photo) return photo.error();
-      truth.photos_.push_back(std::move(*photo));
+      Result<TruthImage> prepared = prepareTruth(std::move(*photo));
+      if (!prepared) return prepared.error();
+      truth.photos_.push_back(std::move(*prepared));
     }
     ReferenceOptions options;
     options.nearRatio = selected.view.nearRatio.value_or(input.nearRatio);
@@ -120,7 +129,10 @@ Result<ReportTruth> ReportTruth::create(const FoamInput& input, const std::vecto
     options.detailSharpness = input.detailSharpness;
     Result<RenderedImages> images = renderer.render(selected.view, options, progress);
     if (!images) return images.error();
-    truth.exact_.push_back(std::move(*images));
+    Result<TruthImage> prepared = prepareTruth(std::move(images->colour));
+    if (!prepared) return prepared.error();
+    truth.exact_.push_back(std::move(*prepared));
+    truth.depths_.push_back(std::move(images->depth));
   }
   return truth;
 }
@@ -131,19 +143,19 @@ Result<PointErrors> ReportTruth::compare(std::vector<RenderedImages> images) con
   point.views.resize(images.size());
   std::vector<Status> statuses(images.size());
   tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
-    const RenderedImages& exact = exact_[i];
+    const TruthImage& exact = exact_[i];
     Image colour = std::move(images[i].colour), depth = std::move(images[i].depth);
     if (colour.width != exact.colour.width) {
       colour = enlarge(colour, exact.colour.width, exact.colour.height);
       depth = repeatPixels(depth, exact.colour.width, exact.colour.height);
     }
-    Result<ViewErrors> errors = compareColours(colour, exact.colour);
+    Result<ViewErrors> errors = compareColours(colour, exact);
     if (!errors) {
       statuses[i] = errors.error();
       return;
     }
     errors->view = static_cast<uint32_t>(views_[i].index);
-    errors->errors.depthError = medianDepthError(depth, exact.depth);
+    errors->errors.depthError = medianDepthError(depth, depths_[i]);
     figures[i] = errors->errors;
     point.views[i] = *errors;
     if (photos_.empty()) return;

@@ -6,6 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "baker/image/flip.h"
+#include "baker/image/image.h"
+#include "baker/reference/reference.h"
 #include "baker/report/report.h"
 #include "baker/tool/foam_input.h"
 #include "baker/tool/view_selection.h"
@@ -18,6 +21,11 @@ struct PointErrors {
   std::optional<ErrorFigures> photoErrors;  // the same against the photos
 };
 
+struct TruthImage {
+  Image colour;
+  FlipImage flip;
+};
+
 class ReportTruth {
  public:
   // Draws every view in double, never ending a ray early. `photos`: a folder that holds them by the views' names; empty: none.
@@ -28,12 +36,13 @@ class ReportTruth {
   // One image per view, of its size or smaller: enlarged bilinearly then.
   Result<PointErrors> compare(std::vector<RenderedImages> images) const;
 
-  const RenderedImages& exact(size_t view) const { return exact_[view]; }
+  const Image& exact(size_t view) const { return exact_[view].colour; }
 
  private:
   std::vector<SelectedView> views_;
-  std::vector<RenderedImages> exact_;
-  std::vector<Image> photos_;  // empty: none
+  std::vector<TruthImage> exact_;
+  std::vector<Image> depths_;
+  std::vector<TruthImage> photos_;  // empty: none
 };
 
 // Means over views; PSNR of the mean square, maxError the largest.

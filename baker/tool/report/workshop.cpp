@@ -1,12 +1,16 @@
 #include "baker/tool/report/workshop.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <optional>
 #include <set>
 #include <thread>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "baker/synth/simplify.h"
@@ -19,7 +23,7 @@ namespace {
 
 // One bake leaves cores idle in its short stages; each needs memory for its chunks.
 constexpr uint32_t kSmallFoam = 250'000;  // cells
-constexpr size_t kBakesAtOnce = 4;
+constexpr size_t kBakesAtOnce = 6;
 
 // The foam that a configuration bakes where it is not the input itself.
 Result<std::optional<Foam>> transformFoam(const Foam& foam, const ReportConfig& config) {
@@ -37,26 +41,35 @@ Result<std::optional<Foam>> transformFoam(const Foam& foam, const ReportConfig& 
 }  // namespace
 
 Workshop::Workshop(const FoamInput& input, const CameraSet& cameras, std::filesystem::path folder)
-    : input_(input), cameras_(cameras), folder_(std::move(folder)) {}
+    : Workshop(input, cameras, std::move(folder), {}) {}
+
+Workshop::Workshop(const FoamInput& input, const CameraSet& cameras, std::filesystem::path folder, std::filesystem::path asset)
+    : input_(input), cameras_(cameras), folder_(std::move(folder)), asset_(std::move(asset)) {}
 
 std::filesystem::path Workshop::assetOf(const ReportConfig& config) const {
+  if (!asset_.empty()) return asset_;
   const std::string key = encodingKey(config);
   return folder_ / fmt::format("{:016x}.froth", XXH3_64bits(key.data(), key.size()));
 }
 
-double Workshop::secondsOf(const ReportConfig& config) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = done_.find(encodingKey(config));
-  return found == done_.end() ? 0 : found->second.seconds;
+std::filesystem::path Workshop::recordPath(const ReportConfig& config) const {
+  return assetOf(config).replace_extension(".json");
 }
 
-std::vector<LeftOut> Workshop::leftOutOf(const ReportConfig& config) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = done_.find(encodingKey(config));
-  return found == done_.end() ? std::vector<LeftOut>{} : found->second.leftOut;
+Result<BakeRecord> Workshop::recordOf(const ReportConfig& config) const {
+  BakeRecord record;
+  if (!asset_.empty()) return record;
+  const std::filesystem::path path = recordPath(config);
+  std::ifstream in(path);
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object() || !json.contains("seconds") || !json.contains("leftOut"))
+    return makeError(ErrorKind::kBadInput, "%s: is not a record of a bake; leave out --resume to begin anew", path.c_str());
+  record.seconds = json["seconds"].get<double>();
+  for (const auto& [what, bytes] : json["leftOut"].items()) record.leftOut.push_back({what, bytes.get<uint64_t>()});
+  return record;
 }
 
-Status Workshop::bakeOne(const ReportConfig& config, const Progress& progress) {
+Status Workshop::bakeOne(const ReportConfig& config, const Progress& progress) const {
   const auto start = std::chrono::steady_clock::now();
   const Result<std::optional<Foam>> changed = transformFoam(input_.foam, config);
   if (!changed) return changed.error();
@@ -69,22 +82,26 @@ Status Workshop::bakeOne(const ReportConfig& config, const Progress& progress) {
   options.nearDepth = input_.nearDepth;
   options.measure = false;
   options.source = "froth report";
-  if (config.copies == 1) options.cameras = &cameras_;
+  if (config.hasCameras) options.cameras = &cameras_;
   AssetFileSink file(assetOf(config));
   const Result<BakeResult> baked = bakeFoam(*changed ? **changed : input_.foam, options, file.sink(), progress);
   if (!baked) return baked.error();
   if (const Result<uint64_t> bytes = file.finish(baked->contents); !bytes) return bytes.error();
-  const std::lock_guard lock(mutex_);
-  done_[encodingKey(config)] = {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-                                baked->leftOut};
+  nlohmann::json leftOut = nlohmann::json::object();
+  for (const LeftOut& one : baked->leftOut) leftOut[one.what] = one.savedBytes;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::ofstream out(recordPath(config));
+  out << nlohmann::json{{"seconds", seconds}, {"leftOut", leftOut}}.dump() << std::flush;
+  if (!out) return makeError(ErrorKind::kIo, "%s: cannot be written", recordPath(config).c_str());
   return {};
 }
 
 Status Workshop::bake(std::span<const ReportConfig> configs, const Progress& progress) {
+  if (!asset_.empty()) return {};
   std::vector<ReportConfig> missing;
   std::set<std::string> seen;
   for (const ReportConfig& config : configs) {
-    if (seen.insert(encodingKey(config)).second && !std::filesystem::exists(assetOf(config))) missing.push_back(config);
+    if (seen.insert(encodingKey(config)).second && !std::filesystem::exists(recordPath(config))) missing.push_back(config);
   }
   std::atomic<size_t> next = 0, finished = 0;
   std::vector<Status> statuses(missing.size());

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <mutex>
 #include <span>
-#include <string>
+#include <vector>
 
 #include "baker/bake/bake.h"
 #include "baker/camera/camera.h"
@@ -14,32 +12,31 @@
 
 namespace froth {
 
+struct BakeRecord {
+  double seconds = 0;  // with others beside it, unless it was baked alone; 0: not baked here
+  std::vector<LeftOut> leftOut;
+};
+
 // Refers to foam and cameras.
 class Workshop {
  public:
-  // Assets are named by what they hold, so those of an interrupted report serve the next.
+  // Assets are named by what they hold, so those of an interrupted report serve the next. The folder exists.
   Workshop(const FoamInput& input, const CameraSet& cameras, std::filesystem::path folder);
+  // Of an asset that stays as it is: the one that every configuration draws.
+  Workshop(const FoamInput& input, const CameraSet& cameras, std::filesystem::path folder, std::filesystem::path asset);
 
   // Bakes those that are not there yet: small foams several at a time.
   Status bake(std::span<const ReportConfig> configs, const Progress& progress);
   std::filesystem::path assetOf(const ReportConfig& config) const;
-  // Of the bake [s]; 0: done by an earlier run.
-  double secondsOf(const ReportConfig& config) const;
-  // What the bake said it left out; empty: done by an earlier run.
-  std::vector<LeftOut> leftOutOf(const ReportConfig& config) const;
+  Result<BakeRecord> recordOf(const ReportConfig& config) const;  // of a bake that is done
 
  private:
-  struct Done {
-    double seconds = 0;
-    std::vector<LeftOut> leftOut;
-  };
-  Status bakeOne(const ReportConfig& config, const Progress& progress);
+  Status bakeOne(const ReportConfig& config, const Progress& progress) const;
+  std::filesystem::path recordPath(const ReportConfig& config) const;
 
   const FoamInput& input_;
   const CameraSet& cameras_;
-  std::filesystem::path folder_;
-  mutable std::mutex mutex_;
-  std::map<std::string, Done> done_;  // by encodingKey
+  std::filesystem::path folder_, asset_;
 };
 
 }  // namespace froth

@@ -1,0 +1,223 @@
+// froth report: error against run time and bytes, for one scene.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include <fmt/format.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "baker/report/report.h"
+#include "baker/tool/commands.h"
+#include "baker/tool/gpu_camera.h"
+#include "baker/tool/option_checks.h"
+#include "baker/tool/output_file.h"
+#include "baker/tool/report/assemble.h"
+#include "baker/tool/report/features.h"
+#include "baker/tool/report/search.h"
+#include "baker/tool/report/slopes.h"
+#include "format/asset_reader.h"
+
+namespace froth {
+namespace {
+
+struct ReportOptions {
+  std::filesystem::path input, output, photos;
+  ViewOptions views;
+  uint32_t viewCount = 6;
+  double minutes = 1;
+  uint64_t seed = 1;
+  std::string device, credit, title;
+  std::vector<std::string> knobs;  // empty: all
+  bool isCpu = false, isWithoutImages = false, resumes = false, keepsWork = false;
+  Rounds rounds;
+};
+
+// Spread evenly over those of the file.
+std::vector<SelectedView> spreadViews(const std::vector<SelectedView>& all, uint32_t count) {
+  if (count == 0 || count >= all.size()) return all;
+  std::vector<SelectedView> some;
+  for (uint32_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+  return some;
+}
+
+Result<std::string> hashFile(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  std::vector<char> buffer(1 << 20);
+  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0)
+    XXH3_64bits_update(state.get(), buffer.data(), static_cast<size_t>(in.gcount()));
+  if (!in.eof()) return makeError(ErrorKind::kIo, "%s: cannot be read", path.c_str());
+  return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
+}
+
+// What the figures of an interrupted report depend on.
+Result<std::string> signatureOf(const ReportOptions& options, const std::vector<SelectedView>& views, const Drawer& drawer) {
+  const Result<std::string> input = hashFile(options.input), cameras = hashFile(options.views.cameras);
+  if (!input) return input.error();
+  if (!cameras) return cameras.error();
+  std::string signature = fmt::format("input {} cameras {} photos '{}' device '{}' views", *input, *cameras,
+                                      options.photos.string(), drawer.device());
+  for (const SelectedView& view : views) signature += fmt::format(" {}:{}x{}", view.index, view.view.width, view.view.height);
+  return signature;
+}
+
+Result<std::unique_ptr<Drawer>> createDrawer(const ReportOptions& options, const GpuDeviceOptions& device) {
+  if (options.isCpu) return createCpuDrawer();
+  return createGpuDrawer(device);
+}
+
+// Whether what is drawn can be walked: bakes of a foam can.
+Result<bool> canWalk(const ReportOptions& options, bool hasFoam) {
+  if (options.isCpu || hasFoam) return !options.isCpu;
+  const Result<AssetReader> reader = AssetReader::open(options.input);
+  if (!reader) return reader.error();
+  return reader->manifest().hasWalkGraph;
+}
+
+// Those of --knobs, by their names up to a comma: "cutoff" is the cut-off with all else exact too.
+Result<std::vector<Knob>> chooseKnobs(const ReportOptions& options, bool hasFoam, bool walks) {
+  std::vector<Knob> knobs = drawingKnobs(walks);
+  if (hasFoam) {
+    for (Knob& knob : encodingKnobs()) {
+      if (!options.isCpu || knob.method == GpuMethod::kRaster) knobs.push_back(std::move(knob));
+    }
+  }
+  if (options.knobs.empty()) return knobs;
+  const std::vector<std::string>& wanted = options.knobs;
+  const auto nameOf = [](const Knob& knob) { return knob.sweep.knob.substr(0, knob.sweep.knob.find(',')); };
+  for (const std::string& name : wanted) {
+    if (name == "none" || std::any_of(knobs.begin(), knobs.end(), [&](const Knob& knob) { return nameOf(knob) == name; })) continue;
+    std::string names;
+    for (const Knob& knob : knobs) {
+      if (names.find(nameOf(knob)) == std::string::npos) names += " " + nameOf(knob);
+    }
+    return makeError(ErrorKind::kUsage, "--knobs: '%s' is not one of this input; give `none` or some of%s", name.c_str(), names.c_str());
+  }
+  std::erase_if(knobs, [&](const Knob& knob) { return std::find(wanted.begin(), wanted.end(), nameOf(knob)) == wanted.end(); });
+  return knobs;
+}
+
+Status measureAll(const ReportOptions& options, const Bench& bench, const std::vector<Knob>& knobs, PointList& points,
+                  const Progress& progress) {
+  std::vector<PlannedPoint*> planned;
+  for (PlannedPoint& point : points.all()) planned.push_back(&point);
+  if (Status measured = measurePoints(bench, planned, progress); !measured) return measured;
+  return searchJointly(bench, knobs, options.minutes, options.seed, points, progress);
+}
+
+Status measureFeatures(const ReportOptions& options, const Bench& bench, const FoamInput& input, const CameraSet& cameras,
+                       const GpuDeviceOptions& device, bool hasFoam, Report& result, const Progress& progress) {
+  const auto append = [&](const Result<std::vector<FeatureCost>>& costs) -> Status {
+    if (!costs) return costs.error();
+    result.features.insert(result.features.end(), costs->begin(), costs->end());
+    return {};
+  };
+  if (options.isCpu) return {};
+  if (hasFoam) {
+    if (Status added = append(assetFeatures(bench, input, cameras, options.output / "work", progress)); !added) return added;
+  }
+  if (Status added = append(runtimeFeatures(bench, device, progress)); !added) return added;
+  return append(bakeLeftOut(bench));
+}
+
+Status runReport(const ReportOptions& options, const Progress& progress) {
+  const Result<std::vector<SelectedView>> all = selectViews(options.views);
+  if (!all) return all.error();
+  const std::vector<SelectedView> views = spreadViews(*all, options.viewCount);
+  const Result<CameraSet> cameras = readCameras(options.views.cameras);
+  if (!cameras) return cameras.error();
+  const std::filesystem::path work = options.output / "work";
+  std::error_code error;
+  if (!options.resumes) std::filesystem::remove_all(work, error);
+  std::filesystem::create_directories(work, error);
+  if (error) return makeError(ErrorKind::kIo, "%s: cannot be made: %s", work.c_str(), error.message().c_str());
+  const bool hasFoam = !isAssetPath(options.input);
+  const Result<FoamInput> input = loadFoam(options.input, progress);
+  if (!input) return input.error();
+
+  GpuDeviceOptions device;
+  device.device = options.device;
+  device.lensClasses = lensClassesOf(views);
+  Result<std::unique_ptr<Drawer>> drawer = createDrawer(options, device);
+  if (!drawer) return drawer.error();
+  const Result<std::string> signature = signatureOf(options, views, **drawer);
+  if (!signature) return signature.error();
+  Result<ReportLog> log = ReportLog::open(work / "points.jsonl", *signature, options.resumes);
+  if (!log) return log.error();
+  const Result<ReportTruth> truth = ReportTruth::create(*input, views, options.photos, progress);
+  if (!truth) return truth.error();
+
+  Workshop workshop(*input, *cameras, work, hasFoam ? std::filesystem::path() : options.input);
+  const Result<bool> walks = canWalk(options, hasFoam);
+  if (!walks) return walks.error();
+  const Bench bench{workshop, **drawer, *truth, views, *log, options.rounds, *walks};
+  const Result<std::vector<Knob>> knobs = chooseKnobs(options, hasFoam, *walks);
+  if (!knobs) return knobs.error();
+  PointList points(options.isCpu);
+  points.add(defaultConfig(), {}, true);
+  Report result;
+  result.sweeps = points.addSweeps(*knobs);
+  takeOver(log->found(), points);
+  if (Status measured = measureAll(options, bench, *knobs, points, progress); !measured) return measured;
+  if (Status measured = measureFeatures(options, bench, *input, *cameras, device, hasFoam, result, progress); !measured)
+    return measured;
+  result.slopes = errorSlopes(result.sweeps, points);
+  if (!options.isCpu && options.knobs.empty()) {
+    const Result<std::vector<Slope>> times = timeSlopes(bench, *input, hasFoam, progress);
+    if (!times) return times.error();
+    result.slopes.insert(result.slopes.end(), times->begin(), times->end());
+  }
+
+  describeRun({options.title.empty() ? options.input.stem().string() : options.title, options.input.filename().string(),
+               options.credit, hasFoam, options.isCpu},
+              input->foam, bench, result);
+  if (Status filled = fillReport(points, bench, !options.isWithoutImages, result); !filled) return filled;
+  if (Status written = writeReport(options.output, result); !written) return written;
+  if (!options.keepsWork) std::filesystem::remove_all(work, error);
+  return {};
+}
+
+Status checkAndRunReport(const ReportOptions& options, const Progress& progress) {
+  if (options.isCpu && !options.device.empty())
+    return makeError(ErrorKind::kUsage, "--device %s: --cpu uses none; leave one out", options.device.c_str());
+  return runReport(options, progress);
+}
+
+}  // namespace
+
+void addReportCommand(CLI::App& program, Tool& tool) {
+  CLI::App* command = program.add_subcommand("report", "Error against run time and bytes of a scene: html, json, csv");
+  auto options = std::make_shared<ReportOptions>();
+  command->add_option("INPUT", options->input, "A checkpoint; or a .froth file, as it is")->required();
+  command->add_option("--cameras", options->views.cameras, "The views (cameras.json)")->required();
+  command->add_option("-o,--output", options->output, "The folder to write")->required();
+  command->add_option("--size", options->views.size, "Size of the images instead of the views' own")->type_name("WxH");
+  command->add_option("--views", options->viewCount, "How many views are measured, spread over the file; 0: all")
+      ->capture_default_str()
+      ->check(countBetween(0, 100000));
+  command->add_option("--photos", options->photos, "Folder of the photos, by the views' names");
+  command->add_option("--knobs", options->knobs, "Turn only these, as in preset,cutoff; `none`: what parts of the scene cost alone")
+      ->delimiter(',');
+  command->add_option("--minutes", options->minutes, "For the search over several knobs at once")
+      ->capture_default_str()
+      ->check(numberBetween(0, 10000));
+  command->add_option("--seed", options->seed, "Of that search")->capture_default_str();
+  command->add_option("--frames", options->rounds.frames, "Least frames that a time is of")
+      ->capture_default_str()
+      ->check(countBetween(1, 1000000));
+  command->add_flag("--cpu", options->isCpu, "Times of the CPU renderer, without a GPU");
+  command->add_option("--device", options->device, "Index or part of a name (`froth devices`)");
+  command->add_flag("--no-images", options->isWithoutImages, "No pictures in report.html");
+  command->add_option("--title", options->title, "Name of the scene; default: the input's");
+  command->add_option("--credit", options->credit, "Whose photos and foam: shown at the foot");
+  command->add_flag("--resume", options->resumes, "Go on where an interrupted report of the same folder stopped");
+  command->add_flag("--keep-work", options->keepsWork, "Leave the assets and the log of measurements in the folder's `work`");
+  command->callback([&tool, options] {
+    tool.action = [&tool, options] { return checkAndRunReport(*options, tool.progress.callback()); };
+  });
+}
+
+}  // namespace froth

@@ -1,0 +1,145 @@
+#include "baker/tool/report/slopes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kMaxCells = 500'000;  // of the most copies, unless the foam alone has more
+constexpr uint32_t kMaxCopies = 16;
+constexpr uint32_t kOutsideViews = 4;
+// What a half float loses of a colour below one: detail sites are kept in halves between the passes (shaders/shade_sites.comp).
+constexpr double kHalfRounding = 0x1p-12;
+constexpr double kFixedCost = 1;  // fitSlope's factor: no floor is cut off
+
+double numberOf(const Sweep& sweep, const ReportPoint& point) {
+  for (const Setting& setting : point.settings) {
+    if (setting.knob == sweep.knob) return setting.number;
+  }
+  return sweep.base.number;
+}
+
+// Views from a ring around the box, at 1.65 times half of its longest side from its middle: half of a foam of copies is in view.
+std::vector<View> viewsFromOutside(const Foam& foam, const View& like) {
+  glm::dvec3 low(foam.sites[0]), high(foam.sites[0]);
+  for (const glm::vec3& site : foam.sites) {
+    low = glm::min(low, glm::dvec3(site));
+    high = glm::max(high, glm::dvec3(site));
+  }
+  const glm::dvec3 middle = 0.5 * (low + high), size = high - low;
+  const double distance = 1.65 * 0.5 * std::max({size.x, size.y, size.z});
+  std::vector<View> views;
+  for (uint32_t i = 0; i < kOutsideViews; ++i) {
+    const double angle = (i + 0.5) * 2 * std::numbers::pi / kOutsideViews;
+    const glm::dvec3 forward(std::cos(angle), 0, std::sin(angle)), right(forward.z, 0, -forward.x), down(0, 1, 0);
+    const glm::dvec3 eye = middle - distance * forward;
+    View view = like;
+    view.lens = {};
+    view.fx = view.fy = 0.9 * like.width;
+    view.cx = 0.5 * like.width;
+    view.cy = 0.5 * like.height;
+    view.nearRatio = view.nearDepth = 0;
+    for (int row = 0; row < 3; ++row) {
+      const double values[4] = {right[row], down[row], forward[row], eye[row]};
+      std::copy(values, values + 4, view.worldFromCamera.begin() + 4 * row);
+    }
+    views.push_back(view);
+  }
+  return views;
+}
+
+Slope timeSlope(const std::string& what, const std::vector<double>& x, const std::vector<double>& y) {
+  Slope slope = fitSlope(what, 1, x, y, kFixedCost);
+  if (slope.verdict != kVerdictTooFew) {
+    slope.verdict = slope.measured <= 1.15 ? kVerdictAsDerived : kVerdictOtherOrder;
+    slope.note = slope.measured <= 1.15 ? "at most in proportion; below it by what does not grow along" : "grows faster than in proportion";
+  }
+  return slope;
+}
+
+}  // namespace
+
+std::vector<Slope> errorSlopes(const std::vector<Sweep>& sweeps, PointList& points) {
+  std::vector<Slope> slopes;
+  for (const Sweep& sweep : sweeps) {
+    if (sweep.expectedOrder == 0) continue;
+    std::vector<double> x, y;
+    for (const std::string& id : sweep.points) {
+      const ReportPoint& point = points.at(id).point;
+      const double number = numberOf(sweep, point);
+      x.push_back(sweep.isBits ? std::exp2(-number) : number);
+      y.push_back(point.errors.meanError);
+    }
+    const std::string renderer = points.at(sweep.points.front()).point.renderer;
+    slopes.push_back(fitSlope(fmt::format("{}: mean error over {}", renderer, sweep.isBits ? "step of " + sweep.knob : sweep.knob),
+                              sweep.expectedOrder, x, y));
+    Slope& slope = slopes.back();
+    if (slope.floor > 0 && slope.floor < kHalfRounding) slope.note += "; half-float colours of detail sites between the passes";
+  }
+  return slopes;
+}
+
+namespace {
+
+Status addPixelSlopes(const Bench& bench, std::vector<Slope>& slopes, const Progress& progress) {
+  for (const GpuMethod method : {GpuMethod::kRaster, GpuMethod::kWalk}) {
+    if (method == GpuMethod::kWalk && !bench.walks) continue;
+    std::vector<Draw> draws;
+    std::vector<double> pixels, times;
+    for (const double pixelSize : {4.0, 2.0, 1.0, 0.5}) {
+      ReportConfig config = defaultConfig();
+      config.method = method;
+      config.pixelSize = pixelSize;
+      draws.push_back(drawOf(bench, config));
+      pixels.push_back(double{1} * draws.back().views[0].width * draws.back().views[0].height);
+    }
+    const Result<std::vector<DrawTimes>> measured = bench.drawer.time(draws, bench.rounds, progress);
+    if (!measured) return measured.error();
+    for (const DrawTimes& one : *measured) times.push_back(one.total.median);
+    slopes.push_back(timeSlope(fmt::format("{}: ms over pixels", methodName(method)), pixels, times));
+  }
+  return {};
+}
+
+// Bakes one after the other: together they would slow each other down.
+Status addCellSlopes(const Bench& bench, const FoamInput& input, std::vector<Slope>& slopes, const Progress& progress) {
+  std::vector<Draw> draws;
+  std::vector<double> cells, times, bakes;
+  for (uint32_t copies = 1; copies <= kMaxCopies && (copies == 1 || copies * input.foam.cellCount <= kMaxCells); copies *= 2) {
+    ReportConfig config = defaultConfig();
+    config.copies = copies;
+    config.hasCameras = false;
+    if (Status done = bench.workshop.bake({&config, 1}, progress); !done) return done;
+    const Result<BakeRecord> record = bench.workshop.recordOf(config);
+    if (!record) return record.error();
+    Draw draw = drawOf(bench, config);
+    const Result<FoamInput> baked = loadFoam(draw.asset, {}, 1);
+    if (!baked) return baked.error();
+    cells.push_back(baked->foam.cellCount);
+    bakes.push_back(record->seconds);
+    draw.views = viewsFromOutside(baked->foam, bench.views[0].view);
+    draws.push_back(std::move(draw));
+  }
+  const Result<std::vector<DrawTimes>> measured = bench.drawer.time(draws, bench.rounds, progress);
+  if (!measured) return measured.error();
+  for (const DrawTimes& one : *measured) times.push_back(one.total.median);
+  slopes.push_back(timeSlope("raster: ms over cells", cells, times));
+  slopes.push_back(timeSlope("bake: s over cells", cells, bakes));
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<Slope>> timeSlopes(const Bench& bench, const FoamInput& input, bool hasFoam, const Progress& progress) {
+  std::vector<Slope> slopes;
+  if (Status added = addPixelSlopes(bench, slopes, progress); !added) return added.error();
+  if (!hasFoam) return slopes;
+  if (Status added = addCellSlopes(bench, input, slopes, progress); !added) return added.error();
+  return slopes;
+}
+
+}  // namespace froth
