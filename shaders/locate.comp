@@ -1,7 +1,6 @@
 // Finds the power cell that holds the eye, or that where the middle ray of a tile of parallel rays starts: from the cell of the
-// last frame, always on to the neighbour of least power. The power goes with the search into the next chunk, where it may be
-// rounded otherwise: it falls with every step, so the search ends. A workgroup for each place; the threads share a cell's
-// neighbours.
+// last frame, always on to the neighbour to which the power falls most. It falls with every step, so the search ends. A workgroup
+// for each place; the threads share a cell's neighbours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/descend.glsl"
@@ -11,29 +10,32 @@
 const uint kThreads = 64;
 layout(local_size_x = kThreads) in;
 
-shared float powers[kThreads];
+shared float falls[kThreads];
 shared uint places[kThreads];
 
-// Place in the neighbour array of the least power, the first one among equals; its power in powers[0] of all threads.
-void findLeast(Chunk chunk, uvec2 row, vec3 point) {
+// Place in the neighbour array to which the power falls most, the first one among equals, else kNoCell; in places[0] of all threads.
+void findMostFall(Chunk chunk, uint cell, vec3 point) {
   uint thread = gl_LocalInvocationIndex;
-  float least = kInfinity;
+  vec4 siteRadius = siteRadiusOf(chunk, cell);
+  vec3 centre = ballOf(chunk, siteRadius).centre - point;
+  uvec2 row = neighbourRow(chunk, cell);
+  float most = 0.0;
   uint place = kNoCell;
   for (uint i = row.x + thread; i < row.y; i += kThreads) {
-    float power = powerAt(point, ballOfSite(chunk, neighbourAt(chunk, i)));
-    if (power < least) {
-      least = power;
+    float fall = powerFall(centre, siteRadius, siteRadiusOf(chunk, neighbourAt(chunk, i)));
+    if (fall > most) {
+      most = fall;
       place = i;
     }
   }
-  powers[thread] = least;
+  falls[thread] = most;
   places[thread] = place;
   barrier();
   for (uint stride = kThreads / 2; stride > 0; stride /= 2) {
     if (thread < stride) {
-      float other = powers[thread + stride];
-      if (other < powers[thread] || (other == powers[thread] && places[thread + stride] < places[thread])) {
-        powers[thread] = other;
+      float other = falls[thread + stride];
+      if (other > falls[thread] || (other == falls[thread] && places[thread + stride] < places[thread])) {
+        falls[thread] = other;
         places[thread] = places[thread + stride];
       }
     }
@@ -60,16 +62,13 @@ void main() {
   vec3 point = startPoint();
   uvec2 cell = startCell(place);
   Chunk chunk = loadChunk(cell.x);
-  float power = powerAt(point, ballOfSite(chunk, cell.y));
   for (uint steps = 0; steps < FRAME.maxSteps; ++steps) {
-    findLeast(chunk, neighbourRow(chunk, cell.y), point);
-    float least = powers[0];
+    findMostFall(chunk, cell.y, point);
     uint nearest = places[0];
     barrier();
-    if (!(least < power)) break;
+    if (nearest == kNoCell) break;
     cell = cellOfSite(chunk, neighbourAt(chunk, nearest));
     if (cell.x != chunk.index) chunk = loadChunk(cell.x);
-    power = least;
   }
   if (gl_LocalInvocationIndex == 0) FRAME.walkStart.v[place] = cell;
 }

@@ -15,8 +15,13 @@ bool holds(const std::vector<std::string>& ids, const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
+// What was not timed was measured for its slope alone.
+bool isCandidate(const ReportPoint& point, const std::vector<std::string>& front) {
+  return isTimed(point) || holds(front, point.id);
+}
+
 PlotPoint frontPoint(const Report& report, const ReportPoint& point, Cost cost,
-                     const std::vector<std::string>& front) {
+                     const std::vector<std::string>& front, const ByteUnit& unit) {
   PlotPoint drawn;
   drawn.y = point.errors.psnr;
   if (cost == Cost::kTime) {
@@ -24,7 +29,7 @@ PlotPoint frontPoint(const Report& report, const ReportPoint& point, Cost cost,
     drawn.xLow = point.total.p5;
     drawn.xHigh = point.total.p95;
   } else {
-    drawn.x = double(point.diskBytes) / 1e6;
+    drawn.x = double(point.diskBytes) / unit.bytes;
   }
   drawn.tooltip = tooltipOf(point);
   const bool isPicked = point.id == report.chosen;
@@ -57,9 +62,13 @@ double lowestDrawn(const Report& report, const std::vector<std::string>& front) 
 }
 
 Plot frontPlot(const Report& report, Cost cost, const std::vector<std::string>& front) {
+  double largest = 0;
+  for (const ReportPoint& point : report.points) largest = std::max(largest, double(point.diskBytes));
+  const ByteUnit unit = unitOfBytes(largest);
   Plot plot;
   plot.title = cost == Cost::kTime ? "Error over milliseconds" : "Error over bytes";
-  plot.x = {cost == Cost::kTime ? "time of a frame [ms], 5th to 95th percentile" : "size on disk [MB]",
+  plot.x = {cost == Cost::kTime ? std::string("time of a frame [ms], 5th to 95th percentile")
+                                : fmt::format("size on disk [{}]", unit.name),
             true,
             {},
             {},
@@ -68,24 +77,26 @@ Plot frontPlot(const Report& report, Cost cost, const std::vector<std::string>& 
   plot.width = 1080;
   plot.height = 460;
   const double lowest = lowestDrawn(report, front);
-  if (std::any_of(report.points.begin(), report.points.end(),
-                  [&](const ReportPoint& point) { return point.errors.psnr < lowest; })) {
+  if (std::any_of(report.points.begin(), report.points.end(), [&](const ReportPoint& point) {
+        return isCandidate(point, front) && point.errors.psnr < lowest;
+      })) {
     plot.y.from = lowest;
   }
   for (const std::string& renderer : renderersOf(report)) {
     std::vector<const ReportPoint*> points;
     PlotSeries drawn{renderer, {}}, line;
     for (const ReportPoint& point : report.points) {
-      if (point.renderer == renderer) points.push_back(&point);
+      if (point.renderer == renderer && isCandidate(point, front)) points.push_back(&point);
     }
     std::stable_sort(points.begin(), points.end(), [&](const ReportPoint* a, const ReportPoint* b) {
       return rankOf(report, *a, front) < rankOf(report, *b, front);
     });
-    for (const ReportPoint* point : points) drawn.points.push_back(frontPoint(report, *point, cost, front));
+    for (const ReportPoint* point : points)
+      drawn.points.push_back(frontPoint(report, *point, cost, front, unit));
     for (const std::string& id : front) {
       const ReportPoint* point = findPoint(report, id);
       if (point && point->renderer == renderer)
-        line.points.push_back(frontPoint(report, *point, cost, front));
+        line.points.push_back(frontPoint(report, *point, cost, front, unit));
     }
     for (PlotPoint& point : line.points) point.label.clear();
     line.name = renderer + ": Pareto front";
@@ -147,8 +158,10 @@ std::string frontSection(const Report& report, Cost cost) {
     return std::count_if(report.points.begin(), report.points.end(), holdsFor);
   };
   const double lowest = lowestDrawn(report, front);
-  const auto equal = countWhere([](const ReportPoint& point) { return std::isinf(point.errors.psnr); });
-  const auto below = countWhere([&](const ReportPoint& point) { return point.errors.psnr < lowest; });
+  const auto equal = countWhere(
+      [&](const ReportPoint& point) { return isCandidate(point, front) && std::isinf(point.errors.psnr); });
+  const auto below = countWhere(
+      [&](const ReportPoint& point) { return isCandidate(point, front) && point.errors.psnr < lowest; });
   if (below > 0)
     body += paragraph(
         fmt::format("{} points with less than {} dB lie below the drawing.", below, decibels(lowest)));

@@ -37,6 +37,10 @@ bool isDefault(const ReportPoint& point) {
   return point.settings.empty();
 }
 
+bool isTimed(const ReportPoint& point) {
+  return point.total.median > 0;
+}
+
 bool hasPhotos(const Report& report) {
   return std::any_of(report.points.begin(), report.points.end(),
                      [](const ReportPoint& point) { return point.photoErrors.has_value(); });
@@ -66,11 +70,15 @@ std::string intervalText(const Interval& interval) {
 }
 
 std::string bytesText(double bytes) {
-  const double size = std::abs(bytes);
-  if (size >= 1e9) return shortNumber(bytes / 1e9) + " GB";
-  if (size >= 1e6) return shortNumber(bytes / 1e6) + " MB";
-  if (size >= 1e3) return shortNumber(bytes / 1e3) + " kB";
-  return fmt::format("{:.0f} B", bytes);
+  const ByteUnit unit = unitOfBytes(std::abs(bytes));
+  return unit.bytes == 1 ? fmt::format("{:.0f} B", bytes) : shortNumber(bytes / unit.bytes) + " " + unit.name;
+}
+
+ByteUnit unitOfBytes(double largest) {
+  if (largest >= 1e9) return {"GB", 1e9};
+  if (largest >= 1e6) return {"MB", 1e6};
+  if (largest >= 1e3) return {"kB", 1e3};
+  return {"B", 1};
 }
 
 std::string decibels(double value) {
@@ -109,6 +117,10 @@ Cell textCell(const std::string& text) {
 
 Cell numberCell(const std::string& text) {
   return {escapeMarkup(text), "number"};
+}
+
+Cell bytesCell(uint64_t bytes) {
+  return numberCell(bytes == 0 ? "–" : bytesText(double(bytes)));
 }
 
 Cell timeCell(const Interval& interval) {

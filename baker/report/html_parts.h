@@ -15,6 +15,7 @@ const ReportPoint* findPoint(const Report& report, const std::string& id);      
 const ReportPoint* defaultOf(const Report& report, const std::string& renderer);  // null: none
 std::vector<std::string> renderersOf(const Report& report);  // in the order of the points
 bool isDefault(const ReportPoint& point);
+bool isTimed(const ReportPoint& point);
 bool hasPhotos(const Report& report);
 std::string settingsText(const ReportPoint& point);  // "cutoff 0.01, positionBits 14"; "default"
 int colourOf(const Report& report, const std::string& renderer);
@@ -23,6 +24,12 @@ int colourOf(const Report& report, const std::string& renderer);
 std::string milliseconds(double value);
 std::string intervalText(const Interval& interval);  // "1.23 ms (1.2 to 1.31)"
 std::string bytesText(double bytes);                 // "12.3 MB", of 10^6
+// The unit for figures up to `largest` bytes on one axis.
+struct ByteUnit {
+  const char* name;
+  double bytes;
+};
+ByteUnit unitOfBytes(double largest);
 std::string decibels(double value);
 std::string percent(double share);
 std::string countText(uint64_t count);               // "499 712"
@@ -36,6 +43,7 @@ struct Cell {
 };
 Cell textCell(const std::string& text);
 Cell numberCell(const std::string& text);
+Cell bytesCell(uint64_t bytes);           // 0: not measured
 Cell timeCell(const Interval& interval);  // median, and p5 to p95 small beside it
 // How `interval` stands to `base`: "tie" where noise explains it, otherwise the change in percent.
 Cell changeCell(const Interval& interval, const Interval& base);

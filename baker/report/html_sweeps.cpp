@@ -19,10 +19,6 @@ struct SweepPoint {
   double number;
 };
 
-bool isTimed(const ReportPoint& point) {
-  return point.total.median > 0;
-}
-
 // By growing number; none where the knob is none of this renderer's.
 std::vector<SweepPoint> pointsOf(const Report& report, const Sweep& sweep, const std::string& renderer) {
   std::vector<SweepPoint> points;
@@ -81,7 +77,7 @@ PlotPoint sweepMarker(const SweepPoint& swept, double x, const ReportPoint* stan
   if (figure == SweepFigure::kError) {
     drawn.y = swept.point->errors.meanError;
   } else if (figure == SweepFigure::kBytes) {
-    drawn.y = double(swept.point->diskBytes) / 1e6;
+    drawn.y = double(swept.point->diskBytes);
   } else {
     const double base = standard && isTimed(*standard) ? standard->total.median : swept.point->total.median;
     drawn.y = swept.point->total.median / base;
@@ -93,7 +89,7 @@ PlotPoint sweepMarker(const SweepPoint& swept, double x, const ReportPoint* stan
 
 // Small differences shall look small: errors span a decade at least, times a tenth to either side, sizes
 // begin at 0.
-void widenAxis(Plot& plot, SweepFigure figure) {
+void setRange(Plot& plot, SweepFigure figure) {
   double low = std::numeric_limits<double>::infinity(), high = 0;
   for (const PlotSeries& series : plot.series) {
     for (const PlotPoint& point : series.points) {
@@ -112,8 +108,13 @@ void widenAxis(Plot& plot, SweepFigure figure) {
     plot.y.from = std::min(0.9, low - margin);
     plot.y.to = std::max(1.1, high + margin);
   } else if (figure == SweepFigure::kBytes) {
+    const ByteUnit unit = unitOfBytes(high);
+    for (PlotSeries& series : plot.series) {
+      for (PlotPoint& point : series.points) point.y /= unit.bytes;
+    }
+    plot.y.label = std::string(unit.name) + " on disk";
     plot.y.from = 0;
-    plot.y.to = high * 1.08;
+    plot.y.to = high / unit.bytes * 1.08;
   }
 }
 
@@ -125,7 +126,7 @@ Plot sweepPlot(const Report& report, const Sweep& sweep, SweepFigure figure) {
   plot.x = places.axis(sweep);
   plot.y.label = figure == SweepFigure::kError  ? "mean error"
                  : figure == SweepFigure::kTime ? "time over the default's"
-                                                : "MB on disk";
+                                                : "on disk";
   plot.y.isLogarithmic = figure == SweepFigure::kError;
   plot.title = plot.y.label + " over " + sweep.knob;
   for (const std::string& renderer : renderersOf(report)) {
@@ -140,7 +141,7 @@ Plot sweepPlot(const Report& report, const Sweep& sweep, SweepFigure figure) {
     plot.series.push_back(std::move(series));
     if (figure == SweepFigure::kBytes) break;  // one asset for all renderers
   }
-  widenAxis(plot, figure);
+  setRange(plot, figure);
   return plot;
 }
 
@@ -178,8 +179,8 @@ std::string sweepTable(const Report& report, const Sweep& sweep) {
       row.push_back(timeCell(point.total));
       row.push_back(standard && standard != &point ? changeCell(point.total, standard->total)
                                                    : numberCell("–"));
-      row.push_back(numberCell(bytesText(double(point.diskBytes))));
-      row.push_back(numberCell(bytesText(double(point.residentBytes))));
+      row.push_back(bytesCell(point.diskBytes));
+      row.push_back(bytesCell(point.residentBytes));
       table.add(row, isDefault(point));
     }
   }

@@ -203,8 +203,8 @@ std::string pointsSection(const Report& report) {
     row.push_back(timeCell(point.total));
     row.push_back(standard && standard != &point ? changeCell(point.total, standard->total)
                                                  : numberCell("–"));
-    row.push_back(numberCell(bytesText(double(point.diskBytes))));
-    row.push_back(numberCell(bytesText(double(point.residentBytes))));
+    row.push_back(bytesCell(point.diskBytes));
+    row.push_back(bytesCell(point.residentBytes));
     row.push_back(numberCell(point.bakeSeconds > 0 ? shortNumber(point.bakeSeconds) : "–"));
     table.add(row, isDefault(point));
   }

@@ -244,6 +244,7 @@ class Drawing {
       const std::string x = number(x_.pixel(point.x)), y = number(y_.pixel(point.y));
       if (point.xLow < point.xHigh) {
         const double low = x_.clampedPixel(point.xLow), high = x_.clampedPixel(point.xHigh);
+        bars_.push_back({low, y_.pixel(point.y) - 1, high, y_.pixel(point.y) + 1});
         add("<path class=\"bar {0}\" d=\"M{1} {2}H{3}M{1} {4}v6M{3} {4}v6\"/>", colourClass(s), number(low),
             y, number(high), number(y_.pixel(point.y) - 3));
       }
@@ -307,40 +308,52 @@ class Drawing {
   }
 
   void drawLabel(const PlotPoint& point) {
-    const double x = x_.pixel(point.x), y = y_.pixel(point.y), width = textWidth(point.label);
-    const double gap = kMarker + (point.isRinged ? 6 : 3);
-    for (double distance : {0.0, 10.0, 24.0}) {
-      const double away = gap + distance, line = kLineHeight / 2;
-      const Box places[] = {
-          {x + away, y - line, x + away + width, y + line},
-          {x - away - width, y - line, x - away, y + line},
-          {x - width / 2, y - away - 2 * line, x + width / 2, y - away},
-          {x - width / 2, y + away, x + width / 2, y + away + 2 * line},
-          {x + away * 0.7, y - away * 0.7 - 2 * line, x + away * 0.7 + width, y - away * 0.7},
-          {x + away * 0.7, y + away * 0.7, x + away * 0.7 + width, y + away * 0.7 + 2 * line},
-          {x - away * 0.7 - width, y - away * 0.7 - 2 * line, x - away * 0.7, y - away * 0.7},
-          {x - away * 0.7 - width, y + away * 0.7, x - away * 0.7, y + away * 0.7 + 2 * line}};
-      for (const Box& box : places) {
-        if (!area_.holds(box)) continue;
-        if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return other.meets(box); }))
-          continue;
-        if (distance > 0) {
-          add("<path class=\"leader\" d=\"M{} {}L{} {}\"/>", number(x), number(y),
-              number(std::clamp(x, box.left, box.right)), number(std::clamp(y, box.top, box.bottom)));
+    for (bool avoidsBars : {true, false}) {
+      for (double distance : {0.0, 10.0, 24.0}) {
+        for (const Box& box : placesAround(point, distance)) {
+          if (isFree(box, avoidsBars)) return drawLabelAt(point, box, distance > 0);
         }
-        add("<text class=\"label\" x=\"{}\" y=\"{}\">{}</text>", number(box.left), number(box.bottom - 3.5),
-            escapeMarkup(point.label));
-        taken_.push_back(box);
-        return;
       }
     }
+  }
+
+  std::vector<Box> placesAround(const PlotPoint& point, double distance) const {
+    const double x = x_.pixel(point.x), y = y_.pixel(point.y), width = textWidth(point.label);
+    const double away = kMarker + (point.isRinged ? 6 : 3) + distance, slant = away * 0.7,
+                 line = kLineHeight / 2;
+    return {{x + away, y - line, x + away + width, y + line},
+            {x - away - width, y - line, x - away, y + line},
+            {x - width / 2, y - away - 2 * line, x + width / 2, y - away},
+            {x - width / 2, y + away, x + width / 2, y + away + 2 * line},
+            {x + slant, y - slant - 2 * line, x + slant + width, y - slant},
+            {x + slant, y + slant, x + slant + width, y + slant + 2 * line},
+            {x - slant - width, y - slant - 2 * line, x - slant, y - slant},
+            {x - slant - width, y + slant, x - slant, y + slant + 2 * line}};
+  }
+
+  bool isFree(const Box& box, bool avoidsBars) const {
+    const auto meets = [&](const Box& other) { return other.meets(box); };
+    return area_.holds(box) && std::none_of(taken_.begin(), taken_.end(), meets) &&
+           !(avoidsBars && std::any_of(bars_.begin(), bars_.end(), meets));
+  }
+
+  void drawLabelAt(const PlotPoint& point, const Box& box, bool hasLeader) {
+    const double x = x_.pixel(point.x), y = y_.pixel(point.y);
+    if (hasLeader) {
+      add("<path class=\"leader\" d=\"M{} {}L{} {}\"/>", number(x), number(y),
+          number(std::clamp(x, box.left, box.right)), number(std::clamp(y, box.top, box.bottom)));
+    }
+    add("<text class=\"label\" x=\"{}\" y=\"{}\">{}</text>", number(box.left), number(box.bottom - 3.5),
+        escapeMarkup(point.label));
+    taken_.push_back(box);
   }
 
   const Plot& plot_;
   std::string body_;
   Box area_;
   Scale x_, y_;
-  std::vector<Box> taken_;  // by markers and labels
+  std::vector<Box> taken_;  // by markers, steps and labels
+  std::vector<Box> bars_;   // where a label is better not
 };
 
 }  // namespace

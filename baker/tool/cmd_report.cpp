@@ -26,7 +26,7 @@ struct ReportOptions {
   std::filesystem::path input, output, photos;
   ViewOptions views;
   uint32_t viewCount = 6;
-  double minutes = 1;
+  double minutes = 0.5;
   uint64_t seed = 1;
   std::string device, credit, title;
   std::vector<std::string> knobs;  // empty: all

@@ -59,9 +59,12 @@ FOAM_FN bool rectangleMeetsBall(real3 centre, real exactRadius, real3 corner, re
 
 // Interval of x in which planes through the origin with normal n0 + x n1 cut the ball; a ball's image lies between its
 // ends. Returns false if there is no bound: the ball holds the origin or crosses the plane with normal n1.
-FOAM_FN bool boundBallImage(real3 centre, real exactRadius, real3 n0, real3 n1, FOAM_OUT(real) low,
+FOAM_FN bool boundBallImage(real3 exactCentre, real exactRadius, real3 n0, real3 n1, FOAM_OUT(real) low,
                             FOAM_OUT(real) high) {
-  real radius = guardedRadius(centre, exactRadius);
+  // At distance 1: fourth powers of lengths and lenses meet below, and leave the floats in units of 1e-6.
+  real inverseDistance = real(1) / max(sqrt(dot(exactCentre, exactCentre)), real(1e-30));
+  real3 centre = exactCentre * inverseDistance;
+  real radius = guardedRadius(exactCentre, exactRadius) * inverseDistance;
   real c0 = dot(n0, centre);
   real c1 = dot(n1, centre);
   real squaredRadius = radius * radius;
@@ -71,12 +74,12 @@ FOAM_FN bool boundBallImage(real3 centre, real exactRadius, real3 n0, real3 n1, 
   low = real(0);
   high = real(0);
   if (!(quadratic > real(0))) return false;
-  // The discriminant of (c0 + x c1)^2 = r^2 |n0 + x n1|^2, written without the cancellation of b^2 - ac.
+  // The discriminant of (c0 + x c1)^2 = r^2 |n0 + x n1|^2 over r^2, written without the cancellation of b^2 - ac.
   real3 mixed = c1 * n0 - c0 * n1;
-  real discriminant = squaredRadius * (dot(mixed, mixed) - squaredRadius * (dot(n0, n0) * n11 - n01 * n01));
+  real discriminant = dot(mixed, mixed) - squaredRadius * (dot(n0, n0) * n11 - n01 * n01);
   if (!(discriminant >= real(0))) return false;
   real middle = squaredRadius * n01 - c0 * c1;
-  real halfWidth = sqrt(discriminant);
+  real halfWidth = radius * sqrt(discriminant);
   low = (middle - halfWidth) / quadratic;
   high = (middle + halfWidth) / quadratic;
   return true;

@@ -10,30 +10,37 @@ float orderAlong(vec3 direction, vec3 centre) {
   return key;
 }
 
-float powerAt(vec3 point, Ball ball) { return powerOfOrigin(ball.centre - point, ball.radius); }
+// Half of what a point's power falls by from one cell of a chunk to another; 0: by less than its rounding, so that no search
+// goes back to a cell. As the local form of the plane between them says: powers themselves lose what sites that nearly coincide
+// differ by.
+float powerFall(vec3 centre, vec4 site, vec4 otherSite) {
+  vec3 toOther = fromSiteToSite(site.xyz, otherSite.xyz);
+  float offset = radicalOffset(toOther, site.w, otherSite.w);
+  return max(-exitClearance(centre, toOther, offset, radicalClearance(centre, toOther, offset)), 0.0);
+}
 
-// The power goes with the search into the next chunk, where it may be rounded otherwise: it falls with every step, so the
-// search ends. point: relative to the eye. steps: how many it took.
+// The search goes where the power falls most, and ends as it falls with every step. point: relative to the eye. steps: how many it
+// took.
 uvec2 descendTo(vec3 point, uvec2 first, out uint steps) {
   uvec2 cell = first;
   Chunk chunk = loadChunk(cell.x);
-  float power = powerAt(point, ballOfSite(chunk, cell.y));
   for (steps = 0; steps < FRAME.maxSteps; ++steps) {
+    vec4 siteRadius = siteRadiusOf(chunk, cell.y);
+    vec3 centre = ballOf(chunk, siteRadius).centre - point;
     uvec2 row = neighbourRow(chunk, cell.y);
-    float least = power;
+    float most = 0.0;
     uint site = kNoCell;
     for (uint i = row.x; i < row.y; ++i) {
       uint other = neighbourAt(chunk, i);
-      float otherPower = powerAt(point, ballOfSite(chunk, other));
-      if (otherPower < least) {
-        least = otherPower;
+      float fall = powerFall(centre, siteRadius, siteRadiusOf(chunk, other));
+      if (fall > most) {
+        most = fall;
         site = other;
       }
     }
     if (site == kNoCell) break;
     cell = cellOfSite(chunk, site);
     if (cell.x != chunk.index) chunk = loadChunk(cell.x);
-    power = least;
   }
   return cell;
 }

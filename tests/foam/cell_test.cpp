@@ -205,6 +205,16 @@ TYPED_TEST(CellMathematics, RoundingNeverHidesAnExitFromAnEyeOnThePlane) {
   }
 }
 
+TYPED_TEST(CellMathematics, AnExitBehindTheOriginIsOneInAllUnits) {
+  using Vec3 = glm::vec<3, TypeParam>;
+  for (const TypeParam unit : {TypeParam(1e-9), TypeParam(1), TypeParam(1e9), TypeParam(1e12)}) {
+    const Vec3 centre = unit * Vec3(-3, 0, 1), toNeighbour = unit * Vec3(2, 0, 0);
+    const TypeParam offset = foam::radicalOffset(toNeighbour, unit, unit);
+    const TypeParam clearance = foam::radicalClearance(centre, toNeighbour, offset);
+    EXPECT_LT(foam::exitClearance(centre, toNeighbour, offset, clearance), TypeParam(0)) << unit;
+  }
+}
+
 TYPED_TEST(CellMathematics, TheFaceIsMetAtItsHeightAndAGrazedFaceFarAway) {
   using Vec3 = glm::vec<3, TypeParam>;
   const Vec3 normal(0, 0, -1);

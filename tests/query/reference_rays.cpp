@@ -45,8 +45,13 @@ ReferenceHit ReferenceRays::cast(const glm::dvec3& origin, const glm::dvec3& dir
     hits.push_back(ball.hit);
     const glm::dvec3 site(foam_.sites[ball.cell]);
     const double radius = foam_.radii[ball.cell];
-    ViewCell<double> cell{site - origin, radius, 1 / radius, foam_.densities[ball.cell],
-                          faceFrame<double>(foam_.orientations[ball.cell]), view.planes.size(), 0};
+    ViewCell<double> cell{};
+    cell.centre = site - origin;
+    cell.radius = radius;
+    cell.inverseRadius = 1 / radius;
+    cell.density = foam_.densities[ball.cell];
+    cell.frame = faceFrame<double>(foam_.orientations[ball.cell]);
+    cell.planesBegin = view.planes.size();
     for (const uint32_t other : neighboursOf(pairs_, ball.cell)) {
       const glm::dvec3 toNeighbour = glm::dvec3(foam_.sites[other]) - site;
       const double offset = foam::radicalOffset(toNeighbour, radius, double{foam_.radii[other]});

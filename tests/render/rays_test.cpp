@@ -158,5 +158,17 @@ TEST(Rays, TheBoundsOfABallsImageHoldEveryRayThatMeetsIt) {
   EXPECT_GT(bounded, 1000);
 }
 
+TEST(Rays, TheBoundsOfABallsImageAreTheSameInAllUnitsAndHoldForNarrowLenses) {
+  const Vec centre(0.3f, -0.2f, 5), corner(-0.5f, -0.4f, 1), edgeX(1e-4f, 0, 0), edgeY(0, 1e-4f, 0);
+  const auto widthIn = [&](float unit) {
+    float low = 0, high = 0;
+    EXPECT_TRUE(foam::boundBallImage(unit * centre, unit * 0.01f, glm::cross(corner, edgeY), glm::cross(edgeX, edgeY), low, high));
+    return high - low;
+  };
+  const float width = widthIn(1);
+  EXPECT_NEAR(width, 40, 1);  // 2 * 0.01 / 5 / 1e-4, and the guard
+  for (const float unit : {1e-12f, 1e-7f, 1e-4f, 1e4f, 1e12f}) EXPECT_NEAR(widthIn(unit), width, 0.05f) << unit;
+}
+
 }  // namespace
 }  // namespace froth::test

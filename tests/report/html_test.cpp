@@ -110,6 +110,7 @@ TEST(ReportHtml, DegenerateReportsAreStillPages) {
   report.points[0].id = report.points[0].renderer = "raster";
   report.points[0].errors.psnr = INFINITY;
   report.points[0].errors.ssim = NAN;
+  report.points[0].total = {1, 1, 1};
   report.sweeps.resize(1);
   report.sweeps[0].points = {"raster", "unknown"};
   report.slopes.resize(1);

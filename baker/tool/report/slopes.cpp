@@ -111,6 +111,7 @@ Status addCellSlopes(const Bench& bench, const FoamInput& input, std::vector<Slo
   std::vector<double> cells, times, bakes;
   for (uint32_t copies = 1; copies <= kMaxCopies && (copies == 1 || copies * input.foam.cellCount <= kMaxCells); copies *= 2) {
     ReportConfig config = defaultConfig();
+    config.knobs = exactConfig().knobs;  // compressed colours only add what grows with the cells
     config.copies = copies;
     config.hasCameras = false;
     if (Status done = bench.workshop.bake({&config, 1}, progress); !done) return done;

@@ -23,7 +23,7 @@ namespace {
 
 // One bake leaves cores idle in its short stages; each needs memory for its chunks.
 constexpr uint32_t kSmallFoam = 250'000;  // cells
-constexpr size_t kBakesAtOnce = 6;
+constexpr size_t kBakesAtOnce = 8;
 
 // The foam that a configuration bakes where it is not the input itself.
 Result<std::optional<Foam>> transformFoam(const Foam& foam, const ReportConfig& config) {
