@@ -18,7 +18,7 @@ namespace froth {
 // How exactly values are kept. Steps as bits, where a range is known: the position step is the scene's largest extent over
 // 2^positionBits, rounded down to a power of two.
 struct BakeKnobs {
-  uint32_t positionBits = 0;    // [10..22]; 0: float32 as it is
+  uint32_t positionBits = 0;    // [10..22]; 0: float32 as it is, in world coordinates
   uint32_t radiusBits = 23;     // mantissa bits [4..23]
   uint32_t densityBits = 23;    // mantissa bits [1..23]
   uint32_t frameBits = 0;       // bits per axis of the octahedral normal [4..15]; 0: quaternions of floats
@@ -82,7 +82,7 @@ Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const 
 // The same into memory.
 Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const Progress& progress = {});
 
-// The foam that an asset shows: sites in world coordinates (rounded to float, if they are none); cells in asset order;
+// The foam that an asset shows: sites in world coordinates (rounded to float if the origin is not 0); cells in asset order;
 // cells that are not live get density 0 and grey details, so that any renderer of foams draws the asset.
 Result<Foam> foamFromAsset(const AssetContents& contents);
 

@@ -22,7 +22,7 @@ class ChunkGeometry {
     findGhosts();
     chooseOrigin(positionStep);
     for (const uint32_t cell : own_) addSite(cell);
-    for (const CellRef ref : chunk_.ghostRefs) addSite(cellOf(ref));
+    for (const CellRef ref : chunk_.ghostRefs) addSite(plan_.chunks[plan_.chunkOf(ref)].cells[plan_.localOf(ref)]);
     fillRows();
     return std::move(chunk_);
   }
@@ -62,6 +62,7 @@ class ChunkGeometry {
 
   // The middle of the live cells: the others do not move it, so an image is the same with and without Steiner cells.
   void chooseOrigin(double positionStep) {
+    if (positionStep == 0) return;
     const uint32_t count = chunk_.liveCount > 0 ? chunk_.liveCount : chunk_.cellCount;
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (uint32_t local = 0; local < count; ++local) {
@@ -69,26 +70,9 @@ class ChunkGeometry {
       low = glm::min(low, site);
       high = glm::max(high, site);
     }
-    for (int axis = 0; axis < 3; ++axis) {
-      const double middle = 0.5 * (low[axis] + high[axis]);
-      chunk_.origin[axis] = positionStep > 0 ? snapToStep(middle, positionStep) : exactOrigin(middle, axis);
-    }
+    for (int axis = 0; axis < 3; ++axis)
+      chunk_.origin[axis] = snapToStep(0.5 * (low[axis] + high[axis]), positionStep);
   }
-
-  // Floats within a factor of two of each other have an exact difference (Sterbenz 1974): a chunk that far from the world's origin
-  // keeps every bit of its sites in coordinates of its own, from which eyes are subtracted in double. 0 for any other.
-  double exactOrigin(double middle, int axis) const {
-    const float origin = static_cast<float>(middle);
-    const auto isNear = [&](uint32_t cell) {
-      const double ratio = double{cells_.sites[cell][axis]} / origin;
-      return ratio >= 0.5 && ratio <= 2;
-    };
-    const bool isExact = std::all_of(own_.begin(), own_.end(), isNear) &&
-                         std::all_of(chunk_.ghostRefs.begin(), chunk_.ghostRefs.end(), [&](CellRef ref) { return isNear(cellOf(ref)); });
-    return isExact ? origin : 0;
-  }
-
-  uint32_t cellOf(CellRef ref) const { return plan_.chunks[plan_.chunkOf(ref)].cells[plan_.localOf(ref)]; }
 
   void addSite(uint32_t cell) {
     const glm::dvec3 origin(chunk_.origin[0], chunk_.origin[1], chunk_.origin[2]);

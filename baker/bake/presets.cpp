@@ -10,7 +10,7 @@ BakeKnobs defaultKnobs() {
   knobs.positionBits = 18;
   knobs.radiusBits = 11;
   knobs.densityBits = 4;
-  knobs.frameBits = 10;
+  knobs.frameBits = 12;
   knobs.detailSiteBits = 8;
   knobs.heightBits = 7;
   knobs.compressColours = true;
@@ -27,7 +27,6 @@ BakeKnobs highKnobs() {
   knobs.positionBits = 19;
   knobs.radiusBits = 12;
   knobs.densityBits = 7;
-  knobs.frameBits = 12;
   knobs.detailSiteBits = 10;
   knobs.heightBits = 10;
   knobs.appearance.errorBound = 0.005f;

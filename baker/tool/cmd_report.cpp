@@ -26,7 +26,7 @@ struct ReportOptions {
   std::filesystem::path input, output, photos;
   ViewOptions views;
   uint32_t viewCount = 6;
-  double minutes = 0.5;
+  double minutes = 0.25;
   uint64_t seed = 1;
   std::string device, credit, title;
   std::vector<std::string> knobs;  // empty: all
@@ -123,17 +123,34 @@ Status measureFeatures(const ReportOptions& options, const Bench& bench, const F
   return append(bakeLeftOut(bench));
 }
 
+// Where assets and log lie until the report is done.
+Result<std::filesystem::path> makeWorkFolder(const ReportOptions& options) {
+  const std::filesystem::path work = options.output / "work";
+  std::error_code error;
+  if (!options.resumes) std::filesystem::remove_all(work, error);
+  std::filesystem::create_directories(work, error);
+  if (error) return makeError(ErrorKind::kIo, "%s: cannot be made: %s", work.c_str(), error.message().c_str());
+  return work;
+}
+
+Result<std::vector<Slope>> measureSlopes(const ReportOptions& options, const Bench& bench, const FoamInput& input, bool hasFoam,
+                                         const std::vector<Sweep>& sweeps, PointList& points, const Progress& progress) {
+  std::vector<Slope> slopes = errorSlopes(sweeps, points);
+  if (options.isCpu || !options.knobs.empty()) return slopes;
+  const Result<std::vector<Slope>> times = timeSlopes(bench, input, hasFoam, progress);
+  if (!times) return times.error();
+  slopes.insert(slopes.end(), times->begin(), times->end());
+  return slopes;
+}
+
 Status runReport(const ReportOptions& options, const Progress& progress) {
   const Result<std::vector<SelectedView>> all = selectViews(options.views);
   if (!all) return all.error();
   const std::vector<SelectedView> views = spreadViews(*all, options.viewCount);
   const Result<CameraSet> cameras = readCameras(options.views.cameras);
   if (!cameras) return cameras.error();
-  const std::filesystem::path work = options.output / "work";
-  std::error_code error;
-  if (!options.resumes) std::filesystem::remove_all(work, error);
-  std::filesystem::create_directories(work, error);
-  if (error) return makeError(ErrorKind::kIo, "%s: cannot be made: %s", work.c_str(), error.message().c_str());
+  const Result<std::filesystem::path> work = makeWorkFolder(options);
+  if (!work) return work.error();
   const bool hasFoam = !isAssetPath(options.input);
   const Result<FoamInput> input = loadFoam(options.input, progress);
   if (!input) return input.error();
@@ -145,12 +162,12 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
   if (!drawer) return drawer.error();
   const Result<std::string> signature = signatureOf(options, views, **drawer);
   if (!signature) return signature.error();
-  Result<ReportLog> log = ReportLog::open(work / "points.jsonl", *signature, options.resumes);
+  Result<ReportLog> log = ReportLog::open(*work / "points.jsonl", *signature, options.resumes);
   if (!log) return log.error();
   const Result<ReportTruth> truth = ReportTruth::create(*input, views, options.photos, progress);
   if (!truth) return truth.error();
 
-  Workshop workshop(*input, *cameras, work, hasFoam ? std::filesystem::path() : options.input);
+  Workshop workshop(*input, *cameras, *work, hasFoam ? std::filesystem::path() : options.input);
   const Result<bool> walks = canWalk(options, hasFoam);
   if (!walks) return walks.error();
   const Bench bench{workshop, **drawer, *truth, views, *log, options.rounds, *walks};
@@ -164,19 +181,16 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
   if (Status measured = measureAll(options, bench, *knobs, points, progress); !measured) return measured;
   if (Status measured = measureFeatures(options, bench, *input, *cameras, device, hasFoam, result, progress); !measured)
     return measured;
-  result.slopes = errorSlopes(result.sweeps, points);
-  if (!options.isCpu && options.knobs.empty()) {
-    const Result<std::vector<Slope>> times = timeSlopes(bench, *input, hasFoam, progress);
-    if (!times) return times.error();
-    result.slopes.insert(result.slopes.end(), times->begin(), times->end());
-  }
-
+  Result<std::vector<Slope>> slopes = measureSlopes(options, bench, *input, hasFoam, result.sweeps, points, progress);
+  if (!slopes) return slopes.error();
+  result.slopes = std::move(*slopes);
   describeRun({options.title.empty() ? options.input.stem().string() : options.title, options.input.filename().string(),
                options.credit, hasFoam, options.isCpu},
               input->foam, bench, result);
   if (Status filled = fillReport(points, bench, !options.isWithoutImages, result); !filled) return filled;
   if (Status written = writeReport(options.output, result); !written) return written;
-  if (!options.keepsWork) std::filesystem::remove_all(work, error);
+  std::error_code ignored;
+  if (!options.keepsWork) std::filesystem::remove_all(*work, ignored);
   return {};
 }
 

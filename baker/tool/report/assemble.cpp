@@ -12,6 +12,7 @@ namespace {
 
 // What a default preset has to keep [dB against the reference, in the worst view].
 constexpr double kLeastWorstView = 42;
+constexpr double kMostBytesPerCell = 80;  // of the input's cells
 
 double worstViewOf(const ReportPoint& point) {
   double worst = point.errors.psnr;
@@ -33,23 +34,23 @@ std::string describe(const ReportPoint& point, uint32_t cells) {
                      point.total.median);
 }
 
-// The smallest asset whose worst view is good enough; the default stays where noise or nothing speaks against it.
+// Of assets within the size bound: the smallest whose worst view is good enough, or else the one with the best worst view.
 void choosePreset(const PointList& points, Report& report) {
   const ReportPoint& base = points.all().front().point;
-  const ReportPoint* best = nullptr;
+  const ReportPoint *smallest = nullptr, *best = nullptr;
   for (const PlannedPoint& planned : points.all()) {
-    if (!planned.isTimed || !isWholeAsset(planned.config) || worstViewOf(planned.point) < kLeastWorstView) continue;
-    if (!best || planned.point.diskBytes < best->diskBytes) best = &planned.point;
+    const ReportPoint& point = planned.point;
+    if (!planned.isTimed || !isWholeAsset(planned.config)) continue;
+    if (static_cast<double>(point.diskBytes) > kMostBytesPerCell * report.cells) continue;
+    if (!best || worstViewOf(point) > worstViewOf(*best)) best = &point;
+    if (worstViewOf(point) >= kLeastWorstView && (!smallest || point.diskBytes < smallest->diskBytes)) smallest = &point;
   }
-  report.chosen = best ? best->id : base.id;
-  const std::string rule = fmt::format("The smallest asset of those measured whose worst view keeps {} dB against the reference", kLeastWorstView);
-  if (!best) {
-    report.choice = fmt::format("{}: none does here. The default has {}.", rule, describe(base, report.cells));
-  } else if (best->id == base.id) {
-    report.choice = fmt::format("{}: the default itself, {}.", rule, describe(base, report.cells));
-  } else {
-    report.choice = fmt::format("{}: {}, {}. The default has {}.", rule, best->id, describe(*best, report.cells), describe(base, report.cells));
-  }
+  const ReportPoint& chosen = smallest ? *smallest : best ? *best : base;
+  report.chosen = chosen.id;
+  report.choice = fmt::format("Of assets of at most {} bytes per cell, the smallest whose worst view keeps {} dB against the reference{}: {}, {}.",
+                              kMostBytesPerCell, kLeastWorstView, smallest ? "" : " (none does; so the one with the best worst view)",
+                              chosen.id == base.id ? "the default itself" : chosen.id, describe(chosen, report.cells));
+  if (chosen.id != base.id) report.choice += fmt::format(" The default has {}.", describe(base, report.cells));
 }
 
 Status addPictures(const PlannedPoint& planned, const Bench& bench, Report& report) {

@@ -14,14 +14,8 @@ constexpr uint32_t kMaxCopies = 16;
 constexpr uint32_t kOutsideViews = 4;
 // What a half float loses of a colour below one: detail sites are kept in halves between the passes (shaders/shade_sites.comp).
 constexpr double kHalfRounding = 0x1p-12;
+constexpr double kMoreThanNoise = 1.05;
 constexpr double kFixedCost = 1;  // fitSlope's factor: no floor is cut off
-
-double numberOf(const Sweep& sweep, const ReportPoint& point) {
-  for (const Setting& setting : point.settings) {
-    if (setting.knob == sweep.knob) return setting.number;
-  }
-  return sweep.base.number;
-}
 
 // Views from a ring around the box, at 1.65 times half of its longest side from its middle: half of a foam of copies is in view.
 std::vector<View> viewsFromOutside(const Foam& foam, const View& like) {
@@ -58,27 +52,26 @@ Slope timeSlope(const std::string& what, const std::vector<double>& x, const std
     slope.verdict = slope.measured <= 1.15 ? kVerdictAsDerived : kVerdictOtherOrder;
     slope.note = slope.measured <= 1.15 ? "at most in proportion; below it by what does not grow along" : "grows faster than in proportion";
   }
+  for (size_t i = 0; i + 1 < slope.y.size(); ++i) {
+    if (slope.y[i] > kMoreThanNoise * slope.y[i + 1])
+      slope.note += fmt::format("; {:.3g} takes longer than {:.3g}", slope.x[i], slope.x[i + 1]);
+  }
   return slope;
 }
 
 }  // namespace
 
 std::vector<Slope> errorSlopes(const std::vector<Sweep>& sweeps, PointList& points) {
+  std::vector<ReportPoint> measured;
+  for (const PlannedPoint& planned : points.all()) measured.push_back(planned.point);
   std::vector<Slope> slopes;
   for (const Sweep& sweep : sweeps) {
     if (sweep.expectedOrder == 0) continue;
-    std::vector<double> x, y;
-    for (const std::string& id : sweep.points) {
-      const ReportPoint& point = points.at(id).point;
-      const double number = numberOf(sweep, point);
-      x.push_back(sweep.isBits ? std::exp2(-number) : number);
-      y.push_back(point.errors.meanError);
-    }
     const std::string renderer = points.at(sweep.points.front()).point.renderer;
-    slopes.push_back(fitSlope(fmt::format("{}: mean error over {}", renderer, sweep.isBits ? "step of " + sweep.knob : sweep.knob),
-                              sweep.expectedOrder, x, y));
-    Slope& slope = slopes.back();
-    if (slope.floor > 0 && slope.floor < kHalfRounding) slope.note += "; half-float colours of detail sites between the passes";
+    Slope slope = fitConvergence(measured, sweep, renderer);
+    if (renderer != "cpu" && slope.floor > 0 && slope.floor < kHalfRounding)
+      slope.note += "; half-float colours of detail sites between the passes";
+    slopes.push_back(std::move(slope));
   }
   return slopes;
 }
