@@ -52,6 +52,9 @@ Result<SearchResult> searchCases(const SearchOptions& options, const CaseJudge& 
     found.shrunk.name = fmt::format("found/{}_{}_{}", nameOfKind(found.fault.kind), options.seed, result.tried);
     found.shrunk.what = found.fault.kind + "; " + found.fault.what;
     found.shrunk.analysis = "found by the random search and shrunk";
+    if (options.onFound) {
+      if (Status kept = options.onFound(found); !kept) return kept.error();
+    }
     result.found.push_back(std::move(found));
   }
   return result;

@@ -12,8 +12,9 @@
 #include "baker/tool/figures.h"
 #include "baker/tool/foam_input.h"
 #include "baker/tool/gpu_camera.h"
-#include "baker/tool/output_file.h"
+#include "baker/tool/option_checks.h"
 #include "baker/tool/stability_runs.h"
+#include "baker/tool/stability_search.h"
 #include "baker/tool/stability_table.h"
 
 namespace froth {
@@ -25,6 +26,7 @@ struct StabilityOptions {
   std::string only = "*";
   GpuDeviceOptions device;
   FiguresOutput figures;
+  StabilitySearch search;
 };
 
 // Views of a user's own that its cases start from.
@@ -73,8 +75,9 @@ Result<std::vector<JudgedCase>> runCases(const StabilityOptions& options, std::v
 }
 
 Status runStability(const StabilityOptions& options, Tool& tool) {
+  if (options.search.minutes > 0) return runStabilitySearch(options.search, options.device, options.figures, tool);
   if (!options.markdown.empty()) {
-    if (Status writable = checkWritable(options.markdown); !writable) return writable;
+    if (Status writable = checkMarkdown(options.markdown); !writable) return writable;
   }
   Result<std::vector<StiffCase>> cases = selectCases(options, tool.progress.callback());
   if (!cases) return cases.error();
@@ -101,6 +104,15 @@ Status runStability(const StabilityOptions& options, Tool& tool) {
   return makeError(ErrorKind::kUnsupported, "%zu of %zu cases fall short of their bounds; this is a fault of Froth", failures, judged->size());
 }
 
+void addSearchOptions(CLI::App& command, StabilitySearch& search) {
+  CLI::Option* minutes = command.add_option("--search", search.minutes,
+                                            "Hunt so many minutes for random cases that fail, in place of the built-in set");
+  minutes->check(numberBetween(1e-3, 1e5))->type_name("MINUTES");
+  command.add_option("--seed", search.seed, "Of the random cases")->check(countBetween(0, UINT64_MAX))->needs(minutes);
+  command.add_option("-o,--output", search.folder, "Folder for a file of each found case; the current one if left out")->needs(minutes);
+  for (const char* other : {"INPUT", "--cameras", "--only", "--markdown"}) minutes->excludes(command.get_option(other));
+}
+
 }  // namespace
 
 void addStabilityCommand(CLI::App& program, Tool& tool) {
@@ -111,11 +123,12 @@ void addStabilityCommand(CLI::App& program, Tool& tool) {
   CLI::Option* cameras = command->add_option("--cameras", options->cameras, "cameras.json of INPUT; its first two views are taken");
   input->needs(cameras);
   cameras->needs(input);
-  command->add_option("--only", options->only, "Only cases whose name fits the pattern: 'sites/*'");
+  CLI::Option* only = command->add_option("--only", options->only, "Only cases whose name fits the pattern: 'sites/*'");
   command->add_option("--device", options->device.device, "Index or part of a name from `froth devices`");
   command->add_flag_callback(
       "--no-validation", [options] { options->device.validate = false; }, "Where no validation layers are installed");
-  command->add_option("--markdown", options->markdown, "Put the tables into this file, between its markers");
+  command->add_option("--markdown", options->markdown, "Put the tables into this file, between its markers")->excludes(only);
+  addSearchOptions(*command, options->search);
   addFiguresOption(*command, options->figures);
   command->callback([&tool, options] { tool.action = [&tool, options] { return runStability(*options, tool); }; });
 }

@@ -88,7 +88,9 @@ void addCheck(const BoundCheck& check, size_t view, RendererOutcome& renderer) {
   renderer.shareOver = std::max(renderer.shareOver, check.shareOver);
   if (check.worstExcess <= renderer.worstExcess) return;
   renderer.worstExcess = check.worstExcess;
-  renderer.worstPlace = fmt::format("view {}, pixel ({}, {})", view, check.worstX, check.worstY);
+  renderer.worstView = view;
+  renderer.worstX = check.worstX;
+  renderer.worstY = check.worstY;
 }
 
 bool hasSameBits(const RenderedImages& a, const RenderedImages& b) {
@@ -102,6 +104,24 @@ void addTrace(const WalkTrace& trace, WalkTrace& sum) {
   sum.mostSteps = std::max(sum.mostSteps, trace.mostSteps);
   sum.violations += trace.violations;
   sum.lost += trace.lost;
+}
+
+Result<std::vector<RenderedImages>> drawOriginals(const Foam& foam, const std::vector<View>& views, const Progress& progress) {
+  std::vector<RenderedImages> originals;
+  const ReferenceRenderer reference(foam);
+  for (const View& view : views) {
+    Result<RenderedImages> images = reference.render(view, referenceOptions(view), progress);
+    if (!images) return images.error();
+    originals.push_back(std::move(*images));
+  }
+  return originals;
+}
+
+PresetOutcome outcomeOf(const std::string& preset) {
+  PresetOutcome outcome;
+  outcome.preset = preset;
+  for (const char* renderer : {"float", "raster", "walk"}) outcome.renderers.push_back({renderer});
+  return outcome;
 }
 
 // The foam as it comes back from a checkpoint.
@@ -124,7 +144,7 @@ void findFaults(const PresetOutcome& preset, std::vector<std::string>& faults) {
     if (!run.endsInTime) faults.push_back(who + ": walks take more steps than there are cells");
     if (run.worstExcess > 1)
       faults.push_back(fmt::format("{}: {:.3g} times the bound at {}, {:.2g} % of the pixels over it", who, run.worstExcess,
-                                   run.worstPlace, 100 * run.shareOver));
+                                   placeText(run), 100 * run.shareOver));
   }
   if (preset.rasterWalkExcess > 1)
     faults.push_back(fmt::format("{}: raster and walk differ by {:.3g} times what their bounds allow", preset.preset, preset.rasterWalkExcess));
@@ -141,6 +161,10 @@ CaseVerdict judge(const StiffCase& stiff, const CaseOutcome& outcome) {
 }
 
 }  // namespace
+
+std::string placeText(const RendererOutcome& renderer) {
+  return fmt::format("view {}, pixel ({}, {})", renderer.worstView, renderer.worstX, renderer.worstY);
+}
 
 const char* verdictName(CaseVerdict verdict) {
   switch (verdict) {
@@ -237,6 +261,14 @@ Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, cons
   return {};
 }
 
+Result<PresetOutcome> StabilityRunner::runOne(const StiffCase& stiff, const std::string& preset, const Progress& progress) {
+  const Result<std::vector<RenderedImages>> originals = drawOriginals(stiff.foam, stiff.views, progress);
+  if (!originals) return originals.error();
+  PresetOutcome outcome = outcomeOf(preset);
+  if (Status run = runPreset(stiff, stiff.foam, *originals, outcome, progress); !run) return run.error();
+  return outcome;
+}
+
 Result<CaseOutcome> StabilityRunner::run(const StiffCase& stiff, const Progress& progress) {
   CaseOutcome outcome;
   Foam foam = stiff.foam;
@@ -248,18 +280,11 @@ Result<CaseOutcome> StabilityRunner::run(const StiffCase& stiff, const Progress&
     if (imported) foam = std::move(*imported);
   }
   if (outcome.refusal.empty()) {
-    std::vector<RenderedImages> originals;
-    const ReferenceRenderer reference(foam);
-    for (const View& view : stiff.views) {
-      Result<RenderedImages> images = reference.render(view, referenceOptions(view), progress);
-      if (!images) return images.error();
-      originals.push_back(std::move(*images));
-    }
+    const Result<std::vector<RenderedImages>> originals = drawOriginals(foam, stiff.views, progress);
+    if (!originals) return originals.error();
     for (const std::string& preset : stabilityPresets()) {
-      outcome.presets.emplace_back();
-      outcome.presets.back().preset = preset;
-      for (const char* renderer : {"float", "raster", "walk"}) outcome.presets.back().renderers.push_back({renderer});
-      const Status run = runPreset(stiff, foam, originals, outcome.presets.back(), progress);
+      outcome.presets.push_back(outcomeOf(preset));
+      const Status run = runPreset(stiff, foam, *originals, outcome.presets.back(), progress);
       if (!run && run.error().kind == ErrorKind::kCancelled) return run.error();
       if (!run) outcome.faults.push_back(preset + ": " + run.error().message);
       findFaults(outcome.presets.back(), outcome.faults);

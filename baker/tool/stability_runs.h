@@ -23,7 +23,8 @@ struct RendererOutcome {
   double maxError = 0;        // [display-coded] of colour
   double worstExcess = 0;     // largest error over its pixel's bound; <= 1: within
   double shareOver = 0;       // of the pixels of the worst view
-  std::string worstPlace{};   // view and pixel of the worst excess
+  size_t worstView = 0;       // of the worst excess, and its pixel
+  uint32_t worstX = 0, worstY = 0;
 };
 
 struct PresetOutcome {
@@ -34,6 +35,8 @@ struct PresetOutcome {
   WalkTrace walks;
   double encodingPsnr = 0, encodingMax = 0;  // of what the bake shows against the foam itself, both exact; least and largest of the views
 };
+
+std::string placeText(const RendererOutcome& renderer);  // "view 0, pixel (3, 4)"
 
 enum class CaseVerdict { kWithin, kRefused, kKnown, kFails };
 const char* verdictName(CaseVerdict verdict);
@@ -55,6 +58,8 @@ class StabilityRunner {
 
   // Fails only when it was asked to stop; all else is a fault of the case.
   Result<CaseOutcome> run(const StiffCase& stiff, const Progress& progress);
+  // The bake of one preset alone, of a foam as it stands. Fails when it cannot be baked or drawn, too.
+  Result<PresetOutcome> runOne(const StiffCase& stiff, const std::string& preset, const Progress& progress);
   const HostDeviceInfo& device() const { return gpu_->device(); }
 
  private:

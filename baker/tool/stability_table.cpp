@@ -4,13 +4,17 @@
 
 #include <fmt/format.h>
 
+#include "baker/stability/published_forms.h"
+#include "baker/tool/marked_text.h"
+#include "baker/tool/output_file.h"
 #include "format/atomic_file.h"
 
 namespace froth {
 namespace {
 
-constexpr const char* kBegin = "<!-- made by `froth stability --markdown`: begin -->\n";
-constexpr const char* kEnd = "<!-- end -->\n";
+constexpr const char* kTables = "";
+constexpr const char* kForms = "published forms, ";
+constexpr const char* kFigure = "published_forms.svg";
 
 std::string numberText(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
 
@@ -61,6 +65,14 @@ std::string tables(const std::vector<JudgedCase>& cases, const HostDeviceInfo& d
   return text;
 }
 
+std::filesystem::path imagesBeside(const std::filesystem::path& path) { return path.parent_path() / "images"; }
+
+std::string publishedForms(const std::vector<PublishedForm>& forms) {
+  std::string text = fmt::format("![{}](images/{})\n", forms.front().what, kFigure);
+  for (const PublishedForm& form : forms) text += fmt::format("\n### `{}`\n\n{}", form.name, tableOf(form));
+  return text;
+}
+
 }  // namespace
 
 void printCase(const JudgedCase& judged) {
@@ -86,7 +98,7 @@ nlohmann::ordered_json caseAsJson(const JudgedCase& judged) {
     nlohmann::ordered_json renderers = nlohmann::ordered_json::object();
     for (const RendererOutcome& run : preset.renderers) {
       renderers[run.renderer] = {{"maxError", run.maxError},   {"worstExcess", run.worstExcess},   {"shareOver", run.shareOver},
-                                 {"worstPlace", run.worstPlace}, {"isFinite", run.isFinite},
+                                 {"worstPlace", placeText(run)}, {"isFinite", run.isFinite},
                                  {"isRepeatable", run.isRepeatable}, {"endsInTime", run.endsInTime}};
     }
     json["presets"].push_back({{"preset", preset.preset},
@@ -106,21 +118,27 @@ nlohmann::ordered_json caseAsJson(const JudgedCase& judged) {
   return json;
 }
 
+Status checkMarkdown(const std::filesystem::path& path) {
+  if (Status writable = checkWritable(path); !writable) return writable;
+  std::error_code error;
+  std::filesystem::create_directories(imagesBeside(path), error);
+  if (error) return makeError(ErrorKind::kIo, "%s: cannot be made: %s", imagesBeside(path).c_str(), error.message().c_str());
+  const Result<std::string> text = readMarked(path, {kTables, kForms});
+  if (!text) return text.error();
+  return {};
+}
+
 Status writeMarkdown(const std::filesystem::path& path, const std::vector<JudgedCase>& cases, const HostDeviceInfo& device) {
-  std::string text = std::string(kBegin) + kEnd;
-  if (std::filesystem::exists(path)) {
-    const Result<std::vector<uint8_t>> old = readFile(path);
-    if (!old) return old.error();
-    text.assign(old->begin(), old->end());
-  }
-  const size_t begin = text.find(kBegin), end = text.find(kEnd, begin);
-  if (begin == std::string::npos || end == std::string::npos) {
-    return makeError(ErrorKind::kBadInput, "%s: the lines '%.*s' and '%.*s' are not there; put them where the tables go", path.c_str(),
-                     static_cast<int>(std::string(kBegin).size() - 1), kBegin, static_cast<int>(std::string(kEnd).size() - 1), kEnd);
-  }
-  const size_t inside = begin + std::string(kBegin).size();
-  text.replace(inside, end - inside, tables(cases, device));
-  return writeFileAtomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  Result<std::string> text = readMarked(path, {kTables, kForms});
+  if (!text) return text.error();
+  const std::vector<PublishedForm> forms = comparePublishedForms();
+  replaceMarked(*text, kTables, tables(cases, device));
+  replaceMarked(*text, kForms, publishedForms(forms));
+  const auto write = [](const std::filesystem::path& file, const std::string& bytes) {
+    return writeFileAtomically(file, {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+  };
+  if (Status written = write(imagesBeside(path) / kFigure, drawPlotFile(plotOf(forms.front()))); !written) return written;
+  return write(path, *text);
 }
 
 }  // namespace froth

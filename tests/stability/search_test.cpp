@@ -156,6 +156,30 @@ TEST(Search, ShrinksARealFaultToAFewCellsThatTheTrueBoundHolds) {
   }
 }
 
+TEST(Search, AFoundCaseIsHandedOverAtOnceAndFailsAsAFileToo) {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "froth_search_found.json";
+  SearchOptions options;
+  options.seconds = 0.5;
+  options.mostOfOneKind = 1;
+  uint32_t handedOver = 0;
+  options.onFound = [&](const FoundCase& found) {
+    ++handedOver;
+    return writeCase(path, found.shrunk);
+  };
+  const Result<SearchResult> result = searchCases(options, judgeDuplicates);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(handedOver, 1u);
+  const Result<StiffCase> read = readCase(path);
+  std::filesystem::remove(path);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->name, result->found[0].shrunk.name);
+  const auto fault = judgeDuplicates(*read);
+  EXPECT_TRUE(*fault);
+
+  options.onFound = [](const FoundCase&) -> Status { return makeError(ErrorKind::kIo, "full"); };
+  EXPECT_FALSE(searchCases(options, judgeDuplicates));
+}
+
 TEST(Search, StopsOnRequest) {
   const Result<SearchResult> result =
       searchCases({}, judgeDuplicates, [](std::string_view, uint64_t, uint64_t) { return false; });

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "baker/stability/case_file.h"
 #include "baker/stability/stiff_case.h"
+#include "baker/tool/marked_text.h"
 #include "tests/tool/program_runner.h"
 
 namespace froth::test {
@@ -40,21 +42,54 @@ TEST(StabilityFamilies, AreAllTested) {
   }
 }
 
-TEST_F(StabilityCommand, ReplacesTheTableBetweenTheMarkersOfAFile) {
-  const std::string begin = "<!-- made by `froth stability --markdown`: begin -->\n", end = "<!-- end -->\n";
-  const std::filesystem::path path = folder_ / "STABILITY.md";
-  writeBytes(path, "# Before\n" + begin + "old\n" + end + "after\n");
-  frothWell({"stability", "--quiet", "--only", "views/1x1", "--markdown", "STABILITY.md"});
-  const std::string text = readBytes(path);
-  EXPECT_EQ(text.find("# Before\n" + begin), 0u);
-  EXPECT_NE(text.find("| `views/1x1` | "), std::string::npos) << text;
-  EXPECT_EQ(text.find("old"), std::string::npos);
-  EXPECT_NE(text.find(end + "after\n"), std::string::npos);
-
-  writeBytes(path, "no markers\n");
-  const ProgramRun run = froth({"stability", "--quiet", "--only", "views/1x1", "--markdown", "STABILITY.md"});
+TEST_F(StabilityCommand, APageWithoutItsMarkersIsRefusedBeforeTheSetRuns) {
+  writeBytes(folder_ / "STABILITY.md", "no markers\n");
+  const ProgramRun run = froth({"stability", "--quiet", "--markdown", "STABILITY.md"});
   EXPECT_EQ(run.exitCode, 3);
-  EXPECT_NE(run.err.find("STABILITY.md"), std::string::npos);
+  EXPECT_NE(run.err.find("STABILITY.md"), std::string::npos) << run.err;
+  EXPECT_EQ(readBytes(folder_ / "STABILITY.md"), "no markers\n");
+}
+
+TEST(MarkedText, IsReplacedBetweenItsMarkersAlone) {
+  std::string text = "# Before\n<!-- made by `froth stability --markdown`: begin -->\nold\n<!-- end -->\nmiddle\n"
+                     "<!-- forms, made by `froth stability --markdown`: begin -->\nolder\n<!-- end -->\nafter\n";
+  replaceMarked(text, "forms, ", "new forms\n");
+  replaceMarked(text, "", "new\n");
+  EXPECT_EQ(text, "# Before\n<!-- made by `froth stability --markdown`: begin -->\nnew\n<!-- end -->\nmiddle\n"
+                  "<!-- forms, made by `froth stability --markdown`: begin -->\nnew forms\n<!-- end -->\nafter\n");
+}
+
+TEST_F(StabilityCommand, APartialTableIsNotWritten) {
+  const ProgramRun run = froth({"stability", "--only", "views/1x1", "--markdown", "STABILITY.md"});
+  EXPECT_EQ(run.exitCode, 2);
+  EXPECT_NE(run.err.find("--only"), std::string::npos) << run.err;
+  EXPECT_TRUE(filesInFolder().empty());
+}
+
+// Either nothing is found, or what is found can be read.
+TEST_F(StabilityCommand, SearchesAndKeepsWhatItFindsAsFiles) {
+  const ProgramRun run = froth({"stability", "--quiet", "--search", "0.05", "--seed", "1", "-o", "found", "--json"});
+  const nlohmann::json figures = nlohmann::json::parse(run.out, nullptr, false);
+  ASSERT_FALSE(figures.is_discarded()) << run.out << run.err;
+  EXPECT_GE(figures["tried"], 1);
+  EXPECT_FALSE(figures["device"].get<std::string>().empty()) << run.err;
+  EXPECT_EQ(run.exitCode, figures["failing"] == 0 ? 0 : 1) << run.err;
+  for (const auto& found : figures["found"]) {
+    const Result<StiffCase> read = readCase(folder_ / found["file"].get<std::string>());
+    EXPECT_TRUE(read) << read.error().message;
+  }
+}
+
+TEST_F(StabilityCommand, ASearchesOptionsNeedIt) {
+  for (const char* option : {"--seed", "-o"}) {
+    const ProgramRun run = froth({"stability", option, "1"});
+    EXPECT_EQ(run.exitCode, 2);
+    EXPECT_NE(run.err.find("--search"), std::string::npos) << run.err;
+  }
+  for (const char* option : {"--only", "--markdown"}) {
+    EXPECT_EQ(froth({"stability", "--search", "1", option, "a"}).exitCode, 2) << option;
+  }
+  EXPECT_TRUE(filesInFolder().empty());
 }
 
 TEST_F(StabilityCommand, NamesAPatternThatFitsNoCase) {

@@ -1,0 +1,105 @@
+#include "baker/tool/stability_search.h"
+
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "baker/stability/case_file.h"
+#include "baker/tool/stability_runs.h"
+
+namespace froth {
+namespace {
+
+// A case on the device takes tens of milliseconds, and one that fails is bounded by 256 samples.
+constexpr uint32_t kMostTries = 500;
+
+std::optional<CaseFault> faultOf(const RendererOutcome& run) {
+  const auto fault = [&](const char* kind, std::string what) {
+    return CaseFault{run.renderer + ": " + kind, std::move(what), run.worstView, run.worstX, run.worstY};
+  };
+  if (!run.isFinite) return fault("not finite", "a value is not finite, or -0");
+  if (!run.isRepeatable) return fault("another image", "a second render has other bits");
+  if (!run.endsInTime) return fault("steps", "walks take more steps than there are cells");
+  if (run.worstExcess > 1) {
+    return fault("over its bound", fmt::format("{}: {:.3g} times its bound; largest error {:.3g}", placeText(run), run.worstExcess,
+                                               run.maxError));
+  }
+  return {};
+}
+
+// Raster and walk of the `exact` bake, which keeps every number of the foam. Walks traced on the CPU are not judged: where sites
+// coincide or the eye is on a vertex, their order is a tie that no image shows.
+Result<std::optional<CaseFault>> judgeOnDevice(StabilityRunner& runner, const StiffCase& stiff) {
+  const Result<PresetOutcome> outcome =
+      runner.runOne(stiff, "exact", [](std::string_view, uint64_t, uint64_t) { return !isStopRequested(); });
+  if (!outcome && outcome.error().kind == ErrorKind::kCancelled) return outcome.error();
+  if (!outcome) return std::optional(CaseFault{"device: error", outcome.error().message});
+  for (const RendererOutcome& run : outcome->renderers) {
+    if (run.renderer == "float") continue;  // the CPU's judge holds it to a tighter bound
+    if (std::optional<CaseFault> fault = faultOf(run)) return fault;
+  }
+  return std::optional<CaseFault>();
+}
+
+Status keepFound(const FoundCase& found, const StabilitySearch& search, const FiguresOutput& figures, Tool& tool,
+                 nlohmann::ordered_json& list) {
+  const std::string name = std::filesystem::path(found.shrunk.name).filename().string() + ".json";
+  const std::filesystem::path path = search.folder / name;
+  if (Status written = writeCase(path, found.shrunk); !written) return written;
+  list.push_back({{"file", path.string()},
+                  {"kind", found.fault.kind},
+                  {"what", found.fault.what},
+                  {"cells", found.shrunk.foam.cellCount},
+                  {"cellsBefore", found.cellsBefore}});
+  tool.progress.finishLine();
+  if (!figures.wantsTable()) return {};
+  fmt::print("{}: {}; {} of {} cells left; {}\n", path.string(), found.fault.kind, found.shrunk.foam.cellCount, found.cellsBefore,
+             found.fault.what);
+  std::fflush(stdout);
+  return {};
+}
+
+Result<std::unique_ptr<StabilityRunner>> createRunner(GpuDeviceOptions device) {
+  device.lensClasses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC;
+  Result<std::unique_ptr<StabilityRunner>> runner = StabilityRunner::create(device);
+  if (runner || !device.device.empty()) return runner;
+  std::fprintf(stderr, "froth: the CPU judges alone: %s\n", runner.error().message.c_str());
+  return std::unique_ptr<StabilityRunner>();
+}
+
+}  // namespace
+
+Status runStabilitySearch(const StabilitySearch& search, const GpuDeviceOptions& device, const FiguresOutput& figures, Tool& tool) {
+  std::error_code error;
+  std::filesystem::create_directories(search.folder, error);
+  if (error) return makeError(ErrorKind::kIo, "%s: cannot be made: %s", search.folder.c_str(), error.message().c_str());
+  const Result<std::unique_ptr<StabilityRunner>> runner = createRunner(device);
+  if (!runner) return runner.error();
+  std::vector<CaseJudge> judges = {judgeOfReference()};
+  if (*runner) judges.push_back([&](const StiffCase& stiff) { return judgeOnDevice(**runner, stiff); });
+
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  SearchOptions options;
+  options.seed = search.seed;
+  options.seconds = 60 * search.minutes;
+  options.mostTries = kMostTries;
+  options.onFound = [&](const FoundCase& found) { return keepFound(found, search, figures, tool, list); };
+  const Result<SearchResult> result = searchCases(options, judgeByAll(std::move(judges)), tool.progress.callback());
+  if (!result) return result.error();
+  const nlohmann::ordered_json summary = {{"seed", search.seed},
+                                          {"device", *runner ? (*runner)->device().name : ""},
+                                          {"tried", result->tried},
+                                          {"failing", result->failing},
+                                          {"found", list}};
+  if (Status written = figures.write(summary); !written) return written;
+  tool.progress.finishLine();
+  if (figures.wantsTable()) fmt::print("{} cases tried, {} fail\n", result->tried, result->failing);
+  if (result->failing == 0) return {};
+  return makeError(ErrorKind::kUnsupported, "%llu of %llu random cases fail; the files in %s show it, and this is a fault of Froth",
+                   static_cast<unsigned long long>(result->failing), static_cast<unsigned long long>(result->tried),
+                   search.folder.c_str());
+}
+
+}  // namespace froth
