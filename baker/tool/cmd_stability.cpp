@@ -13,9 +13,9 @@
 #include "baker/tool/foam_input.h"
 #include "baker/tool/gpu_camera.h"
 #include "baker/tool/option_checks.h"
-#include "baker/tool/stability_runs.h"
-#include "baker/tool/stability_search.h"
-#include "baker/tool/stability_table.h"
+#include "baker/tool/stability/runs.h"
+#include "baker/tool/stability/search.h"
+#include "baker/tool/stability/table.h"
 
 namespace froth {
 namespace {

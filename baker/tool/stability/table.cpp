@@ -1,4 +1,4 @@
-#include "baker/tool/stability_table.h"
+#include "baker/tool/stability/table.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "baker/tool/stability_runs.h"
+#include "baker/tool/stability/runs.h"
 
 #include <unistd.h>
 

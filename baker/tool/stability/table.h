@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "baker/tool/stability_runs.h"
+#include "baker/tool/stability/runs.h"
 
 namespace froth {
 

@@ -1,4 +1,4 @@
-#include "baker/tool/stability_search.h"
+#include "baker/tool/stability/search.h"
 
 #include <cstdio>
 #include <memory>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "baker/stability/case_file.h"
-#include "baker/tool/stability_runs.h"
+#include "baker/tool/stability/runs.h"
 
 namespace froth {
 namespace {

@@ -12,7 +12,7 @@
 
 namespace froth {
 
-struct BakedCase;  // stability_runs.cpp
+struct BakedCase;  // runs.cpp
 
 // One renderer on the bake of one preset, over all views of a case.
 struct RendererOutcome {
