@@ -90,6 +90,7 @@ inline constexpr const char* kVerdictFloor = "floor";              // as derived
 inline constexpr const char* kVerdictDoesNotFall = "does not fall";
 inline constexpr const char* kVerdictOtherOrder = "other order";   // it falls, by another power
 inline constexpr const char* kVerdictTooFew = "too few points";
+inline constexpr const char* kVerdictOverBound = "over its bound";   // of the right order, and too large
 
 // Something that the scene does not need, or does not use.
 struct FeatureCost {

@@ -123,6 +123,14 @@ Status measureFeatures(const ReportOptions& options, const Bench& bench, const F
   return append(bakeLeftOut(bench));
 }
 
+void printSummary(const ReportOptions& options, const Report& result) {
+  fmt::print("{}: {} configurations\n{}\n", (options.output / "report.html").string(), result.points.size(), result.choice);
+  for (const Slope& slope : result.slopes) {
+    if (slope.verdict == kVerdictAsDerived || slope.verdict == kVerdictFloor || slope.verdict == kVerdictTooFew) continue;
+    fmt::print("flagged           {}: {}; {}\n", slope.what, slope.verdict, slope.note);
+  }
+}
+
 // Where assets and log lie until the report is done.
 Result<std::filesystem::path> makeWorkFolder(const ReportOptions& options) {
   const std::filesystem::path work = options.output / "work";
@@ -189,6 +197,7 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
               input->foam, bench, result);
   if (Status filled = fillReport(points, bench, !options.isWithoutImages, result); !filled) return filled;
   if (Status written = writeReport(options.output, result); !written) return written;
+  printSummary(options, result);
   std::error_code ignored;
   if (!options.keepsWork) std::filesystem::remove_all(*work, ignored);
   return {};

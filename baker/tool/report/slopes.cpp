@@ -17,6 +17,20 @@ constexpr double kHalfRounding = 0x1p-12;
 constexpr double kMoreThanNoise = 1.05;
 constexpr double kFixedCost = 1;  // fitSlope's factor: no floor is cut off
 
+// What a ray loses at a cut-off is at most that much of a colour, which seldom is above two; a slope alone would not see a
+// cut-off that is off by a factor.
+void checkCutoffs(const std::vector<ReportPoint>& points, const Sweep& sweep, Slope& slope) {
+  constexpr double kLargestColour = 2;
+  for (const ReportPoint& point : points) {
+    if (std::find(sweep.points.begin(), sweep.points.end(), point.id) == sweep.points.end()) continue;
+    const double cutoff = placeOnSweep(sweep, point).number;
+    if (point.errors.maxError <= kLargestColour * cutoff + 2 * kHalfRounding) continue;
+    slope.verdict = kVerdictOverBound;
+    slope.note = fmt::format("a largest error of {:.3g} at a cut-off of {:g}", point.errors.maxError, cutoff);
+    return;
+  }
+}
+
 // Views from a ring around the box, at 1.65 times half of its longest side from its middle: half of a foam of copies is in view.
 std::vector<View> viewsFromOutside(const Foam& foam, const View& like) {
   glm::dvec3 low(foam.sites[0]), high(foam.sites[0]);
@@ -71,6 +85,7 @@ std::vector<Slope> errorSlopes(const std::vector<Sweep>& sweeps, PointList& poin
     Slope slope = fitConvergence(measured, sweep, renderer);
     if (renderer != "cpu" && slope.floor > 0 && slope.floor < kHalfRounding)
       slope.note += "; half-float colours of detail sites between the passes";
+    if (sweep.knob.starts_with("cutoff")) checkCutoffs(measured, sweep, slope);
     slopes.push_back(std::move(slope));
   }
   return slopes;
