@@ -18,13 +18,14 @@ constexpr double kMoreThanNoise = 1.05;
 constexpr double kFixedCost = 1;  // fitSlope's factor: no floor is cut off
 
 // What a ray loses at a cut-off is at most that much of a colour, which seldom is above two; a slope alone would not see a
-// cut-off that is off by a factor.
-void checkCutoffs(const std::vector<ReportPoint>& points, const Sweep& sweep, Slope& slope) {
+// cut-off that is off by a factor. Edges that rounding moves are in the images of every cut-off, the first and smallest too.
+void checkCutoffs(PointList& points, const Sweep& sweep, Slope& slope) {
   constexpr double kLargestColour = 2;
-  for (const ReportPoint& point : points) {
-    if (std::find(sweep.points.begin(), sweep.points.end(), point.id) == sweep.points.end()) continue;
+  const double rounding = points.at(sweep.points.front()).point.errors.maxError + 2 * kHalfRounding;
+  for (const std::string& id : sweep.points) {
+    const ReportPoint& point = points.at(id).point;
     const double cutoff = placeOnSweep(sweep, point).number;
-    if (point.errors.maxError <= kLargestColour * cutoff + 2 * kHalfRounding) continue;
+    if (point.errors.maxError <= rounding + kLargestColour * cutoff) continue;
     slope.verdict = kVerdictOverBound;
     slope.note = fmt::format("a largest error of {:.3g} at a cut-off of {:g}", point.errors.maxError, cutoff);
     return;
@@ -85,7 +86,7 @@ std::vector<Slope> errorSlopes(const std::vector<Sweep>& sweeps, PointList& poin
     Slope slope = fitConvergence(measured, sweep, renderer);
     if (renderer != "cpu" && slope.floor > 0 && slope.floor < kHalfRounding)
       slope.note += "; half-float colours of detail sites between the passes";
-    if (sweep.knob.starts_with("cutoff")) checkCutoffs(measured, sweep, slope);
+    if (sweep.knob.starts_with("cutoff")) checkCutoffs(points, sweep, slope);
     slopes.push_back(std::move(slope));
   }
   return slopes;
