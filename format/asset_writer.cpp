@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "format/asset_layout.h"
-#include "format/atomic_file.h"
 #include "format/checks.h"
 #include "format/chunk_sections_write.h"
 #include "format/container.h"
@@ -154,8 +153,9 @@ AssetStreamWriter& AssetStreamWriter::operator=(AssetStreamWriter&&) noexcept = 
 AssetStreamWriter::~AssetStreamWriter() = default;
 
 Result<AssetStreamWriter> AssetStreamWriter::create(const std::filesystem::path& path,
-                                                    const AssetContents& header) {
-  if (Status status = checkTarget(path); !status) return status.error();
+                                                    const AssetContents& header,
+                                                    WriteProtected isProtected) {
+  if (Status status = checkTarget(path, isProtected); !status) return status.error();
   Result<AssetEncoder> encoder = AssetEncoder::create(header);
   if (!encoder) return encoder.error();
   AssetStreamWriter writer;

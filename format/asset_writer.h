@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "format/asset_contents.h"
+#include "format/atomic_file.h"
 #include "format/result.h"
 #include "format/section.h"
 
@@ -34,7 +35,8 @@ struct EncodedChunk {
 class AssetStreamWriter {
  public:
   // `header`: counts, quantization and codebook are read; `chunks` is ignored.
-  static Result<AssetStreamWriter> create(const std::filesystem::path& path, const AssetContents& header);
+  static Result<AssetStreamWriter> create(const std::filesystem::path& path, const AssetContents& header,
+                                          WriteProtected isProtected = WriteProtected::kRefuse);
   AssetStreamWriter(AssetStreamWriter&&) noexcept;
   AssetStreamWriter& operator=(AssetStreamWriter&&) noexcept;
   ~AssetStreamWriter();

@@ -6,6 +6,8 @@
 
 #include "format/float_span.h"
 #include "format/lattice.h"
+#include "format/limits.h"
+#include "format/text.h"
 
 namespace froth {
 namespace {
@@ -24,10 +26,29 @@ Status checkRange(const std::string& place, const char* field, uint64_t value, u
                    ull{value}, ull{least}, ull{most}, kRemedy);
 }
 
-Status checkNotNegative(const std::string& file, const char* field, double value) {
-  if (std::isfinite(value) && value >= 0) return {};
-  return makeError(ErrorKind::kBadInput, "%s: %s is %g, not a finite number >= 0; %s", file.c_str(), field,
-                   value, kRemedy);
+Status checkNotNegative(const std::string& file, const char* field, double value, double most) {
+  if (value >= 0 && value <= most) return {};
+  return makeError(ErrorKind::kBadInput, "%s: %s is %g, not in 0..%g; %s", file.c_str(), field, value, most,
+                   kRemedy);
+}
+
+bool isWithin(double value, double most) {
+  return std::abs(value) <= most;  // false for NaN
+}
+
+Status checkText(const std::string& file, const char* field, const std::string& text) {
+  if (isUtf8(text)) return {};
+  return makeError(ErrorKind::kBadInput, "%s: %s '%.80s' is no UTF-8; %s", file.c_str(), field,
+                   printable(text).c_str(), kRemedy);
+}
+
+Status checkTexts(const AssetContents& asset, const std::string& file) {
+  if (Status status = checkText(file, "preset", asset.preset); !status) return status;
+  if (Status status = checkText(file, "source", asset.source); !status) return status;
+  for (const AttributeError& error : asset.errors)
+    for (const std::string& text : {error.name, error.unit})
+      if (Status status = checkText(file, "errors", text); !status) return status;
+  return {};
 }
 
 // Steps are powers of two so that products with small integers are exact.
@@ -56,13 +77,20 @@ Status checkQuantization(const std::string& file, const Quantization& q) {
   return {};
 }
 
+// No number of pairs above this keeps the sum of the squared degrees within its limit: it is least where all sites have the mean
+// degree, 2 pairs / sites.
+uint64_t mostPairs(uint64_t siteCount) {
+  const double most = 0.5 * std::sqrt(static_cast<double>(siteCount) * static_cast<double>(mostSquaredDegrees(siteCount)));
+  return std::min(static_cast<uint64_t>(most), kMaxPairs - 1);
+}
+
 Status checkCamera(const std::string& file, const char* field, const StoredCamera& camera) {
   for (const double value : camera.worldFromCamera)
-    if (!std::isfinite(value))
-      return makeError(ErrorKind::kBadInput, "%s: %s: matrix holds %g; %s", file.c_str(), field, value,
-                       kRemedy);
-  if (!std::isfinite(camera.tanHalfFovY) || camera.tanHalfFovY <= 0)
-    return makeError(ErrorKind::kBadInput, "%s: %s: tan_half_fov_y is %g, not a finite number > 0; %s",
+    if (!isWithin(value, kMaxNumber))
+      return makeError(ErrorKind::kBadInput, "%s: %s: matrix holds %g, not within +-2^50; %s", file.c_str(), field,
+                       value, kRemedy);
+  if (!(camera.tanHalfFovY > 0) || !isWithin(camera.tanHalfFovY, kMaxNumber))
+    return makeError(ErrorKind::kBadInput, "%s: %s: tan_half_fov_y is %g, not above 0 and within 2^50; %s",
                      file.c_str(), field, camera.tanHalfFovY, kRemedy);
   return {};
 }
@@ -70,8 +98,9 @@ Status checkCamera(const std::string& file, const char* field, const StoredCamer
 Status checkOrigin(const ChunkIndex& chunk, double step, const std::string& place) {
   constexpr double kMostSteps = 0x1p52;  // so that origin + step * index is exact in double
   for (const double value : chunk.origin) {
-    if (!std::isfinite(value))
-      return makeError(ErrorKind::kBadInput, "%s: origin holds %g; %s", place.c_str(), value, kRemedy);
+    if (!isWithin(value, kMaxNumber))
+      return makeError(ErrorKind::kBadInput, "%s: origin holds %g, not within +-2^50; %s", place.c_str(), value,
+                       kRemedy);
     if (step > 0 && (std::fmod(value, step) != 0 || std::abs(value / step) > kMostSteps))
       return makeError(ErrorKind::kBadInput, "%s: origin %.17g is no multiple of the position step %g; %s",
                        place.c_str(), value, step, kRemedy);
@@ -80,26 +109,28 @@ Status checkOrigin(const ChunkIndex& chunk, double step, const std::string& plac
 }
 
 Status checkBounds(const Box& bounds, const std::string& place) {
+  constexpr double kMost = 2.0 * kMaxNumber;  // a site and a radius
   for (size_t axis = 0; axis < 3; ++axis)
-    if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis]) ||
+    if (!isWithin(bounds.min[axis], kMost) || !isWithin(bounds.max[axis], kMost) ||
         bounds.min[axis] > bounds.max[axis])
-      return makeError(ErrorKind::kBadInput, "%s: live_bounds: %g..%g is no interval; %s", place.c_str(),
-                       bounds.min[axis], bounds.max[axis], kRemedy);
+      return makeError(ErrorKind::kBadInput, "%s: live_bounds: %g..%g is no interval within +-2^51; %s",
+                       place.c_str(), bounds.min[axis], bounds.max[axis], kRemedy);
   return {};
 }
 
-// Lengths and finite numbers of a chunk's arrays. Remembers the first that is wrong.
+// Lengths and ranges of a chunk's arrays. Remembers the first that is wrong.
 class ArrayCheck {
  public:
   explicit ArrayCheck(const std::string& place) : place_(place) {}
 
+  // Numbers of floats lie within +-most.
   template <class Element>
-  void required(const char* name, const std::vector<Element>& array, uint64_t length) {
+  void required(const char* name, const std::vector<Element>& array, uint64_t length, float most = kMaxNumber) {
     if (!status_) return;
     if (array.size() != length)
       status_ = makeError(ErrorKind::kBadInput, "%s: %s: %zu entries instead of %llu; %s", place_.c_str(),
                           name, array.size(), ull{length}, kRemedy);
-    if constexpr (!std::is_integral_v<Element>) checkFinite(name, floatsOf(array));
+    if constexpr (!std::is_integral_v<Element>) checkNumbers(name, floatsOf(array), most);
   }
 
   template <class Element>
@@ -110,12 +141,12 @@ class ArrayCheck {
   const Status& status() const { return status_; }
 
  private:
-  void checkFinite(const char* name, std::span<const float> numbers) {
+  void checkNumbers(const char* name, std::span<const float> numbers, float most) {
     const auto bad =
-        std::find_if_not(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
+        std::find_if_not(numbers.begin(), numbers.end(), [most](float x) { return isWithin(x, most); });
     if (!status_ || bad == numbers.end()) return;
-    status_ = makeError(ErrorKind::kBadInput, "%s: %s: number %zu is %g; %s", place_.c_str(), name,
-                        static_cast<size_t>(bad - numbers.begin()), *bad, kRemedy);
+    status_ = makeError(ErrorKind::kBadInput, "%s: %s: number %zu is %g, not within +-2^%d; %s", place_.c_str(), name,
+                        static_cast<size_t>(bad - numbers.begin()), *bad, std::ilogb(most), kRemedy);
   }
 
   const std::string& place_;
@@ -146,7 +177,7 @@ Status checkArrays(const AssetContents& asset, const ChunkContents& chunk, const
   arrays.required("ghost_refs", chunk.ghostRefs, chunk.ghostCount);
   arrays.required("neighbour_offsets", chunk.neighbourOffsets, cells + 1);
   arrays.required("alpha_counts", chunk.alphaCounts, live);
-  arrays.required("densities", chunk.densities, live);
+  arrays.required("densities", chunk.densities, live, kMaxDensity);
   arrays.required("orientations", chunk.orientations, live);
   arrays.optional("cell_colours", chunk.cellColours, live);
   arrays.optional("cell_heights", chunk.cellHeights, live);
@@ -177,10 +208,9 @@ Status checkCells(const ChunkContents& chunk, const std::string& place) {
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has radius %g, not > 0; %s",
                      sectionPlace(place, SectionType::kRadii).c_str(),
                      static_cast<size_t>(radius - chunk.radii.begin()), *radius, kRemedy);
-  const auto density =
-      std::find_if(chunk.densities.begin(), chunk.densities.end(), [](float d) { return d < 0; });
+  const auto density = std::find_if(chunk.densities.begin(), chunk.densities.end(), [](float d) { return std::signbit(d); });
   if (density != chunk.densities.end())
-    return makeError(ErrorKind::kBadInput, "%s: cell %zu has density %g, not >= 0; %s",
+    return makeError(ErrorKind::kBadInput, "%s: cell %zu has density %g, not +0 or more; %s",
                      sectionPlace(place, SectionType::kDensities).c_str(),
                      static_cast<size_t>(density - chunk.densities.begin()), *density, kRemedy);
   const auto frame = std::find_if_not(chunk.orientations.begin(), chunk.orientations.end(), isUnitQuaternion);
@@ -242,13 +272,15 @@ Status checkParameters(const AssetContents& asset, const std::string& file) {
     return status;
   if (Status status = checkCodebookSize(asset, asset.axisCodebook.size(), file); !status) return status;
   for (const float number : floatsOf(asset.axisCodebook))
-    if (!std::isfinite(number))
-      return makeError(ErrorKind::kBadInput, "%s: axis codebook holds %g; %s", file.c_str(), number, kRemedy);
+    if (!isWithin(number, kMaxNumber))
+      return makeError(ErrorKind::kBadInput, "%s: axis codebook holds %g, not within +-2^50; %s", file.c_str(), number,
+                       kRemedy);
   if (Status status = checkQuantization(file, asset.quantization); !status) return status;
-  if (Status status = checkNotNegative(file, "detail_sharpness", asset.detailSharpness); !status)
+  if (Status status = checkTexts(asset, file); !status) return status;
+  if (Status status = checkNotNegative(file, "detail_sharpness", asset.detailSharpness, kMaxSharpness); !status)
     return status;
-  if (Status status = checkNotNegative(file, "near_ratio", asset.nearRatio); !status) return status;
-  if (Status status = checkNotNegative(file, "near_depth", asset.nearDepth); !status) return status;
+  if (Status status = checkNotNegative(file, "near_ratio", asset.nearRatio, kMaxNearRatio); !status) return status;
+  if (Status status = checkNotNegative(file, "near_depth", asset.nearDepth, kMaxNumber); !status) return status;
   if (asset.hasStartView)
     if (Status status = checkCamera(file, "start_view", asset.startView); !status) return status;
   for (const StoredCamera& camera : asset.flightPath)
@@ -267,7 +299,8 @@ Status checkChunkIndex(const AssetContents& asset, const ChunkIndex& chunk, cons
   if (Status status = checkRange(place, "live_count", counts.live, 0, counts.cells); !status) return status;
   if (Status status = checkRange(place, "ghost_count", counts.ghosts, 0, kMaxCells - counts.cells); !status)
     return status;
-  if (Status status = checkRange(place, "pair_count", counts.pairs, 0, kMaxPairs - 1); !status) return status;
+  if (Status status = checkRange(place, "pair_count", counts.pairs, 0, mostPairs(counts.cells + counts.ghosts)); !status)
+    return status;
   const uint64_t mostLobes = counts.live * asset.detailCount * asset.lobeCount;
   if (Status status = checkRange(place, "lobe_count", counts.lobes, 0, mostLobes); !status) return status;
   if (Status status = checkOrigin(chunk, asset.quantization.positionStep, place); !status) return status;

@@ -13,7 +13,7 @@
 
 namespace froth {
 
-// Ranges and finite numbers of everything but the chunks. `file` names the asset in messages.
+// Ranges of everything but the chunks. `file` names the asset in messages.
 Status checkParameters(const AssetContents& asset, const std::string& file);
 Status checkCodebookSize(const AssetContents& asset, uint64_t size, const std::string& file);
 
@@ -23,7 +23,7 @@ Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex>
                          const std::string& file);
 Status checkChunkIndex(const AssetContents& asset, const ChunkIndex& chunk, const std::string& place);
 
-// Array lengths (the chunk's counts decide; optional arrays may be empty), finite numbers, positive radii,
+// Array lengths (the chunk's counts decide; optional arrays may be empty), numbers within limits.h, positive radii,
 // ascending ghosts, rows that hold what they may. `asset` has passed checkParameters. `place` names the chunk
 // in messages.
 Status checkChunk(const AssetContents& asset, const ChunkContents& chunk, const std::string& place);

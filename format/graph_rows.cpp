@@ -15,6 +15,21 @@ double planeDistance(const ChunkContents& chunk, uint32_t cell, uint32_t neighbo
   return std::isnan(distance) ? 0 : distance;  // two equal sites: no plane, but still an order
 }
 
+Status DegreeCheck::add(uint32_t site, uint32_t neighbour, const std::string& place) {
+  using ull = unsigned long long;
+  const uint64_t most = mostSquaredDegrees(degrees_.size());
+  for (const uint32_t end : {site, neighbour}) {
+    squares_ += 2 * uint64_t{degrees_[end]} + 1;  // (d + 1)^2 - d^2
+    if (++degrees_[end] > kMaxNeighbours)
+      return makeError(ErrorKind::kBadInput, "%s: graph: site %u has more than %u neighbours; spread the cells that meet it",
+                       place.c_str(), end, kMaxNeighbours);
+  }
+  if (squares_ <= most) return {};
+  return makeError(ErrorKind::kBadInput,
+                   "%s: graph: the squares of the sites' degrees add up to more than %llu; spread cells that have many neighbours",
+                   place.c_str(), ull{most});
+}
+
 uint32_t graphElementSize(const ChunkContents& chunk) {
   return uint64_t{chunk.cellCount} + chunk.ghostCount <= 0x8000 ? 2 : 4;  // a place is less than twice that
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "format/asset_contents.h"
+#include "format/limits.h"
 #include "format/result.h"
 
 namespace froth {
@@ -24,17 +25,29 @@ struct PackedGraph {
                                    // alpha-complex against expectation (or is not, against it)
 };
 
+// Degrees of a chunk's sites as pairs are added one by one, against the limits of format/limits.h.
+class DegreeCheck {
+ public:
+  explicit DegreeCheck(uint64_t siteCount) : degrees_(siteCount) {}
+  // `place` names the chunk in messages.
+  Status add(uint32_t site, uint32_t neighbour, const std::string& place);
+
+ private:
+  std::vector<uint32_t> degrees_;
+  uint64_t squares_ = 0;
+};
+
 // Size of an element of counts and deltas [bytes]: 2 up to 32768 sites, 4 beyond.
 uint32_t graphElementSize(const ChunkContents& chunk);
 
 // Reads the counts, sites, radii, neighbourOffsets, neighbours and alphaCounts. Rows may be in any order.
 // Fails if they are not symmetric: j in the row of an own i if and only if i in that of an own j, and both or
-// none as alpha (a live cell's mark counts if the other is not live).
+// none as alpha (a live cell's mark counts if the other is not live), or if a site has too many neighbours.
 Result<PackedGraph> packGraph(const ChunkContents& chunk, bool hasWalkGraph);
 
 // The inverse: fills neighbourOffsets, neighbours and alphaCounts from the packed graph, the counts, sites
 // and radii of `chunk`, which must be there (sites and radii of any value). Everything in the spans is
-// checked before use; allocates 28 bytes per pair, 16 per site, and 24 per neighbour of the longest row.
+// checked before use; allocates 28 bytes per pair, 20 per site, and 24 per neighbour of the longest row.
 // `place` names the chunk in messages.
 struct PackedGraphView {
   std::span<const uint8_t> counts, deltas, alphaBits;

@@ -72,6 +72,7 @@ Result<Pairs> readPairs(const PackedGraphView& packed, bool hasWalkGraph, const 
   Pairs pairs;
   pairs.isAlpha.reserve(packed.deltas.size() / elementSize);
   PairOrder order(chunk);
+  DegreeCheck degrees(siteCount);
   for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
     order.startCell(cell);
     uint64_t nextPlace = 0;
@@ -93,6 +94,7 @@ Result<Pairs> readPairs(const PackedGraphView& packed, bool hasWalkGraph, const 
         return makeError(ErrorKind::kBadInput,
                          "%s: graph: cell %u is not live, but in a pair of the alpha-complex; %s",
                          place.c_str(), cell, kSectionRemedy);
+      if (Status status = degrees.add(cell, neighbour, place); !status) return status.error();
       order.add(neighbour);
       pairs.isAlpha.push_back(isAlpha);
       nextPlace = pairPlace + 1;

@@ -54,6 +54,7 @@ bool isMirrored(const ChunkContents& chunk, const SortedRows& rows, uint32_t cel
 }
 
 Status checkRows(const ChunkContents& chunk, const SortedRows& rows, bool hasWalkGraph) {
+  DegreeCheck degrees(uint64_t{chunk.cellCount} + chunk.ghostCount);
   for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
     const RowEntry* before = nullptr;
     for (const RowEntry& entry : rows.row(cell)) {
@@ -66,6 +67,8 @@ Status checkRows(const ChunkContents& chunk, const SortedRows& rows, bool hasWal
                          "bug of the baker",
                          entry.neighbour, cell);
       before = &entry;
+      const bool isKept = entry.neighbour > cell;  // else it was counted there
+      if (Status status = isKept ? degrees.add(cell, entry.neighbour, "chunk") : Status(); !status) return status;
     }
   }
   return {};

@@ -63,9 +63,13 @@ Status InputFile::readAt(uint64_t offset, std::span<uint8_t> out) const {
   return {};
 }
 
-Result<std::vector<uint8_t>> readFile(const std::filesystem::path& path) {
+Result<std::vector<uint8_t>> readFile(const std::filesystem::path& path, uint64_t mostBytes) {
   Result<InputFile> file = InputFile::open(path);
   if (!file) return file.error();
+  using ull = unsigned long long;
+  if (file->size() > mostBytes)
+    return makeError(ErrorKind::kBadInput, "%s: has %llu bytes, more than %llu; give a smaller file", file->name().c_str(),
+                     ull{file->size()}, ull{mostBytes});
   std::vector<uint8_t> bytes(file->size());
   if (Status status = file->readAt(0, bytes); !status) return status.error();
   return bytes;

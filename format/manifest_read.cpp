@@ -8,6 +8,7 @@
 #include "format/checks.h"
 #include "format/container.h"
 #include "format/graph_rows.h"
+#include "format/text.h"
 
 namespace froth {
 namespace {
@@ -82,6 +83,16 @@ bool isAligned(const flatbuffers::Vector<const Struct*>* vector) {
 // FlatBuffers' own verifier looks at the alignment of a vector's length only.
 bool areStructsAligned(const fb::Manifest& manifest) {
   return isAligned(manifest.flight_path()) && isAligned(manifest.chunks()) && isAligned(manifest.sections());
+}
+
+// Strings may lie in each other: each counts as often as a field refers to it, so that unpacking them takes no more memory than
+// the manifest.
+bool areStringsWithin(const fb::Manifest& manifest, uint64_t size) {
+  uint64_t sum = uint64_t{manifest.colour_space()->size()} + manifest.preset()->size();
+  if (manifest.source()) sum += manifest.source()->size();
+  if (manifest.errors())
+    for (const fb::AttributeError* error : *manifest.errors()) sum += uint64_t{error->name()->size()} + error->unit()->size();
+  return sum <= size;
 }
 
 // Everything of the manifest but chunks and sections.
@@ -266,9 +277,12 @@ Result<Manifest> parseManifest(const std::vector<uint8_t>& bytes, uint64_t manif
     return makeError(ErrorKind::kBadInput, "%s: the manifest's %zu bytes are no FlatBuffers manifest; %s",
                      file.c_str(), bytes.size(), kRemedy);
   const fb::Manifest& packed = *fb::GetManifest(bytes.data());
+  if (!areStringsWithin(packed, bytes.size()))
+    return makeError(ErrorKind::kBadInput, "%s: the manifest's strings together are longer than its %zu bytes; %s",
+                     file.c_str(), bytes.size(), kRemedy);
   if (packed.colour_space()->string_view() != kColourSpace)
     return makeError(ErrorKind::kUnsupported, "%s: colour_space is '%.32s', not '%s'; %s", file.c_str(),
-                     packed.colour_space()->c_str(), kColourSpace, kTooNew);
+                     printable(packed.colour_space()->string_view()).c_str(), kColourSpace, kTooNew);
 
   Manifest manifest;
   manifest.contents = unpackParameters(packed);

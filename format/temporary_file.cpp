@@ -57,6 +57,18 @@ void removeLeftovers(const std::filesystem::path& target) {
   }
 }
 
+// Where a chain of symbolic links ends, whether or not there is a file.
+std::filesystem::path followLinks(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  std::error_code error;
+  for (int link = 0; link < kMostLinks; ++link) {
+    const std::filesystem::path next = std::filesystem::read_symlink(path, error);
+    if (error) break;
+    path = path.parent_path() / next;  // `next` alone where it is absolute
+  }
+  return path;
+}
+
 // So that the new name survives a power cut. Best effort: not every file system can do it.
 void syncFolderOf(const std::filesystem::path& path) {
   const int descriptor = ::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -73,10 +85,11 @@ Error ioError(const std::filesystem::path& path, const char* what) {
 }
 
 Result<TemporaryFile> TemporaryFile::create(const std::filesystem::path& target) {
-  removeLeftovers(target);
   TemporaryFile file;
-  file.target_ = target;
+  file.target_ = followLinks(target);
+  removeLeftovers(file.target_);
   if (Status status = file.openLocked(); !status) return status.error();
+  file.takeRightsOfTarget();
   return file;
 }
 
@@ -99,6 +112,16 @@ Status TemporaryFile::openLocked() {
   }
   return makeError(ErrorKind::kIo, "%s: %d temporary files stand beside it; remove them", target_.c_str(),
                    kAttempts);
+}
+
+// Only root may give files away. Where not even the group can stay, its rights go: they were another group's. They are set
+// after the owner, for a new one takes some away; meanwhile the file is empty.
+void TemporaryFile::takeRightsOfTarget() const {
+  struct stat old {};
+  if (::stat(target_.c_str(), &old) != 0) return;
+  constexpr uid_t kSameOwner = static_cast<uid_t>(-1);
+  const bool hasGroup = ::fchown(descriptor_, old.st_uid, old.st_gid) == 0 || ::fchown(descriptor_, kSameOwner, old.st_gid) == 0;
+  ::fchmod(descriptor_, old.st_mode & (hasGroup ? 0777 : 0707));
 }
 
 TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept

@@ -25,12 +25,16 @@ install_packages() {
   DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# build PRESET [TARGET ...]
+# build PRESET [-DNAME=VALUE ...] [TARGET ...]
 build() {
-  local preset=$1
+  local preset=$1 settings=()
   shift
+  while [[ ${1:-} == -D* ]]; do
+    settings+=("$1")
+    shift
+  done
   local log=build/configure-$preset.log
   mkdir -p build
-  cmake --preset "$preset" >"$log" 2>&1 || { cat "$log"; return 1; }
+  cmake --preset "$preset" "${settings[@]}" >"$log" 2>&1 || { cat "$log"; return 1; }
   cmake --build --preset "$preset" ${1:+--target "$@"}
 }

@@ -7,6 +7,7 @@ layout(constant_id = 0) const bool checkIndices = false;
 layout(constant_id = 1) const uint kind = 0;  // FrothRayKind
 #define FROTH_WALK_CHECK_INDICES checkIndices
 #include "froth_walk.glsl"
+#include "gpu/grid.glsl"
 
 layout(local_size_x = kRayGroupSize) in;
 
@@ -46,7 +47,7 @@ FrothRay loadRay(uint index) {
 }
 
 void main() {
-  uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint group = linearGroup();
   uint index = group * kRayGroupSize + gl_LocalInvocationIndex;
   if (index >= push.count) return;
   FrothWalk walk = frothBeginWalk(loadRay(index));

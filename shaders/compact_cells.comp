@@ -66,13 +66,14 @@ bool haveSpace(uvec2 sum) {
 
 void main() {
   uint thread = gl_LocalInvocationIndex;
-  Chunk chunk = loadChunk(gl_WorkGroupID.y);
-  uint local = gl_GlobalInvocationID.x;
-  uint groups = FRAME.chunkCount * FRAME.groupsPerChunk;
-  uint group = checked(chunk.index * FRAME.groupsPerChunk + gl_WorkGroupID.x, groups);
+  uint groups = FRAME.groupCount;
+  uint group = linearGroup();
+  if (group >= groups) return;
   bool isLast = group == groups - 1;
   uvec2 ownSum = FRAME.groupSums.v[group];
   if (ownSum.x == 0 && !isLast) return;
+  Chunk chunk = loadChunk(chunkOfGroup(group));
+  uint local = firstCellOfGroup(chunk, group) + thread;
   if (thread == 0) lostSlot = kNoCell;
 
   uint word;

@@ -1,5 +1,5 @@
 // Which live cells this view can see: near tests, then the solid ball against all rays of the view. For a walk the cells that only
-// guide it are listed too. A thread per cell of the chunk gl_WorkGroupID.y; a bit per cell and, per workgroup and per kGroupSize
+// guide it are listed too. A thread per cell; a bit per cell and, per workgroup and per kGroupSize
 // of these, the count of visible cells and of their planes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -24,9 +24,11 @@ bool isVisible(Chunk chunk, uint cell) {
 
 void main() {
   uint thread = gl_LocalInvocationIndex;
-  Chunk chunk = loadChunk(gl_WorkGroupID.y);
-  uint local = gl_GlobalInvocationID.x;
-  uint group = chunk.index * FRAME.groupsPerChunk + gl_WorkGroupID.x;
+  uint groups = FRAME.groupCount;
+  uint group = linearGroup();
+  if (group >= groups) return;
+  Chunk chunk = loadChunk(chunkOfGroup(group));
+  uint local = firstCellOfGroup(chunk, group) + thread;
   if (thread < kMaskWords) maskWords[thread] = 0;
   if (thread == 0) planes = 0;
   barrier();
@@ -37,7 +39,6 @@ void main() {
   }
   barrier();
 
-  uint groups = FRAME.chunkCount * FRAME.groupsPerChunk;
   if (thread < kMaskWords) {
     FRAME.visibility.v[checked(group * kMaskWords + thread, groups * kMaskWords)] = uvec2(maskWords[thread], 0);
   }

@@ -1,5 +1,6 @@
 // Writes the (tile, slot) pairs in the order of the cells, counts them by tile, and plans their sort. The pairs of one cell come in any
-// order. Cells whose pairs do not all find space have none, and so have all cells behind them.
+// order. They are as many as count_tiles.comp found: compilers may round the two passes' tests apart, so what is more is left out, and
+// for what is less there are pairs of a tile past the last one, whose list no pass reads. Cells whose pairs do not all find space have none, and so have all cells behind them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/histogram.glsl"
@@ -11,6 +12,7 @@ layout(local_size_x = kGroupSize) in;
 
 shared uint slots[kTileCellsPerGroup];
 shared uint places[kTileCellsPerGroup];  // [cell] where its next pair goes
+shared uint ends[kTileCellsPerGroup];    // [cell] behind its last pair
 shared uint pairEnd, candidateEnd;       // of the first cell whose pairs lack space: where they would begin
 
 // Pairs of the cells before the workgroup's: this thread's share of the sum.
@@ -29,6 +31,15 @@ uint shareOfPairsBefore(uint firstVisible) {
 void planPairs(uint kept) {
   COUNTERS.pairsKept = kept;
   COUNTERS.pairSortDispatch = dispatchOf(groupsOver(kept, keysPerSortGroup()));
+}
+
+void writePair(uint pair, uint tile, uint slot) {
+  uint place = checked(pair, FRAME.pairCapacity);
+  FRAME.pairTiles.v[place] = tile;
+  FRAME.pairCells.v[place] = slot;
+  atomicAdd(FRAME.tileLengths.v[tile], 1u);
+  UintArray histogram = FRAME.pairHistogram;
+  countDigit(histogram, place, digitOf(tile, 0));
 }
 
 void main() {
@@ -50,6 +61,7 @@ void main() {
   if (isCell) {
     slots[thread] = slot;
     places[thread] = place;
+    ends[thread] = saturatingAdd(place, count);
   }
   if (count > 0 && saturatingAdd(place, count) > FRAME.pairCapacity) {
     atomicMin(pairEnd, place);
@@ -57,17 +69,17 @@ void main() {
   }
   startCandidates(start.y);
 
-  UintArray histogram = FRAME.pairHistogram;
   uint end = min(total.y, candidateEnd);
   for (uint i = thread; i < end; i += kGroupSize) {
     TileCandidate candidate = candidateAt(i);
     if (!meetsTile(candidate)) continue;
-    uint pair = checked(atomicAdd(places[candidate.cell], 1u), FRAME.pairCapacity);
-    uint tile = candidate.tile.y * FRAME.tilesX + candidate.tile.x;
-    FRAME.pairTiles.v[pair] = tile;
-    FRAME.pairCells.v[pair] = slots[candidate.cell];
-    atomicAdd(FRAME.tileLengths.v[tile], 1u);
-    countDigit(histogram, pair, digitOf(tile, 0));
+    uint pair = atomicAdd(places[candidate.cell], 1u);
+    if (pair >= ends[candidate.cell]) continue;
+    writePair(pair, candidate.tile.y * FRAME.tilesX + candidate.tile.x, slots[candidate.cell]);
+  }
+  barrier();
+  if (isCell && place < pairEnd) {
+    for (uint pair = places[thread]; pair < ends[thread]; ++pair) writePair(pair, FRAME.tilesX * FRAME.tilesY, slot);
   }
 
   if (thread != 0) return;

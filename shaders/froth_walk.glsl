@@ -12,7 +12,7 @@
 #ifndef FROTH_WALK_GLSL
 #define FROTH_WALK_GLSL
 
-#define FROTH_WALK_ABI 1u
+#define FROTH_WALK_ABI 2u
 
 // FrothHit::status
 #define FROTH_WALK_DONE 0u

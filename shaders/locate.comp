@@ -17,12 +17,11 @@ shared uint places[kThreads];
 void findMostFall(Chunk chunk, uint cell, vec3 point) {
   uint thread = gl_LocalInvocationIndex;
   vec4 siteRadius = siteRadiusOf(chunk, cell);
-  vec3 centre = ballOf(chunk, siteRadius).centre - point;
   uvec2 row = neighbourRow(chunk, cell);
   float most = 0.0;
   uint place = kNoCell;
   for (uint i = row.x + thread; i < row.y; i += kThreads) {
-    float fall = powerFall(centre, siteRadius, siteRadiusOf(chunk, neighbourAt(chunk, i)));
+    float fall = powerFall(chunk, point, siteRadius, siteRadiusOf(chunk, neighbourAt(chunk, i)));
     if (fall > most) {
       most = fall;
       place = i;
@@ -58,7 +57,7 @@ vec3 startPoint() {
 }
 
 void main() {
-  uint place = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint place = linearGroup();
   vec3 point = startPoint();
   uvec2 cell = startCell(place);
   Chunk chunk = loadChunk(cell.x);

@@ -1,4 +1,5 @@
-// Marks the parts of the grid that the balls of a new asset's live cells meet. A thread per cell; a row of workgroups per chunk.
+// Marks the parts of the grid that the balls of a new asset's live cells meet. A row of workgroups per chunk: as many as the mean
+// chunk has cells for; in a larger chunk each thread takes several.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -25,12 +26,7 @@ void markEntry(uvec3 part) {
   atomicOr(FRAME.entries.v[entry].w, ~0u);
 }
 
-void main() {
-  instanceAtHand = push.instance;
-  uint cell = gl_GlobalInvocationID.x;
-  Chunk chunk = loadChunk(gl_WorkGroupID.y);
-  if (cell >= chunk.liveCount) return;
-  Ball ball = ballOfSite(chunk, cell);
+void markBall(Ball ball) {
   vec3 reach = ball.radius * partsPerUnit() + kPartGuard;
   uvec3 low = partAt(placeInParts(ball.centre) - reach);
   uvec3 high = partAt(placeInParts(ball.centre) + reach);
@@ -46,4 +42,13 @@ void main() {
       }
     }
   }
+}
+
+void main() {
+  instanceAtHand = push.instance;
+  uint index = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;
+  if (index >= FRAME.chunkCount) return;
+  Chunk chunk = loadChunk(index);
+  uint stride = gl_NumWorkGroups.x * kRayGroupSize;
+  for (uint cell = gl_GlobalInvocationID.x; cell < chunk.liveCount; cell += stride) markBall(ballOfSite(chunk, cell));
 }

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #include "gpu/descend.glsl"
+#include "gpu/grid.glsl"
 #include "gpu/walk_entries.glsl"
 
 layout(local_size_x = kRayGroupSize) in;
@@ -13,11 +14,11 @@ layout(push_constant) uniform Push {
 
 void main() {
   instanceAtHand = push.instance;
-  uint index = gl_GlobalInvocationID.x;
+  uint index = linearGroup() * kRayGroupSize + gl_LocalInvocationIndex;
   uint along = FRAME.entriesAlong;
   if (index >= along * along * along) return;
   uvec3 entry = uvec3(index % along, index / along % along, index / (along * along));
-  vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
-  vec3 middle = low.xyz + (vec3(entry) + 0.5) / float(along) * (high.xyz - low.xyz);
+  vec4 low = FRAME.boxLow, size = FRAME.boxSize;
+  vec3 middle = low.xyz + (vec3(entry) + 0.5) / float(along) * size.xyz;
   FRAME.entries.v[index] = uvec4(cellHolding(middle, uvec2(0)), 0u, 0u);
 }

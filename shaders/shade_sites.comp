@@ -28,7 +28,10 @@ void main() {
   vec3 direction = lensClass == kLensClassOrthographic ? FRAME.forward.xyz : directionToSite(toSite, frame.normal);
   vec3 colour = siteColour(code, header, detailCount, lobeCount > 0, detail, site.base, direction);
 
-  vec3 shown = min(colour, vec3(65504.0));  // the largest half
+  if (floatColours) {
+    FRAME.sites.v[index] = SiteRecord(site.place, site.height, floatBitsToUint(colour.b), floatBitsToUint(colour.rg));
+    return;
+  }
   FRAME.sites.v[index] =
-      SiteRecord(site.place, site.height, 0u, uvec2(packHalf2x16(shown.rg), packHalf2x16(vec2(shown.b, 0.0))));
+      SiteRecord(site.place, site.height, 0u, uvec2(packHalf2x16(colour.rg), packHalf2x16(vec2(colour.b, 0.0))));
 }

@@ -22,7 +22,8 @@ void main() {
   float end = sceneDistance(pixel, ray);
   bool isInside = !seesNothing(ray);
   uint steps = 0;
-  while (isInside && !isSaturated(shading, radiances[0]) && steps < FRAME.maxSteps) {
+  while (isInside && !isSaturated(shading, radiances[0]) && steps < FRAME.maxSteps &&
+         current.neighbours < FRAME.maxNeighbours) {
     if (isFull && !(current.entry < end)) {
       isInside = false;
       break;

@@ -16,7 +16,7 @@ struct Cursor {
 
 bool isAtEnd(Cursor cursor, float end) {
   if (!cursor.isInside || !(cursor.current.entry < end)) return true;
-  bool isLimit = cursor.steps == FRAME.maxSteps;
+  bool isLimit = cursor.steps == FRAME.maxSteps || cursor.current.neighbours >= FRAME.maxNeighbours;
   if (isLimit) atomicAdd(COUNTERS.stepLimit, 1u);
   return isLimit;
 }

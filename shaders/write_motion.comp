@@ -13,7 +13,8 @@ const float kLargestHalf = 65504.0;
 bool rayOf(uvec2 pixel, out vec3 start, out vec3 direction) {
   int kind = int(HITS.lensKind);
   vec4 lensPlace = HITS.lensPoint;
-  vec3 along = HITS.rayOrigin.xyz + float(pixel.x) * HITS.rayX.xyz + float(pixel.y) * HITS.rayY.xyz;
+  vec4 stepX = HITS.rayX, stepY = HITS.rayY;
+  vec3 along = HITS.rayOrigin.xyz + (float(pixel.x) - stepX.w) * stepX.xyz + (float(pixel.y) - stepY.w) * stepY.xyz;
   start = vec3(0.0);
   direction = HITS.forward.xyz;
   if (kind == kLensOrthographic) {
@@ -24,7 +25,7 @@ bool rayOf(uvec2 pixel, out vec3 start, out vec3 direction) {
     vec3 seen;
     vec2 point = lensPlace.xy + vec2(pixel) * lensPlace.zw;
     if (!lensRay(kind, point, HITS.lensFirst, HITS.lensSecond, HITS.lensRange, seen)) return false;
-    along = seen.x * HITS.rayX.xyz + seen.y * HITS.rayY.xyz + seen.z * HITS.rayOrigin.xyz;
+    along = seen.x * stepX.xyz + seen.y * stepY.xyz + seen.z * HITS.rayOrigin.xyz;
   }
   direction = normalize(along);
   return true;

@@ -4,51 +4,47 @@
 #include <cmath>
 #include <span>
 
+#include "baker/foam_arrays.h"
 #include "format/checks.h"
+#include "format/limits.h"
 
 namespace froth {
 namespace {
 
-struct Length {
-  const char* name;
-  size_t found, expected;
-};
+Status checkLength(const char* name, size_t found, size_t expected) {
+  if (found == expected) return {};
+  return makeError(ErrorKind::kBadInput, "foam: array '%s' has %zu entries, the counts ask for %zu; import it again", name, found,
+                   expected);
+}
 
 Status checkLengths(const Foam& foam) {
   const size_t cells = foam.cellCount, details = cells * foam.detailCount;
   const size_t lobes = foam.lobeOffsets.empty() ? details * foam.lobeCount : foam.lobeOffsets.back();
-  const auto optional = [](size_t found, size_t expected) { return found == 0 ? 0 : expected; };
-  const Length lengths[] = {
-      {"sites", foam.sites.size(), cells},
-      {"radii", foam.radii.size(), cells},
-      {"densities", foam.densities.size(), cells},
-      {"orientations", foam.orientations.size(), cells},
-      {"detailSites", foam.detailSites.size(), details},
-      {"detailHeights", foam.detailHeights.size(), details},
-      {"baseColours", foam.baseColours.size(), optional(foam.baseColours.size(), details)},
-      {"lobeOffsets", foam.lobeOffsets.size(), optional(foam.lobeOffsets.size(), details + 1)},
-      {"lobeAxes", foam.lobeAxes.size(), lobes},
-      {"lobeColours", foam.lobeColours.size(), lobes}};
-  for (const Length& length : lengths) {
-    if (length.found == length.expected) continue;
-    return makeError(ErrorKind::kBadInput,
-                     "foam: array '%s' has %zu entries, the counts ask for %zu; import it again", length.name,
-                     length.found, length.expected);
-  }
-  return {};
+  Status status;
+  if (!foam.lobeOffsets.empty()) status = checkLength("lobeOffsets", foam.lobeOffsets.size(), details + 1);
+  visitArrays([&](const FoamArray& array, auto values) {
+    const size_t found = (foam.*values).size();
+    if (!status || (found == 0 && array.canBeEmpty)) return;
+    status = checkLength(array.name, found, array.index == FoamIndex::kCell ? cells : array.index == FoamIndex::kLobe ? lobes : details);
+  });
+  return status;
+}
+
+bool isWithin(float value) {
+  return std::abs(value) <= kMaxNumber;  // false for NaN
 }
 
 template <class Vector>
-bool isFinite(const Vector& value) {
+bool areWithin(const Vector& value) {
   for (int axis = 0; axis < Vector::length(); ++axis) {
-    if (!std::isfinite(value[axis])) return false;
+    if (!isWithin(value[axis])) return false;
   }
   return true;
 }
 
-// The first entry that is not finite of an array of detail sites, or of lobes.
+// The first entry out of range of an array of detail sites, or of lobes.
 Status checkDetailNumbers(const Foam& foam, const char* name, std::span<const glm::vec3> values, bool areLobes) {
-  const auto bad = std::find_if_not(values.begin(), values.end(), [](const glm::vec3& value) { return isFinite(value); });
+  const auto bad = std::find_if_not(values.begin(), values.end(), [](const glm::vec3& value) { return areWithin(value); });
   if (bad == values.end()) return {};
   uint64_t site = static_cast<uint64_t>(bad - values.begin());
   if (areLobes && foam.lobeOffsets.empty()) site /= foam.lobeCount;
@@ -56,7 +52,7 @@ Status checkDetailNumbers(const Foam& foam, const char* name, std::span<const gl
     const auto& offsets = foam.lobeOffsets;
     site = static_cast<uint64_t>(std::upper_bound(offsets.begin(), offsets.end(), site) - offsets.begin()) - 1;
   }
-  return makeError(ErrorKind::kBadInput, "cell %llu, detail site %llu: array '%s' holds (%g, %g, %g), not finite; repair the foam",
+  return makeError(ErrorKind::kBadInput, "cell %llu, detail site %llu: array '%s' holds (%g, %g, %g), not within +-2^50; repair the foam",
                    static_cast<unsigned long long>(site / foam.detailCount),
                    static_cast<unsigned long long>(site % foam.detailCount), name, double{bad->x}, double{bad->y}, double{bad->z});
 }
@@ -65,16 +61,16 @@ Status checkNumbers(const Foam& foam) {
   for (uint32_t i = 0; i < foam.cellCount; ++i) {
     const glm::vec3& site = foam.sites[i];
     const float radius = foam.radii[i], density = foam.densities[i];
-    if (!isFinite(site)) {
-      return makeError(ErrorKind::kBadInput, "cell %u: site (%g, %g, %g) is not finite; repair the foam", i,
+    if (!areWithin(site)) {
+      return makeError(ErrorKind::kBadInput, "cell %u: site (%g, %g, %g) is not within +-2^50; repair the foam", i,
                        double{site.x}, double{site.y}, double{site.z});
     }
-    if (!std::isfinite(radius) || !(radius > 0)) {
-      return makeError(ErrorKind::kBadInput, "cell %u: radius %g is not a positive number; repair the foam", i,
+    if (!(radius > 0) || !isWithin(radius)) {
+      return makeError(ErrorKind::kBadInput, "cell %u: radius %g is not above 0 and within 2^50; repair the foam", i,
                        double{radius});
     }
-    if (!std::isfinite(density) || !(density >= 0)) {
-      return makeError(ErrorKind::kBadInput, "cell %u: density %g is not a number >= 0; repair the foam", i,
+    if (std::signbit(density) || !(density <= kMaxDensity)) {
+      return makeError(ErrorKind::kBadInput, "cell %u: density %g is not in 0..2^100; repair the foam", i,
                        double{density});
     }
     const glm::vec4& q = foam.orientations[i];
@@ -84,8 +80,8 @@ Status checkNumbers(const Foam& foam) {
     }
   }
   for (size_t k = 0; k < foam.detailSites.size(); ++k) {
-    if (isFinite(foam.detailSites[k]) && std::isfinite(foam.detailHeights[k])) continue;
-    return makeError(ErrorKind::kBadInput, "cell %zu: a detail site or height is not finite; repair the foam",
+    if (areWithin(foam.detailSites[k]) && isWithin(foam.detailHeights[k])) continue;
+    return makeError(ErrorKind::kBadInput, "cell %zu: a detail site or height is not within +-2^50; repair the foam",
                      k / foam.detailCount);
   }
   Status status = checkDetailNumbers(foam, "baseColours", foam.baseColours, false);
@@ -132,6 +128,9 @@ Status checkOptions(const BakeOptions& options) {
     return makeError(ErrorKind::kUsage, "%s: found %u; give %u to %u%s", range.name, range.found, range.least,
                      range.most, range.canBeOff ? ", or 0 for floats" : "");
   }
+  if (!(options.nearRatio >= 0 && options.nearRatio <= kMaxNearRatio) || !(options.nearDepth >= 0 && options.nearDepth <= kMaxNumber))
+    return makeError(ErrorKind::kUsage, "near limits: found ratio %g, depth %g; give 0 to 2^10 and 0 to 2^50",
+                     double{options.nearRatio}, double{options.nearDepth});
   if (options.chunkCells == 0) return makeError(ErrorKind::kUsage, "chunk cells: found 0; give at least 1");
   return {};
 }

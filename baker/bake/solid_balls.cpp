@@ -1,6 +1,7 @@
 #include "baker/bake/solid_balls.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <tbb/blocked_range.h>
@@ -44,6 +45,13 @@ class SolidBallMaker {
     const glm::ivec3 place = descend(glm::ivec3(glm::round(centre * kCentreSteps)));
     const int radius = static_cast<int>(std::ceil(reachFrom(place) * kRadiusSteps));
     return radius > kRadiusSteps - kLeastGain ? kWholeBall : packBytes(place, radius);
+  }
+
+  bool isHeldBy(uint32_t cell, uint32_t ball) {
+    if (ball == kWholeBall) return true;
+    setBody(cell);
+    const glm::ivec3 place = glm::ivec3(ball & 0xff, ball >> 8 & 0xff, ball >> 16 & 0xff) - 32;
+    return reachFrom(place) * kRadiusSteps <= ball >> 24;
   }
 
  private:
@@ -135,6 +143,21 @@ std::vector<uint32_t> makeSolidBalls(const ChunkContents& chunk, uint32_t detail
     for (uint32_t cell = range.begin(); cell < range.end(); ++cell) balls[cell] = maker.make(cell);
   });
   return balls;
+}
+
+std::optional<uint32_t> findWrongSolidBall(const ChunkContents& chunk, uint32_t detailCount) {
+  std::atomic<uint32_t> first = chunk.liveCount;
+  const auto cells = static_cast<uint32_t>(chunk.solidBalls.size());
+  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, cells, 256), [&](const tbb::blocked_range<uint32_t>& range) {
+    SolidBallMaker maker(chunk, detailCount);
+    for (uint32_t cell = range.begin(); cell < range.end() && cell < first; ++cell) {
+      if (maker.isHeldBy(cell, chunk.solidBalls[cell])) continue;
+      uint32_t seen = first;
+      while (cell < seen && !first.compare_exchange_weak(seen, cell)) {
+      }
+    }
+  });
+  return first < chunk.liveCount ? std::optional<uint32_t>(first.load()) : std::nullopt;
 }
 
 }  // namespace froth

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "format/asset_contents.h"
@@ -13,5 +14,8 @@ namespace froth {
 // the cell's solid part with the margin; a cell that would gain less than 1/32 of its radius keeps its own ball. On all
 // cores, the same result on any number of them.
 std::vector<uint32_t> makeSolidBalls(const ChunkContents& chunk, uint32_t detailCount);
+
+// The first live cell whose stored ball does not hold its solid part with the margin. A cell's own ball does.
+std::optional<uint32_t> findWrongSolidBall(const ChunkContents& chunk, uint32_t detailCount);
 
 }  // namespace froth

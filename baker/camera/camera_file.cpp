@@ -7,6 +7,7 @@
 #include "baker/camera/camera.h"
 #include "baker/camera/ray_map.h"
 #include "baker/camera/view_check.h"
+#include "baker/json_input.h"
 #include "format/atomic_file.h"
 
 namespace froth {
@@ -270,7 +271,7 @@ WrittenJson toJson(const View& view) {
 }  // namespace
 
 Result<CameraSet> readCameras(const std::filesystem::path& path) {
-  Result<std::vector<uint8_t>> bytes = readFile(path);
+  Result<std::vector<uint8_t>> bytes = readFile(path, kMostJsonBytes);
   if (!bytes) return bytes.error();
   Result<CameraSet> cameras = parseCameras(*bytes, path.string());
   if (!cameras) return cameras;
@@ -286,26 +287,18 @@ Result<CameraSet> readCameras(const std::filesystem::path& path) {
 }
 
 Result<CameraSet> parseCameras(std::span<const uint8_t> bytes, const std::string& file) {
-  Json root;
-  try {
-    root = Json::parse(bytes.begin(), bytes.end());
-  } catch (const Json::parse_error& fault) {
-    return makeError(ErrorKind::kBadInput, "%s: byte %zu: not JSON (%s); write it as docs/CAMERAS.md shows",
-                     file.c_str(), size_t{fault.byte}, fault.what());
-  } catch (const Json::exception& fault) {  // a number beyond the range of double
-    return makeError(ErrorKind::kBadInput, "%s: %s; give numbers that a double can hold", file.c_str(),
-                     fault.what());
-  }
-  FieldReader fields(root, file);
+  const Result<Json> root = parseJson(bytes, file, "write it as docs/CAMERAS.md shows");
+  if (!root) return root.error();
+  FieldReader fields(*root, file);
   CameraSet cameras;
   cameras.scene = fields.readText("scene");
   if (!fields.find("views")) fields.fail("views", "nothing", "add an array of views (docs/CAMERAS.md)");
   if (fields.error()) return *fields.error();
 
-  Result<std::vector<View>> views = readViews(root, "views", file);
+  Result<std::vector<View>> views = readViews(*root, "views", file);
   if (!views) return views.error();
   cameras.views = std::move(*views);
-  Result<std::vector<View>> flight = readViews(root, "flight", file);
+  Result<std::vector<View>> flight = readViews(*root, "flight", file);
   if (!flight) return flight.error();
   cameras.flight = std::move(*flight);
   return cameras;

@@ -16,8 +16,6 @@ constexpr double kSlack = 0x1p-43;
 // A bounded cell is cut alike if the lengths agree to this, in radii: the planes left out miss the ball by
 // more than their rounding, so lengths differ only where a ray all but grazes a plane.
 constexpr double kLengthSlack = 0x1p-20;
-// A walk may miss a cell that its ray touches for no longer than this, in radii.
-constexpr double kMissedLength = 0x1p-12;
 constexpr uint32_t kDrawsPerSample = 16;
 
 }  // namespace
@@ -58,25 +56,22 @@ void DiagramCheck::checkRay(uint32_t number, std::vector<std::string>& faults) c
   const double distance = glm::length(towards);
   ray.direction = distance > 0 ? towards / distance : random.direction(sample + 1);
 
-  std::vector<uint32_t> met = walk(ray, faults);
-  std::sort(met.begin(), met.end());
+  const std::vector<Step> steps = walk(ray, descend(ray.origin, target), faults);
   for (const uint32_t cell : findBallsOn(ray)) {
     const bool isHidden = triangulation_.isHidden[cell];
-    const double whole =
-        isHidden ? 0 : boundedCell(ray, cell, neighboursOf(triangulation_.graph, cell)).length();
-    const double kept = isHidden || alpha_.isEmpty[cell]
-                            ? 0
-                            : boundedCell(ray, cell, neighboursOf(alpha_.graph, cell)).length();
+    Interval whole, kept;
+    if (!isHidden) whole = boundedCell(ray, cell, neighboursOf(triangulation_.graph, cell));
+    if (!isHidden && !alpha_.isEmpty[cell]) kept = boundedCell(ray, cell, neighboursOf(alpha_.graph, cell));
     const double radius = radii_[cell];
-    if (!(std::abs(kept - whole) <= kLengthSlack * radius)) {
+    if (!(std::abs(kept.length() - whole.length()) <= kLengthSlack * radius)) {
       faults.push_back(
           fmt::format("ray {}: {} radii of cell {} by the alpha-complex, {} by the triangulation", number,
-                      kept / radius, cell, whole / radius));
+                      kept.length() / radius, cell, whole.length() / radius));
     }
-    if (whole > kMissedLength * radius && !std::binary_search(met.begin(), met.end(), cell)) {
-      faults.push_back(fmt::format("ray {}: {} radii of cell {}, which the walk does not meet", number,
-                                   whole / radius, cell));
-    }
+    if (!(whole.length() > 0)) continue;
+    const double along = glm::dot(glm::dvec3(sites_[cell]) - ray.origin, ray.direction);
+    const double t = along + 0.5 * (whole.near + whole.far);
+    checkLeast(ray.origin + t * ray.direction, t, cellAt(steps, t), "within a ball on a ray", faults);
   }
 }
 
@@ -108,20 +103,30 @@ glm::dvec3 DiagramCheck::pointByFace(uint64_t sample, const glm::dvec3& start) c
   return start + t * nudge * ray.direction;
 }
 
-// The end of a walk down the power, always to the best neighbour.
+// The end of a walk down the power, always to the best neighbour. Powers are compared by the place of x beside
+// radical planes: seen from far, all cells of a cluster have the same rounded power, though only some lead on.
 uint32_t DiagramCheck::descend(const glm::dvec3& x, uint32_t start) const {
+  return descendAmong(x, start, [](uint32_t) { return true; });
+}
+
+template <class Takes>
+uint32_t DiagramCheck::descendAmong(const glm::dvec3& x, uint32_t start, const Takes& takes) const {
   uint32_t cell = start;
-  double power = powerAt(x, sites_[cell], radii_[cell]);
-  for (bool isMoving = true; isMoving;) {
-    isMoving = false;
+  for (size_t steps = 0; steps < sites_.size(); ++steps) {
+    const glm::dvec3 centre = glm::dvec3(sites_[cell]) - x;
+    uint32_t best = cell;
+    double least = 0;  // half the neighbour's power less the cell's
     for (const uint32_t neighbour : neighboursOf(triangulation_.graph, cell)) {
-      const double other = powerAt(x, sites_[neighbour], radii_[neighbour]);
-      if (other < power) {
-        power = other;
-        cell = neighbour;
-        isMoving = true;
+      const glm::dvec3 toNeighbour = glm::dvec3(sites_[neighbour]) - glm::dvec3(sites_[cell]);
+      const double offset = foam::radicalOffset(toNeighbour, double{radii_[cell]}, double{radii_[neighbour]});
+      const double clearance = foam::radicalClearance(centre, toNeighbour, offset);
+      if (clearance < least && takes(neighbour)) {
+        least = clearance;
+        best = neighbour;
       }
     }
+    if (best == cell) break;
+    cell = best;
   }
   return cell;
 }
@@ -143,8 +148,12 @@ uint32_t DiagramCheck::nextOnRay(const Ray& ray, uint32_t cell, double& t) const
       next = neighbour;
     }
   }
-  if (next != cell) t = std::max(t, nearest);
-  return next;
+  if (next == cell) return cell;
+  t = std::max(t, nearest);
+  // Seen from far, planes towards several cells lie at one rounded t, and from a wrong one no plane may lead on.
+  return descendAmong(ray.origin + t * ray.direction, next, [&](uint32_t other) {
+    return glm::dot(glm::dvec3(sites_[other]) - glm::dvec3(sites_[cell]), ray.direction) > 0;
+  });
 }
 
 // x: a place on a ray at t, or a point with t = 0.
@@ -164,40 +173,33 @@ void DiagramCheck::checkLeast(const glm::dvec3& x, double t, uint32_t cell, cons
                                x.z, cell, power, least.site, least.power));
 }
 
-// The cells that the ray meets, in order.
-std::vector<uint32_t> DiagramCheck::walk(const Ray& ray, std::vector<std::string>& faults) const {
-  std::vector<uint32_t> met;
-  uint32_t cell = tree_.findLeastPower(ray.origin).site;
+// The cells that the ray meets from `cell` on, in order.
+std::vector<DiagramCheck::Step> DiagramCheck::walk(const Ray& ray, uint32_t cell,
+                                                   std::vector<std::string>& faults) const {
+  std::vector<Step> steps;
+  checkLeast(ray.origin, 0, cell, "the first cell on a ray", faults);
   double t = 0;
-  while (met.size() < sites_.size() && faults.empty()) {
-    met.push_back(cell);
+  for (const size_t before = faults.size(); steps.size() < sites_.size() && faults.size() == before;) {
     const uint32_t next = nextOnRay(ray, cell, t);
     if (next == cell) break;
     checkLeast(ray.origin + t * ray.direction, t, cell, "leaving a cell on a ray", faults);
+    steps.push_back({cell, t});
     cell = next;
   }
+  steps.push_back({cell, INFINITY});
   t += glm::length(high_ - low_);
   checkLeast(ray.origin + t * ray.direction, t, cell, "the last cell on a ray", faults);
-  return met;
+  return steps;
+}
+
+// Where a walk is at t.
+uint32_t DiagramCheck::cellAt(const std::vector<Step>& steps, double t) {
+  return std::find_if(steps.begin(), steps.end() - 1, [t](const Step& step) { return t <= step.exit; })->cell;
 }
 
 std::vector<uint32_t> DiagramCheck::findBallsOn(const Ray& ray) const {
   std::vector<uint32_t> found;
-  // Distance of the ray's line from the ball around the box, less all radii: rounding may let a ball pass
-  // that the ray merely touches.
-  const auto bound = [&](const SiteTree::Node& node) {
-    const glm::dvec3 low(node.box.low), high(node.box.high);
-    const glm::dvec3 centre = 0.5 * (low + high) - ray.origin;
-    const double reach = 0.5 * glm::length(high - low) + node.box.maxRadius;
-    const double along = std::max(glm::dot(centre, ray.direction), 0.0);
-    return glm::length(centre - along * ray.direction) - reach;
-  };
-  tree_.search(0.0, bound, [&](uint32_t place) {
-    const uint32_t cell = tree_.order()[place];
-    double tNear, tFar;
-    const glm::dvec3 centre = glm::dvec3(sites_[cell]) - ray.origin;
-    if (foam::intersectBall(centre, double{radii_[cell]}, ray.direction, tNear, tFar)) found.push_back(cell);
-  });
+  tree_.searchRay(ray.origin, ray.direction, [&](uint32_t cell) { found.push_back(cell); });
   return found;
 }
 
@@ -215,7 +217,7 @@ DiagramCheck::Interval DiagramCheck::boundedCell(const Ray& ray, uint32_t cell,
     const glm::dvec3 toNeighbour = glm::dvec3(sites_[neighbour]) - glm::dvec3(sites_[cell]);
     const double offset = foam::radicalOffset(toNeighbour, radius, double{radii_[neighbour]});
     foam::clipByPlane(foam::radicalClearance(centre, toNeighbour, offset),
-                      glm::dot(toNeighbour, ray.direction), interval.near, interval.far);
+                      glm::dot(toNeighbour, ray.direction), foam::comesFirst(toNeighbour), interval.near, interval.far);
   }
   return interval;
 }

@@ -114,15 +114,21 @@ ValidityReport checkGraphs(std::span<const glm::vec3> sites, std::span<const flo
     checkCell(triangulation, alpha, visible == 1, cell, faults);
   };
   if (!checkAll(cellCount, progress, validity.faults, checkRows) || visible == 0) return validity;
+  sampleDiagram(sites, radii, triangulation, alpha, seed, progress, validity);
+  return validity;
+}
 
+bool sampleDiagram(std::span<const glm::vec3> sites, std::span<const float> radii,
+                   const RegularTriangulation& triangulation, const AlphaComplex& alpha, uint64_t seed,
+                   const Progress& progress, ValidityReport& validity) {
   const DiagramCheck diagram(sites, radii, triangulation, alpha, seed);
   const auto checkPoint = [&](uint32_t k, Faults& faults) { diagram.checkPoint(k, faults); };
-  if (!checkAll(kPoints, progress, validity.faults, checkPoint)) return validity;
+  if (!checkAll(kPoints, progress, validity.faults, checkPoint)) return false;
   validity.pointsChecked = kPoints;
   const auto checkRay = [&](uint32_t k, Faults& faults) { diagram.checkRay(k, faults); };
-  if (!checkAll(kRays, progress, validity.faults, checkRay)) return validity;
+  if (!checkAll(kRays, progress, validity.faults, checkRay)) return false;
   validity.raysChecked = kRays;
-  return validity;
+  return true;
 }
 
 }  // namespace froth

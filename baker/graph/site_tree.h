@@ -8,6 +8,8 @@
 
 #include <glm/glm.hpp>
 
+#include "shaders/foam/cell.h"
+
 namespace froth {
 
 // What is known of the sites in a box; exact in float.
@@ -65,6 +67,10 @@ class SiteTree {
   template <class Bound, class Visit>
   void search(const double& limit, const Bound& bound, const Visit& visit) const;
 
+  // Calls visit(site) for every site whose ball a ray meets; the direction has unit length.
+  template <class Visit>
+  void searchRay(const glm::dvec3& origin, const glm::dvec3& direction, const Visit& visit) const;
+
   // The least power at x, and the lowest of the sites that attain it in double.
   LeastPower findLeastPower(const glm::dvec3& x) const;
 
@@ -107,6 +113,25 @@ void SiteTree::search(const double& limit, const Bound& bound, const Visit& visi
     if (far.bound <= limit) stack[count++] = far;
     if (near.bound <= limit) stack[count++] = near;
   }
+}
+
+template <class Visit>
+void SiteTree::searchRay(const glm::dvec3& origin, const glm::dvec3& direction, const Visit& visit) const {
+  // Distance of the ray's line from the ball around the box, less all radii: rounding may let a ball pass
+  // that the ray merely touches.
+  const auto bound = [&](const Node& node) {
+    const glm::dvec3 low(node.box.low), high(node.box.high);
+    const glm::dvec3 centre = 0.5 * (low + high) - origin;
+    const double reach = 0.5 * glm::length(high - low) + node.box.maxRadius;
+    const double along = std::max(glm::dot(centre, direction), 0.0);
+    return glm::length(centre - along * direction) - reach;
+  };
+  search(0.0, bound, [&](uint32_t place) {
+    const uint32_t site = order_[place];
+    double tNear, tFar;
+    const glm::dvec3 centre = glm::dvec3(sites_[site]) - origin;
+    if (foam::intersectBall(centre, double{radii_[site]}, direction, tNear, tFar)) visit(site);
+  });
 }
 
 }  // namespace froth

@@ -53,7 +53,7 @@ template <class Real>
 bool clipByNeighbours(std::span<const ViewPlane<Real>> planes, const PrimaryRay<Real>& ray, BallHit<Real>& hit) {
   for (const ViewPlane<Real>& plane : planes) {
     const Real clearance = plane.clearance - glm::dot(plane.toNeighbour, ray.offset);
-    foam::clipByPlane(clearance, glm::dot(plane.toNeighbour, ray.direction), hit.tNear, hit.tFar);
+    foam::clipByPlane(clearance, glm::dot(plane.toNeighbour, ray.direction), foam::comesFirst(plane.toNeighbour), hit.tNear, hit.tFar);
     if (!(hit.tNear < hit.tFar)) return false;
   }
   return true;

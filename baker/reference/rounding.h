@@ -14,6 +14,10 @@ namespace froth {
 class Rounding {
  public:
   Rounding(double relative, uint64_t seed, uint32_t cell) : relative_(relative), random_(seed, Purpose::kRounding, cell) {}
+  // Of what two cells share.
+  Rounding(double relative, uint64_t seed, uint32_t cell, uint32_t other) : Rounding(relative, seed, cell) {
+    next_ = kMostShared * other;
+  }
 
   // `value` with an absolute error of up to relative * magnitude.
   template <class Real>
@@ -34,6 +38,8 @@ class Rounding {
   }
 
  private:
+  static constexpr uint64_t kMostShared = 4;  // values of a pair
+
   double relative_;
   CounterRandom random_;
   uint64_t next_ = 0;

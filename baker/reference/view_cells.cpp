@@ -25,8 +25,9 @@ std::vector<uint32_t> selectDrawnCells(const Foam& foam, std::span<const uint32_
   const glm::dvec3 eye = eyeOf(view), forward = forwardOf(view);
   std::vector<uint32_t> drawn;
   for (uint32_t cell : candidates) {
-    const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
-    const double radius = foam.radii[cell];
+    Rounding rounding(options.rounding, options.roundingSeed + 3, cell);
+    const glm::dvec3 centre = rounding.of(glm::dvec3(foam.sites[cell]) - eye);
+    const double radius = rounding.of(double{foam.radii[cell]});
     if (!foam::isNearCell(centre, radius, forward, nearRatio, nearDepth)) drawn.push_back(cell);
   }
   return drawn;
@@ -84,17 +85,29 @@ void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell, 
   }
 }
 
+// As seen from its first site (shaders/foam/cell.h). Both cells find the same plane, with the same error.
 template <class Real>
-void fillPlanes(const Foam& foam, std::span<const uint32_t> neighbours, uint32_t source,
-                const ViewCell<Real>& cell, Rounding& rounding, std::span<ViewPlane<Real>> planes) {
+ViewPlane<Real> planeBetween(const Foam& foam, uint32_t first, uint32_t second, const glm::dvec3& eye, const ReferenceOptions& options) {
+  const Vec3<Real> toSecond(glm::dvec3(foam.sites[second]) - glm::dvec3(foam.sites[first]));
+  const Vec3<Real> centre(glm::dvec3(foam.sites[first]) - eye);
+  const Real offset = foam::radicalOffset(toSecond, Real(foam.radii[first]), Real(foam.radii[second]));
+  const Real size = glm::length(toSecond);
+  Rounding rounding(options.rounding, options.roundingSeed + 2, first, second);
+  const Vec3<Real> rounded = rounding.of(toSecond);
+  return {rounded, rounding.of(foam::radicalClearance(centre, toSecond, offset), size * (size + glm::length(centre)) + std::abs(offset))};
+}
+
+template <class Real>
+void fillPlanes(const Foam& foam, std::span<const uint32_t> neighbours, uint32_t source, const glm::dvec3& eye,
+                const ReferenceOptions& options, std::span<ViewPlane<Real>> planes) {
   for (size_t i = 0; i < planes.size(); ++i) {
     const uint32_t other = neighbours[i];
-    const Vec3<Real> toNeighbour(glm::dvec3(foam.sites[other]) - glm::dvec3(foam.sites[source]));
-    const Real offset = foam::radicalOffset(toNeighbour, cell.radius, Real(foam.radii[other]));
-    const Real clearance = foam::radicalClearance(cell.centre, toNeighbour, offset);
-    const Real size = glm::length(toNeighbour);
-    planes[i] = {rounding.of(toNeighbour),
-                 rounding.of(clearance, size * (size + glm::length(cell.centre)) + std::abs(offset))};
+    if (foam::comesFirst(glm::dvec3(foam.sites[other]) - glm::dvec3(foam.sites[source]))) {
+      planes[i] = planeBetween<Real>(foam, source, other, eye, options);
+    } else {
+      const ViewPlane<Real> plane = planeBetween<Real>(foam, other, source, eye, options);
+      planes[i] = {-plane.toNeighbour, -plane.clearance};
+    }
   }
 }
 
@@ -151,7 +164,7 @@ ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
     fillDetails(foam, source, cell, view, rounding,
                 std::span(result.details).subspan(rank * foam.detailCount, foam.detailCount));
     const size_t planes = cell.planesEnd - cell.planesBegin;
-    fillPlanes(foam, std::span(cechPairs.neighbours).subspan(cechPairs.offsets[source], planes), source, cell, rounding,
+    fillPlanes(foam, std::span(cechPairs.neighbours).subspan(cechPairs.offsets[source], planes), source, eye, options,
                std::span(result.planes).subspan(cell.planesBegin, planes));
   });
   return result;

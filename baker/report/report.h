@@ -112,6 +112,7 @@ struct Report {
   std::string scene, input, credit;  // credit: of photos and foam; shown at the foot
   std::string device, driver, version, command;
   uint32_t width = 0, height = 0, frames = 0;
+  uint64_t seed = 1;                 // of the search, and of the order in each round
   std::vector<uint32_t> views;       // in cameras.json
   uint32_t cells = 0, detailCount = 0, lobeCount = 0;
   bool isLinearTime = true;          // times from GPU timestamps; false: seconds of the CPU renderer
@@ -145,6 +146,10 @@ bool isTie(const Interval& a, const Interval& b);
 // Ids of the points that no other beats in both error and cost, from cheap to dear; of ties in cost the one with less error.
 enum class Cost { kTime, kDiskBytes };
 std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, const std::string& renderer, Cost cost);
+
+// The order in which a round times configurations: shuffled, but with those of a group, which share an asset, one after the other.
+// A function of the arguments alone.
+std::vector<size_t> orderOfRound(const std::vector<std::string>& groups, uint64_t seed, uint32_t round);
 
 // Where a point stands on a sweep's knob.
 const Setting& placeOnSweep(const Sweep& sweep, const ReportPoint& point);

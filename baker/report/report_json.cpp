@@ -240,6 +240,7 @@ Json reportAsJson(const Report& report) {
                {"width", report.width},
                {"height", report.height},
                {"frames", report.frames},
+               {"seed", report.seed},
                {"views", report.views},
                {"cells", report.cells},
                {"detailCount", report.detailCount},

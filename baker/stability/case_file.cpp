@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "baker/bake/check_foam.h"
+#include "baker/json_input.h"
 #include "format/atomic_file.h"
 
 namespace froth {
@@ -51,6 +52,18 @@ WrittenJson detailToJson(const Foam& foam, size_t site) {
   }
   detail["lobes"] = std::move(lobes);
   return detail;
+}
+
+WrittenJson knownToJson(const std::vector<KnownFault>& known) {
+  WrittenJson list = WrittenJson::array();
+  for (const KnownFault& fault : known) {
+    list.push_back({{"preset", fault.preset},
+                    {"renderer", fault.renderer},
+                    {"kind", fault.kind},
+                    {"factor", fault.factor},
+                    {"cause", fault.cause}});
+  }
+  return list;
 }
 
 WrittenJson cellToJson(const Foam& foam, uint32_t cell) {
@@ -211,6 +224,17 @@ void readCell(const Json& cell, const std::string& place, std::optional<Error>& 
   }
 }
 
+void readKnown(FieldReader& root, const std::string& file, std::optional<Error>& error, std::vector<KnownFault>& known) {
+  const Json& faults = root.readArray("known");
+  for (size_t i = 0; i < faults.size() && !error; ++i) {
+    FieldReader fields(faults[i], file + ": known fault " + std::to_string(i), error);
+    KnownFault fault{fields.readText("preset"), fields.readText("renderer"), fields.readText("kind"), 0, {}};
+    fault.factor = fields.readNumber<double>("factor");
+    fault.cause = fields.readText("cause");
+    known.push_back(std::move(fault));
+  }
+}
+
 void readFoam(FieldReader& root, const std::string& file, std::optional<Error>& error, Foam& foam) {
   foam.lobeCount = root.readCount("most_lobes", 32);
   foam.lobeOffsets = {0};
@@ -228,22 +252,17 @@ void readFoam(FieldReader& root, const std::string& file, std::optional<Error>& 
 }  // namespace
 
 Result<StiffCase> parseCase(std::span<const uint8_t> bytes, const std::string& file) {
-  Json json;
-  try {
-    json = Json::parse(bytes.begin(), bytes.end());
-  } catch (const Json::exception& fault) {
-    return makeError(ErrorKind::kBadInput, "%s: not JSON of a stiff case (%s); write it again", file.c_str(), fault.what());
-  }
+  const Result<Json> json = parseJson(bytes, file, "write the stiff case again");
+  if (!json) return json.error();
   std::optional<Error> error;
-  FieldReader root(json, file, error);
+  FieldReader root(*json, file, error);
   StiffCase found;
   found.name = root.readText("name");
   found.what = root.readText("what");
   found.analysis = root.readText("analysis");
-  found.storageError = root.readNumber<double>("storage_error");
   found.moved = root.readVector<glm::dvec3>("moved");
   found.isImported = root.readFlag("imported");
-  found.knownCause = root.readText("known_cause");
+  readKnown(root, file, error, found.known);
   readFoam(root, file, error, found.foam);
   if (error) return *error;
   if (const Status status = checkFoam(found.foam); !status) {
@@ -256,7 +275,7 @@ Result<StiffCase> parseCase(std::span<const uint8_t> bytes, const std::string& f
 }
 
 Result<StiffCase> readCase(const std::filesystem::path& path) {
-  const Result<std::vector<uint8_t>> bytes = readFile(path);
+  const Result<std::vector<uint8_t>> bytes = readFile(path, kMostJsonBytes);
   if (!bytes) return bytes.error();
   return parseCase(*bytes, path.string());
 }
@@ -274,10 +293,9 @@ Status writeCase(const std::filesystem::path& path, const StiffCase& stiffCase) 
   const WrittenJson root = {{"name", stiffCase.name},
                             {"what", stiffCase.what},
                             {"analysis", stiffCase.analysis},
-                            {"storage_error", stiffCase.storageError},
                             {"moved", toJson(stiffCase.moved)},
                             {"imported", stiffCase.isImported},
-                            {"known_cause", stiffCase.knownCause},
+                            {"known", knownToJson(stiffCase.known)},
                             {"most_lobes", foam.lobeCount},
                             {"cells", std::move(cells)},
                             {"views", WrittenJson::parse(*views)["views"]}};

@@ -1,6 +1,7 @@
 // A stiff case as a file: JSON that a person can read and shorten, and every number of which comes back with the same bits.
 //
-// {"name", "what", "analysis", "known_cause": texts, "storage_error": number, "moved": [x, y, z], "imported": flag, "most_lobes": M,
+// {"name", "what", "analysis": texts, "moved": [x, y, z], "imported": flag, "most_lobes": M,
+//  "known": [{"preset", "renderer", "kind", "cause": texts, "factor": number}],
 //  "cells": [{"site": [x, y, z], "radius", "density", "orientation": [w, x, y, z],
 //             "details": [{"place": [u, v], "height", "base": [r, g, b] or absent, "lobes": [[axis x, y, z, colour r, g, b]]}]}],
 //  "views": as in cameras.json (docs/CAMERAS.md), so that the file serves as one}

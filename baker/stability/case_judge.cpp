@@ -2,20 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
-
 namespace froth {
 namespace {
-
-bool isSameImage(const Image& a, const Image& b) {
-  return a.values.size() == b.values.size() &&
-         std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)) == 0;
-}
-
-bool isSame(const RenderedImages& a, const RenderedImages& b) {
-  return isSameImage(a.colour, b.colour) && isSameImage(a.alpha, b.alpha) && isSameImage(a.depth, b.depth) &&
-         isSameImage(a.normal, b.normal);
-}
 
 Result<std::optional<CaseFault>> judgeView(const ReferenceRenderer& renderer, const View& view, size_t index,
                                            const BoundOptions& boundOptions) {
@@ -37,15 +25,17 @@ Result<std::optional<CaseFault>> judgeView(const ReferenceRenderer& renderer, co
     surer.samples = kSurerSamples;
     return judgeView(renderer, view, index, surer);
   }
-  const auto fault = [&](const char* kind, std::string what) {
-    return std::optional(CaseFault{kind, std::move(what), index, check.worstX, check.worstY});
+  const auto fault = [&](const char* kind, std::string what, double factor = 0) {
+    return std::optional(CaseFault{kind, std::move(what), index, check.worstX, check.worstY, factor});
   };
   if (!check.isFinite) return fault("float: not finite", "a value of the float image is not finite");
   if (check.worstExcess > 1) {
-    return fault("float: over its bound", fmt::format("pixel {}, {}: {:.3g} times its bound; largest error {:.3g}",
-                                                      check.worstX, check.worstY, check.worstExcess, check.maxError));
+    return fault("float: over its bound",
+                 fmt::format("pixel {}, {}: {} {:.3g} times its bound; largest error {:.3g}", check.worstX, check.worstY,
+                             check.worstChannel, check.worstExcess, check.maxError),
+                 check.worstExcess);
   }
-  if (!isSame(*first, *second)) return fault("float: another image", "a second render has other bits");
+  if (!hasSameBits(*first, *second)) return fault("float: another image", "a second render has other bits");
   return std::optional<CaseFault>();
 }
 
@@ -62,7 +52,6 @@ CaseJudge judgeByAll(std::vector<CaseJudge> judges) {
 }
 
 CaseJudge judgeOfReference(BoundOptions options) {
-  options.storage = options.storageError = 0;
   return [options](const StiffCase& stiffCase) -> Result<std::optional<CaseFault>> {
     const ReferenceRenderer renderer(stiffCase.foam);
     for (size_t i = 0; i < stiffCase.views.size(); ++i) {

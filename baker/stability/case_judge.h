@@ -17,6 +17,7 @@ struct CaseFault {
   std::string what;  // one line with the numbers found
   size_t view = 0;   // where it is worst
   uint32_t x = 0, y = 0;  // [pixels]
+  double factor = 0;  // times the bound; 0: of kinds without a number
 };
 
 // Nothing: the case holds. An error is for what is no fault of the case: cancelled, no device.
@@ -25,7 +26,7 @@ using CaseJudge = std::function<Result<std::optional<CaseFault>>(const StiffCase
 // The first fault that any of them finds.
 CaseJudge judgeByAll(std::vector<CaseJudge> judges);
 
-// The float reference of every view against its bound, which has no share of storage: finite, within it, the same on a second run.
+// The float reference of every view against its bound: finite, within it, the same on a second run.
 CaseJudge judgeOfReference(BoundOptions options = {});
 
 // The options under which a case's view is rendered by every renderer: its own near limits, no cut-off.

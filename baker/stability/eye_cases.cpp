@@ -61,8 +61,8 @@ StiffCase alongPlane(const std::string& name, const std::string& what, bool isVe
   // In the plane x = 0; with `isVertex` in the planes x = 0 and y = 0, so that the middle ray runs along edges through vertices.
   const glm::dvec3 eye(0, isVertex ? 0 : 0.125, -2);
   return {name, what,
-          "Rays within rounding of a plane that they run along may take either side of it for its whole length: their pixels are "
-          "entitled to either colour, all others to none.",
+          "A ray in a plane shows the cell of the first of its two sites. One within rounding of it may take either side for its whole "
+          "length: its pixel is entitled to either colour, never to both or none.",
           foamOfCells(cells),
           {caseView(eye, eye + glm::dvec3(0, 0, 1), 25, 25, 0.5), orthographicView(eye, eye + glm::dvec3(0, 0, 1), 1.1, 25, 25)}};
 }

@@ -1,13 +1,20 @@
 #include "baker/stability/image_bound.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace froth {
 namespace {
 
 constexpr double kUnit = 0x1p-24;  // of float
 constexpr double kLeastBound = kUnit / 16;
+constexpr double kHalfUnit = 0x1p-10;   // of an image of halves, relative: rounded to either neighbour
+constexpr double kLeastHalf = 0x1p-24;  // the same of the smallest ones
+constexpr double kStoredColour = 0x1p-11;  // of colours between passes: rounded to the nearest
+constexpr double kNotAllowed = 1e30;    // times the bound: what no bound allows; JSON has no infinity
 constexpr uint64_t kSeedStride = 16;  // a render may use a few seeds from the one it is given on
 
 // The largest change of each value so far.
@@ -40,41 +47,112 @@ bool hasNegativeZero(const Image& image) {
   return std::any_of(image.values.begin(), image.values.end(), [](float value) { return value == 0 && std::signbit(value); });
 }
 
-// The largest error of a pixel, and that over its bound; NaN is infinitely far off.
+// The largest error of a pixel, and that over its bound.
 struct PixelError {
   double error = 0, excess = 0;
 };
-PixelError errorAt(const Image& a, const Image& b, const Image& bound, double times, uint32_t x, uint32_t y) {
+PixelError errorAt(const Image& a, const Image& b, const Image& bound, size_t pixel) {
   PixelError worst;
-  for (uint32_t channel = 0; channel < a.channels; ++channel) {
-    const double error = std::abs(double{a.pixel(x, y)[channel]} - b.pixel(x, y)[channel]);
-    if (!std::isfinite(error)) return {HUGE_VAL, HUGE_VAL};
+  for (size_t i = pixel * a.channels; i < (pixel + 1) * a.channels; ++i) {
+    const double error = std::abs(double{a.values[i]} - b.values[i]);
+    if (!std::isfinite(error)) return {kNotAllowed, kNotAllowed};
     worst.error = std::max(worst.error, error);
-    worst.excess = std::max(worst.excess, error / (times * bound.pixel(x, y)[channel]));
+    worst.excess = std::max(worst.excess, error / bound.values[i]);
   }
   return worst;
 }
 
-BoundCheck compare(const ImageBound& bound, const RenderedImages& a, const RenderedImages& b, double times) {
+// Of a distance against where it may lie, or against another image's.
+double excessOfDepth(const DepthBound& bound, float depth, const float* other, size_t pixel) {
+  const auto isAllowed = [&](float value) { return (value < 0 ? bound.mayMiss : bound.mayHit)[pixel] != 0; };
+  if (!std::isfinite(depth) || !isAllowed(depth)) return kNotAllowed;
+  if (other && (!std::isfinite(*other) || !isAllowed(*other))) return kNotAllowed;
+  if (depth < 0 || (other && *other < 0)) return 0;
+  return std::abs(double{depth} - (other ? *other : bound.middle.values[pixel])) / bound.margin.values[pixel];
+}
+
+// `other`: null to hold `image` against the exact one.
+BoundCheck compare(const ImageBound& bound, const RenderedImages& image, const RenderedImages* other) {
+  const RenderedImages& against = other ? *other : bound.exact;
   BoundCheck check;
   uint64_t over = 0;
-  for (uint32_t y = 0; y < a.colour.height; ++y) {
-    for (uint32_t x = 0; x < a.colour.width; ++x) {
-      const PixelError colour = errorAt(a.colour, b.colour, bound.colour, times, x, y),
-                       alpha = errorAt(a.alpha, b.alpha, bound.alpha, times, x, y);
-      check.maxError = std::max(check.maxError, colour.error);
-      const double excess = std::max(colour.excess, alpha.excess);
-      if (excess > 1) ++over;
-      if (excess <= check.worstExcess) continue;
+  const size_t pixels = image.alpha.values.size();
+  for (size_t pixel = 0; pixel < pixels; ++pixel) {
+    double worst = 0;
+    const auto take = [&](double excess, const char* channel) {
+      worst = std::max(worst, excess);
+      if (excess <= check.worstExcess) return;
       check.worstExcess = excess;
-      check.worstX = x;
-      check.worstY = y;
+      check.worstChannel = channel;
+      check.worstX = static_cast<uint32_t>(pixel % image.alpha.width);
+      check.worstY = static_cast<uint32_t>(pixel / image.alpha.width);
+    };
+    const PixelError colour = errorAt(image.colour, against.colour, bound.colour, pixel);
+    check.maxError = std::max(check.maxError, colour.error);
+    take(colour.excess, "colour");
+    take(errorAt(image.alpha, against.alpha, bound.alpha, pixel).excess, "alpha");
+    check.colourExcess = std::max(check.colourExcess, worst);
+    if (!image.depth.values.empty())
+      take(excessOfDepth(bound.depth, image.depth.values[pixel], other ? &other->depth.values[pixel] : nullptr, pixel), "distance");
+    if (!image.normal.values.empty()) take(errorAt(image.normal, against.normal, bound.normal, pixel).excess, "normal");
+    if (worst > 1) ++over;
+  }
+  check.shareOver = static_cast<double>(over) / static_cast<double>(pixels);
+  check.isFinite = isFinite(image.colour) && isFinite(image.alpha) && isFinite(image.depth) && isFinite(image.normal) &&
+                   !hasNegativeZero(image.colour) && !hasNegativeZero(image.alpha);
+  return check;
+}
+
+// What the samples say of distances.
+class DepthSamples {
+ public:
+  explicit DepthSamples(const RenderedImages& exact) : low_(exact.depth), high_(exact.depth) {
+    bound_.mayHit.assign(low_.values.size(), 0);
+    bound_.mayMiss.assign(low_.values.size(), 0);
+    for (size_t pixel = 0; pixel < low_.values.size(); ++pixel) note(pixel, exact.depth.values[pixel]);
+  }
+  void add(const Image& depth) {
+    for (size_t pixel = 0; pixel < depth.values.size(); ++pixel) {
+      const float value = depth.values[pixel];
+      note(pixel, value);
+      if (value < 0) continue;
+      low_.values[pixel] = low_.values[pixel] < 0 ? value : std::min(low_.values[pixel], value);
+      high_.values[pixel] = std::max(high_.values[pixel], value);
     }
   }
-  check.shareOver = static_cast<double>(over) / (double{1} * a.colour.width * a.colour.height);
-  check.isFinite = isFinite(a.colour) && isFinite(a.alpha) && isFinite(a.depth) && isFinite(a.normal) &&
-                   !hasNegativeZero(a.colour) && !hasNegativeZero(a.alpha);
-  return check;
+  // `relative` of a distance is added.
+  DepthBound boundOf(double safety, double relative) {
+    bound_.middle = bound_.margin = low_;
+    for (size_t pixel = 0; pixel < low_.values.size(); ++pixel) {
+      const double low = low_.values[pixel], high = high_.values[pixel];
+      bound_.middle.values[pixel] = static_cast<float>((low + high) / 2);
+      bound_.margin.values[pixel] =
+          static_cast<float>(safety * (high - low) / 2 + relative * high + std::numeric_limits<float>::min());
+    }
+    return std::move(bound_);
+  }
+
+ private:
+  void note(size_t pixel, float depth) { (depth < 0 ? bound_.mayMiss : bound_.mayHit)[pixel] = 1; }
+
+  Image low_, high_;  // of what hits; -1: nothing did
+  DepthBound bound_;
+};
+
+// Where transmittance ends so close to the quantile that it may lie on either side, any distance may be met, or none.
+void allowNearQuantile(const ReferenceOptions& options, const Image& alpha, const Image& alphaBound, DepthBound& depth) {
+  for (size_t pixel = 0; pixel < alpha.values.size(); ++pixel) {
+    if (std::abs(1 - alpha.values[pixel] - options.depthQuantile) > alphaBound.values[pixel]) continue;
+    if (!depth.mayHit[pixel]) depth.margin.values[pixel] = std::numeric_limits<float>::max();
+    depth.mayHit[pixel] = depth.mayMiss[pixel] = 1;
+  }
+}
+
+void widen(const Image& exact, const Image& atTwice, double relative, Image& bound) {
+  for (size_t i = 0; i < bound.values.size(); ++i) {
+    const double leftOut = std::abs(double{exact.values[i]} - atTwice.values[i]);
+    bound.values[i] += static_cast<float>(leftOut + relative * std::abs(exact.values[i]) + kLeastHalf);
+  }
 }
 
 }  // namespace
@@ -89,7 +167,8 @@ Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& vie
   ImageBound result;
   result.exact = std::move(*image);
 
-  Image colour = zerosLike(result.exact.colour), alpha = zerosLike(result.exact.alpha);
+  Image colour = zerosLike(result.exact.colour), alpha = zerosLike(result.exact.alpha), normal = zerosLike(result.exact.normal);
+  DepthSamples depth(result.exact);
   ReferenceOptions rounded = exact;
   rounded.rounding = bound.rounding;
   for (uint32_t i = 0; i < bound.samples; ++i) {
@@ -98,10 +177,16 @@ Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& vie
     if (!sample) return sample.error();
     addSpread(result.exact.colour, sample->colour, colour);
     addSpread(result.exact.alpha, sample->alpha, alpha);
+    addSpread(result.exact.normal, sample->normal, normal);
+    depth.add(sample->depth);
   }
   const double sum = (bound.cells + 8) * kUnit;
-  result.colour = boundOf(result.exact.colour, colour, bound.safety, bound.storage + sum, bound.storageError + kLeastBound);
+  result.colour = boundOf(result.exact.colour, colour, bound.safety, sum, kLeastBound);
   result.alpha = boundOf(result.exact.alpha, alpha, bound.safety, sum, kLeastBound);
+  // Terms of a normal may cancel: their sum is rounded by parts of what they add up to, at most alpha <= 1.
+  result.normal = boundOf(result.exact.normal, normal, bound.safety, kHalfUnit, sum + kLeastHalf);
+  result.depth = depth.boundOf(bound.safety, sum);
+  allowNearQuantile(options, result.exact.alpha, result.alpha, result.depth);
   for (const float value : result.colour.values) {
     result.largest = std::max(result.largest, double{value});
     result.mean += value / static_cast<double>(result.colour.values.size());
@@ -109,12 +194,24 @@ Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& vie
   return result;
 }
 
-BoundCheck checkBound(const ImageBound& bound, const RenderedImages& image) {
-  return compare(bound, image, bound.exact, 1);
+ImageBound boundShippedForm(const ImageBound& bound, const RenderedImages& atTwice) {
+  ImageBound shipped = bound;
+  widen(bound.exact.colour, atTwice.colour, kStoredColour + kHalfUnit, shipped.colour);
+  widen(bound.exact.alpha, atTwice.alpha, kHalfUnit, shipped.alpha);
+  return shipped;
 }
 
+BoundCheck checkBound(const ImageBound& bound, const RenderedImages& image) { return compare(bound, image, nullptr); }
+
 BoundCheck checkBound(const ImageBound& bound, const RenderedImages& image, const RenderedImages& other) {
-  return compare(bound, image, other, 2);
+  return compare(bound, image, &other);
+}
+
+bool hasSameBits(const RenderedImages& a, const RenderedImages& b) {
+  const auto isSame = [](const Image& one, const Image& other) {
+    return std::ranges::equal(one.values, other.values, {}, std::bit_cast<uint32_t, float>, std::bit_cast<uint32_t, float>);
+  };
+  return isSame(a.colour, b.colour) && isSame(a.alpha, b.alpha) && isSame(a.depth, b.depth) && isSame(a.normal, b.normal);
 }
 
 }  // namespace froth

@@ -60,9 +60,9 @@ StiffCase thin() {
                        layer == 0 ? 5 : 0.2f, static_cast<uint32_t>(3 * i + layer + 1)});
   }
   return {"sizes/thin", "slabs 1e-9, 1e-8 and 1e-7 thick with an optical depth of about 1",
-          "At distance D both borders of a slab are off by eps D, more than it is thick: any opacity between 0 and that of a slab of "
-          "eps D is right.",
-          foamOfCells(cells), {caseView({0, 0, -3}, {0, 0, 0}), orthographicView({0, 0, -3}, {0, 0, 0}, 1.3)}};
+                  "At distance D both borders of a slab are off by eps D, more than it is thick: any opacity between 0 and that of a "
+                  "slab of eps D is right.",
+                  foamOfCells(cells), {caseView({0, 0, -3}, {0, 0, 0}), orthographicView({0, 0, -3}, {0, 0, 0}, 1.3)}};
 }
 
 // Balls that overlap in a lens thinner than float resolves.

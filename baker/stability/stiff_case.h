@@ -11,6 +11,14 @@
 
 namespace froth {
 
+// A fault that is known: no other is excused by it, and one that is gone fails the case until it is taken out here.
+struct KnownFault {
+  std::string preset, renderer;  // "exact", "raster"
+  std::string kind;              // as CaseFault::kind without the renderer: "over its bound"
+  double factor = 0;             // times the bound; within a factor two. 0: of kinds without a number
+  std::string cause;
+};
+
 struct StiffCase {
   std::string name;      // "sites/duplicate_equal": family and case, [a-z0-9_/]
   std::string what;      // one line: what is extreme here
@@ -18,10 +26,10 @@ struct StiffCase {
   Foam foam;
   std::vector<View> views;  // small; with near limits of their own (0: off)
   glm::dvec3 moved{0};      // [scene units] where a renderer of assets places the foam, and moves the eyes to; the image is that of 0
-  double storageError = 0;  // [display-coded] what the runtime's storage of a colour adds to rounding, where it is not the usual one
+  uint32_t chunkCells = 0;  // most cells of a chunk of its bakes; 0: as always
   bool isImported = false;  // the foam is written as a checkpoint and read back first, as a trained one is
   std::string refusal{};    // part of the message with which it must be refused; empty: it must not
-  std::string knownCause{}; // why it falls short of its bound, if it is known to; empty: it must not
+  std::vector<KnownFault> known{};  // how it falls short of its bound, if it is known to; empty: it must not
 };
 
 // All built-in cases, in the order of the table. The same on every call and machine.

@@ -24,6 +24,15 @@ View around() {
   return view;
 }
 
+// Six tiles of unequal lists, some of them empty, over five chunks whose rows name ghosts.
+StiffCase inManyTiles() {
+  StiffCase tiles{"views/many_tiles", "300 cells of several chunks over six tiles",
+                  "As any other: which tile or chunk holds a cell is no part of the formulas.", foamOfCells(cloud(300, 72)),
+                  {caseView({1.5, -1, -3.5}, {0.6, 0, 0}, 96, 64, 0.6)}};
+  tiles.chunkCells = 64;
+  return tiles;
+}
+
 }  // namespace
 
 std::vector<StiffCase> viewCases() {
@@ -40,7 +49,8 @@ std::vector<StiffCase> viewCases() {
           seen("views/all_around", "a full fisheye and a panorama from within", "Directions behind and at the poles are as good as others.",
                {fisheye(32), around()}),
           seen("views/parallel", "an orthographic view from within, in the middle of cells",
-               "Rays begin on a plane through cells; what is behind it is not seen.", {orthographicView({0, 0, 0}, {0.3, 0.2, 1}, 1.2)})};
+               "Rays begin on a plane through cells; what is behind it is not seen.", {orthographicView({0, 0, 0}, {0.3, 0.2, 1}, 1.2)}),
+          inManyTiles()};
 }
 
 }  // namespace froth

@@ -93,7 +93,7 @@ class Tracer {
       return q > 0 ? (glm::dot(toNeighbour, offset) - clearance) / q : kNone;
     }
     const float exit = foam::exitClearance(centre, toNeighbour, plane, clearance);
-    return exit >= 0 ? glm::dot(foam::eyePlane(toNeighbour, exit), direction) : kNone;
+    return exit >= 0 ? glm::dot(foam::eyePlane(toNeighbour, exit, true), direction) : kNone;
   }
 
   const Foam& foam_;

@@ -11,6 +11,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "baker/foam_arrays.h"
 #include "shaders/foam/appearance.h"
 
 namespace froth {
@@ -70,11 +71,22 @@ std::vector<uint32_t> largestShares(const Foam& foam, uint32_t cell, uint32_t co
   return order;
 }
 
-template <class Value>
-std::vector<Value> repeatEach(const std::vector<Value>& values, size_t times) {
-  std::vector<Value> result;
-  result.reserve(values.size() * times);
-  for (const Value& value : values) result.insert(result.end(), times, value);
+// The foam with `count` detail sites per cell: those of `picked`, of which each cell has as many, in the order of the cells.
+Foam pickDetailSites(const Foam& foam, uint32_t count, const std::vector<uint64_t>& picked) {
+  Foam result = foam;
+  result.detailCount = count;
+  visitArrays([&](const FoamArray& array, auto values) {
+    if (array.index == FoamIndex::kCell || (foam.*values).empty()) return;
+    (result.*values).clear();
+    for (const uint64_t site : picked) {
+      const LobeRange range = array.index == FoamIndex::kLobe ? lobesOf(foam, site) : LobeRange{site, 1};
+      const auto first = (foam.*values).begin() + static_cast<std::ptrdiff_t>(range.first);
+      (result.*values).insert((result.*values).end(), first, first + range.count);
+    }
+  });
+  if (foam.lobeOffsets.empty()) return result;
+  result.lobeOffsets = {0};
+  for (const uint64_t site : picked) result.lobeOffsets.push_back(result.lobeOffsets.back() + lobesOf(foam, site).count);
   return result;
 }
 
@@ -109,29 +121,11 @@ Foam withoutDisplacement(const Foam& foam) {
 }
 
 Foam withFewerDetailSites(const Foam& foam, uint32_t count) {
-  Foam fewer = foam;
-  fewer.detailCount = count;
-  fewer.detailSites.clear();
-  fewer.detailHeights.clear();
-  fewer.lobeAxes.clear();
-  fewer.lobeColours.clear();
-  fewer.baseColours.clear();
-  if (!foam.lobeOffsets.empty()) fewer.lobeOffsets = {0};
+  std::vector<uint64_t> picked;
   for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
-    for (uint32_t k : largestShares(foam, cell, count)) {
-      const uint64_t site = uint64_t{cell} * foam.detailCount + k;
-      fewer.detailSites.push_back(foam.detailSites[site]);
-      fewer.detailHeights.push_back(foam.detailHeights[site]);
-      if (!foam.baseColours.empty()) fewer.baseColours.push_back(foam.baseColours[site]);
-      const LobeRange lobes = lobesOf(foam, site);
-      const auto axes = foam.lobeAxes.begin() + static_cast<std::ptrdiff_t>(lobes.first);
-      const auto colours = foam.lobeColours.begin() + static_cast<std::ptrdiff_t>(lobes.first);
-      fewer.lobeAxes.insert(fewer.lobeAxes.end(), axes, axes + lobes.count);
-      fewer.lobeColours.insert(fewer.lobeColours.end(), colours, colours + lobes.count);
-      if (!foam.lobeOffsets.empty()) fewer.lobeOffsets.push_back(fewer.lobeColours.size());
-    }
+    for (const uint32_t k : largestShares(foam, cell, count)) picked.push_back(uint64_t{cell} * foam.detailCount + k);
   }
-  return fewer;
+  return pickDetailSites(foam, count, picked);
 }
 
 Foam withSomeDisplacement(const Foam& foam) {
@@ -142,36 +136,29 @@ Foam withSomeDisplacement(const Foam& foam) {
 }
 
 Foam withSomeDetailSites(const Foam& foam) {
-  Foam detailed = foam;
-  detailed.detailCount = 2;
-  detailed.detailSites = repeatEach(foam.detailSites, 2);
-  detailed.detailHeights = repeatEach(foam.detailHeights, 2);
-  detailed.lobeAxes.clear();
-  detailed.lobeColours.clear();
-  detailed.baseColours = repeatEach(foam.baseColours, 2);
-  if (!foam.lobeOffsets.empty()) detailed.lobeOffsets = {0};
+  std::vector<uint64_t> picked;
+  for (uint64_t site = 0; site < foam.detailSites.size(); ++site) picked.insert(picked.end(), 2, site);
+  Foam detailed = pickDetailSites(foam, 2, picked);
   for (size_t site = 0; site < detailed.detailSites.size(); ++site) {
     const float sign = site % 2 ? 1.0f : -1.0f;
     detailed.detailSites[site].x += sign * 0.5f;
-    const LobeRange lobes = lobesOf(foam, site / 2);
-    for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
-      detailed.lobeAxes.push_back(foam.lobeAxes[m]);
-      detailed.lobeColours.push_back(foam.lobeColours[m] + sign * kSomeColour);
-    }
-    if (!foam.lobeOffsets.empty()) detailed.lobeOffsets.push_back(detailed.lobeColours.size());
+    const LobeRange lobes = lobesOf(detailed, site);
+    for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) detailed.lobeColours[m] += sign * kSomeColour;
   }
   return detailed;
 }
 
 Foam withSomeViewDependence(const Foam& foam) {
-  Foam varied = withoutViewDependence(foam);
+  const Foam flat = withoutViewDependence(foam);
+  Foam varied = flat;
   varied.lobeCount = 2;
-  varied.lobeColours = repeatEach(varied.lobeColours, 2);
-  varied.lobeAxes.assign(varied.lobeColours.size(), glm::vec3(2, 0, 0));
-  for (size_t m = 0; m < varied.lobeColours.size(); m += 2) {
-    varied.lobeColours[m] += kSomeColour;
-    varied.lobeColours[m + 1] -= kSomeColour;
-    varied.lobeAxes[m + 1] = glm::vec3(-2, 0, 0);
+  varied.lobeAxes.clear();
+  varied.lobeColours.clear();
+  for (const glm::vec3& colour : flat.lobeColours) {
+    for (const float sign : {1.0f, -1.0f}) {
+      varied.lobeAxes.emplace_back(sign * 2, 0, 0);
+      varied.lobeColours.push_back(colour + sign * kSomeColour);
+    }
   }
   return varied;
 }

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <glm/gtc/quaternion.hpp>
 
+#include "baker/foam_arrays.h"
 #include "baker/synth/synth.h"
 
 namespace froth {
@@ -36,6 +37,15 @@ void repeat(std::vector<T>& values, uint32_t count) {
     values.insert(values.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(length));
 }
 
+void repeatOffsets(std::vector<uint64_t>& offsets, uint32_t count) {
+  if (offsets.empty()) return;
+  const size_t sites = offsets.size() - 1;
+  const uint64_t lobes = offsets.back();
+  offsets.reserve(sites * count + 1);
+  for (uint32_t copy = 1; copy < count; ++copy)
+    for (size_t site = 1; site <= sites; ++site) offsets.push_back(copy * lobes + offsets[site]);
+}
+
 // Turns copy `copy` by `angle` about the vertical through `centre`, then moves it.
 void placeCopy(Foam& foam, size_t copy, size_t cells, const dvec3& centre, double angle, const dvec3& move) {
   const glm::dquat turn(std::cos(0.5 * angle), 0, 0, std::sin(0.5 * angle));
@@ -45,8 +55,10 @@ void placeCopy(Foam& foam, size_t copy, size_t cells, const dvec3& centre, doubl
     const glm::vec4 o = foam.orientations[i];
     const glm::dquat q = glm::normalize(glm::dquat(o.x, o.y, o.z, o.w) * glm::conjugate(turn));
     foam.orientations[i] = {q.w, q.x, q.y, q.z};
-    const size_t lobes = size_t{foam.detailCount} * foam.lobeCount;
-    for (size_t m = i * lobes; m < (i + 1) * lobes; ++m) foam.lobeAxes[m] = turn * dvec3(foam.lobeAxes[m]);
+    for (uint64_t site = i * foam.detailCount; site < (i + 1) * foam.detailCount; ++site) {
+      const LobeRange lobes = lobesOf(foam, site);
+      for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) foam.lobeAxes[m] = turn * dvec3(foam.lobeAxes[m]);
+    }
   });
 }
 
@@ -59,14 +71,8 @@ Result<Foam> tileFoam(const Foam& foam, uint32_t count) {
                      foam.cellCount, std::numeric_limits<uint32_t>::max() / foam.cellCount);
   Foam tiled = foam;
   tiled.cellCount = count * foam.cellCount;
-  repeat(tiled.sites, count);
-  repeat(tiled.radii, count);
-  repeat(tiled.densities, count);
-  repeat(tiled.orientations, count);
-  repeat(tiled.detailSites, count);
-  repeat(tiled.detailHeights, count);
-  repeat(tiled.lobeAxes, count);
-  repeat(tiled.lobeColours, count);
+  visitArrays([&](const FoamArray&, auto values) { repeat(tiled.*values, count); });
+  repeatOffsets(tiled.lobeOffsets, count);
 
   const Bounds bounds = boundBalls(foam);
   const dvec3 extent = bounds.high - bounds.low;

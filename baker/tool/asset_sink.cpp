@@ -12,7 +12,7 @@ namespace froth {
 ChunkSink AssetFileSink::sink() {
   ChunkSink sink;
   sink.begin = [this](const AssetContents& header) -> Status {
-    Result<AssetStreamWriter> writer = AssetStreamWriter::create(path_, header);
+    Result<AssetStreamWriter> writer = AssetStreamWriter::create(path_, header, isProtected_);
     if (!writer) return writer.error();
     writer_ = std::move(*writer);
     return {};

@@ -13,7 +13,8 @@ namespace froth {
 
 class AssetFileSink {
  public:
-  explicit AssetFileSink(std::filesystem::path path) : path_(std::move(path)) {}
+  AssetFileSink(std::filesystem::path path, WriteProtected isProtected)
+      : path_(std::move(path)), isProtected_(isProtected) {}
 
   ChunkSink sink();  // refers to this object
   // After the bake; `contents` as the bake gave them. Returns the file's size [bytes].
@@ -23,6 +24,7 @@ class AssetFileSink {
   Status append(std::vector<ChunkContents>&& batch);
 
   std::filesystem::path path_;
+  WriteProtected isProtected_;
   std::optional<AssetStreamWriter> writer_;
 };
 

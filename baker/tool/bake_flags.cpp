@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "baker/tool/option_checks.h"
+#include "format/limits.h"
 
 namespace froth {
 namespace {
@@ -73,15 +74,14 @@ void BakeFlags::addTo(CLI::App& command) {
       ->check(CLI::IsMember({"exact", "high", "default", "small"}));
   addGeometryKnobs(command);
   addColourKnobs(command);
-  const CLI::Validator limits = numberBetween(0, std::numeric_limits<float>::max());
   command
       .add_option("--near-ratio", options_.nearRatio, "Default: skip cells nearer than this many radii; 0: none")
       ->capture_default_str()
-      ->check(limits);
+      ->check(numberBetween(0, kMaxNearRatio));
   command
       .add_option("--near-depth", options_.nearDepth, "Default: skip cells nearer than this depth [scene units]; 0: none")
       ->capture_default_str()
-      ->check(limits);
+      ->check(numberBetween(0, kMaxNumber));
   command.add_flag("--no-walk", noWalk_, "No graph for walks: the asset can only be rasterized");
   command.add_flag("--no-steiner", noSteiner_, "No cells in empty space, which shorten walks");
   command.add_flag("--no-measure", noMeasure_, "No PSNR on sample views");

@@ -118,6 +118,7 @@ nlohmann::ordered_json measurementAsJson(const Measurement& measurement,
                        {"total", toJson(percentilesOf(measurement.viewTotals[i]))},
                        {"visibleCells", status.visibleCells},
                        {"pairs", status.pairs},
+                       {"longestList", status.longestList},
                        {"stepLimit", (status.bits & FROTH_VIEW_STEP_LIMIT) != 0}});
   }
   const double sum = std::accumulate(measurement.totals.begin(), measurement.totals.end(), 0.0);

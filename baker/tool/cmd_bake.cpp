@@ -18,6 +18,7 @@
 #include "baker/tool/output_file.h"
 #include "baker/tool/statistics.h"
 #include "format/asset_reader.h"
+#include "format/text.h"
 
 namespace froth {
 namespace {
@@ -26,6 +27,9 @@ struct BakeCommandOptions {
   std::filesystem::path input, output, cameras;
   BakeFlags flags;
   FiguresOutput figures;
+  bool isForced = false;
+
+  WriteProtected isProtected() const { return isForced ? WriteProtected::kReplace : WriteProtected::kRefuse; }
 };
 
 // Times the stages that lie around the bake itself.
@@ -131,8 +135,8 @@ Status runBake(const BakeCommandOptions& options, const Progress& progress) {
   if (!foam) return foam.error();
   const StageReport import = clock.stop("import", foam->cellCount);
 
-  bake->source = options.input.filename().string();
-  AssetFileSink file(options.output);
+  bake->source = printable(options.input.filename().string());  // a file name need not be UTF-8
+  AssetFileSink file(options.output, options.isProtected());
   Result<BakeResult> baked = bakeFoam(*foam, *bake, file.sink(), progress);
   if (!baked) return baked.error();
   *foam = {};
@@ -154,7 +158,7 @@ Status checkAndRunBake(const BakeCommandOptions& options, const Progress& progre
     return makeError(ErrorKind::kUsage, "%s is an asset already; bake the checkpoint that it came from",
                      options.input.c_str());
   }
-  if (Status writable = checkWritable(options.output); !writable) return writable;
+  if (Status writable = checkWritable(options.output, options.isProtected()); !writable) return writable;
   return runBake(options, progress);
 }
 
@@ -168,6 +172,7 @@ void addBakeCommand(CLI::App& program, Tool& tool) {
   options->flags.addTo(*command);
   command->add_option("--cameras", options->cameras,
                       "Views that weigh errors, start view and flight path to store (cameras.json)");
+  command->add_flag("--force", options->isForced, "Replace a write-protected file; it stays so");
   addFiguresOption(*command, options->figures);
   command->callback([&tool, options] {
     tool.action = [&tool, options] { return checkAndRunBake(*options, tool.progress.callback()); };

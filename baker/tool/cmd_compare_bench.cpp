@@ -1,12 +1,13 @@
 // froth compare-bench: what a change did to the times.
-#include <fstream>
 #include <memory>
 
 #include <fmt/format.h>
 
+#include "baker/json_input.h"
 #include "baker/tool/bench_comparison.h"
 #include "baker/tool/commands.h"
 #include "baker/tool/figures.h"
+#include "format/atomic_file.h"
 
 namespace froth {
 namespace {
@@ -17,10 +18,11 @@ struct CompareBenchOptions {
 };
 
 Result<nlohmann::ordered_json> readFigures(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return makeError(ErrorKind::kBadInput, "%s: cannot be read", path.c_str());
-  nlohmann::ordered_json figures = nlohmann::ordered_json::parse(file, nullptr, false);
-  if (figures.is_object()) return figures;
+  const Result<std::vector<uint8_t>> bytes = readFile(path, kMostJsonBytes);
+  if (!bytes) return bytes.error();
+  Result<nlohmann::ordered_json> figures =
+      parseJson<nlohmann::ordered_json>(*bytes, path.string(), "`froth bench --json=FILE` writes it");
+  if (!figures || figures->is_object()) return figures;
   return makeError(ErrorKind::kBadInput, "%s: not a JSON object; `froth bench --json=FILE` writes one",
                    path.c_str());
 }

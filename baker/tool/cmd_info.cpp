@@ -24,7 +24,7 @@ uint64_t fileSize(const std::filesystem::path& path) {
 
 Status describeAsset(const std::filesystem::path& path, const FiguresOutput& output) {
   const Result<AssetReader> reader = AssetReader::open(path);
-  if (!reader) return reader.error();
+  if (!reader) return asBadInput(reader.error());
   const AssetContents& manifest = reader->manifest();
   if (output.wantsTable()) {
     printStatistics(manifest);

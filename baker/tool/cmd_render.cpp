@@ -65,6 +65,7 @@ std::string describeBits(uint32_t bits) {
   if (bits & FROTH_VIEW_CELL_OVERFLOW) text += ", cells overflowed";
   if (bits & FROTH_VIEW_PAIR_OVERFLOW) text += ", pairs overflowed";
   if (bits & FROTH_VIEW_STEP_LIMIT) text += ", walks hit the step limit";
+  if (bits & FROTH_VIEW_ENTRY_LIMIT) text += ", tiles hit the limit of their lists";
   if (bits & FROTH_VIEW_NOT_READY) text += ", the asset was not ready";
   return text;
 }
@@ -94,6 +95,8 @@ Status drawViews(const RenderCommandOptions& options, const std::vector<Selected
                                 {"cellOverflow", (drawing->status.bits & FROTH_VIEW_CELL_OVERFLOW) != 0},
                                 {"pairOverflow", (drawing->status.bits & FROTH_VIEW_PAIR_OVERFLOW) != 0},
                                 {"stepLimit", (drawing->status.bits & FROTH_VIEW_STEP_LIMIT) != 0},
+                                {"entryLimit", (drawing->status.bits & FROTH_VIEW_ENTRY_LIMIT) != 0},
+                                {"longestList", drawing->status.longestList},
                                 {"visibleCells", drawing->status.visibleCells},
                                 {"pairs", drawing->status.pairs},
                                 {"viewBytes", drawing->status.deviceBytes}});
@@ -220,8 +223,9 @@ void addRenderCommand(CLI::App& program, Tool& tool) {
   command->add_flag("--linear", options->isLinear, "Colour in linear light instead of display-coded");
   addLayersOption(*command, options->layers);
   command->add_option("--device", options->device.device, "Index or part of a name (`froth devices`)");
-  command->add_flag("--validate", options->device.validate,
-                    "Validation layers and checked indices; fail on a message");
+  command->add_flag_callback(
+      "--validate", [options] { options->device.validate = options->device.checkIndices = true; },
+      "Validation layers and checked indices; fail on a message");
   addFiguresOption(*command, options->figures);
   command->callback([&tool, command, options] {
     tool.action = [&tool, command, options] {

@@ -27,8 +27,8 @@ struct ReportOptions {
   ViewOptions views;
   uint32_t viewCount = 6;
   double minutes = 0.25;
-  uint64_t seed = 1;
   std::string device, credit, title;
+  std::string command;  // with all options
   std::vector<std::string> knobs;  // empty: all
   bool isCpu = false, isWithoutImages = false, resumes = false, keepsWork = false;
   Rounds rounds;
@@ -58,8 +58,8 @@ Result<std::string> signatureOf(const ReportOptions& options, const std::vector<
   const Result<std::string> input = hashFile(options.input), cameras = hashFile(options.views.cameras);
   if (!input) return input.error();
   if (!cameras) return cameras.error();
-  std::string signature = fmt::format("input {} cameras {} photos '{}' device '{}' views", *input, *cameras,
-                                      options.photos.string(), drawer.device());
+  std::string signature = fmt::format("version {} device '{}' driver '{}' input {} cameras {} photos '{}' views", FROTH_VERSION,
+                                      drawer.device(), drawer.driver(), *input, *cameras, options.photos.string());
   for (const SelectedView& view : views) signature += fmt::format(" {}:{}x{}", view.index, view.view.width, view.view.height);
   return signature;
 }
@@ -100,12 +100,24 @@ Result<std::vector<Knob>> chooseKnobs(const ReportOptions& options, bool hasFoam
   return knobs;
 }
 
-Status measureAll(const ReportOptions& options, const Bench& bench, const std::vector<Knob>& knobs, PointList& points,
-                  const Progress& progress) {
+Status measureEach(const Bench& bench, PointList& points, const Progress& progress) {
   std::vector<PlannedPoint*> planned;
   for (PlannedPoint& point : points.all()) planned.push_back(&point);
-  if (Status measured = measurePoints(bench, planned, progress); !measured) return measured;
-  return searchJointly(bench, knobs, options.minutes, options.seed, points, progress);
+  return measurePoints(bench, planned, progress);
+}
+
+// The search goes by times of one round. All times of the report are then of the same rounds: a front compares no others.
+Status measureAll(const ReportOptions& options, const Bench& bench, const std::vector<Knob>& knobs, PointList& points,
+                  const Progress& progress) {
+  if (options.minutes > 0) {
+    Bench quick = bench;
+    quick.rounds.count = 1;
+    quick.rounds.frames = bench.rounds.frames / bench.rounds.count;
+    if (Status measured = measureEach(quick, points, progress); !measured) return measured;
+    if (Status searched = searchJointly(quick, knobs, options.minutes, bench.rounds.seed, points, progress); !searched) return searched;
+  }
+  for (PlannedPoint& point : points.all()) point.hasTimes = false;
+  return measureEach(bench, points, progress);
 }
 
 Status measureFeatures(const ReportOptions& options, const Bench& bench, const FoamInput& input, const CameraSet& cameras,
@@ -142,12 +154,13 @@ Result<std::filesystem::path> makeWorkFolder(const ReportOptions& options) {
 }
 
 Result<std::vector<Slope>> measureSlopes(const ReportOptions& options, const Bench& bench, const FoamInput& input, bool hasFoam,
-                                         const std::vector<Sweep>& sweeps, PointList& points, const Progress& progress) {
-  std::vector<Slope> slopes = errorSlopes(sweeps, points);
-  if (options.isCpu || !options.knobs.empty()) return slopes;
+                                         const std::vector<Knob>& knobs, const std::vector<Sweep>& sweeps, PointList& points,
+                                         const Progress& progress) {
+  Result<std::vector<Slope>> slopes = errorSlopes(bench, input.foam, knobs, sweeps, points);
+  if (!slopes || options.isCpu || !options.knobs.empty()) return slopes;
   const Result<std::vector<Slope>> times = timeSlopes(bench, input, hasFoam, progress);
   if (!times) return times.error();
-  slopes.insert(slopes.end(), times->begin(), times->end());
+  slopes->insert(slopes->end(), times->begin(), times->end());
   return slopes;
 }
 
@@ -189,11 +202,11 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
   if (Status measured = measureAll(options, bench, *knobs, points, progress); !measured) return measured;
   if (Status measured = measureFeatures(options, bench, *input, *cameras, device, hasFoam, result, progress); !measured)
     return measured;
-  Result<std::vector<Slope>> slopes = measureSlopes(options, bench, *input, hasFoam, result.sweeps, points, progress);
+  Result<std::vector<Slope>> slopes = measureSlopes(options, bench, *input, hasFoam, *knobs, result.sweeps, points, progress);
   if (!slopes) return slopes.error();
   result.slopes = std::move(*slopes);
   describeRun({options.title.empty() ? options.input.stem().string() : options.title, options.input.filename().string(),
-               options.credit, hasFoam, options.isCpu},
+               options.credit, options.command, hasFoam, options.isCpu},
               input->foam, bench, result);
   if (Status filled = fillReport(points, bench, !options.isWithoutImages, result); !filled) return filled;
   if (Status written = writeReport(options.output, result); !written) return written;
@@ -201,6 +214,20 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
   std::error_code ignored;
   if (!options.keepsWork) std::filesystem::remove_all(*work, ignored);
   return {};
+}
+
+// The command again, by its options as they were given.
+std::string textOf(const CLI::App& command) {
+  std::string text = "froth " + command.get_name();
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    if (!option->get_positional()) text += " " + option->get_name();
+    if (option->get_items_expected_max() == 0) continue;  // a flag
+    std::string values;
+    for (const std::string& value : option->results()) values += (values.empty() ? "" : ",") + value;
+    text += values.find_first_of(" '\"") == std::string::npos ? " " + values : fmt::format(" {:?}", values);
+  }
+  return text;
 }
 
 Status checkAndRunReport(const ReportOptions& options, const Progress& progress) {
@@ -227,7 +254,7 @@ void addReportCommand(CLI::App& program, Tool& tool) {
   command->add_option("--minutes", options->minutes, "For the search over several knobs at once")
       ->capture_default_str()
       ->check(numberBetween(0, 10000));
-  command->add_option("--seed", options->seed, "Of that search")->capture_default_str();
+  command->add_option("--seed", options->rounds.seed, "Of that search, and of the order in each round of times")->capture_default_str();
   command->add_option("--frames", options->rounds.frames, "Least frames that a time is of")
       ->capture_default_str()
       ->check(countBetween(1, 1000000));
@@ -238,7 +265,8 @@ void addReportCommand(CLI::App& program, Tool& tool) {
   command->add_option("--credit", options->credit, "Whose photos and foam: shown at the foot");
   command->add_flag("--resume", options->resumes, "Go on where an interrupted report of the same folder stopped");
   command->add_flag("--keep-work", options->keepsWork, "Leave the assets and the log of measurements in the folder's `work`");
-  command->callback([&tool, options] {
+  command->callback([&tool, options, command] {
+    options->command = textOf(*command);
     tool.action = [&tool, options] { return checkAndRunReport(*options, tool.progress.callback()); };
   });
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "baker/stability/case_file.h"
 #include "baker/stability/stiff_case.h"
 #include "baker/tool/commands.h"
 #include "baker/tool/figures.h"
@@ -22,6 +23,7 @@ namespace {
 
 struct StabilityOptions {
   std::filesystem::path input, cameras;  // empty: built-in cases alone
+  std::filesystem::path replay;  // a folder of case files, in place of the built-in cases; empty: none
   std::filesystem::path markdown;
   std::string only = "*";
   GpuDeviceOptions device;
@@ -46,7 +48,27 @@ Result<std::vector<StiffCase>> casesOfInput(const StabilityOptions& options, con
   return casesOfFoam(input->foam, views);
 }
 
+// Found cases, in the order of their names: files as --search writes them.
+Result<std::vector<StiffCase>> readFoundCases(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  if (error) return makeError(ErrorKind::kIo, "%s: cannot be listed: %s", folder.c_str(), error.message().c_str());
+  if (files.empty()) return makeError(ErrorKind::kUsage, "%s: no case files (*.json) in it", folder.c_str());
+  std::sort(files.begin(), files.end());
+  std::vector<StiffCase> cases;
+  for (const std::filesystem::path& file : files) {
+    Result<StiffCase> found = readCase(file);
+    if (!found) return found.error();
+    cases.push_back(std::move(*found));
+  }
+  return cases;
+}
+
 Result<std::vector<StiffCase>> selectCases(const StabilityOptions& options, const Progress& progress) {
+  if (!options.replay.empty()) return readFoundCases(options.replay);
   std::vector<StiffCase> cases = builtInCases();
   if (!options.input.empty()) {
     Result<std::vector<StiffCase>> own = casesOfInput(options, progress);
@@ -61,11 +83,13 @@ Result<std::vector<StiffCase>> selectCases(const StabilityOptions& options, cons
 Result<std::vector<JudgedCase>> runCases(const StabilityOptions& options, std::vector<StiffCase> cases, StabilityRunner& runner,
                                          Tool& tool) {
   const Progress progress = tool.progress.callback();
+  // Found cases are found in `exact`, which keeps every number of the foam.
+  const std::vector<std::string> presets = options.replay.empty() ? stabilityPresets() : std::vector<std::string>{"exact"};
   std::vector<JudgedCase> judged;
   for (StiffCase& stiff : cases) {
     if (!report(progress, "stability: " + stiff.name, judged.size(), cases.size())) return stoppedError();
     // Stages within a case are too short to be told; they only ask whether to go on.
-    Result<CaseOutcome> outcome = runner.run(stiff, [](std::string_view, uint64_t, uint64_t) { return !isStopRequested(); });
+    Result<CaseOutcome> outcome = runner.run(stiff, presets, [](std::string_view, uint64_t, uint64_t) { return !isStopRequested(); });
     if (!outcome) return outcome.error();
     judged.push_back({std::move(stiff), std::move(*outcome)});
     tool.progress.finishLine();
@@ -90,12 +114,19 @@ Status runStability(const StabilityOptions& options, Tool& tool) {
   const Result<std::vector<JudgedCase>> judged = runCases(options, std::move(*cases), **runner, tool);
   if (!judged) return judged.error();
 
-  nlohmann::ordered_json figures = {{"device", (*runner)->device().name}, {"driver", (*runner)->device().driver}};
-  size_t failures = 0;
-  for (const JudgedCase& one : *judged) {
-    figures["cases"].push_back(caseAsJson(one));
-    if (one.outcome.verdict == CaseVerdict::kFails) ++failures;
-  }
+  const auto count = [&](CaseVerdict verdict) {
+    return std::count_if(judged->begin(), judged->end(), [&](const JudgedCase& one) { return one.outcome.verdict == verdict; });
+  };
+  const auto failures = static_cast<size_t>(count(CaseVerdict::kFails));
+  nlohmann::ordered_json figures = {{"device", (*runner)->device().name},
+                                    {"driver", (*runner)->device().driver},
+                                    {"counts",
+                                     {{"cases", judged->size()},
+                                      {"within", count(CaseVerdict::kWithin)},
+                                      {"refused", count(CaseVerdict::kRefused)},
+                                      {"known", count(CaseVerdict::kKnown)},
+                                      {"beyond", failures}}}};
+  for (const JudgedCase& one : *judged) figures["cases"].push_back(caseAsJson(one));
   if (Status written = options.figures.write(figures); !written) return written;
   if (!options.markdown.empty()) {
     if (Status written = writeMarkdown(options.markdown, *judged, (*runner)->device()); !written) return written;
@@ -110,7 +141,7 @@ void addSearchOptions(CLI::App& command, StabilitySearch& search) {
   minutes->check(numberBetween(1e-3, 1e5))->type_name("MINUTES");
   command.add_option("--seed", search.seed, "Of the random cases")->check(countBetween(0, UINT64_MAX))->needs(minutes);
   command.add_option("-o,--output", search.folder, "Folder for a file of each found case; the current one if left out")->needs(minutes);
-  for (const char* other : {"INPUT", "--cameras", "--only", "--markdown"}) minutes->excludes(command.get_option(other));
+  for (const char* other : {"INPUT", "--replay", "--cameras", "--only", "--markdown"}) minutes->excludes(command.get_option(other));
 }
 
 }  // namespace
@@ -124,10 +155,13 @@ void addStabilityCommand(CLI::App& program, Tool& tool) {
   input->needs(cameras);
   cameras->needs(input);
   CLI::Option* only = command->add_option("--only", options->only, "Only cases whose name fits the pattern: 'sites/*'");
+  CLI::Option* replay = command->add_option(
+      "--replay", options->replay, "Run the case files of a folder, as --search writes them, by their exact bakes, in place of the built-in set");
+  replay->type_name("DIR")->excludes(input)->excludes(only);
   command->add_option("--device", options->device.device, "Index or part of a name from `froth devices`");
   command->add_flag_callback(
-      "--no-validation", [options] { options->device.validate = false; }, "Where no validation layers are installed");
-  command->add_option("--markdown", options->markdown, "Put the tables into this file, between its markers")->excludes(only);
+      "--no-validation", [options] { options->device.validate = false; }, "Where no validation layers are installed; indices are checked all the same");
+  command->add_option("--markdown", options->markdown, "Put the tables into this file, between its markers")->excludes(only)->excludes(replay);
   addSearchOptions(*command, options->search);
   addFiguresOption(*command, options->figures);
   command->callback([&tool, options] { tool.action = [&tool, options] { return runStability(*options, tool); }; });

@@ -15,6 +15,7 @@
 #include "baker/tool/output_file.h"
 #include "baker/tool/view_selection.h"
 #include "format/asset_writer.h"
+#include "format/text.h"
 
 namespace froth {
 namespace {
@@ -81,7 +82,7 @@ Status runTile(const SynthCommandOptions& options, const Progress& progress) {
   BakeOptions bake;
   bake.nearRatio = input->nearRatio;
   bake.nearDepth = input->nearDepth;
-  bake.source = fmt::format("{} x {}", options.tileSource.filename().string(), options.tileCount);
+  bake.source = fmt::format("{} x {}", printable(options.tileSource.filename().string()), options.tileCount);
   const Result<BakeResult> baked = bakeFoam(*tiled, bake, progress);
   if (!baked) return baked.error();
   if (Status written = writeAsset(options.output, baked->contents); !written) return written;

@@ -7,13 +7,14 @@
 #include "baker/tool/option_checks.h"
 #include "format/asset_reader.h"
 #include "format/asset_writer.h"
+#include "format/text.h"
 
 namespace froth {
 namespace {
 
 Result<FoamInput> loadFoamOfAsset(const std::filesystem::path& path, uint32_t layers) {
   Result<AssetContents> contents = readAsset(path, static_cast<Layer>(layers - 1));
-  if (!contents) return contents.error();
+  if (!contents) return asBadInput(contents.error());
   Result<Foam> foam = foamFromAsset(*contents);
   if (!foam) return foam.error();
   return FoamInput{std::move(*foam), contents->nearRatio, contents->nearDepth, contents->detailSharpness};
@@ -54,7 +55,7 @@ Result<AssetInput> loadAsset(const std::filesystem::path& path, const Progress& 
   const Result<Foam> foam = importCheckpoint(path, progress);
   if (!foam) return foam.error();
   BakeOptions options;
-  options.source = path.filename().string();
+  options.source = printable(path.filename().string());
   const Result<BakeResult> baked = bakeFoam(*foam, options, progress);
   if (!baked) return baked.error();
   Result<std::vector<uint8_t>> bytes = encodeAsset(baked->contents);

@@ -15,6 +15,12 @@ namespace froth {
 
 bool isAssetPath(const std::filesystem::path& path);
 
+// A file that this build cannot read is bad input, whether it is damaged or newer: the same exit code from every command.
+inline Error asBadInput(Error error) {
+  if (error.kind == ErrorKind::kUnsupported) error.kind = ErrorKind::kBadInput;
+  return error;
+}
+
 // A foam and how it wants to be rendered.
 struct FoamInput {
   Foam foam;

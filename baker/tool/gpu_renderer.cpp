@@ -1,12 +1,12 @@
 #include "baker/tool/gpu_renderer.h"
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "baker/camera/ray_map.h"
+#include "baker/image/depth.h"
 #include "baker/tool/gpu_camera.h"
 #include "baker/tool/progress_printer.h"
 
@@ -38,12 +38,6 @@ Image imageFromTexels(const std::vector<float>& texels, uint32_t stride, uint32_
   return image;
 }
 
-// The runtime says +inf where transmittance never falls to the quantile, files say -1 (foam.md).
-void markMissingDepth(Image& depth) {
-  for (float& value : depth.values) {
-    if (std::isinf(value)) value = -1.0f;
-  }
-}
 
 }  // namespace
 
@@ -55,6 +49,7 @@ FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options) 
   info.nearDepth = view.nearDepth ? static_cast<float>(*view.nearDepth) : FROTH_NEAR_DEFAULT;
   info.displayCoded = options.isLinear ? 0 : 1;
   info.maxSteps = options.maxSteps;
+  info.tileForm = options.tileForm;
   info.camera = cameraOf(view);
   return info;
 }
@@ -79,6 +74,7 @@ struct GpuRenderer::State {
   Result<FrothViewStatus> drawAndAsk(const FrothRenderInfo& info, GpuMethod method);
   Status checkSilence(const FrothViewStatus& status);
   Result<RenderedImages> readImages(bool readsNormal);
+  Result<GpuFrame> drawAndRead(const View& wanted, const GpuRenderOptions& drawing, bool wantsAllChannels);
 
   GpuDeviceOptions options;
   std::unique_ptr<Host> host;
@@ -116,7 +112,8 @@ Status GpuRenderer::State::createContext(const GpuDeviceOptions& deviceOptions) 
   host = std::move(*created);
 
   FrothContextInfo info = host->contextInfo();
-  info.checkIndices = options.validate ? 1 : 0;
+  info.checkIndices = options.checkIndices ? 1 : 0;
+  info.floatColours = options.floatColours ? 1 : 0;
   info.countWork = options.countWork ? 1 : 0;
   info.lensClasses = options.lensClasses;
   info.messageUser = this;
@@ -286,11 +283,12 @@ Status GpuRenderer::State::checkSilence(const FrothViewStatus& status) {
 Result<RenderedImages> GpuRenderer::State::readImages(bool readsNormal) {
   Result<std::vector<float>> colours = host->readImage(colour);
   if (!colours) return colours.error();
-  Result<std::vector<float>> distances = host->readImage(distance);
-  if (!distances) return distances.error();
   RenderedImages images;
   images.colour = imageFromTexels(*colours, 4, 0, 3, extent);
   images.alpha = imageFromTexels(*colours, 4, 3, 1, extent);
+  if (!distance.image) return images;
+  Result<std::vector<float>> distances = host->readImage(distance);
+  if (!distances) return distances.error();
   images.depth = imageFromTexels(*distances, 1, 0, 1, extent);
   markMissingDepth(images.depth);
   if (!readsNormal) return images;
@@ -316,14 +314,22 @@ Status GpuRenderer::load(const AssetInput& asset, const Progress& progress, cons
   return state_->place(position);
 }
 
-Result<GpuFrame> GpuRenderer::render(const View& view, const GpuRenderOptions& options) {
-  if (Status ready = state_->setExtent(extentOf(view), true); !ready) return ready.error();
-  if (Status ready = state_->setRayMap(view); !ready) return ready.error();
-  const Result<FrothViewStatus> status = state_->drawAndAsk(renderInfoOf(view, options), options.method);
+Result<GpuFrame> GpuRenderer::State::drawAndRead(const View& wanted, const GpuRenderOptions& drawing, bool wantsAllChannels) {
+  if (Status ready = setExtent(extentOf(wanted), wantsAllChannels); !ready) return ready.error();
+  if (Status ready = setRayMap(wanted); !ready) return ready.error();
+  const Result<FrothViewStatus> status = drawAndAsk(renderInfoOf(wanted, drawing), drawing.method);
   if (!status) return status.error();
-  Result<RenderedImages> images = state_->readImages(options.readsNormal);
+  Result<RenderedImages> images = readImages(drawing.readsNormal);
   if (!images) return images.error();
   return GpuFrame{std::move(*images), *status};
+}
+
+Result<GpuFrame> GpuRenderer::render(const View& view, const GpuRenderOptions& options) {
+  return state_->drawAndRead(view, options, true);
+}
+
+Result<GpuFrame> GpuRenderer::renderColour(const View& view, const GpuRenderOptions& options) {
+  return state_->drawAndRead(view, options, false);
 }
 
 Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptions& options) {

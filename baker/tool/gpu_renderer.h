@@ -17,7 +17,9 @@ enum class GpuMethod { kRaster, kWalk };
 
 struct GpuDeviceOptions {
   std::string device;     // index or part of a name; empty: the first suitable one
-  bool validate = false;  // validation layers, and shaders that check every index; any message fails a render
+  bool validate = false;  // validation layers; any message fails a render
+  bool checkIndices = false;  // shaders check every index; one out of range fails a render
+  bool floatColours = false;  // colours of detail sites are floats between passes, where they are halves
   bool measurePasses = false;
   bool countWork = false;  // FrothViewStatus::work; slower
   uint32_t lensClasses = 0;  // FrothLensClass bits of the views that will be drawn (gpu_camera.h)
@@ -31,6 +33,7 @@ struct GpuRenderOptions {
   uint32_t maxSteps = 0;  // of one walk; 0: the runtime's default
   bool isFull = false;    // of draw(): distance and normal too, all in float
   bool readsNormal = true;  // of render(); else the image is empty
+  FrothTileForm tileForm = FROTH_TILE_FORM_BY_LENGTH;  // of raster
 };
 
 struct GpuFrame {
@@ -50,6 +53,8 @@ class GpuRenderer {
 
   // All channels in float. Draws again while a limit that grows by itself was hit.
   Result<GpuFrame> render(const View& view, const GpuRenderOptions& options);
+  // Colour and alpha in half floats, by the shaders that a game's frame has; the other images are empty. Draws again as render().
+  Result<GpuFrame> renderColour(const View& view, const GpuRenderOptions& options);
   // What a game draws: half-float colour only, left on the device. The status is of this very frame.
   Result<FrothViewStatus> draw(const View& view, const GpuRenderOptions& options);
 

@@ -8,6 +8,7 @@
 
 #include "baker/tool/commands.h"
 #include "baker/tool/exit_codes.h"
+#include "format/text.h"
 
 namespace {
 
@@ -20,7 +21,7 @@ int runAction(froth::Tool& tool) {
     return froth::kExitFailed;
   }
   if (status) return froth::kExitWell;
-  std::fprintf(stderr, "froth: %s\n", status.error().message.c_str());
+  std::fprintf(stderr, "froth: %s\n", froth::printable(status.error().message).c_str());  // it may quote a file
   return froth::exitCodeOf(status.error().kind);
 }
 

@@ -8,7 +8,7 @@
 
 namespace froth {
 
-Status checkWritable(const std::filesystem::path& path) {
+Status checkWritable(const std::filesystem::path& path, WriteProtected isProtected) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     return makeError(ErrorKind::kIo, "%s: is a directory; name a file", path.c_str());
@@ -18,7 +18,7 @@ Status checkWritable(const std::filesystem::path& path) {
     return makeError(ErrorKind::kIo, "%s: cannot be written: folder %s: %s; make it or choose another",
                      path.c_str(), folder.c_str(), std::strerror(errno));
   }
-  return {};
+  return checkTarget(path, isProtected);
 }
 
 }  // namespace froth

@@ -3,11 +3,12 @@
 
 #include <filesystem>
 
+#include "format/atomic_file.h"
 #include "format/result.h"
 
 namespace froth {
 
 // Fails where `path` could not be written, so that long work does not find out at its end.
-Status checkWritable(const std::filesystem::path& path);
+Status checkWritable(const std::filesystem::path& path, WriteProtected isProtected = WriteProtected::kRefuse);
 
 }  // namespace froth

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "format/text.h"
+
 namespace froth {
 namespace {
 
@@ -43,7 +45,7 @@ std::string describeLattices(const Quantization& lattices) {
 
 void printErrors(const AssetContents& contents) {
   for (const AttributeError& error : contents.errors)
-    fmt::print("error             {}: rms {:.3g}, max {:.3g} ({})\n", error.name, error.rms, error.max, error.unit);
+    fmt::print("error             {}: rms {:.3g}, max {:.3g} ({})\n", printable(error.name), error.rms, error.max, printable(error.unit));
   if (contents.psnr > 0) fmt::print("PSNR              {:.2f} dB on sample views\n", contents.psnr);
 }
 
@@ -59,7 +61,7 @@ nlohmann::ordered_json errorsAsJson(const AssetContents& contents) {
 void printStatistics(const AssetContents& contents) {
   const CellCounts counts = countCells(contents);
   const BakeStatistics& bake = contents.statistics;
-  fmt::print("preset            {}, from {}\n", contents.preset, contents.source);
+  fmt::print("preset            {}, from {}\n", printable(contents.preset), printable(contents.source));
   fmt::print("cells             {} in {} chunks, {} of them live, {} Steiner; {} ghosts\n", counts.cells,
              contents.chunks.size(), counts.live, bake.steinerCells, counts.ghosts);
   fmt::print("input             {} cells; {} hidden, of these {} duplicates; {} empty; {} dead; {} unseen\n",

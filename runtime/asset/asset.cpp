@@ -9,6 +9,7 @@
 
 #include "runtime/asset/bit_writer.h"
 #include "runtime/asset/cell_packer.h"
+#include "runtime/asset/chunk_checks.h"
 
 namespace froth {
 namespace {
@@ -65,12 +66,6 @@ std::vector<glm::vec4> joinSitesAndRadii(const ChunkContents& contents) {
 
 }  // namespace
 
-GpuBufferSet::~GpuBufferSet() {
-  for (GpuBuffer& buffer : buffers) {
-    device.destroyBuffer(buffer);
-  }
-}
-
 Asset::Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device, bool bytesStay)
     : isFile_(!path.empty()),
       name_(isFile_ ? std::move(path) : "asset in memory"),
@@ -79,48 +74,64 @@ Asset::Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, 
       device_(device),
       bytesStay_(bytesStay) {
   if (device) {
-    buffers_ = std::make_shared<GpuBufferSet>(*device);
+    arena_ = std::make_shared<GpuArena>(*device);
   }
 }
 
-void Asset::load(RenderPipelines* pipelines, const Messages& messages) {
+void Asset::load(RenderPipelines* pipelines, const Messages& messages, uint64_t& workLeft) {
   if (hasFailed() || isDecoded_ || !arrays_.empty()) {
     return;
   }
   try {
-    if (!reader_) {
-      if (const Status status = openReader(); !status) {
-        return fail(status.error(), messages);
-      }
+    Status status = reader_ ? Status() : openReader();
+    while (status && workLeft > 0 && nextChunk_ < description_.chunkCount) {
+      workLeft -= std::min(workLeft, std::max(chunkWork_[nextChunk_], kLeastChunkWork));
+      status = loadChunk();
     }
-    Result<ChunkContents> contents = reader_->readChunk(nextChunk_);
-    if (!contents) {
-      return fail(contents.error(), messages);
+    if (status && nextChunk_ == description_.chunkCount) {
+      status = finish(pipelines);
     }
-    if (const Status status = placeChunk(std::move(*contents)); !status) {
-      return fail(status.error(), messages);
+    if (!status) {
+      fail(status.error(), messages);
     }
-    if (++nextChunk_ < description_.chunkCount) {
-      return;
-    }
-    if (isQueryFoamWanted()) {
-      queryFoam_->finish();
-    }
-    reader_.reset();
-    std::copy_n(description_.boundsMin, 3, gpu_.boundsLow.begin());
-    std::copy_n(description_.boundsMax, 3, gpu_.boundsHigh.begin());
-    if (const Status status = placeEntries(); !status) {
-      return fail(status.error(), messages);
-    }
-    if (pipelines) {
-      if (const Status status = pipelines->prepareFor(gpu_); !status) {
-        return fail(status.error(), messages);
-      }
-    }
-    isDecoded_ = true;
   } catch (const std::bad_alloc&) {
     fail(FROTH_ERROR_MEMORY, "host memory is exhausted while the asset is decoded", messages);
   }
+}
+
+Status Asset::loadChunk() {
+  workDone_ += chunkWork_[nextChunk_];
+  workToCome_ -= chunkWork_[nextChunk_];
+  Result<ChunkContents> contents = reader_->readChunk(nextChunk_);
+  if (!contents) {
+    return contents.error();
+  }
+  const std::string place = chunkPlace(name_, nextChunk_);
+  if (const Status status = checkClaims(*contents, reader_->liveBounds(nextChunk_), place); !status) {
+    return status;
+  }
+  ++nextChunk_;
+  return placeChunk(std::move(*contents));
+}
+
+Status Asset::finish(RenderPipelines* pipelines) {
+  if (isQueryFoamWanted()) {
+    if (const Status status = queryFoam_->checkGhosts(name_); !status) {
+      return status;
+    }
+    queryFoam_->finish();
+  }
+  reader_.reset();
+  if (const Status status = placeEntries(); !status) {
+    return status;
+  }
+  if (pipelines) {
+    if (const Status status = pipelines->prepareFor(gpu_); !status) {
+      return status;
+    }
+  }
+  isDecoded_ = true;
+  return {};
 }
 
 void Asset::fail(FrothResult code, const char* text, const Messages& messages) {
@@ -143,6 +154,7 @@ void Asset::fail(const Error& error, const Messages& messages) {
 void Asset::restart(const Messages& messages) {
   reader_.reset();
   nextChunk_ = 0;
+  placedBytes_ = 0;
   arrays_.clear();
   isDecoded_ = false;
   error_ = FROTH_OK;
@@ -150,7 +162,7 @@ void Asset::restart(const Messages& messages) {
   flightPath_.clear();
   gpu_ = {};
   entriesSerial = 0;
-  buffers_ = device_ ? std::make_shared<GpuBufferSet>(*device_) : nullptr;
+  arena_ = device_ ? std::make_shared<GpuArena>(*device_) : nullptr;
   if (!isFile_ && !bytesStay_) {
     fail(FROTH_ERROR_STATE,
          "its bytes are not there any more to load it again; set FrothAssetInfo::bytesStay, or close and open it",
@@ -172,6 +184,13 @@ Status Asset::openReader() {
   }
   std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_),
                  toApi);
+  chunkWork_.assign(description_.chunkCount, 0);
+  workDone_ = workToCome_ = 0;
+  for (const SectionRecord& section : reader->sections()) {
+    if (section.chunk >= description_.chunkCount) continue;
+    chunkWork_[section.chunk] += section.rawSize;
+    workToCome_ += section.rawSize;
+  }
   reader_ = std::move(*reader);
   return {};
 }
@@ -219,48 +238,54 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   return placeArrays(arrays);
 }
 
-// One buffer for all: devices allow few allocations.
+// What the arena will be asked for behind `size` bytes of the chunk at hand, by what chunks have needed so far.
+VkDeviceSize Asset::bytesToCome(VkDeviceSize size) const {
+  const double share = workDone_ > 0 ? static_cast<double>(workToCome_) / static_cast<double>(workDone_) : 0;
+  const double chunks = std::min(static_cast<double>(placedBytes_ + size) * share, double{GpuArena::kMostShared});
+  const uint64_t along = entriesAlong();
+  return static_cast<VkDeviceSize>(chunks) + sizeof(gpu::uvec4) * along * along * along;
+}
+
 Status Asset::placeArrays(const ChunkArrays& arrays) {
   if (arrays.size == 0) {
     return {};
   }
   const std::string purpose = "chunk " + std::to_string(gpu_.chunks.size() - 1);
-  buffers_->buffers.reserve(buffers_->buffers.size() + 1);  // so that what is made has its place
-  arrays_.reserve(arrays.arrays.size());
-  const Result<GpuBuffer> buffer =
-      device_->createBuffer(MemoryUse::kAssets, BufferKind::kDevice, arrays.size, purpose.c_str());
-  if (!buffer) {
-    return buffer.error();
+  const Result<GpuArena::Place> place = arena_->allocate(arrays.size, bytesToCome(arrays.size), purpose.c_str());
+  if (!place) {
+    return place.error();
   }
-  buffers_->buffers.push_back(*buffer);
-  uint64_t named = 0;
+  placedBytes_ += arrays.size;
   for (const ChunkArray& array : arrays.arrays) {
-    *array.address = buffer->address + array.offset;
-    arrays_.push_back({array.bytes, buffer->buffer, array.offset, array.size, 0});
+    *array.address = place->address + array.offset;
+    arrays_.push_back({array.bytes, place->buffer, place->offset + array.offset, array.size, 0});
     addMemory(array.purpose, array.size);
-    named += array.size;
   }
-  addMemory("alignment", buffer->memory.granted - named);
   return {};
 }
 
-// So many that from the nearest it is a few steps to any cell.
+// So many that from the nearest it is a few steps to any cell. 0: none.
+uint32_t Asset::entriesAlong() const {
+  if (!keepsForWalks_ || !device_ || !gpu_.hasWalkGraph || description_.liveCount == 0) {
+    return 0;
+  }
+  const double along = std::cbrt(static_cast<double>(description_.cellCount) / kCellsPerEntry);
+  return std::clamp(static_cast<uint32_t>(along), 1u, kMostEntriesAlong);
+}
+
 Status Asset::placeEntries() {
-  if (!keepsForWalks_ || !device_ || !gpu_.hasWalkGraph || gpu_.liveCount == 0) {
+  const VkDeviceSize along = entriesAlong();
+  if (along == 0) {
     return {};
   }
-  const double along = std::cbrt(static_cast<double>(gpu_.cellCount) / kCellsPerEntry);
-  const uint32_t count = std::clamp(static_cast<uint32_t>(along), 1u, kMostEntriesAlong);
-  buffers_->buffers.reserve(buffers_->buffers.size() + 1);
-  const Result<GpuBuffer> buffer = device_->createBuffer(MemoryUse::kAssets, BufferKind::kDevice,
-                                                         sizeof(gpu::uvec4) * VkDeviceSize{count} * count * count, "entries of walks");
-  if (!buffer) {
-    return buffer.error();
+  const VkDeviceSize size = sizeof(gpu::uvec4) * along * along * along;
+  const Result<GpuArena::Place> place = arena_->allocate(size, 0, "entries of walks");
+  if (!place) {
+    return place.error();
   }
-  buffers_->buffers.push_back(*buffer);
-  addMemory("entries of walks", buffer->memory.granted);
-  gpu_.walkEntriesAlong = count;
-  gpu_.walkEntries = buffer->address;
+  addMemory("entries of walks", size);
+  gpu_.walkEntriesAlong = static_cast<uint32_t>(along);
+  gpu_.walkEntries = place->address;
   return {};
 }
 
@@ -280,18 +305,20 @@ void Asset::growBounds(const ChunkContents& contents) {
   if (contents.liveCount == 0) {
     return;
   }
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const bool isFirst = gpu_.liveCount == 0;
   for (int axis = 0; axis < 3; ++axis) {
-    float low = isFirst ? kInfinity : description_.boundsMin[axis];
-    float high = isFirst ? -kInfinity : description_.boundsMax[axis];
+    const auto a = static_cast<size_t>(axis);
+    double low = isFirst ? kInfinity : gpu_.boundsLow[a], high = isFirst ? -kInfinity : gpu_.boundsHigh[a];
     for (uint32_t cell = 0; cell < contents.liveCount; ++cell) {
-      const double site = contents.origin[static_cast<size_t>(axis)] + contents.sites[cell][axis];
-      low = std::min(low, static_cast<float>(site - contents.radii[cell]));
-      high = std::max(high, static_cast<float>(site + contents.radii[cell]));
+      const double site = contents.origin[a] + contents.sites[cell][axis];
+      low = std::min(low, site - contents.radii[cell]);
+      high = std::max(high, site + contents.radii[cell]);
     }
-    description_.boundsMin[axis] = low;
-    description_.boundsMax[axis] = high;
+    gpu_.boundsLow[a] = low;
+    gpu_.boundsHigh[a] = high;
+    description_.boundsMin[axis] = static_cast<float>(low);
+    description_.boundsMax[axis] = static_cast<float>(high);
   }
 }
 
@@ -307,7 +334,7 @@ VkDeviceSize Asset::stage(UploadRing& ring, VkDeviceSize limit) {
     if (array.staged < array.size) {
       break;
     }
-    arrays_.erase(arrays_.begin());
+    arrays_.pop_front();
   }
   return staged;
 }
@@ -321,15 +348,18 @@ uint64_t Asset::queuedBytes() const {
 }
 
 std::span<const GpuBuffer> Asset::buffers() const {
-  return buffers_ ? std::span<const GpuBuffer>(buffers_->buffers) : std::span<const GpuBuffer>();
+  return arena_ ? arena_->blocks() : std::span<const GpuBuffer>();
 }
 
 FrothAssetStatus Asset::describe() const {
   FrothAssetStatus description = description_;
   description.error = error_;
   description.hostBytes = queryFoam_ ? queryFoam_->bytes() : 0;
-  for (const GpuBuffer& buffer : buffers()) {
-    description.deviceBytes += buffer.memory.granted;
+  description.deviceBytes = arena_ ? arena_->heldBytes() : 0;
+  if (description.deviceBytes > 0) {
+    uint64_t named = 0;
+    for (uint32_t i = 0; i < description.memoryCount; ++i) named += description.memory[i].bytes;
+    description.memory[description.memoryCount++] = {"alignment, spare", description.deviceBytes - named};
   }
   return description;
 }

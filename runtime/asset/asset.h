@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include "format/asset_reader.h"
 #include "froth/froth.h"
 #include "runtime/asset/chunk_arrays.h"
+#include "runtime/asset/gpu_arena.h"
 #include "runtime/asset/gpu_asset.h"
 #include "runtime/core/device.h"
 #include "runtime/core/messages.h"
@@ -21,18 +23,11 @@
 
 namespace froth {
 
-// Device buffers that go together. The GPU must be done with them when they go.
-struct GpuBufferSet {
-  explicit GpuBufferSet(Device& owner) : device(owner) {}
-  ~GpuBufferSet();
-  GpuBufferSet(const GpuBufferSet&) = delete;
-  GpuBufferSet& operator=(const GpuBufferSet&) = delete;
+// What is decoded in one frothUpdate, of all assets together [bytes of decoded sections]: it ends behind the chunk that exceeds
+// this. A chunk counts as kLeastChunkWork at least.
+inline constexpr uint64_t kWorkPerUpdate = 4u << 20, kLeastChunkWork = 16u << 10;
 
-  Device& device;
-  std::vector<GpuBuffer> buffers;
-};
-
-// Loads chunk by chunk: decode one, allocate its arrays, stage them through the ring as it has room, then the
+// Loads chunk by chunk: decode some, give their arrays places, stage them through the ring as it has room, then the
 // next. One thread at a time.
 class Asset {
  public:
@@ -50,8 +45,8 @@ class Asset {
   // The frame that fills it; 0: none does yet.
   uint64_t entriesSerial = 0;
 
-  // At most one chunk's work. An error ends the asset: one message, hasFailed().
-  void load(RenderPipelines* pipelines, const Messages& messages);
+  // Decodes chunks while there is work left, and takes off what they cost. An error ends the asset: one message, hasFailed().
+  void load(RenderPipelines* pipelines, const Messages& messages, uint64_t& workLeft);
   // Moves at most `limit` bytes of decoded arrays into the ring; returns how many.
   VkDeviceSize stage(UploadRing& ring, VkDeviceSize limit);
 
@@ -63,7 +58,7 @@ class Asset {
   const GpuAsset& gpu() const { return gpu_; }
   // Null: not kept, or not whole yet. Once there, it outlives the device: it is host memory.
   const QueryFoam* queryFoam() const { return queryFoam_ && queryFoam_->isWhole() ? &*queryFoam_ : nullptr; }
-  std::span<const GpuBuffer> buffers() const;  // of gpu()'s arrays
+  std::span<const GpuBuffer> buffers() const;  // that hold gpu()'s arrays
   const std::string& name() const { return name_; }
   // Counts, bounds, cameras; zero before the manifest is read. The state is the context's to tell.
   FrothAssetStatus describe() const;
@@ -73,7 +68,7 @@ class Asset {
   void restart(const Messages& messages);
 
   // Takes the buffers out, to be freed once the GPU is done with them.
-  std::shared_ptr<GpuBufferSet> releaseBuffers() { return std::move(buffers_); }
+  std::shared_ptr<GpuArena> releaseBuffers() { return std::move(arena_); }
 
  private:
   // A decoded array on its way to its buffer; owned until it is staged.
@@ -84,9 +79,13 @@ class Asset {
   };
 
   Status openReader();
+  Status loadChunk();
+  Status finish(RenderPipelines* pipelines);
   Status placeChunk(ChunkContents&& contents);
   Status placeArrays(const ChunkArrays& arrays);
   Status placeEntries();
+  VkDeviceSize bytesToCome(VkDeviceSize size) const;
+  uint32_t entriesAlong() const;
   void addMemory(const char* name, uint64_t bytes);
   void growBounds(const ChunkContents& contents);
   bool isQueryFoamWanted() const { return keepsForQueries_ && !queryFoam(); }
@@ -102,8 +101,11 @@ class Asset {
   bool keepsForQueries_ = false, keepsForWalks_ = false;
 
   std::optional<AssetReader> reader_;  // while loading
+  std::vector<uint64_t> chunkWork_;     // [chunks] bytes of decoded sections;
+  uint64_t workDone_ = 0, workToCome_ = 0;  // sums of them
   uint32_t nextChunk_ = 0;
-  std::vector<PendingArray> arrays_;  // of the newest chunk; staged from the front
+  VkDeviceSize placedBytes_ = 0;
+  std::deque<PendingArray> arrays_;     // of the newest chunks; staged from the front
   bool isDecoded_ = false;
   FrothResult error_ = FROTH_OK;
 
@@ -111,7 +113,7 @@ class Asset {
   std::vector<FrothStoredCamera> flightPath_;
   GpuAsset gpu_;
   std::optional<QueryFoam> queryFoam_;
-  std::shared_ptr<GpuBufferSet> buffers_;
+  std::shared_ptr<GpuArena> arena_;
 };
 
 }  // namespace froth

@@ -63,7 +63,6 @@ size_t chooseTableSize(const std::vector<Use>& uses, size_t lobes, uint32_t comp
 AxisLabels labelAxes(const CellNumbers& axes) {
   AxisLabels result;
   const size_t lobes = axes.codes.size() / 3;
-  result.labels.assign(lobes, AxisLabels::kNone);
   if (axes.isRaw()) return result;
   CodeRange range;
   for (const int32_t code : axes.codes) range.add(code);
@@ -75,9 +74,14 @@ AxisLabels labelAxes(const CellNumbers& axes) {
   std::sort(keyed.begin(), keyed.end());
   const std::vector<Use> uses = findUses(keyed);
   result.table.resize(chooseTableSize(uses, lobes, result.componentBits));
-  for (uint32_t label = 0; label < result.table.size(); ++label) {
+  if (result.table.empty()) return result;
+  result.axisCount = static_cast<uint32_t>(uses.size());
+  result.labels.resize(lobes);
+  for (uint32_t label = 0; label < result.axisCount; ++label) {
     const Use& use = uses[label];
-    std::copy_n(&axes.codes[size_t{3} * keyed[use.begin].second], 3, result.table[label].begin());
+    if (label < result.table.size()) {
+      std::copy_n(&axes.codes[size_t{3} * keyed[use.begin].second], 3, result.table[label].begin());
+    }
     for (size_t i = use.begin; i < use.end; ++i) result.labels[keyed[i].second] = label;
   }
   return result;

@@ -1,4 +1,4 @@
-// Lobe axes that a chunk uses again and again, as labels into a table.
+// The lobe axes of a chunk by number; those used again and again are the entries of a table.
 #pragma once
 
 #include <array>
@@ -12,11 +12,10 @@ namespace froth {
 using AxisCode = std::array<int32_t, 3>;
 
 struct AxisLabels {
-  static constexpr uint32_t kNone = UINT32_MAX;
-
   uint32_t componentBits = 32;   // of an axis written out: two's complement, or floats
-  std::vector<AxisCode> table;   // empty: every lobe's axis is written out
-  std::vector<uint32_t> labels;  // [lobes] kNone: not in the table
+  std::vector<AxisCode> table;   // empty: every lobe's axis is written out, and there are no labels
+  std::vector<uint32_t> labels;  // [lobes] < axisCount, the same for the same axis; < table.size(): its place in the table
+  uint32_t axisCount = 0;        // different axes
 };
 
 // `axes` [3 * lobes]. Takes those axes into the table that make the chunk smaller.

@@ -27,6 +27,12 @@ struct CellShape {
   std::vector<AxisCode> ownAxes;
 };
 
+// Where the last cell that has an axis of its own keeps it.
+struct OwnPlace {
+  uint32_t cell, index;
+};
+constexpr uint32_t kNoCell = UINT32_MAX;
+
 // Octahedral indices of the orientations; empty if one of them is not what orientationOfNormal gives.
 std::vector<std::array<uint32_t, 2>> normalsOf(const std::vector<glm::vec4>& orientations,
                                                uint32_t normalBits) {
@@ -55,6 +61,7 @@ class CellPacker {
     bases_ = toColourNumbers(chunk.baseColours, siteScales);
     colours_ = toColourNumbers(chunk.lobeColours, lobeScales);
     labels_ = labelAxes(axes_);
+    ownPlaces_.resize(labels_.axisCount, {kNoCell, 0});
     normals_ = normalsOf(chunk.orientations, normalBits);
     code_.normalBits = normals_.empty() ? 0 : normalBits;
   }
@@ -90,7 +97,7 @@ class CellPacker {
       measureSites(cell, shape);
       shape.endLobe = shape.firstLobe + cellLobes(cell);
       lobe = shape.endLobe;
-      measureLobes(shape);
+      measureLobes(cell, shape);
       shapes_.push_back(std::move(shape));
     }
   }
@@ -121,14 +128,13 @@ class CellPacker {
     for (size_t c = 0; c < 3; ++c) shape.lowestBase[c] = bases[c].low;
   }
 
-  void measureLobes(CellShape& shape) const {
+  void measureLobes(uint32_t cell, CellShape& shape) {
     CodeRange axes, green, chroma;
     for (size_t lobe = shape.firstLobe; lobe < shape.endLobe; ++lobe) {
       green.add(colours_.codes[3 * lobe]);
       for (size_t c = 1; c < 3; ++c) chroma.add(colours_.codes[3 * lobe + c]);
       for (size_t c = 0; c < 3; ++c) axes.add(axes_.codes[3 * lobe + c]);
-      const bool isOwn = !labels_.table.empty() && labels_.labels[lobe] == AxisLabels::kNone;
-      if (isOwn && findOwn(shape, lobe) == shape.ownAxes.size()) shape.ownAxes.push_back(axisOf(lobe));
+      if (!labels_.table.empty()) numberAxis(cell, lobe, shape);
     }
     shape.widths[kLobeGreen] = colours_.isRaw() ? kFloatBits : green.signedWidth();
     shape.widths[kLobeChroma] = colours_.isRaw() ? kFloatBits : chroma.signedWidth();
@@ -140,12 +146,16 @@ class CellPacker {
     }
   }
 
-  AxisCode axisOf(size_t lobe) const {
-    return {axes_.codes[3 * lobe], axes_.codes[3 * lobe + 1], axes_.codes[3 * lobe + 2]};
-  }
-  size_t findOwn(const CellShape& shape, size_t lobe) const {
-    return static_cast<size_t>(std::find(shape.ownAxes.begin(), shape.ownAxes.end(), axisOf(lobe)) -
-                               shape.ownAxes.begin());
+  // The lobe's label becomes what its cell writes for it: behind the table stand the cell's own axes, as they come.
+  void numberAxis(uint32_t cell, size_t lobe, CellShape& shape) {
+    uint32_t& label = labels_.labels[lobe];
+    if (label < labels_.table.size()) return;
+    OwnPlace& place = ownPlaces_[label];
+    if (place.cell != cell) {
+      place = {cell, static_cast<uint32_t>(shape.ownAxes.size())};
+      shape.ownAxes.push_back({axes_.codes[3 * lobe], axes_.codes[3 * lobe + 1], axes_.codes[3 * lobe + 2]});
+    }
+    label = static_cast<uint32_t>(labels_.table.size()) + place.index;
   }
 
   void describeCode() {
@@ -192,8 +202,7 @@ class CellPacker {
 
   void putCell(uint32_t cell) {
     const CellShape& shape = shapes_[cell];
-    putSigned(densityCode(chunk_.densities[cell]) - static_cast<int32_t>(code_.densityLowest),
-              code_.densityBits);
+    bits_.put(static_cast<uint32_t>(densityCode(chunk_.densities[cell])) - code_.densityLowest, code_.densityBits);
     putOrientation(cell);
     bits_.put(chunk_.colourScales.empty() ? 0 : chunk_.colourScales[cell], code_.scaleBits);
     for (const uint32_t width : shape.widths) bits_.put(width, code_.widthBits);
@@ -232,10 +241,8 @@ class CellPacker {
     const auto& widths = shape.widths;
     if (labels_.table.empty()) {
       for (size_t c = 0; c < 3; ++c) putNumber(axes_, 3 * lobe + c, 0, widths[kAxis]);
-    } else if (labels_.labels[lobe] != AxisLabels::kNone) {
-      bits_.put(labels_.labels[lobe], widths[kAxis]);
     } else {
-      bits_.put(static_cast<uint32_t>(labels_.table.size() + findOwn(shape, lobe)), widths[kAxis]);
+      bits_.put(labels_.labels[lobe], widths[kAxis]);
     }
     for (size_t c = 0; c < 3; ++c) {
       const uint32_t width = widths[c == 0 ? kLobeGreen : kLobeChroma];
@@ -247,6 +254,7 @@ class CellPacker {
   uint32_t detailCount_, lobeCount_;
   CellNumbers places_, heights_, bases_, axes_, colours_;
   AxisLabels labels_;
+  std::vector<OwnPlace> ownPlaces_;  // [labels_.axisCount]
   std::vector<std::array<uint32_t, 2>> normals_;  // empty: orientations are floats
   std::vector<CellShape> shapes_;
   gpu::CellCode code_{};

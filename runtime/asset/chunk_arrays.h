@@ -1,4 +1,4 @@
-// The arrays of a decoded chunk on their way into one buffer.
+// The arrays of a decoded chunk on their way into one place.
 #pragma once
 
 #include <cstdint>
@@ -6,25 +6,25 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/core/device.h"
+#include "runtime/asset/gpu_arena.h"
 
 namespace froth {
 
 struct ChunkArray {
   const char* purpose;                // static storage
   std::shared_ptr<const void> bytes;  // owned
-  VkDeviceSize offset, size;          // in the buffer
+  VkDeviceSize offset, size;          // in the place
   VkDeviceAddress* address;           // to be told
 };
 
 struct ChunkArrays {
   std::vector<ChunkArray> arrays;
-  VkDeviceSize size = 0;  // of the buffer
+  VkDeviceSize size = 0;  // of the place
 
   // Behind those before; an empty array has no place.
   template <class T>
   void add(std::vector<T>&& values, const char* purpose, VkDeviceAddress& address) {
-    constexpr VkDeviceSize kAlignment = 16;  // of the largest type that shaders load
+    constexpr VkDeviceSize kAlignment = GpuArena::kAlignment;
     if (values.empty()) return;
     const auto owner = std::make_shared<const std::vector<T>>(std::move(values));
     const VkDeviceSize bytes = owner->size() * sizeof(T);

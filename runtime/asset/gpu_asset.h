@@ -41,7 +41,7 @@ struct GpuAsset {
   uint32_t cellCount = 0;     // over all chunks
   uint64_t alphaTotal = 0;    // over all chunks
   uint64_t neighbourTotal = 0;  // over all chunks
-  std::array<float, 3> boundsLow{}, boundsHigh{};  // of the balls of live cells
+  std::array<double, 3> boundsLow{}, boundsHigh{};  // of the balls of live cells
   uint32_t walkEntriesAlong = 0;    // WalkInstance::entries (shaders/gpu/walk_layout.h); 0: there are none
   VkDeviceAddress walkEntries = 0;
   std::vector<GpuChunk> chunks;

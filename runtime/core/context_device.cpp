@@ -88,6 +88,7 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
   }
   device_ = *device;
   device_.budget = info.deviceBudget;
+  device_.timestampBits = timestampBitsOf(info);
   device_.callbacks = {info.allocateMemory, info.freeMemory, info.memoryUser};
   Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(device_, kUploadRingBytes);
   if (!ring) {
@@ -98,6 +99,7 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
       RenderPipelines::create(device_, info.pipelineCache,
                               {.checkIndices = info.checkIndices != 0,
                                .countWork = info.countWork != 0,
+                               .floatColours = info.floatColours != 0,
                                .lensClasses = lensClasses_,
                                .hasExtendedFormats = hasExtendedFormats_,
                                .compositeFormat = compositeFormat_,

@@ -97,9 +97,10 @@ void Context::retire(std::shared_ptr<void> object) {
 }
 
 void Context::loadAssets() {
+  uint64_t workLeft = kWorkPerUpdate;
   assets_.forEach([&](Asset& asset) {
     retired_.reserve(retired_.size() + 1);
-    asset.load(pipelines_.get(), messages);
+    asset.load(pipelines_.get(), messages, workLeft);
     if (asset.hasFailed() && ring_) {
       ring_->forget(&asset);
       retire(asset.releaseBuffers());

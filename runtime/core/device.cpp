@@ -90,25 +90,30 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
   result.table.vkCmdEndDebugUtilsLabelEXT =
       reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(getDeviceProcAddr(device, "vkCmdEndDebugUtilsLabelEXT"));
 
+  VkPhysicalDeviceMaintenance4Properties bufferLimits{};
+  bufferLimits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES;
   VkPhysicalDeviceMaintenance3Properties limits{};
   limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  limits.pNext = &bufferLimits;
   VkPhysicalDeviceProperties2 properties{};
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   properties.pNext = &limits;
   getProperties(physicalDevice, &properties);
   result.properties = properties.properties;
   result.maxAllocationSize = limits.maxMemoryAllocationSize;
+  result.maxBufferSize = bufferLimits.maxBufferSize;
   getMemoryProperties(physicalDevice, &result.memory);
   return result;
 }
 
 Result<GpuBuffer> Device::createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose,
                                        bool mayExceedBudget) {
-  if (size > maxAllocationSize) {
+  if (size > largestBuffer()) {
     return makeError(
         ErrorKind::kMemory,
-        "%s: %llu bytes, but this device allocates at most %llu at once; use a smaller asset or view",
-        purpose, asPrinted(size), asPrinted(maxAllocationSize));
+        "%s: %llu bytes, but a buffer of this device has at most %llu (maxMemoryAllocationSize %llu, maxBufferSize %llu); "
+        "use a smaller view, or an asset of smaller chunks",
+        purpose, asPrinted(size), asPrinted(largestBuffer()), asPrinted(maxAllocationSize), asPrinted(maxBufferSize));
   }
   const KindTraits traits = traitsOf(kind);
   VkBufferCreateInfo bufferInfo{};
@@ -162,15 +167,18 @@ void Device::destroyBuffer(GpuBuffer& buffer) {
 
 // ---- Memory ----
 
+VkDeviceSize Device::roomBytes() const {
+  return budget == 0 ? UINT64_MAX : budget - std::min(budget, ledger.deviceBytes());
+}
+
 VkDeviceSize Device::excessBytes() const {
   const VkDeviceSize held = ledger.deviceBytes();
   return budget != 0 && held > budget ? held - budget : 0;
 }
 
 Status Device::checkBudget(VkDeviceSize size, const MemoryWish& wish) {
-  const VkDeviceSize held = ledger.deviceBytes();
-  const VkDeviceSize room = budget - std::min(budget, held);
-  if (budget == 0 || isHostUse(wish.use) || wish.mayExceedBudget || size <= room) {
+  const VkDeviceSize held = ledger.deviceBytes(), room = roomBytes();
+  if (isHostUse(wish.use) || wish.mayExceedBudget || size <= room) {
     return {};
   }
   ++budgetRefusals;
@@ -201,9 +209,10 @@ Result<MemoryBlock> Device::allocate(const VkMemoryRequirements& requirements, V
   const VkResult result = callbacks.allocate ? callbacks.allocate(callbacks.user, &request, &block.place)
                                              : allocateOwn(request, block.place);
   if (result != VK_SUCCESS) {
-    return explain(result, "%s: %s of %llu bytes, with %llu bytes in use,", wish.purpose,
-                   callbacks.allocate ? "FrothContextInfo::allocateMemory" : "vkAllocateMemory",
-                   asPrinted(requirements.size), asPrinted(ledger.deviceBytes()));
+    return explain(result, "%s: %s of %llu bytes, with %llu bytes in use and %u allocations (the device has at most %u),",
+                   wish.purpose, callbacks.allocate ? "FrothContextInfo::allocateMemory" : "vkAllocateMemory",
+                   asPrinted(requirements.size), asPrinted(ledger.deviceBytes()), ledger.count(),
+                   properties.limits.maxMemoryAllocationCount);
   }
   ledger.add(block);
   return block;

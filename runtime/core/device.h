@@ -1,6 +1,7 @@
 // The caller's VkDevice as the runtime uses it: a function table and buffers reached by address.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -107,8 +108,11 @@ class Device {
   VkDevice device = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
-  VkDeviceSize maxAllocationSize = 0;  // largest buffer the device promises to accept
+  uint32_t timestampBits = 0;          // valid ones, of the queue family that frames are submitted to; 0: it takes no timestamps
+  VkDeviceSize maxAllocationSize = 0, maxBufferSize = 0;  // that the device promises to accept
+  VkDeviceSize largestBuffer() const { return std::min(maxAllocationSize, maxBufferSize); }
   VkDeviceSize budget = 0;             // [bytes] 0: no limit
+  VkDeviceSize roomBytes() const;      // left of the budget
   VkDeviceSize excessBytes() const;    // held beyond the budget
   uint64_t budgetRefusals = 0;         // allocations that did not fit it
   MemoryLedger ledger;

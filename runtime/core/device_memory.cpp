@@ -17,6 +17,7 @@ void MemoryLedger::add(const MemoryBlock& block) {
   entry.used += block.used;
   entry.peak = std::max(entry.peak, entry.granted);
   ++entry.count;
+  ++count_;
   if (isHostUse(block.use)) {
     hostBytes_ += block.granted;
   } else {
@@ -30,6 +31,7 @@ void MemoryLedger::remove(const MemoryBlock& block) {
   entry.granted -= block.granted;
   entry.used -= block.used;
   --entry.count;
+  --count_;
   (isHostUse(block.use) ? hostBytes_ : deviceBytes_) -= block.granted;
 }
 

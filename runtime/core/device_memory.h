@@ -32,6 +32,7 @@ class MemoryLedger {
 
   VkDeviceSize deviceBytes() const { return deviceBytes_; }
   VkDeviceSize hostBytes() const { return hostBytes_; }
+  uint32_t count() const { return count_; }  // of allocations
   void describe(FrothMemoryReport& report) const;  // all but the budget
 
  private:
@@ -41,6 +42,7 @@ class MemoryLedger {
   };
   std::array<Entry, kMemoryUseCount> entries_{};
   VkDeviceSize deviceBytes_ = 0, devicePeak_ = 0, hostBytes_ = 0;
+  uint32_t count_ = 0;
 };
 
 }  // namespace froth

@@ -14,6 +14,8 @@ namespace {
 constexpr float kDefaultCutoff = 1e-3f;
 constexpr float kDefaultDepthQuantile = 0.5f;
 constexpr uint32_t kDefaultMaxSteps = 65536;
+constexpr uint32_t kDefaultMaxNeighbours = 1u << 20;
+constexpr uint32_t kDefaultMaxEntries = 16384;
 
 FrothResult checkLensClass(const Messages& messages, const char* call, const FrothCamera& camera,
                            uint32_t lensClasses) {
@@ -136,11 +138,19 @@ FrothResult checkToneCurve(const Messages& messages, const char* call, const Fro
   return FROTH_OK;
 }
 
+FrothResult checkTileForm(const Messages& messages, const char* call, const FrothRenderInfo& info) {
+  const auto form = static_cast<int32_t>(info.tileForm);
+  if (form >= 0 && form <= FROTH_TILE_FORM_ALL_LONG) return FROTH_OK;
+  return messages.fail(FROTH_ERROR_ARGUMENT, call, "tileForm: %d; must be a FrothTileForm", form);
+}
+
 // NaN fails every comparison, so each condition says what is right.
 FrothResult resolveLimits(const Messages& messages, const char* call, FrothRenderInfo& info) {
   info.cutoff = info.cutoff == 0 ? kDefaultCutoff : info.cutoff < 0 ? 0 : info.cutoff;
   info.depthQuantile = info.depthQuantile == 0 ? kDefaultDepthQuantile : info.depthQuantile;
   info.maxSteps = info.maxSteps == 0 ? kDefaultMaxSteps : info.maxSteps;
+  info.maxNeighbours = info.maxNeighbours == 0 ? kDefaultMaxNeighbours : info.maxNeighbours;
+  info.maxEntries = info.maxEntries == 0 ? kDefaultMaxEntries : info.maxEntries;
   info.mask = info.mask == 0 ? ~0u : info.mask;
   if (!(info.cutoff < 1)) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "cutoff: %g; must be below 1", double{info.cutoff});
@@ -208,6 +218,7 @@ FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExte
                          "colour, distance, normal, depth, id, motion: all null; at least one is needed");
   }
   result = checkToneCurve(messages, call, info);
+  if (result == FROTH_OK) result = checkTileForm(messages, call, info);
   return result == FROTH_OK ? resolveLimits(messages, call, info) : result;
 }
 

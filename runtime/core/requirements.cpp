@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "shaders/gpu/layout.h"
+
 namespace froth {
 namespace {
 
@@ -42,6 +44,7 @@ constexpr RequiredFeature kDynamicRendering = {
 #undef FROTH_HOME
 
 constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
+static_assert(gpu::kGroupSize == 256, "as the items say");
 
 // The feature's bit in a chain; null if neither of its homes is there.
 VkBool32* findFeature(void* chain, const RequiredFeature& feature) {
@@ -127,8 +130,12 @@ FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAdd
   for (const RequiredFeature& feature : kRequiredFeatures) {
     addItem(requirements, feature.name, nullptr, isEnabled(offer.features, feature), true);
   }
+  const VkPhysicalDeviceLimits& limits = offer.properties.limits;
+  addItem(requirements, "maxComputeWorkGroupSize[0] >= 256", nullptr, limits.maxComputeWorkGroupSize[0] >= gpu::kGroupSize, false);
+  addItem(requirements, "maxComputeWorkGroupInvocations >= 256", nullptr,
+          limits.maxComputeWorkGroupInvocations >= gpu::kGroupSize, false);
   addItem(requirements, "timestampComputeAndGraphics", "the times of passes (FrothViewStatus::passes)",
-          offer.properties.limits.timestampComputeAndGraphics, false);
+          limits.timestampComputeAndGraphics, false);
   addItem(requirements, "shaderStorageImageExtendedFormats", "the images id and motion (FrothRenderInfo)",
           offer.features.features.shaderStorageImageExtendedFormats, true);
   addItem(requirements, kDynamicRendering.name, "frothRecordDepthExport", isEnabled(offer.features, kDynamicRendering), true);
@@ -195,6 +202,13 @@ FrothResult checkContextDevice(const FrothContextInfo& info, const Messages& mes
                        "queueFamily: %u; those with VK_QUEUE_COMPUTE_BIT are %s; name the one that frames are "
                        "submitted to",
                        info.queueFamily, valid.c_str());
+}
+
+uint32_t timestampBitsOf(const FrothContextInfo& info) {
+  Offer offer;
+  linkFeatures(offer);
+  queryOffer(info.getInstanceProcAddr, info.instance, info.physicalDevice, offer);
+  return offer.queueFamilies[info.queueFamily].timestampValidBits;
 }
 
 FrothResult checkDepthExportDevice(const FrothContextInfo& info, const Messages& messages, const char* call) {

@@ -64,7 +64,9 @@ FoamWalk::Exit FoamWalk::findExit() const {
     const double q = glm::dot(ray_.direction, toNeighbour);
     const double offset = foam::radicalOffset(toNeighbour, radius, chunk_->radiusOf(other));
     const double t = foam::radicalClearance(centre, toNeighbour, offset) / q;
-    if (!((q > 0) & (t < exit.t))) continue;  // one branch, seldom taken: half of the neighbours lie ahead
+    if (!((q > 0) & (t <= exit.t))) continue;  // one branch, seldom taken: half of the neighbours lie ahead
+    // Towards two sites at one point: the first owns a ray in their plane (shaders/foam/cell.h).
+    if (t == exit.t && !(exit.site != kNoSite && foam::comesFirst(chunk_->siteOf(exit.site) - chunk_->siteOf(other)))) continue;
     const double key = glm::dot(ray_.direction, chunk_->siteOf(other) - localOrigin_);
     if (key > key_) exit = {other, t, key};
   }

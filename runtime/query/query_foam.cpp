@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "format/checks.h"
+#include "shaders/foam/cell.h"
 
 namespace froth {
 namespace {
@@ -80,6 +81,23 @@ void QueryFoam::growBounds(const QueryChunk& chunk) {
   }
 }
 
+// Bit for bit on a lattice, else rounded to float: as format/asset_verify.cpp.
+Status QueryFoam::checkGhosts(const std::string& name) const {
+  for (uint32_t index = 0; index < chunks_.size(); ++index) {
+    const QueryChunk& chunk = chunks_[index];
+    for (uint32_t ghost = 0; ghost < chunk.ghostRefs.size(); ++ghost) {
+      const CellAddress cell = cellOfSite(index, chunk.cellCount + ghost);
+      const QueryChunk& other = chunks_[cell.chunk];
+      const glm::vec4 copy = chunk.siteRadius[chunk.cellCount + ghost], original = other.siteRadius[cell.cell];
+      const glm::vec3 expected(other.origin - chunk.origin + glm::dvec3(original));
+      if (glm::vec3(copy) == expected && copy.w == original.w) continue;
+      return makeError(ErrorKind::kBadInput, "%s: ghost %u is not where cell %u of chunk %u is, or not as large; bake the scene again",
+                       chunkPlace(name, index).c_str(), ghost, cell.cell, cell.chunk);
+    }
+  }
+  return {};
+}
+
 void QueryFoam::finish() {
   isWhole_ = true;
   if (samples_.empty()) return;
@@ -120,7 +138,11 @@ CellAddress QueryFoam::locate(const glm::dvec3& point) const {
     for (uint32_t i = chunk->neighbourOffsets[current.cell]; i < end; ++i) {
       const uint32_t other = chunk->neighbourAt(i);
       const double power = froth::powerOf(chunk->siteRadius[other], local);
-      if (power < least) {
+      // On a plane: the first of its sites (shaders/foam/cell.h). Not a ghost, whose place another chunk may tell otherwise: so the search
+      // ends whatever a file holds.
+      const bool isFirst = power == least && other < chunk->cellCount &&
+                           !foam::comesFirst(glm::vec3(chunk->siteRadius[other]) - glm::vec3(chunk->siteRadius[best]));
+      if (power < least || isFirst) {
         least = power;
         best = other;
       }

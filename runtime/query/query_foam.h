@@ -6,12 +6,14 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "format/asset_contents.h"
+#include "format/result.h"
 #include "runtime/asset/bit_writer.h"
 #include "runtime/query/entry_tree.h"
 
@@ -56,6 +58,8 @@ class QueryFoam {
   explicit QueryFoam(const AssetContents& manifest);
 
   void addChunk(const ChunkContents& contents);  // in the asset's order
+  // After the last one: that each ghost is where its cell is, and as large. The name is for messages.
+  Status checkGhosts(const std::string& name) const;
   void finish();                                 // after the last one: now it is whole
   bool isWhole() const { return isWhole_; }
 

@@ -68,8 +68,15 @@ void aimParallel(const FrothCamera& camera, const glm::dmat3& assetFromView, dou
   rays.forward = glm::normalize(glm::cross(rays.stepX, rays.stepY));
 }
 
-gpu::vec4 toFloats(const glm::dvec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+gpu::vec4 toFloats(const glm::dvec3& v, double w = 0) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+// The column and row of the region at which the rays' sum is shortest.
+glm::dvec2 middlePixel(const CameraRays& rays) {
+  const double xx = glm::dot(rays.stepX, rays.stepX), xy = glm::dot(rays.stepX, rays.stepY), yy = glm::dot(rays.stepY, rays.stepY);
+  const double x = glm::dot(rays.origin, rays.stepX), y = glm::dot(rays.origin, rays.stepY);
+  return glm::dvec2(xy * y - yy * x, xy * x - xx * y) / (xx * yy - xy * xy);
 }
 
 }  // namespace
@@ -122,21 +129,22 @@ CameraRays computeCameraRays(const FrothCamera& camera, const RenderInstance& in
 void fillRays(const FrothCamera& camera, const CameraRays& rays, gpu::FrameBlock& block) {
   const uint32_t lensClass = lensClassOf(camera);
   block.forward = toFloats(rays.forward);
+  const glm::dvec2 middle = lensClass == gpu::kLensClassMapped ? glm::dvec2(0) : middlePixel(rays);
   if (lensClass == gpu::kLensClassOrthographic) {
     const glm::dvec3 u = glm::normalize(rays.stepX), v = glm::cross(rays.forward, u);
-    const auto onPlane = [&](const glm::dvec3& offset) {
-      return toFloats({glm::dot(offset, u), glm::dot(offset, v), 0});
+    const auto onPlane = [&](const glm::dvec3& step, double w) {
+      return toFloats({glm::dot(step, u), glm::dot(step, v), 0}, w);
     };
     block.lensFirst = toFloats(u);
     block.lensSecond = toFloats(v);
-    block.rayOrigin = onPlane(rays.origin);
-    block.rayX = onPlane(rays.stepX);
-    block.rayY = onPlane(rays.stepY);
+    block.rayOrigin = toFloats(glm::dvec3(0));
+    block.rayX = onPlane(rays.stepX, middle.x);
+    block.rayY = onPlane(rays.stepY, middle.y);
     return;
   }
-  block.rayOrigin = toFloats(rays.origin);
-  block.rayX = toFloats(rays.stepX);
-  block.rayY = toFloats(rays.stepY);
+  block.rayOrigin = toFloats(rays.origin + rays.stepX * middle.x + rays.stepY * middle.y);
+  block.rayX = toFloats(rays.stepX, middle.x);
+  block.rayY = toFloats(rays.stepY, middle.y);
   if (lensClass == gpu::kLensClassMapped) fillLens(camera, block);
 }
 

@@ -50,7 +50,7 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
   block.tileCounts = buffers[ViewBuffer::kTileCounts].address;
   block.pairTiles = buffers[ViewBuffer::kPairTiles].address;
   block.pairCells = buffers[ViewBuffer::kPairCells].address;
-  const bool endsInSwap = digitsOf(tilesOf(region)) % 2 != 0;
+  const bool endsInSwap = tileDigits(tilesOf(region)) % 2 != 0;
   block.tileCells = buffers[endsInSwap ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells].address;
   block.tileLists = buffers[ViewBuffer::kTileLists].address;
   const VkDeviceAddress tallies = buffers[ViewBuffer::kTallies].address;
@@ -75,6 +75,7 @@ double leadingBits(double value) {
 }
 
 void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* chunks) {
+  uint32_t group = 0;
   for (size_t i = 0; i < asset.chunks.size(); ++i) {
     const GpuChunk& chunk = asset.chunks[i];
     const glm::dvec3 offset = glm::dvec3(chunk.origin[0], chunk.origin[1], chunk.origin[2]) - eye;
@@ -98,7 +99,9 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
     entry.neighbourShift = chunk.neighbourShift;
     entry.alphaShift = chunk.alphaShift;
     entry.cellWordCount = chunk.cellWordCount;
+    entry.firstGroup = group;
     entry.code = chunk.code;
+    group += groupsOver(chunk.cellCount, gpu::kGroupSize);
   }
 }
 
@@ -116,7 +119,9 @@ void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block) {
   block.flags = (info.colour.image ? gpu::kFlagColour : 0) | (info.distance.image ? gpu::kFlagDistance : 0) |
                 (info.normal.image ? gpu::kFlagNormal : 0) | (info.displayCoded ? gpu::kFlagDisplayCoded : 0) |
                 static_cast<uint32_t>(info.toneCurve) << gpu::kToneCurveShift |
-                (info.depth.image ? gpu::kFlagDepth : 0) | (info.sceneDepth.image ? gpu::kFlagSceneDepth : 0);
+                (info.depth.image ? gpu::kFlagDepth : 0) | (info.sceneDepth.image ? gpu::kFlagSceneDepth : 0) |
+                (info.tileForm == FROTH_TILE_FORM_ALL_SHORT ? gpu::kFlagShortTiles : 0) |
+                (info.tileForm == FROTH_TILE_FORM_ALL_LONG ? gpu::kFlagLongTiles : 0);
   fillDepthRange(info.camera, block);
   block.regionX = static_cast<uint32_t>(region.offset.x);
   block.regionY = static_cast<uint32_t>(region.offset.y);
@@ -141,14 +146,16 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   block.detailCount = asset.detailCount;
   block.lobeCount = asset.lobeCount;
   block.hasHeights = asset.hasHeights;
+  block.maxEntries = info.maxEntries;
   block.maxSteps = info.maxSteps;
+  block.maxNeighbours = info.maxNeighbours;
   block.localBits = asset.localBits;
   block.tilesX = tilesAlong(region.extent.width);
   block.tilesY = tilesAlong(region.extent.height);
   block.blocksX = groupsOver(block.tilesX, gpu::kBlockTiles);
   block.blocksY = groupsOver(block.tilesY, gpu::kBlockTiles);
   block.chunkCount = static_cast<uint32_t>(asset.chunks.size());
-  block.groupsPerChunk = groupsPerChunk(asset);
+  block.groupCount = groupsOfCells(asset);
   block.counters = place.counters;
   block.chunks = place.block + kBlockStride;
 }

@@ -1,26 +1,41 @@
 #include "runtime/render/pass_recorder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "runtime/render/view_capacity.h"
 
 namespace froth {
 
+void dispatchGroups(const DeviceTable& vk, VkCommandBuffer commandBuffer, uint32_t groups) {
+  const uint32_t rows = std::max(groupsOver(groups, gpu::kMostGroupsAlong), 1u);
+  vk.vkCmdDispatch(commandBuffer, groupsOver(groups, rows), rows, 1);
+}
+
 void PassRecorder::bind(Pass pass) const {
   vk.vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, (*pipelines)[static_cast<uint32_t>(pass)]);
 }
 
-void PassRecorder::run(Pass pass, uint32_t groupsX, uint32_t groupsY) const {
-  bind(pass);
+void PassRecorder::pushFrame() const {
   const gpu::PassConstants constants{frame};
   vk.vkCmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
+}
+
+void PassRecorder::run(Pass pass, uint32_t groupsX, uint32_t groupsY) const {
+  bind(pass);
+  pushFrame();
   vk.vkCmdDispatch(commandBuffer, groupsX, groupsY, 1);
+}
+
+void PassRecorder::runOver(Pass pass, uint32_t groups) const {
+  bind(pass);
+  pushFrame();
+  dispatchGroups(vk, commandBuffer, groups);
 }
 
 void PassRecorder::runIndirect(Pass pass, size_t dispatch) const {
   bind(pass);
-  const gpu::PassConstants constants{frame};
-  vk.vkCmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
+  pushFrame();
   dispatchIndirect(dispatch);
 }
 

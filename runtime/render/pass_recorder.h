@@ -9,6 +9,9 @@
 
 namespace froth {
 
+// Dispatches so many workgroups or a few more, of shaders that count by linearGroup() of gpu/grid.glsl.
+void dispatchGroups(const DeviceTable& vk, VkCommandBuffer commandBuffer, uint32_t groups);
+
 struct PassRecorder {
   const DeviceTable& vk;
   VkCommandBuffer commandBuffer;
@@ -19,12 +22,14 @@ struct PassRecorder {
   VkDeviceSize countersOffset;
 
   void run(Pass pass, uint32_t groupsX, uint32_t groupsY = 1) const;
+  void runOver(Pass pass, uint32_t groups) const;  // a list, by linearGroup() of gpu/grid.glsl
   // dispatch: offset of the size in gpu::Counters.
   void runIndirect(Pass pass, size_t dispatch) const;
   // Later passes see what earlier ones wrote.
   void wait() const;
 
   void bind(Pass pass) const;
+  void pushFrame() const;
   void dispatchIndirect(size_t dispatch) const;
 };
 

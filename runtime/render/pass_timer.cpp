@@ -4,6 +4,12 @@
 #include <iterator>
 
 namespace froth {
+namespace {
+
+// Of a counter of so many bits [1..64] that wraps.
+uint64_t ticksBetween(uint64_t begin, uint64_t end, uint32_t bits) { return (end - begin) & (~uint64_t{0} >> (64 - bits)); }
+
+}  // namespace
 
 Result<std::unique_ptr<PassTimer>> PassTimer::create(Device& device, uint32_t recordings) {
   std::unique_ptr<PassTimer> timer(new PassTimer(device));
@@ -53,7 +59,7 @@ void PassTimer::read(uint32_t recording, FrothViewStatus& status) const {
   const double millisecondsPerTick = device_.properties.limits.timestampPeriod * 1e-6;
   for (uint32_t i = 0; i < passes && status.passCount < std::size(status.passes); ++i) {
     status.passes[status.passCount++] = {
-        names_[recording][i], static_cast<double>(stamps[i + 1] - stamps[i]) * millisecondsPerTick};
+        names_[recording][i], static_cast<double>(ticksBetween(stamps[i], stamps[i + 1], device_.timestampBits)) * millisecondsPerTick};
   }
 }
 

@@ -13,7 +13,7 @@ namespace froth {
 
 class PassTimer {
  public:
-  // recordings: how many can be in flight.
+  // recordings: how many can be in flight. The device has timestampBits.
   static Result<std::unique_ptr<PassTimer>> create(Device& device, uint32_t recordings);
   ~PassTimer();
 

@@ -103,9 +103,10 @@ struct Specialization {
   VkBool32 countWork;
   VkBool32 isFull;
   uint32_t lensClass;
+  VkBool32 floatColours;
 };
 
-constexpr std::array<VkSpecializationMapEntry, 7> kSpecializationEntries = {{
+constexpr std::array<VkSpecializationMapEntry, 8> kSpecializationEntries = {{
     {gpu::kConstantCheckIndices, offsetof(Specialization, checkIndices), sizeof(VkBool32)},
     {gpu::kConstantDetailCount, offsetof(Specialization, detailCount), sizeof(uint32_t)},
     {gpu::kConstantLobeCount, offsetof(Specialization, lobeCount), sizeof(uint32_t)},
@@ -113,6 +114,7 @@ constexpr std::array<VkSpecializationMapEntry, 7> kSpecializationEntries = {{
     {gpu::kConstantCountWork, offsetof(Specialization, countWork), sizeof(VkBool32)},
     {gpu::kConstantIsFull, offsetof(Specialization, isFull), sizeof(VkBool32)},
     {gpu::kConstantLensClass, offsetof(Specialization, lensClass), sizeof(uint32_t)},
+    {gpu::kConstantFloatColours, offsetof(Specialization, floatColours), sizeof(VkBool32)},
 }};
 
 Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode& code,
@@ -138,7 +140,8 @@ Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint
                         .hasHeights = shape.hasHeights,
                         .countWork = state.options.countWork,
                         .isFull = false,
-                        .lensClass = gpu::kLensClassPinhole};
+                        .lensClass = gpu::kLensClassPinhole,
+                        .floatColours = state.options.floatColours};
   for (values.lensClass = 0; values.lensClass < gpu::kLensClassCount; ++values.lensClass) {
     if (!state.hasLensClass(values.lensClass)) continue;
     for (uint32_t pass = first; pass < last; ++pass) {

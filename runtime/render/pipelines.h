@@ -12,6 +12,7 @@ namespace froth {
 struct ShaderOptions {
   bool checkIndices = false;  // check every index, count those out of range
   bool countWork = false;     // count what rays cost
+  bool floatColours = false;  // keep colours of detail sites as floats
   uint32_t lensClasses = 0;   // FrothLensClass: what cameras they are made for besides pinholes
   bool hasExtendedFormats = false;  // the device has shaderStorageImageExtendedFormats
   VkFormat compositeFormat = VK_FORMAT_UNDEFINED;  // of the engine's colour; UNDEFINED: no pass for it

@@ -56,7 +56,7 @@ void recordCellSort(const Recording& recording) {
 void recordBin(const Recording& recording) {
   recordTileTests(recording, Pass::kEmitPairs);
   recording.wait();
-  const uint32_t digits = digitsOf(tilesOf(recording.info.camera.scissor));
+  const uint32_t digits = tileDigits(tilesOf(recording.info.camera.scissor));
   for (uint32_t digit = 0; digit < digits; ++digit) {
     const uint32_t step = digit + 1 == digits ? gpu::kSortOnlyMove : gpu::kSortCountNextDigit;
     for (const RecordingPart& part : recording.parts()) {

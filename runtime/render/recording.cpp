@@ -155,7 +155,7 @@ void recordCull(const Recording& recording) {
   if (lensClassOf(recording.info.camera) == gpu::kLensClassMapped) recordRays(recording);
   for (const Pass pass : {Pass::kCullCells, Pass::kCompactCells}) {
     for (const RecordingPart& part : recording.parts()) {
-      part.recorder.run(pass, groupsPerChunk(*part.asset), static_cast<uint32_t>(part.asset->chunks.size()));
+      part.recorder.runOver(pass, groupsOfCells(*part.asset));
     }
     recording.wait();
   }

@@ -52,9 +52,9 @@ ViewDemand demandOf(const gpu::Counters& counters) {
   return {counters.cellsWanted, counters.planesWanted, counters.pairs + share * lostCells};
 }
 
-uint32_t digitsOf(uint32_t count) {
+uint32_t tileDigits(uint32_t tiles) {
   uint32_t digits = 1;
-  while ((count - 1) >> (8 * digits) != 0) ++digits;
+  while (tiles >> (8 * digits) != 0) ++digits;
   return digits;
 }
 
@@ -72,18 +72,16 @@ TallyLayout layOutTallies(const ViewCapacity& capacity) {
   TallyLayout layout;
   layout.cellHistograms = 0;
   layout.pairHistograms = kCellKeyDigits * histogramBytes(capacity.cells, rounds);
-  layout.tileLengths = layout.pairHistograms + digitsOf(capacity.tiles) * histogramBytes(capacity.pairs, rounds);
-  layout.superSums = layout.tileLengths + sizeof(uint32_t) * (capacity.tiles + capacity.tiles % 2);
+  layout.tileLengths = layout.pairHistograms + tileDigits(capacity.tiles) * histogramBytes(capacity.pairs, rounds);
+  layout.superSums = layout.tileLengths + sizeof(uint32_t[2]) * (capacity.tiles / 2 + 1);
   layout.tileSums = layout.superSums + sizeof(uint32_t[2]) * groupsOver(capacity.groups, gpu::kGroupSize);
   layout.end = layout.tileSums + sizeof(uint32_t) * groupsOver(capacity.cells, gpu::kCellsPerTileSum);
   return layout;
 }
 
-uint32_t groupsPerChunk(const GpuAsset& asset) {
-  uint32_t groups = 1;
-  for (const GpuChunk& chunk : asset.chunks) {
-    groups = std::max(groups, groupsOver(chunk.cellCount, gpu::kGroupSize));
-  }
+uint32_t groupsOfCells(const GpuAsset& asset) {
+  uint32_t groups = 0;
+  for (const GpuChunk& chunk : asset.chunks) groups += groupsOver(chunk.cellCount, gpu::kGroupSize);
   return groups;
 }
 
@@ -93,7 +91,7 @@ void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
   const uint64_t meanPlanes = asset.alphaTotal / std::max(asset.liveCount, 1u) + 1;
   ViewCapacity needed;
   needed.chunks = chunks;
-  needed.groups = chunks * groupsPerChunk(asset);
+  needed.groups = groupsOfCells(asset);
   needed.cells = static_cast<uint32_t>(cells);
   needed.planes = std::min(asset.alphaTotal, cells * meanPlanes);
   needed.sites = cells * asset.detailCount;
@@ -103,8 +101,7 @@ void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
 }
 
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
-  return asset.chunks.size() <= capacity.chunks &&
-         asset.chunks.size() * groupsPerChunk(asset) <= capacity.groups;
+  return asset.chunks.size() <= capacity.chunks && groupsOfCells(asset) <= capacity.groups;
 }
 
 ViewCapacity lessened(const ViewCapacity& capacity, double factor) {

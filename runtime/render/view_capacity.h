@@ -12,7 +12,7 @@ struct ViewCapacity {
   // Known before a frame is recorded.
   uint32_t frames = 1;  // in flight
   uint32_t chunks = 1;
-  uint32_t groups = 1;  // chunks times workgroups over the largest chunk's cells
+  uint32_t groups = 1;  // groupsOfCells
   uint32_t tiles = 1;
   uint64_t rays = 0;    // pixels of a view that mapped lenses draw; else 0
   uint64_t hits = 0;    // pixels of a view that keeps hits; else 0
@@ -41,8 +41,8 @@ inline uint32_t groupsOver(uint32_t items, uint32_t perGroup) { return (items + 
 
 inline constexpr uint32_t kCellKeyDigits = 4;  // bytes of a cell's sort key
 
-// Bytes of a number below `count` [> 0] that a radix sort has to look at.
-uint32_t digitsOf(uint32_t count);
+// Bytes that a radix sort has to look at, of the number of a tile or of the one past the last tile.
+uint32_t tileDigits(uint32_t tiles);
 
 // FrameBlock::sortRounds of a view with room for so many cells: small groups keep a GPU busy with a short list, of a long one
 // each would read the sums of too many others.
@@ -60,8 +60,8 @@ struct TallyLayout {
 
 TallyLayout layOutTallies(const ViewCapacity& capacity);
 
-// Workgroups over the cells of an asset's largest chunk.
-uint32_t groupsPerChunk(const GpuAsset& asset);
+// Workgroups over the cells of all chunks, each of one chunk (ChunkEntry::firstGroup).
+uint32_t groupsOfCells(const GpuAsset& asset);
 
 // Adds what an asset needs, and a guess at what is visible of it that does not grow with the asset.
 void coverAsset(const GpuAsset& asset, ViewCapacity& capacity);

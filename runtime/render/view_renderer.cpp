@@ -28,11 +28,13 @@ void addWork(const gpu::Counters& counters, FrothWork& work) {
 
 void addCounters(const gpu::Counters& counters, FrothViewStatus& status) {
   status.pairs += counters.pairs;
+  status.longestList = std::max(status.longestList, counters.longestList);
   status.indexViolations += counters.violations;
   addWork(counters, status.work);
   if (counters.cellsWanted > counters.visibleCells) status.bits |= FROTH_VIEW_CELL_OVERFLOW;
   if (counters.pairs > counters.pairsKept) status.bits |= FROTH_VIEW_PAIR_OVERFLOW;
   if (counters.stepLimit != 0) status.bits |= FROTH_VIEW_STEP_LIMIT;
+  if (counters.isCut != 0) status.bits |= FROTH_VIEW_ENTRY_LIMIT;
 }
 
 void readRecording(ViewState& view, uint32_t number) {

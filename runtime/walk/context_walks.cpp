@@ -9,6 +9,9 @@ namespace {
 constexpr float kDefaultCutoff = 1e-3f, kDefaultQuantile = 0.5f;
 constexpr uint32_t kDefaultMaxSteps = 65536;
 
+// Tables of chunks that an instance needs in a frame which seeds its asset (walk_sets.cpp).
+constexpr uint32_t kTablesToSeed = 2;
+
 }  // namespace
 
 FrothResult Context::checkWalks(const char* call) const {
@@ -38,7 +41,7 @@ void Context::prepareWalks() {
     const Asset& asset = *assets_.find(instance.asset);
     if (asset.isDecoded() && asset.gpu().walkEntries != 0) {
       ++instanceCount;
-      chunkCount += static_cast<uint32_t>(asset.gpu().chunks.size());
+      chunkCount += kTablesToSeed * static_cast<uint32_t>(asset.gpu().chunks.size());
     }
   });
   walked_.reserve(FROTH_WALK_MOST_INSTANCES);
@@ -61,7 +64,7 @@ bool Context::gatherWalked() {
     if (isReady && asset.gpu().liveCount == 0) {
       return;  // nothing to be met
     }
-    const uint32_t newCount = chunkCount + static_cast<uint32_t>(asset.gpu().chunks.size());
+    const uint32_t newCount = chunkCount + kTablesToSeed * static_cast<uint32_t>(asset.gpu().chunks.size());
     if (!isReady || asset.gpu().walkEntries == 0 || walked_.size() == FROTH_WALK_MOST_INSTANCES ||
         !walks_->hasSpaceFor(newCount)) {
       isWhole = false;

@@ -7,24 +7,27 @@
 
 #include "runtime/render/camera_rays.h"
 #include "runtime/render/frame_block.h"
+#include "runtime/render/pass_recorder.h"
 #include "runtime/render/view_capacity.h"
 #include "shaders/gpu/walk_layout.h"
 
 namespace froth {
 namespace {
 
-// A slot of the tables: WalkBlock, WalkInstance [most], ChunkEntry [capacity]; each slot where a uniform buffer may begin.
+// A slot of the tables: WalkBlock, WalkInstance [most], the same for seeds, ChunkEntry [capacity]; each slot where a uniform
+// buffer may begin.
 constexpr VkDeviceSize kAlignment = 256;
 constexpr VkDeviceSize kInstancesOffset = kAlignment;
-constexpr VkDeviceSize kChunksOffset = kInstancesOffset + FROTH_WALK_MOST_INSTANCES * sizeof(gpu::WalkInstance);
+constexpr VkDeviceSize kChunksOffset = kInstancesOffset + 2 * FROTH_WALK_MOST_INSTANCES * sizeof(gpu::WalkInstance);
 constexpr VkDeviceSize kCountersStride = kAlignment;
+constexpr uint32_t kFirstSeed = FROTH_WALK_MOST_INSTANCES;
 static_assert(kChunksOffset % 16 == 0 && sizeof(gpu::WalkCounters) <= kCountersStride);
-
-constexpr uint32_t kMostGroupsAlong = 65535;
 
 gpu::vec4 toFloats(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
+
+glm::dvec3 toVector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye, uint32_t maxSteps) {
   const RenderInstance& placement = instance.placement;
@@ -34,11 +37,11 @@ gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye
   entry.worldX = toFloats(rows[0]);
   entry.worldY = toFloats(rows[1]);
   entry.worldZ = toFloats(rows[2]);
-  const glm::dvec3 low(asset.boundsLow[0], asset.boundsLow[1], asset.boundsLow[2]);
-  const glm::dvec3 high(asset.boundsHigh[0], asset.boundsHigh[1], asset.boundsHigh[2]);
-  const glm::dvec3 padding = 1e-5 * (glm::abs(low - eye) + glm::abs(high - eye));  // more than rounding
-  entry.boxLow = toFloats(low - eye - padding);
-  entry.boxHigh = toFloats(high - eye + padding);
+  const glm::dvec3 low = toVector(asset.boundsLow), high = toVector(asset.boundsHigh);
+  const glm::dvec3 distance = glm::abs(low - eye) + glm::abs(high - eye);
+  entry.boxLow = toFloats(low - eye);
+  entry.boxLow[3] = static_cast<float>(1e-5 * std::max({distance.x, distance.y, distance.z}));
+  entry.boxSize = toFloats(high - low);
   entry.scale = placement.scale;
   entry.detailSharpness = asset.detailSharpness;
   entry.mask = instance.mask;
@@ -192,13 +195,20 @@ void WalkSets::writeTables(uint32_t slot, const FrothWalkInfo& info, std::span<c
   block.instances = address + kInstancesOffset;
   std::memcpy(staged, &block, sizeof(block));
   VkDeviceSize chunks = kChunksOffset;
-  for (size_t i = 0; i < instances.size(); ++i) {
-    const glm::dvec3 localEye = assetFromWorld(instances[i].placement, eye);
-    gpu::WalkInstance entry = describe(instances[i], localEye, info.maxSteps);
+  const auto write = [&](size_t place, const WalkedInstance& instance, const glm::dvec3& localEye) {
+    gpu::WalkInstance entry = describe(instance, localEye, info.maxSteps);
     entry.chunks = address + chunks;
-    std::memcpy(staged + kInstancesOffset + i * sizeof(entry), &entry, sizeof(entry));
-    fillChunks(*instances[i].placement.asset, localEye, reinterpret_cast<gpu::ChunkEntry*>(staged + chunks));
+    std::memcpy(staged + kInstancesOffset + place * sizeof(entry), &entry, sizeof(entry));
+    fillChunks(*instance.placement.asset, localEye, reinterpret_cast<gpu::ChunkEntry*>(staged + chunks));
     chunks += entry.chunkCount * sizeof(gpu::ChunkEntry);
+  };
+  for (size_t i = 0; i < instances.size(); ++i) {
+    const GpuAsset& asset = *instances[i].placement.asset;
+    write(i, instances[i], assetFromWorld(instances[i].placement, eye));
+    // Seeds are for all frames: seen from the middle of the box, and not from an eye that may be far away.
+    if (!instances[i].isSeeded) {
+      write(kFirstSeed + i, instances[i], 0.5 * (toVector(asset.boundsLow) + toVector(asset.boundsHigh)));
+    }
   }
 }
 
@@ -267,14 +277,16 @@ void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const Walked
 
 void WalkSets::recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uint32_t instance, const GpuAsset& asset) const {
   const DeviceTable& vk = device_.table;
-  const SeedConstants constants{instance};
+  const SeedConstants constants{kFirstSeed + instance};
   vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
-  const uint32_t along = asset.walkEntriesAlong;
-  uint32_t mostCells = 0;
-  for (const GpuChunk& chunk : asset.chunks) mostCells = std::max(mostCells, chunk.liveCount);
-  const bool isByEntry = pipeline == kSeedEntries;
-  const uint32_t groups = groupsOver(isByEntry ? along * along * along : mostCells, gpu::kRayGroupSize);
-  vk.vkCmdDispatch(commandBuffer, groups, isByEntry ? 1 : static_cast<uint32_t>(asset.chunks.size()), 1);
+  if (pipeline == kSeedEntries) {
+    const uint32_t along = asset.walkEntriesAlong;
+    dispatchGroups(vk, commandBuffer, groupsOver(along * along * along, gpu::kRayGroupSize));
+    return;
+  }
+  const auto chunks = static_cast<uint32_t>(asset.chunks.size());
+  const uint32_t rows = groupsOver(chunks, gpu::kMostGroupsAlong);
+  vk.vkCmdDispatch(commandBuffer, groupsOver(groupsOver(asset.liveCount, chunks), gpu::kRayGroupSize), groupsOver(chunks, rows), rows);
 }
 
 void WalkSets::bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const {
@@ -291,9 +303,9 @@ void WalkSets::recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress rays, V
   bind(commandBuffer, kind + (isSeveral ? kCastSeveral : 0));
   const CastConstants constants{rays, hits, count, 0};
   vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
-  const uint32_t groups = groupsOver(count, gpu::kRayGroupSize);
-  const uint32_t rows = groupsOver(groups, kMostGroupsAlong);
-  vk.vkCmdDispatch(commandBuffer, groupsOver(groups, rows), rows, 1);
+  dispatchGroups(vk, commandBuffer, groupsOver(count, gpu::kRayGroupSize));
+  vk.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                         VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);  // counters
 }
 
 }  // namespace froth

@@ -32,7 +32,7 @@ class WalkSets {
   VkDescriptorSetLayout layout() const { return pipelines_->setLayout(); }
 
   // In frothUpdate: reads counters of complete frames, frees what was replaced, grows tables to so many chunks of all instances
-  // together. On an error they are as before.
+  // together: those of an instance that is not seeded count twice. On an error they are as before.
   Status prepare(uint64_t completedSerial, uint32_t instanceCount, uint32_t chunkCount);
   bool hasSpaceFor(uint32_t chunkCount) const { return chunkCount <= chunkCapacity_; }
 

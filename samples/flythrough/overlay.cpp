@@ -32,6 +32,7 @@ void layOutWork(const FrothWork& work, VkExtent2D extent) {
 void layOutWarnings(const FrothViewStatus& view) {
   if (view.bits & FROTH_VIEW_CELL_OVERFLOW) ImGui::TextUnformatted("cells overflowed: buffers grow");
   if (view.bits & FROTH_VIEW_PAIR_OVERFLOW) ImGui::TextUnformatted("pairs overflowed: buffers grow");
+  if (view.bits & FROTH_VIEW_ENTRY_LIMIT) ImGui::TextUnformatted("tiles hit the limit of their lists");
   if (view.bits & FROTH_VIEW_STEP_LIMIT) ImGui::TextUnformatted("walks hit the step limit");
   if (view.bits & FROTH_VIEW_NO_WALK_GRAPH) ImGui::TextUnformatted("the asset has no walk graph");
 }

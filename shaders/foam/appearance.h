@@ -12,14 +12,20 @@ FOAM_FN real3 inFaceFrame(real3 vector, real3 tangent, real3 bitangent, real3 no
   return real3(dot(vector, tangent), dot(vector, bitangent), dot(vector, normal)) * inverseRadius;
 }
 
-// What detailWeight asks of a point, given relative to the site in the face's frame: its place on the face, and the squared
-// distance from the face's plane.
-FOAM_FN real3 faceQuery(real3 local) { return real3(local.x, local.y, local.z * local.z); }
+// What detailWeight asks of a point, given relative to the site in the face's frame [radii]: its place on the face, and the squared
+// distance from the face's plane. Held where squares are finite, far beyond where weights vanish.
+FOAM_FN real3 faceQuery(real3 local) {
+  real farthest = real(1e9);
+  real x = min(max(local.x, -farthest), farthest);
+  real y = min(max(local.y, -farthest), farthest);
+  real z = min(max(local.z, -farthest), farthest);
+  return real3(x, y, z * z);
+}
 
 // exp(-sharpness |x - s|^2 / r^2) for the detail site s = p + r (u t + v b), detail = (u, v). In powers of two, so that a site
 // costs two differences, three multiply-adds and an exp2.
 FOAM_FN real detailWeight(real3 query, real2 detail, real sharpness) {
-  real falloff = sharpness * real(1.4426950408889634);  // log2(e)
+  real falloff = min(sharpness, real(1e30)) * real(1.4426950408889634);  // log2(e); finite: at the site itself 0 * infinity is NaN
   real x = query.x - detail.x;
   real y = query.y - detail.y;
   return exp2(-falloff * (x * x + y * y) - falloff * query.z);
@@ -52,12 +58,15 @@ FOAM_FN void addLobe(real exponent, real3 colour, FOAM_INOUT(real) largest, FOAM
   largest = newLargest;
 }
 
+// From 0 to the largest half, 65504, as which renderers keep it between passes (1 is white). Sums that left the floats give 0.
+FOAM_FN real shownColour(real value) { return value > real(0) ? min(value, real(65504)) : real(0); }
+
 // Display-coded colour of a detail site from its base colour (offset from one half) and its finished lobe sums; weightSum 0:
 // it has no lobes.
 FOAM_FN real3 lobeColour(real3 base, real weightSum, real3 colourSum) {
   real3 colour = real3(real(0.5)) + base;
   if (weightSum > real(0)) colour = colour + colourSum / weightSum;
-  return real3(max(colour.x, real(0)), max(colour.y, real(0)), max(colour.z, real(0)));
+  return real3(shownColour(colour.x), shownColour(colour.y), shownColour(colour.z));
 }
 
 #include "postlude.h"

@@ -26,6 +26,7 @@ using std::abs;
 using std::cos;
 using std::exp;
 using std::exp2;
+using std::fma;
 using std::log;
 using std::max;
 using std::min;

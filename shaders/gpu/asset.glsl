@@ -33,6 +33,23 @@ Chunk loadChunk(uint index) {
                FRAME.chunks.v[i].siteCount, FRAME.chunks.v[i].neighbourCount, FRAME.chunks.v[i].liveCount);
 }
 
+// The chunk whose cells the workgroups from ChunkEntry::firstGroup on have.
+uint chunkOfGroup(uint group) {
+  uint index = 0;
+  for (uint count = FRAME.chunkCount; count > 1;) {
+    uint first = count / 2;
+    bool isBehind = FRAME.chunks.v[index + first].firstGroup <= group;
+    index += isBehind ? first : 0;
+    count = isBehind ? count - first : first;
+  }
+  return index;
+}
+
+// The first of its cells that this group has.
+uint firstCellOfGroup(Chunk chunk, uint group) {
+  return (group - FRAME.chunks.v[chunk.index].firstGroup) * kGroupSize;
+}
+
 // The site in its chunk's coordinates, and the radius.
 vec4 siteRadiusOf(Chunk chunk, uint site) { return chunk.siteRadius.v[checked(site, chunk.siteCount)]; }
 
@@ -118,8 +135,8 @@ uvec2 cellOfSite(Chunk chunk, uint site) {
 #if !defined(FROTH_WALK)
 // The slot of a cell in the list of visible cells, or kNoCell.
 uint slotOfCell(uvec2 cell) {
-  uint words = FRAME.groupsPerChunk * kMaskWords;
-  uvec2 word = FRAME.visibility.v[checked(cell.x * words + cell.y / 32, FRAME.chunkCount * words)];
+  uint firstWord = FRAME.chunks.v[cell.x].firstGroup * kMaskWords;
+  uvec2 word = FRAME.visibility.v[checked(firstWord + cell.y / 32, FRAME.groupCount * kMaskWords)];
   uint bit = 1u << (cell.y % 32);
   return (word.x & bit) != 0 ? word.y + bitCount(word.x & (bit - 1)) : kNoCell;
 }

@@ -4,19 +4,37 @@
 #include "gpu/asset.glsl"
 #include "foam/cell.h"
 
+const float kLeastFall = 1e-37;
+const float kKeyRounding = 1.0 / 2097152.0;  // 8 times half a unit in the last place: of the centre 2, of the products and sums 3
+
 // The key of a step along a ray: the same bits wherever the same site is stepped to.
-float orderAlong(vec3 direction, vec3 centre) {
-  precise float key = direction.x * centre.x + direction.y * centre.y + direction.z * centre.z;
-  return key;
+float keyOf(vec3 direction, vec3 centre) { return fixedDot(direction, centre); }
+
+// What the keys of a site and of another may be off by together; its centre and that of the other as the keys have them.
+float roundingOfKeys(vec3 centre, vec3 otherCentre) {
+  vec3 sizes = abs(centre) + abs(otherCentre);
+  return kKeyRounding * (sizes.x + sizes.y + sizes.z);
 }
+
+// Whether a ray may step from a cell of a chunk to another site of it. Among cells of the chunk their order decides, which tells apart
+// sites that nearly coincide; a ghost lies in another place of the order of its own chunk, and is stepped to by a greater key alone.
+bool mayStepTo(Chunk chunk, uint site, vec2 order, vec2 siteOrder, float key, float siteKey) {
+  return isGhost(chunk, site) ? siteKey > key : liesFarther(order, siteOrder);
+}
+
+// Whether a ray that leaves a cell at one point towards two sites goes on in that of the first: cell.h says which cell owns a ray in
+// their plane.
+bool comesBefore(vec3 site, vec3 otherSite) { return comesFirst(fromSiteToSite(site, otherSite)); }
 
 // Half of what a point's power falls by from one cell of a chunk to another; 0: by less than its rounding, so that no search
 // goes back to a cell. As the local form of the plane between them says: powers themselves lose what sites that nearly coincide
-// differ by.
-float powerFall(vec3 centre, vec4 site, vec4 otherSite) {
+// differ by. A point on the plane falls to the first of the two sites.
+float powerFall(Chunk chunk, vec3 point, vec4 site, vec4 otherSite) {
+  vec3 centre = ballOf(chunk, site).centre - point;
   vec3 toOther = fromSiteToSite(site.xyz, otherSite.xyz);
-  float offset = radicalOffset(toOther, site.w, otherSite.w);
-  return max(-exitClearance(centre, toOther, offset, radicalClearance(centre, toOther, offset)), 0.0);
+  float clearance = sharedClearance(centre, ballOf(chunk, otherSite).centre - point, toOther, site.w, otherSite.w);
+  if (clearance == 0.0) return comesFirst(toOther) ? 0.0 : kLeastFall;
+  return max(-exitClearance(centre, toOther, radicalOffset(toOther, site.w, otherSite.w), clearance), 0.0);
 }
 
 // The search goes where the power falls most, and ends as it falls with every step. point: relative to the eye. steps: how many it
@@ -26,13 +44,12 @@ uvec2 descendTo(vec3 point, uvec2 first, out uint steps) {
   Chunk chunk = loadChunk(cell.x);
   for (steps = 0; steps < FRAME.maxSteps; ++steps) {
     vec4 siteRadius = siteRadiusOf(chunk, cell.y);
-    vec3 centre = ballOf(chunk, siteRadius).centre - point;
     uvec2 row = neighbourRow(chunk, cell.y);
     float most = 0.0;
     uint site = kNoCell;
     for (uint i = row.x; i < row.y; ++i) {
       uint other = neighbourAt(chunk, i);
-      float fall = powerFall(centre, siteRadius, siteRadiusOf(chunk, other));
+      float fall = powerFall(chunk, point, siteRadius, siteRadiusOf(chunk, other));
       if (fall > most) {
         most = fall;
         site = other;

@@ -6,11 +6,11 @@
 #include "foam/cell.h"
 
 // Parallel rays meet a plane at t = (clearance - toNeighbour . start) / q, with one q for all: linear in the place where they start.
-vec3 parallelPlane(vec3 toNeighbour, float clearance, float q) {
-  float tiny = 1e-20;
-  float guarded = abs(q) > tiny ? q : (q > 0.0 ? tiny : -tiny);
+vec3 parallelPlane(vec3 toNeighbour, float clearance, float q, bool isFar) {
+  float tiny = 1e-18 * max(abs(toNeighbour.x), max(abs(toNeighbour.y), abs(toNeighbour.z)));  // keeps the plane finite
+  float guarded = abs(q) > tiny ? q : (isFar ? tiny : -tiny);
   precise vec3 plane =
-      vec3(dot(toNeighbour, FRAME.lensFirst.xyz), dot(toNeighbour, FRAME.lensSecond.xyz), -clearance) / guarded;
+      vec3(fixedDot(toNeighbour, FRAME.lensFirst.xyz), fixedDot(toNeighbour, FRAME.lensSecond.xyz), -clearance) / guarded;
   return plane;
 }
 
@@ -19,16 +19,16 @@ vec3 parallelPlane(vec3 toNeighbour, float clearance, float q) {
 vec3 eyePlaneTo(Chunk chunk, vec4 site, vec4 otherSite, out bool isFar) {
   vec3 centre = ballOf(chunk, site).centre;
   vec3 toNeighbour = fromSiteToSite(site.xyz, otherSite.xyz);
-  float offset = radicalOffset(toNeighbour, site.w, otherSite.w);
-  float clearance = radicalClearance(centre, toNeighbour, offset);
+  bool isFirst = comesFirst(toNeighbour);
+  float clearance = sharedClearance(centre, ballOf(chunk, otherSite).centre, toNeighbour, site.w, otherSite.w);
   if (isParallel) {
-    precise float q = dot(toNeighbour, FRAME.forward.xyz);
-    isFar = q > 0.0;
-    return parallelPlane(toNeighbour, clearance, q);
+    float q = fixedDot(toNeighbour, FRAME.forward.xyz);
+    isFar = q > 0.0 || (q == 0.0 && !isFirst);  // of a plane along the rays the first cell has what lies on it too
+    return parallelPlane(toNeighbour, clearance, q, isFar);
   }
-  if (isWalk()) clearance = exitClearance(centre, toNeighbour, offset, clearance);
-  isFar = clearance >= 0.0;
-  return eyePlane(toNeighbour, clearance);
+  if (isWalk()) clearance = exitClearance(centre, toNeighbour, radicalOffset(toNeighbour, site.w, otherSite.w), clearance);
+  isFar = clearance > 0.0 || (clearance == 0.0 && (isFirst || isWalk()));
+  return eyePlane(toNeighbour, clearance, isFar);
 }
 
 #endif

@@ -2,11 +2,13 @@
 #ifndef FROTH_GPU_FRAME_GLSL
 #define FROTH_GPU_FRAME_GLSL
 #extension GL_EXT_buffer_reference : require
+#include "gpu/grid.glsl"
 #include "gpu/layout.h"
 
 layout(constant_id = kConstantCheckIndices) const bool checkIndices = false;
 layout(constant_id = kConstantIsFull) const bool isFull = true;
 layout(constant_id = kConstantLensClass) const uint lensClass = kLensClassPinhole;
+layout(constant_id = kConstantFloatColours) const bool floatColours = false;
 
 #if defined(FROTH_SORT)
 layout(push_constant) uniform Push {
@@ -48,16 +50,6 @@ uint checked(uint index, uint count) {
     return count > 0 ? count - 1 : 0;
   }
   return index;
-}
-
-// Dispatches over long lists are two-dimensional: one dimension may be limited to 65535 workgroups.
-uint linearGroup() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
-
-uint groupsOver(uint items, uint perGroup) { return items / perGroup + (items % perGroup != 0 ? 1 : 0); }
-
-uvec4 dispatchOf(uint groups) {
-  uint rows = (groups + 65534u) / 65535u;
-  return uvec4(rows > 0 ? (groups + rows - 1) / rows : 0, rows, 1, 0);
 }
 
 #endif

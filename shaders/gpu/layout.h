@@ -32,6 +32,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer FloatQuadAr
 #endif
 
 FROTH_CONST kGroupSize = 256;         // threads of a workgroup in all passes over lists
+FROTH_CONST kMostGroupsAlong = 65535; // workgroups of a dispatch along one dimension that every device takes
 FROTH_CONST kSortDigits = 256;        // values of a digit, as many as a workgroup has threads
 FROTH_CONST kManyKeysRounds = 4;      // FrameBlock::sortRounds of long lists; 1 of others
 FROTH_CONST kSortGroupsPerSum = 32;   // rows of a histogram that have a row of sums before them
@@ -63,6 +64,7 @@ FROTH_CONST kConstantHasHeights = 3;
 FROTH_CONST kConstantCountWork = 4;
 FROTH_CONST kConstantIsFull = 5;  // the frame wants more than colour and distance, or has a scene's depth
 FROTH_CONST kConstantLensClass = 6;
+FROTH_CONST kConstantFloatColours = 7;  // SiteRecord::colour
 
 // How the passes of a pipeline see: kConstantLensClass.
 FROTH_CONST kLensClassPinhole = 0;
@@ -87,6 +89,8 @@ FROTH_CONST kFlagDisplayCoded = 8;
 FROTH_CONST kFlagDepth = 32;
 FROTH_CONST kFlagSceneDepth = 64;
 FROTH_CONST kFlagHits = 128;
+FROTH_CONST kFlagShortTiles = 256;  // all tiles are drawn as short ones,
+FROTH_CONST kFlagLongTiles = 512;   // or as long ones (FrothRenderInfo::tileForm)
 FROTH_CONST kToneCurveShift = 16;  // above it: foam/tone.h
 FROTH_CONST kFlagWalk = 16;  // list cells that guide walks too, and the planes of all neighbours; else a raster: sort the cells,
                              // shade only those that own a (tile, cell) pair
@@ -121,6 +125,8 @@ struct ChunkEntry {
   uint neighbourShift, alphaShift;  // elements of 32 >> shift bits
   uint cellWordCount;
   uint hasSolidBalls;
+  uint firstGroup;  // of the workgroups over its cells, in a grid of kGroupSize cells each over those of all chunks
+  uint padding[3];
   CellCode code;
 };
 
@@ -139,8 +145,8 @@ struct CellRecord {
 struct SiteRecord {
   vec2 place;    // (u, v)
   float height;
-  uint padding;
-  uvec2 colour;  // halves r, g; b, 0
+  uint blue;     // float, with kConstantFloatColours
+  uvec2 colour;  // halves r, g; b, 0. With kConstantFloatColours floats r; g
 };
 
 // Counters::work: what rays cost. Rays count by themselves, entries by workgroup of kSubTileSize x kSubTileSize pixels.
@@ -161,9 +167,12 @@ struct Counters {
   uint visibleCells;  // of the wanted ones the first, as far as there was space for them and their planes
   uint pairs;         // (tile, cell) pairs of those; saturates
   uint pairsKept;     // of these, those that had space
-  uint stepLimit;     // pixels whose walk was ended by maxSteps
+  uint stepLimit;     // walks that maxSteps or maxNeighbours ended
   uint violations;    // indices out of range (checkIndices)
   uint longTiles;     // the first ones of FrameBlock::tileLists
+  uint longestList;   // entries of a tile, those beyond maxEntries included
+  uint isCut;         // 1: it is longer than maxEntries
+  uint padding[2];
   uvec4 expandDispatch;    // kRasterLanes or kWalkLanes threads per visible cell
   uvec4 siteDispatch;      // a thread per detail site of a visible cell
   uvec4 cellSortDispatch;  // a workgroup per sortRounds * kGroupSize visible cells
@@ -184,8 +193,9 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer CountersRef
 // One recording of one view. Directions and lengths are in the asset's axes and units.
 struct FrameBlock {
   vec4 rayOrigin;  // Pinhole: direction of pixel (column, row) of the region, not normalized:
-  vec4 rayX;       // rayOrigin + column rayX + row rayY. Mapped: the view's axes z, x, y.
-  vec4 rayY;       // Orthographic: (u, v) of a pixel, by the same sum.
+  vec4 rayX;       // rayOrigin + (column - rayX.w) rayX.xyz + (row - rayY.w) rayY.xyz. Mapped: the view's axes z, x, y.
+  vec4 rayY;       // Orthographic: (u, v) of a pixel, by the same sum from 0. The lens' middle is at (rayX.w, rayY.w): there a sum from
+                   // another pixel on loses what a wide lens' steps are longer by than its middle ray.
   vec4 forward;    // unit view axis, nearDepth
   vec4 depthRow;   // device depth of a point relative to the eye: (depthRow . p) / (depthScale . p), homogeneous
   vec4 depthScale;
@@ -197,9 +207,10 @@ struct FrameBlock {
   vec4 lensFirst, lensSecond;  // takes it. Orthographic: unit vectors along u and v, on the plane through the eye
   float nearRatio, scale, logCutoff, logQuantile;
   float detailSharpness;
-  uint flags, maxSteps, localBits;
+  uint flags, maxEntries, maxSteps, maxNeighbours;  // of the drawn part of a tile's list; of a walk
+  uint localBits;
   uint regionX, regionY, regionWidth, regionHeight;  // [pixels] what is drawn
-  uint tilesX, tilesY, chunkCount, groupsPerChunk;   // groups: workgroups over a chunk's cells
+  uint tilesX, tilesY, chunkCount, groupCount;       // groups: ChunkEntry::firstGroup
   uint visibleCapacity, planeCapacity, pairCapacity;
   uint sortRounds;  // keys that a thread ranks in a pass of a radix sort
   float lensRange;
@@ -208,9 +219,9 @@ struct FrameBlock {
   float exposure;
   FROTH_ADDRESS(CountersRef) counters;
   FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
-  FROTH_ADDRESS(UintPairArray) groupSums;      // [chunkCount * groupsPerChunk] visible cells, their planes
+  FROTH_ADDRESS(UintPairArray) groupSums;      // [groupCount] visible cells, their planes
   FROTH_ADDRESS(UintPairArray) superSums;      // [a kGroupSize-th of that] sums of kGroupSize groupSums
-  FROTH_ADDRESS(UintPairArray) visibility;     // [chunkCount * groupsPerChunk * kMaskWords] 32 bits, slot of the first bit
+  FROTH_ADDRESS(UintPairArray) visibility;     // [groupCount * kMaskWords] 32 bits, slot of the first bit
   FROTH_ADDRESS(UintQuadArray) visibleCells;   // [slot] chunk, local index, first plane, planes
   FROTH_ADDRESS(UintArray) cellKeys;           // [slot] order-preserving bits of the power of the eye, or along parallel rays
   FROTH_ADDRESS(UintArray) order;              // [visible cell] slot
@@ -223,7 +234,7 @@ struct FrameBlock {
   FROTH_ADDRESS(UintArray) pairTiles;          // [pair] as emitted
   FROTH_ADDRESS(UintArray) pairCells;            // slots
   FROTH_ADDRESS(UintArray) tileCells;          // [pair] slots in the order of tiles
-  FROTH_ADDRESS(UintArray) tileLengths;        // [tile] pairs; order_tiles.comp makes that the place in tileLists
+  FROTH_ADDRESS(UintArray) tileLengths;        // [tile] pairs; order_tiles.comp makes that the place in tileLists; one more (emit_pairs.comp)
   FROTH_ADDRESS(UintQuadArray) tileLists;      // [tiles, longest lists first] tile, begin and end in tileCells
   FROTH_ADDRESS(UintArray) cellHistogram;      // of the lowest digit of cellKeys (histogram.glsl)
   FROTH_ADDRESS(UintArray) pairHistogram;      // of the lowest digit of pairTiles
@@ -296,13 +307,13 @@ struct PartConstants {
   std::array<uint64_t, kMostInstances> parts;  // FrameBlock
 };
 
-static_assert(sizeof(ChunkEntry) == 192 && offsetof(ChunkEntry, siteRadius) == 32);
-static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 128 && sizeof(CellCode) == 64);
+static_assert(sizeof(ChunkEntry) == 208 && offsetof(ChunkEntry, siteRadius) == 32);
+static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 144 && sizeof(CellCode) == 64);
 static_assert(sizeof(SiteRecord) == 24 && offsetof(SiteRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
-static_assert(offsetof(Counters, expandDispatch) == 32 && offsetof(Counters, work) == 144 && sizeof(Counters) == 208);
-static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 240);
-static_assert(offsetof(FrameBlock, counters) == 320 && sizeof(FrameBlock) == 528);
+static_assert(offsetof(Counters, expandDispatch) == 48 && offsetof(Counters, work) == 160 && sizeof(Counters) == 224);
+static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 248);
+static_assert(offsetof(FrameBlock, counters) == 328 && sizeof(FrameBlock) == 536);
 static_assert(sizeof(FrameBlock) <= kHitBlockOffset && sizeof(HitInstance) == 64);
 static_assert(offsetof(HitBlock, pixels) == 208 && offsetof(HitBlock, hasPrevious) == 256 && sizeof(HitBlock) == 280);
 static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);

@@ -24,6 +24,9 @@ vec3 outputColour(vec3 colour, float coverage, float exposure) {
   return isCoded ? displayPremultiplied(light, coverage) : light;
 }
 
+// What both formats of the colour image hold: from 0 to the largest half, 65504. NaN becomes 0.
+vec3 storable(vec3 colour) { return mix(vec3(0.0), min(colour, vec3(65504.0)), greaterThan(colour, vec3(0.0))); }
+
 // A vector of the asset's axes.
 vec3 inWorld(vec3 vector) {
   return vec3(dot(FRAME.worldX.xyz, vector), dot(FRAME.worldY.xyz, vector), dot(FRAME.worldZ.xyz, vector));
@@ -33,7 +36,7 @@ vec3 inWorld(vec3 vector) {
 void writePixel(uvec2 pixel, vec3 colour, float coverage, float exposure, float distance, vec3 normal, float deviceDepth) {
   ivec2 place = ivec2(pixel + uvec2(FRAME.regionX, FRAME.regionY));
   if ((FRAME.flags & kFlagColour) != 0) {
-    imageStore(colourImage, place, vec4(outputColour(colour, coverage, exposure), coverage));
+    imageStore(colourImage, place, vec4(storable(outputColour(colour, coverage, exposure)), coverage));
   }
   if ((FRAME.flags & kFlagDistance) != 0) imageStore(distanceImage, place, vec4(distance));
   if ((FRAME.flags & kFlagNormal) != 0) imageStore(normalImage, place, vec4(normal, 0.0));

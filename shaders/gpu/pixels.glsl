@@ -10,7 +10,11 @@
 const float kPixelGuard = 0.05;
 
 // Of a pinhole, through the centre of a pixel of the region; not normalized.
-vec3 pixelRay(vec2 pixel) { return FRAME.rayOrigin.xyz + pixel.x * FRAME.rayX.xyz + pixel.y * FRAME.rayY.xyz; }
+vec3 pixelRay(vec2 pixel) {
+  // Whole loads: see cull_cells.comp.
+  vec4 middle = FRAME.rayOrigin, stepX = FRAME.rayX, stepY = FRAME.rayY;
+  return middle.xyz + (pixel.x - stepX.w) * stepX.xyz + (pixel.y - stepY.w) * stepY.xyz;
+}
 
 // The ray of a pixel of the region (gpu/view_rays.glsl); 0: it sees nothing. Beside the region: anything.
 vec3 rayOf(uvec2 pixel) {

@@ -95,6 +95,12 @@ void heightsAt(Shading shading, uint firstSite, vec3 queries[kRays], out float h
   for (uint r = 0; r < kRays; ++r) heights[r] /= flooredWeightSum(weightSums[r]);
 }
 
+vec3 colourOfSite(Shading shading, uint site) {
+  uvec2 words = shading.sites.v[site].colour;
+  if (floatColours) return uintBitsToFloat(uvec3(words, shading.sites.v[site].blue));
+  return vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y).x);
+}
+
 void coloursAt(Shading shading, uint firstSite, vec3 queries[kRays], out vec3 colours[kRays]) {
   float weightSums[kRays];
   for (uint r = 0; r < kRays; ++r) {
@@ -103,8 +109,7 @@ void coloursAt(Shading shading, uint firstSite, vec3 queries[kRays], out vec3 co
   }
   for (uint k = 0; k < detailCount; ++k) {
     vec2 place = shading.sites.v[firstSite + k].place;
-    uvec2 halves = shading.sites.v[firstSite + k].colour;
-    vec3 colour = vec3(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y).x);
+    vec3 colour = colourOfSite(shading, firstSite + k);
     for (uint r = 0; r < kRays; ++r) {
       float weight = detailWeight(queries[r], place, shading.detailSharpness);
       weightSums[r] += weight;

@@ -35,6 +35,9 @@ float rayEnd;  // [world units] where the scene stops the ray
 
 void selectPart(uint part) { frameAtHand = push.parts[part]; }
 
+// [1 / world unit] As opaque as any; sums of it times colours are finite.
+const float kMostDensity = 1e30;
+
 void startStream(uint part, Cursor cursor) {
   streams[streamCount].part = part;
   streams[streamCount].cursor = cursor;
@@ -61,7 +64,7 @@ void advance(uvec2 pixel, uint index) {
   if (!isMet) return;
   countWork(kWorkColours, 1);
   streams[index].ahead.segment = Segment(segment.tNear * scale, segment.tFar * scale);
-  streams[index].ahead.density = cell.face.w / scale;
+  streams[index].ahead.density = min(cell.face.w / scale, kMostDensity);
   streams[index].ahead.exposure = FRAME.exposure;
   streams[index].ahead.colour = colour;
   if (isFull) {
@@ -137,9 +140,9 @@ Merged mergeStreams(uvec2 pixel) {
         part = stretch.part;
         radiance.cell = stretch.cellCode;
       }
-      float before = radiance.logTransmittance;
+      float shown = exp(radiance.logTransmittance) * opacity(stretch.density * (stretch.segment.tFar - stretch.segment.tNear));
       composite(limits, stretch.segment, stretch.density, stretch.colour, stretch.normal, radiance);
-      exposures += stretch.exposure * exp(before) * opacity(before - radiance.logTransmittance);
+      exposures += stretch.exposure * shown;
     }
     passed = stretch.segment.tFar;
   }

@@ -42,16 +42,17 @@ TileBounds parallelBounds(Ball ball) {
 TileBounds tileBounds(Ball ball) {
   if (lensClass == kLensClassOrthographic) return parallelBounds(ball);
   if (lensClass == kLensClassMapped) return blockBounds(ball);
-  vec3 normal = cross(FRAME.rayX.xyz, FRAME.rayY.xyz);
+  vec4 stepX = FRAME.rayX, stepY = FRAME.rayY;  // whole loads: see cull_cells.comp
+  vec3 normal = cross(stepX.xyz, stepY.xyz);
   TileBounds bounds = TileBounds(ivec2(0), ivec2(FRAME.tilesX, FRAME.tilesY) - 1);
   float low, high;
-  if (boundBallImage(ball.centre, ball.radius, cross(FRAME.rayOrigin.xyz, FRAME.rayY.xyz), normal, low, high)) {
-    ivec2 columns = tileInterval(low, high, FRAME.regionWidth);
+  if (boundBallImage(ball.centre, ball.radius, cross(FRAME.rayOrigin.xyz, stepY.xyz), normal, low, high)) {
+    ivec2 columns = tileInterval(low + stepX.w, high + stepX.w, FRAME.regionWidth);
     bounds.first.x = columns.x;
     bounds.last.x = columns.y;
   }
-  if (boundBallImage(ball.centre, ball.radius, cross(FRAME.rayX.xyz, FRAME.rayOrigin.xyz), normal, low, high)) {
-    ivec2 rows = tileInterval(low, high, FRAME.regionHeight);
+  if (boundBallImage(ball.centre, ball.radius, cross(stepX.xyz, FRAME.rayOrigin.xyz), normal, low, high)) {
+    ivec2 rows = tileInterval(low + stepY.w, high + stepY.w, FRAME.regionHeight);
     bounds.first.y = rows.x;
     bounds.last.y = rows.y;
   }

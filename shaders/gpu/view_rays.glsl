@@ -9,6 +9,14 @@
 const bool isParallel = lensClass == kLensClassOrthographic;
 
 float nearnessAt(float t) { return isParallel ? -t : 1.0 / t; }
+
+// Of the point where a ray meets a plane. The same bits wherever a walk finds the plane, in a record's row or by itself: drivers
+// fuse the two texts in different ways where they may.
+float nearnessOf(vec3 plane, vec3 ray) {
+  precise float nearness = fma(plane.x, ray.x, fma(plane.y, ray.y, plane.z * ray.z));
+  return nearness;
+}
+
 float distanceAt(float nearness) { return isParallel ? -nearness : 1.0 / nearness; }
 
 vec3 directionOfRay(vec3 ray) { return isParallel ? FRAME.forward.xyz : ray; }

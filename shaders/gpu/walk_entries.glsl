@@ -13,8 +13,8 @@ const uint kMostParts = 512;  // on the way of one ray
 uint partsAlong() { return kPartsAlong * FRAME.entriesAlong; }
 
 vec3 partsPerUnit() {
-  vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
-  return float(partsAlong()) / (high.xyz - low.xyz);
+  vec4 size = FRAME.boxSize;
+  return float(partsAlong()) / size.xyz;
 }
 
 // Where a point relative to the eye lies in the grid.

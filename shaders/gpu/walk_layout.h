@@ -44,8 +44,8 @@ struct WalkInstance {
   vec4 worldX;   // rows of the rotation world-from-asset
   vec4 worldY;
   vec4 worldZ;
-  vec4 boxLow;   // of the balls of live cells
-  vec4 boxHigh;
+  vec4 boxLow;   // of the balls of live cells; w: more than rounding cuts off the box, so far from the eye
+  vec4 boxSize;  // has the same bits wherever the eye is, and so have the parts of the grid of entries
   float scale, detailSharpness;
   uint mask, userId;
   uint chunkCount, localBits, maxSteps, detailCount;

@@ -4,9 +4,10 @@
 // link to the next record. From a cell without one (its ball lies outside the view, or there was no space) a ray goes on by the
 // sites around it.
 //
-// No rounding can make a walk cycle: each step has a key, the dot product of the direction and the site it leads to, and is
-// taken only to a greater key. The key of a record is one fixed number for a ray, and so is that of a site of a chunk, be it a
-// cell or a ghost; the key of the last step goes with the walk. So no record and no site comes twice.
+// No rounding can make a walk cycle. Each step has a key, the dot product of the direction and the site it leads to; the greatest key
+// so far goes with the walk. From chunk to chunk a step is taken only to a greater key. Within a chunk it is taken only to a site that
+// lies farther along the ray: by the orders of the two sites, or by keys that differ by more than their rounding. A key and an order
+// are each one fixed number for a ray and a site, so a walk comes to no site of a chunk twice in one stay, and stays end.
 #ifndef FROTH_GPU_WALK_STEPS_GLSL
 #define FROTH_GPU_WALK_STEPS_GLSL
 #include "gpu/descend.glsl"
@@ -18,15 +19,18 @@ struct Step {
   uvec2 cell;    // its chunk and local index
   float key;
   float entry;   // where the ray enters the cell
+  uint neighbours;  // tested so far
 };
 
 float nearnessOfNoExit() { return isParallel ? -kInfinity : 0.0; }
 
-Step stepTo(uvec2 cell, float key, float entry) { return Step(slotOfCell(cell), cell, key, entry); }
+Step stepTo(uvec2 cell, float key, float entry, uint neighbours) {
+  return Step(slotOfCell(cell), cell, key, entry, neighbours);
+}
 
 // To a site of the chunk; from a ghost on to the cell for which it stands.
-Step stepToSite(Chunk chunk, uint site, float key, float entry) {
-  return stepTo(cellOfSite(chunk, site), key, entry);
+Step stepToSite(Chunk chunk, uint site, float key, float entry, uint neighbours) {
+  return stepTo(cellOfSite(chunk, site), key, entry, neighbours);
 }
 
 // The neighbour through whose plane the ray leaves the cell first, by their sites. Returns false: the ray leaves the foam.
@@ -36,20 +40,24 @@ bool findNextSite(inout Step current, vec3 ray) {
   Chunk chunk = loadChunk(cell.x);
   vec4 siteRadius = siteRadiusOf(chunk, cell.y);
   uvec2 row = neighbourRow(chunk, cell.y);
+  vec2 order = orderAlong(direction, siteRadius.xyz);
   uint next = kNoCell;
   float nextKey = current.key;
   float exitNearness = nearnessOfNoExit();
+  current.neighbours += row.y - row.x;
   countWork(kWorkNeighbours, row.y - row.x);
   for (uint i = row.x; i < row.y; ++i) {
     uint other = neighbourAt(chunk, i);
     vec4 otherSite = siteRadiusOf(chunk, other);
-    float key = orderAlong(direction, ballOf(chunk, otherSite).centre);
+    float key = keyOf(direction, ballOf(chunk, otherSite).centre);
     bool isFar;
-    float nearness = dot(eyePlaneTo(chunk, siteRadius, otherSite, isFar), ray);
-    if (isFar && key > current.key && nearness > exitNearness) {
+    float nearness = nearnessOf(eyePlaneTo(chunk, siteRadius, otherSite, isFar), ray);
+    if (isFar && nearness >= exitNearness &&
+        mayStepTo(chunk, other, order, orderAlong(direction, otherSite.xyz), current.key, key)) {
+      if (nearness == exitNearness && !(next != kNoCell && comesBefore(otherSite.xyz, siteRadiusOf(chunk, next).xyz))) continue;
       exitNearness = nearness;
       next = other;
-      nextKey = key;
+      nextKey = max(key, current.key);
     }
   }
   float exit = max(distanceAt(exitNearness), current.entry);
@@ -57,8 +65,14 @@ bool findNextSite(inout Step current, vec3 ray) {
     current.entry = exit;
     return false;
   }
-  current = stepToSite(chunk, next, nextKey, exit);
+  current = stepToSite(chunk, next, nextKey, exit, current.neighbours);
   return true;
+}
+
+// Of the cell behind a link of a listed cell.
+vec3 centreBehind(Shading shading, uint visible, uint link) {
+  if ((link & kUnlisted) == 0) return shading.records.v[checked(link, FRAME.visibleCapacity)].ball.xyz;
+  return ballOfSite(loadChunk(FRAME.visibleCells.v[visible].x), link & ~kUnlisted).centre;
 }
 
 // The same by the record's eye planes.
@@ -66,31 +80,30 @@ bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 r
   vec3 direction = directionOfRay(ray);
   uint link = kNoCell;
   float exitNearness = nearnessOfNoExit();
+  bool isTie = false;
+  current.neighbours += cell.planeSplit - cell.planeBegin;
   countWork(kWorkNeighbours, cell.planeSplit - cell.planeBegin);
   for (uint i = cell.planeBegin; i < cell.planeSplit; ++i) {
     vec4 plane = shading.planes.v[checked(i, FRAME.planeCapacity)];
-    float nearness = dot(plane.xyz, ray);
+    float nearness = nearnessOf(plane.xyz, ray);
+    isTie = nearness == exitNearness || (isTie && nearness < exitNearness);
     if (nearness > exitNearness) {
       exitNearness = nearness;
       link = floatBitsToUint(plane.w);
     }
   }
+  if (isTie && link != kNoCell) return findNextSite(current, ray);  // which of the sites comes first decides
   float exit = max(distanceAt(exitNearness), current.entry);
   if (link == kNoCell) {
     current.entry = exit;
     return false;
   }
-  if ((link & kUnlisted) != 0) {
-    Chunk chunk = loadChunk(FRAME.visibleCells.v[current.visible].x);
-    uint site = link & ~kUnlisted;
-    float key = orderAlong(direction, ballOfSite(chunk, site).centre);
-    if (!(key > current.key)) return findNextSite(current, ray);
-    current = stepToSite(chunk, site, key, exit);
-    return true;
-  }
-  float key = orderAlong(direction, shading.records.v[checked(link, FRAME.visibleCapacity)].ball.xyz);
-  if (!(key > current.key)) return findNextSite(current, ray);
-  current = Step(link, uvec2(0), key, exit);
+  vec3 centre = centreBehind(shading, current.visible, link);
+  float key = keyOf(direction, centre);
+  if (!(key > current.key + roundingOfKeys(cell.ball.xyz, centre))) return findNextSite(current, ray);
+  bool isListed = (link & kUnlisted) == 0;
+  if (isListed) current = Step(link, uvec2(0), key, exit, current.neighbours);
+  else current = stepToSite(loadChunk(FRAME.visibleCells.v[current.visible].x), link & ~kUnlisted, key, exit, current.neighbours);
   return true;
 }
 
@@ -103,7 +116,7 @@ uvec2 startCell(uvec2 pixel, vec3 ray) {
 
 Step firstStep(uvec2 pixel, vec3 ray) {
   uvec2 start = startCell(pixel, ray);
-  return stepTo(start, orderAlong(directionOfRay(ray), ballOfSite(loadChunk(start.x), start.y).centre), 0.0);
+  return stepTo(start, keyOf(directionOfRay(ray), ballOfSite(loadChunk(start.x), start.y).centre), 0.0, 0);
 }
 
 // On to the next cell. Returns false: the ray leaves the foam; current.entry is where it leaves the present cell either way. The cell that

@@ -1,8 +1,6 @@
 // A ray through one instance, from cell to cell: the same walk as runtime/query/foam_walk.cpp.
 //
-// No rounding can make a walk cycle: each step has a key, the dot product of the direction and the site it leads to, and is
-// taken only to a greater key; the key of a site of a chunk, be it a cell or a ghost, is one fixed number for a ray. NaN compares
-// as no, so a ray of them goes nowhere.
+// No rounding can make a walk cycle: walk_steps.glsl says why. NaN compares as no, so a ray of them goes nowhere.
 #ifndef FROTH_GPU_WALK_STREAM_GLSL
 #define FROTH_GPU_WALK_STREAM_GLSL
 #include "gpu/descend.glsl"
@@ -62,12 +60,12 @@ vec3 originIn(Chunk chunk, vec3 origin) {
 
 // Cuts [tNear, tFar] by the instance's box; false: nothing is left.
 bool clipByBox(LocalRay ray, inout float tNear, inout float tFar) {
-  vec4 low = FRAME.boxLow, high = FRAME.boxHigh;
+  vec4 low = FRAME.boxLow, size = FRAME.boxSize;
   for (uint axis = 0; axis < 3; ++axis) {
     float along = ray.direction[axis];
     precise float inverse = 1.0 / (abs(along) > 1e-30 ? along : 1e-30);  // 0 * infinity would be NaN
-    precise float tLow = (low[axis] - ray.origin[axis]) * inverse;
-    precise float tHigh = (high[axis] - ray.origin[axis]) * inverse;
+    precise float tLow = (low[axis] - low.w - ray.origin[axis]) * inverse;
+    precise float tHigh = (low[axis] + size[axis] + low.w - ray.origin[axis]) * inverse;
     tNear = max(tNear, min(tLow, tHigh));
     tFar = min(tFar, max(tLow, tHigh));
   }
@@ -91,7 +89,7 @@ Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, floa
     stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, isHinted ? hint.yz : uvec2(kNoCell), steps);
   work.descents += steps;
   Chunk chunk = loadChunk(stream.cell.x);
-  stream.key = orderAlong(ray.direction, siteRadiusOf(chunk, stream.cell.y).xyz - originIn(chunk, ray.origin));
+  stream.key = keyOf(ray.direction, siteRadiusOf(chunk, stream.cell.y).xyz - originIn(chunk, ray.origin));
   stream.steps = 0;
   stream.isAhead = true;
   stream.isCut = false;
@@ -110,6 +108,7 @@ struct Exit {
 
 Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 direction, float key, inout WalkWork work) {
   vec3 centre = siteRadius.xyz - origin;
+  vec2 order = orderAlong(direction, siteRadius.xyz);
   uint site = kNoCell;
   float siteKey = key;
   float clearance = 1.0, q = 0.0;  // of the nearest plane: t = clearance / q
@@ -121,13 +120,14 @@ Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 directi
     vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
     float otherQ = dot(direction, toNeighbour);
     if (!(otherQ > 0.0)) continue;
-    float offset = radicalOffset(toNeighbour, siteRadius.w, otherSite.w);
-    float otherClearance = radicalClearance(centre, toNeighbour, offset);
-    if (!(otherClearance * q < clearance * otherQ)) continue;
-    float otherKey = orderAlong(direction, otherSite.xyz - origin);
-    if (!(otherKey > key)) continue;
+    float otherClearance = sharedClearance(centre, otherSite.xyz - origin, toNeighbour, siteRadius.w, otherSite.w);
+    float nearer = clearance * otherQ - otherClearance * q;
+    if (!(nearer >= 0.0)) continue;
+    if (nearer == 0.0 && !(site != kNoCell && comesBefore(otherSite.xyz, siteRadiusOf(chunk, site).xyz))) continue;
+    float otherKey = keyOf(direction, otherSite.xyz - origin);
+    if (!mayStepTo(chunk, other, order, orderAlong(direction, otherSite.xyz), key, otherKey)) continue;
     site = other;
-    siteKey = otherKey;
+    siteKey = max(otherKey, key);
     clearance = otherClearance;
     q = otherQ;
   }

@@ -96,6 +96,57 @@ TEST(Visibility, RowsAscendAndOverlapsAreCorrelations) {
   EXPECT_GT(*std::max_element(visibility.overlaps.begin(), visibility.overlaps.end()), 0.1f);
 }
 
+TEST(Visibility, OfSeveralViewsIsThatOfEachAlone) {
+  const Foam foam = randomFoam(60, 4, 2, 3);
+  std::vector<View> views;
+  for (int i = 0; i < 3; ++i)
+    views.push_back(lookAt({3 * std::cos(i), 0.3 * i, 3 * std::sin(i)}, {0, 0, 0}, 24, 20, 0.6));
+  const Visibility together = measure(foam, views);
+  std::vector<float> contributions(60, 0);
+  uint64_t entries = 0;
+  for (uint16_t v = 0; v < views.size(); ++v) {
+    const Visibility alone = measure(foam, {views[v]});
+    entries += alone.weights.size();
+    for (size_t site = 0; site + 1 < alone.offsets.size(); ++site) {
+      if (alone.offsets[site] == alone.offsets[site + 1]) continue;
+      const auto row = together.views.begin();
+      const auto found =
+          std::find(row + together.offsets[site], row + together.offsets[site + 1], v) - row;
+      ASSERT_LT(static_cast<uint64_t>(found), together.offsets[site + 1]) << "view " << v << ", site " << site;
+      EXPECT_EQ(together.weights[found], alone.weights[alone.offsets[site]]);
+    }
+    for (size_t cell = 0; cell < contributions.size(); ++cell)
+      contributions[cell] = std::max(contributions[cell], alone.contributions[cell]);
+  }
+  EXPECT_EQ(together.weights.size(), entries);
+  EXPECT_EQ(together.contributions, contributions);
+}
+
+// The quarters of an image, each a view whose axis runs through one of its corners, see what the image sees.
+//   +---+---+
+//   |   |   |     * the axis of all
+//   +---*---+
+//   |   |   |
+//   +---+---+
+TEST(Visibility, OfAnImageIsTheSumOverItsQuarters) {
+  const Foam foam = randomFoam(80, 3, 2, 7);
+  const View whole = lookAt({2.5, 0.4, 1}, {0, 0, 0}, 48, 40, 0.5);
+  std::vector<double> sums(80 * 3, 0);
+  for (const uint32_t quarter : {0u, 1u, 2u, 3u}) {
+    View view = whole;
+    view.width /= 2;
+    view.height /= 2;
+    view.cx = quarter % 2 == 0 ? whole.cx : whole.cx - view.width;
+    view.cy = quarter / 2 == 0 ? whole.cy : whole.cy - view.height;
+    const Visibility visibility = measure(foam, {view});
+    EXPECT_GT(visibility.weights.size(), 20u);
+    for (size_t site = 0; site < sums.size(); ++site) sums[site] += weightOf(visibility, site);
+  }
+  const Visibility expected = measure(foam, {whole});
+  for (size_t site = 0; site < sums.size(); ++site)
+    EXPECT_NEAR(sums[site], weightOf(expected, site), 1e-4 * sums[site] + 1e-6) << site;
+}
+
 TEST(Visibility, ThreadsDoNotChangeIt) {
   const Foam foam = randomFoam(200, 3, 2, 5);
   const std::vector<View> views = {lookAt({3, 0.2, 0.5}, {0, 0, 0}, 40, 30, 0.6),

@@ -199,7 +199,8 @@ TEST(Bake, TakesStartViewAndFlightPathFromTheCameras) {
   View view;
   view.width = 200;
   view.height = 100;
-  view.fx = view.fy = 50;
+  view.fx = 125;  // pixels that are not square: the height counts
+  view.fy = 50;
   view.worldFromCamera[3] = 7;
   CameraSet cameras;
   cameras.views = {view};
@@ -240,6 +241,27 @@ TEST(Bake, PassesItsOptionsOnAndReportsItsStages) {
   ASSERT_NE(triangulate, result.stages.end());
   EXPECT_EQ(triangulate->items, 50u);
   EXPECT_GT(triangulate->peakBytes, 0u);
+}
+
+TEST(Bake, HandsItsSeedToSteinerCellsAndCodebook) {
+  Foam foam = makeRandomFoam(200, 4, 4, 5);
+  for (glm::vec3& site : foam.sites) site *= 3.0f;  // space between the balls
+  BakeOptions options;
+  options.measure = false;
+  options.knobs.compressColours = true;
+  options.knobs.appearance.codebookSize = 64;
+  const auto bakeWith = [&](uint64_t seed) {
+    options.seed = seed;
+    Result<BakeResult> result = bakeFoam(foam, options);
+    EXPECT_TRUE(result) << result.error().message;
+    return std::move(result->contents);
+  };
+  const AssetContents first = bakeWith(1), again = bakeWith(1), second = bakeWith(2);
+  EXPECT_GT(first.chunks[0].cellCount, foam.cellCount);
+  EXPECT_EQ(first.chunks[0].sites, again.chunks[0].sites);
+  EXPECT_NE(first.chunks[0].sites, second.chunks[0].sites);
+  EXPECT_EQ(first.axisCodebook, again.axisCodebook);
+  EXPECT_NE(first.axisCodebook, second.axisCodebook);
 }
 
 TEST(Bake, OfOneCellIsThatCell) {

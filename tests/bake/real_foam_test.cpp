@@ -7,14 +7,13 @@
 
 #include "baker/bake/bake.h"
 #include "baker/checkpoint/checkpoint.h"
+#include "tests/surroundings.h"
 
 namespace froth {
 namespace {
 
 std::optional<std::filesystem::path> findCheckpoint(const char* name) {
-  const char* data = std::getenv("FROTH_DATA");
-  const std::filesystem::path root = data ? data : FROTH_SOURCE_DIR "/../shared/data";
-  const std::filesystem::path path = root / "foams" / name / "model.pt";
+  const std::filesystem::path path = test::dataFolder() / "foams" / name / "model.pt";
   if (!std::filesystem::exists(path)) return std::nullopt;
   return path;
 }
@@ -38,7 +37,7 @@ Result<BakeResult> bakeWithoutSteiner(const Foam& foam) {
 // cell.
 TEST(RealFoam, MikuPlushHasTheKnownCounts) {
   const auto path = findCheckpoint("miku_plush");
-  if (!path) GTEST_SKIP() << "no foams/miku_plush; set FROTH_DATA";
+  if (!path) FROTH_SKIP() << "no foams/miku_plush; set FROTH_DATA";
   const Result<Foam> foam = importCheckpoint(*path);
   ASSERT_TRUE(foam) << foam.error().message;
   const Result<BakeResult> baked = bakeWithoutSteiner(*foam);
@@ -54,7 +53,7 @@ TEST(RealFoam, MikuPlushHasTheKnownCounts) {
 
 TEST(RealFoam, TankardRoughBakesThoughItIsBadlyTrained) {
   const auto path = findCheckpoint("tankard_rough");
-  if (!path) GTEST_SKIP() << "no foams/tankard_rough; set FROTH_DATA";
+  if (!path) FROTH_SKIP() << "no foams/tankard_rough; set FROTH_DATA";
   const Result<Foam> foam = importCheckpoint(*path);
   ASSERT_TRUE(foam) << foam.error().message;
   const Result<BakeResult> baked = bakeWithoutSteiner(*foam);

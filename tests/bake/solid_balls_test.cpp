@@ -42,9 +42,10 @@ class CellRays {
     for (uint32_t i = row; i < row + chunk.alphaCounts[cell]; ++i) {
       const uint32_t neighbour = chunk.neighbours[i];
       const glm::vec3 toNeighbour = chunk.sites[neighbour] - chunk.sites[cell];
-      const float clearance = foam::radicalClearance(
-          centre, toNeighbour, foam::radicalOffset(toNeighbour, radius_, chunk.radii[neighbour]));
-      (clearance >= 0 ? far_ : near_).push_back(foam::eyePlane(toNeighbour, clearance));
+      const glm::vec3 other = (chunk.sites[neighbour] - chunk.sites[cell]) + centre;
+      const float clearance = foam::sharedClearance(centre, other, toNeighbour, radius_, chunk.radii[neighbour]);
+      const bool isFar = clearance > 0 || (clearance == 0 && foam::comesFirst(toNeighbour));
+      (isFar ? far_ : near_).push_back(foam::eyePlane(toNeighbour, clearance, isFar));
     }
   }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "baker/camera/camera.h"
+#include "tests/surroundings.h"
 
 namespace froth {
 namespace {
@@ -197,6 +198,24 @@ TEST_F(CamerasTest, AViewThatCouldNotBeReadBackIsNotWritten) {
   EXPECT_FALSE(std::filesystem::exists(path_));
 }
 
+TEST_F(CamerasTest, AKeyThatComesTwiceIsRefused) {
+  for (const char* text : {R"({"views": [], "views": []})", R"({"views": [{"width": 1, "width": 2}]})",
+                           R"({"views": [], "x": {"a": [{"b": 1, "c": {"b": 2}, "b": 3}]}})"}) {
+    const Result<CameraSet> cameras = readText(text);
+    ASSERT_FALSE(cameras) << text;
+    EXPECT_THAT(cameras.error().message, HasSubstr("stands twice in one object")) << text;
+  }
+  EXPECT_TRUE(readText(R"({"views": [], "x": [{"a": 1}, {"a": {"a": 2}}]})"));
+}
+
+TEST_F(CamerasTest, AFileOfMoreThan32MebibytesIsRefusedUnread) {
+  ASSERT_FALSE(readText(R"({"views": 1})"));
+  std::filesystem::resize_file(path_, (uint64_t{32} << 20) + 1);
+  const Result<CameraSet> cameras = readCameras(path_);
+  ASSERT_FALSE(cameras);
+  EXPECT_THAT(cameras.error().message, HasSubstr("has 33554433 bytes, more than 33554432"));
+}
+
 TEST(ResizeView, ScalesTheIntrinsicsAndKeepsTheNearLimits) {
   View view = someView();
   view.nearDepth = 0.3;
@@ -212,9 +231,8 @@ TEST(ResizeView, ScalesTheIntrinsicsAndKeepsTheNearLimits) {
 }
 
 TEST(RealCameras, ThePublishedViewsAreRead) {
-  const char* data = std::getenv("FROTH_DATA");
-  const std::filesystem::path root = data ? data : FROTH_SOURCE_DIR "/../shared/data";
-  if (!std::filesystem::exists(root / "foams")) GTEST_SKIP() << "no data at " << root << "; set FROTH_DATA";
+  const std::filesystem::path root = test::dataFolder();
+  if (!std::filesystem::exists(root / "foams")) FROTH_SKIP() << "no data at " << root << "; set FROTH_DATA";
   const Result<CameraSet> miku = readCameras(root / "foams/miku_plush/cameras.json");
   ASSERT_TRUE(miku) << miku.error().message;
   EXPECT_EQ(miku->views.size(), 13u);

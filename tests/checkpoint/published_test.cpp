@@ -9,22 +9,19 @@
 #include "baker/checkpoint/pickle_writer.h"
 #include "baker/checkpoint/zip_reader.h"
 #include "tests/checkpoint/import_checks.h"
+#include "tests/surroundings.h"
 
 namespace froth {
 namespace {
 
-std::filesystem::path dataFolder() {
-  const char* folder = std::getenv("FROTH_DATA");
-  return folder ? std::filesystem::path(folder)
-                : std::filesystem::path(FROTH_SOURCE_DIR) / ".." / "shared" / "data";
-}
+using test::dataFolder;
 
 class PublishedFoam : public testing::Test {
  protected:
   std::filesystem::path find(const char* name) const { return dataFolder() / "foams" / name / "model.pt"; }
   void SetUp() override {
     if (!std::filesystem::exists(find("miku_plush")) || !std::filesystem::exists(find("tankard_rough"))) {
-      GTEST_SKIP() << "no trained foams in " << dataFolder() << " (set FROTH_DATA)";
+      FROTH_SKIP() << "no trained foams in " << dataFolder() << " (set FROTH_DATA)";
     }
   }
 };
@@ -86,7 +83,7 @@ TEST_F(PublishedFoam, HasThePickleThatTheExporterWrites) {
 TEST(MalformedFiles, OfOtherFormatsAreAllRefused) {
   const std::filesystem::path folder = dataFolder() / "malformed";
   if (!std::filesystem::exists(folder)) {
-    GTEST_SKIP() << "no " << folder << " (set FROTH_DATA)";
+    FROTH_SKIP() << "no " << folder << " (set FROTH_DATA)";
   }
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const Result<Foam> foam = importCheckpoint(entry.path());

@@ -107,9 +107,9 @@ TYPED_TEST(CellMathematics, ClearanceIsPositiveOnTheCellsSide) {
 }
 
 TYPED_TEST(CellMathematics, APlaneLowersTheEndRaisesTheStartOrEmptiesAParallelRay) {
-  const auto clip = [](double clearance, double q) {
+  const auto clip = [](double clearance, double q, bool isFirst = true) {
     TypeParam tNear = 1, tFar = 5;
-    foam::clipByPlane(TypeParam(clearance), TypeParam(q), tNear, tFar);
+    foam::clipByPlane(TypeParam(clearance), TypeParam(q), isFirst, tNear, tFar);
     return std::pair(double(tNear), double(tFar));
   };
   EXPECT_EQ(clip(3, 1), std::pair(1.0, 3.0));
@@ -117,7 +117,8 @@ TYPED_TEST(CellMathematics, APlaneLowersTheEndRaisesTheStartOrEmptiesAParallelRa
   EXPECT_EQ(clip(-3, -1), std::pair(3.0, 5.0));
   EXPECT_EQ(clip(3, -1), std::pair(1.0, 5.0));
   EXPECT_EQ(clip(1, 0), std::pair(1.0, 5.0));
-  EXPECT_EQ(clip(0, 0), std::pair(1.0, 5.0));   // in the plane itself: belongs to both
+  EXPECT_EQ(clip(0, 0), std::pair(1.0, 5.0));   // in the plane itself: the first of the two cells owns it,
+  EXPECT_EQ(clip(0, 0, false), std::pair(1.0, 1.0));  // and the other does not
   EXPECT_EQ(clip(-1, 0), std::pair(1.0, 1.0));  // parallel on the neighbour's side
   const auto [tNear, tFar] = clip(-1, 1);       // behind the origin: nothing is left
   EXPECT_GE(tNear, tFar);
@@ -132,7 +133,7 @@ TYPED_TEST(CellMathematics, ClippingAtTheRadicalPlaneLeavesThePartOfLowerPower) 
     TypeParam tNear = 0, tFar = 10;
     const TypeParam clearance =
         foam::radicalClearance(centre, other - centre, foam::radicalOffset(other - centre, ri, rj));
-    foam::clipByPlane(clearance, glm::dot(other - centre, direction), tNear, tFar);
+    foam::clipByPlane(clearance, glm::dot(other - centre, direction), foam::comesFirst(other - centre), tNear, tFar);
     const TypeParam t = TypeParam(this->uniform(0, 10));
     const auto power = [&](Vec3 site, double r) {
       const glm::dvec3 x = double(t) * glm::dvec3(direction) - glm::dvec3(site);
@@ -152,8 +153,8 @@ TYPED_TEST(CellMathematics, EyePlanesCutLikePlanes) {
     const Vec3 d(this->point(3)), direction(this->direction());
     const TypeParam clearance = TypeParam(this->uniform(-3, 3));
     TypeParam tNear = TypeParam(0.5), tFar = 20;
-    foam::clipByPlane(clearance, glm::dot(d, direction), tNear, tFar);
-    const TypeParam s = glm::dot(foam::eyePlane(d, clearance), direction);
+    foam::clipByPlane(clearance, glm::dot(d, direction), foam::comesFirst(d), tNear, tFar);
+    const TypeParam s = glm::dot(foam::eyePlane(d, clearance, clearance >= 0), direction);
     const double inverseFar = std::max(1 / 20.0, double(clearance > 0 ? s : TypeParam(0)));
     const double inverseNear = std::min(1 / 0.5, double(clearance < 0 ? s : TypeParam(2)));
     if (tNear < tFar) {
@@ -168,11 +169,11 @@ TYPED_TEST(CellMathematics, EyePlanesCutLikePlanes) {
 TYPED_TEST(CellMathematics, AnEyeOnThePlaneGivesAFiniteEyePlaneOfTheRightSide) {
   using Vec3 = glm::vec<3, TypeParam>;
   for (double clearance : {0.0, 1e-38, 1e-31, -1e-31, -1e-38}) {
-    const Vec3 plane = foam::eyePlane(Vec3(1, -2, 100), TypeParam(clearance));
+    const Vec3 plane = foam::eyePlane(Vec3(1, -2, 100), TypeParam(clearance), clearance >= 0);
     for (int axis = 0; axis < 3; ++axis) EXPECT_TRUE(std::isfinite(plane[axis])) << clearance;
     EXPECT_EQ(plane.x > 0, clearance >= 0) << clearance;
     // Leaving through the plane: it ends, or starts, at once.
-    EXPECT_LT(1 / std::abs(glm::dot(plane, Vec3(1, 0, 0))), 1e-29);
+    EXPECT_LT(1 / std::abs(glm::dot(plane, Vec3(1, 0, 0))), 1e-27);
   }
 }
 
@@ -205,6 +206,57 @@ TYPED_TEST(CellMathematics, RoundingNeverHidesAnExitFromAnEyeOnThePlane) {
   }
 }
 
+TYPED_TEST(CellMathematics, OfTwoCellsOneOwnsARayInTheirPlaneAndTheirPlanesHaveTheSameBits) {
+  using Vec3 = glm::vec<3, TypeParam>;
+  EXPECT_TRUE(foam::comesFirst(Vec3(1, -9, -9)));
+  EXPECT_FALSE(foam::comesFirst(Vec3(-1, 9, 9)));
+  EXPECT_TRUE(foam::comesFirst(Vec3(0, 1, -9)));
+  EXPECT_FALSE(foam::comesFirst(Vec3(0, 0, -1)));
+  EXPECT_TRUE(foam::comesFirst(Vec3(0, 0, -0.0)));  // in one point
+  int differs = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 centre(this->point(3)), other(this->point(3)), d = other - centre;
+    const TypeParam ri = TypeParam(this->uniform(0.5, 2)), rj = TypeParam(this->uniform(0.5, 2));
+    const TypeParam own = foam::sharedClearance(centre, other, d, ri, rj), its = foam::sharedClearance(other, centre, -d, rj, ri);
+    EXPECT_EQ(own, -its);
+    EXPECT_NE(foam::comesFirst(d), foam::comesFirst(-d));
+    EXPECT_EQ(foam::eyePlane(d, own, own >= 0), foam::eyePlane(-d, its, its > 0));
+    differs += foam::radicalClearance(centre, d, foam::radicalOffset(d, ri, rj)) !=
+               -foam::radicalClearance(other, -d, foam::radicalOffset(-d, rj, ri));
+  }
+  EXPECT_GT(differs, 1000);  // each from its own site they round apart
+}
+
+// A site moved by one unit in the last place lies farther or nearer, where a dot product of one number shows no difference.
+TYPED_TEST(CellMathematics, TheOrderAlongARayTellsSitesApartThatNearlyCoincide) {
+  using Vec3 = glm::vec<3, TypeParam>;
+  const TypeParam infinity = std::numeric_limits<TypeParam>::infinity();
+  int alike = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 direction = glm::normalize(Vec3(this->point(1))), site(this->point(1));
+    Vec3 other = site;
+    other[i % 3] = std::nextafter(other[i % 3], infinity);
+    const bool isFarther = direction[i % 3] > 0;
+    const auto order = foam::orderAlong(direction, site), otherOrder = foam::orderAlong(direction, other);
+    EXPECT_EQ(foam::liesFarther(order, otherOrder), isFarther) << i;
+    EXPECT_EQ(foam::liesFarther(otherOrder, order), !isFarther) << i;
+    EXPECT_FALSE(foam::liesFarther(order, order));
+    alike += foam::fixedDot(direction, site) == foam::fixedDot(direction, other);
+  }
+  EXPECT_GT(alike, 300);
+}
+
+TYPED_TEST(CellMathematics, AnEyePlaneIsFiniteForAllLengths) {
+  using Vec3 = glm::vec<3, TypeParam>;
+  for (const TypeParam length : {TypeParam(1e-18), TypeParam(1), TypeParam(1e18)}) {
+    for (const bool isFar : {false, true}) {
+      const Vec3 plane = foam::eyePlane(Vec3(1, 0, -1) * length, TypeParam(0), isFar);
+      EXPECT_TRUE(std::isfinite(glm::dot(plane, Vec3(0, 1, 0)))) << length;
+      EXPECT_EQ(glm::dot(plane, Vec3(1, 0, 0)) > 0, isFar) << length;
+    }
+  }
+}
+
 TYPED_TEST(CellMathematics, AnExitBehindTheOriginIsOneInAllUnits) {
   using Vec3 = glm::vec<3, TypeParam>;
   for (const TypeParam unit : {TypeParam(1e-9), TypeParam(1), TypeParam(1e9), TypeParam(1e12)}) {
@@ -226,6 +278,16 @@ TYPED_TEST(CellMathematics, TheFaceIsMetAtItsHeightAndAGrazedFaceFarAway) {
     EXPECT_TRUE(std::isfinite(t));
     EXPECT_GT(std::abs(t), 1e11);
     EXPECT_EQ(t > 0, facing < 0) << facing;
+  }
+}
+
+// The GPU sees a face in units of the radius: normal and facing are 1 / radius long.
+TYPED_TEST(CellMathematics, TheFaceOfAHugeBallIsMetWhereItsUnitNormalSays) {
+  using Vec3 = glm::vec<3, TypeParam>;
+  for (const double radius : {1e-15, 1.0, 2e14, 1e18}) {
+    const TypeParam unit = TypeParam(1 / radius);
+    const TypeParam t = foam::intersectFace(Vec3(0, 0, 0), Vec3(0, 0, unit), TypeParam(-0.0687) * unit, TypeParam(-2));
+    EXPECT_NEAR(t / (2 / 0.0687 * radius), 1, 1e-6) << radius;
   }
 }
 

@@ -7,15 +7,18 @@
 namespace froth {
 namespace {
 
-std::atomic<size_t> largest{0};
+std::atomic<size_t> largest{0}, sum{0};
 
 }  // namespace
 
 void forgetAllocations() {
-  largest = 0;
+  largest = sum = 0;
 }
 size_t largestAllocation() {
   return largest;
+}
+size_t allocatedBytes() {
+  return sum;
 }
 
 }  // namespace froth
@@ -23,6 +26,7 @@ size_t largestAllocation() {
 // In a file of their own: where gcc inlines only one of the two, it warns of a mismatch. All forms that free by the plain
 // delete are here, for a sanitizer brings its own of those that are not.
 void* operator new(size_t size, const std::nothrow_t&) noexcept {
+  froth::sum += size;
   size_t seen = froth::largest.load();
   while (seen < size && !froth::largest.compare_exchange_weak(seen, size)) {
   }

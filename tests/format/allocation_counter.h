@@ -6,6 +6,8 @@
 namespace froth {
 
 void forgetAllocations();
-size_t largestAllocation();  // [bytes] since the last forgetAllocations(), on all threads
+// Since the last forgetAllocations(), on all threads [bytes].
+size_t largestAllocation();
+size_t allocatedBytes();  // what was freed meanwhile counts too
 
 }  // namespace froth

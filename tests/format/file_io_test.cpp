@@ -94,6 +94,45 @@ TEST_F(FileIo, NamesAFolderThatDoesNotExist) {
   EXPECT_THAT(errorOf(writeFileAtomically(folder_ / "no" / "a", kNew)), HasSubstr("cannot be created"));
 }
 
+fs::perms permissionsOf(const fs::path& path) {
+  return fs::status(path).permissions();
+}
+
+TEST_F(FileIo, KeepsTheRightsOfTheFileThatItReplaces) {
+  for (const fs::perms rights : {fs::perms(0600), fs::perms(0664), fs::perms(0755)}) {
+    ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "a", kOld)), "no error");
+    fs::permissions(folder_ / "a", rights);
+    ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "a", kNew)), "no error");
+    EXPECT_EQ(permissionsOf(folder_ / "a"), rights);
+    ASSERT_EQ(errorOf(writeAsset(folder_ / "a", makeSampleAsset())), "no error");
+    EXPECT_EQ(permissionsOf(folder_ / "a"), rights);
+  }
+}
+
+TEST_F(FileIo, LeavesAWriteProtectedFileAloneUnlessItIsForced) {
+  ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "a", kOld)), "no error");
+  fs::permissions(folder_ / "a", fs::perms(0444));
+  EXPECT_THAT(errorOf(writeFileAtomically(folder_ / "a", kNew)), HasSubstr("a: is write-protected; make it writable"));
+  EXPECT_THAT(errorOf(writeAsset(folder_ / "a", makeSampleAsset())), HasSubstr("is write-protected"));
+  EXPECT_EQ(*readFile(folder_ / "a"), kOld);
+  EXPECT_EQ(countFiles(), 1u);
+  EXPECT_EQ(errorOf(AssetStreamWriter::create(folder_ / "a", makeSampleAsset(), WriteProtected::kReplace)), "no error");
+}
+
+TEST_F(FileIo, ReplacesTheFileThatALinkNames) {
+  fs::create_directory(folder_ / "far");
+  ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "far/real", kOld)), "no error");
+  fs::create_symlink("second", folder_ / "first");
+  fs::create_symlink("far/real", folder_ / "second");
+  fs::create_symlink("far/later", folder_ / "dangling");
+  ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "first", kNew)), "no error");
+  ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "dangling", kNew)), "no error");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "first") && fs::is_symlink(folder_ / "second") && fs::is_symlink(folder_ / "dangling"));
+  EXPECT_EQ(*readFile(folder_ / "far/real"), kNew);
+  EXPECT_EQ(*readFile(folder_ / "far/later"), kNew);
+  EXPECT_EQ(countFiles(), 4u);
+}
+
 // Ends the process: 0 if writing failed as it should. Root may write everywhere, so it becomes somebody else.
 [[noreturn]] void writeWhereNothingMayBe(const fs::path& path) {
   constexpr uid_t kNobody = 65534;

@@ -12,6 +12,12 @@ from froth_codecs import (
     truncated_floats)
 
 SHARED = 0xFFFFFFFF  # the chunk of shared sections
+MOST = 2.0**50  # of every float but densities and orientations
+
+
+def within(values, most):
+    return bool(np.all(np.abs(np.asarray(values, np.float64)) <= most))  # False for NaN
+
 
 # ---- Graph
 
@@ -38,7 +44,7 @@ class GraphDecoder:
     def pairs(self, counts, deltas):
         """The larger sites of each cell's pairs, in the order of its deltas."""
         before = [[] for _ in range(len(self.p))]  # cells whose pairs propose candidates for this one
-        kept, cursor = [], 0
+        kept, cursor, degrees = [], 0, np.zeros(len(self.p), np.int64)
         for i in range(self.cells):
             order, place, mine = self.candidates(i, before[i], kept), -1, []
             for delta in deltas[cursor : cursor + counts[i]].tolist():
@@ -48,10 +54,13 @@ class GraphDecoder:
                 mine.append(j)
             cursor += counts[i]
             kept.append(mine)
+            degrees[i] += len(mine)
+            degrees[mine] += 1
             if len(mine) <= self.MOST_PAIRS:
                 for j in mine:
                     before[j].append(i)
         need(cursor == len(deltas), "counts do not add up to the pairs")
+        need(degrees.max() <= 65535 and (degrees * degrees).sum() <= 2**32 + 2**12 * len(degrees), "too many neighbours")
         return kept
 
     def are_alpha(self, kept, alpha_bits):
@@ -104,6 +113,9 @@ class Asset:
         self.has_walk_graph = bool(root.scalar(3, "B", 1))
         self.codebook_size = root.scalar(7, "I", 0)
         need(1 <= self.details <= 32 and self.most_lobes <= 32 and root.text(8) == "sRGB", "manifest")
+        need(0 <= root.scalar(4, "f", 10) <= 2**20 and 0 <= root.scalar(5, "f", 4) <= 2**10, "sharpness or near ratio")
+        need(0 <= root.scalar(6, "f", 0) <= MOST, "near depth")
+        need(len(root.text(8)) + len(root.text(10)) + len(root.text(11) or "") <= length, "strings are too long")
         lattices = root.table(9)
         self.position_step = lattices.scalar(0, "d", 0)
         self.radius_bits, self.density_bits = lattices.scalar(1, "I", 23), lattices.scalar(2, "I", 23)
@@ -111,6 +123,8 @@ class Asset:
         self.detail_site_step, self.height_step, self.colour_step, self.lobe_axis_step = (
             lattices.scalar(field, "f", 0) for field in range(4, 8))
         self.chunks = root.structs(17, CHUNK)
+        for chunk in self.chunks:
+            need(within(chunk["origin"], MOST) and within(chunk["low"], 2 * MOST) and within(chunk["high"], 2 * MOST), "chunk")
         self.sections = {}
         for record in root.structs(18, SECTION):
             need(record["flags"] >> 8 == 0 and record["reserved0"] == 0 and record["reserved1"] == 0, "reserved bits")
@@ -195,7 +209,14 @@ class Asset:
             self.read_details(index, live, colour_bytes, height_numbers, out)
         if layer >= 2 and self.most_lobes:
             self.read_lobes(index, live, int(chunk["lobes"]), out)
-        return {name: values for name, values in out.items() if values is not None and values.size}
+        out = {name: values for name, values in out.items() if values is not None and values.size}
+        for name, values in out.items():
+            if values.dtype == np.float32 and name not in ("densities", "orientations"):
+                need(within(values, MOST), f"{name}: out of range")
+        need(np.all(out["radii"] > 0), "a radius that is not positive")
+        densities = out.get("densities", np.zeros(0, np.float32))
+        need(within(densities, 2.0**100) and not np.signbit(densities).any(), "a density out of range")
+        return out
 
     def read_graph(self, index, sites, radii):
         chunk = self.chunks[index]

@@ -11,13 +11,14 @@
 #include "asset_equality.h"
 #include "format/asset_reader.h"
 #include "format/asset_writer.h"
+#include "tests/surroundings.h"
 #include "sample_asset.h"
 
 namespace froth {
 namespace {
 
 std::filesystem::path goldenPath(const char* name) {
-  return std::filesystem::path(FROTH_SOURCE_DIR) / "tests/format/golden" / name;
+  return test::sourceFolder() / "tests/format/golden" / name;
 }
 
 TEST(Golden, FileOfVersion2IsRead) {

@@ -106,6 +106,60 @@ TEST(HostileGraph, OfWrongSizesIsRefused) {
   }
 }
 
+// A hub of `spokes` cells, as packed: all deltas are 0.
+Status unpackHub(uint32_t spokes) {
+  ChunkContents chunk;
+  chunk.cellCount = spokes + 1;
+  chunk.sites.resize(chunk.cellCount, glm::vec3(1));
+  chunk.radii.resize(chunk.cellCount, 1.0f);
+  std::vector<uint32_t> counts(chunk.cellCount, 0), deltas(spokes, 0);
+  counts[0] = spokes;
+  const std::vector<uint8_t> bits((spokes + 7) / 8, 0);
+  return unpackGraph({bytesOf(counts), bytesOf(deltas), bits}, true, chunk, "here");
+}
+
+TEST(HostileGraph, WithMoreNeighboursThanASiteMayHaveIsRefused) {
+  const Status most = unpackHub(kMaxNeighbours);
+  EXPECT_TRUE(most) << most.error().message;
+  const Status more = unpackHub(kMaxNeighbours + 1);
+  ASSERT_FALSE(more);
+  EXPECT_THAT(more.error().message, HasSubstr("here: graph: site 0 has more than 65535 neighbours"));
+}
+
+// Each of the first cells is a neighbour of all others.
+TEST(HostileGraph, WithMoreHubsThanTheLimitOfSquaredDegreesIsRefused) {
+  constexpr uint32_t kCells = 20'000;
+  const auto unpackHubs = [](uint32_t hubs) {
+    ChunkContents chunk;
+    chunk.cellCount = kCells;
+    chunk.sites.resize(kCells, glm::vec3(1));
+    chunk.radii.resize(kCells, 1.0f);
+    std::vector<uint16_t> counts(kCells, 0), deltas;
+    for (uint32_t hub = 0; hub < hubs; ++hub) counts[hub] = static_cast<uint16_t>(kCells - 1 - hub);
+    for (uint32_t hub = 0; hub < hubs; ++hub) deltas.insert(deltas.end(), counts[hub], 0);
+    const std::vector<uint8_t> bits((deltas.size() + 7) / 8, 0);
+    return unpackGraph({bytesOf(counts), bytesOf(deltas), bits}, true, chunk, "here");
+  };
+  const uint64_t most = mostSquaredDegrees(kCells) / (uint64_t{kCells} * kCells);  // 10: hubs that may be, nearly
+  EXPECT_TRUE(unpackHubs(static_cast<uint32_t>(most)));
+  const Status more = unpackHubs(static_cast<uint32_t>(most) + 1);
+  ASSERT_FALSE(more);
+  EXPECT_THAT(more.error().message, HasSubstr("the squares of the sites' degrees add up to more than"));
+}
+
+TEST(GraphRows, OfACellWithTooManyNeighboursAreNotPacked) {
+  ChunkContents hub;
+  hub.cellCount = 1;
+  hub.ghostCount = kMaxNeighbours + 1;
+  hub.sites.resize(1 + hub.ghostCount, glm::vec3(1));
+  hub.radii.resize(1 + hub.ghostCount, 1.0f);
+  for (uint32_t i = 1; i <= hub.ghostCount; ++i) hub.neighbours.push_back(i);
+  hub.neighbourOffsets = {0, hub.ghostCount};
+  const Result<PackedGraph> packed = packGraph(hub, true);
+  ASSERT_FALSE(packed);
+  EXPECT_THAT(packed.error().message, HasSubstr("site 0 has more than 65535 neighbours"));
+}
+
 TEST(HostileGraph, WithAPairBeyondTheSitesOrOfTheWrongKindIsRefused) {
   const ChunkContents chunk = randomGraph(40, true);
   const PackedGraph packed = *packGraph(chunk, true);

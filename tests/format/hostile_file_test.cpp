@@ -8,6 +8,7 @@
 #include "asset_equality.h"
 #include "file_surgery.h"
 #include "format/asset_reader.h"
+#include "format/text.h"
 #include "sample_asset.h"
 
 namespace froth {
@@ -163,6 +164,40 @@ TEST(HostileFile, WithParametersOutOfRangeIsRefusedByTheirNames) {
               HasSubstr("codebook_size is 65537"));
 }
 
+TEST(HostileFile, WithParametersOutOfAllReasonIsRefusedByTheirNames) {
+  const Draft draft = draftOf(richAsset());
+  const auto errorWith = [&](void (*edit)(AssetContents&)) {
+    Draft changed = draft;
+    edit(changed.contents);
+    return errorOf(changed.assemble());
+  };
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.detailSharpness = 3e38f; }), HasSubstr("detail_sharpness is 3e+38"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.nearRatio = 3e38f; }), HasSubstr("near_ratio is 3e+38"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.nearDepth = 1e16f; }), HasSubstr("near_depth is 1e+16"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.startView.worldFromCamera[7] = 1e300; }), HasSubstr("start_view"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.flightPath[0].tanHalfFovY = 1e16; }), HasSubstr("flight_path"));
+}
+
+TEST(HostileFile, WithStringsThatAreNoUtf8IsRefused) {
+  const Draft draft = draftOf(smallAsset());
+  const auto errorWith = [&](auto&& edit) {
+    Draft changed = draft;
+    edit(changed.contents);
+    return errorOf(changed.assemble());
+  };
+  for (const char* text : {"\x80", "a\xff", "\xc3", "\xc0\xaf", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xf8\x88\x80\x80\x80"}) {
+    EXPECT_THAT(errorWith([&](AssetContents& c) { c.source = text; }), AllOf(HasSubstr("source '"), HasSubstr("no UTF-8")));
+    EXPECT_THAT(errorWith([&](AssetContents& c) { c.preset = text; }), HasSubstr("preset '"));
+    EXPECT_THAT(errorWith([&](AssetContents& c) { c.errors[1].unit = text; }), HasSubstr("errors '"));
+  }
+  EXPECT_EQ(errorWith([&](AssetContents& c) { c.source = "\xc3\xa9 \xe2\x82\xac \xf0\x9f\x90\x8d"; }), "no error");
+}
+
+TEST(Text, ForATerminalHoldsNoControlCharacters) {
+  EXPECT_EQ(printable("a\x1b[2J\r\n\a\x7f b"), "a\\x1b[2J\\x0d\\x0a\\x07\\x7f b");
+  EXPECT_EQ(printable("\xc2\x9b \xff \xc3\xa9 \xe2\x82"), "\\xc2\\x9b \\xff \xc3\xa9 \\xe2\\x82");
+}
+
 TEST(HostileFile, WithALatticeThatIsNoneIsRefused) {
   const Draft draft = draftOf(smallAsset());
   const auto errorWith = [&](void (*edit)(Quantization&)) {
@@ -214,8 +249,10 @@ TEST(HostileFile, WithAnOriginOffTheGridOrNotFiniteIsRefused) {
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[2] = INFINITY; }), HasSubstr("origin holds inf"));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[1] += 0x1p-13; }),
               HasSubstr("no multiple of the position step"));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[0] = 0x1p200; }),
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[0] = 0x1p45; }),
               HasSubstr("no multiple of the position step"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.origin[0] = 1e300; }), HasSubstr("origin holds 1e+300"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.liveBounds.max[0] = 1e300; }), HasSubstr("live_bounds"));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.liveBounds.min[0] = NAN; }), HasSubstr("live_bounds"));
 }
 
@@ -317,6 +354,19 @@ TEST(HostileFile, IsRefusedWithReservedFlagsAndReadWithUnusedOnes) {
   EXPECT_EQ(errorOf(draft.assemble()), "no error");
   draft.records[0].flags = kSectionCritical | 0x0100;
   EXPECT_THAT(errorOf(draft.assemble()), HasSubstr("reserved bits"));
+}
+
+TEST(HostileFile, IsRefusedWithReservedBytesOfASection) {
+  const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
+  const auto errorWith = [&](uint16_t reserved0, uint32_t reserved1) {
+    return errorOf(withSection(bytes, 2, [&](fb::Section& s) {
+      s = fb::Section(s.type(), s.chunk(), s.flags(), s.codec(), s.element_size(), reserved0, s.base(), reserved1, s.offset(),
+                      s.stored_size(), s.raw_size(), s.hash());
+    }));
+  };
+  EXPECT_EQ(errorWith(0, 0), "no error");
+  EXPECT_THAT(errorWith(1, 0), HasSubstr("reserved bits"));
+  EXPECT_THAT(errorWith(0, 1u << 31), HasSubstr("reserved bits"));
 }
 
 TEST(HostileFile, IsRefusedWithAnUnknownCodecOrChunk) {

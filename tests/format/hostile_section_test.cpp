@@ -82,12 +82,38 @@ TEST(HostileSection, WithARadiusOrDensityOutOfRangeIsRefused) {
               HasSubstr("cell 3 has radius 0, not > 0"));
   EXPECT_THAT(
       errorAfter<float>(contents, SectionType::kDensities, [](auto& densities) { densities[1] = -2; }),
-      HasSubstr("cell 1 has density -2, not >= 0"));
+      HasSubstr("cell 1 has density -2, not +0 or more"));
+  EXPECT_THAT(
+      errorAfter<float>(contents, SectionType::kDensities, [](auto& densities) { densities[1] = -0.0f; }),
+      HasSubstr("cell 1 has density -0, not +0 or more"));
+}
+
+TEST(HostileSection, WithANumberOutOfAllReasonIsRefused) {
+  const AssetContents contents = makeSampleAsset({.hasLayers = true, .codebookSize = 3});
+  const auto errorWithFirst = [&](SectionType type, float number) {
+    return errorAfter<float>(contents, type, [&](auto& numbers) { numbers[0] = number; });
+  };
+  for (const SectionType type : {SectionType::kSites, SectionType::kRadii, SectionType::kCellHeights, SectionType::kDetailSites,
+                                 SectionType::kDetailHeights, SectionType::kBaseColours, SectionType::kLobeColours}) {
+    EXPECT_THAT(errorWithFirst(type, 1.2e15f), HasSubstr("number 0 is 1.2e+15, not within +-2^50")) << sectionName(static_cast<uint32_t>(type));
+    EXPECT_EQ(errorWithFirst(type, 1e15f), "no error") << sectionName(static_cast<uint32_t>(type));
+  }
+  EXPECT_THAT(errorWithFirst(SectionType::kDensities, 3e38f), HasSubstr("number 0 is 3e+38, not within +-2^100"));
+  EXPECT_EQ(errorWithFirst(SectionType::kDensities, 1e30f), "no error");
+  Draft draft = draftOf(contents);
+  const size_t codebook = draft.find(SectionType::kAxisCodebook, kSharedChunk);
+  std::vector<glm::vec3> axes = contents.axisCodebook;
+  axes[1].y = 3e38f;
+  const std::span<const uint8_t> raw = rawBytes(axes);
+  draft.records[codebook].codec = 0;
+  draft.records[codebook].rawSize = raw.size();
+  draft.stored[codebook].assign(raw.begin(), raw.end());
+  EXPECT_THAT(errorOf(draft.assemble()), HasSubstr("axis codebook holds 3e+38"));
 }
 
 TEST(HostileSection, WithAFrameThatIsNoRotationIsRefused) {
   const AssetContents contents = makeSampleAsset();
-  for (const float length : {0.0f, 1e-20f, 0.99f, 1.001f, 2.0f, 1e30f}) {
+  for (const float length : {0.0f, 1e-20f, 0.99f, 1.001f, 2.0f, 1e14f}) {
     EXPECT_THAT(errorAfter<float>(contents, SectionType::kOrientations,
                                   [&](auto& numbers) {
                                     for (size_t i = 8; i < 12; ++i) numbers[i] = i == 8 ? length : 0;

@@ -10,6 +10,7 @@
 #include "asset_dump.h"
 #include "format/asset_reader.h"
 #include "format/asset_writer.h"
+#include "tests/surroundings.h"
 #include "sample_asset.h"
 
 namespace froth {
@@ -32,12 +33,12 @@ class IndependentReader : public testing::Test {
       ASSERT_TRUE(contents) << contents.error().message;
       writeDump(folder_ / "dump", *contents);
       const std::string layer = std::to_string(static_cast<int>(last));
-      const std::string command = "/usr/bin/python3 -B '" FROTH_SOURCE_DIR "/tests/format/compare_asset.py' '" +
+      const std::string command = "/usr/bin/python3 -B '" + (test::sourceFolder() / "tests/format/compare_asset.py").string() + "' '" +
                                   asset.string() + "' --layer " + layer + " --compare '" +
                                   (folder_ / "dump").string() + "' >'" + (folder_ / "out").string() +
                                   "' 2>&1";
       const int status = std::system(command.c_str());
-      if (WEXITSTATUS(status) == kLeftOut) GTEST_SKIP() << lastLines();
+      if (WEXITSTATUS(status) == kLeftOut) FROTH_SKIP() << lastLines();
       EXPECT_EQ(status, 0) << asset << ", layer " << layer << ": " << lastLines();
     }
   }
@@ -86,7 +87,7 @@ TEST_F(IndependentReader, AgreesOnExactChunksWithoutWalkGraph) {
 }
 
 TEST_F(IndependentReader, AgreesOnTheGoldenFile) {
-  expectSame(std::filesystem::path(FROTH_SOURCE_DIR) / "tests/format/golden/version_2_0.froth");
+  expectSame(test::sourceFolder() / "tests/format/golden/version_2_0.froth");
 }
 
 TEST_F(IndependentReader, AgreesOnBakedAssets) {

@@ -102,7 +102,7 @@ Interval clipRay(const BallSet& balls, uint32_t cell, const Cells& others, const
     if (other == cell || toOther == glm::dvec3(0)) continue;
     const double offset = foam::radicalOffset(toOther, radius, double{balls.radii[other]});
     foam::clipByPlane(foam::radicalClearance(centre, toOther, offset), glm::dot(toOther, direction),
-                      interval.near, interval.far);
+                      foam::comesFirst(toOther), interval.near, interval.far);
   }
   return interval;
 }

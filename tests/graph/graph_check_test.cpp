@@ -64,6 +64,44 @@ TEST(GraphCheck, FindsNoFaultWhereThereIsNone) {
   }
 }
 
+//  cluster of 1e-6   . . . . . . . . .   one ball at 7e11: seen from there, all powers of the cluster are one number, as double
+TEST(GraphCheck, FindsNoFaultInAClusterSeenFromFarAway) {
+  const BallSet sets[] = {
+      // Case 838 of `froth stability --search --seed 12`, shrunk: not all of the cluster are neighbours of the far ball.
+      {"not all lead on",
+       {{-3.06896836e-05f, 9.40660684e-05f, 7.23155812e+11f},
+        {-3.11896838e-05f, 9.43160703e-05f, 5.84232794e-06f},
+        {-3.14396821e-05f, 9.40660684e-05f, 6.09232802e-06f},
+        {-3.14396821e-05f, 9.53160707e-05f, 6.09232802e-06f},
+        {-3.06896836e-05f, 9.40660684e-05f, 6.59232819e-06f}},
+       {3.65864338e-07f, 3.73212572e-09f, 2.36118547e-09f, 1.0634432e-08f, 5.31192761e-08f}},
+      // Seed 201, case 176: planes towards cells of the cluster lie at one rounded t, and from some no plane leads on.
+      {"exits in one place",
+       {{-0.68767488f, -0.644041896f, 0.25f},
+        {0.274573117f, -0.572300851f, 1.2578519e+09f},
+        {0.4436481f, -0.221452624f, 0.25f},
+        {-0.426659554f, 0.535461903f, 0.25f},
+        {0.656314492f, -0.651882231f, 0.25f},
+        {0.562931061f, 0.603340864f, 0.25f}},
+       {0.0251177084f, 0.00273106084f, 2.0062902f, 3.63959956f, 0.0023463848f, 2.54393053f}},
+      {"the first one is hidden", {{0, 0, 0}, {1e-6f, 0, 0}, {0, 0, 7e11f}}, {1e-9f, 1e-5f, 1}}};
+  for (const BallSet& balls : sets) {
+    const Graphs graphs = makeGraphs(balls);
+    EXPECT_THAT(check(balls, graphs).faults, testing::IsEmpty()) << balls.name;
+  }
+}
+
+// The cluster's own pairs are seen to miss all the same: from near.
+TEST(GraphCheck, FindsAPairThatBothGraphsLackInAClusterSeenFromFarAway) {
+  BallSet balls = makeGrid();
+  balls.sites.push_back({0, 0, 1e15f});
+  balls.radii.push_back(1);
+  Graphs graphs = makeGraphs(balls);
+  removePair(graphs.triangulation.graph, 21, 22);
+  removePair(graphs.alpha.graph, 21, 22);
+  EXPECT_THAT(check(balls, graphs).faults, testing::Contains(testing::HasSubstr("has power")));
+}
+
 TEST(GraphCheck, AcceptsAFoamOfNoCells) {
   EXPECT_THAT(check({}, makeGraphs({})).faults, testing::IsEmpty());
 }

@@ -7,6 +7,7 @@
 
 #include "baker/checkpoint/checkpoint.h"
 #include "baker/graph/graph.h"
+#include "tests/surroundings.h"
 
 namespace froth {
 namespace {
@@ -16,10 +17,8 @@ class RealFoamDegrees : public testing::TestWithParam<const char*> {};
 // The published rule keeps a pair that has an edge in the regular triangulation and whose balls overlap. A
 // face of the alpha-complex asks for more: the balls meet on it.
 TEST_P(RealFoamDegrees, TheAlphaComplexHasFewerPairsThanEdgeAndOverlap) {
-  const char* data = std::getenv("FROTH_DATA");
-  const std::filesystem::path root = data ? data : FROTH_SOURCE_DIR "/../shared/data";
-  const std::filesystem::path path = root / "foams" / GetParam() / "model.pt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << "; set FROTH_DATA";
+  const std::filesystem::path path = test::dataFolder() / "foams" / GetParam() / "model.pt";
+  if (!std::filesystem::exists(path)) FROTH_SKIP() << "no " << path << "; set FROTH_DATA";
   const Result<Foam> foam = importCheckpoint(path);
   ASSERT_TRUE(foam) << foam.error().message;
   const Result<RegularTriangulation> triangulation = triangulateRegular(foam->sites, foam->radii);

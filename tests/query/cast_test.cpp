@@ -7,8 +7,10 @@
 #include <thread>
 
 #include "baker/checkpoint/checkpoint.h"
+#include "baker/stability/case_parts.h"
 #include "tests/query/query_fixture.h"
 #include "tests/query/reference_rays.h"
+#include "tests/surroundings.h"
 
 namespace froth::test {
 namespace {
@@ -93,6 +95,32 @@ size_t rayCount(size_t standard) {
   return count ? std::strtoull(count, nullptr, 10) : standard;
 }
 
+// Of the grid's four columns that meet in the ray, or the two, it shows one: that of smallest x, then y.
+TEST_F(Cast, ARayInAPlaneGoesThroughTheCellsOfTheFirstSites) {
+  std::vector<CaseCell> cells;
+  for (int z = 0; z < 4; ++z) {
+    for (const float x : {0.25f, -0.25f}) {
+      for (const float y : {0.25f, -0.25f}) cells.push_back({{x, y, 0.5f * static_cast<float>(z)}, 0.375f, x + 2 * y + 1, kFaceToViewer, 5, 0});
+    }
+  }
+  const Foam foam = foamOfCells(cells);
+  const AssetContents contents = bakeScene(foam, "exact", 1000);
+  createInstance(openReady(contents));
+  auto info = makeStruct<FrothCastInfo>();
+  info.cutoff = -1;
+  const ReferenceRays reference(foam);
+  for (const double y : {0.0, 0.125}) {
+    const double tEnd = 10;
+    const ReferenceHit expected = reference.cast({0, y, -2}, {0, 0, 1}, tEnd, 0.5, 0);
+    const FrothRayHit hit = cast({makeRay({0, y, -2}, {0, 0, 1}, 0, tEnd)}, info).front();
+    EXPECT_NEAR(hit.transmittance, expected.transmittance, 1e-6) << y;
+    // (-0.25, -0.25) has the density 0.25, (-0.25, 0.25) 1.25. Each layer shows the plane z's chord of one ball.
+    const double aside = 0.0625 + (y == 0 ? 0.0625 : 0.015625), half = std::min(std::sqrt(0.140625 - aside), 0.25);
+    const double length = 6 * half + 2 * std::sqrt(0.140625 - aside);
+    EXPECT_NEAR(hit.transmittance, std::exp(-(y == 0 ? 0.25 : 1.25) * length), 1e-6) << y;
+  }
+}
+
 class CastManyRays : public Cast {
  protected:
   void expectAgreement(const AssetContents& contents, size_t count) {
@@ -116,10 +144,8 @@ TEST_F(CastManyRays, ThroughASyntheticFoamAgreeWithTheReferenceInDouble) {
 }
 
 TEST_F(CastManyRays, ThroughATrainedFoamAgreeWithTheReferenceInDouble) {
-  const char* data = std::getenv("FROTH_DATA");
-  const std::filesystem::path root = data ? data : FROTH_SOURCE_DIR "/../shared/data";
-  const std::filesystem::path path = root / "foams/miku_plush/model.pt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no foams/miku_plush; set FROTH_DATA";
+  const std::filesystem::path path = dataFolder() / "foams/miku_plush/model.pt";
+  if (!std::filesystem::exists(path)) FROTH_SKIP() << "no foams/miku_plush; set FROTH_DATA";
   const Result<Foam> foam = importCheckpoint(path);
   ASSERT_TRUE(foam) << foam.error().message;
   expectAgreement(bakeScene(*foam, "exact", 8192), 5000);
@@ -244,6 +270,36 @@ TEST_F(CastRandom, ThroughTwoFoamsAddsTheirDensities) {
     EXPECT_NEAR(both(origin, direction, hits[i].distance), 0.5, 1e-6);
   }
   EXPECT_GT(found, 50);
+}
+
+// The walk ends behind the cell in which T falls below the cut-off: not before, not a cell later.
+TEST_F(CastRandom, WithACutoffEndBehindTheCellThatFallsBelowIt) {
+  createInstance(asset_);
+  std::vector<FrothRay> rays = randomRays(extent_, 1000, 8);
+  for (FrothRay& ray : rays) ray.tMax = 0;
+  auto info = makeStruct<FrothCastInfo>();
+  info.cutoff = 0.3f;
+  const std::vector<FrothRayHit> cut = cast(rays, info), whole = cast(rays, withoutCutoff());
+  const ReferenceRays reference(foam_);
+  size_t ended = 0, shorter = 0, apart = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const glm::dvec3 origin(rays[i].origin[0], rays[i].origin[1], rays[i].origin[2]);
+    const glm::dvec3 direction(rays[i].direction[0], rays[i].direction[1], rays[i].direction[2]);
+    const double expected = reference.cast(origin, direction, kInfinity, 0.5, 0.3).transmittance;
+    apart += std::abs(cut[i].transmittance - expected) > 1e-6;
+    EXPECT_LE(cut[i].steps, whole[i].steps);
+    if (whole[i].transmittance >= info.cutoff) {
+      EXPECT_EQ(cut[i].transmittance, whole[i].transmittance);
+      EXPECT_EQ(cut[i].steps, whole[i].steps);
+      continue;
+    }
+    EXPECT_LT(cut[i].transmittance, info.cutoff);
+    ended += cut[i].transmittance > whole[i].transmittance;
+    shorter += cut[i].steps < whole[i].steps;
+  }
+  EXPECT_LE(apart, 2u) << "but where T is the cut-off to the last digit";
+  EXPECT_GT(ended, 100u);
+  EXPECT_GE(shorter, ended);
 }
 
 TEST_F(CastRandom, WithClosestOnlyFindsTheSameDistance) {

@@ -54,8 +54,8 @@ ReferenceHit ReferenceRays::cast(const glm::dvec3& origin, const glm::dvec3& dir
     cell.planesBegin = view.planes.size();
     for (const uint32_t other : neighboursOf(pairs_, ball.cell)) {
       const glm::dvec3 toNeighbour = glm::dvec3(foam_.sites[other]) - site;
-      const double offset = foam::radicalOffset(toNeighbour, radius, double{foam_.radii[other]});
-      view.planes.push_back({toNeighbour, foam::radicalClearance(cell.centre, toNeighbour, offset)});
+      const glm::dvec3 otherCentre = glm::dvec3(foam_.sites[other]) - origin;
+      view.planes.push_back({toNeighbour, foam::sharedClearance(cell.centre, otherCentre, toNeighbour, radius, double{foam_.radii[other]})});
     }
     cell.planesEnd = view.planes.size();
     view.cells.push_back(cell);

@@ -10,6 +10,7 @@
 #include "baker/checkpoint/checkpoint.h"
 #include "baker/image/metrics.h"
 #include "baker/reference/reference.h"
+#include "tests/surroundings.h"
 
 namespace froth {
 namespace {
@@ -21,9 +22,8 @@ struct Golden {
 class AgainstPublishedRenders : public ::testing::Test {
  protected:
   void SetUp() override {
-    const char* data = std::getenv("FROTH_DATA");
-    root_ = std::filesystem::path(data ? data : FROTH_SOURCE_DIR "/../shared/data") / "foams";
-    if (!std::filesystem::exists(root_)) GTEST_SKIP() << "no foams at " << root_ << "; set FROTH_DATA";
+    root_ = test::dataFolder() / "foams";
+    if (!std::filesystem::exists(root_)) FROTH_SKIP() << "no foams at " << root_ << "; set FROTH_DATA";
   }
 
   void render(const std::string& name, size_t viewIndex) {

@@ -129,7 +129,8 @@ TEST(Chunks, WhoseGhostsAreMisplacedCannotMakeAWalkCycle) {
   ChunkContents& second = contents.chunks[1];
   ASSERT_EQ(second.ghostCount, 1u);
   second.sites[1] = second.sites[0] + glm::vec3(0, 0, 0.5f);
-  Stage stage(contents, {kWidth, kHeight});
+  constexpr bool kKeepForQueries = false;  // an asset that is kept for them has its ghosts checked
+  Stage stage(contents, {kWidth, kHeight}, sharedContext(), 0, 0, false, 0, kKeepForQueries);
   FrothRenderInfo info = infoOf(frontView());
   info.maxSteps = 100;
   EXPECT_EQ(stage.draw(Method::kWalk, info, {kWidth, kHeight}).status.bits, 0u);

@@ -12,7 +12,8 @@ constexpr VkExtent2D kEye{96, 64};
 View viewOf(uint32_t eye) { return lookAt({eye == 0 ? -0.03 : 0.03, 0.1, -0.5}, {0, 0, 3}, kEye.width, kEye.height, 0.5); }
 
 Stage& stage() {
-  static Stage* const made = new Stage(bakeForTest(makeRandomFoam(500, 4, 2, 9)), kEye, sharedContext(), 0, 0, false, 2);
+  static FrothContext* const context = createCheckedContext(0);
+  static Stage* const made = new Stage(bakeForTest(makeRandomFoam(500, 4, 2, 9)), kEye, context, 0, 0, false, 2);
   return *made;
 }
 

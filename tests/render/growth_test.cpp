@@ -37,7 +37,8 @@ class Growth : public testing::Test {
         asset_("", bytes_, Layer::kViewDependence, &device_) {
     std::unique_ptr<UploadRing> ring = std::move(*UploadRing::create(device_, 16 << 20));
     while (!asset_.isDecoded()) {
-      asset_.load(pipelines_.get(), {});
+      uint64_t workLeft = kWorkPerUpdate;
+      asset_.load(pipelines_.get(), {}, workLeft);
       EXPECT_FALSE(asset_.hasFailed());
       asset_.stage(*ring, UINT64_MAX);
     }
@@ -71,7 +72,7 @@ class Growth : public testing::Test {
     info.camera.scissor = {{0, 0}, kExtent};
     info.cutoff = 1e-3f;
     info.depthQuantile = 0.5f;
-    info.maxSteps = 65536;
+    info.maxSteps = info.maxEntries = info.maxNeighbours = 65536;
     const RenderInstance instance{
         .asset = &asset_.gpu(), .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
     const bool isRaster = method == Method::kRaster;

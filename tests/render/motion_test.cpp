@@ -143,8 +143,14 @@ FrothRenderInfo infoOf(const Moved& moved) {
 constexpr LensKind kKinds[] = {LensKind::kPinhole,         LensKind::kOrthographic,     LensKind::kFisheye,
                                LensKind::kKannalaBrandt,   LensKind::kRadialTangential, LensKind::kEquirectangular};
 
-TEST(Motion, OfACameraIsThatOfTheClosedForms) {
+// The instance stands where it was drawn last.
+void putAtRest() {
   stage().place({});
+  stage().draw(Method::kRaster, viewOf(LensKind::kPinhole));
+}
+
+TEST(Motion, OfACameraIsThatOfTheClosedForms) {
+  putAtRest();
   for (const LensKind kind : kKinds) {
     const Moved moved{viewOf(kind), viewOf(kind, {0.5, -0.45, 0.38}, {0.15, 0.05, 3})};
     for (const Method method : {Method::kRaster, Method::kWalk}) {
@@ -154,7 +160,7 @@ TEST(Motion, OfACameraIsThatOfTheClosedForms) {
 }
 
 TEST(Motion, IsThatOfTheUnjitteredImages) {
-  stage().place({});
+  putAtRest();
   for (const LensKind kind : {LensKind::kPinhole, LensKind::kOrthographic, LensKind::kFisheye}) {
     Moved moved{viewOf(kind), viewOf(kind, {0.5, -0.45, 0.38})};
     FrothRenderInfo info = infoOf(moved);
@@ -171,7 +177,7 @@ TEST(Motion, IsThatOfTheUnjitteredImages) {
 }
 
 TEST(Motion, OfAStillSceneIsZero) {
-  stage().place({});
+  putAtRest();
   for (const LensKind kind : kKinds) {
     const View view = viewOf(kind);
     FrothRenderInfo info = infoOf({view, view});
@@ -185,7 +191,7 @@ TEST(Motion, IsZeroWithoutAFrameBefore) {
 }
 
 TEST(Motion, IsScaledAndFollowsTheViewport) {
-  stage().place({});
+  putAtRest();
   const Moved moved{viewOf(LensKind::kPinhole), viewOf(LensKind::kPinhole, {0.5, -0.45, 0.38})};
   FrothRenderInfo info = infoOf(moved);
   info.motionScale[0] = -1.0f / kWidth;
@@ -300,7 +306,7 @@ TEST(Motion, LeadsToWhereTheInstanceWasDrawnLastInAnyOrderOfCalls) {
 }
 
 TEST(Motion, OfWhatLayBehindTheCameraLeadsOffTheImage) {
-  stage().place({});
+  putAtRest();
   View turned = viewOf(LensKind::kPinhole, {0.6, -0.5, 0.3}, {1.15, -1.1, -2.4});
   for (const float value : stage().draw(Method::kRaster, infoOf({viewOf(LensKind::kPinhole), turned}), {kWidth, kHeight}).motion.values)
     ASSERT_EQ(value, 32768);

@@ -219,6 +219,7 @@ class Bin : public Passes {
     info.colour = sharedHost().describe(image);
     info.camera.scissor = {{0, 0}, extent};
     info.depthQuantile = 0.5f;
+    info.maxEntries = 65536;
     const RenderInstance instance{.asset = &asset, .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
     submit([&](VkCommandBuffer commandBuffer) {
       const Recording recording =
@@ -250,7 +251,7 @@ class Bin : public Passes {
     const uint32_t cells = lists.counters.visibleCells;
     lists.order = copyOut<uint32_t>(space.buffers[ViewBuffer::kOrder], cells);
     lists.visible = copyOut<gpu::uvec4>(space.buffers[ViewBuffer::kVisibleCells], cells);
-    const ViewBuffer last = digitsOf(tiles) % 2 != 0 ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells;
+    const ViewBuffer last = tileDigits(tiles) % 2 != 0 ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells;
     const auto pairs = copyOut<uint32_t>(space.buffers[last], lists.counters.pairs);
     const auto tileLists = copyOut<gpu::uvec4>(space.buffers[ViewBuffer::kTileLists], tiles);
     lists.tileSlots.resize(tiles);

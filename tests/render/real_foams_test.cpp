@@ -7,6 +7,7 @@
 #include "baker/checkpoint/checkpoint.h"
 #include "format/asset_writer.h"
 #include "tests/render/render_harness.h"
+#include "tests/surroundings.h"
 
 namespace froth::test {
 namespace {
@@ -18,9 +19,7 @@ struct RealFoam {
 };
 
 std::filesystem::path folderOf(const char* name) {
-  const char* data = std::getenv("FROTH_DATA");
-  const std::filesystem::path root = data ? data : FROTH_SOURCE_DIR "/../shared/data";
-  return root / "foams" / name;
+  return dataFolder() / "foams" / name;
 }
 
 RealFoam loadFoam(const std::filesystem::path& folder) {
@@ -61,7 +60,7 @@ void expectWalkAgrees(const RealFoam& foam, Stage& stage, size_t index) {
 
 TEST(RealFoam, MikuPlushIsRasterizedAsThePublishedRendersShowItAndWalksAgree) {
   const std::filesystem::path folder = folderOf("miku_plush");
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder << "; set FROTH_DATA";
+  if (!std::filesystem::exists(folder)) FROTH_SKIP() << "no " << folder << "; set FROTH_DATA";
   const RealFoam foam = loadFoam(folder);
   Stage stage(foam.contents, {1319, 989});
   expectGolden(foam, stage, 0, 60);
@@ -71,7 +70,7 @@ TEST(RealFoam, MikuPlushIsRasterizedAsThePublishedRendersShowItAndWalksAgree) {
 
 TEST(RealFoam, TheRoughTankardIsRasterizedAsPublishedAndItsWalksEnd) {
   const std::filesystem::path folder = folderOf("tankard_rough");
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder << "; set FROTH_DATA";
+  if (!std::filesystem::exists(folder)) FROTH_SKIP() << "no " << folder << "; set FROTH_DATA";
   const RealFoam foam = loadFoam(folder);
   Stage stage(foam.contents, {1152, 1152});
   expectGolden(foam, stage, 2, 52);
@@ -82,7 +81,7 @@ TEST(RealFoam, TheRoughTankardIsRasterizedAsPublishedAndItsWalksEnd) {
 // taken down to less than the view wants, a coarser frame at once and the same one again when it is given back.
 TEST(RealFoam, MikuPlushIsRefusedAt1MegabyteAndWholeAt100) {
   const std::filesystem::path folder = folderOf("miku_plush");
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder << "; set FROTH_DATA";
+  if (!std::filesystem::exists(folder)) FROTH_SKIP() << "no " << folder << "; set FROTH_DATA";
   const RealFoam foam = loadFoam(folder);
   const View full = withNearLimits(foam, 0), view = resizeView(full, full.width / 4, full.height / 4);
   std::vector<std::string> messages;
@@ -127,7 +126,11 @@ TEST(RealFoam, MikuPlushIsRefusedAt1MegabyteAndWholeAt100) {
     EXPECT_EQ(whole.status.bits, 0u);
     ASSERT_EQ(frothGetMemoryReport(context, &report), FROTH_OK);
     EXPECT_LE(report.devicePeak, kBudget);
-    std::printf("[  BYTES   ] miku_plush: %.1f MB held of 100\n", 1e-6 * static_cast<double>(report.deviceBytes));
+    for (uint32_t i = 0; i < report.categoryCount; ++i) {
+      const auto& category = report.categories[i];
+      std::printf("[  BYTES   ] miku_plush, %s: %.1f MB granted, %.1f used\n", category.name, 1e-6 * static_cast<double>(category.granted),
+                  1e-6 * static_cast<double>(category.used));
+    }
     const uint64_t lowered = report.categories[0].granted + report.categories[1].granted / 2;  // assets, views
     ASSERT_EQ(frothSetBudget(context, lowered), FROTH_OK);
     const Frame less = stage.draw(Method::kRaster, view);

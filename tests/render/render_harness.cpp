@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,30 @@ FrothLens lensOf(const View& view) {
   for (size_t i = 0; i < view.lens.distortion.size(); ++i)
     lens.coefficients[i] = static_cast<float>(view.lens.distortion[i]);
   return lens;
+}
+
+// How many stages stand in each of the contexts that tests share.
+std::map<FrothContext*, int>& stagesOfSharedContexts() {
+  static std::map<FrothContext*, int> counts;
+  return counts;
+}
+
+FrothContext* createSharedContext(uint32_t lensClasses) {
+  FrothContext* const context = createCheckedContext(lensClasses);
+  stagesOfSharedContexts()[context] = 0;
+  return context;
+}
+
+// A view draws every instance of its context, so a stage that another test left there would be in this one's images.
+void enter(FrothContext* context) {
+  const auto shared = stagesOfSharedContexts().find(context);
+  if (shared == stagesOfSharedContexts().end()) return;
+  EXPECT_EQ(shared->second++, 0) << "another stage stands in this shared context; one that stays needs a context of its own";
+}
+
+void leave(FrothContext* context) {
+  const auto shared = stagesOfSharedContexts().find(context);
+  if (shared != stagesOfSharedContexts().end()) --shared->second;
 }
 
 constexpr uint32_t kAllLenses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC;
@@ -92,18 +117,19 @@ FrothContext* createCheckedContext(uint32_t lensClasses) {
 }
 
 FrothContext* sharedContext() {
-  static FrothContext* const context = createCheckedContext(0);
+  static FrothContext* const context = createSharedContext(0);
   return context;
 }
 
 FrothContext* lensContext() {
-  static FrothContext* const context = createCheckedContext(kAllLenses);
+  static FrothContext* const context = createSharedContext(kAllLenses);
   return context;
 }
 
 Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context, uint32_t layers,
-             uint32_t lensClasses, bool keepsHits, uint32_t eyeCount)
+             uint32_t lensClasses, bool keepsHits, uint32_t eyeCount, bool keepForQueries)
     : context_(context), keepsHits_(keepsHits) {
+  enter(context_);
   Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
   EXPECT_TRUE(bytes) << bytes.error().message;
   bytes_ = std::move(*bytes);
@@ -112,7 +138,7 @@ Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* 
   assetInfo.data = bytes_.data();
   assetInfo.dataSize = bytes_.size();
   assetInfo.layers = layers;
-  assetInfo.keepForQueries = 1;
+  assetInfo.keepForQueries = keepForQueries;
   check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
   const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses, keepsHits, eyeCount};
   check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");
@@ -135,6 +161,7 @@ Stage::~Stage() {
   check(frothDestroyView(context_, view_), "frothDestroyView");
   check(frothDestroyInstance(context_, instance_), "frothDestroyInstance");
   check(frothCloseAsset(context_, asset_), "frothCloseAsset");
+  leave(context_);
   expectSilence(sharedHost());
 }
 

@@ -40,7 +40,7 @@ void check(FrothResult result, const char* call);
 void failOnMessage(void* user, FrothSeverity severity, FrothResult code, const char* object, const char* text);
 
 // One device with validation layers, and one context that checks indices, for all tests of the program:
-// pipelines are made once per asset shape.
+// pipelines are made once per asset shape. A shared context holds one Stage at a time, else its constructor fails the test.
 Host& sharedHost();
 FrothContext* sharedContext();
 
@@ -55,7 +55,7 @@ FrothContext* createCheckedContext(uint32_t lensClasses);
 class Stage {
  public:
   Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context = sharedContext(),
-        uint32_t layers = 0, uint32_t lensClasses = 0, bool keepsHits = false, uint32_t eyeCount = 0);
+        uint32_t layers = 0, uint32_t lensClasses = 0, bool keepsHits = false, uint32_t eyeCount = 0, bool keepForQueries = true);
   ~Stage();
 
   void place(const FrothInstanceInfo& placement);  // `asset` is filled in

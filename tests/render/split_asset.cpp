@@ -79,16 +79,22 @@ AssetContents splitAsset(const AssetContents& contents, uint32_t count, double g
   for (uint32_t part = 0; part < count; ++part) {
     for (uint32_t local = 0; local < parts[part].size(); ++local) refOf[parts[part][local]] = part << kLocalBits | local;
   }
+  std::vector<glm::dvec3> origins;
+  for (const Members& part : parts) {
+    const std::array<double, 3> origin = originOf(whole, part, grid);
+    origins.emplace_back(origin[0], origin[1], origin[2]);
+  }
   AssetContents result = contents;
   result.localBits = kLocalBits;
   result.chunks.assign(count, {});
   for (uint32_t part = 0; part < count; ++part) {
     ChunkContents& chunk = result.chunks[part];
-    chunk.origin = originOf(whole, parts[part], grid);
+    const glm::dvec3 origin = origins[part];
+    chunk.origin = {origin.x, origin.y, origin.z};
     chunk.cellCount = static_cast<uint32_t>(parts[part].size());
-    const glm::dvec3 origin(chunk.origin[0], chunk.origin[1], chunk.origin[2]);
-    const auto addSite = [&](uint32_t cell) {
-      chunk.sites.emplace_back(glm::dvec3(whole.sites[cell]) - origin);
+    const auto addSite = [&](uint32_t cell) {  // a ghost: as its own chunk holds it
+      const glm::dvec3 home = origins[refOf[cell] >> kLocalBits];
+      chunk.sites.emplace_back(home - origin + glm::dvec3(glm::vec3(glm::dvec3(whole.sites[cell]) - home)));
       chunk.radii.push_back(whole.radii[cell]);
     };
     std::map<CellRef, uint32_t> ghosts;  // to the cell of the whole asset

@@ -55,8 +55,8 @@ class Counter {
         work.planes += chunk_.alphaCounts[cell];
         for (uint32_t i = 0; i < chunk_.alphaCounts[cell]; ++i) {
           const uint32_t other = chunk_.neighbours[chunk_.neighbourOffsets[cell] + i];
-          foam::clipByPlane(clearanceOf(cell, other), glm::dot(towards(cell, other), ray), interval.tNear,
-                            interval.tFar);
+          foam::clipByPlane(clearanceOf(cell, other), glm::dot(towards(cell, other), ray),
+                            foam::comesFirst(towards(cell, other)), interval.tNear, interval.tFar);
         }
         work.colours += isColoured(cell, ray, interval);
       }

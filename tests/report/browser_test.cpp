@@ -10,6 +10,7 @@
 #include "baker/image/image.h"
 #include "baker/report/report.h"
 #include "tests/report/sample_report.h"
+#include "tests/surroundings.h"
 
 namespace froth {
 namespace {
@@ -66,7 +67,7 @@ fs::path writePage(const char* name, const std::string& html) {
 class Browser : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
+    if (std::system("command -v chromium > /dev/null") != 0) FROTH_SKIP() << "chromium is not installed";
   }
 };
 

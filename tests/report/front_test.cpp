@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "baker/report/report.h"
 
@@ -76,6 +77,27 @@ TEST(Front, PointsOfOtherRenderersOrWithoutFiguresAreNotOnIt) {
   points.back().renderer = "walk";
   EXPECT_THAT(overTime(points), ElementsAre("equal"));
   EXPECT_THAT(paretoFront(points, "cpu", Cost::kTime), ElementsAre());
+}
+
+TEST(RoundOrder, IsAnotherInEachRoundAndTheSameForASeed) {
+  std::vector<std::string> groups;
+  for (int i = 0; i < 40; ++i) groups.push_back(std::to_string(i % 10));
+  const std::vector<size_t> first = orderOfRound(groups, 1, 0);
+  EXPECT_EQ(orderOfRound(groups, 1, 0), first);
+  EXPECT_NE(orderOfRound(groups, 1, 1), first);
+  EXPECT_NE(orderOfRound(groups, 2, 0), first);
+}
+
+TEST(RoundOrder, NamesEachOnceAndKeepsAGroupTogether) {
+  const std::vector<std::string> groups{"a", "b", "a", "c", "b", "a"};
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const std::vector<size_t> order = orderOfRound(groups, seed, 2);
+    std::set<size_t> seen(order.begin(), order.end());
+    EXPECT_EQ(seen.size(), groups.size());
+    size_t changes = 0;
+    for (size_t k = 1; k < order.size(); ++k) changes += groups[order[k]] != groups[order[k - 1]];
+    EXPECT_EQ(changes, 2u) << seed;
+  }
 }
 
 }  // namespace

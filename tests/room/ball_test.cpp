@@ -2,6 +2,7 @@
 #include "samples/mirror_room/stage.h"
 #include "tests/query/query_fixture.h"
 #include "tests/render/random_foam.h"
+#include "tests/room/room_fixture.h"
 
 namespace froth::test {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 class BallOnFoam : public QueryTest {
  protected:
   void SetUp() override {
-    Result<Room> room = readRoom(FROTH_ROOM_FILE);
+    Result<Room> room = readRoom(shippedRoom());
     ASSERT_TRUE(room) << room.error().message;
     room_ = std::move(*room);
   }

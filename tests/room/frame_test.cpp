@@ -3,12 +3,13 @@
 
 #include "samples/host/picture_file.h"
 #include "tests/room/reference_frame.h"
+#include "tests/surroundings.h"
 
 namespace froth::test {
 namespace {
 
 void expectLikeReference(const RoomLook& look, bool hasParticles, double seconds) {
-  if (!hasSuitableDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  if (!hasSuitableDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   RoomUnderTest room(look, hasParticles, seconds);
   room.draw();
   const Picture8 drawn = encodePicture(room.read(room.stage().renderer().result()), kRoomExtent);

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include "samples/mirror_room/room_geometry.h"
+#include "tests/room/room_fixture.h"
+#include "tests/surroundings.h"
 
 namespace froth::test {
 namespace {
@@ -23,7 +25,7 @@ class RoomFile : public testing::Test {
 
   // The shipped room with one text for another.
   std::string messageWith(const std::string& from, const std::string& to) {
-    std::string text = readText(FROTH_ROOM_FILE);
+    std::string text = readText(shippedRoom());
     const size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     std::ofstream(path_, std::ios::binary) << text.replace(at, from.size(), to);
@@ -35,7 +37,7 @@ class RoomFile : public testing::Test {
 };
 
 TEST_F(RoomFile, OfTheSampleHasAllThatTheRoomNeeds) {
-  const Result<Room> room = readRoom(FROTH_ROOM_FILE);
+  const Result<Room> room = readRoom(shippedRoom());
   ASSERT_TRUE(room) << room.error().message;
   EXPECT_NEAR(glm::length(room->mirror.normal), 1, 1e-6);
   EXPECT_LT(room->mirror.normal.y, 1e-6);
@@ -64,7 +66,7 @@ TEST_F(RoomFile, TellsWhatIsWrong) {
 }
 
 TEST_F(RoomFile, IsWhatTheScriptWrites) {
-  const std::string folder = std::string(FROTH_SOURCE_DIR) + "/samples/mirror_room/meshes/";
+  const std::string folder = (sourceFolder() / "samples/mirror_room/meshes/").string();
   for (const std::string name : {"room", "gallery"}) {
     const std::string command = "/usr/bin/env python3 '" + folder + "make_room.py' " + name + " '" + path_.string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);

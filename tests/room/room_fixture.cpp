@@ -24,7 +24,7 @@ std::filesystem::path writeAsset(const Foam& foam, const std::filesystem::path& 
 
 // The shipped room with the foam let down, so that the pedestal stands in it.
 std::filesystem::path writeRoom(const std::filesystem::path& folder) {
-  std::ifstream shipped(FROTH_ROOM_FILE, std::ios::binary);
+  std::ifstream shipped(shippedRoom(), std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(shipped), {}};
   const std::string place = "\"name\":\"foam\",\"translation\":[0,0.3,0]";
   const size_t at = text.find(place);

@@ -7,10 +7,16 @@
 
 #include "baker/foam.h"
 #include "samples/mirror_room/stage.h"
+#include "tests/surroundings.h"
 
 namespace froth::test {
 
 constexpr VkExtent2D kRoomExtent{96, 64};
+
+// The room that the sample ships.
+inline std::filesystem::path shippedRoom() {
+  return sourceFolder() / "samples/mirror_room/meshes/room.gltf";
+}
 
 class RoomUnderTest {
  public:

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/room/reference_frame.h"
+#include "tests/surroundings.h"
 
 namespace froth::test {
 namespace {
@@ -42,7 +43,7 @@ Comparison compare(RoomUnderTest& room, const HostImage& image,
 class FoamOnMeshes : public testing::Test {
  protected:
   void SetUp() override {
-    if (!hasSuitableDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+    if (!hasSuitableDevice()) FROTH_SKIP() << "no suitable Vulkan device";
     room_ = std::make_unique<RoomUnderTest>(RoomLook{}, false);
     room_->draw();
     reference_ = std::make_unique<ReferenceFrame>(*room_, std::vector<Particle>());

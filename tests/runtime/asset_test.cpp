@@ -1,4 +1,5 @@
 #include "format/container.h"
+#include "one_cell_chunks.h"
 #include "runtime_fixture.h"
 
 namespace froth {
@@ -84,13 +85,10 @@ TEST_F(AssetOfNullContext, GivesItsFlightPathUpToTheCallersCapacity) {
   EXPECT_EQ(frothGetFlightPath(context_, asset, 1, nullptr, &count), FROTH_ERROR_ARGUMENT);
 }
 
-TEST_F(AssetOfNullContext, OfSeveralChunksDecodesOneInEachFrame) {
+TEST_F(AssetOfNullContext, OfAFewSmallChunksDecodesAllInOneFrame) {
   const std::vector<uint8_t> bytes = encodeSample({.chunkCount = 3, .localBits = 16});
   const FrothAsset asset = openBytes(bytes);
   ASSERT_EQ(update(1), FROTH_OK);
-  ASSERT_EQ(update(2), FROTH_OK);
-  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_OPENING);
-  ASSERT_EQ(update(3), FROTH_OK);
   EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
   EXPECT_EQ(statusOf(asset).cellCount, 18u);
 }
@@ -199,6 +197,20 @@ TEST_F(AssetOfNullContext, KeepsItsPathWhenTheCallersStringIsGone) {
   path.reset();
   ASSERT_EQ(update(1), FROTH_OK);
   EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY) << lastText();
+}
+
+// An update ends behind the chunk that exceeds its work, of all assets together; a chunk of one cell counts as the least.
+TEST_F(AssetOfNullContext, OfManySmallChunksIsDecodedInSlices) {
+  const std::vector<uint8_t> bytes = *encodeAsset(makeOneCellChunks(300));
+  const FrothAsset first = openBytes(bytes), second = openBytes(bytes);
+  const auto isOpening = [&](FrothAsset asset) { return statusOf(asset).state == FROTH_ASSET_OPENING; };
+  uint64_t updates = 0;
+  std::vector<uint64_t> readyAt;
+  for (const FrothAsset asset : {first, second}) {
+    while (isOpening(asset) && updates < 10) ASSERT_EQ(update(++updates), FROTH_OK);
+    readyAt.push_back(updates);
+  }
+  EXPECT_EQ(readyAt, (std::vector<uint64_t>{2, 3})) << "256 chunks in an update";
 }
 
 }  // namespace

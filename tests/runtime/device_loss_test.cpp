@@ -10,12 +10,16 @@ class DeviceLoss : public RuntimeGpuTest {
  protected:
   void SetUp() override {
     RuntimeGpuTest::SetUp();
+    useNewDevice();
     createContext(infoOf(*host_));
   }
 
-  void TearDown() override {
-    RuntimeGpuTest::TearDown();
-    host_.reset();
+  // Destroys the device before.
+  void useNewDevice() {
+    Result<std::unique_ptr<Host>> host = Host::create({.device = "", .useValidation = true});
+    ASSERT_TRUE(host) << host.error().message;
+    ownHost_ = std::move(*host);
+    host_ = ownHost_.get();
   }
 
   FrothContextInfo infoOf(const Host& host) {
@@ -29,9 +33,7 @@ class DeviceLoss : public RuntimeGpuTest {
   void loseDevice() {
     ASSERT_EQ(frothDeviceLost(context_), FROTH_OK);
     EXPECT_THAT(host_->validationMessages(), ::testing::IsEmpty());
-    Result<std::unique_ptr<Host>> host = Host::create({.device = "", .useValidation = true});
-    ASSERT_TRUE(host) << host.error().message;
-    host_ = std::move(*host);
+    useNewDevice();
   }
 
   void restoreDevice() {
@@ -74,6 +76,9 @@ class DeviceLoss : public RuntimeGpuTest {
   }
 
   uint64_t serial_ = 0;
+
+ private:
+  std::unique_ptr<Host> ownHost_;
 };
 
 TEST_F(DeviceLoss, IsSurvivedByHandlesAndTheImageAfterwardsIsTheSame) {

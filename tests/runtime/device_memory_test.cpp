@@ -1,6 +1,7 @@
 // Where device memory comes from, and the report of it.
 #include <map>
 
+#include "one_cell_chunks.h"
 #include "runtime_fixture.h"
 
 namespace froth {
@@ -66,16 +67,24 @@ class DeviceMemory : public RuntimeGpuTest {
     return report;
   }
 
+  static VkDeviceSize grantedIn(const FrothMemoryReport& report) {
+    VkDeviceSize granted = 0;
+    for (uint32_t i = 0; i < report.categoryCount; ++i) granted += report.categories[i].granted;
+    return granted;
+  }
+
+  void draw(VkCommandBuffer commands, FrothView view, const HostImage& image) {
+    auto info = makeStruct<FrothRenderInfo>();
+    info.camera = makeCamera(image.extent.width, image.extent.height);
+    info.camera.eye[2] = 1e6 - 1;  // where the sample lies
+    info.colour = host_->describe(image);
+    EXPECT_EQ(frothRasterize(context_, view, commands, &info), FROTH_OK) << lastText();
+  }
+
   // Draws what there is and reads it back.
   std::vector<float> draw(FrothView view, VkExtent2D extent = {32, 32}) {
     Result<HostImage> image = host_->createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent);
-    auto info = makeStruct<FrothRenderInfo>();
-    info.camera = makeCamera(extent.width, extent.height);
-    info.camera.eye[2] = 1e6 - 1;  // where the sample lies
-    info.colour = host_->describe(*image);
-    runFrame(0, [&](VkCommandBuffer commands) {
-      EXPECT_EQ(frothRasterize(context_, view, commands, &info), FROTH_OK) << lastText();
-    });
+    runFrame(0, [&](VkCommandBuffer commands) { draw(commands, view, *image); });
     const Result<std::vector<float>> texels = host_->readImage(*image);
     host_->destroyImage(*image);
     return *texels;
@@ -106,16 +115,47 @@ TEST_F(DeviceMemory, OfTheCallersAllocatorServesEverythingAndAllOfItIsGivenBack)
   EXPECT_EQ(drawSample(), expected);
   runFrame();
   const FrothMemoryReport now = report();
-  VkDeviceSize granted = 0;
   size_t count = 0;
-  for (uint32_t i = 0; i < now.categoryCount; ++i) {
-    granted += now.categories[i].granted;
-    count += now.categories[i].count;
-  }
-  EXPECT_EQ(granted, memory.bytes());
+  for (uint32_t i = 0; i < now.categoryCount; ++i) count += now.categories[i].count;
+  EXPECT_EQ(grantedIn(now), memory.bytes());
   EXPECT_EQ(count, memory.live.size());
   EXPECT_EQ(now.deviceBytes, 0u) << "only staging is left";
   EXPECT_GT(now.devicePeak, 0u);
+  ASSERT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
+  context_ = nullptr;
+  EXPECT_TRUE(memory.live.empty());
+}
+
+// Devices allow as few as 4096 allocations; a file may have more chunks than that.
+TEST_F(DeviceMemory, OfAThousandChunksIsFewAllocationsAndDrawsAsOneChunkDoes) {
+  CallersMemory memory{.device = host_->device};
+  createContext(infoWith(memory));
+  const AssetContents parted = makeOneCellChunks(1000);
+  std::vector<std::vector<float>> images;
+  const FrothView view = createView({64, 64});
+  runFrame();
+  const size_t before = memory.live.size();
+  for (const AssetContents& contents : {parted, joinChunks(parted)}) {
+    const FrothAsset asset = openBytes(*encodeAsset(contents));
+    for (int frame = 0; frame < 6; ++frame) runFrame();
+    ASSERT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
+    EXPECT_LE(memory.live.size(), before + 4);
+    const FrothAssetStatus status = statusOf(asset);
+    uint64_t named = 0;
+    for (uint32_t i = 0; i + 1 < status.memoryCount; ++i) named += status.memory[i].bytes;
+    EXPECT_LE(status.deviceBytes, named + named / 4) << "little is spare";
+    const FrothInstance instance = createInstance(asset);
+    runFrame();
+    draw(view, {64, 64});
+    images.push_back(draw(view, {64, 64}));  // with space for all cells
+    ASSERT_EQ(frothDestroyInstance(context_, instance), FROTH_OK);
+    ASSERT_EQ(frothCloseAsset(context_, asset), FROTH_OK);
+    runFrame();
+    runFrame();
+    EXPECT_EQ(report().categories[0].count, 0u) << "blocks are given back";
+  }
+  EXPECT_GT(*std::max_element(images[0].begin(), images[0].end()), 0.1f);
+  for (size_t i = 0; i < images[0].size(); ++i) ASSERT_NEAR(images[0][i], images[1][i], 2e-3) << i;
   ASSERT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
   context_ = nullptr;
   EXPECT_TRUE(memory.live.empty());
@@ -168,6 +208,60 @@ TEST_F(DeviceMemory, IsNotTouchedByAWindowThatIsResizedOrMinimized) {
     EXPECT_EQ(after.categories[i].peak, before.categories[i].peak);
   }
   EXPECT_EQ(frothDestroyInstance(context_, instance), FROTH_OK);
+}
+
+// Of three frames in flight, S is the first: of the objects that are closed behind it, and of a view that grows.
+TEST_F(DeviceMemory, ThatAFrameUsesIsFreedWhenTheFrameIsCompleteAndNotBefore) {
+  CallersMemory memory{.device = host_->device};
+  FrothContextInfo info = infoWith(memory);
+  info.framesInFlight = 3;
+  createContext(info);
+  const FrothAsset small = openBytes(encodeSample()), large = openBytes(encodeSample({.cellsPerChunk = 90}));
+  const FrothView kept = createView({32, 32}), closed = createView({32, 32});
+  Result<HostImage> image = host_->createImage(VK_FORMAT_R16G16B16A16_SFLOAT, {32, 32});
+  auto frame = makeStruct<FrothFrame>();
+  const auto runFrame = [&](uint64_t completedSerial, std::initializer_list<FrothView> views) {
+    ++frame.serial;
+    frame.completedSerial = completedSerial;
+    ASSERT_EQ(frothUpdate(context_, &frame, nullptr), FROTH_OK) << lastText();
+    ASSERT_TRUE(host_->submit([&](VkCommandBuffer commands, uint64_t) {
+      EXPECT_EQ(frothRecordUpload(context_, commands), FROTH_OK);
+      for (const FrothView view : views) draw(commands, view, *image);
+      return Status();
+    }));
+  };
+  const auto viewBytes = [&] {
+    auto status = makeStruct<FrothViewStatus>();
+    EXPECT_EQ(frothGetViewStatus(context_, kept, &status), FROTH_OK);
+    return status.deviceBytes;
+  };
+  runFrame(0, {});
+  const FrothInstance before = createInstance(small);
+  runFrame(1, {});  // the views grow for it
+  runFrame(2, {kept, closed});
+  const uint64_t s = frame.serial;
+  ASSERT_EQ(frothDestroyInstance(context_, before), FROTH_OK);
+  ASSERT_EQ(frothCloseAsset(context_, small), FROTH_OK);
+  ASSERT_EQ(frothDestroyView(context_, closed), FROTH_OK);
+  createInstance(large);  // `kept` grows
+  const std::map<void*, VkDeviceSize> used = memory.live;
+  const auto isLive = [&](const auto& block) { return memory.live.contains(block.first); };
+  for (int i = 0; i < 2; ++i) {
+    runFrame(s - 1, {});
+    EXPECT_TRUE(std::all_of(used.begin(), used.end(), isLive)) << "completedSerial is S - 1";
+    EXPECT_EQ(grantedIn(report()), memory.bytes());
+  }
+  EXPECT_GT(memory.live.size(), used.size());
+  const FrothMemoryReport late = report();
+  const uint64_t lateViewBytes = viewBytes();
+  runFrame(s, {});
+  EXPECT_EQ(report().categories[0].count, late.categories[0].count - 1);
+  EXPECT_LT(report().categories[1].count, late.categories[1].count / 2) << "those of `closed`, and what `kept` replaced";
+  EXPECT_EQ(grantedIn(report()), memory.bytes());
+  EXPECT_LT(viewBytes(), lateViewBytes) << "what a view replaced counted as long as it was there";
+  host_->destroyImage(*image);
+  ASSERT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
+  context_ = nullptr;
 }
 
 TEST_F(DeviceMemory, CallbacksComeInPairs) {

@@ -1,3 +1,4 @@
+#include "one_cell_chunks.h"
 #include "runtime_fixture.h"
 
 namespace froth {
@@ -67,8 +68,7 @@ TEST_F(Frames, BeginWithAnUpdate) {
 
 TEST_F(Frames, CountTheAssetsThatAreOpening) {
   createContext();
-  const std::vector<uint8_t> bytes = encodeSample({.chunkCount = 2, .localBits = 16});
-  openBytes(bytes);
+  openBytes(*encodeAsset(makeOneCellChunks(300)));  // more chunks than one frame decodes
   auto frame = makeStruct<FrothFrame>();
   frame.serial = 1;
   auto status = makeStruct<FrothFrameStatus>();

@@ -82,6 +82,14 @@ TEST_F(OutputCalls, RefuseAToneCurveThatIsNoneOrMeetsADisplayCodedImage) {
   expectResult(view, FROTH_ERROR_ARGUMENT, "toneCurve: 1 with displayCoded");
 }
 
+TEST_F(OutputCalls, RefuseATileFormThatIsNone) {
+  const FrothView view = createHitView(0);
+  info_.tileForm = static_cast<FrothTileForm>(3);
+  expectResult(view, FROTH_ERROR_ARGUMENT, "tileForm: 3");
+  info_.tileForm = FROTH_TILE_FORM_ALL_LONG;
+  expectResult(view, FROTH_OK, "");
+}
+
 class OutputCallsOnDevice : public RuntimeGpuTest {};
 
 TEST_F(OutputCallsOnDevice, NameTheFeatureThatIdAndMotionNeed) {

@@ -114,6 +114,53 @@ TEST_F(RecordCallOnDevice, OfADroppedFrameIsNeverReadBack) {
   EXPECT_EQ(viewStatus.serial, drawnSerial);
 }
 
+// Clears of whole buffers, as the driver sees them.
+struct CountedClears {
+  static inline uint32_t count = 0;
+  static inline PFN_vkCmdFillBuffer fillBuffer = nullptr;
+
+  static VKAPI_ATTR void VKAPI_CALL fill(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
+                                         uint32_t data) {
+    count += size == VK_WHOLE_SIZE;
+    fillBuffer(commands, buffer, offset, size, data);
+  }
+  static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
+    const PFN_vkVoidFunction real = vkGetDeviceProcAddr(device, name);
+    if (std::strcmp(name, "vkCmdFillBuffer") != 0) return real;
+    fillBuffer = reinterpret_cast<PFN_vkCmdFillBuffer>(real);
+    return reinterpret_cast<PFN_vkVoidFunction>(fill);
+  }
+  static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name) {
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
+    return vkGetInstanceProcAddr(instance, name);
+  }
+};
+
+// Where a walk starts is what the last one left in a buffer. The first one clears it; a dropped frame did not.
+TEST_F(RecordCallOnDevice, AWalkAfterADroppedFirstOneClearsItsStart) {
+  frothDestroyContext(context_, UINT64_MAX);
+  FrothContextInfo contextInfo = host_->contextInfo();
+  contextInfo.getInstanceProcAddr = CountedClears::getInstanceProcAddr;
+  createContext(contextInfo);
+  view_ = createView({16, 16});
+  createInstance(openBytes(encodeSample()));
+  runFrame();
+  const FrothRenderInfo info = renderInfo();
+  CountedClears::count = 0;
+  const uint64_t droppedSerial = host_->nextSerial();
+  ASSERT_EQ(update(droppedSerial), FROTH_OK);
+  const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) -> Status {
+    EXPECT_EQ(frothWalk(context_, view_, commands, &info), FROTH_OK);
+    return makeError(ErrorKind::kCancelled, "dropped");
+  });
+  ASSERT_FALSE(status);
+  ASSERT_EQ(frothDropFrame(context_, droppedSerial), FROTH_OK);
+  for (int frame = 0; frame < 2; ++frame) {
+    runFrame(0, [&](VkCommandBuffer commands) { EXPECT_EQ(frothWalk(context_, view_, commands, &info), FROTH_OK); });
+    EXPECT_EQ(CountedClears::count, 2u) << "of the dropped frame, and of the first one that is not";
+  }
+}
+
 TEST_F(RecordCallOnDevice, AFrameDroppedAmongOthersLeavesTheirCountsAlone) {
   frothDestroyContext(context_, UINT64_MAX);
   FrothContextInfo contextInfo = host_->contextInfo();

@@ -97,6 +97,7 @@ TEST(Requirements, NameWhatAnOldDriverLacksBeforeAndAtContextCreation) {
   EXPECT_THAT(context, IsNull());
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_THAT(messages[0].text, HasSubstr("Vulkan 1.3, bufferDeviceAddress, synchronization2"));
+  EXPECT_THAT(messages[0].text, HasSubstr("maxComputeWorkGroupSize[0] >= 256, maxComputeWorkGroupInvocations >= 256"));
 }
 
 TEST(RequireFeatures, SetsTheBitsInTheCallersChainAndLeavesTheOthers) {

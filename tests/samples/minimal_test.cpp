@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "baker/image/image.h"
+#include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 
 namespace froth::test {
@@ -14,7 +15,7 @@ using testing::HasSubstr;
 class Minimal : public ToolTest {
  protected:
   void SetUp() override {
-    if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+    if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
     CameraSet cameras;
     cameras.views.push_back(viewOfRandomFoam(480, 320));
     ASSERT_TRUE(writeCameras(folder_ / "cameras.json", cameras));

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 
 namespace froth::test {
@@ -14,7 +15,7 @@ using testing::HasSubstr;
 class MirrorRoom : public ToolTest {
  protected:
   void SetUp() override {
-    if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+    if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");
     makeRandomFoam("120");

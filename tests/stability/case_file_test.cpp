@@ -70,15 +70,18 @@ TEST_F(CaseFile, EveryNumberComesBackWithTheSameBits) {
   for (uint64_t seed = 0; seed < 60; ++seed) {
     StiffCase drawn = drawCase(seed);
     drawn.moved = {1e6 + 0.1, -1e9, 1.0 / 3};
-    drawn.storageError = 1.0 / 255;
     drawn.isImported = seed % 2 == 0;
-    drawn.knownCause = "a \"cause\"";
+    drawn.known = {{"exact", "raster", "over its bound", 1.0 / 3, "a \"cause\""}};
     const StiffCase read = writeAndRead(drawn);
     EXPECT_EQ(read.name, drawn.name);
     EXPECT_EQ(read.moved, drawn.moved);
     EXPECT_EQ(read.isImported, drawn.isImported);
-    EXPECT_EQ(read.knownCause, drawn.knownCause);
-    EXPECT_EQ(read.storageError, drawn.storageError);
+    ASSERT_EQ(read.known.size(), 1u);
+    EXPECT_EQ(read.known[0].preset, "exact");
+    EXPECT_EQ(read.known[0].renderer, "raster");
+    EXPECT_EQ(read.known[0].kind, "over its bound");
+    EXPECT_EQ(read.known[0].factor, 1.0 / 3);
+    EXPECT_EQ(read.known[0].cause, "a \"cause\"");
     expectSameFoam(read.foam, drawn.foam);
     ASSERT_EQ(read.views.size(), drawn.views.size());
     for (size_t i = 0; i < read.views.size(); ++i) {
@@ -92,10 +95,11 @@ TEST_F(CaseFile, EveryNumberComesBackWithTheSameBits) {
 
 TEST_F(CaseFile, LimitsOfFloatComeBack) {
   StiffCase drawn = drawCase(1);
-  drawn.foam.sites[0] = {-0.0f, std::numeric_limits<float>::denorm_min(), -std::numeric_limits<float>::max()};
+  drawn.foam.sites[0] = {-0.0f, std::numeric_limits<float>::denorm_min(), -0x1p50f};
   drawn.foam.radii[0] = std::numeric_limits<float>::min();
   const StiffCase read = writeAndRead(drawn);
   expectSameFoam(read.foam, drawn.foam);
+  ASSERT_FALSE(read.foam.sites.empty());
   EXPECT_TRUE(std::signbit(read.foam.sites[0].x));
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "baker/image/depth.h"
 #include "baker/stability/case_parts.h"
 
 namespace froth {
@@ -34,10 +35,8 @@ class ImageBounds : public testing::Test {
   ReferenceOptions options_;
 };
 
-TEST_F(ImageBounds, HoldAFloatImageWithoutAShareOfStorage) {
-  BoundOptions options;
-  options.storage = 0;
-  const BoundCheck check = checkBound(bound(options), render(foam_, Precision::kFloat));
+TEST_F(ImageBounds, HoldAFloatImage) {
+  const BoundCheck check = checkBound(bound(), render(foam_, Precision::kFloat));
   EXPECT_TRUE(check.isFinite);
   EXPECT_GT(check.maxError, 0);
   EXPECT_LE(check.worstExcess, 1);
@@ -49,7 +48,7 @@ TEST_F(ImageBounds, AreFarBelowAStepOfAByteForAWellConditionedScene) { EXPECT_LT
 TEST_F(ImageBounds, TellAPixelThatIsOffByMoreThanItsBound) {
   const ImageBound limit = bound();
   RenderedImages image = limit.exact;
-  EXPECT_EQ(checkBound(limit, image).worstExcess, 0);
+  EXPECT_EQ(checkBound(limit, image).colourExcess, 0);
   image.colour.pixel(16, 12)[1] += 3 * limit.colour.pixel(16, 12)[1];
   const BoundCheck check = checkBound(limit, image);
   EXPECT_NEAR(check.worstExcess, 3, 0.01);
@@ -86,13 +85,97 @@ TEST_F(ImageBounds, TellValuesThatAreNoNumbersAndNegativeZeros) {
   EXPECT_FALSE(checkBound(limit, image).isFinite);
 }
 
-TEST_F(ImageBounds, LetTwoImagesDifferByTheirBoundsTogether) {
+TEST_F(ImageBounds, LetTwoImagesDifferByOneBound) {
   const ImageBound limit = bound();
   RenderedImages above = limit.exact, below = limit.exact;
   const float step = 0.9f * limit.colour.pixel(16, 12)[0];
   above.colour.pixel(16, 12)[0] += step;
   below.colour.pixel(16, 12)[0] -= step;
-  EXPECT_NEAR(checkBound(limit, above, below).worstExcess, 0.9, 0.01);
+  EXPECT_NEAR(checkBound(limit, above, below).worstExcess, 1.8, 0.01);
+}
+
+TEST_F(ImageBounds, HoldDistances) {
+  const ImageBound limit = bound();
+  const size_t hit = 12 * 32 + 16;
+  ASSERT_GT(limit.exact.depth.values[hit], 0);
+  ASSERT_EQ(limit.exact.depth.values[0], -1);
+  const auto check = [&](size_t pixel, float depth) {
+    RenderedImages image = limit.exact;
+    image.depth.values[pixel] = depth;
+    return checkBound(limit, image);
+  };
+  const float depth = limit.exact.depth.values[hit], margin = limit.depth.margin.values[hit];
+  EXPECT_LT(margin, 1e-4f * depth);
+  EXPECT_LE(check(hit, limit.depth.middle.values[hit] + 0.5f * margin).worstExcess, 1);
+  EXPECT_STREQ(check(hit, depth + 4 * margin).worstChannel, "distance");
+  EXPECT_GT(check(hit, depth + 4 * margin).worstExcess, 1);
+  EXPECT_GT(check(hit, -1).worstExcess, 1) << "a ray that is stopped has a distance";
+  EXPECT_GT(check(0, 3).worstExcess, 1) << "one that is not has none";
+  EXPECT_FALSE(check(hit, std::numeric_limits<float>::infinity()).isFinite);
+}
+
+// Two balls, one before the other; the nearer one takes half of the light, so that rounding decides in which of them the median lies.
+TEST_F(ImageBounds, LetADistanceLieInEitherCellWhereRoundingMovesTheMedian) {
+  std::vector<CaseCell> cells = {{{0, 0, 0}, 0.5f, 0.69314718f, kFaceToViewer, 5, 0}, {{0, 0, 2}, 0.5f, 20, kFaceToViewer, 5, 1}};
+  const Foam foam = foamOfCells(cells);
+  const ReferenceRenderer renderer(foam);
+  const Result<ImageBound> limit = boundImage(renderer, caseView({0, 0, -3}, {0, 0, 0}, 1, 1), options_, {.samples = 64});
+  ASSERT_TRUE(limit);
+  RenderedImages image = limit->exact;
+  for (const float depth : {3.5f, 4.5f}) {
+    image.depth.values[0] = depth;
+    EXPECT_LE(checkBound(*limit, image).worstExcess, 1) << depth;
+  }
+  image.depth.values[0] = 20;
+  EXPECT_GT(checkBound(*limit, image).worstExcess, 1);
+}
+
+TEST_F(ImageBounds, HoldNormals) {
+  const ImageBound limit = bound();
+  RenderedImages image = limit.exact;
+  image.normal.pixel(16, 12)[2] += 3 * limit.normal.pixel(16, 12)[2];
+  const BoundCheck check = checkBound(limit, image);
+  EXPECT_NEAR(check.worstExcess, 3, 0.01);
+  EXPECT_STREQ(check.worstChannel, "normal");
+}
+
+// What twice the cut-off leaves out, and two roundings to half; nothing else.
+TEST_F(ImageBounds, OfTheShippedFormKnowTheCutOffAndHalves) {
+  const ImageBound limit = bound();
+  const auto cutAt = [&](double cutoff) {
+    ReferenceOptions options = options_;
+    options.cutoff = cutoff;
+    Result<RenderedImages> images = renderer_.render(view_, options);
+    EXPECT_TRUE(images);
+    images->depth = images->normal = {};  // which that form does not have
+    return std::move(*images);
+  };
+  const ImageBound shipped = boundShippedForm(limit, cutAt(2e-3));
+  EXPECT_LE(checkBound(shipped, cutAt(1e-3)).worstExcess, 1);
+  EXPECT_GT(checkBound(shipped, cutAt(2e-2)).worstExcess, 1) << "a cut-off that is twenty times too large";
+  EXPECT_GT(checkBound(limit, cutAt(1e-3)).worstExcess, 1) << "the form without a cut-off is not entitled to one";
+  RenderedImages image = limit.exact;
+  for (float& value : image.colour.values) value *= 1 + 0x1p-10f + 0x1p-11f;
+  EXPECT_LE(checkBound(shipped, image).worstExcess, 1);
+  for (float& value : image.colour.values) value *= 1.01f;
+  EXPECT_GT(checkBound(shipped, image).worstExcess, 1);
+}
+
+TEST(SameBits, TellZerosAndNaNsApart) {
+  RenderedImages a{{1, 1, 1, {0.0f}}, {1, 1, 1, {std::numeric_limits<float>::quiet_NaN()}}, {}, {}, {}}, b = a;
+  EXPECT_TRUE(hasSameBits(a, b)) << "NaN is equal to itself";
+  b.colour.values[0] = -0.0f;
+  EXPECT_FALSE(hasSameBits(a, b));
+}
+
+TEST(MissingDepth, IsWhatIsInfinitelyFarAndNothingElse) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  Image depth{4, 1, 1, {infinity, -infinity, -1.0f, 2.0f}};
+  markMissingDepth(depth);
+  EXPECT_EQ(depth.values[0], -1);
+  EXPECT_TRUE(std::isnan(depth.values[1]));
+  EXPECT_TRUE(std::isnan(depth.values[2]));
+  EXPECT_EQ(depth.values[3], 2);
 }
 
 }  // namespace

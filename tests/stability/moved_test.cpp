@@ -9,6 +9,7 @@
 #include "baker/checkpoint/checkpoint.h"
 #include "baker/synth/synth.h"
 #include "tests/render/render_harness.h"
+#include "tests/surroundings.h"
 
 namespace froth::test {
 namespace {
@@ -105,9 +106,8 @@ TEST(FarAway, AFoamSavedInFloatsThereIsBakedAndDrawnAsItsFloatsSay) {
 }
 
 TEST(FarAway, MikuPlushPlacedThereIsTheSameWithinOneStepOfAByte) {
-  const char* data = std::getenv("FROTH_DATA");
-  const std::filesystem::path folder = std::filesystem::path(data ? data : FROTH_SOURCE_DIR "/../shared/data") / "foams/miku_plush";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder << "; set FROTH_DATA";
+  const std::filesystem::path folder = dataFolder() / "foams/miku_plush";
+  if (!std::filesystem::exists(folder)) FROTH_SKIP() << "no " << folder << "; set FROTH_DATA";
   const Result<Foam> foam = importCheckpoint(folder / "model.pt");
   ASSERT_TRUE(foam) << foam.error().message;
   const Result<CameraSet> cameras = readCameras(folder / "cameras.json");

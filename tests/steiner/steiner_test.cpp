@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -91,6 +92,30 @@ TEST(Steiner, RowsOfTheAlphaComplexAreTheSameWithAndWithoutThem) {
     ASSERT_EQ(offsets, without.offsets) << balls.name;
     const std::vector<uint32_t> rows(added.neighbours.begin(), added.neighbours.begin() + offsets.back());
     ASSERT_EQ(rows, without.neighbours) << balls.name;
+  }
+}
+
+// A radius is rounded down, never up: a step of few bits is wider than the gap that the cells leave.
+TEST(Steiner, WithRadiiOfFewBitsTouchNothingEither) {
+  BallSet sparse = BallSetMaker(3).foamLike(300);
+  for (float& radius : sparse.radii) radius *= 0.4f;
+  for (const BallSet& balls : {makeRoom(12), sparse}) {
+    for (const uint32_t bits : {4u, 5u, 6u}) {
+      SteinerOptions options;
+      options.radiusBits = bits;
+      const Result<SteinerCells> cells = place(balls, options);
+      ASSERT_TRUE(cells);
+      ASSERT_FALSE(cells->sites.empty());
+      for (size_t s = 0; s < cells->sites.size(); ++s) {
+        for (uint32_t i = 0; i < balls.size(); ++i) {
+          const double distance = glm::length(glm::dvec3(cells->sites[s]) - glm::dvec3(balls.sites[i]));
+          ASSERT_GT(distance, double{cells->radii[s]} + balls.radii[i]) << balls.name << ", " << bits << " bits";
+        }
+      }
+      const CellGraph without = alphaOf(balls).graph, added = alphaOf(with(balls, *cells)).graph;
+      ASSERT_TRUE(std::equal(without.offsets.begin(), without.offsets.end(), added.offsets.begin())) << bits;
+      ASSERT_TRUE(std::equal(without.neighbours.begin(), without.neighbours.end(), added.neighbours.begin())) << bits;
+    }
   }
 }
 

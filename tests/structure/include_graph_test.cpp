@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/surroundings.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,7 +37,7 @@ std::string includedBy(const std::string& line) {
 }
 
 std::vector<Include> includesUnder(const std::string& folder) {
-  const fs::path root = FROTH_SOURCE_DIR;
+  const fs::path root = froth::test::sourceFolder();
   std::vector<Include> includes;
   for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
     if (!entry.is_regular_file() || !isSource(entry.path())) continue;

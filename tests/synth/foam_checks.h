@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/foam.h"
+#include "baker/foam_arrays.h"
 
 namespace froth {
 
@@ -16,11 +16,9 @@ bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 inline bool sameBytes(const Foam& a, const Foam& b) {
-  return a.cellCount == b.cellCount && a.detailCount == b.detailCount && a.lobeCount == b.lobeCount &&
-         sameBytes(a.sites, b.sites) && sameBytes(a.radii, b.radii) && sameBytes(a.densities, b.densities) &&
-         sameBytes(a.orientations, b.orientations) && sameBytes(a.detailSites, b.detailSites) &&
-         sameBytes(a.detailHeights, b.detailHeights) && sameBytes(a.lobeAxes, b.lobeAxes) &&
-         sameBytes(a.lobeColours, b.lobeColours);
+  bool isSame = a.cellCount == b.cellCount && a.detailCount == b.detailCount && a.lobeCount == b.lobeCount && a.lobeOffsets == b.lobeOffsets;
+  visitArrays([&](const FoamArray&, auto values) { isSame = isSame && sameBytes(a.*values, b.*values); });
+  return isSame;
 }
 
 inline bool isFinite(const glm::vec3& v) {
@@ -28,16 +26,15 @@ inline bool isFinite(const glm::vec3& v) {
 }
 
 inline void expectSound(const Foam& foam) {
-  const size_t n = foam.cellCount, nk = n * foam.detailCount, nkm = nk * foam.lobeCount;
+  const size_t n = foam.cellCount, nk = n * foam.detailCount;
+  const size_t lobes = foam.lobeOffsets.empty() ? nk * foam.lobeCount : foam.lobeOffsets.back();
   ASSERT_GE(n, 1u);
-  ASSERT_EQ(foam.sites.size(), n);
-  ASSERT_EQ(foam.radii.size(), n);
-  ASSERT_EQ(foam.densities.size(), n);
-  ASSERT_EQ(foam.orientations.size(), n);
-  ASSERT_EQ(foam.detailSites.size(), nk);
-  ASSERT_EQ(foam.detailHeights.size(), nk);
-  ASSERT_EQ(foam.lobeAxes.size(), nkm);
-  ASSERT_EQ(foam.lobeColours.size(), nkm);
+  ASSERT_TRUE(foam.lobeOffsets.empty() || foam.lobeOffsets.size() == nk + 1);
+  visitArrays([&](const FoamArray& array, auto values) {
+    if (array.canBeEmpty && (foam.*values).empty()) return;
+    ASSERT_EQ((foam.*values).size(), array.index == FoamIndex::kCell ? n : array.index == FoamIndex::kDetailSite ? nk : lobes) << array.name;
+  });
+  if (testing::Test::HasFatalFailure()) return;
   for (size_t i = 0; i < n; ++i) {
     ASSERT_TRUE(isFinite(foam.sites[i])) << "cell " << i;
     ASSERT_GT(foam.radii[i], 0) << "cell " << i;
@@ -52,7 +49,7 @@ inline void expectSound(const Foam& foam) {
     ASSERT_LE(glm::length(foam.detailSites[i]), 1.0f) << "detail site " << i;
     ASSERT_LE(std::abs(foam.detailHeights[i]), 1.0f) << "detail site " << i;
   }
-  for (size_t i = 0; i < nkm; ++i)
+  for (size_t i = 0; i < lobes; ++i)
     ASSERT_TRUE(isFinite(foam.lobeAxes[i]) && isFinite(foam.lobeColours[i])) << "lobe " << i;
 }
 

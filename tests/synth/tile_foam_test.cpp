@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "baker/bake/bake.h"
 #include "baker/image/metrics.h"
 #include "baker/reference/reference.h"
 #include "baker/synth/synth.h"
@@ -25,20 +26,22 @@ View frontView() {
 
 Foam copyOf(const Foam& tiled, uint32_t copy, uint32_t cells) {
   Foam one = tiled;
-  const auto cut = [&](auto& values, size_t perCell) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(copy * cells * perCell);
-    values = {begin, begin + static_cast<std::ptrdiff_t>(cells * perCell)};
-  };
-  const size_t k = tiled.detailCount, km = k * tiled.lobeCount;
+  const uint64_t details = uint64_t{cells} * tiled.detailCount, firstDetail = copy * details;
+  const uint64_t firstLobe = lobesOf(tiled, firstDetail).first;
+  const LobeRange lastLobes = lobesOf(tiled, firstDetail + details - 1);
   one.cellCount = cells;
-  cut(one.sites, 1);
-  cut(one.radii, 1);
-  cut(one.densities, 1);
-  cut(one.orientations, 1);
-  cut(one.detailSites, k);
-  cut(one.detailHeights, k);
-  cut(one.lobeAxes, km);
-  cut(one.lobeColours, km);
+  visitArrays([&](const FoamArray& array, auto values) {
+    if ((tiled.*values).empty()) return;
+    LobeRange range{uint64_t{copy} * cells, cells};
+    if (array.index == FoamIndex::kDetailSite) range = {firstDetail, static_cast<uint32_t>(details)};
+    if (array.index == FoamIndex::kLobe) range = {firstLobe, static_cast<uint32_t>(lastLobes.first + lastLobes.count - firstLobe)};
+    const auto begin = (tiled.*values).begin() + static_cast<std::ptrdiff_t>(range.first);
+    one.*values = {begin, begin + range.count};
+  });
+  if (tiled.lobeOffsets.empty()) return one;
+  const auto begin = tiled.lobeOffsets.begin() + static_cast<std::ptrdiff_t>(firstDetail);
+  one.lobeOffsets = {begin, begin + static_cast<std::ptrdiff_t>(details + 1)};
+  for (uint64_t& offset : one.lobeOffsets) offset -= firstLobe;
   return one;
 }
 
@@ -64,6 +67,33 @@ TEST(TileFoam, KeepsTheFirstCopyAsItIs) {
   EXPECT_EQ(tiled.cellCount, 300u);
   expectSound(tiled);
   EXPECT_TRUE(sameBytes(copyOf(tiled, 0, 60), foam));
+}
+
+// As an asset holds it: with base colours and a number of lobes for each detail site, if colours are compressed.
+Foam bakedFoam(const char* preset) {
+  BakeOptions options;
+  options.knobs = *presetKnobs(preset);
+  options.measure = false;
+  return *foamFromAsset(bakeFoam(*synthesizeFoam({"random", 60}), options)->contents);
+}
+
+TEST(TileFoam, AnAssetOfAnyPresetHasTheSameCellsInEachCopy) {
+  for (const char* preset : {"exact", "high", "default", "small"}) {
+    const Foam foam = bakedFoam(preset);
+    const Foam tiled = *tileFoam(foam, 3);
+    EXPECT_EQ(tiled.baseColours.empty(), foam.baseColours.empty());
+    EXPECT_TRUE(sameBytes(copyOf(tiled, 0, foam.cellCount), foam)) << preset;
+    // A copy with the places and directions of the original is the original.
+    Foam copy = copyOf(tiled, 2, foam.cellCount);
+    const dmat3 turn = motionBetween(foam, copy, 0).turn;
+    ASSERT_EQ(copy.lobeAxes.size(), foam.lobeAxes.size()) << preset;
+    for (size_t m = 0; m < foam.lobeAxes.size(); ++m)
+      ASSERT_LT(glm::distance(dvec3(copy.lobeAxes[m]), turn * dvec3(foam.lobeAxes[m])), 1e-5 * (1 + glm::length(foam.lobeAxes[m])));
+    copy.sites = foam.sites;
+    copy.orientations = foam.orientations;
+    copy.lobeAxes = foam.lobeAxes;
+    EXPECT_TRUE(sameBytes(copy, foam)) << preset;
+  }
 }
 
 TEST(TileFoam, CopiesDoNotTouch) {

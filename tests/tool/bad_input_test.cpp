@@ -1,11 +1,15 @@
 // What the program says to bad files: exit code 3, a message that names file, place, found value and remedy,
 // and no output, whole or partial.
 #include <cstdlib>
+#include <functional>
 #include <limits>
 
 #include <gmock/gmock.h>
 
+#include "format/asset_reader.h"
+#include "format/asset_writer.h"
 #include "tests/checkpoint/checkpoint_builder.h"
+#include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 
 namespace froth::test {
@@ -30,6 +34,16 @@ class BadInput : public ToolTest {
   // The same of a bake.
   void expectBakeRefused(const std::string& input, const std::vector<std::string>& parts) const {
     expectRefusal({"bake", input, "-o", "out.froth"}, input, parts);
+  }
+
+  // random.froth, changed and signed again, as bad.froth.
+  void changeAsset(const std::function<void(AssetContents&)>& change) const {
+    makeRandomFoam("60");
+    Result<AssetContents> contents = readAsset(folder_ / "random.froth");
+    ASSERT_TRUE(contents) << contents.error().message;
+    change(*contents);
+    const Status written = writeAsset(folder_ / "bad.froth", *contents);
+    ASSERT_TRUE(written) << written.error().message;
   }
 
   void writeCheckpoint(const CheckpointSpec& checkpoint) const {
@@ -85,6 +99,61 @@ TEST_F(BadInput, ATruncatedAsset) {
     expectRefusal({"verify", "bad.froth"}, "bad.froth", {});
     expectRefusal({"synth", "tile", "--of", "bad.froth", "--count", "2", "-o", "out.froth"}, "bad.froth", {});
   }
+}
+
+TEST_F(BadInput, AnAssetOfAnotherVersionHasTheSameExitCodeEverywhere) {
+  makeRandomFoam("12");
+  writeBytes(folder_ / "bad.froth", readBytes(FROTH_SOURCE_DIR "/tests/format/golden/version_1_0.froth"));
+  expectRefusal({"verify", "bad.froth"}, "bad.froth", {"format version 1.0"});
+  expectRefusal({"info", "bad.froth"}, "bad.froth", {"format version 1.0"});
+  expectRefusal({"render", "bad.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"}, "bad.froth",
+                {"format version 1.0"});
+  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  expectRefusal({"render", "bad.froth", "--cameras", "cameras.json", "--renderer", "raster", "-o", "out"}, "bad.froth",
+                {"format version 1.0"});
+}
+
+TEST_F(BadInput, AnAssetWithoutSolidBallsWhereThereIsSomethingSolid) {
+  changeAsset([](AssetContents& contents) {
+    for (ChunkContents& chunk : contents.chunks)
+      for (uint32_t& ball : chunk.solidBalls) ball &= 0xffffff;
+  });
+  expectRefusal({"verify", "bad.froth"}, "bad.froth", {"chunk 0: the solid ball of cell "});
+}
+
+TEST_F(BadInput, AnAssetWithoutAGraph) {
+  changeAsset([](AssetContents& contents) {
+    for (ChunkContents& chunk : contents.chunks) {
+      chunk.neighbours.clear();
+      chunk.neighbourOffsets.assign(chunk.cellCount + 1, 0);
+      chunk.alphaCounts.assign(chunk.liveCount, 0);
+    }
+  });
+  expectRefusal({"verify", "bad.froth"}, "bad.froth", {"graphs: "});
+}
+
+TEST_F(BadInput, TextOfAnAssetThatWouldSteerATerminal) {
+  changeAsset([](AssetContents& contents) {
+    contents.preset = "\x1b[2Jclean\r";
+    contents.source = "\a";
+    contents.errors.push_back({"\x1b]0;title", "\n", 1, 2});
+  });
+  const std::string shown = frothWell({"info", "bad.froth"});
+  EXPECT_THAT(shown, HasSubstr("\\x1b[2Jclean\\x0d, from \\x07\n"));
+  EXPECT_EQ(shown.find_first_of("\x1b\r\a"), std::string::npos) << shown;
+  writeBytes(folder_ / "cameras.json", R"({"views": [{"\u001b[2J": 1}]})");
+  const ProgramRun run = froth({"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"});
+  EXPECT_EQ(run.exitCode, 3);
+  EXPECT_EQ(run.err.find('\x1b'), std::string::npos) << run.err;
+}
+
+TEST_F(BadInput, AKeyThatComesTwiceInJson) {
+  makeRandomFoam("12");
+  writeBytes(folder_ / "cameras.json", R"({"views": [], "scene": "a", "scene": "b"})");
+  expectRefusal({"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"}, "cameras.json",
+                {"key 'scene' stands twice"});
+  writeBytes(folder_ / "a.json", R"({"frames": {"a": 1, "a": 2}})");
+  expectRefusal({"compare-bench", "a.json", "a.json"}, "a.json", {"key 'a' stands twice"});
 }
 
 TEST_F(BadInput, ABitFlipInACheckpointsData) {
@@ -149,7 +218,7 @@ TEST_F(BadInput, ImagesOfDifferentSizes) {
 }
 
 TEST_F(BadInput, AnAssetOnTheDeviceIsNamedOnce) {
-  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("12");
   writeBytes(folder_ / "bad.froth", readBytes(folder_ / "random.froth").substr(0, 200));
   expectRefusal({"render", "bad.froth", "--cameras", "cameras.json", "--renderer", "raster", "-o", "out"},
@@ -157,10 +226,8 @@ TEST_F(BadInput, AnAssetOnTheDeviceIsNamedOnce) {
 }
 
 TEST_F(BadInput, FilesFoundInTheWild) {
-  const char* data = std::getenv("FROTH_DATA");
-  const std::filesystem::path folder =
-      std::filesystem::path(data ? data : FROTH_SOURCE_DIR "/../shared/data") / "malformed";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent; set FROTH_DATA";
+  const std::filesystem::path folder = dataFolder() / "malformed";
+  if (!std::filesystem::exists(folder)) FROTH_SKIP() << folder << " is absent; set FROTH_DATA";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file()) expectBakeRefused(entry.path().string(), {});
   }

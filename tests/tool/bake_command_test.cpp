@@ -46,6 +46,29 @@ TEST_F(BakeCommand, PresetsTradeBytesForQuality) {
   }
 }
 
+TEST_F(BakeCommand, KeepsTheRightsOfTheAssetThatItReplaces) {
+  namespace fs = std::filesystem;
+  makeRandomFoam("12");
+  bake("new.froth");
+  writeBytes(folder_ / "old.froth", "old");
+  fs::permissions(folder_ / "old.froth", fs::perms(0600));
+  fs::create_symlink("old.froth", folder_ / "link.froth");
+  bake("link.froth");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.froth"));
+  EXPECT_EQ(bytesOf("old.froth"), bytesOf("new.froth"));
+  EXPECT_EQ(fs::status(folder_ / "old.froth").permissions(), fs::perms(0600));
+
+  writeBytes(folder_ / "old.froth", "old");
+  fs::permissions(folder_ / "old.froth", fs::perms(0444));
+  const ProgramRun refused = froth({"bake", "random.pt", "-o", "old.froth"});
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_NE(refused.err.find("old.froth: is write-protected"), std::string::npos) << refused.err;
+  EXPECT_EQ(bytesOf("old.froth"), "old");
+  bake("old.froth", {"--force"});
+  EXPECT_EQ(bytesOf("old.froth"), bytesOf("new.froth"));
+  EXPECT_EQ(fs::status(folder_ / "old.froth").permissions(), fs::perms(0444));
+}
+
 TEST_F(BakeCommand, AKnobChangesItsLatticeAndNothingElse) {
   makeRandomFoam("60");
   bake("b.froth", {"--position-bits", "12", "--radius-bits", "7", "--frame-bits", "9", "--height-bits", "3"});
@@ -75,6 +98,17 @@ TEST_F(BakeCommand, BytesAreTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(one, bakeWith("b.froth", "--threads", "2"));
     EXPECT_EQ(one, bakeWith("b.froth", "--threads", "8"));
   }
+}
+
+TEST_F(BakeCommand, BytesAreThoseOfTheSeed) {
+  makeRandomFoam("100");
+  const auto bakeWith = [&](const std::string& seed) {
+    bake("seeded.froth", {"--preset", "default", "--no-measure", "--seed", seed});
+    return bytesOf("seeded.froth");
+  };
+  const std::string first = bakeWith("1");
+  EXPECT_EQ(first, bakeWith("1"));
+  EXPECT_NE(first, bakeWith("2"));
 }
 
 TEST_F(BakeCommand, BytesAreTheSameWithAMemoryLimitAndOneTooLowIsRefused) {

@@ -1,6 +1,7 @@
 // What `froth bench` counts and how `froth compare-bench` judges.
 #include <gtest/gtest.h>
 
+#include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 
 namespace froth::test {
@@ -70,7 +71,7 @@ TEST_F(CompareBench, NamesTheFieldThatIsMissing) {
 using BenchCounters = ToolTest;
 
 TEST_F(BenchCounters, AreAveragesPerRayAndPerSubTile) {
-  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("60", 2);
   for (const std::string renderer : {"raster", "walk"}) {
     const bool isWalk = renderer == "walk";

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "baker/camera/ray_map.h"
+#include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 
 namespace froth::test {
@@ -77,7 +78,7 @@ TEST_F(EndToEnd, ReferenceDrawsCheckpointAndAssetAlike) {
 }
 
 TEST_F(EndToEnd, RasterAndWalkDrawWhatTheReferenceDraws) {
-  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("300");
   for (const std::string channel : {"colour", "alpha", "normal"}) {
     render("random.froth", "reference", "reference.pfm", {"--channel", channel});
@@ -90,7 +91,7 @@ TEST_F(EndToEnd, RasterAndWalkDrawWhatTheReferenceDraws) {
 
 // A fisheye, a panorama, parallel rays and a ray map, each beside the other in one cameras.json.
 TEST_F(EndToEnd, AllRenderersDrawThroughAllLenses) {
-  if (!hasDevice()) GTEST_SKIP() << "no Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no Vulkan device";
   makeRandomFoam("300");
   const View pinhole = viewOfRandomFoam(96, 64);
   CameraSet cameras;
@@ -121,7 +122,7 @@ TEST_F(EndToEnd, AllRenderersDrawThroughAllLenses) {
 }
 
 TEST_F(EndToEnd, ACheckpointIsBakedInMemoryForTheDevice) {
-  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("60");
   render("random.pt", "raster", "checkpoint.pfm");
   render("random.froth", "raster", "asset.pfm");
@@ -129,7 +130,7 @@ TEST_F(EndToEnd, ACheckpointIsBakedInMemoryForTheDevice) {
 }
 
 TEST_F(EndToEnd, LinearColourOfRuntimeAndReferenceAgree) {
-  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("60");
   render("random.froth", "reference", "reference.pfm", {"--linear"});
   render("random.froth", "raster", "raster.pfm", {"--linear"});
@@ -137,7 +138,7 @@ TEST_F(EndToEnd, LinearColourOfRuntimeAndReferenceAgree) {
 }
 
 TEST_F(EndToEnd, AnImageBeyondWhatDevicesAllowIsRefused) {
-  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("12");
   const ProgramRun run = froth({"render", "random.froth", "--cameras", "cameras.json", "--view", "0",
                                 "--size", "16384x16384", "--renderer", "raster", "-o", "a.pfm"});
@@ -147,7 +148,7 @@ TEST_F(EndToEnd, AnImageBeyondWhatDevicesAllowIsRefused) {
 }
 
 TEST_F(EndToEnd, DepthThatIsNeverReachedIsMinusOne) {
-  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("60");
   render("random.froth", "reference", "reference.pfm", {"--channel", "depth"});
   render("random.froth", "raster", "raster.pfm", {"--channel", "depth"});
@@ -184,7 +185,7 @@ TEST_F(EndToEnd, TheGalleryComesWithCamerasAndTruth) {
 }
 
 TEST_F(EndToEnd, BenchTimesEveryPass) {
-  if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("60", 2);
   for (const std::string renderer : {"raster", "walk"}) {
     const nlohmann::json bench =

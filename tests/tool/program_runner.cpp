@@ -8,6 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/surroundings.h"
+
 namespace froth::test {
 namespace {
 
@@ -37,7 +39,7 @@ ProgramRun runProgram(const std::string& program, const std::vector<std::string>
   // Beside the folder, so that tests can look at what the program itself left in it.
   const std::string out = folder.string() + ".stdout", err = folder.string() + ".stderr";
   std::string command = "cd ";
-  command.append(quoted(folder.string())).append(" && ").append(quoted(program));
+  command.append(quoted(folder.string())).append(" && ").append(quoted(programPath(program).string()));
   for (const std::string& argument : arguments) command.append(" ").append(quoted(argument));
   command.append(" >").append(quoted(out)).append(" 2>").append(quoted(err));
   const int status = std::system(command.c_str());

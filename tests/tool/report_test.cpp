@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 
 namespace froth::test {
@@ -16,6 +17,16 @@ class ReportCommand : public ToolTest {
     arguments.insert(arguments.end(), more.begin(), more.end());
     frothWell(arguments);
     return nlohmann::json::parse(readBytes(folder_ / "out/report.json"));
+  }
+
+  // Into the records of an interrupted report's bakes.
+  void writeLargestError(const char* attribute, double error) {
+    for (const auto& file : std::filesystem::directory_iterator(folder_ / "out/work")) {
+      if (file.path().extension() != ".json") continue;
+      nlohmann::json record = nlohmann::json::parse(readBytes(file.path()));
+      record["largestErrors"][attribute] = error;
+      writeBytes(file.path(), record.dump());
+    }
   }
 
   static const nlohmann::json* find(const nlohmann::json& report, const std::string& id) {
@@ -39,11 +50,14 @@ TEST_F(ReportCommand, OnTheCpuShowsErrorsThatFallWithPrecision) {
   EXPECT_GT(meanError(figures, "cpu positionBits, all else exact=10"), 4 * meanError(figures, "cpu positionBits, all else exact=14"));
   EXPECT_GT(meanError(figures, "cpu cutoff, all else exact=0.1"), 10 * meanError(figures, "cpu cutoff, all else exact=0.0001"));
   EXPECT_LT(meanError(figures, "cpu preset=exact"), meanError(figures, "cpu preset=small"));
+  for (const nlohmann::json& slope : figures["slopes"]) EXPECT_NE(slope["verdict"], "over its bound") << slope;
+  EXPECT_EQ(figures["seed"], 1u);
+  EXPECT_EQ(figures["command"], "froth report random.pt --cameras cameras.json --output out --size 48x32 --views 1 --minutes 0 --frames 1 --cpu");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out/work"));
 }
 
 TEST_F(ReportCommand, ThroughTheRuntimeTimesRasterAndWalkAndWhatIsLeftOut) {
-  if (!hasDevice()) GTEST_SKIP() << "no Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no Vulkan device";
   makeRandomFoam("40");
   const nlohmann::json figures = report("random.pt", {"--no-images"});
   std::set<std::string> renderers, features;
@@ -59,7 +73,7 @@ TEST_F(ReportCommand, ThroughTheRuntimeTimesRasterAndWalkAndWhatIsLeftOut) {
   }
   EXPECT_EQ(renderers, (std::set<std::string>{"raster", "walk"}));
   for (const nlohmann::json& feature : figures["features"]) features.insert(feature["feature"]);
-  for (const char* name : {"view dependence", "displacement", "detail sites", "walk graph", "Steiner cells", "ids and motion"})
+  for (const char* name : {"view dependence", "displacement", "detail sites", "walk graph", "Steiner cells", "kept hits"})
     EXPECT_TRUE(features.count(name)) << name;
   const std::string html = readBytes(folder_ / "out/report.html");
   EXPECT_EQ(html.find("data:image/png"), std::string::npos);
@@ -67,7 +81,7 @@ TEST_F(ReportCommand, ThroughTheRuntimeTimesRasterAndWalkAndWhatIsLeftOut) {
 }
 
 TEST_F(ReportCommand, OfAnAssetWithoutAWalkGraphDrawsItAsItIs) {
-  if (!hasDevice()) GTEST_SKIP() << "no Vulkan device";
+  if (!hasDevice()) FROTH_SKIP() << "no Vulkan device";
   makeRandomFoam("40");
   frothWell({"bake", "random.pt", "--no-walk", "-o", "flat.froth"});
   const nlohmann::json figures = report("flat.froth", {});
@@ -100,11 +114,23 @@ TEST_F(ReportCommand, TakesWhatAnInterruptedRunMeasured) {
   again.push_back("--keep-work");
   frothWell(again);
   const std::string log = readBytes(folder_ / "out/work/points.jsonl");
-  writeBytes(folder_ / "out/work/points.jsonl", log.substr(0, log.find('\n') + 1) + point.dump() + "\n{\"id\": \"cpu lay");
+  const std::string signature = log.substr(0, log.find('\n') + 1);
+  // Of another version of Froth it is not taken.
+  writeBytes(folder_ / "out/work/points.jsonl", "\"version 0.0.0" + signature.substr(signature.find(" device")) + point.dump() + "\n");
   again.back() = "--resume";
-  frothWell(again);
+  const ProgramRun older = froth(again);
+  EXPECT_EQ(older.exitCode, 2);
+  EXPECT_NE(older.err.find("version 0.0.0"), std::string::npos) << older.err;
+  writeBytes(folder_ / "out/work/points.jsonl", signature + point.dump() + "\n{\"id\": \"cpu lay");
+  writeLargestError("sites", 1);
+  const std::string printed = frothWell(again);
   const nlohmann::json resumed = nlohmann::json::parse(readBytes(folder_ / "out/report.json"));
   EXPECT_EQ(resumed["points"][0]["errors"]["ssim"], 0.125);
+  // Whatever the slope of the images' errors: the stored positions lie further off than half a step.
+  size_t over = 0;
+  for (const nlohmann::json& slope : resumed["slopes"]) over += slope["verdict"] == "over its bound";
+  EXPECT_EQ(over, 1u);
+  EXPECT_NE(printed.find("sites off by 1 at"), std::string::npos) << printed;
   EXPECT_EQ(resumed["points"].size(), nlohmann::json::parse(whole)["points"].size());
   EXPECT_EQ(resumed["points"][5]["errors"], nlohmann::json::parse(whole)["points"][5]["errors"]);
 }

@@ -1,4 +1,5 @@
 // What the program says to wrong command lines: exit code 2, a message on stderr, nothing on disk.
+#include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 
 namespace froth::test {
@@ -146,7 +147,7 @@ TEST_F(Usage, AFolderThatIsNotThereIsToldBeforeTheWork) {
 
 TEST_F(Usage, FiguresThatCannotBeWrittenAreAFailure) {
   makeRandomFoam("12");
-  const ProgramRun run = runProgram("/bin/sh", {"-c", FROTH_TOOL " info random.froth > /dev/full"}, folder_);
+  const ProgramRun run = runProgram("/bin/sh", {"-c", programPath(FROTH_TOOL).string() + " info random.froth > /dev/full"}, folder_);
   EXPECT_EQ(run.exitCode, 1);
   EXPECT_NE(run.err.find("standard output"), std::string::npos) << run.err;
 }

@@ -176,6 +176,29 @@ TEST_F(GpuInstances, EndARayAtTheLimitOfStepsWithAStatus) {
   EXPECT_EQ(stage_.status().stepLimits, limited);
 }
 
+// The same cut-off as on the host, where it is compared with the reference: T of a cell later or earlier is another one.
+TEST_F(GpuInstances, EndARayBehindTheCellThatFallsBelowTheCutoff) {
+  stage_.place(asset_);
+  const auto rays = raysThrough({-2, -2, 0}, {2, 2, 5});
+  const auto whole = stage_.cast(rays, FROTH_RAY_TRANSMITTANCE, info_);
+  FrothCastInfo castInfo{};
+  info_.cutoff = castInfo.cutoff = 0.3f;
+  const auto expected = stage_.castOnHost(rays, castInfo);
+  for (const FrothRayKind kind : {FROTH_RAY_TRANSMITTANCE, FROTH_RAY_RADIANCE}) {
+    const auto cut = stage_.cast(rays, kind, info_);
+    size_t apart = 0, ended = 0, shorter = 0;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      apart += std::abs(cut[i].transmittance - expected[i].transmittance) > 1e-4;
+      EXPECT_LE(cut[i].steps, whole[i].steps);
+      ended += cut[i].transmittance > whole[i].transmittance + 1e-4f;
+      shorter += cut[i].steps < whole[i].steps;
+    }
+    EXPECT_LE(apart, rays.size() / 500);
+    EXPECT_GT(ended, rays.size() / 20);
+    EXPECT_GE(shorter, ended);
+  }
+}
+
 TEST_F(GpuInstances, AreLeftAloneByRaysOfNonsense) {
   stage_.place(asset_);
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();

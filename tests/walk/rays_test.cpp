@@ -61,20 +61,25 @@ void print(const FrothWalkStatus& status) {
 
 class GpuRays : public testing::Test {
  protected:
-  void expectAgreement(const AssetContents& contents, size_t count) {
+  // With the foam moved by `shift`, chunks and all, and an eye that goes with it.
+  void expectAgreement(AssetContents contents, size_t count, const glm::dvec3& shift = glm::dvec3(0)) {
+    glm::dvec3 low(kInfinity), high(-kInfinity);
+    for (ChunkContents& chunk : contents.chunks) {
+      const glm::dvec3 origin(chunk.origin[0], chunk.origin[1], chunk.origin[2]);
+      for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) {
+        low = glm::min(low, origin + glm::dvec3(chunk.sites[cell]) - double{chunk.radii[cell]});
+        high = glm::max(high, origin + glm::dvec3(chunk.sites[cell]) + double{chunk.radii[cell]});
+      }
+      for (int axis = 0; axis < 3; ++axis) chunk.origin[static_cast<size_t>(axis)] += shift[axis];
+    }
     WalkStage stage;
-    const FrothAsset asset = stage.open(contents);
-    stage.place(asset);
-    FrothAssetStatus described{};
-    described.structSize = sizeof(described);
-    ASSERT_EQ(frothGetAssetStatus(stage.context(), asset, &described), FROTH_OK);
-    const glm::dvec3 low(described.boundsMin[0], described.boundsMin[1], described.boundsMin[2]);
-    const glm::dvec3 high(described.boundsMax[0], described.boundsMax[1], described.boundsMax[2]);
+    stage.place(stage.open(contents));
+    stage.frame(walkInfo(), [](VkCommandBuffer, VkDescriptorSet) {});  // the asset is seen from the world's origin first
     const std::vector<FrothGpuRay> rays = randomRays(low, high, count, 1);
-    FrothWalkInfo info = walkInfo();
+    FrothWalkInfo info = walkInfo(shift);
     info.cutoff = -1;
     const Agreement agreement =
-        compare(stage.cast(rays, FROTH_RAY_TRANSMITTANCE, info), stage.castOnHost(rays, withoutCutoff()), 1e-3);
+        compare(stage.cast(rays, FROTH_RAY_TRANSMITTANCE, info), stage.castOnHost(rays, withoutCutoff(), shift), 1e-3);
     print(stage.status());
     EXPECT_GT(agreement.hits, count / 4);
     EXPECT_LE(agreement.meanTransmittance, 1e-5);
@@ -85,6 +90,14 @@ class GpuRays : public testing::Test {
 
 TEST_F(GpuRays, ThroughARandomFoamAgreeWithTheQueries) {
   expectAgreement(bakeScene(makeRandomFoam(200, 4, 2, 3), "exact", 64), 5000);
+}
+
+// Chunk origins are so large that a float holds the foam's box to 0.06 and to 64 units.
+TEST_F(GpuRays, ThroughChunksFarFromTheOriginAgreeWithTheQueries) {
+  const AssetContents contents = bakeScene(makeRandomFoam(200, 4, 2, 3), "default", 64);
+  ASSERT_GE(contents.chunks.size(), 3u);
+  expectAgreement(contents, 2000, {0x1p20, -0x1p20, 0x1p19});  // 1e6
+  expectAgreement(contents, 2000, {-0x1p30, 0x1p29, 0x1p30});  // 1e9
 }
 
 TEST_F(GpuRays, ThroughASyntheticFoamAgreeWithTheQueries) {

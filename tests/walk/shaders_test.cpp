@@ -10,6 +10,7 @@
 #include "tests/query/query_fixture.h"
 #include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
+#include "tests/surroundings.h"
 #include "tests/walk/engine_pipeline.h"
 #include "tests/walk/walk_stage.h"
 #include "walk_spirv/calls_comp.h"
@@ -87,7 +88,7 @@ class EngineShader : public testing::Test {
 };
 
 TEST(FrothWalkShader, HasTheAbiOfTheHeader) {
-  std::ifstream file(FROTH_SHADER_DIR "/froth_walk.glsl");
+  std::ifstream file(pathFrom("FROTH_SHADERS", FROTH_SHADER_DIR) / "froth_walk.glsl");
   const std::string text(std::istreambuf_iterator<char>(file), {});
   EXPECT_NE(text.find("#define FROTH_WALK_ABI " + std::to_string(FROTH_WALK_ABI) + "u\n"), std::string::npos);
 }

@@ -158,13 +158,14 @@ std::vector<FrothGpuHit> WalkStage::cast(const std::vector<FrothGpuRay>& rays, F
   return hits;
 }
 
-std::vector<FrothRayHit> WalkStage::castOnHost(const std::vector<FrothGpuRay>& rays, FrothCastInfo info) const {
+std::vector<FrothRayHit> WalkStage::castOnHost(const std::vector<FrothGpuRay>& rays, FrothCastInfo info,
+                                               const glm::dvec3& eye) const {
   info.structSize = sizeof(info);
   std::vector<FrothRay> asked;
   for (const FrothGpuRay& ray : rays) {
     const float* o = ray.origin;
     const float* d = ray.direction;
-    asked.push_back({{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, ray.tMin, ray.tMax});
+    asked.push_back({{eye.x + o[0], eye.y + o[1], eye.z + o[2]}, {d[0], d[1], d[2]}, ray.tMin, ray.tMax});
   }
   std::vector<FrothRayHit> hits(rays.size());
   check(frothCastRays(context_, &info, asked.data(), hits.data(), static_cast<uint32_t>(hits.size())), "frothCastRays");

@@ -43,7 +43,9 @@ class WalkStage {
              FrothResult expected = FROTH_OK);
   std::vector<FrothGpuHit> cast(const std::vector<FrothGpuRay>& rays, FrothRayKind kind,
                                 const FrothWalkInfo& info = walkInfo());
-  std::vector<FrothRayHit> castOnHost(const std::vector<FrothGpuRay>& rays, FrothCastInfo info) const;
+  // Rays relative to `eye`.
+  std::vector<FrothRayHit> castOnHost(const std::vector<FrothGpuRay>& rays, FrothCastInfo info,
+                                      const glm::dvec3& eye = glm::dvec3(0)) const;
   Image rasterize(const View& view);  // premultiplied linear colour and opacity
   FrothWalkStatus status();  // of the newest frame
 

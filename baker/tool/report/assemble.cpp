@@ -75,7 +75,8 @@ void describeRun(const RunDescription& run, const Foam& foam, const Bench& bench
   report.device = bench.drawer.device();
   report.driver = bench.drawer.driver();
   report.version = FROTH_VERSION;
-  report.command = fmt::format("froth report {} --frames {}{}", run.input, bench.rounds.frames, run.isCpu ? " --cpu" : "");
+  report.command = run.command;
+  report.seed = bench.rounds.seed;
   report.width = bench.views[0].view.width;
   report.height = bench.views[0].view.height;
   report.frames = bench.rounds.frames;

@@ -9,7 +9,7 @@
 namespace froth {
 
 struct RunDescription {
-  std::string title, input, credit;
+  std::string title, input, credit, command;
   bool hasFoam = false, isCpu = false;
 };
 

@@ -41,6 +41,10 @@ struct Knob {
   bool isConvergence = false;  // around the exact asset without a cut-off, and not timed; else around the default
   GpuMethod method = GpuMethod::kRaster;
   std::vector<KnobValue> values;
+  // Of a lattice: the attribute, as the manifest names it, and the most that its values may lie from the input's, in the manifest's
+  // unit: half a step along each axis.
+  const char* attribute = nullptr;
+  std::function<double(double bits, const Foam&)> mostError;
 };
 
 // Turn how an asset is made: they need the foam.

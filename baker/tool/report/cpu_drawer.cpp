@@ -30,8 +30,9 @@ class CpuDrawer : public Drawer {
                                       const Progress& progress) override {
     std::vector<std::vector<double>> cycles(draws.size());
     for (uint32_t round = 0; round < rounds.count; ++round) {
-      for (size_t i = 0; i < draws.size(); ++i) {
-        if (!report(progress, "time", round * draws.size() + i, rounds.count * draws.size())) return stoppedError();
+      size_t done = round * draws.size();
+      for (const size_t i : orderOf(draws, rounds, round)) {
+        if (!report(progress, "time", done++, rounds.count * draws.size())) return stoppedError();
         if (Status loaded = load(draws[i], progress); !loaded) return loaded.error();
         const uint32_t count = cyclesOf(draws[i], rounds);
         for (uint32_t cycle = 0; cycle < count; ++cycle) {

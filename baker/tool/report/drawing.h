@@ -29,6 +29,7 @@ struct DrawTimes {
 struct Rounds {
   uint32_t count = 3;
   uint32_t frames = 50;
+  uint64_t seed = 1;  // of the order in each
 };
 
 class Drawer {
@@ -38,13 +39,14 @@ class Drawer {
   virtual std::string driver() const = 0;
   // Colour, opacity, depth, normal of every view.
   virtual Result<std::vector<RenderedImages>> render(const Draw& draw, const Progress& progress) = 0;
-  // Times all draws in turn, round after round, so that slow changes of the device meet all alike.
+  // Times all draws in each round, in an order of its own, so that slow changes of the device meet all alike.
   virtual Result<std::vector<DrawTimes>> time(const std::vector<Draw>& draws, const Rounds& rounds,
                                               const Progress& progress) = 0;
 };
 
 Interval intervalOf(const std::vector<double>& cycles);
 uint32_t cyclesOf(const Draw& draw, const Rounds& rounds);  // of one round
+std::vector<size_t> orderOf(const std::vector<Draw>& draws, const Rounds& rounds, uint32_t round);
 
 Result<std::unique_ptr<Drawer>> createGpuDrawer(GpuDeviceOptions options);  // passes are measured whatever they say
 std::unique_ptr<Drawer> createCpuDrawer();

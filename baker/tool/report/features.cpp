@@ -176,7 +176,10 @@ Result<std::vector<FeatureCost>> runtimeFeatures(const Bench& bench, const GpuDe
   GpuDeviceOptions hits = device, lenses = device;
   hits.keepsHits = true;
   lenses.lensClasses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC;
-  if (Status added = withDevice(hits, "ids and motion", "views that keep hits (FrothViewInfo::keepsHits)"); !added) return added.error();
+  if (Status added = withDevice(hits, "kept hits", "views made for ids and motion (FrothViewInfo::keepsHits): memory alone"); !added)
+    return added.error();
+  // Without their images bound a frame does not write hits: a time would say nothing.
+  costs.back().rasterWithout = costs.back().rasterWith = costs.back().walkWithout = costs.back().walkWith = {};
   if (Status added = withDevice(lenses, "other lenses", "a context and views for all lenses"); !added) return added.error();
   return costs;
 }

@@ -71,8 +71,9 @@ class GpuDrawer : public Drawer {
     if (Status ready = hasSeveralAssets(draws) ? prepareWarmth(draws.front()) : Status(); !ready) return ready.error();
     if (Status warm = warmUp(draws.front(), progress); !warm) return warm.error();
     for (uint32_t round = 0; round < rounds.count; ++round) {
-      for (size_t i = 0; i < draws.size(); ++i) {
-        if (!report(progress, "time", round * draws.size() + i, rounds.count * draws.size())) return stoppedError();
+      size_t done = round * draws.size();
+      for (const size_t i : orderOf(draws, rounds, round)) {
+        if (!report(progress, "time", done++, rounds.count * draws.size())) return stoppedError();
         if (Status timed = timeRound(draws[i], cyclesOf(draws[i], rounds), cycles[i]); !timed) return timed.error();
       }
     }

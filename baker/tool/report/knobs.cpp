@@ -1,4 +1,5 @@
 // Which values each knob is turned to, and what law its error should follow.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -49,16 +50,48 @@ struct Lattice {
   const char* meaning;
   Bits member;
   Numbers around, refined;  // around the default; all else exact
+  const char* attribute;
+  std::function<double(double bits, const Foam&)> mostError;
 };
+
+double halfStep(double bits) {
+  return 0.5 * std::exp2(-bits);
+}
+
+// The lattice of positions divides the largest power of two within the largest extent.
+double mostErrorOfSites(double bits, const Foam& foam) {
+  glm::dvec3 low(foam.sites[0]), high(foam.sites[0]);
+  for (const glm::vec3& site : foam.sites) {
+    low = glm::min(low, glm::dvec3(site));
+    high = glm::max(high, glm::dvec3(site));
+  }
+  const glm::dvec3 size = high - low;
+  const double extent = std::max({size.x, size.y, size.z});
+  return std::sqrt(3.0) * halfStep(bits) * std::exp2(std::floor(std::log2(extent > 0 ? extent : foam.radii[0])));
+}
+
+// Half a step along both axes of the octahedron's square, which spans 2 of 2^bits - 2 steps, moves a point of a side by sqrt(6) of
+// it, and a side's middle is 1 / sqrt(3) from the centre.
+double mostErrorOfNormals(double bits, const Foam&) {
+  return std::sqrt(18.0) * 0.5 / (std::exp2(bits - 1) - 1);
+}
+
+double mostErrorOfNumbers(double bits, const Foam&) {
+  return halfStep(bits);
+}
+
+double mostErrorOfDetailSites(double bits, const Foam&) {
+  return std::sqrt(2.0) * halfStep(bits);
+}
 
 std::vector<Lattice> lattices() {
   return {
-      {"positionBits", "Positions, of the scene's largest extent", &BakeKnobs::positionBits, {12, 15, 18, 21}, {10, 12, 14, 16, 18, 20}},
-      {"radiusBits", "Mantissa of radii", &BakeKnobs::radiusBits, {7, 9, 11, 14}, {4, 6, 8, 10, 12, 14}},
-      {"densityBits", "Mantissa of densities", &BakeKnobs::densityBits, {2, 4, 7}, {1, 2, 4, 6, 8, 10}},
-      {"frameBits", "Octahedral normals, per axis", &BakeKnobs::frameBits, {8, 10, 12}, {6, 8, 10, 12, 14}},
-      {"detailSiteBits", "Detail sites, below one radius", &BakeKnobs::detailSiteBits, {6, 8, 10}, {3, 5, 7, 9, 11}},
-      {"heightBits", "Heights, below one radius", &BakeKnobs::heightBits, {5, 7, 9}, {3, 5, 7, 9, 11}},
+      {"positionBits", "Positions, of the scene's largest extent", &BakeKnobs::positionBits, {12, 15, 18, 21}, {10, 12, 14, 16, 18, 20}, "sites", mostErrorOfSites},
+      {"radiusBits", "Mantissa of radii", &BakeKnobs::radiusBits, {7, 9, 11, 14}, {4, 6, 8, 10, 12, 14}, "radii", mostErrorOfNumbers},
+      {"densityBits", "Mantissa of densities", &BakeKnobs::densityBits, {2, 4, 7}, {1, 2, 4, 6, 8, 10}, "densities", mostErrorOfNumbers},
+      {"frameBits", "Octahedral normals, per axis", &BakeKnobs::frameBits, {8, 10, 12}, {6, 8, 10, 12, 14}, "normals", mostErrorOfNormals},
+      {"detailSiteBits", "Detail sites, below one radius", &BakeKnobs::detailSiteBits, {6, 8, 10}, {3, 5, 7, 9, 11}, "detail sites", mostErrorOfDetailSites},
+      {"heightBits", "Heights, below one radius", &BakeKnobs::heightBits, {5, 7, 9}, {3, 5, 7, 9, 11}, "detail heights", mostErrorOfNumbers},
   };
 }
 
@@ -126,8 +159,12 @@ std::vector<Knob> encodingKnobs() {
                          [](ReportConfig& c, double v) { c.detailsKept = static_cast<uint32_t>(v); }));
   knobs.push_back(steinerKnob());
   knobs.push_back(walkGraphKnob());
-  for (const Lattice& lattice : lattices())
-    knobs.push_back(convergence(bitsOf(lattice.name, lattice.meaning, lattice.member, lattice.refined)));
+  for (const Lattice& lattice : lattices()) {
+    Knob knob = convergence(bitsOf(lattice.name, lattice.meaning, lattice.member, lattice.refined));
+    knob.attribute = lattice.attribute;
+    knob.mostError = lattice.mostError;
+    knobs.push_back(std::move(knob));
+  }
   return knobs;
 }
 

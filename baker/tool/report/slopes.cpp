@@ -32,6 +32,26 @@ void checkCutoffs(PointList& points, const Sweep& sweep, Slope& slope) {
   }
 }
 
+// A lattice that is coarser than asked for has the right slope; what tells it is the largest error of the values that the bake
+// stored.
+Status checkLattice(const Bench& bench, const Foam& foam, const Knob& knob, PointList& points, const Sweep& sweep, Slope& slope) {
+  constexpr double kFloatRounding = 0x1p-8;  // of the bound: floats near a tie may go either way
+  for (const std::string& id : sweep.points) {
+    const PlannedPoint& planned = points.at(id);
+    const Result<BakeRecord> record = bench.workshop.recordOf(planned.config);
+    if (!record) return record.error();
+    const auto found = record->largestErrors.find(knob.attribute);
+    const double bits = placeOnSweep(sweep, planned.point).number;
+    const double most = knob.mostError(bits, foam);
+    if (found != record->largestErrors.end() && found->second <= most * (1 + kFloatRounding)) continue;
+    const double error = found == record->largestErrors.end() ? NAN : found->second;
+    slope.verdict = kVerdictOverBound;
+    slope.note = fmt::format("{} off by {:.3g} at {:g} bits, where half a step is {:.3g}", knob.attribute, error, bits, most);
+    return {};
+  }
+  return {};
+}
+
 // Views from a ring around the box, at 1.65 times half of its longest side from its middle: half of a foam of copies is in view.
 std::vector<View> viewsFromOutside(const Foam& foam, const View& like) {
   glm::dvec3 low(foam.sites[0]), high(foam.sites[0]);
@@ -76,17 +96,22 @@ Slope timeSlope(const std::string& what, const std::vector<double>& x, const std
 
 }  // namespace
 
-std::vector<Slope> errorSlopes(const std::vector<Sweep>& sweeps, PointList& points) {
+Result<std::vector<Slope>> errorSlopes(const Bench& bench, const Foam& foam, const std::vector<Knob>& knobs,
+                                       const std::vector<Sweep>& sweeps, PointList& points) {
   std::vector<ReportPoint> measured;
   for (const PlannedPoint& planned : points.all()) measured.push_back(planned.point);
   std::vector<Slope> slopes;
-  for (const Sweep& sweep : sweeps) {
+  for (size_t i = 0; i < sweeps.size(); ++i) {
+    const Sweep& sweep = sweeps[i];
     if (sweep.expectedOrder == 0) continue;
     const std::string renderer = points.at(sweep.points.front()).point.renderer;
     Slope slope = fitConvergence(measured, sweep, renderer);
     if (renderer != "cpu" && slope.floor > 0 && slope.floor < kHalfRounding)
       slope.note += "; half-float colours of detail sites between the passes";
     if (sweep.knob.starts_with("cutoff")) checkCutoffs(points, sweep, slope);
+    if (knobs[i].mostError) {
+      if (Status checked = checkLattice(bench, foam, knobs[i], points, sweep, slope); !checked) return checked.error();
+    }
     slopes.push_back(std::move(slope));
   }
   return slopes;

@@ -62,10 +62,11 @@ Result<BakeRecord> Workshop::recordOf(const ReportConfig& config) const {
   const std::filesystem::path path = recordPath(config);
   std::ifstream in(path);
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("seconds") || !json.contains("leftOut"))
+  if (!json.is_object() || !json.contains("seconds") || !json.contains("leftOut") || !json.contains("largestErrors"))
     return makeError(ErrorKind::kBadInput, "%s: is not a record of a bake; leave out --resume to begin anew", path.c_str());
   record.seconds = json["seconds"].get<double>();
   for (const auto& [what, bytes] : json["leftOut"].items()) record.leftOut.push_back({what, bytes.get<uint64_t>()});
+  for (const auto& [attribute, error] : json["largestErrors"].items()) record.largestErrors[attribute] = error.get<double>();
   return record;
 }
 
@@ -83,15 +84,17 @@ Status Workshop::bakeOne(const ReportConfig& config, const Progress& progress) c
   options.measure = false;
   options.source = "froth report";
   if (config.hasCameras) options.cameras = &cameras_;
-  AssetFileSink file(assetOf(config));
+  AssetFileSink file(assetOf(config), WriteProtected::kRefuse);
   const Result<BakeResult> baked = bakeFoam(*changed ? **changed : input_.foam, options, file.sink(), progress);
   if (!baked) return baked.error();
   if (const Result<uint64_t> bytes = file.finish(baked->contents); !bytes) return bytes.error();
   nlohmann::json leftOut = nlohmann::json::object();
   for (const LeftOut& one : baked->leftOut) leftOut[one.what] = one.savedBytes;
+  nlohmann::json largest = nlohmann::json::object();
+  for (const AttributeError& one : baked->contents.errors) largest[one.name] = one.max;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::ofstream out(recordPath(config));
-  out << nlohmann::json{{"seconds", seconds}, {"leftOut", leftOut}}.dump() << std::flush;
+  out << nlohmann::json{{"seconds", seconds}, {"leftOut", leftOut}, {"largestErrors", largest}}.dump() << std::flush;
   if (!out) return makeError(ErrorKind::kIo, "%s: cannot be written", recordPath(config).c_str());
   return {};
 }

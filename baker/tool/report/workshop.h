@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "baker/bake/bake.h"
@@ -15,6 +17,7 @@ namespace froth {
 struct BakeRecord {
   double seconds = 0;  // with others beside it, unless it was baked alone; 0: not baked here
   std::vector<LeftOut> leftOut;
+  std::map<std::string, double> largestErrors;  // of the stored attributes, by the names and units of the manifest
 };
 
 // Refers to foam and cameras.

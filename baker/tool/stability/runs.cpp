@@ -3,33 +3,44 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "baker/bake/bake.h"
 #include "baker/checkpoint/checkpoint.h"
-#include "baker/graph/graph.h"
 #include "baker/image/metrics.h"
 #include "baker/stability/image_bound.h"
-#include "format/asset_reader.h"
-#include "format/asset_writer.h"
+#include "baker/tool/stability/baked_case.h"
 #include "format/atomic_file.h"
 
 namespace froth {
-
-// An asset, and the foam that it holds relative to `base`, so that no float of it is larger than the scene.
-struct BakedCase {
-  AssetInput asset;
-  glm::dvec3 base{0};
-  Foam foam;
-  std::unique_ptr<ReferenceRenderer> reference;  // of `foam`
+// What a renderer draws of a view.
+struct DrawnForms {
+  RenderedImages images;  // of a raster: with all tiles short
+  std::optional<RenderedImages> inLongTiles;  // of a raster
 };
 
 namespace {
+
+// The forms on the device, as in PresetOutcome::renderers after "float".
+struct DeviceForm {
+  const char* renderer;
+  GpuMethod method;
+  bool isShipped;
+};
+constexpr DeviceForm kForms[] = {{"raster", GpuMethod::kRaster, false},
+                                 {"walk", GpuMethod::kWalk, false},
+                                 {"raster shipped", GpuMethod::kRaster, true},
+                                 {"walk shipped", GpuMethod::kWalk, true}};
+enum RendererIndex : size_t { kFloat, kRaster, kWalk, kRasterShipped };
+constexpr double kShippedCutoff = 1e-3;
+// The form that games draw is drawn from these bakes alone: it differs from the others by what no bake changes, and costs as much.
+bool isDrawnAsShipped(const std::string& preset) { return preset == "exact" || preset == "default"; }
 
 ReferenceOptions referenceOptions(const View& view) {
   ReferenceOptions options;
@@ -43,59 +54,17 @@ View movedBy(const glm::dvec3& by, View view) {
   return view;
 }
 
-Result<AssetContents> readContents(const std::vector<uint8_t>& bytes) {
-  const Result<AssetReader> reader = AssetReader::openBytes(bytes, "asset");
-  if (!reader) return reader.error();
-  AssetContents contents = reader->manifest();
-  for (uint32_t chunk = 0; chunk < contents.chunks.size(); ++chunk) {
-    Result<ChunkContents> read = reader->readChunk(chunk);
-    if (!read) return read.error();
-    contents.chunks[chunk] = std::move(*read);
-  }
-  return contents;
-}
-
-Status bakeCase(const Foam& foam, const std::string& preset, BakedCase& baked, const Progress& progress) {
-  BakeOptions options;
-  options.preset = preset;
-  options.knobs = *presetKnobs(preset);
-  options.nearRatio = 0;
-  options.measure = false;
-  options.source = "stability";
-  const Result<BakeResult> result = bakeFoam(foam, options, progress);
-  if (!result) return result.error();
-  Result<std::vector<uint8_t>> bytes = encodeAsset(result->contents);
-  if (!bytes) return bytes.error();
-  baked.asset.bytes = std::move(*bytes);
-  Result<AssetContents> contents = readContents(baked.asset.bytes);
-  if (!contents) return contents.error();
-
-  const auto& origin = contents->chunks.front().origin;
-  baked.base = {origin[0], origin[1], origin[2]};
-  for (ChunkContents& chunk : contents->chunks) {
-    for (int axis = 0; axis < 3; ++axis) chunk.origin[axis] -= baked.base[axis];
-  }
-  Result<Foam> decoded = foamFromAsset(*contents);
-  if (!decoded) return decoded.error();
-  baked.foam = std::move(*decoded);
-  baked.reference = std::make_unique<ReferenceRenderer>(baked.foam);
-  return {};
-}
-
 void addCheck(const BoundCheck& check, size_t view, RendererOutcome& renderer) {
   renderer.isFinite = renderer.isFinite && check.isFinite;
   renderer.maxError = std::max(renderer.maxError, check.maxError);
+  renderer.colourExcess = std::max(renderer.colourExcess, check.colourExcess);
   renderer.shareOver = std::max(renderer.shareOver, check.shareOver);
   if (check.worstExcess <= renderer.worstExcess) return;
   renderer.worstExcess = check.worstExcess;
   renderer.worstView = view;
   renderer.worstX = check.worstX;
   renderer.worstY = check.worstY;
-}
-
-bool hasSameBits(const RenderedImages& a, const RenderedImages& b) {
-  return a.colour.values == b.colour.values && a.alpha.values == b.alpha.values && a.depth.values == b.depth.values &&
-         a.normal.values == b.normal.values;
+  renderer.worstChannel = check.worstChannel;
 }
 
 void addTrace(const WalkTrace& trace, WalkTrace& sum) {
@@ -120,7 +89,10 @@ Result<std::vector<RenderedImages>> drawOriginals(const Foam& foam, const std::v
 PresetOutcome outcomeOf(const std::string& preset) {
   PresetOutcome outcome;
   outcome.preset = preset;
-  for (const char* renderer : {"float", "raster", "walk"}) outcome.renderers.push_back({renderer});
+  outcome.renderers.push_back({"float"});
+  for (const DeviceForm& form : kForms) {
+    if (!form.isShipped || isDrawnAsShipped(preset)) outcome.renderers.push_back({form.renderer});
+  }
   return outcome;
 }
 
@@ -136,34 +108,50 @@ Result<Foam> importCase(const Foam& foam) {
   return importCheckpointBytes(*bytes, "case.pt");
 }
 
-void findFaults(const PresetOutcome& preset, std::vector<std::string>& faults) {
-  for (const RendererOutcome& run : preset.renderers) {
-    const std::string who = preset.preset + ", " + run.renderer;
-    if (!run.isFinite) faults.push_back(who + ": a value is not finite, or -0");
-    if (!run.isRepeatable) faults.push_back(who + ": a second run gives other bits");
-    if (!run.endsInTime) faults.push_back(who + ": walks take more steps than there are cells");
-    if (run.worstExcess > 1)
-      faults.push_back(fmt::format("{}: {:.3g} times the bound at {}, {:.2g} % of the pixels over it", who, run.worstExcess,
-                                   placeText(run), 100 * run.shareOver));
+void appendFaults(const PresetOutcome& preset, const RendererOutcome& run, std::vector<SeenFault>& faults) {
+  const std::string who = preset.preset + ", " + run.renderer + ": ";
+  const auto append = [&](const char* kind, double factor, const std::string& text) {
+    faults.push_back({preset.preset, run.renderer, kind, factor, who + text});
+  };
+  if (!run.isFinite) append("not finite", 0, "a value is not finite, or -0");
+  if (!run.isRepeatable) append("another image", 0, "a second run gives other bits");
+  if (run.tilesExcess > 1)
+    append("another image by tiles", run.tilesExcess, fmt::format("long and short tiles differ by {:.3g} times the bound", run.tilesExcess));
+  if (!run.endsInTime) append("steps", 0, "walks take more steps than there are cells");
+  if (run.worstExcess > 1) {
+    append("over its bound", run.worstExcess,
+           fmt::format("{:.3g} times the bound at {}, {:.2g} % of the pixels over it; largest error {:.3g}", run.worstExcess,
+                       placeText(run), 100 * run.shareOver, run.maxError));
   }
-  if (preset.rasterWalkExcess > 1)
-    faults.push_back(fmt::format("{}: raster and walk differ by {:.3g} times what their bounds allow", preset.preset, preset.rasterWalkExcess));
-  if (preset.walks.violations > 0)
-    faults.push_back(fmt::format("{}: {} of {} steps of walks do not increase d . p", preset.preset, preset.walks.violations, preset.walks.steps));
-  if (preset.walks.lost > 0)
-    faults.push_back(fmt::format("{}: {} of {} walks end before the last cell", preset.preset, preset.walks.lost, preset.walks.rays));
 }
 
 CaseVerdict judge(const StiffCase& stiff, const CaseOutcome& outcome) {
-  if (!stiff.refusal.empty() && outcome.faults.empty()) return CaseVerdict::kRefused;
-  if (outcome.faults.empty()) return CaseVerdict::kWithin;
-  return stiff.knownCause.empty() ? CaseVerdict::kFails : CaseVerdict::kKnown;
+  if (!outcome.unexplained.empty()) return CaseVerdict::kFails;
+  if (!stiff.refusal.empty()) return CaseVerdict::kRefused;
+  return outcome.faults.empty() ? CaseVerdict::kWithin : CaseVerdict::kKnown;
 }
 
 }  // namespace
 
 std::string placeText(const RendererOutcome& renderer) {
-  return fmt::format("view {}, pixel ({}, {})", renderer.worstView, renderer.worstX, renderer.worstY);
+  return fmt::format("view {}, pixel ({}, {}), {}", renderer.worstView, renderer.worstX, renderer.worstY, renderer.worstChannel);
+}
+
+std::vector<SeenFault> faultsOf(const PresetOutcome& preset) {
+  std::vector<SeenFault> faults;
+  for (const RendererOutcome& run : preset.renderers) appendFaults(preset, run, faults);
+  const auto append = [&](const char* renderer, const char* kind, double factor, const std::string& text) {
+    faults.push_back({preset.preset, renderer, kind, factor, preset.preset + ": " + text});
+  };
+  if (preset.rasterWalkExcess > 1)
+    append("raster and walk", "over its bound", preset.rasterWalkExcess,
+           fmt::format("raster and walk differ by {:.3g} times the bound", preset.rasterWalkExcess));
+  const WalkTrace& walks = preset.walks;
+  if (walks.violations > 0)
+    append(kTraceRenderer, "order", 0, fmt::format("{} of {} steps of walks do not increase d . p", walks.violations, walks.steps));
+  if (walks.lost > 0)
+    append(kTraceRenderer, "lost", 0, fmt::format("{} of {} walks end before the last cell", walks.lost, walks.rays));
+  return faults;
 }
 
 const char* verdictName(CaseVerdict verdict) {
@@ -186,55 +174,84 @@ const std::vector<std::string>& stabilityPresets() {
 }
 
 Result<std::unique_ptr<StabilityRunner>> StabilityRunner::create(const GpuDeviceOptions& options) {
-  Result<std::unique_ptr<GpuRenderer>> gpu = GpuRenderer::create(options);
-  if (!gpu) return gpu.error();
-  return std::unique_ptr<StabilityRunner>(new StabilityRunner(std::move(*gpu)));
+  GpuDeviceOptions floats = options;
+  floats.checkIndices = floats.floatColours = true;
+  Result<std::unique_ptr<GpuRenderer>> inFloat = GpuRenderer::create(floats);
+  if (!inFloat) return inFloat.error();
+  GpuDeviceOptions shipped = options;
+  shipped.validate = false;  // as in a game; layers see the same calls in the other context
+  Result<std::unique_ptr<GpuRenderer>> asShipped = GpuRenderer::create(shipped);
+  if (!asShipped) return asShipped.error();
+  return std::unique_ptr<StabilityRunner>(new StabilityRunner(std::move(*inFloat), std::move(*asShipped)));
 }
 
-// Draws by a method twice.
-Status StabilityRunner::drawTwice(const StiffCase& stiff, size_t index, const BakedCase& baked, GpuMethod method,
-                                  RendererOutcome& renderer, RenderedImages& images) {
-  const View view = movedBy(stiff.moved, stiff.views[index]);
+// Twice in the same way, and a raster with all tiles in the other form.
+Status StabilityRunner::drawRepeatedly(const View& view, uint32_t cellCount, RendererOutcome& outcome, DrawnForms& drawn) {
+  const DeviceForm& form = *std::find_if(std::begin(kForms), std::end(kForms),
+                                         [&](const DeviceForm& one) { return outcome.renderer == one.renderer; });
   GpuRenderOptions options;
-  options.method = method;
-  options.cutoff = 0;
-  options.maxSteps = baked.foam.cellCount;
-  Result<GpuFrame> frame = gpu_->render(view, options);
-  if (!frame) return frame.error();
-  const Result<GpuFrame> again = gpu_->render(view, options);
+  options.method = form.method;
+  options.tileForm = FROTH_TILE_FORM_ALL_SHORT;
+  options.cutoff = form.isShipped ? static_cast<float>(kShippedCutoff) : 0.0f;
+  options.maxSteps = form.isShipped ? 0 : cellCount;
+  const auto draw = [&] { return form.isShipped ? asShipped_->renderColour(view, options) : inFloat_->render(view, options); };
+  Result<GpuFrame> first = draw();
+  if (!first) return first.error();
+  const Result<GpuFrame> again = draw();
   if (!again) return again.error();
-  renderer.isRepeatable = renderer.isRepeatable && hasSameBits(frame->images, again->images);
-  renderer.endsInTime = renderer.endsInTime && (frame->status.bits & FROTH_VIEW_STEP_LIMIT) == 0;
-  images = std::move(frame->images);
+  outcome.isRepeatable = outcome.isRepeatable && hasSameBits(first->images, again->images);
+  outcome.endsInTime = outcome.endsInTime && (first->status.bits & FROTH_VIEW_STEP_LIMIT) == 0;
+  drawn.images = std::move(first->images);
+  if (form.method != GpuMethod::kRaster) return {};
+  options.tileForm = FROTH_TILE_FORM_ALL_LONG;
+  Result<GpuFrame> inLongTiles = draw();
+  if (!inLongTiles) return inLongTiles.error();
+  drawn.inLongTiles = std::move(inLongTiles->images);
   return {};
 }
 
 Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const BakedCase& baked, PresetOutcome& outcome) {
-  const View view = movedBy(-baked.base, stiff.views[index]);
+  const View view = movedBy(-baked.base, stiff.views[index]), placed = movedBy(stiff.moved, stiff.views[index]);
   ReferenceOptions options = referenceOptions(view);
   options.precision = Precision::kFloat;
   Result<RenderedImages> inFloat = baked.reference->render(view, options);
   if (!inFloat) return inFloat.error();
-  std::array<RenderedImages, 3> drawn = {std::move(*inFloat), {}, {}};  // as PresetOutcome::renderers
-  if (Status done = drawTwice(stiff, index, baked, GpuMethod::kRaster, outcome.renderers[1], drawn[1]); !done) return done;
-  if (Status done = drawTwice(stiff, index, baked, GpuMethod::kWalk, outcome.renderers[2], drawn[2]); !done) return done;
+  std::vector<DrawnForms> drawn(outcome.renderers.size());
+  drawn[kFloat].images = std::move(*inFloat);
+  for (size_t i = kRaster; i < drawn.size(); ++i) {
+    if (Status done = drawRepeatedly(placed, baked.foam.cellCount, outcome.renderers[i], drawn[i]); !done) return done;
+  }
+  ReferenceOptions cut = referenceOptions(view);
+  cut.cutoff = 2 * kShippedCutoff;
+  const Result<RenderedImages> atTwice = baked.reference->render(view, cut);
+  if (!atTwice) return atTwice.error();
 
   BoundOptions boundOptions;
-  boundOptions.storageError = stiff.storageError;
   for (;;) {
     const Result<ImageBound> bound = boundImage(*baked.reference, view, options, boundOptions);
     if (!bound) return bound.error();
-    std::array<BoundCheck, 3> checks;
-    for (size_t i = 0; i < checks.size(); ++i) checks[i] = checkBound(*bound, drawn[i]);
-    const bool isOver = std::any_of(checks.begin(), checks.end(), [](const BoundCheck& check) { return check.worstExcess > 1; });
+    const ImageBound shipped = boundShippedForm(*bound, *atTwice);
+    std::vector<BoundCheck> checks(drawn.size());
+    std::vector<double> tilesExcess(drawn.size(), 0.0);
+    for (size_t i = 0; i < checks.size(); ++i) {
+      const ImageBound& own = i < kRasterShipped ? *bound : shipped;
+      checks[i] = checkBound(own, drawn[i].images);
+      if (drawn[i].inLongTiles) tilesExcess[i] = checkBound(own, drawn[i].images, *drawn[i].inLongTiles).worstExcess;
+    }
+    const BoundCheck apart = checkBound(*bound, drawn[kRaster].images, drawn[kWalk].images);
+    const bool isOver = apart.worstExcess > 1 || std::ranges::max(tilesExcess) > 1 ||
+                        std::ranges::any_of(checks, [](const BoundCheck& check) { return check.worstExcess > 1; });
     if (isOver && boundOptions.samples < kSurerSamples) {
       boundOptions.samples = kSurerSamples;
       continue;
     }
     outcome.boundLargest = std::max(outcome.boundLargest, bound->largest);
     outcome.boundMean = std::max(outcome.boundMean, bound->mean);
-    for (size_t i = 0; i < checks.size(); ++i) addCheck(checks[i], index, outcome.renderers[i]);
-    outcome.rasterWalkExcess = std::max(outcome.rasterWalkExcess, checkBound(*bound, drawn[1], drawn[2]).worstExcess);
+    for (size_t i = 0; i < checks.size(); ++i) {
+      addCheck(checks[i], index, outcome.renderers[i]);
+      outcome.renderers[i].tilesExcess = std::max(outcome.renderers[i].tilesExcess, tilesExcess[i]);
+    }
+    outcome.rasterWalkExcess = std::max(outcome.rasterWalkExcess, apart.worstExcess);
     return {};
   }
 }
@@ -242,15 +259,16 @@ Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const Bake
 Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, const std::vector<RenderedImages>& originals,
                                   PresetOutcome& outcome, const Progress& progress) {
   BakedCase baked;
-  if (Status status = bakeCase(foam, outcome.preset, baked, progress); !status) return status;
-  const Result<RegularTriangulation> triangulation = triangulateRegular(baked.foam.sites, baked.foam.radii);
-  if (!triangulation) return triangulation.error();
-  if (Status loaded = gpu_->load(baked.asset, progress, stiff.moved); !loaded) return loaded;
+  if (Status status = bakeCase(foam, outcome.preset, stiff.chunkCells, baked, progress); !status) return status;
+  if (Status loaded = inFloat_->load(baked.asset, progress, stiff.moved); !loaded) return loaded;
+  if (isDrawnAsShipped(outcome.preset)) {
+    if (Status loaded = asShipped_->load(baked.asset, progress, stiff.moved); !loaded) return loaded;
+  }
   outcome.encodingPsnr = std::numeric_limits<double>::infinity();
   for (size_t index = 0; index < stiff.views.size(); ++index) {
     if (Status run = runView(stiff, index, baked, outcome); !run) return run;
     const View view = movedBy(-baked.base, stiff.views[index]);
-    addTrace(traceWalks(baked.foam, triangulation->graph, view), outcome.walks);
+    addTrace(traceWalks(baked.foam, baked.walkGraph, view), outcome.walks);
     const Result<RenderedImages> decoded = baked.reference->render(view, referenceOptions(view));
     if (!decoded) return decoded.error();
     const Result<ImageDifference> encoding = compareImages(decoded->colour, originals[index].colour);
@@ -269,27 +287,31 @@ Result<PresetOutcome> StabilityRunner::runOne(const StiffCase& stiff, const std:
   return outcome;
 }
 
-Result<CaseOutcome> StabilityRunner::run(const StiffCase& stiff, const Progress& progress) {
+Result<CaseOutcome> StabilityRunner::run(const StiffCase& stiff, const std::vector<std::string>& presets, const Progress& progress) {
   CaseOutcome outcome;
   Foam foam = stiff.foam;
   if (stiff.isImported) {
     Result<Foam> imported = importCase(stiff.foam);
     if (!imported) outcome.refusal = imported.error().message;
     if (outcome.refusal.find(stiff.refusal) == std::string::npos || outcome.refusal.empty() != stiff.refusal.empty())
-      outcome.faults.push_back(imported ? "it is imported" : "it is refused: " + outcome.refusal);
+      outcome.faults.push_back({"", "import", "refusal", 0, imported ? "it is imported" : "it is refused: " + outcome.refusal});
     if (imported) foam = std::move(*imported);
   }
   if (outcome.refusal.empty()) {
     const Result<std::vector<RenderedImages>> originals = drawOriginals(foam, stiff.views, progress);
     if (!originals) return originals.error();
-    for (const std::string& preset : stabilityPresets()) {
+    for (const std::string& preset : presets) {
       outcome.presets.push_back(outcomeOf(preset));
       const Status run = runPreset(stiff, foam, *originals, outcome.presets.back(), progress);
       if (!run && run.error().kind == ErrorKind::kCancelled) return run.error();
-      if (!run) outcome.faults.push_back(preset + ": " + run.error().message);
-      findFaults(outcome.presets.back(), outcome.faults);
+      if (!run) outcome.faults.push_back({preset, "device", "error", 0, preset + ": " + run.error().message});
+      const std::vector<SeenFault> faults = faultsOf(outcome.presets.back());
+      outcome.faults.insert(outcome.faults.end(), faults.begin(), faults.end());
     }
   }
+  std::vector<KnownFault> known = stiff.known;
+  std::erase_if(known, [&](const KnownFault& fault) { return std::find(presets.begin(), presets.end(), fault.preset) == presets.end(); });
+  outcome.unexplained = unexplainedFaults(known, outcome.faults);
   outcome.verdict = judge(stiff, outcome);
   return outcome;
 }

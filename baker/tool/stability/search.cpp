@@ -1,5 +1,6 @@
 #include "baker/tool/stability/search.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -15,20 +16,6 @@ namespace {
 // A case on the device takes tens of milliseconds, and one that fails is bounded by 256 samples.
 constexpr uint32_t kMostTries = 500;
 
-std::optional<CaseFault> faultOf(const RendererOutcome& run) {
-  const auto fault = [&](const char* kind, std::string what) {
-    return CaseFault{run.renderer + ": " + kind, std::move(what), run.worstView, run.worstX, run.worstY};
-  };
-  if (!run.isFinite) return fault("not finite", "a value is not finite, or -0");
-  if (!run.isRepeatable) return fault("another image", "a second render has other bits");
-  if (!run.endsInTime) return fault("steps", "walks take more steps than there are cells");
-  if (run.worstExcess > 1) {
-    return fault("over its bound", fmt::format("{}: {:.3g} times its bound; largest error {:.3g}", placeText(run), run.worstExcess,
-                                               run.maxError));
-  }
-  return {};
-}
-
 // Raster and walk of the `exact` bake, which keeps every number of the foam. Walks traced on the CPU are not judged: where sites
 // coincide or the eye is on a vertex, their order is a tie that no image shows.
 Result<std::optional<CaseFault>> judgeOnDevice(StabilityRunner& runner, const StiffCase& stiff) {
@@ -36,17 +23,22 @@ Result<std::optional<CaseFault>> judgeOnDevice(StabilityRunner& runner, const St
       runner.runOne(stiff, "exact", [](std::string_view, uint64_t, uint64_t) { return !isStopRequested(); });
   if (!outcome && outcome.error().kind == ErrorKind::kCancelled) return outcome.error();
   if (!outcome) return std::optional(CaseFault{"device: error", outcome.error().message});
-  for (const RendererOutcome& run : outcome->renderers) {
-    if (run.renderer == "float") continue;  // the CPU's judge holds it to a tighter bound
-    if (std::optional<CaseFault> fault = faultOf(run)) return fault;
+  for (const SeenFault& seen : faultsOf(*outcome)) {
+    if (seen.renderer == kTraceRenderer) continue;
+    const auto run = std::find_if(outcome->renderers.begin(), outcome->renderers.end(),
+                                  [&](const RendererOutcome& one) { return one.renderer == seen.renderer; });
+    CaseFault fault{seen.renderer + ": " + seen.kind, seen.text};
+    if (run != outcome->renderers.end()) fault.view = run->worstView, fault.x = run->worstX, fault.y = run->worstY;
+    return std::optional(fault);
   }
   return std::optional<CaseFault>();
 }
 
-Status keepFound(const FoundCase& found, const StabilitySearch& search, const FiguresOutput& figures, Tool& tool,
+Status keepFound(FoundCase found, const std::string& drawnOn, const StabilitySearch& search, const FiguresOutput& figures, Tool& tool,
                  nlohmann::ordered_json& list) {
   const std::string name = std::filesystem::path(found.shrunk.name).filename().string() + ".json";
   const std::filesystem::path path = search.folder / name;
+  found.shrunk.analysis = drawnOn + " by the random search, and shrunk";
   if (Status written = writeCase(path, found.shrunk); !written) return written;
   list.push_back({{"file", path.string()},
                   {"kind", found.fault.kind},
@@ -85,11 +77,14 @@ Status runStabilitySearch(const StabilitySearch& search, const GpuDeviceOptions&
   options.seed = search.seed;
   options.seconds = 60 * search.minutes;
   options.mostTries = kMostTries;
-  options.onFound = [&](const FoundCase& found) { return keepFound(found, search, figures, tool, list); };
+  const std::string drawnOn =
+      *runner ? fmt::format("found on {} ({})", (*runner)->device().name, (*runner)->device().driver) : "found on the CPU";
+  options.onFound = [&](const FoundCase& found) { return keepFound(found, drawnOn, search, figures, tool, list); };
   const Result<SearchResult> result = searchCases(options, judgeByAll(std::move(judges)), tool.progress.callback());
   if (!result) return result.error();
   const nlohmann::ordered_json summary = {{"seed", search.seed},
                                           {"device", *runner ? (*runner)->device().name : ""},
+                                          {"driver", *runner ? (*runner)->device().driver : ""},
                                           {"tried", result->tried},
                                           {"failing", result->failing},
                                           {"found", list}};

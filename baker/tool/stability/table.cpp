@@ -27,40 +27,42 @@ const RendererOutcome* findRenderer(const PresetOutcome& preset, const std::stri
   return nullptr;
 }
 
-// Largest error, and how much of its bound the worst pixel takes.
+// Largest error, and how much of their bounds the worst colour and the worst of all channels take.
 std::string errorText(const PresetOutcome& preset, const std::string& name) {
   const RendererOutcome* renderer = findRenderer(preset, name);
   if (!renderer) return "-";
-  return fmt::format("{} ({:.2g})", numberText(renderer->maxError), renderer->worstExcess);
+  return fmt::format("{} ({:.2g}, {:.2g})", numberText(renderer->maxError), renderer->colourExcess, renderer->worstExcess);
 }
 
 std::string markdownOf(const JudgedCase& judged) {
   const StiffCase& stiff = judged.stiff;
   std::string text = fmt::format("| `{}` | {} | {} ", stiff.name, stiff.what, verdictName(judged.outcome.verdict));
-  if (judged.outcome.presets.empty()) return text + "| - | - | - | - | - |\n";
+  if (judged.outcome.presets.empty()) return text + "| - | - | - | - | - | - | - |\n";
   bool isFirst = true;
   for (const PresetOutcome& preset : judged.outcome.presets) {
     if (!isFirst) text += "| | | ";
     isFirst = false;
-    text += fmt::format("| {} | {} / {} | {} | {} | {} | {} |\n", preset.preset, numberText(preset.boundLargest),
-                        numberText(preset.boundMean), errorText(preset, "float"), errorText(preset, "raster"),
-                        errorText(preset, "walk"), psnrText(preset.encodingPsnr));
+    text += fmt::format("| {} | {} / {} |", preset.preset, numberText(preset.boundLargest), numberText(preset.boundMean));
+    for (const char* renderer : {"float", "raster", "walk", "raster shipped", "walk shipped"})
+      text += fmt::format(" {} |", errorText(preset, renderer));
+    text += fmt::format(" {} |\n", psnrText(preset.encodingPsnr));
   }
   return text;
 }
 
 std::string tables(const std::vector<JudgedCase>& cases, const HostDeviceInfo& device) {
   std::string text = fmt::format("Drawn on {} ({}).\n\n", device.name, device.driver);
-  text += "| case | what | verdict | preset | bound: largest / mean | CPU float | raster | walk | encoding [dB] |\n"
-          "|---|---|---|---|---|---|---|---|---|\n";
+  text += "| case | what | verdict | preset | bound: largest / mean | CPU float | raster | walk | raster, as shipped | "
+          "walk, as shipped | encoding [dB] |\n"
+          "|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const JudgedCase& judged : cases) text += markdownOf(judged);
   text += "\n## What conditions each image\n\n";
   for (const JudgedCase& judged : cases) {
     text += fmt::format("- `{}`: {}\n", judged.stiff.name, judged.stiff.analysis);
     if (!judged.outcome.refusal.empty()) text += fmt::format("  Refused: \"{}\".\n", judged.outcome.refusal);
-    if (!judged.outcome.faults.empty() && !judged.stiff.knownCause.empty())
-      text += fmt::format("  **Falls short**: {}.\n", judged.stiff.knownCause);
-    for (const std::string& fault : judged.outcome.faults) text += fmt::format("  - {}\n", fault);
+    for (const KnownFault& known : judged.stiff.known)
+      text += fmt::format("  **Falls short** ({}, {}): {}.\n", known.preset, known.renderer, known.cause);
+    for (const SeenFault& fault : judged.outcome.faults) text += fmt::format("  - {}\n", fault.text);
   }
   return text;
 }
@@ -78,11 +80,12 @@ std::string publishedForms(const std::vector<PublishedForm>& forms) {
 void printCase(const JudgedCase& judged) {
   fmt::print("{:<30} {}\n", judged.stiff.name, verdictName(judged.outcome.verdict));
   for (const PresetOutcome& preset : judged.outcome.presets) {
-    fmt::print("  {:<8} bound {:>8} / {:>8}, float {}, raster {}, walk {}, encoding {} dB\n", preset.preset,
-               numberText(preset.boundLargest), numberText(preset.boundMean), errorText(preset, "float"),
-               errorText(preset, "raster"), errorText(preset, "walk"), psnrText(preset.encodingPsnr));
+    fmt::print("  {:<8} bound {:>8} / {:>8}", preset.preset, numberText(preset.boundLargest), numberText(preset.boundMean));
+    for (const RendererOutcome& run : preset.renderers) fmt::print(", {} {}", run.renderer, errorText(preset, run.renderer));
+    fmt::print(", encoding {} dB\n", psnrText(preset.encodingPsnr));
   }
-  for (const std::string& fault : judged.outcome.faults) fmt::print("  {}\n", fault);
+  for (const SeenFault& fault : judged.outcome.faults) fmt::print("  {}\n", fault.text);
+  for (const std::string& line : judged.outcome.unexplained) fmt::print("  not known: {}\n", line);
   std::fflush(stdout);
 }
 
@@ -92,14 +95,22 @@ nlohmann::ordered_json caseAsJson(const JudgedCase& judged) {
                                  {"analysis", judged.stiff.analysis},
                                  {"verdict", verdictName(judged.outcome.verdict)},
                                  {"refusal", judged.outcome.refusal},
-                                 {"knownCause", judged.stiff.knownCause},
-                                 {"faults", judged.outcome.faults}};
+                                 {"faults", nlohmann::ordered_json::array()},
+                                 {"unexplained", judged.outcome.unexplained}};
+  for (const SeenFault& fault : judged.outcome.faults) {
+    json["faults"].push_back({{"preset", fault.preset},
+                              {"renderer", fault.renderer},
+                              {"kind", fault.kind},
+                              {"factor", fault.factor},
+                              {"text", fault.text}});
+  }
   for (const PresetOutcome& preset : judged.outcome.presets) {
     nlohmann::ordered_json renderers = nlohmann::ordered_json::object();
     for (const RendererOutcome& run : preset.renderers) {
-      renderers[run.renderer] = {{"maxError", run.maxError},   {"worstExcess", run.worstExcess},   {"shareOver", run.shareOver},
+      renderers[run.renderer] = {{"maxError", run.maxError},   {"worstExcess", run.worstExcess}, {"colourExcess", run.colourExcess},   {"shareOver", run.shareOver},
                                  {"worstPlace", placeText(run)}, {"isFinite", run.isFinite},
-                                 {"isRepeatable", run.isRepeatable}, {"endsInTime", run.endsInTime}};
+                                 {"isRepeatable", run.isRepeatable}, {"tilesExcess", run.tilesExcess},
+                                 {"endsInTime", run.endsInTime}};
     }
     json["presets"].push_back({{"preset", preset.preset},
                                {"boundLargest", preset.boundLargest},

@@ -132,15 +132,17 @@ FROTH_API FrothResult frothCreateView(FrothContext* context, const FrothViewInfo
 /* Returns at once; memory comes back when the last frame that used it is complete. */
 FROTH_API FrothResult frothDestroyView(FrothContext* context, FrothView view);
 
-/* Limits that a frame hit. The image is valid and incomplete; the next frothUpdate grows what the bit names. */
+/* Limits that a frame hit. The image is valid and incomplete. The next frothUpdate grows what OVERFLOW bits name; the caller raises
+ * what LIMIT bits name. */
 typedef enum FrothViewBit {
   FROTH_VIEW_PAIR_OVERFLOW = 1,  /* more (tile, cell) pairs than space; the farthest cells are missing */
-  FROTH_VIEW_STEP_LIMIT = 2,     /* walks ended by FrothRenderInfo::maxSteps */
+  FROTH_VIEW_STEP_LIMIT = 2,     /* walks ended by FrothRenderInfo::maxSteps or maxNeighbours */
   FROTH_VIEW_NO_WALK_GRAPH = 4,  /* the asset was baked without one */
   FROTH_VIEW_NOT_READY = 8,      /* an instance was left out: its asset is OPENING or FAILED, it or the view came after
                                     frothUpdate, or the view's buffers did not fit the budget (a message told) */
   FROTH_VIEW_CELL_OVERFLOW = 16, /* more visible cells, or planes of them, than space; those last in the asset are missing */
   FROTH_VIEW_INSTANCE_LIMIT = 32, /* more READY instances than a view shows; those with the highest index are missing */
+  FROTH_VIEW_ENTRY_LIMIT = 64,   /* lists of tiles cut by FrothRenderInfo::maxEntries; their farthest cells are missing */
   FROTH_VIEW_BIT_MAX = 0x7fffffff
 } FrothViewBit;
 
@@ -175,6 +177,7 @@ typedef struct FrothViewStatus {
   FrothWork work;
   uint32_t memoryCount;
   FrothMemory memory[16];    /* [memoryCount] deviceBytes by purpose */
+  uint32_t longestList;      /* raster: entries that the longest list of a tile has, or would have without maxEntries */
 } FrothViewStatus;
 
 FROTH_API FrothResult frothGetViewStatus(FrothContext* context, FrothView view, FrothViewStatus* status);
@@ -271,6 +274,14 @@ typedef enum FrothToneCurve {
 /* Marks "take the asset's default" in the two near limits. */
 #define FROTH_NEAR_DEFAULT (-1.0f)
 
+/* The form of the raster that draws tiles: with two pixels per thread, or with one. */
+typedef enum FrothTileForm {
+  FROTH_TILE_FORM_BY_LENGTH = 0,
+  FROTH_TILE_FORM_ALL_SHORT = 1, /* two pixels per thread */
+  FROTH_TILE_FORM_ALL_LONG = 2,  /* one */
+  FROTH_TILE_FORM_MAX = 0x7fffffff
+} FrothTileForm;
+
 typedef struct FrothRenderInfo {
   uint32_t structSize;
   uint32_t eye;        /* < FrothViewInfo::eyeCount: images of its own, layers of the same, or a rectangle by the viewport */
@@ -286,7 +297,7 @@ typedef struct FrothRenderInfo {
   FrothToneCurve toneCurve; /* of linear colour: what this curve turns into the capture, times exposure. Its white is 255/256, so that
                                no light is above 255 */
 
-  FrothImage colour;   /* R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: premultiplied colour, alpha = 1 - T */
+  FrothImage colour;   /* R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: premultiplied colour, 0 to 65504, alpha = 1 - T */
   FrothImage distance; /* R32_SFLOAT: distance along the ray where T falls below depthQuantile [world units]; +inf: never */
   FrothImage normal;   /* R16G16B16A16_SFLOAT: sum of T alpha n in world axes, not normalized; w = 0 */
   FrothImage depth;    /* R32_SFLOAT: device depth of the point that `distance` means, as clipFromView and the viewport's depth range
@@ -307,6 +318,13 @@ typedef struct FrothRenderInfo {
    * clipFromView and the viewport's depth range make it: reversed and infinite depth need no flag, and the far end stops
    * nothing. With lenses other than PROJECTION: distance along the ray [world units], +inf where there is nothing. */
   FrothImage sceneDepth;
+
+  /* What bounds the work of a frame, whatever the assets are (docs/EMBEDDING.md "Bounds"). */
+  uint32_t maxEntries;    /* of the list of a tile of 32 x 32 pixels, of each instance: a raster draws the nearest cells that the tile
+                             can meet; 0: 16384 */
+  uint32_t maxNeighbours; /* that one walk tests on its way from cell to cell, but for those of its last cell; 0: 1048576 */
+
+  FrothTileForm tileForm; /* for tests of frothRasterize; changes no image */
 } FrothRenderInfo;
 
 /* Primary visibility by sorted rasterization. Outside a render pass; once per view, eye and frame. On exit compute pipeline, sets

@@ -135,6 +135,8 @@ typedef struct FrothContextInfo {
                                      shaderStorageImageExtendedFormats, B10G11R11_UFLOAT_PACK32; UNDEFINED: it is not called */
   VkFormat depthExportFormat;     /* of frothRecordDepthExport's attachment, one that the device has; needs dynamicRendering, and a
                                      queue family with GRAPHICS; UNDEFINED: it is not called */
+  uint32_t floatColours;          /* for tests: frothRasterize and frothWalk keep colours of detail sites as floats between their
+                                     passes, where they are halves; the images lack that rounding */
 } FrothContextInfo;
 
 /* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */

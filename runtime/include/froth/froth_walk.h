@@ -16,7 +16,7 @@ extern "C" {
 
 /* The set's layout and the include's structures. The include has the same number: a shader that was compiled with another one
  * meets nothing and says FROTH_WALK_VERSION. */
-#define FROTH_WALK_ABI 1u
+#define FROTH_WALK_ABI 2u
 
 /* Of one set. */
 #define FROTH_WALK_MOST_INSTANCES 64u
@@ -87,7 +87,9 @@ typedef enum FrothRayKind {
 FROTH_API FrothResult frothRecordRays(FrothContext* context, VkCommandBuffer commandBuffer, VkDeviceAddress rays,
                                       VkDeviceAddress hits, uint32_t count, FrothRayKind kind);
 
-/* Of the newest complete frame with a walk set. Rays count in shaders compiled without FROTH_WALK_NO_COUNTERS. */
+/* Of the newest complete frame with a walk set. Rays count in shaders compiled without FROTH_WALK_NO_COUNTERS; the caller's own need
+ * a memory barrier behind them, from their stages and SHADER_STORAGE_WRITE to HOST and HOST_READ, before the host sees what they
+ * counted. frothRecordRays records its own. */
 typedef struct FrothWalkStatus {
   uint32_t structSize;
   uint64_t serial;          /* of that frame; 0: none yet */

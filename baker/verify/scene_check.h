@@ -1,0 +1,18 @@
+// What `froth verify` does beyond format/asset_reader.h's verifyAsset: whether graph, alpha-complex and solid balls are those of
+// the cells. The graphs are sampled as in a bake, each solid ball is bounded again.
+#pragma once
+
+#include <cstdint>
+
+#include "baker/graph/graph.h"
+#include "baker/progress.h"
+#include "format/asset_contents.h"
+#include "format/result.h"
+
+namespace froth {
+
+// `contents` holds all its chunks and has passed verifyAsset. Fails with kBadInput and the first thing that is wrong, with
+// kUnsupported if the scene cannot be sampled, and with kCancelled. On all cores, the same result on any number of them.
+Result<ValidityReport> checkScene(const AssetContents& contents, const Progress& progress = {});
+
+}  // namespace froth

@@ -1,0 +1,46 @@
+// The device memory of an asset: few blocks, however many chunks there are, for devices allow few allocations.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "runtime/core/device.h"
+
+namespace froth {
+
+// Gives places one behind the other and frees all of them together. One thread at a time.
+class GpuArena {
+ public:
+  static constexpr VkDeviceSize kAlignment = 16;  // of the largest type that shaders load
+  static constexpr VkDeviceSize kMostShared = 32u << 20;  // [bytes] of a block for more than one place
+
+  struct Place {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;      // in the buffer; a multiple of kAlignment
+    VkDeviceAddress address = 0;  // of the offset
+  };
+
+  explicit GpuArena(Device& device) : device_(device) {}
+  ~GpuArena();  // the GPU must be done with it
+  GpuArena(const GpuArena&) = delete;
+  GpuArena& operator=(const GpuArena&) = delete;
+
+  // size > 0. `more`: how many bytes will be asked for later, about. Bytes a, a, a, ... of n places take O(log n) blocks
+  // besides those of kMostShared. An error names `purpose`.
+  Result<Place> allocate(VkDeviceSize size, VkDeviceSize more, const char* purpose);
+
+  std::span<const GpuBuffer> blocks() const { return blocks_; }
+  VkDeviceSize heldBytes() const { return heldBytes_; }  // of VkDeviceMemory
+
+ private:
+  VkDeviceSize chooseBlockSize(VkDeviceSize size, VkDeviceSize more) const;
+  VkDeviceSize roomLeft() const { return blocks_.empty() ? 0 : blocks_[open_].size - used_; }
+
+  Device& device_;
+  std::vector<GpuBuffer> blocks_;
+  size_t open_ = 0;            // the block with room,
+  VkDeviceSize used_ = 0;      // and what of it is taken
+  VkDeviceSize heldBytes_ = 0;
+};
+
+}  // namespace froth
