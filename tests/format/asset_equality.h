@@ -6,14 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "format/asset_contents.h"
+#include "tests/same_bits.h"
 
 namespace froth {
-
-template <class Element>
-bool haveSameBits(const std::vector<Element>& a, const std::vector<Element>& b) {
-  return a.size() == b.size() &&
-         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0);
-}
 
 inline bool operator==(const StoredCamera& a, const StoredCamera& b) {
   return a.worldFromCamera == b.worldFromCamera && a.tanHalfFovY == b.tanHalfFovY;

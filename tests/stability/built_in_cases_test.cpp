@@ -1,5 +1,4 @@
 // The built-in cases are well formed, and hold what their names say.
-#include <cstring>
 #include <regex>
 #include <set>
 
@@ -7,6 +6,7 @@
 
 #include "baker/bake/check_foam.h"
 #include "baker/stability/stiff_case.h"
+#include "tests/same_bits.h"
 
 namespace froth {
 namespace {
@@ -34,11 +34,8 @@ TEST(BuiltInCases, AreTheSameOnEveryCall) {
   ASSERT_EQ(a.size(), b.size());
   for (size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].name, b[i].name);
-    const auto hasSameBits = [](const auto& one, const auto& other) {  // NaN is among them
-      return one.size() == other.size() && std::memcmp(one.data(), other.data(), one.size() * sizeof(one[0])) == 0;
-    };
-    EXPECT_TRUE(hasSameBits(a[i].foam.sites, b[i].foam.sites)) << a[i].name;
-    EXPECT_TRUE(hasSameBits(a[i].foam.lobeColours, b[i].foam.lobeColours)) << a[i].name;
+    EXPECT_TRUE(haveSameBits(a[i].foam.sites, b[i].foam.sites)) << a[i].name;
+    EXPECT_TRUE(haveSameBits(a[i].foam.lobeColours, b[i].foam.lobeColours)) << a[i].name;
   }
 }
 

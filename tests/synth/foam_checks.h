@@ -2,22 +2,17 @@
 #pragma once
 
 #include <cmath>
-#include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "baker/foam_arrays.h"
+#include "tests/same_bits.h"
 
 namespace froth {
 
-template <class T>
-bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
-inline bool sameBytes(const Foam& a, const Foam& b) {
+inline bool haveSameBits(const Foam& a, const Foam& b) {
   bool isSame = a.cellCount == b.cellCount && a.detailCount == b.detailCount && a.lobeCount == b.lobeCount && a.lobeOffsets == b.lobeOffsets;
-  visitArrays([&](const FoamArray&, auto values) { isSame = isSame && sameBytes(a.*values, b.*values); });
+  visitArrays([&](const FoamArray&, auto values) { isSame = isSame && haveSameBits(a.*values, b.*values); });
   return isSame;
 }
 

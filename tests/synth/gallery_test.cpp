@@ -33,7 +33,7 @@ TEST(Gallery, HasAboutTheCellsAskedFor) {
 
 TEST(Gallery, IsTheSameOnAnyNumberOfThreads) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_TRUE(sameBytes(*synthesizeFoam({"gallery", kCells}), smallGallery()));
+  EXPECT_TRUE(haveSameBits(*synthesizeFoam({"gallery", kCells}), smallGallery()));
 }
 
 TEST(Gallery, RefusesFewerCellsThanItsThinPartsNeed) {
@@ -96,7 +96,7 @@ TEST(GalleryCameras, KeepTheirDistanceFromEverySurface) {
 TEST(GalleryTruth, ConvergesAndRepeats) {
   const View view = resizeView(galleryCameras().views[1], 90, 60);
   const Image few = *traceGalleryTruth(view, 4), many = *traceGalleryTruth(view, 25);
-  EXPECT_TRUE(sameBytes(few.values, traceGalleryTruth(view, 4)->values));
+  EXPECT_TRUE(haveSameBits(few.values, traceGalleryTruth(view, 4)->values));
   EXPECT_GT(compareImages(few, many)->psnr, 28);
   EXPECT_GT(*std::max_element(many.values.begin(), many.values.end()), 0.8f);
 }

@@ -66,7 +66,7 @@ TEST(TileFoam, KeepsTheFirstCopyAsItIs) {
   const Foam tiled = *tileFoam(foam, 5);
   EXPECT_EQ(tiled.cellCount, 300u);
   expectSound(tiled);
-  EXPECT_TRUE(sameBytes(copyOf(tiled, 0, 60), foam));
+  EXPECT_TRUE(haveSameBits(copyOf(tiled, 0, 60), foam));
 }
 
 // As an asset holds it: with base colours and a number of lobes for each detail site, if colours are compressed.
@@ -82,7 +82,7 @@ TEST(TileFoam, AnAssetOfAnyPresetHasTheSameCellsInEachCopy) {
     const Foam foam = bakedFoam(preset);
     const Foam tiled = *tileFoam(foam, 3);
     EXPECT_EQ(tiled.baseColours.empty(), foam.baseColours.empty());
-    EXPECT_TRUE(sameBytes(copyOf(tiled, 0, foam.cellCount), foam)) << preset;
+    EXPECT_TRUE(haveSameBits(copyOf(tiled, 0, foam.cellCount), foam)) << preset;
     // A copy with the places and directions of the original is the original.
     Foam copy = copyOf(tiled, 2, foam.cellCount);
     const dmat3 turn = motionBetween(foam, copy, 0).turn;
@@ -92,7 +92,7 @@ TEST(TileFoam, AnAssetOfAnyPresetHasTheSameCellsInEachCopy) {
     copy.sites = foam.sites;
     copy.orientations = foam.orientations;
     copy.lobeAxes = foam.lobeAxes;
-    EXPECT_TRUE(sameBytes(copy, foam)) << preset;
+    EXPECT_TRUE(haveSameBits(copy, foam)) << preset;
   }
 }
 
