@@ -228,14 +228,16 @@ void countWork(WalkWork work) {
 vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   float logCutoff = walkSet.block.logCutoff, logQuantile = walkSet.block.logQuantile;
   float logBefore = walk.logTransmittance;
+  float logPassed = 0.0;  // of this part alone: beyond the floats, both its ends are at -infinity
   float end = min(tEnd, walk.ray.tMax) - walk.tStart;
   vec3 colour = vec3(0.0);
   WalkWork work = WalkWork(0u, 0u, 0u, 0u, 0u);
   Stretch stretch;
   while (walk.logTransmittance >= logCutoff && findStretch(walk, end, isSeen, stretch, work)) {
     float opticalDepth = stretch.density * (stretch.tFar - stretch.tNear);
-    if (isSeen) colour += exp(walk.logTransmittance - logBefore) * opacity(opticalDepth) * stretch.colour;
-    float logAfter = walk.logTransmittance - opticalDepth;
+    if (isSeen) colour += exp(logPassed) * opacity(opticalDepth) * stretch.colour;
+    logPassed -= opticalDepth;
+    float logAfter = logBefore + logPassed;
     bool isHit = walk.logTransmittance >= logQuantile && logAfter < logQuantile;
     if (isHit) describeHit(walk, stretch, logQuantile);
     walk.passed = stretch.tFar;
@@ -244,7 +246,7 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   }
   walk.cells += work.cells;
   countWork(work);
-  return vec4(colour, opacity(logBefore - walk.logTransmittance));
+  return vec4(colour, coverageOf(logPassed));
 }
 
 // Premultiplied linear colour of the ray's part from where the walk stands to tEnd, and 1 - T of this part. Each part is decoded

@@ -1,4 +1,4 @@
-// Snaps a foam to the lattices of its asset, before anything is built on its numbers. Internal to baker/bake.
+// Snaps a foam to the lattices of its asset, before anything is built on its numbers.
 #pragma once
 
 #include "baker/bake/bake.h"

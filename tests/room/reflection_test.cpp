@@ -59,6 +59,7 @@ TEST(Reflection, OfTheFoamIsTheRasterOfTheMirroredCamera) {
   const std::vector<float> rasterized = rasterizeMirrored(room);
   const RoomGeometry meshes(room.stage().room());
   double sum = 0, foam = 0, largest = 0;
+  glm::uvec2 worst(0);
   uint32_t pixels = 0, steps = 0;
   for (uint32_t y = 0; y < kRoomExtent.height; ++y) {
     for (uint32_t x = 0; x < kRoomExtent.width; ++x) {
@@ -71,6 +72,7 @@ TEST(Reflection, OfTheFoamIsTheRasterOfTheMirroredCamera) {
       const glm::dvec3 difference = coded(walked) - coded(rasterized);
       sum += glm::dot(difference, difference) / 3;
       const double error = std::max({std::abs(difference.x), std::abs(difference.y), std::abs(difference.z)});
+      if (error > largest) worst = {x, y};
       largest = std::max(largest, error);
       steps += error > 1 / 255.0;
       foam += rasterized[texel + 3];
@@ -81,8 +83,8 @@ TEST(Reflection, OfTheFoamIsTheRasterOfTheMirroredCamera) {
   EXPECT_GT(foam / pixels, 0.1) << "the mirror hardly shows the foam";
   const double psnr = -10 * std::log10(sum / pixels);
   EXPECT_GE(psnr, 70);  // colours as seen from where the ray is reflected: 59
-  std::printf("reflected foam against the raster of the mirrored camera: %.2f dB over %u pixels, largest error %.4f, %u pixels above 1/255\n",
-              psnr, pixels, largest, steps);
+  std::printf("reflected foam against the raster of the mirrored camera: %.2f dB over %u pixels, largest error %.4f at (%u, %u), %u pixels above 1/255\n",
+              psnr, pixels, largest, worst.x, worst.y, steps);
 }
 
 }  // namespace

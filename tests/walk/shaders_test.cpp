@@ -116,6 +116,32 @@ TEST_F(EngineShader, SegmentsBlendToTheWholeRay) {
   EXPECT_GT(inTwo, 50u);
 }
 
+// Behind what is opaque beyond the floats; its cells are 2^100 dense and some 2^30 long.
+TEST_F(EngineShader, APartBehindOneThatLetsNothingThroughIsWhatItIsAlone) {
+  constexpr float kSize = 0x1p32f;
+  Foam foam = makeRandomFoam(150, 4, 2, 5);
+  for (glm::vec3& site : foam.sites) site *= kSize;
+  for (float& radius : foam.radii) radius *= kSize;
+  for (float& density : foam.densities) density = 0x1p100f;
+  stage_.move(instance_, stage_.open(bakeScene(foam, "exact", 64)), {});
+  std::vector<Asked> asked;
+  for (const Asked& ray : randomAsked(200)) {
+    const glm::vec3 origin = kSize * glm::vec3(ray.origin[0], ray.origin[1], ray.origin[2]);
+    asked.push_back(ask(origin, {ray.direction[0], ray.direction[1], ray.direction[2]}, kSize));
+  }
+  FrothWalkInfo info = walkInfo();
+  info.cutoff = -1;
+  size_t bothOpaque = 0;
+  for (const Answer& answer : call(kSplitRay, asked, info)) {
+    for (const float* part : {answer.first, answer.second, answer.third}) {
+      for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::isfinite(part[c]));
+      EXPECT_TRUE(part[3] == 0 || part[3] == 1) << part[3];
+    }
+    bothOpaque += answer.second[3] == 1 && answer.third[3] == 1;
+  }
+  EXPECT_GT(bothOpaque, 20u);
+}
+
 TEST_F(EngineShader, LocatesThePowerCellThatTheHostFinds) {
   std::vector<Asked> asked = randomAsked(1000);
   for (Asked& point : asked) point.hint[0] = 0;

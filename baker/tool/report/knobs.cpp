@@ -1,10 +1,10 @@
 // Which values each knob is turned to, and what law its error should follow.
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "baker/bake/snap_cells.h"
 #include "baker/tool/report/config.h"
 
 namespace froth {
@@ -58,16 +58,11 @@ double halfStep(double bits) {
   return 0.5 * std::exp2(-bits);
 }
 
-// The lattice of positions divides the largest power of two within the largest extent.
+// A site lies within half a step of its place along each axis.
 double mostErrorOfSites(double bits, const Foam& foam) {
-  glm::dvec3 low(foam.sites[0]), high(foam.sites[0]);
-  for (const glm::vec3& site : foam.sites) {
-    low = glm::min(low, glm::dvec3(site));
-    high = glm::max(high, glm::dvec3(site));
-  }
-  const glm::dvec3 size = high - low;
-  const double extent = std::max({size.x, size.y, size.z});
-  return std::sqrt(3.0) * halfStep(bits) * std::exp2(std::floor(std::log2(extent > 0 ? extent : foam.radii[0])));
+  BakeKnobs knobs;
+  knobs.positionBits = static_cast<uint32_t>(bits);
+  return std::sqrt(3.0) * 0.5 * makeLattices(foam, knobs).positionStep;
 }
 
 // Half a step along both axes of the octahedron's square, which spans 2 of 2^bits - 2 steps, moves a point of a side by sqrt(6) of
