@@ -7,7 +7,8 @@
 namespace froth {
 
 Status appendFrame(std::span<const uint8_t> content, int level, std::vector<uint8_t>& stored) {
-  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
+  // Of many small sections most of the time would go into contexts. What was compressed before changes no byte.
+  thread_local const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, level);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
   const size_t before = stored.size();

@@ -132,6 +132,21 @@ TEST(Limits, ChunksOfUnlikeSizeCostWhatTheirCellsDo) {
   EXPECT_LE(visibilityBytes(found.status), 72u * (kSmall + (kLarge + 255) / 256));
 }
 
+// A legal file; each chunk has a workgroup, and devices take as few as 65,535 along one axis.
+TEST(Limits, SeventyThousandChunksOfOneCellAreDrawnAsOneChunk) {
+  constexpr uint32_t kCount = 70000, kSize = 64;
+  std::vector<BallCell> cells = makeCloud(kCount);
+  for (BallCell& cell : cells) cell.site *= glm::vec3(12, 12, 4);  // most of them outside the view
+  const auto draw = [](const AssetContents& contents) {
+    return Stage(contents, {kSize, kSize}).draw(Method::kRaster, frontView(kSize));
+  };
+  const Frame expected = draw(makeBallAsset(cells)), found = draw(makeBallAsset(cells, std::vector<uint32_t>(kCount, 1)));
+  EXPECT_EQ(found.status.bits, 0u);
+  EXPECT_GT(found.status.visibleCells, 1000u);
+  EXPECT_EQ(found.colour.values, expected.colour.values);
+  EXPECT_EQ(found.distance.values, expected.distance.values);
+}
+
 uint32_t dispatchedX = 0, dispatchedY = 0;
 
 VKAPI_ATTR void VKAPI_CALL noteDispatch(VkCommandBuffer, uint32_t x, uint32_t y, uint32_t) {
@@ -139,7 +154,6 @@ VKAPI_ATTR void VKAPI_CALL noteDispatch(VkCommandBuffer, uint32_t x, uint32_t y,
   dispatchedY = y;
 }
 
-// 70,000 chunks of one cell are a legal file, and every chunk has a workgroup.
 TEST(Limits, DispatchesOverListsFitWhatEveryDeviceTakes) {
   DeviceTable table;
   table.vkCmdDispatch = noteDispatch;
