@@ -43,7 +43,7 @@ void expectPixelsArePeepholes(const View& view) {
   EXPECT_GT(seen, 15u);
 }
 
-TEST(Lenses, EveryPixelShowsWhatAPinholeAlongItsRayShows) {
+TEST(ReferenceLenses, EveryPixelShowsWhatAPinholeAlongItsRayShows) {
   expectPixelsArePeepholes(viewOf(LensKind::kFisheye, 40, 40, 9));
   expectPixelsArePeepholes(viewOf(LensKind::kEquirectangular, 64, 32, 32 / kPi));
   View view = viewOf(LensKind::kKannalaBrandt, 40, 30, 12);
@@ -60,7 +60,7 @@ TEST(Lenses, EveryPixelShowsWhatAPinholeAlongItsRayShows) {
 }
 
 // Six pinholes with an angle of view of 90 degrees, and the same directions from longitudes and latitudes.
-TEST(Lenses, TheFacesOfACubeShowAPanorama) {
+TEST(ReferenceLenses, TheFacesOfACubeShowAPanorama) {
   const Foam foam = randomFoam(150, 2, 1, 9);
   View panorama = viewOf(LensKind::kEquirectangular, 256, 128, 128 / kPi);
   panorama.worldFromCamera = {1, 0, 0, 0.1, 0, 1, 0, 0.2, 0, 0, 1, -0.1};
@@ -97,7 +97,7 @@ TEST(Lenses, TheFacesOfACubeShowAPanorama) {
 //     __   :
 //    /  \--:-- ray, t = 0 at the plane
 //    \__/  :
-TEST(Lenses, OrthographicRaysStartOnThePlaneOfTheCamera) {
+TEST(ReferenceLenses, OrthographicRaysStartOnThePlaneOfTheCamera) {
   View view = viewOf(LensKind::kOrthographic, 9, 9, 4);
   view.worldFromCamera = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   view.cx = view.cy = 4.5;
@@ -115,7 +115,7 @@ TEST(Lenses, OrthographicRaysStartOnThePlaneOfTheCamera) {
   EXPECT_NEAR(*before.depth.pixel(4, 4), 4 + std::log(2) / 50, 1e-6);
 }
 
-TEST(Lenses, AnOrthographicViewIsThatOfAFarPinhole) {
+TEST(ReferenceLenses, AnOrthographicViewIsThatOfAFarPinhole) {
   const Foam foam = randomFoam(200, 3, 2, 8);
   View parallel = lookAt({1, 2, -4}, {0, 0, 0}, 60, 50, 1);
   parallel.fx = parallel.fy = 20;
@@ -138,7 +138,7 @@ TEST(Lenses, AnOrthographicViewIsThatOfAFarPinhole) {
   EXPECT_LT(mostDepth, 0.1) << "floats a million away";
 }
 
-TEST(Lenses, NearTestsApplyWhereTheyMeanSomething) {
+TEST(ReferenceLenses, NearTestsApplyWhereTheyMeanSomething) {
   const Foam foam = foamOf({{{0, 0, 2}, 1, 3}});
   ReferenceOptions near = plainOptions(), deep = plainOptions();
   near.nearRatio = 3;  // nearer than three radii
@@ -161,7 +161,7 @@ TEST(Lenses, NearTestsApplyWhereTheyMeanSomething) {
   EXPECT_GT(alphaOf(LensKind::kOrthographic, deep), 0.9);
 }
 
-TEST(Lenses, PixelsWithoutARayAreBlack) {
+TEST(ReferenceLenses, PixelsWithoutARayAreBlack) {
   const Foam foam = foamOf({{{0, 0, 0}, 5, 100, {1, 1, 1}}});
   const View view = viewOf(LensKind::kFisheye, 20, 20, 2);  // half a turn after 6.28 pixels
   const RenderedImages images = renderFoam(foam, view);
