@@ -2,7 +2,7 @@
 // that it draws shows a barrier that is missing; and the validation layers know nothing of memory that is reached by address.
 //
 // What it does not see: dispatches that touch different parts of an array are taken to touch the same; the second and later elements
-// of arrays that hold addresses (chunks); barriers inside of a shader.
+// of arrays that hold addresses (chunks). Barriers inside of a shader: workgroup_races_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

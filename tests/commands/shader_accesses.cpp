@@ -3,37 +3,12 @@
 #include <map>
 #include <stdexcept>
 
+#include "tests/commands/spirv.h"
+
 namespace froth::test {
 namespace {
 
-// Of the SPIR-V specification.
-enum Op : uint32_t {
-  kTypeInt = 21, kTypeFloat = 22, kTypeVector = 23, kTypeArray = 28, kTypeRuntimeArray = 29, kTypeStruct = 30,
-  kTypePointer = 32, kConstant = 43, kFunction = 54, kFunctionParameter = 55, kFunctionEnd = 56, kFunctionCall = 57,
-  kVariable = 59, kLoad = 61, kStore = 62, kCopyMemory = 63, kAccessChain = 65, kInBoundsAccessChain = 66,
-  kPtrAccessChain = 67, kDecorate = 71, kMemberDecorate = 72, kCompositeConstruct = 80, kCompositeExtract = 81,
-  kCompositeInsert = 82, kCopyObject = 83, kImageFetch = 95, kImageRead = 98, kImageWrite = 99, kSelect = 169,
-  kAtomicLoad = 227, kAtomicStore = 228, kAtomicExchange = 229, kAtomicXor = 242, kPhi = 245, kReturnValue = 254,
-  kCopyLogical = 400
-};
-enum Storage : uint32_t {
-  kUniformConstant = 0, kUniform = 2, kWorkgroup = 4, kPushConstant = 9, kStorageBuffer = 12, kPhysicalStorageBuffer = 5349
-};
-constexpr uint32_t kDecorationArrayStride = 6, kDecorationBinding = 33, kDecorationOffset = 35;
-constexpr uint32_t kHeaderWords = 5;
-
-struct Instruction {
-  uint32_t op;
-  std::span<const uint32_t> words;  // with the first
-};
-
-std::vector<Instruction> split(std::span<const uint32_t> spirv) {
-  std::vector<Instruction> instructions;
-  for (size_t at = kHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
-    instructions.push_back({spirv[at] & 0xffff, spirv.subspan(at, spirv[at] >> 16)});
-  }
-  return instructions;
-}
+using namespace spirv;
 
 struct Type {
   uint32_t op = 0;
@@ -87,11 +62,11 @@ class Tracer {
         constants_[w[2]] = w[3];
         break;
       case kDecorate:
-        if (w[2] == kDecorationArrayStride) strides_[w[1]] = w[3];
-        if (w[2] == kDecorationBinding) bindings_[w[1]] = w[3];
+        if (w[2] == kArrayStride) strides_[w[1]] = w[3];
+        if (w[2] == kBinding) bindings_[w[1]] = w[3];
         break;
       case kMemberDecorate:
-        if (w[3] == kDecorationOffset) offsets_[{w[1], w[2]}] = w[4];
+        if (w[3] == kOffset) offsets_[{w[1], w[2]}] = w[4];
         break;
       case kVariable:
         declareVariable(w[1], w[2], w[3]);
@@ -196,12 +171,8 @@ class Tracer {
       case kImageRead:
         note(images_[w[3]], AccessMode::kRead);
         break;
-      case kAtomicStore:
-        note(places_[w[1]], AccessMode::kAtomic);
-        break;
       default:
-        if (instruction.op == kAtomicLoad || (instruction.op >= kAtomicExchange && instruction.op <= kAtomicXor))
-          note(places_[w[3]], AccessMode::kAtomic);
+        if (isAtomic(instruction.op)) note(places_[w[instruction.op == kAtomicStore ? 1 : 3]], AccessMode::kAtomic);
     }
   }
 
