@@ -19,7 +19,7 @@ class ImageRenderer {
         rays_(view),
         sceneDistance_(options.sceneDistance),
         settings_{Real(options.cutoff), Real(std::log(options.depthQuantile)),
-                  Real(options.detailSharpness)} {
+                  Real(options.detailSharpness), Real(options.leastShare)} {
     images_ = emptyImages(view);
     sources_.resize(cells.cells.size());
     for (uint32_t cell = 0; cell < cells.rankOf.size(); ++cell) {

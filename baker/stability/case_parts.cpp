@@ -117,7 +117,7 @@ std::vector<View> outsideViews(double distance) {
 std::vector<StiffCase> builtInCases() {
   std::vector<StiffCase> all;
   for (auto* family : {siteCases, placeCases, sizeCases, densityCases, faceCases, eyeCases, appearanceCases, viewCases,
-                       inputCases}) {
+                       severalCases, depthCases, layerCases, inputCases}) {
     std::vector<StiffCase> cases = family();
     all.insert(all.end(), std::make_move_iterator(cases.begin()), std::make_move_iterator(cases.end()));
   }

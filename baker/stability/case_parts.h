@@ -55,6 +55,9 @@ std::vector<StiffCase> faceCases();        // face_cases.cpp
 std::vector<StiffCase> eyeCases();         // eye_cases.cpp
 std::vector<StiffCase> appearanceCases();  // appearance_cases.cpp
 std::vector<StiffCase> viewCases();        // view_cases.cpp
+std::vector<StiffCase> severalCases();     // several_cases.cpp
+std::vector<StiffCase> depthCases();       // depth_cases.cpp
+std::vector<StiffCase> layerCases();       // layer_cases.cpp
 std::vector<StiffCase> inputCases();       // input_cases.cpp
 
 }  // namespace froth

@@ -1,4 +1,5 @@
 // Rays of a view's pixels, cast one by one through the runtime's public API.
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <span>
@@ -18,21 +19,25 @@ constexpr float kParallelApex = 1e15f;
 struct PixelRay {
   size_t pixel;
   ViewRay ray;
+  float end;  // > 0, as 0 means no end to the runtime
 };
 
-std::vector<PixelRay> raysOf(const View& view) {
+std::vector<PixelRay> raysOf(const View& view, const Image* ends) {
   const ViewRays rays(view);
   std::vector<PixelRay> all;
   for (uint32_t y = 0; y < view.height; ++y) {
     for (uint32_t x = 0; x < view.width; ++x) {
-      if (const std::optional<ViewRay> ray = rays.ofPixel(x, y)) all.push_back({size_t{y} * view.width + x, *ray});
+      const std::optional<ViewRay> ray = rays.ofPixel(x, y);
+      const float end = ends ? *ends->pixel(x, y) : std::numeric_limits<float>::infinity();
+      if (ray) all.push_back({size_t{y} * view.width + x, *ray, std::max(end, std::numeric_limits<float>::min())});
     }
   }
   return all;
 }
 
-FrothGpuRay gpuRayOf(const View& view, const ViewRay& ray) {
+FrothGpuRay gpuRayOf(const View& view, const ViewRay& ray, float end) {
   FrothGpuRay gpuRay{};
+  gpuRay.tMax = end;
   for (int axis = 0; axis < 3; ++axis) {
     gpuRay.origin[axis] = static_cast<float>(ray.offset[axis]);
     gpuRay.direction[axis] = static_cast<float>(ray.direction[axis]);
@@ -41,9 +46,10 @@ FrothGpuRay gpuRayOf(const View& view, const ViewRay& ray) {
   return gpuRay;
 }
 
-FrothRay queryRayOf(const View& view, const ViewRay& ray) {
+FrothRay queryRayOf(const View& view, const ViewRay& ray, float end) {
   const glm::dvec3 origin = eyeOf(view) + ray.offset;
   FrothRay queryRay{};
+  queryRay.tMax = end;
   for (int axis = 0; axis < 3; ++axis) {
     queryRay.origin[axis] = origin[axis];
     queryRay.direction[axis] = ray.direction[axis];
@@ -124,9 +130,9 @@ Result<std::vector<FrothGpuHit>> GpuRenderer::State::castAndRead(const glm::dvec
 }
 
 Result<RayFrame> GpuRenderer::castRays(const View& view, const RayOptions& options) {
-  const std::vector<PixelRay> rays = raysOf(view);
+  const std::vector<PixelRay> rays = raysOf(view, options.ends);
   std::vector<FrothGpuRay> asked;
-  for (const PixelRay& one : rays) asked.push_back(gpuRayOf(view, one.ray));
+  for (const PixelRay& one : rays) asked.push_back(gpuRayOf(view, one.ray, one.end));
   const Result<std::vector<FrothGpuHit>> hits = state_->castAndRead(eyeOf(view), options, asked);
   if (!hits) return hits.error();
   RayFrame frame{emptyRayImages(view)};
@@ -142,9 +148,9 @@ Result<RayFrame> GpuRenderer::castRays(const View& view, const RayOptions& optio
 }
 
 Result<RayFrame> GpuRenderer::queryRays(const View& view, const RayOptions& options) {
-  const std::vector<PixelRay> rays = raysOf(view);
+  const std::vector<PixelRay> rays = raysOf(view, options.ends);
   std::vector<FrothRay> asked;
-  for (const PixelRay& one : rays) asked.push_back(queryRayOf(view, one.ray));
+  for (const PixelRay& one : rays) asked.push_back(queryRayOf(view, one.ray, one.end));
   std::vector<FrothRayHit> hits(rays.size());
   FrothCastInfo info{};
   info.structSize = sizeof(info);

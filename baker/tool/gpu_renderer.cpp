@@ -51,12 +51,15 @@ FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options) 
   info.maxSteps = options.maxSteps;
   info.tileForm = options.tileForm;
   info.camera = cameraOf(view);
+  for (int axis = 0; axis < 2; ++axis) info.camera.jitter[axis] = options.jitter[axis];
   return info;
 }
 
 GpuRenderer::State::~State() {
   if (host) destroyImages();
-  if (rays.image) host->destroyImage(rays);
+  for (HostImage* image : {&rays, &sceneDepth}) {
+    if (image->image) host->destroyImage(*image);
+  }
   if (context) frothDestroyContext(context, UINT64_MAX);  // every submission was waited for
 }
 
@@ -192,6 +195,16 @@ Status GpuRenderer::State::setRayMap(const View& wanted) {
   return {};
 }
 
+Status GpuRenderer::State::setSceneDepth(const View& wanted, const Image* ends) {
+  if (sceneDepth.image) host->destroyImage(sceneDepth);
+  if (!ends) return {};
+  const bool isProjection = lensClassesOf(wanted) != FROTH_LENS_CLASS_MAPPED;
+  Result<HostImage> made = host->createImage(isProjection ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_R32_SFLOAT, extentOf(wanted));
+  if (!made) return made.error();
+  sceneDepth = *made;
+  return host->writeImage(sceneDepth, sceneDepthOf(wanted, *ends));
+}
+
 Status GpuRenderer::State::submitFrame(const std::function<Status(VkCommandBuffer)>& record) {
   return host->submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
     FrothFrame frame{};
@@ -212,6 +225,7 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
   if (distance.image) info.distance = host->describe(distance);
   if (normal.image) info.normal = host->describe(normal);
   if (info.camera.lens.kind == FROTH_LENS_RAY_MAP) info.camera.lens.rayMap = host->describeInput(rays);
+  if (sceneDepth.image) info.sceneDepth = host->describeInput(sceneDepth);
 
   const auto record = [&](VkCommandBuffer commands) {
     if (method == GpuMethod::kRaster) return check(frothRasterize(context, view, commands, &info), "frothRasterize");
@@ -285,6 +299,7 @@ Status GpuRenderer::load(const AssetInput& asset, const Progress& progress, cons
 Result<GpuFrame> GpuRenderer::State::drawAndRead(const View& wanted, const GpuRenderOptions& drawing, bool wantsAllChannels) {
   if (Status ready = setExtent(extentOf(wanted), wantsAllChannels); !ready) return ready.error();
   if (Status ready = setRayMap(wanted); !ready) return ready.error();
+  if (Status ready = setSceneDepth(wanted, drawing.ends); !ready) return ready.error();
   const Result<FrothViewStatus> status = drawAndAsk(renderInfoOf(wanted, drawing), drawing.method);
   if (!status) return status.error();
   Result<RenderedImages> images = readImages(drawing.readsNormal);
@@ -303,6 +318,7 @@ Result<GpuFrame> GpuRenderer::renderColour(const View& view, const GpuRenderOpti
 Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptions& options) {
   if (Status ready = state_->setExtent(extentOf(view), options.isFull); !ready) return ready.error();
   if (Status ready = state_->setRayMap(view); !ready) return ready.error();
+  if (Status ready = state_->setSceneDepth(view, options.ends); !ready) return ready.error();
   return state_->drawAndAsk(renderInfoOf(view, options), options.method);
 }
 

@@ -36,6 +36,8 @@ struct GpuRenderOptions {
   bool isFull = false;    // of draw(): distance and normal too, all in float
   bool readsNormal = true;  // of render(); else the image is empty
   FrothTileForm tileForm = FROTH_TILE_FORM_BY_LENGTH;  // of raster
+  glm::vec2 jitter{0};           // [pixels] of the camera
+  const Image* ends = nullptr;  // 1 channel, of the view's size: where the scene ends each ray [world units]; null: nowhere
 };
 
 struct GpuFrame {
@@ -45,6 +47,7 @@ struct GpuFrame {
 
 struct RayOptions {
   uint32_t maxSteps = 0;  // of one ray; 0: the runtime's default
+  const Image* ends = nullptr;  // as GpuRenderOptions::ends
 };
 
 // What the rays of a view's pixels say, each cast by itself and without a cut-off.

@@ -24,6 +24,8 @@ struct GpuRenderer::State {
   Status setExtent(VkExtent2D wanted, bool wantsAllChannels);
   // Uploads the view's ray map, if it has one.
   Status setRayMap(const View& wanted);
+  // Uploads where the scene ends the view's rays, if it does.
+  Status setSceneDepth(const View& wanted, const Image* ends);
   void destroyImages();
 
   // Records frothUpdate and the uploads, then what `record` adds, if it is given.
@@ -44,7 +46,7 @@ struct GpuRenderer::State {
   bool hasAsset = false;
   FrothView view{};
   VkExtent2D extent{};
-  HostImage colour, distance, normal, rays;
+  HostImage colour, distance, normal, rays, sceneDepth;
   std::shared_ptr<const RayMap> uploadedRays;  // what `rays` holds
   std::string lastMessage;
 };

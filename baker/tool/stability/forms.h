@@ -30,7 +30,8 @@ struct Form {
 inline constexpr double kShippedCutoff = 1e-3;
 
 bool isDrawnAsShipped(const std::string& preset);
-std::vector<Form> formsOf(const std::string& preset);
+// The reference in float knows no several instances.
+std::vector<Form> formsOf(const StiffCase& stiff, const std::string& preset);
 
 // What a form shows of a view.
 struct DrawnForm {
@@ -40,15 +41,17 @@ struct DrawnForm {
   bool endsInTime = true;                     // no walk takes more steps than there are cells
 };
 
-// Options of the reference for a view of a case.
-ReferenceOptions referenceOptions(const View& view);
-
 // A view of a case, in the frames of those who draw it.
 struct CaseView {
-  View ofFoam;    // BakedCase::foam
-  View ofWorld;   // where the asset is placed
+  View ofFoam;   // BakedCase::foam
+  View ofWorld;  // where the asset is placed
+  const Image* ends;  // as StiffCase::ends; null: nowhere
+  glm::vec2 jitter;   // StiffCase::jitter
 };
+// Refers to the case's images.
 CaseView caseViewOf(const StiffCase& stiff, size_t index, const BakedCase& baked);
+// Options of the reference for a view of a case.
+ReferenceOptions referenceOptions(const StiffCase& stiff, size_t index);
 
 // One thread at a time.
 class FormDrawer {
@@ -58,16 +61,15 @@ class FormDrawer {
 
   // Keeps a reference to `baked`.
   Status load(const StiffCase& stiff, const BakedCase& baked, bool isShippedToo, const Progress& progress);
-  Result<DrawnForm> draw(const Form& form, const CaseView& view);
+  Result<DrawnForm> draw(const Form& form, const StiffCase& stiff, size_t index);
 
   const HostDeviceInfo& device() const { return inFloat_->device(); }
 
  private:
   FormDrawer(std::unique_ptr<GpuRenderer> inFloat, std::unique_ptr<GpuRenderer> asShipped)
       : inFloat_(std::move(inFloat)), asShipped_(std::move(asShipped)) {}
-  Result<DrawnForm> drawReference(const View& view);
-  Result<DrawnForm> drawImages(const Form& form, const View& view);
-  Result<DrawnForm> castRays(const Form& form, const View& view);
+  Result<DrawnForm> drawImages(const Form& form, const CaseView& view);
+  Result<DrawnForm> castRays(const Form& form, const CaseView& view);
 
   // Two contexts: one keeps all values as floats and checks every index, the other is what a game creates.
   std::unique_ptr<GpuRenderer> inFloat_, asShipped_;

@@ -40,21 +40,21 @@ void addTrace(const WalkTrace& trace, WalkTrace& sum) {
   sum.lost += trace.lost;
 }
 
-Result<std::vector<RenderedImages>> drawOriginals(const Foam& foam, const std::vector<View>& views, const Progress& progress) {
+Result<std::vector<RenderedImages>> drawOriginals(const StiffCase& stiff, const Foam& foam, const Progress& progress) {
   std::vector<RenderedImages> originals;
   const ReferenceRenderer reference(foam);
-  for (const View& view : views) {
-    Result<RenderedImages> images = reference.render(view, referenceOptions(view), progress);
+  for (size_t index = 0; index < stiff.views.size(); ++index) {
+    Result<RenderedImages> images = reference.render(stiff.views[index], referenceOptions(stiff, index), progress);
     if (!images) return images.error();
     originals.push_back(std::move(*images));
   }
   return originals;
 }
 
-PresetOutcome outcomeOf(const std::string& preset) {
+PresetOutcome outcomeOf(const StiffCase& stiff, const std::string& preset) {
   PresetOutcome outcome;
   outcome.preset = preset;
-  for (const Form& form : formsOf(preset)) outcome.renderers.push_back({form.name});
+  for (const Form& form : formsOf(stiff, preset)) outcome.renderers.push_back({form.name});
   return outcome;
 }
 
@@ -147,7 +147,7 @@ const ImageBound& boundOf(const Form& form, const FormBounds& bounds) {
   return form.isShipped ? bounds.shipped : bounds.whole;
 }
 
-// Rays that are cast one by one know no near limits.
+// Rays that are cast one by one know no near limits, and leave out detail sites of little weight (kLeastShare of gpu/walk_cell.glsl).
 Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions& options, const BoundOptions& boundOptions) {
   Result<ImageBound> whole = boundImage(draw, options, boundOptions);
   if (!whole) return whole.error();
@@ -157,11 +157,8 @@ Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions&
   if (!atTwice) return atTwice.error();
   FormBounds bounds{std::move(*whole), {}, {}};
   bounds.shipped = boundShippedForm(bounds.whole, *atTwice);
-  if (options.nearRatio == 0 && options.nearDepth == 0) {
-    bounds.rays = boundOfRays(bounds.whole);
-    return bounds;
-  }
   all.nearRatio = all.nearDepth = 0;
+  all.leastShare = 1.0 / 1024;
   const Result<ImageBound> ofRays = boundImage(draw, all, boundOptions);
   if (!ofRays) return ofRays.error();
   bounds.rays = boundOfRays(*ofRays);
@@ -204,20 +201,20 @@ Result<std::unique_ptr<StabilityRunner>> StabilityRunner::create(const GpuDevice
 }
 
 Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const BakedCase& baked, PresetOutcome& outcome) {
-  const CaseView view = caseViewOf(stiff, index, baked);
-  const std::vector<Form> forms = formsOf(outcome.preset);
+  const std::vector<Form> forms = formsOf(stiff, outcome.preset);
   std::vector<DrawnForm> drawn;
   for (size_t i = 0; i < forms.size(); ++i) {
-    Result<DrawnForm> form = drawer_->draw(forms[i], view);
+    Result<DrawnForm> form = drawer_->draw(forms[i], stiff, index);
     if (!form) return form.error();
     outcome.renderers[i].isRepeatable = outcome.renderers[i].isRepeatable && form->isRepeatable;
     outcome.renderers[i].endsInTime = outcome.renderers[i].endsInTime && form->endsInTime;
     drawn.push_back(std::move(*form));
   }
-  const ReferenceDraw draw = [&](const ReferenceOptions& options) { return baked.reference->render(view.ofFoam, options); };
+  const View view = caseViewOf(stiff, index, baked).ofFoam;
+  const ReferenceDraw draw = [&](const ReferenceOptions& options) { return drawExactly(baked, view, options); };
   BoundOptions boundOptions;
   for (;;) {
-    const Result<FormBounds> bounds = boundForms(draw, referenceOptions(view.ofFoam), boundOptions);
+    const Result<FormBounds> bounds = boundForms(draw, referenceOptions(stiff, index), boundOptions);
     if (!bounds) return bounds.error();
     const ViewChecks checks = checkForms(forms, drawn, *bounds);
     if (checks.isOver() && boundOptions.samples < kSurerSamples) {
@@ -238,14 +235,14 @@ Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const Bake
 Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, const std::vector<RenderedImages>& originals,
                                   PresetOutcome& outcome, const Progress& progress) {
   BakedCase baked;
-  if (Status status = bakeCase(foam, outcome.preset, stiff.chunkCells, baked, progress); !status) return status;
+  if (Status status = bakeCase(stiff, foam, outcome.preset, baked, progress); !status) return status;
   if (Status loaded = drawer_->load(stiff, baked, isDrawnAsShipped(outcome.preset), progress); !loaded) return loaded;
   outcome.encodingPsnr = std::numeric_limits<double>::infinity();
   for (size_t index = 0; index < stiff.views.size(); ++index) {
     if (Status run = runView(stiff, index, baked, outcome); !run) return run;
     const View view = caseViewOf(stiff, index, baked).ofFoam;
     addTrace(traceWalks(baked.foam, baked.walkGraph, view), outcome.walks);
-    const Result<RenderedImages> decoded = baked.reference->render(view, referenceOptions(view));
+    const Result<RenderedImages> decoded = baked.reference->render(view, referenceOptions(stiff, index));
     if (!decoded) return decoded.error();
     const Result<ImageDifference> encoding = compareImages(decoded->colour, originals[index].colour);
     if (!encoding) return encoding.error();
@@ -256,9 +253,9 @@ Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, cons
 }
 
 Result<PresetOutcome> StabilityRunner::runOne(const StiffCase& stiff, const std::string& preset, const Progress& progress) {
-  const Result<std::vector<RenderedImages>> originals = drawOriginals(stiff.foam, stiff.views, progress);
+  const Result<std::vector<RenderedImages>> originals = drawOriginals(stiff, stiff.foam, progress);
   if (!originals) return originals.error();
-  PresetOutcome outcome = outcomeOf(preset);
+  PresetOutcome outcome = outcomeOf(stiff, preset);
   if (Status run = runPreset(stiff, stiff.foam, *originals, outcome, progress); !run) return run.error();
   return outcome;
 }
@@ -274,10 +271,10 @@ Result<CaseOutcome> StabilityRunner::run(const StiffCase& stiff, const std::vect
     if (imported) foam = std::move(*imported);
   }
   if (outcome.refusal.empty()) {
-    const Result<std::vector<RenderedImages>> originals = drawOriginals(foam, stiff.views, progress);
+    const Result<std::vector<RenderedImages>> originals = drawOriginals(stiff, foam, progress);
     if (!originals) return originals.error();
     for (const std::string& preset : presets) {
-      outcome.presets.push_back(outcomeOf(preset));
+      outcome.presets.push_back(outcomeOf(stiff, preset));
       const Status run = runPreset(stiff, foam, *originals, outcome.presets.back(), progress);
       if (!run && run.error().kind == ErrorKind::kCancelled) return run.error();
       if (!run) outcome.faults.push_back({preset, "device", "error", 0, preset + ": " + run.error().message});
