@@ -1,7 +1,6 @@
 #include "baker/reference/several_foams.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "baker/reference/reference_state.h"
 
@@ -107,12 +106,14 @@ Result<RenderedImages> renderSeveral(std::span<const PlacedFoam> foams, const Vi
     own.roundingSeed += kSeedsOfFoam;  // the same cell errs in each instance by itself
   }
   RenderedImages images = emptyImages(view);
+  const ViewRays rays(view);
   const Status done = renderRows(view.height, progress, [&](uint32_t y) {
     std::vector<Stretch> stretches;
     for (uint32_t x = 0; x < view.width; ++x) {
       stretches.clear();
-      const double end = options.sceneDistance ? double{*options.sceneDistance->pixel(x, y)}
-                                               : std::numeric_limits<double>::infinity();
+      const std::optional<ViewRay> ray = rays.ofPixel(x, y);
+      if (!ray) continue;
+      const double end = endOfRay(options, *ray, x, y);
       for (const auto& foam : seen) foam->addStretches(x, y, end, stretches);
       writePixel(mergeStretches(stretches, options.cutoff, std::log(options.depthQuantile)), x, y, images);
     }

@@ -56,21 +56,6 @@ StiffCase ended(const std::string& name, const std::string& what, const std::str
   return stiff;
 }
 
-// Cells whose planes have whole quarters for x, y and z.
-Foam boxes() {
-  std::vector<CaseCell> cells;
-  for (int z = 0; z < 4; ++z) {
-    for (int y = -2; y < 2; ++y) {
-      for (int x = -2; x < 2; ++x) {
-        const auto i = static_cast<uint32_t>(cells.size());
-        const glm::vec3 site(0.5f * static_cast<float>(x) + 0.25f, 0.5f * static_cast<float>(y) + 0.25f, 0.5f * static_cast<float>(z));
-        cells.push_back({site, 0.375f, i % 3 == 0 ? 1.0f : 4.0f, kFaceToViewer, 5, i});
-      }
-    }
-  }
-  return foamOfCells(cells);
-}
-
 }  // namespace
 
 std::vector<StiffCase> depthCases() {
@@ -86,7 +71,7 @@ std::vector<StiffCase> depthCases() {
                 "Nothing is left of the stretch behind, or as much as rounding.", foam, allLenses(),
                 [foam](const ViewRay& ray, const glm::dvec3& start, uint32_t pixel) { return entryOf(foam, ray, start, pixel % 4); }),
           ended("depth/on_planes", "rays end in the planes between cells",
-                "As on spheres; which of two cells has the plane changes nothing.", boxes(),
+                "As on spheres; which of two cells has the plane changes nothing.", foamOfBoxes(),
                 {orthographicView({0.03, 0.02, -3}, {0.03, 0.02, 0}, 1.2), caseView({0, 0, -3}, {0, 0, 0})},
                 [](const ViewRay& ray, const glm::dvec3& start, uint32_t pixel) {
                   return (0.25 + 0.5 * (pixel % 3) - start.z) / ray.direction.z;

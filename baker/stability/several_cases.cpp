@@ -54,11 +54,19 @@ std::vector<StiffCase> severalCases() {
                    {caseView({0.4, -0.7, -3}, {0, 0, 0}), orthographicView({0, 0, -3}, {0, 0, 0}, 1.25)}};
   beside.places = {{}, {{1, 0, 0}, kUpright, 1}, {{-0.5, 0, 0}, kUpright, 1}, {{0, 1, 0}, kHalfTurn, 1}};
   cases.push_back(std::move(beside));
+  StiffCase ended = cases.front();
+  ended.name = "several/ended";
+  ended.what = "the first of these, whose rays the scene ends in the middle of both";
+  ended.analysis = "A stretch that is cut is as long as the scene's depth says, whichever instance it is of.";
+  for (const View& view : ended.views)
+    ended.ends.push_back({view.width, view.height, 1, std::vector<float>(size_t{view.width} * view.height, 3.5f)});
+  ended.ends.back().values.assign(ended.ends.back().values.size(), 0.5f);  // from within
   StiffCase far = cases.front();
   far.name = "several/far_away";
   far.what = "the first of these a million units from the origin";
   far.analysis = "Each place and the eye are subtracted in double.";
   far.moved = {1e6, -1e6, 1e6};
+  cases.push_back(std::move(ended));
   cases.push_back(std::move(far));
   return cases;
 }
