@@ -46,6 +46,7 @@ struct RaySegment {
 template <class Real>
 struct RaySettings {
   Real cutoff, logQuantile, sharpness;
+  Real leastShare = 0;
 };
 
 // Cuts the interval by all neighbours' planes; false when nothing is left.
@@ -72,15 +73,22 @@ Real blendHeight(std::span<const ViewDetail<Real>> details, const glm::vec<3, Re
 
 template <class Real>
 glm::vec<3, Real> blendColour(std::span<const ViewDetail<Real>> details, const glm::vec<3, Real>& query,
-                              Real sharpness) {
+                              Real sharpness, Real leastShare) {
   glm::vec<3, Real> sum(0);
-  Real weightSum = 0;
-  for (const ViewDetail<Real>& detail : details) {
-    const Real weight = foam::detailWeight(query, detail.place, sharpness);
-    sum += weight * detail.colour;
-    weightSum += weight;
-  }
-  return sum / foam::flooredWeightSum(weightSum);
+  Real weightSum = 0, shownSum = 0;
+  const auto addFrom = [&](Real leastWeight, Real& weights) {
+    for (const ViewDetail<Real>& detail : details) {
+      const Real weight = foam::detailWeight(query, detail.place, sharpness);
+      if (weight < leastWeight) continue;
+      sum += weight * detail.colour;
+      weights += weight;
+    }
+  };
+  addFrom(0, weightSum);
+  if (leastShare == 0 || weightSum == 0) return sum / foam::flooredWeightSum(weightSum);
+  sum = glm::vec<3, Real>(0);
+  addFrom(leastShare * weightSum, shownSum);
+  return sum / foam::flooredWeightSum(weightSum) * (weightSum / shownSum);
 }
 
 // Where a ray gains opacity in one cell, with constant density and colour; none: tFar <= tNear.
@@ -93,7 +101,7 @@ struct CellStretch {
 // Steps 3 to 6 for a cell whose interval the planes have cut.
 template <class Real>
 CellStretch<Real> shadeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>> details,
-                            const PrimaryRay<Real>& primary, Real sharpness, BallHit<Real> hit) {
+                            const PrimaryRay<Real>& primary, Real sharpness, BallHit<Real> hit, Real leastShare = 0) {
   const glm::vec<3, Real> centre = cell.centre - primary.offset;
   const Real facing = glm::dot(cell.frame.normal, primary.direction);
   const bool leavesThroughFace = facing >= 0;
@@ -116,7 +124,7 @@ CellStretch<Real> shadeCell(const ViewCell<Real>& cell, std::span<const ViewDeta
   CellStretch<Real> stretch{hit.tNear, hit.tFar, {}, {}};
   if (stretch.tNear < stretch.tFar) {
     stretch.query = queryAt(stretch.tNear);
-    stretch.colour = blendColour(details, stretch.query, sharpness);
+    stretch.colour = blendColour(details, stretch.query, sharpness, leastShare);
   }
   return stretch;
 }
@@ -149,7 +157,7 @@ RayResult<Real> compositeHits(const ViewCells<Real>& view, const PrimaryRay<Real
     const ViewCell<Real>& cell = view.cells[hit.rank];
     if (!clipByNeighbours(view.planesOf(cell), primary, hit)) continue;
     const CellStretch<Real> stretch =
-        shadeCell(cell, view.detailsOf(hit.rank), primary, settings.sharpness, hit);
+        shadeCell(cell, view.detailsOf(hit.rank), primary, settings.sharpness, hit, settings.leastShare);
     if (!(stretch.tNear < stretch.tFar)) continue;
     if (ray.depth < 0) ray.rank = hit.rank;
     const Real weight = compositeStretch(stretch.tNear, stretch.tFar, cell.density, stretch.colour, cell.frame.normal,

@@ -1,7 +1,5 @@
 #include "baker/reference/reference.h"
 
-#include <limits>
-
 #include "baker/camera/ray_map.h"
 #include "baker/reference/reference_state.h"
 
@@ -17,9 +15,9 @@ class ImageRenderer {
         cells_(cells),
         view_(view),
         rays_(view),
-        sceneDistance_(options.sceneDistance),
+        options_(options),
         settings_{Real(options.cutoff), Real(std::log(options.depthQuantile)),
-                  Real(options.detailSharpness)} {
+                  Real(options.detailSharpness), Real(options.leastShare)} {
     images_ = emptyImages(view);
     sources_.resize(cells.cells.size());
     for (uint32_t cell = 0; cell < cells.rankOf.size(); ++cell) {
@@ -41,8 +39,7 @@ class ImageRenderer {
     const std::optional<ViewRay> exact = rays_.ofPixel(x, y);
     if (!exact) return;
     const PrimaryRay<Real> primary{exact->offset, exact->direction};
-    const Real end = sceneDistance_ ? Real(*sceneDistance_->pixel(x, y)) : std::numeric_limits<Real>::infinity();
-    gatherHits(hierarchy_, cells_, eyeOf(view_) + exact->offset, primary, end, hits);
+    gatherHits(hierarchy_, cells_, eyeOf(view_) + exact->offset, primary, Real(endOfRay(options_, *exact, x, y)), hits);
     const RayResult<Real> ray = compositeHits(cells_, primary, settings_, hits);
     writePixel(ray, x, y, images_);
     if (ray.rank != UINT32_MAX) images_.cells[size_t{y} * view_.width + x] = sources_[ray.rank];
@@ -52,7 +49,7 @@ class ImageRenderer {
   const ViewCells<Real>& cells_;
   const View& view_;
   const ViewRays rays_;
-  const Image* const sceneDistance_;
+  const ReferenceOptions& options_;
   const RaySettings<Real> settings_;
   std::vector<uint32_t> sources_;  // [rank] the foam's cell
   RenderedImages images_;

@@ -1,12 +1,17 @@
 // What the renders of one foam and of several have in common.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
+#include "baker/camera/view_rays.h"
 #include "baker/reference/ball_hierarchy.h"
 #include "baker/reference/ray.h"
 #include "baker/reference/reference.h"
+#include "baker/reference/rounding.h"
 #include "baker/reference/view_cells.h"
 
 namespace froth {
@@ -32,6 +37,15 @@ RenderedImages emptyImages(const View& view);
 
 // Calls renderRow(y) from all threads, and reports about a hundred times. Fails with kCancelled.
 Status renderRows(uint32_t rows, const Progress& progress, const std::function<void(uint32_t y)>& renderRow);
+
+// Where the scene ends a ray; infinity: nowhere. A place errs by its distance from the eye, which of parallel rays is no part of 0.
+inline double endOfRay(const ReferenceOptions& options, const ViewRay& ray, uint32_t x, uint32_t y) {
+  if (!options.sceneDistance) return std::numeric_limits<double>::infinity();
+  const double end = *options.sceneDistance->pixel(x, y);
+  if (options.rounding == 0 || std::isinf(end)) return end;
+  Rounding rounding(options.rounding, options.roundingSeed + 3, y * options.sceneDistance->width + x);
+  return std::max(rounding.of(end, glm::length(ray.offset + end * ray.direction)), 0.0);
+}
 
 // The balls that a ray from `origin` meets before `end`. primary: in the precision of the render, as the cells are.
 template <class Real>

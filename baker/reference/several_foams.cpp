@@ -1,7 +1,6 @@
 #include "baker/reference/several_foams.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "baker/reference/reference_state.h"
 
@@ -36,7 +35,7 @@ class FoamInView {
  public:
   FoamInView(const PlacedFoam& placed, const ReferenceRenderer::State& foam, const View& view,
              const ReferenceOptions& options)
-      : foam_(foam), view_(viewFromFoam(view, placed)), rays_(view_), scale_(placed.scale), sharpness_(options.detailSharpness),
+      : foam_(foam), view_(viewFromFoam(view, placed)), rays_(view_), scale_(placed.scale), sharpness_(options.detailSharpness), leastShare_(options.leastShare),
         worldFromFoam_(glm::mat3_cast(placed.rotation)) {
     ReferenceOptions local = options;
     local.nearDepth /= placed.scale;
@@ -54,7 +53,7 @@ class FoamInView {
     for (BallHit<double>& hit : hits) {
       const ViewCell<double>& cell = cells_.cells[hit.rank];
       if (!clipByNeighbours(cells_.planesOf(cell), primary, hit)) continue;
-      const auto found = shadeCell(cell, cells_.detailsOf(hit.rank), primary, sharpness_, hit);
+      const auto found = shadeCell(cell, cells_.detailsOf(hit.rank), primary, sharpness_, hit, leastShare_);
       if (!(found.tNear < found.tFar)) continue;
       stretches.push_back({found.tNear * scale_, found.tFar * scale_, cell.density / scale_, found.colour,
                            worldFromFoam_ * cell.frame.normal});
@@ -65,7 +64,7 @@ class FoamInView {
   const ReferenceRenderer::State& foam_;
   const View view_;
   const ViewRays rays_;
-  const double scale_, sharpness_;
+  const double scale_, sharpness_, leastShare_;
   const glm::dmat3 worldFromFoam_;
   ViewCells<double> cells_;
 };
@@ -97,19 +96,24 @@ RayResult<double> mergeStretches(const std::vector<Stretch>& stretches, double c
 Result<RenderedImages> renderSeveral(std::span<const PlacedFoam> foams, const View& view, const ReferenceOptions& options,
                                      const Progress& progress) {
   if (const Status status = checkRender(view, options); !status) return status.error();
+  constexpr uint64_t kSeedsOfFoam = 4;  // that a render uses, from the one it is given on
   std::vector<std::unique_ptr<FoamInView>> seen;
+  ReferenceOptions own = options;
   for (const PlacedFoam& foam : foams) {
     const ReferenceRenderer::State& state = foam.renderer->state();
     if (state.cechPairs.offsets.empty()) return stoppedOnRequest("render");
-    seen.push_back(std::make_unique<FoamInView>(foam, state, view, options));
+    seen.push_back(std::make_unique<FoamInView>(foam, state, view, own));
+    own.roundingSeed += kSeedsOfFoam;  // the same cell errs in each instance by itself
   }
   RenderedImages images = emptyImages(view);
+  const ViewRays rays(view);
   const Status done = renderRows(view.height, progress, [&](uint32_t y) {
     std::vector<Stretch> stretches;
     for (uint32_t x = 0; x < view.width; ++x) {
       stretches.clear();
-      const double end = options.sceneDistance ? double{*options.sceneDistance->pixel(x, y)}
-                                               : std::numeric_limits<double>::infinity();
+      const std::optional<ViewRay> ray = rays.ofPixel(x, y);
+      if (!ray) continue;
+      const double end = endOfRay(options, *ray, x, y);
       for (const auto& foam : seen) foam->addStretches(x, y, end, stretches);
       writePixel(mergeStretches(stretches, options.cutoff, std::log(options.depthQuantile)), x, y, images);
     }

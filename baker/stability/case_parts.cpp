@@ -82,6 +82,20 @@ std::vector<CaseCell> cloud(uint32_t count, uint64_t seed, float step) {
   return cells;
 }
 
+Foam foamOfBoxes() {
+  std::vector<CaseCell> cells;
+  for (int z = 0; z < 4; ++z) {
+    for (int y = -2; y < 2; ++y) {
+      for (int x = -2; x < 2; ++x) {
+        const auto i = static_cast<uint32_t>(cells.size());
+        const glm::vec3 site(0.5f * static_cast<float>(x) + 0.25f, 0.5f * static_cast<float>(y) + 0.25f, 0.5f * static_cast<float>(z));
+        cells.push_back({site, 0.375f, i % 3 == 0 ? 1.0f : 4.0f, kFaceToViewer, 5, i});
+      }
+    }
+  }
+  return foamOfCells(cells);
+}
+
 Foam scaledFoam(Foam foam, float factor) {
   for (glm::vec3& site : foam.sites) site *= factor;
   for (float& radius : foam.radii) radius *= factor;
@@ -117,7 +131,7 @@ std::vector<View> outsideViews(double distance) {
 std::vector<StiffCase> builtInCases() {
   std::vector<StiffCase> all;
   for (auto* family : {siteCases, placeCases, sizeCases, densityCases, faceCases, eyeCases, appearanceCases, viewCases,
-                       inputCases}) {
+                       severalCases, depthCases, layerCases, inputCases}) {
     std::vector<StiffCase> cases = family();
     all.insert(all.end(), std::make_move_iterator(cases.begin()), std::make_move_iterator(cases.end()));
   }

@@ -34,6 +34,9 @@ Foam foamOfCells(const std::vector<CaseCell>& cells, uint32_t details = kCaseDet
 // Overlapping cells in the cube -1..1, with faces of any direction, some without density. Sites are multiples of `step`.
 std::vector<CaseCell> cloud(uint32_t count, uint64_t seed, float step = 1.0f / 1024);
 
+// A grid of cubes of one half, whose planes lie at whole halves of x and y and odd quarters of z, behind the plane z = 0.
+Foam foamOfBoxes();
+
 // All lengths times `factor`, about the origin: the same image for an eye that moves along.
 Foam scaledFoam(Foam foam, float factor);
 Foam movedFoam(Foam foam, const glm::vec3& by);
@@ -55,6 +58,9 @@ std::vector<StiffCase> faceCases();        // face_cases.cpp
 std::vector<StiffCase> eyeCases();         // eye_cases.cpp
 std::vector<StiffCase> appearanceCases();  // appearance_cases.cpp
 std::vector<StiffCase> viewCases();        // view_cases.cpp
+std::vector<StiffCase> severalCases();     // several_cases.cpp
+std::vector<StiffCase> depthCases();       // depth_cases.cpp
+std::vector<StiffCase> layerCases();       // layer_cases.cpp
 std::vector<StiffCase> inputCases();       // input_cases.cpp
 
 }  // namespace froth

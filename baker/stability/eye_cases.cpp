@@ -48,22 +48,12 @@ StiffCase alongAxes() {
 
 // A grid of odd number, looked at along its planes from an eye in them: the middle column of rays never leaves a plane.
 StiffCase alongPlane(const std::string& name, const std::string& what, bool isVertex) {
-  std::vector<CaseCell> cells;
-  for (int z = 0; z < 4; ++z) {
-    for (int y = -2; y < 2; ++y) {
-      for (int x = -2; x < 2; ++x) {
-        const auto i = static_cast<uint32_t>(cells.size());
-        const glm::vec3 site(0.5f * static_cast<float>(x) + 0.25f, 0.5f * static_cast<float>(y) + 0.25f, 0.5f * static_cast<float>(z));
-        cells.push_back({site, 0.375f, i % 3 == 0 ? 1.0f : 4.0f, kFaceToViewer, 5, i});
-      }
-    }
-  }
   // In the plane x = 0; with `isVertex` in the planes x = 0 and y = 0, so that the middle ray runs along edges through vertices.
   const glm::dvec3 eye(0, isVertex ? 0 : 0.125, -2);
   return {name, what,
           "A ray in a plane shows the cell of the first of its two sites. One within rounding of it may take either side for its whole "
           "length: its pixel is entitled to either colour, never to both or none.",
-          foamOfCells(cells),
+          foamOfBoxes(),
           {caseView(eye, eye + glm::dvec3(0, 0, 1), 25, 25, 0.5), orthographicView(eye, eye + glm::dvec3(0, 0, 1), 1.1, 25, 25)}};
 }
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "shaders/foam/colour.h"
+
 namespace froth {
 namespace {
 
@@ -14,6 +16,7 @@ constexpr double kLeastBound = kUnit / 16;
 constexpr double kHalfUnit = 0x1p-10;   // of an image of halves, relative: rounded to either neighbour
 constexpr double kLeastHalf = 0x1p-24;  // the same of the smallest ones
 constexpr double kStoredColour = 0x1p-11;  // of colours between passes: rounded to the nearest
+constexpr double kTransmittanceUnits = 4;  // [u] of T as exp gives it
 constexpr double kNotAllowed = 1e30;    // times the bound: what no bound allows; JSON has no infinity
 constexpr uint64_t kSeedStride = 16;  // a render may use a few seeds from the one it is given on
 
@@ -87,10 +90,14 @@ BoundCheck compare(const ImageBound& bound, const RenderedImages& image, const R
       check.worstX = static_cast<uint32_t>(pixel % image.alpha.width);
       check.worstY = static_cast<uint32_t>(pixel / image.alpha.width);
     };
-    const PixelError colour = errorAt(image.colour, against.colour, bound.colour, pixel);
+    const PixelError alpha = errorAt(image.alpha, against.alpha, bound.alpha, pixel);
+    PixelError colour = alpha;
+    if (!image.colour.values.empty()) {
+      colour = errorAt(image.colour, against.colour, bound.colour, pixel);
+      take(colour.excess, "colour");
+    }
     check.maxError = std::max(check.maxError, colour.error);
-    take(colour.excess, "colour");
-    take(errorAt(image.alpha, against.alpha, bound.alpha, pixel).excess, "alpha");
+    take(alpha.excess, "alpha");
     check.colourExcess = std::max(check.colourExcess, worst);
     if (!image.depth.values.empty())
       take(excessOfDepth(bound.depth, image.depth.values[pixel], other ? &other->depth.values[pixel] : nullptr, pixel), "distance");
@@ -148,6 +155,33 @@ void allowNearQuantile(const ReferenceOptions& options, const Image& alpha, cons
   }
 }
 
+// Premultiplied display-coded colours as premultiplied linear light.
+Image lightOf(const RenderedImages& images) {
+  Image light = images.colour;
+  for (size_t pixel = 0; pixel < images.alpha.values.size(); ++pixel) {
+    float* const values = &light.values[3 * pixel];
+    const glm::dvec3 linear = foam::linearPremultiplied(glm::dvec3(values[0], values[1], values[2]), double{images.alpha.values[pixel]});
+    for (int channel = 0; channel < 3; ++channel) values[channel] = static_cast<float>(linear[channel]);
+  }
+  return light;
+}
+
+// How far x^2.4 may be off, relative, of an x that is off by a few roundings, where Vulkan's rules are kept: exp2(2.4 log2 x), log2 to 2^-21
+// or 6 u of itself, exp2 to 6 u and 4 u for each whole of its exponent.
+double errorOfPower(double power) { return (30 + 9 * std::abs(std::log2(std::max(power, 1e-3)))) * kUnit; }
+
+// From the spread of light. A L(C / A) is off by 2.4 times what C is, by 1.4 times what A is, and by the power.
+Image boundOfLight(const ImageBound& bound, const Image& spread, double safety, double relative) {
+  Image light = bound.exactLight;
+  for (size_t i = 0; i < light.values.size(); ++i) {
+    const double value = std::abs(bound.exactLight.values[i]), alpha = bound.exact.alpha.values[i / 3];
+    const double power = alpha > 0 ? value / alpha : 0;
+    light.values[i] = static_cast<float>(safety * spread.values[i] + (4 * relative + errorOfPower(power)) * value +
+                                         4 * kLeastBound * std::max(1.0, power));
+  }
+  return light;
+}
+
 void widen(const Image& exact, const Image& atTwice, double relative, Image& bound) {
   for (size_t i = 0; i < bound.values.size(); ++i) {
     const double leftOut = std::abs(double{exact.values[i]} - atTwice.values[i]);
@@ -157,27 +191,29 @@ void widen(const Image& exact, const Image& atTwice, double relative, Image& bou
 
 }  // namespace
 
-Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& view, const ReferenceOptions& options,
-                              const BoundOptions& bound) {
+Result<ImageBound> boundImage(const ReferenceDraw& draw, const ReferenceOptions& options, const BoundOptions& bound) {
   ReferenceOptions exact = options;
   exact.precision = Precision::kDouble;
   exact.rounding = 0;
-  Result<RenderedImages> image = renderer.render(view, exact);
+  Result<RenderedImages> image = draw(exact);
   if (!image) return image.error();
   ImageBound result;
   result.exact = std::move(*image);
+  result.exactLight = lightOf(result.exact);
 
   Image colour = zerosLike(result.exact.colour), alpha = zerosLike(result.exact.alpha), normal = zerosLike(result.exact.normal);
+  Image light = colour;
   DepthSamples depth(result.exact);
   ReferenceOptions rounded = exact;
   rounded.rounding = bound.rounding;
   for (uint32_t i = 0; i < bound.samples; ++i) {
     rounded.roundingSeed = options.roundingSeed + kSeedStride * i;
-    const Result<RenderedImages> sample = renderer.render(view, rounded);
+    const Result<RenderedImages> sample = draw(rounded);
     if (!sample) return sample.error();
     addSpread(result.exact.colour, sample->colour, colour);
     addSpread(result.exact.alpha, sample->alpha, alpha);
     addSpread(result.exact.normal, sample->normal, normal);
+    addSpread(result.exactLight, lightOf(*sample), light);
     depth.add(sample->depth);
   }
   const double sum = (bound.cells + 8) * kUnit;
@@ -185,6 +221,7 @@ Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& vie
   result.alpha = boundOf(result.exact.alpha, alpha, bound.safety, sum, kLeastBound);
   // Terms of a normal may cancel: their sum is rounded by parts of what they add up to, at most alpha <= 1.
   result.normal = boundOf(result.exact.normal, normal, bound.safety, kHalfUnit, sum + kLeastHalf);
+  result.light = boundOfLight(result, light, bound.safety, sum);
   result.depth = depth.boundOf(bound.safety, sum);
   allowNearQuantile(options, result.exact.alpha, result.alpha, result.depth);
   for (const float value : result.colour.values) {
@@ -192,6 +229,19 @@ Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& vie
     result.mean += value / static_cast<double>(result.colour.values.size());
   }
   return result;
+}
+
+Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& view, const ReferenceOptions& options,
+                              const BoundOptions& bound) {
+  return boundImage([&](const ReferenceOptions& own) { return renderer.render(view, own); }, options, bound);
+}
+
+ImageBound boundOfRays(const ImageBound& bound) {
+  ImageBound rays = bound;
+  rays.exact.colour = bound.exactLight;
+  rays.colour = bound.light;
+  for (float& value : rays.alpha.values) value += static_cast<float>(kTransmittanceUnits * kUnit);
+  return rays;
 }
 
 ImageBound boundShippedForm(const ImageBound& bound, const RenderedImages& atTwice) {

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "baker/camera/camera.h"
@@ -48,9 +49,13 @@ struct ImageBound {
   Image alpha;   // 1 channel
   Image normal;  // 3 channels; the runtime's are halves
   DepthBound depth;
+  Image exactLight, light;  // `exact.colour` and `colour` in linear light, still premultiplied: what rays give
   double largest = 0, mean = 0;  // of `colour`
 };
 
+// Draws the view at hand under such options.
+using ReferenceDraw = std::function<Result<RenderedImages>(const ReferenceOptions&)>;
+Result<ImageBound> boundImage(const ReferenceDraw& draw, const ReferenceOptions& options, const BoundOptions& bound);
 Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& view, const ReferenceOptions& options,
                               const BoundOptions& bound);
 
@@ -60,10 +65,14 @@ Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& vie
 // between a cut-off and none. `atTwice`: the exact image with twice the cut-off, as transmittance is itself off by rounding.
 ImageBound boundShippedForm(const ImageBound& bound, const RenderedImages& atTwice);
 
-// How an image keeps to it. A form without distances or normals has those images empty, and is not asked for them.
+// The bound of rays that are cast one by one: their colour is linear, and of a transmittance that was rounded to float (exp is good to 3 u
+// + 2 |x| u, which times T is below 4 u) the opacity keeps that error, however small it is.
+ImageBound boundOfRays(const ImageBound& bound);
+
+// How an image keeps to it. A form without colours, distances or normals has those images empty, and is not asked for them.
 struct BoundCheck {
   bool isFinite = true;       // every value of colour, alpha, depth and normal; and no 0 of colour or alpha is -0
-  double maxError = 0;        // [display-coded] of colour
+  double maxError = 0;        // of colour, as the bound has it: [display-coded], or of rays [linear]; without colours of alpha
   double worstExcess = 0;     // largest error over its pixel's bound, of all channels; <= 1: all keep to it
   double colourExcess = 0;    // the same of colour and alpha alone: normals come close to theirs by the halves of their image
   const char* worstChannel = "colour";  // or "alpha", "distance", "normal"

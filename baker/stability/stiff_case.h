@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include <glm/gtc/quaternion.hpp>
+
 #include "baker/camera/camera.h"
 #include "baker/foam.h"
+#include "baker/image/image.h"
 #include "format/result.h"
 
 namespace froth {
@@ -19,6 +22,15 @@ struct KnownFault {
   std::string cause;
 };
 
+// Of an instance: world from foam by scale, then rotation, then position.
+struct CasePlace {
+  glm::dvec3 position{0};
+  glm::quat rotation{1, 0, 0, 0};  // unit length
+  float scale = 1;
+};
+
+inline constexpr uint32_t kAllLayersOfCase = 3;
+
 struct StiffCase {
   std::string name;      // "sites/duplicate_equal": family and case, [a-z0-9_/]
   std::string what;      // one line: what is extreme here
@@ -27,6 +39,10 @@ struct StiffCase {
   std::vector<View> views;  // small; with near limits of their own (0: off)
   glm::dvec3 moved{0};      // [scene units] where a renderer of assets places the foam, and moves the eyes to; the image is that of 0
   uint32_t chunkCells = 0;  // most cells of a chunk of its bakes; 0: as always
+  std::vector<CasePlace> places{};  // of instances, of which there are as many; empty: one, as it is
+  std::vector<Image> ends{};  // [views] 1 channel, of the views' sizes: where each ray ends [scene units]; empty: nowhere
+  glm::vec2 jitter{0};        // [pixels] of devices' images, whose lenses are moved against it: the image stays as it is
+  uint32_t layers = kAllLayersOfCase;  // of the bakes that are loaded; the image is that of the foam which these hold
   bool isImported = false;  // the foam is written as a checkpoint and read back first, as a trained one is
   std::string refusal{};    // part of the message with which it must be refused; empty: it must not
   std::vector<KnownFault> known{};  // how it falls short of its bound, if it is known to; empty: it must not

@@ -33,6 +33,15 @@ StiffCase inManyTiles() {
   return tiles;
 }
 
+// Moved by shares of a pixel as engines do that gather frames, and by some pixels.
+StiffCase jittered(const std::string& name, const glm::vec2& jitter) {
+  StiffCase stiff = seen(name, "images whose lens is moved by jitter, and moved back by its centre",
+                         "Centre and jitter are added in double: as any other.",
+                         {caseView({0, 0, -3}, {0, 0, 0}), orthographicView({0, 0, 0}, {0.3, 0.2, 1}, 1.2), fisheye(32)});
+  stiff.jitter = jitter;
+  return stiff;
+}
+
 }  // namespace
 
 std::vector<StiffCase> viewCases() {
@@ -50,7 +59,7 @@ std::vector<StiffCase> viewCases() {
                {fisheye(32), around()}),
           seen("views/parallel", "an orthographic view from within, in the middle of cells",
                "Rays begin on a plane through cells; what is behind it is not seen.", {orthographicView({0, 0, 0}, {0.3, 0.2, 1}, 1.2)}),
-          inManyTiles()};
+          jittered("views/jitter", {0.375f, -0.25f}), jittered("views/jitter_of_pixels", {-5.4375f, 3.8125f}), inManyTiles()};
 }
 
 }  // namespace froth

@@ -1,5 +1,9 @@
 #include "baker/tool/gpu_camera.h"
 
+#include <cmath>
+
+#include "baker/camera/view_rays.h"
+
 namespace froth {
 namespace {
 
@@ -36,6 +40,22 @@ void fillProjection(const View& view, FrothCamera& camera) {
 }
 
 }  // namespace
+
+std::vector<float> sceneDepthOf(const View& view, const Image& distances) {
+  if (lensClassesOf(view) == FROTH_LENS_CLASS_MAPPED) return distances.values;
+  const FrothCamera camera = cameraOf(view);
+  const float(&clip)[16] = camera.clipFromView;
+  const ViewRays rays(view);
+  std::vector<float> depths;
+  for (uint32_t y = 0; y < view.height; ++y) {
+    for (uint32_t x = 0; x < view.width; ++x) {
+      const double t = *distances.pixel(x, y), cosine = glm::dot(rays.ofPixel(x, y)->direction, forwardOf(view));
+      const double depth = (clip[10] * t * cosine + clip[14]) / (clip[11] * t * cosine + clip[15]);
+      depths.push_back(static_cast<float>(std::isinf(t) ? (clip[15] > 0 ? 1 : 0) : depth));
+    }
+  }
+  return depths;
+}
 
 uint32_t lensClassesOf(const View& view) {
   if (view.lens.kind == LensKind::kPinhole) return 0;

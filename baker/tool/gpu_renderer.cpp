@@ -1,4 +1,4 @@
-#include "baker/tool/gpu_renderer.h"
+#include "baker/tool/gpu_renderer_state.h"
 
 #include <utility>
 #include <vector>
@@ -51,47 +51,15 @@ FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options) 
   info.maxSteps = options.maxSteps;
   info.tileForm = options.tileForm;
   info.camera = cameraOf(view);
+  for (int axis = 0; axis < 2; ++axis) info.camera.jitter[axis] = options.jitter[axis];
   return info;
 }
 
-struct GpuRenderer::State {
-  ~State();
-
-  Error error(FrothResult result, const char* call) const;
-  Status check(FrothResult result, const char* call) const;
-
-  Status createContext(const GpuDeviceOptions& options);
-  Status closeAsset();
-  Status openAsset(const AssetInput& input, const Progress& progress);
-  Status place(const glm::dvec3& position);
-  Status setExtent(VkExtent2D wanted, bool wantsAllChannels);
-  // Uploads the view's ray map, if it has one.
-  Status setRayMap(const View& wanted);
-  void destroyImages();
-
-  // Records frothUpdate and the uploads, then draws if `info` is not null.
-  Status submitFrame(const FrothRenderInfo* info, GpuMethod method);
-  Result<FrothViewStatus> drawAndAsk(const FrothRenderInfo& info, GpuMethod method);
-  Status checkSilence(const FrothViewStatus& status);
-  Result<RenderedImages> readImages(bool readsNormal);
-  Result<GpuFrame> drawAndRead(const View& wanted, const GpuRenderOptions& drawing, bool wantsAllChannels);
-
-  GpuDeviceOptions options;
-  std::unique_ptr<Host> host;
-  FrothContext* context = nullptr;
-  FrothAsset asset{};
-  FrothInstance instance{};
-  bool hasAsset = false, hasInstance = false;
-  FrothView view{};
-  VkExtent2D extent{};
-  HostImage colour, distance, normal, rays;
-  std::shared_ptr<const RayMap> uploadedRays;  // what `rays` holds
-  std::string lastMessage;
-};
-
 GpuRenderer::State::~State() {
   if (host) destroyImages();
-  if (rays.image) host->destroyImage(rays);
+  for (HostImage* image : {&rays, &sceneDepth}) {
+    if (image->image) host->destroyImage(*image);
+  }
   if (context) frothDestroyContext(context, UINT64_MAX);  // every submission was waited for
 }
 
@@ -116,6 +84,7 @@ Status GpuRenderer::State::createContext(const GpuDeviceOptions& deviceOptions) 
   info.floatColours = options.floatColours ? 1 : 0;
   info.countWork = options.countWork ? 1 : 0;
   info.lensClasses = options.lensClasses;
+  info.walkShaders = options.castsRays ? 1 : 0;
   info.messageUser = this;
   info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
     if (severity != FROTH_SEVERITY_ERROR) return;
@@ -125,10 +94,10 @@ Status GpuRenderer::State::createContext(const GpuDeviceOptions& deviceOptions) 
 }
 
 Status GpuRenderer::State::closeAsset() {
-  if (hasInstance) {
-    if (Status gone = check(frothDestroyInstance(context, instance), "frothDestroyInstance"); !gone) return gone;
+  while (!instances.empty()) {
+    if (Status gone = check(frothDestroyInstance(context, instances.back()), "frothDestroyInstance"); !gone) return gone;
+    instances.pop_back();
   }
-  hasInstance = false;
   if (hasAsset) {
     if (Status gone = check(frothCloseAsset(context, asset), "frothCloseAsset"); !gone) return gone;
   }
@@ -141,6 +110,7 @@ Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& pr
   FrothAssetInfo info{};
   info.structSize = sizeof(info);
   info.layers = input.layers;
+  info.keepForQueries = options.castsRays ? 1 : 0;
   if (input.bytes.empty()) {
     info.path = path.c_str();
   } else {
@@ -152,7 +122,7 @@ Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& pr
 
   for (uint64_t frame = 0;; ++frame) {
     if (!report(progress, "upload", frame, 0)) return stoppedError();
-    if (Status submitted = submitFrame(nullptr, GpuMethod::kRaster); !submitted) return submitted;
+    if (Status submitted = submitFrame(); !submitted) return submitted;
     FrothAssetStatus status{};
     status.structSize = sizeof(status);
     if (Status asked = check(frothGetAssetStatus(context, asset, &status), "frothGetAssetStatus"); !asked)
@@ -162,14 +132,15 @@ Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& pr
   }
 }
 
-Status GpuRenderer::State::place(const glm::dvec3& position) {
-  FrothInstanceInfo info{};
-  info.structSize = sizeof(info);
-  info.asset = asset;
-  for (int axis = 0; axis < 3; ++axis) info.position[axis] = position[axis];
-  const Status placed = check(frothCreateInstance(context, &info, &instance), "frothCreateInstance");
-  hasInstance = static_cast<bool>(placed);
-  return placed;
+Status GpuRenderer::State::place(const std::vector<FrothInstanceInfo>& placements) {
+  for (FrothInstanceInfo info : placements) {
+    info.structSize = sizeof(info);
+    info.asset = asset;
+    FrothInstance instance{};
+    if (Status placed = check(frothCreateInstance(context, &info, &instance), "frothCreateInstance"); !placed) return placed;
+    instances.push_back(instance);
+  }
+  return {};
 }
 
 void GpuRenderer::State::destroyImages() {
@@ -224,7 +195,17 @@ Status GpuRenderer::State::setRayMap(const View& wanted) {
   return {};
 }
 
-Status GpuRenderer::State::submitFrame(const FrothRenderInfo* info, GpuMethod method) {
+Status GpuRenderer::State::setSceneDepth(const View& wanted, const Image* ends) {
+  if (sceneDepth.image) host->destroyImage(sceneDepth);
+  if (!ends) return {};
+  const bool isProjection = lensClassesOf(wanted) != FROTH_LENS_CLASS_MAPPED;
+  Result<HostImage> made = host->createImage(isProjection ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_R32_SFLOAT, extentOf(wanted));
+  if (!made) return made.error();
+  sceneDepth = *made;
+  return host->writeImage(sceneDepth, sceneDepthOf(wanted, *ends));
+}
+
+Status GpuRenderer::State::submitFrame(const std::function<Status(VkCommandBuffer)>& record) {
   return host->submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
     FrothFrame frame{};
     frame.structSize = sizeof(frame);
@@ -234,10 +215,7 @@ Status GpuRenderer::State::submitFrame(const FrothRenderInfo* info, GpuMethod me
       return updated;
     if (Status copied = check(frothRecordUpload(context, commands), "frothRecordUpload"); !copied)
       return copied;
-    if (!info) return {};
-    if (method == GpuMethod::kRaster)
-      return check(frothRasterize(context, view, commands, info), "frothRasterize");
-    return check(frothWalk(context, view, commands, info), "frothWalk");
+    return record ? record(commands) : Status();
   });
 }
 
@@ -247,13 +225,18 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
   if (distance.image) info.distance = host->describe(distance);
   if (normal.image) info.normal = host->describe(normal);
   if (info.camera.lens.kind == FROTH_LENS_RAY_MAP) info.camera.lens.rayMap = host->describeInput(rays);
+  if (sceneDepth.image) info.sceneDepth = host->describeInput(sceneDepth);
 
+  const auto record = [&](VkCommandBuffer commands) {
+    if (method == GpuMethod::kRaster) return check(frothRasterize(context, view, commands, &info), "frothRasterize");
+    return check(frothWalk(context, view, commands, &info), "frothWalk");
+  };
   FrothViewStatus status{};
   for (int attempt = 0; attempt <= kMaxRedraws; ++attempt) {
     if (isStopRequested()) return stoppedError();
-    if (Status drawn = submitFrame(&info, method); !drawn) return drawn.error();
+    if (Status drawn = submitFrame(record); !drawn) return drawn.error();
     // The counts of a frame are known in the frothUpdate after it.
-    if (Status updated = submitFrame(nullptr, method); !updated) return updated.error();
+    if (Status updated = submitFrame(); !updated) return updated.error();
     status = {};
     status.structSize = sizeof(status);
     if (Status asked = check(frothGetViewStatus(context, view, &status), "frothGetViewStatus"); !asked) {
@@ -261,17 +244,16 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
     }
     if ((status.bits & (FROTH_VIEW_CELL_OVERFLOW | FROTH_VIEW_PAIR_OVERFLOW)) == 0) break;
   }
-  if (Status silent = checkSilence(status); !silent) return silent.error();
-  return status;
-}
-
-Status GpuRenderer::State::checkSilence(const FrothViewStatus& status) {
   if (status.bits & FROTH_VIEW_NO_WALK_GRAPH) {
     return makeError(ErrorKind::kUnsupported, "the asset holds no walk graph; use --renderer raster");
   }
-  if (status.indexViolations > 0) {
-    return makeError(ErrorKind::kUnsupported, "shaders met %u indices out of range; this is a fault of Froth",
-                     status.indexViolations);
+  if (Status silent = checkSilence(status.indexViolations); !silent) return silent.error();
+  return status;
+}
+
+Status GpuRenderer::State::checkSilence(uint32_t indexViolations) {
+  if (indexViolations > 0) {
+    return makeError(ErrorKind::kUnsupported, "shaders met %u indices out of range; this is a fault of Froth", indexViolations);
   }
   const std::vector<std::string> messages = host->validationMessages();
   if (messages.empty()) return {};
@@ -307,16 +289,17 @@ Result<std::unique_ptr<GpuRenderer>> GpuRenderer::create(const GpuDeviceOptions&
   return renderer;
 }
 
-Status GpuRenderer::load(const AssetInput& asset, const Progress& progress, const glm::dvec3& position) {
+Status GpuRenderer::load(const AssetInput& asset, const Progress& progress, const std::vector<FrothInstanceInfo>& placements) {
   state_->lastMessage.clear();
   if (Status closed = state_->closeAsset(); !closed) return closed;
   if (Status opened = state_->openAsset(asset, progress); !opened) return opened;
-  return state_->place(position);
+  return state_->place(placements);
 }
 
 Result<GpuFrame> GpuRenderer::State::drawAndRead(const View& wanted, const GpuRenderOptions& drawing, bool wantsAllChannels) {
   if (Status ready = setExtent(extentOf(wanted), wantsAllChannels); !ready) return ready.error();
   if (Status ready = setRayMap(wanted); !ready) return ready.error();
+  if (Status ready = setSceneDepth(wanted, drawing.ends); !ready) return ready.error();
   const Result<FrothViewStatus> status = drawAndAsk(renderInfoOf(wanted, drawing), drawing.method);
   if (!status) return status.error();
   Result<RenderedImages> images = readImages(drawing.readsNormal);
@@ -335,6 +318,7 @@ Result<GpuFrame> GpuRenderer::renderColour(const View& view, const GpuRenderOpti
 Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptions& options) {
   if (Status ready = state_->setExtent(extentOf(view), options.isFull); !ready) return ready.error();
   if (Status ready = state_->setRayMap(view); !ready) return ready.error();
+  if (Status ready = state_->setSceneDepth(view, options.ends); !ready) return ready.error();
   return state_->drawAndAsk(renderInfoOf(view, options), options.method);
 }
 

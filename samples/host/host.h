@@ -46,6 +46,7 @@ struct HostBuffer {
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;
   void* mapped = nullptr;  // host-visible and coherent, of the device's own memory where it has such
+  VkDeviceAddress address = 0;  // with usage SHADER_DEVICE_ADDRESS
 };
 
 class Host {

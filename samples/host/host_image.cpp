@@ -82,9 +82,13 @@ std::vector<float> widenTexels(const void* texels, size_t byteCount, FormatTrait
 }
 
 Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements, uint32_t type,
-                      VkDeviceMemory& memory) {
+                      VkDeviceMemory& memory, VkMemoryAllocateFlags flags = 0) {
+  VkMemoryAllocateFlagsInfo flagsInfo{};
+  flagsInfo.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+  flagsInfo.flags = flags;
   VkMemoryAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  info.pNext = &flagsInfo;
   info.allocationSize = requirements.size;
   info.memoryTypeIndex = type;
   const VkResult code =
@@ -267,11 +271,19 @@ Result<HostBuffer> Host::createBuffer(VkDeviceSize bytes, VkBufferUsageFlags usa
   constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   uint32_t type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   if (type == UINT32_MAX) type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent);
-  if (const Status status = allocateMemory(device, requirements, type, buffer.memory); !status) {
+  const bool hasAddress = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
+  const VkMemoryAllocateFlags flags = hasAddress ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
+  if (const Status status = allocateMemory(device, requirements, type, buffer.memory, flags); !status) {
     destroyBuffer(buffer);
     return status.error();
   }
   vkBindBufferMemory(device, buffer.buffer, buffer.memory, 0);
+  if (hasAddress) {
+    VkBufferDeviceAddressInfo addressInfo{};
+    addressInfo.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+    addressInfo.buffer = buffer.buffer;
+    buffer.address = vkGetBufferDeviceAddress(device, &addressInfo);
+  }
   vkMapMemory(device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped);
   return buffer;
 }

@@ -22,6 +22,8 @@ float sceneDistance(uvec2 pixel, vec3 ray) {
   vec2 above = depthAlong(ray, FRAME.depthRow);
   vec2 below = depthAlong(ray, FRAME.depthScale);
   float t = (unit * below.x - above.x) / (above.y - unit * below.y);
+  // Parallel rays start in the middle of what the camera sees: what lies there or before it, but for rounding, hides all of them.
+  if (lensClass == kLensClassOrthographic && t < 0.0) t = 0.0;
   return isAtFarEnd || !(t >= 0.0) ? kInfinity : t;
 }
 

@@ -52,10 +52,10 @@ uvec2 locateFrom(vec3 point, uvec2 first, out uint steps) {
   return descendTo(point, isCell(cell) ? cell : uvec2(0), steps);
 }
 
-// The ray's origin in a chunk's coordinates, where sites are.
-vec3 originIn(Chunk chunk, vec3 origin) {
-  precise vec3 local = (origin - chunk.offsetHigh) - chunk.offsetLow;
-  return local;
+// A site of a chunk as seen from the ray's origin: one that is near to it keeps all digits, however far both are from the chunk's origin.
+vec3 fromOrigin(Chunk chunk, vec3 site, vec3 origin) {
+  precise vec3 seen = ((site + chunk.offsetHigh) - origin) + chunk.offsetLow;
+  return seen;
 }
 
 // Cuts [tNear, tFar] by the instance's box; false: nothing is left.
@@ -89,7 +89,7 @@ Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, floa
     stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, isHinted ? hint.yz : uvec2(kNoCell), steps);
   work.descents += steps;
   Chunk chunk = loadChunk(stream.cell.x);
-  stream.key = keyOf(ray.direction, siteRadiusOf(chunk, stream.cell.y).xyz - originIn(chunk, ray.origin));
+  stream.key = keyOf(ray.direction, fromOrigin(chunk, siteRadiusOf(chunk, stream.cell.y).xyz, ray.origin));
   stream.steps = 0;
   stream.isAhead = true;
   stream.isCut = false;
@@ -107,7 +107,7 @@ struct Exit {
 };
 
 Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 direction, float key, inout WalkWork work) {
-  vec3 centre = siteRadius.xyz - origin;
+  vec3 centre = fromOrigin(chunk, siteRadius.xyz, origin);
   vec2 order = orderAlong(direction, siteRadius.xyz);
   uint site = kNoCell;
   float siteKey = key;
@@ -120,11 +120,12 @@ Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 directi
     vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
     float otherQ = dot(direction, toNeighbour);
     if (!(otherQ > 0.0)) continue;
-    float otherClearance = sharedClearance(centre, otherSite.xyz - origin, toNeighbour, siteRadius.w, otherSite.w);
+    vec3 otherCentre = fromOrigin(chunk, otherSite.xyz, origin);
+    float otherClearance = sharedClearance(centre, otherCentre, toNeighbour, siteRadius.w, otherSite.w);
     float nearer = clearance * otherQ - otherClearance * q;
     if (!(nearer >= 0.0)) continue;
     if (nearer == 0.0 && !(site != kNoCell && comesBefore(otherSite.xyz, siteRadiusOf(chunk, site).xyz))) continue;
-    float otherKey = keyOf(direction, otherSite.xyz - origin);
+    float otherKey = keyOf(direction, otherCentre);
     if (!mayStepTo(chunk, other, order, orderAlong(direction, otherSite.xyz), key, otherKey)) continue;
     site = other;
     siteKey = max(otherKey, key);
@@ -138,14 +139,13 @@ Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 directi
 bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tNear, out float tFar,
                 inout WalkWork work) {
   Chunk chunk = loadChunk(stream.cell.x);
-  vec3 origin = originIn(chunk, ray.origin);
   uint maxSteps = FRAME.maxSteps;
   while (stream.entry < stream.end && stream.steps < maxSteps) {
     ++stream.steps;
     ++work.cells;
     vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);
-    Exit exit = findExit(chunk, stream.cell.y, siteRadius, origin, ray.direction, stream.key, work);
-    met = MetCell(stream.cell, siteRadius.xyz - origin, siteRadius.w);
+    Exit exit = findExit(chunk, stream.cell.y, siteRadius, ray.origin, ray.direction, stream.key, work);
+    met = MetCell(stream.cell, fromOrigin(chunk, siteRadius.xyz, ray.origin), siteRadius.w);
     bool isMet = stream.cell.y < chunk.liveCount && intersectBall(met.centre, met.radius, ray.direction, tNear, tFar);
     if (isMet) {
       tNear = max(tNear, stream.entry);
@@ -155,10 +155,7 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
     if (exit.site != kNoCell) {
       stream.key = exit.key;
       stream.cell = cellOfSite(chunk, exit.site);
-      if (stream.cell.x != chunk.index) {
-        chunk = loadChunk(stream.cell.x);
-        origin = originIn(chunk, ray.origin);
-      }
+      if (stream.cell.x != chunk.index) chunk = loadChunk(stream.cell.x);
     }
     if (isMet && tNear < tFar) return true;
   }

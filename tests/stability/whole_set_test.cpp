@@ -30,12 +30,12 @@ TEST_P(WholeFamily, KeepsToItsBounds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stability, WholeFamily,
-                         testing::Values("sites", "place", "sizes", "density", "faces", "eyes", "appearance", "views", "input"),
+                         testing::Values("sites", "place", "sizes", "density", "faces", "eyes", "appearance", "views", "several", "depth", "layers", "input"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 // A family that is not tested above would go unseen.
 TEST(StabilityFamilies, AreAllTested) {
-  const std::string tested[] = {"sites", "place", "sizes", "density", "faces", "eyes", "appearance", "views", "input"};
+  const std::string tested[] = {"sites", "place", "sizes", "density", "faces", "eyes", "appearance", "views", "several", "depth", "layers", "input"};
   for (const StiffCase& stiff : builtInCases()) {
     const std::string family = stiff.name.substr(0, stiff.name.find('/'));
     EXPECT_NE(std::find(std::begin(tested), std::end(tested), family), std::end(tested)) << stiff.name;

@@ -11,8 +11,8 @@
 namespace froth {
 namespace {
 
-Result<AssetContents> readContents(const std::vector<uint8_t>& bytes) {
-  const Result<AssetReader> reader = AssetReader::openBytes(bytes, "asset");
+Result<AssetContents> readContents(const AssetInput& asset) {
+  const Result<AssetReader> reader = AssetReader::openBytes(asset.bytes, "asset", static_cast<Layer>(asset.layers - 1));
   if (!reader) return reader.error();
   AssetContents contents = reader->manifest();
   for (uint32_t chunk = 0; chunk < contents.chunks.size(); ++chunk) {
@@ -53,11 +53,11 @@ CellGraph graphOf(const AssetContents& contents) {
 
 }  // namespace
 
-Status bakeCase(const Foam& foam, const std::string& preset, uint32_t chunkCells, BakedCase& baked, const Progress& progress) {
+Status bakeCase(const StiffCase& stiff, const Foam& foam, const std::string& preset, BakedCase& baked, const Progress& progress) {
   BakeOptions options;
   options.preset = preset;
   options.knobs = *presetKnobs(preset);
-  if (chunkCells > 0) options.chunkCells = chunkCells;
+  if (stiff.chunkCells > 0) options.chunkCells = stiff.chunkCells;
   options.nearRatio = 0;
   options.measure = false;
   options.source = "stability";
@@ -66,7 +66,8 @@ Status bakeCase(const Foam& foam, const std::string& preset, uint32_t chunkCells
   Result<std::vector<uint8_t>> bytes = encodeAsset(result->contents);
   if (!bytes) return bytes.error();
   baked.asset.bytes = std::move(*bytes);
-  Result<AssetContents> contents = readContents(baked.asset.bytes);
+  baked.asset.layers = stiff.layers;
+  Result<AssetContents> contents = readContents(baked.asset);
   if (!contents) return contents.error();
 
   const auto& origin = contents->chunks.front().origin;
@@ -79,7 +80,16 @@ Status bakeCase(const Foam& foam, const std::string& preset, uint32_t chunkCells
   baked.foam = std::move(*decoded);
   baked.walkGraph = graphOf(*contents);
   baked.reference = std::make_unique<ReferenceRenderer>(baked.foam);
+  for (const CasePlace& place : stiff.places) {
+    PlacedFoam placed{baked.reference.get(), {}, glm::normalize(glm::dquat(place.rotation)), place.scale};
+    placed.position = place.position + placed.rotation * (placed.scale * baked.base) - baked.base;
+    baked.placed.push_back(placed);
+  }
   return {};
+}
+
+Result<RenderedImages> drawExactly(const BakedCase& baked, const View& view, const ReferenceOptions& options) {
+  return baked.placed.empty() ? baked.reference->render(view, options) : renderSeveral(baked.placed, view, options);
 }
 
 }  // namespace froth

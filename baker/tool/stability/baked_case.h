@@ -3,10 +3,13 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "baker/graph/graph.h"
 #include "baker/progress.h"
 #include "baker/reference/reference.h"
+#include "baker/reference/several_foams.h"
+#include "baker/stability/stiff_case.h"
 #include "baker/tool/foam_input.h"
 
 namespace froth {
@@ -18,9 +21,13 @@ struct BakedCase {
   Foam foam;
   CellGraph walkGraph;  // of `foam`, as the rows of the asset's chunks and their ghosts have it
   std::unique_ptr<ReferenceRenderer> reference;  // of `foam`
+  std::vector<PlacedFoam> placed;  // the same, of several instances relative to `base`; empty: there is one
 };
 
-// chunkCells: most cells of a chunk; 0: as the preset has it. `baked` stays where it is from then on.
-Status bakeCase(const Foam& foam, const std::string& preset, uint32_t chunkCells, BakedCase& baked, const Progress& progress);
+// Of `foam`, which the case holds or an importer made of it. `baked` stays where it is from then on.
+Status bakeCase(const StiffCase& stiff, const Foam& foam, const std::string& preset, BakedCase& baked, const Progress& progress);
+
+// What a view shows of it.
+Result<RenderedImages> drawExactly(const BakedCase& baked, const View& view, const ReferenceOptions& options);
 
 }  // namespace froth

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,44 +13,11 @@
 #include "baker/checkpoint/checkpoint.h"
 #include "baker/image/metrics.h"
 #include "baker/stability/image_bound.h"
-#include "baker/tool/stability/baked_case.h"
+#include "baker/tool/stability/forms.h"
 #include "format/atomic_file.h"
 
 namespace froth {
-// What a renderer draws of a view.
-struct DrawnForms {
-  RenderedImages images;  // of a raster: with all tiles short
-  std::optional<RenderedImages> inLongTiles;  // of a raster
-};
-
 namespace {
-
-// The forms on the device, as in PresetOutcome::renderers after "float".
-struct DeviceForm {
-  const char* renderer;
-  GpuMethod method;
-  bool isShipped;
-};
-constexpr DeviceForm kForms[] = {{"raster", GpuMethod::kRaster, false},
-                                 {"walk", GpuMethod::kWalk, false},
-                                 {"raster shipped", GpuMethod::kRaster, true},
-                                 {"walk shipped", GpuMethod::kWalk, true}};
-enum RendererIndex : size_t { kFloat, kRaster, kWalk, kRasterShipped };
-constexpr double kShippedCutoff = 1e-3;
-// The form that games draw is drawn from these bakes alone: it differs from the others by what no bake changes, and costs as much.
-bool isDrawnAsShipped(const std::string& preset) { return preset == "exact" || preset == "default"; }
-
-ReferenceOptions referenceOptions(const View& view) {
-  ReferenceOptions options;
-  options.nearRatio = view.nearRatio.value_or(4);
-  options.nearDepth = view.nearDepth.value_or(0);
-  return options;
-}
-
-View movedBy(const glm::dvec3& by, View view) {
-  for (int axis = 0; axis < 3; ++axis) view.worldFromCamera[4 * axis + 3] += by[axis];
-  return view;
-}
 
 void addCheck(const BoundCheck& check, size_t view, RendererOutcome& renderer) {
   renderer.isFinite = renderer.isFinite && check.isFinite;
@@ -75,24 +40,21 @@ void addTrace(const WalkTrace& trace, WalkTrace& sum) {
   sum.lost += trace.lost;
 }
 
-Result<std::vector<RenderedImages>> drawOriginals(const Foam& foam, const std::vector<View>& views, const Progress& progress) {
+Result<std::vector<RenderedImages>> drawOriginals(const StiffCase& stiff, const Foam& foam, const Progress& progress) {
   std::vector<RenderedImages> originals;
   const ReferenceRenderer reference(foam);
-  for (const View& view : views) {
-    Result<RenderedImages> images = reference.render(view, referenceOptions(view), progress);
+  for (size_t index = 0; index < stiff.views.size(); ++index) {
+    Result<RenderedImages> images = reference.render(stiff.views[index], referenceOptions(stiff, index), progress);
     if (!images) return images.error();
     originals.push_back(std::move(*images));
   }
   return originals;
 }
 
-PresetOutcome outcomeOf(const std::string& preset) {
+PresetOutcome outcomeOf(const StiffCase& stiff, const std::string& preset) {
   PresetOutcome outcome;
   outcome.preset = preset;
-  outcome.renderers.push_back({"float"});
-  for (const DeviceForm& form : kForms) {
-    if (!form.isShipped || isDrawnAsShipped(preset)) outcome.renderers.push_back({form.renderer});
-  }
+  for (const Form& form : formsOf(stiff, preset)) outcome.renderers.push_back({form.name});
   return outcome;
 }
 
@@ -173,85 +135,99 @@ const std::vector<std::string>& stabilityPresets() {
   return presets;
 }
 
-Result<std::unique_ptr<StabilityRunner>> StabilityRunner::create(const GpuDeviceOptions& options) {
-  GpuDeviceOptions floats = options;
-  floats.checkIndices = floats.floatColours = true;
-  Result<std::unique_ptr<GpuRenderer>> inFloat = GpuRenderer::create(floats);
-  if (!inFloat) return inFloat.error();
-  GpuDeviceOptions shipped = options;
-  shipped.validate = false;  // as in a game; layers see the same calls in the other context
-  Result<std::unique_ptr<GpuRenderer>> asShipped = GpuRenderer::create(shipped);
-  if (!asShipped) return asShipped.error();
-  return std::unique_ptr<StabilityRunner>(new StabilityRunner(std::move(*inFloat), std::move(*asShipped)));
+namespace {
+
+// Of one view, for the forms that are drawn of it.
+struct FormBounds {
+  ImageBound whole, shipped, rays;
+};
+
+const ImageBound& boundOf(const Form& form, const FormBounds& bounds) {
+  if (form.kind == FormKind::kRays || form.kind == FormKind::kQueries) return bounds.rays;
+  return form.isShipped ? bounds.shipped : bounds.whole;
 }
 
-// Twice in the same way, and a raster with all tiles in the other form.
-Status StabilityRunner::drawRepeatedly(const View& view, uint32_t cellCount, RendererOutcome& outcome, DrawnForms& drawn) {
-  const DeviceForm& form = *std::find_if(std::begin(kForms), std::end(kForms),
-                                         [&](const DeviceForm& one) { return outcome.renderer == one.renderer; });
-  GpuRenderOptions options;
-  options.method = form.method;
-  options.tileForm = FROTH_TILE_FORM_ALL_SHORT;
-  options.cutoff = form.isShipped ? static_cast<float>(kShippedCutoff) : 0.0f;
-  options.maxSteps = form.isShipped ? 0 : cellCount;
-  const auto draw = [&] { return form.isShipped ? asShipped_->renderColour(view, options) : inFloat_->render(view, options); };
-  Result<GpuFrame> first = draw();
-  if (!first) return first.error();
-  const Result<GpuFrame> again = draw();
-  if (!again) return again.error();
-  outcome.isRepeatable = outcome.isRepeatable && hasSameBits(first->images, again->images);
-  outcome.endsInTime = outcome.endsInTime && (first->status.bits & FROTH_VIEW_STEP_LIMIT) == 0;
-  drawn.images = std::move(first->images);
-  if (form.method != GpuMethod::kRaster) return {};
-  options.tileForm = FROTH_TILE_FORM_ALL_LONG;
-  Result<GpuFrame> inLongTiles = draw();
-  if (!inLongTiles) return inLongTiles.error();
-  drawn.inLongTiles = std::move(inLongTiles->images);
-  return {};
+// Rays that are cast one by one know no near limits, and leave out detail sites of little weight (kLeastShare of gpu/walk_cell.glsl).
+Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions& options, const BoundOptions& boundOptions) {
+  Result<ImageBound> whole = boundImage(draw, options, boundOptions);
+  if (!whole) return whole.error();
+  ReferenceOptions cut = options, all = options;
+  cut.cutoff = 2 * kShippedCutoff;
+  const Result<RenderedImages> atTwice = draw(cut);
+  if (!atTwice) return atTwice.error();
+  FormBounds bounds{std::move(*whole), {}, {}};
+  bounds.shipped = boundShippedForm(bounds.whole, *atTwice);
+  all.nearRatio = all.nearDepth = 0;
+  all.leastShare = 1.0 / 1024;
+  const Result<ImageBound> ofRays = boundImage(draw, all, boundOptions);
+  if (!ofRays) return ofRays.error();
+  bounds.rays = boundOfRays(*ofRays);
+  return bounds;
+}
+
+// What a view's forms keep of their bounds.
+struct ViewChecks {
+  std::vector<BoundCheck> forms;    // as the forms
+  std::vector<double> tilesExcess;  // the same; 0: no raster
+  BoundCheck apart;                 // of raster and walk
+
+  bool isOver() const {
+    return apart.worstExcess > 1 || std::ranges::max(tilesExcess) > 1 ||
+           std::ranges::any_of(forms, [](const BoundCheck& check) { return check.worstExcess > 1; });
+  }
+};
+
+ViewChecks checkForms(const std::vector<Form>& forms, const std::vector<DrawnForm>& drawn, const FormBounds& bounds) {
+  ViewChecks checks;
+  const RenderedImages *raster = nullptr, *walk = nullptr;
+  for (size_t i = 0; i < forms.size(); ++i) {
+    const ImageBound& own = boundOf(forms[i], bounds);
+    const RenderedImages& images = drawn[i].images;
+    checks.forms.push_back(checkBound(own, images));
+    checks.tilesExcess.push_back(drawn[i].inLongTiles ? checkBound(own, images, *drawn[i].inLongTiles).worstExcess : 0);
+    if (forms[i].kind == FormKind::kRaster && !forms[i].isShipped) raster = &images;
+    if (forms[i].kind == FormKind::kWalk && !forms[i].isShipped) walk = &images;
+  }
+  checks.apart = checkBound(bounds.whole, *raster, *walk);
+  return checks;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<StabilityRunner>> StabilityRunner::create(const GpuDeviceOptions& options) {
+  Result<std::unique_ptr<FormDrawer>> drawer = FormDrawer::create(options);
+  if (!drawer) return drawer.error();
+  return std::unique_ptr<StabilityRunner>(new StabilityRunner(std::move(*drawer)));
 }
 
 Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const BakedCase& baked, PresetOutcome& outcome) {
-  const View view = movedBy(-baked.base, stiff.views[index]), placed = movedBy(stiff.moved, stiff.views[index]);
-  ReferenceOptions options = referenceOptions(view);
-  options.precision = Precision::kFloat;
-  Result<RenderedImages> inFloat = baked.reference->render(view, options);
-  if (!inFloat) return inFloat.error();
-  std::vector<DrawnForms> drawn(outcome.renderers.size());
-  drawn[kFloat].images = std::move(*inFloat);
-  for (size_t i = kRaster; i < drawn.size(); ++i) {
-    if (Status done = drawRepeatedly(placed, baked.foam.cellCount, outcome.renderers[i], drawn[i]); !done) return done;
+  const std::vector<Form> forms = formsOf(stiff, outcome.preset);
+  std::vector<DrawnForm> drawn;
+  for (size_t i = 0; i < forms.size(); ++i) {
+    Result<DrawnForm> form = drawer_->draw(forms[i], stiff, index);
+    if (!form) return form.error();
+    outcome.renderers[i].isRepeatable = outcome.renderers[i].isRepeatable && form->isRepeatable;
+    outcome.renderers[i].endsInTime = outcome.renderers[i].endsInTime && form->endsInTime;
+    drawn.push_back(std::move(*form));
   }
-  ReferenceOptions cut = referenceOptions(view);
-  cut.cutoff = 2 * kShippedCutoff;
-  const Result<RenderedImages> atTwice = baked.reference->render(view, cut);
-  if (!atTwice) return atTwice.error();
-
+  const View view = caseViewOf(stiff, index, baked).ofFoam;
+  const ReferenceDraw draw = [&](const ReferenceOptions& options) { return drawExactly(baked, view, options); };
   BoundOptions boundOptions;
   for (;;) {
-    const Result<ImageBound> bound = boundImage(*baked.reference, view, options, boundOptions);
-    if (!bound) return bound.error();
-    const ImageBound shipped = boundShippedForm(*bound, *atTwice);
-    std::vector<BoundCheck> checks(drawn.size());
-    std::vector<double> tilesExcess(drawn.size(), 0.0);
-    for (size_t i = 0; i < checks.size(); ++i) {
-      const ImageBound& own = i < kRasterShipped ? *bound : shipped;
-      checks[i] = checkBound(own, drawn[i].images);
-      if (drawn[i].inLongTiles) tilesExcess[i] = checkBound(own, drawn[i].images, *drawn[i].inLongTiles).worstExcess;
-    }
-    const BoundCheck apart = checkBound(*bound, drawn[kRaster].images, drawn[kWalk].images);
-    const bool isOver = apart.worstExcess > 1 || std::ranges::max(tilesExcess) > 1 ||
-                        std::ranges::any_of(checks, [](const BoundCheck& check) { return check.worstExcess > 1; });
-    if (isOver && boundOptions.samples < kSurerSamples) {
+    const Result<FormBounds> bounds = boundForms(draw, referenceOptions(stiff, index), boundOptions);
+    if (!bounds) return bounds.error();
+    const ViewChecks checks = checkForms(forms, drawn, *bounds);
+    if (checks.isOver() && boundOptions.samples < kSurerSamples) {
       boundOptions.samples = kSurerSamples;
       continue;
     }
-    outcome.boundLargest = std::max(outcome.boundLargest, bound->largest);
-    outcome.boundMean = std::max(outcome.boundMean, bound->mean);
-    for (size_t i = 0; i < checks.size(); ++i) {
-      addCheck(checks[i], index, outcome.renderers[i]);
-      outcome.renderers[i].tilesExcess = std::max(outcome.renderers[i].tilesExcess, tilesExcess[i]);
+    outcome.boundLargest = std::max(outcome.boundLargest, bounds->whole.largest);
+    outcome.boundMean = std::max(outcome.boundMean, bounds->whole.mean);
+    for (size_t i = 0; i < forms.size(); ++i) {
+      addCheck(checks.forms[i], index, outcome.renderers[i]);
+      outcome.renderers[i].tilesExcess = std::max(outcome.renderers[i].tilesExcess, checks.tilesExcess[i]);
     }
-    outcome.rasterWalkExcess = std::max(outcome.rasterWalkExcess, apart.worstExcess);
+    outcome.rasterWalkExcess = std::max(outcome.rasterWalkExcess, checks.apart.worstExcess);
     return {};
   }
 }
@@ -259,17 +235,14 @@ Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const Bake
 Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, const std::vector<RenderedImages>& originals,
                                   PresetOutcome& outcome, const Progress& progress) {
   BakedCase baked;
-  if (Status status = bakeCase(foam, outcome.preset, stiff.chunkCells, baked, progress); !status) return status;
-  if (Status loaded = inFloat_->load(baked.asset, progress, stiff.moved); !loaded) return loaded;
-  if (isDrawnAsShipped(outcome.preset)) {
-    if (Status loaded = asShipped_->load(baked.asset, progress, stiff.moved); !loaded) return loaded;
-  }
+  if (Status status = bakeCase(stiff, foam, outcome.preset, baked, progress); !status) return status;
+  if (Status loaded = drawer_->load(stiff, baked, isDrawnAsShipped(outcome.preset), progress); !loaded) return loaded;
   outcome.encodingPsnr = std::numeric_limits<double>::infinity();
   for (size_t index = 0; index < stiff.views.size(); ++index) {
     if (Status run = runView(stiff, index, baked, outcome); !run) return run;
-    const View view = movedBy(-baked.base, stiff.views[index]);
+    const View view = caseViewOf(stiff, index, baked).ofFoam;
     addTrace(traceWalks(baked.foam, baked.walkGraph, view), outcome.walks);
-    const Result<RenderedImages> decoded = baked.reference->render(view, referenceOptions(view));
+    const Result<RenderedImages> decoded = baked.reference->render(view, referenceOptions(stiff, index));
     if (!decoded) return decoded.error();
     const Result<ImageDifference> encoding = compareImages(decoded->colour, originals[index].colour);
     if (!encoding) return encoding.error();
@@ -280,9 +253,9 @@ Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, cons
 }
 
 Result<PresetOutcome> StabilityRunner::runOne(const StiffCase& stiff, const std::string& preset, const Progress& progress) {
-  const Result<std::vector<RenderedImages>> originals = drawOriginals(stiff.foam, stiff.views, progress);
+  const Result<std::vector<RenderedImages>> originals = drawOriginals(stiff, stiff.foam, progress);
   if (!originals) return originals.error();
-  PresetOutcome outcome = outcomeOf(preset);
+  PresetOutcome outcome = outcomeOf(stiff, preset);
   if (Status run = runPreset(stiff, stiff.foam, *originals, outcome, progress); !run) return run.error();
   return outcome;
 }
@@ -298,10 +271,10 @@ Result<CaseOutcome> StabilityRunner::run(const StiffCase& stiff, const std::vect
     if (imported) foam = std::move(*imported);
   }
   if (outcome.refusal.empty()) {
-    const Result<std::vector<RenderedImages>> originals = drawOriginals(foam, stiff.views, progress);
+    const Result<std::vector<RenderedImages>> originals = drawOriginals(stiff, foam, progress);
     if (!originals) return originals.error();
     for (const std::string& preset : presets) {
-      outcome.presets.push_back(outcomeOf(preset));
+      outcome.presets.push_back(outcomeOf(stiff, preset));
       const Status run = runPreset(stiff, foam, *originals, outcome.presets.back(), progress);
       if (!run && run.error().kind == ErrorKind::kCancelled) return run.error();
       if (!run) outcome.faults.push_back({preset, "device", "error", 0, preset + ": " + run.error().message});

@@ -10,22 +10,18 @@
 #include "baker/stability/known_faults.h"
 #include "baker/stability/stiff_case.h"
 #include "baker/stability/walk_trace.h"
-#include "baker/tool/gpu_renderer.h"
+#include "baker/tool/stability/forms.h"
 
 namespace froth {
 
-struct BakedCase;
-struct DrawnForms;
-
 // One renderer on the bake of one preset, over all views of a case.
 struct RendererOutcome {
-  std::string renderer{};     // "float"; "raster", "walk": all channels in float, without cut-off; "raster shipped", "walk
-                              // shipped": what a game draws, colour alone in halves, with the default cut-off
+  std::string renderer{};     // Form::name
   bool isFinite = true;       // every value of every channel; and no -0
   bool isRepeatable = true;   // the same bits on a second run
   double tilesExcess = 0;  // of raster: how far all tiles long are from all tiles short, over one bound; drivers may fuse the two otherwise
   bool endsInTime = true;     // no walk takes more steps than there are cells
-  double maxError = 0;        // [display-coded] of colour
+  double maxError = 0;        // BoundCheck::maxError
   double worstExcess = 0;     // largest error over its pixel's bound; <= 1: within
   double colourExcess = 0;    // the same of colour and alpha alone
   double shareOver = 0;       // of the pixels of the worst view
@@ -37,7 +33,7 @@ struct RendererOutcome {
 struct PresetOutcome {
   std::string preset;
   double boundLargest = 0, boundMean = 0;  // [display-coded] of forms in float
-  std::vector<RendererOutcome> renderers;  // float, raster, walk; of `exact` and `default` raster shipped, walk shipped
+  std::vector<RendererOutcome> renderers;  // as formsOf()
   double rasterWalkExcess = 0;  // difference of raster and walk over one bound, not two
   WalkTrace walks;
   double encodingPsnr = 0, encodingMax = 0;  // of what the bake shows against the foam itself, both exact; least and largest of the views
@@ -72,19 +68,16 @@ class StabilityRunner {
   Result<CaseOutcome> run(const StiffCase& stiff, const std::vector<std::string>& presets, const Progress& progress);
   // The bake of one preset alone, of a foam as it stands. Fails when it cannot be baked or drawn, too.
   Result<PresetOutcome> runOne(const StiffCase& stiff, const std::string& preset, const Progress& progress);
-  const HostDeviceInfo& device() const { return inFloat_->device(); }
+  const HostDeviceInfo& device() const { return drawer_->device(); }
 
  private:
-  StabilityRunner(std::unique_ptr<GpuRenderer> inFloat, std::unique_ptr<GpuRenderer> asShipped)
-      : inFloat_(std::move(inFloat)), asShipped_(std::move(asShipped)) {}
+  explicit StabilityRunner(std::unique_ptr<FormDrawer> drawer) : drawer_(std::move(drawer)) {}
 
   Status runPreset(const StiffCase& stiff, const Foam& foam, const std::vector<RenderedImages>& originals, PresetOutcome& outcome,
                    const Progress& progress);
   Status runView(const StiffCase& stiff, size_t index, const BakedCase& baked, PresetOutcome& outcome);
-  Status drawRepeatedly(const View& view, uint32_t cellCount, RendererOutcome& outcome, DrawnForms& drawn);
 
-  // Two contexts: one keeps all values as floats and checks every index, the other is what a game creates.
-  std::unique_ptr<GpuRenderer> inFloat_, asShipped_;
+  std::unique_ptr<FormDrawer> drawer_;
 };
 
 }  // namespace froth

@@ -16,7 +16,7 @@ namespace {
 // A case on the device takes tens of milliseconds, and one that fails is bounded by 256 samples.
 constexpr uint32_t kMostTries = 500;
 
-// Raster and walk of the `exact` bake, which keeps every number of the foam. Walks traced on the CPU are not judged: where sites
+// All forms of the `exact` bake, which keeps every number of the foam. Walks traced on the CPU are not judged: where sites
 // coincide or the eye is on a vertex, their order is a tie that no image shows.
 Result<std::optional<CaseFault>> judgeOnDevice(StabilityRunner& runner, const StiffCase& stiff) {
   const Result<PresetOutcome> outcome =

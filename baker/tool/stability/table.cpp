@@ -37,13 +37,13 @@ std::string errorText(const PresetOutcome& preset, const std::string& name) {
 std::string markdownOf(const JudgedCase& judged) {
   const StiffCase& stiff = judged.stiff;
   std::string text = fmt::format("| `{}` | {} | {} ", stiff.name, stiff.what, verdictName(judged.outcome.verdict));
-  if (judged.outcome.presets.empty()) return text + "| - | - | - | - | - | - | - |\n";
+  if (judged.outcome.presets.empty()) return text + "| - | - | - | - | - | - | - | - | - | - |\n";
   bool isFirst = true;
   for (const PresetOutcome& preset : judged.outcome.presets) {
     if (!isFirst) text += "| | | ";
     isFirst = false;
     text += fmt::format("| {} | {} / {} |", preset.preset, numberText(preset.boundLargest), numberText(preset.boundMean));
-    for (const char* renderer : {"float", "raster", "walk", "raster shipped", "walk shipped"})
+    for (const char* renderer : {"float", "raster", "walk", "rays", "queries", "raster shipped", "walk shipped"})
       text += fmt::format(" {} |", errorText(preset, renderer));
     text += fmt::format(" {} |\n", psnrText(preset.encodingPsnr));
   }
@@ -52,9 +52,9 @@ std::string markdownOf(const JudgedCase& judged) {
 
 std::string tables(const std::vector<JudgedCase>& cases, const HostDeviceInfo& device) {
   std::string text = fmt::format("Drawn on {} ({}).\n\n", device.name, device.driver);
-  text += "| case | what | verdict | preset | bound: largest / mean | CPU float | raster | walk | raster, as shipped | "
+  text += "| case | what | verdict | preset | bound: largest / mean | CPU float | raster | walk | GPU rays | CPU queries | raster, as shipped | "
           "walk, as shipped | encoding [dB] |\n"
-          "|---|---|---|---|---|---|---|---|---|---|---|\n";
+          "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const JudgedCase& judged : cases) text += markdownOf(judged);
   text += "\n## What conditions each image\n\n";
   for (const JudgedCase& judged : cases) {
