@@ -20,7 +20,7 @@ const std::set<std::string> kGlslWords = {
     "if", "else", "for", "while", "break", "continue", "return", "struct", "const", "in", "out", "inout", "precise", "true",
     "false", "void", "bool", "int", "uint", "float", "vec2", "vec3", "vec4", "uvec2", "uvec3", "uvec4", "ivec3",
     "layout", "set", "binding", "uniform", "buffer", "readonly", "std140", "std430", "buffer_reference", "buffer_reference_align",
-    "abs", "atomicAdd", "bitCount", "clamp", "cos", "dot", "exp", "exp2", "floor", "fma", "max", "min", "normalize", "pow", "sin",
+    "abs", "atomicAdd", "bitCount", "clamp", "cos", "dot", "exp", "exp2", "floatBitsToUint", "floor", "max", "min", "normalize", "pow", "sin",
     "sqrt", "tan", "uintBitsToFloat",
     "x", "y", "z", "w", "xy", "yz", "xyz", "rgb", "r", "g", "b", "a"};
 const std::set<std::string> kDirectiveWords = {"define", "undef", "if", "ifdef", "ifndef", "elif", "else", "endif", "defined",

@@ -45,12 +45,29 @@ FOAM_FN real fixedDot(real3 a, real3 b) {
   return sum;
 }
 
+// What the products of two vectors' components are rounded by. A shader's fma may round twice, so there factors are cut in halves of
+// 12 digits, whose products are exact (Dekker 1971).
+#if defined(__cplusplus)
+FOAM_FN real3 restOfProducts(real3 a, real3 b, real3 products) {
+  return real3(fma(a.x, b.x, -products.x), fma(a.y, b.y, -products.y), fma(a.z, b.z, -products.z));
+}
+#else
+FOAM_FN real3 leadingHalf(real3 v) { return uintBitsToFloat(floatBitsToUint(v) & 0xfffff000u); }
+
+FOAM_FN real3 restOfProducts(real3 a, real3 b, real3 products) {
+  real3 aHigh = leadingHalf(a), bHigh = leadingHalf(b);
+  FOAM_PRECISE real3 aLow = a - aHigh;
+  FOAM_PRECISE real3 bLow = b - bHigh;
+  FOAM_PRECISE real3 rest = ((aHigh * bHigh - products) + aHigh * bLow + aLow * bHigh) + aLow * bLow;
+  return rest;
+}
+#endif
+
 // The order of a site along a ray: direction . site as the sum of two numbers, with about twice the digits of one (Ogita, Rump & Oishi
 // 2005, Dot2), as sites that nearly coincide need them. One fixed pair for a direction and a site.
 FOAM_FN real2 orderAlong(real3 direction, real3 site) {
   FOAM_PRECISE real3 products = direction * site;
-  FOAM_PRECISE real3 rests = real3(fma(direction.x, site.x, -products.x), fma(direction.y, site.y, -products.y),
-                                   fma(direction.z, site.z, -products.z));
+  real3 rests = restOfProducts(direction, site, products);
   FOAM_PRECISE real two = products.x + products.y;
   FOAM_PRECISE real ofTwo = two - products.x;
   FOAM_PRECISE real three = two + products.z;

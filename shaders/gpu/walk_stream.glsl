@@ -52,10 +52,23 @@ uvec2 locateFrom(vec3 point, uvec2 first, out uint steps) {
   return descendTo(point, isCell(cell) ? cell : uvec2(0), steps);
 }
 
-// A site of a chunk as seen from the ray's origin: one that is near to it keeps all digits, however far both are from the chunk's origin.
-vec3 fromOrigin(Chunk chunk, vec3 site, vec3 origin) {
-  precise vec3 seen = ((site + chunk.offsetHigh) - origin) + chunk.offsetLow;
-  return seen;
+// The origin of a chunk as seen from a ray's, in two floats.
+struct ChunkPlace {
+  vec3 high, low;
+};
+
+ChunkPlace placeFrom(vec3 origin, Chunk chunk) {
+  precise vec3 high = chunk.offsetHigh - origin;
+  precise vec3 taken = chunk.offsetHigh - high;
+  precise vec3 rest = (chunk.offsetHigh - (high + taken)) + (taken - origin);  // what `high` is rounded by (Shewchuk 1997, Two-Diff)
+  precise vec3 low = rest + chunk.offsetLow;
+  return ChunkPlace(high, low);
+}
+
+// A site of the chunk as seen from there: good to its last digits, however far chunk, origin and eye are from each other.
+vec3 centreAt(ChunkPlace place, vec3 site) {
+  precise vec3 centre = (site + place.high) + place.low;
+  return centre;
 }
 
 // Cuts [tNear, tFar] by the instance's box; false: nothing is left.
@@ -89,7 +102,7 @@ Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, floa
     stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, isHinted ? hint.yz : uvec2(kNoCell), steps);
   work.descents += steps;
   Chunk chunk = loadChunk(stream.cell.x);
-  stream.key = keyOf(ray.direction, fromOrigin(chunk, siteRadiusOf(chunk, stream.cell.y).xyz, ray.origin));
+  stream.key = keyOf(ray.direction, centreAt(placeFrom(ray.origin, chunk), siteRadiusOf(chunk, stream.cell.y).xyz));
   stream.steps = 0;
   stream.isAhead = true;
   stream.isCut = false;
@@ -106,8 +119,8 @@ struct Exit {
   float t, key;
 };
 
-Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 direction, float key, inout WalkWork work) {
-  vec3 centre = fromOrigin(chunk, siteRadius.xyz, origin);
+Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 direction, float key, inout WalkWork work) {
+  vec3 centre = centreAt(place, siteRadius.xyz);
   vec2 order = orderAlong(direction, siteRadius.xyz);
   uint site = kNoCell;
   float siteKey = key;
@@ -120,7 +133,7 @@ Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 directi
     vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
     float otherQ = dot(direction, toNeighbour);
     if (!(otherQ > 0.0)) continue;
-    vec3 otherCentre = fromOrigin(chunk, otherSite.xyz, origin);
+    vec3 otherCentre = centreAt(place, otherSite.xyz);
     float otherClearance = sharedClearance(centre, otherCentre, toNeighbour, siteRadius.w, otherSite.w);
     float nearer = clearance * otherQ - otherClearance * q;
     if (!(nearer >= 0.0)) continue;
@@ -139,13 +152,14 @@ Exit findExit(Chunk chunk, uint cell, vec4 siteRadius, vec3 origin, vec3 directi
 bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tNear, out float tFar,
                 inout WalkWork work) {
   Chunk chunk = loadChunk(stream.cell.x);
+  ChunkPlace place = placeFrom(ray.origin, chunk);
   uint maxSteps = FRAME.maxSteps;
   while (stream.entry < stream.end && stream.steps < maxSteps) {
     ++stream.steps;
     ++work.cells;
     vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);
-    Exit exit = findExit(chunk, stream.cell.y, siteRadius, ray.origin, ray.direction, stream.key, work);
-    met = MetCell(stream.cell, fromOrigin(chunk, siteRadius.xyz, ray.origin), siteRadius.w);
+    Exit exit = findExit(chunk, place, stream.cell.y, siteRadius, ray.direction, stream.key, work);
+    met = MetCell(stream.cell, centreAt(place, siteRadius.xyz), siteRadius.w);
     bool isMet = stream.cell.y < chunk.liveCount && intersectBall(met.centre, met.radius, ray.direction, tNear, tFar);
     if (isMet) {
       tNear = max(tNear, stream.entry);
@@ -155,7 +169,10 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
     if (exit.site != kNoCell) {
       stream.key = exit.key;
       stream.cell = cellOfSite(chunk, exit.site);
-      if (stream.cell.x != chunk.index) chunk = loadChunk(stream.cell.x);
+      if (stream.cell.x != chunk.index) {
+        chunk = loadChunk(stream.cell.x);
+        place = placeFrom(ray.origin, chunk);
+      }
     }
     if (isMet && tNear < tFar) return true;
   }

@@ -45,7 +45,7 @@ std::map<std::string, ArithmeticOfFunction> arithmeticOfWalk() {
 TEST(FixedBits, NoDriverMayFuseWhatTwoPlacesMustFindAlike) {
   const auto found = arithmeticOfWalk();
   for (const char* name : {"fixedDot", "radicalOffset", "radicalClearance", "eyePlane", "parallelPlane", "nearnessOf", "ballOf",
-                           "fromSiteToSite", "orderAlong"}) {
+                           "fromSiteToSite", "orderAlong", "restOfProducts"}) {
     ASSERT_EQ(found.count(name), 1u) << name;
     const ArithmeticOfFunction& function = found.at(name);
     EXPECT_GT(function.fixed, 0) << name;
