@@ -150,7 +150,7 @@ class DepthSamples {
 void allowNearQuantile(const ReferenceOptions& options, const Image& alpha, const Image& alphaBound, DepthBound& depth) {
   for (size_t pixel = 0; pixel < alpha.values.size(); ++pixel) {
     if (std::abs(1 - alpha.values[pixel] - options.depthQuantile) > alphaBound.values[pixel]) continue;
-    if (!depth.mayHit[pixel]) depth.margin.values[pixel] = std::numeric_limits<float>::max();
+    depth.margin.values[pixel] = std::numeric_limits<float>::max();
     depth.mayHit[pixel] = depth.mayMiss[pixel] = 1;
   }
 }

@@ -94,7 +94,8 @@ Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, floa
   float tNear = entry / FRAME.scale, tFar = tEnd / FRAME.scale;
   clipByBox(ray, tNear, tFar);
   stream.entry = skipEmptyParts(ray.origin, ray.direction, tNear, tFar);
-  stream.end = tFar - skipEmptyParts(ray.origin + tFar * ray.direction, -ray.direction, 0.0, tFar - stream.entry);
+  // Backwards as seen from the origin too: tFar may lie so far behind the box that no place there has digits for its parts.
+  stream.end = -skipEmptyParts(ray.origin, -ray.direction, -tFar, -stream.entry);
   bool isHinted = hint.x == instance && stream.entry == tNear;  // it lies where the ray begins
   uint steps = 0;
   stream.cell = uvec2(0);
