@@ -15,11 +15,13 @@ void main() {
     FrothRay ray = frothRay(surface.position, reflect(along, surface.normal));
     ray.tMin = kLift;
     if (isMirror(surface)) {
+      // On the mirror's plane: a rasterizer interpolates depth with fewer digits, and an edge of the foam shows it.
+      ray.origin = -room.mirror.w / dot(room.mirror.xyz, along) * along;
       // The mirrored camera sees the same colours, from where it stands; the rays end at the meshes that it sees.
       ray.direction = mirroredDirection(along);
-      ray.apex = surface.distance;
+      ray.apex = length(ray.origin);
       Surface beyond = mirroredSurfaceAt(pixel);
-      if (beyond.isThere) ray.tMax = beyond.distance - surface.distance;
+      if (beyond.isThere) ray.tMax = beyond.distance - ray.apex;
     }
     seen = foamAndMotes(ray);
   }
