@@ -4,8 +4,8 @@
 #include "gpu/site_colour.glsl"
 #include "foam/cell.h"
 
-// A detail site with less than this part of all weights is not looked up for a colour: the error is far below an
-// 8-bit step.
+// A detail site with less than this part of all weights is not looked up for a colour: the error is below half an 8-bit step
+// (docs/STABILITY.md).
 const float kLeastShare = 1.0 / 1024.0;
 
 // A ray in the axes and units of the instance at hand.
