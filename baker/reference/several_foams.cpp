@@ -35,8 +35,8 @@ class FoamInView {
  public:
   FoamInView(const PlacedFoam& placed, const ReferenceRenderer::State& foam, const View& view,
              const ReferenceOptions& options)
-      : foam_(foam), view_(viewFromFoam(view, placed)), rays_(view_), scale_(placed.scale), sharpness_(options.detailSharpness), leastShare_(options.leastShare),
-        worldFromFoam_(glm::mat3_cast(placed.rotation)) {
+      : foam_(foam), view_(viewFromFoam(view, placed)), rays_(view_), scale_(placed.scale), sharpness_(options.detailSharpness),
+        leastShare_(options.leastShare), worldFromFoam_(glm::mat3_cast(placed.rotation)) {
     ReferenceOptions local = options;
     local.nearDepth /= placed.scale;
     cells_ = prepareViewCells<double>(foam.foam, foam.cechPairs, foam.visible, view_, local);

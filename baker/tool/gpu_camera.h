@@ -11,11 +11,11 @@ namespace froth {
 uint32_t lensClassesOf(const View& view);
 uint32_t lensClassesOf(const std::vector<SelectedView>& views);
 
-// Everything but the image of a ray map.
 // The scene's depth as such a camera has it, of distances along the rays: device depth, or with lenses that are no projection the
 // distances themselves.
 std::vector<float> sceneDepthOf(const View& view, const Image& distances);
 
+// Everything but the image of a ray map.
 FrothCamera cameraOf(const View& view);
 
 }  // namespace froth

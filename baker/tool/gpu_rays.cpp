@@ -74,20 +74,6 @@ void putHit(size_t pixel, float transmittance, float distance, RenderedImages& i
   images.depth.values[pixel] = distance;
 }
 
-void waitForHits(VkCommandBuffer commands) {
-  VkMemoryBarrier2 barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-  barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-  barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-  barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-  VkDependencyInfo dependency{};
-  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  dependency.memoryBarrierCount = 1;
-  dependency.pMemoryBarriers = &barrier;
-  vkCmdPipelineBarrier2(commands, &dependency);
-}
-
 }  // namespace
 
 Status GpuRenderer::State::recordRays(const glm::dvec3& eye, const RayOptions& wanted, const HostBuffer& buffer, uint32_t count,
@@ -102,7 +88,8 @@ Status GpuRenderer::State::recordRays(const glm::dvec3& eye, const RayOptions& w
   const VkDeviceAddress hits = buffer.address + count * sizeof(FrothGpuRay);
   const FrothResult cast = frothRecordRays(context, commands, buffer.address, hits, count, FROTH_RAY_RADIANCE);
   if (Status recorded = check(cast, "frothRecordRays"); !recorded) return recorded;
-  waitForHits(commands);
+  recordMemoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   return {};
 }
 

@@ -25,6 +25,9 @@ struct HostDeviceInfo {
 
 Result<std::vector<HostDeviceInfo>> listHostDevices();
 
+void recordMemoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
+                         VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess);
+
 struct HostOptions {
   std::string device;        // index or part of a name; empty: first suitable, GPUs before CPUs
   bool useValidation = false;  // core and synchronization validation; fails if the layer is not installed

@@ -105,17 +105,8 @@ void copyToBuffer(VkCommandBuffer commands, const HostImage& image, uint32_t lay
   region.imageSubresource = {traits.aspect(), 0, layer, 1};
   region.imageExtent = {image.extent.width, image.extent.height, 1};
   vkCmdCopyImageToBuffer(commands, image.image, VK_IMAGE_LAYOUT_GENERAL, buffer, 1, &region);
-  VkMemoryBarrier2 barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-  barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-  barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-  barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-  barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-  VkDependencyInfo dependency{};
-  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  dependency.memoryBarrierCount = 1;
-  dependency.pMemoryBarriers = &barrier;
-  vkCmdPipelineBarrier2(commands, &dependency);
+  recordMemoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
+                      VK_ACCESS_2_HOST_READ_BIT);
 }
 
 // Into layout GENERAL, whatever it held before.
@@ -140,6 +131,21 @@ void copyToImage(VkCommandBuffer commands, VkBuffer buffer, const HostImage& ima
 }
 
 }  // namespace
+
+void recordMemoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
+                         VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
+  VkMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  barrier.srcStageMask = fromStage;
+  barrier.srcAccessMask = fromAccess;
+  barrier.dstStageMask = toStage;
+  barrier.dstAccessMask = toAccess;
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commands, &dependency);
+}
 
 uint32_t Host::State::findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const {
   for (uint32_t type = 0; type < memory.memoryTypeCount; ++type) {

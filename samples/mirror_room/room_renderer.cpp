@@ -39,21 +39,6 @@ FrothImage foamOutput(const Host& host, const HostImage& image) {
   return described;
 }
 
-void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
-                   VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
-  VkMemoryBarrier2 barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-  barrier.srcStageMask = fromStage;
-  barrier.srcAccessMask = fromAccess;
-  barrier.dstStageMask = toStage;
-  barrier.dstAccessMask = toAccess;
-  VkDependencyInfo dependency{};
-  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  dependency.memoryBarrierCount = 1;
-  dependency.pMemoryBarriers = &barrier;
-  vkCmdPipelineBarrier2(commands, &dependency);
-}
-
 }  // namespace
 
 Result<std::unique_ptr<RoomRenderer>> RoomRenderer::create(Host& host, const Room& room, const Scene& scene) {
@@ -176,10 +161,10 @@ Status RoomRenderer::record(VkCommandBuffer commands, Scene& scene, const RoomSh
 }
 
 void RoomRenderer::recordFrame(VkCommandBuffer commands, const room::RoomFrame& frame) const {
-  memoryBarrier(commands, kCompute, VK_ACCESS_2_NONE, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  recordMemoryBarrier(commands, kCompute, VK_ACCESS_2_NONE, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
   vkCmdUpdateBuffer(commands, frame_.buffer, 0, sizeof(frame), &frame);
-  memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, kCompute,
-                VK_ACCESS_2_UNIFORM_READ_BIT);
+  recordMemoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, kCompute,
+                      VK_ACCESS_2_UNIFORM_READ_BIT);
 }
 
 void RoomRenderer::recordMeshes(VkCommandBuffer commands, const RoomShot& shot) const {
