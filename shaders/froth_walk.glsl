@@ -12,11 +12,11 @@
 #ifndef FROTH_WALK_GLSL
 #define FROTH_WALK_GLSL
 
-#define FROTH_WALK_ABI 2u
+#define FROTH_WALK_ABI 3u
 
 // FrothHit::status
 #define FROTH_WALK_DONE 0u
-#define FROTH_WALK_STEP_LIMIT 1u    // ended by FrothWalkInfo::maxSteps: what lies beyond is missing
+#define FROTH_WALK_STEP_LIMIT 1u    // ended by FrothWalkInfo::maxSteps or maxNeighbours: what lies beyond is missing
 #define FROTH_WALK_STREAM_LIMIT 2u  // an instance was left out: more overlap than FROTH_WALK_STREAMS
 #define FROTH_WALK_VERSION 3u       // the set is one of another library; nothing was met
 
@@ -281,14 +281,14 @@ bool frothClosest(FrothRay ray, out FrothHit hit) {
 }
 
 // The power cell (chunk, cell) of an instance of the set that holds a point. first: a cell near to it, or uvec2(FROTH_NONE).
-// false: there is no such instance.
+// false: there is no such instance, or the search ended at FrothWalkInfo::maxNeighbours.
 bool frothLocate(uint instance, vec3 point, uvec2 first, out uvec2 cell) {
   cell = uvec2(FROTH_NONE);
   if (!isVersionKnown() || instance >= walkSet.block.instanceCount) return false;
   instanceAtHand = instance;
-  uint steps;
-  cell = locateFrom(assetFromWorld(point) / FRAME.scale, first, steps);
-  return true;
+  uint steps, neighbours = 0;
+  cell = locateFrom(assetFromWorld(point) / FRAME.scale, first, steps, neighbours);
+  return neighbours < FRAME.maxNeighbours;
 }
 
 #endif

@@ -20,5 +20,6 @@ void main() {
   uvec3 entry = uvec3(index % along, index / along % along, index / (along * along));
   vec4 low = FRAME.boxLow, size = FRAME.boxSize;
   vec3 middle = low.xyz + (vec3(entry) + 0.5) / float(along) * size.xyz;
-  FRAME.entries.v[index] = uvec4(cellHolding(middle, uvec2(0)), 0u, 0u);
+  uint neighbours = 0;
+  FRAME.entries.v[index] = uvec4(cellHolding(middle, uvec2(0), neighbours), 0u, 0u);
 }

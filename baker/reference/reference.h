@@ -21,7 +21,7 @@ struct ReferenceOptions {
   double nearDepth = 0;         // [scene units]
   double depthQuantile = 0.5;
   double detailSharpness = 10;
-  double leastShare = 0;  // detail sites with less of a cell's weights have no part in its colour, as of rays (froth_walk.glsl): 1/1024
+  double leastShare = 0;  // detail sites with less of a cell's weights have no part in its colour, as of rays (foam::leastShownShare)
   // Every value that a cell is drawn with gets a relative error of up to this, of its own and random by the seed: positions by
   // their distance from the eye. What the image then changes by, a renderer may err by that rounds so (Monte Carlo
   // arithmetic). 0: none.

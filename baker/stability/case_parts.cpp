@@ -82,19 +82,20 @@ std::vector<CaseCell> cloud(uint32_t count, uint64_t seed, float step) {
   return cells;
 }
 
-Foam foamOfBoxes() {
+Foam foamOfCubes(const glm::ivec3& count, const glm::vec3& first, float radius) {
   std::vector<CaseCell> cells;
-  for (int z = 0; z < 4; ++z) {
-    for (int y = -2; y < 2; ++y) {
-      for (int x = -2; x < 2; ++x) {
+  for (int z = 0; z < count.z; ++z) {
+    for (int y = 0; y < count.y; ++y) {
+      for (int x = 0; x < count.x; ++x) {
         const auto i = static_cast<uint32_t>(cells.size());
-        const glm::vec3 site(0.5f * static_cast<float>(x) + 0.25f, 0.5f * static_cast<float>(y) + 0.25f, 0.5f * static_cast<float>(z));
-        cells.push_back({site, 0.375f, i % 3 == 0 ? 1.0f : 4.0f, kFaceToViewer, 5, i});
+        cells.push_back({first + 0.5f * glm::vec3(x, y, z), radius, i % 3 == 0 ? 1.0f : 4.0f, kFaceToViewer, 5, i});
       }
     }
   }
   return foamOfCells(cells);
 }
+
+Foam foamOfBoxes() { return foamOfCubes({4, 4, 4}, {-0.75f, -0.75f, 0}, 0.375f); }
 
 Foam scaledFoam(Foam foam, float factor) {
   for (glm::vec3& site : foam.sites) site *= factor;

@@ -34,7 +34,10 @@ Foam foamOfCells(const std::vector<CaseCell>& cells, uint32_t details = kCaseDet
 // Overlapping cells in the cube -1..1, with faces of any direction, some without density. Sites are multiples of `step`.
 std::vector<CaseCell> cloud(uint32_t count, uint64_t seed, float step = 1.0f / 1024);
 
-// A grid of cubes of one half, whose planes lie at whole halves of x and y and odd quarters of z, behind the plane z = 0.
+// A grid of cubes with edges of one half: balls of one radius, `first` is the lowest site.
+Foam foamOfCubes(const glm::ivec3& count, const glm::vec3& first, float radius);
+
+// Cubes whose planes lie at whole halves of x and y and odd quarters of z, behind the plane z = 0.
 Foam foamOfBoxes();
 
 // All lengths times `factor`, about the origin: the same image for an eye that moves along.

@@ -15,19 +15,7 @@ const glm::quat kAskew = glm::normalize(glm::quat(0.9f, 0.1f, 0.35f, -0.1f));
 constexpr glm::quat kUpright(1, 0, 0, 0), kHalfTurn(0, 0, 1, 0);  // about y
 
 // Cubes of which each fills its own of a lattice's: instances that are shifted by a whole number share planes and spheres.
-Foam latticeFoam() {
-  std::vector<CaseCell> cells;
-  for (int z = 0; z < 2; ++z) {
-    for (int y = 0; y < 2; ++y) {
-      for (int x = 0; x < 2; ++x) {
-        const auto i = static_cast<uint32_t>(cells.size());
-        const glm::vec3 site(static_cast<float>(x) - 0.5f, static_cast<float>(y) - 0.5f, static_cast<float>(z) - 0.5f);
-        cells.push_back({0.5f * site, 0.4375f, i % 3 == 0 ? 1.0f : 4.0f, kFaceToViewer, 5, i});
-      }
-    }
-  }
-  return foamOfCells(cells);
-}
+Foam latticeFoam() { return foamOfCubes({2, 2, 2}, glm::vec3(-0.25f), 0.4375f); }
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace froth {
 namespace {
 
 constexpr float kDefaultCutoff = 1e-3f, kDefaultQuantile = 0.5f, kDefaultOpacity = 0.5f;
-constexpr uint32_t kDefaultMaxSteps = 65536;
+constexpr uint32_t kDefaultMaxSteps = 65536, kDefaultMaxNeighbours = 1u << 20;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool isFinite(const double (&vector)[3]) {
@@ -68,6 +68,7 @@ FrothResult Context::castRays(FrothCastInfo info, std::span<const FrothRay> rays
   if (info.quantile == 0) info.quantile = kDefaultQuantile;
   if (info.cutoff == 0) info.cutoff = kDefaultCutoff;
   if (info.maxSteps == 0) info.maxSteps = kDefaultMaxSteps;
+  if (info.maxNeighbours == 0) info.maxNeighbours = kDefaultMaxNeighbours;
   if (!(info.quantile > 0 && info.quantile < 1)) {
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "quantile: %g; must lie between 0 and 1",
                          double{info.quantile});
@@ -83,7 +84,8 @@ FrothResult Context::castRays(FrothCastInfo info, std::span<const FrothRay> rays
   uint32_t bits = 0;
   const std::vector<PlacedFoam> foams = gatherFoams(bits);
   const double logCutoff = info.cutoff > 0 ? std::log(double{info.cutoff}) : -kInfinity;
-  RayCaster caster(foams, {std::log(double{info.quantile}), logCutoff, info.maxSteps, info.closestOnly != 0});
+  const WalkLimits limits{info.maxSteps, info.maxNeighbours};
+  RayCaster caster(foams, {std::log(double{info.quantile}), logCutoff, limits, info.closestOnly != 0});
   uint32_t allBits = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
     hits[i] = caster.cast(rays[i]);

@@ -25,10 +25,10 @@ double heightAt(const QueryDetail* details, uint32_t count, const glm::dvec3& qu
 
 }  // namespace
 
-FoamWalk::FoamWalk(const QueryFoam& foam, const FoamRay& ray, uint32_t maxSteps)
+FoamWalk::FoamWalk(const QueryFoam& foam, const FoamRay& ray, const WalkLimits& limits)
     : foam_(&foam),
       ray_(ray),
-      maxSteps_(maxSteps),
+      limits_(limits),
       current_(foam.locate(ray.origin)),
       chunk_(&foam.chunk(current_.chunk)),
       localOrigin_(ray.origin - chunk_->origin),
@@ -36,8 +36,8 @@ FoamWalk::FoamWalk(const QueryFoam& foam, const FoamRay& ray, uint32_t maxSteps)
 
 bool FoamWalk::next(FoamSegment& segment) {
   while (entry_ < ray_.tEnd) {
-    if (steps_ == maxSteps_) {
-      hitStepLimit_ = true;
+    if (steps_ == limits_.steps || neighbours_ >= limits_.neighbours) {
+      hitLimit_ = true;
       return false;
     }
     ++steps_;
@@ -52,13 +52,14 @@ bool FoamWalk::next(FoamSegment& segment) {
   return false;
 }
 
-FoamWalk::Exit FoamWalk::findExit() const {
+FoamWalk::Exit FoamWalk::findExit() {
   const glm::dvec3 site = chunk_->siteOf(current_.cell);
   const glm::dvec3 centre = site - localOrigin_;
   const double radius = chunk_->radiusOf(current_.cell);
   Exit exit{kNoSite, std::numeric_limits<double>::infinity(), key_};
-  const uint32_t end = chunk_->neighbourOffsets[current_.cell + 1];
-  for (uint32_t i = chunk_->neighbourOffsets[current_.cell]; i < end; ++i) {
+  const uint32_t begin = chunk_->neighbourOffsets[current_.cell], end = chunk_->neighbourOffsets[current_.cell + 1];
+  neighbours_ += end - begin;
+  for (uint32_t i = begin; i < end; ++i) {
     const uint32_t other = chunk_->neighbourAt(i);
     const glm::dvec3 toNeighbour = chunk_->siteOf(other) - site;
     const double q = glm::dot(ray_.direction, toNeighbour);

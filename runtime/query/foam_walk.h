@@ -15,6 +15,11 @@ struct FoamRay {
   double tEnd = 0;
 };
 
+// Where a walk ends early: from so many cells, or neighbours of these, on.
+struct WalkLimits {
+  uint32_t steps, neighbours;
+};
+
 // Where a ray gains opacity in one cell: tNear < tFar <= FoamRay::tEnd.
 struct FoamSegment {
   double tNear = 0, tFar = 0;
@@ -26,13 +31,13 @@ struct FoamSegment {
 // taken only to a greater key; the key of a site of a chunk, be it a cell or a ghost, is one fixed number for a ray.
 class FoamWalk {
  public:
-  FoamWalk(const QueryFoam& foam, const FoamRay& ray, uint32_t maxSteps);
+  FoamWalk(const QueryFoam& foam, const FoamRay& ray, const WalkLimits& limits);
 
-  // The next segment, front to back; false: there is none up to the end of the ray or of the steps.
+  // The next segment, front to back; false: there is none up to the end of the ray or a limit.
   bool next(FoamSegment& segment);
 
   uint32_t steps() const { return steps_; }
-  bool hitStepLimit() const { return hitStepLimit_; }
+  bool hitLimit() const { return hitLimit_; }
 
  private:
   // Neighbour through whose plane the ray leaves the present cell, and where.
@@ -41,7 +46,7 @@ class FoamWalk {
     double t, key;
   };
 
-  Exit findExit() const;
+  Exit findExit();
   void stepThrough(const Exit& exit);
   bool meetCell(CellAddress cell, const QueryChunk& chunk, const glm::dvec3& centre, double exit,
                 FoamSegment& segment) const;
@@ -49,8 +54,9 @@ class FoamWalk {
 
   const QueryFoam* foam_;
   FoamRay ray_;
-  uint32_t maxSteps_, steps_ = 0;
-  bool hitStepLimit_ = false;
+  WalkLimits limits_;
+  uint32_t steps_ = 0, neighbours_ = 0;
+  bool hitLimit_ = false;
 
   CellAddress current_;
   const QueryChunk* chunk_;

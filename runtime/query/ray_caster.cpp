@@ -54,7 +54,7 @@ void RayCaster::startStreams(const glm::dvec3& origin, const glm::dvec3& directi
     double tNear = tMin / placed.scale, tFar = tMax / placed.scale;
     if (!clipByBox(*placed.foam, localOrigin, localDirection, tNear, tFar)) continue;
     const FoamRay ray{localOrigin + tNear * localDirection, localDirection, tFar - tNear};
-    const FoamWalk walk(*placed.foam, ray, settings_.maxSteps);
+    const FoamWalk walk(*placed.foam, ray, settings_.limits);
     streams_.push_back({&placed, walk, tNear * placed.scale, {}, false});
     streams_.back().advance();
   }
@@ -107,7 +107,7 @@ FrothRayHit RayCaster::cast(const FrothRay& ray) {
   hit.transmittance = static_cast<float>(std::exp(logTransmittance));
   for (const Stream& stream : streams_) {
     hit.steps += stream.walk.steps();
-    if (stream.walk.hitStepLimit()) hit.bits |= FROTH_QUERY_STEP_LIMIT;
+    if (stream.walk.hitLimit()) hit.bits |= FROTH_QUERY_STEP_LIMIT;
   }
   return hit;
 }

@@ -13,7 +13,7 @@ namespace froth {
 
 struct CastSettings {
   double logQuantile, logCutoff;
-  uint32_t maxSteps;
+  WalkLimits limits;
   bool closestOnly;
 };
 

@@ -29,7 +29,7 @@ gpu::vec4 toFloats(const glm::dvec3& v) {
 
 glm::dvec3 toVector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye, uint32_t maxSteps) {
+gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye, const FrothWalkInfo& info) {
   const RenderInstance& placement = instance.placement;
   const GpuAsset& asset = *placement.asset;
   gpu::WalkInstance entry{};
@@ -48,7 +48,8 @@ gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye
   entry.userId = instance.placement.userId;
   entry.chunkCount = static_cast<uint32_t>(asset.chunks.size());
   entry.localBits = asset.localBits;
-  entry.maxSteps = maxSteps;
+  entry.maxSteps = info.maxSteps;
+  entry.maxNeighbours = info.maxNeighbours;
   entry.detailCount = asset.detailCount;
   entry.lobeCount = asset.lobeCount;
   entry.hasHeights = asset.hasHeights;
@@ -196,7 +197,7 @@ void WalkSets::writeTables(uint32_t slot, const FrothWalkInfo& info, std::span<c
   std::memcpy(staged, &block, sizeof(block));
   VkDeviceSize chunks = kChunksOffset;
   const auto write = [&](size_t place, const WalkedInstance& instance, const glm::dvec3& localEye) {
-    gpu::WalkInstance entry = describe(instance, localEye, info.maxSteps);
+    gpu::WalkInstance entry = describe(instance, localEye, info);
     entry.chunks = address + chunks;
     std::memcpy(staged + kInstancesOffset + place * sizeof(entry), &entry, sizeof(entry));
     fillChunks(*instance.placement.asset, localEye, reinterpret_cast<gpu::ChunkEntry*>(staged + chunks));

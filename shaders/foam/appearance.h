@@ -31,6 +31,10 @@ FOAM_FN real detailWeight(real3 query, real2 detail, real sharpness) {
   return exp2(-falloff * (x * x + y * y) - falloff * query.z);
 }
 
+// A detail site with less than this part of all weights is not looked up for the colour of a ray that is cast by itself: the error is
+// below half an 8-bit step (docs/STABILITY.md).
+FOAM_FN real leastShownShare() { return real(1) / real(1024); }
+
 // The unit direction in which a detail site is seen, `toSite` from the eye. From the site itself it is seen as from just before the
 // face, whose normal points to the empty side.
 FOAM_FN real3 directionToSite(real3 toSite, real3 normal) {

@@ -38,13 +38,14 @@ float powerFall(Chunk chunk, vec3 point, vec4 site, vec4 otherSite) {
 }
 
 // The search goes where the power falls most, and ends as it falls with every step. point: relative to the eye. steps: how many it
-// took.
-uvec2 descendTo(vec3 point, uvec2 first, out uint steps) {
+// took. neighbours: grows by those that it tests; from FRAME.maxNeighbours on the search ends where it stands.
+uvec2 descendTo(vec3 point, uvec2 first, out uint steps, inout uint neighbours) {
   uvec2 cell = first;
   Chunk chunk = loadChunk(cell.x);
-  for (steps = 0; steps < FRAME.maxSteps; ++steps) {
+  for (steps = 0; steps < FRAME.maxSteps && neighbours < FRAME.maxNeighbours; ++steps) {
     vec4 siteRadius = siteRadiusOf(chunk, cell.y);
     uvec2 row = neighbourRow(chunk, cell.y);
+    neighbours += row.y - row.x;
     float most = 0.0;
     uint site = kNoCell;
     for (uint i = row.x; i < row.y; ++i) {
@@ -62,9 +63,9 @@ uvec2 descendTo(vec3 point, uvec2 first, out uint steps) {
   return cell;
 }
 
-uvec2 cellHolding(vec3 point, uvec2 first) {
+uvec2 cellHolding(vec3 point, uvec2 first, inout uint neighbours) {
   uint steps;
-  return descendTo(point, first, steps);
+  return descendTo(point, first, steps, neighbours);
 }
 
 #endif

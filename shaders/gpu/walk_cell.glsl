@@ -4,10 +4,6 @@
 #include "gpu/site_colour.glsl"
 #include "foam/cell.h"
 
-// A detail site with less than this part of all weights is not looked up for a colour: the error is below half an 8-bit step
-// (docs/STABILITY.md).
-const float kLeastShare = 1.0 / 1024.0;
-
 // A ray in the axes and units of the instance at hand.
 struct LocalRay {
   vec3 origin;  // relative to the eye
@@ -73,7 +69,7 @@ vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, 
   for (uint k = 0; k < siteCount; ++k) {
     DetailSite site = loadDetailSite(code, header, siteCount, k);
     float weight = detailWeight(query, site.place, sharpness);
-    if (!(weight > kLeastShare * weightSum)) continue;
+    if (!(weight > leastShownShare() * weightSum)) continue;
     vec3 toSite = met.centre + behind * direction +
                   met.radius * (frame.tangent * site.place.x + frame.bitangent * site.place.y);
     vec3 seen = directionToSite(toSite, frame.normal);

@@ -32,7 +32,7 @@ FROTH_CONST kRayWorkShaded = 5;      // detail sites whose colour was found
 FROTH_CONST kRayWorkKinds = 6;
 
 struct WalkCounters {
-  uint stepLimit;   // rays ended by WalkInstance::maxSteps
+  uint stepLimit;   // rays ended by WalkInstance::maxSteps or maxNeighbours
   uint version;     // rays of shaders that were compiled with another FROTH_WALK_ABI
   uint violations;  // indices out of range
   uint padding;
@@ -51,7 +51,7 @@ struct WalkInstance {
   uint chunkCount, localBits, maxSteps, detailCount;
   uint lobeCount, hasHeights;
   uint entriesAlong;  // edge of the grid of entries
-  uint padding;
+  uint maxNeighbours;
   FROTH_ADDRESS(ChunkArray) chunks;       // [chunkCount]
   FROTH_ADDRESS(UintQuadArray) entries;   // [entriesAlong^3] over the box, x first: chunk, local index of the cell at its middle,
                                           // 64 bits of parts (gpu/walk_entries.glsl)

@@ -107,16 +107,17 @@ bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 r
   return true;
 }
 
-// Parallel rays start in cells of their own, near that of the tile.
-uvec2 startCell(uvec2 pixel, vec3 ray) {
+// Parallel rays start in cells of their own, near that of the tile; the neighbours of their search count.
+uvec2 startCell(uvec2 pixel, vec3 ray, inout uint neighbours) {
   if (!isParallel) return FRAME.walkStart.v[0];
   uvec2 tile = pixel / kTileSize;
-  return cellHolding(startOfRay(ray), FRAME.walkStart.v[tile.y * FRAME.tilesX + tile.x]);
+  return cellHolding(startOfRay(ray), FRAME.walkStart.v[tile.y * FRAME.tilesX + tile.x], neighbours);
 }
 
 Step firstStep(uvec2 pixel, vec3 ray) {
-  uvec2 start = startCell(pixel, ray);
-  return stepTo(start, keyOf(directionOfRay(ray), ballOfSite(loadChunk(start.x), start.y).centre), 0.0, 0);
+  uint neighbours = 0;
+  uvec2 start = startCell(pixel, ray, neighbours);
+  return stepTo(start, keyOf(directionOfRay(ray), ballOfSite(loadChunk(start.x), start.y).centre), 0.0, neighbours);
 }
 
 // On to the next cell. Returns false: the ray leaves the foam; current.entry is where it leaves the present cell either way. The cell that

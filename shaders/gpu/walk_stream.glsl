@@ -15,8 +15,9 @@ struct Stream {
   float key;    // and its order along the ray
   float end;    // where no more is to come
   uint steps;
+  uint neighbours;  // tested so far, in the search for the first cell too
   bool isAhead;  // the segment is one, or will be; else there are no more,
-  bool isCut;    // but for the limit of steps
+  bool isCut;    // but for the limit of steps or of neighbours
   // Where the ray gains opacity next; tFar = -infinity: nowhere yet.
   float tNear, tFar, density;
   uvec2 metCell;
@@ -47,9 +48,9 @@ bool isCell(uvec2 cell) { return cell.x < FRAME.chunkCount && cell.y < FRAME.chu
 uvec2 entryCell(vec3 point) { return FRAME.entries.v[entryOfPart(partAt(placeInParts(point)))].xy; }
 
 // The power cell that holds a point; first: where to look, if it is a cell.
-uvec2 locateFrom(vec3 point, uvec2 first, out uint steps) {
+uvec2 locateFrom(vec3 point, uvec2 first, out uint steps, inout uint neighbours) {
   uvec2 cell = isCell(first) ? first : entryCell(point);
-  return descendTo(point, isCell(cell) ? cell : uvec2(0), steps);
+  return descendTo(point, isCell(cell) ? cell : uvec2(0), steps, neighbours);
 }
 
 // The origin of a chunk as seen from a ray's, in two floats.
@@ -98,9 +99,11 @@ Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, floa
   stream.end = -skipEmptyParts(ray.origin, -ray.direction, -tFar, -stream.entry);
   bool isHinted = hint.x == instance && stream.entry == tNear;  // it lies where the ray begins
   uint steps = 0;
+  stream.neighbours = 0;
   stream.cell = uvec2(0);
   if (stream.entry < stream.end)
-    stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, isHinted ? hint.yz : uvec2(kNoCell), steps);
+    stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, isHinted ? hint.yz : uvec2(kNoCell), steps,
+                             stream.neighbours);
   work.descents += steps;
   Chunk chunk = loadChunk(stream.cell.x);
   stream.key = keyOf(ray.direction, centreAt(placeFrom(ray.origin, chunk), siteRadiusOf(chunk, stream.cell.y).xyz));
@@ -120,14 +123,14 @@ struct Exit {
   float t, key;
 };
 
-Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 direction, float key, inout WalkWork work) {
+Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 direction, float key, inout uint neighbours) {
   vec3 centre = centreAt(place, siteRadius.xyz);
   vec2 order = orderAlong(direction, siteRadius.xyz);
   uint site = kNoCell;
   float siteKey = key;
   float clearance = 1.0, q = 0.0;  // of the nearest plane: t = clearance / q
   uvec2 row = neighbourRow(chunk, cell);
-  work.neighbours += row.y - row.x;
+  neighbours += row.y - row.x;
   for (uint i = row.x; i < row.y; ++i) {
     uint other = neighbourAt(chunk, i);
     vec4 otherSite = siteRadiusOf(chunk, other);
@@ -154,12 +157,14 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
                 inout WalkWork work) {
   Chunk chunk = loadChunk(stream.cell.x);
   ChunkPlace place = placeFrom(ray.origin, chunk);
-  uint maxSteps = FRAME.maxSteps;
-  while (stream.entry < stream.end && stream.steps < maxSteps) {
+  uint maxSteps = FRAME.maxSteps, maxNeighbours = FRAME.maxNeighbours;
+  while (stream.entry < stream.end && stream.steps < maxSteps && stream.neighbours < maxNeighbours) {
     ++stream.steps;
     ++work.cells;
     vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);
-    Exit exit = findExit(chunk, place, stream.cell.y, siteRadius, ray.direction, stream.key, work);
+    uint before = stream.neighbours;
+    Exit exit = findExit(chunk, place, stream.cell.y, siteRadius, ray.direction, stream.key, stream.neighbours);
+    work.neighbours += stream.neighbours - before;
     met = MetCell(stream.cell, centreAt(place, siteRadius.xyz), siteRadius.w);
     bool isMet = stream.cell.y < chunk.liveCount && intersectBall(met.centre, met.radius, ray.direction, tNear, tFar);
     if (isMet) {

@@ -132,6 +132,17 @@ TEST_F(Calls, TellOfRaysThatEndAtTheStepLimit) {
   EXPECT_EQ(hit.steps, 1u);
 }
 
+TEST_F(Calls, TellOfRaysThatEndAtTheNeighbourLimit) {
+  createInstance(openReady(scene()));
+  const FrothRay ray = makeRay({0, 0, -3}, {0, 0, 1});
+  ASSERT_GT(cast({ray})[0].steps, 1u);
+  auto info = makeStruct<FrothCastInfo>();
+  info.maxNeighbours = 1;
+  const FrothRayHit hit = cast({ray}, info, FROTH_INCOMPLETE)[0];
+  EXPECT_EQ(hit.bits, uint32_t{FROTH_QUERY_STEP_LIMIT});
+  EXPECT_EQ(hit.steps, 1u);
+}
+
 TEST_F(Calls, SeeAClosedAssetNoMore) {
   const FrothAsset asset = openReady(scene());
   const FrothInstance instance = createInstance(asset);

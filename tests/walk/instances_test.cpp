@@ -176,6 +176,27 @@ TEST_F(GpuInstances, EndARayAtTheLimitOfStepsWithAStatus) {
   EXPECT_EQ(stage_.status().stepLimits, limited);
 }
 
+// The search for the first cell counts too: a row may hold 65,535 neighbours, and maxSteps of them are hours.
+TEST_F(GpuInstances, EndARayAtTheLimitOfNeighboursWithAStatus) {
+  stage_.place(asset_);
+  const auto rays = raysThrough({-2, -2, 0}, {2, 2, 5}, 500);
+  stage_.cast(rays, FROTH_RAY_TRANSMITTANCE, info_);
+  const FrothWalkStatus whole = stage_.status();
+  EXPECT_EQ(whole.stepLimits, 0u);
+  info_.maxNeighbours = 1;
+  const std::vector<FrothGpuHit> hits = stage_.cast(rays, FROTH_RAY_TRANSMITTANCE, info_);
+  uint32_t limited = 0;
+  for (const FrothGpuHit& hit : hits) {
+    EXPECT_LE(hit.steps, 1u);
+    limited += hit.status == FROTH_WALK_STATUS_STEP_LIMIT;
+  }
+  EXPECT_GT(limited, 100u);
+  const FrothWalkStatus cut = stage_.status();
+  EXPECT_EQ(cut.stepLimits, limited);
+  EXPECT_LE(cut.cells + cut.descents, rays.size());  // one row each, for the search or for the walk
+  EXPECT_LT(cut.neighbours, whole.neighbours / 2);
+}
+
 // The same cut-off as on the host, where it is compared with the reference: T of a cell later or earlier is another one.
 TEST_F(GpuInstances, EndARayBehindTheCellThatFallsBelowTheCutoff) {
   stage_.place(asset_);

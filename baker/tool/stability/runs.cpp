@@ -15,6 +15,7 @@
 #include "baker/stability/image_bound.h"
 #include "baker/tool/stability/forms.h"
 #include "format/atomic_file.h"
+#include "shaders/foam/appearance.h"
 
 namespace froth {
 namespace {
@@ -147,7 +148,7 @@ const ImageBound& boundOf(const Form& form, const FormBounds& bounds) {
   return form.isShipped ? bounds.shipped : bounds.whole;
 }
 
-// Rays that are cast one by one know no near limits, and leave out detail sites of little weight (kLeastShare of gpu/walk_cell.glsl).
+// Rays that are cast one by one know no near limits, and leave out detail sites of little weight.
 Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions& options, const BoundOptions& boundOptions) {
   Result<ImageBound> whole = boundImage(draw, options, boundOptions);
   if (!whole) return whole.error();
@@ -158,7 +159,7 @@ Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions&
   FormBounds bounds{std::move(*whole), {}, {}};
   bounds.shipped = boundShippedForm(bounds.whole, *atTwice);
   all.nearRatio = all.nearDepth = 0;
-  all.leastShare = 1.0 / 1024;
+  all.leastShare = foam::leastShownShare<double>();
   const Result<ImageBound> ofRays = boundImage(draw, all, boundOptions);
   if (!ofRays) return ofRays.error();
   bounds.rays = boundOfRays(*ofRays);

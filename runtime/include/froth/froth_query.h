@@ -17,7 +17,7 @@ extern "C" {
 
 /* Why an answer is less than asked for. The call then gives FROTH_INCOMPLETE. */
 typedef enum FrothQueryBit {
-  FROTH_QUERY_STEP_LIMIT = 1,    /* ended by FrothCastInfo::maxSteps: what lies beyond is missing */
+  FROTH_QUERY_STEP_LIMIT = 1,    /* ended by FrothCastInfo::maxSteps or maxNeighbours: what lies beyond is missing */
   FROTH_QUERY_NO_WALK_GRAPH = 2, /* an instance was left out: its asset was baked without the graph that queries walk */
   FROTH_QUERY_NOT_READY = 4,     /* an instance was left out: its asset is OPENING for the first time, or FAILED */
   FROTH_QUERY_BIT_MAX = 0x7fffffff
@@ -49,6 +49,7 @@ typedef struct FrothCastInfo {
   float cutoff;         /* [< 1] a ray ends when its transmittance falls below; 0: 1e-3; negative: never */
   uint32_t maxSteps;    /* of one ray in one instance; 0: 65536 */
   uint32_t closestOnly; /* 1: a ray ends at `distance`; transmittance is then that behind the cell that it met */
+  uint32_t maxNeighbours; /* that one ray tests in one instance on its way, but for those of its last cell; 0: 1048576 */
 } FrothCastInfo;
 
 /* Casts `count` rays one by one. Where instances overlap, their densities add. info may be null: all defaults. */

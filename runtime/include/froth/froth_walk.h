@@ -16,7 +16,7 @@ extern "C" {
 
 /* The set's layout and the include's structures. The include has the same number: a shader that was compiled with another one
  * meets nothing and says FROTH_WALK_VERSION. */
-#define FROTH_WALK_ABI 2u
+#define FROTH_WALK_ABI 3u
 
 /* Of one set. */
 #define FROTH_WALK_MOST_INSTANCES 64u
@@ -28,6 +28,7 @@ typedef struct FrothWalkInfo {
   float quantile;    /* [0 < q < 1] transmittance at which a ray counts as stopped; 0: one half */
   uint32_t maxSteps; /* of one ray in one instance; 0: 65536 */
   VkPipelineStageFlags2 stages; /* shader stages that will read the set; 0: compute and fragment */
+  uint32_t maxNeighbours; /* that one ray tests in one instance, but for those of its last cell; 0: 1048576 */
 } FrothWalkInfo;
 
 /* Binding 0: a uniform buffer; binding 1: a storage buffer; all stages. Valid as long as the context's device; identically
@@ -68,7 +69,7 @@ typedef struct FrothGpuHit {
 /* FrothHit::status, FrothGpuHit::status. */
 typedef enum FrothWalkBit {
   FROTH_WALK_STATUS_DONE = 0,
-  FROTH_WALK_STATUS_STEP_LIMIT = 1,   /* ended by FrothWalkInfo::maxSteps: what lies beyond is missing */
+  FROTH_WALK_STATUS_STEP_LIMIT = 1,   /* ended by FrothWalkInfo::maxSteps or maxNeighbours: what lies beyond is missing */
   FROTH_WALK_STATUS_STREAM_LIMIT = 2, /* an instance was left out: more overlap at once than FROTH_WALK_STREAMS (4) */
   FROTH_WALK_STATUS_VERSION = 3,      /* shader and library do not fit */
   FROTH_WALK_STATUS_MAX = 0x7fffffff
@@ -93,7 +94,7 @@ FROTH_API FrothResult frothRecordRays(FrothContext* context, VkCommandBuffer com
 typedef struct FrothWalkStatus {
   uint32_t structSize;
   uint64_t serial;          /* of that frame; 0: none yet */
-  uint32_t stepLimits;      /* rays ended by maxSteps */
+  uint32_t stepLimits;      /* rays ended by maxSteps or maxNeighbours */
   uint32_t versions;        /* rays of shaders that do not fit the library */
   uint32_t indexViolations; /* of frothRecordRays, with FrothContextInfo::checkIndices; must be 0 */
   /* with FrothContextInfo::countWork, summed over rays: */
