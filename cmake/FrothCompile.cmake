@@ -11,7 +11,7 @@ if(FROTH_SANITIZE)
   add_link_options(-fsanitize=${FROTH_SANITIZE})
 endif()
 
-# Includes are written from the repository's root: #include "format/result.h".
+# Includes are written from the repository's root: #include "base/result.h".
 function(froth_target_defaults target)
   target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR})
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic)

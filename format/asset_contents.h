@@ -110,7 +110,7 @@ struct AssetContents {
   bool hasWalkGraph = true;
 
   float detailSharpness = 10.0f;  // tau of the soft Voronoi weights exp(-tau |x - s|^2 / r^2)
-  float nearRatio = 4.0f;         // default near tests of primary visibility (foam.md "Near cells")
+  float nearRatio = 4.0f;         // default near tests of primary visibility (docs/FOAM.md "Near cells")
   float nearDepth = 0.0f;         // [scene units]
   std::string preset = "exact";
   std::string source;             // name of the input file, without folder

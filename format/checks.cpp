@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "format/float_span.h"
+#include "base/float_span.h"
+#include "base/text.h"
 #include "format/lattice.h"
 #include "format/limits.h"
-#include "format/text.h"
 
 namespace froth {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 
+#include "base/result.h"
 #include "format/asset_contents.h"
-#include "format/result.h"
 #include "format/section.h"
 
 namespace froth {

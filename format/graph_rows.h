@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "format/asset_contents.h"
 #include "format/limits.h"
-#include "format/result.h"
 
 namespace froth {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "format/result.h"
+#include "base/result.h"
 #include "format/section_codec.h"
 
 namespace froth {

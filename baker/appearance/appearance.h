@@ -10,10 +10,10 @@
 #include <glm/glm.hpp>
 
 #include "baker/appearance/visibility.h"
-#include "baker/foam.h"
-#include "baker/progress.h"
+#include "base/progress.h"
+#include "base/result.h"
+#include "foam/foam.h"
 #include "format/asset_contents.h"
-#include "format/result.h"
 
 namespace froth {
 

@@ -11,7 +11,7 @@
 
 #include <glm/glm.hpp>
 
-#include "baker/progress.h"
+#include "base/progress.h"
 
 namespace froth {
 

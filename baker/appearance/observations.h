@@ -10,7 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "baker/appearance/visibility.h"
-#include "baker/foam.h"
+#include "foam/foam.h"
 
 namespace froth {
 

@@ -7,9 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "baker/reference/ball_hierarchy.h"
-#include "baker/reference/ray.h"
-#include "baker/reference/view_cells.h"
+#include "foam/cech_pairs.h"
+#include "reference/render/ball_hierarchy.h"
+#include "reference/render/ray.h"
+#include "reference/render/view_cells.h"
 
 namespace froth {
 namespace {

@@ -7,10 +7,10 @@
 
 #include <glm/glm.hpp>
 
-#include "baker/camera/camera.h"
-#include "baker/foam.h"
-#include "baker/progress.h"
-#include "format/result.h"
+#include "base/progress.h"
+#include "base/result.h"
+#include "foam/foam.h"
+#include "reference/camera/camera.h"
 
 namespace froth {
 

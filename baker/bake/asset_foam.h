@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "baker/foam.h"
+#include "foam/foam.h"
 #include "format/asset_contents.h"
 
 namespace froth {

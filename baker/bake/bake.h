@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "baker/appearance/appearance.h"
-#include "baker/camera/camera.h"
-#include "baker/foam.h"
 #include "baker/graph/graph.h"
-#include "baker/progress.h"
+#include "base/progress.h"
+#include "base/result.h"
+#include "foam/foam.h"
 #include "format/asset_contents.h"
-#include "format/result.h"
+#include "reference/camera/camera.h"
 
 namespace froth {
 

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <vector>
 
-#include "baker/graph/graph.h"
-#include "format/deltas.h"
+#include "base/morton_code.h"
+#include "foam/morton_order.h"
 #include "format/position_order.h"
 #include "format/section_codec.h"
 

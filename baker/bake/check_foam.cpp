@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "baker/foam_arrays.h"
+#include "foam/foam_arrays.h"
 #include "format/checks.h"
 #include "format/limits.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "baker/bake/bake.h"
-#include "baker/foam.h"
-#include "format/result.h"
+#include "base/result.h"
+#include "foam/foam.h"
 
 namespace froth {
 

@@ -7,7 +7,7 @@
 
 #include "baker/bake/attribute_errors.h"
 #include "baker/bake/cells.h"
-#include "baker/foam.h"
+#include "foam/foam.h"
 #include "format/asset_contents.h"
 #include "format/quantization.h"
 

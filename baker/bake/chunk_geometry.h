@@ -3,7 +3,7 @@
 
 #include "baker/bake/cells.h"
 #include "baker/bake/chunk_plan.h"
-#include "baker/graph/graph.h"
+#include "foam/cell_graph.h"
 #include "format/asset_contents.h"
 
 namespace froth {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "baker/bake/cells.h"
-#include "baker/progress.h"
+#include "base/progress.h"
+#include "base/result.h"
 #include "format/asset_contents.h"
-#include "format/result.h"
 
 namespace froth {
 

@@ -9,7 +9,7 @@
 #include "baker/bake/attribute_errors.h"
 #include "baker/bake/bake.h"
 #include "baker/bake/slices.h"
-#include "baker/foam.h"
+#include "foam/foam.h"
 #include "format/asset_contents.h"
 
 namespace froth {

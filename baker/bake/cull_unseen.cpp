@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "baker/graph/graph.h"
+#include "foam/cech_pairs.h"
+#include "foam/cell_graph.h"
 
 namespace froth {
 namespace {

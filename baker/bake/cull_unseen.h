@@ -5,7 +5,7 @@
 #include <span>
 
 #include "baker/bake/cells.h"
-#include "baker/progress.h"
+#include "base/progress.h"
 
 namespace froth {
 

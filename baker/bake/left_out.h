@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "baker/bake/bake.h"
-#include "baker/foam.h"
+#include "foam/foam.h"
 
 namespace froth {
 

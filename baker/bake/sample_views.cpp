@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "baker/reference/reference.h"
+#include "reference/render/reference.h"
 
 namespace froth {
 namespace {

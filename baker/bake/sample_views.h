@@ -2,9 +2,9 @@
 #pragma once
 
 #include "baker/bake/bake.h"
-#include "baker/foam.h"
-#include "baker/progress.h"
-#include "format/result.h"
+#include "base/progress.h"
+#include "base/result.h"
+#include "foam/foam.h"
 
 namespace froth {
 

@@ -10,7 +10,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "baker/progress.h"
+#include "base/progress.h"
 
 namespace froth {
 

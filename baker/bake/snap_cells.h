@@ -3,7 +3,7 @@
 
 #include "baker/bake/bake.h"
 #include "baker/bake/cells.h"
-#include "baker/foam.h"
+#include "foam/foam.h"
 #include "format/quantization.h"
 
 namespace froth {

@@ -7,9 +7,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "baker/foam.h"
 #include "baker/graph/half_space.h"
 #include "baker/graph/solid_body.h"
+#include "foam/foam.h"
 
 namespace froth {
 namespace {

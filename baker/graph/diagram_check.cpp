@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "baker/counter_random.h"
+#include "base/counter_random.h"
+#include "foam/morton_order.h"
 #include "shaders/foam/cell.h"
 
 namespace froth {

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "baker/graph/graph.h"
-#include "baker/graph/site_tree.h"
+#include "foam/site_tree.h"
 
 namespace froth {
 

@@ -1,4 +1,4 @@
-// Graphs of a power diagram: regular triangulation, alpha-complex, Cech pairs (foam.md "Graphs").
+// Graphs of a power diagram: regular triangulation, alpha-complex (docs/FOAM.md "Graphs").
 #pragma once
 
 #include <cstdint>
@@ -8,21 +8,11 @@
 
 #include <glm/glm.hpp>
 
-#include "baker/progress.h"
-#include "format/result.h"
+#include "base/progress.h"
+#include "base/result.h"
+#include "foam/cell_graph.h"
 
 namespace froth {
-
-// Symmetric graph in compressed rows; neighbours ascending within a row.
-struct CellGraph {
-  std::vector<uint32_t> offsets;     // [cells + 1]
-  std::vector<uint32_t> neighbours;  // [offsets.back()]
-};
-
-inline std::span<const uint32_t> neighboursOf(const CellGraph& graph, uint32_t cell) {
-  return std::span(graph.neighbours)
-      .subspan(graph.offsets[cell], graph.offsets[cell + 1] - graph.offsets[cell]);
-}
 
 struct RegularTriangulation {
   CellGraph graph;                // pairs whose power cells share a face; rows of hidden cells are empty
@@ -47,11 +37,6 @@ struct AlphaComplex {
 // asks to stop the result is empty (no offsets): whoever stopped it drops it.
 AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<const float> radii,
                                  const RegularTriangulation& triangulation, const Progress& progress = {});
-
-// Pairs with |p_i - p_j| < r_i + r_j, in double; over a bounding volume hierarchy, near-linear. All cores. When
-// `progress` asks to stop the result is empty (no offsets), as above.
-CellGraph findCechPairs(std::span<const glm::vec3> sites, std::span<const float> radii,
-                        const Progress& progress = {});
 
 // How a scene is cut into regions.
 struct RegionPlan {
@@ -88,9 +73,5 @@ struct ValidityReport {
 ValidityReport checkGraphs(std::span<const glm::vec3> sites, std::span<const float> radii,
                            const RegularTriangulation& triangulation, const AlphaComplex& alpha,
                            uint64_t seed, const Progress& progress = {});
-
-// Cells along a Morton curve of 21 bits per axis over the bounding box; ties by index. order[k] = cell at
-// place k.
-std::vector<uint32_t> mortonOrder(std::span<const glm::vec3> sites);
 
 }  // namespace froth

@@ -4,7 +4,7 @@
 #include <bit>
 #include <chrono>
 
-#include "baker/counter_random.h"
+#include "base/counter_random.h"
 
 namespace froth {
 

@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "baker/graph/site_tree.h"
+#include "foam/site_tree.h"
 
 namespace froth {
 

@@ -7,7 +7,7 @@
 
 #include "baker/graph/local_triangulation.h"
 #include "baker/graph/orthosphere.h"
-#include "baker/graph/site_tree.h"
+#include "foam/site_tree.h"
 
 namespace froth {
 

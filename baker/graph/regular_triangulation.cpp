@@ -6,6 +6,7 @@
 #include <tbb/parallel_sort.h>
 
 #include "baker/graph/local_triangulation.h"
+#include "foam/morton_order.h"
 
 namespace froth {
 Status checkFinite(std::span<const glm::vec3> sites, std::span<const float> radii) {

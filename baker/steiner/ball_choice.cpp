@@ -4,7 +4,7 @@
 #include <numeric>
 #include <queue>
 
-#include "baker/reference/ball_hierarchy.h"
+#include "reference/render/ball_hierarchy.h"
 
 namespace froth {
 namespace {

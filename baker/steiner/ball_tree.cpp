@@ -7,7 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "baker/graph/graph.h"
+#include "foam/morton_order.h"
 #include "shaders/foam/cell.h"
 
 namespace froth {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "baker/counter_random.h"
+#include "base/counter_random.h"
 
 namespace froth {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "baker/counter_random.h"
+#include "base/counter_random.h"
 
 namespace froth {
 namespace {

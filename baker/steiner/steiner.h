@@ -1,5 +1,5 @@
 // Steiner cells: cells of zero density that fill empty space, so that walks take fewer and better-shaped
-// steps (foam.md "Steiner cells"; Govindarajan et al., "Power Foam" (2026)). They never change an image: no
+// steps (docs/FOAM.md "Steiner cells"; Govindarajan et al., "Power Foam" (2026)). They never change an image: no
 // Steiner ball meets a real one.
 #pragma once
 
@@ -9,10 +9,10 @@
 
 #include <glm/glm.hpp>
 
-#include "baker/camera/camera.h"
-#include "baker/progress.h"
+#include "base/progress.h"
+#include "base/result.h"
 #include "format/quantization.h"
-#include "format/result.h"
+#include "reference/camera/camera.h"
 
 namespace froth {
 

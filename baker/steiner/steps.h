@@ -6,7 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "baker/progress.h"
+#include "base/progress.h"
 
 namespace froth {
 

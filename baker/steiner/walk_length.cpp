@@ -7,8 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "baker/camera/view_rays.h"
-#include "baker/counter_random.h"
+#include "base/counter_random.h"
+#include "reference/camera/view_rays.h"
 #include "shaders/foam/cell.h"
 
 namespace froth {

@@ -9,9 +9,9 @@
 
 #include <glm/glm.hpp>
 
-#include "baker/camera/camera.h"
-#include "baker/foam.h"
-#include "baker/graph/graph.h"
+#include "foam/cell_graph.h"
+#include "foam/foam.h"
+#include "reference/camera/camera.h"
 
 namespace froth {
 
@@ -28,7 +28,7 @@ struct WalkCells {
 std::vector<glm::vec4> meanFaces(const Foam& foam);
 
 // A ray and what it does not meet: live cells within `nearRatio` radii of its origin, or less deep than
-// `nearDepth` along `forward` (foam.md "Near cells"). 0 switches a limit off.
+// `nearDepth` along `forward` (docs/FOAM.md "Near cells"). 0 switches a limit off.
 struct WalkRay {
   glm::vec3 origin, direction, forward;  // directions of unit length
   float nearRatio = 0, nearDepth = 0;

@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "baker/counter_random.h"
+#include "base/counter_random.h"
 
 namespace froth {
 

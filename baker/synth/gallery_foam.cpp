@@ -9,9 +9,10 @@
 #include <tbb/parallel_for.h>
 #include <glm/gtc/quaternion.hpp>
 
-#include "baker/graph/graph.h"
 #include "baker/synth/appearance_fit.h"
 #include "baker/synth/gallery_scene.h"
+#include "foam/cech_pairs.h"
+#include "foam/cell_graph.h"
 #include "shaders/foam/cell.h"
 
 namespace froth {

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "baker/foam.h"
-#include "baker/progress.h"
-#include "format/result.h"
+#include "base/progress.h"
+#include "base/result.h"
+#include "foam/foam.h"
 
 namespace froth {
 

@@ -1,6 +1,6 @@
 #include "baker/synth/procedural_textures.h"
 
-#include "baker/counter_random.h"
+#include "base/counter_random.h"
 
 namespace froth {
 

@@ -11,7 +11,7 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include "baker/foam_arrays.h"
+#include "foam/foam_arrays.h"
 #include "shaders/foam/appearance.h"
 
 namespace froth {

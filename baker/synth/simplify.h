@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "baker/foam.h"
+#include "foam/foam.h"
 
 namespace froth {
 

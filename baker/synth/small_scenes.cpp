@@ -5,7 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "baker/synth/analytic_shapes.h"
-#include "baker/counter_random.h"
+#include "base/counter_random.h"
 
 namespace froth {
 

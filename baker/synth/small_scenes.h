@@ -1,9 +1,9 @@
 // Small foams for tests: each exercises one thing, and none looks like anything.
 #pragma once
 
-#include "baker/foam.h"
 #include "baker/synth/synth.h"
-#include "format/result.h"
+#include "base/result.h"
+#include "foam/foam.h"
 
 namespace froth {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "baker/camera/camera.h"
-#include "baker/foam.h"
-#include "baker/image/image.h"
-#include "baker/progress.h"
-#include "format/result.h"
+#include "base/progress.h"
+#include "base/result.h"
+#include "foam/foam.h"
+#include "reference/camera/camera.h"
+#include "reference/image/image.h"
 
 namespace froth {
 

@@ -4,8 +4,8 @@
 #include <tbb/parallel_for.h>
 #include <glm/gtc/quaternion.hpp>
 
-#include "baker/foam_arrays.h"
 #include "baker/synth/synth.h"
+#include "foam/foam_arrays.h"
 
 namespace froth {
 

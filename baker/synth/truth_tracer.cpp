@@ -3,11 +3,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "baker/camera/view_check.h"
-#include "baker/camera/view_rays.h"
-#include "baker/counter_random.h"
 #include "baker/synth/gallery_scene.h"
 #include "baker/synth/synth.h"
+#include "base/counter_random.h"
+#include "reference/camera/view_check.h"
+#include "reference/camera/view_rays.h"
 
 namespace froth {
 

@@ -7,8 +7,8 @@
 
 #include <glm/glm.hpp>
 
-#include "baker/counter_random.h"
-#include "baker/graph/site_tree.h"
+#include "base/counter_random.h"
+#include "foam/site_tree.h"
 #include "shaders/foam/cell.h"
 
 namespace froth {

@@ -1,13 +1,13 @@
-// What `froth verify` does beyond format/asset_reader.h's verifyAsset: whether graph, alpha-complex and solid balls are those of
+// What `froth verify` does beyond format/read/asset_reader.h's verifyAsset: whether graph, alpha-complex and solid balls are those of
 // the cells. The graphs are sampled as in a bake, each solid ball is bounded again.
 #pragma once
 
 #include <cstdint>
 
 #include "baker/graph/graph.h"
-#include "baker/progress.h"
+#include "base/progress.h"
+#include "base/result.h"
 #include "format/asset_contents.h"
-#include "format/result.h"
 
 namespace froth {
 

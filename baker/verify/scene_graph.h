@@ -7,9 +7,9 @@
 #include <glm/glm.hpp>
 
 #include "baker/graph/graph.h"
-#include "baker/progress.h"
+#include "base/progress.h"
+#include "base/result.h"
 #include "format/asset_contents.h"
-#include "format/result.h"
 
 namespace froth {
 

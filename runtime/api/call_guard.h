@@ -4,7 +4,7 @@
 #include <new>
 
 #include "runtime/api/struct_size.h"
-#include "runtime/core/context.h"
+#include "runtime/context/context.h"
 
 namespace froth {
 

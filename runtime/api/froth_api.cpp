@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "runtime/api/call_guard.h"
-#include "runtime/core/requirements.h"
+#include "runtime/device/requirements.h"
 
 using namespace froth;
 

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <string_view>
 
-#include "runtime/asset/bit_writer.h"
 #include "runtime/asset/cell_packer.h"
 #include "runtime/asset/chunk_checks.h"
+#include "runtime/query/packed_elements.h"
 
 namespace froth {
 namespace {
@@ -78,7 +78,7 @@ Asset::Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, 
   }
 }
 
-void Asset::load(RenderPipelines* pipelines, const Messages& messages, uint64_t& workLeft) {
+void Asset::load(const Preparation& prepare, const Messages& messages, uint64_t& workLeft) {
   if (hasFailed() || isDecoded_ || !arrays_.empty()) {
     return;
   }
@@ -89,7 +89,7 @@ void Asset::load(RenderPipelines* pipelines, const Messages& messages, uint64_t&
       status = loadChunk();
     }
     if (status && nextChunk_ == description_.chunkCount) {
-      status = finish(pipelines);
+      status = finish(prepare);
     }
     if (!status) {
       fail(status.error(), messages);
@@ -114,7 +114,7 @@ Status Asset::loadChunk() {
   return placeChunk(std::move(*contents));
 }
 
-Status Asset::finish(RenderPipelines* pipelines) {
+Status Asset::finish(const Preparation& prepare) {
   if (isQueryFoamWanted()) {
     if (const Status status = queryFoam_->checkGhosts(name_); !status) {
       return status;
@@ -125,10 +125,8 @@ Status Asset::finish(RenderPipelines* pipelines) {
   if (const Status status = placeEntries(); !status) {
     return status;
   }
-  if (pipelines) {
-    if (const Status status = pipelines->prepareFor(gpu_); !status) {
-      return status;
-    }
+  if (const Status status = prepare(gpu_); !status) {
+    return status;
   }
   isDecoded_ = true;
   return {};

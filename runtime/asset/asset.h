@@ -4,22 +4,22 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "format/asset_reader.h"
+#include "format/read/asset_reader.h"
 #include "froth/froth.h"
 #include "runtime/asset/chunk_arrays.h"
 #include "runtime/asset/gpu_arena.h"
 #include "runtime/asset/gpu_asset.h"
-#include "runtime/core/device.h"
-#include "runtime/core/messages.h"
-#include "runtime/core/upload_ring.h"
+#include "runtime/device/device.h"
+#include "runtime/device/messages.h"
+#include "runtime/device/upload_ring.h"
 #include "runtime/query/query_foam.h"
-#include "runtime/render/pipelines.h"
 
 namespace froth {
 
@@ -45,8 +45,10 @@ class Asset {
   // The frame that fills it; 0: none does yet.
   uint64_t entriesSerial = 0;
 
+  // Makes what drawing an asset of this shape needs besides; part of loading it.
+  using Preparation = std::function<Status(const GpuAsset&)>;
   // Decodes chunks while there is work left, and takes off what they cost. An error ends the asset: one message, hasFailed().
-  void load(RenderPipelines* pipelines, const Messages& messages, uint64_t& workLeft);
+  void load(const Preparation& prepare, const Messages& messages, uint64_t& workLeft);
   // Moves at most `limit` bytes of decoded arrays into the ring; returns how many.
   VkDeviceSize stage(UploadRing& ring, VkDeviceSize limit);
 
@@ -80,7 +82,7 @@ class Asset {
 
   Status openReader();
   Status loadChunk();
-  Status finish(RenderPipelines* pipelines);
+  Status finish(const Preparation& prepare);
   Status placeChunk(ChunkContents&& contents);
   Status placeArrays(const ChunkArrays& arrays);
   Status placeEntries();

@@ -4,8 +4,8 @@
 #include <array>
 #include <bit>
 
+#include "base/float_span.h"
 #include "format/chunk_lobes.h"
-#include "format/float_span.h"
 #include "format/quantization.h"
 #include "runtime/asset/axis_labels.h"
 #include "runtime/asset/bit_writer.h"

@@ -27,8 +27,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/result.h"
 #include "format/asset_contents.h"
-#include "format/result.h"
 #include "shaders/gpu/layout.h"
 
 namespace froth {

@@ -1,11 +1,11 @@
 // What a decoded chunk tells of itself and of others, as far as it costs little to see that it lies. `froth verify` checks all of it
-// (format/asset_verify.cpp).
+// (format/read/asset_verify.cpp).
 #pragma once
 
 #include <string>
 
+#include "base/result.h"
 #include "format/asset_contents.h"
-#include "format/result.h"
 
 namespace froth {
 

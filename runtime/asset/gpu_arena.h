@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 
 namespace froth {
 

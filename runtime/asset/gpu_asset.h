@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 #include "shaders/gpu/layout.h"
 
 namespace froth {

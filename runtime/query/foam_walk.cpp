@@ -86,7 +86,7 @@ void FoamWalk::stepThrough(const Exit& exit) {
   localOrigin_ = ray_.origin - chunk_->origin;
 }
 
-// Steps 1 to 5 of foam.md "What one ray meets in one cell"; the walk has cut the interval by the planes.
+// Steps 1 to 5 of docs/FOAM.md "What one ray meets in one cell"; the walk has cut the interval by the planes.
 bool FoamWalk::meetCell(CellAddress cell, const QueryChunk& chunk, const glm::dvec3& centre, double exit,
                         FoamSegment& segment) const {
   segment.density = chunk.densityOf(cell.cell);

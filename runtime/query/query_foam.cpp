@@ -81,7 +81,7 @@ void QueryFoam::growBounds(const QueryChunk& chunk) {
   }
 }
 
-// Bit for bit on a lattice, else rounded to float: as format/asset_verify.cpp.
+// Bit for bit on a lattice, else rounded to float: as format/read/asset_verify.cpp.
 Status QueryFoam::checkGhosts(const std::string& name) const {
   for (uint32_t index = 0; index < chunks_.size(); ++index) {
     const QueryChunk& chunk = chunks_[index];

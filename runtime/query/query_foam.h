@@ -12,10 +12,10 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "base/result.h"
 #include "format/asset_contents.h"
-#include "format/result.h"
-#include "runtime/asset/bit_writer.h"
 #include "runtime/query/entry_tree.h"
+#include "runtime/query/packed_elements.h"
 
 namespace froth {
 

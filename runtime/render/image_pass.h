@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/core/pipeline_objects.h"
+#include "runtime/device/pipeline_objects.h"
 
 namespace froth {
 

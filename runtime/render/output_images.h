@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "froth/froth.h"
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 #include "shaders/gpu/layout.h"
 
 namespace froth {

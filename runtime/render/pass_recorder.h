@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 #include "runtime/render/pipeline_state.h"
 #include "shaders/gpu/layout.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "froth/froth.h"
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 
 namespace froth {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "runtime/asset/gpu_asset.h"
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 
 namespace froth {
 

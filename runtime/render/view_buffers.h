@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "froth/froth.h"
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 #include "runtime/render/view_capacity.h"
 
 namespace froth {

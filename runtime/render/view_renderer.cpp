@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "runtime/core/handles.h"
+#include "runtime/device/handles.h"
 #include "runtime/render/camera_rays.h"
 #include "runtime/render/composite.h"
 #include "runtime/render/hit_passes.h"

@@ -8,7 +8,7 @@
 
 #include "froth/froth_composite.h"
 #include "runtime/asset/gpu_asset.h"
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 
 namespace froth {
 

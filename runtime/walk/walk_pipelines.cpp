@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "runtime/core/pipeline_objects.h"
+#include "runtime/device/pipeline_objects.h"
 #include "shaders/gpu/walk_layout.h"
 #include "spirv/cast_rays.h"
 #include "spirv/cast_rays_several.h"

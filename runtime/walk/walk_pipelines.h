@@ -4,7 +4,7 @@
 #include <array>
 #include <memory>
 
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 
 namespace froth {
 

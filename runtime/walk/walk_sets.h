@@ -9,7 +9,7 @@
 
 #include "froth/froth_walk.h"
 #include "runtime/asset/gpu_asset.h"
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 #include "runtime/render/view_renderer.h"
 #include "runtime/walk/walk_pipelines.h"
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "samples/host/camera_path.h"
-#include "samples/host/host.h"
+#include "host/camera_path.h"
+#include "host/host.h"
 
 namespace froth {
 

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/frame_files.h"
 #include "samples/flythrough/cameras_json.h"
-#include "samples/host/frame_files.h"
 
 namespace froth {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "host/command_line.h"
 #include "samples/flythrough/painter.h"
-#include "samples/host/command_line.h"
 
 namespace froth {
 

@@ -4,7 +4,7 @@
 
 #include <imgui.h>
 
-#include "samples/host/imgui_layer.h"
+#include "host/imgui_layer.h"
 
 namespace froth {
 namespace {

@@ -1,8 +1,8 @@
 // What the overlay tells: what Froth did in the newest complete frames, and the keys.
 #pragma once
 
-#include "samples/host/scene.h"
-#include "samples/host/pass_history.h"
+#include "host/pass_history.h"
+#include "host/scene.h"
 
 namespace froth {
 

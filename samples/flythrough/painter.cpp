@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "samples/host/vulkan_check.h"
+#include "host/vulkan_check.h"
 
 namespace froth {
 namespace {

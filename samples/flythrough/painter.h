@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "samples/host/compute_pass.h"
-#include "samples/host/scene.h"
+#include "host/compute_pass.h"
+#include "host/scene.h"
 
 namespace froth {
 

@@ -9,10 +9,10 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include "host/app_window.h"
+#include "host/flight_input.h"
 #include "samples/flythrough/cameras_json.h"
 #include "samples/flythrough/overlay.h"
-#include "samples/host/app_window.h"
-#include "samples/host/flight_input.h"
 
 namespace froth {
 namespace {

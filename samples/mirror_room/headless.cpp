@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "samples/host/frame_files.h"
-#include "samples/host/pass_history.h"
+#include "host/frame_files.h"
+#include "host/pass_history.h"
 #include "samples/mirror_room/pick.h"
 #include "samples/mirror_room/stage.h"
 

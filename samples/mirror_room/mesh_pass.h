@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "samples/host/host.h"
+#include "host/host.h"
 #include "samples/mirror_room/room_file.h"
 
 namespace froth {

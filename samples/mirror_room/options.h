@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "samples/host/command_line.h"
+#include "host/command_line.h"
 #include "samples/mirror_room/room_frame.h"
 
 namespace froth {

@@ -7,8 +7,8 @@
 
 #include <glm/glm.hpp>
 
-#include "format/result.h"
-#include "samples/host/camera_path.h"
+#include "base/result.h"
+#include "host/camera_path.h"
 
 namespace froth {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "froth/froth_walk.h"
-#include "samples/host/vulkan_check.h"
+#include "host/vulkan_check.h"
 
 namespace froth {
 namespace {

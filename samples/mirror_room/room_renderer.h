@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "samples/host/compute_pass.h"
-#include "samples/host/gpu_timer.h"
-#include "samples/host/scene.h"
+#include "host/compute_pass.h"
+#include "host/gpu_timer.h"
+#include "host/scene.h"
 #include "samples/mirror_room/room_frame.h"
 
 namespace froth {

@@ -7,9 +7,9 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
-#include "samples/host/app_window.h"
-#include "samples/host/flight_input.h"
-#include "samples/host/pass_history.h"
+#include "host/app_window.h"
+#include "host/flight_input.h"
+#include "host/pass_history.h"
 #include "samples/mirror_room/pick.h"
 #include "samples/mirror_room/stage.h"
 

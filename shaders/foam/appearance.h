@@ -1,5 +1,5 @@
 // Soft Voronoi weights of a face's detail sites, and the Spherical Voronoi colour of one detail site.
-// Source: Govindarajan et al., "Power Foam" (2026); the exponents are those of the published models (foam.md).
+// Source: Govindarajan et al., "Power Foam" (2026); the exponents are those of the published models (docs/FOAM.md).
 #ifndef FROTH_FOAM_APPEARANCE_H
 #define FROTH_FOAM_APPEARANCE_H
 #include "prelude.h"

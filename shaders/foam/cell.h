@@ -1,5 +1,5 @@
 // What one ray meets in one cell: the ball, the radical planes, the displaced face.
-// Source: Govindarajan et al., "Power Foam" (2026), section 3; formulas as checked in the design's foam.md.
+// Source: Govindarajan et al., "Power Foam" (2026), section 3; formulas as checked in docs/FOAM.md.
 //
 // All positions are relative to the ray's origin: `centre` = p - o. Directions have unit length, so t is a distance
 // [scene units]. Nothing here depends on where the scene lies in the world. Lengths of 1e-18 to 1e18 keep all squares in the floats.
@@ -14,13 +14,13 @@
 #define FROTH_FOAM_CELL_H
 #include "prelude.h"
 
-// Power of the ray's origin with respect to a cell: |p - o|^2 - r^2, the sorting key of foam.md "Order".
+// Power of the ray's origin with respect to a cell: |p - o|^2 - r^2, the sorting key of docs/FOAM.md "Order".
 FOAM_FN real powerOfOrigin(real3 centre, real radius) {
   real distance = sqrt(dot(centre, centre));
   return (distance - radius) * (distance + radius);
 }
 
-// Primary visibility skips cells near the camera as a whole (foam.md "Near cells"). `forward` is the unit view axis;
+// Primary visibility skips cells near the camera as a whole (docs/FOAM.md "Near cells"). `forward` is the unit view axis;
 // nearDepth <= 0 and nearRatio <= 0 switch a test off.
 FOAM_FN bool isNearCell(real3 centre, real radius, real3 forward, real nearRatio, real nearDepth) {
   if (nearRatio > real(0) && dot(centre, centre) < nearRatio * nearRatio * radius * radius) return true;

@@ -1,6 +1,6 @@
 // A ball around the solid part of a cell, smaller than the cell's own: what decides which rays can gain opacity in it.
 //
-// The solid part. Along a ray opacity is gained between tNear and tFar only (foam.md "What one ray meets in one cell"). There
+// The solid part. Along a ray opacity is gained between tNear and tFar only (docs/FOAM.md "What one ray meets in one cell"). There
 // the point lies in the ball, on the cell's side of each radical plane that the asset lists, and on the solid side of the
 // displaced face, n . x' <= h with x' = x - p. On the way in (w = n . d < 0) that bounds tNear, on the way out tFar, so
 // it holds for both sides of a face. h is a mean of the heights h_k with weights >= 0 that sum to one, or to less where the floor

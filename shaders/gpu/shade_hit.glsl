@@ -1,4 +1,4 @@
-// What rays gather in one visible cell, once their intervals in the bounded cell are known (foam.md "What one ray meets in one
+// What rays gather in one visible cell, once their intervals in the bounded cell are known (docs/FOAM.md "What one ray meets in one
 // cell", steps 3 to 7). The same text for the raster and the walk.
 //
 // FROTH_RAYS rays of a thread meet a cell together: reading its detail sites costs more than working with them.

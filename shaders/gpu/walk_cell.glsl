@@ -1,4 +1,4 @@
-// What one ray meets in one cell, from the cell's bits (foam.md "What one ray meets in one cell").
+// What one ray meets in one cell, from the cell's bits (docs/FOAM.md "What one ray meets in one cell").
 #ifndef FROTH_GPU_WALK_CELL_GLSL
 #define FROTH_GPU_WALK_CELL_GLSL
 #include "gpu/site_colour.glsl"

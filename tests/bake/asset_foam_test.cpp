@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "baker/bake/bake.h"
-#include "baker/reference/reference.h"
+#include "reference/render/reference.h"
 #include "tests/bake/random_foam.h"
 
 namespace froth {

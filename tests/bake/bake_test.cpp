@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "baker/graph/graph.h"
+#include "foam/morton_order.h"
 #include "shaders/foam/cell.h"
 #include "tests/bake/random_foam.h"
 

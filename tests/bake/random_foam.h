@@ -1,7 +1,7 @@
 // A small foam with every attribute drawn at random, so that a misplaced one shows.
 #pragma once
 
-#include "baker/foam.h"
+#include "foam/foam.h"
 #include "tests/graph/ball_sets.h"
 
 namespace froth {

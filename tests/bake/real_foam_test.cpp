@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "baker/bake/bake.h"
-#include "baker/checkpoint/checkpoint.h"
+#include "foam/checkpoint/checkpoint.h"
 #include "tests/surroundings.h"
 
 namespace froth {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "baker/bake/bake.h"
-#include "baker/foam.h"
+#include "foam/foam.h"
 #include "shaders/foam/appearance.h"
 #include "shaders/foam/cell.h"
 #include "shaders/foam/rays.h"

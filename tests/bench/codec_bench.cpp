@@ -9,14 +9,14 @@
 
 #include <benchmark/benchmark.h>
 
-#include "format/asset_reader.h"
+#include "base/morton_code.h"
 #include "format/container.h"
-#include "format/deltas.h"
 #include "format/draco_positions.h"
 #include "format/graph_rows.h"
 #include "format/position_order.h"
-#include "format/section_codec_read.h"
-#include "format/section_codec_write.h"
+#include "format/read/asset_reader.h"
+#include "format/read/section_codec_read.h"
+#include "format/write/section_codec_write.h"
 
 namespace froth {
 namespace {

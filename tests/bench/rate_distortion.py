@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Size against error of the presets and of single knobs: a table (CSV) and a plot (SVG) of one trained foam.
 
-  tests/bench/rate_distortion.py --froth build/release/baker/tool/froth --foam model.pt --cameras test.json \
+  tests/bench/rate_distortion.py --froth build/release/tool/froth --foam model.pt --cameras test.json \
       --fit train.json -o docs/reports/miku_plush
 
 Every setting is baked with the cameras of --fit, drawn from all views of --cameras and compared with the same views of the

@@ -9,10 +9,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "baker/camera/camera.h"
 #include "froth/froth_walk.h"
-#include "runtime/core/device.h"
-#include "samples/host/host.h"
+#include "host/host.h"
+#include "reference/camera/camera.h"
+#include "runtime/device/device.h"
 
 namespace froth {
 namespace {

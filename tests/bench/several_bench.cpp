@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "base/percentiles.h"
 #include "froth/froth_query.h"
-#include "samples/host/host.h"
-#include "samples/host/percentiles.h"
+#include "host/host.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "baker/camera/camera.h"
+#include "reference/camera/camera.h"
 #include "tests/surroundings.h"
 
 namespace froth {

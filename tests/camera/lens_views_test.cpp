@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include "baker/camera/camera.h"
-#include "baker/camera/ray_map.h"
-#include "baker/camera/view_rays.h"
-#include "format/atomic_file.h"
+#include "base/atomic_file.h"
+#include "reference/camera/camera.h"
+#include "reference/camera/ray_map.h"
+#include "reference/camera/view_rays.h"
 
 namespace froth {
 namespace {

@@ -1,4 +1,4 @@
-#include "baker/checkpoint/activation.h"
+#include "foam/checkpoint/activation.h"
 
 #include <cmath>
 #include <limits>

@@ -4,10 +4,11 @@
 #include <iterator>
 #include <random>
 
-#include "baker/checkpoint/zip_reader.h"
-#include "baker/checkpoint/zip_writer.h"
-#include "baker/graph/graph.h"
-#include "format/atomic_file.h"
+#include "base/atomic_file.h"
+#include "foam/cech_pairs.h"
+#include "foam/cell_graph.h"
+#include "foam/checkpoint/zip_reader.h"
+#include "foam/checkpoint/zip_writer.h"
 #include "tests/checkpoint/import_checks.h"
 
 namespace froth {

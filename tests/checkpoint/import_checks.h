@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "baker/checkpoint/checkpoint.h"
+#include "foam/checkpoint/checkpoint.h"
 #include "tests/checkpoint/checkpoint_builder.h"
 
 namespace froth {

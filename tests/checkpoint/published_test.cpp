@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <span>
 
-#include "baker/checkpoint/checkpoint_views.h"
-#include "baker/checkpoint/mapped_file.h"
-#include "baker/checkpoint/pickle_writer.h"
-#include "baker/checkpoint/zip_reader.h"
+#include "foam/checkpoint/checkpoint_views.h"
+#include "foam/checkpoint/mapped_file.h"
+#include "foam/checkpoint/pickle_writer.h"
+#include "foam/checkpoint/zip_reader.h"
 #include "tests/checkpoint/import_checks.h"
 #include "tests/surroundings.h"
 

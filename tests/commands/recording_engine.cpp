@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "format/asset_writer.h"
+#include "format/write/asset_writer.h"
 #include "tests/format/sample_asset.h"
 
 namespace froth::test {

@@ -6,7 +6,7 @@
 #include "froth/froth.h"
 #include "froth/froth_composite.h"
 #include "froth/froth_walk.h"
-#include "samples/host/host.h"
+#include "host/host.h"
 #include "tests/commands/command_stream.h"
 
 namespace froth::test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "froth/froth.h"
-#include "samples/host/host.h"
+#include "host/host.h"
 
 namespace froth::test {
 

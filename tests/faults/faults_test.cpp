@@ -2,7 +2,7 @@
 // the engine goes on.
 #include <gtest/gtest.h>
 
-#include "format/asset_writer.h"
+#include "format/write/asset_writer.h"
 #include "tests/faults/engine.h"
 #include "tests/faults/host_faults.h"
 #include "tests/faults/vulkan_faults.h"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "runtime/core/device.h"  // the functions that the runtime calls
+#include "runtime/device/device.h"  // the functions that the runtime calls
 #include "tests/faults/host_faults.h"
 
 namespace froth::test {

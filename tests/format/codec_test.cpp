@@ -9,8 +9,8 @@
 #include "format/container.h"
 #include "format/draco_positions.h"
 #include "format/position_order.h"
-#include "format/section_codec_read.h"
-#include "format/section_codec_write.h"
+#include "format/read/section_codec_read.h"
+#include "format/write/section_codec_write.h"
 
 namespace froth {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "format/asset_writer.h"
-#include "format/manifest_read.h"
-#include "format/manifest_write.h"
-#include "format/section_codec_write.h"
+#include "format/read/manifest_read.h"
+#include "format/write/asset_writer.h"
+#include "format/write/manifest_write.h"
+#include "format/write/section_codec_write.h"
 
 namespace froth {
 namespace {

@@ -10,8 +10,8 @@
 #include <format/froth_generated.h>
 
 #include "format/asset_contents.h"
-#include "format/asset_reader.h"
 #include "format/container.h"
+#include "format/read/asset_reader.h"
 #include "format/section.h"
 
 namespace froth {

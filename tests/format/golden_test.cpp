@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "asset_equality.h"
-#include "format/asset_reader.h"
-#include "format/asset_writer.h"
+#include "format/read/asset_reader.h"
+#include "format/write/asset_writer.h"
 #include "tests/surroundings.h"
 #include "sample_asset.h"
 

@@ -7,8 +7,8 @@
 
 #include "asset_equality.h"
 #include "file_surgery.h"
-#include "format/asset_reader.h"
-#include "format/text.h"
+#include "base/text.h"
+#include "format/read/asset_reader.h"
 #include "sample_asset.h"
 
 namespace froth {

@@ -9,8 +9,8 @@
 #include <zstd.h>
 
 #include "file_surgery.h"
-#include "format/frame_read.h"
-#include "format/section_codec_read.h"
+#include "format/read/frame_read.h"
+#include "format/read/section_codec_read.h"
 #include "sample_asset.h"
 
 namespace froth {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "format/atomic_file.h"
+#include "base/atomic_file.h"
 
 namespace froth::test {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "asset_equality.h"
 #include "file_surgery.h"
-#include "format/asset_reader.h"
 #include "format/lattice.h"
+#include "format/read/asset_reader.h"
 #include "sample_asset.h"
 
 namespace froth {

@@ -13,10 +13,10 @@
 #include <unistd.h>
 
 #include "file_surgery.h"
-#include "format/asset_reader.h"
-#include "format/asset_writer.h"
-#include "format/atomic_file.h"
-#include "format/temporary_file.h"
+#include "base/atomic_file.h"
+#include "base/temporary_file.h"
+#include "format/read/asset_reader.h"
+#include "format/write/asset_writer.h"
 #include "sample_asset.h"
 
 namespace froth {

@@ -2,7 +2,7 @@
 // libFuzzer sets.
 #include <span>
 
-#include "format/asset_reader.h"
+#include "format/read/asset_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (const froth::Layer last : {froth::Layer::kGeometry, froth::Layer::kViewDependence}) {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "baker/camera/camera.h"
+#include "reference/camera/camera.h"
 #include "tests/fuzz/memory_watch.h"
 
 namespace {

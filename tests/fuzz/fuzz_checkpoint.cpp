@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "baker/checkpoint/checkpoint.h"
+#include "foam/checkpoint/checkpoint.h"
 #include "tests/checkpoint/checkpoint_builder.h"
 #include "tests/fuzz/memory_watch.h"
 

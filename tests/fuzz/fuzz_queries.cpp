@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "format/asset_reader.h"
+#include "format/read/asset_reader.h"
 #include "runtime/asset/cell_packer.h"
 #include "runtime/query/foam_walk.h"
 #include "runtime/query/query_foam.h"

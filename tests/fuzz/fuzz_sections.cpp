@@ -1,7 +1,7 @@
 // Any bytes as a section in any codec: no crash, no leak, no hang, no more memory than the header of the
 // codec promises.
 #include "codec_inputs.h"
-#include "format/section_codec_read.h"
+#include "format/read/section_codec_read.h"
 #include "memory_watch.h"
 
 namespace froth {

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "codec_inputs.h"
-#include "format/deltas.h"
+#include "base/morton_code.h"
 #include "format/draco_positions.h"
 #include "format/graph_rows.h"
 #include "format/position_order.h"
-#include "format/section_codec_write.h"
+#include "format/write/section_codec_write.h"
 #include "tests/format/codec_samples.h"
 
 namespace froth {

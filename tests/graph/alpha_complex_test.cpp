@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "baker/graph/graph.h"
+#include "foam/cech_pairs.h"
 #include "shaders/foam/cell.h"
 #include "tests/graph/power_oracle.h"
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "baker/graph/graph.h"
+#include "foam/cech_pairs.h"
+#include "foam/morton_order.h"
 #include "tests/graph/power_oracle.h"
 
 namespace froth {

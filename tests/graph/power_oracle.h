@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "baker/graph/graph.h"
+#include "foam/cell_graph.h"
 #include "tests/graph/ball_sets.h"
 
 namespace froth {

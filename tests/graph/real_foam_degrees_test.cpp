@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/checkpoint/checkpoint.h"
 #include "baker/graph/graph.h"
+#include "foam/checkpoint/checkpoint.h"
 #include "tests/surroundings.h"
 
 namespace froth {

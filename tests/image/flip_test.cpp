@@ -1,4 +1,4 @@
-#include "baker/image/flip.h"
+#include "reference/image/flip.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <png.h>
 #include <zlib.h>
 
-#include "baker/image/image.h"
+#include "reference/image/image.h"
 
 namespace froth {
 namespace {

@@ -1,4 +1,4 @@
-#include "baker/image/metrics.h"
+#include "reference/image/metrics.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <thread>
 
-#include "baker/checkpoint/checkpoint.h"
-#include "baker/stability/case_parts.h"
+#include "foam/checkpoint/checkpoint.h"
+#include "measure/stability/cases/case_parts.h"
 #include "tests/query/query_fixture.h"
 #include "tests/query/reference_rays.h"
 #include "tests/surroundings.h"

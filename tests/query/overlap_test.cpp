@@ -3,7 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "baker/graph/graph.h"
+#include "foam/cech_pairs.h"
+#include "foam/cell_graph.h"
 #include "shaders/foam/cell.h"
 #include "tests/query/query_fixture.h"
 

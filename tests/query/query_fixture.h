@@ -10,7 +10,7 @@
 
 #include "baker/bake/bake.h"
 #include "baker/synth/synth.h"
-#include "format/asset_writer.h"
+#include "format/write/asset_writer.h"
 #include "tests/runtime/runtime_fixture.h"
 
 namespace froth::test {

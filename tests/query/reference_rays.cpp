@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baker/reference/ray.h"
+#include "foam/cech_pairs.h"
+#include "reference/render/ray.h"
 
 namespace froth::test {
 namespace {

@@ -1,12 +1,12 @@
 // Rays by brute force in double: every ball that a ray meets, cut by all Cech neighbours, in the order of the origin's powers. The
-// rules of baker/reference/ray.h, without any triangulation.
+// rules of reference/render/ray.h, without any triangulation.
 #pragma once
 
 #include <vector>
 
-#include "baker/foam.h"
-#include "baker/graph/graph.h"
-#include "baker/reference/ball_hierarchy.h"
+#include "foam/cell_graph.h"
+#include "foam/foam.h"
+#include "reference/render/ball_hierarchy.h"
 
 namespace froth::test {
 

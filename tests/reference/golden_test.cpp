@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "baker/checkpoint/checkpoint.h"
-#include "baker/image/metrics.h"
-#include "baker/reference/reference.h"
+#include "foam/checkpoint/checkpoint.h"
+#include "reference/image/metrics.h"
+#include "reference/render/reference.h"
 #include "tests/surroundings.h"
 
 namespace froth {

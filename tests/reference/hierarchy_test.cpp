@@ -4,8 +4,9 @@
 #include <random>
 #include <set>
 
-#include "baker/reference/ball_hierarchy.h"
-#include "baker/reference/ray.h"
+#include "foam/cech_pairs.h"
+#include "reference/render/ball_hierarchy.h"
+#include "reference/render/ray.h"
 #include "tests/reference/scenes.h"
 
 namespace froth {

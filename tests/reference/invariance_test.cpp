@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "baker/image/metrics.h"
+#include "reference/image/metrics.h"
 #include "tests/reference/scenes.h"
 
 namespace froth {

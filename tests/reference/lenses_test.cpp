@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "baker/camera/ray_map.h"
-#include "baker/camera/view_rays.h"
+#include "reference/camera/ray_map.h"
+#include "reference/camera/view_rays.h"
 #include "tests/reference/scenes.h"
 
 namespace froth {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "baker/image/metrics.h"
+#include "reference/image/metrics.h"
 #include "tests/reference/scenes.h"
 
 namespace froth {

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "baker/camera/camera.h"
-#include "baker/foam.h"
-#include "baker/reference/reference.h"
+#include "foam/foam.h"
+#include "reference/camera/camera.h"
+#include "reference/render/reference.h"
 
 namespace froth {
 

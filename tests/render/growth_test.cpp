@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "format/asset_writer.h"
+#include "format/write/asset_writer.h"
 #include "runtime/asset/asset.h"
 #include "runtime/render/view_state.h"
 #include "tests/render/random_foam.h"
@@ -38,7 +38,7 @@ class Growth : public testing::Test {
     std::unique_ptr<UploadRing> ring = std::move(*UploadRing::create(device_, 16 << 20));
     while (!asset_.isDecoded()) {
       uint64_t workLeft = kWorkPerUpdate;
-      asset_.load(pipelines_.get(), {}, workLeft);
+      asset_.load([&](const GpuAsset& asset) { return pipelines_->prepareFor(asset); }, {}, workLeft);
       EXPECT_FALSE(asset_.hasFailed());
       asset_.stage(*ring, UINT64_MAX);
     }

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/camera/view_rays.h"
 #include "froth/froth_query.h"
+#include "reference/camera/view_rays.h"
 #include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
 #include "tests/render/split_asset.h"

@@ -5,7 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-#include "baker/camera/view_rays.h"
+#include "reference/camera/view_rays.h"
 #include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
 

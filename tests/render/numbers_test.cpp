@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/stability/case_parts.h"
+#include "measure/stability/cases/case_parts.h"
 #include "tests/render/render_harness.h"
 
 namespace froth::test {

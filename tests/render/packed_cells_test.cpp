@@ -6,6 +6,7 @@
 #include "format/quantization.h"
 #include "runtime/asset/bit_writer.h"
 #include "runtime/asset/cell_packer.h"
+#include "runtime/query/packed_elements.h"
 #include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "baker/foam.h"
+#include "foam/foam.h"
 
 namespace froth::test {
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/checkpoint/checkpoint.h"
-#include "format/asset_writer.h"
+#include "foam/checkpoint/checkpoint.h"
+#include "format/write/asset_writer.h"
 #include "tests/render/render_harness.h"
 #include "tests/surroundings.h"
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/camera/ray_map.h"
-#include "format/asset_writer.h"
+#include "format/write/asset_writer.h"
+#include "reference/camera/ray_map.h"
 
 namespace froth::test {
 namespace {

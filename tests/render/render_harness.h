@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "baker/bake/bake.h"
-#include "baker/camera/camera.h"
-#include "baker/foam.h"
-#include "baker/image/image.h"
-#include "baker/image/metrics.h"
-#include "baker/reference/reference.h"
+#include "foam/foam.h"
 #include "format/asset_contents.h"
 #include "froth/froth.h"
-#include "samples/host/host.h"
+#include "host/host.h"
+#include "reference/camera/camera.h"
+#include "reference/image/image.h"
+#include "reference/image/metrics.h"
+#include "reference/render/reference.h"
 
 namespace froth::test {
 

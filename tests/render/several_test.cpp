@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/reference/several_foams.h"
+#include "reference/render/several_foams.h"
 #include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
 

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "baker/image/image.h"
-#include "baker/report/report.h"
+#include "measure/report/report.h"
+#include "reference/image/image.h"
 #include "tests/report/sample_report.h"
 #include "tests/surroundings.h"
 

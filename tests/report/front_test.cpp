@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "baker/report/report.h"
+#include "measure/report/report.h"
 
 namespace froth {
 namespace {

@@ -5,8 +5,8 @@
 #include <regex>
 #include <set>
 
-#include "baker/image/formats.h"
-#include "baker/report/report.h"
+#include "measure/report/report.h"
+#include "reference/image/formats.h"
 #include "tests/report/sample_report.h"
 
 namespace froth {

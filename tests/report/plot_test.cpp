@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "baker/report/svg_plot.h"
+#include "measure/report/svg_plot.h"
 
 namespace froth {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "baker/image/image.h"
+#include "reference/image/image.h"
 
 namespace froth::test {
 namespace {

@@ -1,7 +1,7 @@
 // A report as a measured one looks: three renderers' worth of sweeps, noise, floors, ties. All figures are made up, by rule.
 #pragma once
 
-#include "baker/report/report.h"
+#include "measure/report/report.h"
 
 namespace froth::test {
 

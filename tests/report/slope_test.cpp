@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "baker/report/report.h"
+#include "measure/report/report.h"
 
 namespace froth {
 namespace {

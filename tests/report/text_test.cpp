@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "baker/report/report.h"
+#include "measure/report/report.h"
 #include "tests/report/sample_report.h"
 
 namespace froth {

@@ -1,7 +1,7 @@
 // The whole frame against the double reference.
 #include <gtest/gtest.h>
 
-#include "samples/host/picture_file.h"
+#include "host/picture_file.h"
 #include "tests/room/reference_frame.h"
 #include "tests/surroundings.h"
 

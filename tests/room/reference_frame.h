@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "baker/reference/reference.h"
+#include "reference/render/reference.h"
 #include "samples/mirror_room/room_geometry.h"
 #include "tests/room/room_fixture.h"
 

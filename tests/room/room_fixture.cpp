@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "baker/bake/bake.h"
-#include "format/asset_writer.h"
+#include "format/write/asset_writer.h"
 #include "tests/render/random_foam.h"
 
 namespace froth::test {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "baker/foam.h"
+#include "foam/foam.h"
 #include "samples/mirror_room/stage.h"
 #include "tests/surroundings.h"
 

@@ -1,6 +1,6 @@
 // Rays on the GPU over a device that goes.
 #include "froth/froth_walk.h"
-#include "runtime/core/device.h"
+#include "runtime/device/device.h"
 #include "runtime_fixture.h"
 
 namespace froth {

@@ -13,9 +13,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "format/asset_writer.h"
+#include "format/write/asset_writer.h"
 #include "froth/froth_query.h"
-#include "samples/host/host.h"
+#include "host/host.h"
 #include "tests/format/sample_asset.h"
 
 namespace froth {

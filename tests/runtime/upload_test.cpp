@@ -1,7 +1,7 @@
 // What arrives on the GPU, seen from the inside: the arrays of a loaded asset are those of its file.
-#include "runtime/asset/bit_writer.h"
 #include "runtime/asset/cell_packer.h"
-#include "runtime/core/context.h"
+#include "runtime/context/context.h"
+#include "runtime/query/packed_elements.h"
 #include "runtime_fixture.h"
 
 namespace froth {

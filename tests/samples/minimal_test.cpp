@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "baker/image/image.h"
+#include "reference/image/image.h"
 #include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 

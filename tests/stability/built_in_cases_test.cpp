@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "baker/bake/check_foam.h"
-#include "baker/stability/stiff_case.h"
+#include "measure/stability/cases/stiff_case.h"
 #include "tests/same_bits.h"
 
 namespace froth {

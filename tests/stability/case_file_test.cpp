@@ -1,5 +1,5 @@
 // Stiff cases as files.
-#include "baker/stability/case_file.h"
+#include "measure/stability/case_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "baker/stability/random_case.h"
-#include "format/atomic_file.h"
+#include "base/atomic_file.h"
+#include "measure/stability/cases/random_case.h"
 
 namespace froth {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <set>
 
-#include "baker/camera/view_rays.h"
-#include "baker/reference/reference.h"
-#include "baker/stability/case_judge.h"
-#include "baker/stability/stiff_case.h"
 #include "baker/synth/synth.h"
+#include "measure/stability/case_judge.h"
+#include "measure/stability/cases/stiff_case.h"
+#include "reference/camera/view_rays.h"
+#include "reference/render/reference.h"
 
 namespace froth {
 namespace {

@@ -1,13 +1,13 @@
 // The bound of an image lets pass what rounding does, and nothing else.
-#include "baker/stability/image_bound.h"
+#include "measure/stability/image_bound.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "baker/image/depth.h"
-#include "baker/stability/case_parts.h"
+#include "measure/stability/cases/case_parts.h"
+#include "reference/image/depth.h"
 
 namespace froth {
 namespace {

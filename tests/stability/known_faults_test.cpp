@@ -1,5 +1,5 @@
 // A known fault excuses itself alone.
-#include "baker/stability/known_faults.h"
+#include "measure/stability/known_faults.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/checkpoint/checkpoint.h"
 #include "baker/synth/synth.h"
+#include "foam/checkpoint/checkpoint.h"
 #include "tests/render/render_harness.h"
 #include "tests/surroundings.h"
 

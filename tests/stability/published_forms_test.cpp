@@ -1,5 +1,5 @@
 // Where the published formulas lose digits, Froth's do not.
-#include "baker/stability/published_forms.h"
+#include "measure/stability/published_forms.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

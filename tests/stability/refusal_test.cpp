@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "baker/bake/bake.h"
-#include "baker/reference/reference.h"
-#include "format/float_span.h"
+#include "base/float_span.h"
+#include "reference/render/reference.h"
 #include "tests/checkpoint/import_checks.h"
 #include "tests/reference/scenes.h"
 

@@ -7,12 +7,12 @@
 #include <set>
 
 #include "baker/bake/check_foam.h"
-#include "baker/camera/view_check.h"
-#include "baker/stability/case_file.h"
-#include "baker/stability/known_faults.h"
-#include "baker/stability/random_case.h"
-#include "baker/stability/random_search.h"
-#include "baker/stability/shrink.h"
+#include "measure/stability/case_file.h"
+#include "measure/stability/cases/random_case.h"
+#include "measure/stability/known_faults.h"
+#include "measure/stability/random_search.h"
+#include "measure/stability/shrink.h"
+#include "reference/camera/view_check.h"
 #include "tests/surroundings.h"
 
 namespace froth {

@@ -1,11 +1,12 @@
 // Walks on the CPU do what theory promises, and a wrong graph is told.
-#include "baker/stability/walk_trace.h"
+#include "measure/stability/walk_trace.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "baker/stability/case_parts.h"
+#include "baker/graph/graph.h"
+#include "measure/stability/cases/case_parts.h"
 
 namespace froth {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/stability/stiff_case.h"
-#include "baker/tool/marked_text.h"
+#include "measure/marked_text.h"
+#include "measure/stability/cases/stiff_case.h"
 #include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 

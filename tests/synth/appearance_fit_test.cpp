@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/counter_random.h"
+#include "base/counter_random.h"
 #include "shaders/foam/appearance.h"
 
 namespace froth {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/foam_arrays.h"
+#include "foam/foam_arrays.h"
 #include "tests/same_bits.h"
 
 namespace froth {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "baker/image/metrics.h"
-#include "baker/reference/reference.h"
 #include "baker/synth/gallery_scene.h"
 #include "baker/synth/synth.h"
+#include "reference/image/metrics.h"
+#include "reference/render/reference.h"
 #include "tests/synth/foam_checks.h"
 
 namespace froth {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "baker/bake/bake.h"
-#include "baker/image/metrics.h"
-#include "baker/reference/reference.h"
 #include "baker/synth/synth.h"
+#include "reference/image/metrics.h"
+#include "reference/render/reference.h"
 #include "tests/synth/foam_checks.h"
 
 namespace froth {

@@ -6,8 +6,8 @@
 
 #include <gmock/gmock.h>
 
-#include "format/asset_reader.h"
-#include "format/asset_writer.h"
+#include "format/read/asset_reader.h"
+#include "format/write/asset_writer.h"
 #include "tests/checkpoint/checkpoint_builder.h"
 #include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"

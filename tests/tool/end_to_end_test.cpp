@@ -1,7 +1,7 @@
 // From a synthetic foam to measured pictures, through the program.
 #include <limits>
 
-#include "baker/camera/ray_map.h"
+#include "reference/camera/ray_map.h"
 #include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "baker/camera/camera.h"
+#include "reference/camera/camera.h"
 
 namespace froth::test {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "froth/froth_walk.h"
-#include "samples/host/host.h"
+#include "host/host.h"
 
 namespace froth::test {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "format/asset_writer.h"
+#include "format/write/asset_writer.h"
 #include "tests/render/render_harness.h"
 
 namespace froth::test {

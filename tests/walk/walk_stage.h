@@ -5,13 +5,13 @@
 #include <list>
 #include <vector>
 
-#include "baker/camera/camera.h"
-#include "baker/image/image.h"
 #include "format/asset_contents.h"
 #include "froth/froth_query.h"
 #include "froth/froth_walk.h"
-#include "runtime/core/device.h"
-#include "samples/host/host.h"
+#include "host/host.h"
+#include "reference/camera/camera.h"
+#include "reference/image/image.h"
+#include "runtime/device/device.h"
 
 namespace froth::test {
 

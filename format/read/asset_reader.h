@@ -1,0 +1,54 @@
+// Reads a .froth asset. Nothing in the file is trusted: any bytes give a value or a named error, never a crash, a hang or
+// an allocation beyond what the file's size justifies.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "base/result.h"
+#include "format/asset_contents.h"
+#include "format/section.h"
+
+namespace froth {
+
+// An opened asset: header and manifest are read and checked, sections are decoded on demand.
+// Thread safety: readChunk() may run on several threads at once.
+class AssetReader {
+ public:
+  // Layers behind `last` are left alone: the contents are those of a coarser scene (K = 1 or M = 0), complete for every user.
+  static Result<AssetReader> open(const std::filesystem::path& path, Layer last = Layer::kViewDependence);
+  // `bytes` must outlive the reader; `name` stands for the file in messages.
+  static Result<AssetReader> openBytes(std::span<const uint8_t> bytes, std::string name,
+                                       Layer last = Layer::kViewDependence);
+
+  AssetReader(AssetReader&&) noexcept;
+  AssetReader& operator=(AssetReader&&) noexcept;
+  ~AssetReader();
+
+  // Everything but the chunks' arrays; `chunks` holds origins and counts.
+  const AssetContents& manifest() const;
+  // The balls of a chunk's live cells, relative to its origin; known before any section is read. chunk < chunks.size().
+  Box liveBounds(uint32_t chunk) const;
+  // Stored sizes, for `froth info`: one record per section.
+  std::span<const SectionRecord> sections() const;
+  // Decodes and checks all sections of one chunk (up to the last layer): hashes, sizes, index ranges, finite numbers,
+  // positive radii. Needs no other chunk.
+  Result<ChunkContents> readChunk(uint32_t chunk) const;
+
+ private:
+  AssetReader();
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// The whole asset in memory, or its first layers.
+Result<AssetContents> readAsset(const std::filesystem::path& path, Layer last = Layer::kViewDependence);
+
+// What `froth verify` does beyond reading: every section decodes, the graph is symmetric (also across chunks) and
+// without loops or double entries, alpha rows are prefixes in nearest-first order.
+Status verifyAsset(const std::filesystem::path& path);
+
+}  // namespace froth

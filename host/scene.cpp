@@ -1,0 +1,150 @@
+#include "host/scene.h"
+
+#include <utility>
+
+namespace froth {
+
+Status Scene::check(FrothResult result, const char* call) const {
+  if (result >= FROTH_OK)
+    return {};  // what is positive is information, such as an asset that is still loading
+  const bool isFileFault = result == FROTH_ERROR_FILE || result == FROTH_ERROR_VERSION;
+  const ErrorKind kind = isFileFault ? ErrorKind::kBadInput : ErrorKind::kUnsupported;
+  if (!lastMessage_.empty()) return makeError(kind, "%s", lastMessage_.c_str());
+  return makeError(kind, "%s gives %s", call, frothResultName(result));
+}
+
+Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& assetPath,
+                                             bool isQueried) {
+  std::unique_ptr<Scene> scene(new Scene());
+  info.messageUser = scene.get();
+  info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
+    if (severity == FROTH_SEVERITY_ERROR)
+      static_cast<Scene*>(user)->lastMessage_ = std::string(object) + ": " + text;
+  };
+  Status made = scene->check(frothCreateContext(&info, &scene->context_), "frothCreateContext");
+  if (!made) return made.error();
+
+  FrothAssetInfo assetInfo{};
+  assetInfo.structSize = sizeof(assetInfo);
+  assetInfo.path = assetPath.c_str();
+  assetInfo.keepForQueries = isQueried ? 1 : 0;
+  made = scene->check(frothOpenAsset(scene->context_, &assetInfo, &scene->assetHandle_), "frothOpenAsset");
+  if (!made) return made.error();
+
+  // An instance may exist before its asset is ready: it appears once it is.
+  FrothInstanceInfo instanceInfo{};
+  instanceInfo.structSize = sizeof(instanceInfo);
+  instanceInfo.asset = scene->assetHandle_;
+  made = scene->check(frothCreateInstance(scene->context_, &instanceInfo, &scene->instance_),
+                      "frothCreateInstance");
+  if (!made) return made.error();
+  return scene;
+}
+
+Scene::~Scene() {
+  if (context_) frothDestroyContext(context_, UINT64_MAX);
+}
+
+Status Scene::setExtent(VkExtent2D extent) {
+  if (extent_.width > 0) {
+    if (Status gone = check(frothDestroyView(context_, view_), "frothDestroyView"); !gone) return gone;
+    extent_ = {};
+  }
+  FrothViewInfo info{};
+  info.structSize = sizeof(info);
+  info.maxExtent = extent;
+  info.measurePasses = 1;
+  if (Status made = check(frothCreateView(context_, &info, &view_), "frothCreateView"); !made) return made;
+  extent_ = extent;
+  return {};
+}
+
+Status Scene::beginFrame(VkCommandBuffer commands, uint64_t serial, uint64_t completedSerial) {
+  FrothFrame frame{};
+  frame.structSize = sizeof(frame);
+  frame.serial = serial;
+  frame.completedSerial = completedSerial;
+  frame_.structSize = sizeof(frame_);
+  if (Status updated = check(frothUpdate(context_, &frame, &frame_), "frothUpdate"); !updated) return updated;
+  if (Status copied = check(frothRecordUpload(context_, commands), "frothRecordUpload"); !copied)
+    return copied;
+
+  asset_.structSize = sizeof(asset_);
+  if (Status asked = check(frothGetAssetStatus(context_, assetHandle_, &asset_), "frothGetAssetStatus");
+      !asked) {
+    return asked;
+  }
+  if (asset_.state == FROTH_ASSET_FAILED) return check(asset_.error, "frothOpenAsset");
+  return {};
+}
+
+Status Scene::draw(VkCommandBuffer commands, Method method, FrothRenderInfo info) {
+  info.structSize = sizeof(info);
+  info.nearRatio = FROTH_NEAR_DEFAULT;
+  info.nearDepth = FROTH_NEAR_DEFAULT;
+  if (method == Method::kWalk) return check(frothWalk(context_, view_, commands, &info), "frothWalk");
+  return check(frothRasterize(context_, view_, commands, &info), "frothRasterize");
+}
+
+Status Scene::place(FrothInstanceInfo placement) {
+  placement.structSize = sizeof(placement);
+  placement.asset = assetHandle_;
+  return check(frothSetInstance(context_, instance_, &placement), "frothSetInstance");
+}
+
+Result<FrothViewStatus> Scene::viewStatus() const {
+  FrothViewStatus status{};
+  status.structSize = sizeof(status);
+  if (Status asked = check(frothGetViewStatus(context_, view_, &status), "frothGetViewStatus"); !asked) {
+    return asked.error();
+  }
+  return status;
+}
+
+Result<CameraPath> Scene::path(std::vector<Pose> keys) const {
+  if (!keys.empty()) return CameraPath(std::move(keys));
+
+  std::vector<FrothStoredCamera> stored(asset_.flightPathCount);
+  uint32_t count = 0;
+  const FrothResult copied =
+      frothGetFlightPath(context_, assetHandle_, asset_.flightPathCount, stored.data(), &count);
+  if (Status got = check(copied, "frothGetFlightPath"); !got) return got.error();
+  for (const FrothStoredCamera& camera : stored) {
+    keys.push_back(poseFromMatrix(camera.worldFromCamera, camera.tanHalfFovY));
+  }
+  if (keys.empty()) return orbitPath(asset_.boundsMin, asset_.boundsMax);
+  return CameraPath(std::move(keys));
+}
+
+Status submitFrame(Host& host, Scene& scene, const RecordFrame& record) {
+  return host.submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
+    if (Status begun = scene.beginFrame(commands, serial, serial - 1); !begun) return begun;
+    return record(commands, serial);
+  });
+}
+
+Status waitUntilReady(Host& host, Scene& scene) {
+  while (!scene.isReady()) {
+    if (Status loaded = submitFrame(host, scene, [](VkCommandBuffer, uint64_t) { return Status(); }); !loaded)
+      return loaded;
+  }
+  return {};
+}
+
+Status submitWholeFrame(Host& host, Scene& scene, const RecordFrame& record) {
+  constexpr int kMaxAttempts = 32;
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+    Status drawn = submitFrame(host, scene, record);
+    if (!drawn) return drawn;
+    // What a frame met is known at the start of the next one.
+    drawn = submitFrame(host, scene, [](VkCommandBuffer, uint64_t) { return Status(); });
+    if (!drawn) return drawn;
+    const Result<FrothViewStatus> status = scene.viewStatus();
+    if (!status) return status.error();
+    if ((status->bits & (FROTH_VIEW_CELL_OVERFLOW | FROTH_VIEW_PAIR_OVERFLOW)) == 0) return {};
+  }
+  return makeError(ErrorKind::kUnsupported, "a frame still overflows after %d attempts; use a smaller --size",
+                   kMaxAttempts);
+}
+
+}  // namespace froth

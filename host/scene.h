@@ -1,0 +1,66 @@
+// Froth's part of an engine: one context, one asset, one instance, one view.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/camera_path.h"
+#include "host/host.h"
+
+namespace froth {
+
+enum class Method { kRaster, kWalk };
+
+class Scene {
+ public:
+  // Starts to open the asset; `context` comes with the engine's device, without callbacks.
+  // isQueried: CPU queries answer.
+  static Result<std::unique_ptr<Scene>> create(FrothContextInfo context, const std::string& assetPath,
+                                               bool isQueried = false);
+  ~Scene();  // the device is done with every frame
+
+  // (Re)makes the view for images of this size; the device is done with every frame.
+  Status setExtent(VkExtent2D extent);
+
+  // The start of each frame: loads what there is to load, grows what was too small, records the uploads.
+  Status beginFrame(VkCommandBuffer commands, uint64_t serial, uint64_t completedSerial);
+  // Records the images of `info`; size and near limits are filled in. Nothing is drawn before the asset is ready.
+  Status draw(VkCommandBuffer commands, Method method, FrothRenderInfo info);
+
+  bool isReady() const { return asset_.state == FROTH_ASSET_READY; }
+  const FrothAssetStatus& assetStatus() const { return asset_; }
+  const FrothFrameStatus& frameStatus() const { return frame_; }
+  Result<FrothViewStatus> viewStatus() const;  // of the newest complete frame
+
+  // The path to fly: the given keys, else those stored in the asset, else an orbit. Only when ready.
+  Result<CameraPath> path(std::vector<Pose> keys) const;
+
+  // Where the foam stands in the world; the asset's own place until then. `asset` is filled in.
+  Status place(FrothInstanceInfo placement);
+  // For calls that the scene does not wrap.
+  FrothContext* context() const { return context_; }
+  Status check(FrothResult result, const char* call) const;  // an error with Froth's newest message
+
+ private:
+  Scene() = default;
+
+  FrothContext* context_ = nullptr;
+  FrothAsset assetHandle_{};
+  FrothInstance instance_{};
+  FrothView view_{};
+  VkExtent2D extent_{};
+  FrothAssetStatus asset_{};
+  FrothFrameStatus frame_{};
+  std::string lastMessage_;
+};
+
+// Host::submit() waits, so the frame before is always complete.
+using RecordFrame = std::function<Status(VkCommandBuffer, uint64_t serial)>;
+Status submitFrame(Host& host, Scene& scene, const RecordFrame& record);
+Status waitUntilReady(Host& host, Scene& scene);
+// For files, which should show the whole foam: a frame that overflowed is drawn again, as beginFrame() made room.
+Status submitWholeFrame(Host& host, Scene& scene, const RecordFrame& record);
+
+}  // namespace froth

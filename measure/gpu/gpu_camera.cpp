@@ -1,0 +1,90 @@
+#include "measure/gpu/gpu_camera.h"
+
+#include <cmath>
+
+#include "reference/camera/view_rays.h"
+
+namespace froth {
+namespace {
+
+static_assert(static_cast<int>(LensKind::kFisheye) == int{FROTH_LENS_FISHEYE} &&
+              static_cast<int>(LensKind::kKannalaBrandt) == int{FROTH_LENS_KANNALA_BRANDT} &&
+              static_cast<int>(LensKind::kRadialTangential) == int{FROTH_LENS_RADIAL_TANGENTIAL} &&
+              static_cast<int>(LensKind::kEquirectangular) == int{FROTH_LENS_EQUIRECTANGULAR} &&
+              static_cast<int>(LensKind::kRayMap) == int{FROTH_LENS_RAY_MAP});
+
+FrothLens lensOf(const View& view) {
+  FrothLens lens{};
+  lens.kind = static_cast<FrothLensKind>(view.lens.kind);
+  lens.focal[0] = static_cast<float>(view.fx);
+  lens.focal[1] = static_cast<float>(view.fy);
+  lens.centre[0] = static_cast<float>(view.cx);
+  lens.centre[1] = static_cast<float>(view.cy);
+  for (size_t i = 0; i < view.lens.distortion.size(); ++i)
+    lens.coefficients[i] = static_cast<float>(view.lens.distortion[i]);
+  return lens;
+}
+
+// View axes x right, y down, z forward are those of Vulkan's clip space; depth is reversed with an infinite far plane, or ends
+// far off where rays are parallel: no output depends on it.
+void fillProjection(const View& view, FrothCamera& camera) {
+  const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
+  const int shift = isOrthographic ? 12 : 8;  // of the image: a share of depth, or a constant
+  float(&clip)[16] = camera.clipFromView;
+  clip[0] = static_cast<float>(2 * view.fx / view.width);
+  clip[5] = static_cast<float>(2 * view.fy / view.height);
+  clip[shift] = static_cast<float>(2 * view.cx / view.width - 1);
+  clip[shift + 1] = static_cast<float>(2 * view.cy / view.height - 1);
+  clip[isOrthographic ? 10 : 14] = isOrthographic ? 1e-6f : 0.01f;
+  clip[isOrthographic ? 15 : 11] = 1.0f;
+}
+
+}  // namespace
+
+std::vector<float> sceneDepthOf(const View& view, const Image& distances) {
+  if (lensClassesOf(view) == FROTH_LENS_CLASS_MAPPED) return distances.values;
+  const FrothCamera camera = cameraOf(view);
+  const float(&clip)[16] = camera.clipFromView;
+  const ViewRays rays(view);
+  std::vector<float> depths;
+  for (uint32_t y = 0; y < view.height; ++y) {
+    for (uint32_t x = 0; x < view.width; ++x) {
+      const double t = *distances.pixel(x, y), cosine = glm::dot(rays.ofPixel(x, y)->direction, forwardOf(view));
+      const double depth = (clip[10] * t * cosine + clip[14]) / (clip[11] * t * cosine + clip[15]);
+      depths.push_back(static_cast<float>(std::isinf(t) ? (clip[15] > 0 ? 1 : 0) : depth));
+    }
+  }
+  return depths;
+}
+
+uint32_t lensClassesOf(const View& view) {
+  if (view.lens.kind == LensKind::kPinhole) return 0;
+  return view.lens.kind == LensKind::kOrthographic ? FROTH_LENS_CLASS_ORTHOGRAPHIC : FROTH_LENS_CLASS_MAPPED;
+}
+
+uint32_t lensClassesOf(const std::vector<SelectedView>& views) {
+  uint32_t classes = 0;
+  for (const SelectedView& selected : views) classes |= lensClassesOf(selected.view);
+  return classes;
+}
+
+FrothCamera cameraOf(const View& view) {
+  FrothCamera camera{};
+  const auto& world = view.worldFromCamera;
+  for (int axis = 0; axis < 3; ++axis) {
+    camera.eye[axis] = world[axis * 4 + 3];
+    // The inverse of a rotation is its transpose: row `axis` of world-from-camera is column `axis` of the
+    // inverse.
+    for (int row = 0; row < 3; ++row)
+      camera.viewFromWorld[axis * 3 + row] = static_cast<float>(world[axis * 4 + row]);
+  }
+  camera.viewport = {0, 0, static_cast<float>(view.width), static_cast<float>(view.height), 0, 1};
+  if (lensClassesOf(view) == FROTH_LENS_CLASS_MAPPED) {
+    camera.lens = lensOf(view);
+  } else {
+    fillProjection(view, camera);
+  }
+  return camera;
+}
+
+}  // namespace froth

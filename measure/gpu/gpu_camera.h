@@ -1,0 +1,22 @@
+// A view of cameras.json as the runtime takes it.
+#pragma once
+
+#include "froth/froth.h"
+#include "reference/camera/camera.h"
+#include "reference/camera/view_selection.h"
+#include "reference/image/image.h"
+
+namespace froth {
+
+// FrothLensClass bits that views need.
+uint32_t lensClassesOf(const View& view);
+uint32_t lensClassesOf(const std::vector<SelectedView>& views);
+
+// The scene's depth as such a camera has it, of distances along the rays: device depth, or with lenses that are no projection the
+// distances themselves.
+std::vector<float> sceneDepthOf(const View& view, const Image& distances);
+
+// Everything but the image of a ray map.
+FrothCamera cameraOf(const View& view);
+
+}  // namespace froth

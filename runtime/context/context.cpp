@@ -1,0 +1,260 @@
+// Assets, instances, views: checked, made, described, given up.
+#include "runtime/context/context.h"
+
+#include <algorithm>
+#include <cmath>
+
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kMaxViewExtent = 16384;
+constexpr uint32_t kLayerCount = 3;
+constexpr double kUnitQuaternionTolerance = 1e-3;  // as for a camera's rotation
+
+}  // namespace
+
+// ---- Assets ----
+
+FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
+  const bool hasBytes = info.data && info.dataSize > 0;
+  if ((info.path != nullptr) == hasBytes) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset",
+                         "path, data: %s; give a path, or data and dataSize",
+                         hasBytes ? "both are set" : "neither is set");
+  }
+  if (info.path && !*info.path) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset",
+                         "path: empty; give the path of a .froth file");
+  }
+  if (info.layers > kLayerCount) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset", "layers: %u; at most %u, or 0 for all",
+                         info.layers, kLayerCount);
+  }
+  const auto lastLayer = static_cast<Layer>((info.layers == 0 ? kLayerCount : info.layers) - 1);
+  const std::span<const uint8_t> bytes(static_cast<const uint8_t*>(info.data), hasBytes ? info.dataSize : 0);
+  handle = assets_.add(std::make_unique<Asset>(info.path ? info.path : std::string(), bytes, lastLayer,
+                                               isNull_ ? nullptr : &device_, info.bytesStay != 0));
+  if (info.keepForQueries) {
+    assets_.find(handle)->keepForQueries();
+  }
+  if (hasWalkShaders_) {
+    assets_.find(handle)->keepForWalks();
+  }
+  return FROTH_OK;
+}
+
+// READY: all copies stand in frames that are recorded and not dropped.
+FrothAssetState Context::stateOf(const Asset& asset) const {
+  if (asset.hasFailed()) {
+    return FROTH_ASSET_FAILED;
+  }
+  const bool isUploaded = asset.queuedBytes() == 0 && !(ring_ && ring_->isStaged(&asset));
+  return asset.isDecoded() && isUploaded && !isLost_ ? FROTH_ASSET_READY : FROTH_ASSET_OPENING;
+}
+
+FrothResult Context::describeAsset(FrothAsset handle, FrothAssetStatus& status) const {
+  const Asset* asset = assets_.find(handle);
+  if (!asset) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothGetAssetStatus", "asset {%u, %u}: closed or never opened",
+                         handle.index, handle.generation);
+  }
+  status = asset->describe();
+  status.state = stateOf(*asset);
+  return FROTH_OK;
+}
+
+FrothResult Context::copyFlightPath(FrothAsset handle, uint32_t capacity, FrothStoredCamera* cameras,
+                                    uint32_t& count) const {
+  const Asset* asset = assets_.find(handle);
+  if (!asset) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothGetFlightPath", "asset {%u, %u}: closed or never opened",
+                         handle.index, handle.generation);
+  }
+  if (capacity > 0 && !cameras) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothGetFlightPath", "cameras: null, with capacity %u",
+                         capacity);
+  }
+  const std::span<const FrothStoredCamera> path = asset->flightPath();
+  std::copy_n(path.begin(), std::min<size_t>(capacity, path.size()), cameras);
+  count = static_cast<uint32_t>(path.size());
+  return FROTH_OK;
+}
+
+FrothResult Context::closeAsset(FrothAsset handle) {
+  const Asset* asset = assets_.find(handle);
+  if (!asset) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothCloseAsset", "asset {%u, %u}: closed or never opened",
+                         handle.index, handle.generation);
+  }
+  uint32_t users = 0;
+  instances_.forEach([&](const Instance& instance) { users += assets_.find(instance.asset) == asset; });
+  if (users > 0) {
+    return messages.fail(FROTH_ERROR_STATE, asset->name().c_str(),
+                         "%u instances still use it; destroy them first", users);
+  }
+  if (ring_) {
+    ring_->forget(asset);
+  }
+  retired_.reserve(retired_.size() + 1);
+  retire(assets_.remove(handle));
+  return FROTH_OK;
+}
+
+// ---- Instances ----
+
+FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* call,
+                                   Instance& instance) const {
+  if (!assets_.find(info.asset)) {
+    return messages.fail(FROTH_ERROR_HANDLE, call, "asset {%u, %u}: closed or never opened", info.asset.index,
+                         info.asset.generation);
+  }
+  double length = 0;
+  for (const float part : info.rotation) {
+    length += double{part} * part;
+  }
+  if (length != 0 && !(std::abs(length - 1) <= kUnitQuaternionTolerance)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "rotation: a quaternion of squared length %g; normalize it", length);
+  }
+  if (!(info.scale >= 0) || !std::isfinite(info.scale)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "scale: %g; must be positive, or 0 for 1",
+                         double{info.scale});
+  }
+  if (!(info.exposure >= 0) || !std::isfinite(info.exposure)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "exposure: %g; must be positive, or 0 for 1", double{info.exposure});
+  }
+  for (const double part : info.position) {
+    if (!std::isfinite(part)) {
+      return messages.fail(FROTH_ERROR_ARGUMENT, call, "position: %g; must be finite", part);
+    }
+  }
+  instance.asset = info.asset;
+  std::copy_n(info.position, 3, instance.placement.position.begin());
+  if (length != 0) {
+    std::copy_n(info.rotation, 4, instance.placement.rotation.begin());
+  } else {
+    instance.placement.rotation = {0, 0, 0, 1};
+  }
+  instance.placement.scale = info.scale == 0 ? 1 : info.scale;
+  instance.placement.userId = info.userId;
+  instance.placement.exposure = info.exposure == 0 ? 1 : info.exposure;
+  instance.mask = info.mask == 0 ? ~0u : info.mask;
+  return FROTH_OK;
+}
+
+FrothResult Context::createInstance(const FrothInstanceInfo& info, FrothInstance& handle) {
+  auto instance = std::make_unique<Instance>();
+  const FrothResult result = readPlacement(info, "frothCreateInstance", *instance);
+  if (result == FROTH_OK) {
+    instance->movedAfter = drawnSerial_;
+    handle = instances_.add(std::move(instance));
+  }
+  return result;
+}
+
+FrothResult Context::setInstance(FrothInstance handle, const FrothInstanceInfo& info) {
+  Instance* instance = instances_.find(handle);
+  if (!instance) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothSetInstance",
+                         "instance {%u, %u}: destroyed or never created", handle.index, handle.generation);
+  }
+  const RenderInstance old = instance->placement;
+  const FrothResult result = readPlacement(info, "frothSetInstance", *instance);
+  if (result == FROTH_OK && instance->movedAfter != drawnSerial_) {
+    instance->before = old;
+    instance->movedAfter = drawnSerial_;
+  }
+  if (result == FROTH_OK && info.hasJumped) {
+    instance->before.reset();
+  }
+  return result;
+}
+
+FrothResult Context::destroyInstance(FrothInstance handle) {
+  if (!instances_.find(handle)) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothDestroyInstance",
+                         "instance {%u, %u}: destroyed or never created", handle.index, handle.generation);
+  }
+  instances_.remove(handle);
+  return FROTH_OK;
+}
+
+// ---- Views ----
+
+FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
+  const VkExtent2D extent = info.maxExtent;
+  if (extent.width == 0 || extent.height == 0 || extent.width > kMaxViewExtent ||
+      extent.height > kMaxViewExtent) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "maxExtent: %u x %u; must be 1 to %u each",
+                         extent.width, extent.height, kMaxViewExtent);
+  }
+  if ((info.lensClasses & ~lensClasses_) != 0) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView",
+                         "lensClasses: %#x, but the context was made for %#x; raise FrothContextInfo::lensClasses",
+                         info.lensClasses, lensClasses_);
+  }
+  if (info.eyeCount > kMostEyes) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "eyeCount: %u; at most %u", info.eyeCount, kMostEyes);
+  }
+  auto view = std::make_unique<View>();
+  view->maxExtent = extent;
+  view->eyeCount = info.eyeCount == 0 ? 1 : info.eyeCount;
+  view->lensClasses = info.lensClasses;
+  view->measurePasses = info.measurePasses != 0;
+  view->keepsHits = info.keepsHits != 0;
+  if (const Status status = createRenderer(*view); !status) {
+    return messages.fail(status.error(), "frothCreateView");
+  }
+  handle = views_.add(std::move(view));
+  return FROTH_OK;
+}
+
+Status Context::createRenderer(View& view) {
+  if (!device_.device) {
+    return {};
+  }
+  const bool canMeasure = device_.timestampBits != 0;
+  if (view.measurePasses && !canMeasure) {
+    messages.warn(FROTH_ERROR_FEATURE, "view",
+                  "measurePasses: the context's queue family has 0 timestampValidBits; FrothViewStatus::passes stays empty");
+  }
+  Result<std::unique_ptr<ViewRenderer>> renderer =
+      ViewRenderer::create(device_, {.maxExtent = view.maxExtent,
+                                     .lensClasses = view.lensClasses,
+                                     .framesInFlight = framesInFlight_,
+                                     .measurePasses = view.measurePasses && canMeasure,
+                                     .keepsHits = view.keepsHits && hasExtendedFormats_,
+                                     .composites = compositeFormat_ != VK_FORMAT_UNDEFINED,
+                                     .exportsDepth = depthExportFormat_ != VK_FORMAT_UNDEFINED});
+  if (!renderer) {
+    return renderer.error();
+  }
+  view.renderer = std::move(*renderer);
+  return {};
+}
+
+FrothResult Context::describeView(FrothView handle, FrothViewStatus& status) const {
+  const View* view = views_.find(handle);
+  if (!view) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothGetViewStatus",
+                         "view {%u, %u}: destroyed or never created", handle.index, handle.generation);
+  }
+  status = view->renderer ? view->renderer->status() : FrothViewStatus{};
+  for (const auto& [serial, bits] : view->bits) {
+    status.bits |= serial == status.serial ? bits : 0;
+  }
+  return FROTH_OK;
+}
+
+FrothResult Context::destroyView(FrothView handle) {
+  if (!views_.find(handle)) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothDestroyView", "view {%u, %u}: destroyed or never created",
+                         handle.index, handle.generation);
+  }
+  retired_.reserve(retired_.size() + 1);
+  retire(views_.remove(handle));
+  return FROTH_OK;
+}
+
+}  // namespace froth

@@ -1,0 +1,174 @@
+// One per VkDevice: owns assets, instances, views and the memory that they hold on the GPU.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "froth/froth_composite.h"
+#include "froth/froth_query.h"
+#include "froth/froth_walk.h"
+#include "runtime/asset/asset.h"
+#include "runtime/device/device.h"
+#include "runtime/device/handles.h"
+#include "runtime/device/messages.h"
+#include "runtime/device/upload_ring.h"
+#include "runtime/query/placement.h"
+#include "runtime/render/pipelines.h"
+#include "runtime/render/view_renderer.h"
+#include "runtime/walk/walk_sets.h"
+
+namespace froth {
+
+// The calls of froth.h with their structs already read to today's size. Threads as in froth.h.
+class Context {
+ public:
+  Context() = default;
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  FrothResult create(const FrothContextInfo& info, const char* call);
+  bool isDone(uint64_t completedSerial) const;  // no frame beyond it is in flight
+
+  void setBudget(uint64_t bytes);
+  void describeMemory(FrothMemoryReport& report) const;
+
+  void loseDevice();
+  FrothResult restoreDevice(const FrothContextInfo& info, const char* call);
+
+  FrothResult openAsset(const FrothAssetInfo& info, FrothAsset& handle);
+  FrothResult describeAsset(FrothAsset handle, FrothAssetStatus& status) const;
+  FrothResult copyFlightPath(FrothAsset handle, uint32_t capacity, FrothStoredCamera* cameras,
+                             uint32_t& count) const;
+  FrothResult closeAsset(FrothAsset handle);
+
+  FrothResult createInstance(const FrothInstanceInfo& info, FrothInstance& handle);
+  FrothResult setInstance(FrothInstance handle, const FrothInstanceInfo& info);
+  FrothResult destroyInstance(FrothInstance handle);
+
+  FrothResult createView(const FrothViewInfo& info, FrothView& handle);
+  FrothResult describeView(FrothView handle, FrothViewStatus& status) const;
+  FrothResult destroyView(FrothView handle);
+
+  FrothResult update(const FrothFrame& frame, FrothFrameStatus& status);
+  FrothResult recordUpload(VkCommandBuffer commandBuffer);
+  FrothResult dropFrame(uint64_t serial);
+  FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
+                     FrothRenderInfo info);
+
+  FrothResult composite(FrothView handle, VkCommandBuffer commandBuffer, const FrothCompositeInfo& info);
+  FrothResult exportDepth(FrothView handle, VkCommandBuffer commandBuffer, const FrothDepthExportInfo& info);
+
+  // Queries; const, so that any number of threads may ask (runtime/context/context_queries.cpp).
+  FrothResult castRays(FrothCastInfo info, std::span<const FrothRay> rays, FrothRayHit* hits) const;
+  FrothResult locate(FrothInstance handle, const double (&point)[3], FrothLocation& location) const;
+  FrothResult overlapSphere(FrothSphere sphere, FrothContact& contact) const;
+
+  // Rays on the GPU (runtime/context/context_walks.cpp).
+  FrothResult describeWalkLayout(VkDescriptorSetLayout& layout) const;
+  FrothResult recordWalkSet(VkCommandBuffer commandBuffer, FrothWalkInfo info, VkDescriptorSet& set);
+  FrothResult recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress rays, VkDeviceAddress hits, uint32_t count,
+                         FrothRayKind kind);
+  FrothResult describeWalks(FrothWalkStatus& status) const;
+
+  const Asset* findAsset(FrothAsset handle) const { return assets_.find(handle); }  // null: stale
+
+  Messages messages;
+
+ private:
+  struct Instance {
+    FrothAsset asset;
+    RenderInstance placement;  // its `asset` and `previous` are filled in when it is drawn
+    // Where it stood when the frame movedAfter was drawn; none: there was no such frame, or it jumped.
+    std::optional<RenderInstance> before{};
+    uint64_t movedAfter = 0;
+    uint32_t mask = ~0u;
+  };
+  // What later calls of its frame have to know of a record call.
+  struct DrawnView {
+    VkRect2D region{};
+    bool isProjection = true, isDepthReversed = false;
+  };
+  struct Eye {
+    uint64_t renderedSerials[2] = {0, 0};  // newest frame per RenderMethod
+    DrawnView drawn{};                     // by the newest of those
+    uint64_t compositedSerial = 0, exportedSerial = 0;  // newest frames of frothComposite, frothRecordDepthExport
+  };
+  struct View {
+    VkExtent2D maxExtent{};
+    uint32_t lensClasses = 0;  // FrothLensClass bits
+    bool measurePasses = false, keepsHits = false;
+    std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
+    std::vector<RenderInstance> prepared;    // in the newest frothUpdate: those it has buffers for, if they fit the budget
+    std::vector<RenderInstance> visible;     // of the record call under way; has room for all
+    std::string preparationError;            // sent already
+    uint32_t eyeCount = 1;
+    Eye eyes[kMostEyes];
+    std::vector<std::pair<uint64_t, uint32_t>>
+        bits;  // recorded frames that left something out: serial, FrothViewBit
+  };
+
+  FrothResult checkInfo(const FrothContextInfo& info, const char* call) const;
+  FrothResult checkEngineFormats(const FrothContextInfo& info, const char* call) const;
+  Status createDeviceObjects(const FrothContextInfo& info);
+  FrothResult checkDevice(const char* call) const;  // of calls that a lost device cannot serve
+  Status createRenderer(View& view);
+  void shrinkViews();
+  FrothAssetState stateOf(const Asset& asset) const;
+  // Instances that queries see; why others were left out, as FrothQueryBit.
+  std::vector<PlacedFoam> gatherFoams(uint32_t& bits) const;
+  FrothResult readPlacement(const FrothInstanceInfo& info, const char* call, Instance& instance) const;
+  FrothResult beginFrame(const FrothFrame& frame);
+  void runFrame(FrothFrameStatus& status);
+  void loadAssets();
+  void prepareView(View& view);
+  // The view, if this eye of it was drawn in this frame and the call was not made yet; else null, and a message.
+  View* findDrawn(FrothView handle, uint32_t eye, const char* call, uint64_t Eye::*newestCall, FrothResult& result);
+  FrothResult checkEye(const View& view, uint32_t eye, const char* call) const;
+  FrothResult checkHits(const View& view, const FrothRenderInfo& info, const char* call) const;
+  void prepareWalks();
+  FrothResult checkWalks(const char* call) const;
+  // Into walked_; false: some were left out.
+  bool gatherWalked();
+  void preparePipelines();
+  // The instances to be drawn, in view.visible; why others are left out, as FrothViewBit.
+  void gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& bits) const;
+  // Frees `object` once all frames that may use it are complete. retired_ has room for it.
+  void retire(std::shared_ptr<void> object);
+
+  // What is declared later goes first, and needs what is declared earlier.
+  Device device_;
+  bool isNull_ = false;        // no device, for good
+  bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
+  bool isExcessTold_ = false;  // of this budget
+  std::string severalError_;   // of prepareForSeveral, sent already
+  uint32_t framesInFlight_ = 2;
+  uint32_t lensClasses_ = 0;  // FrothLensClass bits
+  VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED, depthExportFormat_ = VK_FORMAT_UNDEFINED;
+  bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats
+  bool hasWalkShaders_ = false;
+  std::string walkError_;     // of the newest frothUpdate that could not make space; sent already
+  std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
+  std::unique_ptr<RenderPipelines> pipelines_;  // the same
+  std::unique_ptr<WalkSets> walks_;             // the same; also without FrothContextInfo::walkShaders
+  std::vector<WalkedInstance> walked_;          // of the record call under way; has room for all
+  HandlePool<Asset, FrothAsset> assets_;
+  HandlePool<Instance, FrothInstance> instances_;
+  HandlePool<View, FrothView> views_;
+  std::vector<std::pair<uint64_t, std::shared_ptr<void>>> retired_;  // serial of the last use
+
+  uint64_t serial_ = 0, completedSerial_ = 0;
+  std::vector<uint64_t> serialsInFlight_;
+  uint64_t uploadBytesLeft_ = 0;  // of this frame
+  std::atomic<uint64_t> drawnSerial_ = 0;  // newest frame in which a view was drawn,
+  uint64_t drawnBeforeSerial_ = 0;         // and the newest before this one
+};
+
+}  // namespace froth
+
+struct FrothContext : froth::Context {};

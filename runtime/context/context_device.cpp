@@ -1,0 +1,218 @@
+// What a context has of its device: making it, its memory budget, losing it.
+#include <algorithm>
+
+#include "runtime/context/context.h"
+#include "runtime/device/requirements.h"
+#include "runtime/render/composite.h"
+
+namespace froth {
+namespace {
+
+constexpr VkDeviceSize kUploadRingBytes = 64u << 20;
+constexpr uint32_t kDefaultFramesInFlight = 2, kMaxFramesInFlight = 8;
+
+// Views give up this part of what they can besides the excess, so that a few rounds reach the budget.
+constexpr double kShrinkAhead = 1.0 / 64;
+
+}  // namespace
+
+FrothResult Context::checkInfo(const FrothContextInfo& info, const char* call) const {
+  if (info.abiVersion >> 16 != FROTH_ABI_VERSION >> 16) {
+    return messages.fail(
+        FROTH_ERROR_VERSION, call,
+        "abiVersion: 0x%08x, this library is 0x%08x; compile with the header of this library",
+        info.abiVersion, FROTH_ABI_VERSION);
+  }
+  if (info.framesInFlight > kMaxFramesInFlight) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "framesInFlight: %u; at most %u", info.framesInFlight,
+                         kMaxFramesInFlight);
+  }
+  if (!info.allocateMemory != !info.freeMemory) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "allocateMemory, freeMemory: one is null; set both or none");
+  }
+  if (info.compositeFormat != VK_FORMAT_UNDEFINED && !canComposite(info.compositeFormat)) {
+    return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
+                         "compositeFormat: VkFormat %d; must be R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT or "
+                         "B10G11R11_UFLOAT_PACK32",
+                         info.compositeFormat);
+  }
+  if (!info.device) {
+    return FROTH_OK;
+  }
+  const char* missing = !info.getInstanceProcAddr ? "getInstanceProcAddr"
+                        : !info.instance          ? "instance"
+                        : !info.physicalDevice    ? "physicalDevice"
+                        : !info.enabledFeatures   ? "enabledFeatures"
+                                                  : nullptr;
+  if (missing) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s: null; a context on a device needs it", missing);
+  }
+  const FrothResult result = checkContextDevice(info, messages, call);
+  return result == FROTH_OK ? checkEngineFormats(info, call) : result;
+}
+
+// What the passes into the engine's images need.
+FrothResult Context::checkEngineFormats(const FrothContextInfo& info, const char* call) const {
+  const bool isPacked = info.compositeFormat == VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+  if (isPacked && !info.enabledFeatures->features.shaderStorageImageExtendedFormats) {
+    return messages.fail(FROTH_ERROR_FEATURE, call,
+                         "compositeFormat: B10G11R11_UFLOAT_PACK32, and the device was made without "
+                         "shaderStorageImageExtendedFormats; enable it, or use another format");
+  }
+  return info.depthExportFormat == VK_FORMAT_UNDEFINED ? FROTH_OK : checkDepthExportDevice(info, messages, call);
+}
+
+FrothResult Context::create(const FrothContextInfo& info, const char* call) {
+  messages = {info.onMessage, info.messageUser};
+  if (const FrothResult result = checkInfo(info, call); result != FROTH_OK) {
+    return result;
+  }
+  framesInFlight_ = info.framesInFlight == 0 ? kDefaultFramesInFlight : info.framesInFlight;
+  lensClasses_ = info.lensClasses;
+  compositeFormat_ = info.compositeFormat;
+  depthExportFormat_ = info.depthExportFormat;
+  hasExtendedFormats_ = info.enabledFeatures && info.enabledFeatures->features.shaderStorageImageExtendedFormats;
+  hasWalkShaders_ = info.walkShaders != 0;
+  isNull_ = !info.device;
+  device_.budget = info.deviceBudget;
+  const Status status = isNull_ ? Status() : createDeviceObjects(info);
+  return status ? FROTH_OK : messages.fail(status.error(), call);
+}
+
+Status Context::createDeviceObjects(const FrothContextInfo& info) {
+  Result<Device> device =
+      Device::create(info.getInstanceProcAddr, info.instance, info.physicalDevice, info.device);
+  if (!device) {
+    return device.error();
+  }
+  device_ = *device;
+  device_.budget = info.deviceBudget;
+  device_.timestampBits = timestampBitsOf(info);
+  device_.callbacks = {info.allocateMemory, info.freeMemory, info.memoryUser};
+  Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(device_, kUploadRingBytes);
+  if (!ring) {
+    return ring.error();
+  }
+  ring_ = std::move(*ring);
+  Result<std::unique_ptr<RenderPipelines>> pipelines =
+      RenderPipelines::create(device_, info.pipelineCache,
+                              {.checkIndices = info.checkIndices != 0,
+                               .countWork = info.countWork != 0,
+                               .floatColours = info.floatColours != 0,
+                               .lensClasses = lensClasses_,
+                               .hasExtendedFormats = hasExtendedFormats_,
+                               .compositeFormat = compositeFormat_,
+                               .depthExportFormat = depthExportFormat_});
+  if (!pipelines) {
+    return pipelines.error();
+  }
+  pipelines_ = std::move(*pipelines);
+  if (!hasWalkShaders_) {
+    return {};
+  }
+  Result<std::unique_ptr<WalkSets>> walks = WalkSets::create(
+      device_, info.pipelineCache, {info.checkIndices != 0, info.countWork != 0}, framesInFlight_);
+  if (!walks) {
+    return walks.error();
+  }
+  walks_ = std::move(*walks);
+  return {};
+}
+
+// ---- Budget ----
+
+void Context::setBudget(uint64_t bytes) {
+  device_.budget = bytes;
+  device_.ledger.restartPeaks();
+  isExcessTold_ = false;
+}
+
+void Context::describeMemory(FrothMemoryReport& report) const {
+  device_.ledger.describe(report);
+  report.deviceBudget = device_.budget;
+  if (ring_) {
+    report.categories[static_cast<uint32_t>(MemoryUse::kUploadsHost)].used = ring_->usedBytes();
+  }
+}
+
+// What goes anyway goes first; then all views give up the same part of what they can.
+void Context::shrinkViews() {
+  const VkDeviceSize excess = device_.excessBytes();
+  bool isUnderWay = !retired_.empty();
+  VkDeviceSize shrinkable = 0;
+  views_.forEach([&](const View& view) {
+    isUnderWay = isUnderWay || (view.renderer && view.renderer->isShrinking());
+    shrinkable += view.renderer ? view.renderer->shrinkableBytes() : 0;
+  });
+  if (excess == 0 || isUnderWay) {
+    return;
+  }
+  if (shrinkable > 0) {
+    const double given = static_cast<double>(excess) / static_cast<double>(shrinkable) + kShrinkAhead;
+    views_.forEach([&](const View& view) {
+      if (view.renderer) view.renderer->shrink(std::max(0.0, 1 - given));
+    });
+  } else if (!isExcessTold_) {
+    isExcessTold_ = true;
+    messages.warn(
+        FROTH_ERROR_MEMORY, "frothSetBudget",
+        "%llu bytes are held and the budget is %llu: assets, and the least that views need, do not shrink; "
+        "close some, or raise it",
+        static_cast<unsigned long long>(device_.ledger.deviceBytes()),
+        static_cast<unsigned long long>(device_.budget));
+  }
+}
+
+// ---- Device loss ----
+
+FrothResult Context::checkDevice(const char* call) const {
+  return isLost_ ? messages.fail(FROTH_ERROR_DEVICE, call, "the device is lost; call frothRestoreDevice")
+                 : FROTH_OK;
+}
+
+void Context::loseDevice() {
+  views_.forEach([](View& view) {
+    view.renderer.reset();
+    view.prepared.clear();
+    view.preparationError.clear();
+    view.bits.clear();
+  });
+  retired_.clear();
+  assets_.forEach([](Asset& asset) { asset.releaseBuffers(); });
+  ring_.reset();
+  walks_.reset();
+  walkError_.clear();
+  pipelines_.reset();
+  device_.device = VK_NULL_HANDLE;
+  serialsInFlight_.clear();
+  isLost_ = true;
+}
+
+FrothResult Context::restoreDevice(const FrothContextInfo& info, const char* call) {
+  if (!isLost_) {
+    return messages.fail(FROTH_ERROR_STATE, call, "the device is not lost; call frothDeviceLost first");
+  }
+  if (isNull_ != !info.device) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "device: %s, and the context was made %s one",
+                         info.device ? "not null" : "null", isNull_ ? "without" : "on");
+  }
+  FrothResult result = create(info, call);
+  views_.forEach([&](View& view) {
+    if (result == FROTH_OK) {
+      const Status status = createRenderer(view);
+      result = status ? FROTH_OK : messages.fail(status.error(), call);
+    }
+  });
+  if (result != FROTH_OK) {
+    loseDevice();
+    return result;
+  }
+  isLost_ = false;
+  if (!isNull_) {
+    assets_.forEach([&](Asset& asset) { asset.restart(messages); });
+  }
+  return FROTH_OK;
+}
+
+}  // namespace froth

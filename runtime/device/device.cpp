@@ -1,0 +1,320 @@
+#include "runtime/device/device.h"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <utility>
+
+namespace froth {
+namespace {
+
+struct KindTraits {
+  VkBufferUsageFlags usage;
+  VkMemoryPropertyFlags required;
+  VkMemoryPropertyFlags preferred;
+  bool hasAddress;
+};
+
+KindTraits traitsOf(BufferKind kind) {
+  constexpr VkMemoryPropertyFlags kVisible =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  switch (kind) {
+    case BufferKind::kStaging:
+      return {VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kVisible, 0, false};
+    case BufferKind::kReadback:
+      return {kStorage, kVisible, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, true};
+    case BufferKind::kDevice:
+      break;
+  }
+  return {kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true};
+}
+
+std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowedTypes,
+                                       const MemoryWish& wish) {
+  for (const VkMemoryPropertyFlags wanted : {wish.required | wish.preferred, wish.required}) {
+    for (uint32_t type = 0; type < memory.memoryTypeCount; ++type) {
+      const bool isAllowed = (allowedTypes >> type & 1) != 0;
+      if (isAllowed && (memory.memoryTypes[type].propertyFlags & wanted) == wanted) {
+        return type;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+unsigned long long asPrinted(VkDeviceSize bytes) {
+  return bytes;
+}
+
+// Destroyed unless it is taken.
+struct NewBuffer {
+  ~NewBuffer() { device.destroyBuffer(buffer); }
+  GpuBuffer take() { return std::exchange(buffer, {}); }
+
+  Device& device;
+  GpuBuffer buffer;
+};
+
+}  // namespace
+
+Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                              VkPhysicalDevice physicalDevice, VkDevice device) {
+  const auto getDeviceProcAddr =
+      reinterpret_cast<PFN_vkGetDeviceProcAddr>(getInstanceProcAddr(instance, "vkGetDeviceProcAddr"));
+  const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
+      getInstanceProcAddr(instance, "vkGetPhysicalDeviceProperties2"));
+  const auto getMemoryProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
+      getInstanceProcAddr(instance, "vkGetPhysicalDeviceMemoryProperties"));
+  if (!getDeviceProcAddr || !getProperties || !getMemoryProperties) {
+    return makeError(
+        ErrorKind::kDevice,
+        "vkGetInstanceProcAddr: gives no vkGetPhysicalDeviceProperties2 for this instance; create the "
+        "instance with VkApplicationInfo::apiVersion of at least 1.3");
+  }
+
+  Device result;
+  result.device = device;
+#define FROTH_LOAD(name)                                                                              \
+  result.table.name = reinterpret_cast<PFN_##name>(getDeviceProcAddr(device, #name));                 \
+  if (!result.table.name) {                                                                           \
+    return makeError(ErrorKind::kDevice,                                                              \
+                     "vkGetDeviceProcAddr: gives no " #name "; the device must be a Vulkan 1.3 one"); \
+  }
+  FROTH_DEVICE_FUNCTIONS(FROTH_LOAD)
+#undef FROTH_LOAD
+  result.table.vkCmdBeginDebugUtilsLabelEXT = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
+      getDeviceProcAddr(device, "vkCmdBeginDebugUtilsLabelEXT"));
+  result.table.vkCmdEndDebugUtilsLabelEXT =
+      reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(getDeviceProcAddr(device, "vkCmdEndDebugUtilsLabelEXT"));
+
+  VkPhysicalDeviceMaintenance4Properties bufferLimits{};
+  bufferLimits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES;
+  VkPhysicalDeviceMaintenance3Properties limits{};
+  limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  limits.pNext = &bufferLimits;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &limits;
+  getProperties(physicalDevice, &properties);
+  result.properties = properties.properties;
+  result.maxAllocationSize = limits.maxMemoryAllocationSize;
+  result.maxBufferSize = bufferLimits.maxBufferSize;
+  getMemoryProperties(physicalDevice, &result.memory);
+  return result;
+}
+
+Result<GpuBuffer> Device::createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose,
+                                       bool mayExceedBudget) {
+  if (size > largestBuffer()) {
+    return makeError(
+        ErrorKind::kMemory,
+        "%s: %llu bytes, but a buffer of this device has at most %llu (maxMemoryAllocationSize %llu, maxBufferSize %llu); "
+        "use a smaller view, or an asset of smaller chunks",
+        purpose, asPrinted(size), asPrinted(largestBuffer()), asPrinted(maxAllocationSize), asPrinted(maxBufferSize));
+  }
+  const KindTraits traits = traitsOf(kind);
+  VkBufferCreateInfo bufferInfo{};
+  bufferInfo.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  bufferInfo.size = size;
+  bufferInfo.usage = traits.usage;
+  NewBuffer made{*this, {}};
+  made.buffer.kind = kind;
+  made.buffer.size = size;
+  if (const VkResult result = table.vkCreateBuffer(device, &bufferInfo, nullptr, &made.buffer.buffer);
+      result != VK_SUCCESS) {
+    return explain(result, "%s: vkCreateBuffer of %llu bytes", purpose, asPrinted(size));
+  }
+  const VkMemoryAllocateFlags flags = traits.hasAddress ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
+  if (const Status status = bindMemory(
+          made.buffer, {use, traits.required, traits.preferred, flags, purpose, mayExceedBudget});
+      !status) {
+    return status.error();
+  }
+  return made.take();
+}
+
+Status Device::bindMemory(GpuBuffer& buffer, const MemoryWish& wish) {
+  VkMemoryRequirements requirements{};
+  table.vkGetBufferMemoryRequirements(device, buffer.buffer, &requirements);
+  const Result<MemoryBlock> block = allocate(requirements, buffer.size, wish);
+  if (!block) {
+    return block.error();
+  }
+  buffer.memory = *block;
+  buffer.mapped = block->place.mapped;
+  if (const VkResult result =
+          table.vkBindBufferMemory(device, buffer.buffer, block->place.memory, block->place.offset);
+      result != VK_SUCCESS) {
+    return explain(result, "%s: vkBindBufferMemory of %llu bytes", wish.purpose, asPrinted(requirements.size));
+  }
+  if (wish.flags & VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT) {
+    VkBufferDeviceAddressInfo addressInfo{};
+    addressInfo.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+    addressInfo.buffer = buffer.buffer;
+    buffer.address = table.vkGetBufferDeviceAddress(device, &addressInfo);
+  }
+  return {};
+}
+
+void Device::destroyBuffer(GpuBuffer& buffer) {
+  table.vkDestroyBuffer(device, buffer.buffer, nullptr);
+  release(buffer.memory);
+  buffer = {};
+}
+
+// ---- Memory ----
+
+VkDeviceSize Device::roomBytes() const {
+  return budget == 0 ? UINT64_MAX : budget - std::min(budget, ledger.deviceBytes());
+}
+
+VkDeviceSize Device::excessBytes() const {
+  const VkDeviceSize held = ledger.deviceBytes();
+  return budget != 0 && held > budget ? held - budget : 0;
+}
+
+Status Device::checkBudget(VkDeviceSize size, const MemoryWish& wish) {
+  const VkDeviceSize held = ledger.deviceBytes(), room = roomBytes();
+  if (isHostUse(wish.use) || wish.mayExceedBudget || size <= room) {
+    return {};
+  }
+  ++budgetRefusals;
+  return makeError(ErrorKind::kMemory,
+                   "%s: %llu bytes do not fit the device budget: %llu of %llu bytes are in use; raise "
+                   "FrothContextInfo::deviceBudget by %llu bytes (frothSetBudget), or close another asset or view",
+                   wish.purpose, asPrinted(size), asPrinted(held), asPrinted(budget), asPrinted(size - room));
+}
+
+Result<MemoryBlock> Device::allocate(const VkMemoryRequirements& requirements, VkDeviceSize used,
+                                     const MemoryWish& wish) {
+  if (const Status status = checkBudget(requirements.size, wish); !status) {
+    return status.error();
+  }
+  const std::optional<uint32_t> type = findMemoryType(memory, requirements.memoryTypeBits, wish);
+  if (!type) {
+    return makeError(ErrorKind::kDevice, "%s: no memory type of this device fits (allowed types 0x%x)",
+                     wish.purpose, requirements.memoryTypeBits);
+  }
+  FrothMemoryRequest request{};
+  request.structSize = sizeof(request);
+  request.requirements = requirements;
+  request.memoryTypeIndex = *type;
+  request.allocateFlags = wish.flags;
+  request.isMapped = isHostUse(wish.use);
+  request.purpose = wish.purpose;
+  MemoryBlock block{.place = {}, .granted = requirements.size, .used = used, .use = wish.use};
+  const VkResult result = callbacks.allocate ? callbacks.allocate(callbacks.user, &request, &block.place)
+                                             : allocateOwn(request, block.place);
+  if (result != VK_SUCCESS) {
+    return explain(result, "%s: %s of %llu bytes, with %llu bytes in use and %u allocations (the device has at most %u),",
+                   wish.purpose, callbacks.allocate ? "FrothContextInfo::allocateMemory" : "vkAllocateMemory",
+                   asPrinted(requirements.size), asPrinted(ledger.deviceBytes()), ledger.count(),
+                   properties.limits.maxMemoryAllocationCount);
+  }
+  ledger.add(block);
+  return block;
+}
+
+VkResult Device::allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place) {
+  VkMemoryAllocateFlagsInfo flags{};
+  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+  flags.flags = request.allocateFlags;
+  VkMemoryAllocateInfo allocation{};
+  allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  allocation.pNext = &flags;
+  allocation.allocationSize = request.requirements.size;
+  allocation.memoryTypeIndex = request.memoryTypeIndex;
+  VkResult result = table.vkAllocateMemory(device, &allocation, nullptr, &place.memory);
+  if (result == VK_SUCCESS && request.isMapped) {
+    result = table.vkMapMemory(device, place.memory, 0, VK_WHOLE_SIZE, 0, &place.mapped);
+    if (result != VK_SUCCESS) {
+      table.vkFreeMemory(device, place.memory, nullptr);
+    }
+  }
+  return result;
+}
+
+void Device::release(MemoryBlock& block) {
+  if (!block.place.memory) {
+    return;
+  }
+  ledger.remove(block);
+  if (callbacks.free) {
+    callbacks.free(callbacks.user, &block.place);
+  } else {
+    table.vkFreeMemory(device, block.place.memory, nullptr);  // unmaps
+  }
+  block = {};
+}
+
+Result<VkShaderModule> Device::createShaderModule(const char* name, std::span<const uint32_t> spirv) {
+  VkShaderModuleCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  info.codeSize = spirv.size_bytes();
+  info.pCode = spirv.data();
+  VkShaderModule shaderModule = VK_NULL_HANDLE;
+  const VkResult result = table.vkCreateShaderModule(device, &info, nullptr, &shaderModule);
+  if (result != VK_SUCCESS) return explain(result, "%s: vkCreateShaderModule", name);
+  return shaderModule;
+}
+
+Error Device::explain(VkResult result, const char* format, ...) {
+  char text[512];
+  va_list args;
+  va_start(args, format);
+  std::vsnprintf(text, sizeof(text), format, args);
+  va_end(args);
+  switch (result) {
+    case VK_ERROR_DEVICE_LOST:
+      loss = makeError(ErrorKind::kDevice,
+                       "%s gives VK_ERROR_DEVICE_LOST; call frothDeviceLost, then frothRestoreDevice", text);
+      return *loss;
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+    case VK_ERROR_TOO_MANY_OBJECTS:
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+    case VK_ERROR_FRAGMENTED_POOL:
+    case VK_ERROR_MEMORY_MAP_FAILED:
+      return makeError(ErrorKind::kMemory, "%s gives VkResult %d: memory is exhausted; close another asset or view",
+                       text, result);
+    default:
+      return makeError(ErrorKind::kDevice, "%s gives VkResult %d; update the device's driver", text, result);
+  }
+}
+
+void DeviceTable::beginLabel(VkCommandBuffer commandBuffer, const char* name) const {
+  if (!vkCmdBeginDebugUtilsLabelEXT) {
+    return;
+  }
+  VkDebugUtilsLabelEXT label{};
+  label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
+  label.pLabelName = name;
+  vkCmdBeginDebugUtilsLabelEXT(commandBuffer, &label);
+}
+
+void DeviceTable::endLabel(VkCommandBuffer commandBuffer) const {
+  if (vkCmdEndDebugUtilsLabelEXT) {
+    vkCmdEndDebugUtilsLabelEXT(commandBuffer);
+  }
+}
+
+void DeviceTable::recordMemoryBarrier(VkCommandBuffer commandBuffer, VkPipelineStageFlags2 fromStage,
+                                      VkAccessFlags2 fromAccess, VkPipelineStageFlags2 toStage,
+                                      VkAccessFlags2 toAccess) const {
+  VkMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  barrier.srcStageMask = fromStage;
+  barrier.srcAccessMask = fromAccess;
+  barrier.dstStageMask = toStage;
+  barrier.dstAccessMask = toAccess;
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commandBuffer, &dependency);
+}
+
+}  // namespace froth

@@ -1,0 +1,128 @@
+// The caller's VkDevice as the runtime uses it: a function table and buffers reached by address.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <vulkan/vulkan_core.h>
+
+#include "base/result.h"
+#include "runtime/device/device_memory.h"
+
+namespace froth {
+
+// Device-level functions the runtime calls, loaded per context: no globals, no loader symbols.
+// clang-format off
+#define FROTH_DEVICE_FUNCTIONS(X) \
+  X(vkAllocateMemory) X(vkFreeMemory) X(vkMapMemory) X(vkCreateBuffer) X(vkDestroyBuffer) \
+  X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) X(vkGetBufferDeviceAddress) \
+  X(vkCreateShaderModule) X(vkDestroyShaderModule) X(vkCreateComputePipelines) X(vkDestroyPipeline) \
+  X(vkCreatePipelineLayout) X(vkDestroyPipelineLayout) X(vkCreateDescriptorSetLayout) \
+  X(vkDestroyDescriptorSetLayout) X(vkCreateDescriptorPool) X(vkDestroyDescriptorPool) \
+  X(vkAllocateDescriptorSets) X(vkUpdateDescriptorSets) X(vkCreateQueryPool) X(vkDestroyQueryPool) \
+  X(vkGetQueryPoolResults) X(vkCmdBindPipeline) X(vkCmdBindDescriptorSets) X(vkCmdPushConstants) \
+  X(vkCmdDispatch) X(vkCmdDispatchIndirect) X(vkCmdPipelineBarrier2) X(vkCmdCopyBuffer) \
+  X(vkCmdFillBuffer) X(vkCmdUpdateBuffer) \
+  X(vkCmdResetQueryPool) X(vkCmdWriteTimestamp2) X(vkCreateImage) X(vkDestroyImage) \
+  X(vkGetImageMemoryRequirements) X(vkBindImageMemory) X(vkCreateImageView) X(vkDestroyImageView) \
+  X(vkCreateGraphicsPipelines) X(vkCmdBeginRendering) X(vkCmdEndRendering) X(vkCmdSetViewport) X(vkCmdSetScissor) \
+  X(vkCmdSetDepthCompareOp) X(vkCmdDraw)
+// clang-format on
+
+struct DeviceTable {
+#define FROTH_DECLARE(name) PFN_##name name = nullptr;
+  FROTH_DEVICE_FUNCTIONS(FROTH_DECLARE)
+#undef FROTH_DECLARE
+  // Null where the instance has no VK_EXT_debug_utils.
+  PFN_vkCmdBeginDebugUtilsLabelEXT vkCmdBeginDebugUtilsLabelEXT = nullptr;
+  PFN_vkCmdEndDebugUtilsLabelEXT vkCmdEndDebugUtilsLabelEXT = nullptr;
+
+  // What is recorded in between bears this name in captures and messages of the validation layers.
+  void beginLabel(VkCommandBuffer commandBuffer, const char* name) const;
+  void endLabel(VkCommandBuffer commandBuffer) const;
+
+  // One global memory barrier between two uses of buffers.
+  void recordMemoryBarrier(VkCommandBuffer commandBuffer, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
+                           VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) const;
+};
+
+enum class BufferKind {
+  kDevice,    // storage, indirect, transfer source and target; reached by address
+  kStaging,   // host-visible, mapped, transfer source
+  kReadback,  // host-visible, mapped, cached where offered; storage and transfer target
+};
+
+struct GpuBuffer {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  MemoryBlock memory;
+  VkDeviceSize size = 0;
+  VkDeviceAddress address = 0;  // 0 for kStaging
+  void* mapped = nullptr;       // null for kDevice
+  BufferKind kind = BufferKind::kDevice;
+};
+
+// What an allocation is for and what memory it wants.
+struct MemoryWish {
+  MemoryUse use;
+  VkMemoryPropertyFlags required, preferred;
+  VkMemoryAllocateFlags flags;
+  const char* purpose;     // for messages
+  bool mayExceedBudget;    // it replaces something larger that goes soon
+};
+
+// The caller's allocator; null: vkAllocateMemory.
+struct MemoryCallbacks {
+  FrothAllocateMemory allocate = nullptr;
+  FrothFreeMemory free = nullptr;
+  void* user = nullptr;
+};
+
+// Owns nothing of the caller's. One thread at a time.
+class Device {
+ public:
+  static Result<Device> create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                               VkPhysicalDevice physicalDevice, VkDevice device);
+
+  // Fails with a message that names `purpose`, the size and the budget. size > 0.
+  Result<GpuBuffer> createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose,
+                                 bool mayExceedBudget = false);
+  void destroyBuffer(GpuBuffer& buffer);  // the GPU must be done with it; resets it to empty
+
+  // `name` is for messages.
+  Result<VkShaderModule> createShaderModule(const char* name, std::span<const uint32_t> spirv);
+
+  // `used` of the required bytes will hold something.
+  Result<MemoryBlock> allocate(const VkMemoryRequirements& requirements, VkDeviceSize used, const MemoryWish& wish);
+  void release(MemoryBlock& block);  // resets it to empty
+
+  // The error of a Vulkan call that gave `result`; the text says which call, for what. Remembers a lost device.
+#if defined(__GNUC__)
+  __attribute__((format(printf, 3, 4)))
+#endif
+  Error
+  explain(VkResult result, const char* format, ...);
+
+  DeviceTable table;
+  VkDevice device = VK_NULL_HANDLE;
+  VkPhysicalDeviceProperties properties{};
+  VkPhysicalDeviceMemoryProperties memory{};
+  uint32_t timestampBits = 0;          // valid ones, of the queue family that frames are submitted to; 0: it takes no timestamps
+  VkDeviceSize maxAllocationSize = 0, maxBufferSize = 0;  // that the device promises to accept
+  VkDeviceSize largestBuffer() const { return std::min(maxAllocationSize, maxBufferSize); }
+  VkDeviceSize budget = 0;             // [bytes] 0: no limit
+  VkDeviceSize roomBytes() const;      // left of the budget
+  VkDeviceSize excessBytes() const;    // held beyond the budget
+  uint64_t budgetRefusals = 0;         // allocations that did not fit it
+  MemoryLedger ledger;
+  MemoryCallbacks callbacks;
+  std::optional<Error> loss;  // the call that found the device lost
+
+ private:
+  Status checkBudget(VkDeviceSize size, const MemoryWish& wish);
+  VkResult allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place);
+  Status bindMemory(GpuBuffer& buffer, const MemoryWish& wish);
+};
+
+}  // namespace froth

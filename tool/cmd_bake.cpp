@@ -1,0 +1,183 @@
+// froth bake: a trained foam becomes an asset.
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+
+#include "baker/bake/asset_sink.h"
+#include "baker/bake/bake.h"
+#include "baker/input/foam_input.h"
+#include "base/output_file.h"
+#include "base/text.h"
+#include "foam/checkpoint/checkpoint.h"
+#include "format/read/asset_reader.h"
+#include "measure/figures.h"
+#include "tool/bake_flags.h"
+#include "tool/commands.h"
+#include "tool/options.h"
+#include "tool/statistics.h"
+
+namespace froth {
+namespace {
+
+struct BakeCommandOptions {
+  std::filesystem::path input, output, cameras;
+  BakeFlags flags;
+  FiguresOutput figures;
+  bool isForced = false;
+
+  WriteProtected isProtected() const { return isForced ? WriteProtected::kReplace : WriteProtected::kRefuse; }
+};
+
+// Times the stages that lie around the bake itself.
+class StageClock {
+ public:
+  StageReport stop(std::string stage, uint64_t items) {
+    const auto now = std::chrono::steady_clock::now();
+    StageReport report{std::move(stage), std::chrono::duration<double>(now - start_).count(), items,
+                       peakBytes()};
+    start_ = now;
+    return report;
+  }
+
+ private:
+  static uint64_t peakBytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+  }
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void printStages(const std::vector<StageReport>& stages) {
+  fmt::print("{:<22} {:>9} {:>12} {:>12}\n", "stage", "seconds", "items", "peak MiB");
+  for (const StageReport& stage : stages) {
+    fmt::print("{:<22} {:>9.3f} {:>12} {:>12.1f}\n", stage.stage, stage.seconds, stage.items,
+               static_cast<double>(stage.peakBytes) / (1 << 20));
+  }
+}
+
+nlohmann::ordered_json stagesAsJson(const std::vector<StageReport>& stages) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const StageReport& stage : stages) {
+    list.push_back({{"stage", stage.stage},
+                    {"seconds", stage.seconds},
+                    {"items", stage.items},
+                    {"peakBytes", stage.peakBytes}});
+  }
+  return list;
+}
+
+void printLeftOut(const std::vector<LeftOut>& leftOut) {
+  for (const LeftOut& entry : leftOut) fmt::print("left out          {}: {} bytes\n", entry.what, entry.savedBytes);
+}
+
+void printChecks(const BakeResult& baked) {
+  if (baked.walkLengthBefore > 0)
+    fmt::print("walk length       {:.2f} cells per ray, {:.2f} without Steiner cells\n", baked.walkLengthAfter,
+               baked.walkLengthBefore);
+  fmt::print("checked           {} points and {} rays against brute force: no fault\n", baked.validity.pointsChecked,
+             baked.validity.raysChecked);
+}
+
+nlohmann::ordered_json leftOutAsJson(const std::vector<LeftOut>& leftOut) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const LeftOut& entry : leftOut) list.push_back({{"what", entry.what}, {"savedBytes", entry.savedBytes}});
+  return list;
+}
+
+nlohmann::ordered_json checksAsJson(const BakeResult& baked) {
+  return {{"cells", baked.validity.cells},         {"walkPairs", baked.validity.walkPairs},
+          {"alphaPairs", baked.validity.alphaPairs}, {"points", baked.validity.pointsChecked},
+          {"rays", baked.validity.raysChecked},    {"faults", baked.validity.faults}};
+}
+
+Status reportBake(const BakeCommandOptions& options, const BakeResult& baked, uint64_t bytes) {
+  const Result<AssetReader> written = AssetReader::open(options.output);
+  if (!written) return written.error();
+  if (options.figures.wantsTable()) {
+    printStages(baked.stages);
+    printStatistics(baked.contents);
+    printChecks(baked);
+    printLeftOut(baked.leftOut);
+    printSections(*written);
+    fmt::print("{}: {} bytes\n", options.output.string(), bytes);
+  }
+  return options.figures.write({{"input", options.input.string()},
+                                {"output", options.output.string()},
+                                {"bytes", bytes},
+                                {"stages", stagesAsJson(baked.stages)},
+                                {"statistics", statisticsAsJson(baked.contents)},
+                                {"walkLength", {{"without", baked.walkLengthBefore}, {"with", baked.walkLengthAfter}}},
+                                {"checks", checksAsJson(baked)},
+                                {"leftOut", leftOutAsJson(baked.leftOut)},
+                                {"sections", sectionsAsJson(*written)}});
+}
+
+Status runBake(const BakeCommandOptions& options, const Progress& progress) {
+  Result<BakeOptions> bake = options.flags.options();
+  if (!bake) return bake.error();
+  std::optional<tbb::global_control> threads;
+  if (options.flags.threads() > 0)
+    threads.emplace(tbb::global_control::max_allowed_parallelism, options.flags.threads());
+  StageClock clock;
+  Result<CameraSet> cameras = CameraSet{};
+  if (!options.cameras.empty()) {
+    cameras = readCameras(options.cameras);
+    if (!cameras) return cameras.error();
+    bake->cameras = &*cameras;
+  }
+  Result<Foam> foam = importCheckpoint(options.input, progress);
+  if (!foam) return foam.error();
+  const StageReport import = clock.stop("import", foam->cellCount);
+
+  bake->source = printable(options.input.filename().string());  // a file name need not be UTF-8
+  AssetFileSink file(options.output, options.isProtected());
+  Result<BakeResult> baked = bakeFoam(*foam, *bake, file.sink(), progress);
+  if (!baked) return baked.error();
+  *foam = {};
+  baked->stages.insert(baked->stages.begin(), import);
+  clock.stop("bake", 0);
+
+  if (!report(progress, "write", 0, 1)) return stoppedError();
+  const Result<uint64_t> bytes = file.finish(baked->contents);
+  if (!bytes) return bytes.error();
+  baked->stages.push_back(clock.stop("write", *bytes));
+  return reportBake(options, *baked, *bytes);
+}
+
+Status checkAndRunBake(const BakeCommandOptions& options, const Progress& progress) {
+  if (!isAssetPath(options.output)) {
+    return makeError(ErrorKind::kUsage, "-o %s: an asset's name ends in .froth", options.output.c_str());
+  }
+  if (isAssetPath(options.input)) {
+    return makeError(ErrorKind::kUsage, "%s is an asset already; bake the checkpoint that it came from",
+                     options.input.c_str());
+  }
+  if (Status writable = checkWritable(options.output, options.isProtected()); !writable) return writable;
+  return runBake(options, progress);
+}
+
+}  // namespace
+
+void addBakeCommand(CLI::App& program, Tool& tool) {
+  CLI::App* command = program.add_subcommand("bake", "Bake a checkpoint into a .froth asset");
+  auto options = std::make_shared<BakeCommandOptions>();
+  command->add_option("INPUT", options->input, "A checkpoint (model.pt)")->required();
+  command->add_option("-o,--output", options->output, "The .froth file to write")->required();
+  options->flags.addTo(*command);
+  command->add_option("--cameras", options->cameras,
+                      "Views that weigh errors, start view and flight path to store (cameras.json)");
+  command->add_flag("--force", options->isForced, "Replace a write-protected file; it stays so");
+  addFiguresOption(*command, options->figures);
+  command->callback([&tool, options] {
+    tool.action = [&tool, options] { return checkAndRunBake(*options, tool.progress.callback()); };
+  });
+}
+
+}  // namespace froth

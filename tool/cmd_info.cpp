@@ -1,0 +1,97 @@
+// froth info: what a file holds.
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "baker/input/foam_input.h"
+#include "foam/checkpoint/checkpoint.h"
+#include "format/read/asset_reader.h"
+#include "measure/figures.h"
+#include "tool/commands.h"
+#include "tool/options.h"
+#include "tool/statistics.h"
+
+namespace froth {
+namespace {
+
+uint64_t fileSize(const std::filesystem::path& path) {
+  std::error_code error;
+  const uintmax_t size = std::filesystem::file_size(path, error);
+  return error ? 0 : size;
+}
+
+Status describeAsset(const std::filesystem::path& path, const FiguresOutput& output) {
+  const Result<AssetReader> reader = AssetReader::open(path);
+  if (!reader) return asBadInput(reader.error());
+  const AssetContents& manifest = reader->manifest();
+  if (output.wantsTable()) {
+    printStatistics(manifest);
+    printSections(*reader);
+    fmt::print("file              {} bytes\n", fileSize(path));
+  }
+  nlohmann::ordered_json figures{{"file", path.string()}, {"kind", "asset"}, {"bytes", fileSize(path)}};
+  figures.update(statisticsAsJson(manifest));
+  figures["sections"] = sectionsAsJson(*reader);
+  return output.write(figures);
+}
+
+struct Range {
+  float least = 0, most = 0;
+};
+
+Range rangeOf(std::span<const float> values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return {*least, *most};
+}
+
+Status describeCheckpoint(const std::filesystem::path& path, const FiguresOutput& output,
+                          const Progress& progress) {
+  const Result<Foam> foam = importCheckpoint(path, progress);
+  if (!foam) return foam.error();
+  const Range radii = rangeOf(foam->radii), densities = rangeOf(foam->densities);
+  glm::vec3 least = foam->sites.front(), most = foam->sites.front();
+  for (const glm::vec3& site : foam->sites) {
+    least = glm::min(least, site);
+    most = glm::max(most, site);
+  }
+  if (output.wantsTable()) {
+    fmt::print("cells             {}\n", foam->cellCount);
+    fmt::print("detail sites      {} per cell, {} lobes each\n", foam->detailCount, foam->lobeCount);
+    fmt::print("sites             ({}, {}, {}) to ({}, {}, {})\n", least.x, least.y, least.z, most.x, most.y,
+               most.z);
+    fmt::print("radii             {} to {}\n", radii.least, radii.most);
+    fmt::print("densities         {} to {}\n", densities.least, densities.most);
+    fmt::print("file              {} bytes\n", fileSize(path));
+  }
+  return output.write({{"file", path.string()},
+                       {"kind", "checkpoint"},
+                       {"bytes", fileSize(path)},
+                       {"cells", foam->cellCount},
+                       {"detailCount", foam->detailCount},
+                       {"lobeCount", foam->lobeCount},
+                       {"siteMin", {least.x, least.y, least.z}},
+                       {"siteMax", {most.x, most.y, most.z}},
+                       {"radiusRange", {radii.least, radii.most}},
+                       {"densityRange", {densities.least, densities.most}}});
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& program, Tool& tool) {
+  CLI::App* command = program.add_subcommand("info", "Describe a checkpoint or an asset");
+  auto path = std::make_shared<std::filesystem::path>();
+  auto output = std::make_shared<FiguresOutput>();
+  command->add_option("INPUT", *path, "A checkpoint or a .froth file")->required();
+  addFiguresOption(*command, *output);
+  command->callback([&tool, path, output] {
+    tool.action = [&tool, path, output] {
+      if (isAssetPath(*path)) return describeAsset(*path, *output);
+      return describeCheckpoint(*path, *output, tool.progress.callback());
+    };
+  });
+}
+
+}  // namespace froth
