@@ -160,18 +160,18 @@ uint32_t DiagramCheck::nextOnRay(const Ray& ray, uint32_t cell, double& t) const
 // x: a place on a ray at t, or a point with t = 0.
 void DiagramCheck::checkLeast(const glm::dvec3& x, double t, uint32_t cell, const char* what,
                               std::vector<std::string>& faults) const {
-  const LeastPower least = tree_.findLeastPower(x);
+  const NearestSite least = tree_.findLeastPower(x);
   const double power = powerAt(x, sites_[cell], radii_[cell]);
-  if (power <= least.power) return;
+  if (power <= least.value) return;
   const auto powerTerms = [&](uint32_t site) {
     const glm::dvec3 local = x - glm::dvec3(sites_[site]);
     return glm::dot(local, local) + double{radii_[site]} * radii_[site];
   };
   const double apart = glm::length(glm::dvec3(sites_[cell]) - glm::dvec3(sites_[least.site]));
   const double slack = kSlack * (powerTerms(cell) + powerTerms(least.site) + apart * (glm::length(x) + t));
-  if (power - least.power <= slack) return;
+  if (power - least.value <= slack) return;
   faults.push_back(fmt::format("{}: at ({}, {}, {}) cell {} has power {}, cell {} has {}", what, x.x, x.y,
-                               x.z, cell, power, least.site, least.power));
+                               x.z, cell, power, least.site, least.value));
 }
 
 // The cells that the ray meets from `cell` on, in order.
@@ -200,7 +200,7 @@ uint32_t DiagramCheck::cellAt(const std::vector<Step>& steps, double t) {
 
 std::vector<uint32_t> DiagramCheck::findBallsOn(const Ray& ray) const {
   std::vector<uint32_t> found;
-  tree_.searchRay(ray.origin, ray.direction, [&](uint32_t cell) { found.push_back(cell); });
+  tree_.searchBallsOn(ray.origin, ray.direction, [&](uint32_t cell) { found.push_back(cell); });
   return found;
 }
 
