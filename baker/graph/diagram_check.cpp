@@ -7,6 +7,7 @@
 #include "base/counter_random.h"
 #include "foam/morton_order.h"
 #include "shaders/foam/cell.h"
+#include "shaders/foam/next_cell.h"
 
 namespace froth {
 namespace {
@@ -137,20 +138,19 @@ uint32_t DiagramCheck::descendAmong(const glm::dvec3& x, uint32_t start, const T
 uint32_t DiagramCheck::nextOnRay(const Ray& ray, uint32_t cell, double& t) const {
   const glm::dvec3 centre = glm::dvec3(sites_[cell]) - ray.origin;
   uint32_t next = cell;
-  double nearest = INFINITY;
+  double clearance = 1, q = 0;  // of the nearest plane
   for (const uint32_t neighbour : neighboursOf(triangulation_.graph, cell)) {
     const glm::dvec3 toNeighbour = glm::dvec3(sites_[neighbour]) - glm::dvec3(sites_[cell]);
-    const double approach = glm::dot(toNeighbour, ray.direction);
-    if (!(approach > 0)) continue;
+    const double otherQ = glm::dot(toNeighbour, ray.direction);
     const double offset = foam::radicalOffset(toNeighbour, double{radii_[cell]}, double{radii_[neighbour]});
-    const double exit = foam::radicalClearance(centre, toNeighbour, offset) / approach;
-    if (exit < nearest) {
-      nearest = exit;
-      next = neighbour;
-    }
+    const double otherClearance = foam::radicalClearance(centre, toNeighbour, offset);
+    if (!(otherQ > 0 && foam::exitLead(otherClearance, otherQ, clearance, q) > 0)) continue;
+    clearance = otherClearance;
+    q = otherQ;
+    next = neighbour;
   }
   if (next == cell) return cell;
-  t = std::max(t, nearest);
+  t = std::max(t, clearance / q);
   // Seen from far, planes towards several cells lie at one rounded t, and from a wrong one no plane may lead on.
   return descendAmong(ray.origin + t * ray.direction, next, [&](uint32_t other) {
     return glm::dot(glm::dvec3(sites_[other]) - glm::dvec3(sites_[cell]), ray.direction) > 0;
