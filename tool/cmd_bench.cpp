@@ -141,10 +141,7 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
   command->add_option("--frames", options->frames, "Least measured frames; whole cycles through the views, 5 at least")
       ->capture_default_str()
       ->check(countBetween(100, 1000000));
-  command
-      ->add_option("--warmup", options->warmupSeconds, "Seconds of drawing before the first measured frame")
-      ->capture_default_str()
-      ->check(numberBetween(0, 3600));
+  addDurationOption(*command, "--warmup", options->warmupSeconds, "Drawing before the first measured frame", 0, 3600);
   command->add_flag("--counters", options->isCounting, "Count what the rays cost; slower");
   addLayersOption(*command, options->layers);
   command->add_option("--device", options->device, "Index or part of a name (`froth devices`)");
