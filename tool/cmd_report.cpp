@@ -85,7 +85,7 @@ Result<std::vector<Knob>> chooseKnobs(const ReportOptions& options, bool hasFoam
   std::vector<Knob> knobs = drawingKnobs(walks);
   if (hasFoam) {
     for (Knob& knob : encodingKnobs()) {
-      if (!options.isCpu || knob.method == GpuMethod::kRaster) knobs.push_back(std::move(knob));
+      if (!options.isCpu || knob.method == Method::kRaster) knobs.push_back(std::move(knob));
     }
   }
   if (options.knobs.empty()) return knobs;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "baker/input/foam_input.h"
+#include "host/method.h"
 
 namespace froth {
 namespace {
@@ -72,6 +73,11 @@ CLI::Option* addDurationOption(CLI::App& command, const std::string& name, doubl
       ->type_name("DURATION")
       ->default_str(durationText(seconds))
       ->check(CLI::Validator(check, ""));
+}
+
+std::vector<std::string> methodNames(std::vector<std::string> others) {
+  for (const MethodInfo& info : kMethods) others.emplace_back(info.name);
+  return others;
 }
 
 void addViewOptions(CLI::App& command, ViewOptions& options) {

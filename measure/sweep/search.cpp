@@ -23,7 +23,7 @@ class CandidateSource {
     // A preset sets what the others turn; larger pixels lie beside all of these.
     for (const Knob& knob : knobs) {
       const std::string& name = knob.sweep.knob;
-      if (!knob.isConvergence && knob.method == GpuMethod::kRaster && name != "preset" && name != "walkGraph") knobs_.push_back(knob);
+      if (!knob.isConvergence && knob.method == Method::kRaster && name != "preset" && name != "walkGraph") knobs_.push_back(knob);
     }
   }
 
