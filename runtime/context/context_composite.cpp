@@ -1,4 +1,6 @@
 // The calls that write into the engine's own images.
+#include <array>
+
 #include "runtime/context/context.h"
 #include "runtime/context/image_checks.h"
 #include "runtime/render/pipeline_state.h"
@@ -27,15 +29,15 @@ FrothResult checkComposite(const Messages& messages, const char* call, VkFormat 
     result = checkHeld(messages, call, "shadowFactor", info.shadowFactor);
   }
   if (result == FROTH_OK) {
-    result = checkImage(messages, call, "foam", info.foam, {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT},
+    result = checkImage(messages, call, "foam", info.foam, std::array{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT},
                         "R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT", region);
   }
   if (result == FROTH_OK) {
-    result = checkImage(messages, call, "target", info.target, {format}, "FrothContextInfo::compositeFormat", region);
+    result = checkImage(messages, call, "target", info.target, std::array{format}, "FrothContextInfo::compositeFormat", region);
   }
   if (result == FROTH_OK) {
     result = checkImage(messages, call, "shadowFactor", info.shadowFactor,
-                        {VK_FORMAT_R8_UNORM, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT},
+                        std::array{VK_FORMAT_R8_UNORM, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT},
                         "R8_UNORM, R16_SFLOAT or R32_SFLOAT", region);
   }
   return result;
@@ -48,10 +50,10 @@ FrothResult checkDepthExport(const Messages& messages, const char* call, VkForma
     result = checkHeld(messages, call, "attachment", info.attachment);
   }
   if (result == FROTH_OK) {
-    result = checkImage(messages, call, "depth", info.depth, {VK_FORMAT_R32_SFLOAT}, "R32_SFLOAT", region);
+    result = checkImage(messages, call, "depth", info.depth, std::array{VK_FORMAT_R32_SFLOAT}, "R32_SFLOAT", region);
   }
   if (result == FROTH_OK) {
-    result = checkImage(messages, call, "attachment", info.attachment, {format}, "FrothContextInfo::depthExportFormat", region);
+    result = checkImage(messages, call, "attachment", info.attachment, std::array{format}, "FrothContextInfo::depthExportFormat", region);
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include "runtime/context/context.h"
 #include "runtime/context/render_info.h"
 #include "runtime/render/device_depth.h"
+#include "runtime/render/frame_images.h"
 #include "runtime/render/hit_block.h"
 
 namespace froth {

@@ -5,7 +5,7 @@
 namespace froth {
 
 FrothResult checkImage(const Messages& messages, const char* call, const char* name, const FrothImage& image,
-                       std::initializer_list<VkFormat> formats, const char* formatNames,
+                       std::span<const VkFormat> formats, const char* formatNames,
                        const VkRect2D& drawn) {
   if (!image.image) {
     return FROTH_OK;

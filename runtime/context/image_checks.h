@@ -1,7 +1,7 @@
 // Checks an image of the caller's.
 #pragma once
 
-#include <initializer_list>
+#include <span>
 
 #include "froth/froth.h"
 #include "runtime/device/messages.h"
@@ -11,6 +11,6 @@ namespace froth {
 // FROTH_OK for null. The image must have a view, one sample, one of the formats, a layout to be left in, and hold what is drawn.
 // `call` names the entry point, `name` the field in messages.
 FrothResult checkImage(const Messages& messages, const char* call, const char* name, const FrothImage& image,
-                       std::initializer_list<VkFormat> formats, const char* formatNames, const VkRect2D& drawn);
+                       std::span<const VkFormat> formats, const char* formatNames, const VkRect2D& drawn);
 
 }  // namespace froth

@@ -7,6 +7,7 @@
 #include "runtime/context/camera_checks.h"
 #include "runtime/context/image_checks.h"
 #include "runtime/render/device_depth.h"
+#include "runtime/render/frame_images.h"
 
 namespace froth {
 namespace {
@@ -54,29 +55,28 @@ VkRect2D drawnRectangle(const FrothCamera& camera) {
           {static_cast<uint32_t>(x1 - x0), static_cast<uint32_t>(y1 - y0)}};
 }
 
-FrothResult checkRayMap(const Messages& messages, const char* call, const FrothImage& image,
-                        const VkRect2D& drawn) {
-  if (!image.image) {
+// Of images alone; what they ask of the camera follows.
+FrothResult checkImages(const Messages& messages, const char* call, const FrothRenderInfo& info, const VkRect2D& drawn) {
+  for (const FrameImage& image : kFrameImages) {
+    const FrothImage& given = image.of(info);
+    const FrothResult result = checkImage(messages, call, image.name, given, image.formats, image.formatNames, drawn);
+    if (result != FROTH_OK) return result;
+  }
+  if (info.camera.lens.kind == FROTH_LENS_RAY_MAP && !info.camera.lens.rayMap.image) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera.lens.rayMap: null; give the image of directions");
   }
-  return checkImage(messages, call, "camera.lens.rayMap", image, {VK_FORMAT_R32G32B32A32_SFLOAT},
-                    "R32G32B32A32_SFLOAT", drawn);
+  if (hasRole(info, ImageRole::kDrawn) || hasRole(info, ImageRole::kOfHits)) return FROTH_OK;
+  std::string names;
+  for (const FrameImage& image : kFrameImages) {
+    if (image.role != ImageRole::kRead) names += (names.empty() ? "" : ", ") + std::string(image.name);
+  }
+  return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s: all null; at least one is needed", names.c_str());
 }
 
-FrothResult checkDepths(const Messages& messages, const char* call, const FrothRenderInfo& info,
-                        const VkRect2D& drawn) {
-  FrothResult result = checkImage(messages, call, "depth", info.depth, {VK_FORMAT_R32_SFLOAT}, "R32_SFLOAT", drawn);
-  if (result == FROTH_OK) {
-    result = checkImage(messages, call, "sceneDepth", info.sceneDepth,
-                        {VK_FORMAT_D32_SFLOAT, VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_D24_UNORM_S8_UINT,
-                         VK_FORMAT_X8_D24_UNORM_PACK32, VK_FORMAT_D16_UNORM, VK_FORMAT_R32_SFLOAT},
-                        "D32_SFLOAT, D32_SFLOAT_S8_UINT, D24_UNORM_S8_UINT, X8_D24_UNORM_PACK32, D16_UNORM or "
-                        "R32_SFLOAT",
-                        drawn);
-  }
+FrothResult checkDepths(const Messages& messages, const char* call, const FrothRenderInfo& info) {
   const bool isAsked = info.depth.image || info.sceneDepth.image;
-  if (result != FROTH_OK || !isAsked || info.camera.lens.kind != FROTH_LENS_PROJECTION || hasDepth(info.camera)) {
-    return result;
+  if (!isAsked || info.camera.lens.kind != FROTH_LENS_PROJECTION || hasDepth(info.camera)) {
+    return FROTH_OK;
   }
   return messages.fail(FROTH_ERROR_ARGUMENT, call,
                        "camera: clipFromView has no depth that changes with distance, or viewport.minDepth equals "
@@ -85,10 +85,9 @@ FrothResult checkDepths(const Messages& messages, const char* call, const FrothR
 }
 
 // The camera of the frame before, with its defaults resolved.
-FrothResult resolveMotion(const Messages& messages, const char* call, FrothRenderInfo& info, const VkRect2D& drawn) {
-  FrothResult result = checkImage(messages, call, "motion", info.motion, {VK_FORMAT_R16G16_SFLOAT}, "R16G16_SFLOAT", drawn);
-  if (result != FROTH_OK || !info.motion.image) {
-    return result;
+FrothResult resolveMotion(const Messages& messages, const char* call, FrothRenderInfo& info) {
+  if (!info.motion.image) {
+    return FROTH_OK;
   }
   FrothCamera& previous = info.previousCamera;
   if (info.camera.lens.kind == FROTH_LENS_RAY_MAP || previous.lens.kind == FROTH_LENS_RAY_MAP) {
@@ -185,39 +184,10 @@ FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExte
     return result;
   }
   info.camera.scissor = drawn;
-  FrothResult result = checkImage(messages, call, "colour", info.colour,
-                                  {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT},
-                                  "R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT", drawn);
-  if (result == FROTH_OK) {
-    result =
-        checkImage(messages, call, "distance", info.distance, {VK_FORMAT_R32_SFLOAT}, "R32_SFLOAT", drawn);
-  }
-  if (result == FROTH_OK) {
-    result = checkImage(messages, call, "normal", info.normal, {VK_FORMAT_R16G16B16A16_SFLOAT},
-                        "R16G16B16A16_SFLOAT", drawn);
-  }
-  if (result == FROTH_OK) {
-    result = checkDepths(messages, call, info, drawn);
-  }
-  if (result == FROTH_OK) {
-    result = checkImage(messages, call, "id", info.id, {VK_FORMAT_R32G32_UINT}, "R32G32_UINT", drawn);
-  }
-  if (result == FROTH_OK) {
-    result = resolveMotion(messages, call, info, drawn);
-  }
-  const bool isMap = info.camera.lens.kind == FROTH_LENS_RAY_MAP;
-  if (result == FROTH_OK && isMap) {
-    result = checkRayMap(messages, call, info.camera.lens.rayMap, drawn);
-  }
-  if (result != FROTH_OK) {
-    return result;
-  }
-  const FrothImage* outputs[] = {&info.colour, &info.distance, &info.normal, &info.depth, &info.id, &info.motion};
-  if (std::none_of(std::begin(outputs), std::end(outputs), [](const FrothImage* image) { return image->image; })) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                         "colour, distance, normal, depth, id, motion: all null; at least one is needed");
-  }
-  result = checkToneCurve(messages, call, info);
+  FrothResult result = checkImages(messages, call, info, drawn);
+  if (result == FROTH_OK) result = checkDepths(messages, call, info);
+  if (result == FROTH_OK) result = resolveMotion(messages, call, info);
+  if (result == FROTH_OK) result = checkToneCurve(messages, call, info);
   if (result == FROTH_OK) result = checkTileForm(messages, call, info);
   return result == FROTH_OK ? resolveLimits(messages, call, info) : result;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "runtime/render/device_depth.h"
+#include "runtime/render/frame_images.h"
 #include "shaders/foam/tone.h"
 
 namespace froth {
@@ -116,10 +117,8 @@ uint32_t tilesOf(const VkRect2D& region) {
 void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block) {
   const VkRect2D& region = info.camera.scissor;
   block.scale = 1;
-  block.flags = (info.colour.image ? gpu::kFlagColour : 0) | (info.distance.image ? gpu::kFlagDistance : 0) |
-                (info.normal.image ? gpu::kFlagNormal : 0) | (info.displayCoded ? gpu::kFlagDisplayCoded : 0) |
+  block.flags = imageFlags(info) | (info.displayCoded ? gpu::kFlagDisplayCoded : 0) |
                 static_cast<uint32_t>(info.toneCurve) << gpu::kToneCurveShift |
-                (info.depth.image ? gpu::kFlagDepth : 0) | (info.sceneDepth.image ? gpu::kFlagSceneDepth : 0) |
                 (info.tileForm == FROTH_TILE_FORM_ALL_SHORT ? gpu::kFlagShortTiles : 0) |
                 (info.tileForm == FROTH_TILE_FORM_ALL_LONG ? gpu::kFlagLongTiles : 0);
   fillDepthRange(info.camera, block);

@@ -2,13 +2,11 @@
 // written.
 #pragma once
 
+#include "runtime/render/frame_images.h"
 #include "runtime/render/view_renderer.h"
 #include "shaders/gpu/layout.h"
 
 namespace froth {
-
-// Whether a frame asks for images that are made from hits.
-inline bool wantsHits(const FrothRenderInfo& info) { return info.id.image || info.motion.image; }
 
 // Everything but the two addresses.
 void fillHitBlock(const FrothRenderInfo& info, gpu::HitBlock& block);

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "runtime/render/frame_images.h"
 #include "runtime/render/hit_block.h"
 
 namespace froth {

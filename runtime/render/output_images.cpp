@@ -6,19 +6,12 @@
 namespace froth {
 namespace {
 
-const ImageUse& useOf(bool isRead) { return isRead ? kImageSampled : kImageWritten; }
-
-// All images of a frame: those that the set binds, and those that passes of their own write.
-constexpr uint32_t kMostImages = gpu::kBindingCount + 2;
+const ImageUse& useOf(const FrameImage& image) { return image.role == ImageRole::kRead ? kImageSampled : kImageWritten; }
 
 template <class Visitor>
 void forEachImage(const FrothRenderInfo& info, Visitor&& visit) {
-  const auto bound = imagesOf(info);
-  for (uint32_t i = 0; i < bound.size(); ++i) {
-    if (bound[i]->image) visit(*bound[i], isInput(i));
-  }
-  for (const FrothImage* image : {&info.id, &info.motion}) {
-    if (image->image) visit(*image, false);
+  for (const FrameImage& image : kFrameImages) {
+    if (image.of(info).image) visit(image.of(info), useOf(image));
   }
 }
 
@@ -36,13 +29,9 @@ VkImageMemoryBarrier2 placeholderBarrier(VkImage image) {
 
 }  // namespace
 
-std::array<const FrothImage*, gpu::kBindingCount> imagesOf(const FrothRenderInfo& info) {
-  return {&info.colour, &info.distance, &info.normal, &info.depth, &info.camera.lens.rayMap, &info.sceneDepth};
-}
-
-const OutputImages::Placeholder& OutputImages::placeholderOf(uint32_t binding) const {
-  if (isInput(binding)) return input_;
-  return binding == gpu::kBindingColour || binding == gpu::kBindingNormal ? half4_ : float1_;
+const OutputImages::Placeholder& OutputImages::placeholderOf(const FrameImage& image) const {
+  if (image.role == ImageRole::kRead) return input_;
+  return image.formats.front() == VK_FORMAT_R16G16B16A16_SFLOAT ? half4_ : float1_;
 }
 
 Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint32_t recordings) {
@@ -131,17 +120,18 @@ Status OutputImages::createSets(uint32_t recordings) {
 }
 
 VkDescriptorSet OutputImages::update(uint32_t recording, const FrothRenderInfo& info) {
-  const auto given = imagesOf(info);
   std::array<VkDescriptorImageInfo, gpu::kBindingCount> images{};
   std::array<VkWriteDescriptorSet, gpu::kBindingCount> writes{};
   for (uint32_t i = 0; i < gpu::kBindingCount; ++i) {
-    images[i] = given[i]->image ? VkDescriptorImageInfo{VK_NULL_HANDLE, given[i]->view, useOf(isInput(i)).layout}
-                                : VkDescriptorImageInfo{VK_NULL_HANDLE, placeholderOf(i).view, VK_IMAGE_LAYOUT_GENERAL};
+    const FrameImage& image = boundImages()[i];
+    const FrothImage& given = image.of(info);
+    images[i] = given.image ? VkDescriptorImageInfo{VK_NULL_HANDLE, given.view, useOf(image).layout}
+                            : VkDescriptorImageInfo{VK_NULL_HANDLE, placeholderOf(image).view, VK_IMAGE_LAYOUT_GENERAL};
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     writes[i].dstSet = sets_[recording];
     writes[i].dstBinding = i;
     writes[i].descriptorCount = 1;
-    writes[i].descriptorType = isInput(i) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    writes[i].descriptorType = descriptorTypeOf(image);
     writes[i].pImageInfo = &images[i];
   }
   device_.table.vkUpdateDescriptorSets(device_.device, gpu::kBindingCount, writes.data(), 0, nullptr);
@@ -158,9 +148,9 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
   memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   memory.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
                          VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-  std::array<VkImageMemoryBarrier2, kMostImages + 3> barriers{};
+  std::array<VkImageMemoryBarrier2, kFrameImageCount + 3> barriers{};
   uint32_t count = 0;
-  forEachImage(info, [&](const FrothImage& image, bool isRead) { barriers[count++] = entryBarrier(image, useOf(isRead)); });
+  forEachImage(info, [&](const FrothImage& image, const ImageUse& use) { barriers[count++] = entryBarrier(image, use); });
   for (const Placeholder* placeholder : {&half4_, &float1_, &input_}) barriers[count++] = placeholderBarrier(placeholder->image);
 
   VkDependencyInfo dependency{};
@@ -173,9 +163,9 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
 }
 
 void OutputImages::leave(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const {
-  std::array<VkImageMemoryBarrier2, kMostImages> barriers{};
+  std::array<VkImageMemoryBarrier2, kFrameImageCount> barriers{};
   uint32_t count = 0;
-  forEachImage(info, [&](const FrothImage& image, bool isRead) { barriers[count++] = exitBarrier(image, useOf(isRead)); });
+  forEachImage(info, [&](const FrothImage& image, const ImageUse& use) { barriers[count++] = exitBarrier(image, use); });
   VkDependencyInfo dependency{};
   dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   dependency.imageMemoryBarrierCount = count;

@@ -2,14 +2,13 @@
 // barriers.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "froth/froth.h"
 #include "runtime/device/device.h"
-#include "shaders/gpu/layout.h"
+#include "runtime/render/frame_images.h"
 
 namespace froth {
 
@@ -45,26 +44,10 @@ class OutputImages {
   VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   std::vector<VkDescriptorSet> sets_;
-  const Placeholder& placeholderOf(uint32_t binding) const;
+  const Placeholder& placeholderOf(const FrameImage& image) const;
 
   Placeholder half4_, float1_;  // R16G16B16A16_SFLOAT (colour, normal), R32_SFLOAT (distance, depth)
   Placeholder input_;           // R32_SFLOAT: what is read is never one that is written
 };
-
-// The images of a frame that are in the set, by gpu::kBinding...
-std::array<const FrothImage*, gpu::kBindingCount> imagesOf(const FrothRenderInfo& info);
-// Whether a binding is read, and not written.
-inline bool isInput(uint32_t binding) { return binding >= gpu::kBindingRayMap; }
-
-// Whether it takes more than colour and distance (gpu::kConstantIsFull).
-inline bool isFullFrame(const FrothRenderInfo& info) {
-  return info.normal.image || info.depth.image || info.sceneDepth.image || info.id.image || info.motion.image ||
-         info.toneCurve != FROTH_TONE_NONE;
-}
-
-// Whether the passes that write rgba32f are meant; else rgba16f, also where no colour is wanted.
-inline bool isWideColour(const FrothRenderInfo& info) {
-  return info.colour.image && info.colour.format == VK_FORMAT_R32G32B32A32_SFLOAT;
-}
 
 }  // namespace froth

@@ -207,9 +207,7 @@ AssetShape shapeOf(const GpuAsset& asset) {
 
 Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device) {
   SetBindings bindings;
-  for (uint32_t i = 0; i < gpu::kBindingCount; ++i) {
-    bindings.types.push_back(isInput(i) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
-  }
+  for (const FrameImage& image : boundImages()) bindings.types.push_back(descriptorTypeOf(image));
   return createSetLayout(device, "output images", bindings);
 }
 

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "runtime/render/camera_rays.h"
+#include "runtime/render/frame_images.h"
 #include "runtime/render/hit_passes.h"
 #include "runtime/render/view_state.h"
 
