@@ -53,6 +53,16 @@ std::vector<Page> allPages() {
   return pages;
 }
 
+// Runs of lines that are not empty, each as one line: links and code may go on in the next line.
+std::vector<std::string> paragraphsOf(const Page& page) {
+  std::vector<std::string> paragraphs{""};
+  for (const std::string& line : page.lines) {
+    if (line.empty() || line[0] == '|') paragraphs.emplace_back();
+    paragraphs.back() += line + " ";
+  }
+  return paragraphs;
+}
+
 std::vector<std::string> matches(const std::string& text, const std::regex& pattern) {
   std::vector<std::string> found;
   for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) found.push_back((*match)[1]);
@@ -134,8 +144,8 @@ TEST(Links, LeadToFilesAndHeadings) {
   const std::regex link(R"(\]\(<?([^)\s>]+)>?(?:\s+"[^"]*")?\))");
   std::string faults;
   for (const Page& page : allPages()) {
-    for (const std::string& line : page.lines) {
-      for (const std::string& target : matches(withoutCodeSpans(line), link)) faults += faultOf(page, target);
+    for (const std::string& paragraph : paragraphsOf(page)) {
+      for (const std::string& target : matches(withoutCodeSpans(paragraph), link)) faults += faultOf(page, target);
     }
   }
   EXPECT_EQ(faults, "");
@@ -144,8 +154,8 @@ TEST(Links, LeadToFilesAndHeadings) {
 TEST(Links, PathsBetweenBackticksExist) {
   std::string faults;
   for (const Page& page : allPages()) {
-    for (const std::string& line : page.lines) {
-      for (const std::string& text : matches(line, std::regex("`([^`]+)`"))) {
+    for (const std::string& paragraph : paragraphsOf(page)) {
+      for (const std::string& text : matches(paragraph, std::regex("`([^`]+)`"))) {
         if (isRepositoryPath(text) && !exists(text)) faults += page.path.string() + ": `" + text + "`: no such file\n";
       }
     }

@@ -9,7 +9,7 @@
  * Conventions:
  *   Matrices are column-major, for column vectors. A name says target from source (clipFromView).
  *   Froth derives clip-space conventions (depth direction, viewport sign, off-centre lenses) from the caller's matrix.
- *   Every struct begins with structSize = sizeof(the struct). Zero is the default of every field. Booleans are uint32_t.
+ *   Info and status structs begin with structSize = sizeof(the struct). Zero is the default of every field. Booleans are uint32_t.
  *
  * Threads:
  *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName.
