@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 #include <tbb/parallel_invoke.h>
@@ -37,8 +38,14 @@ void SiteTree::build(uint32_t depth, uint32_t k) {
     const uint32_t site = order_[place];
     box.low = glm::min(box.low, sites_[site]);
     box.high = glm::max(box.high, sites_[site]);
+    box.ballLow = glm::min(box.ballLow, sites_[site] - radii_[site]);
+    box.ballHigh = glm::max(box.ballHigh, sites_[site] + radii_[site]);
     box.maxRadius = std::max(box.maxRadius, radii_[site]);
     minRadius = std::min(minRadius, radii_[site]);
+  }
+  for (int axis = 0; axis < 3; ++axis) {  // the sums round, and a ball must not stick out
+    box.ballLow[axis] = std::nextafter(box.ballLow[axis], -INFINITY);
+    box.ballHigh[axis] = std::nextafter(box.ballHigh[axis], INFINITY);
   }
   if (depth == depth_) return;
 
@@ -60,21 +67,37 @@ void SiteTree::build(uint32_t depth, uint32_t k) {
   }
 }
 
-LeastPower SiteTree::findLeastPower(const glm::dvec3& x) const {
-  LeastPower best;
-  double limit = INFINITY;
+// `bound` is no more than every value in a node; a value below `enough` ends the search.
+template <class Bound, class Value>
+NearestSite SiteTree::findNearest(const Bound& bound, const Value& value, uint32_t known, double enough) const {
+  NearestSite best;
+  if (known != kNone) best = {known, value(known)};
+  double limit = best.value;
+  search(limit, bound, [&](uint32_t place) {
+    const uint32_t site = order_[place];
+    const double found = value(site);
+    if (found < best.value || (found == best.value && best.site != known && site < best.site)) best = {site, found};
+    limit = best.value < enough ? -INFINITY : best.value;
+  });
+  return best;
+}
+
+NearestSite SiteTree::findLeastPower(const glm::dvec3& x, uint32_t known) const {
   const auto bound = [&](const Node& node) {
     const glm::dvec3 gap = gapTo(node.box, x);
     const double squaredGap = glm::dot(gap, gap), weight = double{node.box.maxRadius} * node.box.maxRadius;
     return squaredGap - weight - kSlack * (squaredGap + weight);
   };
-  search(limit, bound, [&](uint32_t place) {
-    const uint32_t site = order_[place];
-    const double power = powerAt(x, sites_[site], radii_[site]);
-    if (power < best.power || (power == best.power && site < best.site)) best = {site, power};
-    limit = best.power;
-  });
-  return best;
+  return findNearest(bound, [&](uint32_t site) { return powerAt(x, sites_[site], radii_[site]); }, known, -INFINITY);
+}
+
+NearestSite SiteTree::findNearestBall(const glm::dvec3& x, uint32_t known) const {
+  const auto bound = [&](const Node& node) {
+    const double gap = glm::length(gapTo(node.box, x)), radius = node.box.maxRadius;
+    return gap - radius - kSlack * (gap + radius);
+  };
+  const auto value = [&](uint32_t site) { return glm::length(glm::dvec3(sites_[site]) - x) - radii_[site]; };
+  return findNearest(bound, value, known, 0);
 }
 
 }  // namespace froth

@@ -1,9 +1,13 @@
-// A bounding volume hierarchy over sites with radii, for searches by power, by overlap and along rays.
+// A bounding volume hierarchy over sites with radii, for searches by power, by distance, by overlap and along rays. It only saves time:
+// what is found never depends on it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -12,9 +16,10 @@
 
 namespace froth {
 
-// What is known of the sites in a box; exact in float.
+// What is known of the sites in a box.
 struct SiteBox {
-  glm::vec3 low{INFINITY}, high{-INFINITY};
+  glm::vec3 low{INFINITY}, high{-INFINITY};          // of the sites; exact in float
+  glm::vec3 ballLow{INFINITY}, ballHigh{-INFINITY};  // of their balls, rounded outwards
   float maxRadius = 0;
 };
 
@@ -23,16 +28,15 @@ inline glm::dvec3 gapTo(const SiteBox& box, const glm::dvec3& x) {
   return glm::max(glm::max(glm::dvec3(box.low) - x, x - glm::dvec3(box.high)), glm::dvec3(0));
 }
 
-// The site of least power at some place.
-struct LeastPower {
+// The site with the least value of something at some place.
+struct NearestSite {
   uint32_t site = 0;
-  double power = INFINITY;  // |x - p|^2 - r^2 [scene units squared]
+  double value = INFINITY;
 };
 
-// |x - p|^2 - r^2, from the difference of places: true to some roundings of 2^-53 of |x - p|^2 + r^2.
+// |x - p|^2 - r^2 [scene units squared], true to some roundings of 2^-53 of |x - p|^2 + r^2.
 inline double powerAt(const glm::dvec3& x, const glm::vec3& site, float radius) {
-  const glm::dvec3 difference = x - glm::dvec3(site);
-  return glm::dot(difference, difference) - double{radius} * radius;
+  return foam::powerOfOrigin(glm::dvec3(site) - x, double{radius});
 }
 
 // A balanced kd-tree over some of the sites; small nodes are split by radius where that differs more than the
@@ -42,6 +46,9 @@ inline double powerAt(const glm::dvec3& x, const glm::vec3& site, float radius) 
 class SiteTree {
  public:
   SiteTree(std::span<const glm::vec3> sites, std::span<const float> radii, std::vector<uint32_t> members);
+
+  // Of all sites.
+  const SiteBox& bounds() const { return boxes_[1]; }
 
   // The site at each place.
   const std::vector<uint32_t>& order() const { return order_; }
@@ -67,17 +74,31 @@ class SiteTree {
   template <class Bound, class Visit>
   void search(const double& limit, const Bound& bound, const Visit& visit) const;
 
-  // Calls visit(site) for every site whose ball a ray meets; the direction has unit length.
+  // Calls visit(site) for every site whose ball a ray may meet at t >= 0, by the rounding of float or of double, and for some others,
+  // in no useful order; the direction has unit length.
   template <class Visit>
   void searchRay(const glm::dvec3& origin, const glm::dvec3& direction, const Visit& visit) const;
 
-  // The least power at x, and the lowest of the sites that attain it in double.
-  LeastPower findLeastPower(const glm::dvec3& x) const;
+  // Those whose ball the ray meets, in double.
+  template <class Visit>
+  void searchBallsOn(const glm::dvec3& origin, const glm::dvec3& direction, const Visit& visit) const;
+
+  static constexpr uint32_t kNone = UINT32_MAX;
+
+  // The site of least power at x: whose cell holds x. Of sites that attain it in double the lowest, but rather `known`, a site that is
+  // known to be near and saves most of the search. No site at all: the value is infinite.
+  NearestSite findLeastPower(const glm::dvec3& x, uint32_t known = kNone) const;
+
+  // The ball nearest to x, the least |x - p| - r; equals as above. Inside of some ball the value is negative, and the site one of those
+  // whose balls hold x.
+  NearestSite findNearestBall(const glm::dvec3& x, uint32_t known = kNone) const;
 
  private:
   static constexpr uint32_t kLeafSize = 8;
 
   void build(uint32_t depth, uint32_t k);
+  template <class Bound, class Value>
+  NearestSite findNearest(const Bound& bound, const Value& value, uint32_t known, double enough) const;
 
   std::span<const glm::vec3> sites_;
   std::span<const float> radii_;
@@ -117,17 +138,37 @@ void SiteTree::search(const double& limit, const Bound& bound, const Visit& visi
 
 template <class Visit>
 void SiteTree::searchRay(const glm::dvec3& origin, const glm::dvec3& direction, const Visit& visit) const {
-  // Distance of the ray's line from the ball around the box, less all radii: rounding may let a ball pass
-  // that the ray merely touches.
+  // The test of a ball itself may run in float, where one at distance D seems larger by some 1e-7 D.
+  constexpr double kRelativePadding = 1e-5;
+  // A direction of 0 gets a huge inverse instead of an infinite one: 0 * infinity would be NaN.
+  constexpr double kTiny = 1e-200;
+  glm::dvec3 inverse;
+  for (int axis = 0; axis < 3; ++axis) inverse[axis] = 1 / (std::abs(direction[axis]) > kTiny ? direction[axis] : kTiny);
+  // 0: the ray meets the box of the balls; 1: it does not.
   const auto bound = [&](const Node& node) {
-    const glm::dvec3 low(node.box.low), high(node.box.high);
-    const glm::dvec3 centre = 0.5 * (low + high) - origin;
-    const double reach = 0.5 * glm::length(high - low) + node.box.maxRadius;
-    const double along = std::max(glm::dot(centre, direction), 0.0);
-    return glm::length(centre - along * direction) - reach;
+    const glm::dvec3 low = glm::dvec3(node.box.ballLow) - origin, high = glm::dvec3(node.box.ballHigh) - origin;
+    const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
+    const double padding = kRelativePadding * glm::max(farthest.x, glm::max(farthest.y, farthest.z));
+    double tNear = 0, tFar = HUGE_VAL;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = (low[axis] - padding) * inverse[axis], b = (high[axis] + padding) * inverse[axis];
+      tNear = std::max(tNear, std::min(a, b));
+      tFar = std::min(tFar, std::max(a, b));
+    }
+    return tNear <= tFar ? 0.0 : 1.0;
   };
   search(0.0, bound, [&](uint32_t place) {
     const uint32_t site = order_[place];
+    const glm::dvec3 centre = glm::dvec3(sites_[site]) - origin;
+    const double along = glm::dot(centre, direction), squared = glm::dot(centre, centre);
+    const double reach = radii_[site] * (1 + kRelativePadding) + kRelativePadding * std::sqrt(squared);
+    if (along >= -reach && squared - along * along <= reach * reach) visit(site);
+  });
+}
+
+template <class Visit>
+void SiteTree::searchBallsOn(const glm::dvec3& origin, const glm::dvec3& direction, const Visit& visit) const {
+  searchRay(origin, direction, [&](uint32_t site) {
     double tNear, tFar;
     const glm::dvec3 centre = glm::dvec3(sites_[site]) - origin;
     if (foam::intersectBall(centre, double{radii_[site]}, direction, tNear, tFar)) visit(site);

@@ -82,8 +82,7 @@ Status Scene::draw(VkCommandBuffer commands, Method method, FrothRenderInfo info
   info.structSize = sizeof(info);
   info.nearRatio = FROTH_NEAR_DEFAULT;
   info.nearDepth = FROTH_NEAR_DEFAULT;
-  if (method == Method::kWalk) return check(frothWalk(context_, view_, commands, &info), "frothWalk");
-  return check(frothRasterize(context_, view_, commands, &info), "frothRasterize");
+  return check(infoOf(method).record(context_, view_, commands, &info), infoOf(method).call);
 }
 
 Status Scene::place(FrothInstanceInfo placement) {

@@ -8,10 +8,9 @@
 
 #include "host/camera_path.h"
 #include "host/host.h"
+#include "host/method.h"
 
 namespace froth {
-
-enum class Method { kRaster, kWalk };
 
 class Scene {
  public:

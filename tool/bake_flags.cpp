@@ -69,7 +69,8 @@ void BakeFlags::addColourKnobs(CLI::App& command) {
 }
 
 void BakeFlags::addTo(CLI::App& command) {
-  command.add_option("--preset", options_.preset, "How exactly values are kept")
+  options_.preset = "default";
+  command.add_option("--preset", options_.preset, "How exactly values are kept; exact: every bit of the checkpoint")
       ->capture_default_str()
       ->check(CLI::IsMember({"exact", "high", "default", "small"}));
   addGeometryKnobs(command);

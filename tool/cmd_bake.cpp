@@ -1,5 +1,6 @@
 // froth bake: a trained foam becomes an asset.
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,13 +11,13 @@
 
 #include "baker/bake/asset_sink.h"
 #include "baker/bake/bake.h"
-#include "baker/input/foam_input.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "foam/checkpoint/checkpoint.h"
 #include "format/read/asset_reader.h"
 #include "measure/figures.h"
 #include "tool/bake_flags.h"
+#include "tool/bake_jobs.h"
 #include "tool/commands.h"
 #include "tool/options.h"
 #include "tool/statistics.h"
@@ -25,7 +26,7 @@ namespace froth {
 namespace {
 
 struct BakeCommandOptions {
-  std::filesystem::path input, output, cameras;
+  BakeJob given;
   BakeFlags flags;
   FiguresOutput figures;
   bool isForced = false;
@@ -97,48 +98,45 @@ nlohmann::ordered_json checksAsJson(const BakeResult& baked) {
           {"rays", baked.validity.raysChecked},    {"faults", baked.validity.faults}};
 }
 
-Status reportBake(const BakeCommandOptions& options, const BakeResult& baked, uint64_t bytes) {
-  const Result<AssetReader> written = AssetReader::open(options.output);
+// Prints what was baked, and gives it as JSON.
+Result<nlohmann::ordered_json> reportBake(const BakeJob& job, const BakeResult& baked, uint64_t bytes, bool wantsTable) {
+  const Result<AssetReader> written = AssetReader::open(job.output);
   if (!written) return written.error();
-  if (options.figures.wantsTable()) {
+  if (wantsTable) {
     printStages(baked.stages);
     printStatistics(baked.contents);
     printChecks(baked);
     printLeftOut(baked.leftOut);
     printSections(*written);
-    fmt::print("{}: {} bytes\n", options.output.string(), bytes);
+    fmt::print("{}: {} bytes\n", job.output.string(), bytes);
   }
-  return options.figures.write({{"input", options.input.string()},
-                                {"output", options.output.string()},
+  return nlohmann::ordered_json{{"input", job.input.string()},
+                                {"output", job.output.string()},
                                 {"bytes", bytes},
                                 {"stages", stagesAsJson(baked.stages)},
                                 {"statistics", statisticsAsJson(baked.contents)},
                                 {"walkLength", {{"without", baked.walkLengthBefore}, {"with", baked.walkLengthAfter}}},
                                 {"checks", checksAsJson(baked)},
                                 {"leftOut", leftOutAsJson(baked.leftOut)},
-                                {"sections", sectionsAsJson(*written)}});
+                                {"sections", sectionsAsJson(*written)}};
 }
 
-Status runBake(const BakeCommandOptions& options, const Progress& progress) {
-  Result<BakeOptions> bake = options.flags.options();
-  if (!bake) return bake.error();
-  std::optional<tbb::global_control> threads;
-  if (options.flags.threads() > 0)
-    threads.emplace(tbb::global_control::max_allowed_parallelism, options.flags.threads());
+Result<nlohmann::ordered_json> runJob(const BakeJob& job, BakeOptions bake, const BakeCommandOptions& options, const Progress& progress) {
+  if (Status writable = checkWritable(job.output, options.isProtected()); !writable) return writable.error();
   StageClock clock;
   Result<CameraSet> cameras = CameraSet{};
-  if (!options.cameras.empty()) {
-    cameras = readCameras(options.cameras);
+  if (!job.cameras.empty()) {
+    cameras = readCameras(job.cameras);
     if (!cameras) return cameras.error();
-    bake->cameras = &*cameras;
+    bake.cameras = &*cameras;
   }
-  Result<Foam> foam = importCheckpoint(options.input, progress);
+  Result<Foam> foam = importCheckpoint(job.input, progress);
   if (!foam) return foam.error();
   const StageReport import = clock.stop("import", foam->cellCount);
 
-  bake->source = printable(options.input.filename().string());  // a file name need not be UTF-8
-  AssetFileSink file(options.output, options.isProtected());
-  Result<BakeResult> baked = bakeFoam(*foam, *bake, file.sink(), progress);
+  bake.source = printable(job.input.filename().string());  // a file name need not be UTF-8
+  AssetFileSink file(job.output, options.isProtected());
+  Result<BakeResult> baked = bakeFoam(*foam, bake, file.sink(), progress);
   if (!baked) return baked.error();
   *foam = {};
   baked->stages.insert(baked->stages.begin(), import);
@@ -148,19 +146,44 @@ Status runBake(const BakeCommandOptions& options, const Progress& progress) {
   const Result<uint64_t> bytes = file.finish(baked->contents);
   if (!bytes) return bytes.error();
   baked->stages.push_back(clock.stop("write", *bytes));
-  return reportBake(options, *baked, *bytes);
+  return reportBake(job, *baked, *bytes, options.figures.wantsTable());
 }
 
-Status checkAndRunBake(const BakeCommandOptions& options, const Progress& progress) {
-  if (!isAssetPath(options.output)) {
-    return makeError(ErrorKind::kUsage, "-o %s: an asset's name ends in .froth", options.output.c_str());
+// One that fails stops none of the others; the first one's error is returned.
+Status runJobs(const std::vector<BakeJob>& jobs, const BakeOptions& bake, const BakeCommandOptions& options, Tool& tool) {
+  nlohmann::ordered_json done = nlohmann::ordered_json::array();
+  std::optional<Error> first;
+  size_t failed = 0;
+  for (const BakeJob& job : jobs) {
+    Result<nlohmann::ordered_json> figures = runJob(job, bake, options, tool.progress.callback());
+    tool.progress.finishLine();
+    if (figures) {
+      done.push_back(std::move(*figures));
+      continue;
+    }
+    if (figures.error().kind == ErrorKind::kCancelled) return figures.error();
+    std::fprintf(stderr, "froth: %s\n", printable(figures.error().message).c_str());
+    if (!first) first = figures.error();
+    ++failed;
   }
-  if (isAssetPath(options.input)) {
-    return makeError(ErrorKind::kUsage, "%s is an asset already; bake the checkpoint that it came from",
-                     options.input.c_str());
-  }
-  if (Status writable = checkWritable(options.output, options.isProtected()); !writable) return writable;
-  return runBake(options, progress);
+  if (const Status written = options.figures.write(done); !written) return written;
+  if (!first) return {};
+  return makeError(first->kind, "%zu of %zu bakes failed, as told above", failed, jobs.size());
+}
+
+Status runBake(const BakeCommandOptions& options, Tool& tool) {
+  const Result<std::vector<BakeJob>> jobs = findBakeJobs(options.given);
+  if (!jobs) return jobs.error();
+  const Result<BakeOptions> bake = options.flags.options();
+  if (!bake) return bake.error();
+  std::optional<tbb::global_control> threads;
+  if (options.flags.threads() > 0)
+    threads.emplace(tbb::global_control::max_allowed_parallelism, options.flags.threads());
+  std::error_code ignored;
+  if (std::filesystem::is_directory(options.given.input, ignored)) return runJobs(*jobs, *bake, options, tool);
+  const Result<nlohmann::ordered_json> figures = runJob(jobs->front(), *bake, options, tool.progress.callback());
+  if (!figures) return figures.error();
+  return options.figures.write(*figures);
 }
 
 }  // namespace
@@ -168,15 +191,15 @@ Status checkAndRunBake(const BakeCommandOptions& options, const Progress& progre
 void addBakeCommand(CLI::App& program, Tool& tool) {
   CLI::App* command = program.add_subcommand("bake", "Bake a checkpoint into a .froth asset");
   auto options = std::make_shared<BakeCommandOptions>();
-  command->add_option("INPUT", options->input, "A checkpoint (model.pt)")->required();
-  command->add_option("-o,--output", options->output, "The .froth file to write")->required();
+  command->add_option("INPUT", options->given.input, "A checkpoint (model.pt), or a folder of checkpoints")->required();
+  command->add_option("-o,--output", options->given.output, "The .froth file to write; of a folder the folder")->required();
   options->flags.addTo(*command);
-  command->add_option("--cameras", options->cameras,
+  command->add_option("--cameras", options->given.cameras,
                       "Views that weigh errors, start view and flight path to store (cameras.json)");
   command->add_flag("--force", options->isForced, "Replace a write-protected file; it stays so");
   addFiguresOption(*command, options->figures);
   command->callback([&tool, options] {
-    tool.action = [&tool, options] { return checkAndRunBake(*options, tool.progress.callback()); };
+    tool.action = [&tool, options] { return runBake(*options, tool); };
   });
 }
 

@@ -83,7 +83,7 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
   if (Status loaded = renderer.load(*asset, progress); !loaded) return loaded;
 
   GpuRenderOptions render;
-  render.method = options.renderer == "walk" ? GpuMethod::kWalk : GpuMethod::kRaster;
+  render.method = findMethod(options.renderer)->method;
   render.cutoff = options.cutoff;
   render.isLinear = true;
   const auto viewCount = static_cast<uint32_t>(views->size());
@@ -132,19 +132,16 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
   command->add_option("INPUT", options->input, "A .froth file or a checkpoint")->required();
   command->add_option("--cameras", options->views.cameras, "The views (cameras.json)")->required();
   addViewOptions(*command, options->views);
-  command->add_option("--renderer", options->renderer, "raster or walk")
+  command->add_option("--renderer", options->renderer, "How")
       ->capture_default_str()
-      ->check(CLI::IsMember({"raster", "walk"}));
+      ->check(CLI::IsMember(methodNames()));
   command->add_option("--cutoff", options->cutoff, "A ray ends below this transmittance")
       ->capture_default_str()
       ->check(numberBetween(0, 1));
   command->add_option("--frames", options->frames, "Least measured frames; whole cycles through the views, 5 at least")
       ->capture_default_str()
       ->check(countBetween(100, 1000000));
-  command
-      ->add_option("--warmup", options->warmupSeconds, "Seconds of drawing before the first measured frame")
-      ->capture_default_str()
-      ->check(numberBetween(0, 3600));
+  addDurationOption(*command, "--warmup", options->warmupSeconds, "Drawing before the first measured frame", 0, 3600);
   command->add_flag("--counters", options->isCounting, "Count what the rays cost; slower");
   addLayersOption(*command, options->layers);
   command->add_option("--device", options->device, "Index or part of a name (`froth devices`)");

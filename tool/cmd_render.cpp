@@ -143,7 +143,7 @@ Status renderOnDevice(const RenderCommandOptions& options, const std::vector<Sel
   figures["driver"] = (*renderer)->device().driver;
 
   GpuRenderOptions gpu;
-  gpu.method = options.renderer == "walk" ? GpuMethod::kWalk : GpuMethod::kRaster;
+  gpu.method = findMethod(options.renderer)->method;
   gpu.cutoff = static_cast<float>(options.cutoff);
   gpu.isLinear = options.isLinear;
   return drawViews(
@@ -210,7 +210,7 @@ void addRenderCommand(CLI::App& program, Tool& tool) {
   addViewOptions(*command, options->views);
   command->add_option("--renderer", options->renderer, "reference (CPU), raster or walk (Vulkan)")
       ->required()
-      ->check(CLI::IsMember({"reference", "raster", "walk"}));
+      ->check(CLI::IsMember(methodNames({"reference"})));
   command->add_option("--precision", options->precision, "Of the reference")
       ->capture_default_str()
       ->check(CLI::IsMember({"float", "double"}));

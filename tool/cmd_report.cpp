@@ -29,7 +29,7 @@ struct ReportOptions {
   std::filesystem::path input, output, photos;
   ViewOptions views;
   uint32_t viewCount = 6;
-  double minutes = 0.25;
+  double searchSeconds = 15;
   std::string device, credit, title;
   std::string command;  // with all options
   std::vector<std::string> knobs;  // empty: all
@@ -85,7 +85,7 @@ Result<std::vector<Knob>> chooseKnobs(const ReportOptions& options, bool hasFoam
   std::vector<Knob> knobs = drawingKnobs(walks);
   if (hasFoam) {
     for (Knob& knob : encodingKnobs()) {
-      if (!options.isCpu || knob.method == GpuMethod::kRaster) knobs.push_back(std::move(knob));
+      if (!options.isCpu || knob.method == Method::kRaster) knobs.push_back(std::move(knob));
     }
   }
   if (options.knobs.empty()) return knobs;
@@ -112,12 +112,12 @@ Status measureEach(const Bench& bench, PointList& points, const Progress& progre
 // The search goes by times of one round. All times of the report are then of the same rounds: a front compares no others.
 Status measureAll(const ReportOptions& options, const Bench& bench, const std::vector<Knob>& knobs, PointList& points,
                   const Progress& progress) {
-  if (options.minutes > 0) {
+  if (options.searchSeconds > 0) {
     Bench quick = bench;
     quick.rounds.count = 1;
     quick.rounds.frames = bench.rounds.frames / bench.rounds.count;
     if (Status measured = measureEach(quick, points, progress); !measured) return measured;
-    if (Status searched = searchJointly(quick, knobs, options.minutes, bench.rounds.seed, points, progress); !searched) return searched;
+    if (Status searched = searchJointly(quick, knobs, options.searchSeconds, bench.rounds.seed, points, progress); !searched) return searched;
   }
   for (PlannedPoint& point : points.all()) point.hasTimes = false;
   return measureEach(bench, points, progress);
@@ -254,9 +254,7 @@ void addReportCommand(CLI::App& program, Tool& tool) {
   command->add_option("--photos", options->photos, "Folder of the photos, by the views' names");
   command->add_option("--knobs", options->knobs, "Turn only these, as in preset,cutoff; `none`: what parts of the scene cost alone")
       ->delimiter(',');
-  command->add_option("--minutes", options->minutes, "For the search over several knobs at once")
-      ->capture_default_str()
-      ->check(numberBetween(0, 10000));
+  addDurationOption(*command, "--search", options->searchSeconds, "For the search over several knobs at once", 0, 7 * 24 * 3600);
   command->add_option("--seed", options->rounds.seed, "Of that search, and of the order in each round of times")->capture_default_str();
   command->add_option("--frames", options->rounds.frames, "Least frames that a time is of")
       ->capture_default_str()

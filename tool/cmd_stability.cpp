@@ -99,7 +99,7 @@ Result<std::vector<JudgedCase>> runCases(const StabilityOptions& options, std::v
 }
 
 Status runStability(const StabilityOptions& options, Tool& tool) {
-  if (options.search.minutes > 0) return runStabilitySearch(options.search, options.device, options.figures, tool.progress);
+  if (options.search.seconds > 0) return runStabilitySearch(options.search, options.device, options.figures, tool.progress);
   if (!options.markdown.empty()) {
     if (Status writable = checkMarkdown(options.markdown); !writable) return writable;
   }
@@ -136,12 +136,11 @@ Status runStability(const StabilityOptions& options, Tool& tool) {
 }
 
 void addSearchOptions(CLI::App& command, StabilitySearch& search) {
-  CLI::Option* minutes = command.add_option("--search", search.minutes,
-                                            "Hunt so many minutes for random cases that fail, in place of the built-in set");
-  minutes->check(numberBetween(1e-3, 1e5))->type_name("MINUTES");
-  command.add_option("--seed", search.seed, "Of the random cases")->check(countBetween(0, UINT64_MAX))->needs(minutes);
-  command.add_option("-o,--output", search.folder, "Folder for a file of each found case; the current one if left out")->needs(minutes);
-  for (const char* other : {"INPUT", "--replay", "--cameras", "--only", "--markdown"}) minutes->excludes(command.get_option(other));
+  CLI::Option* duration = addDurationOption(command, "--search", search.seconds,
+                                            "Hunt so long for random cases that fail, in place of the built-in set", 0.05, 1e7);
+  command.add_option("--seed", search.seed, "Of the random cases")->check(countBetween(0, UINT64_MAX))->needs(duration);
+  command.add_option("-o,--output", search.folder, "Folder for a file of each found case; the current one if left out")->needs(duration);
+  for (const char* other : {"INPUT", "--replay", "--cameras", "--only", "--markdown"}) duration->excludes(command.get_option(other));
 }
 
 }  // namespace

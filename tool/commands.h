@@ -27,5 +27,6 @@ void addCompareBenchCommand(CLI::App& program, Tool& tool);
 void addReportCommand(CLI::App& program, Tool& tool);
 void addStabilityCommand(CLI::App& program, Tool& tool);
 void addDevicesCommand(CLI::App& program, Tool& tool);
+void addHelpCommands(CLI::App& program, Tool& tool);  // after all others
 
 }  // namespace froth

@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   froth::addReportCommand(program, tool);
   froth::addStabilityCommand(program, tool);
   froth::addDevicesCommand(program, tool);
+  froth::addHelpCommands(program, tool);
 
   try {
     program.parse(argc, argv);

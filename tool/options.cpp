@@ -1,12 +1,17 @@
 #include "tool/options.h"
 
 #include <charconv>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "baker/input/foam_input.h"
+#include "host/method.h"
 
 namespace froth {
 namespace {
@@ -24,6 +29,27 @@ CLI::Validator valuesBetween(const char* kind, Number least, Number most) {
   return {check, ""};
 }
 
+constexpr std::pair<std::string_view, double> kUnits[] = {{"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}};
+
+// Seconds.
+std::optional<double> parseDuration(std::string_view text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+  for (const auto& [unit, seconds] : kUnits) {
+    if (std::string_view(rest, end) == unit) return value * seconds;
+  }
+  return std::nullopt;
+}
+
+// In the largest unit that leaves a number of at least one.
+std::string durationText(double seconds) {
+  const auto* unit = std::end(kUnits) - 1;
+  while (unit > kUnits && seconds < unit->second) --unit;
+  return seconds == 0 ? "0s" : fmt::format("{:g}{}", seconds / unit->second, unit->first);
+}
+
 }  // namespace
 
 CLI::Validator numberBetween(double least, double most) {
@@ -32,6 +58,26 @@ CLI::Validator numberBetween(double least, double most) {
 
 CLI::Validator countBetween(uint64_t least, uint64_t most) {
   return valuesBetween("whole ", least, most);
+}
+
+CLI::Option* addDurationOption(CLI::App& command, const std::string& name, double& seconds, const std::string& description, double least,
+                               double most) {
+  const auto check = [=](const std::string& text) -> std::string {
+    const std::optional<double> value = parseDuration(text);
+    if (value && *value >= least && *value <= most) return {};
+    return fmt::format("found '{}'; give a duration from {} to {}, as 500ms, 90s, 5min or 1h", text, durationText(least),
+                       durationText(most));
+  };
+  const auto keep = [&seconds](const std::string& text) { seconds = *parseDuration(text); };
+  return command.add_option_function<std::string>(name, keep, description)
+      ->type_name("DURATION")
+      ->default_str(durationText(seconds))
+      ->check(CLI::Validator(check, ""));
+}
+
+std::vector<std::string> methodNames(std::vector<std::string> others) {
+  for (const MethodInfo& info : kMethods) others.emplace_back(info.name);
+  return others;
 }
 
 void addViewOptions(CLI::App& command, ViewOptions& options) {

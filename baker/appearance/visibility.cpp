@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "foam/cech_pairs.h"
-#include "reference/render/ball_hierarchy.h"
+#include "foam/site_tree.h"
 #include "reference/render/ray.h"
 #include "reference/render/view_cells.h"
 
@@ -79,12 +79,12 @@ struct ViewSums {
 
 class ViewMeasurer {
  public:
-  ViewMeasurer(const View& view, const ViewCells<float>& cells, const BallHierarchy& hierarchy,
+  ViewMeasurer(const View& view, const ViewCells<float>& cells, const SiteTree& tree,
                double sharpness, std::vector<uint64_t>& products)
       : view_(view),
         rays_(view),
         cells_(cells),
-        hierarchy_(hierarchy),
+        tree_(tree),
         products_(products),
         sources_(cells.cells.size()) {
     for (uint32_t cell = 0; cell < cells.rankOf.size(); ++cell) {
@@ -113,7 +113,7 @@ class ViewMeasurer {
     if (!exact) return;
     const PrimaryRay<float> primary{exact->offset, exact->direction};
     hits.clear();
-    hierarchy_.visitAlongRay(eyeOf(view_) + exact->offset, exact->direction, [&](uint32_t source) {
+    tree_.searchRay(eyeOf(view_) + exact->offset, exact->direction, [&](uint32_t source) {
       BallHit<float> hit{cells_.rankOf[source], 0, 0};
       if (hit.rank == ViewCells<float>::kNotDrawn) return;
       const ViewCell<float>& cell = cells_.cells[hit.rank];
@@ -151,7 +151,7 @@ class ViewMeasurer {
   const View& view_;
   const ViewRays rays_;
   const ViewCells<float>& cells_;
-  const BallHierarchy& hierarchy_;
+  const SiteTree& tree_;
   std::vector<uint64_t>& products_;  // [foam cells * K(K-1)/2] of all views
   std::vector<uint32_t> sources_;    // [drawn cells] index in the foam
   RaySettings<float> settings_;
@@ -225,7 +225,7 @@ Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> vie
   const std::vector<uint32_t> visible = findVisibleCells(geometry);
   const CellGraph pairs = findCechPairs(geometry.sites, geometry.radii, progress);
   if (pairs.offsets.empty()) return stoppedOnRequest("visibility");
-  const BallHierarchy hierarchy(geometry.sites, geometry.radii, visible);
+  const SiteTree tree(geometry.sites, geometry.radii, visible);
 
   Visibility visibility;
   visibility.offsets.assign(uint64_t{foam.cellCount} * foam.detailCount + 1, 0);
@@ -243,7 +243,7 @@ Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> vie
     reference.nearDepth = views[v].nearDepth.value_or(options.nearDepth);
     const auto candidates = findCellsInFrustum(geometry, visible, view);
     const auto cells = prepareViewCells<float>(geometry, pairs, candidates, view, reference);
-    const ViewSums sums = ViewMeasurer(view, cells, hierarchy, options.detailSharpness, products).measure();
+    const ViewSums sums = ViewMeasurer(view, cells, tree, options.detailSharpness, products).measure();
     const double pixels = double(views[v].width) * views[v].height;
     const double pixelsPerSample = pixels / (double(view.width) * view.height);
     addEntries(cells, sums, pixelsPerSample, entries[v], visibility.contributions, squares);

@@ -7,6 +7,7 @@
 #include "base/counter_random.h"
 #include "foam/morton_order.h"
 #include "shaders/foam/cell.h"
+#include "shaders/foam/next_cell.h"
 
 namespace froth {
 namespace {
@@ -137,20 +138,19 @@ uint32_t DiagramCheck::descendAmong(const glm::dvec3& x, uint32_t start, const T
 uint32_t DiagramCheck::nextOnRay(const Ray& ray, uint32_t cell, double& t) const {
   const glm::dvec3 centre = glm::dvec3(sites_[cell]) - ray.origin;
   uint32_t next = cell;
-  double nearest = INFINITY;
+  double clearance = 1, q = 0;  // of the nearest plane
   for (const uint32_t neighbour : neighboursOf(triangulation_.graph, cell)) {
     const glm::dvec3 toNeighbour = glm::dvec3(sites_[neighbour]) - glm::dvec3(sites_[cell]);
-    const double approach = glm::dot(toNeighbour, ray.direction);
-    if (!(approach > 0)) continue;
+    const double otherQ = glm::dot(toNeighbour, ray.direction);
     const double offset = foam::radicalOffset(toNeighbour, double{radii_[cell]}, double{radii_[neighbour]});
-    const double exit = foam::radicalClearance(centre, toNeighbour, offset) / approach;
-    if (exit < nearest) {
-      nearest = exit;
-      next = neighbour;
-    }
+    const double otherClearance = foam::radicalClearance(centre, toNeighbour, offset);
+    if (!(otherQ > 0 && foam::exitLead(otherClearance, otherQ, clearance, q) > 0)) continue;
+    clearance = otherClearance;
+    q = otherQ;
+    next = neighbour;
   }
   if (next == cell) return cell;
-  t = std::max(t, nearest);
+  t = std::max(t, clearance / q);
   // Seen from far, planes towards several cells lie at one rounded t, and from a wrong one no plane may lead on.
   return descendAmong(ray.origin + t * ray.direction, next, [&](uint32_t other) {
     return glm::dot(glm::dvec3(sites_[other]) - glm::dvec3(sites_[cell]), ray.direction) > 0;
@@ -160,18 +160,18 @@ uint32_t DiagramCheck::nextOnRay(const Ray& ray, uint32_t cell, double& t) const
 // x: a place on a ray at t, or a point with t = 0.
 void DiagramCheck::checkLeast(const glm::dvec3& x, double t, uint32_t cell, const char* what,
                               std::vector<std::string>& faults) const {
-  const LeastPower least = tree_.findLeastPower(x);
+  const NearestSite least = tree_.findLeastPower(x);
   const double power = powerAt(x, sites_[cell], radii_[cell]);
-  if (power <= least.power) return;
+  if (power <= least.value) return;
   const auto powerTerms = [&](uint32_t site) {
     const glm::dvec3 local = x - glm::dvec3(sites_[site]);
     return glm::dot(local, local) + double{radii_[site]} * radii_[site];
   };
   const double apart = glm::length(glm::dvec3(sites_[cell]) - glm::dvec3(sites_[least.site]));
   const double slack = kSlack * (powerTerms(cell) + powerTerms(least.site) + apart * (glm::length(x) + t));
-  if (power - least.power <= slack) return;
+  if (power - least.value <= slack) return;
   faults.push_back(fmt::format("{}: at ({}, {}, {}) cell {} has power {}, cell {} has {}", what, x.x, x.y,
-                               x.z, cell, power, least.site, least.power));
+                               x.z, cell, power, least.site, least.value));
 }
 
 // The cells that the ray meets from `cell` on, in order.
@@ -200,7 +200,7 @@ uint32_t DiagramCheck::cellAt(const std::vector<Step>& steps, double t) {
 
 std::vector<uint32_t> DiagramCheck::findBallsOn(const Ray& ray) const {
   std::vector<uint32_t> found;
-  tree_.searchRay(ray.origin, ray.direction, [&](uint32_t cell) { found.push_back(cell); });
+  tree_.searchBallsOn(ray.origin, ray.direction, [&](uint32_t cell) { found.push_back(cell); });
   return found;
 }
 

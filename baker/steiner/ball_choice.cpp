@@ -4,7 +4,7 @@
 #include <numeric>
 #include <queue>
 
-#include "reference/render/ball_hierarchy.h"
+#include "foam/site_tree.h"
 
 namespace froth {
 namespace {
@@ -31,10 +31,10 @@ class BallChoice {
     }
     std::vector<uint32_t> all(balls_.size());
     std::iota(all.begin(), all.end(), 0u);
-    const BallHierarchy hierarchy(sites, reaches, std::move(all));
+    const SiteTree tree(sites, reaches, std::move(all));
     std::vector<std::vector<uint32_t>> crossed(rays_.size());
     steps.forAll(rays_.size(), [&](size_t ray) {
-      hierarchy.visitAlongRay(rays_[ray].origin, rays_[ray].direction, [&](uint32_t ball) {
+      tree.searchRay(rays_[ray].origin, rays_[ray].direction, [&](uint32_t ball) {
         if (isWithinReach(ray, ball) && walks_[ray].isCutBy(line(ball, ray))) crossed[ray].push_back(ball);
       });
     });

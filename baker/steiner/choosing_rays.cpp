@@ -10,10 +10,10 @@ namespace {
 constexpr uint32_t kRaysPerFreeRay = 4;  // for other places than those of the cameras
 
 std::vector<WalkRay> makeFreeRays(std::span<const glm::vec3> sites, std::span<const float> radii,
-                                  const BallTree& tree, const SteinerOptions& options, uint32_t count) {
+                                  const SiteTree& tree, const SteinerOptions& options, uint32_t count) {
   constexpr float kLeavesBall = 1.01f;
   const CounterRandom eye(options.seed, Purpose::kEye), direction(options.seed, Purpose::kDirection);
-  const glm::dvec3 low = tree.low(), size = tree.high() - low;
+  const glm::dvec3 low = tree.bounds().ballLow, size = glm::dvec3(tree.bounds().ballHigh) - low;
   std::vector<WalkRay> rays(count);
   for (uint32_t i = 0; i < count; ++i) {
     const glm::vec3 away = direction.direction(i);
@@ -32,7 +32,7 @@ std::vector<WalkRay> makeFreeRays(std::span<const glm::vec3> sites, std::span<co
 }  // namespace
 
 std::vector<WalkRay> makeChoosingRays(std::span<const glm::vec3> sites, std::span<const float> radii,
-                                      const BallTree& tree, const SteinerOptions& options, uint32_t count) {
+                                      const SiteTree& tree, const SteinerOptions& options, uint32_t count) {
   std::vector<View> views;
   if (options.cameras) {
     views = options.cameras->views;

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "baker/steiner/ball_tree.h"
 #include "baker/steiner/steiner.h"
 #include "baker/steiner/walk_length.h"
+#include "foam/site_tree.h"
 
 namespace froth {
 
@@ -13,6 +13,6 @@ namespace froth {
 // know no camera: half of them start at the surfaces of balls, half anywhere in the scene's box, as
 // reflections and free flight ask for.
 std::vector<WalkRay> makeChoosingRays(std::span<const glm::vec3> sites, std::span<const float> radii,
-                                      const BallTree& tree, const SteinerOptions& options, uint32_t count);
+                                      const SiteTree& tree, const SteinerOptions& options, uint32_t count);
 
 }  // namespace froth

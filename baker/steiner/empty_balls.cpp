@@ -37,7 +37,7 @@ constexpr double kTwinDistance = 0.4;  // of a radius
 
 }  // namespace
 
-EmptyBallFinder::EmptyBallFinder(const BallTree& tree, std::span<const glm::vec3> sites,
+EmptyBallFinder::EmptyBallFinder(const SiteTree& tree, std::span<const glm::vec3> sites,
                                  std::span<const float> radii, const SteinerOptions& options)
     : tree_(tree), sites_(sites), radii_(radii), options_(options), low_(sites[0]), high_(sites[0]) {
   for (const glm::vec3& site : sites) {
@@ -64,12 +64,12 @@ void EmptyBallFinder::findAlong(const WalkRay& ray, const RayCells& cells, uint6
 
 // Away from the nearest ball, to where there is more room.
 EmptyBallFinder::Place EmptyBallFinder::climb(const glm::dvec3& start, uint32_t tries) const {
-  Place place{start, tree_.nearestSurface(start)};
+  Place place{start, tree_.findNearestBall(start)};
   double step = 0.5 * place.nearest.value;
   for (uint32_t k = 0; k < tries && step > 0; ++k) {
-    const uint32_t ball = place.nearest.ball;
+    const uint32_t ball = place.nearest.site;
     const glm::dvec3 ahead = place.point + step * glm::normalize(place.point - glm::dvec3(sites_[ball]));
-    const BallTree::Nearest nearest = tree_.nearestSurface(ahead, ball);
+    const NearestSite nearest = tree_.findNearestBall(ahead, ball);
     if (nearest.value > place.nearest.value) {
       place = {ahead, nearest};
     } else {
@@ -84,8 +84,8 @@ void EmptyBallFinder::addBall(const Place& place, std::vector<EmptyBall>& found)
                        snapToStep(place.point.y, options_.positionStep),
                        snapToStep(place.point.z, options_.positionStep));
   if (site != glm::clamp(site, low_, high_)) return;
-  const BallTree::Nearest nearest = tree_.nearestSurface(site, place.nearest.ball);
-  const double clearance = nearest.value, neighbour = radii_[nearest.ball];
+  const NearestSite nearest = tree_.findNearestBall(site, place.nearest.site);
+  const double clearance = nearest.value, neighbour = radii_[nearest.site];
   if (!(clearance >= leastClearance_)) return;
   const double wanted =
       std::min(kFilling * clearance, std::max(kTouchingRatio * neighbour, kGrading * clearance));

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "baker/steiner/ball_tree.h"
 #include "baker/steiner/ray_cells.h"
 #include "baker/steiner/steiner.h"
 #include "baker/steiner/walk_length.h"
+#include "foam/site_tree.h"
 
 namespace froth {
 
@@ -20,7 +20,7 @@ struct EmptyBall {
 class EmptyBallFinder {
  public:
   // Keeps references to all that it is given.
-  EmptyBallFinder(const BallTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
+  EmptyBallFinder(const SiteTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
                   const SteinerOptions& options);
 
   // Appends balls about random points of some of the ray's empty intervals, moved to where there is more
@@ -32,12 +32,12 @@ class EmptyBallFinder {
  private:
   struct Place {
     glm::dvec3 point;
-    BallTree::Nearest nearest;
+    NearestSite nearest;
   };
   Place climb(const glm::dvec3& start, uint32_t tries) const;
   void addBall(const Place& place, std::vector<EmptyBall>& found) const;
 
-  const BallTree& tree_;
+  const SiteTree& tree_;
   std::span<const glm::vec3> sites_;
   std::span<const float> radii_;
   const SteinerOptions& options_;

@@ -26,16 +26,16 @@ class EnvelopeSearch {
     double begin;
   };
 
-  EnvelopeSearch(const BallTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
+  EnvelopeSearch(const SiteTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
                  const WalkRay& ray)
       : tree_(tree), sites_(sites), radii_(radii), ray_(ray) {}
 
   // The cell at a place of the ray, which `known` holds unless another one does.
   Found cellAt(double t, const Found& known) const {
     const glm::dvec3 point = glm::dvec3(ray_.origin) + t * glm::dvec3(ray_.direction);
-    return found(tree_.nearestPower(point, known.cell).ball, t);
+    return found(tree_.findLeastPower(point, known.cell).site, t);
   }
-  Found firstCell() const { return found(tree_.nearestPower(ray_.origin).ball, 0); }
+  Found firstCell() const { return found(tree_.findLeastPower(ray_.origin).site, 0); }
 
   void findBetween(const Found& first, const Found& last, std::vector<Found>& found) const {
     if (!(first.line.slope < last.line.slope)) return;
@@ -53,7 +53,7 @@ class EnvelopeSearch {
  private:
   Found found(uint32_t cell, double t) const { return {cell, lineOf(sites_[cell], radii_[cell], ray_), t}; }
 
-  const BallTree& tree_;
+  const SiteTree& tree_;
   std::span<const glm::vec3> sites_;
   std::span<const float> radii_;
   const WalkRay& ray_;
@@ -77,11 +77,12 @@ BallLine lineOf(const glm::vec3& site, float radius, const WalkRay& ray) {
   return {glm::dot(centre, glm::dvec3(ray.direction)), foam::powerOfOrigin(centre, double{radius})};
 }
 
-RayCells::RayCells(const BallTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
+RayCells::RayCells(const SiteTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
                    std::span<const float> densities, const WalkRay& ray) {
   const EnvelopeSearch search(tree, sites, radii, ray);
-  const double extent = glm::length(tree.high() - tree.low());
-  const double limit = extent + glm::length(glm::dvec3(ray.origin) - 0.5 * (tree.low() + tree.high()));
+  const glm::dvec3 low = tree.bounds().ballLow, high = tree.bounds().ballHigh;
+  const double extent = glm::length(high - low);
+  const double limit = extent + glm::length(glm::dvec3(ray.origin) - 0.5 * (low + high));
   std::vector<EnvelopeSearch::Found> found{search.firstCell()};
   double depth = 0;
   size_t passed = 0;  // stretches whose end is known and whose density is counted

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "baker/steiner/ball_tree.h"
 #include "baker/steiner/walk_length.h"
+#include "foam/site_tree.h"
 
 namespace froth {
 
@@ -27,7 +27,7 @@ class RayCells {
 
   RayCells() = default;
   // From the ray's origin until its transmittance falls below a walk's cut-off, with half of each ball solid.
-  RayCells(const BallTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
+  RayCells(const SiteTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
            std::span<const float> densities, const WalkRay& ray);
 
   size_t count() const { return stretches_.size(); }

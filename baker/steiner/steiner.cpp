@@ -7,6 +7,7 @@
 #include "baker/steiner/empty_balls.h"
 #include "baker/steiner/ray_cells.h"
 #include "baker/steiner/steps.h"
+#include "foam/morton_order.h"
 
 namespace froth {
 namespace {
@@ -44,7 +45,7 @@ Result<SteinerCells> placeSteinerCells(std::span<const glm::vec3> sites, std::sp
 
   // 1. Rays, and the cells that they cross.
   if (!steps.advance()) return stopped;
-  const BallTree tree(sites, radii);
+  const SiteTree tree(sites, radii, mortonOrder(sites));
   const auto rayCount = static_cast<uint32_t>(std::clamp(sites.size() / kCellsPerRay, kLeastRays, kMostRays));
   const std::vector<WalkRay> rays = makeChoosingRays(sites, radii, tree, options, rayCount);
   std::vector<RayCells> walks(rays.size());

@@ -10,6 +10,8 @@
 #include "base/counter_random.h"
 #include "reference/camera/view_rays.h"
 #include "shaders/foam/cell.h"
+#include "shaders/foam/clip_face.h"
+#include "shaders/foam/next_cell.h"
 
 namespace froth {
 namespace {
@@ -62,17 +64,21 @@ class Walker {
     const glm::vec3 site = cells_.sites[cell], centre = site - ray.origin;
     const float radius = cells_.radii[cell], key = glm::dot(ray.direction, centre);
     uint32_t next = kNoCell;
+    float clearance = 1, q = 0;  // of the nearest plane
     for (uint32_t i = graph_.offsets[cell]; i < graph_.offsets[cell + 1]; ++i) {
       const uint32_t other = graph_.neighbours[i];
       const glm::vec3 otherSite = cells_.sites[other];
       if (!(glm::dot(ray.direction, otherSite - ray.origin) > key)) continue;
       const glm::vec3 toNeighbour = otherSite - site;
-      const float q = glm::dot(toNeighbour, ray.direction);
-      if (!(q > 0)) continue;
+      const float otherQ = glm::dot(toNeighbour, ray.direction);
       const float offset = foam::radicalOffset(toNeighbour, radius, cells_.radii[other]);
-      const float t = foam::radicalClearance(centre, toNeighbour, offset) / q;
-      if (t < exit) exit = t, next = other;
+      const float otherClearance = foam::radicalClearance(centre, toNeighbour, offset);
+      if (!(otherQ > 0 && foam::exitLead(otherClearance, otherQ, clearance, q) > 0)) continue;
+      clearance = otherClearance;
+      q = otherQ;
+      next = other;
     }
+    if (next != kNoCell) exit = clearance / q;
     return next;
   }
 
@@ -87,8 +93,7 @@ class Walker {
     if (!cells_.faces.empty()) {
       const glm::vec3 normal(cells_.faces[cell]);
       const float facing = glm::dot(normal, ray.direction);
-      const float tFace = foam::intersectFace(centre, normal, facing, cells_.faces[cell].w);
-      (facing >= 0 ? tFar = std::min(tFar, tFace) : tNear = std::max(tNear, tFace));
+      foam::clipByFace(centre, normal, facing, cells_.faces[cell].w, tNear, tFar);
     }
     return cells_.densities[cell] * std::max(tFar - tNear, 0.0f);
   }

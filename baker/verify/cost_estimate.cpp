@@ -78,7 +78,7 @@ void countBalls(const AssetContents& contents, CostEstimate& cost) {
     const glm::dvec3 towards = glm::dvec3(balls.centres[random.bits(ray) % live]) - eye;
     const double distance = glm::length(towards);
     uint32_t count = 0;
-    tree.searchRay(eye, distance > 0 ? towards / distance : glm::dvec3(0, 0, 1), [&](uint32_t) { ++count; });
+    tree.searchBallsOn(eye, distance > 0 ? towards / distance : glm::dvec3(0, 0, 1), [&](uint32_t) { ++count; });
     cost.meanBalls += static_cast<double>(count) / kRays;
     cost.mostBalls = std::max(cost.mostBalls, count);
   }

@@ -219,7 +219,7 @@ Status GpuRenderer::State::submitFrame(const std::function<Status(VkCommandBuffe
   });
 }
 
-Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wanted, GpuMethod method) {
+Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wanted, Method method) {
   FrothRenderInfo info = wanted;
   info.colour = host->describe(colour);
   if (distance.image) info.distance = host->describe(distance);
@@ -228,8 +228,7 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
   if (sceneDepth.image) info.sceneDepth = host->describeInput(sceneDepth);
 
   const auto record = [&](VkCommandBuffer commands) {
-    if (method == GpuMethod::kRaster) return check(frothRasterize(context, view, commands, &info), "frothRasterize");
-    return check(frothWalk(context, view, commands, &info), "frothWalk");
+    return check(infoOf(method).record(context, view, commands, &info), infoOf(method).call);
   };
   FrothViewStatus status{};
   for (int attempt = 0; attempt <= kMaxRedraws; ++attempt) {

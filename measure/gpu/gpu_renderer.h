@@ -9,12 +9,11 @@
 #include "base/result.h"
 #include "froth/froth.h"
 #include "host/host.h"
+#include "host/method.h"
 #include "reference/camera/camera.h"
 #include "reference/render/reference.h"
 
 namespace froth {
-
-enum class GpuMethod { kRaster, kWalk };
 
 struct GpuDeviceOptions {
   std::string device;     // index or part of a name; empty: the first suitable one
@@ -29,7 +28,7 @@ struct GpuDeviceOptions {
 };
 
 struct GpuRenderOptions {
-  GpuMethod method = GpuMethod::kRaster;
+  Method method = Method::kRaster;
   float cutoff = 1e-3f;   // 0: a ray never ends early
   bool isLinear = false;  // colour decoded to linear light
   uint32_t maxSteps = 0;  // of one walk; 0: the runtime's default

@@ -105,7 +105,7 @@ Result<DrawnForm> FormDrawer::drawImages(const Form& form, const CaseView& view)
   GpuRenderOptions options;
   options.jitter = view.jitter;
   options.ends = view.ends;
-  options.method = form.kind == FormKind::kRaster ? GpuMethod::kRaster : GpuMethod::kWalk;
+  options.method = form.kind == FormKind::kRaster ? Method::kRaster : Method::kWalk;
   options.tileForm = FROTH_TILE_FORM_ALL_SHORT;
   options.cutoff = form.isShipped ? static_cast<float>(kShippedCutoff) : 0.0f;
   options.maxSteps = form.isShipped ? 0 : baked_->foam.cellCount;

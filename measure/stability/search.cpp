@@ -76,7 +76,7 @@ Status runStabilitySearch(const StabilitySearch& search, const GpuDeviceOptions&
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   SearchOptions options;
   options.seed = search.seed;
-  options.seconds = 60 * search.minutes;
+  options.seconds = search.seconds;
   options.mostTries = kMostTries;
   const std::string drawnOn =
       *runner ? fmt::format("found on {} ({})", (*runner)->device().name, (*runner)->device().driver) : "found on the CPU";

@@ -11,7 +11,7 @@
 namespace froth {
 
 struct StabilitySearch {
-  double minutes = 0;  // 0: no search
+  double seconds = 0;  // 0: no search
   uint64_t seed = 1;
   std::filesystem::path folder = ".";  // of the files; made
 };

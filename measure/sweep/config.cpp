@@ -15,7 +15,7 @@ std::string encodingKey(const ReportConfig& config) {
 }
 
 std::string configKey(const ReportConfig& config) {
-  return fmt::format("{} | {} c{} l{} m{} s{}", encodingKey(config), methodName(config.method), config.cutoff, config.layers,
+  return fmt::format("{} | {} c{} l{} m{} s{}", encodingKey(config), infoOf(config.method).name, config.cutoff, config.layers,
                      config.maxSteps, config.pixelSize);
 }
 
@@ -29,10 +29,6 @@ ReportConfig exactConfig() {
   ReportConfig config;
   config.cutoff = 0;
   return config;
-}
-
-const char* methodName(GpuMethod method) {
-  return method == GpuMethod::kRaster ? "raster" : "walk";
 }
 
 }  // namespace froth

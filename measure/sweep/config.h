@@ -19,7 +19,7 @@ struct ReportConfig {
   uint32_t copies = 1;       // of the foam, side by side (tileFoam)
   bool hasCameras = true;    // errors weigh by what the cameras see
   // How it is drawn.
-  GpuMethod method = GpuMethod::kRaster;
+  Method method = Method::kRaster;
   float cutoff = 1e-3f;  // 0: never
   uint32_t layers = 3;
   uint32_t maxSteps = 0;
@@ -39,7 +39,7 @@ struct KnobValue {
 struct Knob {
   Sweep sweep;       // without its points
   bool isConvergence = false;  // around the exact asset without a cut-off, and not timed; else around the default
-  GpuMethod method = GpuMethod::kRaster;
+  Method method = Method::kRaster;
   std::vector<KnobValue> values;
   // Of a lattice: the attribute, as the manifest names it, and the most that its values may lie from the input's, in the manifest's
   // unit: half a step along each axis.
@@ -56,6 +56,5 @@ std::vector<Knob> drawingKnobs(bool walks);
 ReportConfig defaultConfig();
 ReportConfig exactConfig();
 
-const char* methodName(GpuMethod method);  // "raster", "walk"
 
 }  // namespace froth

@@ -52,7 +52,7 @@ std::vector<Part> listParts(const Foam& foam, const AssetContents& asset) {
   return parts;
 }
 
-Draw drawBy(Draw draw, GpuMethod method, const std::filesystem::path& asset) {
+Draw drawBy(Draw draw, Method method, const std::filesystem::path& asset) {
   draw.options.method = method;
   draw.asset = asset;
   draw.options.isLinear = true;
@@ -107,16 +107,16 @@ Result<std::vector<FeatureCost>> assetFeatures(const Bench& bench, const FoamInp
   if (!reader) return reader.error();
   std::vector<Part> parts = listParts(input.foam, reader->manifest());
   const Draw plain = drawOf(bench, base);
-  std::vector<Draw> draws{drawBy(plain, GpuMethod::kRaster, baseAsset), drawBy(plain, GpuMethod::kWalk, baseAsset)};
+  std::vector<Draw> draws{drawBy(plain, Method::kRaster, baseAsset), drawBy(plain, Method::kWalk, baseAsset)};
   std::vector<std::filesystem::path> assets;
   for (Part& part : parts) {
     const Result<std::filesystem::path> asset =
         bakeVariant(part, bench, input, cameras, folder / fmt::format("part_{}", assets.size()), progress);
     if (!asset) return asset.error();
     assets.push_back(*asset);
-    draws.push_back(drawBy(plain, GpuMethod::kRaster, *asset));
+    draws.push_back(drawBy(plain, Method::kRaster, *asset));
     // Without a graph there is nothing to walk: the base is drawn again in its place.
-    draws.push_back(drawBy(plain, GpuMethod::kWalk, part.cost.feature == "walk graph" ? baseAsset : *asset));
+    draws.push_back(drawBy(plain, Method::kWalk, part.cost.feature == "walk graph" ? baseAsset : *asset));
   }
   const Result<std::vector<DrawTimes>> times = bench.drawer.time(draws, bench.rounds, progress);
   if (!times) return times.error();
@@ -140,9 +140,9 @@ Result<std::vector<FeatureCost>> assetFeatures(const Bench& bench, const FoamInp
 }
 
 Result<std::vector<FeatureCost>> runtimeFeatures(const Bench& bench, const GpuDeviceOptions& device, const Progress& progress) {
-  const Draw raster = drawBy(drawOf(bench, defaultConfig()), GpuMethod::kRaster, bench.workshop.assetOf(defaultConfig()));
+  const Draw raster = drawBy(drawOf(bench, defaultConfig()), Method::kRaster, bench.workshop.assetOf(defaultConfig()));
   // Without a graph the raster stands in, and its times are not told.
-  const Draw walk = drawBy(raster, bench.walks ? GpuMethod::kWalk : GpuMethod::kRaster, raster.asset);
+  const Draw walk = drawBy(raster, bench.walks ? Method::kWalk : Method::kRaster, raster.asset);
   std::vector<FeatureCost> costs;
   const auto add = [&](const char* feature, const char* variant, const std::vector<DrawTimes>& without,
                        const std::vector<DrawTimes>& with) {

@@ -105,7 +105,7 @@ Knob steinerKnob() {
   Knob knob;
   knob.sweep.knob = "steiner";
   knob.sweep.meaning = "Cells in empty space that shorten walks";
-  knob.method = GpuMethod::kWalk;
+  knob.method = Method::kWalk;
   knob.values = {{"off", 0, [](ReportConfig& config) { config.steiner = false; }},
                  {"on", 1, [](ReportConfig& config) { config.steiner = true; }}};
   return knob;
@@ -136,7 +136,7 @@ std::vector<Knob> colourKnobs() {
   return knobs;
 }
 
-Knob cutoffKnob(GpuMethod method) {
+Knob cutoffKnob(Method method) {
   Knob knob = logarithmic(knobOf("cutoff", "A ray ends below this transmittance", "", {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1},
                                  [](ReportConfig& c, double v) { c.cutoff = static_cast<float>(v); }));
   knob.method = method;
@@ -164,26 +164,26 @@ std::vector<Knob> encodingKnobs() {
 }
 
 std::vector<Knob> drawingKnobs(bool walks) {
-  std::vector<Knob> knobs{cutoffKnob(GpuMethod::kRaster)};
+  std::vector<Knob> knobs{cutoffKnob(Method::kRaster)};
   // No more than the cut-off of a ray's colour is lost, and only of rays that reach it: first power.
-  const auto refined = [](GpuMethod method) {
+  const auto refined = [](Method method) {
     Knob knob = cutoffKnob(method);
     knob.sweep.knob += ", all else exact";
     knob.sweep.expectedOrder = 1;
     knob.isConvergence = true;
     return knob;
   };
-  knobs.push_back(refined(GpuMethod::kRaster));
+  knobs.push_back(refined(Method::kRaster));
   knobs.push_back(knobOf("layers", "1: a colour per cell; 2: detail; 3: view dependence", "", {1, 2, 3},
                          [](ReportConfig& c, double v) { c.layers = static_cast<uint32_t>(v); }));
   knobs.push_back(logarithmic(knobOf("pixelSize", "Pixels of the output per pixel drawn, along a side; bilinear between", "pixels",
                                      {1, 1.5, 2, 3, 4}, [](ReportConfig& c, double v) { c.pixelSize = v; })));
   if (!walks) return knobs;
-  knobs.push_back(cutoffKnob(GpuMethod::kWalk));
-  knobs.push_back(refined(GpuMethod::kWalk));
+  knobs.push_back(cutoffKnob(Method::kWalk));
+  knobs.push_back(refined(Method::kWalk));
   Knob steps = logarithmic(knobOf("maxSteps", "Steps after which a walk ends", "steps", {8, 16, 32, 64, 128, 256},
                                   [](ReportConfig& c, double v) { c.maxSteps = static_cast<uint32_t>(v); }));
-  steps.method = GpuMethod::kWalk;
+  steps.method = Method::kWalk;
   knobs.push_back(steps);
   return knobs;
 }

@@ -20,7 +20,7 @@ std::string PointList::add(const ReportConfig& config, const std::vector<Setting
   if (isNew) {
     PlannedPoint planned;
     planned.config = config;
-    planned.point.renderer = isCpu_ ? "cpu" : methodName(config.method);
+    planned.point.renderer = isCpu_ ? "cpu" : infoOf(config.method).name;
     planned.point.id = idOf(planned.point.renderer, settings);
     planned.point.settings = settings;
     idPlaces_[planned.point.id] = points_.size();
@@ -40,7 +40,7 @@ std::vector<Sweep> PointList::addSweeps(const std::vector<Knob>& knobs) {
     for (const KnobValue& value : knob.values) {
       ReportConfig config = base;
       value.apply(config);
-      if (knob.isConvergence) config.walkGraph = config.steiner = knob.method == GpuMethod::kWalk;
+      if (knob.isConvergence) config.walkGraph = config.steiner = knob.method == Method::kWalk;
       const Setting setting{sweep.knob, value.text, value.number};
       const bool isBase = configKey(config) == configKey(base);
       if (isBase) sweep.base = setting;

@@ -120,13 +120,13 @@ Result<std::vector<Slope>> errorSlopes(const Bench& bench, const Foam& foam, con
 namespace {
 
 Status addPixelSlopes(const Bench& bench, std::vector<Slope>& slopes, const Progress& progress) {
-  for (const GpuMethod method : {GpuMethod::kRaster, GpuMethod::kWalk}) {
-    if (method == GpuMethod::kWalk && !bench.walks) continue;
+  for (const MethodInfo& info : kMethods) {
+    if (info.method == Method::kWalk && !bench.walks) continue;
     std::vector<Draw> draws;
     std::vector<double> pixels, times;
     for (const double pixelSize : {4.0, 2.0, 1.0, 0.5}) {
       ReportConfig config = defaultConfig();
-      config.method = method;
+      config.method = info.method;
       config.pixelSize = pixelSize;
       draws.push_back(drawOf(bench, config));
       pixels.push_back(double{1} * draws.back().views[0].width * draws.back().views[0].height);
@@ -134,7 +134,7 @@ Status addPixelSlopes(const Bench& bench, std::vector<Slope>& slopes, const Prog
     const Result<std::vector<DrawTimes>> measured = bench.drawer.time(draws, bench.rounds, progress);
     if (!measured) return measured.error();
     for (const DrawTimes& one : *measured) times.push_back(one.total.median);
-    slopes.push_back(timeSlope(fmt::format("{}: ms over pixels", methodName(method)), pixels, times));
+    slopes.push_back(timeSlope(fmt::format("{}: ms over pixels", info.name), pixels, times));
   }
   return {};
 }

@@ -9,6 +9,7 @@
 #include "reference/render/view_cells.h"
 #include "shaders/foam/appearance.h"
 #include "shaders/foam/cell.h"
+#include "shaders/foam/clip_face.h"
 #include "shaders/foam/compositing.h"
 
 namespace froth {
@@ -104,21 +105,14 @@ CellStretch<Real> shadeCell(const ViewCell<Real>& cell, std::span<const ViewDeta
                             const PrimaryRay<Real>& primary, Real sharpness, BallHit<Real> hit, Real leastShare = 0) {
   const glm::vec<3, Real> centre = cell.centre - primary.offset;
   const Real facing = glm::dot(cell.frame.normal, primary.direction);
-  const bool leavesThroughFace = facing >= 0;
   const auto inFrame = [&](const glm::vec<3, Real>& vector) {
     return foam::inFaceFrame(vector, cell.frame.tangent, cell.frame.bitangent, cell.frame.normal,
                              cell.inverseRadius);
   };
   const auto queryAt = [&](Real t) { return foam::faceQuery(inFrame(t * primary.direction - centre)); };
-  const Real tBase = foam::intersectFace(centre, cell.frame.normal, facing, Real(0));
-  const Real tQuery = leavesThroughFace ? hit.tNear : std::max(hit.tNear, tBase);
+  const Real tQuery = foam::placeOfHeight(centre, cell.frame.normal, facing, hit.tNear);
   const Real height = blendHeight(details, queryAt(tQuery), sharpness);
-  const Real tFace = foam::intersectFace(centre, cell.frame.normal, facing, height);
-  if (leavesThroughFace) {
-    hit.tFar = std::min(hit.tFar, tFace);
-  } else {
-    hit.tNear = std::max(hit.tNear, tFace);
-  }
+  foam::clipByFace(centre, cell.frame.normal, facing, height, hit.tNear, hit.tFar);
   hit.tNear += cell.nearError * hit.tNear;
   hit.tFar += cell.farError * hit.tFar;
   CellStretch<Real> stretch{hit.tNear, hit.tFar, {}, {}};

@@ -9,9 +9,9 @@ namespace {
 template <class Real>
 class ImageRenderer {
  public:
-  ImageRenderer(const BallHierarchy& hierarchy, const ViewCells<Real>& cells, const View& view,
+  ImageRenderer(const SiteTree& tree, const ViewCells<Real>& cells, const View& view,
                 const ReferenceOptions& options)
-      : hierarchy_(hierarchy),
+      : tree_(tree),
         cells_(cells),
         view_(view),
         rays_(view),
@@ -39,13 +39,13 @@ class ImageRenderer {
     const std::optional<ViewRay> exact = rays_.ofPixel(x, y);
     if (!exact) return;
     const PrimaryRay<Real> primary{exact->offset, exact->direction};
-    gatherHits(hierarchy_, cells_, eyeOf(view_) + exact->offset, primary, Real(endOfRay(options_, *exact, x, y)), hits);
+    gatherHits(tree_, cells_, eyeOf(view_) + exact->offset, primary, Real(endOfRay(options_, *exact, x, y)), hits);
     const RayResult<Real> ray = compositeHits(cells_, primary, settings_, hits);
     writePixel(ray, x, y, images_);
     if (ray.rank != UINT32_MAX) images_.cells[size_t{y} * view_.width + x] = sources_[ray.rank];
   }
 
-  const BallHierarchy& hierarchy_;
+  const SiteTree& tree_;
   const ViewCells<Real>& cells_;
   const View& view_;
   const ViewRays rays_;
@@ -60,7 +60,7 @@ Result<RenderedImages> renderFoam(const ReferenceRenderer::State& foam, const Vi
                                   const Progress& progress) {
   if (foam.cechPairs.offsets.empty()) return stoppedOnRequest("render");
   const ViewCells<Real> cells = prepareViewCells<Real>(foam.foam, foam.cechPairs, foam.visible, view, options);
-  return ImageRenderer<Real>(foam.hierarchy, cells, view, options).render(progress);
+  return ImageRenderer<Real>(foam.tree, cells, view, options).render(progress);
 }
 
 }  // namespace

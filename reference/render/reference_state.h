@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "foam/cech_pairs.h"
+#include "foam/site_tree.h"
 #include "reference/camera/view_rays.h"
-#include "reference/render/ball_hierarchy.h"
 #include "reference/render/ray.h"
 #include "reference/render/reference.h"
 #include "reference/render/rounding.h"
@@ -22,12 +22,12 @@ struct ReferenceRenderer::State {
       : foam(source),
         visible(findVisibleCells(source)),
         cechPairs(findCechPairs(source.sites, source.radii, progress)),
-        hierarchy(source.sites, source.radii, visible) {}
+        tree(source.sites, source.radii, visible) {}
 
   const Foam& foam;
   const std::vector<uint32_t> visible;
   const CellGraph cechPairs;  // without offsets: stopped on request
-  const BallHierarchy hierarchy;
+  const SiteTree tree;
 };
 
 // Of a view and options that a caller gave.
@@ -50,10 +50,10 @@ inline double endOfRay(const ReferenceOptions& options, const ViewRay& ray, uint
 
 // The balls that a ray from `origin` meets before `end`. primary: in the precision of the render, as the cells are.
 template <class Real>
-void gatherHits(const BallHierarchy& hierarchy, const ViewCells<Real>& cells, const glm::dvec3& origin,
+void gatherHits(const SiteTree& tree, const ViewCells<Real>& cells, const glm::dvec3& origin,
                 const PrimaryRay<Real>& primary, Real end, std::vector<BallHit<Real>>& hits) {
   hits.clear();
-  hierarchy.visitAlongRay(origin, glm::dvec3(primary.direction), [&](uint32_t source) {
+  tree.searchRay(origin, glm::dvec3(primary.direction), [&](uint32_t source) {
     BallHit<Real> hit{cells.rankOf[source], 0, 0};
     if (hit.rank == ViewCells<Real>::kNotDrawn) return;
     const ViewCell<Real>& cell = cells.cells[hit.rank];

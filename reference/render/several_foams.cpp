@@ -49,7 +49,7 @@ class FoamInView {
     if (!ray) return;
     const PrimaryRay<double> primary{ray->offset, ray->direction};
     std::vector<BallHit<double>> hits;
-    gatherHits(foam_.hierarchy, cells_, eyeOf(view_) + ray->offset, primary, end / scale_, hits);
+    gatherHits(foam_.tree, cells_, eyeOf(view_) + ray->offset, primary, end / scale_, hits);
     for (BallHit<double>& hit : hits) {
       const ViewCell<double>& cell = cells_.cells[hit.rank];
       if (!clipByNeighbours(cells_.planesOf(cell), primary, hit)) continue;

@@ -5,6 +5,8 @@
 
 #include "shaders/foam/appearance.h"
 #include "shaders/foam/cell.h"
+#include "shaders/foam/clip_face.h"
+#include "shaders/foam/next_cell.h"
 
 namespace froth {
 namespace {
@@ -57,20 +59,27 @@ FoamWalk::Exit FoamWalk::findExit() {
   const glm::dvec3 centre = site - localOrigin_;
   const double radius = chunk_->radiusOf(current_.cell);
   Exit exit{kNoSite, std::numeric_limits<double>::infinity(), key_};
+  double clearance = 1, q = 0;  // of the nearest plane
   const uint32_t begin = chunk_->neighbourOffsets[current_.cell], end = chunk_->neighbourOffsets[current_.cell + 1];
   neighbours_ += end - begin;
   for (uint32_t i = begin; i < end; ++i) {
     const uint32_t other = chunk_->neighbourAt(i);
     const glm::dvec3 toNeighbour = chunk_->siteOf(other) - site;
-    const double q = glm::dot(ray_.direction, toNeighbour);
+    const double otherQ = glm::dot(ray_.direction, toNeighbour);
     const double offset = foam::radicalOffset(toNeighbour, radius, chunk_->radiusOf(other));
-    const double t = foam::radicalClearance(centre, toNeighbour, offset) / q;
-    if (!((q > 0) & (t <= exit.t))) continue;  // one branch, seldom taken: half of the neighbours lie ahead
+    const double otherClearance = foam::radicalClearance(centre, toNeighbour, offset);
+    const double lead = foam::exitLead(otherClearance, otherQ, clearance, q);
+    if (!((otherQ > 0) & (lead >= 0))) continue;  // one branch, seldom taken: half of the neighbours lie ahead
     // Towards two sites at one point: the first owns a ray in their plane (shaders/foam/cell.h).
-    if (t == exit.t && !(exit.site != kNoSite && foam::comesFirst(chunk_->siteOf(exit.site) - chunk_->siteOf(other)))) continue;
+    if (lead == 0 && !(exit.site != kNoSite && foam::comesFirst(chunk_->siteOf(exit.site) - chunk_->siteOf(other)))) continue;
     const double key = glm::dot(ray_.direction, chunk_->siteOf(other) - localOrigin_);
-    if (key > key_) exit = {other, t, key};
+    if (!(key > key_)) continue;
+    exit.site = other;
+    exit.key = key;
+    clearance = otherClearance;
+    q = otherQ;
   }
+  if (exit.site != kNoSite) exit.t = clearance / q;
   exit.t = std::max(exit.t, entry_);
   return exit;
 }
@@ -106,24 +115,17 @@ void FoamWalk::clipByFace(const QueryChunk& chunk, uint32_t cell, const glm::dve
                           FoamSegment& segment) const {
   const glm::dmat3 frame = chunk.faceFrameOf(cell);
   const double facing = glm::dot(frame[0], ray_.direction);
-  const bool leavesThroughFace = facing >= 0;
   double height = 0;
   if (!chunk.details.empty()) {
     const double radius = chunk.radiusOf(cell);
-    const double tBase = foam::intersectFace(centre, frame[0], facing, 0.0);
-    const double tQuery = leavesThroughFace ? segment.tNear : std::max(segment.tNear, tBase);
+    const double tQuery = foam::placeOfHeight(centre, frame[0], facing, segment.tNear);
     const glm::dvec3 local = foam::inFaceFrame(tQuery * ray_.direction - centre, frame[1], frame[2], frame[0],
                                                1 / radius);
     const uint32_t count = foam_->detailCount();
     height = heightAt(&chunk.details[size_t{cell} * count], count, foam::faceQuery(local),
                       foam_->detailSharpness(), radius);
   }
-  const double tFace = foam::intersectFace(centre, frame[0], facing, height);
-  if (leavesThroughFace) {
-    segment.tFar = std::min(segment.tFar, tFace);
-  } else {
-    segment.tNear = std::max(segment.tNear, tFace);
-  }
+  foam::clipByFace(centre, frame[0], facing, height, segment.tNear, segment.tFar);
 }
 
 }  // namespace froth

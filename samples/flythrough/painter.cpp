@@ -21,9 +21,9 @@ FrothRenderInfo renderInfo(const Pose& pose, const FrothImage& colour) {
 const char* nameOf(Picture picture) {
   switch (picture) {
     case Picture::kRaster:
-      return "raster";
+      return infoOf(Method::kRaster).name;
     case Picture::kWalk:
-      return "walk";
+      return infoOf(Method::kWalk).name;
     case Picture::kDifference:
       break;
   }

@@ -147,14 +147,5 @@ FOAM_FN real exitClearance(real3 centre, real3 toNeighbour, real offset, real cl
   return clearance >= -rounding ? max(clearance, real(0)) : clearance;
 }
 
-// Parameter at which the ray meets the plane n . (x - p) = height; facing = n . direction, kept away from zero. The normal may have
-// any length: the GPU's is 1 / radius. Finite, so that the point there can be asked for.
-FOAM_FN real intersectFace(real3 centre, real3 normal, real facing, real height) {
-  real tiny = real(1e-30);
-  real farthest = real(1e30);
-  real guarded = abs(facing) > tiny ? facing : (facing < real(0) ? -tiny : tiny);
-  return min(max((dot(normal, centre) + height) / guarded, -farthest), farthest);
-}
-
 #include "postlude.h"
 #endif

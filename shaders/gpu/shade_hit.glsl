@@ -9,6 +9,7 @@
 #include "gpu/work.glsl"
 #include "foam/appearance.h"
 #include "foam/cell.h"
+#include "foam/clip_face.h"
 #include "foam/compositing.h"
 
 #if defined(FROTH_SEVERAL)
@@ -74,10 +75,8 @@ FaceView faceViewOf(CellRecord cell, vec3 rays[kRays]) {
 
 vec3 queryAt(FaceView view, uint ray, float t) { return faceQuery(t * view.directions[ray] - view.centres[ray]); }
 
-// The face in its own frame is the plane z = height.
-float meetFace(FaceView view, uint ray, float height) {
-  return intersectFace(view.centres[ray], vec3(0.0, 0.0, 1.0), view.directions[ray].z, height);
-}
+// Of the face in its own frame.
+const vec3 kFaceNormal = vec3(0.0, 0.0, 1.0);
 
 // Heights of the displaced face at query points, in units of the radius.
 void heightsAt(Shading shading, uint firstSite, vec3 queries[kRays], out float heights[kRays]) {
@@ -126,16 +125,13 @@ void clipByFace(Shading shading, FaceView view, uint firstSite, inout Segment se
   if (hasHeights) {
     vec3 queries[kRays];
     for (uint r = 0; r < kRays; ++r) {
-      bool isInsideFirst = view.directions[r].z >= 0.0;
-      queries[r] = queryAt(view, r, isInsideFirst ? segments[r].tNear : max(segments[r].tNear, meetFace(view, r, 0.0)));
+      queries[r] = queryAt(view, r, placeOfHeight(view.centres[r], kFaceNormal, view.directions[r].z, segments[r].tNear));
       countWork(kWorkHeights, isEmpty(segments[r]) ? 0 : 1);
     }
     heightsAt(shading, firstSite, queries, heights);
   }
   for (uint r = 0; r < kRays; ++r) {
-    float tFace = meetFace(view, r, heights[r]);
-    if (view.directions[r].z >= 0.0) segments[r].tFar = min(segments[r].tFar, tFace);
-    else segments[r].tNear = max(segments[r].tNear, tFace);
+    clipByFace(view.centres[r], kFaceNormal, view.directions[r].z, heights[r], segments[r].tNear, segments[r].tFar);
   }
 }
 

@@ -3,6 +3,7 @@
 #define FROTH_GPU_WALK_CELL_GLSL
 #include "gpu/site_colour.glsl"
 #include "foam/cell.h"
+#include "foam/clip_face.h"
 
 // A ray in the axes and units of the instance at hand.
 struct LocalRay {
@@ -39,17 +40,13 @@ float heightAt(CellCode code, CellHeader header, vec3 query) {
 // Cuts the interval by the displaced face.
 void clipByFace(CellCode code, MetCell met, Frame frame, vec3 direction, inout float tNear, inout float tFar) {
   float facing = dot(frame.normal, direction);
-  bool leavesThroughFace = facing >= 0.0;
   float height = 0.0;
   if (FRAME.hasHeights != 0) {
-    float tBase = intersectFace(met.centre, frame.normal, facing, 0.0);
-    float tQuery = leavesThroughFace ? tNear : max(tNear, tBase);
+    float tQuery = placeOfHeight(met.centre, frame.normal, facing, tNear);
     CellHeader header = loadCellHeader(code, met.cell.x, met.cell.y);
     height = met.radius * heightAt(code, header, faceQueryAt(met, frame, direction, tQuery));
   }
-  float tFace = intersectFace(met.centre, frame.normal, facing, height);
-  if (leavesThroughFace) tFar = min(tFar, tFace);
-  else tNear = max(tNear, tFace);
+  clipByFace(met.centre, frame.normal, facing, height, tNear, tFar);
 }
 
 // Display-coded colour at t, seen from the point that lies `behind` the ray's origin. shaded: how many detail sites took part.

@@ -6,6 +6,7 @@
 #include "gpu/descend.glsl"
 #include "gpu/walk_cell.glsl"
 #include "gpu/walk_entries.glsl"
+#include "foam/next_cell.h"
 
 // t counts from the walk's start, in world units; only `entry` and `end` are in the instance's.
 struct Stream {
@@ -139,9 +140,9 @@ Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 di
     if (!(otherQ > 0.0)) continue;
     vec3 otherCentre = centreAt(place, otherSite.xyz);
     float otherClearance = sharedClearance(centre, otherCentre, toNeighbour, siteRadius.w, otherSite.w);
-    float nearer = clearance * otherQ - otherClearance * q;
-    if (!(nearer >= 0.0)) continue;
-    if (nearer == 0.0 && !(site != kNoCell && comesBefore(otherSite.xyz, siteRadiusOf(chunk, site).xyz))) continue;
+    float lead = exitLead(otherClearance, otherQ, clearance, q);
+    if (!(lead >= 0.0)) continue;
+    if (lead == 0.0 && !(site != kNoCell && comesBefore(otherSite.xyz, siteRadiusOf(chunk, site).xyz))) continue;
     float otherKey = keyOf(direction, otherCentre);
     if (!mayStepTo(chunk, other, order, orderAlong(direction, otherSite.xyz), key, otherKey)) continue;
     site = other;

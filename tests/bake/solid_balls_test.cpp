@@ -10,6 +10,7 @@
 #include "foam/foam.h"
 #include "shaders/foam/appearance.h"
 #include "shaders/foam/cell.h"
+#include "shaders/foam/clip_face.h"
 #include "shaders/foam/rays.h"
 #include "shaders/foam/solid_ball.h"
 #include "tests/bake/random_foam.h"

@@ -1,4 +1,5 @@
 #include "shaders/foam/cell.h"
+#include "shaders/foam/clip_face.h"
 
 #include <cmath>
 

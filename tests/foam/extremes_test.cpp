@@ -7,6 +7,7 @@
 
 #include "shaders/foam/appearance.h"
 #include "shaders/foam/cell.h"
+#include "shaders/foam/clip_face.h"
 #include "shaders/foam/compositing.h"
 
 namespace froth {

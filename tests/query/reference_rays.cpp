@@ -19,13 +19,13 @@ struct MetBall {
 
 ReferenceRays::ReferenceRays(const Foam& foam)
     : foam_(foam),
-      hierarchy_(foam.sites, foam.radii, findVisibleCells(foam)),
+      tree_(foam.sites, foam.radii, findVisibleCells(foam)),
       pairs_(findCechPairs(foam.sites, foam.radii)) {}
 
 ReferenceHit ReferenceRays::cast(const glm::dvec3& origin, const glm::dvec3& direction, double tEnd, double quantile,
                                  double cutoff) const {
   std::vector<MetBall> balls;
-  hierarchy_.visitAlongRay(origin, direction, [&](uint32_t cell) {
+  tree_.searchRay(origin, direction, [&](uint32_t cell) {
     MetBall ball{0, cell, {}};
     const glm::dvec3 centre = glm::dvec3(foam_.sites[cell]) - origin;
     if (!foam::intersectBall(centre, double{foam_.radii[cell]}, direction, ball.hit.tNear, ball.hit.tFar)) return;

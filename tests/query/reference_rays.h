@@ -6,7 +6,7 @@
 
 #include "foam/cell_graph.h"
 #include "foam/foam.h"
-#include "reference/render/ball_hierarchy.h"
+#include "foam/site_tree.h"
 
 namespace froth::test {
 
@@ -26,7 +26,7 @@ class ReferenceRays {
 
  private:
   const Foam& foam_;
-  BallHierarchy hierarchy_;
+  SiteTree tree_;
   CellGraph pairs_;
 };
 

@@ -186,9 +186,7 @@ FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInf
     if (isDrawn && afterUpdate) afterUpdate();
     for (const auto& [method, info] : draws) {
       if (!isDrawn) break;
-      check(method == Method::kRaster ? frothRasterize(context_, view_, commandBuffer, &info)
-                                      : frothWalk(context_, view_, commandBuffer, &info),
-            "draw");
+      check(infoOf(method).record(context_, view_, commandBuffer, &info), infoOf(method).call);
     }
     if (isDrawn && afterDraws) afterDraws(commandBuffer);
     return {};

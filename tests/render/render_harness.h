@@ -14,14 +14,13 @@
 #include "format/asset_contents.h"
 #include "froth/froth.h"
 #include "host/host.h"
+#include "host/method.h"
 #include "reference/camera/camera.h"
 #include "reference/image/image.h"
 #include "reference/image/metrics.h"
 #include "reference/render/reference.h"
 
 namespace froth::test {
-
-enum class Method { kRaster, kWalk };
 
 struct Frame {
   Image colour;    // 3 channels, as the image holds them

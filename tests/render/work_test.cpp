@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "shaders/foam/cell.h"
+#include "shaders/foam/clip_face.h"
 #include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
 

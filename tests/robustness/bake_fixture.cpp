@@ -1,5 +1,6 @@
 #include "tests/robustness/bake_fixture.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <thread>
 
@@ -10,13 +11,14 @@ BakeTest::BakeTest(const std::string& cells) {
   const ProgramEnd end = ChildProcess(bakeCommand(), folder_).wait();
   EXPECT_EQ(end.exitCode, 0) << end.text;
   newBytes_ = assetBytes();
-  frothWell({"bake", kCheckpoint, "-o", kAsset, "--near-ratio", "3", "--quiet"});
+  frothWell({"bake", kCheckpoint, "--preset", "exact", "-o", kAsset, "--near-ratio", "3", "--quiet"});
   oldBytes_ = assetBytes();
   EXPECT_NE(oldBytes_, newBytes_);
 }
 
 std::vector<std::string> BakeTest::bakeCommand(const std::vector<std::string>& more) {
   std::vector<std::string> command{FROTH_TOOL, "bake", kCheckpoint, "-o", kAsset, "--quiet"};
+  if (std::ranges::count(more, "--preset") == 0) command.insert(command.end(), {"--preset", "exact"});
   command.insert(command.end(), more.begin(), more.end());
   return command;
 }

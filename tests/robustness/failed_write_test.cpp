@@ -42,7 +42,7 @@ class FailedWrite : public BakeTest {
   }
 
   ProgramEnd bakeToDisk() const {
-    return ChildProcess({FROTH_TOOL, "bake", kCheckpoint, "-o", "disk/" + std::string(kAsset), "--quiet"},
+    return ChildProcess({FROTH_TOOL, "bake", kCheckpoint, "--preset", "exact", "-o", "disk/" + std::string(kAsset), "--quiet"},
                         folder_)
         .wait();
   }

@@ -20,7 +20,7 @@ class Minimal : public ToolTest {
     cameras.views.push_back(viewOfRandomFoam(480, 320));
     ASSERT_TRUE(writeCameras(folder_ / "cameras.json", cameras));
     frothWell({"synth", "random", "--cells", "120", "-o", "random.pt"});
-    frothWell({"bake", "random.pt", "-o", "random.froth", "--cameras", "cameras.json"});
+    frothWell({"bake", "random.pt", "--preset", "exact", "-o", "random.froth", "--cameras", "cameras.json"});
   }
 
   ProgramRun minimal(const std::vector<std::string>& arguments) const {

@@ -72,7 +72,7 @@ TEST_F(MirrorRoom, TellsWhatIsWrong) {
 }
 
 TEST_F(MirrorRoom, NeedsAWalkGraph) {
-  frothWell({"bake", "random.pt", "-o", "flat.froth", "--no-walk"});
+  frothWell({"bake", "random.pt", "--preset", "exact", "-o", "flat.froth", "--no-walk"});
   const ProgramRun run = show({"--frames", "1"}, "flat.froth");
   EXPECT_EQ(run.exitCode, 3);
   EXPECT_THAT(run.err, HasSubstr("without --no-walk"));

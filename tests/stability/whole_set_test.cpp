@@ -81,7 +81,7 @@ TEST_F(StabilityCommand, AFolderWithoutCasesIsRefused) {
 }
 
 TEST_F(StabilityCommand, SearchesAndFindsNothing) {
-  const ProgramRun run = froth({"stability", "--quiet", "--search", "0.05", "--seed", "1", "-o", "found", "--json"});
+  const ProgramRun run = froth({"stability", "--quiet", "--search", "3s", "--seed", "1", "-o", "found", "--json"});
   const nlohmann::json figures = nlohmann::json::parse(run.out, nullptr, false);
   ASSERT_FALSE(figures.is_discarded()) << run.out << run.err;
   EXPECT_GE(figures["tried"], 1);
@@ -98,7 +98,7 @@ TEST_F(StabilityCommand, ASearchesOptionsNeedIt) {
     EXPECT_NE(run.err.find("--search"), std::string::npos) << run.err;
   }
   for (const char* option : {"--only", "--markdown"}) {
-    EXPECT_EQ(froth({"stability", "--search", "1", option, "a"}).exitCode, 2) << option;
+    EXPECT_EQ(froth({"stability", "--search", "1min", option, "a"}).exitCode, 2) << option;
   }
   EXPECT_TRUE(filesInFolder().empty());
 }

@@ -2,6 +2,7 @@
 
 #include "baker/graph/graph.h"
 #include "baker/steiner/ray_cells.h"
+#include "foam/morton_order.h"
 #include "tests/graph/ball_sets.h"
 
 namespace froth {
@@ -22,14 +23,14 @@ struct Scene {
     }
   }
 
-  RayCells cellsOf(const BallTree& tree, const WalkRay& ray) const {
+  RayCells cellsOf(const SiteTree& tree, const WalkRay& ray) const {
     return RayCells(tree, balls.sites, balls.radii, densities, ray);
   }
 };
 
 TEST(RayCells, AreAsManyAsAWalkOverTheTriangulationCrosses) {
   const Scene scene;
-  const BallTree tree(scene.balls.sites, scene.balls.radii);
+  const SiteTree tree(scene.balls.sites, scene.balls.radii, mortonOrder(scene.balls.sites));
   size_t counted = 0;
   for (const WalkRay& ray : scene.rays) counted += scene.cellsOf(tree, ray).count();
   const RegularTriangulation triangulation = *triangulateRegular(scene.balls.sites, scene.balls.radii);
@@ -43,7 +44,7 @@ TEST(RayCells, AreAsManyAsAWalkOverTheTriangulationCrosses) {
 
 TEST(RayCells, WithAnAddedBallAreThoseOfASceneThatHoldsIt) {
   Scene scene;
-  const BallTree before(scene.balls.sites, scene.balls.radii);
+  const SiteTree before(scene.balls.sites, scene.balls.radii, mortonOrder(scene.balls.sites));
   std::vector<RayCells> walks;
   for (const WalkRay& ray : scene.rays) walks.push_back(scene.cellsOf(before, ray));
   BallSetMaker maker(3);
@@ -51,7 +52,7 @@ TEST(RayCells, WithAnAddedBallAreThoseOfASceneThatHoldsIt) {
   const float radius = 3 * scene.balls.radii[7];
   scene.balls.add(site, radius);
   scene.densities.push_back(0);
-  const BallTree after(scene.balls.sites, scene.balls.radii);
+  const SiteTree after(scene.balls.sites, scene.balls.radii, mortonOrder(scene.balls.sites));
   int crossed = 0;
   for (size_t i = 0; i < scene.rays.size(); ++i) {
     const BallLine line = lineOf(site, radius, scene.rays[i]);
@@ -66,13 +67,13 @@ TEST(RayCells, WithAnAddedBallAreThoseOfASceneThatHoldsIt) {
 
 TEST(RayCells, EmptyIntervalsLieOutsideAllBalls) {
   const Scene scene;
-  const BallTree tree(scene.balls.sites, scene.balls.radii);
+  const SiteTree tree(scene.balls.sites, scene.balls.radii, mortonOrder(scene.balls.sites));
   size_t found = 0;
   for (const WalkRay& ray : scene.rays) {
     for (const RayCells::Interval& interval : scene.cellsOf(tree, ray).emptyIntervals()) {
       ASSERT_LT(interval.begin, interval.end);
       const double middle = 0.5 * (interval.begin + interval.end);
-      EXPECT_GT(tree.nearestSurface(glm::dvec3(ray.origin) + middle * glm::dvec3(ray.direction)).value, 0);
+      EXPECT_GT(tree.findNearestBall(glm::dvec3(ray.origin) + middle * glm::dvec3(ray.direction)).value, 0);
       ++found;
     }
   }

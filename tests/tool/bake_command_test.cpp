@@ -1,4 +1,6 @@
 // froth bake: presets, knobs, layers, reports; and bytes that depend on nothing but input and options.
+#include <algorithm>
+#include <filesystem>
 #include <limits>
 
 #include "tests/tool/program_runner.h"
@@ -10,6 +12,7 @@ class BakeCommand : public ToolTest {
  protected:
   nlohmann::json bake(const std::string& output, std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{"bake", "random.pt", "-o", output, "--cameras", "cameras.json"};
+    if (std::ranges::count(more, "--preset") == 0) arguments.insert(arguments.end(), {"--preset", "exact"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return frothJson(arguments);
   }
@@ -44,6 +47,48 @@ TEST_F(BakeCommand, PresetsTradeBytesForQuality) {
     bytes = baked["bytes"];
     quality = found;
   }
+}
+
+TEST_F(BakeCommand, WithoutAPresetMakesTheDefaultOne) {
+  makeRandomFoam("100");
+  frothWell({"bake", "random.pt", "-o", "b.froth"});
+  EXPECT_EQ(frothJson({"info", "b.froth"})["preset"], "default");
+}
+
+TEST_F(BakeCommand, BakesAllCheckpointsOfAFolderWithTheirCameras) {
+  namespace fs = std::filesystem;
+  makeRandomFoam("100");
+  fs::create_directories(folder_ / "foams" / "inner");
+  fs::copy_file(folder_ / "random.pt", folder_ / "foams" / "a.pt");
+  fs::copy_file(folder_ / "random.pt", folder_ / "foams" / "b.pt");
+  fs::copy_file(folder_ / "cameras.json", folder_ / "foams" / "b.cameras.json");
+  fs::copy_file(folder_ / "random.pt", folder_ / "foams" / "inner" / "model.pt");
+  fs::copy_file(folder_ / "cameras.json", folder_ / "foams" / "inner" / "cameras.json");
+  const nlohmann::json bakes = frothJson({"bake", "foams", "-o", "assets", "--no-measure"});
+  ASSERT_EQ(bakes.size(), 3u);
+  EXPECT_EQ(bakes[0]["output"], "assets/a.froth");
+  EXPECT_EQ(bakes[1]["output"], "assets/b.froth");
+  EXPECT_EQ(bakes[2]["output"], "assets/inner.froth");
+  EXPECT_EQ(frothJson({"info", "assets/a.froth"})["hasStartView"], false);
+  EXPECT_EQ(frothJson({"info", "assets/b.froth"})["hasStartView"], true);
+  frothWell({"bake", "random.pt", "-o", "one.froth", "--cameras", "cameras.json", "--no-measure"});
+  EXPECT_EQ(bytesOf("assets/b.froth").size(), bytesOf("one.froth").size());  // they name their sources
+}
+
+// One that cannot be baked stops none of the others, and is told at the end.
+TEST_F(BakeCommand, GoesOnBehindACheckpointOfAFolderThatIsBad) {
+  namespace fs = std::filesystem;
+  makeRandomFoam("100");
+  fs::create_directories(folder_ / "foams");
+  writeBytes(folder_ / "foams" / "a.pt", "no checkpoint");
+  fs::copy_file(folder_ / "random.pt", folder_ / "foams" / "b.pt");
+  const ProgramRun run = froth({"bake", "foams", "-o", "assets", "--no-measure"});
+  EXPECT_EQ(run.exitCode, 3);
+  EXPECT_NE(run.err.find("foams/a.pt"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("1 of 2"), std::string::npos) << run.err;
+  EXPECT_TRUE(fs::exists(folder_ / "assets" / "b.froth"));
+  fs::create_directories(folder_ / "empty");
+  EXPECT_NE(froth({"bake", "empty", "-o", "assets"}).err.find("holds no checkpoint"), std::string::npos);
 }
 
 TEST_F(BakeCommand, KeepsTheRightsOfTheAssetThatItReplaces) {

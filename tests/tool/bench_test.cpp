@@ -77,7 +77,7 @@ TEST_F(BenchCounters, AreAveragesPerRayAndPerSubTile) {
     const bool isWalk = renderer == "walk";
     const Json bench =
         frothJson({"bench", "random.froth", "--cameras", "cameras.json", "--size", "16x16", "--frames", "100",
-                   "--warmup", "0", "--renderer", renderer, "--counters"});
+                   "--warmup", "0s", "--renderer", renderer, "--counters"});
     const Json& perRay = bench["work"]["perRay"];
     EXPECT_GT(perRay["ballHits"].get<double>(), 0);
     EXPECT_LE(perRay["colours"].get<double>(), perRay["ballHits"].get<double>());

@@ -40,7 +40,7 @@ TEST_F(EndToEnd, ABakedFoamIsVerifiedAndDescribed) {
 
 TEST_F(EndToEnd, ABakeReportsItsStagesAndKeepsCamerasAndNearLimits) {
   makeRandomFoam("100", 2);
-  const nlohmann::json bake = frothJson({"bake", "random.pt", "-o", "b.froth", "--near-ratio", "2",
+  const nlohmann::json bake = frothJson({"bake", "random.pt", "--preset", "exact", "-o", "b.froth", "--near-ratio", "2",
                                          "--near-depth", "0.5", "--cameras", "cameras.json"});
   EXPECT_GE(bake["stages"].size(), 4u);
   EXPECT_EQ(bake["stages"].front()["stage"], "import");
@@ -62,7 +62,7 @@ TEST_F(EndToEnd, TheSameFoamBakesToTheSameBytes) {
   makeRandomFoam("300");
   frothWell({"synth", "random", "--cells", "300", "-o", "again.pt"});
   EXPECT_EQ(readBytes(folder_ / "random.pt"), readBytes(folder_ / "again.pt"));
-  frothWell({"bake", "random.pt", "-o", "again.froth"});
+  frothWell({"bake", "random.pt", "--preset", "exact", "-o", "again.froth"});
   EXPECT_EQ(readBytes(folder_ / "random.froth"), readBytes(folder_ / "again.froth"));
   frothWell({"synth", "random", "--cells", "300", "--seed", "2", "-o", "other.pt"});
   EXPECT_NE(readBytes(folder_ / "random.pt"), readBytes(folder_ / "other.pt"));
@@ -190,7 +190,7 @@ TEST_F(EndToEnd, BenchTimesEveryPass) {
   for (const std::string renderer : {"raster", "walk"}) {
     const nlohmann::json bench =
         frothJson({"bench", "random.froth", "--cameras", "cameras.json", "--size", "32x32", "--frames", "100",
-                   "--warmup", "0", "--renderer", renderer});
+                   "--warmup", "0s", "--renderer", renderer});
     EXPECT_EQ(bench["frames"], 100);
     EXPECT_EQ(bench["views"].size(), 2u);
     EXPECT_GT(bench["passes"].size(), 1u);

@@ -95,7 +95,7 @@ void ToolTest::makeRandomFoam(const std::string& cells, size_t views) const {
   }
   ASSERT_TRUE(writeCameras(folder_ / "cameras.json", cameras));
   frothWell({"synth", "random", "--cells", cells, "-o", "random.pt"});
-  frothWell({"bake", "random.pt", "-o", "random.froth"});
+  frothWell({"bake", "random.pt", "--preset", "exact", "-o", "random.froth"});
 }
 
 std::vector<std::string> ToolTest::filesInFolder() const {

@@ -13,7 +13,7 @@ class ReportCommand : public ToolTest {
  protected:
   nlohmann::json report(const std::string& input, std::vector<std::string> more) {
     std::vector<std::string> arguments{"report", input,     "--cameras", "cameras.json", "-o",       "out", "--size",
-                                       "48x32",  "--views", "1",         "--minutes",    "0",        "--frames", "1"};
+                                       "48x32",  "--views", "1",         "--search",     "0s",       "--frames", "1"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     frothWell(arguments);
     return nlohmann::json::parse(readBytes(folder_ / "out/report.json"));
@@ -52,7 +52,7 @@ TEST_F(ReportCommand, OnTheCpuShowsErrorsThatFallWithPrecision) {
   EXPECT_LT(meanError(figures, "cpu preset=exact"), meanError(figures, "cpu preset=small"));
   for (const nlohmann::json& slope : figures["slopes"]) EXPECT_NE(slope["verdict"], "over its bound") << slope;
   EXPECT_EQ(figures["seed"], 1u);
-  EXPECT_EQ(figures["command"], "froth report random.pt --cameras cameras.json --output out --size 48x32 --views 1 --minutes 0 --frames 1 --cpu");
+  EXPECT_EQ(figures["command"], "froth report random.pt --cameras cameras.json --output out --size 48x32 --views 1 --search 0s --frames 1 --cpu");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out/work"));
 }
 
@@ -83,7 +83,7 @@ TEST_F(ReportCommand, ThroughTheRuntimeTimesRasterAndWalkAndWhatIsLeftOut) {
 TEST_F(ReportCommand, OfAnAssetWithoutAWalkGraphDrawsItAsItIs) {
   if (!hasDevice()) FROTH_SKIP() << "no Vulkan device";
   makeRandomFoam("40");
-  frothWell({"bake", "random.pt", "--no-walk", "-o", "flat.froth"});
+  frothWell({"bake", "random.pt", "--preset", "exact", "--no-walk", "-o", "flat.froth"});
   const nlohmann::json figures = report("flat.froth", {});
   for (const nlohmann::json& point : figures["points"]) EXPECT_EQ(point["renderer"], "raster");
   EXPECT_EQ(find(figures, "raster preset=exact"), nullptr);
@@ -104,7 +104,7 @@ TEST_F(ReportCommand, TakesWhatAnInterruptedRunMeasured) {
   makeRandomFoam("20");
   frothWell({"synth", "two", "-o", "random.pt"});  // as quickly as it goes
   const std::vector<std::string> arguments{"report", "random.pt", "--cameras", "cameras.json", "-o",       "out", "--size", "24x16",
-                                           "--cpu",  "--minutes", "0",         "--frames",     "1",        "--views", "1"};
+                                           "--cpu",  "--search",  "0s",        "--frames",     "1",        "--views", "1"};
   frothWell(arguments);
   const std::string whole = readBytes(folder_ / "out/report.json");
   // The log as an interruption leaves it: a point with a figure of its own, and half a line.

@@ -152,5 +152,24 @@ TEST_F(Usage, FiguresThatCannotBeWrittenAreAFailure) {
   EXPECT_NE(run.err.find("standard output"), std::string::npos) << run.err;
 }
 
+TEST_F(Usage, HelpManAndCompletionNameEveryCommandAndItsOptions) {
+  const std::string help = frothWell({"help"}), man = frothWell({"man"}), completion = frothWell({"completion"});
+  for (const char* command : {"synth", "bake", "render", "info", "verify", "compare", "bench", "report", "stability", "devices"}) {
+    EXPECT_NE(help.find(std::string("  ") + command + " "), std::string::npos) << command;
+    EXPECT_NE(man.find(std::string("\"froth ") + command + "\""), std::string::npos) << command;
+    EXPECT_NE(completion.find(std::string("    ") + command + ") options='"), std::string::npos) << command;
+  }
+  EXPECT_NE(frothWell({"help", "bake"}).find("Usage: froth bake"), std::string::npos);
+  EXPECT_NE(frothWell({"help", "bake"}).find("--preset"), std::string::npos);
+  EXPECT_NE(man.find("\\-\\-preset"), std::string::npos);
+  EXPECT_NE(completion.find("--preset"), std::string::npos);
+  expectUsageError({"help", "bakery"}, "bakery");
+  EXPECT_EQ(frothWell({"--version"}).substr(0, 2), "0.");
+}
+
+TEST_F(Usage, DurationsHaveAUnit) {
+  for (const char* wrong : {"5", "5m", "five min", "nan", "-1s", "1e9h"}) expectUsageError({"stability", "--search", wrong}, "500ms, 90s, 5min or 1h");
+}
+
 }  // namespace
 }  // namespace froth::test
