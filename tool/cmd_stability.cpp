@@ -77,7 +77,7 @@ Result<std::vector<StiffCase>> selectCases(const StabilityOptions& options, cons
   }
   std::erase_if(cases, [&](const StiffCase& stiff) { return fnmatch(options.only.c_str(), stiff.name.c_str(), 0) != 0; });
   if (!cases.empty()) return cases;
-  return makeError(ErrorKind::kUsage, "--only %s: no case has such a name; docs/STABILITY.md lists them", options.only.c_str());
+  return makeError(ErrorKind::kUsage, "--only %s: no case has such a name; docs/reports/stability.md lists them", options.only.c_str());
 }
 
 Result<std::vector<JudgedCase>> runCases(const StabilityOptions& options, std::vector<StiffCase> cases, StabilityRunner& runner,

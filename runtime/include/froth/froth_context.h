@@ -1,6 +1,6 @@
-/* Froth, contexts: what a call gives back, what a device must have, one context per VkDevice, its memory, and a device that is lost.
+/* Froth, contexts: results, device requirements, contexts, memory, device loss.
  *
- * Included by froth.h, which says what holds for all calls. */
+ * Included by froth.h, which states the conventions of all calls. */
 #ifndef FROTH_FROTH_CONTEXT_H
 #define FROTH_FROTH_CONTEXT_H
 
@@ -17,22 +17,22 @@ extern "C" {
 #define FROTH_API
 #endif
 
-/* Major in the upper, minor in the lower 16 bits. Creation fails with FROTH_ERROR_VERSION if the major differs. */
+/* Major in the upper 16 bits, minor in the lower. Context creation fails with FROTH_ERROR_VERSION if the major differs. */
 #define FROTH_ABI_VERSION 0x00010000u
 
 typedef enum FrothResult {
   FROTH_OK = 0,
   /* information */
-  FROTH_PENDING = 1,    /* not yet: something is still under way, and nothing was changed; call again */
-  FROTH_INCOMPLETE = 2, /* done, with less than asked for; the status bits say what and which setting to raise */
-  /* errors; the message callback got the details */
-  FROTH_ERROR_ARGUMENT = -1,    /* a null pointer, a size, an extent, a value out of its range */
+  FROTH_PENDING = 1,    /* not yet: something is still in progress; nothing was changed; call again */
+  FROTH_INCOMPLETE = 2, /* done, but something is missing; the status bits say what, and which setting to raise */
+  /* errors; the message callback received the details */
+  FROTH_ERROR_ARGUMENT = -1,    /* a null pointer, a wrong size or extent, a value out of its range */
   FROTH_ERROR_HANDLE = -2,      /* a stale or foreign handle */
-  FROTH_ERROR_VERSION = -3,     /* header and library, or file and library, do not fit */
-  FROTH_ERROR_FEATURE = -4,     /* the device lacks, or the caller did not enable, what is required */
-  FROTH_ERROR_FILE = -5,        /* the asset is missing, damaged or not one */
+  FROTH_ERROR_VERSION = -3,     /* header and library, or file and library, do not match */
+  FROTH_ERROR_FEATURE = -4,     /* the device lacks a required feature, or the caller did not enable it */
+  FROTH_ERROR_FILE = -5,        /* the file is missing, damaged or no asset */
   FROTH_ERROR_MEMORY = -6,      /* host or device memory, or the budget, is exhausted */
-  FROTH_ERROR_UNSUPPORTED = -7, /* valid, but this version cannot do it, or the object was not made for it (lensClasses) */
+  FROTH_ERROR_UNSUPPORTED = -7, /* valid, but this version cannot do it, or the object was not created for it (lensClasses) */
   FROTH_ERROR_DEVICE = -8,      /* a Vulkan call failed; the message names it and its VkResult */
   FROTH_ERROR_STATE = -9,       /* calls out of order (asset not READY, frame serial not growing) */
   FROTH_RESULT_MAX = 0x7fffffff
@@ -41,13 +41,13 @@ typedef enum FrothResult {
 FROTH_API const char* frothResultName(FrothResult result); /* never null */
 
 typedef enum FrothSeverity {
-  FROTH_SEVERITY_WARNING = 1, /* the call went well, and something will be missing or slow */
-  FROTH_SEVERITY_ERROR = 2,   /* a call failed, or an object did on its way */
+  FROTH_SEVERITY_WARNING = 1, /* the call succeeded, but something will be missing or slow */
+  FROTH_SEVERITY_ERROR = 2,   /* a call failed, or an object failed later */
   FROTH_SEVERITY_MAX = 0x7fffffff
 } FrothSeverity;
 
-/* Called on the thread of the failing call. `object` names the asset's path, the view or the call. `text` says cause,
- * place, found value, remedy; it lives during the call only. Must not call Froth. */
+/* Called on the thread of the failing call. `object` names the asset's path, the view or the call. `text` states cause, place,
+ * found value and remedy; it is valid during the call only. The callback must not call Froth. */
 typedef void (*FrothMessageCallback)(void* user, FrothSeverity severity, FrothResult code, const char* object,
                                      const char* text);
 
@@ -55,31 +55,31 @@ typedef void (*FrothMessageCallback)(void* user, FrothSeverity severity, FrothRe
 
 typedef struct FrothRequirement {
   const char* name;   /* "bufferDeviceAddress", "timestampComputeAndGraphics" */
-  const char* loss;   /* what is lost without it; null: it is required */
-  uint32_t isPresent; /* on the physical device that was asked about; 0 where that was null */
+  const char* loss;   /* what is lost without it; null: the item is required */
+  uint32_t isPresent; /* on the given physical device; 0 if that was null */
   uint32_t isFeature; /* 1: a feature bit, 0: an extension or limit */
 } FrothRequirement;
 
 typedef struct FrothRequirements {
   uint32_t structSize;
-  uint32_t apiVersion;  /* least VkApplicationInfo::apiVersion */
-  uint32_t isSatisfied; /* all required items are present; 0 where no physical device was given */
+  uint32_t apiVersion;  /* lowest valid VkApplicationInfo::apiVersion */
+  uint32_t isSatisfied; /* all required items are present; 0 if no physical device was given */
   uint32_t itemCount;
-  FrothRequirement items[16]; /* [itemCount] strings are static */
+  FrothRequirement items[16]; /* [itemCount] static strings */
 } FrothRequirements;
 
-/* `physicalDevice` may be null (then so may the others): the list in general. Sends no messages: the items tell. */
+/* physicalDevice null: the general list; the other handles may then be null too. Sends no messages. */
 FROTH_API FrothResult frothGetRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
                                            VkPhysicalDevice physicalDevice, FrothRequirements* requirements);
 
-/* ORs the required feature bits into the caller's own chain: VkPhysicalDeviceFeatures2 with, in pNext,
- * VkPhysicalDeviceVulkan12Features and VkPhysicalDeviceVulkan13Features, or the single structures of those features.
- * FROTH_ERROR_FEATURE: *missingStructure (may be null) names the structure to add. */
+/* ORs the required feature bits into the caller's chain: VkPhysicalDeviceFeatures2 with VkPhysicalDeviceVulkan12Features and
+ * VkPhysicalDeviceVulkan13Features in pNext, or the single structures of those features. FROTH_ERROR_FEATURE: *missingStructure
+ * names the structure to add. missingStructure may be null. */
 FROTH_API FrothResult frothRequireFeatures(VkPhysicalDeviceFeatures2* features, const char** missingStructure);
 
 /* ---- Context: one per VkDevice ---- */
 
-/* What other cameras than pinholes need: pipelines of a context, memory of a view. */
+/* Cameras other than pinholes. Each class needs pipelines of the context and memory of the view. */
 typedef enum FrothLensClass {
   FROTH_LENS_CLASS_MAPPED = 1,       /* FrothLens::kind other than FROTH_LENS_PROJECTION */
   FROTH_LENS_CLASS_ORTHOGRAPHIC = 2, /* parallel rays */
@@ -88,25 +88,25 @@ typedef enum FrothLensClass {
 
 typedef struct FrothContext FrothContext;
 
-/* Memory that Froth asks its caller for. The fields are what vmaAllocateMemory and vkAllocateMemory want to know. */
+/* Memory that Froth requests from the caller. The fields are the input of vmaAllocateMemory and vkAllocateMemory. */
 typedef struct FrothMemoryRequest {
   uint32_t structSize;
   VkMemoryRequirements requirements;
   uint32_t memoryTypeIndex;           /* one of requirements.memoryTypeBits */
   VkMemoryAllocateFlags allocateFlags; /* VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, or 0 */
   uint32_t isMapped;                  /* 1: host-visible memory that stays mapped; FrothDeviceMemory::mapped is needed */
-  const char* purpose;                /* for people; lives during the call */
+  const char* purpose;                /* for people; valid during the call */
 } FrothMemoryRequest;
 
 typedef struct FrothDeviceMemory {
   VkDeviceMemory memory;
   VkDeviceSize offset; /* a multiple of requirements.alignment */
-  void* mapped;        /* address of `offset`; null if not isMapped */
-  void* handle;        /* the caller's own, for its free callback */
+  void* mapped;        /* host address of `offset`; null if not isMapped */
+  void* handle;        /* any value; returned to the caller's free callback */
 } FrothDeviceMemory;
 
-/* Fills *memory, which is zero. VK_SUCCESS, or the failure. Called within frothCreateContext, frothCreateView, frothUpdate
- * and frothRestoreDevice, never within a record call; must not call Froth. */
+/* Fills *memory, which is zero on entry. Returns VK_SUCCESS or the failure. Froth calls it in frothCreateContext, frothCreateView,
+ * frothUpdate and frothRestoreDevice, never in a record call. It must not call Froth. */
 typedef VkResult (*FrothAllocateMemory)(void* user, const FrothMemoryRequest* request, FrothDeviceMemory* memory);
 typedef void (*FrothFreeMemory)(void* user, const FrothDeviceMemory* memory);
 
@@ -116,72 +116,71 @@ typedef struct FrothContextInfo {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr;
   VkInstance instance;
   VkPhysicalDevice physicalDevice;
-  VkDevice device;                /* null: null context; handles and states work, record calls do nothing */
-  const VkPhysicalDeviceFeatures2* enabledFeatures; /* the chain the device was made with; read during the call */
-  uint32_t queueFamily;           /* the compute-capable family that frames are submitted to */
+  VkDevice device;                /* null: a null context; handles and states work, record calls do nothing */
+  const VkPhysicalDeviceFeatures2* enabledFeatures; /* the chain that the device was created with; read during the call */
+  uint32_t queueFamily;           /* family with compute to which frames are submitted */
   VkPipelineCache pipelineCache;  /* may be null; used until the context is destroyed */
-  uint32_t framesInFlight;        /* most frames begun and not complete, with the one being recorded [1..8]; 0: 2 */
-  uint64_t deviceBudget;          /* [bytes] of device memory for all assets and views; frothSetBudget. 0: no limit */
+  uint32_t framesInFlight;        /* [1..8] most frames begun and not complete, including the one being recorded; 0: 2 */
+  uint64_t deviceBudget;          /* [bytes] limit of device memory for all assets and views; frothSetBudget changes it. 0: no limit */
   FrothMessageCallback onMessage; /* may be null */
   void* messageUser;
-  uint32_t checkIndices;          /* debug: shaders check every index; counted in FrothViewStatus::indexViolations */
-  uint32_t countWork;             /* for tuning: shaders count FrothViewStatus::work, and are slower for it */
-  FrothAllocateMemory allocateMemory; /* both or none: where all VkDeviceMemory comes from; null: vkAllocateMemory */
+  uint32_t checkIndices;          /* debug: shaders check every index and count faults in FrothViewStatus::indexViolations */
+  uint32_t countWork;             /* for tuning: shaders count FrothViewStatus::work; they are slower */
+  FrothAllocateMemory allocateMemory; /* both or none; they provide all VkDeviceMemory; null: vkAllocateMemory */
   FrothFreeMemory freeMemory;
   void* memoryUser;
-  uint32_t lensClasses;           /* FrothLensClass bits for which pipelines are made; 0: pinholes only */
-  uint32_t walkShaders;           /* 1: rays in the caller's shaders (froth_walk.h); assets hold a table for their starts */
-  VkFormat compositeFormat;       /* of frothComposite's target (froth_composite.h): R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT or, with
-                                     shaderStorageImageExtendedFormats, B10G11R11_UFLOAT_PACK32; UNDEFINED: it is not called */
-  VkFormat depthExportFormat;     /* of frothRecordDepthExport's attachment, one that the device has; needs dynamicRendering, and a
-                                     queue family with GRAPHICS; UNDEFINED: it is not called */
-  uint32_t floatColours;          /* for tests: frothRasterize and frothWalk keep colours of detail sites as floats between their
-                                     passes, where they are halves; the images lack that rounding */
+  uint32_t lensClasses;           /* FrothLensClass bits; pipelines are made for these; 0: pinholes only */
+  uint32_t walkShaders;           /* 1: enables froth_walk.h; assets then hold a table of entries for rays */
+  VkFormat compositeFormat;       /* target of frothComposite (froth_composite.h): R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT or, with
+                                     shaderStorageImageExtendedFormats, B10G11R11_UFLOAT_PACK32. UNDEFINED: no frothComposite */
+  VkFormat depthExportFormat;     /* attachment of frothRecordDepthExport; a format of the device. Needs dynamicRendering and a queue
+                                     family with GRAPHICS. UNDEFINED: no frothRecordDepthExport */
+  uint32_t floatColours;          /* for tests: colours of detail sites are floats instead of halves between the passes of
+                                     frothRasterize and frothWalk */
 } FrothContextInfo;
 
-/* Makes pipelines and 64 MiB of host-visible staging memory: at start-up, not in a frame. *context is null on an error. */
+/* Makes pipelines and 64 MiB of host-visible staging memory. Call it at start-up, not in a frame. *context is null on an error. */
 FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
 
-/* Frees everything at once. `completedSerial` as in FrothFrame; UINT64_MAX after vkDeviceWaitIdle. FROTH_PENDING: frames
- * beyond it were begun and not dropped; the context stays as it is. A null context is FROTH_OK. */
+/* Frees everything at once. completedSerial: as in FrothFrame; UINT64_MAX after vkDeviceWaitIdle. FROTH_PENDING: later frames were
+ * begun and not dropped; nothing is freed. A null pointer gives FROTH_OK. */
 FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
 
-/* Changes FrothContextInfo::deviceBudget. What is new never exceeds it. Lowered below what is held: from the next frothUpdate
- * on, views exchange what they grew for less, one buffer after the other, and cells or pairs beyond are missing
- * (FROTH_VIEW_CELL_OVERFLOW, FROTH_VIEW_PAIR_OVERFLOW); what cannot shrink (assets, the least that a view needs) stays, and
- * FrothFrameStatus::excessBytes tells how much it is. Raised: views grow again. */
+/* Changes FrothContextInfo::deviceBudget. New allocations never exceed it. A budget below the bytes held: from the next frothUpdate
+ * on, views exchange their buffers for smaller ones, one after the other; cells or pairs without space are missing
+ * (FROTH_VIEW_CELL_OVERFLOW, FROTH_VIEW_PAIR_OVERFLOW). Assets and the least that a view needs do not shrink;
+ * FrothFrameStatus::excessBytes tells by how much they exceed the budget. A higher budget: views grow again. */
 FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
 
 /* Memory of one purpose. */
 typedef struct FrothMemoryCategory {
   const char* name;   /* "assets", "views", "views, host", "uploads, host", "walks", "walks, host"; static storage */
-  uint64_t granted;   /* [bytes] of VkDeviceMemory held */
-  uint64_t used;      /* [bytes] of these that hold something */
-  uint64_t peak;      /* most granted since creation or the last frothSetBudget */
-  uint32_t count;     /* allocations */
-  uint32_t isHost;    /* 1: staging and read-back, which the budget does not count */
+  uint64_t granted;   /* [bytes] VkDeviceMemory held */
+  uint64_t used;      /* [bytes] the part of `granted` that is in use */
+  uint64_t peak;      /* [bytes] highest `granted` since creation or the last frothSetBudget */
+  uint32_t count;     /* number of allocations */
+  uint32_t isHost;    /* 1: staging and read-back; not part of the budget */
 } FrothMemoryCategory;
 
 typedef struct FrothMemoryReport {
   uint32_t structSize;
   uint32_t categoryCount;
   uint64_t deviceBudget;
-  uint64_t deviceBytes; /* granted, over the categories that are not host */
-  uint64_t devicePeak;  /* since creation or the last frothSetBudget; <= deviceBudget, except as excessBytes told */
+  uint64_t deviceBytes; /* sum of `granted` over the categories with isHost 0 */
+  uint64_t devicePeak;  /* since creation or the last frothSetBudget; <= deviceBudget, except by excessBytes */
   FrothMemoryCategory categories[8]; /* [categoryCount] */
 } FrothMemoryReport;
 
 FROTH_API FrothResult frothGetMemoryReport(FrothContext* context, FrothMemoryReport* report);
 
-/* When a Vulkan call anywhere gave VK_ERROR_DEVICE_LOST (a call of Froth then gives FROTH_ERROR_DEVICE and says so): drops all
- * GPU objects without waiting, by destroying them; call it before vkDestroyDevice. Handles stay valid. Until the device is
- * restored, assets are OPENING, frame calls give FROTH_ERROR_DEVICE, and objects may be made, changed and destroyed. */
+/* Call it after any Vulkan call returned VK_ERROR_DEVICE_LOST, and before vkDestroyDevice. (A call of Froth that meets a lost device
+ * returns FROTH_ERROR_DEVICE and says so.) Destroys all GPU objects without waiting. Handles stay valid. Until frothRestoreDevice
+ * assets are OPENING and frame calls return FROTH_ERROR_DEVICE; objects may be created, changed and destroyed. */
 FROTH_API FrothResult frothDeviceLost(FrothContext* context);
 
-/* Goes on with a new device; all fields of `info` count, as for frothCreateContext. Frames that were in flight are forgotten,
- * and serials go on growing. Assets load again in the following frames, from their path or from bytes that stay
- * (FrothAssetInfo::bytesStay; an asset whose bytes do not becomes FAILED), those that were FAILED too. On an error the device
- * stays lost; call it again. */
+/* Continues with a new device. All fields of `info` count, as for frothCreateContext. Frames that were in flight are forgotten;
+ * serials go on growing. All assets, FAILED ones too, load again in the following frames: from their path, or from their bytes with
+ * FrothAssetInfo::bytesStay. An asset of bytes without bytesStay becomes FAILED. On an error the device stays lost; call it again. */
 FROTH_API FrothResult frothRestoreDevice(FrothContext* context, const FrothContextInfo* info);
 
 #ifdef __cplusplus
