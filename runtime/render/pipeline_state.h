@@ -8,56 +8,11 @@
 
 #include "runtime/render/depth_export.h"
 #include "runtime/render/image_pass.h"
+#include "runtime/render/passes.h"
 #include "runtime/render/pipelines.h"
 #include "shaders/gpu/layout.h"
 
 namespace froth {
-
-// The passes that come in two forms write the colour image: rgba16f, rgba32f. Those of raster and walk are there once more for
-// full frames (gpu::kConstantIsFull), which cost time.
-enum class Pass : uint32_t {
-  kCullCells,
-  kSortScatter,
-  kSortScatterMany,  // with gpu::kManyKeysRounds
-  kCountTiles,
-  kEmitPairs,
-  kOrderTiles,
-  kExpandCells,
-  kLocate,
-  kAimRays,
-  kAimRaysByImage,
-  kWidenCones,
-  kClear16,
-  kClear32,
-  // from here on only where a view draws several instances
-  kShareTiles,
-  kRasterSeveral16,
-  kRasterSeveral32,
-  kRasterSeveralFull16,
-  kRasterSeveralFull32,
-  kWalkSeveral16,
-  kWalkSeveral32,
-  kWalkSeveralFull16,
-  kWalkSeveralFull32,
-  // from here on specialized on the asset's shape
-  kCompactCells,
-  kShadeSites,
-  kRasterLong16,  // of tiles with long lists
-  kRasterLong32,
-  kRasterLongFull16,
-  kRasterLongFull32,
-  kRaster16,
-  kRaster32,
-  kRasterFull16,
-  kRasterFull32,
-  kWalk16,
-  kWalk32,
-  kWalkFull16,
-  kWalkFull32,
-};
-inline constexpr uint32_t kPassCount = 36;
-inline constexpr uint32_t kFirstSeveralPass = static_cast<uint32_t>(Pass::kShareTiles);
-inline constexpr uint32_t kFirstShapedPass = static_cast<uint32_t>(Pass::kCompactCells);
 
 // What the shaders are specialized on.
 struct AssetShape {

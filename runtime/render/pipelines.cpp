@@ -43,7 +43,7 @@ constexpr uint32_t kPushConstantBytes = 128;
 static_assert(sizeof(gpu::SortConstants) <= kPushConstantBytes &&
               sizeof(gpu::PassConstants) + sizeof(gpu::PartConstants) <= kPushConstantBytes);
 
-// The classes of lenses that a pass has pipelines of its own for. Others take the pinhole's.
+// FROTH_COMMON_PASSES, lenses.
 constexpr uint32_t kAnyLens = 1 << gpu::kLensClassPinhole;
 constexpr uint32_t kMapped = 1 << gpu::kLensClassMapped;
 constexpr uint32_t kEyeOrNone = kAnyLens | 1 << gpu::kLensClassOrthographic;  // whether rays share an eye matters
@@ -56,44 +56,17 @@ struct PassCode {
   bool isFull = false;
 };
 
-// In the order of Pass.
+#define FROTH_CODE(shader, lenses, isFull) {#shader, shader##_spirv, lenses, isFull},
+#define FROTH_CODE_ONE(name, shader, lenses) FROTH_CODE(shader, lenses, false)
+#define FROTH_CODE_COLOURS(name, shader, lenses) FROTH_CODE(shader##_rgba16f, lenses, false) FROTH_CODE(shader##_rgba32f, lenses, false)
+#define FROTH_CODE_FORMS(name, shader, lenses) \
+  FROTH_CODE_COLOURS(name, shader, lenses)     \
+  FROTH_CODE(shader##_rgba16f, lenses, true) FROTH_CODE(shader##_rgba32f, lenses, true)
+
 const std::array<PassCode, kPassCount> kPassCodes = {{
-    {"cull_cells", cull_cells_spirv, kEachLens},
-    {"sort_scatter", sort_scatter_spirv, kAnyLens},
-    {"sort_scatter_many", sort_scatter_many_spirv, kAnyLens},
-    {"count_tiles", count_tiles_spirv, kEachLens},
-    {"emit_pairs", emit_pairs_spirv, kEachLens},
-    {"order_tiles", order_tiles_spirv, kAnyLens},
-    {"expand_cells", expand_cells_spirv, kEyeOrNone},
-    {"locate", locate_spirv, kEyeOrNone},
-    {"aim_rays", aim_rays_spirv, kMapped},
-    {"aim_rays_by_image", aim_rays_by_image_spirv, kMapped},
-    {"widen_cones", widen_cones_spirv, kMapped},
-    {"clear_rgba16f", clear_rgba16f_spirv, kAnyLens},
-    {"clear_rgba32f", clear_rgba32f_spirv, kAnyLens},
-    {"share_tiles", share_tiles_spirv, kAnyLens},
-    {"raster_several_rgba16f", raster_several_rgba16f_spirv, kEachLens},
-    {"raster_several_rgba32f", raster_several_rgba32f_spirv, kEachLens},
-    {"raster_several_rgba16f", raster_several_rgba16f_spirv, kEachLens, true},
-    {"raster_several_rgba32f", raster_several_rgba32f_spirv, kEachLens, true},
-    {"walk_several_rgba16f", walk_several_rgba16f_spirv, kEachLens},
-    {"walk_several_rgba32f", walk_several_rgba32f_spirv, kEachLens},
-    {"walk_several_rgba16f", walk_several_rgba16f_spirv, kEachLens, true},
-    {"walk_several_rgba32f", walk_several_rgba32f_spirv, kEachLens, true},
-    {"compact_cells", compact_cells_spirv, kEyeOrNone},
-    {"shade_sites", shade_sites_spirv, kEyeOrNone},
-    {"raster_long_tiles_rgba16f", raster_long_tiles_rgba16f_spirv, kEachLens},
-    {"raster_long_tiles_rgba32f", raster_long_tiles_rgba32f_spirv, kEachLens},
-    {"raster_long_tiles_rgba16f", raster_long_tiles_rgba16f_spirv, kEachLens, true},
-    {"raster_long_tiles_rgba32f", raster_long_tiles_rgba32f_spirv, kEachLens, true},
-    {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv, kEachLens},
-    {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv, kEachLens},
-    {"raster_tiles_rgba16f", raster_tiles_rgba16f_spirv, kEachLens, true},
-    {"raster_tiles_rgba32f", raster_tiles_rgba32f_spirv, kEachLens, true},
-    {"walk_rgba16f", walk_rgba16f_spirv, kEachLens},
-    {"walk_rgba32f", walk_rgba32f_spirv, kEachLens},
-    {"walk_rgba16f", walk_rgba16f_spirv, kEachLens, true},
-    {"walk_rgba32f", walk_rgba32f_spirv, kEachLens, true},
+    FROTH_COMMON_PASSES(FROTH_CODE_ONE, FROTH_CODE_COLOURS, FROTH_CODE_FORMS)
+    FROTH_SEVERAL_PASSES(FROTH_CODE_ONE, FROTH_CODE_COLOURS, FROTH_CODE_FORMS)
+    FROTH_SHAPED_PASSES(FROTH_CODE_ONE, FROTH_CODE_COLOURS, FROTH_CODE_FORMS)
 }};
 
 struct Specialization {
