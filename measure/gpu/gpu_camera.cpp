@@ -1,5 +1,6 @@
 #include "measure/gpu/gpu_camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "reference/camera/view_rays.h"
@@ -25,6 +26,9 @@ FrothLens lensOf(const View& view) {
   return lens;
 }
 
+// Device depth holds the ends of rays of scenes of any size: from here on, or up to here where rays are parallel.
+constexpr float kNearPlane = 1e-20f, kParallelFarPlane = 1e16f;
+
 // View axes x right, y down, z forward are those of Vulkan's clip space; depth is reversed with an infinite far plane, or ends
 // far off where rays are parallel: no output depends on it.
 void fillProjection(const View& view, FrothCamera& camera) {
@@ -35,7 +39,7 @@ void fillProjection(const View& view, FrothCamera& camera) {
   clip[5] = static_cast<float>(2 * view.fy / view.height);
   clip[shift] = static_cast<float>(2 * view.cx / view.width - 1);
   clip[shift + 1] = static_cast<float>(2 * view.cy / view.height - 1);
-  clip[isOrthographic ? 10 : 14] = isOrthographic ? 1e-6f : 0.01f;
+  clip[isOrthographic ? 10 : 14] = isOrthographic ? 1 / kParallelFarPlane : kNearPlane;
   clip[isOrthographic ? 15 : 11] = 1.0f;
 }
 
@@ -50,7 +54,8 @@ std::vector<float> sceneDepthOf(const View& view, const Image& distances) {
   for (uint32_t y = 0; y < view.height; ++y) {
     for (uint32_t x = 0; x < view.width; ++x) {
       const double t = *distances.pixel(x, y), cosine = glm::dot(rays.ofPixel(x, y)->direction, forwardOf(view));
-      const double depth = (clip[10] * t * cosine + clip[14]) / (clip[11] * t * cosine + clip[15]);
+      const double ahead = std::max(t * cosine, double{clip[14]});  // what lies before the near plane is on it
+      const double depth = (clip[10] * ahead + clip[14]) / (clip[11] * ahead + clip[15]);
       depths.push_back(static_cast<float>(std::isinf(t) ? (clip[15] > 0 ? 1 : 0) : depth));
     }
   }

@@ -12,6 +12,7 @@
 
 #include "base/atomic_file.h"
 #include "foam/checkpoint/checkpoint.h"
+#include "measure/stability/case_judge.h"
 #include "measure/stability/forms.h"
 #include "measure/stability/image_bound.h"
 #include "reference/image/metrics.h"
@@ -45,7 +46,7 @@ Result<std::vector<RenderedImages>> drawOriginals(const StiffCase& stiff, const 
   std::vector<RenderedImages> originals;
   const ReferenceRenderer reference(foam);
   for (size_t index = 0; index < stiff.views.size(); ++index) {
-    Result<RenderedImages> images = reference.render(stiff.views[index], referenceOptions(stiff, index), progress);
+    Result<RenderedImages> images = reference.render(stiff.views[index], optionsOfCase(stiff, index), progress);
     if (!images) return images.error();
     originals.push_back(std::move(*images));
   }
@@ -215,7 +216,7 @@ Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const Bake
   const ReferenceDraw draw = [&](const ReferenceOptions& options) { return drawExactly(baked, view, options); };
   BoundOptions boundOptions;
   for (;;) {
-    const Result<FormBounds> bounds = boundForms(draw, referenceOptions(stiff, index), boundOptions);
+    const Result<FormBounds> bounds = boundForms(draw, optionsOfCase(stiff, index), boundOptions);
     if (!bounds) return bounds.error();
     const ViewChecks checks = checkForms(forms, drawn, *bounds);
     if (checks.isOver() && boundOptions.samples < kSurerSamples) {
@@ -243,7 +244,7 @@ Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, cons
     if (Status run = runView(stiff, index, baked, outcome); !run) return run;
     const View view = caseViewOf(stiff, index, baked).ofFoam;
     addTrace(traceWalks(baked.foam, baked.walkGraph, view), outcome.walks);
-    const Result<RenderedImages> decoded = baked.reference->render(view, referenceOptions(stiff, index));
+    const Result<RenderedImages> decoded = baked.reference->render(view, optionsOfCase(stiff, index));
     if (!decoded) return decoded.error();
     const Result<ImageDifference> encoding = compareImages(decoded->colour, originals[index].colour);
     if (!encoding) return encoding.error();
