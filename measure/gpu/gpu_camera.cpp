@@ -26,12 +26,19 @@ FrothLens lensOf(const View& view) {
   return lens;
 }
 
-// Device depth holds the ends of rays of scenes of any size: from here on, or up to here where rays are parallel.
-constexpr float kNearPlane = 1e-20f, kParallelFarPlane = 1e16f;
+// [scene units] Of all ends of rays the farthest.
+double farthestOf(const Image& ends) {
+  double farthest = 0;
+  for (const float end : ends.values) {
+    if (std::isfinite(end)) farthest = std::max(farthest, double{end});
+  }
+  return farthest > 0 ? farthest : 1;
+}
 
 // View axes x right, y down, z forward are those of Vulkan's clip space; depth is reversed with an infinite far plane, or ends
-// far off where rays are parallel: no output depends on it.
-void fillProjection(const View& view, FrothCamera& camera) {
+// far off where rays are parallel. No output depends on it, but ends of rays are read from it: it holds those of a scene of any size,
+// and the near plane is so near that what a ray meets before it does not show.
+void fillProjection(const View& view, const Image* ends, FrothCamera& camera) {
   const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
   const int shift = isOrthographic ? 12 : 8;  // of the image: a share of depth, or a constant
   float(&clip)[16] = camera.clipFromView;
@@ -39,7 +46,8 @@ void fillProjection(const View& view, FrothCamera& camera) {
   clip[5] = static_cast<float>(2 * view.fy / view.height);
   clip[shift] = static_cast<float>(2 * view.cx / view.width - 1);
   clip[shift + 1] = static_cast<float>(2 * view.cy / view.height - 1);
-  clip[isOrthographic ? 10 : 14] = isOrthographic ? 1 / kParallelFarPlane : kNearPlane;
+  const double farthest = ends ? farthestOf(*ends) : 1e4;
+  clip[isOrthographic ? 10 : 14] = static_cast<float>(isOrthographic ? 0.5 / farthest : std::max(1e-31 * farthest, 1e-35));
   clip[isOrthographic ? 15 : 11] = 1.0f;
 }
 
@@ -47,7 +55,7 @@ void fillProjection(const View& view, FrothCamera& camera) {
 
 std::vector<float> sceneDepthOf(const View& view, const Image& distances) {
   if (lensClassesOf(view) == FROTH_LENS_CLASS_MAPPED) return distances.values;
-  const FrothCamera camera = cameraOf(view);
+  const FrothCamera camera = cameraOf(view, &distances);
   const float(&clip)[16] = camera.clipFromView;
   const ViewRays rays(view);
   std::vector<float> depths;
@@ -73,7 +81,7 @@ uint32_t lensClassesOf(const std::vector<SelectedView>& views) {
   return classes;
 }
 
-FrothCamera cameraOf(const View& view) {
+FrothCamera cameraOf(const View& view, const Image* ends) {
   FrothCamera camera{};
   const auto& world = view.worldFromCamera;
   for (int axis = 0; axis < 3; ++axis) {
@@ -87,7 +95,7 @@ FrothCamera cameraOf(const View& view) {
   if (lensClassesOf(view) == FROTH_LENS_CLASS_MAPPED) {
     camera.lens = lensOf(view);
   } else {
-    fillProjection(view, camera);
+    fillProjection(view, ends, camera);
   }
   return camera;
 }

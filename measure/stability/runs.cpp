@@ -15,6 +15,7 @@
 #include "measure/stability/case_judge.h"
 #include "measure/stability/forms.h"
 #include "measure/stability/image_bound.h"
+#include "reference/camera/view_rays.h"
 #include "reference/image/metrics.h"
 #include "shaders/foam/appearance.h"
 
@@ -149,7 +150,7 @@ const ImageBound& boundOf(const Form& form, const FormBounds& bounds) {
   return form.isShipped ? bounds.shipped : bounds.whole;
 }
 
-// Rays that are cast one by one know no near limits, and leave out detail sites of little weight.
+// Rays that are cast one by one know no near limits, leave out detail sites of little weight, and are given distances as they are.
 Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions& options, const BoundOptions& boundOptions) {
   Result<ImageBound> whole = boundImage(draw, options, boundOptions);
   if (!whole) return whole.error();
@@ -160,6 +161,7 @@ Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions&
   FormBounds bounds{std::move(*whole), {}, {}};
   bounds.shipped = boundShippedForm(bounds.whole, *atTwice);
   all.nearRatio = all.nearDepth = 0;
+  all.depthAxis = glm::dvec3(0);
   all.leastShare = foam::leastShownShare<double>();
   const Result<ImageBound> ofRays = boundImage(draw, all, boundOptions);
   if (!ofRays) return ofRays.error();
@@ -214,9 +216,11 @@ Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const Bake
   }
   const View view = caseViewOf(stiff, index, baked).ofFoam;
   const ReferenceDraw draw = [&](const ReferenceOptions& options) { return drawExactly(baked, view, options); };
+  ReferenceOptions options = optionsOfCase(stiff, index);
+  if (view.lens.kind == LensKind::kPinhole) options.depthAxis = forwardOf(view);  // device depth, as of an engine
   BoundOptions boundOptions;
   for (;;) {
-    const Result<FormBounds> bounds = boundForms(draw, optionsOfCase(stiff, index), boundOptions);
+    const Result<FormBounds> bounds = boundForms(draw, options, boundOptions);
     if (!bounds) return bounds.error();
     const ViewChecks checks = checkForms(forms, drawn, *bounds);
     if (checks.isOver() && boundOptions.samples < kSurerSamples) {
