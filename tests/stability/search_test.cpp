@@ -41,7 +41,6 @@ TEST(RandomCases, AreTheSameForTheSameSeed) {
   }
 }
 
-// Parts are drawn last, so that a seed of before there were such gives its foam and views yet.
 TEST(RandomCases, PartsAreTheSameForTheSameSeed) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     const StiffCase one = drawCase(seed), other = drawCase(seed);

@@ -311,7 +311,7 @@ Image drawEndsOf(Dice& dice, const Foam& foam, const View& view, double unit) {
   return ends;
 }
 
-// Each in few cases, so that most have none of them.
+// Each in few cases, so that most have none of them. Drawn last: a seed's foam and views are what they were before there were parts.
 void drawParts(Dice& dice, double unit, StiffCase& drawn) {
   if (dice.chance(0.15)) drawPlaces(dice, unit, drawn);
   if (dice.chance(0.15)) {
