@@ -127,6 +127,7 @@ Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 di
   vec3 centre = centreAt(place, siteRadius.xyz);
   vec2 order = orderAlong(direction, siteRadius.xyz);
   uint site = kNoCell;
+  vec2 siteOrder = order;
   float siteKey = key;
   float clearance = 1.0, q = 0.0;  // of the nearest plane: t = clearance / q
   uvec2 row = neighbourRow(chunk, cell);
@@ -140,11 +141,14 @@ Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 di
     vec3 otherCentre = centreAt(place, otherSite.xyz);
     float otherClearance = sharedClearance(centre, otherCentre, toNeighbour, siteRadius.w, otherSite.w);
     float nearer = clearance * otherQ - otherClearance * q;
-    if (!(nearer >= 0.0)) continue;
-    if (nearer == 0.0 && !(site != kNoCell && comesBefore(otherSite.xyz, siteRadiusOf(chunk, site).xyz))) continue;
+    float rounding = kExitRounding * abs(clearance * otherQ);
+    if (!(nearer >= -rounding)) continue;
     float otherKey = keyOf(direction, otherCentre);
-    if (!mayStepTo(chunk, other, order, orderAlong(direction, otherSite.xyz), key, otherKey)) continue;
+    vec2 otherOrder = orderAlong(direction, otherSite.xyz);
+    if (!mayStepTo(chunk, other, order, otherOrder, key, otherKey)) continue;
+    if (site != kNoCell && nearer <= rounding && !comesBefore(otherOrder, otherSite.xyz, siteOrder, siteRadiusOf(chunk, site).xyz)) continue;
     site = other;
+    siteOrder = otherOrder;
     siteKey = max(otherKey, key);
     clearance = otherClearance;
     q = otherQ;
