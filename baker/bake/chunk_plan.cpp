@@ -68,7 +68,7 @@ Status fillRefs(const BakeCells& cells, ChunkPlan& plan) {
   size_t largest = 1;
   for (const PlannedChunk& chunk : plan.chunks) largest = std::max(largest, chunk.cells.size());
   const size_t chunkCount = plan.chunks.size();
-  plan.localBits = chunkCount == 1 ? 32 : std::bit_width(largest - 1);
+  plan.localBits = chunkCount == 1 ? 32 : std::bit_width(std::max<size_t>(largest - 1, 1));  // a file has one bit at least
   if (chunkCount > 1 && static_cast<int>(plan.localBits) + std::bit_width(chunkCount - 1) > 32) {
     return makeError(ErrorKind::kUnsupported,
                      "chunks: %zu of them with up to %zu cells exceed 2^32 places; bake with more cells per chunk",

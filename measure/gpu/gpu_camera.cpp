@@ -1,5 +1,6 @@
 #include "measure/gpu/gpu_camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "reference/camera/view_rays.h"
@@ -25,9 +26,19 @@ FrothLens lensOf(const View& view) {
   return lens;
 }
 
+// [scene units] Of all ends of rays the farthest.
+double farthestOf(const Image& ends) {
+  double farthest = 0;
+  for (const float end : ends.values) {
+    if (std::isfinite(end)) farthest = std::max(farthest, double{end});
+  }
+  return farthest > 0 ? farthest : 1;
+}
+
 // View axes x right, y down, z forward are those of Vulkan's clip space; depth is reversed with an infinite far plane, or ends
-// far off where rays are parallel: no output depends on it.
-void fillProjection(const View& view, FrothCamera& camera) {
+// far off where rays are parallel. No output depends on it, but ends of rays are read from it: it holds those of a scene of any size,
+// and the near plane is so near that what a ray meets before it does not show.
+void fillProjection(const View& view, const Image* ends, FrothCamera& camera) {
   const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
   const int shift = isOrthographic ? 12 : 8;  // of the image: a share of depth, or a constant
   float(&clip)[16] = camera.clipFromView;
@@ -35,7 +46,8 @@ void fillProjection(const View& view, FrothCamera& camera) {
   clip[5] = static_cast<float>(2 * view.fy / view.height);
   clip[shift] = static_cast<float>(2 * view.cx / view.width - 1);
   clip[shift + 1] = static_cast<float>(2 * view.cy / view.height - 1);
-  clip[isOrthographic ? 10 : 14] = isOrthographic ? 1e-6f : 0.01f;
+  const double farthest = ends ? farthestOf(*ends) : 1e4;
+  clip[isOrthographic ? 10 : 14] = static_cast<float>(isOrthographic ? 0.5 / farthest : std::max(1e-31 * farthest, 1e-35));
   clip[isOrthographic ? 15 : 11] = 1.0f;
 }
 
@@ -43,14 +55,15 @@ void fillProjection(const View& view, FrothCamera& camera) {
 
 std::vector<float> sceneDepthOf(const View& view, const Image& distances) {
   if (lensClassesOf(view) == FROTH_LENS_CLASS_MAPPED) return distances.values;
-  const FrothCamera camera = cameraOf(view);
+  const FrothCamera camera = cameraOf(view, &distances);
   const float(&clip)[16] = camera.clipFromView;
   const ViewRays rays(view);
   std::vector<float> depths;
   for (uint32_t y = 0; y < view.height; ++y) {
     for (uint32_t x = 0; x < view.width; ++x) {
       const double t = *distances.pixel(x, y), cosine = glm::dot(rays.ofPixel(x, y)->direction, forwardOf(view));
-      const double depth = (clip[10] * t * cosine + clip[14]) / (clip[11] * t * cosine + clip[15]);
+      const double ahead = std::max(t * cosine, double{clip[14]});  // what lies before the near plane is on it
+      const double depth = (clip[10] * ahead + clip[14]) / (clip[11] * ahead + clip[15]);
       depths.push_back(static_cast<float>(std::isinf(t) ? (clip[15] > 0 ? 1 : 0) : depth));
     }
   }
@@ -68,7 +81,7 @@ uint32_t lensClassesOf(const std::vector<SelectedView>& views) {
   return classes;
 }
 
-FrothCamera cameraOf(const View& view) {
+FrothCamera cameraOf(const View& view, const Image* ends) {
   FrothCamera camera{};
   const auto& world = view.worldFromCamera;
   for (int axis = 0; axis < 3; ++axis) {
@@ -82,7 +95,7 @@ FrothCamera cameraOf(const View& view) {
   if (lensClassesOf(view) == FROTH_LENS_CLASS_MAPPED) {
     camera.lens = lensOf(view);
   } else {
-    fillProjection(view, camera);
+    fillProjection(view, ends, camera);
   }
   return camera;
 }

@@ -12,11 +12,11 @@ namespace froth {
 uint32_t lensClassesOf(const View& view);
 uint32_t lensClassesOf(const std::vector<SelectedView>& views);
 
-// The scene's depth as such a camera has it, of distances along the rays: device depth, or with lenses that are no projection the
-// distances themselves.
+// The scene's depth as a camera has it that is made with the same ends, of distances along the rays: device depth, or with lenses that
+// are no projection the distances themselves. What lies behind the eye is at it.
 std::vector<float> sceneDepthOf(const View& view, const Image& distances);
 
-// Everything but the image of a ray map.
-FrothCamera cameraOf(const View& view);
+// Everything but the image of a ray map. `ends`: what the scene's depth will hold, if there is one.
+FrothCamera cameraOf(const View& view, const Image* ends = nullptr);
 
 }  // namespace froth

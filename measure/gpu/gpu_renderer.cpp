@@ -50,7 +50,7 @@ FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options) 
   info.displayCoded = options.isLinear ? 0 : 1;
   info.maxSteps = options.maxSteps;
   info.tileForm = options.tileForm;
-  info.camera = cameraOf(view);
+  info.camera = cameraOf(view, options.ends);
   for (int axis = 0; axis < 2; ++axis) info.camera.jitter[axis] = options.jitter[axis];
   return info;
 }
@@ -195,14 +195,17 @@ Status GpuRenderer::State::setRayMap(const View& wanted) {
   return {};
 }
 
-Status GpuRenderer::State::setSceneDepth(const View& wanted, const Image* ends) {
+Status GpuRenderer::State::setSceneDepth(const View& wanted, const GpuRenderOptions& drawing) {
   if (sceneDepth.image) host->destroyImage(sceneDepth);
-  if (!ends) return {};
+  if (!drawing.ends) return {};
   const bool isProjection = lensClassesOf(wanted) != FROTH_LENS_CLASS_MAPPED;
   Result<HostImage> made = host->createImage(isProjection ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_R32_SFLOAT, extentOf(wanted));
   if (!made) return made.error();
   sceneDepth = *made;
-  return host->writeImage(sceneDepth, sceneDepthOf(wanted, *ends));
+  View jittered = wanted;  // whose rays the pixels have
+  jittered.cx += drawing.jitter.x;
+  jittered.cy += drawing.jitter.y;
+  return host->writeImage(sceneDepth, sceneDepthOf(jittered, *drawing.ends));
 }
 
 Status GpuRenderer::State::submitFrame(const std::function<Status(VkCommandBuffer)>& record) {
@@ -298,7 +301,7 @@ Status GpuRenderer::load(const AssetInput& asset, const Progress& progress, cons
 Result<GpuFrame> GpuRenderer::State::drawAndRead(const View& wanted, const GpuRenderOptions& drawing, bool wantsAllChannels) {
   if (Status ready = setExtent(extentOf(wanted), wantsAllChannels); !ready) return ready.error();
   if (Status ready = setRayMap(wanted); !ready) return ready.error();
-  if (Status ready = setSceneDepth(wanted, drawing.ends); !ready) return ready.error();
+  if (Status ready = setSceneDepth(wanted, drawing); !ready) return ready.error();
   const Result<FrothViewStatus> status = drawAndAsk(renderInfoOf(wanted, drawing), drawing.method);
   if (!status) return status.error();
   Result<RenderedImages> images = readImages(drawing.readsNormal);
@@ -317,7 +320,7 @@ Result<GpuFrame> GpuRenderer::renderColour(const View& view, const GpuRenderOpti
 Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptions& options) {
   if (Status ready = state_->setExtent(extentOf(view), options.isFull); !ready) return ready.error();
   if (Status ready = state_->setRayMap(view); !ready) return ready.error();
-  if (Status ready = state_->setSceneDepth(view, options.ends); !ready) return ready.error();
+  if (Status ready = state_->setSceneDepth(view, options); !ready) return ready.error();
   return state_->drawAndAsk(renderInfoOf(view, options), options.method);
 }
 

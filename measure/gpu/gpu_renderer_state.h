@@ -25,7 +25,7 @@ struct GpuRenderer::State {
   // Uploads the view's ray map, if it has one.
   Status setRayMap(const View& wanted);
   // Uploads where the scene ends the view's rays, if it does.
-  Status setSceneDepth(const View& wanted, const Image* ends);
+  Status setSceneDepth(const View& wanted, const GpuRenderOptions& drawing);
   void destroyImages();
 
   // Records frothUpdate and the uploads, then what `record` adds, if it is given.

@@ -53,6 +53,16 @@ CellGraph graphOf(const AssetContents& contents) {
 
 }  // namespace
 
+std::vector<PlacedFoam> placeFoams(const StiffCase& stiff, const ReferenceRenderer& renderer, const glm::dvec3& base) {
+  std::vector<PlacedFoam> placed;
+  for (const CasePlace& place : stiff.places) {
+    PlacedFoam foam{&renderer, {}, glm::normalize(glm::dquat(place.rotation)), place.scale};
+    foam.position = place.position + foam.rotation * (foam.scale * base) - base;
+    placed.push_back(foam);
+  }
+  return placed;
+}
+
 Status bakeCase(const StiffCase& stiff, const Foam& foam, const std::string& preset, BakedCase& baked, const Progress& progress) {
   BakeOptions options;
   options.preset = preset;
@@ -80,11 +90,7 @@ Status bakeCase(const StiffCase& stiff, const Foam& foam, const std::string& pre
   baked.foam = std::move(*decoded);
   baked.walkGraph = graphOf(*contents);
   baked.reference = std::make_unique<ReferenceRenderer>(baked.foam);
-  for (const CasePlace& place : stiff.places) {
-    PlacedFoam placed{baked.reference.get(), {}, glm::normalize(glm::dquat(place.rotation)), place.scale};
-    placed.position = place.position + placed.rotation * (placed.scale * baked.base) - baked.base;
-    baked.placed.push_back(placed);
-  }
+  baked.placed = placeFoams(stiff, *baked.reference, baked.base);
   return {};
 }
 

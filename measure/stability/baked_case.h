@@ -24,6 +24,10 @@ struct BakedCase {
   std::vector<PlacedFoam> placed;  // the same, of several instances relative to `base`; empty: there is one
 };
 
+// The instances of a case in one image; empty: there is one. `renderer` draws its foam relative to `base`, which is where the
+// images' origin lies.
+std::vector<PlacedFoam> placeFoams(const StiffCase& stiff, const ReferenceRenderer& renderer, const glm::dvec3& base);
+
 // Of `foam`, which the case holds or an importer made of it. `baked` stays where it is from then on.
 Status bakeCase(const StiffCase& stiff, const Foam& foam, const std::string& preset, BakedCase& baked, const Progress& progress);
 

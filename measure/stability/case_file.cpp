@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "baker/bake/check_foam.h"
 #include "base/atomic_file.h"
@@ -14,88 +14,8 @@ namespace froth {
 namespace {
 
 using Json = nlohmann::json;
-using WrittenJson = nlohmann::ordered_json;
 
-// ---- Writing
-
-// The double that prints with the few digits of a float, if those give the float back.
-double shortest(float value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  double decimal = 0;
-  std::from_chars(text, end, decimal);
-  return static_cast<float>(decimal) == value ? decimal : double{value};
-}
-
-template <class Vector>
-WrittenJson toJson(const Vector& vector) {
-  WrittenJson array = WrittenJson::array();
-  for (int axis = 0; axis < Vector::length(); ++axis) {
-    if constexpr (std::is_same_v<typename Vector::value_type, float>) {
-      array.push_back(shortest(vector[axis]));
-    } else {
-      array.push_back(vector[axis]);
-    }
-  }
-  return array;
-}
-
-WrittenJson detailToJson(const Foam& foam, size_t site) {
-  WrittenJson detail = {{"place", toJson(foam.detailSites[site])}, {"height", shortest(foam.detailHeights[site])}};
-  if (!foam.baseColours.empty()) detail["base"] = toJson(foam.baseColours[site]);
-  WrittenJson lobes = WrittenJson::array();
-  const LobeRange range = lobesOf(foam, site);
-  for (uint64_t m = range.first; m < range.first + range.count; ++m) {
-    WrittenJson lobe = toJson(foam.lobeAxes[m]);
-    for (int channel = 0; channel < 3; ++channel) lobe.push_back(shortest(foam.lobeColours[m][channel]));
-    lobes.push_back(std::move(lobe));
-  }
-  detail["lobes"] = std::move(lobes);
-  return detail;
-}
-
-WrittenJson knownToJson(const std::vector<KnownFault>& known) {
-  WrittenJson list = WrittenJson::array();
-  for (const KnownFault& fault : known) {
-    list.push_back({{"preset", fault.preset},
-                    {"renderer", fault.renderer},
-                    {"kind", fault.kind},
-                    {"factor", fault.factor},
-                    {"cause", fault.cause}});
-  }
-  return list;
-}
-
-WrittenJson cellToJson(const Foam& foam, uint32_t cell) {
-  WrittenJson details = WrittenJson::array();
-  for (uint32_t k = 0; k < foam.detailCount; ++k) details.push_back(detailToJson(foam, size_t{cell} * foam.detailCount + k));
-  return {{"site", toJson(foam.sites[cell])},
-          {"radius", shortest(foam.radii[cell])},
-          {"density", shortest(foam.densities[cell])},
-          {"orientation", toJson(foam.orientations[cell])},
-          {"details", std::move(details)}};
-}
-
-// A detail site or a row of numbers on one line, everything else indented.
-void print(const WrittenJson& value, size_t depth, std::string& text) {
-  constexpr size_t kDetailDepth = 4;
-  const bool isRow = value.is_array() && (value.empty() || value.front().is_number());
-  if (!value.is_structured() || isRow || depth >= kDetailDepth) {
-    text += value.dump(-1, ' ', false, WrittenJson::error_handler_t::replace);
-    return;
-  }
-  text += value.is_object() ? '{' : '[';
-  const char* separator = "\n";
-  for (const auto& [key, child] : value.items()) {
-    text += separator + std::string(depth + 1, ' ');
-    separator = ",\n";
-    if (value.is_object()) text += '"' + key + "\": ";
-    print(child, depth + 1, text);
-  }
-  text += '\n' + std::string(depth, ' ') + (value.is_object() ? '}' : ']');
-}
-
-// ---- Reading
+constexpr uint32_t kMostChunkCells = 1 << 20;  // as `froth bake` takes
 
 // Values of one JSON object. The first fault is kept; later reads then return zeros.
 class FieldReader {
@@ -171,6 +91,14 @@ class FieldReader {
     return kEmpty;
   }
 
+  // The same, for a field that may be absent.
+  const Json& readOptionalArray(const char* key) {
+    static const Json kEmpty = Json::array();
+    return find(key) ? readArray(key) : kEmpty;
+  }
+
+  bool hasFailed() const { return error_.has_value(); }
+
   void fail(const char* key, const std::string& fault) {
     if (error_) return;
     error_ = makeError(ErrorKind::kBadInput, "%s, field '%s': %s", place_.c_str(), key, fault.c_str());
@@ -235,6 +163,60 @@ void readKnown(FieldReader& root, const std::string& file, std::optional<Error>&
   }
 }
 
+// As the runtime asks of an instance (frothCreateInstance).
+constexpr double kUnitTolerance = 1e-3;  // of a quaternion's squared length
+
+CasePlace readPlace(FieldReader fields) {
+  CasePlace place;
+  place.position = fields.readVector<glm::dvec3>("position");
+  const auto turn = fields.readVector<glm::vec4>("rotation");
+  const double squared = glm::dot(glm::dvec4(turn), glm::dvec4(turn));
+  if (!(std::abs(squared - 1) <= kUnitTolerance))
+    fields.fail("rotation", "a quaternion of squared length " + std::to_string(squared) + "; normalize it");
+  place.rotation = glm::quat(turn.x, turn.y, turn.z, turn.w);  // w first
+  place.scale = fields.readNumber<float>("scale");
+  if (!(place.scale > 0)) fields.fail("scale", "found " + std::to_string(place.scale) + "; give a number above 0");
+  return place;
+}
+
+// Whatever is not the foam and its views; absent: the default.
+void readParts(FieldReader& root, const std::string& file, std::optional<Error>& error, StiffCase& found) {
+  const Json& places = root.readOptionalArray("places");
+  if (places.size() > kMostPlaces)
+    root.fail("places", "found " + std::to_string(places.size()) + "; give at most " + std::to_string(kMostPlaces));
+  for (size_t i = 0; i < places.size() && !error; ++i) {
+    found.places.push_back(readPlace(FieldReader(places[i], file + ": place " + std::to_string(i), error)));
+  }
+  if (root.find("jitter")) found.jitter = root.readVector<glm::vec2>("jitter");
+  if (root.find("chunk_cells")) found.chunkCells = root.readCount("chunk_cells", kMostChunkCells);
+  if (root.find("layers")) found.layers = root.readCount("layers", kAllLayersOfCase);
+  if (found.layers == 0) root.fail("layers", "found 0; give at least 1");
+}
+
+Image readEnds(FieldReader& root, const Json& rows, size_t index, const View& view) {
+  const std::string place = "view " + std::to_string(index);
+  Image image{view.width, view.height, 1, {}};
+  if (!rows.is_array() || rows.size() != view.height) root.fail("ends", place + ": give " + std::to_string(view.height) + " rows");
+  for (size_t y = 0; y < rows.size() && !root.hasFailed(); ++y) {
+    const std::string where = place + ", row " + std::to_string(y);
+    if (!rows[y].is_array() || rows[y].size() != view.width) root.fail("ends", where + ": give " + std::to_string(view.width) + " numbers");
+    for (const Json& end : rows[y]) {
+      const bool isNever = end.is_string() && end.get_ref<const std::string&>() == kNeverInCaseFile;
+      const float value = end.is_number() ? static_cast<float>(end.get<double>()) : NAN;
+      if (!isNever && !std::isfinite(value)) root.fail("ends", where + ": give finite numbers, or \"never\"");
+      image.values.push_back(isNever ? std::numeric_limits<float>::infinity() : value);
+    }
+  }
+  return image;
+}
+
+void readAllEnds(FieldReader& root, StiffCase& found) {
+  const Json& images = root.readOptionalArray("ends");
+  if (!images.empty() && images.size() != found.views.size())
+    root.fail("ends", "found " + std::to_string(images.size()) + " images; give one for each of the " + std::to_string(found.views.size()) + " views");
+  for (size_t i = 0; i < images.size() && !root.hasFailed(); ++i) found.ends.push_back(readEnds(root, images[i], i, found.views[i]));
+}
+
 void readFoam(FieldReader& root, const std::string& file, std::optional<Error>& error, Foam& foam) {
   foam.lobeCount = root.readCount("most_lobes", 32);
   foam.lobeOffsets = {0};
@@ -263,6 +245,7 @@ Result<StiffCase> parseCase(std::span<const uint8_t> bytes, const std::string& f
   found.moved = root.readVector<glm::dvec3>("moved");
   found.isImported = root.readFlag("imported");
   readKnown(root, file, error, found.known);
+  readParts(root, file, error, found);
   readFoam(root, file, error, found.foam);
   if (error) return *error;
   if (const Status status = checkFoam(found.foam); !status) {
@@ -271,6 +254,8 @@ Result<StiffCase> parseCase(std::span<const uint8_t> bytes, const std::string& f
   Result<CameraSet> cameras = parseCameras(bytes, file);
   if (!cameras) return cameras.error();
   found.views = std::move(cameras->views);
+  readAllEnds(root, found);
+  if (error) return *error;
   return found;
 }
 
@@ -278,35 +263,6 @@ Result<StiffCase> readCase(const std::filesystem::path& path) {
   const Result<std::vector<uint8_t>> bytes = readFile(path, kMostJsonBytes);
   if (!bytes) return bytes.error();
   return parseCase(*bytes, path.string());
-}
-
-Status writeCase(const std::filesystem::path& path, const StiffCase& stiffCase) {
-  if (const Status status = checkFoam(stiffCase.foam); !status) return status;
-  CameraSet cameras;
-  cameras.views = stiffCase.views;
-  const Result<std::string> views = camerasText(cameras, path.string());
-  if (!views) return views.error();
-
-  const Foam& foam = stiffCase.foam;
-  WrittenJson cells = WrittenJson::array();
-  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) cells.push_back(cellToJson(foam, cell));
-  const WrittenJson root = {{"name", stiffCase.name},
-                            {"what", stiffCase.what},
-                            {"analysis", stiffCase.analysis},
-                            {"moved", toJson(stiffCase.moved)},
-                            {"imported", stiffCase.isImported},
-                            {"known", knownToJson(stiffCase.known)},
-                            {"most_lobes", foam.lobeCount},
-                            {"cells", std::move(cells)},
-                            {"views", WrittenJson::parse(*views)["views"]}};
-  std::string text;
-  print(root, 0, text);
-  text += '\n';
-  const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size());
-  if (const Result<StiffCase> readBack = parseCase(bytes, path.string()); !readBack) {
-    return makeError(ErrorKind::kUsage, "%s", readBack.error().message.c_str());
-  }
-  return writeFileAtomically(path, bytes);
 }
 
 }  // namespace froth

@@ -2,19 +2,23 @@
 
 #include <fmt/format.h>
 
+#include "measure/stability/baked_case.h"
+
 namespace froth {
 namespace {
 
-Result<std::optional<CaseFault>> judgeView(const ReferenceRenderer& renderer, const View& view, size_t index,
+CaseFault notFinite(const BoundCheck& check, size_t view) {
+  return {"double: not finite", "a value of the exact image is not finite", view, check.worstX, check.worstY};
+}
+
+Result<std::optional<CaseFault>> judgeView(const ReferenceRenderer& renderer, const StiffCase& stiff, size_t index,
                                            const BoundOptions& boundOptions) {
-  ReferenceOptions options = optionsOfCase(view);
+  const View& view = stiff.views[index];
+  ReferenceOptions options = optionsOfCase(stiff, index);
   const Result<ImageBound> bound = boundImage(renderer, view, options, boundOptions);
   if (!bound) return bound.error();
   const BoundCheck exact = checkBound(*bound, bound->exact);
-  if (!exact.isFinite) {
-    return std::optional(CaseFault{"double: not finite", "a value of the exact image is not finite", index, exact.worstX,
-                                   exact.worstY});
-  }
+  if (!exact.isFinite) return std::optional(notFinite(exact, index));
   options.precision = Precision::kFloat;
   const Result<RenderedImages> first = renderer.render(view, options), second = renderer.render(view, options);
   if (!first) return first.error();
@@ -23,7 +27,7 @@ Result<std::optional<CaseFault>> judgeView(const ReferenceRenderer& renderer, co
   if (check.worstExcess > 1 && boundOptions.samples < kSurerSamples) {
     BoundOptions surer = boundOptions;
     surer.samples = kSurerSamples;
-    return judgeView(renderer, view, index, surer);
+    return judgeView(renderer, stiff, index, surer);
   }
   const auto fault = [&](const char* kind, std::string what, double factor = 0) {
     return std::optional(CaseFault{kind, std::move(what), index, check.worstX, check.worstY, factor});
@@ -37,6 +41,16 @@ Result<std::optional<CaseFault>> judgeView(const ReferenceRenderer& renderer, co
   }
   if (!hasSameBits(*first, *second)) return fault("float: another image", "a second render has other bits");
   return std::optional<CaseFault>();
+}
+
+// Of several instances: there is no float image of them.
+Result<std::optional<CaseFault>> judgeSeveral(const ReferenceRenderer& renderer, const StiffCase& stiff, size_t index) {
+  const std::vector<PlacedFoam> placed = placeFoams(stiff, renderer, {});
+  const ReferenceDraw draw = [&](const ReferenceOptions& own) { return renderSeveral(placed, stiff.views[index], own); };
+  const Result<ImageBound> bound = boundImage(draw, optionsOfCase(stiff, index), {.samples = 0});
+  if (!bound) return bound.error();
+  const BoundCheck exact = checkBound(*bound, bound->exact);
+  return exact.isFinite ? std::optional<CaseFault>() : notFinite(exact, index);
 }
 
 }  // namespace
@@ -55,17 +69,20 @@ CaseJudge judgeOfReference(BoundOptions options) {
   return [options](const StiffCase& stiffCase) -> Result<std::optional<CaseFault>> {
     const ReferenceRenderer renderer(stiffCase.foam);
     for (size_t i = 0; i < stiffCase.views.size(); ++i) {
-      Result<std::optional<CaseFault>> fault = judgeView(renderer, stiffCase.views[i], i, options);
+      Result<std::optional<CaseFault>> fault =
+          stiffCase.places.empty() ? judgeView(renderer, stiffCase, i, options) : judgeSeveral(renderer, stiffCase, i);
       if (!fault || *fault) return fault;
     }
     return std::optional<CaseFault>();
   };
 }
 
-ReferenceOptions optionsOfCase(const View& view) {
+ReferenceOptions optionsOfCase(const StiffCase& stiff, size_t index) {
+  const View& view = stiff.views[index];
   ReferenceOptions options;
   options.nearRatio = view.nearRatio.value_or(0);
   options.nearDepth = view.nearDepth.value_or(0);
+  options.sceneDistance = stiff.ends.empty() ? nullptr : &stiff.ends[index];
   return options;
 }
 

@@ -26,10 +26,13 @@ using CaseJudge = std::function<Result<std::optional<CaseFault>>(const StiffCase
 // The first fault that any of them finds.
 CaseJudge judgeByAll(std::vector<CaseJudge> judges);
 
-// The float reference of every view against its bound: finite, within it, the same on a second run.
+// The float reference of every view against its bound: finite, within it, the same on a second run. It draws the foam of a case: of what
+// assets and devices alone have, layers, chunks, jitter and where all is moved to, it knows nothing, and of several instances it
+// has no float image: there the double one alone is judged, for being finite.
 CaseJudge judgeOfReference(BoundOptions options = {});
 
-// The options under which a case's view is rendered by every renderer: its own near limits, no cut-off.
-ReferenceOptions optionsOfCase(const View& view);
+// The options under which a view of a case is rendered by every renderer: its own near limits and ends of rays, no cut-off. Refers to
+// the case's images.
+ReferenceOptions optionsOfCase(const StiffCase& stiff, size_t index);
 
 }  // namespace froth

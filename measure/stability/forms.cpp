@@ -1,5 +1,6 @@
 #include "measure/stability/forms.h"
 
+#include "measure/stability/case_judge.h"
 #include "measure/stability/image_bound.h"
 
 namespace froth {
@@ -47,15 +48,6 @@ std::vector<Form> formsOf(const StiffCase& stiff, const std::string& preset) {
   return forms;
 }
 
-ReferenceOptions referenceOptions(const StiffCase& stiff, size_t index) {
-  const View& view = stiff.views[index];
-  ReferenceOptions options;
-  options.nearRatio = view.nearRatio.value_or(4);
-  options.nearDepth = view.nearDepth.value_or(0);
-  options.sceneDistance = stiff.ends.empty() ? nullptr : &stiff.ends[index];
-  return options;
-}
-
 CaseView caseViewOf(const StiffCase& stiff, size_t index, const BakedCase& baked) {
   return {movedBy(-baked.base, stiff.views[index]), movedBy(stiff.moved, stiff.views[index]),
           stiff.ends.empty() ? nullptr : &stiff.ends[index], stiff.jitter};
@@ -86,7 +78,7 @@ Result<DrawnForm> FormDrawer::draw(const Form& form, const StiffCase& stiff, siz
   const CaseView view = caseViewOf(stiff, index, *baked_);
   switch (form.kind) {
     case FormKind::kReference:
-      return drawReference(*baked_->reference, view.ofFoam, referenceOptions(stiff, index));
+      return drawReference(*baked_->reference, view.ofFoam, optionsOfCase(stiff, index));
     case FormKind::kRays:
     case FormKind::kQueries:
       return castRays(form, view);

@@ -50,8 +50,6 @@ struct CaseView {
 };
 // Refers to the case's images.
 CaseView caseViewOf(const StiffCase& stiff, size_t index, const BakedCase& baked);
-// Options of the reference for a view of a case.
-ReferenceOptions referenceOptions(const StiffCase& stiff, size_t index);
 
 // One thread at a time.
 class FormDrawer {

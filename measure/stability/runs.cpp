@@ -12,8 +12,10 @@
 
 #include "base/atomic_file.h"
 #include "foam/checkpoint/checkpoint.h"
+#include "measure/stability/case_judge.h"
 #include "measure/stability/forms.h"
 #include "measure/stability/image_bound.h"
+#include "reference/camera/view_rays.h"
 #include "reference/image/metrics.h"
 #include "shaders/foam/appearance.h"
 
@@ -45,7 +47,7 @@ Result<std::vector<RenderedImages>> drawOriginals(const StiffCase& stiff, const 
   std::vector<RenderedImages> originals;
   const ReferenceRenderer reference(foam);
   for (size_t index = 0; index < stiff.views.size(); ++index) {
-    Result<RenderedImages> images = reference.render(stiff.views[index], referenceOptions(stiff, index), progress);
+    Result<RenderedImages> images = reference.render(stiff.views[index], optionsOfCase(stiff, index), progress);
     if (!images) return images.error();
     originals.push_back(std::move(*images));
   }
@@ -148,7 +150,7 @@ const ImageBound& boundOf(const Form& form, const FormBounds& bounds) {
   return form.isShipped ? bounds.shipped : bounds.whole;
 }
 
-// Rays that are cast one by one know no near limits, and leave out detail sites of little weight.
+// Rays that are cast one by one know no near limits, leave out detail sites of little weight, and are given distances as they are.
 Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions& options, const BoundOptions& boundOptions) {
   Result<ImageBound> whole = boundImage(draw, options, boundOptions);
   if (!whole) return whole.error();
@@ -159,6 +161,7 @@ Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions&
   FormBounds bounds{std::move(*whole), {}, {}};
   bounds.shipped = boundShippedForm(bounds.whole, *atTwice);
   all.nearRatio = all.nearDepth = 0;
+  all.depthAxis = glm::dvec3(0);
   all.leastShare = foam::leastShownShare<double>();
   const Result<ImageBound> ofRays = boundImage(draw, all, boundOptions);
   if (!ofRays) return ofRays.error();
@@ -213,9 +216,11 @@ Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const Bake
   }
   const View view = caseViewOf(stiff, index, baked).ofFoam;
   const ReferenceDraw draw = [&](const ReferenceOptions& options) { return drawExactly(baked, view, options); };
+  ReferenceOptions options = optionsOfCase(stiff, index);
+  if (view.lens.kind == LensKind::kPinhole) options.depthAxis = forwardOf(view);  // device depth, as of an engine
   BoundOptions boundOptions;
   for (;;) {
-    const Result<FormBounds> bounds = boundForms(draw, referenceOptions(stiff, index), boundOptions);
+    const Result<FormBounds> bounds = boundForms(draw, options, boundOptions);
     if (!bounds) return bounds.error();
     const ViewChecks checks = checkForms(forms, drawn, *bounds);
     if (checks.isOver() && boundOptions.samples < kSurerSamples) {
@@ -243,7 +248,7 @@ Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, cons
     if (Status run = runView(stiff, index, baked, outcome); !run) return run;
     const View view = caseViewOf(stiff, index, baked).ofFoam;
     addTrace(traceWalks(baked.foam, baked.walkGraph, view), outcome.walks);
-    const Result<RenderedImages> decoded = baked.reference->render(view, referenceOptions(stiff, index));
+    const Result<RenderedImages> decoded = baked.reference->render(view, optionsOfCase(stiff, index));
     if (!decoded) return decoded.error();
     const Result<ImageDifference> encoding = compareImages(decoded->colour, originals[index].colour);
     if (!encoding) return encoding.error();

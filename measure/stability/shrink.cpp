@@ -22,10 +22,13 @@ class Shrinker {
     for (bool isSmaller = true; isSmaller && !isOver();) {
       isSmaller = keepWorstView();
       isSmaller |= cropToWorstPixel();
+      isSmaller |= dropParts();
       isSmaller |= dropCells();
       isSmaller |= dropDetails();
       isSmaller |= simplifyFoam();
       isSmaller |= simplifyView();
+      isSmaller |= simplifyPlaces();
+      isSmaller |= simplifyEnds();
     }
     if (error_) return *error_;
     return std::move(best_);
@@ -57,6 +60,7 @@ class Shrinker {
     if (best_.smallest.views.size() < 2) return false;
     StiffCase candidate = best_.smallest;
     candidate.views = {best_.smallest.views[best_.fault.view]};
+    if (!candidate.ends.empty()) candidate.ends = {best_.smallest.ends[best_.fault.view]};
     return attempt(std::move(candidate));
   }
 
@@ -76,8 +80,39 @@ class Shrinker {
       cropped.height = height;
       cropped.cx -= left;
       cropped.cy -= top;
+      if (!candidate.ends.empty()) candidate.ends = {cropImage(best_.smallest.ends[0], left, top, width, height)};
       isSmaller |= attempt(std::move(candidate));
     }
+    return isSmaller;
+  }
+
+  static Image cropImage(const Image& image, uint32_t left, uint32_t top, uint32_t width, uint32_t height) {
+    Image cropped{width, height, image.channels, {}};
+    for (uint32_t y = 0; y < height; ++y) {
+      const float* const row = image.pixel(left, top + y);
+      cropped.values.insert(cropped.values.end(), row, row + size_t{width} * image.channels);
+    }
+    return cropped;
+  }
+
+  // What is neither foam nor view: each back to what most cases have.
+  bool dropParts() {
+    const auto change = [&](const std::function<void(StiffCase&)>& edit) {
+      StiffCase candidate = best_.smallest;
+      edit(candidate);
+      return attempt(std::move(candidate));
+    };
+    const StiffCase& smallest = best_.smallest;
+    bool isSmaller = !smallest.places.empty() && change([](StiffCase& stiff) { stiff.places.clear(); });
+    for (size_t i = 0; i < smallest.places.size() && smallest.places.size() > 1;) {
+      const bool isDropped = change([i](StiffCase& stiff) { stiff.places.erase(stiff.places.begin() + static_cast<ptrdiff_t>(i)); });
+      isSmaller |= isDropped;
+      if (!isDropped) ++i;
+    }
+    isSmaller |= !smallest.ends.empty() && change([](StiffCase& stiff) { stiff.ends.clear(); });
+    isSmaller |= smallest.jitter != glm::vec2(0) && change([](StiffCase& stiff) { stiff.jitter = glm::vec2(0); });
+    isSmaller |= smallest.layers != kAllLayersOfCase && change([](StiffCase& stiff) { stiff.layers = kAllLayersOfCase; });
+    isSmaller |= smallest.chunkCells != 0 && change([](StiffCase& stiff) { stiff.chunkCells = 0; });
     return isSmaller;
   }
 
@@ -122,21 +157,21 @@ class Shrinker {
 
   bool simplifyFoam() {
     bool isSmaller = simplifyOrientations();
-    isSmaller |= simplifyArray([](Foam& foam) { return floatsOf(foam.lobeColours); });
-    isSmaller |= simplifyArray([](Foam& foam) { return floatsOf(foam.lobeAxes); });
-    isSmaller |= simplifyArray([](Foam& foam) { return floatsOf(foam.baseColours); });
-    isSmaller |= simplifyArray([](Foam& foam) { return floatsOf(foam.detailHeights); });
-    isSmaller |= simplifyArray([](Foam& foam) { return floatsOf(foam.detailSites); });
-    isSmaller |= simplifyArray([](Foam& foam) { return floatsOf(foam.densities); });
-    isSmaller |= simplifyArray([](Foam& foam) { return floatsOf(foam.radii); }, false);
-    isSmaller |= simplifyArray([](Foam& foam) { return floatsOf(foam.sites); });
+    isSmaller |= simplifyArray([](StiffCase& stiff) { return floatsOf(stiff.foam.lobeColours); });
+    isSmaller |= simplifyArray([](StiffCase& stiff) { return floatsOf(stiff.foam.lobeAxes); });
+    isSmaller |= simplifyArray([](StiffCase& stiff) { return floatsOf(stiff.foam.baseColours); });
+    isSmaller |= simplifyArray([](StiffCase& stiff) { return floatsOf(stiff.foam.detailHeights); });
+    isSmaller |= simplifyArray([](StiffCase& stiff) { return floatsOf(stiff.foam.detailSites); });
+    isSmaller |= simplifyArray([](StiffCase& stiff) { return floatsOf(stiff.foam.densities); });
+    isSmaller |= simplifyArray([](StiffCase& stiff) { return floatsOf(stiff.foam.radii); }, false);
+    isSmaller |= simplifyArray([](StiffCase& stiff) { return floatsOf(stiff.foam.sites); });
     return isSmaller;
   }
 
   // All values at once, then each alone.
   template <class SpanOf>
   bool simplifyArray(SpanOf&& valuesOf, bool canBeZero = true) {
-    const size_t count = valuesOf(best_.smallest.foam).size();
+    const size_t count = valuesOf(best_.smallest).size();
     if (count == 0) return false;
     bool isSmaller = simplifyRange(valuesOf, 0, count, canBeZero);
     for (size_t i = 0; count > 1 && i < count && !isOver(); ++i) isSmaller |= simplifyRange(valuesOf, i, i + 1, canBeZero);
@@ -148,7 +183,7 @@ class Shrinker {
     const auto tryAll = [&](const std::function<float(float)>& simpler) {
       StiffCase candidate = best_.smallest;
       bool isChanged = false;
-      const auto values = valuesOf(candidate.foam);
+      const auto values = valuesOf(candidate);
       for (size_t i = begin; i < end; ++i) {
         const float before = values[i];
         values[i] = simpler(before);
@@ -158,7 +193,7 @@ class Shrinker {
       return isChanged && attempt(std::move(candidate));
     };
     const auto isSimplest = [&] {
-      const auto values = valuesOf(best_.smallest.foam);
+      const auto values = valuesOf(best_.smallest);
       return std::all_of(values.begin() + begin, values.begin() + end, [](float value) { return value == 0; });
     };
     if (canBeZero && !isSimplest() && tryAll([](float) { return 0.0f; })) return true;
@@ -169,7 +204,7 @@ class Shrinker {
 
   // To so many significant decimal digits.
   static float roundDigits(float value, int digits) {
-    if (value == 0) return value;
+    if (value == 0 || std::isinf(value)) return value;
     const double unit = std::pow(10.0, std::floor(std::log10(std::abs(double{value}))) + 1 - digits);
     return static_cast<float>(std::round(value / unit) * unit);
   }
@@ -217,6 +252,32 @@ class Shrinker {
       isSmaller |= change([](View& view) { view.fx = view.fy = std::max(std::round(view.fx), 1.0); });
     }
     return isSmaller;
+  }
+
+  bool simplifyPlaces() {
+    bool isSmaller = false;
+    for (size_t i = 0; i < best_.smallest.places.size(); ++i) {
+      const auto change = [&](const std::function<void(CasePlace&)>& edit) {
+        StiffCase candidate = best_.smallest;
+        edit(candidate.places[i]);
+        return candidate.places[i] != best_.smallest.places[i] && attempt(std::move(candidate));
+      };
+      isSmaller |= change([](CasePlace& place) { place.rotation = glm::quat(1, 0, 0, 0); });
+      isSmaller |= change([](CasePlace& place) { place.scale = 1; }) ||
+                   change([](CasePlace& place) { place.scale = roundDigits(place.scale, 1); });
+      for (const int axis : {0, 1, 2}) {
+        isSmaller |= change([axis](CasePlace& place) { place.position[axis] = 0; }) ||
+                     change([axis](CasePlace& place) { place.position[axis] = std::round(place.position[axis]); }) ||
+                     change([axis](CasePlace& place) { place.position[axis] = roundDigits(static_cast<float>(place.position[axis]), 3); });
+      }
+    }
+    return isSmaller;
+  }
+
+  // All pixels at once: mostly there is one left.
+  bool simplifyEnds() {
+    if (best_.smallest.ends.size() != 1) return false;
+    return simplifyRange([](StiffCase& stiff) { return floatsOf(stiff.ends[0].values); }, 0, best_.smallest.ends[0].values.size(), true);
   }
 
   const CaseJudge& judge_;

@@ -28,6 +28,8 @@ struct ReferenceOptions {
   double rounding = 0;
   uint64_t roundingSeed = 0;
   const Image* sceneDistance = nullptr;  // 1 channel, size of the view: where each ray ends [scene units]; null: nowhere
+  // Unit view axis, where a renderer is given the scene as depth along it; 0: as distances along rays. Changes how ends are rounded.
+  glm::dvec3 depthAxis{0};
 };
 
 struct RenderedImages {

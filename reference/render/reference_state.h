@@ -39,13 +39,16 @@ RenderedImages emptyImages(const View& view);
 // Calls renderRow(y) from all threads, and reports about a hundred times. Fails with kCancelled.
 Status renderRows(uint32_t rows, const Progress& progress, const std::function<void(uint32_t y)>& renderRow);
 
-// Where the scene ends a ray; infinity: nowhere. A place errs by its distance from the eye, which of parallel rays is no part of 0.
+// Where the scene ends a ray; infinity: nowhere. A place errs by its distance from the eye, which of parallel rays is no part of 0. From a
+// depth along the view axis the distance is depth / c, c = axis . direction. Sums of rounded products, c errs by some units of 1, not of
+// itself: so the distance errs by parts of its 1 / c.
 inline double endOfRay(const ReferenceOptions& options, const ViewRay& ray, uint32_t x, uint32_t y) {
   if (!options.sceneDistance) return std::numeric_limits<double>::infinity();
   const double end = *options.sceneDistance->pixel(x, y);
   if (options.rounding == 0 || std::isinf(end)) return end;
   Rounding rounding(options.rounding, options.roundingSeed + 3, y * options.sceneDistance->width + x);
-  return std::max(rounding.of(end, glm::length(ray.offset + end * ray.direction)), 0.0);
+  const double cosine = options.depthAxis == glm::dvec3(0) ? 1 : glm::dot(options.depthAxis, ray.direction);
+  return std::max(rounding.of(end, glm::length(ray.offset + end * ray.direction) / cosine), 0.0);
 }
 
 // The balls that a ray from `origin` meets before `end`. primary: in the precision of the render, as the cells are.

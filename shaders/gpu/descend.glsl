@@ -22,9 +22,16 @@ bool mayStepTo(Chunk chunk, uint site, vec2 order, vec2 siteOrder, float key, fl
   return isGhost(chunk, site) ? siteKey > key : liesFarther(order, siteOrder);
 }
 
-// Whether a ray that leaves a cell at one point towards two sites goes on in that of the first: cell.h says which cell owns a ray in
-// their plane.
-bool comesBefore(vec3 site, vec3 otherSite) { return comesFirst(fromSiteToSite(site, otherSite)); }
+// Where a ray leaves a cell may be off by this much of it: 4 units of its plane's distance from the eye.
+const float kExitRounding = 1.0 / 4194304.0;
+
+// Whether a ray that leaves a cell towards two sites, at one point but for rounding, goes on in that of the first: it lies less far along
+// the ray, so that a ray may come from there to the other, and never back. (Seen from afar, the planes towards two sites that nearly
+// coincide are one, however far the ray has to go from one site's cell to the other's.) At equal orders cell.h says which owns a ray in their plane.
+bool comesBefore(vec2 order, vec3 site, vec2 otherOrder, vec3 otherSite) {
+  if (liesFarther(order, otherOrder)) return true;
+  return !liesFarther(otherOrder, order) && comesFirst(fromSiteToSite(site, otherSite));
+}
 
 // Half of what a point's power falls by from one cell of a chunk to another; 0: by less than its rounding, so that no search
 // goes back to a cell. As the local form of the plane between them says: powers themselves lose what sites that nearly coincide

@@ -24,6 +24,8 @@ struct Step {
 
 float nearnessOfNoExit() { return isParallel ? -kInfinity : 0.0; }
 
+float roundingOfNearness(float nearness) { return isinf(nearness) ? 0.0 : kExitRounding * abs(nearness); }
+
 Step stepTo(uvec2 cell, float key, float entry, uint neighbours) {
   return Step(slotOfCell(cell), cell, key, entry, neighbours);
 }
@@ -42,6 +44,7 @@ bool findNextSite(inout Step current, vec3 ray) {
   uvec2 row = neighbourRow(chunk, cell.y);
   vec2 order = orderAlong(direction, siteRadius.xyz);
   uint next = kNoCell;
+  vec2 nextOrder = order;
   float nextKey = current.key;
   float exitNearness = nearnessOfNoExit();
   current.neighbours += row.y - row.x;
@@ -52,13 +55,15 @@ bool findNextSite(inout Step current, vec3 ray) {
     float key = keyOf(direction, ballOf(chunk, otherSite).centre);
     bool isFar;
     float nearness = nearnessOf(eyePlaneTo(chunk, siteRadius, otherSite, isFar), ray);
-    if (isFar && nearness >= exitNearness &&
-        mayStepTo(chunk, other, order, orderAlong(direction, otherSite.xyz), current.key, key)) {
-      if (nearness == exitNearness && !(next != kNoCell && comesBefore(otherSite.xyz, siteRadiusOf(chunk, next).xyz))) continue;
-      exitNearness = nearness;
-      next = other;
-      nextKey = max(key, current.key);
-    }
+    if (!isFar || !(nearness >= exitNearness - roundingOfNearness(exitNearness))) continue;
+    vec2 otherOrder = orderAlong(direction, otherSite.xyz);
+    if (!mayStepTo(chunk, other, order, otherOrder, current.key, key)) continue;
+    bool isTie = next != kNoCell && nearness <= exitNearness + roundingOfNearness(exitNearness);
+    exitNearness = max(nearness, exitNearness);
+    if (isTie && !comesBefore(otherOrder, otherSite.xyz, nextOrder, siteRadiusOf(chunk, next).xyz)) continue;
+    next = other;
+    nextOrder = otherOrder;
+    nextKey = max(key, current.key);
   }
   float exit = max(distanceAt(exitNearness), current.entry);
   if (next == kNoCell) {
@@ -80,18 +85,19 @@ bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 r
   vec3 direction = directionOfRay(ray);
   uint link = kNoCell;
   float exitNearness = nearnessOfNoExit();
-  bool isTie = false;
+  float nextNearness = exitNearness;  // of the second of all exits
   current.neighbours += cell.planeSplit - cell.planeBegin;
   countWork(kWorkNeighbours, cell.planeSplit - cell.planeBegin);
   for (uint i = cell.planeBegin; i < cell.planeSplit; ++i) {
     vec4 plane = shading.planes.v[checked(i, FRAME.planeCapacity)];
     float nearness = nearnessOf(plane.xyz, ray);
-    isTie = nearness == exitNearness || (isTie && nearness < exitNearness);
+    nextNearness = max(nextNearness, min(nearness, exitNearness));
     if (nearness > exitNearness) {
       exitNearness = nearness;
       link = floatBitsToUint(plane.w);
     }
   }
+  bool isTie = nextNearness >= exitNearness - roundingOfNearness(exitNearness);
   if (isTie && link != kNoCell) return findNextSite(current, ray);  // which of the sites comes first decides
   float exit = max(distanceAt(exitNearness), current.entry);
   if (link == kNoCell) {

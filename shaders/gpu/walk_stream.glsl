@@ -128,6 +128,7 @@ Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 di
   vec3 centre = centreAt(place, siteRadius.xyz);
   vec2 order = orderAlong(direction, siteRadius.xyz);
   uint site = kNoCell;
+  vec2 siteOrder = order;
   float siteKey = key;
   float clearance = 1.0, q = 0.0;  // of the nearest plane: t = clearance / q
   uvec2 row = neighbourRow(chunk, cell);
@@ -141,11 +142,14 @@ Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 di
     vec3 otherCentre = centreAt(place, otherSite.xyz);
     float otherClearance = sharedClearance(centre, otherCentre, toNeighbour, siteRadius.w, otherSite.w);
     float lead = exitLead(otherClearance, otherQ, clearance, q);
-    if (!(lead >= 0.0)) continue;
-    if (lead == 0.0 && !(site != kNoCell && comesBefore(otherSite.xyz, siteRadiusOf(chunk, site).xyz))) continue;
+    float rounding = kExitRounding * abs(clearance * otherQ);
+    if (!(lead >= -rounding)) continue;
     float otherKey = keyOf(direction, otherCentre);
-    if (!mayStepTo(chunk, other, order, orderAlong(direction, otherSite.xyz), key, otherKey)) continue;
+    vec2 otherOrder = orderAlong(direction, otherSite.xyz);
+    if (!mayStepTo(chunk, other, order, otherOrder, key, otherKey)) continue;
+    if (site != kNoCell && lead <= rounding && !comesBefore(otherOrder, otherSite.xyz, siteOrder, siteRadiusOf(chunk, site).xyz)) continue;
     site = other;
+    siteOrder = otherOrder;
     siteKey = max(otherKey, key);
     clearance = otherClearance;
     q = otherQ;

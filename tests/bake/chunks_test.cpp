@@ -8,6 +8,7 @@
 
 #include "baker/bake/bake.h"
 #include "format/checks.h"
+#include "format/write/asset_writer.h"
 #include "tests/bake/random_foam.h"
 
 namespace froth {
@@ -62,6 +63,17 @@ TEST(Chunks, HoldNearlyTheSameNumberOfLiveCells) {
   const uint32_t first = result.contents.chunks[0].liveCount;
   EXPECT_LE(first, 130u);
   for (const ChunkContents& chunk : result.contents.chunks) EXPECT_NEAR(chunk.liveCount, first, 1);
+}
+
+// References of one cell need no bit to tell cells of a chunk apart, but a file has one at least.
+TEST(Chunks, MayHoldOneLiveCellEach) {
+  BakeOptions options;
+  options.steiner = false;
+  const BakeResult result = bakeInChunks(makeRandomFoam(9, 1, 1, 3), 1, options);
+  ASSERT_EQ(result.contents.chunks.size(), 9u);
+  EXPECT_EQ(result.contents.localBits, 1u);
+  const Result<std::vector<uint8_t>> bytes = encodeAsset(result.contents);
+  EXPECT_TRUE(bytes) << bytes.error().message;
 }
 
 TEST(Chunks, TogetherHoldEveryCellOnce) {

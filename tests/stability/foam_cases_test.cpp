@@ -39,7 +39,7 @@ class FoamCases : public testing::Test {
   }
   RenderedImages render(const StiffCase& stiffCase) const {
     Result<RenderedImages> images =
-        ReferenceRenderer(stiffCase.foam).render(stiffCase.views[0], optionsOfCase(stiffCase.views[0]));
+        ReferenceRenderer(stiffCase.foam).render(stiffCase.views[0], optionsOfCase(stiffCase, 0));
     EXPECT_TRUE(images);
     return images ? std::move(*images) : RenderedImages{};
   }

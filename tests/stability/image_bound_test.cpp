@@ -161,6 +161,73 @@ TEST_F(ImageBounds, OfTheShippedFormKnowTheCutOffAndHalves) {
   EXPECT_GT(checkBound(shipped, image).worstExcess, 1);
 }
 
+// sRGB as IEC 61966-2-1 has it, of premultiplied colours.
+RenderedImages inLinearLight(RenderedImages images) {
+  for (size_t pixel = 0; pixel < images.alpha.values.size(); ++pixel) {
+    const double alpha = images.alpha.values[pixel];
+    for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
+      const double value = alpha > 0 ? images.colour.values[i] / alpha : 0;
+      const double linear = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+      images.colour.values[i] = static_cast<float>(alpha * linear);
+    }
+  }
+  return images;
+}
+
+TEST_F(ImageBounds, OfRaysHoldColoursInLinearLight) {
+  const ImageBound whole = bound(), rays = boundOfRays(whole);
+  EXPECT_LE(checkBound(rays, inLinearLight(whole.exact)).worstExcess, 1);
+  EXPECT_LE(checkBound(rays, inLinearLight(render(foam_, Precision::kFloat))).worstExcess, 1);
+  EXPECT_GT(checkBound(rays, whole.exact).worstExcess, 1e3) << "display-coded colours";
+  RenderedImages image = inLinearLight(whole.exact);
+  for (float& value : image.colour.values) value *= 1.001f;
+  EXPECT_GT(checkBound(rays, image).worstExcess, 1) << "light that is off by a thousandth";
+  image = rays.exact;
+  image.colour.pixel(16, 12)[1] += 3 * rays.colour.pixel(16, 12)[1];
+  const BoundCheck check = checkBound(rays, image);
+  EXPECT_NEAR(check.worstExcess, 3, 0.01);
+  EXPECT_STREQ(check.worstChannel, "colour");
+}
+
+// Light of C / A grows by 2.4 times what C does, relative: a bound of the light that is as narrow as that of the code refuses floats.
+TEST_F(ImageBounds, OfRaysAreAsWideInLightAsDecodingMakesThem) {
+  const ImageBound whole = bound({.rounding = 0}), rays = boundOfRays(whole);
+  RenderedImages image = whole.exact;
+  for (size_t i = 0; i < image.colour.values.size(); ++i) image.colour.values[i] += 0.95f * whole.colour.values[i];
+  for (size_t i = 0; i < image.alpha.values.size(); ++i) image.alpha.values[i] -= 0.95f * whole.alpha.values[i];
+  EXPECT_LE(checkBound(whole, image).worstExcess, 1);
+  const BoundCheck check = checkBound(rays, inLinearLight(image));
+  EXPECT_LE(check.worstExcess, 1);
+  EXPECT_GT(check.worstExcess, 0.5);
+}
+
+// A transmittance comes as a float, so an opacity is off by units of 1 however small it is; by four of them, no more.
+TEST_F(ImageBounds, OfRaysKnowThatTransmittanceIsAFloat) {
+  const ImageBound whole = bound(), rays = boundOfRays(whole);
+  ASSERT_EQ(*whole.exact.alpha.pixel(0, 0), 0);
+  const auto excessOf = [](const ImageBound& limit, float error) {
+    RenderedImages image = limit.exact;
+    *image.alpha.pixel(0, 0) += error;
+    return checkBound(limit, image).worstExcess;
+  };
+  EXPECT_LE(excessOf(rays, 0x1p-22f), 1);
+  EXPECT_GT(excessOf(rays, 0x1.1p-22f), 1);
+  EXPECT_GT(excessOf(whole, 0x1p-22f), 1);
+  for (size_t i = 0; i < rays.alpha.values.size(); ++i) ASSERT_NEAR(rays.alpha.values[i] - whole.alpha.values[i], 0x1p-22, 1e-9);
+}
+
+// Their distances are the same, and a form without colours is not asked for them.
+TEST_F(ImageBounds, OfRaysHoldDistancesAsTheyAre) {
+  const ImageBound whole = bound(), rays = boundOfRays(whole);
+  EXPECT_EQ(rays.depth.middle.values, whole.depth.middle.values);
+  EXPECT_EQ(rays.depth.margin.values, whole.depth.margin.values);
+  RenderedImages image = rays.exact;
+  image.colour = image.normal = {};
+  EXPECT_LE(checkBound(rays, image).worstExcess, 1);
+  image.depth.values[0] = 3;
+  EXPECT_GT(checkBound(rays, image).worstExcess, 1);
+}
+
 TEST(SameBits, TellZerosAndNaNsApart) {
   RenderedImages a{{1, 1, 1, {0.0f}}, {1, 1, 1, {std::numeric_limits<float>::quiet_NaN()}}, {}, {}, {}}, b = a;
   EXPECT_TRUE(hasSameBits(a, b)) << "NaN is equal to itself";

@@ -3,11 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <set>
 
 #include "baker/bake/check_foam.h"
 #include "measure/stability/case_file.h"
+#include "measure/stability/cases/case_parts.h"
 #include "measure/stability/cases/random_case.h"
 #include "measure/stability/known_faults.h"
 #include "measure/stability/random_search.h"
@@ -37,6 +41,48 @@ TEST(RandomCases, AreTheSameForTheSameSeed) {
   }
 }
 
+TEST(RandomCases, PartsAreTheSameForTheSameSeed) {
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    const StiffCase one = drawCase(seed), other = drawCase(seed);
+    EXPECT_EQ(one.places, other.places);
+    EXPECT_EQ(one.jitter, other.jitter);
+    EXPECT_EQ(one.layers, other.layers);
+    EXPECT_EQ(one.chunkCells, other.chunkCells);
+    ASSERT_EQ(one.ends.size(), other.ends.size());
+    for (size_t i = 0; i < one.ends.size(); ++i) EXPECT_EQ(one.ends[i].values, other.ends[i].values);
+  }
+}
+
+// How many of the first cases have it.
+uint32_t countOf(const std::function<bool(const StiffCase&)>& hasIt) {
+  uint32_t count = 0;
+  for (uint64_t seed = 0; seed < 1000; ++seed) count += hasIt(drawCase(seed));
+  return count;
+}
+
+bool hasEnd(const StiffCase& stiff, const std::function<bool(float)>& isSuch) {
+  return std::ranges::any_of(stiff.ends, [&](const Image& image) { return std::ranges::any_of(image.values, isSuch); });
+}
+
+TEST(RandomCases, HaveEachPartNowAndThenAndMostlyNone) {
+  for (const size_t places : {2, 3, 4})
+    EXPECT_GE(countOf([&](const StiffCase& stiff) { return stiff.places.size() == places; }), 20u) << places << " instances";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.places.size() > 1 && stiff.places[0] == stiff.places[1]; }), 20u) << "coinciding";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.places.size() > 1 && stiff.places[1].rotation.w != 1; }), 20u) << "turned";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.places.size() > 1 && stiff.places[1].scale != 1; }), 20u) << "scaled";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return end == 0; }); }), 20u) << "at once";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return end < 0; }); }), 20u) << "behind the eye";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return std::isinf(end); }); }), 20u) << "never";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return end > 0 && !std::isinf(end); }); }), 80u);
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.jitter != glm::vec2(0); }), 20u);
+  for (const uint32_t layers : {1u, 2u}) EXPECT_GE(countOf([&](const StiffCase& stiff) { return stiff.layers == layers; }), 20u) << layers;
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.chunkCells > 0 && stiff.chunkCells < stiff.foam.cellCount; }), 20u);
+  const uint32_t plain = countOf([](const StiffCase& stiff) {
+    return stiff.places.empty() && stiff.ends.empty() && stiff.jitter == glm::vec2(0) && stiff.layers == kAllLayersOfCase && stiff.chunkCells == 0;
+  });
+  EXPECT_GE(plain, 500u);
+}
+
 TEST(RandomCases, CanBeBakedAndRendered) {
   for (uint64_t seed = 0; seed < 3000; ++seed) {
     const StiffCase drawn = drawCase(seed);
@@ -47,6 +93,11 @@ TEST(RandomCases, CanBeBakedAndRendered) {
     for (const View& view : drawn.views) {
       const Status status = checkView(view, "view");
       ASSERT_TRUE(status) << seed << ": " << status.error().message;
+    }
+    EXPECT_FALSE(hasEnd(drawn, [](float end) { return std::isnan(end) || end == -std::numeric_limits<float>::infinity(); })) << seed;
+    for (const CasePlace& place : drawn.places) {
+      EXPECT_NEAR(glm::length(place.rotation), 1, 1e-6) << seed;
+      EXPECT_GT(place.scale, 0) << seed;
     }
   }
 }
@@ -93,6 +144,76 @@ TEST(Shrinking, KeepsThePixelThatFails) {
   EXPECT_EQ(shrunk->fault.x, 0u);
 }
 
+// A case with all that a case may have beside foam and views.
+StiffCase caseWithParts() {
+  const View view = caseView({0, 0, -3}, {0, 0, 0});
+  StiffCase stiff{"", "", "", drawCase(0).foam, {view, view}};
+  stiff.places = {{}, {{0.123456, 1, 2}, glm::normalize(glm::quat(0.9f, 0.1f, 0.35f, -0.1f)), 0.7654f}, {{3, 0, 0}, {0, 0, 1, 0}, 2}};
+  for (const float first : {0.0f, 100.0f}) {
+    stiff.ends.push_back({32, 24, 1, {}});
+    for (uint32_t i = 0; i < 32 * 24; ++i) stiff.ends.back().values.push_back(first + static_cast<float>(i) + 0.125f);
+  }
+  stiff.jitter = {0.25f, -3};
+  stiff.layers = 1;
+  stiff.chunkCells = 2;
+  return stiff;
+}
+
+// Shrunk by a judge that finds a fault in the last view's pixel (20, 5) of whatever `fails`.
+StiffCase shrinkParts(const std::function<bool(const StiffCase&)>& fails) {
+  const auto judge = [&](const StiffCase& stiff) -> Result<std::optional<CaseFault>> {
+    const View& view = stiff.views.back();
+    const CaseFault fault{"part", "", stiff.views.size() - 1, static_cast<uint32_t>(20 - 16 + view.cx), static_cast<uint32_t>(5 - 12 + view.cy)};
+    const bool isSeen = 4 + view.cx >= 0 && -7 + view.cy >= 0 && fault.x < view.width && fault.y < view.height;
+    return isSeen && fails(stiff) ? std::optional(fault) : std::nullopt;
+  };
+  Result<ShrunkCase> shrunk = shrinkCase(caseWithParts(), {"part", "", 1, 20, 5}, judge, 3000);
+  EXPECT_TRUE(shrunk);
+  return shrunk ? std::move(shrunk->smallest) : StiffCase();
+}
+
+TEST(Shrinking, DropsPartsThatAFaultDoesNotNeed) {
+  const StiffCase smallest = shrinkParts([](const StiffCase&) { return true; });
+  EXPECT_TRUE(smallest.places.empty());
+  EXPECT_TRUE(smallest.ends.empty());
+  EXPECT_EQ(smallest.jitter, glm::vec2(0));
+  EXPECT_EQ(smallest.layers, kAllLayersOfCase);
+  EXPECT_EQ(smallest.chunkCells, 0u);
+}
+
+TEST(Shrinking, KeepsPartsThatAFaultNeeds) {
+  EXPECT_EQ(shrinkParts([](const StiffCase& stiff) { return stiff.jitter == glm::vec2(0.25f, -3); }).jitter, glm::vec2(0.25f, -3));
+  EXPECT_EQ(shrinkParts([](const StiffCase& stiff) { return stiff.layers == 1; }).layers, 1u);
+  EXPECT_EQ(shrinkParts([](const StiffCase& stiff) { return stiff.chunkCells == 2; }).chunkCells, 2u);
+}
+
+TEST(Shrinking, KeepsTheInstancesThatAFaultNeedsAndMakesThemPlain) {
+  const auto hasScaled = [](const StiffCase& stiff) {
+    return std::ranges::any_of(stiff.places, [](const CasePlace& place) { return place.scale == 0.7654f; });
+  };
+  const StiffCase one = shrinkParts(hasScaled);
+  ASSERT_EQ(one.places.size(), 1u);
+  EXPECT_EQ(one.places[0], (CasePlace{{0, 0, 0}, {1, 0, 0, 0}, 0.7654f}));
+  const StiffCase two = shrinkParts([](const StiffCase& stiff) { return stiff.places.size() >= 2; });
+  EXPECT_EQ(two.places, std::vector<CasePlace>(2));
+}
+
+// Of the view that fails, and of the pixel that does: value 5 * 32 + 20 of the second image.
+TEST(Shrinking, KeepsTheEndOfTheRayThatFails) {
+  const StiffCase smallest = shrinkParts([](const StiffCase& stiff) {
+    const View& view = stiff.views.back();
+    const auto x = static_cast<uint32_t>(4 + view.cx), y = static_cast<uint32_t>(-7 + view.cy);
+    return !stiff.ends.empty() && stiff.ends.back().width == view.width && *stiff.ends.back().pixel(x, y) == 100 + 5 * 32 + 20 + 0.125f;
+  });
+  ASSERT_EQ(smallest.ends.size(), 1u);
+  EXPECT_EQ(smallest.views.size(), 1u);
+  EXPECT_EQ(smallest.ends[0].width, 1u);
+  EXPECT_EQ(smallest.ends[0].height, 1u);
+  EXPECT_EQ(smallest.ends[0].values, std::vector<float>{280.125f});
+  const StiffCase any = shrinkParts([](const StiffCase& stiff) { return !stiff.ends.empty() && stiff.ends.back().values[0] > 0; });
+  EXPECT_EQ(any.ends[0].values, std::vector<float>{1});
+}
+
 TEST(Shrinking, EndsAfterItsTries) {
   StiffCase drawn = drawCase(0);
   uint32_t judged = 0;
@@ -104,6 +225,42 @@ TEST(Shrinking, EndsAfterItsTries) {
   ASSERT_TRUE(shrunk);
   EXPECT_EQ(judged, 50u);
   EXPECT_EQ(shrunk->smallest.foam.sites, drawn.foam.sites) << "a fault of another kind was taken";
+}
+
+// A bound that knows of no rounding is a planted fault: floats break it wherever something is drawn.
+BoundOptions tooTight() {
+  BoundOptions bound;
+  bound.rounding = 0;
+  bound.cells = 0;
+  return bound;
+}
+
+StiffCase cloudCase() { return {"", "", "", foamOfCells(cloud(40, 3)), outsideViews()}; }
+
+TEST(Judge, OfTheReferenceEndsRaysWhereTheCaseDoes) {
+  StiffCase stiff = cloudCase();
+  const auto open = judgeOfReference(tooTight())(stiff);
+  ASSERT_TRUE(open);
+  EXPECT_TRUE(*open);
+  for (const View& view : stiff.views) stiff.ends.push_back({view.width, view.height, 1, std::vector<float>(size_t{view.width} * view.height)});
+  const auto ended = judgeOfReference(tooTight())(stiff);
+  ASSERT_TRUE(ended);
+  EXPECT_FALSE(*ended) << "rays that end at once show nothing: " << (*ended)->what;
+}
+
+// It has no float image of them. A distance of the second instance is beyond the floats, so the double image is not finite.
+TEST(Judge, OfTheReferenceHoldsSeveralInstancesToFiniteNumbersAlone) {
+  StiffCase stiff = cloudCase();
+  stiff.places.resize(2);
+  const auto within = judgeOfReference(tooTight())(stiff);
+  ASSERT_TRUE(within);
+  EXPECT_FALSE(*within) << (*within)->what;
+  stiff.places[0] = stiff.places[1] = {{0, 0, -1e39}, {1, 0, 0, 0}, 3e38f};
+  stiff.views = {caseView({0, 0, -3}, {0, 0, -4}), caseView({0, 0, -3e39}, {0, 0, 0})};
+  const auto beyond = judgeOfReference()(stiff);
+  ASSERT_TRUE(beyond);
+  ASSERT_TRUE(*beyond);
+  EXPECT_EQ((*beyond)->kind, "double: not finite");
 }
 
 // What searches have found, in this folder's found/: `froth stability --search` writes such files.
@@ -141,14 +298,11 @@ TEST(Search, FindsNamesAndShrinksTheSameFaultsAgain) {
   }
 }
 
-// A bound that knows of no rounding is a planted fault: floats break it.
 TEST(Search, ShrinksARealFaultToAFewCellsThatTheTrueBoundHolds) {
-  BoundOptions tooTight;
-  tooTight.rounding = 0;
   SearchOptions options;
   options.seconds = 1;
   options.mostOfOneKind = 2;
-  const CaseJudge judge = judgeOfReference(tooTight);
+  const CaseJudge judge = judgeOfReference(tooTight());
   const Result<SearchResult> result = searchCases(options, judge);
   ASSERT_TRUE(result) << result.error().message;
   ASSERT_FALSE(result->found.empty()) << "of " << result->tried;

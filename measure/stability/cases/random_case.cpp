@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <span>
 
 #include "base/counter_random.h"
 #include "base/float_span.h"
+#include "reference/camera/view_rays.h"
+#include "shaders/foam/cell.h"
 
 namespace froth {
 namespace {
@@ -233,6 +237,91 @@ View drawView(Dice& dice, const Foam& foam, double unit) {
   return view;
 }
 
+// ---- Instances, ends of rays, and what assets and devices have of their own
+
+glm::quat drawTurn(Dice& dice) {
+  constexpr float kHalfRoot = 0.70710678f;
+  const glm::quat aligned[] = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {kHalfRoot, 0, 0, kHalfRoot}};
+  const double half = dice.uniform(0, glm::pi<double>());
+  const glm::dquat turned(std::cos(half), dice.direction() * std::sin(half));
+  return dice.chance(0.5) ? dice.pick(aligned) : glm::normalize(glm::quat(turned));
+}
+
+enum class Arrangement { kCoinciding, kBeside, kAcross, kOfAnySize };
+
+// Turned and scaled about `pivot`, so that an instance of a foam far from its origin lies where the others do.
+CasePlace drawPlace(Dice& dice, Arrangement arrangement, const glm::dvec3& pivot, double unit) {
+  CasePlace place;
+  if (arrangement == Arrangement::kCoinciding) return place;
+  place.rotation = drawTurn(dice);
+  glm::dvec3 shift = unit * dice.inCube(0.7);
+  if (arrangement == Arrangement::kBeside) shift = unit * 0.25 * std::floor(dice.uniform(0, 5)) * dice.axis();
+  if (arrangement == Arrangement::kAcross) place.scale = static_cast<float>(dice.pick({1.0, 0.5, dice.uniform(0.5, 2)}));
+  if (arrangement == Arrangement::kOfAnySize) place.scale = static_cast<float>(dice.logUniform(1e-3, 1e3));
+  place.position = pivot + shift - glm::normalize(glm::dquat(place.rotation)) * (double{place.scale} * pivot);
+  return place;
+}
+
+// The first stays as it is: what the views were drawn for.
+void drawPlaces(Dice& dice, double unit, StiffCase& drawn) {
+  const auto arrangement = static_cast<Arrangement>(dice.below(4));
+  const glm::dvec3 pivot(drawn.foam.sites[dice.below(drawn.foam.cellCount)]);
+  drawn.places.resize(2 + dice.below(kMostPlaces - 1));
+  for (size_t i = 1; i < drawn.places.size(); ++i) drawn.places[i] = drawPlace(dice, arrangement, pivot, unit);
+}
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// Where a ray enters or leaves one of the balls; never where it misses that.
+double drawEndOnBall(Dice& dice, const Foam& foam, const View& view, const std::optional<ViewRay>& ray) {
+  const uint32_t cell = dice.below(foam.cellCount);
+  const bool isEntry = dice.chance(0.5);
+  double tNear = 0, tFar = 0;
+  if (!ray) return kNever;
+  const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - (eyeOf(view) + ray->offset);
+  if (!foam::intersectBall(centre, double{foam.radii[cell]}, ray->direction, tNear, tFar)) return kNever;
+  return isEntry ? tNear : tFar;
+}
+
+// About `size`, or at, behind and beyond everything.
+double drawAnyEnd(Dice& dice, double size) {
+  const double share = dice.uniform(0, 1), end = size * dice.logUniform(0.1, 3);
+  return share < 0.1 ? 0 : share < 0.2 ? -end : share < 0.35 ? kNever : end;
+}
+
+enum class Ends { kSmooth, kAny, kOnBalls, kOne };
+
+Image drawEndsOf(Dice& dice, const Foam& foam, const View& view, double unit) {
+  const auto kind = static_cast<Ends>(dice.below(4));
+  const double toSite = glm::distance(eyeOf(view), glm::dvec3(foam.sites[dice.below(foam.cellCount)]));
+  const double size = std::max(toSite, 1e-3 * unit) * dice.uniform(0.5, 1.5);
+  const double across = dice.uniform(-1.5, 1.5), down = dice.uniform(-1.5, 1.5), one = drawAnyEnd(dice, size);
+  const ViewRays rays(view);
+  Image ends{view.width, view.height, 1, {}};
+  for (uint32_t y = 0; y < view.height; ++y) {
+    for (uint32_t x = 0; x < view.width; ++x) {
+      const double smooth = size * (1 + across * (x / double(view.width) - 0.5) + down * (y / double(view.height) - 0.5));
+      const double end = kind == Ends::kSmooth    ? smooth
+                         : kind == Ends::kAny     ? drawAnyEnd(dice, size)
+                         : kind == Ends::kOnBalls ? drawEndOnBall(dice, foam, view, rays.ofPixel(x, y))
+                                                  : one;
+      ends.values.push_back(static_cast<float>(end));
+    }
+  }
+  return ends;
+}
+
+// Each in few cases, so that most have none of them. Drawn last: a seed's foam and views are what they were before there were parts.
+void drawParts(Dice& dice, double unit, StiffCase& drawn) {
+  if (dice.chance(0.15)) drawPlaces(dice, unit, drawn);
+  if (dice.chance(0.15)) {
+    for (const View& view : drawn.views) drawn.ends.push_back(drawEndsOf(dice, drawn.foam, view, unit));
+  }
+  if (dice.chance(0.06)) drawn.jitter = glm::floor(glm::vec2(dice.inCube(dice.pick({8.0, 64.0})))) / 16.0f;
+  if (dice.chance(0.08)) drawn.layers = 1 + dice.below(kAllLayersOfCase - 1);
+  if (dice.chance(0.1)) drawn.chunkCells = dice.pick({1u, 2u, 5u, 16u});
+}
+
 }  // namespace
 
 StiffCase drawCase(uint64_t seed) {
@@ -247,6 +336,7 @@ StiffCase drawCase(uint64_t seed) {
     drawn.views.push_back(drawView(dice, drawn.foam, unit));
     drawn.views.back().name = fmt::format("view_{:02}", i);
   }
+  drawParts(dice, unit, drawn);
   return drawn;
 }
 

@@ -27,7 +27,11 @@ struct CasePlace {
   glm::dvec3 position{0};
   glm::quat rotation{1, 0, 0, 0};  // unit length
   float scale = 1;
+
+  bool operator==(const CasePlace&) const = default;
 };
+
+inline constexpr size_t kMostPlaces = 4;  // that a ray of the GPU is in at the same time (FROTH_WALK_STREAMS)
 
 inline constexpr uint32_t kAllLayersOfCase = 3;
 
