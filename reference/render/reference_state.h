@@ -47,8 +47,9 @@ inline double endOfRay(const ReferenceOptions& options, const ViewRay& ray, uint
   const double end = *options.sceneDistance->pixel(x, y);
   if (options.rounding == 0 || std::isinf(end)) return end;
   Rounding rounding(options.rounding, options.roundingSeed + 3, y * options.sceneDistance->width + x);
+  const double ahead = std::max(end, 0.0);  // depth knows nothing behind the start of a ray: that errs as what is at it
   const double cosine = options.depthAxis == glm::dvec3(0) ? 1 : glm::dot(options.depthAxis, ray.direction);
-  return std::max(rounding.of(end, glm::length(ray.offset + end * ray.direction) / cosine), 0.0);
+  return std::max(rounding.of(ahead, glm::length(ray.offset + ahead * ray.direction) / cosine), 0.0);
 }
 
 // The balls that a ray from `origin` meets before `end`. primary: in the precision of the render, as the cells are.

@@ -179,6 +179,10 @@ TEST(EndOfRay, OfParallelRaysErrsByTheirDistanceFromTheEyeToo) {
   EXPECT_GT(atOnce, 5u);
   EXPECT_GT(largest, 0.8 * 5 * 0x1p-21);
   EXPECT_LE(largest, 5 * 0x1p-21);
+  const double atEye = endOfRay(ended.options, ray, 1, 0), alsoAtEye = endOfRay(ended.options, ray, 2, 0);
+  ended.image = endsOf(32, 24, -7);
+  EXPECT_EQ(endOfRay(ended.options, ray, 1, 0), atEye) << "an end behind the start of its ray is at it";
+  EXPECT_EQ(endOfRay(ended.options, ray, 2, 0), alsoAtEye);
 }
 
 // A depth along the axis is divided by a cosine, whose rounding does not shrink with it.
