@@ -48,7 +48,7 @@ Result<std::vector<BakeJob>> findBakeJobs(const BakeJob& given) {
   }
   if (error) return makeError(ErrorKind::kBadInput, "%s: cannot be read: %s", given.input.c_str(), error.message().c_str());
   if (jobs.empty()) {
-    return makeError(ErrorKind::kBadInput, "%s: holds no checkpoint; expected NAME.pt or NAME/model.pt", given.input.c_str());
+    return makeError(ErrorKind::kBadInput, "%s: is a directory that holds no checkpoint; expected NAME.pt or NAME/model.pt", given.input.c_str());
   }
   std::ranges::sort(jobs, {}, &BakeJob::output);
   const auto twin = std::ranges::adjacent_find(jobs, {}, &BakeJob::output);
