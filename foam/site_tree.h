@@ -75,7 +75,7 @@ class SiteTree {
   void search(const double& limit, const Bound& bound, const Visit& visit) const;
 
   // Calls visit(site) for every site whose ball a ray may meet at t >= 0, by the rounding of float or of double, and for some others,
-  // in no useful order; the direction has unit length.
+  // in no useful order; the direction has unit length, up to the rounding of float.
   template <class Visit>
   void searchRay(const glm::dvec3& origin, const glm::dvec3& direction, const Visit& visit) const;
 
@@ -140,6 +140,7 @@ template <class Visit>
 void SiteTree::searchRay(const glm::dvec3& origin, const glm::dvec3& direction, const Visit& visit) const {
   // The test of a ball itself may run in float, where one at distance D seems larger by some 1e-7 D.
   constexpr double kRelativePadding = 1e-5;
+  const glm::dvec3 unit = glm::normalize(direction);  // far away a rounding of its length is more than a ball's radius
   // A direction of 0 gets a huge inverse instead of an infinite one: 0 * infinity would be NaN.
   constexpr double kTiny = 1e-200;
   glm::dvec3 inverse;
@@ -160,7 +161,7 @@ void SiteTree::searchRay(const glm::dvec3& origin, const glm::dvec3& direction, 
   search(0.0, bound, [&](uint32_t place) {
     const uint32_t site = order_[place];
     const glm::dvec3 centre = glm::dvec3(sites_[site]) - origin;
-    const double along = glm::dot(centre, direction), squared = glm::dot(centre, centre);
+    const double along = glm::dot(centre, unit), squared = glm::dot(centre, centre);
     const double reach = radii_[site] * (1 + kRelativePadding) + kRelativePadding * std::sqrt(squared);
     if (along >= -reach && squared - along * along <= reach * reach) visit(site);
   });

@@ -84,6 +84,21 @@ TEST(SiteTree, VisitsEveryBallOnARayOnceAndMostOthersNever) {
   EXPECT_LT(visits, 2000u * foam.cellCount / 20);
 }
 
+// As the reference in float has them: a length off by 6e-8 is more than such a ball's radius.
+TEST(SiteTree, VisitsSmallBallsFarAwayAlongDirectionsOfFloats) {
+  const std::vector<glm::vec3> sites{{-0.6f, 0, 0}, {0.3f, 0.5f, -0.2f}};
+  const std::vector<float> radii{0.01f, 0.4f};
+  const SiteTree tree(sites, radii, {0, 1});
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec3 origin = 3000.0 * glm::dvec3(uniform(random), uniform(random), uniform(random));
+    const uint32_t aimed = i % 2;
+    const glm::dvec3 direction(glm::vec3(glm::normalize(glm::dvec3(sites[aimed]) - origin)));
+    ASSERT_EQ(visited(tree, origin, direction).count(aimed), 1u) << i;
+  }
+}
+
 TEST(SiteTree, HoldsAnyNumberOfCellsAndCoincidentOnes) {
   const std::vector<glm::vec3> sites(100, glm::vec3(1, 2, 3));
   const std::vector<float> radii(100, 0.5f);
