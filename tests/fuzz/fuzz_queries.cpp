@@ -24,7 +24,7 @@ void ask(const QueryFoam& foam, const glm::dvec3& point) {
   for (int axis = 0; axis < 3; ++axis) {
     FoamRay ray{point, glm::dvec3(0), HUGE_VAL};
     ray.direction[axis] = 1;
-    FoamWalk walk(foam, ray, 1000);
+    FoamWalk walk(foam, ray, {1000, 1u << 20});
     for (FoamSegment segment; walk.next(segment);) expect(segment.tNear < segment.tFar && segment.density >= 0);
   }
   const std::optional<SolidContact> contact = SphereOverlap(foam, point, 0.7).findNearest(1e6);
