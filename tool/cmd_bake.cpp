@@ -179,8 +179,8 @@ Status runBake(const BakeCommandOptions& options, Tool& tool) {
   std::optional<tbb::global_control> threads;
   if (options.flags.threads() > 0)
     threads.emplace(tbb::global_control::max_allowed_parallelism, options.flags.threads());
-  std::error_code ignored;
-  if (std::filesystem::is_directory(options.given.input, ignored)) return runJobs(*jobs, *bake, options, tool);
+  const bool isFolder = jobs->front().input != options.given.input;
+  if (isFolder) return runJobs(*jobs, *bake, options, tool);
   const Result<nlohmann::ordered_json> figures = runJob(jobs->front(), *bake, options, tool.progress.callback());
   if (!figures) return figures.error();
   return options.figures.write(*figures);

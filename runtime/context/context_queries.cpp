@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "runtime/context/context.h"
+#include "runtime/context/walk_limits.h"
 #include "runtime/query/ray_caster.h"
 #include "runtime/query/sphere_overlap.h"
 
@@ -11,7 +12,6 @@ namespace froth {
 namespace {
 
 constexpr float kDefaultCutoff = 1e-3f, kDefaultQuantile = 0.5f, kDefaultOpacity = 0.5f;
-constexpr uint32_t kDefaultMaxSteps = 65536, kDefaultMaxNeighbours = 1u << 20;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool isFinite(const double (&vector)[3]) {
@@ -67,8 +67,7 @@ FrothResult Context::castRays(FrothCastInfo info, std::span<const FrothRay> rays
   constexpr const char* kCall = "frothCastRays";
   if (info.quantile == 0) info.quantile = kDefaultQuantile;
   if (info.cutoff == 0) info.cutoff = kDefaultCutoff;
-  if (info.maxSteps == 0) info.maxSteps = kDefaultMaxSteps;
-  if (info.maxNeighbours == 0) info.maxNeighbours = kDefaultMaxNeighbours;
+  resolveWalkLimits(info.maxSteps, info.maxNeighbours);
   if (!(info.quantile > 0 && info.quantile < 1)) {
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "quantile: %g; must lie between 0 and 1",
                          double{info.quantile});

@@ -2,12 +2,12 @@
 #include <cmath>
 
 #include "runtime/context/context.h"
+#include "runtime/context/walk_limits.h"
 
 namespace froth {
 namespace {
 
 constexpr float kDefaultCutoff = 1e-3f, kDefaultQuantile = 0.5f;
-constexpr uint32_t kDefaultMaxSteps = 65536, kDefaultMaxNeighbours = 1u << 20;
 
 // Tables of chunks that an instance needs in a frame which seeds its asset (walk_sets.cpp).
 constexpr uint32_t kTablesToSeed = 2;
@@ -88,8 +88,7 @@ FrothResult Context::recordWalkSet(VkCommandBuffer commandBuffer, FrothWalkInfo 
   }
   if (info.cutoff == 0) info.cutoff = kDefaultCutoff;
   if (info.quantile == 0) info.quantile = kDefaultQuantile;
-  if (info.maxSteps == 0) info.maxSteps = kDefaultMaxSteps;
-  if (info.maxNeighbours == 0) info.maxNeighbours = kDefaultMaxNeighbours;
+  resolveWalkLimits(info.maxSteps, info.maxNeighbours);
   if (info.stages == 0) {
     info.stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
   }

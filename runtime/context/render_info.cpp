@@ -6,6 +6,7 @@
 
 #include "runtime/context/camera_checks.h"
 #include "runtime/context/image_checks.h"
+#include "runtime/context/walk_limits.h"
 #include "runtime/render/device_depth.h"
 #include "runtime/render/frame_images.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 constexpr float kDefaultCutoff = 1e-3f;
 constexpr float kDefaultDepthQuantile = 0.5f;
-constexpr uint32_t kDefaultMaxSteps = 65536;
-constexpr uint32_t kDefaultMaxNeighbours = 1u << 20;
 constexpr uint32_t kDefaultMaxEntries = 16384;
 
 FrothResult checkLensClass(const Messages& messages, const char* call, const FrothCamera& camera,
@@ -147,8 +146,7 @@ FrothResult checkTileForm(const Messages& messages, const char* call, const Frot
 FrothResult resolveLimits(const Messages& messages, const char* call, FrothRenderInfo& info) {
   info.cutoff = info.cutoff == 0 ? kDefaultCutoff : info.cutoff < 0 ? 0 : info.cutoff;
   info.depthQuantile = info.depthQuantile == 0 ? kDefaultDepthQuantile : info.depthQuantile;
-  info.maxSteps = info.maxSteps == 0 ? kDefaultMaxSteps : info.maxSteps;
-  info.maxNeighbours = info.maxNeighbours == 0 ? kDefaultMaxNeighbours : info.maxNeighbours;
+  resolveWalkLimits(info.maxSteps, info.maxNeighbours);
   info.maxEntries = info.maxEntries == 0 ? kDefaultMaxEntries : info.maxEntries;
   info.mask = info.mask == 0 ? ~0u : info.mask;
   if (!(info.cutoff < 1)) {
