@@ -11,8 +11,8 @@
 
 namespace froth {
 
-// Fails with ErrorKind::kBadInput if the path does not exist, is a directory or cannot be read, or the file has more than
-// `mostBytes`.
+// Fails with ErrorKind::kBadInput if the path does not exist, is a directory or cannot be read, or the file has more
+// than `mostBytes`.
 Result<std::vector<uint8_t>> readFile(const std::filesystem::path& path, uint64_t mostBytes = UINT64_MAX);
 
 // A file that nobody may write (mode 444) is left alone unless its replacement is forced.
@@ -32,7 +32,6 @@ using ByteSink = std::function<Status(std::span<const uint8_t>)>;
 
 // The same for contents too large to gather first: `produce` gets a sink that appends to the temporary. Its
 // first error is returned. Part of froth_format_write.
-Status streamFileAtomically(const std::filesystem::path& path,
-                            const std::function<Status(const ByteSink&)>& produce);
+Status streamFileAtomically(const std::filesystem::path& path, const std::function<Status(const ByteSink&)>& produce);
 
 }  // namespace froth

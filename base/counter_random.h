@@ -45,9 +45,7 @@ class CounterRandom {
 
   // [0, 1), 53 bits.
   double uniform(uint64_t index) const { return static_cast<double>(bits(index) >> 11) * 0x1p-53; }
-  double uniform(uint64_t index, double low, double high) const {
-    return low + (high - low) * uniform(index);
-  }
+  double uniform(uint64_t index, double low, double high) const { return low + (high - low) * uniform(index); }
 
   // Uniform on the unit sphere.
   glm::dvec3 direction(uint64_t index) const {

@@ -19,15 +19,15 @@ Result<InputFile> InputFile::open(const std::filesystem::path& path) {
   const char* name = file.name_.c_str();
   // Without O_NONBLOCK a pipe without a writer would hang here.
   file.descriptor_ = ::open(name, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file.descriptor_ < 0)
-    return makeError(ErrorKind::kBadInput, "%s: cannot be opened: %s; check the path", name,
-                     std::strerror(errno));
+  if (file.descriptor_ < 0) {
+    return makeError(ErrorKind::kBadInput, "%s: cannot be opened: %s; check the path", name, std::strerror(errno));
+  }
   struct stat info {};
-  if (::fstat(file.descriptor_, &info) != 0)
+  if (::fstat(file.descriptor_, &info) != 0) {
     return makeError(ErrorKind::kBadInput, "%s: cannot be examined: %s", name, std::strerror(errno));
+  }
   if (S_ISDIR(info.st_mode)) return makeError(ErrorKind::kBadInput, "%s: is a directory; give a file", name);
-  if (!S_ISREG(info.st_mode))
-    return makeError(ErrorKind::kBadInput, "%s: is no regular file; give a file", name);
+  if (!S_ISREG(info.st_mode)) return makeError(ErrorKind::kBadInput, "%s: is no regular file; give a file", name);
   file.size_ = static_cast<uint64_t>(info.st_size);
   return file;
 }
@@ -52,11 +52,10 @@ Status InputFile::readAt(uint64_t offset, std::span<uint8_t> out) const {
     const size_t wanted = std::min(out.size(), kMostAtOnce);
     const ssize_t got = ::pread(descriptor_, out.data(), wanted, static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0)
-      return makeError(ErrorKind::kBadInput, "%s: cannot be read: %s", name_.c_str(), std::strerror(errno));
-    if (got == 0)
-      return makeError(ErrorKind::kBadInput, "%s: became shorter while it was read; try again",
-                       name_.c_str());
+    if (got < 0) return makeError(ErrorKind::kBadInput, "%s: cannot be read: %s", name_.c_str(), std::strerror(errno));
+    if (got == 0) {
+      return makeError(ErrorKind::kBadInput, "%s: became shorter while it was read; try again", name_.c_str());
+    }
     offset += static_cast<uint64_t>(got);
     out = out.subspan(static_cast<size_t>(got));
   }
@@ -67,9 +66,10 @@ Result<std::vector<uint8_t>> readFile(const std::filesystem::path& path, uint64_
   Result<InputFile> file = InputFile::open(path);
   if (!file) return file.error();
   using ull = unsigned long long;
-  if (file->size() > mostBytes)
-    return makeError(ErrorKind::kBadInput, "%s: has %llu bytes, more than %llu; give a smaller file", file->name().c_str(),
-                     ull{file->size()}, ull{mostBytes});
+  if (file->size() > mostBytes) {
+    return makeError(ErrorKind::kBadInput, "%s: has %llu bytes, more than %llu; give a smaller file",
+                     file->name().c_str(), ull{file->size()}, ull{mostBytes});
+  }
   std::vector<uint8_t> bytes(file->size());
   if (Status status = file->readAt(0, bytes); !status) return status.error();
   return bytes;

@@ -1,4 +1,5 @@
-// JSON of files that nobody vouches for: bounded in size, and no key twice in an object, where readers differ on which one counts.
+// JSON of files that nobody vouches for: bounded in size, and no key twice in an object, where readers differ on which
+// one counts.
 #pragma once
 
 #include <cstdint>
@@ -41,16 +42,17 @@ class KeyWatch {
 // `file` names the bytes in messages, `remedy` says what they should be. Fails with kBadInput.
 template <class Json = nlohmann::json>
 Result<Json> parseJson(std::span<const uint8_t> bytes, const std::string& file, const char* remedy) {
-  if (bytes.size() > kMostJsonBytes)
-    return makeError(ErrorKind::kBadInput, "%s: %zu bytes of JSON, more than %llu; split it", file.c_str(), bytes.size(),
-                     static_cast<unsigned long long>(kMostJsonBytes));
+  if (bytes.size() > kMostJsonBytes) {
+    return makeError(ErrorKind::kBadInput, "%s: %zu bytes of JSON, more than %llu; split it", file.c_str(),
+                     bytes.size(), static_cast<unsigned long long>(kMostJsonBytes));
+  }
   KeyWatch<Json> keys;
   Json json;
   try {
     json = Json::parse(bytes.begin(), bytes.end(), std::ref(keys));
   } catch (const typename Json::parse_error& fault) {
-    return makeError(ErrorKind::kBadInput, "%s: byte %zu: not JSON (%s); %s", file.c_str(), size_t{fault.byte}, fault.what(),
-                     remedy);
+    return makeError(ErrorKind::kBadInput, "%s: byte %zu: not JSON (%s); %s", file.c_str(), size_t{fault.byte},
+                     fault.what(), remedy);
   } catch (const typename Json::exception& fault) {  // a number beyond the range of double
     return makeError(ErrorKind::kBadInput, "%s: %s; give numbers that a double can hold", file.c_str(), fault.what());
   }

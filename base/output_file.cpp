@@ -15,8 +15,8 @@ Status checkWritable(const std::filesystem::path& path, WriteProtected isProtect
   }
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    return makeError(ErrorKind::kIo, "%s: cannot be written: folder %s: %s; make it or choose another",
-                     path.c_str(), folder.c_str(), std::strerror(errno));
+    return makeError(ErrorKind::kIo, "%s: cannot be written: folder %s: %s; make it or choose another", path.c_str(),
+                     folder.c_str(), std::strerror(errno));
   }
   return checkTarget(path, isProtected);
 }

@@ -17,9 +17,7 @@ constexpr Seconds kPlainInterval{5.0};
 std::atomic<bool> stopRequested{false};  // lock-free, so a signal handler may set it
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void requestStop(int) {
-  stopRequested = true;
-}
+void requestStop(int) { stopRequested = true; }
 
 bool isTerminal() {
   static const bool value = isatty(STDERR_FILENO) == 1;
@@ -48,13 +46,9 @@ void stopOnInterrupt() {
   sigaction(SIGINT, &action, nullptr);
 }
 
-bool isStopRequested() {
-  return stopRequested;
-}
+bool isStopRequested() { return stopRequested; }
 
-Error stoppedError() {
-  return makeError(ErrorKind::kCancelled, "stopped on request; the command can be run again");
-}
+Error stoppedError() { return makeError(ErrorKind::kCancelled, "stopped on request; the command can be run again"); }
 
 Progress ProgressPrinter::callback() {
   return [this](std::string_view stage, uint64_t done, uint64_t total) {

@@ -27,11 +27,7 @@ struct Error {
   std::string message;
 };
 
-[[nodiscard]]
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-inline Error makeError(ErrorKind kind, const char* format, ...) {
+[[nodiscard, gnu::format(printf, 2, 3)]] inline Error makeError(ErrorKind kind, const char* format, ...) {
   va_list args, counted;
   va_start(args, format);
   va_copy(counted, args);

@@ -29,9 +29,7 @@ bool isTemporaryOf(const std::filesystem::path& target, std::string_view name) {
          name.find_first_not_of("0123456789-", start.size()) == std::string_view::npos;
 }
 
-bool lock(int descriptor) {
-  return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
-}
+bool lock(int descriptor) { return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0; }
 
 // False once another process has removed it, or its owner has renamed it and perhaps made another file of
 // that name.
@@ -47,8 +45,9 @@ void removeLeftovers(const std::filesystem::path& target) {
   std::error_code ignored;
   std::vector<std::string> leftovers;
   for (std::filesystem::directory_iterator entry(folderOf(target), ignored), end; entry != end;
-       entry.increment(ignored))
+       entry.increment(ignored)) {
     if (isTemporaryOf(target, entry->path().filename().string())) leftovers.push_back(entry->path().string());
+  }
   for (const std::string& leftover : leftovers) {
     const int descriptor = ::open(leftover.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor < 0) continue;
@@ -96,8 +95,7 @@ Result<TemporaryFile> TemporaryFile::create(const std::filesystem::path& target)
 Status TemporaryFile::openLocked() {
   constexpr int kAttempts = 1000;  // names that other threads may hold
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const std::string name =
-        target_.string() + kMark + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    const std::string name = target_.string() + kMark + std::to_string(::getpid()) + "-" + std::to_string(attempt);
     const int descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno == EEXIST) continue;
     if (descriptor < 0) return ioError(target_, "cannot be created");
@@ -110,17 +108,17 @@ Status TemporaryFile::openLocked() {
     }
     ::close(descriptor);  // taken for a leftover before it was locked
   }
-  return makeError(ErrorKind::kIo, "%s: %d temporary files stand beside it; remove them", target_.c_str(),
-                   kAttempts);
+  return makeError(ErrorKind::kIo, "%s: %d temporary files stand beside it; remove them", target_.c_str(), kAttempts);
 }
 
-// Only root may give files away. Where not even the group can stay, its rights go: they were another group's. They are set
-// after the owner, for a new one takes some away; meanwhile the file is empty.
+// Only root may give files away. Where not even the group can stay, its rights go: they were another group's. They are
+// set after the owner, for a new one takes some away; meanwhile the file is empty.
 void TemporaryFile::takeRightsOfTarget() const {
   struct stat old {};
   if (::stat(target_.c_str(), &old) != 0) return;
   constexpr uid_t kSameOwner = static_cast<uid_t>(-1);
-  const bool hasGroup = ::fchown(descriptor_, old.st_uid, old.st_gid) == 0 || ::fchown(descriptor_, kSameOwner, old.st_gid) == 0;
+  const bool hasGroup =
+      ::fchown(descriptor_, old.st_uid, old.st_gid) == 0 || ::fchown(descriptor_, kSameOwner, old.st_gid) == 0;
   ::fchmod(descriptor_, old.st_mode & (hasGroup ? 0777 : 0707));
 }
 
@@ -170,8 +168,7 @@ Status TemporaryFile::appendFile(const TemporaryFile& source) {
   }
   std::vector<uint8_t> buffer(std::min(left(), uint64_t{1} << 20));
   while (left() > 0) {
-    const ssize_t got =
-        ::pread(source.descriptor_, buffer.data(), std::min<uint64_t>(buffer.size(), left()), offset);
+    const ssize_t got = ::pread(source.descriptor_, buffer.data(), std::min<uint64_t>(buffer.size(), left()), offset);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return ioError(target_, "its temporary cannot be read");
     if (Status status = append({buffer.data(), static_cast<size_t>(got)}); !status) return status;

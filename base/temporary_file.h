@@ -20,8 +20,9 @@ Error ioError(const std::filesystem::path& path, const char* what);
 // asked of it.
 class TemporaryFile {
  public:
-  // Beside `target`, so that renaming stays within one file system; beside the file that it names, if it is a symbolic link.
-  // Removes leftovers of killed runs first. Has owner and rights of an existing target, as far as the system allows.
+  // Beside `target`, so that renaming stays within one file system; beside the file that it names, if it is a symbolic
+  // link. Removes leftovers of killed runs first. Has owner and rights of an existing target, as far as the system
+  // allows.
   static Result<TemporaryFile> create(const std::filesystem::path& target);
   TemporaryFile(TemporaryFile&& other) noexcept;
   TemporaryFile& operator=(TemporaryFile&& other) noexcept;

@@ -28,9 +28,7 @@ Character firstCharacter(std::string_view text) {
   return code >= kLeast[length] && code <= 0x10ffff && !isSurrogate ? Character{length, code} : Character{};
 }
 
-bool isControl(uint32_t code) {
-  return code < 0x20 || (code >= 0x7f && code < 0xa0);
-}
+bool isControl(uint32_t code) { return code < 0x20 || (code >= 0x7f && code < 0xa0); }
 
 }  // namespace
 
@@ -52,8 +50,11 @@ std::string printable(std::string_view text) {
     for (const char byte : text.substr(0, length)) {
       char escaped[5];
       std::snprintf(escaped, sizeof(escaped), "\\x%02x", static_cast<unsigned>(static_cast<uint8_t>(byte)));
-      if (isShown) shown += byte;
-      else shown += escaped;
+      if (isShown) {
+        shown += byte;
+      } else {
+        shown += escaped;
+      }
     }
     text.remove_prefix(length);
   }

@@ -14,8 +14,7 @@ struct CellGraph {
 };
 
 inline std::span<const uint32_t> neighboursOf(const CellGraph& graph, uint32_t cell) {
-  return std::span(graph.neighbours)
-      .subspan(graph.offsets[cell], graph.offsets[cell + 1] - graph.offsets[cell]);
+  return std::span(graph.neighbours).subspan(graph.offsets[cell], graph.offsets[cell + 1] - graph.offsets[cell]);
 }
 
 }  // namespace froth

@@ -24,8 +24,9 @@ struct Foam {
   std::vector<glm::vec3> lobeColours;   // [N*K*M] c: offset from one half, or from the base colour
 
   // Of a compressed foam; a trained one has neither.
-  std::vector<glm::vec3> baseColours;   // [N*K] offset from one half; empty: all zero
-  std::vector<uint64_t> lobeOffsets;    // [N*K+1] lobes of detail site s: [lobeOffsets[s], lobeOffsets[s+1]); empty: M each
+  std::vector<glm::vec3> baseColours;  // [N*K] offset from one half; empty: all zero
+  // [N*K+1] lobes of detail site s: [lobeOffsets[s], lobeOffsets[s+1]); empty: M each
+  std::vector<uint64_t> lobeOffsets;
 };
 
 // A range of a foam's lobe arrays.

@@ -22,8 +22,7 @@ std::vector<uint32_t> mortonOrder(std::span<const glm::vec3> sites) {
     high = glm::max(high, glm::dvec3(site));
   }
   const glm::dvec3 size = high - low;
-  const double extent =
-      std::max({size.x, size.y, size.z});  // one scale for all axes keeps the curve's boxes cubes
+  const double extent = std::max({size.x, size.y, size.z});  // one scale for all axes keeps the curve's boxes cubes
   const double scale = extent > 0 ? (double{1u << kBitsPerAxis} - 1) / extent : 0;
 
   std::vector<std::pair<uint64_t, uint32_t>> keys(sites.size());

@@ -20,8 +20,7 @@ constexpr uint32_t kParallelNode = 1 << 13;  // smaller ones are not worth a tas
 
 }  // namespace
 
-SiteTree::SiteTree(std::span<const glm::vec3> sites, std::span<const float> radii,
-                   std::vector<uint32_t> members)
+SiteTree::SiteTree(std::span<const glm::vec3> sites, std::span<const float> radii, std::vector<uint32_t> members)
     : sites_(sites), radii_(radii), order_(std::move(members)) {
   const auto leaves = static_cast<uint32_t>((order_.size() + kLeafSize - 1) / kLeafSize);
   depth_ = leaves > 1 ? static_cast<uint32_t>(std::bit_width(leaves - 1)) : 0;
@@ -50,12 +49,10 @@ void SiteTree::build(uint32_t depth, uint32_t k) {
   if (depth == depth_) return;
 
   const glm::vec3 size = box.high - box.low;
-  const bool isSplitByRadius = range.end - range.begin <= kMaxSplitByRadius &&
-                               box.maxRadius - minRadius > std::max({size.x, size.y, size.z});
+  const bool isSplitByRadius =
+      range.end - range.begin <= kMaxSplitByRadius && box.maxRadius - minRadius > std::max({size.x, size.y, size.z});
   const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
-  const auto key = [&](uint32_t site) {
-    return std::pair(isSplitByRadius ? radii_[site] : sites_[site][axis], site);
-  };
+  const auto key = [&](uint32_t site) { return std::pair(isSplitByRadius ? radii_[site] : sites_[site][axis], site); };
   const auto begin = order_.begin();
   std::nth_element(begin + range.begin, begin + rangeAt(depth + 1, 2 * k).end, begin + range.end,
                    [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
@@ -88,7 +85,8 @@ NearestSite SiteTree::findLeastPower(const glm::dvec3& x, uint32_t known) const 
     const double squaredGap = glm::dot(gap, gap), weight = double{node.box.maxRadius} * node.box.maxRadius;
     return squaredGap - weight - kSlack * (squaredGap + weight);
   };
-  return findNearest(bound, [&](uint32_t site) { return powerAt(x, sites_[site], radii_[site]); }, known, -INFINITY);
+  return findNearest(
+      bound, [&](uint32_t site) { return powerAt(x, sites_[site], radii_[site]); }, known, -INFINITY);
 }
 
 NearestSite SiteTree::findNearestBall(const glm::dvec3& x, uint32_t known) const {

@@ -1,4 +1,5 @@
-// A bounding volume hierarchy over sites with radii, for searches by power, by distance, by overlap and along rays. It only saves time:
+// A bounding volume hierarchy over sites with radii, for searches by power, by distance, by overlap and along rays. It
+// only saves time:
 // what is found never depends on it.
 #pragma once
 
@@ -74,8 +75,8 @@ class SiteTree {
   template <class Bound, class Visit>
   void search(const double& limit, const Bound& bound, const Visit& visit) const;
 
-  // Calls visit(site) for every site whose ball a ray may meet at t >= 0, by the rounding of float or of double, and for some others,
-  // in no useful order; the direction has unit length, up to the rounding of float.
+  // Calls visit(site) for every site whose ball a ray may meet at t >= 0, by the rounding of float or of double, and
+  // for some others, in no useful order; the direction has unit length, up to the rounding of float.
   template <class Visit>
   void searchRay(const glm::dvec3& origin, const glm::dvec3& direction, const Visit& visit) const;
 
@@ -85,12 +86,12 @@ class SiteTree {
 
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  // The site of least power at x: whose cell holds x. Of sites that attain it in double the lowest, but rather `known`, a site that is
-  // known to be near and saves most of the search. No site at all: the value is infinite.
+  // The site of least power at x: whose cell holds x. Of sites that attain it in double the lowest, but rather `known`,
+  // a site that is known to be near and saves most of the search. No site at all: the value is infinite.
   NearestSite findLeastPower(const glm::dvec3& x, uint32_t known = kNone) const;
 
-  // The ball nearest to x, the least |x - p| - r; equals as above. Inside of some ball the value is negative, and the site one of those
-  // whose balls hold x.
+  // The ball nearest to x, the least |x - p| - r; equals as above. Inside of some ball the value is negative, and the
+  // site one of those whose balls hold x.
   NearestSite findNearestBall(const glm::dvec3& x, uint32_t known = kNone) const;
 
  private:
@@ -144,7 +145,9 @@ void SiteTree::searchRay(const glm::dvec3& origin, const glm::dvec3& direction, 
   // A direction of 0 gets a huge inverse instead of an infinite one: 0 * infinity would be NaN.
   constexpr double kTiny = 1e-200;
   glm::dvec3 inverse;
-  for (int axis = 0; axis < 3; ++axis) inverse[axis] = 1 / (std::abs(direction[axis]) > kTiny ? direction[axis] : kTiny);
+  for (int axis = 0; axis < 3; ++axis) {
+    inverse[axis] = 1 / (std::abs(direction[axis]) > kTiny ? direction[axis] : kTiny);
+  }
   // 0: the ray meets the box of the balls; 1: it does not.
   const auto bound = [&](const Node& node) {
     const glm::dvec3 low = glm::dvec3(node.box.ballLow) - origin, high = glm::dvec3(node.box.ballHigh) - origin;

@@ -19,17 +19,15 @@ constexpr uint64_t kMaxPairs = uint64_t{1} << 31;  // so that rows have 32-bit o
 
 using ull = unsigned long long;
 
-Status checkRange(const std::string& place, const char* field, uint64_t value, uint64_t least,
-                  uint64_t most) {
+Status checkRange(const std::string& place, const char* field, uint64_t value, uint64_t least, uint64_t most) {
   if (value >= least && value <= most) return {};
-  return makeError(ErrorKind::kBadInput, "%s: %s is %llu, not in %llu..%llu; %s", place.c_str(), field,
-                   ull{value}, ull{least}, ull{most}, kRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: %s is %llu, not in %llu..%llu; %s", place.c_str(), field, ull{value},
+                   ull{least}, ull{most}, kRemedy);
 }
 
 Status checkNotNegative(const std::string& file, const char* field, double value, double most) {
   if (value >= 0 && value <= most) return {};
-  return makeError(ErrorKind::kBadInput, "%s: %s is %g, not in 0..%g; %s", file.c_str(), field, value, most,
-                   kRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: %s is %g, not in 0..%g; %s", file.c_str(), field, value, most, kRemedy);
 }
 
 bool isWithin(double value, double most) {
@@ -38,16 +36,18 @@ bool isWithin(double value, double most) {
 
 Status checkText(const std::string& file, const char* field, const std::string& text) {
   if (isUtf8(text)) return {};
-  return makeError(ErrorKind::kBadInput, "%s: %s '%.80s' is no UTF-8; %s", file.c_str(), field,
-                   printable(text).c_str(), kRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: %s '%.80s' is no UTF-8; %s", file.c_str(), field, printable(text).c_str(),
+                   kRemedy);
 }
 
 Status checkTexts(const AssetContents& asset, const std::string& file) {
   if (Status status = checkText(file, "preset", asset.preset); !status) return status;
   if (Status status = checkText(file, "source", asset.source); !status) return status;
-  for (const AttributeError& error : asset.errors)
-    for (const std::string& text : {error.name, error.unit})
+  for (const AttributeError& error : asset.errors) {
+    for (const std::string& text : {error.name, error.unit}) {
       if (Status status = checkText(file, "errors", text); !status) return status;
+    }
+  }
   return {};
 }
 
@@ -57,64 +57,83 @@ Status checkStep(const std::string& file, const char* field, double step) {
   int exponent = 0;
   const bool isPower = std::isfinite(step) && std::frexp(step, &exponent) == 0.5;  // step = 2^(exponent - 1)
   if (step == 0 || (isPower && std::abs(exponent - 1) <= kMaxExponent)) return {};
-  return makeError(ErrorKind::kBadInput,
-                   "%s: quantization: %s is %g, not 0 or a power of two in 2^-60..2^60; %s", file.c_str(),
-                   field, step, kRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: quantization: %s is %g, not 0 or a power of two in 2^-60..2^60; %s",
+                   file.c_str(), field, step, kRemedy);
 }
 
 Status checkQuantization(const std::string& file, const Quantization& q) {
   if (Status status = checkRange(file, "radius_bits", q.radiusBits, 1, 23); !status) return status;
   if (Status status = checkRange(file, "density_bits", q.densityBits, 1, 23); !status) return status;
-  if (q.normalBits != 0)
+  if (q.normalBits != 0) {
     if (Status status = checkRange(file, "normal_bits", q.normalBits, 4, 15); !status) return status;
+  }
   const std::pair<const char*, double> steps[] = {{"position_step", q.positionStep},
                                                   {"detail_site_step", q.detailSiteStep},
                                                   {"height_step", q.heightStep},
                                                   {"colour_step", q.colourStep},
                                                   {"lobe_axis_step", q.lobeAxisStep}};
-  for (const auto& [field, step] : steps)
+  for (const auto& [field, step] : steps) {
     if (Status status = checkStep(file, field, step); !status) return status;
+  }
   return {};
 }
 
-// No number of pairs above this keeps the sum of the squared degrees within its limit: it is least where all sites have the mean
-// degree, 2 pairs / sites.
+// No number of pairs above this keeps the sum of the squared degrees within its limit: it is least where all sites have
+// the mean degree, 2 pairs / sites.
 uint64_t mostPairs(uint64_t siteCount) {
-  const double most = 0.5 * std::sqrt(static_cast<double>(siteCount) * static_cast<double>(mostSquaredDegrees(siteCount)));
+  const double most =
+      0.5 * std::sqrt(static_cast<double>(siteCount) * static_cast<double>(mostSquaredDegrees(siteCount)));
   return std::min(static_cast<uint64_t>(most), kMaxPairs - 1);
 }
 
 Status checkCamera(const std::string& file, const char* field, const StoredCamera& camera) {
-  for (const double value : camera.worldFromCamera)
-    if (!isWithin(value, kMaxNumber))
+  for (const double value : camera.worldFromCamera) {
+    if (!isWithin(value, kMaxNumber)) {
       return makeError(ErrorKind::kBadInput, "%s: %s: matrix holds %g, not within +-2^50; %s", file.c_str(), field,
                        value, kRemedy);
-  if (!(camera.tanHalfFovY > 0) || !isWithin(camera.tanHalfFovY, kMaxNumber))
+    }
+  }
+  if (!(camera.tanHalfFovY > 0) || !isWithin(camera.tanHalfFovY, kMaxNumber)) {
     return makeError(ErrorKind::kBadInput, "%s: %s: tan_half_fov_y is %g, not above 0 and within 2^50; %s",
                      file.c_str(), field, camera.tanHalfFovY, kRemedy);
+  }
   return {};
 }
 
 Status checkOrigin(const ChunkIndex& chunk, double step, const std::string& place) {
   constexpr double kMostSteps = 0x1p52;  // so that origin + step * index is exact in double
   for (const double value : chunk.origin) {
-    if (!isWithin(value, kMaxNumber))
+    if (!isWithin(value, kMaxNumber)) {
       return makeError(ErrorKind::kBadInput, "%s: origin holds %g, not within +-2^50; %s", place.c_str(), value,
                        kRemedy);
-    if (step > 0 && (std::fmod(value, step) != 0 || std::abs(value / step) > kMostSteps))
+    }
+    if (step > 0 && (std::fmod(value, step) != 0 || std::abs(value / step) > kMostSteps)) {
       return makeError(ErrorKind::kBadInput, "%s: origin %.17g is no multiple of the position step %g; %s",
                        place.c_str(), value, step, kRemedy);
+    }
   }
   return {};
 }
 
-Status checkBounds(const Box& bounds, const std::string& place) {
-  constexpr double kMost = 2.0 * kMaxNumber;  // a site and a radius
-  for (size_t axis = 0; axis < 3; ++axis)
-    if (!isWithin(bounds.min[axis], kMost) || !isWithin(bounds.max[axis], kMost) ||
-        bounds.min[axis] > bounds.max[axis])
-      return makeError(ErrorKind::kBadInput, "%s: live_bounds: %g..%g is no interval within +-2^51; %s",
-                       place.c_str(), bounds.min[axis], bounds.max[axis], kRemedy);
+Status checkBox(const Box& box, const char* field, double most, const std::string& place) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (!isWithin(box.min[axis], most) || !isWithin(box.max[axis], most) || box.min[axis] > box.max[axis]) {
+      return makeError(ErrorKind::kBadInput, "%s: %s: %g..%g is no interval within +-2^%d; %s", place.c_str(), field,
+                       box.min[axis], box.max[axis], std::ilogb(most), kRemedy);
+    }
+  }
+  return {};
+}
+
+Status checkEyes(const EyeRegion& eyes, const std::string& file) {
+  for (const Box& box : eyes.boxes) {
+    if (Status status = checkBox(box, "eyes", kMaxNumber, file); !status) return status;
+  }
+  const std::pair<const char*, double> numbers[] = {
+      {"eyes: radius", eyes.radius}, {"eyes: worst_psnr", eyes.worstPsnr}, {"eyes: mean_psnr", eyes.meanPsnr}};
+  for (const auto& [field, value] : numbers) {
+    if (Status status = checkNotNegative(file, field, value, kMaxNumber); !status) return status;
+  }
   return {};
 }
 
@@ -127,9 +146,10 @@ class ArrayCheck {
   template <class Element>
   void required(const char* name, const std::vector<Element>& array, uint64_t length, float most = kMaxNumber) {
     if (!status_) return;
-    if (array.size() != length)
-      status_ = makeError(ErrorKind::kBadInput, "%s: %s: %zu entries instead of %llu; %s", place_.c_str(),
-                          name, array.size(), ull{length}, kRemedy);
+    if (array.size() != length) {
+      status_ = makeError(ErrorKind::kBadInput, "%s: %s: %zu entries instead of %llu; %s", place_.c_str(), name,
+                          array.size(), ull{length}, kRemedy);
+    }
     if constexpr (!std::is_integral_v<Element>) checkNumbers(name, floatsOf(array), most);
   }
 
@@ -142,8 +162,7 @@ class ArrayCheck {
 
  private:
   void checkNumbers(const char* name, std::span<const float> numbers, float most) {
-    const auto bad =
-        std::find_if_not(numbers.begin(), numbers.end(), [most](float x) { return isWithin(x, most); });
+    const auto bad = std::find_if_not(numbers.begin(), numbers.end(), [most](float x) { return isWithin(x, most); });
     if (!status_ || bad == numbers.end()) return;
     status_ = makeError(ErrorKind::kBadInput, "%s: %s: number %zu is %g, not within +-2^%d; %s", place_.c_str(), name,
                         static_cast<size_t>(bad - numbers.begin()), *bad, std::ilogb(most), kRemedy);
@@ -154,15 +173,15 @@ class ArrayCheck {
 };
 
 // The number of lobes that the counts add up to; an error if one exceeds M.
-Result<uint64_t> countLobes(const AssetContents& asset, const ChunkContents& chunk,
-                            const std::string& place) {
+Result<uint64_t> countLobes(const AssetContents& asset, const ChunkContents& chunk, const std::string& place) {
   const uint64_t details = uint64_t{chunk.liveCount} * asset.detailCount;
   if (chunk.lobeCounts.empty()) return details * asset.lobeCount;
   uint64_t sum = 0;
   for (const uint8_t count : chunk.lobeCounts) {
-    if (count > asset.lobeCount)
+    if (count > asset.lobeCount) {
       return makeError(ErrorKind::kBadInput, "%s: lobe_counts: %u lobes at a detail site, more than %u; %s",
                        place.c_str(), count, asset.lobeCount, kRemedy);
+    }
     sum += count;
   }
   return sum;
@@ -197,95 +216,111 @@ Status checkArrays(const AssetContents& asset, const ChunkContents& chunk, const
 }
 
 bool isSolidBall(uint32_t bytes) {
-  for (uint32_t shift = 0; shift < 32; shift += 8)
+  for (uint32_t shift = 0; shift < 32; shift += 8) {
     if ((bytes >> shift & 0xff) > kMaxSolidByte) return false;
+  }
   return true;
 }
 
 Status checkCells(const ChunkContents& chunk, const std::string& place) {
   const auto radius = std::find_if_not(chunk.radii.begin(), chunk.radii.end(), [](float r) { return r > 0; });
-  if (radius != chunk.radii.end())
+  if (radius != chunk.radii.end()) {
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has radius %g, not > 0; %s",
                      sectionPlace(place, SectionType::kRadii).c_str(),
                      static_cast<size_t>(radius - chunk.radii.begin()), *radius, kRemedy);
-  const auto density = std::find_if(chunk.densities.begin(), chunk.densities.end(), [](float d) { return std::signbit(d); });
-  if (density != chunk.densities.end())
+  }
+  const auto density =
+      std::find_if(chunk.densities.begin(), chunk.densities.end(), [](float d) { return std::signbit(d); });
+  if (density != chunk.densities.end()) {
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has density %g, not +0 or more; %s",
                      sectionPlace(place, SectionType::kDensities).c_str(),
                      static_cast<size_t>(density - chunk.densities.begin()), *density, kRemedy);
+  }
   const auto frame = std::find_if_not(chunk.orientations.begin(), chunk.orientations.end(), isUnitQuaternion);
-  if (frame != chunk.orientations.end())
+  if (frame != chunk.orientations.end()) {
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has (%g, %g, %g, %g), no unit quaternion; %s",
                      sectionPlace(place, SectionType::kOrientations).c_str(),
-                     static_cast<size_t>(frame - chunk.orientations.begin()), frame->x, frame->y, frame->z, frame->w, kRemedy);
+                     static_cast<size_t>(frame - chunk.orientations.begin()), frame->x, frame->y, frame->z, frame->w,
+                     kRemedy);
+  }
   for (const auto& [type, scales] : {std::pair(SectionType::kDetailScales, std::span(chunk.detailScales)),
                                      std::pair(SectionType::kColourScales, std::span(chunk.colourScales))}) {
     const auto scale = std::find_if(scales.begin(), scales.end(), [](uint8_t s) { return s > kMaxScale; });
-    if (scale != scales.end())
+    if (scale != scales.end()) {
       return makeError(ErrorKind::kBadInput, "%s: cell %zu has scale %u, more than %u; %s",
                        sectionPlace(place, type).c_str(), static_cast<size_t>(scale - scales.begin()), *scale,
                        kMaxScale, kRemedy);
+    }
   }
   const auto ball = std::find_if_not(chunk.solidBalls.begin(), chunk.solidBalls.end(), isSolidBall);
-  if (ball != chunk.solidBalls.end())
+  if (ball != chunk.solidBalls.end()) {
     return makeError(ErrorKind::kBadInput, "%s: cell %zu has bytes %08x, one of them more than %u; %s",
                      sectionPlace(place, SectionType::kSolidBalls).c_str(),
                      static_cast<size_t>(ball - chunk.solidBalls.begin()), *ball, kMaxSolidByte, kRemedy);
-  const auto ghost =
-      std::adjacent_find(chunk.ghostRefs.begin(), chunk.ghostRefs.end(), std::greater_equal<CellRef>());
-  if (ghost != chunk.ghostRefs.end())
+  }
+  const auto ghost = std::adjacent_find(chunk.ghostRefs.begin(), chunk.ghostRefs.end(), std::greater_equal<CellRef>());
+  if (ghost != chunk.ghostRefs.end()) {
     return makeError(ErrorKind::kBadInput, "%s: %u follows %u, references must ascend; %s",
                      sectionPlace(place, SectionType::kGhostRefs).c_str(), ghost[1], ghost[0], kRemedy);
+  }
   return {};
 }
 
 Status checkRows(const ChunkContents& chunk, const std::string& place) {
   const std::vector<uint32_t>& offsets = chunk.neighbourOffsets;
-  if (offsets.front() != 0 || offsets.back() != chunk.neighbours.size())
+  if (offsets.front() != 0 || offsets.back() != chunk.neighbours.size()) {
     return makeError(ErrorKind::kBadInput, "%s: neighbour_offsets run from %u to %u, not from 0 to %zu; %s",
                      place.c_str(), offsets.front(), offsets.back(), chunk.neighbours.size(), kRemedy);
-  for (uint32_t cell = 0; cell < chunk.cellCount; ++cell)
-    if (offsets[cell] > offsets[cell + 1])
-      return makeError(ErrorKind::kBadInput,
-                       "%s: neighbour_offsets: cell %u: %u > %u, offsets must not fall; %s", place.c_str(),
-                       cell, offsets[cell], offsets[cell + 1], kRemedy);
-  for (uint32_t cell = 0; cell < chunk.liveCount; ++cell)
-    if (chunk.alphaCounts[cell] > offsets[cell + 1] - offsets[cell])
-      return makeError(ErrorKind::kBadInput, "%s: cell %u: %u alpha neighbours in a row of %u; %s",
-                       place.c_str(), cell, chunk.alphaCounts[cell], offsets[cell + 1] - offsets[cell],
-                       kRemedy);
+  }
+  for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
+    if (offsets[cell] > offsets[cell + 1]) {
+      return makeError(ErrorKind::kBadInput, "%s: neighbour_offsets: cell %u: %u > %u, offsets must not fall; %s",
+                       place.c_str(), cell, offsets[cell], offsets[cell + 1], kRemedy);
+    }
+  }
+  for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) {
+    if (chunk.alphaCounts[cell] > offsets[cell + 1] - offsets[cell]) {
+      return makeError(ErrorKind::kBadInput, "%s: cell %u: %u alpha neighbours in a row of %u; %s", place.c_str(), cell,
+                       chunk.alphaCounts[cell], offsets[cell + 1] - offsets[cell], kRemedy);
+    }
+  }
   const uint64_t sites = uint64_t{chunk.cellCount} + chunk.ghostCount;
-  for (const uint32_t neighbour : chunk.neighbours)
-    if (neighbour >= sites)
-      return makeError(ErrorKind::kBadInput, "%s: neighbour %u >= %llu; %s", place.c_str(), neighbour,
-                       ull{sites}, kRemedy);
+  for (const uint32_t neighbour : chunk.neighbours) {
+    if (neighbour >= sites) {
+      return makeError(ErrorKind::kBadInput, "%s: neighbour %u >= %llu; %s", place.c_str(), neighbour, ull{sites},
+                       kRemedy);
+    }
+  }
   return {};
 }
 
 }  // namespace
 
 Status checkParameters(const AssetContents& asset, const std::string& file) {
-  if (Status status = checkRange(file, "detail_count", asset.detailCount, 1, kMaxDetails); !status)
-    return status;
+  if (Status status = checkRange(file, "detail_count", asset.detailCount, 1, kMaxDetails); !status) return status;
   if (Status status = checkRange(file, "lobe_count", asset.lobeCount, 0, kMaxLobes); !status) return status;
-  if (Status status = checkRange(file, "local_bits", asset.localBits, 1, kMaxLocalBits); !status)
-    return status;
+  if (Status status = checkRange(file, "local_bits", asset.localBits, 1, kMaxLocalBits); !status) return status;
   if (Status status = checkCodebookSize(asset, asset.axisCodebook.size(), file); !status) return status;
-  for (const float number : floatsOf(asset.axisCodebook))
-    if (!isWithin(number, kMaxNumber))
+  for (const float number : floatsOf(asset.axisCodebook)) {
+    if (!isWithin(number, kMaxNumber)) {
       return makeError(ErrorKind::kBadInput, "%s: axis codebook holds %g, not within +-2^50; %s", file.c_str(), number,
                        kRemedy);
+    }
+  }
   if (Status status = checkQuantization(file, asset.quantization); !status) return status;
   if (Status status = checkTexts(asset, file); !status) return status;
-  if (Status status = checkNotNegative(file, "detail_sharpness", asset.detailSharpness, kMaxSharpness); !status)
+  if (Status status = checkNotNegative(file, "detail_sharpness", asset.detailSharpness, kMaxSharpness); !status) {
     return status;
+  }
   if (Status status = checkNotNegative(file, "near_ratio", asset.nearRatio, kMaxNearRatio); !status) return status;
   if (Status status = checkNotNegative(file, "near_depth", asset.nearDepth, kMaxNumber); !status) return status;
-  if (asset.hasStartView)
+  if (asset.hasStartView) {
     if (Status status = checkCamera(file, "start_view", asset.startView); !status) return status;
-  for (const StoredCamera& camera : asset.flightPath)
+  }
+  for (const StoredCamera& camera : asset.flightPath) {
     if (Status status = checkCamera(file, "flight_path", camera); !status) return status;
-  return {};
+  }
+  return checkEyes(asset.eyes, file);
 }
 
 Status checkCodebookSize(const AssetContents& asset, uint64_t size, const std::string& file) {
@@ -297,23 +332,25 @@ Status checkChunkIndex(const AssetContents& asset, const ChunkIndex& chunk, cons
   const uint64_t mostCells = std::min(uint64_t{1} << asset.localBits, kMaxCells);
   if (Status status = checkRange(place, "cell_count", counts.cells, 1, mostCells); !status) return status;
   if (Status status = checkRange(place, "live_count", counts.live, 0, counts.cells); !status) return status;
-  if (Status status = checkRange(place, "ghost_count", counts.ghosts, 0, kMaxCells - counts.cells); !status)
+  if (Status status = checkRange(place, "ghost_count", counts.ghosts, 0, kMaxCells - counts.cells); !status) {
     return status;
-  if (Status status = checkRange(place, "pair_count", counts.pairs, 0, mostPairs(counts.cells + counts.ghosts)); !status)
+  }
+  if (Status status = checkRange(place, "pair_count", counts.pairs, 0, mostPairs(counts.cells + counts.ghosts));
+      !status) {
     return status;
+  }
   const uint64_t mostLobes = counts.live * asset.detailCount * asset.lobeCount;
   if (Status status = checkRange(place, "lobe_count", counts.lobes, 0, mostLobes); !status) return status;
   if (Status status = checkOrigin(chunk, asset.quantization.positionStep, place); !status) return status;
-  return checkBounds(chunk.liveBounds, place);
+  return checkBox(chunk.liveBounds, "live_bounds", 2.0 * kMaxNumber, place);
 }
 
-Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks,
-                         const std::string& file) {
+Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks, const std::string& file) {
   const uint64_t mostChunks = uint64_t{1} << (kMaxLocalBits - asset.localBits);
-  if (Status status = checkRange(file, "number of chunks", chunks.size(), 1, mostChunks); !status)
-    return status;
-  for (uint32_t i = 0; i < chunks.size(); ++i)
+  if (Status status = checkRange(file, "number of chunks", chunks.size(), 1, mostChunks); !status) return status;
+  for (uint32_t i = 0; i < chunks.size(); ++i) {
     if (Status status = checkChunkIndex(asset, chunks[i], chunkPlace(file, i)); !status) return status;
+  }
   return {};
 }
 

@@ -19,8 +19,7 @@ Status checkCodebookSize(const AssetContents& asset, uint64_t size, const std::s
 
 // Number of chunks; counts, origin and bounds of each. `asset` has passed checkParameters; its chunks are not
 // looked at.
-Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks,
-                         const std::string& file);
+Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks, const std::string& file);
 Status checkChunkIndex(const AssetContents& asset, const ChunkIndex& chunk, const std::string& place);
 
 // Array lengths (the chunk's counts decide; optional arrays may be empty), numbers within limits.h, positive radii,
@@ -32,9 +31,9 @@ Status checkChunk(const AssetContents& asset, const ChunkContents& chunk, const 
 Status checkGhostRefs(const AssetContents& asset, std::span<const ChunkIndex> chunks, uint32_t index,
                       std::span<const CellRef> ghosts, const std::string& place);
 
-// Normalised in float, a quaternion's length carries some 4 roundings of half of FLT_EPSILON and each component one or two of its
-// own, so |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is allowed. A longer one would scale its frame, beyond the
-// floats at last.
+// Normalised in float, a quaternion's length carries some 4 roundings of half of FLT_EPSILON and each component one or
+// two of its own, so |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is allowed. A longer one would scale
+// its frame, beyond the floats at last.
 inline bool isUnitQuaternion(const glm::vec4& orientation) {
   constexpr double kTolerance = 12 * FLT_EPSILON;
   const glm::dvec4 q(orientation);
@@ -45,9 +44,7 @@ inline bool isUnitQuaternion(const glm::vec4& orientation) {
 Box liveBoundsOf(const ChunkContents& chunk);
 
 // A reference taken apart. Correct for localBits 32 too, where a 32-bit shift would be undefined.
-inline uint32_t chunkOf(CellRef cell, uint32_t localBits) {
-  return static_cast<uint32_t>(uint64_t{cell} >> localBits);
-}
+inline uint32_t chunkOf(CellRef cell, uint32_t localBits) { return static_cast<uint32_t>(uint64_t{cell} >> localBits); }
 inline uint32_t localOf(CellRef cell, uint32_t localBits) {
   return static_cast<uint32_t>(cell & ((uint64_t{1} << localBits) - 1));
 }

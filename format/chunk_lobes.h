@@ -26,9 +26,10 @@ inline size_t countLobes(const AssetContents& asset, const ChunkContents& chunk)
 inline std::vector<float> lobeUnits(const AssetContents& asset, const ChunkContents& chunk) {
   std::vector<float> units;
   units.reserve(chunk.lobeColours.size());
-  for (size_t detail = 0; detail < size_t{chunk.liveCount} * asset.detailCount; ++detail)
+  for (size_t detail = 0; detail < size_t{chunk.liveCount} * asset.detailCount; ++detail) {
     units.insert(units.end(), lobeCountOf(chunk, asset.lobeCount, detail),
                  unitOf(asset.quantization.colourStep, chunk.colourScales, detail / asset.detailCount));
+  }
   return units;
 }
 

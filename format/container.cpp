@@ -5,9 +5,7 @@
 
 namespace froth {
 
-uint64_t hashBytes(std::span<const uint8_t> bytes) {
-  return XXH3_64bits(bytes.data(), bytes.size());
-}
+uint64_t hashBytes(std::span<const uint8_t> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
 uint64_t hashHeader(const FileHeader& header) {
   return hashBytes({reinterpret_cast<const uint8_t*>(&header), offsetof(FileHeader, headerHash)});

@@ -27,7 +27,6 @@ Status readDracoPositions(std::span<const uint8_t> stored, std::span<uint8_t> ra
 
 // An error if the box of a run spans more than kMaxPositionBits along an axis, or the order of a run is not
 // Draco's.
-Result<std::vector<uint8_t>> writeDracoPositions(std::span<const LatticePoint> points,
-                                                 std::span<const uint32_t> runs);
+Result<std::vector<uint8_t>> writeDracoPositions(std::span<const LatticePoint> points, std::span<const uint32_t> runs);
 
 }  // namespace froth

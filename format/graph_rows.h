@@ -52,8 +52,7 @@ Result<PackedGraph> packGraph(const ChunkContents& chunk, bool hasWalkGraph);
 struct PackedGraphView {
   std::span<const uint8_t> counts, deltas, alphaBits;
 };
-Status unpackGraph(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& chunk,
-                   const std::string& place);
+Status unpackGraph(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& chunk, const std::string& place);
 
 // From the site of a cell to the radical plane towards another site, negative beyond the site [scene units].
 // In double; 0 if there is no such plane.

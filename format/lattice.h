@@ -18,14 +18,11 @@ inline constexpr int32_t kMaxLatticeIndex = (1 << 24) - 1;
 inline constexpr uint8_t kMaxScale = 15;
 
 // Signed indices as small unsigned elements.
-inline uint32_t zigzag(int32_t value) {
-  return foldDelta(static_cast<uint32_t>(value));
-}
-inline int32_t unzigzag(uint32_t element) {
-  return static_cast<int32_t>(unfoldDelta(element));
-}
+inline uint32_t zigzag(int32_t value) { return foldDelta(static_cast<uint32_t>(value)); }
+inline int32_t unzigzag(uint32_t element) { return static_cast<int32_t>(unfoldDelta(element)); }
 
-// The channels of a colour rise and fall together: green is stored as it is, red and blue as differences to it, in this order.
+// The channels of a colour rise and fall together: green is stored as it is, red and blue as differences to it, in this
+// order.
 template <class Number>
 std::array<Number, 3> separateGreen(Number red, Number green, Number blue) {
   return {green, static_cast<Number>(red - green), static_cast<Number>(blue - green)};
@@ -36,9 +33,7 @@ std::array<Number, 3> joinGreen(Number green, Number redLess, Number blueLess) {
 }
 
 // Cell colours are bytes.
-inline float colourOfByte(uint8_t byte) {
-  return static_cast<float>(byte) / 255.0f;
-}
+inline float colourOfByte(uint8_t byte) { return static_cast<float>(byte) / 255.0f; }
 
 // The step of a lattice in a cell. `scales`: of the chunk's cells; empty: all 0.
 inline float unitOf(float step, std::span<const uint8_t> scales, size_t cell) {

@@ -50,8 +50,7 @@ void PairOrder::startCell(uint32_t cell) {
   }
   std::sort(ranking_.begin(), ranking_.end());
   candidates_.resize(ranking_.size());
-  std::transform(ranking_.begin(), ranking_.end(), candidates_.begin(),
-                 [](const auto& entry) { return entry.second; });
+  std::transform(ranking_.begin(), ranking_.end(), candidates_.begin(), [](const auto& entry) { return entry.second; });
 }
 
 void PairOrder::add(uint32_t neighbour) {

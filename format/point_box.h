@@ -17,8 +17,9 @@ struct PointBox {
 
   std::array<uint32_t, 3> offsetOf(const LatticePoint& point) const {
     std::array<uint32_t, 3> offset;
-    for (size_t axis = 0; axis < 3; ++axis)
+    for (size_t axis = 0; axis < 3; ++axis) {
       offset[axis] = static_cast<uint32_t>(point[axis]) - static_cast<uint32_t>(least[axis]);
+    }
     return offset;
   }
 };
@@ -33,8 +34,9 @@ inline PointBox boxOf(std::span<const LatticePoint> points) {
       most[axis] = std::max(most[axis], point[axis]);
     }
   }
-  for (const uint32_t extent : box.offsetOf(most))
+  for (const uint32_t extent : box.offsetOf(most)) {
     box.bits = std::max(box.bits, static_cast<uint32_t>(std::bit_width(extent)));
+  }
   return box;
 }
 

@@ -9,14 +9,10 @@ namespace {
 
 constexpr uint32_t kMantissaBits = 23;
 
-double signOf(double value) {
-  return value < 0 ? -1.0 : 1.0;
-}
+double signOf(double value) { return value < 0 ? -1.0 : 1.0; }
 
 // Folds the lower half of the octahedron's square over its diagonals, or back.
-glm::dvec2 foldSquare(double y, double z) {
-  return {(1 - std::abs(z)) * signOf(y), (1 - std::abs(y)) * signOf(z)};
-}
+glm::dvec2 foldSquare(double y, double z) { return {(1 - std::abs(z)) * signOf(y), (1 - std::abs(y)) * signOf(z)}; }
 
 }  // namespace
 
@@ -36,13 +32,9 @@ float floorMantissa(float value, uint32_t bits) {
 }
 
 // Adding 0 makes -0 into +0, which is the only zero of a lattice.
-float snapToStep(float value, float step) {
-  return step > 0 ? std::nearbyint(value / step) * step + 0.0f : value;
-}
+float snapToStep(float value, float step) { return step > 0 ? std::nearbyint(value / step) * step + 0.0f : value; }
 
-double snapToStep(double value, double step) {
-  return step > 0 ? std::nearbyint(value / step) * step + 0.0 : value;
-}
+double snapToStep(double value, double step) { return step > 0 ? std::nearbyint(value / step) * step + 0.0 : value; }
 
 std::array<uint32_t, 2> normalIndices(glm::dvec3 normal, uint32_t bits) {
   // The axis of the octahedron is x, so that the fold lies where the shortest rotation changes its base.

@@ -105,8 +105,9 @@ constexpr auto kTypes = [] {
 }();
 
 const SectionInfo* findInfo(uint32_t type) {
-  for (const SectionInfo& info : kSections)
+  for (const SectionInfo& info : kSections) {
     if (static_cast<uint32_t>(info.type) == type) return &info;
+  }
   return nullptr;
 }
 

@@ -54,7 +54,7 @@ enum class ElementKind {
 
 inline constexpr uint32_t kSharedChunk = 0xffffffff;
 
-inline constexpr uint16_t kSectionCritical = 1;  // a reader that does not know the type refuses the file
+inline constexpr uint16_t kSectionCritical = 1;            // a reader that does not know the type refuses the file
 inline constexpr uint16_t kSectionReservedFlags = 0xff00;  // must be zero
 
 struct SectionRecord {
@@ -103,8 +103,7 @@ uint64_t sectionEntries(SectionType type, const ChunkCounts& counts, uint32_t de
 
 // Whether a chunk of these counts has such a section. Of `asset` the parameters are read, not the chunks;
 // `hasCodebook` stands for its codebook.
-Presence sectionPresence(SectionType type, const AssetContents& asset, bool hasCodebook,
-                         const ChunkCounts& counts);
+Presence sectionPresence(SectionType type, const AssetContents& asset, bool hasCodebook, const ChunkCounts& counts);
 
 // "scene.froth: chunk 17", "scene.froth: shared"
 std::string chunkPlace(const std::string& file, uint32_t chunk);

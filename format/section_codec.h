@@ -13,7 +13,7 @@ enum class SectionCodec : uint16_t {
   kBytePlanes = 2,   // a zstd frame of byte 0 of every entry, one of byte 1 of every entry, ...
   kDeltaPlanes = 3,  // likewise, of each element's difference to the same component of the entry before
   kMortonDelta = 4,  // positions: zstd frames of byte planes of differences between Morton codes
-  kDraco = 5,  // positions: runs of points, each a kd-tree of Draco's, in the order in which that gives them
+  kDraco = 5,        // positions: runs of points, each a kd-tree of Draco's, in the order in which that gives them
 };
 inline constexpr uint16_t kLastSectionCodec = static_cast<uint16_t>(SectionCodec::kDraco);
 
@@ -25,9 +25,7 @@ struct SectionShape {
 };
 
 // [bytes]
-constexpr uint32_t entrySize(SectionShape shape) {
-  return shape.elementSize * shape.components;
-}
+constexpr uint32_t entrySize(SectionShape shape) { return shape.elementSize * shape.components; }
 
 // Positions are lattice indices; the codecs for positions take no other shape.
 using LatticePoint = std::array<int32_t, 3>;

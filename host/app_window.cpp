@@ -60,9 +60,8 @@ Status AppWindow::resize(WindowClient& client) {
 
 // The blit to an sRGB format encodes the picture's linear light.
 void AppWindow::recordBlit(VkCommandBuffer commands, const HostImage& picture, VkImage target) const {
-  imageBarrier(
-      commands, target, {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_NONE},
-      {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
+  imageBarrier(commands, target, {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_NONE},
+               {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
   const auto width = static_cast<int32_t>(swapchain_->extent().width);
   const auto height = static_cast<int32_t>(swapchain_->extent().height);
   VkImageBlit region{};
@@ -76,8 +75,8 @@ Status AppWindow::drawFrame(WindowClient& client) {
   Result<FrameSlot*> slot = frames_->wait();
   if (!slot) return slot.error();
   uint32_t index = 0;
-  const VkResult acquired = vkAcquireNextImageKHR(host_->device, swapchain_->handle(), UINT64_MAX,
-                                                  (*slot)->isAcquired, VK_NULL_HANDLE, &index);
+  const VkResult acquired = vkAcquireNextImageKHR(host_->device, swapchain_->handle(), UINT64_MAX, (*slot)->isAcquired,
+                                                  VK_NULL_HANDLE, &index);
   if (acquired == VK_ERROR_OUT_OF_DATE_KHR) return resize(client);  // nothing was acquired; the next turn draws
   if (acquired != VK_SUBOPTIMAL_KHR) {
     if (Status got = checkVulkan(acquired, "vkAcquireNextImageKHR"); !got) return got;
@@ -118,9 +117,7 @@ Status AppWindow::saveScreenshot(const WindowClient& client, const std::filesyst
   return {};
 }
 
-void AppWindow::close() {
-  glfwSetWindowShouldClose(system_->window(), GLFW_TRUE);
-}
+void AppWindow::close() { glfwSetWindowShouldClose(system_->window(), GLFW_TRUE); }
 
 Status AppWindow::run(WindowClient& client, uint32_t frames) {
   using Clock = std::chrono::steady_clock;

@@ -16,12 +16,12 @@ class WindowClient {
  public:
   virtual ~WindowClient() = default;
 
-  virtual Status resize(VkExtent2D extent) = 0;     // the device is done with every frame
-  virtual void handleInput(double seconds) = 0;     // since the last time; ImGui knows keys and mouse
-  virtual void layOut() = 0;                        // ImGui's windows
+  virtual Status resize(VkExtent2D extent) = 0;  // the device is done with every frame
+  virtual void handleInput(double seconds) = 0;  // since the last time; ImGui knows keys and mouse
+  virtual void layOut() = 0;                     // ImGui's windows
   // Leaves picture() in layout GENERAL for blit reads.
   virtual Status record(VkCommandBuffer commands, const FrameRing& frames) = 0;
-  virtual const HostImage& picture() const = 0;     // linear light; its size is the window's
+  virtual const HostImage& picture() const = 0;  // linear light; its size is the window's
 };
 
 class AppWindow {

@@ -14,12 +14,8 @@ Vector catmullRom(const Vector& before, const Vector& from, const Vector& to, co
                 t * t * t * (3.0 * from - before - 3.0 * to + after));
 }
 
-glm::dvec4 asVector(const glm::dquat& q) {
-  return {q.x, q.y, q.z, q.w};
-}
-glm::dquat asRotation(const glm::dvec4& v) {
-  return glm::normalize(glm::dquat(v.w, v.x, v.y, v.z));
-}
+glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
+glm::dquat asRotation(const glm::dvec4& v) { return glm::normalize(glm::dquat(v.w, v.x, v.y, v.z)); }
 
 }  // namespace
 
@@ -65,9 +61,8 @@ Pose CameraPath::at(double share) const {
 
   Pose pose;
   pose.eye = catmullRom(before.eye, from.eye, to.eye, after.eye, t);
-  pose.worldFromCamera =
-      asRotation(catmullRom(asVector(before.worldFromCamera), asVector(from.worldFromCamera),
-                            asVector(to.worldFromCamera), asVector(after.worldFromCamera), t));
+  pose.worldFromCamera = asRotation(catmullRom(asVector(before.worldFromCamera), asVector(from.worldFromCamera),
+                                               asVector(to.worldFromCamera), asVector(after.worldFromCamera), t));
   pose.tanHalfFovY = glm::mix(from.tanHalfFovY, to.tanHalfFovY, t);
   return pose;
 }
@@ -76,17 +71,14 @@ glm::dvec3 CameraPath::up() const {
   glm::dvec3 sum(0);
   for (const Pose& key : keys_) sum += key.worldFromCamera * glm::dvec3(0, -1, 0);
   const double length = glm::length(sum);
-  return length > 1e-6 ? sum / length
-                       : glm::dvec3(0, -1, 0);  // keys that cancel each other have no common up
+  return length > 1e-6 ? sum / length : glm::dvec3(0, -1, 0);  // keys that cancel each other have no common up
 }
 
 CameraPath orbitPath(const float boundsMin[3], const float boundsMax[3]) {
-  const glm::dvec3 least(boundsMin[0], boundsMin[1], boundsMin[2]),
-      most(boundsMax[0], boundsMax[1], boundsMax[2]);
+  const glm::dvec3 least(boundsMin[0], boundsMin[1], boundsMin[2]), most(boundsMax[0], boundsMax[1], boundsMax[2]);
   const glm::dvec3 middle = 0.5 * (least + most);
   constexpr double kTanHalfFov = 0.5;
-  constexpr double kDistance =
-      2.24;  // 1 / sin(atan(kTanHalfFov)): the bounding sphere just fits into the image
+  constexpr double kDistance = 2.24;  // 1 / sin(atan(kTanHalfFov)): the bounding sphere just fits into the image
   const double distance = kDistance * 0.5 * glm::length(most - least);
 
   constexpr int kKeys = 24;

@@ -47,8 +47,8 @@ Status ComputePass::createPipeline(std::span<const uint32_t> spirv, std::span<co
   setInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   setInfo.bindingCount = static_cast<uint32_t>(bindings.size());
   setInfo.pBindings = bindings.data();
-  Status made = checkVulkan(vkCreateDescriptorSetLayout(device_, &setInfo, nullptr, &setLayout_),
-                            "vkCreateDescriptorSetLayout");
+  Status made =
+      checkVulkan(vkCreateDescriptorSetLayout(device_, &setInfo, nullptr, &setLayout_), "vkCreateDescriptorSetLayout");
   if (!made) return made;
   const VkDescriptorSetLayout layouts[] = {setLayout_, secondLayout};
   VkPipelineLayoutCreateInfo layoutInfo{};

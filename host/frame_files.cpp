@@ -8,7 +8,7 @@ namespace froth {
 
 constexpr uint32_t kMaxSheetPictures = 12;
 
-Status FrameFiles::add(Picture8 picture) {
+Status FrameFiles::add(Image picture) {
   char name[32];
   std::snprintf(name, sizeof(name), "frame_%04u.png", added_);
   if (Status written = writePicture(options_.output / name, picture); !written) return written;
@@ -25,13 +25,15 @@ bool FrameFiles::isOnSheet() const {
 }
 
 Status FrameFiles::finish() const {
-  if (Status written = writePicture(options_.output / "contact_sheet.png", contactSheet(sheet_)); !written) return written;
+  if (Status written = writePicture(options_.output / "contact_sheet.png", contactSheet(sheet_)); !written) {
+    return written;
+  }
   std::printf("%u frames and contact_sheet.png in %s\n", added_, options_.output.c_str());
   return options_.compare.empty() ? Status() : compareWithExpected();
 }
 
 Status FrameFiles::compareWithExpected() const {
-  const Result<Picture8> expected = readPicture(options_.compare);
+  const Result<Image> expected = readImage(options_.compare);
   if (!expected) return expected.error();
   const Result<double> psnr = comparePictures(*expected, last_);
   if (!psnr) return psnr.error();

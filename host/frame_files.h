@@ -13,7 +13,7 @@ class FrameFiles {
   // `options` outlives it; options.frames are going to be added, at least one.
   explicit FrameFiles(const RunOptions& options) : options_(options) {}
 
-  Status add(Picture8 picture);  // frame_0000.png and so on
+  Status add(Image picture);  // frame_0000.png and so on
   // contact_sheet.png; fails if the last frame does not resemble options.compare.
   Status finish() const;
 
@@ -23,8 +23,8 @@ class FrameFiles {
 
   const RunOptions& options_;
   uint32_t added_ = 0;
-  std::vector<Picture8> sheet_;
-  Picture8 last_;
+  std::vector<Image> sheet_;
+  Image last_;
 };
 
 }  // namespace froth

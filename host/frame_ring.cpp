@@ -27,23 +27,19 @@ Status FrameRing::createSlot(FrameSlot& slot) {
   poolInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
   poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
   poolInfo.queueFamilyIndex = host_.queueFamily;
-  Status made =
-      checkVulkan(vkCreateCommandPool(host_.device, &poolInfo, nullptr, &slot.pool), "vkCreateCommandPool");
+  Status made = checkVulkan(vkCreateCommandPool(host_.device, &poolInfo, nullptr, &slot.pool), "vkCreateCommandPool");
   if (!made) return made;
   VkCommandBufferAllocateInfo bufferInfo{};
   bufferInfo.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
   bufferInfo.commandPool = slot.pool;
   bufferInfo.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
   bufferInfo.commandBufferCount = 1;
-  made = checkVulkan(vkAllocateCommandBuffers(host_.device, &bufferInfo, &slot.commands),
-                     "vkAllocateCommandBuffers");
+  made = checkVulkan(vkAllocateCommandBuffers(host_.device, &bufferInfo, &slot.commands), "vkAllocateCommandBuffers");
   if (!made) return made;
   const VkSemaphoreCreateInfo semaphoreInfo{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, nullptr, 0};
-  made = checkVulkan(vkCreateSemaphore(host_.device, &semaphoreInfo, nullptr, &slot.isAcquired),
-                     "vkCreateSemaphore");
+  made = checkVulkan(vkCreateSemaphore(host_.device, &semaphoreInfo, nullptr, &slot.isAcquired), "vkCreateSemaphore");
   if (!made) return made;
-  const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr,
-                                    VK_FENCE_CREATE_SIGNALED_BIT};
+  const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, VK_FENCE_CREATE_SIGNALED_BIT};
   return checkVulkan(vkCreateFence(host_.device, &fenceInfo, nullptr, &slot.isComplete), "vkCreateFence");
 }
 

@@ -79,8 +79,7 @@ Status Host::createDevice(const HostOptions& options) {
   state.features.pNext = &state.features12;
   const char* missing = nullptr;
   if (frothRequireFeatures(&state.features, &missing) != FROTH_OK) {
-    return makeError(ErrorKind::kUnsupported, "froth needs features of %s, which this host does not know",
-                     missing);
+    return makeError(ErrorKind::kUnsupported, "froth needs features of %s, which this host does not know", missing);
   }
   VkPhysicalDeviceVulkan13Features offered13{};
   offered13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
@@ -107,8 +106,7 @@ Status Host::createDevice(const HostOptions& options) {
   deviceInfo.pQueueCreateInfos = &queueInfo;
   deviceInfo.enabledExtensionCount = static_cast<uint32_t>(options.deviceExtensions.size());
   deviceInfo.ppEnabledExtensionNames = options.deviceExtensions.data();
-  if (const VkResult code = vkCreateDevice(physicalDevice, &deviceInfo, nullptr, &device);
-      code != VK_SUCCESS) {
+  if (const VkResult code = vkCreateDevice(physicalDevice, &deviceInfo, nullptr, &device); code != VK_SUCCESS) {
     return failed("vkCreateDevice", code);
   }
   vkGetDeviceQueue(device, queueFamily, 0, &queue);
@@ -116,16 +114,14 @@ Status Host::createDevice(const HostOptions& options) {
   VkCommandPoolCreateInfo poolInfo{};
   poolInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
   poolInfo.queueFamilyIndex = queueFamily;
-  if (const VkResult code = vkCreateCommandPool(device, &poolInfo, nullptr, &state.pool);
-      code != VK_SUCCESS) {
+  if (const VkResult code = vkCreateCommandPool(device, &poolInfo, nullptr, &state.pool); code != VK_SUCCESS) {
     return failed("vkCreateCommandPool", code);
   }
   VkCommandBufferAllocateInfo bufferInfo{};
   bufferInfo.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
   bufferInfo.commandPool = state.pool;
   bufferInfo.commandBufferCount = 1;
-  if (const VkResult code = vkAllocateCommandBuffers(device, &bufferInfo, &state.commands);
-      code != VK_SUCCESS) {
+  if (const VkResult code = vkAllocateCommandBuffers(device, &bufferInfo, &state.commands); code != VK_SUCCESS) {
     return failed("vkAllocateCommandBuffers", code);
   }
   return {};
@@ -157,13 +153,10 @@ FrothContextInfo Host::contextInfo() const {
 
 Status Host::submit(const std::function<Status(VkCommandBuffer, uint64_t serial)>& record) {
   const uint64_t serial = ++state_->serial;
-  return state_->runCommands(device, queue,
-                             [&](VkCommandBuffer commands) { return record(commands, serial); });
+  return state_->runCommands(device, queue, [&](VkCommandBuffer commands) { return record(commands, serial); });
 }
 
-uint64_t Host::nextSerial() const {
-  return state_->serial + 1;
-}
+uint64_t Host::nextSerial() const { return state_->serial + 1; }
 
 Status Host::State::runCommands(VkDevice onDevice, VkQueue onQueue,
                                 const std::function<Status(VkCommandBuffer)>& record) {

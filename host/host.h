@@ -29,7 +29,7 @@ void recordMemoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 fromSta
                          VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess);
 
 struct HostOptions {
-  std::string device;        // index or part of a name; empty: first suitable, GPUs before CPUs
+  std::string device;          // index or part of a name; empty: first suitable, GPUs before CPUs
   bool useValidation = false;  // core and synchronization validation; fails if the layer is not installed
   bool useGraphics = false;    // dynamic rendering into images; a queue family with graphics
   // What a window needs, if the caller makes one; names live as long as the call.
@@ -48,7 +48,7 @@ struct HostImage {
 struct HostBuffer {
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  void* mapped = nullptr;  // host-visible and coherent, of the device's own memory where it has such
+  void* mapped = nullptr;       // host-visible and coherent, of the device's own memory where it has such
   VkDeviceAddress address = 0;  // with usage SHADER_DEVICE_ADDRESS
 };
 
@@ -58,8 +58,8 @@ class Host {
   ~Host();
 
   FrothContextInfo contextInfo() const;  // ready for frothCreateContext; callbacks left null
-  // TRANSFER_SRC | TRANSFER_DST | SAMPLED, and STORAGE; of depth formats DEPTH_STENCIL_ATTACHMENT and a view of the depth; with
-  // useGraphics of all others COLOR_ATTACHMENT.
+  // TRANSFER_SRC | TRANSFER_DST | SAMPLED, and STORAGE; of depth formats DEPTH_STENCIL_ATTACHMENT and a view of the
+  // depth; with useGraphics of all others COLOR_ATTACHMENT.
   // The view is of the first of the layers.
   Result<HostImage> createImage(VkFormat format, VkExtent2D extent, uint32_t layers = 1);
   void destroyImage(HostImage& image);
@@ -67,12 +67,13 @@ class Host {
   void destroyBuffer(HostBuffer& buffer);
   FrothImage describe(const HostImage& image) const;  // UNDEFINED in, GENERAL out to a transfer read
 
-  // Records, submits and waits. `record` gets the command buffer and the frame's serial (completedSerial is serial - 1).
+  // Records, submits and waits. `record` gets the command buffer and the frame's serial (completedSerial is serial -
+  // 1).
   Status submit(const std::function<Status(VkCommandBuffer, uint64_t serial)>& record);
   uint64_t nextSerial() const;
 
-  // Texels of an image in layout GENERAL as floats, `channels` per texel (1, 2 or 4), halves and depths of 16 bits widened; integers and packed
-  // colours as the bits of floats.
+  // Texels of an image in layout GENERAL as floats, `channels` per texel (1, 2 or 4), halves and depths of 16 bits
+  // widened; integers and packed colours as the bits of floats.
   Result<std::vector<float>> readImage(const HostImage& image, uint32_t layer = 0);
   // Fills an image of floats or depths, `channels` values per texel; it is in layout GENERAL then.
   Status writeImage(const HostImage& image, const std::vector<float>& texels);

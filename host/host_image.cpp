@@ -40,10 +40,11 @@ Result<FormatTraits> traitsOf(VkFormat format) {
     case VK_FORMAT_D16_UNORM:
       return FormatTraits{1, 2, VK_IMAGE_ASPECT_DEPTH_BIT};
     default:
-      return makeError(ErrorKind::kUnsupported,
-                       "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT, R32_SFLOAT, "
-                       "R16G16_SFLOAT, R32G32_UINT, B10G11R11_UFLOAT_PACK32, D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
-                       format);
+      return makeError(
+          ErrorKind::kUnsupported,
+          "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT, R32_SFLOAT, "
+          "R16G16_SFLOAT, R32G32_UINT, B10G11R11_UFLOAT_PACK32, D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
+          format);
   }
 }
 
@@ -81,8 +82,8 @@ std::vector<float> widenTexels(const void* texels, size_t byteCount, FormatTrait
   return values;
 }
 
-Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements, uint32_t type,
-                      VkDeviceMemory& memory, VkMemoryAllocateFlags flags = 0) {
+Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements, uint32_t type, VkDeviceMemory& memory,
+                      VkMemoryAllocateFlags flags = 0) {
   VkMemoryAllocateFlagsInfo flagsInfo{};
   flagsInfo.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
   flagsInfo.flags = flags;
@@ -100,13 +101,14 @@ Status allocateMemory(VkDevice device, const VkMemoryRequirements& requirements,
   return {};
 }
 
-void copyToBuffer(VkCommandBuffer commands, const HostImage& image, uint32_t layer, FormatTraits traits, VkBuffer buffer) {
+void copyToBuffer(VkCommandBuffer commands, const HostImage& image, uint32_t layer, FormatTraits traits,
+                  VkBuffer buffer) {
   VkBufferImageCopy region{};
   region.imageSubresource = {traits.aspect(), 0, layer, 1};
   region.imageExtent = {image.extent.width, image.extent.height, 1};
   vkCmdCopyImageToBuffer(commands, image.image, VK_IMAGE_LAYOUT_GENERAL, buffer, 1, &region);
-  recordMemoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
-                      VK_ACCESS_2_HOST_READ_BIT);
+  recordMemoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
 // Into layout GENERAL, whatever it held before.
@@ -163,9 +165,8 @@ Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent, uint32_t
   // crashes above.
   constexpr uint64_t kMaxImageBytes = uint64_t{1} << 31;
   if (uint64_t{extent.width} * extent.height * traits->bytesPerTexel > kMaxImageBytes) {
-    return makeError(ErrorKind::kUnsupported,
-                     "image: %u x %u pixels of %u bytes exceed 2 GiB; use a smaller size", extent.width,
-                     extent.height, traits->bytesPerTexel);
+    return makeError(ErrorKind::kUnsupported, "image: %u x %u pixels of %u bytes exceed 2 GiB; use a smaller size",
+                     extent.width, extent.height, traits->bytesPerTexel);
   }
   HostImage image;
   image.format = format;
@@ -182,13 +183,12 @@ Result<HostImage> Host::createImage(VkFormat format, VkExtent2D extent, uint32_t
                     (traits->isDepth() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_STORAGE_BIT);
   if (state_->usesGraphics && !traits->isDepth()) imageInfo.usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   if (const VkResult code = vkCreateImage(device, &imageInfo, nullptr, &image.image); code != VK_SUCCESS) {
-    return makeError(ErrorKind::kUnsupported, "vkCreateImage of %u x %u gives VkResult %d", extent.width,
-                     extent.height, code);
+    return makeError(ErrorKind::kUnsupported, "vkCreateImage of %u x %u gives VkResult %d", extent.width, extent.height,
+                     code);
   }
   VkMemoryRequirements requirements{};
   vkGetImageMemoryRequirements(device, image.image, &requirements);
-  const uint32_t type =
-      state_->findMemoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  const uint32_t type = state_->findMemoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   if (const Status status = allocateMemory(device, requirements, type, image.memory); !status) {
     destroyImage(image);
     return status.error();
@@ -222,8 +222,7 @@ FrothImage Host::describe(const HostImage& image) const {
   described.format = image.format;
   described.extent = image.extent;
   described.layoutIn = VK_IMAGE_LAYOUT_UNDEFINED;
-  described.stageIn =
-      VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;  // two passes of one submission may write the same image
+  described.stageIn = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;  // two passes of one submission may write the same image
   described.accessIn = VK_ACCESS_2_MEMORY_WRITE_BIT;
   described.layoutOut = VK_IMAGE_LAYOUT_GENERAL;
   described.stageOut = VK_PIPELINE_STAGE_2_COPY_BIT;
@@ -274,7 +273,8 @@ Result<HostBuffer> Host::createBuffer(VkDeviceSize bytes, VkBufferUsageFlags usa
   }
   VkMemoryRequirements requirements{};
   vkGetBufferMemoryRequirements(device, buffer.buffer, &requirements);
-  constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  constexpr VkMemoryPropertyFlags kCoherent =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   uint32_t type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   if (type == UINT32_MAX) type = state_->findMemoryType(requirements.memoryTypeBits, kCoherent);
   const bool hasAddress = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
@@ -307,8 +307,7 @@ Result<std::vector<float>> Host::readImage(const HostImage& image, uint32_t laye
   }
   const VkDeviceSize bytes = VkDeviceSize{image.extent.width} * image.extent.height * traits->bytesPerTexel;
   TransferBuffer readback;
-  if (const Status status =
-          state_->createTransferBuffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, readback);
+  if (const Status status = state_->createTransferBuffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, readback);
       !status) {
     return status.error();
   }

@@ -8,12 +8,13 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL logMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                          VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL logMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
   auto* log = static_cast<ValidationLog*>(user);
   std::string text;
-  for (uint32_t i = 0; i < data->cmdBufLabelCount; ++i) text += std::string("[") + data->pCmdBufLabels[i].pLabelName + "] ";
+  for (uint32_t i = 0; i < data->cmdBufLabelCount; ++i) {
+    text += std::string("[") + data->pCmdBufLabels[i].pLabelName + "] ";
+  }
   const std::lock_guard<std::mutex> lock(log->mutex);
   log->messages.push_back(text + data->pMessage);
   return VK_FALSE;
@@ -82,8 +83,7 @@ std::string listNames(const std::vector<HostDeviceChoice>& devices) {
 Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const char*> extensions) {
   if (log && !hasValidationLayer()) {
     return makeError(ErrorKind::kUnsupported,
-                     "validation: the layer %s is not installed; install vulkan-validationlayers",
-                     kValidationLayer);
+                     "validation: the layer %s is not installed; install vulkan-validationlayers", kValidationLayer);
   }
   VkDebugUtilsMessengerCreateInfoEXT messengerInfo{};
   messengerInfo.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
@@ -92,8 +92,7 @@ Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const ch
   messengerInfo.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
   messengerInfo.pfnUserCallback = logMessage;
   messengerInfo.pUserData = log;
-  const VkValidationFeatureEnableEXT enabled[] = {
-      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   VkValidationFeaturesEXT validation{};
   validation.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
   validation.pNext = &messengerInfo;
@@ -155,8 +154,7 @@ Result<std::vector<HostDeviceChoice>> enumerateHostDevices(VkInstance instance) 
   return devices;
 }
 
-Result<HostDeviceChoice> chooseHostDevice(const std::vector<HostDeviceChoice>& devices,
-                                          const std::string& wanted) {
+Result<HostDeviceChoice> chooseHostDevice(const std::vector<HostDeviceChoice>& devices, const std::string& wanted) {
   const HostDeviceChoice* chosen = nullptr;
   for (size_t i = 0; i < devices.size(); ++i) {
     const HostDeviceInfo& info = devices[i].info;

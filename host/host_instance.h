@@ -35,7 +35,6 @@ void destroyHostInstance(HostInstance& instance);
 
 Result<std::vector<HostDeviceChoice>> enumerateHostDevices(VkInstance instance);
 // `wanted` as HostOptions::device.
-Result<HostDeviceChoice> chooseHostDevice(const std::vector<HostDeviceChoice>& devices,
-                                          const std::string& wanted);
+Result<HostDeviceChoice> chooseHostDevice(const std::vector<HostDeviceChoice>& devices, const std::string& wanted);
 
 }  // namespace froth

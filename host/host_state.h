@@ -30,8 +30,7 @@ struct Host::State {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   uint64_t serial = 0;
 
-  Status runCommands(VkDevice onDevice, VkQueue onQueue,
-                     const std::function<Status(VkCommandBuffer)>& record);
+  Status runCommands(VkDevice onDevice, VkQueue onQueue, const std::function<Status(VkCommandBuffer)>& record);
   // The first memory type that is allowed and has the properties; UINT32_MAX: none.
   uint32_t findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags properties) const;
   Status createTransferBuffer(VkDevice onDevice, VkDeviceSize bytes, VkBufferUsageFlags usage,

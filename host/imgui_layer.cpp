@@ -82,8 +82,7 @@ Status ImGuiLayer::startImGui(GLFWwindow* window, uint32_t imageCount) {
   poolInfo.maxSets = 1;
   poolInfo.poolSizeCount = 1;
   poolInfo.pPoolSizes = &size;
-  Status made =
-      checkVulkan(vkCreateDescriptorPool(host_.device, &poolInfo, nullptr, &pool_), "vkCreateDescriptorPool");
+  Status made = checkVulkan(vkCreateDescriptorPool(host_.device, &poolInfo, nullptr, &pool_), "vkCreateDescriptorPool");
   if (!made) return made;
 
   ImGui::CreateContext();
@@ -125,16 +124,14 @@ Status ImGuiLayer::setSwapchain(const Swapchain& swapchain) {
     info.height = extent_.height;
     info.layers = 1;
     VkFramebuffer& framebuffer = framebuffers_.emplace_back();
-    Status made =
-        checkVulkan(vkCreateFramebuffer(host_.device, &info, nullptr, &framebuffer), "vkCreateFramebuffer");
+    Status made = checkVulkan(vkCreateFramebuffer(host_.device, &info, nullptr, &framebuffer), "vkCreateFramebuffer");
     if (!made) return made;
   }
   return {};
 }
 
 void ImGuiLayer::destroyFramebuffers() {
-  for (const VkFramebuffer framebuffer : framebuffers_)
-    vkDestroyFramebuffer(host_.device, framebuffer, nullptr);
+  for (const VkFramebuffer framebuffer : framebuffers_) vkDestroyFramebuffer(host_.device, framebuffer, nullptr);
   framebuffers_.clear();
 }
 

@@ -18,16 +18,17 @@ struct MethodInfo {
 };
 
 inline constexpr std::array<MethodInfo, 2> kMethods = {{
-    {Method::kRaster, "raster", "frothRasterize", frothRasterize},
-    {Method::kWalk, "walk", "frothWalk", frothWalk},
+    {Method::kRaster, "raster", "frothRecordRaster", frothRecordRaster},
+    {Method::kWalk, "walk", "frothRecordWalk", frothRecordWalk},
 }};
 
 inline const MethodInfo& infoOf(Method method) { return kMethods[static_cast<size_t>(method)]; }
 
 // Null: no renderer has this name.
 inline const MethodInfo* findMethod(std::string_view name) {
-  for (const MethodInfo& info : kMethods)
+  for (const MethodInfo& info : kMethods) {
     if (info.name == name) return &info;
+  }
   return nullptr;
 }
 

@@ -2,104 +2,82 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <memory>
-#include <string>
 #include <system_error>
-
-#include <stb_image.h>
-#include <stb_image_resize.h>
-#include <stb_image_write.h>
 
 namespace froth {
 namespace {
 
-constexpr int kChannels = 3;
+constexpr uint32_t kChannels = 3;
 
 float displayFromLinear(float value) {  // sRGB, IEC 61966-2-1
   return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
 }
 
+// The mean of what `picture` has under pixel (x, y) of a width x height thumbnail.
+void shrink(const Image& picture, uint32_t x, uint32_t y, uint32_t width, uint32_t height, float* pixel) {
+  const uint32_t left = x * picture.width / width, right = (x + 1) * picture.width / width;
+  const uint32_t top = y * picture.height / height, bottom = (y + 1) * picture.height / height;
+  const float share = 1.0f / float((right - left) * (bottom - top));
+  for (uint32_t row = top; row < bottom; ++row) {
+    for (uint32_t column = left; column < right; ++column) {
+      for (uint32_t c = 0; c < kChannels; ++c) pixel[c] += share * picture.pixel(column, row)[c];
+    }
+  }
+}
+
 }  // namespace
 
-Picture8 encodePicture(std::span<const float> rgba, VkExtent2D extent) {
-  Picture8 picture{static_cast<int>(extent.width), static_cast<int>(extent.height), {}};
-  picture.rgb.reserve(rgba.size() / 4 * kChannels);
+Image encodePicture(std::span<const float> rgba, VkExtent2D extent) {
+  Image picture{extent.width, extent.height, kChannels, {}};
+  picture.values.reserve(rgba.size() / 4 * kChannels);
   for (size_t texel = 0; texel < rgba.size(); texel += 4) {
     const float coverage = rgba[texel + 3];
     for (size_t channel = 0; channel < kChannels; ++channel) {
-      const float shown =
-          coverage > 0 ? coverage * displayFromLinear(rgba[texel + channel] / coverage) : 0.0f;
-      picture.rgb.push_back(static_cast<uint8_t>(std::clamp(shown, 0.0f, 1.0f) * 255.0f + 0.5f));
+      const float shown = coverage > 0 ? coverage * displayFromLinear(rgba[texel + channel] / coverage) : 0.0f;
+      picture.values.push_back(std::floor(std::clamp(shown, 0.0f, 1.0f) * 255.0f + 0.5f) / 255.0f);
     }
   }
   return picture;
 }
 
-Status writePicture(const std::filesystem::path& path, const Picture8& picture) {
-  std::error_code error;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  const std::filesystem::path temporary = path.string() + ".partial";
-  std::ofstream file(temporary, std::ios::binary);
-  const auto append = [](void* stream, void* bytes, int count) {
-    static_cast<std::ofstream*>(stream)->write(static_cast<const char*>(bytes), count);
-  };
-  const bool isEncoded = stbi_write_png_to_func(append, &file, picture.width, picture.height, kChannels,
-                                                picture.rgb.data(), picture.width * kChannels) != 0;
-  file.close();
-  const bool isWritten = isEncoded && file.good();
-  if (isWritten) std::filesystem::rename(temporary, path, error);
-  if (isWritten && !error) return {};
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  return makeError(ErrorKind::kIo, "%s: cannot be written; check the folder and the free space",
-                   path.c_str());
+Status writePicture(const std::filesystem::path& path, const Image& picture) {
+  std::error_code ignored;  // writeImage() says what is wrong with the folder
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  return writeImage(path, picture);
 }
 
-Result<Picture8> readPicture(const std::filesystem::path& path) {
-  Picture8 picture;
-  int channels = 0;
-  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-      stbi_load(path.c_str(), &picture.width, &picture.height, &channels, kChannels), stbi_image_free);
-  if (!pixels) {
-    return makeError(ErrorKind::kBadInput, "%s: %s; give a PNG or JPEG", path.c_str(), stbi_failure_reason());
-  }
-  picture.rgb.assign(pixels.get(), pixels.get() + size_t{kChannels} * picture.width * picture.height);
-  return picture;
-}
-
-Result<double> comparePictures(const Picture8& a, const Picture8& b) {
-  if (a.width != b.width || a.height != b.height) {
-    return makeError(ErrorKind::kBadInput, "the pictures are %dx%d and %dx%d; render at the same --size",
-                     a.width, a.height, b.width, b.height);
+Result<double> comparePictures(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height || a.channels != b.channels) {
+    return makeError(ErrorKind::kBadInput,
+                     "the pictures are %ux%u and %ux%u, with %u and %u channels; render at the same --size", a.width,
+                     a.height, b.width, b.height, a.channels, b.channels);
   }
   double sum = 0;
-  for (size_t i = 0; i < a.rgb.size(); ++i) {
-    const double difference = (a.rgb[i] - b.rgb[i]) / 255.0;
+  for (size_t i = 0; i < a.values.size(); ++i) {
+    const double difference = double(a.values[i]) - double(b.values[i]);
     sum += difference * difference;
   }
   if (sum == 0) return std::numeric_limits<double>::infinity();
-  return -10.0 * std::log10(sum / static_cast<double>(a.rgb.size()));
+  return -10.0 * std::log10(sum / static_cast<double>(a.values.size()));
 }
 
-Picture8 contactSheet(std::span<const Picture8> pictures) {
-  constexpr int kColumns = 4, kMaxThumbnailWidth = 480;
-  const Picture8& first = pictures.front();
-  const int count = static_cast<int>(pictures.size());
-  const int width = std::min(first.width, kMaxThumbnailWidth);
-  const int height = std::max(1, first.height * width / first.width);
-  const int columns = std::min(count, kColumns), rows = (count + columns - 1) / columns;
+Image contactSheet(std::span<const Image> pictures) {
+  constexpr uint32_t kColumns = 4, kMaxThumbnailWidth = 480;
+  const Image& first = pictures.front();
+  const uint32_t count = static_cast<uint32_t>(pictures.size());
+  const uint32_t width = std::min(first.width, kMaxThumbnailWidth);
+  const uint32_t height = std::max(1u, first.height * width / first.width);
+  const uint32_t columns = std::min(count, kColumns), rows = (count + columns - 1) / columns;
 
-  Picture8 sheet{columns * width, rows * height, {}};
-  sheet.rgb.resize(size_t{kChannels} * sheet.width * sheet.height);
-  for (int i = 0; i < count; ++i) {
-    const size_t corner =
-        size_t{kChannels} * (size_t(i / columns) * height * sheet.width + size_t(i % columns) * width);
-    const Picture8& picture = pictures[static_cast<size_t>(i)];
-    stbir_resize_uint8_srgb(picture.rgb.data(), picture.width, picture.height, picture.width * kChannels,
-                            sheet.rgb.data() + corner, width, height, sheet.width * kChannels, kChannels,
-                            STBIR_ALPHA_CHANNEL_NONE, 0);
+  Image sheet{columns * width, rows * height, kChannels, {}};
+  sheet.values.resize(size_t{sheet.width} * sheet.height * kChannels);
+  for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t y = 0; y < height; ++y) {
+      for (uint32_t x = 0; x < width; ++x) {
+        shrink(pictures[i], x, y, width, height, sheet.pixel(i % columns * width + x, i / columns * height + y));
+      }
+    }
   }
   return sheet;
 }

@@ -5,21 +5,18 @@
 namespace froth {
 
 Status Scene::check(FrothResult result, const char* call) const {
-  if (result >= FROTH_OK)
-    return {};  // what is positive is information, such as an asset that is still loading
+  if (result >= FROTH_OK) return {};  // what is positive is information, such as an asset that is still loading
   const bool isFileFault = result == FROTH_ERROR_FILE || result == FROTH_ERROR_VERSION;
   const ErrorKind kind = isFileFault ? ErrorKind::kBadInput : ErrorKind::kUnsupported;
   if (!lastMessage_.empty()) return makeError(kind, "%s", lastMessage_.c_str());
   return makeError(kind, "%s gives %s", call, frothResultName(result));
 }
 
-Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& assetPath,
-                                             bool isQueried) {
+Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& assetPath, bool isQueried) {
   std::unique_ptr<Scene> scene(new Scene());
   info.messageUser = scene.get();
   info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
-    if (severity == FROTH_SEVERITY_ERROR)
-      static_cast<Scene*>(user)->lastMessage_ = std::string(object) + ": " + text;
+    if (severity == FROTH_SEVERITY_ERROR) static_cast<Scene*>(user)->lastMessage_ = std::string(object) + ": " + text;
   };
   Status made = scene->check(frothCreateContext(&info, &scene->context_), "frothCreateContext");
   if (!made) return made.error();
@@ -35,8 +32,7 @@ Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::s
   FrothInstanceInfo instanceInfo{};
   instanceInfo.structSize = sizeof(instanceInfo);
   instanceInfo.asset = scene->assetHandle_;
-  made = scene->check(frothCreateInstance(scene->context_, &instanceInfo, &scene->instance_),
-                      "frothCreateInstance");
+  made = scene->check(frothCreateInstance(scene->context_, &instanceInfo, &scene->instance_), "frothCreateInstance");
   if (!made) return made.error();
   return scene;
 }
@@ -66,12 +62,10 @@ Status Scene::beginFrame(VkCommandBuffer commands, uint64_t serial, uint64_t com
   frame.completedSerial = completedSerial;
   frame_.structSize = sizeof(frame_);
   if (Status updated = check(frothUpdate(context_, &frame, &frame_), "frothUpdate"); !updated) return updated;
-  if (Status copied = check(frothRecordUpload(context_, commands), "frothRecordUpload"); !copied)
-    return copied;
+  if (Status copied = check(frothRecordUpload(context_, commands), "frothRecordUpload"); !copied) return copied;
 
   asset_.structSize = sizeof(asset_);
-  if (Status asked = check(frothGetAssetStatus(context_, assetHandle_, &asset_), "frothGetAssetStatus");
-      !asked) {
+  if (Status asked = check(frothGetAssetStatus(context_, assetHandle_, &asset_), "frothGetAssetStatus"); !asked) {
     return asked;
   }
   if (asset_.state == FROTH_ASSET_FAILED) return check(asset_.error, "frothOpenAsset");
@@ -105,8 +99,7 @@ Result<CameraPath> Scene::path(std::vector<Pose> keys) const {
 
   std::vector<FrothStoredCamera> stored(asset_.flightPathCount);
   uint32_t count = 0;
-  const FrothResult copied =
-      frothGetFlightPath(context_, assetHandle_, asset_.flightPathCount, stored.data(), &count);
+  const FrothResult copied = frothGetFlightPath(context_, assetHandle_, asset_.flightPathCount, stored.data(), &count);
   if (Status got = check(copied, "frothGetFlightPath"); !got) return got.error();
   for (const FrothStoredCamera& camera : stored) {
     keys.push_back(poseFromMatrix(camera.worldFromCamera, camera.tanHalfFovY));
@@ -124,8 +117,9 @@ Status submitFrame(Host& host, Scene& scene, const RecordFrame& record) {
 
 Status waitUntilReady(Host& host, Scene& scene) {
   while (!scene.isReady()) {
-    if (Status loaded = submitFrame(host, scene, [](VkCommandBuffer, uint64_t) { return Status(); }); !loaded)
+    if (Status loaded = submitFrame(host, scene, [](VkCommandBuffer, uint64_t) { return Status(); }); !loaded) {
       return loaded;
+    }
   }
   return {};
 }

@@ -23,8 +23,7 @@ Status Swapchain::chooseFormat() {
     return offered.format == VK_FORMAT_B8G8R8A8_SRGB || offered.format == VK_FORMAT_R8G8B8A8_SRGB;
   });
   if (found == formats.end()) {
-    return makeError(ErrorKind::kUnsupported,
-                     "device %s offers no 8-bit sRGB format for this window; use --headless",
+    return makeError(ErrorKind::kUnsupported, "device %s offers no 8-bit sRGB format for this window; use --headless",
                      host_.info.name.c_str());
   }
   surfaceFormat_ = *found;
@@ -41,8 +40,7 @@ Status Swapchain::resize(VkExtent2D windowExtent) {
   info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
   info.surface = surface_;
   info.minImageCount = capabilities.minImageCount + 1;
-  if (capabilities.maxImageCount > 0)
-    info.minImageCount = std::min(info.minImageCount, capabilities.maxImageCount);
+  if (capabilities.maxImageCount > 0) info.minImageCount = std::min(info.minImageCount, capabilities.maxImageCount);
   info.imageFormat = surfaceFormat_.format;
   info.imageColorSpace = surfaceFormat_.colorSpace;
   info.imageExtent = extent_;
@@ -72,12 +70,10 @@ Status Swapchain::resize(VkExtent2D windowExtent) {
     viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
     viewInfo.format = surfaceFormat_.format;
     viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    Status status =
-        checkVulkan(vkCreateImageView(host_.device, &viewInfo, nullptr, &image.view), "vkCreateImageView");
+    Status status = checkVulkan(vkCreateImageView(host_.device, &viewInfo, nullptr, &image.view), "vkCreateImageView");
     if (!status) return status;
     const VkSemaphoreCreateInfo semaphoreInfo{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, nullptr, 0};
-    status = checkVulkan(vkCreateSemaphore(host_.device, &semaphoreInfo, nullptr, &image.isDrawn),
-                         "vkCreateSemaphore");
+    status = checkVulkan(vkCreateSemaphore(host_.device, &semaphoreInfo, nullptr, &image.isDrawn), "vkCreateSemaphore");
     if (!status) return status;
   }
   return {};

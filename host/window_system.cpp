@@ -22,8 +22,8 @@ Result<std::unique_ptr<WindowSystem>> WindowSystem::create(const std::string& ti
   std::unique_ptr<WindowSystem> system(new WindowSystem());
   if (!glfwVulkanSupported()) return glfwError("glfwVulkanSupported");
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-  system->window_ = glfwCreateWindow(static_cast<int>(extent.width), static_cast<int>(extent.height),
-                                     title.c_str(), nullptr, nullptr);
+  system->window_ = glfwCreateWindow(static_cast<int>(extent.width), static_cast<int>(extent.height), title.c_str(),
+                                     nullptr, nullptr);
   if (!system->window_) return glfwError("glfwCreateWindow");
   return system;
 }
@@ -41,8 +41,7 @@ std::vector<const char*> WindowSystem::instanceExtensions() const {
 
 Status WindowSystem::createSurface(VkInstance instance) {
   instance_ = instance;
-  return checkVulkan(glfwCreateWindowSurface(instance, window_, nullptr, &surface_),
-                     "glfwCreateWindowSurface");
+  return checkVulkan(glfwCreateWindowSurface(instance, window_, nullptr, &surface_), "glfwCreateWindowSurface");
 }
 
 void WindowSystem::destroySurface() {

@@ -9,7 +9,9 @@ namespace {
 
 constexpr std::string_view kEnd = "<!-- end -->\n";
 
-std::string beginOf(const std::string& section) { return "<!-- " + section + "made by `froth stability --markdown`: begin -->\n"; }
+std::string beginOf(const std::string& section) {
+  return "<!-- " + section + "made by `froth stability --markdown`: begin -->\n";
+}
 
 }  // namespace
 
@@ -26,8 +28,9 @@ Result<std::string> readMarked(const std::filesystem::path& path, const std::vec
     const std::string line = beginOf(section);
     const size_t begin = text.find(line);
     if (begin != std::string::npos && text.find(kEnd, begin) != std::string::npos) continue;
-    return makeError(ErrorKind::kBadInput, "%s: the lines '%s' and '<!-- end -->' are not there; put them where the tables go",
-                     path.c_str(), line.substr(0, line.size() - 1).c_str());
+    return makeError(ErrorKind::kBadInput,
+                     "%s: the lines '%s' and '<!-- end -->' are not there; put them where the tables go", path.c_str(),
+                     line.substr(0, line.size() - 1).c_str());
   }
   return text;
 }

@@ -9,8 +9,8 @@
 
 namespace froth {
 
-// The page, which must hold the markers of every section: "<!-- SECTIONmade by `froth stability --markdown`: begin -->" and, after
-// it, "<!-- end -->", each a line. A page of empty sections where there is no file.
+// The page, which must hold the markers of every section: "<!-- SECTIONmade by `froth stability --markdown`: begin -->"
+// and, after it, "<!-- end -->", each a line. A page of empty sections where there is no file.
 Result<std::string> readMarked(const std::filesystem::path& path, const std::vector<std::string>& sections);
 
 // `text` as readMarked() gave it.

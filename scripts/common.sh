@@ -7,7 +7,7 @@ cd "$root"
 build_packages=(
   build-essential cmake ninja-build pkg-config
   libcgal-dev libtbb-dev libfmt-dev libglm-dev libzstd-dev libdraco-dev libbenchmark-dev libflatbuffers-dev flatbuffers-compiler libxxhash-dev
-  libcli11-dev nlohmann-json3-dev libpng-dev libjpeg-dev zlib1g-dev libstb-dev libtinygltf-dev
+  libcli11-dev nlohmann-json3-dev libpng-dev libjpeg-dev zlib1g-dev libtinygltf-dev libkainjow-mustache-dev
   glslang-tools libvulkan-dev libglfw3-dev libimgui-dev mesa-vulkan-drivers
 )
 

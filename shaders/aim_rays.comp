@@ -1,5 +1,5 @@
-// The rays of a mapped lens, and the cones around those of each sub-tile and tile. A workgroup per tile, four pixels of one sub-tile
-// per thread. FROTH_RAY_IMAGE: the caller's image gives the directions, in the view's axes.
+// The rays of a mapped lens, and the cones around those of each sub-tile and tile. A workgroup per tile, four pixels of
+// one sub-tile per thread. FROTH_RAY_IMAGE: the caller's image gives the directions, in the view's axes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,6 +1,6 @@
-// Lists the visible cells in the order of the asset, and plans the passes over them: same grid as cull_cells.comp, whose bits
-// and sums it reads. Cells that find no space are no longer visible: all from the first one on for whom there is no slot or
-// no planes. A walk does without planes that find no space.
+// Lists the visible cells in the order of the asset, and plans the passes over them: same grid as cull_cells.comp,
+// whose bits and sums it reads. Cells that find no space are no longer visible: all from the first one on for whom
+// there is no slot or no planes. A walk does without planes that find no space.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
@@ -14,11 +14,13 @@ layout(constant_id = kConstantDetailCount) const uint detailCount = 8;
 
 shared uint lostSlot;  // of the first cell that finds no space
 
-// The power of the eye, or how far along parallel rays a site lies. Unsigned keys are in the order of the floats, negative ones included.
+// The power of the eye, or how far along parallel rays a site lies. Unsigned keys are in the order of the floats,
+// negative ones included.
 uint sortKey(Chunk chunk, uint local) {
   Ball ball = ballOfSite(chunk, local);
   bool isParallel = lensClass == kLensClassOrthographic;
-  uint bits = floatBitsToUint(isParallel ? dot(ball.centre, FRAME.forward.xyz) : powerOfOrigin(ball.centre, ball.radius));
+  float order = isParallel ? dot(ball.centre, FRAME.forward.xyz) : powerOfOrigin(ball.centre, ball.radius);
+  uint bits = floatBitsToUint(order);
   return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 

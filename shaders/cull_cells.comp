@@ -1,5 +1,5 @@
-// Which live cells this view can see: near tests, then the solid ball against all rays of the view. For a walk the cells that only
-// guide it are listed too. A thread per cell; a bit per cell and, per workgroup and per kGroupSize
+// Which live cells this view can see: near tests, then the solid ball against all rays of the view. For a walk the
+// cells that only guide it are listed too. A thread per cell; a bit per cell and, per workgroup and per kGroupSize
 // of these, the count of visible cells and of their planes.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,6 +1,7 @@
-// Writes the (tile, slot) pairs in the order of the cells, counts them by tile, and plans their sort. The pairs of one cell come in any
-// order. They are as many as count_tiles.comp found: compilers may round the two passes' tests apart, so what is more is left out, and
-// for what is less there are pairs of a tile past the last one, whose list no pass reads. Cells whose pairs do not all find space have none, and so have all cells behind them.
+// Writes the (tile, slot) pairs in the order of the cells, counts them by tile, and plans their sort. The pairs of one
+// cell come in any order. They are as many as count_tiles.comp found: compilers may round the two passes' tests apart,
+// so what is more is left out, and for what is less there are pairs of a tile past the last one, whose list no pass
+// reads. Cells whose pairs do not all find space have none, and so have all cells behind them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/histogram.glsl"

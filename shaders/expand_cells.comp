@@ -1,8 +1,8 @@
 // What every ray through the eye shares of a visible cell: its frame, and its radical planes as eye planes, those that
 // only lower tFar first. Several threads per cell share its planes.
 //
-// A walk leaves a cell through a plane of the first kind: the eye lies on the cell's side of it. Each has a link to the cell
-// behind it: where its record is, or kUnlisted and its site.
+// A walk leaves a cell through a plane of the first kind: the eye lies on the cell's side of it. Each has a link to the
+// cell behind it: where its record is, or kUnlisted and its site.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/cell_bits.glsl"
@@ -18,7 +18,8 @@ uint linkTo(Chunk chunk, uint site) {
   return slot == kNoCell ? kUnlisted | site : slot;
 }
 
-// Planes of the first kind from the begin of the cell's space up, the others from its end down; returns where they meet.
+// Planes of the first kind from the begin of the cell's space up, the others from its end down; returns where they
+// meet.
 uint expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius) {
   uint lanes = lanesPerCell();
   uint lane = gl_LocalInvocationIndex % lanes;

@@ -3,11 +3,13 @@
 //   #define FROTH_WALK_SET 2  // the number of the descriptor set that frothRecordWalkSet gives
 //   #include "froth_walk.glsl"
 //
-// To be included once, before any declaration (it enables GL_EXT_buffer_reference), in GLSL 4.60 for Vulkan 1.2 or later. All
-// names begin with froth, Froth or FROTH. Places are relative to FrothWalkInfo::eye; directions, lengths: world axes and units.
+// To be included once, before any declaration (it enables GL_EXT_buffer_reference), in GLSL 4.60 for Vulkan 1.2 or
+// later. All names begin with froth, Froth or FROTH. Places are relative to FrothWalkInfo::eye; directions, lengths:
+// world axes and units.
 //
 // May be defined before:
-//   FROTH_WALK_NO_COUNTERS  no binding 1: in stages without atomics (fragmentStoresAndAtomics); frothGetWalkStatus counts nothing
+//   FROTH_WALK_NO_COUNTERS  no binding 1: in stages without atomics (fragmentStoresAndAtomics); frothGetWalkStatus
+//                           counts nothing
 //   FROTH_WALK_STREAMS      most instances that a ray may be in at the same time [4]; 1: faster where none overlap
 #ifndef FROTH_WALK_GLSL
 #define FROTH_WALK_GLSL
@@ -36,15 +38,18 @@ struct FrothRay {
   vec3 direction;  // unit
   float tMin;      // where the ray begins,
   float tMax;      // and ends; FROTH_INFINITY: nowhere
-  float apex;      // colours are seen from the point that lies this far behind the origin. 0: the origin itself. Of a ray that a
-                   // plane mirror reflects: the length of its path from the camera, for there the mirrored camera stands
+  // colours are seen from the point that lies this far behind the origin. 0: the origin itself. Of a ray that a plane
+  // mirror reflects: the length of its path from the camera, for there the mirrored camera stands
+  float apex;
   uint mask;       // meets instances whose FrothInstanceInfo::mask shares a bit with it
   uvec4 hint;      // where to look for the cell in which the walk begins: instance, chunk, cell of a hit nearby
 };
 
 struct FrothHit {
-  float distance;  // where transmittance falls below FrothWalkInfo::quantile; FROTH_INFINITY: never, and what follows is 0 or
-  vec3 normal;     // FROTH_NONE. Of the face of the cell that is met there; unit
+  // where transmittance falls below FrothWalkInfo::quantile; FROTH_INFINITY: never, and what follows is 0 or
+  // FROTH_NONE
+  float distance;
+  vec3 normal;     // of the face of the cell that is met there; unit
   uint instance;   // of the walk set; where several overlap the densest
   uint chunk;
   uint cell;
@@ -66,8 +71,8 @@ struct FrothWalk {
   Stream streams[FROTH_WALK_STREAMS];
 };
 
-// A stretch of the ray with the same cells all along: their densities add, their colours mix by them.
-struct Stretch {
+// An interval of the ray with the same cells all along: their densities add, their colours mix by them.
+struct Interval {
   float tNear, tFar, density;
   vec3 colour;
   uint densest;  // stream
@@ -177,8 +182,8 @@ float advanceStreams(inout FrothWalk walk, bool isSeen, inout WalkWork work) {
   return first;
 }
 
-// The next stretch before `end`; false: there is none.
-bool findStretch(inout FrothWalk walk, float end, bool isSeen, out Stretch stretch, inout WalkWork work) {
+// The next interval before `end`; false: there is none.
+bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval interval, inout WalkWork work) {
   float begin;
   for (;;) {
     begin = advanceStreams(walk, isSeen, work);
@@ -186,29 +191,30 @@ bool findStretch(inout FrothWalk walk, float end, bool isSeen, out Stretch stret
     if (!isInstanceNext) break;
     startNextStream(walk, work);
   }
-  stretch = Stretch(begin, min(end, walk.nextEntry - walk.tStart), 0.0, vec3(0.0), 0u);
+  interval = Interval(begin, min(end, walk.nextEntry - walk.tStart), 0.0, vec3(0.0), 0u);
   if (!(begin < end)) return false;
   float most = 0.0;
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
     if (!walk.streams[i].isAhead) continue;
     if (walk.streams[i].tNear > begin) {
-      stretch.tFar = min(stretch.tFar, walk.streams[i].tNear);
+      interval.tFar = min(interval.tFar, walk.streams[i].tNear);
       continue;
     }
     float density = walk.streams[i].density;
-    stretch.tFar = min(stretch.tFar, walk.streams[i].tFar);
-    stretch.density += density;
-    stretch.colour += density * walk.streams[i].colour;
-    if (density > most) stretch.densest = i;
+    interval.tFar = min(interval.tFar, walk.streams[i].tFar);
+    interval.density += density;
+    interval.colour += density * walk.streams[i].colour;
+    if (density > most) interval.densest = i;
     most = max(most, density);
   }
-  stretch.colour /= stretch.density;
+  interval.colour /= interval.density;
   return true;
 }
 
-void describeHit(inout FrothWalk walk, Stretch stretch, float logQuantile) {
-  Stream met = walk.streams[stretch.densest];
-  walk.hit.distance = walk.tStart + quantileDistance(stretch.tNear, walk.logTransmittance, logQuantile, stretch.density);
+void describeHit(inout FrothWalk walk, Interval interval, float logQuantile) {
+  Stream met = walk.streams[interval.densest];
+  walk.hit.distance =
+      walk.tStart + quantileDistance(interval.tNear, walk.logTransmittance, logQuantile, interval.density);
   walk.hit.instance = met.instance;
   walk.hit.chunk = met.metCell.x;
   walk.hit.cell = met.metCell.y;
@@ -232,15 +238,15 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   float end = min(tEnd, walk.ray.tMax) - walk.tStart;
   vec3 colour = vec3(0.0);
   WalkWork work = WalkWork(0u, 0u, 0u, 0u, 0u);
-  Stretch stretch;
-  while (walk.logTransmittance >= logCutoff && findStretch(walk, end, isSeen, stretch, work)) {
-    float opticalDepth = stretch.density * (stretch.tFar - stretch.tNear);
-    if (isSeen) colour += exp(logPassed) * opacity(opticalDepth) * stretch.colour;
+  Interval interval;
+  while (walk.logTransmittance >= logCutoff && findInterval(walk, end, isSeen, interval, work)) {
+    float opticalDepth = interval.density * (interval.tFar - interval.tNear);
+    if (isSeen) colour += exp(logPassed) * opacity(opticalDepth) * interval.colour;
     logPassed -= opticalDepth;
     float logAfter = logBefore + logPassed;
     bool isHit = walk.logTransmittance >= logQuantile && logAfter < logQuantile;
-    if (isHit) describeHit(walk, stretch, logQuantile);
-    walk.passed = stretch.tFar;
+    if (isHit) describeHit(walk, interval, logQuantile);
+    walk.passed = interval.tFar;
     walk.logTransmittance = logAfter;
     if (isHit && isClosestOnly) break;
   }
@@ -249,8 +255,8 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   return vec4(colour, coverageOf(logPassed));
 }
 
-// Premultiplied linear colour of the ray's part from where the walk stands to tEnd, and 1 - T of this part. Each part is decoded
-// by itself: over a part in front of it, it blends as colour += T * part, T *= 1 - part.w.
+// Premultiplied linear colour of the ray's part from where the walk stands to tEnd, and 1 - T of this part. Each part
+// is decoded by itself: over a part in front of it, it blends as colour += T * part, T *= 1 - part.w.
 vec4 frothRadianceSegment(inout FrothWalk walk, float tEnd) {
   vec4 part = gather(walk, tEnd, true, false);
   return vec4(linearPremultiplied(part.rgb, part.a), part.a);
@@ -280,8 +286,8 @@ bool frothClosest(FrothRay ray, out FrothHit hit) {
   return hit.distance < FROTH_INFINITY;
 }
 
-// The power cell (chunk, cell) of an instance of the set that holds a point. first: a cell near to it, or uvec2(FROTH_NONE).
-// false: there is no such instance, or the search ended at FrothWalkInfo::maxNeighbours.
+// The power cell (chunk, cell) of an instance of the set that holds a point. first: a cell near to it, or
+// uvec2(FROTH_NONE). false: there is no such instance, or the search ended at FrothWalkInfo::maxNeighbours.
 bool frothLocate(uint instance, vec3 point, uvec2 first, out uvec2 cell) {
   cell = uvec2(FROTH_NONE);
   if (!isVersionKnown() || instance >= walkSet.block.instanceCount) return false;

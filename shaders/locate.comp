@@ -1,6 +1,6 @@
-// Finds the power cell that holds the eye, or that where the middle ray of a tile of parallel rays starts: from the cell of the
-// last frame, always on to the neighbour to which the power falls most. It falls with every step, so the search ends. A workgroup
-// for each place; the threads share a cell's neighbours.
+// Finds the power cell that holds the eye, or that where the middle ray of a tile of parallel rays starts: from the
+// cell of the last frame, always on to the neighbour to which the power falls most. It falls with every step, so the
+// search ends. A workgroup for each place; the threads share a cell's neighbours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/descend.glsl"
@@ -13,7 +13,8 @@ layout(local_size_x = kThreads) in;
 shared float falls[kThreads];
 shared uint places[kThreads];
 
-// Place in the neighbour array to which the power falls most, the first one among equals, else kNoCell; in places[0] of all threads.
+// Place in the neighbour array to which the power falls most, the first one among equals, else kNoCell; in places[0] of
+// all threads.
 void findMostFall(Chunk chunk, uint cell, vec3 point) {
   uint thread = gl_LocalInvocationIndex;
   vec4 siteRadius = siteRadiusOf(chunk, cell);

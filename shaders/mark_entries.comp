@@ -1,5 +1,5 @@
-// Marks the parts of the grid that the balls of a new asset's live cells meet. A row of workgroups per chunk: as many as the mean
-// chunk has cells for; in a larger chunk each thread takes several.
+// Marks the parts of the grid that the balls of a new asset's live cells meet. A row of workgroups per chunk: as many
+// as the mean chunk has cells for; in a larger chunk each thread takes several.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require

@@ -1,7 +1,7 @@
-// Finds where the list of each tile begins, cuts those beyond maxEntries behind their nearest cells, and orders the tiles by the length of their lists, longest first, in classes of a
-// factor two: the last workgroups of the raster are then short ones, and no long list is left to be read alone. Lists so long
-// that they would end last all the same are given to more threads. One workgroup. The order within a class is open; no image
-// depends on it.
+// Finds where the list of each tile begins, cuts those beyond maxEntries behind their nearest cells, and orders the
+// tiles by the length of their lists, longest first, in classes of a factor two: the last workgroups of the raster are
+// then short ones, and no long list is left to be read alone. Lists so long that they would end last all the same are
+// given to more threads. One workgroup. The order within a class is open; no image depends on it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
@@ -18,7 +18,8 @@ shared uint drawn;             // entries of all lists, once they are cut
 // 0: the longest; the last one: nothing.
 uint classOf(uint length) { return length == 0 ? kClasses - 1 : 31 - findMSB(length); }
 
-// Counts become places. Tiles of a class before that of `longLength` are long ones, unless the frame asks for one form alone.
+// Counts become places. Tiles of a class before that of `longLength` are long ones, unless the frame asks for one form
+// alone.
 void placeClasses(uint longLength) {
   uint place = 0;
   for (uint i = 0; i < kClasses; ++i) {

@@ -1,7 +1,8 @@
-// Draws 8 x 8 pixels: reads its tile's list front to back in batches, keeps the cells whose solid ball these pixels can meet, and
-// composites them. Ends when every pixel is saturated. A thread draws FROTH_RAYS pixels below each other: what costs is
-// reading the cells, and all of them read the same. Long tiles are drawn by a form with one pixel per thread, which is done with a
-// list sooner though it costs more. Tiles that several instances share are drawn by raster_several.comp.
+// Draws 8 x 8 pixels: reads its tile's list front to back in batches, keeps the cells whose solid ball these pixels can
+// meet, and composites them. Ends when every pixel is saturated. A thread draws FROTH_RAYS pixels below each other:
+// what costs is reading the cells, and all of them read the same. Long tiles are drawn by a form with one pixel per
+// thread, which is done with a list sooner though it costs more. Tiles that several instances share are drawn by
+// raster_merged.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
@@ -23,7 +24,8 @@ shared uvec3 rows[kBatch];  // of planes: begin, split, end
 shared uint keptMask[kBatchWords];
 shared uint liveMask;
 
-// shadeHits in one piece: two rays per thread are 6 % slower through its two functions, single rays of a walk 6 % faster.
+// shadeHits in one piece: two rays per thread are 6 % slower through its two functions, single rays of a walk 6 %
+// faster.
 void shadeHitsAtOnce(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
                      inout Radiance radiances[kRays]) {
   uint firstSite = visible * detailCount;
@@ -61,8 +63,9 @@ void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], 
   }
 }
 
-// Reads a word of each line of memory that rays in the cell will read, so that the entries of a batch wait for them together and
-// not one after the other. Always true, which no compiler can know. (What is read may be anything: a cell need not have planes.)
+// Reads a word of each line of memory that rays in the cell will read, so that the entries of a batch wait for them
+// together and not one after the other. Always true, which no compiler can know. (What is read may be anything: a cell
+// need not have planes.)
 bool fetchCell(uint slot, uvec3 row) {
   uint lastPlane = max(row.z, 1u) - 1;
   uint firstSite = slot * detailCount;

@@ -1,4 +1,5 @@
-// The entries of a new asset: for each box of the grid the cell that holds its middle, and no marked part. A thread per entry.
+// The entries of a new asset: for each box of the grid the cell that holds its middle, and no marked part. A thread per
+// entry.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require

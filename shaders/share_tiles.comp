@@ -1,5 +1,5 @@
-// Takes from every instance the tiles in which it is not alone: raster_several.comp draws them. Such a tile is named past the last
-// one, where no workgroup of the raster finds a pixel. A thread per tile.
+// Takes from every instance the tiles in which it is not alone: raster_merged.comp draws them. Such a tile is named
+// past the last one, where no workgroup of the raster finds a pixel. A thread per tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/shared_tiles.glsl"
@@ -13,6 +13,8 @@ void main() {
   bool isShared = partsIn(tile) != 1;
   for (uint part = 0; part < push.partCount; ++part) {
     uvec2 range = tileRange(push.parts[part], tile);
-    if (isShared || range.x == range.y) push.parts[part].v.tileLists.v[push.parts[part].v.tileLengths.v[tile]].x = tiles;
+    if (!isShared && range.x != range.y) continue;
+    uint place = push.parts[part].v.tileLengths.v[tile];
+    push.parts[part].v.tileLists.v[place].x = tiles;
   }
 }

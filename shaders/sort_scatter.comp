@@ -1,9 +1,9 @@
-// One digit of a stable radix sort of 32-bit keys with 32-bit values: moves keys and values to their place. Each workgroup
-// sums the histogram rows of those before it; the keys' next digits are counted where the keys arrive, so a digit costs one
-// dispatch. Needs neither a subgroup size nor forward progress between workgroups.
+// One digit of a stable radix sort of 32-bit keys with 32-bit values: moves keys and values to their place. Each
+// workgroup sums the histogram rows of those before it; the keys' next digits are counted where the keys arrive, so a
+// digit costs one dispatch. Needs neither a subgroup size nor forward progress between workgroups.
 //
-// Within a round of kGroupSize keys the rank among equal digits is counted in bit masks by digit, so equal keys keep their
-// order.
+// Within a round of kGroupSize keys the rank among equal digits is counted in bit masks by digit, so equal keys keep
+// their order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define FROTH_SORT

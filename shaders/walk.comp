@@ -43,6 +43,7 @@ void main() {
   Radiance radiance = radiances[0];
   float depth = isFull ? deviceDepthAt(ray, radiance.distance) : 0.0;
   float distance = radiance.distance * FRAME.scale;
-  writePixel(pixel, radiance.colour, coverageOf(radiance.logTransmittance), FRAME.exposure, distance, inWorld(radiance.normal), depth);
+  writePixel(pixel, radiance.colour, coverageOf(radiance.logTransmittance), FRAME.exposure, distance,
+             inWorld(radiance.normal), depth);
   if (isFull && wantsHits()) writeHit(pixel, distance, FRAME.part, cellCodeOf(radiance.cell));
 }

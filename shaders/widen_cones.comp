@@ -1,4 +1,5 @@
-// The cones around blocks of kBlockTiles x kBlockTiles tiles, from those of the tiles. A workgroup per block, a thread per tile.
+// The cones around blocks of kBlockTiles x kBlockTiles tiles, from those of the tiles. A workgroup per block, a thread
+// per tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/pixel_cones.glsl"

@@ -16,14 +16,10 @@ inline std::filesystem::path pathFrom(const char* variable, const std::filesyste
 }
 
 // FROTH_SOURCE, else the folder that was built.
-inline std::filesystem::path sourceFolder() {
-  return pathFrom("FROTH_SOURCE", FROTH_SOURCE_DIR);
-}
+inline std::filesystem::path sourceFolder() { return pathFrom("FROTH_SOURCE", FROTH_SOURCE_DIR); }
 
 // Real foams and scenes: FROTH_DATA, else ../shared/data beside the repository.
-inline std::filesystem::path dataFolder() {
-  return pathFrom("FROTH_DATA", sourceFolder() / "../shared/data");
-}
+inline std::filesystem::path dataFolder() { return pathFrom("FROTH_DATA", sourceFolder() / "../shared/data"); }
 
 // A program that was built: the one of its name in FROTH_PROGRAMS, if there is one, else itself.
 inline std::filesystem::path programPath(const std::filesystem::path& built) {
@@ -39,8 +35,9 @@ inline bool isAllRequired() {
 
 }  // namespace froth::test
 
-// Leaves a test that lacks a device, layers, data or a program: FROTH_SKIP() << "no ..."; fails it where all is required.
-#define FROTH_SKIP()                                                                               \
-  return GTEST_MESSAGE_(::froth::test::isAllRequired() ? "FROTH_REQUIRE_ALL=1: " : "",             \
-                        ::froth::test::isAllRequired() ? ::testing::TestPartResult::kFatalFailure \
-                                                       : ::testing::TestPartResult::kSkip)
+// Leaves a test that lacks a device, layers, data or a program: FROTH_SKIP() << "no ..."; fails it where all is
+// required.
+#define FROTH_SKIP()                                                 \
+  return GTEST_MESSAGE_(                                             \
+      ::froth::test::isAllRequired() ? "FROTH_REQUIRE_ALL=1: " : "", \
+      ::froth::test::isAllRequired() ? ::testing::TestPartResult::kFatalFailure : ::testing::TestPartResult::kSkip)

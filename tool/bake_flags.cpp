@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "format/limits.h"
+#include "tool/eyes_option.h"
 #include "tool/options.h"
 
 namespace froth {
@@ -25,6 +26,11 @@ CLI::Validator stepUpTo(float most) {
   return {check, ""};
 }
 
+std::string checkEyesText(const std::string& text) {
+  const Result<EyeChoice> eyes = parseEyes(text);
+  return eyes ? std::string() : eyes.error().message;
+}
+
 }  // namespace
 
 template <class Number>
@@ -37,7 +43,8 @@ void BakeFlags::addKnob(CLI::App& command, const std::string& name, const std::s
 }
 
 void BakeFlags::addGeometryKnobs(CLI::App& command) {
-  const auto add = [&](const char* name, const char* description, uint64_t least, uint64_t most, uint32_t BakeKnobs::*knob) {
+  const auto add = [&](const char* name, const char* description, uint64_t least, uint64_t most,
+                       uint32_t BakeKnobs::*knob) {
     addKnob<uint32_t>(command, name, description, countBetween(least, most),
                       [knob](BakeKnobs& knobs, uint32_t value) { knobs.*knob = value; });
   };
@@ -75,17 +82,22 @@ void BakeFlags::addTo(CLI::App& command) {
       ->check(CLI::IsMember({"exact", "high", "default", "small"}));
   addGeometryKnobs(command);
   addColourKnobs(command);
-  command
-      .add_option("--near-ratio", options_.nearRatio, "Default: skip cells nearer than this many radii; 0: none")
+  command.add_option("--near-ratio", options_.nearRatio, "Default: skip cells nearer than this many radii; 0: none")
       ->capture_default_str()
       ->check(numberBetween(0, kMaxNearRatio));
   command
-      .add_option("--near-depth", options_.nearDepth, "Default: skip cells nearer than this depth [scene units]; 0: none")
+      .add_option("--near-depth", options_.nearDepth,
+                  "Default: skip cells nearer than this depth [scene units]; 0: none")
       ->capture_default_str()
       ->check(numberBetween(0, kMaxNumber));
   command.add_flag("--no-walk", noWalk_, "No graph for walks: the asset can only be rasterized");
   command.add_flag("--no-steiner", noSteiner_, "No cells in empty space, which shorten walks");
   command.add_flag("--no-measure", noMeasure_, "No PSNR on sample views");
+  command
+      .add_option("--eyes", eyes_,
+                  "Eyes to bake for: cameras, cameras+R (all within R of one [scene units]) or box:X0,Y0,Z0,X1,Y1,Z1")
+      ->capture_default_str()
+      ->check(CLI::Validator(checkEyesText, ""));
   command
       .add_option("--cull-unseen", options_.cullUnseen,
                   "Drop cells of which no view sees more [opacity, 0..1]; needs --cameras; 0: none")
@@ -110,6 +122,9 @@ Result<BakeOptions> BakeFlags::options() const {
   BakeOptions options = options_;
   options.knobs = *knobs;
   for (const auto& change : changes_) change(options.knobs);
+  const Result<EyeChoice> eyes = parseEyes(eyes_);
+  if (!eyes) return eyes.error();
+  options.eyes = *eyes;
   options.walkGraph = !noWalk_;
   options.steiner = !noSteiner_;
   options.measure = !noMeasure_;

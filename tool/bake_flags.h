@@ -27,6 +27,7 @@ class BakeFlags {
   void addColourKnobs(CLI::App& command);
 
   BakeOptions options_;
+  std::string eyes_ = "cameras";
   uint32_t threads_ = 0;
   bool noWalk_ = false, noSteiner_ = false, noMeasure_ = false;
   std::vector<std::function<void(BakeKnobs&)>> changes_;  // by the flags that were given

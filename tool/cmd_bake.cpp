@@ -39,8 +39,7 @@ class StageClock {
  public:
   StageReport stop(std::string stage, uint64_t items) {
     const auto now = std::chrono::steady_clock::now();
-    StageReport report{std::move(stage), std::chrono::duration<double>(now - start_).count(), items,
-                       peakBytes()};
+    StageReport report{std::move(stage), std::chrono::duration<double>(now - start_).count(), items, peakBytes()};
     start_ = now;
     return report;
   }
@@ -66,10 +65,8 @@ void printStages(const std::vector<StageReport>& stages) {
 nlohmann::ordered_json stagesAsJson(const std::vector<StageReport>& stages) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const StageReport& stage : stages) {
-    list.push_back({{"stage", stage.stage},
-                    {"seconds", stage.seconds},
-                    {"items", stage.items},
-                    {"peakBytes", stage.peakBytes}});
+    list.push_back(
+        {{"stage", stage.stage}, {"seconds", stage.seconds}, {"items", stage.items}, {"peakBytes", stage.peakBytes}});
   }
   return list;
 }
@@ -79,9 +76,10 @@ void printLeftOut(const std::vector<LeftOut>& leftOut) {
 }
 
 void printChecks(const BakeResult& baked) {
-  if (baked.walkLengthBefore > 0)
+  if (baked.walkLengthBefore > 0) {
     fmt::print("walk length       {:.2f} cells per ray, {:.2f} without Steiner cells\n", baked.walkLengthAfter,
                baked.walkLengthBefore);
+  }
   fmt::print("checked           {} points and {} rays against brute force: no fault\n", baked.validity.pointsChecked,
              baked.validity.raysChecked);
 }
@@ -93,13 +91,14 @@ nlohmann::ordered_json leftOutAsJson(const std::vector<LeftOut>& leftOut) {
 }
 
 nlohmann::ordered_json checksAsJson(const BakeResult& baked) {
-  return {{"cells", baked.validity.cells},         {"walkPairs", baked.validity.walkPairs},
+  return {{"cells", baked.validity.cells},           {"walkPairs", baked.validity.walkPairs},
           {"alphaPairs", baked.validity.alphaPairs}, {"points", baked.validity.pointsChecked},
-          {"rays", baked.validity.raysChecked},    {"faults", baked.validity.faults}};
+          {"rays", baked.validity.raysChecked},      {"faults", baked.validity.faults}};
 }
 
 // Prints what was baked, and gives it as JSON.
-Result<nlohmann::ordered_json> reportBake(const BakeJob& job, const BakeResult& baked, uint64_t bytes, bool wantsTable) {
+Result<nlohmann::ordered_json> reportBake(const BakeJob& job, const BakeResult& baked, uint64_t bytes,
+                                          bool wantsTable) {
   const Result<AssetReader> written = AssetReader::open(job.output);
   if (!written) return written.error();
   if (wantsTable) {
@@ -121,7 +120,8 @@ Result<nlohmann::ordered_json> reportBake(const BakeJob& job, const BakeResult& 
                                 {"sections", sectionsAsJson(*written)}};
 }
 
-Result<nlohmann::ordered_json> runJob(const BakeJob& job, BakeOptions bake, const BakeCommandOptions& options, const Progress& progress) {
+Result<nlohmann::ordered_json> runJob(const BakeJob& job, BakeOptions bake, const BakeCommandOptions& options,
+                                      const Progress& progress) {
   if (Status writable = checkWritable(job.output, options.isProtected()); !writable) return writable.error();
   StageClock clock;
   Result<CameraSet> cameras = CameraSet{};
@@ -150,7 +150,8 @@ Result<nlohmann::ordered_json> runJob(const BakeJob& job, BakeOptions bake, cons
 }
 
 // One that fails stops none of the others; the first one's error is returned.
-Status runJobs(const std::vector<BakeJob>& jobs, const BakeOptions& bake, const BakeCommandOptions& options, Tool& tool) {
+Status runJobs(const std::vector<BakeJob>& jobs, const BakeOptions& bake, const BakeCommandOptions& options,
+               Tool& tool) {
   nlohmann::ordered_json done = nlohmann::ordered_json::array();
   std::optional<Error> first;
   size_t failed = 0;
@@ -177,8 +178,9 @@ Status runBake(const BakeCommandOptions& options, Tool& tool) {
   const Result<BakeOptions> bake = options.flags.options();
   if (!bake) return bake.error();
   std::optional<tbb::global_control> threads;
-  if (options.flags.threads() > 0)
+  if (options.flags.threads() > 0) {
     threads.emplace(tbb::global_control::max_allowed_parallelism, options.flags.threads());
+  }
   const bool isFolder = jobs->front().input != options.given.input;
   if (isFolder) return runJobs(*jobs, *bake, options, tool);
   const Result<nlohmann::ordered_json> figures = runJob(jobs->front(), *bake, options, tool.progress.callback());
@@ -192,15 +194,14 @@ void addBakeCommand(CLI::App& program, Tool& tool) {
   CLI::App* command = program.add_subcommand("bake", "Bake a checkpoint into a .froth asset");
   auto options = std::make_shared<BakeCommandOptions>();
   command->add_option("INPUT", options->given.input, "A checkpoint (model.pt), or a folder of checkpoints")->required();
-  command->add_option("-o,--output", options->given.output, "The .froth file to write; of a folder the folder")->required();
+  command->add_option("-o,--output", options->given.output, "The .froth file to write; of a folder the folder")
+      ->required();
   options->flags.addTo(*command);
   command->add_option("--cameras", options->given.cameras,
                       "Views that weigh errors, start view and flight path to store (cameras.json)");
   command->add_flag("--force", options->isForced, "Replace a write-protected file; it stays so");
   addFiguresOption(*command, options->figures);
-  command->callback([&tool, options] {
-    tool.action = [&tool, options] { return runBake(*options, tool); };
-  });
+  command->callback([&tool, options] { tool.action = [&tool, options] { return runBake(*options, tool); }; });
 }
 
 }  // namespace froth

@@ -57,8 +57,7 @@ Result<Measurement> measure(GpuRenderer& renderer, const std::vector<SelectedVie
     const Result<FrothViewStatus> status = renderer.draw(views[view].view, options);
     if (!status) return status.error();
     if (status->passCount == 0) {
-      return makeError(ErrorKind::kUnsupported,
-                       "device %s gives no timestamps on its compute queue; pick another",
+      return makeError(ErrorKind::kUnsupported, "device %s gives no timestamps on its compute queue; pick another",
                        renderer.device().name.c_str());
     }
     addFrame(measurement, view, *status);
@@ -146,9 +145,8 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
   addLayersOption(*command, options->layers);
   command->add_option("--device", options->device, "Index or part of a name (`froth devices`)");
   addFiguresOption(*command, options->figures);
-  command->callback([&tool, options] {
-    tool.action = [&tool, options] { return runBench(*options, tool.progress.callback()); };
-  });
+  command->callback(
+      [&tool, options] { tool.action = [&tool, options] { return runBench(*options, tool.progress.callback()); }; });
 }
 
 }  // namespace froth

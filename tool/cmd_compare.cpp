@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "base/image/image.h"
 #include "measure/figures.h"
-#include "reference/image/image.h"
 #include "reference/image/metrics.h"
 #include "tool/commands.h"
 #include "tool/options.h"
@@ -17,14 +17,11 @@ struct CompareOptions {
   FiguresOutput output;
 };
 
-bool isRaw(const std::filesystem::path& path) {
-  return path.extension() == ".f16";
-}
+bool isRaw(const std::filesystem::path& path) { return path.extension() == ".f16"; }
 
 Result<ImageDifference> compareFiles(const CompareOptions& options) {
   if (isRaw(options.a) && isRaw(options.b)) {
-    return makeError(ErrorKind::kUsage,
-                     "%s and %s are both raw: one image must be a pfm, png or jpg, to give the size",
+    return makeError(ErrorKind::kUsage, "%s and %s are both raw: one image must be a pfm, png or jpg, to give the size",
                      options.a.c_str(), options.b.c_str());
   }
   const bool isSwapped = isRaw(options.a);

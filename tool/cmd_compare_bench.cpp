@@ -24,8 +24,7 @@ Result<nlohmann::ordered_json> readFigures(const std::filesystem::path& path) {
   Result<nlohmann::ordered_json> figures =
       parseJson<nlohmann::ordered_json>(*bytes, path.string(), "`froth bench --json=FILE` writes it");
   if (!figures || figures->is_object()) return figures;
-  return makeError(ErrorKind::kBadInput, "%s: not a JSON object; `froth bench --json=FILE` writes one",
-                   path.c_str());
+  return makeError(ErrorKind::kBadInput, "%s: not a JSON object; `froth bench --json=FILE` writes one", path.c_str());
 }
 
 std::string describeTimes(const Percentiles& times) {
@@ -39,8 +38,9 @@ void printComparison(const BenchComparison& comparison) {
     fmt::print("{:<12} {:>28} {:>28} {:>8.3f}  {}\n", time.name, describeTimes(time.a), describeTimes(time.b),
                time.ratio(), verdictName(time.verdict));
   }
-  for (const CountComparison& count : comparison.counts)
+  for (const CountComparison& count : comparison.counts) {
     fmt::print("{:<41} {:>28.6g} {:>8.6g}\n", count.name, count.a, count.b);
+  }
 }
 
 nlohmann::ordered_json comparisonAsJson(const BenchComparison& comparison) {
@@ -54,8 +54,7 @@ nlohmann::ordered_json comparisonAsJson(const BenchComparison& comparison) {
                         {"ratio", time.ratio()},
                         {"verdict", verdictName(time.verdict)}};
   }
-  for (const CountComparison& count : comparison.counts)
-    counts[count.name] = {{"a", count.a}, {"b", count.b}};
+  for (const CountComparison& count : comparison.counts) counts[count.name] = {{"a", count.a}, {"b", count.b}};
   return {{"differences", comparison.differences}, {"times", times}, {"counts", counts}};
 }
 

@@ -43,7 +43,8 @@ void addHelpCommands(CLI::App& program, Tool& tool) {
     };
   });
 
-  CLI::App* completion = program.add_subcommand("completion", "Print what bash sources to complete commands and options");
+  CLI::App* completion =
+      program.add_subcommand("completion", "Print what bash sources to complete commands and options");
   completion->callback([&program, &tool] {
     tool.action = [&program] {
       fmt::print("{}", bashCompletion(program));

@@ -47,8 +47,7 @@ Range rangeOf(std::span<const float> values) {
   return {*least, *most};
 }
 
-Status describeCheckpoint(const std::filesystem::path& path, const FiguresOutput& output,
-                          const Progress& progress) {
+Status describeCheckpoint(const std::filesystem::path& path, const FiguresOutput& output, const Progress& progress) {
   const Result<Foam> foam = importCheckpoint(path, progress);
   if (!foam) return foam.error();
   const Range radii = rangeOf(foam->radii), densities = rangeOf(foam->densities);
@@ -60,8 +59,7 @@ Status describeCheckpoint(const std::filesystem::path& path, const FiguresOutput
   if (output.wantsTable()) {
     fmt::print("cells             {}\n", foam->cellCount);
     fmt::print("detail sites      {} per cell, {} lobes each\n", foam->detailCount, foam->lobeCount);
-    fmt::print("sites             ({}, {}, {}) to ({}, {}, {})\n", least.x, least.y, least.z, most.x, most.y,
-               most.z);
+    fmt::print("sites             ({}, {}, {}) to ({}, {}, {})\n", least.x, least.y, least.z, most.x, most.y, most.z);
     fmt::print("radii             {} to {}\n", radii.least, radii.most);
     fmt::print("densities         {} to {}\n", densities.least, densities.most);
     fmt::print("file              {} bytes\n", fileSize(path));

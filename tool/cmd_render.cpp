@@ -52,7 +52,7 @@ void decodeColour(RenderedImages& images) {
 
 Image& pickChannel(RenderedImages& images, const std::string& channel) {
   if (channel == "alpha") return images.alpha;
-  if (channel == "depth") return images.depth;
+  if (channel == "depth") return images.distance;
   if (channel == "normal") return images.normal;
   return images.colour;
 }
@@ -81,11 +81,10 @@ Status drawViews(const RenderCommandOptions& options, const std::vector<Selected
     Result<Drawing> drawing = draw(view);
     if (!drawing) return drawing.error();
     const double seconds = secondsSince(start);
-    if (Status written = writeOutput(paths[i], pickChannel(drawing->images, options.channel)); !written)
-      return written;
+    if (Status written = writeOutput(paths[i], pickChannel(drawing->images, options.channel)); !written) return written;
     if (options.figures.wantsTable()) {
-      fmt::print("{}: view {}, {}x{}, {:.3f} s{}\n", paths[i].string(), views[i].index, view.width,
-                 view.height, seconds, describeBits(drawing->status.bits));
+      fmt::print("{}: view {}, {}x{}, {:.3f} s{}\n", paths[i].string(), views[i].index, view.width, view.height,
+                 seconds, describeBits(drawing->status.bits));
     }
     figures["views"].push_back({{"view", views[i].index},
                                 {"name", view.name},
@@ -163,14 +162,12 @@ Status checkOptions(const CLI::App& command, const RenderCommandOptions& options
     return makeError(ErrorKind::kUsage, "--linear: channel %s has no display coding; leave it out",
                      options.channel.c_str());
   }
-  if (options.output.extension() == ".png" &&
-      (options.isLinear || (!isColour && options.channel != "alpha"))) {
+  if (options.output.extension() == ".png" && (options.isLinear || (!isColour && options.channel != "alpha"))) {
     return makeError(ErrorKind::kUsage, "-o %s: a png cannot hold %s; name a .pfm", options.output.c_str(),
                      options.isLinear ? "linear colour" : options.channel.c_str());
   }
   if (!options.isReference() && command.count("--precision") > 0) {
-    return makeError(ErrorKind::kUsage,
-                     "--precision belongs to the reference renderer; the GPU computes in float");
+    return makeError(ErrorKind::kUsage, "--precision belongs to the reference renderer; the GPU computes in float");
   }
   if (options.isReference() && command.count("--device") + command.count("--validate") > 0) {
     return makeError(ErrorKind::kUsage,
@@ -187,12 +184,9 @@ Status runRender(const CLI::App& command, RenderCommandOptions options, const Pr
   const Result<std::vector<std::filesystem::path>> paths = outputPaths(options.views, *views, options.output);
   if (!paths) return paths.error();
 
-  nlohmann::ordered_json figures{{"input", options.input.string()},
-                                 {"renderer", options.renderer},
-                                 {"channel", options.channel},
-                                 {"linear", options.isLinear},
-                                 {"layers", options.layers},
-                                 {"cutoff", options.cutoff}};
+  nlohmann::ordered_json figures{{"input", options.input.string()}, {"renderer", options.renderer},
+                                 {"channel", options.channel},      {"linear", options.isLinear},
+                                 {"layers", options.layers},        {"cutoff", options.cutoff}};
   const auto render = options.isReference() ? renderReference : renderOnDevice;
   if (Status rendered = render(options, *views, *paths, progress, figures); !rendered) return rendered;
   return options.figures.write(figures);
@@ -204,8 +198,7 @@ void addRenderCommand(CLI::App& program, Tool& tool) {
   CLI::App* command = program.add_subcommand("render", "Draw views of a checkpoint or an asset");
   auto options = std::make_shared<RenderCommandOptions>();
   command->add_option("INPUT", options->input, "A checkpoint or a .froth file")->required();
-  command->add_option("-o,--output", options->output, "With --view an image (.pfm, .png), else a folder")
-      ->required();
+  command->add_option("-o,--output", options->output, "With --view an image (.pfm, .png), else a folder")->required();
   command->add_option("--cameras", options->views.cameras, "The views (cameras.json)")->required();
   addViewOptions(*command, options->views);
   command->add_option("--renderer", options->renderer, "reference (CPU), raster or walk (Vulkan)")
@@ -214,9 +207,7 @@ void addRenderCommand(CLI::App& program, Tool& tool) {
   command->add_option("--precision", options->precision, "Of the reference")
       ->capture_default_str()
       ->check(CLI::IsMember({"float", "double"}));
-  command
-      ->add_option("--cutoff", options->cutoff,
-                   "A ray ends below this transmittance; default 1e-3, reference 0")
+  command->add_option("--cutoff", options->cutoff, "A ray ends below this transmittance; default 1e-3, reference 0")
       ->check(numberBetween(0, 1));
   command->add_option("--channel", options->channel, "What to write")
       ->capture_default_str()
@@ -229,9 +220,7 @@ void addRenderCommand(CLI::App& program, Tool& tool) {
       "Validation layers and checked indices; fail on a message");
   addFiguresOption(*command, options->figures);
   command->callback([&tool, command, options] {
-    tool.action = [&tool, command, options] {
-      return runRender(*command, *options, tool.progress.callback());
-    };
+    tool.action = [&tool, command, options] { return runRender(*command, *options, tool.progress.callback()); };
   });
 }
 

@@ -31,7 +31,7 @@ struct ReportOptions {
   uint32_t viewCount = 6;
   double searchSeconds = 15;
   std::string device, credit, title;
-  std::string command;  // with all options
+  std::string command;             // with all options
   std::vector<std::string> knobs;  // empty: all
   bool isCpu = false, isWithoutImages = false, resumes = false, keepsWork = false;
   Rounds rounds;
@@ -50,26 +50,31 @@ Result<std::string> hashFile(const std::filesystem::path& path) {
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
   XXH3_64bits_reset(state.get());
   std::vector<char> buffer(1 << 20);
-  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0)
+  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0) {
     XXH3_64bits_update(state.get(), buffer.data(), static_cast<size_t>(in.gcount()));
+  }
   if (!in.eof()) return makeError(ErrorKind::kIo, "%s: cannot be read", path.c_str());
   return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
 }
 
 // What the figures of an interrupted report depend on.
-Result<std::string> signatureOf(const ReportOptions& options, const std::vector<SelectedView>& views, const Drawer& drawer) {
+Result<std::string> signatureOf(const ReportOptions& options, const std::vector<SelectedView>& views,
+                                const SweepRenderer& renderer) {
   const Result<std::string> input = hashFile(options.input), cameras = hashFile(options.views.cameras);
   if (!input) return input.error();
   if (!cameras) return cameras.error();
-  std::string signature = fmt::format("version {} device '{}' driver '{}' input {} cameras {} photos '{}' views", kVersion,
-                                      drawer.device(), drawer.driver(), *input, *cameras, options.photos.string());
-  for (const SelectedView& view : views) signature += fmt::format(" {}:{}x{}", view.index, view.view.width, view.view.height);
+  std::string signature =
+      fmt::format("version {} device '{}' driver '{}' input {} cameras {} photos '{}' views", kVersion,
+                  renderer.device(), renderer.driver(), *input, *cameras, options.photos.string());
+  for (const SelectedView& view : views) {
+    signature += fmt::format(" {}:{}x{}", view.index, view.view.width, view.view.height);
+  }
   return signature;
 }
 
-Result<std::unique_ptr<Drawer>> createDrawer(const ReportOptions& options, const GpuDeviceOptions& device) {
-  if (options.isCpu) return createCpuDrawer();
-  return createGpuDrawer(device);
+Result<std::unique_ptr<SweepRenderer>> createRenderer(const ReportOptions& options, const GpuDeviceOptions& device) {
+  if (options.isCpu) return createCpuSweepRenderer();
+  return createGpuSweepRenderer(device);
 }
 
 // Whether what is drawn can be walked: bakes of a foam can.
@@ -92,14 +97,19 @@ Result<std::vector<Knob>> chooseKnobs(const ReportOptions& options, bool hasFoam
   const std::vector<std::string>& wanted = options.knobs;
   const auto nameOf = [](const Knob& knob) { return knob.sweep.knob.substr(0, knob.sweep.knob.find(',')); };
   for (const std::string& name : wanted) {
-    if (name == "none" || std::any_of(knobs.begin(), knobs.end(), [&](const Knob& knob) { return nameOf(knob) == name; })) continue;
+    if (name == "none" ||
+        std::any_of(knobs.begin(), knobs.end(), [&](const Knob& knob) { return nameOf(knob) == name; })) {
+      continue;
+    }
     std::string names;
     for (const Knob& knob : knobs) {
       if (names.find(nameOf(knob)) == std::string::npos) names += " " + nameOf(knob);
     }
-    return makeError(ErrorKind::kUsage, "--knobs: '%s' is not one of this input; give `none` or some of%s", name.c_str(), names.c_str());
+    return makeError(ErrorKind::kUsage, "--knobs: '%s' is not one of this input; give `none` or some of%s",
+                     name.c_str(), names.c_str());
   }
-  std::erase_if(knobs, [&](const Knob& knob) { return std::find(wanted.begin(), wanted.end(), nameOf(knob)) == wanted.end(); });
+  std::erase_if(
+      knobs, [&](const Knob& knob) { return std::find(wanted.begin(), wanted.end(), nameOf(knob)) == wanted.end(); });
   return knobs;
 }
 
@@ -109,7 +119,8 @@ Status measureEach(const Bench& bench, PointList& points, const Progress& progre
   return measurePoints(bench, planned, progress);
 }
 
-// The search goes by times of one round. All times of the report are then of the same rounds: a front compares no others.
+// The search goes by times of one round. All times of the report are then of the same rounds: a front compares no
+// others.
 Status measureAll(const ReportOptions& options, const Bench& bench, const std::vector<Knob>& knobs, PointList& points,
                   const Progress& progress) {
   if (options.searchSeconds > 0) {
@@ -117,14 +128,18 @@ Status measureAll(const ReportOptions& options, const Bench& bench, const std::v
     quick.rounds.count = 1;
     quick.rounds.frames = bench.rounds.frames / bench.rounds.count;
     if (Status measured = measureEach(quick, points, progress); !measured) return measured;
-    if (Status searched = searchJointly(quick, knobs, options.searchSeconds, bench.rounds.seed, points, progress); !searched) return searched;
+    if (Status searched = searchJointly(quick, knobs, options.searchSeconds, bench.rounds.seed, points, progress);
+        !searched) {
+      return searched;
+    }
   }
   for (PlannedPoint& point : points.all()) point.hasTimes = false;
   return measureEach(bench, points, progress);
 }
 
-Status measureFeatures(const ReportOptions& options, const Bench& bench, const FoamInput& input, const CameraSet& cameras,
-                       const GpuDeviceOptions& device, bool hasFoam, Report& result, const Progress& progress) {
+Status measureFeatures(const ReportOptions& options, const Bench& bench, const FoamInput& input,
+                       const CameraSet& cameras, const GpuDeviceOptions& device, bool hasFoam, Report& result,
+                       const Progress& progress) {
   const auto append = [&](const Result<std::vector<FeatureCost>>& costs) -> Status {
     if (!costs) return costs.error();
     result.features.insert(result.features.end(), costs->begin(), costs->end());
@@ -132,16 +147,21 @@ Status measureFeatures(const ReportOptions& options, const Bench& bench, const F
   };
   if (options.isCpu) return {};
   if (hasFoam) {
-    if (Status added = append(assetFeatures(bench, input, cameras, options.output / "work", progress)); !added) return added;
+    if (Status added = append(assetFeatures(bench, input, cameras, options.output / "work", progress)); !added) {
+      return added;
+    }
   }
   if (Status added = append(runtimeFeatures(bench, device, progress)); !added) return added;
   return append(bakeLeftOut(bench));
 }
 
 void printSummary(const ReportOptions& options, const Report& result) {
-  fmt::print("{}: {} configurations\n{}\n", (options.output / "report.html").string(), result.points.size(), result.choice);
+  fmt::print("{}: {} configurations\n{}\n", (options.output / "report.html").string(), result.points.size(),
+             result.choice);
   for (const Slope& slope : result.slopes) {
-    if (slope.verdict == kVerdictAsDerived || slope.verdict == kVerdictFloor || slope.verdict == kVerdictTooFew) continue;
+    if (slope.verdict == kVerdictAsDerived || slope.verdict == kVerdictFloor || slope.verdict == kVerdictTooFew) {
+      continue;
+    }
     fmt::print("flagged           {}: {}; {}\n", slope.what, slope.verdict, slope.note);
   }
 }
@@ -156,9 +176,9 @@ Result<std::filesystem::path> makeWorkFolder(const ReportOptions& options) {
   return work;
 }
 
-Result<std::vector<Slope>> measureSlopes(const ReportOptions& options, const Bench& bench, const FoamInput& input, bool hasFoam,
-                                         const std::vector<Knob>& knobs, const std::vector<Sweep>& sweeps, PointList& points,
-                                         const Progress& progress) {
+Result<std::vector<Slope>> measureSlopes(const ReportOptions& options, const Bench& bench, const FoamInput& input,
+                                         bool hasFoam, const std::vector<Knob>& knobs, const std::vector<Sweep>& sweeps,
+                                         PointList& points, const Progress& progress) {
   Result<std::vector<Slope>> slopes = errorSlopes(bench, input.foam, knobs, sweeps, points);
   if (!slopes || options.isCpu || !options.knobs.empty()) return slopes;
   const Result<std::vector<Slope>> times = timeSlopes(bench, input, hasFoam, progress);
@@ -182,19 +202,19 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
   GpuDeviceOptions device;
   device.device = options.device;
   device.lensClasses = lensClassesOf(views);
-  Result<std::unique_ptr<Drawer>> drawer = createDrawer(options, device);
-  if (!drawer) return drawer.error();
-  const Result<std::string> signature = signatureOf(options, views, **drawer);
+  Result<std::unique_ptr<SweepRenderer>> renderer = createRenderer(options, device);
+  if (!renderer) return renderer.error();
+  const Result<std::string> signature = signatureOf(options, views, **renderer);
   if (!signature) return signature.error();
   Result<ReportLog> log = ReportLog::open(*work / "points.jsonl", *signature, options.resumes);
   if (!log) return log.error();
-  const Result<ReportTruth> truth = ReportTruth::create(*input, views, options.photos, progress);
-  if (!truth) return truth.error();
+  const Result<SweepReferences> references = SweepReferences::create(*input, views, options.photos, progress);
+  if (!references) return references.error();
 
-  Workshop workshop(*input, *cameras, *work, hasFoam ? std::filesystem::path() : options.input);
+  BakeCache bakes(*input, *cameras, *work, hasFoam ? std::filesystem::path() : options.input);
   const Result<bool> walks = canWalk(options, hasFoam);
   if (!walks) return walks.error();
-  const Bench bench{workshop, **drawer, *truth, views, *log, options.rounds, *walks};
+  const Bench bench{bakes, **renderer, *references, views, *log, options.rounds, *walks};
   const Result<std::vector<Knob>> knobs = chooseKnobs(options, hasFoam, *walks);
   if (!knobs) return knobs.error();
   PointList points(options.isCpu);
@@ -203,9 +223,12 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
   result.sweeps = points.addSweeps(*knobs);
   takeOver(log->found(), points);
   if (Status measured = measureAll(options, bench, *knobs, points, progress); !measured) return measured;
-  if (Status measured = measureFeatures(options, bench, *input, *cameras, device, hasFoam, result, progress); !measured)
+  if (Status measured = measureFeatures(options, bench, *input, *cameras, device, hasFoam, result, progress);
+      !measured) {
     return measured;
-  Result<std::vector<Slope>> slopes = measureSlopes(options, bench, *input, hasFoam, *knobs, result.sweeps, points, progress);
+  }
+  Result<std::vector<Slope>> slopes =
+      measureSlopes(options, bench, *input, hasFoam, *knobs, result.sweeps, points, progress);
   if (!slopes) return slopes.error();
   result.slopes = std::move(*slopes);
   describeRun({options.title.empty() ? options.input.stem().string() : options.title, options.input.filename().string(),
@@ -234,8 +257,9 @@ std::string textOf(const CLI::App& command) {
 }
 
 Status checkAndRunReport(const ReportOptions& options, const Progress& progress) {
-  if (options.isCpu && !options.device.empty())
+  if (options.isCpu && !options.device.empty()) {
     return makeError(ErrorKind::kUsage, "--device %s: --cpu uses none; leave one out", options.device.c_str());
+  }
   return runReport(options, progress);
 }
 
@@ -252,10 +276,14 @@ void addReportCommand(CLI::App& program, Tool& tool) {
       ->capture_default_str()
       ->check(countBetween(0, 100000));
   command->add_option("--photos", options->photos, "Folder of the photos, by the views' names");
-  command->add_option("--knobs", options->knobs, "Turn only these, as in preset,cutoff; `none`: what parts of the scene cost alone")
+  command
+      ->add_option("--knobs", options->knobs,
+                   "Turn only these, as in preset,cutoff; `none`: what parts of the scene cost alone")
       ->delimiter(',');
-  addDurationOption(*command, "--search", options->searchSeconds, "For the search over several knobs at once", 0, 7 * 24 * 3600);
-  command->add_option("--seed", options->rounds.seed, "Of that search, and of the order in each round of times")->capture_default_str();
+  addDurationOption(*command, "--search", options->searchSeconds, "For the search over several knobs at once", 0,
+                    7 * 24 * 3600);
+  command->add_option("--seed", options->rounds.seed, "Of that search, and of the order in each round of times")
+      ->capture_default_str();
   command->add_option("--frames", options->rounds.frames, "Least frames that a time is of")
       ->capture_default_str()
       ->check(countBetween(1, 1000000));
@@ -265,7 +293,8 @@ void addReportCommand(CLI::App& program, Tool& tool) {
   command->add_option("--title", options->title, "Name of the scene; default: the input's");
   command->add_option("--credit", options->credit, "Whose photos and foam: shown at the foot");
   command->add_flag("--resume", options->resumes, "Go on where an interrupted report of the same folder stopped");
-  command->add_flag("--keep-work", options->keepsWork, "Leave the assets and the log of measurements in the folder's `work`");
+  command->add_flag("--keep-work", options->keepsWork,
+                    "Leave the assets and the log of measurements in the folder's `work`");
   command->callback([&tool, options, command] {
     options->command = textOf(*command);
     tool.action = [&tool, options] { return checkAndRunReport(*options, tool.progress.callback()); };

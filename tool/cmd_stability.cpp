@@ -23,7 +23,7 @@ namespace {
 
 struct StabilityOptions {
   std::filesystem::path input, cameras;  // empty: built-in cases alone
-  std::filesystem::path replay;  // a folder of case files, in place of the built-in cases; empty: none
+  std::filesystem::path replay;          // a folder of case files, in place of the built-in cases; empty: none
   std::filesystem::path markdown;
   std::string only = "*";
   GpuDeviceOptions device;
@@ -75,21 +75,25 @@ Result<std::vector<StiffCase>> selectCases(const StabilityOptions& options, cons
     if (!own) return own.error();
     cases.insert(cases.end(), std::make_move_iterator(own->begin()), std::make_move_iterator(own->end()));
   }
-  std::erase_if(cases, [&](const StiffCase& stiff) { return fnmatch(options.only.c_str(), stiff.name.c_str(), 0) != 0; });
+  std::erase_if(cases,
+                [&](const StiffCase& stiff) { return fnmatch(options.only.c_str(), stiff.name.c_str(), 0) != 0; });
   if (!cases.empty()) return cases;
-  return makeError(ErrorKind::kUsage, "--only %s: no case has such a name; docs/reports/stability.md lists them", options.only.c_str());
+  return makeError(ErrorKind::kUsage, "--only %s: no case has such a name; docs/reports/stability.md lists them",
+                   options.only.c_str());
 }
 
-Result<std::vector<JudgedCase>> runCases(const StabilityOptions& options, std::vector<StiffCase> cases, StabilityRunner& runner,
-                                         Tool& tool) {
+Result<std::vector<JudgedCase>> runCases(const StabilityOptions& options, std::vector<StiffCase> cases,
+                                         StabilityRunner& runner, Tool& tool) {
   const Progress progress = tool.progress.callback();
   // Found cases are found in `exact`, which keeps every number of the foam.
-  const std::vector<std::string> presets = options.replay.empty() ? stabilityPresets() : std::vector<std::string>{"exact"};
+  const std::vector<std::string> presets =
+      options.replay.empty() ? stabilityPresets() : std::vector<std::string>{"exact"};
   std::vector<JudgedCase> judged;
   for (StiffCase& stiff : cases) {
     if (!report(progress, "stability: " + stiff.name, judged.size(), cases.size())) return stoppedError();
     // Stages within a case are too short to be told; they only ask whether to go on.
-    Result<CaseOutcome> outcome = runner.run(stiff, presets, [](std::string_view, uint64_t, uint64_t) { return !isStopRequested(); });
+    Result<CaseOutcome> outcome =
+        runner.run(stiff, presets, [](std::string_view, uint64_t, uint64_t) { return !isStopRequested(); });
     if (!outcome) return outcome.error();
     judged.push_back({std::move(stiff), std::move(*outcome)});
     tool.progress.finishLine();
@@ -99,7 +103,9 @@ Result<std::vector<JudgedCase>> runCases(const StabilityOptions& options, std::v
 }
 
 Status runStability(const StabilityOptions& options, Tool& tool) {
-  if (options.search.seconds > 0) return runStabilitySearch(options.search, options.device, options.figures, tool.progress);
+  if (options.search.seconds > 0) {
+    return runStabilitySearch(options.search, options.device, options.figures, tool.progress);
+  }
   if (!options.markdown.empty()) {
     if (Status writable = checkMarkdown(options.markdown); !writable) return writable;
   }
@@ -115,7 +121,8 @@ Status runStability(const StabilityOptions& options, Tool& tool) {
   if (!judged) return judged.error();
 
   const auto count = [&](CaseVerdict verdict) {
-    return std::count_if(judged->begin(), judged->end(), [&](const JudgedCase& one) { return one.outcome.verdict == verdict; });
+    return std::count_if(judged->begin(), judged->end(),
+                         [&](const JudgedCase& one) { return one.outcome.verdict == verdict; });
   };
   const auto failures = static_cast<size_t>(count(CaseVerdict::kFails));
   nlohmann::ordered_json figures = {{"device", (*runner)->device().name},
@@ -132,35 +139,47 @@ Status runStability(const StabilityOptions& options, Tool& tool) {
     if (Status written = writeMarkdown(options.markdown, *judged, (*runner)->device()); !written) return written;
   }
   if (failures == 0) return {};
-  return makeError(ErrorKind::kUnsupported, "%zu of %zu cases fall short of their bounds; this is a fault of Froth", failures, judged->size());
+  return makeError(ErrorKind::kUnsupported, "%zu of %zu cases fall short of their bounds; this is a fault of Froth",
+                   failures, judged->size());
 }
 
 void addSearchOptions(CLI::App& command, StabilitySearch& search) {
-  CLI::Option* duration = addDurationOption(command, "--search", search.seconds,
-                                            "Hunt so long for random cases that fail, in place of the built-in set", 0.05, 1e7);
+  CLI::Option* duration =
+      addDurationOption(command, "--search", search.seconds,
+                        "Hunt so long for random cases that fail, in place of the built-in set", 0.05, 1e7);
   command.add_option("--seed", search.seed, "Of the random cases")->check(countBetween(0, UINT64_MAX))->needs(duration);
-  command.add_option("-o,--output", search.folder, "Folder for a file of each found case; the current one if left out")->needs(duration);
-  for (const char* other : {"INPUT", "--replay", "--cameras", "--only", "--markdown"}) duration->excludes(command.get_option(other));
+  command.add_option("-o,--output", search.folder, "Folder for a file of each found case; the current one if left out")
+      ->needs(duration);
+  for (const char* other : {"INPUT", "--replay", "--cameras", "--only", "--markdown"}) {
+    duration->excludes(command.get_option(other));
+  }
 }
 
 }  // namespace
 
 void addStabilityCommand(CLI::App& program, Tool& tool) {
-  CLI::App* command = program.add_subcommand("stability", "Stiff and extreme cases through all renderers and presets, against derived bounds");
+  CLI::App* command = program.add_subcommand(
+      "stability", "Stiff and extreme cases through all renderers and presets, against derived bounds");
   auto options = std::make_shared<StabilityOptions>();
   options->device.validate = true;
-  CLI::Option* input = command->add_option("INPUT", options->input, "A checkpoint or asset, whose transformations are run too");
-  CLI::Option* cameras = command->add_option("--cameras", options->cameras, "cameras.json of INPUT; its first two views are taken");
+  CLI::Option* input =
+      command->add_option("INPUT", options->input, "A checkpoint or asset, whose transformations are run too");
+  CLI::Option* cameras =
+      command->add_option("--cameras", options->cameras, "cameras.json of INPUT; its first two views are taken");
   input->needs(cameras);
   cameras->needs(input);
   CLI::Option* only = command->add_option("--only", options->only, "Only cases whose name fits the pattern: 'sites/*'");
   CLI::Option* replay = command->add_option(
-      "--replay", options->replay, "Run the case files of a folder, as --search writes them, by their exact bakes, in place of the built-in set");
+      "--replay", options->replay,
+      "Run the case files of a folder, as --search writes them, by their exact bakes, in place of the built-in set");
   replay->type_name("DIR")->excludes(input)->excludes(only);
   command->add_option("--device", options->device.device, "Index or part of a name from `froth devices`");
   command->add_flag_callback(
-      "--no-validation", [options] { options->device.validate = false; }, "Where no validation layers are installed; indices are checked all the same");
-  command->add_option("--markdown", options->markdown, "Put the tables into this file, between its markers")->excludes(only)->excludes(replay);
+      "--no-validation", [options] { options->device.validate = false; },
+      "Where no validation layers are installed; indices are checked all the same");
+  command->add_option("--markdown", options->markdown, "Put the tables into this file, between its markers")
+      ->excludes(only)
+      ->excludes(replay);
   addSearchOptions(*command, options->search);
   addFiguresOption(*command, options->figures);
   command->callback([&tool, options] { tool.action = [&tool, options] { return runStability(*options, tool); }; });

@@ -1,4 +1,4 @@
-// froth synth: foams made procedurally, the gallery's ray-traced truth, and tilings for scale.
+// froth synth: foams made procedurally, the gallery's ray-traced ground truth, and tilings for scale.
 #include <limits>
 #include <memory>
 #include <utility>
@@ -32,7 +32,7 @@ struct SynthCommandOptions {
   std::filesystem::path tileSource;
   uint32_t tileCount = 0;
 
-  ViewOptions views;  // of the truth; without cameras a foam is made
+  ViewOptions views;  // of the ground truth; without cameras a foam is made
   uint32_t samples = 16;
 };
 
@@ -57,13 +57,13 @@ Status runNamedScene(const SynthCommandOptions& options, const Progress& progres
   return {};
 }
 
-Status runTruth(const SynthCommandOptions& options, const Progress& progress) {
+Status runGroundTruth(const SynthCommandOptions& options, const Progress& progress) {
   const Result<std::vector<SelectedView>> views = selectViews(options.views);
   if (!views) return views.error();
   const Result<std::vector<std::filesystem::path>> paths = outputPaths(options.views, *views, options.output);
   if (!paths) return paths.error();
   for (size_t i = 0; i < views->size(); ++i) {
-    const Result<Image> image = traceGalleryTruth((*views)[i].view, options.samples, progress);
+    const Result<Image> image = traceGallery((*views)[i].view, options.samples, progress);
     if (!image) return image.error();
     if (Status written = writeOutput((*paths)[i], *image); !written) return written;
     fmt::print("{}\n", (*paths)[i].string());
@@ -93,29 +93,29 @@ Status runTile(const SynthCommandOptions& options, const Progress& progress) {
 
 Status checkOptions(const CLI::App& command, const SynthCommandOptions& options) {
   const bool isTile = options.synth.name == kTile;
-  const bool isTruth = command.count("--truth") > 0;
+  const bool isGroundTruth = command.count("--ground-truth") > 0;
   if (isTile != (command.count("--of") > 0) || isTile != (command.count("--count") > 0)) {
+    return makeError(ErrorKind::kUsage, "--of INPUT and --count N belong to `froth synth tile`, which needs both");
+  }
+  if (isGroundTruth && options.synth.name != kGallery) {
     return makeError(ErrorKind::kUsage,
-                     "--of INPUT and --count N belong to `froth synth tile`, which needs both");
+                     "--ground-truth: only the gallery has an analytic scene; use `froth synth gallery`");
   }
-  if (isTruth && options.synth.name != kGallery) {
-    return makeError(ErrorKind::kUsage,
-                     "--truth: only the gallery has an analytic scene; use `froth synth gallery`");
+  if (!isGroundTruth && command.count("--samples") + command.count("--view") + command.count("--size") > 0) {
+    return makeError(ErrorKind::kUsage, "--samples, --view and --size belong to --ground-truth");
   }
-  if (!isTruth && command.count("--samples") + command.count("--view") + command.count("--size") > 0) {
-    return makeError(ErrorKind::kUsage, "--samples, --view and --size belong to --truth");
-  }
-  if ((isTile || isTruth) && command.count("--cells") + command.count("--seed") + command.count("--flat-colours") +
-                                     command.count("--plain-faces") > 0) {
+  if ((isTile || isGroundTruth) && command.count("--cells") + command.count("--seed") +
+                                           command.count("--flat-colours") + command.count("--plain-faces") >
+                                       0) {
     return makeError(ErrorKind::kUsage,
                      "--cells, --seed, --flat-colours and --plain-faces belong to a foam that is made from nothing");
   }
-  if ((options.synth.name != kGallery || isTruth) && command.count("--detail-sites") + command.count("--lobes") > 0) {
+  if ((options.synth.name != kGallery || isGroundTruth) &&
+      command.count("--detail-sites") + command.count("--lobes") > 0) {
     return makeError(ErrorKind::kUsage, "--detail-sites and --lobes belong to the gallery's foam");
   }
-  if (!isTruth && !isTile && isAssetPath(options.output)) {
-    return makeError(ErrorKind::kUsage,
-                     "-o %s: a synthetic foam is a checkpoint; name a .pt and `froth bake` it",
+  if (!isGroundTruth && !isTile && isAssetPath(options.output)) {
+    return makeError(ErrorKind::kUsage, "-o %s: a synthetic foam is a checkpoint; name a .pt and `froth bake` it",
                      options.output.c_str());
   }
   return {};
@@ -123,7 +123,7 @@ Status checkOptions(const CLI::App& command, const SynthCommandOptions& options)
 
 Status runSynth(const CLI::App& command, const SynthCommandOptions& options, const Progress& progress) {
   if (Status good = checkOptions(command, options); !good) return good;
-  if (!options.views.cameras.empty()) return runTruth(options, progress);
+  if (!options.views.cameras.empty()) return runGroundTruth(options, progress);
   if (Status writable = checkWritable(options.output); !writable) return writable;
   if (options.synth.name == kTile) return runTile(options, progress);
   return runNamedScene(options, progress);
@@ -136,10 +136,8 @@ void addSynthCommand(CLI::App& program, Tool& tool) {
   auto options = std::make_shared<SynthCommandOptions>();
   std::vector<std::string> names = synthNames();
   names.push_back(kTile);
-  command->add_option("NAME", options->synth.name, "Scene, or `tile`")
-      ->required()
-      ->check(CLI::IsMember(names));
-  command->add_option("-o,--output", options->output, "Checkpoint to write; a folder or image for --truth")
+  command->add_option("NAME", options->synth.name, "Scene, or `tile`")->required()->check(CLI::IsMember(names));
+  command->add_option("-o,--output", options->output, "Checkpoint to write; a folder or image for --ground-truth")
       ->required();
   command->add_option("--cells", options->synth.cellCount, "Cells to make; 0: as many as suit the scene")
       ->check(countBetween(0, std::numeric_limits<uint32_t>::max()));
@@ -153,16 +151,14 @@ void addSynthCommand(CLI::App& program, Tool& tool) {
   command->add_option("--of", options->tileSource, "tile: the checkpoint or asset to copy");
   command->add_option("--count", options->tileCount, "tile: number of copies")
       ->check(countBetween(1, std::numeric_limits<uint32_t>::max()));
-  command->add_option("--truth", options->views.cameras,
+  command->add_option("--ground-truth", options->views.cameras,
                       "gallery: ray trace the scene itself for these cameras");
   command->add_option("--samples", options->samples, "Samples per pixel of the truth")
       ->capture_default_str()
       ->check(countBetween(1, std::numeric_limits<uint32_t>::max()));
   addViewOptions(*command, options->views);
   command->callback([&tool, command, options] {
-    tool.action = [&tool, command, options] {
-      return runSynth(*command, *options, tool.progress.callback());
-    };
+    tool.action = [&tool, command, options] { return runSynth(*command, *options, tool.progress.callback()); };
   });
 }
 

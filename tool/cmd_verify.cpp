@@ -18,12 +18,14 @@ void printReport(const std::filesystem::path& path, const ValidityReport& found,
   fmt::print("{}: good\n", path.string());
   fmt::print("checked           {} points and {} rays against brute force, all solid balls\n", found.pointsChecked,
              found.raysChecked);
-  fmt::print("balls over a ray  mean {:.1f}, most {} ({} rays from {} eyes)\n", cost.meanBalls, cost.mostBalls, cost.rays,
-             cost.eyes);
-  fmt::print("graph             longest row {}; squared degrees of a chunk up to {}\n", cost.longestRow, cost.squaredDegrees);
+  fmt::print("balls over a ray  mean {:.1f}, most {} ({} rays from {} eyes)\n", cost.meanBalls, cost.mostBalls,
+             cost.rays, cost.eyes);
+  fmt::print("graph             longest row {}; squared degrees of a chunk up to {}\n", cost.longestRow,
+             cost.squaredDegrees);
 }
 
-nlohmann::ordered_json asJson(const std::filesystem::path& path, const ValidityReport& found, const CostEstimate& cost) {
+nlohmann::ordered_json asJson(const std::filesystem::path& path, const ValidityReport& found,
+                              const CostEstimate& cost) {
   return {{"file", path.string()},
           {"checks", {{"cells", found.cells}, {"points", found.pointsChecked}, {"rays", found.raysChecked}}},
           {"cost",

@@ -17,8 +17,7 @@ int runAction(froth::Tool& tool) {
   const froth::Status status = tool.action();
   tool.progress.finishLine();
   if (status && std::fflush(stdout) != 0) {
-    std::fprintf(stderr, "froth: standard output: cannot be written: %s; figures are missing\n",
-                 std::strerror(errno));
+    std::fprintf(stderr, "froth: standard output: cannot be written: %s; figures are missing\n", std::strerror(errno));
     return froth::kExitFailed;
   }
   if (status) return froth::kExitWell;
@@ -55,8 +54,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "froth: %s; `froth --help` and `froth COMMAND --help` list what there is\n",
-                 error.what());
+    std::fprintf(stderr, "froth: %s; `froth --help` and `froth COMMAND --help` list what there is\n", error.what());
     return froth::kExitUsage;
   }
 

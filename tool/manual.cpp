@@ -55,7 +55,8 @@ std::string manualPage(const CLI::App& program) {
   page += ".SH SYNOPSIS\n.B froth\n.I COMMAND\n[options]\n.SH OPTIONS\n" + optionList(program);
   page += ".SH COMMANDS\n";
   for (const CLI::App* command : commandsOf(program)) {
-    page += fmt::format(".SS \"froth {}\"\n{}\n{}", command->get_name(), escaped(command->get_description()), optionList(*command));
+    page += fmt::format(".SS \"froth {}\"\n{}\n{}", command->get_name(), escaped(command->get_description()),
+                        optionList(*command));
   }
   return page + ".SH EXIT STATUS\n0: well. 1: failed. 2: wrong usage. 3: bad input.\n";
 }
@@ -73,11 +74,14 @@ std::string bashCompletion(const CLI::App& program) {
   return "_froth() {\n"
          "  local word=${COMP_WORDS[COMP_CWORD]} options=''\n"
          "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-         "    COMPREPLY=($(compgen -W '" + names + "' -- \"$word\"))\n"
+         "    COMPREPLY=($(compgen -W '" +
+         names +
+         "' -- \"$word\"))\n"
          "    return\n"
          "  fi\n"
-         "  case ${COMP_WORDS[1]} in\n" + cases +
-         "    help) options='" + names + "' ;;\n"
+         "  case ${COMP_WORDS[1]} in\n" +
+         cases + "    help) options='" + names +
+         "' ;;\n"
          "  esac\n"
          "  COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n"
          "}\n"

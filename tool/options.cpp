@@ -52,21 +52,17 @@ std::string durationText(double seconds) {
 
 }  // namespace
 
-CLI::Validator numberBetween(double least, double most) {
-  return valuesBetween("", least, most);
-}
+CLI::Validator numberBetween(double least, double most) { return valuesBetween("", least, most); }
 
-CLI::Validator countBetween(uint64_t least, uint64_t most) {
-  return valuesBetween("whole ", least, most);
-}
+CLI::Validator countBetween(uint64_t least, uint64_t most) { return valuesBetween("whole ", least, most); }
 
-CLI::Option* addDurationOption(CLI::App& command, const std::string& name, double& seconds, const std::string& description, double least,
-                               double most) {
+CLI::Option* addDurationOption(CLI::App& command, const std::string& name, double& seconds,
+                               const std::string& description, double least, double most) {
   const auto check = [=](const std::string& text) -> std::string {
     const std::optional<double> value = parseDuration(text);
     if (value && *value >= least && *value <= most) return {};
-    return fmt::format("found '{}'; give a duration from {} to {}, as 500ms, 90s, 5min or 1h", text, durationText(least),
-                       durationText(most));
+    return fmt::format("found '{}'; give a duration from {} to {}, as 500ms, 90s, 5min or 1h", text,
+                       durationText(least), durationText(most));
   };
   const auto keep = [&seconds](const std::string& text) { seconds = *parseDuration(text); };
   return command.add_option_function<std::string>(name, keep, description)

@@ -17,15 +17,16 @@ CLI::Validator numberBetween(double least, double most);
 // The same in whole numbers, written in digits.
 CLI::Validator countBetween(uint64_t least, uint64_t most);
 
-// A duration: a number with its unit, as 500ms, 90s, 5min or 1h, within [least, most] seconds. `seconds` holds the default.
-CLI::Option* addDurationOption(CLI::App& command, const std::string& name, double& seconds, const std::string& description, double least,
-                               double most);
+// A duration: a number with its unit, as 500ms, 90s, 5min or 1h, within [least, most] seconds. `seconds` holds the
+// default.
+CLI::Option* addDurationOption(CLI::App& command, const std::string& name, double& seconds,
+                               const std::string& description, double least, double most);
 
 // The names of the runtime's renderers, behind `others`.
 std::vector<std::string> methodNames(std::vector<std::string> others = {});
 
-void addViewOptions(CLI::App& command, ViewOptions& options);  // --view, --size
-void addLayersOption(CLI::App& command, uint32_t& layers);     // --layers
+void addViewOptions(CLI::App& command, ViewOptions& options);     // --view, --size
+void addLayersOption(CLI::App& command, uint32_t& layers);        // --layers
 void addFiguresOption(CLI::App& command, FiguresOutput& output);  // --json
 
 }  // namespace froth

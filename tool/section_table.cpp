@@ -59,7 +59,9 @@ void printSections(const AssetReader& asset) {
   };
   fmt::print("{:<22} {:>9} {:>12} {:>12} {:>11} {:>8}\n", "section", "count", "raw bytes", "bytes", "bytes/cell", "%");
   for (const auto& [type, sum] : sums.types) print(nameOf(type), sum);
-  for (size_t layer = 0; layer < kLayers; ++layer) print(fmt::format("layer {}: {}", layer, kLayerNames[layer]), sums.layers[layer]);
+  for (size_t layer = 0; layer < kLayers; ++layer) {
+    print(fmt::format("layer {}: {}", layer, kLayerNames[layer]), sums.layers[layer]);
+  }
   print("all", sums.all);
 }
 

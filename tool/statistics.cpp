@@ -1,5 +1,6 @@
 #include "tool/statistics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -34,25 +35,68 @@ std::string describeDetails(const AssetContents& contents) {
 }
 
 std::string describeLattices(const Quantization& lattices) {
-  const auto step = [](double value) { return value > 0 ? fmt::format("2^{:.0f}", std::log2(value)) : std::string("float"); };
-  return fmt::format("positions {}, radii {} bits, densities {} bits, normals {}, detail sites {}, heights {}, colours {}, "
-                     "lobe axes {}",
-                     step(lattices.positionStep), lattices.radiusBits, lattices.densityBits,
-                     lattices.normalBits > 0 ? fmt::format("2 x {} bits", lattices.normalBits) : "quaternions",
-                     step(lattices.detailSiteStep), step(lattices.heightStep), step(lattices.colourStep),
-                     step(lattices.lobeAxisStep));
+  const auto step = [](double value) {
+    return value > 0 ? fmt::format("2^{:.0f}", std::log2(value)) : std::string("float");
+  };
+  return fmt::format(
+      "positions {}, radii {} bits, densities {} bits, normals {}, detail sites {}, heights {}, colours {}, "
+      "lobe axes {}",
+      step(lattices.positionStep), lattices.radiusBits, lattices.densityBits,
+      lattices.normalBits > 0 ? fmt::format("2 x {} bits", lattices.normalBits) : "quaternions",
+      step(lattices.detailSiteStep), step(lattices.heightStep), step(lattices.colourStep), step(lattices.lobeAxisStep));
+}
+
+std::string boxText(const Box& box) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", box.min[0], box.min[1], box.min[2],
+                     box.max[0], box.max[1], box.max[2]);
+}
+
+Box boundsOf(const std::vector<Box>& boxes) {
+  Box bounds = boxes.front();
+  for (const Box& box : boxes) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      bounds.min[axis] = std::min(bounds.min[axis], box.min[axis]);
+      bounds.max[axis] = std::max(bounds.max[axis], box.max[axis]);
+    }
+  }
+  return bounds;
+}
+
+std::string describeEyes(const EyeRegion& eyes) {
+  if (eyes.boxes.empty()) return "not said";
+  const bool hasCameras = eyes.boxes.front().min == eyes.boxes.front().max;
+  std::string text = hasCameras ? fmt::format("of {} cameras, in {}", eyes.boxes.size(), boxText(boundsOf(eyes.boxes)))
+                                : fmt::format("in {}", boxText(boundsOf(eyes.boxes)));
+  if (eyes.radius > 0) text = fmt::format("within {:.6g} of those {}", eyes.radius, text);
+  if (eyes.meanPsnr == 0) return text;
+  return text + fmt::format("; from other eyes there {:.2f} dB in the worst view, {:.2f} dB over all", eyes.worstPsnr,
+                            eyes.meanPsnr);
+}
+
+nlohmann::ordered_json eyesAsJson(const EyeRegion& eyes) {
+  if (eyes.boxes.empty()) return nullptr;
+  nlohmann::ordered_json boxes = nlohmann::ordered_json::array();
+  for (const Box& box : eyes.boxes) boxes.push_back({{"min", box.min}, {"max", box.max}});
+  const auto measured = [&](double psnr) { return eyes.meanPsnr > 0 ? nlohmann::ordered_json(psnr) : nullptr; };
+  return {{"boxes", boxes},
+          {"radius", eyes.radius},
+          {"worstPsnr", measured(eyes.worstPsnr)},
+          {"meanPsnr", measured(eyes.meanPsnr)}};
 }
 
 void printErrors(const AssetContents& contents) {
-  for (const AttributeError& error : contents.errors)
-    fmt::print("error             {}: rms {:.3g}, max {:.3g} ({})\n", printable(error.name), error.rms, error.max, printable(error.unit));
+  for (const AttributeError& error : contents.errors) {
+    fmt::print("error             {}: rms {:.3g}, max {:.3g} ({})\n", printable(error.name), error.rms, error.max,
+               printable(error.unit));
+  }
   if (contents.psnr > 0) fmt::print("PSNR              {:.2f} dB on sample views\n", contents.psnr);
 }
 
 nlohmann::ordered_json errorsAsJson(const AssetContents& contents) {
   nlohmann::ordered_json errors = nlohmann::ordered_json::object();
-  for (const AttributeError& error : contents.errors)
+  for (const AttributeError& error : contents.errors) {
     errors[error.name] = {{"unit", error.unit}, {"rms", error.rms}, {"max", error.max}};
+  }
   return errors;
 }
 
@@ -68,15 +112,16 @@ void printStatistics(const AssetContents& contents) {
              bake.inputCells, bake.hiddenDropped, bake.duplicatesMerged, bake.emptyCells, bake.deadCells,
              bake.unseenCulled);
   fmt::print("detail sites      {}\n", describeDetails(contents));
-  fmt::print("walk graph        {}\n", contents.hasWalkGraph
-                                           ? fmt::format("{} pairs, mean degree {:.2f}", bake.walkPairs,
-                                                         meanDegree(bake.walkPairs, counts.cells))
-                                           : "none");
+  fmt::print("walk graph        {}\n",
+             contents.hasWalkGraph
+                 ? fmt::format("{} pairs, mean degree {:.2f}", bake.walkPairs, meanDegree(bake.walkPairs, counts.cells))
+                 : "none");
   fmt::print("alpha-complex     {} pairs, mean degree {:.2f}\n", bake.alphaPairs,
              meanDegree(bake.alphaPairs, counts.live));
   fmt::print("near limits       ratio {}, depth {}\n", contents.nearRatio, contents.nearDepth);
   fmt::print("cameras           {}, {} key frames of a flight\n",
              contents.hasStartView ? "a start view" : "no start view", contents.flightPath.size());
+  fmt::print("eyes              {}\n", describeEyes(contents.eyes));
   fmt::print("lattices          {}\n", describeLattices(contents.quantization));
   printErrors(contents);
 }
@@ -118,6 +163,7 @@ nlohmann::ordered_json statisticsAsJson(const AssetContents& contents) {
           {"colourStep", contents.quantization.colourStep},
           {"lobeAxisStep", contents.quantization.lobeAxisStep},
           {"errors", errorsAsJson(contents)},
+          {"eyes", eyesAsJson(contents.eyes)},
           {"psnr", contents.psnr > 0 ? nlohmann::ordered_json(contents.psnr) : nlohmann::ordered_json(nullptr)}};
 }
 

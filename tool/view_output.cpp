@@ -7,9 +7,7 @@
 namespace froth {
 namespace {
 
-bool isImagePath(const std::filesystem::path& path) {
-  return path.extension() == ".pfm" || path.extension() == ".png";
-}
+bool isImagePath(const std::filesystem::path& path) { return path.extension() == ".pfm" || path.extension() == ".png"; }
 
 }  // namespace
 
@@ -18,19 +16,16 @@ Result<std::vector<std::filesystem::path>> outputPaths(const ViewOptions& option
                                                        const std::filesystem::path& output) {
   if (options.view) {
     if (isImagePath(output)) return std::vector{output};
-    return makeError(ErrorKind::kUsage, "-o %s: with --view, name an image ending in .pfm or .png",
-                     output.c_str());
+    return makeError(ErrorKind::kUsage, "-o %s: with --view, name an image ending in .pfm or .png", output.c_str());
   }
   std::error_code ignored;
   if (isImagePath(output) ||
       (std::filesystem::exists(output, ignored) && !std::filesystem::is_directory(output, ignored))) {
-    return makeError(ErrorKind::kUsage,
-                     "-o %s: all views go into a folder; name one, or pick a view with --view",
+    return makeError(ErrorKind::kUsage, "-o %s: all views go into a folder; name one, or pick a view with --view",
                      output.c_str());
   }
   std::vector<std::filesystem::path> paths;
-  for (const SelectedView& selected : views)
-    paths.push_back(output / fmt::format("view_{:02}.pfm", selected.index));
+  for (const SelectedView& selected : views) paths.push_back(output / fmt::format("view_{:02}.pfm", selected.index));
   return paths;
 }
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/image/image.h"
 #include "base/result.h"
 #include "reference/camera/view_selection.h"
-#include "reference/image/image.h"
 
 namespace froth {
 

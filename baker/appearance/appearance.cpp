@@ -21,8 +21,8 @@ std::span<const glm::vec3> axesOf(const Foam& foam, uint64_t site) {
 }
 
 // The axes that detail site `site` would keep if they could be stored exactly.
-std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer,
-                                  const AppearanceOptions& options, uint64_t site) {
+std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer, const AppearanceOptions& options,
+                                  uint64_t site) {
   const Observations seen = observer.observe(site);
   const auto axes = axesOf(foam, site);
   const LobeBasis basis(seen, {axes.begin(), axes.end()});
@@ -30,25 +30,23 @@ std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer,
   const double bound = double(options.errorBound) * options.errorBound;
   if (measureFit(seen, basis, {}, base, {}).squared <= bound) return {};
   LobeSelection selection(seen, basis, base);
-  while (selection.chosen().size() < options.lobeLimit && selection.grow() &&
-         selection.leastError() > bound) {
+  while (selection.chosen().size() < options.lobeLimit && selection.grow() && selection.leastError() > bound) {
   }
   std::vector<glm::vec3> kept;
   for (uint32_t a : selection.chosen()) kept.push_back(axes[a]);
   return kept;
 }
 
-std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer,
-                                  const AppearanceOptions& options, const Progress& progress) {
+std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer, const AppearanceOptions& options,
+                                  const Progress& progress) {
   constexpr uint64_t kSlice = 512;  // sites between looks at the progress
   const uint64_t siteCount = uint64_t{foam.cellCount} * foam.detailCount;
   const uint64_t count = std::min<uint64_t>(siteCount, uint64_t{kSitesPerEntry} * options.codebookSize);
   std::vector<std::vector<glm::vec3>> perSite(count);
   for (uint64_t first = 0; first < count; first += kSlice) {
     if (!report(progress, "lobes sampled", first, count)) return {};
-    tbb::parallel_for(first, std::min(first + kSlice, count), [&](uint64_t i) {
-      perSite[i] = sampleAxes(foam, observer, options, i * siteCount / count);
-    });
+    tbb::parallel_for(first, std::min(first + kSlice, count),
+                      [&](uint64_t i) { perSite[i] = sampleAxes(foam, observer, options, i * siteCount / count); });
   }
   std::vector<glm::vec3> samples;
   for (const auto& some : perSite) samples.insert(samples.end(), some.begin(), some.end());
@@ -69,20 +67,18 @@ Result<AppearanceCoder> AppearanceCoder::create(const Foam& foam, const Visibili
   coder.options_ = options;
   AxisCodebook codebook;
   if (options.codebookSize > 0) {
-    const auto samples = sampleAxes(foam, Observer(foam, visibility), options, progress);
+    const auto samples = sampleAxes(foam, Observer(foam, visibility, options.eyeRadius), options, progress);
     codebook = AxisCodebook(trainCodebook(samples, options.codebookSize, options.seed, progress));
   }
   std::vector<float> viewWeights;
   if (visibility) viewWeights = balanceViews(foam, *visibility, codebook, options, progress);
   if (!report(progress, "codebook", 1, 1)) return stoppedOnRequest("codebook");
-  coder.model_ = std::make_shared<const Model>(
-      Model{Observer(foam, visibility, std::move(viewWeights)), std::move(codebook)});
+  Observer observer(foam, visibility, options.eyeRadius, std::move(viewWeights));
+  coder.model_ = std::make_shared<const Model>(Model{std::move(observer), std::move(codebook)});
   return coder;
 }
 
-const std::vector<glm::vec3>& AppearanceCoder::codebook() const {
-  return model_->codebook.entries();
-}
+const std::vector<glm::vec3>& AppearanceCoder::codebook() const { return model_->codebook.entries(); }
 
 CellAppearance AppearanceCoder::compress(std::span<const uint32_t> cells) const {
   CellAppearance out;

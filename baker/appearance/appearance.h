@@ -27,6 +27,9 @@ struct AppearanceOptions {
   float colourStep = 0;       // [display-coded] lattice of base and lobe colours, a power of two
   float lobeAxisStep = 0;     // lattice of axes, or of their residuals; a power of two
   float detailSiteStep = 0;   // [radii] finest lattice of detail sites, for detail scales; a power of two; 0: none
+  // Errors count from all sides of a region too: from eyes within this distance of those of the views, whether or not
+  // the views show the detail site. [scene units] negative: from the views and around them alone
+  float eyeRadius = -1;
   uint64_t seed = 1;
 };
 
@@ -38,10 +41,9 @@ struct CellAppearance {
   std::vector<uint8_t> detailScales;   // [cells]; empty without detailSiteStep
   std::vector<uint8_t> lobeCounts;     // [cells * K]
   std::vector<glm::vec3> lobeAxes, lobeColours;
-  double squaredError =
-      0;                // sum over detail sites of weighted squared errors, display-coded, mean over channels
-  double weight = 0;    // sum of the weights
-  double maxError = 0;  // largest error of a channel of a detail site along a direction that counts
+  double squaredError = 0;  // sum over detail sites of weighted squared errors, display-coded, mean over channels
+  double weight = 0;        // sum of the weights
+  double maxError = 0;      // largest error of a channel of a detail site along a direction that counts
 };
 
 class AppearanceCoder {

@@ -9,9 +9,7 @@
 
 namespace froth {
 
-glm::vec3 warpAxis(const glm::vec3& axis) {
-  return axis / std::sqrt(1 + glm::length(axis));
-}
+glm::vec3 warpAxis(const glm::vec3& axis) { return axis / std::sqrt(1 + glm::length(axis)); }
 
 glm::vec3 unwarpAxis(const glm::vec3& warped) {
   const float squared = glm::dot(warped, warped);
@@ -35,16 +33,14 @@ void AxisCodebook::build(uint32_t begin, uint32_t end, uint32_t depth) {
   if (end - begin < 2) return;
   const uint32_t middle = begin + (end - begin) / 2;
   const int axis = depth % 3;
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                   [&](uint32_t a, uint32_t b) {
-                     return std::pair(warped_[a][axis], a) < std::pair(warped_[b][axis], b);
-                   });
+  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](uint32_t a, uint32_t b) {
+    return std::pair(warped_[a][axis], a) < std::pair(warped_[b][axis], b);
+  });
   build(begin, middle, depth + 1);
   build(middle + 1, end, depth + 1);
 }
 
-void AxisCodebook::search(uint32_t begin, uint32_t end, uint32_t depth, const glm::vec3& target,
-                          Best& best) const {
+void AxisCodebook::search(uint32_t begin, uint32_t end, uint32_t depth, const glm::vec3& target, Best& best) const {
   if (begin == end) return;
   const uint32_t middle = begin + (end - begin) / 2, index = order_[middle];
   const glm::vec3 difference = warped_[index] - target;

@@ -10,15 +10,15 @@ namespace {
 constexpr uint32_t kLargestScale = 15;
 constexpr double kCoarsestStep = 0.25;  // [display-coded] of colours
 constexpr double kRoundingShare =
-    0.75;                   // squared error of rounding a detail site's colours, relative to a lobe's price
-constexpr int kRefits = 2;  // of all colours, once every detail site knows what the others get wrong
+    0.75;                             // squared error of rounding a detail site's colours, relative to a lobe's price
+constexpr int kRefits = 2;            // of all colours, once every detail site knows what the others get wrong
 constexpr float kMostCarried = 0.3f;  // [display-coded] error of others that a detail site makes up for
 
 // A detail site that lies wrong by x radii shows, as images blend them, as a colour wrong by kShiftGain x
 // times how much it differs from its cell's mean.
 constexpr double kShiftGain = 4;
-constexpr double kLeastDifference = 0.03;  // [display-coded] cells border on others too
-constexpr double kShiftShare = 0.2;  // squared error of a cell's detail sites, relative to a lobe's price
+constexpr double kLeastDifference = 0.03;       // [display-coded] cells border on others too
+constexpr double kShiftShare = 0.2;             // squared error of a cell's detail sites, relative to a lobe's price
 constexpr double kCoarsestDetailStep = 0x1p-5;  // [radii]
 
 glm::vec3 snapCellColour(const glm::dvec3& colour) {
@@ -27,8 +27,8 @@ glm::vec3 snapCellColour(const glm::dvec3& colour) {
 
 // What an error of `other` looks like where `seen` shows: both are seen from an eye with the same overlap as
 // from all.
-void addCarried(const Observations& seen, const Observations& other, std::span<const glm::vec3> misses,
-                float overlap, std::span<glm::vec3> carried) {
+void addCarried(const Observations& seen, const Observations& other, std::span<const glm::vec3> misses, float overlap,
+                std::span<glm::vec3> carried) {
   for (size_t i = 0, j = 0; i < seen.size(); ++i) {
     while (j < other.size() && other.eyes[j] < seen.eyes[i]) ++j;
     if (j == other.size()) return;
@@ -71,8 +71,7 @@ glm::dvec3 CellCoder::meanOf(const std::vector<Site>& sites) {
 
 double CellCoder::shiftError(const Site& site, const glm::dvec3& cellMean) {
   const glm::dvec3 difference = meanColour(site.seen) - cellMean;
-  return kShiftGain * kShiftGain *
-         (kLeastDifference * kLeastDifference + glm::dot(difference, difference) / 3);
+  return kShiftGain * kShiftGain * (kLeastDifference * kLeastDifference + glm::dot(difference, difference) / 3);
 }
 
 uint8_t CellCoder::chooseDetailScale(const std::vector<Site>& sites) const {
@@ -113,8 +112,7 @@ std::vector<glm::vec3> CellCoder::carriedTo(uint32_t cell, uint32_t k, const std
                                             std::span<const uint32_t> others) const {
   std::vector<glm::vec3> carried(sites[k].seen.size(), glm::vec3(0));
   for (uint32_t l : others) {
-    if (l != k)
-      addCarried(sites[k].seen, sites[l].seen, sites[l].misses, observer_.overlap(cell, k, l), carried);
+    if (l != k) addCarried(sites[k].seen, sites[l].seen, sites[l].misses, observer_.overlap(cell, k, l), carried);
   }
   for (glm::vec3& c : carried) c = glm::clamp(c, -kMostCarried, kMostCarried);
   return carried;
@@ -124,8 +122,7 @@ void CellCoder::addViewErrors(uint32_t cell, std::span<double> perView) const {
   std::vector<Site> sites = observeCell(cell);
   codeSites(cell, std::ldexp(double(options_.colourStep), chooseColourScale(sites)), sites);
   const glm::dvec3 mean = meanOf(sites);
-  const double step =
-      options_.detailSiteStep > 0 ? std::ldexp(options_.detailSiteStep, chooseDetailScale(sites)) : 0;
+  const double step = options_.detailSiteStep > 0 ? std::ldexp(options_.detailSiteStep, chooseDetailScale(sites)) : 0;
   for (const Site& site : sites) {
     const double shifted = step * step * shiftError(site, mean);
     for (size_t i = 0; i < site.seen.size(); ++i) {

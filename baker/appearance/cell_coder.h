@@ -19,8 +19,7 @@ namespace froth {
 class CellCoder {
  public:
   // Keeps references.
-  CellCoder(const Foam& foam, const Observer& observer, const AxisCodebook& codebook,
-            const AppearanceOptions& options)
+  CellCoder(const Foam& foam, const Observer& observer, const AxisCodebook& codebook, const AppearanceOptions& options)
       : foam_(foam), observer_(observer), codebook_(codebook), options_(options) {}
 
   void append(uint32_t cell, CellAppearance& out) const;

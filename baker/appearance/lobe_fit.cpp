@@ -11,8 +11,7 @@ namespace {
 
 // Keeps lobes that are hardly seen near the base: in units of the observations' total weight.
 constexpr double kRidge = 1e-3;
-constexpr double kSmallestWeightSum =
-    1e-200;  // below, weights relative to the candidates' largest have underflown
+constexpr double kSmallestWeightSum = 1e-200;  // below, weights relative to the candidates' largest have underflown
 
 }  // namespace
 
@@ -36,14 +35,15 @@ void LobeBasis::sharesAlong(size_t direction, std::span<const uint32_t> chosen, 
     float largest = -std::numeric_limits<float>::max();
     for (uint32_t a : chosen) largest = std::max(largest, exponents_[row + a]);
     sum = 0;
-    for (size_t l = 0; l < chosen.size(); ++l)
+    for (size_t l = 0; l < chosen.size(); ++l) {
       sum += shares[l] = std::exp(double(exponents_[row + chosen[l]]) - largest);
+    }
   }
   for (size_t l = 0; l < chosen.size(); ++l) shares[l] /= sum;
 }
 
-LobeEquations::LobeEquations(const Observations& seen, const LobeBasis& basis,
-                             std::span<const uint32_t> chosen, const glm::dvec3& base)
+LobeEquations::LobeEquations(const Observations& seen, const LobeBasis& basis, std::span<const uint32_t> chosen,
+                             const glm::dvec3& base)
     : count_(chosen.size()), matrix_(count_ * count_), right_(count_, glm::dvec3(0)) {
   std::vector<double> shares(count_);
   double total = 0;
@@ -98,9 +98,7 @@ std::vector<glm::dvec3> LobeEquations::solveOnLattice(double step) const {
   return x;
 }
 
-std::vector<glm::dvec3> LobeEquations::solve() const {
-  return solveOnLattice(0);
-}
+std::vector<glm::dvec3> LobeEquations::solve() const { return solveOnLattice(0); }
 
 double LobeEquations::leastError() const {
   std::vector<double> upper;

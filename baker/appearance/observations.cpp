@@ -19,11 +19,11 @@ struct EyeAround {
 };
 constexpr std::array<EyeAround, 2> kAround = {{{0.5f, 0.3f}, {2.5f, 0.2f}}};
 
-constexpr float kHemisphereShare =
-    0.01f;  // weight of the whole hemisphere beside cameras, in typical detail sites
+constexpr float kRegionShare = 0.5f;  // weight of a region's eyes, relative to the views
+
+constexpr float kHemisphereShare = 0.01f;  // weight of the whole hemisphere beside cameras, in typical detail sites
 constexpr uint32_t kDirectionsBesideCameras = 24;
-constexpr uint32_t kDirectionsWithoutCameras =
-    48;  // 20 degrees apart: as far as lobes of trained foams change
+constexpr uint32_t kDirectionsWithoutCameras = 48;  // 20 degrees apart: as far as lobes of trained foams change
 
 // A golden spiral, even in solid angle, about +z.
 std::vector<glm::vec3> spreadHemisphere(uint32_t count) {
@@ -46,16 +46,15 @@ float distanceToNearest(const std::vector<glm::vec3>& eyes, const glm::vec3& eye
 }
 
 // One eye per camera, each in another direction.
-std::vector<glm::vec3> placeEyesAround(const std::vector<glm::vec3>& eyes, float distance,
-                                       size_t firstDirection) {
+std::vector<glm::vec3> placeEyesAround(const std::vector<glm::vec3>& eyes, float distance, size_t firstDirection) {
   constexpr uint32_t kDirections = 24;
   constexpr size_t kStride = 7;  // has no divisor in common with the number of directions: neighbours differ
   const std::vector<glm::vec3> directions = spreadHemisphere(kDirections);
   std::vector<glm::vec3> around(eyes.size());
   for (size_t i = 0; i < eyes.size(); ++i) {
     const float side = i % 2 ? -distance : distance;
-    around[i] = eyes[i] + side * distanceToNearest(eyes, eyes[i]) *
-                              directions[(i * kStride + firstDirection) % kDirections];
+    around[i] =
+        eyes[i] + side * distanceToNearest(eyes, eyes[i]) * directions[(i * kStride + firstDirection) % kDirections];
   }
   return around;
 }
@@ -74,7 +73,7 @@ double totalWeight(const Observations& seen) {
   return sum;
 }
 
-Observer::Observer(const Foam& foam, const Visibility* visibility, std::vector<float> viewWeights)
+Observer::Observer(const Foam& foam, const Visibility* visibility, float eyeRadius, std::vector<float> viewWeights)
     : foam_(foam),
       visibility_(visibility),
       viewWeights_(std::move(viewWeights)),
@@ -86,11 +85,17 @@ Observer::Observer(const Foam& foam, const Visibility* visibility, std::vector<f
     eyesAround_[e] = placeEyesAround(visibility->eyes, kAround[e].distance, 12 * e);
     shares += kAround[e].share;
   }
+  if (eyeRadius >= 0) {
+    region_.emplace(foam, *visibility, eyeRadius);
+    shares += kRegionShare;
+  }
   uint64_t seen = 0;
-  for (size_t i = 0; i < visibility->weights.size(); ++i)
+  for (size_t i = 0; i < visibility->weights.size(); ++i) {
     sum += double(visibility->weights[i]) * viewWeight(visibility->views[i]);
-  for (size_t i = 0; i + 1 < visibility->offsets.size(); ++i)
+  }
+  for (size_t i = 0; i + 1 < visibility->offsets.size(); ++i) {
     seen += visibility->offsets[i + 1] > visibility->offsets[i];
+  }
   if (sum > 0) typicalWeight_ = sum * shares / static_cast<double>(seen);
 }
 
@@ -102,6 +107,7 @@ Observations Observer::observe(uint64_t site) const {
   Observations seen;
   if (visibility_) addCameras(site, position, seen);
   addHemisphere(frame, seen);
+  if (region_) addRegion(site, position, frame, seen);
   seen.colours.reserve(seen.size());
   for (const glm::vec3& direction : seen.directions) seen.colours.push_back(colourAlong(site, direction));
   return seen;
@@ -134,8 +140,23 @@ void Observer::addCameras(uint64_t site, const glm::vec3& position, Observations
     const uint32_t view = visibility_->views[i], number = view * (1 + kEyesAround);
     const float weight = viewWeight(view) * visibility_->weights[i];
     add(number, visibility_->eyes[view], weight);
-    for (uint32_t e = 0; e < kEyesAround; ++e)
-      add(number + 1 + e, eyesAround_[e][view], kAround[e].share * weight);
+    for (uint32_t e = 0; e < kEyesAround; ++e) add(number + 1 + e, eyesAround_[e][view], kAround[e].share * weight);
+  }
+}
+
+void Observer::addRegion(uint64_t site, const glm::vec3& position, const FaceFrame<float>& frame,
+                         Observations& seen) const {
+  double shown = 0;
+  for (uint64_t i = visibility_->offsets[site]; i < visibility_->offsets[site + 1]; ++i) {
+    shown += double(viewWeight(visibility_->views[i])) * visibility_->weights[i];
+  }
+  const auto first = static_cast<uint32_t>(visibility_->eyes.size() * (1 + kEyesAround) + hemisphere_.size());
+  for (const RegionEyes::Sight& sight : region_->sightsOf(site, position, frame, shown)) {
+    const auto relative = static_cast<float>(kRegionShare * sight.weight / typicalWeight_);
+    if (!(relative > 0)) continue;
+    seen.eyes.push_back(first + sight.eye);
+    seen.directions.push_back(sight.direction);
+    seen.weights.push_back(relative);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "baker/appearance/region_eyes.h"
 #include "baker/appearance/visibility.h"
 #include "foam/foam.h"
 
@@ -16,7 +17,7 @@ namespace froth {
 
 // One entry per eye.
 struct Observations {
-  std::vector<uint32_t> eyes;  // ascending; the same number is the same eye for all detail sites of a cell
+  std::vector<uint32_t> eyes;         // ascending; the same number is the same eye for all detail sites of a cell
   std::vector<glm::vec3> directions;  // unit, from the eye to the detail site
   std::vector<float> weights;         // > 0, in units of a typical detail site
   std::vector<glm::vec3> colours;     // display-coded, 0..1.5
@@ -33,9 +34,9 @@ double totalWeight(const Observations& seen);
 // hemisphere before its face, so every one has some observations. Thread-safe.
 class Observer {
  public:
-  // Keeps references. `visibility` null: the hemisphere alone. `viewWeights`: how much an error in each view
-  // counts [views] > 0; empty: all alike.
-  Observer(const Foam& foam, const Visibility* visibility, std::vector<float> viewWeights = {});
+  // Keeps references. `visibility` null: the hemisphere alone. `eyeRadius`: of AppearanceOptions. `viewWeights`: how
+  // much an error in each view counts [views] > 0; empty: all alike.
+  Observer(const Foam& foam, const Visibility* visibility, float eyeRadius, std::vector<float> viewWeights = {});
 
   // The view of whose camera an eye is; nothing for eyes around cameras and in the hemisphere.
   std::optional<uint32_t> viewOfEye(uint32_t eye) const;
@@ -49,6 +50,7 @@ class Observer {
   static constexpr uint32_t kEyesAround = 2;
 
   void addCameras(uint64_t site, const glm::vec3& position, Observations& seen) const;
+  void addRegion(uint64_t site, const glm::vec3& position, const FaceFrame<float>& frame, Observations& seen) const;
   void addHemisphere(const FaceFrame<float>& frame, Observations& seen) const;
   glm::vec3 colourAlong(uint64_t site, const glm::vec3& direction) const;
 
@@ -57,7 +59,8 @@ class Observer {
   std::vector<float> viewWeights_;
   std::vector<glm::vec3> hemisphere_;                           // unit; z: against the face's normal
   std::array<std::vector<glm::vec3>, kEyesAround> eyesAround_;  // [views] each
-  double typicalWeight_ = 1;                                    // mean over the detail sites that are seen
+  std::optional<RegionEyes> region_;
+  double typicalWeight_ = 1;  // mean over the detail sites that are seen
 };
 
 }  // namespace froth

@@ -17,8 +17,8 @@ glm::dvec3 snapColour(const glm::dvec3& colour, double step) {
   return {snapToStep(colour.x, step), snapToStep(colour.y, step), snapToStep(colour.z, step)};
 }
 
-std::vector<glm::dvec3> fitColours(const Observations& seen, const LobeBasis& basis,
-                                   std::span<const uint32_t> chosen, const glm::dvec3& base, double step) {
+std::vector<glm::dvec3> fitColours(const Observations& seen, const LobeBasis& basis, std::span<const uint32_t> chosen,
+                                   const glm::dvec3& base, double step) {
   auto colours = LobeEquations(seen, basis, chosen, base).solveOnLattice(step);
   for (glm::dvec3& colour : colours) colour = glm::clamp(colour, -kBrightestLobe, kBrightestLobe);
   return colours;
@@ -35,8 +35,7 @@ std::vector<glm::vec3> SiteCoder::candidates(std::span<const glm::vec3> axes, Ax
     const bool hasResidual = choice == AxisChoice::kResiduals;
     labelled.emplace_back(label, hasResidual ? entry + snapAxis(axis - entry, options_.lobeAxisStep) : entry);
   }
-  std::stable_sort(labelled.begin(), labelled.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(labelled.begin(), labelled.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<glm::vec3> candidates;
   for (const auto& [label, axis] : labelled) {
     if (std::find(candidates.begin(), candidates.end(), axis) == candidates.end()) candidates.push_back(axis);
@@ -68,14 +67,13 @@ void SiteCoder::refit(const Observations& seen, double step, CodedSite& site) co
   if (better.error.squared < site.error.squared) site = std::move(better);
 }
 
-void SiteCoder::tryLobes(const Observations& seen, std::span<const glm::vec3> axes, AxisChoice choice,
-                         double price, double step, CodedSite& best, double& least) const {
+void SiteCoder::tryLobes(const Observations& seen, std::span<const glm::vec3> axes, AxisChoice choice, double price,
+                         double step, CodedSite& best, double& least) const {
   if (least <= price) return;
   const LobeBasis basis(seen, candidates(axes, choice));
   const glm::dvec3 base = best.base + 0.5;
   LobeSelection selection(seen, basis, base);
-  for (uint32_t count = 1; count <= options_.lobeLimit && count * price < least && selection.grow();
-       ++count) {
+  for (uint32_t count = 1; count <= options_.lobeLimit && count * price < least && selection.grow(); ++count) {
     if (selection.leastError() + count * price >= least) continue;
     std::vector<uint32_t> chosen = selection.chosen();
     std::sort(chosen.begin(), chosen.end());

@@ -38,8 +38,8 @@ class SiteCoder {
 
   std::vector<glm::vec3> candidates(std::span<const glm::vec3> axes, AxisChoice choice) const;
   // Replaces `best` where it finds less than `least`: squared error + price of the lobes.
-  void tryLobes(const Observations& seen, std::span<const glm::vec3> axes, AxisChoice choice, double price,
-                double step, CodedSite& best, double& least) const;
+  void tryLobes(const Observations& seen, std::span<const glm::vec3> axes, AxisChoice choice, double price, double step,
+                CodedSite& best, double& least) const;
 
   const AppearanceOptions& options_;
   const AxisCodebook& codebook_;

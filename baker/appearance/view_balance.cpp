@@ -21,8 +21,9 @@ std::vector<double> measureErrors(const Foam& foam, const CellCoder& coder, size
   tbb::parallel_for(size_t{0}, slices.size(), [&](size_t s) {
     slices[s].resize(viewCount);
     const auto first = static_cast<uint32_t>(s) * kSliceCells;
-    for (uint32_t i = first; i < std::min(first + kSliceCells, count); ++i)
+    for (uint32_t i = first; i < std::min(first + kSliceCells, count); ++i) {
       coder.addViewErrors(static_cast<uint32_t>(uint64_t{i} * foam.cellCount / count), slices[s]);
+    }
   });
   std::vector<double> errors(viewCount);
   for (const auto& slice : slices) {
@@ -38,18 +39,17 @@ std::vector<float> balanceViews(const Foam& foam, const Visibility& visibility, 
   std::vector<float> weights(visibility.eyes.size(), 1.0f);
   for (int round = 0; round < kRounds; ++round) {
     if (!report(progress, "views balanced", round, kRounds)) return {};
-    const Observer observer(foam, &visibility, weights);
-    std::vector<double> errors =
-        measureErrors(foam, CellCoder(foam, observer, codebook, options), weights.size());
+    const Observer observer(foam, &visibility, options.eyeRadius, weights);
+    std::vector<double> errors = measureErrors(foam, CellCoder(foam, observer, codebook, options), weights.size());
     double mean = 0;
     for (size_t v = 0; v < weights.size(); ++v) {
       errors[v] /= visibility.pixels[v];
       mean += errors[v] / static_cast<double>(weights.size());
     }
     if (!(mean > 0)) break;
-    for (size_t v = 0; v < weights.size(); ++v)
-      weights[v] =
-          static_cast<float>(std::clamp(weights[v] * errors[v] / mean, 1 / kMostWeight, kMostWeight));
+    for (size_t v = 0; v < weights.size(); ++v) {
+      weights[v] = static_cast<float>(std::clamp(weights[v] * errors[v] / mean, 1 / kMostWeight, kMostWeight));
+    }
   }
   return weights;
 }

@@ -36,25 +36,21 @@ Foam copyGeometry(const Foam& foam) {
 View reduceView(const View& view, uint32_t maxPixels) {
   const double pixels = double(view.width) * view.height;
   const double scale = std::min(1.0, std::sqrt(maxPixels / pixels));
-  const auto reduce = [&](uint32_t size) {
-    return std::max(1u, static_cast<uint32_t>(std::lround(size * scale)));
-  };
+  const auto reduce = [&](uint32_t size) { return std::max(1u, static_cast<uint32_t>(std::lround(size * scale))); };
   return resizeView(view, reduce(view.width), reduce(view.height));
 }
 
-// Balls that may show in the view: at least partly before the eye and inside the pyramid of its image. Other lenses than a
-// pinhole may see all.
-std::vector<uint32_t> findCellsInFrustum(const Foam& foam, std::span<const uint32_t> cells,
-                                         const View& view) {
+// Balls that may show in the view: at least partly before the eye and inside the pyramid of its image. Other lenses
+// than a pinhole may see all.
+std::vector<uint32_t> findCellsInFrustum(const Foam& foam, std::span<const uint32_t> cells, const View& view) {
   if (view.lens.kind != LensKind::kPinhole) return {cells.begin(), cells.end()};
   const auto& m = view.worldFromCamera;
   const glm::dvec3 eye = eyeOf(view);
   const glm::dvec3 right(m[0], m[4], m[8]), down(m[1], m[5], m[9]), forward(m[2], m[6], m[10]);
-  const std::array<glm::dvec3, 5> inward = {
-      forward, glm::normalize(right * view.fx + forward * view.cx),
-      glm::normalize(-right * view.fx + forward * (view.width - view.cx)),
-      glm::normalize(down * view.fy + forward * view.cy),
-      glm::normalize(-down * view.fy + forward * (view.height - view.cy))};
+  const std::array<glm::dvec3, 5> inward = {forward, glm::normalize(right * view.fx + forward * view.cx),
+                                            glm::normalize(-right * view.fx + forward * (view.width - view.cx)),
+                                            glm::normalize(down * view.fy + forward * view.cy),
+                                            glm::normalize(-down * view.fy + forward * (view.height - view.cy))};
   std::vector<uint32_t> inside;
   for (uint32_t cell : cells) {
     const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
@@ -79,14 +75,9 @@ struct ViewSums {
 
 class ViewMeasurer {
  public:
-  ViewMeasurer(const View& view, const ViewCells<float>& cells, const SiteTree& tree,
-               double sharpness, std::vector<uint64_t>& products)
-      : view_(view),
-        rays_(view),
-        cells_(cells),
-        tree_(tree),
-        products_(products),
-        sources_(cells.cells.size()) {
+  ViewMeasurer(const View& view, const ViewCells<float>& cells, const SiteTree& tree, double sharpness,
+               std::vector<uint64_t>& products)
+      : view_(view), rays_(view), cells_(cells), tree_(tree), products_(products), sources_(cells.cells.size()) {
     for (uint32_t cell = 0; cell < cells.rankOf.size(); ++cell) {
       if (cells.rankOf[cell] != ViewCells<float>::kNotDrawn) sources_[cells.rankOf[cell]] = cell;
     }
@@ -96,14 +87,13 @@ class ViewMeasurer {
   }
 
   ViewSums measure() {
-    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, view_.height),
-                      [&](const tbb::blocked_range<uint32_t>& rows) {
-                        std::vector<BallHit<float>> hits;
-                        std::vector<float> shares(cells_.detailCount);
-                        for (uint32_t y = rows.begin(); y < rows.end(); ++y) {
-                          for (uint32_t x = 0; x < view_.width; ++x) measurePixel(x, y, hits, shares);
-                        }
-                      });
+    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, view_.height), [&](const tbb::blocked_range<uint32_t>& rows) {
+      std::vector<BallHit<float>> hits;
+      std::vector<float> shares(cells_.detailCount);
+      for (uint32_t y = rows.begin(); y < rows.end(); ++y) {
+        for (uint32_t x = 0; x < view_.width; ++x) measurePixel(x, y, hits, shares);
+      }
+    });
     return std::move(sums_);
   }
 
@@ -117,8 +107,9 @@ class ViewMeasurer {
       BallHit<float> hit{cells_.rankOf[source], 0, 0};
       if (hit.rank == ViewCells<float>::kNotDrawn) return;
       const ViewCell<float>& cell = cells_.cells[hit.rank];
-      if (foam::intersectBall(cell.centre - primary.offset, cell.radius, primary.direction, hit.tNear, hit.tFar))
+      if (foam::intersectBall(cell.centre - primary.offset, cell.radius, primary.direction, hit.tNear, hit.tFar)) {
         hits.push_back(hit);
+      }
     });
     compositeHits(cells_, primary, settings_, hits,
                   [&](const RaySegment<float>& segment) { addSegment(segment, shares); });
@@ -134,8 +125,7 @@ class ViewMeasurer {
     const float scale = segment.weight / foam::flooredWeightSum(sum);
     for (float& share : shares) share *= scale;
     uint64_t* const squares = sums_.details.data() + segment.rank * shares.size();
-    uint64_t* const products =
-        products_.data() + sources_[segment.rank] * (shares.size() * (shares.size() - 1) / 2);
+    uint64_t* const products = products_.data() + sources_[segment.rank] * (shares.size() * (shares.size() - 1) / 2);
     for (size_t k = 0, pair = 0; k < shares.size(); ++k) {
       addProduct(squares[k], shares[k], shares[k]);
       for (size_t l = k + 1; l < shares.size(); ++l, ++pair) addProduct(products[pair], shares[k], shares[l]);
@@ -164,8 +154,8 @@ struct ViewEntries {
   std::vector<float> weights;  // [full-size pixels]
 };
 
-void addEntries(const ViewCells<float>& cells, const ViewSums& sums, double pixelsPerSample,
-                ViewEntries& entries, std::vector<float>& contributions, std::vector<uint64_t>& squares) {
+void addEntries(const ViewCells<float>& cells, const ViewSums& sums, double pixelsPerSample, ViewEntries& entries,
+                std::vector<float>& contributions, std::vector<uint64_t>& squares) {
   const uint32_t K = cells.detailCount;
   for (size_t cell = 0; cell < cells.rankOf.size(); ++cell) {
     const uint32_t rank = cells.rankOf[cell];
@@ -182,8 +172,8 @@ void addEntries(const ViewCells<float>& cells, const ViewSums& sums, double pixe
 }
 
 // Products of shares, divided by the roots of the squares.
-void correlate(uint32_t detailCount, const std::vector<uint64_t>& squares,
-               const std::vector<uint64_t>& products, std::vector<float>& overlaps) {
+void correlate(uint32_t detailCount, const std::vector<uint64_t>& squares, const std::vector<uint64_t>& products,
+               std::vector<float>& overlaps) {
   overlaps.resize(products.size());
   size_t pair = 0;
   for (size_t first = 0; first < squares.size(); first += detailCount) {
@@ -216,8 +206,8 @@ void gatherRows(const std::vector<ViewEntries>& views, Visibility& visibility) {
 
 }  // namespace
 
-Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> views,
-                                     const VisibilityOptions& options, const Progress& progress) {
+Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> views, const VisibilityOptions& options,
+                                     const Progress& progress) {
   if (views.size() > std::numeric_limits<uint16_t>::max()) {
     return makeError(ErrorKind::kUsage, "cameras: found %zu views; give at most 65535", views.size());
   }
@@ -231,13 +221,11 @@ Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> vie
   visibility.offsets.assign(uint64_t{foam.cellCount} * foam.detailCount + 1, 0);
   visibility.contributions.assign(foam.cellCount, 0.0f);
   const uint32_t K = foam.detailCount;
-  std::vector<uint64_t> squares(uint64_t{foam.cellCount} * K),
-      products(uint64_t{foam.cellCount} * (K * (K - 1) / 2));
+  std::vector<uint64_t> squares(uint64_t{foam.cellCount} * K), products(uint64_t{foam.cellCount} * (K * (K - 1) / 2));
   std::vector<ViewEntries> entries(views.size());
   for (size_t v = 0; v < views.size(); ++v) {
     if (!report(progress, "visibility", v, views.size())) return stoppedOnRequest("visibility");
-    const View view =
-        reduceView(views[v], options.maxPixelsPerView > 0 ? options.maxPixelsPerView : kDefaultPixels);
+    const View view = reduceView(views[v], options.maxPixelsPerView > 0 ? options.maxPixelsPerView : kDefaultPixels);
     ReferenceOptions reference;
     reference.nearRatio = views[v].nearRatio.value_or(options.nearRatio);
     reference.nearDepth = views[v].nearDepth.value_or(options.nearDepth);

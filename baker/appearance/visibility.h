@@ -29,13 +29,12 @@ struct Visibility {
   std::vector<uint64_t> offsets;  // [N*K + 1]
   std::vector<uint16_t> views;    // [offsets.back()]
   std::vector<float> weights;     // [offsets.back()] > 0
-  std::vector<float>
-      overlaps;  // [N * K(K-1)/2] for k < l, row by row: sum s_k s_l / sqrt(sum s_k^2 sum s_l^2) [0..1]
+  std::vector<float> overlaps;  // [N * K(K-1)/2] for k < l, row by row: sum s_k s_l / sqrt(sum s_k^2 sum s_l^2) [0..1]
   std::vector<float> contributions;  // [N] the largest T alpha of the cell in any pixel of any view
 };
 
 // The same input gives the same bits on any number of threads. Fails with kCancelled.
-Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> views,
-                                     const VisibilityOptions& options, const Progress& progress = {});
+Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> views, const VisibilityOptions& options,
+                                     const Progress& progress = {});
 
 }  // namespace froth

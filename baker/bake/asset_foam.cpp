@@ -18,9 +18,8 @@ Status checkChunk(const AssetContents& contents, size_t index) {
   const bool isWhole = live <= chunk.cellCount && chunk.sites.size() == sites && chunk.radii.size() == sites &&
                        chunk.densities.size() == live && chunk.orientations.size() == live &&
                        chunk.detailSites.size() == details && isAbsentOr(chunk.detailHeights.size(), details) &&
-                       isAbsentOr(chunk.baseColours.size(), details) &&
-                       isAbsentOr(chunk.lobeCounts.size(), details) && chunk.lobeAxes.size() == lobes &&
-                       chunk.lobeColours.size() == lobes;
+                       isAbsentOr(chunk.baseColours.size(), details) && isAbsentOr(chunk.lobeCounts.size(), details) &&
+                       chunk.lobeAxes.size() == lobes && chunk.lobeColours.size() == lobes;
   if (isWhole) return {};
   return makeError(ErrorKind::kBadInput,
                    "asset: chunk %zu: an array's length does not match %u cells, %u of them live; "
@@ -89,9 +88,7 @@ Result<Foam> foamFromAsset(const AssetContents& contents) {
     return makeError(ErrorKind::kBadInput, "asset: %llu cells; a foam has 1 to 4294967295",
                      static_cast<unsigned long long>(cellCount));
   }
-  const auto anyChunk = [&](auto&& has) {
-    return std::any_of(contents.chunks.begin(), contents.chunks.end(), has);
-  };
+  const auto anyChunk = [&](auto&& has) { return std::any_of(contents.chunks.begin(), contents.chunks.end(), has); };
   FoamAssembler assembler(contents.detailCount, contents.lobeCount,
                           anyChunk([](const ChunkContents& chunk) { return !chunk.baseColours.empty(); }),
                           anyChunk([](const ChunkContents& chunk) { return !chunk.lobeCounts.empty(); }));

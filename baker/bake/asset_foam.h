@@ -11,7 +11,8 @@ namespace froth {
 
 class FoamAssembler {
  public:
-  // The foam has base colours, and its own number of lobes per detail site, only if told so; a chunk may have either then.
+  // The foam has base colours, and its own number of lobes per detail site, only if told so; a chunk may have either
+  // then.
   FoamAssembler(uint32_t detailCount, uint32_t lobeCount, bool hasBaseColours, bool hasLobeOffsets);
   void append(const ChunkContents& chunk);  // array lengths must match the counts
   Foam take() { return std::move(foam_); }

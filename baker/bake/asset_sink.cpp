@@ -34,8 +34,6 @@ Status AssetFileSink::append(std::vector<ChunkContents>&& batch) {
   return {};
 }
 
-Result<uint64_t> AssetFileSink::finish(const AssetContents& contents) {
-  return writer_->finish(contents);
-}
+Result<uint64_t> AssetFileSink::finish(const AssetContents& contents) { return writer_->finish(contents); }
 
 }  // namespace froth

@@ -16,6 +16,7 @@
 #include "baker/bake/chunk_plan.h"
 #include "baker/bake/colour_source.h"
 #include "baker/bake/cull_unseen.h"
+#include "baker/bake/eye_region.h"
 #include "baker/bake/left_out.h"
 #include "baker/bake/mark_cells.h"
 #include "baker/bake/sample_views.h"
@@ -41,6 +42,9 @@ void storeCameras(const CameraSet& cameras, AssetContents& contents) {
     contents.startView = storeCamera(cameras.flight.empty() ? cameras.views.front() : cameras.flight.front());
   }
 }
+
+// That show a box of eyes; each takes about half a second.
+constexpr uint32_t kViewsOfBox = 96;
 
 // Whether the asset can look different from the input.
 bool isLossy(const BakeOptions& options) {
@@ -120,15 +124,23 @@ Status Bake::run() {
 }
 
 Status Bake::lookThroughCameras() {
+  if (isLossy(options_)) contents_.eyes = makeEyeRegion(options_);
   const bool isNeeded = options_.knobs.compressColours || options_.cullUnseen > 0;
-  if (!isNeeded || !options_.cameras || options_.cameras->views.empty()) return {};
+  if (!isNeeded) return {};
+  std::vector<View> views;
+  if (options_.cameras) views = options_.cameras->views;
+  if (options_.eyes.box) {
+    const std::vector<View> drawn = drawViews(contents_.eyes, options_.cameras, kViewsOfBox, options_.seed);
+    views.insert(views.end(), drawn.begin(), drawn.end());
+  }
+  if (views.empty()) return {};
   VisibilityOptions visibility;
   visibility.nearRatio = options_.nearRatio;
   visibility.nearDepth = options_.nearDepth;
-  Result<Visibility> measured = measureVisibility(foam_, options_.cameras->views, visibility, progress_);
+  Result<Visibility> measured = measureVisibility(foam_, views, visibility, progress_);
   if (!measured) return measured.error();
   visibility_ = std::move(*measured);
-  recorder_.finish("visibility", options_.cameras->views.size());
+  recorder_.finish("visibility", views.size());
   return {};
 }
 
@@ -153,7 +165,8 @@ Status Bake::placeSteiner() {
   steiner.nearDepth = options_.nearDepth;
   steiner.positionStep = contents_.quantization.positionStep;
   steiner.radiusBits = contents_.quantization.radiusBits;
-  const Result<SteinerCells> added = placeSteinerCells(cells_.sites, cells_.radii, cells_.densities, steiner, progress_);
+  const Result<SteinerCells> added =
+      placeSteinerCells(cells_.sites, cells_.radii, cells_.densities, steiner, progress_);
   if (!added) return added.error();
   cells_.sites.insert(cells_.sites.end(), added->sites.begin(), added->sites.end());
   cells_.radii.insert(cells_.radii.end(), added->radii.begin(), added->radii.end());
@@ -182,7 +195,8 @@ Status Bake::mark() {
   contents_.statistics = countCells(cells_, states, triangulation_, alpha_);
   contents_.statistics.inputCells = foam_.cellCount;
   contents_.statistics.unseenCulled = unseenCulled_;
-  Result<ChunkPlan> plan = planChunks(cells_, states, options_.chunkCells, contents_.quantization.positionStep, progress_);
+  Result<ChunkPlan> plan =
+      planChunks(cells_, states, options_.chunkCells, contents_.quantization.positionStep, progress_);
   if (!plan) return plan.error();
   plan_ = std::move(*plan);
   recorder_.finish("chunks", plan_.chunks.size());
@@ -199,7 +213,8 @@ Status Bake::check() {
 }
 
 Status Bake::prepareColours() {
-  Result<ColourSource> colours = ColourSource::create(foam_, visibility_ ? &*visibility_ : nullptr, options_, progress_);
+  Result<ColourSource> colours =
+      ColourSource::create(foam_, visibility_ ? &*visibility_ : nullptr, options_, progress_);
   if (!colours) return colours.error();
   colours_ = std::move(*colours);
   recorder_.finish("codebook", colours_.codebook().size());
@@ -249,8 +264,9 @@ void Bake::keepCounts(const ChunkContents& chunk) {
 }
 
 Status Bake::makeChunks() {
-  if (options_.measure && isLossy(options_))
+  if (options_.measure && isLossy(options_)) {
     baked_.emplace(contents_.detailCount, contents_.lobeCount, true, colours_.isCompressed());
+  }
   AttributeErrors errors;
   const size_t batchSize = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
   std::vector<ChunkContents> batch;
@@ -273,9 +289,11 @@ Status Bake::makeChunks() {
 Status Bake::measure() {
   if (!baked_) return {};
   const Foam baked = baked_->take();
-  const Result<double> psnr = measurePsnr(foam_, baked, options_, progress_);
+  const Result<SampledPsnr> psnr = measurePsnr(foam_, baked, contents_.eyes, options_, progress_);
   if (!psnr) return psnr.error();
-  contents_.psnr = *psnr;
+  contents_.psnr = psnr->given;
+  contents_.eyes.worstPsnr = psnr->worstDrawn;
+  contents_.eyes.meanPsnr = psnr->drawn;
   recorder_.finish("measure", baked.cellCount);
   return {};
 }

@@ -27,13 +27,13 @@ std::vector<LatticePoint> latticePoints(std::span<const uint32_t> run, const Bak
 
 bool fitsCodecs(std::span<const LatticePoint> points) {
   constexpr int32_t kEnd = 1 << kMaxPositionBits;
-  return std::all_of(points.begin(), points.end(), [](const LatticePoint& point) {
-    return point[0] < kEnd && point[1] < kEnd && point[2] < kEnd;
-  });
+  return std::all_of(points.begin(), points.end(),
+                     [](const LatticePoint& point) { return point[0] < kEnd && point[1] < kEnd && point[2] < kEnd; });
 }
 
 uint64_t codeOf(const LatticePoint& point) {
-  return mortonCode({static_cast<uint32_t>(point[0]), static_cast<uint32_t>(point[1]), static_cast<uint32_t>(point[2])});
+  return mortonCode(
+      {static_cast<uint32_t>(point[0]), static_cast<uint32_t>(point[1]), static_cast<uint32_t>(point[2])});
 }
 
 std::vector<uint32_t> latticeMortonOrder(std::span<const LatticePoint> points) {

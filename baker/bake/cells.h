@@ -23,16 +23,14 @@ struct BakeCells {
 // States from kHidden on have no place in the asset.
 enum class CellState : uint8_t {
   kLive,
-  kDead,      // too thin to be seen
-  kEmpty,     // no bounded cell
-  kUnseen,    // culled, but still cuts a live cell
+  kDead,    // too thin to be seen
+  kEmpty,   // no bounded cell
+  kUnseen,  // culled, but still cuts a live cell
   kSteiner,
   kHidden,    // no power cell
   kUnneeded,  // without a walk graph: cuts no live cell
 };
 
-inline bool isInAsset(CellState state) {
-  return state < CellState::kHidden;
-}
+inline bool isInAsset(CellState state) { return state < CellState::kHidden; }
 
 }  // namespace froth

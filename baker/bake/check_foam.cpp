@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "baker/bake/eye_region.h"
 #include "foam/foam_arrays.h"
 #include "format/checks.h"
 #include "format/limits.h"
@@ -13,8 +14,8 @@ namespace {
 
 Status checkLength(const char* name, size_t found, size_t expected) {
   if (found == expected) return {};
-  return makeError(ErrorKind::kBadInput, "foam: array '%s' has %zu entries, the counts ask for %zu; import it again", name, found,
-                   expected);
+  return makeError(ErrorKind::kBadInput, "foam: array '%s' has %zu entries, the counts ask for %zu; import it again",
+                   name, found, expected);
 }
 
 Status checkLengths(const Foam& foam) {
@@ -25,7 +26,10 @@ Status checkLengths(const Foam& foam) {
   visitArrays([&](const FoamArray& array, auto values) {
     const size_t found = (foam.*values).size();
     if (!status || (found == 0 && array.canBeEmpty)) return;
-    status = checkLength(array.name, found, array.index == FoamIndex::kCell ? cells : array.index == FoamIndex::kLobe ? lobes : details);
+    status = checkLength(array.name, found,
+                         array.index == FoamIndex::kCell   ? cells
+                         : array.index == FoamIndex::kLobe ? lobes
+                                                           : details);
   });
   return status;
 }
@@ -44,7 +48,8 @@ bool areWithin(const Vector& value) {
 
 // The first entry out of range of an array of detail sites, or of lobes.
 Status checkDetailNumbers(const Foam& foam, const char* name, std::span<const glm::vec3> values, bool areLobes) {
-  const auto bad = std::find_if_not(values.begin(), values.end(), [](const glm::vec3& value) { return areWithin(value); });
+  const auto bad =
+      std::find_if_not(values.begin(), values.end(), [](const glm::vec3& value) { return areWithin(value); });
   if (bad == values.end()) return {};
   uint64_t site = static_cast<uint64_t>(bad - values.begin());
   if (areLobes && foam.lobeOffsets.empty()) site /= foam.lobeCount;
@@ -52,9 +57,11 @@ Status checkDetailNumbers(const Foam& foam, const char* name, std::span<const gl
     const auto& offsets = foam.lobeOffsets;
     site = static_cast<uint64_t>(std::upper_bound(offsets.begin(), offsets.end(), site) - offsets.begin()) - 1;
   }
-  return makeError(ErrorKind::kBadInput, "cell %llu, detail site %llu: array '%s' holds (%g, %g, %g), not within +-2^50; repair the foam",
+  return makeError(ErrorKind::kBadInput,
+                   "cell %llu, detail site %llu: array '%s' holds (%g, %g, %g), not within +-2^50; repair the foam",
                    static_cast<unsigned long long>(site / foam.detailCount),
-                   static_cast<unsigned long long>(site % foam.detailCount), name, double{bad->x}, double{bad->y}, double{bad->z});
+                   static_cast<unsigned long long>(site % foam.detailCount), name, double{bad->x}, double{bad->y},
+                   double{bad->z});
 }
 
 Status checkNumbers(const Foam& foam) {
@@ -75,8 +82,9 @@ Status checkNumbers(const Foam& foam) {
     }
     const glm::vec4& q = foam.orientations[i];
     if (!isUnitQuaternion(q)) {
-      return makeError(ErrorKind::kBadInput, "cell %u: orientation (%g, %g, %g, %g) is no unit quaternion; repair the foam", i,
-                       double{q.x}, double{q.y}, double{q.z}, double{q.w});
+      return makeError(ErrorKind::kBadInput,
+                       "cell %u: orientation (%g, %g, %g, %g) is no unit quaternion; repair the foam", i, double{q.x},
+                       double{q.y}, double{q.z}, double{q.w});
     }
   }
   for (size_t k = 0; k < foam.detailSites.size(); ++k) {
@@ -100,39 +108,39 @@ struct KnobRange {
 
 Status checkFoam(const Foam& foam) {
   if (foam.cellCount == 0 || foam.detailCount - 1 >= 32 || foam.lobeCount > 32) {
-    return makeError(ErrorKind::kBadInput,
-                     "foam: %u cells, %u detail sites, %u lobes; needs >= 1, 1..32, 0..32", foam.cellCount,
-                     foam.detailCount, foam.lobeCount);
+    return makeError(ErrorKind::kBadInput, "foam: %u cells, %u detail sites, %u lobes; needs >= 1, 1..32, 0..32",
+                     foam.cellCount, foam.detailCount, foam.lobeCount);
   }
   if (Status status = checkLengths(foam); !status) return status;
   if (Status status = checkNumbers(foam); !status) return status;
   for (size_t site = 0; site + 1 < foam.lobeOffsets.size(); ++site) {
     if (foam.lobeOffsets[site + 1] - foam.lobeOffsets[site] <= foam.lobeCount) continue;
-    return makeError(ErrorKind::kBadInput, "foam: array 'lobeOffsets' gives detail site %zu more than %u lobes; import it again",
-                     site, foam.lobeCount);
+    return makeError(ErrorKind::kBadInput,
+                     "foam: array 'lobeOffsets' gives detail site %zu more than %u lobes; import it again", site,
+                     foam.lobeCount);
   }
   return {};
 }
 
 Status checkOptions(const BakeOptions& options) {
   const BakeKnobs& knobs = options.knobs;
-  const KnobRange ranges[] = {{"position bits", knobs.positionBits, 10, 22, true},
-                              {"radius bits", knobs.radiusBits, 4, 23, false},
-                              {"density bits", knobs.densityBits, 1, 23, false},
-                              {"frame bits", knobs.frameBits, 4, 15, true},
-                              {"detail site bits", knobs.detailSiteBits, 1, 16, true},
-                              {"height bits", knobs.heightBits, 1, 16, true}};
+  const KnobRange ranges[] = {
+      {"position bits", knobs.positionBits, 10, 22, true},     {"radius bits", knobs.radiusBits, 4, 23, false},
+      {"density bits", knobs.densityBits, 1, 23, false},       {"frame bits", knobs.frameBits, 4, 15, true},
+      {"detail site bits", knobs.detailSiteBits, 1, 16, true}, {"height bits", knobs.heightBits, 1, 16, true}};
   for (const KnobRange& range : ranges) {
     if (range.canBeOff && range.found == 0) continue;
     if (range.found >= range.least && range.found <= range.most) continue;
     return makeError(ErrorKind::kUsage, "%s: found %u; give %u to %u%s", range.name, range.found, range.least,
                      range.most, range.canBeOff ? ", or 0 for floats" : "");
   }
-  if (!(options.nearRatio >= 0 && options.nearRatio <= kMaxNearRatio) || !(options.nearDepth >= 0 && options.nearDepth <= kMaxNumber))
+  if (!(options.nearRatio >= 0 && options.nearRatio <= kMaxNearRatio) ||
+      !(options.nearDepth >= 0 && options.nearDepth <= kMaxNumber)) {
     return makeError(ErrorKind::kUsage, "near limits: found ratio %g, depth %g; give 0 to 2^10 and 0 to 2^50",
                      double{options.nearRatio}, double{options.nearDepth});
+  }
   if (options.chunkCells == 0) return makeError(ErrorKind::kUsage, "chunk cells: found 0; give at least 1");
-  return {};
+  return checkEyes(options);
 }
 
 }  // namespace froth

@@ -26,9 +26,7 @@ std::vector<T> gather(const std::vector<T>& values, std::span<const uint32_t> ce
   return gathered;
 }
 
-double relativeError(float stored, float input) {
-  return input > 0 ? stored / double{input} - 1 : stored;
-}
+double relativeError(float stored, float input) { return input > 0 ? stored / double{input} - 1 : stored; }
 
 // |to - from| for unit vectors, exact for small angles.
 double angleBetween(const glm::dvec3& from, const glm::dvec3& to) {
@@ -44,9 +42,10 @@ glm::vec3 colourAlong(const Foam& foam, uint64_t site, const glm::vec3& directio
   float largest = std::numeric_limits<float>::lowest(), weightSum = 0;
   glm::vec3 colourSum(0);
   const LobeRange lobes = lobesOf(foam, site);
-  for (uint64_t lobe = lobes.first; lobe < lobes.first + lobes.count; ++lobe)
+  for (uint64_t lobe = lobes.first; lobe < lobes.first + lobes.count; ++lobe) {
     foam::addLobe(foam::lobeExponent(foam.lobeAxes[lobe], direction), foam.lobeColours[lobe], largest, weightSum,
                   colourSum);
+  }
   return foam::lobeColour(foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[site], weightSum, colourSum);
 }
 
@@ -56,8 +55,9 @@ glm::vec3 meanColour(const Foam& foam, uint32_t cell) {
   glm::vec3 sum(0);
   for (const glm::vec3& local : kFaceDirections) {
     const glm::vec3 direction = local.x * frame.normal + local.y * frame.tangent + local.z * frame.bitangent;
-    for (uint32_t k = 0; k < foam.detailCount; ++k)
+    for (uint32_t k = 0; k < foam.detailCount; ++k) {
       sum += colourAlong(foam, uint64_t{cell} * foam.detailCount + k, direction);
+    }
   }
   const glm::vec3 mean = sum / static_cast<float>(kFaceDirections.size() * foam.detailCount);
   return glm::round(glm::clamp(mean, 0.0f, 1.0f) * 255.0f) / 255.0f;
@@ -136,8 +136,7 @@ void fillFaces(const Foam& foam, const BakeCells& cells, std::span<const uint32_
 
 void fillColours(const Foam& foam, std::span<const uint32_t> sources, bool keepsLobes, ChunkContents& chunk) {
   chunk.cellColours.resize(sources.size());
-  tbb::parallel_for(size_t{0}, sources.size(),
-                    [&](size_t i) { chunk.cellColours[i] = meanColour(foam, sources[i]); });
+  tbb::parallel_for(size_t{0}, sources.size(), [&](size_t i) { chunk.cellColours[i] = meanColour(foam, sources[i]); });
   if (!keepsLobes) return fillPlainColours(foam, sources, chunk);
   chunk.baseColours = gather(foam.baseColours, sources, foam.detailCount);
   fillLobes(foam, sources, chunk);

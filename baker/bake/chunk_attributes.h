@@ -13,8 +13,8 @@
 
 namespace froth {
 
-// Densities, orientations, detail sites and heights, cell heights; on the chunk's detail scales, if it has any. `live` lists
-// the chunk's live cells in order.
+// Densities, orientations, detail sites and heights, cell heights; on the chunk's detail scales, if it has any. `live`
+// lists the chunk's live cells in order.
 void fillFaces(const Foam& foam, const BakeCells& cells, std::span<const uint32_t> live, const Quantization& lattices,
                ChunkContents& chunk, AttributeErrors& errors);
 

@@ -28,8 +28,8 @@ class ChunkGeometry {
   }
 
  private:
-  // Visits the neighbours in a cell's row, the alpha-complex first; visit(neighbour, isAlpha). Without a walk graph only live
-  // cells have rows.
+  // Visits the neighbours in a cell's row, the alpha-complex first; visit(neighbour, isAlpha). Without a walk graph
+  // only live cells have rows.
   template <class Visit>
   void visitRow(uint32_t local, Visit&& visit) const {
     const std::span<const uint32_t> alpha = neighboursOf(graphs_.alpha, own_[local]);
@@ -70,8 +70,7 @@ class ChunkGeometry {
       low = glm::min(low, site);
       high = glm::max(high, site);
     }
-    for (int axis = 0; axis < 3; ++axis)
-      chunk_.origin[axis] = snapToStep(0.5 * (low[axis] + high[axis]), positionStep);
+    for (int axis = 0; axis < 3; ++axis) chunk_.origin[axis] = snapToStep(0.5 * (low[axis] + high[axis]), positionStep);
   }
 
   void addSite(uint32_t cell) {

@@ -16,18 +16,17 @@ struct AlongAxis {
   const std::vector<glm::vec3>& sites;
   int axis;
 
-  bool operator()(uint32_t a, uint32_t b) const {
-    return std::pair(sites[a][axis], a) < std::pair(sites[b][axis], b);
-  }
+  bool operator()(uint32_t a, uint32_t b) const { return std::pair(sites[a][axis], a) < std::pair(sites[b][axis], b); }
 };
 
 class KdSplitter {
  public:
   KdSplitter(const BakeCells& cells, const Progress& progress) : cells_(cells), progress_(progress) {}
 
-  // Splits into `chunkCount` chunks of nearly the same number of live cells; the others fall where the splits' planes put
-  // them. False: asked to stop.
-  bool split(std::span<uint32_t> live, std::span<uint32_t> others, size_t chunkCount, std::vector<PlannedChunk>& chunks) {
+  // Splits into `chunkCount` chunks of nearly the same number of live cells; the others fall where the splits' planes
+  // put them. False: asked to stop.
+  bool split(std::span<uint32_t> live, std::span<uint32_t> others, size_t chunkCount,
+             std::vector<PlannedChunk>& chunks) {
     if (!report(progress_, "chunks", chunks.size(), 0)) return false;
     if (chunkCount <= 1) {
       PlannedChunk& chunk = chunks.emplace_back();
@@ -40,9 +39,8 @@ class KdSplitter {
     const size_t leftChunks = chunkCount / 2, leftCells = live.size() * leftChunks / chunkCount;
     std::nth_element(live.begin(), live.begin() + leftCells, live.end(), isBefore);
     const float plane = cells_.sites[live[leftCells]][isBefore.axis];
-    const auto middle = std::partition(others.begin(), others.end(), [&](uint32_t cell) {
-      return cells_.sites[cell][isBefore.axis] < plane;
-    });
+    const auto middle = std::partition(others.begin(), others.end(),
+                                       [&](uint32_t cell) { return cells_.sites[cell][isBefore.axis] < plane; });
     const size_t leftOthers = middle - others.begin();
     return split(live.first(leftCells), others.first(leftOthers), leftChunks, chunks) &&
            split(live.subspan(leftCells), others.subspan(leftOthers), chunkCount - leftChunks, chunks);
@@ -68,7 +66,8 @@ Status fillRefs(const BakeCells& cells, ChunkPlan& plan) {
   size_t largest = 1;
   for (const PlannedChunk& chunk : plan.chunks) largest = std::max(largest, chunk.cells.size());
   const size_t chunkCount = plan.chunks.size();
-  plan.localBits = chunkCount == 1 ? 32 : std::bit_width(std::max<size_t>(largest - 1, 1));  // a file has one bit at least
+  // a file has one bit at least
+  plan.localBits = chunkCount == 1 ? 32 : std::bit_width(std::max<size_t>(largest - 1, 1));
   if (chunkCount > 1 && static_cast<int>(plan.localBits) + std::bit_width(chunkCount - 1) > 32) {
     return makeError(ErrorKind::kUnsupported,
                      "chunks: %zu of them with up to %zu cells exceed 2^32 places; bake with more cells per chunk",

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "baker/bake/chunk_attributes.h"
+#include "baker/bake/eye_region.h"
 #include "baker/bake/snap_cells.h"
 
 namespace froth {
@@ -39,6 +40,7 @@ Result<ColourSource> ColourSource::create(const Foam& foam, const Visibility* vi
   }
   AppearanceOptions appearance = options.knobs.appearance;
   appearance.seed = options.seed;
+  if (hasChosenEyes(options)) appearance.eyeRadius = static_cast<float>(options.eyes.aroundCameras);
   if (!isViewDependent(foam)) appearance.lobeLimit = 0;
   const BakeKnobs& knobs = options.knobs;
   if (knobs.heightBits > 0) appearance.detailSiteStep = stepOfBits(knobs.detailSiteBits);  // they share their scales

@@ -26,8 +26,9 @@ uint64_t cullUnseenCells(BakeCells& cells, std::span<const float> contributions,
   const CellGraph overlaps = findCechPairs(cells.sites, cells.radii, progress);
   if (overlaps.offsets.empty()) return 0;
   std::vector<uint8_t> stays(cells.count());
-  for (uint32_t cell = 0; cell < cells.count(); ++cell)
+  for (uint32_t cell = 0; cell < cells.count(); ++cell) {
     stays[cell] = !cells.isUnseen[cell] || overlapsSeenCell(overlaps, cell, cells.isUnseen);
+  }
   // An asset has at least one cell.
   if (std::count(stays.begin(), stays.end(), uint8_t{1}) == 0) stays[0] = 1;
 

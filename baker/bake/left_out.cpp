@@ -3,11 +3,11 @@
 namespace froth {
 namespace {
 
-constexpr uint64_t kPairBytes = 8;       // both rows
-constexpr uint64_t kLobeBytes = 24;      // axis and colour
-constexpr uint64_t kSiteBytes = 16;      // site and radius
-constexpr uint64_t kFaceBytes = 20;      // density and orientation
-constexpr uint64_t kDetailBytes = 12;    // detail site and height
+constexpr uint64_t kPairBytes = 8;     // both rows
+constexpr uint64_t kLobeBytes = 24;    // axis and colour
+constexpr uint64_t kSiteBytes = 16;    // site and radius
+constexpr uint64_t kFaceBytes = 20;    // density and orientation
+constexpr uint64_t kDetailBytes = 12;  // detail site and height
 
 }  // namespace
 
@@ -25,8 +25,10 @@ std::vector<LeftOut> listLeftOut(const Foam& foam, const AssetContents& contents
   add("faces and colours of unseen cells", statistics.unseenCulled * faceBytes);
   add("displacement", (stored.live * details - stored.detailHeights) * sizeof(float));
   const uint64_t lobes = stored.live * lobesPerCell;
-  if (lobes > stored.lobes)
-    add(contents.lobeCount == 0 ? "view dependence" : "lobes that no direction needs", (lobes - stored.lobes) * kLobeBytes);
+  if (lobes > stored.lobes) {
+    add(contents.lobeCount == 0 ? "view dependence" : "lobes that no direction needs",
+        (lobes - stored.lobes) * kLobeBytes);
+  }
   if (!contents.hasWalkGraph) add("walk graph", (statistics.walkPairs - statistics.alphaPairs) * kPairBytes);
   return list;
 }

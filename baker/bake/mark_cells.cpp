@@ -32,8 +32,9 @@ std::vector<CellState> markCells(const BakeCells& cells, const RegularTriangulat
   for (uint32_t cell = 0; cell < cells.count(); ++cell) {
     if (states[cell] != CellState::kLive) continue;
     isNeeded[cell] = 1;
-    for (uint32_t entry = alpha.graph.offsets[cell]; entry < alpha.graph.offsets[cell + 1]; ++entry)
+    for (uint32_t entry = alpha.graph.offsets[cell]; entry < alpha.graph.offsets[cell + 1]; ++entry) {
       isNeeded[alpha.graph.neighbours[entry]] = 1;
+    }
   }
   for (uint32_t cell = 0; cell < cells.count(); ++cell) {
     if (!isNeeded[cell] && isInAsset(states[cell])) states[cell] = CellState::kUnneeded;
@@ -44,7 +45,9 @@ std::vector<CellState> markCells(const BakeCells& cells, const RegularTriangulat
 BakeStatistics countCells(const BakeCells& cells, const std::vector<CellState>& states,
                           const RegularTriangulation& triangulation, const AlphaComplex& alpha) {
   const auto inputEnd = states.begin() + cells.inputCount();
-  const auto count = [&](CellState state) { return static_cast<uint64_t>(std::count(states.begin(), inputEnd, state)); };
+  const auto count = [&](CellState state) {
+    return static_cast<uint64_t>(std::count(states.begin(), inputEnd, state));
+  };
   BakeStatistics statistics;
   statistics.hiddenDropped = count(CellState::kHidden);
   statistics.duplicatesMerged = triangulation.duplicates;

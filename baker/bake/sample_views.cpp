@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
+#include "baker/bake/eye_region.h"
 #include "reference/render/reference.h"
 
 namespace froth {
 namespace {
 
 constexpr size_t kSampleViews = 4;
+constexpr uint32_t kDrawnViews = 8;
+constexpr uint64_t kOtherViews = uint64_t{1} << 63;  // of a seed: other views than those that weighed errors
 constexpr double kSamplePixels = 160 * 120;
 
 View reduceView(const View& view) {
@@ -48,8 +52,10 @@ std::vector<View> viewsAround(const Foam& foam) {
   const glm::dvec3 centre = 0.5 * (low + high);
   const double distance = 1.2 * glm::length(high - low);
   std::vector<View> views;
-  for (const glm::dvec3& corner : {glm::dvec3(1, 1, 1), glm::dvec3(1, -1, -1), glm::dvec3(-1, 1, -1), glm::dvec3(-1, -1, 1)})
+  for (const glm::dvec3& corner :
+       {glm::dvec3(1, 1, 1), glm::dvec3(1, -1, -1), glm::dvec3(-1, 1, -1), glm::dvec3(-1, -1, 1)}) {
     views.push_back(lookAt(centre + distance / std::sqrt(3.0) * corner, centre));
+  }
   return views;
 }
 
@@ -62,31 +68,65 @@ std::vector<View> chooseViews(const Foam& foam, const BakeOptions& options) {
   return views;
 }
 
-double clampedDifference(float a, float b) {
-  return double{std::clamp(a, 0.0f, 1.0f)} - std::clamp(b, 0.0f, 1.0f);
+double clampedDifference(float a, float b) { return double{std::clamp(a, 0.0f, 1.0f)} - std::clamp(b, 0.0f, 1.0f); }
+
+double psnrOf(double meanSquare) {
+  return meanSquare > 0 ? std::min(kMaxPsnr, -10 * std::log10(meanSquare)) : kMaxPsnr;
+}
+
+class Comparison {
+ public:
+  Comparison(const Foam& input, const Foam& baked, const BakeOptions& options, const Progress& progress)
+      : input_(input, progress), baked_(baked, progress), options_(options), progress_(progress) {}
+
+  // The mean squared error of each view.
+  Result<std::vector<double>> measure(const std::vector<View>& views) const {
+    std::vector<double> errors;
+    for (const View& view : views) {
+      ReferenceOptions reference;
+      reference.precision = Precision::kFloat;
+      reference.nearRatio = view.nearRatio.value_or(options_.nearRatio);
+      reference.nearDepth = view.nearDepth.value_or(options_.nearDepth);
+      const Result<RenderedImages> expected = input_.render(view, reference, progress_);
+      if (!expected) return expected.error();
+      const Result<RenderedImages> found = baked_.render(view, reference, progress_);
+      if (!found) return found.error();
+      double squares = 0;
+      for (size_t k = 0; k < expected->colour.values.size(); ++k) {
+        const double difference = clampedDifference(expected->colour.values[k], found->colour.values[k]);
+        squares += difference * difference;
+      }
+      errors.push_back(squares / static_cast<double>(expected->colour.values.size()));
+    }
+    return errors;
+  }
+
+ private:
+  const ReferenceRenderer input_, baked_;
+  const BakeOptions& options_;
+  const Progress& progress_;
+};
+
+double meanOf(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 }  // namespace
 
-Result<double> measurePsnr(const Foam& input, const Foam& baked, const BakeOptions& options, const Progress& progress) {
-  const ReferenceRenderer inputRenderer(input, progress), bakedRenderer(baked, progress);
-  double squares = 0, values = 0;
-  for (const View& view : chooseViews(input, options)) {
-    ReferenceOptions reference;
-    reference.precision = Precision::kFloat;
-    reference.nearRatio = view.nearRatio.value_or(options.nearRatio);
-    reference.nearDepth = view.nearDepth.value_or(options.nearDepth);
-    const Result<RenderedImages> expected = inputRenderer.render(view, reference, progress);
-    if (!expected) return expected.error();
-    const Result<RenderedImages> found = bakedRenderer.render(view, reference, progress);
-    if (!found) return found.error();
-    for (size_t k = 0; k < expected->colour.values.size(); ++k) {
-      const double difference = clampedDifference(expected->colour.values[k], found->colour.values[k]);
-      squares += difference * difference;
-    }
-    values += static_cast<double>(expected->colour.values.size());
-  }
-  return squares > 0 ? std::min(kMaxPsnr, -10 * std::log10(squares / values)) : kMaxPsnr;
+Result<SampledPsnr> measurePsnr(const Foam& input, const Foam& baked, const EyeRegion& eyes, const BakeOptions& options,
+                                const Progress& progress) {
+  const Comparison comparison(input, baked, options, progress);
+  const Result<std::vector<double>> given = comparison.measure(chooseViews(input, options));
+  if (!given) return given.error();
+  SampledPsnr psnr{.given = psnrOf(meanOf(*given))};
+  if (!hasChosenEyes(options)) return psnr;
+  std::vector<View> views = drawViews(eyes, options.cameras, kDrawnViews, options.seed ^ kOtherViews);
+  for (View& view : views) view = reduceView(view);
+  const Result<std::vector<double>> drawn = comparison.measure(views);
+  if (!drawn) return drawn.error();
+  psnr.drawn = psnrOf(meanOf(*drawn));
+  psnr.worstDrawn = psnrOf(*std::ranges::max_element(*drawn));
+  return psnr;
 }
 
 }  // namespace froth

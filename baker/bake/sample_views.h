@@ -8,9 +8,16 @@
 
 namespace froth {
 
-// PSNR over a few reduced views of the cameras, or around the foam if there are none; by the float reference. [dB], at most
-// kMaxPsnr. Fails with kCancelled.
 inline constexpr double kMaxPsnr = 200;  // stands for equal images
-Result<double> measurePsnr(const Foam& input, const Foam& baked, const BakeOptions& options, const Progress& progress);
+
+// PSNR over all pixels of some reduced views; by the float reference. [dB], at most kMaxPsnr
+struct SampledPsnr {
+  double given = 0;                  // of the cameras, or around the foam if there are none
+  double drawn = 0, worstDrawn = 0;  // from other eyes of the region than the bake was given; 0: it has no others
+};
+
+// Fails with kCancelled.
+Result<SampledPsnr> measurePsnr(const Foam& input, const Foam& baked, const EyeRegion& eyes, const BakeOptions& options,
+                                const Progress& progress);
 
 }  // namespace froth

@@ -21,8 +21,8 @@ struct StageProgress {
   uint64_t done = 0, total = 0;  // items of the stage before the loop, and in all
 };
 
-// Calls work(slice) for slices [0, count) on all cores, in waves of about a tenth of a second; `sliceItems` is the items
-// of a slice as reported. False: asked to stop.
+// Calls work(slice) for slices [0, count) on all cores, in waves of about a tenth of a second; `sliceItems` is the
+// items of a slice as reported. False: asked to stop.
 template <class Work>
 bool forEachSlice(uint32_t count, uint32_t sliceItems, const StageProgress& stage, Work&& work) {
   using Clock = std::chrono::steady_clock;

@@ -20,14 +20,13 @@ double largestExtent(const Foam& foam) {
 
 }  // namespace
 
-float stepOfBits(uint32_t bits) {
-  return bits > 0 ? std::ldexp(1.0f, -static_cast<int>(bits)) : 0.0f;
-}
+float stepOfBits(uint32_t bits) { return bits > 0 ? std::ldexp(1.0f, -static_cast<int>(bits)) : 0.0f; }
 
 Quantization makeLattices(const Foam& foam, const BakeKnobs& knobs) {
   Quantization lattices;
-  if (knobs.positionBits > 0)
+  if (knobs.positionBits > 0) {
     lattices.positionStep = std::exp2(std::floor(std::log2(largestExtent(foam))) - knobs.positionBits);
+  }
   lattices.radiusBits = knobs.radiusBits;
   lattices.densityBits = knobs.densityBits;
   lattices.normalBits = knobs.frameBits;
@@ -49,10 +48,11 @@ BakeCells snapCells(const Foam& foam, const Quantization& lattices) {
   cells.isUnseen.assign(foam.cellCount, 0);
   std::iota(cells.sources.begin(), cells.sources.end(), 0u);
   for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
-    // Always a float: beyond 2^24 steps from the world's origin floats are coarser than the grid, and lie on it already.
-    for (int axis = 0; axis < 3; ++axis)
-      cells.sites[cell][axis] =
-          static_cast<float>(snapToStep(double{foam.sites[cell][axis]}, lattices.positionStep));
+    // Always a float: beyond 2^24 steps from the world's origin floats are coarser than the grid, and lie on it
+    // already.
+    for (int axis = 0; axis < 3; ++axis) {
+      cells.sites[cell][axis] = static_cast<float>(snapToStep(double{foam.sites[cell][axis]}, lattices.positionStep));
+    }
     cells.radii[cell] = roundMantissa(foam.radii[cell], lattices.radiusBits);
     cells.densities[cell] = roundMantissa(foam.densities[cell], lattices.densityBits);
   }
@@ -61,9 +61,9 @@ BakeCells snapCells(const Foam& foam, const Quantization& lattices) {
 
 SnappedFace snapFace(const glm::vec4& orientation, const Quantization& lattices) {
   SnappedFace face{orientation, faceFrame<double>(orientation), {}, lattices.normalBits > 0};
-  if (face.isTurned)
-    face.orientation =
-        orientationOfNormal(normalIndices(face.from.normal, lattices.normalBits), lattices.normalBits);
+  if (face.isTurned) {
+    face.orientation = orientationOfNormal(normalIndices(face.from.normal, lattices.normalBits), lattices.normalBits);
+  }
   face.to = faceFrame<double>(face.orientation);
   return face;
 }

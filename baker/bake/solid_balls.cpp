@@ -77,9 +77,9 @@ class SolidBallMaker {
     return std::max<double>(largest, *std::max_element(first, first + detailCount_));
   }
 
-  // About the centre of the smallest ball around the body, by Frank and Wolfe's method: the centre is a mean of points of the body,
-  // and moves towards the farthest one. For such a mean c = sum w p the number sum w |p|^2 - |c|^2 is a lower bound of the squared
-  // radius of any ball around the points. False if it shows that there is nothing to gain.
+  // About the centre of the smallest ball around the body, by Frank and Wolfe's method: the centre is a mean of points
+  // of the body, and moves towards the farthest one. For such a mean c = sum w p the number sum w |p|^2 - |c|^2 is a
+  // lower bound of the squared radius of any ball around the points. False if it shows that there is nothing to gain.
   bool findCentre(glm::dvec3& best) const {
     constexpr double kWorthless = 1 - kLeastGain / kRadiusSteps;
     best = glm::dvec3(0);
@@ -138,10 +138,11 @@ class SolidBallMaker {
 
 std::vector<uint32_t> makeSolidBalls(const ChunkContents& chunk, uint32_t detailCount) {
   std::vector<uint32_t> balls(chunk.liveCount);
-  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, chunk.liveCount, 256), [&](const tbb::blocked_range<uint32_t>& range) {
-    SolidBallMaker maker(chunk, detailCount);
-    for (uint32_t cell = range.begin(); cell < range.end(); ++cell) balls[cell] = maker.make(cell);
-  });
+  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, chunk.liveCount, 256),
+                    [&](const tbb::blocked_range<uint32_t>& range) {
+                      SolidBallMaker maker(chunk, detailCount);
+                      for (uint32_t cell = range.begin(); cell < range.end(); ++cell) balls[cell] = maker.make(cell);
+                    });
   return balls;
 }
 

@@ -23,9 +23,10 @@ template <class T>
 void permuteLobes(std::vector<T>& values, const std::vector<size_t>& offsets, const std::vector<uint32_t>& order) {
   std::vector<T> sorted;
   sorted.reserve(values.size());
-  for (const uint32_t detail : order)
+  for (const uint32_t detail : order) {
     sorted.insert(sorted.end(), values.begin() + static_cast<ptrdiff_t>(offsets[detail]),
                   values.begin() + static_cast<ptrdiff_t>(offsets[detail + 1]));
+  }
   values = std::move(sorted);
 }
 
@@ -37,13 +38,13 @@ void sortDetails(uint32_t detailCount, ChunkContents& chunk) {
   const auto key = [&](uint32_t detail) {
     return std::tuple(chunk.detailSites[detail].x, chunk.detailSites[detail].y, detail);
   };
-  for (auto first = order.begin(); first != order.end(); first += detailCount)
+  for (auto first = order.begin(); first != order.end(); first += detailCount) {
     std::sort(first, first + detailCount, [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  }
 
   std::vector<size_t> lobeOffsets = {0};
   for (size_t detail = 0; detail < order.size(); ++detail) {
-    const size_t count =
-        chunk.lobeCounts.empty() ? chunk.lobeColours.size() / order.size() : chunk.lobeCounts[detail];
+    const size_t count = chunk.lobeCounts.empty() ? chunk.lobeColours.size() / order.size() : chunk.lobeCounts[detail];
     lobeOffsets.push_back(lobeOffsets.back() + count);
   }
   permuteLobes(chunk.lobeAxes, lobeOffsets, order);

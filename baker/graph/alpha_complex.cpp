@@ -50,15 +50,12 @@ bool faceMeetsBall(const HalfSpace& face, Scratch& scratch) {
   const auto [u, v] = planeAxes(face.normal);
 
   std::vector<glm::dvec2>& polygon = scratch.polygon;
-  polygon = {{-discRadius, -discRadius},
-             {discRadius, -discRadius},
-             {discRadius, discRadius},
-             {-discRadius, discRadius}};
+  polygon = {
+      {-discRadius, -discRadius}, {discRadius, -discRadius}, {discRadius, discRadius}, {-discRadius, discRadius}};
   for (const HalfSpace& other : scratch.halfSpaces) {
     if (&other == &face) continue;
     const glm::dvec2 across(glm::dot(other.normal, u), glm::dot(other.normal, v));
-    const double limit =
-        other.offset - face.offset * glm::dot(other.normal, face.normal) + other.slack + face.slack;
+    const double limit = other.offset - face.offset * glm::dot(other.normal, face.normal) + other.slack + face.slack;
     const double reach = glm::length(across) * discRadius;
     if (limit >= reach) continue;
     if (limit < -reach) return false;
@@ -87,8 +84,7 @@ class AlphaComplexBuilder {
     }
     for (size_t k = 0; k < scratch.entries.size(); ++k) {
       const uint32_t entry = scratch.entries[k];
-      if (owns(cell, graph_.neighbours[entry]))
-        isKept_[entry] = faceMeetsBall(scratch.halfSpaces[k], scratch);
+      if (owns(cell, graph_.neighbours[entry])) isKept_[entry] = faceMeetsBall(scratch.halfSpaces[k], scratch);
     }
   }
 
@@ -165,8 +161,7 @@ AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<con
   AlphaComplex result;
   result.isEmpty.resize(cellCount);
   tbb::parallel_for(Range(0, cellCount), [&](const Range& range) {
-    for (uint32_t cell = range.begin(); cell < range.end(); ++cell)
-      result.isEmpty[cell] = builder.isEmpty(cell);
+    for (uint32_t cell = range.begin(); cell < range.end(); ++cell) result.isEmpty[cell] = builder.isEmpty(cell);
   });
   if (!report(progress, "alpha-complex", cellCount, cellCount)) return {};
   result.graph = builder.takeKept();

@@ -23,8 +23,7 @@ constexpr uint32_t kDrawsPerSample = 16;
 }  // namespace
 
 DiagramCheck::DiagramCheck(std::span<const glm::vec3> sites, std::span<const float> radii,
-                           const RegularTriangulation& triangulation, const AlphaComplex& alpha,
-                           uint64_t seed)
+                           const RegularTriangulation& triangulation, const AlphaComplex& alpha, uint64_t seed)
     : sites_(sites),
       radii_(radii),
       triangulation_(triangulation),
@@ -66,9 +65,8 @@ void DiagramCheck::checkRay(uint32_t number, std::vector<std::string>& faults) c
     if (!isHidden && !alpha_.isEmpty[cell]) kept = boundedCell(ray, cell, neighboursOf(alpha_.graph, cell));
     const double radius = radii_[cell];
     if (!(std::abs(kept.length() - whole.length()) <= kLengthSlack * radius)) {
-      faults.push_back(
-          fmt::format("ray {}: {} radii of cell {} by the alpha-complex, {} by the triangulation", number,
-                      kept.length() / radius, cell, whole.length() / radius));
+      faults.push_back(fmt::format("ray {}: {} radii of cell {} by the alpha-complex, {} by the triangulation", number,
+                                   kept.length() / radius, cell, whole.length() / radius));
     }
     if (!(whole.length() > 0)) continue;
     const double along = glm::dot(glm::dvec3(sites_[cell]) - ray.origin, ray.direction);
@@ -170,8 +168,8 @@ void DiagramCheck::checkLeast(const glm::dvec3& x, double t, uint32_t cell, cons
   const double apart = glm::length(glm::dvec3(sites_[cell]) - glm::dvec3(sites_[least.site]));
   const double slack = kSlack * (powerTerms(cell) + powerTerms(least.site) + apart * (glm::length(x) + t));
   if (power - least.value <= slack) return;
-  faults.push_back(fmt::format("{}: at ({}, {}, {}) cell {} has power {}, cell {} has {}", what, x.x, x.y,
-                               x.z, cell, power, least.site, least.value));
+  faults.push_back(fmt::format("{}: at ({}, {}, {}) cell {} has power {}, cell {} has {}", what, x.x, x.y, x.z, cell,
+                               power, least.site, least.value));
 }
 
 // The cells that the ray meets from `cell` on, in order.
@@ -217,8 +215,8 @@ DiagramCheck::Interval DiagramCheck::boundedCell(const Ray& ray, uint32_t cell,
   for (const uint32_t neighbour : neighbours) {
     const glm::dvec3 toNeighbour = glm::dvec3(sites_[neighbour]) - glm::dvec3(sites_[cell]);
     const double offset = foam::radicalOffset(toNeighbour, radius, double{radii_[neighbour]});
-    foam::clipByPlane(foam::radicalClearance(centre, toNeighbour, offset),
-                      glm::dot(toNeighbour, ray.direction), foam::comesFirst(toNeighbour), interval.near, interval.far);
+    foam::clipByPlane(foam::radicalClearance(centre, toNeighbour, offset), glm::dot(toNeighbour, ray.direction),
+                      foam::comesFirst(toNeighbour), interval.near, interval.far);
   }
   return interval;
 }

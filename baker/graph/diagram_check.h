@@ -68,8 +68,8 @@ class DiagramCheck {
   glm::dvec3 low_, high_;  // the sites' box
 };
 
-// The second half of checkGraphs: adds samples of the diagram to `validity`, also of graphs that it would refuse, whose alpha rows
-// are not symmetric. At least one cell is not hidden; rows hold cells. False: `progress` asked to stop.
+// The second half of checkGraphs: adds samples of the diagram to `validity`, also of graphs that it would refuse, whose
+// alpha rows are not symmetric. At least one cell is not hidden; rows hold cells. False: `progress` asked to stop.
 bool sampleDiagram(std::span<const glm::vec3> sites, std::span<const float> radii,
                    const RegularTriangulation& triangulation, const AlphaComplex& alpha, uint64_t seed,
                    const Progress& progress, ValidityReport& validity);

@@ -23,8 +23,8 @@ struct RegularTriangulation {
 // CGAL, sequential, exact predicates on exactly these floats. Any input of finite numbers works: fewer than
 // five sites, collinear, coplanar, cospherical, duplicate ones (lower-dimensional triangulations give the
 // right graph too).
-Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites,
-                                                std::span<const float> radii, const Progress& progress = {});
+Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites, std::span<const float> radii,
+                                                const Progress& progress = {});
 
 struct AlphaComplex {
   // Pairs whose bounded cells share a face: never a true pair missing, superfluous ones only within the
@@ -71,7 +71,7 @@ struct ValidityReport {
   std::vector<std::string> faults;              // at most 16, each with cell numbers and values
 };
 ValidityReport checkGraphs(std::span<const glm::vec3> sites, std::span<const float> radii,
-                           const RegularTriangulation& triangulation, const AlphaComplex& alpha,
-                           uint64_t seed, const Progress& progress = {});
+                           const RegularTriangulation& triangulation, const AlphaComplex& alpha, uint64_t seed,
+                           const Progress& progress = {});
 
 }  // namespace froth

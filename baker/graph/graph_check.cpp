@@ -56,19 +56,17 @@ void checkRow(const char* name, const CellGraph& graph, uint32_t cell, Faults& f
   for (size_t k = 0; k < row.size(); ++k) {
     if (row[k] == cell) faults.push_back(fmt::format("{} graph: cell {} is its own neighbour", name, cell));
     if (k > 0 && row[k] <= row[k - 1]) {
-      faults.push_back(
-          fmt::format("{} graph: row of cell {} has {} after {}", name, cell, row[k], row[k - 1]));
+      faults.push_back(fmt::format("{} graph: row of cell {} has {} after {}", name, cell, row[k], row[k - 1]));
     }
     const std::span<const uint32_t> back = neighboursOf(graph, row[k]);
     if (!std::binary_search(back.begin(), back.end(), cell)) {
-      faults.push_back(
-          fmt::format("{} graph: cell {} has neighbour {}, but not the other way", name, cell, row[k]));
+      faults.push_back(fmt::format("{} graph: cell {} has neighbour {}, but not the other way", name, cell, row[k]));
     }
   }
 }
 
-void checkCell(const RegularTriangulation& triangulation, const AlphaComplex& alpha, bool isAlone,
-               uint32_t cell, Faults& faults) {
+void checkCell(const RegularTriangulation& triangulation, const AlphaComplex& alpha, bool isAlone, uint32_t cell,
+               Faults& faults) {
   const std::span<const uint32_t> walkRow = neighboursOf(triangulation.graph, cell);
   const std::span<const uint32_t> alphaRow = neighboursOf(alpha.graph, cell);
   const bool isHidden = triangulation.isHidden[cell];
@@ -79,8 +77,7 @@ void checkCell(const RegularTriangulation& triangulation, const AlphaComplex& al
     faults.push_back(fmt::format("cell {} is not hidden, but has no neighbour", cell));
   }
   if ((isHidden || alpha.isEmpty[cell]) && !alphaRow.empty()) {
-    faults.push_back(
-        fmt::format("invisible cell {} has {} neighbours in the alpha-complex", cell, alphaRow.size()));
+    faults.push_back(fmt::format("invisible cell {} has {} neighbours in the alpha-complex", cell, alphaRow.size()));
   }
   if (!std::includes(walkRow.begin(), walkRow.end(), alphaRow.begin(), alphaRow.end())) {
     faults.push_back(
@@ -91,16 +88,16 @@ void checkCell(const RegularTriangulation& triangulation, const AlphaComplex& al
 }  // namespace
 
 ValidityReport checkGraphs(std::span<const glm::vec3> sites, std::span<const float> radii,
-                           const RegularTriangulation& triangulation, const AlphaComplex& alpha,
-                           uint64_t seed, const Progress& progress) {
+                           const RegularTriangulation& triangulation, const AlphaComplex& alpha, uint64_t seed,
+                           const Progress& progress) {
   const auto cellCount = static_cast<uint32_t>(sites.size());
   ValidityReport validity;
   validity.cells = cellCount;
   validity.walkPairs = triangulation.graph.neighbours.size() / 2;
   validity.alphaPairs = alpha.graph.neighbours.size() / 2;
   if (triangulation.isHidden.size() != cellCount || alpha.isEmpty.size() != cellCount) {
-    validity.faults.push_back(fmt::format("marks of {} and {} cells for {} cells",
-                                        triangulation.isHidden.size(), alpha.isEmpty.size(), cellCount));
+    validity.faults.push_back(fmt::format("marks of {} and {} cells for {} cells", triangulation.isHidden.size(),
+                                          alpha.isEmpty.size(), cellCount));
     return validity;
   }
   if (!checkLayout("walk", triangulation.graph, cellCount, validity.faults) ||

@@ -79,12 +79,10 @@ RowBlock LocalTriangulation::collectRows(uint32_t begin, uint32_t end, Insertion
     if (vertex->info() < begin || vertex->info() >= end) continue;
     if (block.cells.size() % kRowsPerLook == 0 && !progress.add(0)) return {};
     adjacent.clear();
-    if (triangulation_.dimension() >= 1)
-      triangulation_.finite_adjacent_vertices(vertex, std::back_inserter(adjacent));
+    if (triangulation_.dimension() >= 1) triangulation_.finite_adjacent_vertices(vertex, std::back_inserter(adjacent));
     block.cells.push_back(sites_.order[vertex->info()]);
     block.degrees.push_back(static_cast<uint32_t>(adjacent.size()));
-    for (const Triangulation::Vertex_handle other : adjacent)
-      block.neighbours.push_back(sites_.order[other->info()]);
+    for (const Triangulation::Vertex_handle other : adjacent) block.neighbours.push_back(sites_.order[other->info()]);
   }
   return block;
 }

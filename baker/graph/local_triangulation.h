@@ -61,11 +61,11 @@ class LocalTriangulation {
     bool isProven = false;  // region.h
   };
   using VertexBase =
-      CGAL::Triangulation_vertex_base_with_info_3<uint32_t, Kernel,
-                                                  CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+      CGAL::Triangulation_vertex_base_with_info_3<uint32_t, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
   // A site once hidden stays hidden while sites are only added, so CGAL need not keep it.
-  using CellBase = CGAL::Regular_triangulation_cell_base_3<
-      Kernel, CGAL::Triangulation_cell_base_with_info_3<CellState, Kernel>, CGAL::Discard_hidden_points>;
+  using CellBase =
+      CGAL::Regular_triangulation_cell_base_3<Kernel, CGAL::Triangulation_cell_base_with_info_3<CellState, Kernel>,
+                                              CGAL::Discard_hidden_points>;
   using Triangulation =
       CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 

@@ -20,8 +20,7 @@ struct Summed {
 
 Summed<glm::dvec3> cross(const Summed<glm::dvec3>& a, const Summed<glm::dvec3>& b) {
   const glm::dvec3 &p = a.terms, &q = b.terms;
-  return {glm::cross(a.value, b.value),
-          {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x}};
+  return {glm::cross(a.value, b.value), {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x}};
 }
 
 Summed<double> dot(const Summed<glm::dvec3>& a, const Summed<glm::dvec3>& b) {
@@ -58,9 +57,9 @@ PowerForm::PowerForm(const Ball& first, double scale, double scaleTerms, const g
       scaleError_(kSlack * (scaleTerms + scale_)),
       moment_(moment),
       momentError_(kSlack * (momentTerms + glm::abs(moment))),
-      centre_(scale_ > 0 ? moment / (2 * scale_)
-                         : glm::mix(glm::dvec3(-INFINITY), glm::dvec3(INFINITY),
-                                    glm::greaterThan(moment, glm::dvec3(0)))) {}
+      centre_(scale_ > 0
+                  ? moment / (2 * scale_)
+                  : glm::mix(glm::dvec3(-INFINITY), glm::dvec3(INFINITY), glm::greaterThan(moment, glm::dvec3(0)))) {}
 
 // The centre solves 2 c . d_i = h_i, h_i = |d_i|^2 - (r_i^2 - r_0^2): by Cramer's rule
 // 2 c = (h_1 d_2 x d_3 + h_2 d_3 x d_1 + h_3 d_1 x d_2) / (d_1 . d_2 x d_3).
@@ -83,9 +82,8 @@ PowerForm PowerForm::ofTriangle(const std::array<Ball, 3>& balls) {
   const Summed<glm::dvec3> d1 = difference(balls[0], balls[1]), d2 = difference(balls[0], balls[2]);
   const Summed<glm::dvec3> normal = cross(d1, d2);
   const Summed<double> squared = dot(normal, normal);
-  const Summed<glm::dvec3> moment =
-      liftedHeight(d1.value, balls[1].radius, balls[0].radius) * cross(d2, normal) +
-      liftedHeight(d2.value, balls[2].radius, balls[0].radius) * cross(normal, d1);
+  const Summed<glm::dvec3> moment = liftedHeight(d1.value, balls[1].radius, balls[0].radius) * cross(d2, normal) +
+                                    liftedHeight(d2.value, balls[2].radius, balls[0].radius) * cross(normal, d1);
   return {balls[0], squared.value, squared.terms, moment.value, moment.terms};
 }
 
@@ -102,10 +100,11 @@ PowerForm::Bounds PowerForm::at(const glm::vec3& site, float radius) const {
   return {value - error, value + error};
 }
 
-// With x and c from the site of ball 0, f >= scale (|x - c|^2 - r^2 - (|c|^2 - r_0^2)) - scaleError (|x|^2 + r^2 + r_0^2)
-// - momentError . |x|. If scaleError <= kNarrow scale and |momentError| <= kNarrow scale l, l^2 = |c|^2 + r_0^2, the errors
-// are, by |x| <= |x - c| + |c| and ab <= (a^2 + b^2) / 2, below 4 kNarrow scale (|x - c|^2 + r^2 + l^2); the rounding of
-// c in the scene's coordinates, at most kNarrow l, adds less than as much again. Dividing by 1 + 8 kNarrow leaves kReach.
+// With x and c from the site of ball 0,
+//   f >= scale (|x - c|^2 - r^2 - (|c|^2 - r_0^2)) - scaleError (|x|^2 + r^2 + r_0^2) - momentError . |x|.
+// If scaleError <= kNarrow scale and |momentError| <= kNarrow scale l, l^2 = |c|^2 + r_0^2, the errors are, by
+// |x| <= |x - c| + |c| and ab <= (a^2 + b^2) / 2, below 4 kNarrow scale (|x - c|^2 + r^2 + l^2); the rounding of c in
+// the scene's coordinates, at most kNarrow l, adds less than as much again. Dividing by 1 + 8 kNarrow leaves kReach.
 std::optional<OuterSphere> PowerForm::outerSphere() const {
   constexpr double kNarrow = 0x1p-24;
   const double squaredLength = glm::dot(centre_, centre_) + radius_ * radius_, length = std::sqrt(squaredLength);

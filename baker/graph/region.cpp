@@ -18,8 +18,7 @@ constexpr size_t kGroup = 64, kSmallestGroup = 8, kMaxCandidates = 256;
 
 }  // namespace
 
-Region::Outcome Region::triangulate(std::span<const uint32_t> simplex, size_t maxCells,
-                                    InsertionProgress& progress) {
+Region::Outcome Region::triangulate(std::span<const uint32_t> simplex, size_t maxCells, InsertionProgress& progress) {
   std::vector<uint32_t> places(end_ - begin_);
   std::iota(places.begin(), places.end(), begin_);
   std::fill(isLocal_.begin() + begin_, isLocal_.begin() + end_, true);
@@ -59,8 +58,7 @@ bool Region::findConflicts(std::vector<uint32_t>& places, InsertionProgress& pro
 }
 
 // The same for some of the suspects, in groups of like place and size. False: stopped.
-bool Region::findConflictsOf(std::span<Suspect> suspects, std::vector<uint32_t>& places,
-                             InsertionProgress& progress) {
+bool Region::findConflictsOf(std::span<Suspect> suspects, std::vector<uint32_t>& places, InsertionProgress& progress) {
   if (!progress.add(0)) return false;
   if (suspects.size() <= kGroup) {
     if (gatherCandidates(suspects)) {
@@ -172,9 +170,7 @@ std::optional<uint32_t> Region::findConflict(CellHandle cell) const {
 std::optional<uint32_t> Region::findInSphere(const PowerForm& sphere) const {
   std::optional<uint32_t> found;
   double limit = 0;
-  const auto bound = [&](const SiteTree::Node& node) {
-    return isOwn(node) ? INFINITY : sphere.lowerOver(node.box);
-  };
+  const auto bound = [&](const SiteTree::Node& node) { return isOwn(node) ? INFINITY : sphere.lowerOver(node.box); };
   tree_.search(limit, bound, [&](uint32_t place) {
     if (isLocal_[place]) return;
     const double lower = boundsAt(sphere, place).lower;

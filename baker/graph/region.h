@@ -22,12 +22,7 @@ class Region {
  public:
   // The region owns places of the tree; `sites` are placed in the tree's order.
   Region(const PlacedSites& sites, const SiteTree& tree, SiteTree::Range own)
-      : sites_(sites),
-        tree_(tree),
-        begin_(own.begin),
-        end_(own.end),
-        isLocal_(sites.order.size()),
-        local_(sites) {}
+      : sites_(sites), tree_(tree), begin_(own.begin), end_(own.end), isLocal_(sites.order.size()), local_(sites) {}
 
   enum class Outcome { kDone, kStopped, kTooLarge };
   // `simplex`: places of four sites that lie in no plane, so that the local triangulation has all dimensions.

@@ -12,15 +12,13 @@ namespace froth {
 namespace {
 
 // Measured, with some reserve. [bytes]
-constexpr uint64_t kBytesPerCell = 800;       // in one piece
-constexpr uint64_t kLocalBytesPerCell = 800;  // of a region and around it
+constexpr uint64_t kBytesPerCell = 800;        // in one piece
+constexpr uint64_t kLocalBytesPerCell = 800;   // of a region and around it
 constexpr uint64_t kSharedBytesPerCell = 150;  // tree and order, rows of all regions and the graph made of them
 // Smaller regions are mostly what lies around them; larger ones leave the caches and gain nothing.
 constexpr uint64_t kMinLocalCells = 1 << 10, kGoodLocalCells = 1 << 13, kMaxLocalCells = 1 << 18;
 
-double megabytes(uint64_t bytes) {
-  return static_cast<double>(bytes) * 1e-6;
-}
+double megabytes(uint64_t bytes) { return static_cast<double>(bytes) * 1e-6; }
 
 // All regions of a scene.
 class Regions {
@@ -53,9 +51,7 @@ std::vector<RowBlock> Regions::triangulate() {
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<uint32_t>(0, 1u << depth, 1),
-        [&](const tbb::blocked_range<uint32_t>& range) {
-          triangulateNode(depth, range.begin(), found[range.begin()]);
-        },
+        [&](const tbb::blocked_range<uint32_t>& range) { triangulateNode(depth, range.begin(), found[range.begin()]); },
         tbb::simple_partitioner());
   });
   std::vector<RowBlock> rows;
@@ -133,10 +129,11 @@ Result<RegularTriangulation> triangulateWithin(uint64_t memoryLimit, std::span<c
   if (memoryLimit == 0 || whole <= memoryLimit) return triangulateRegular(sites, radii, progress);
   const uint64_t shared = kSharedBytesPerCell * sites.size(), least = shared + kMinLocalCells * kLocalBytesPerCell;
   if (memoryLimit < least) {
-    return makeError(ErrorKind::kUsage,
-                     "memory limit of %.1f MB: to triangulate %zu cells takes %.1f MB beside the input, or %.1f MB in one "
-                     "piece, which is faster; raise the limit",
-                     megabytes(memoryLimit), sites.size(), megabytes(std::min(least, whole)), megabytes(whole));
+    return makeError(
+        ErrorKind::kUsage,
+        "memory limit of %.1f MB: to triangulate %zu cells takes %.1f MB beside the input, or %.1f MB in one "
+        "piece, which is faster; raise the limit",
+        megabytes(memoryLimit), sites.size(), megabytes(std::min(least, whole)), megabytes(whole));
   }
   const uint64_t room = (memoryLimit - shared) / kLocalBytesPerCell;  // cells in all regions at work
   const auto cores = static_cast<uint64_t>(tbb::this_task_arena::max_concurrency());

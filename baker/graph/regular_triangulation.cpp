@@ -17,8 +17,8 @@ Status checkFinite(std::span<const glm::vec3> sites, std::span<const float> radi
                        double{p.x}, double{p.y}, double{p.z});
     }
     if (!std::isfinite(radii[i]) || !(radii[i] > 0)) {
-      return makeError(ErrorKind::kBadInput, "cell %zu: radius %g is not a positive number; repair the foam",
-                       i, double{radii[i]});
+      return makeError(ErrorKind::kBadInput, "cell %zu: radius %g is not a positive number; repair the foam", i,
+                       double{radii[i]});
     }
   }
   return {};
@@ -80,8 +80,8 @@ RegularTriangulation assembleRows(const PlacedSites& sites, std::vector<RowBlock
   return result;
 }
 
-Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites,
-                                                std::span<const float> radii, const Progress& progress) {
+Result<RegularTriangulation> triangulateRegular(std::span<const glm::vec3> sites, std::span<const float> radii,
+                                                const Progress& progress) {
   if (Status status = checkFinite(sites, radii); !status) return status.error();
   const Result<std::vector<uint32_t>> order = listDistinct(sites, radii, progress);
   if (!order) return order.error();

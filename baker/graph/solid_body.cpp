@@ -63,7 +63,9 @@ void SolidBody::addCorners(const HalfSpace& plane, const PlaneAxes& axes, double
 
 bool SolidBody::contains(const glm::dvec3& point, uint32_t exceptHalfSpace) const {
   for (uint32_t i = 0; i < halfSpaces_.size(); ++i) {
-    if (i != exceptHalfSpace && glm::dot(halfSpaces_[i].normal, point) > halfSpaces_[i].offset + kTolerance) return false;
+    if (i != exceptHalfSpace && glm::dot(halfSpaces_[i].normal, point) > halfSpaces_[i].offset + kTolerance) {
+      return false;
+    }
   }
   return true;
 }

@@ -19,9 +19,10 @@ class SolidBody {
   // The point of the body that is farthest from `centre`; the origin if the body is empty.
   //
   // The distance from a point is convex, so it is greatest at an extreme point of the body: a corner of the polytope, a
-  // corner where two planes meet the sphere, or a point of the sphere where it is stationary on the sphere or on the circle
-  // in which a plane cuts it. Corners come from polygons clipped on each plane, so they are those of a body that is off by
-  // rounding only (kPolygonSlack), however close to parallel planes are; stationary points are taken with a tolerance.
+  // corner where two planes meet the sphere, or a point of the sphere where it is stationary on the sphere or on the
+  // circle in which a plane cuts it. Corners come from polygons clipped on each plane, so they are those of a body that
+  // is off by rounding only (kPolygonSlack), however close to parallel planes are; stationary points are taken with a
+  // tolerance.
   glm::dvec3 farthestFrom(const glm::dvec3& centre) const;
 
  private:

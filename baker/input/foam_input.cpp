@@ -21,13 +21,12 @@ Result<FoamInput> loadFoamOfAsset(const std::filesystem::path& path, uint32_t la
 
 }  // namespace
 
-bool isAssetPath(const std::filesystem::path& path) {
-  return path.extension() == ".froth";
-}
+bool isAssetPath(const std::filesystem::path& path) { return path.extension() == ".froth"; }
 
 Status checkLayers(const std::filesystem::path& path, uint32_t layers) {
   if (layers == kAllLayers || isAssetPath(path)) return {};
-  return makeError(ErrorKind::kUsage, "--layers %u: %s has no layers; bake it and name the .froth", layers, path.c_str());
+  return makeError(ErrorKind::kUsage, "--layers %u: %s has no layers; bake it and name the .froth", layers,
+                   path.c_str());
 }
 
 Result<FoamInput> loadFoam(const std::filesystem::path& path, const Progress& progress, uint32_t layers) {

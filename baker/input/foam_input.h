@@ -13,7 +13,8 @@ namespace froth {
 
 bool isAssetPath(const std::filesystem::path& path);
 
-// A file that this build cannot read is bad input, whether it is damaged or newer: the same exit code from every command.
+// A file that this build cannot read is bad input, whether it is damaged or newer: the same exit code from every
+// command.
 inline Error asBadInput(Error error) {
   if (error.kind == ErrorKind::kUnsupported) error.kind = ErrorKind::kBadInput;
   return error;
@@ -27,13 +28,13 @@ struct FoamInput {
   float detailSharpness = 10.0f;
 };
 
-// Layers of an asset that are loaded [1..3]: the first shows one colour per cell, the second detail without view dependence.
+// Layers of an asset that are loaded [1..3]: the first shows one colour per cell, the second detail without view
+// dependence.
 inline constexpr uint32_t kAllLayers = 3;
 // A checkpoint has no layers.
 Status checkLayers(const std::filesystem::path& path, uint32_t layers);
 
-Result<FoamInput> loadFoam(const std::filesystem::path& path, const Progress& progress,
-                           uint32_t layers = kAllLayers);
+Result<FoamInput> loadFoam(const std::filesystem::path& path, const Progress& progress, uint32_t layers = kAllLayers);
 
 // An asset for the runtime: a file, or a checkpoint that was baked in memory.
 struct AssetInput {
@@ -42,7 +43,6 @@ struct AssetInput {
   uint32_t layers = kAllLayers;
 };
 
-Result<AssetInput> loadAsset(const std::filesystem::path& path, const Progress& progress,
-                             uint32_t layers = kAllLayers);
+Result<AssetInput> loadAsset(const std::filesystem::path& path, const Progress& progress, uint32_t layers = kAllLayers);
 
 }  // namespace froth

@@ -56,8 +56,7 @@ class BallChoice {
       queue.pop();
       const int64_t saving = savingOf(ball);
       if (saving < kLeastSaving) continue;
-      if (!queue.empty() &&
-          static_cast<double>(saving) < kNearlyBest * static_cast<double>(queue.top().saving)) {
+      if (!queue.empty() && static_cast<double>(saving) < kNearlyBest * static_cast<double>(queue.top().saving)) {
         queue.push({saving, ball});
         continue;
       }
@@ -76,9 +75,7 @@ class BallChoice {
     }
   };
 
-  BallLine line(uint32_t ball, size_t ray) const {
-    return lineOf(balls_[ball].site, balls_[ball].radius, rays_[ray]);
-  }
+  BallLine line(uint32_t ball, size_t ray) const { return lineOf(balls_[ball].site, balls_[ball].radius, rays_[ray]); }
 
   bool isWithinReach(size_t ray, uint32_t ball) const {
     const glm::dvec3 centre = glm::dvec3(balls_[ball].site) - glm::dvec3(rays_[ray].origin),
@@ -90,13 +87,15 @@ class BallChoice {
 
   // From balls by ray to rays by ball.
   void gather(const std::vector<std::vector<uint32_t>>& crossed) {
-    for (const std::vector<uint32_t>& some : crossed)
+    for (const std::vector<uint32_t>& some : crossed) {
       for (const uint32_t ball : some) ++first_[ball + 1];
+    }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     crossings_.resize(first_.back());
     std::vector<size_t> next(first_.begin(), first_.end() - 1);
-    for (uint32_t ray = 0; ray < crossed.size(); ++ray)
+    for (uint32_t ray = 0; ray < crossed.size(); ++ray) {
       for (const uint32_t ball : crossed[ray]) crossings_[next[ball]++] = ray;
+    }
   }
 
   std::span<const uint32_t> crossingsOf(uint32_t ball) const {

@@ -9,8 +9,8 @@ namespace {
 
 constexpr uint32_t kRaysPerFreeRay = 4;  // for other places than those of the cameras
 
-std::vector<WalkRay> makeFreeRays(std::span<const glm::vec3> sites, std::span<const float> radii,
-                                  const SiteTree& tree, const SteinerOptions& options, uint32_t count) {
+std::vector<WalkRay> makeFreeRays(std::span<const glm::vec3> sites, std::span<const float> radii, const SiteTree& tree,
+                                  const SteinerOptions& options, uint32_t count) {
   constexpr float kLeavesBall = 1.01f;
   const CounterRandom eye(options.seed, Purpose::kEye), direction(options.seed, Purpose::kDirection);
   const glm::dvec3 low = tree.bounds().ballLow, size = glm::dvec3(tree.bounds().ballHigh) - low;
@@ -21,8 +21,7 @@ std::vector<WalkRay> makeFreeRays(std::span<const glm::vec3> sites, std::span<co
       const uint64_t cell = eye.bits(3 * i) % sites.size();
       rays[i].origin = sites[cell] + kLeavesBall * radii[cell] * away;
     } else {
-      rays[i].origin =
-          low + size * glm::dvec3(eye.uniform(3 * i), eye.uniform(3 * i + 1), eye.uniform(3 * i + 2));
+      rays[i].origin = low + size * glm::dvec3(eye.uniform(3 * i), eye.uniform(3 * i + 1), eye.uniform(3 * i + 2));
     }
     rays[i].direction = rays[i].forward = away;
   }
@@ -41,8 +40,7 @@ std::vector<WalkRay> makeChoosingRays(std::span<const glm::vec3> sites, std::spa
   if (views.empty()) return makeFreeRays(sites, radii, tree, options, count);
   const uint32_t freeCount = count / kRaysPerFreeRay;
   const auto raysPerView = static_cast<uint32_t>((count - freeCount) / views.size() + 1);
-  std::vector<WalkRay> rays =
-      raysOfViews(views, raysPerView, options.nearRatio, options.nearDepth, options.seed);
+  std::vector<WalkRay> rays = raysOfViews(views, raysPerView, options.nearRatio, options.nearDepth, options.seed);
   const std::vector<WalkRay> free = makeFreeRays(sites, radii, tree, options, freeCount);
   rays.insert(rays.end(), free.begin(), free.end());
   return rays;

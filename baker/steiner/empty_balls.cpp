@@ -37,8 +37,8 @@ constexpr double kTwinDistance = 0.4;  // of a radius
 
 }  // namespace
 
-EmptyBallFinder::EmptyBallFinder(const SiteTree& tree, std::span<const glm::vec3> sites,
-                                 std::span<const float> radii, const SteinerOptions& options)
+EmptyBallFinder::EmptyBallFinder(const SiteTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
+                                 const SteinerOptions& options)
     : tree_(tree), sites_(sites), radii_(radii), options_(options), low_(sites[0]), high_(sites[0]) {
   for (const glm::vec3& site : sites) {
     low_ = glm::min(low_, site);
@@ -87,8 +87,7 @@ void EmptyBallFinder::addBall(const Place& place, std::vector<EmptyBall>& found)
   const NearestSite nearest = tree_.findNearestBall(site, place.nearest.site);
   const double clearance = nearest.value, neighbour = radii_[nearest.site];
   if (!(clearance >= leastClearance_)) return;
-  const double wanted =
-      std::min(kFilling * clearance, std::max(kTouchingRatio * neighbour, kGrading * clearance));
+  const double wanted = std::min(kFilling * clearance, std::max(kTouchingRatio * neighbour, kGrading * clearance));
   const float radius = floorMantissa(static_cast<float>(wanted), options_.radiusBits);
   if (radius >= kLeastRatio * neighbour) found.push_back({site, radius});
 }

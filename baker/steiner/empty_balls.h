@@ -26,8 +26,7 @@ class EmptyBallFinder {
   // Appends balls about random points of some of the ray's empty intervals, moved to where there is more
   // room. `stream`
   // [< 2^32] tells the random numbers of several rays apart.
-  void findAlong(const WalkRay& ray, const RayCells& cells, uint64_t stream,
-                 std::vector<EmptyBall>& found) const;
+  void findAlong(const WalkRay& ray, const RayCells& cells, uint64_t stream, std::vector<EmptyBall>& found) const;
 
  private:
   struct Place {

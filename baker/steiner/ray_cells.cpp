@@ -10,11 +10,9 @@ namespace {
 
 constexpr double kOpaque = 6.9;      // optical depth at which a walk ends
 constexpr double kSolidShare = 0.5;  // of a ball lies behind its face
-constexpr int kWindows = 32;  // of the scene's extent: a ray is followed window by window until it ends
+constexpr int kWindows = 32;         // of the scene's extent: a ray is followed window by window until it ends
 
-double crossing(const BallLine& a, const BallLine& b) {
-  return (b.offset - a.offset) / (2 * (b.slope - a.slope));
-}
+double crossing(const BallLine& a, const BallLine& b) { return (b.offset - a.offset) / (2 * (b.slope - a.slope)); }
 
 // Finds the cells of one ray from nearest balls of points alone: between two cells, either their lines'
 // crossing lies on the envelope, or the cell there parts the search.
@@ -59,13 +57,12 @@ class EnvelopeSearch {
   const WalkRay& ray_;
 };
 
-double opticalDepth(const glm::vec3& site, float radius, float density, const WalkRay& ray, double begin,
-                    double end) {
+double opticalDepth(const glm::vec3& site, float radius, float density, const WalkRay& ray, double begin, double end) {
   const glm::dvec3 centre = glm::dvec3(site) - glm::dvec3(ray.origin);
   double tNear, tFar;
-  if (foam::isNearCell(centre, double{radius}, glm::dvec3(ray.forward), double{ray.nearRatio},
-                       double{ray.nearDepth}))
+  if (foam::isNearCell(centre, double{radius}, glm::dvec3(ray.forward), double{ray.nearRatio}, double{ray.nearDepth})) {
     return 0;
+  }
   if (!foam::intersectBall(centre, double{radius}, glm::dvec3(ray.direction), tNear, tFar)) return 0;
   return kSolidShare * density * std::max(0.0, std::min(tFar, end) - std::max(tNear, begin));
 }
@@ -85,39 +82,39 @@ RayCells::RayCells(const SiteTree& tree, std::span<const glm::vec3> sites, std::
   const double limit = extent + glm::length(glm::dvec3(ray.origin) - 0.5 * (low + high));
   std::vector<EnvelopeSearch::Found> found{search.firstCell()};
   double depth = 0;
-  size_t passed = 0;  // stretches whose end is known and whose density is counted
+  size_t passed = 0;  // pieces whose end is known and whose density is counted
   for (int window = 1; end_ < limit && depth < kOpaque; ++window) {
     end_ = std::min(limit, window * limit / kWindows);
     const EnvelopeSearch::Found last = found.back();
     search.findBetween(last, search.cellAt(end_, last), found);
     for (; passed + 1 < found.size() && depth < kOpaque; ++passed) {
       const uint32_t cell = found[passed].cell;
-      depth += opticalDepth(sites[cell], radii[cell], densities[cell], ray, found[passed].begin,
-                            found[passed + 1].begin);
+      depth +=
+          opticalDepth(sites[cell], radii[cell], densities[cell], ray, found[passed].begin, found[passed + 1].begin);
     }
   }
   if (depth >= kOpaque) {
     end_ = found[passed].begin;
     found.resize(passed);
   }
-  for (const EnvelopeSearch::Found& one : found) stretches_.push_back({one.line, one.begin});
+  for (const EnvelopeSearch::Found& one : found) pieces_.push_back({one.line, one.begin});
 }
 
 RayCells::Cut RayCells::cutOf(const BallLine& ball) const {
-  const int count = static_cast<int>(stretches_.size());
-  const auto isBelow = [&](int i, double t) { return ball.at(t) < stretches_[i].line.at(t); };
+  const int count = static_cast<int>(pieces_.size());
+  const auto isBelow = [&](int i, double t) { return ball.at(t) < pieces_[i].line.at(t); };
   // Envelope minus line is concave: it is largest where the slopes change from smaller to larger ones.
-  const int after = static_cast<int>(
-      std::lower_bound(stretches_.begin(), stretches_.end(), ball.slope,
-                       [](const Stretch& stretch, double slope) { return stretch.line.slope < slope; }) -
-      stretches_.begin());
+  const int after =
+      static_cast<int>(std::lower_bound(pieces_.begin(), pieces_.end(), ball.slope,
+                                        [](const Piece& piece, double slope) { return piece.line.slope < slope; }) -
+                       pieces_.begin());
   Cut cut{after - 1, after, 0, end_};
-  if (!isBelow(std::min(after, count - 1), after < count ? stretches_[after].begin : end_)) return cut;
+  if (!isBelow(std::min(after, count - 1), after < count ? pieces_[after].begin : end_)) return cut;
   cut.isEmpty = false;
-  while (cut.left >= 0 && isBelow(cut.left, stretches_[cut.left].begin)) --cut.left;
+  while (cut.left >= 0 && isBelow(cut.left, pieces_[cut.left].begin)) --cut.left;
   while (cut.right < count && isBelow(cut.right, endOf(cut.right))) ++cut.right;
-  if (cut.left >= 0) cut.begin = crossing(stretches_[cut.left].line, ball);
-  if (cut.right < count) cut.end = crossing(stretches_[cut.right].line, ball);
+  if (cut.left >= 0) cut.begin = crossing(pieces_[cut.left].line, ball);
+  if (cut.right < count) cut.end = crossing(pieces_[cut.right].line, ball);
   return cut;
 }
 
@@ -126,9 +123,9 @@ std::vector<RayCells::Interval> RayCells::emptyIntervals() const {
   const auto add = [&](double begin, double end) {
     if (begin < end) intervals.push_back({begin, end});
   };
-  for (int i = 0; i < static_cast<int>(stretches_.size()); ++i) {
-    const BallLine& line = stretches_[i].line;
-    const double begin = stretches_[i].begin, end = endOf(i);
+  for (int i = 0; i < static_cast<int>(pieces_.size()); ++i) {
+    const BallLine& line = pieces_[i].line;
+    const double begin = pieces_[i].begin, end = endOf(i);
     const double halfChordSquared = line.slope * line.slope - line.offset;
     if (halfChordSquared <= 0) {
       add(begin, end);
@@ -149,13 +146,13 @@ int RayCells::savingOf(const BallLine& ball) const {
 void RayCells::add(const BallLine& ball) {
   const Cut cut = cutOf(ball);
   if (cut.isEmpty) return;
-  std::vector<Stretch> changed(stretches_.begin(), stretches_.begin() + (cut.left + 1));
+  std::vector<Piece> changed(pieces_.begin(), pieces_.begin() + (cut.left + 1));
   changed.push_back({ball, cut.begin});
-  if (cut.right < static_cast<int>(stretches_.size())) {
-    changed.insert(changed.end(), stretches_.begin() + cut.right, stretches_.end());
+  if (cut.right < static_cast<int>(pieces_.size())) {
+    changed.insert(changed.end(), pieces_.begin() + cut.right, pieces_.end());
     changed[cut.left + 2].begin = cut.end;
   }
-  stretches_.swap(changed);
+  pieces_.swap(changed);
 }
 
 }  // namespace froth

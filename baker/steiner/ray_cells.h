@@ -1,6 +1,6 @@
 // The cells along a ray without any triangulation. Less the square of the distance, the power of a cell along
 // a ray is a straight line, and the cells that the ray crosses are the lower envelope of all lines: a new
-// cell cuts one stretch out of it.
+// cell cuts one piece out of it.
 #pragma once
 
 #include <span>
@@ -30,21 +30,19 @@ class RayCells {
   RayCells(const SiteTree& tree, std::span<const glm::vec3> sites, std::span<const float> radii,
            std::span<const float> densities, const WalkRay& ray);
 
-  size_t count() const { return stretches_.size(); }
+  size_t count() const { return pieces_.size(); }
 
-  // Where the ray is in a cell and outside its ball, and thus outside all balls: up to two intervals per
-  // cell.
+  // Where the ray is in a cell and outside its ball, and thus outside all balls: up to two intervals per cell.
   std::vector<Interval> emptyIntervals() const;
 
-  // An empty cell: it never ends a walk. Whether the ray would cross it, how many cells fewer the walk would
-  // then have
+  // An empty cell: it never ends a walk. Whether the ray would cross it, how many cells fewer the walk would then have
   // (-1 at least; 0 if it is not crossed), and its addition.
   bool isCutBy(const BallLine& ball) const { return !cutOf(ball).isEmpty; }
   int savingOf(const BallLine& ball) const;
   void add(const BallLine& ball);
 
  private:
-  struct Stretch {
+  struct Piece {
     BallLine line;
     double begin;
   };
@@ -56,12 +54,12 @@ class RayCells {
     bool isEmpty = true;
   };
 
-  double endOf(int stretch) const {
-    return stretch + 1 < static_cast<int>(stretches_.size()) ? stretches_[stretch + 1].begin : end_;
+  double endOf(int piece) const {
+    return piece + 1 < static_cast<int>(pieces_.size()) ? pieces_[piece + 1].begin : end_;
   }
   Cut cutOf(const BallLine& ball) const;
 
-  std::vector<Stretch> stretches_;  // slopes ascend
+  std::vector<Piece> pieces_;  // slopes ascend
   double end_ = 0;
 };
 

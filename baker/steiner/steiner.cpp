@@ -53,8 +53,7 @@ Result<SteinerCells> placeSteinerCells(std::span<const glm::vec3> sites, std::sp
   if (steps.isStopped()) return stopped;
   cells.walkLengthBefore = meanLength(walks);
   // 2. Balls that fit where the rays are in empty space.
-  const std::vector<EmptyBall> balls =
-      findBalls(EmptyBallFinder(tree, sites, radii, options), rays, walks, steps);
+  const std::vector<EmptyBall> balls = findBalls(EmptyBallFinder(tree, sites, radii, options), rays, walks, steps);
   if (steps.isStopped()) return stopped;
   // 3. Those that make walks shorter.
   for (const EmptyBall& ball : chooseBalls(balls, rays, walks, steps)) {

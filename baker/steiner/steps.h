@@ -23,8 +23,9 @@ class Steps {
   // Calls body(i) for all i < count on all cores, in slabs with a report before each.
   template <class Body>
   void forAll(size_t count, const Body& body) {
-    for (size_t slab = 0; slab < kPerLoop && advance(); ++slab)
+    for (size_t slab = 0; slab < kPerLoop && advance(); ++slab) {
       tbb::parallel_for(count * slab / kPerLoop, count * (slab + 1) / kPerLoop, body);
+    }
   }
 
   // One step of a loop that is not forAll's.

@@ -123,14 +123,13 @@ std::vector<glm::vec4> meanFaces(const Foam& foam) {
   for (size_t i = 0; i < faces.size(); ++i) {
     float sum = 0;
     for (size_t k = i * foam.detailCount; k < (i + 1) * foam.detailCount; ++k) sum += foam.detailHeights[k];
-    faces[i] = glm::vec4(faceFrame<float>(foam.orientations[i]).normal,
-                         foam.radii[i] * sum / float(foam.detailCount));
+    faces[i] = glm::vec4(faceFrame<float>(foam.orientations[i]).normal, foam.radii[i] * sum / float(foam.detailCount));
   }
   return faces;
 }
 
-std::vector<WalkRay> raysOfViews(std::span<const View> views, uint32_t raysPerView, double nearRatio,
-                                 double nearDepth, uint64_t seed) {
+std::vector<WalkRay> raysOfViews(std::span<const View> views, uint32_t raysPerView, double nearRatio, double nearDepth,
+                                 uint64_t seed) {
   std::vector<WalkRay> rays;
   uint64_t draws = 0;
   const CounterRandom random(seed, Purpose::kSubpixel);
@@ -161,11 +160,9 @@ WalkLength measureWalkLength(const WalkCells& cells, const CellGraph& graph, std
   const Walker walker(cells, graph);
   std::vector<WalkLength> lengths((rays.size() + kRaysPerBlock - 1) / kRaysPerBlock);
   tbb::parallel_for(size_t{0}, lengths.size(), [&](size_t block) {
-    const auto own =
-        rays.subspan(block * kRaysPerBlock, std::min(kRaysPerBlock, rays.size() - block * kRaysPerBlock));
+    const auto own = rays.subspan(block * kRaysPerBlock, std::min(kRaysPerBlock, rays.size() - block * kRaysPerBlock));
     std::vector<uint32_t> starts;
-    for (const WalkRay& ray : own)
-      starts.push_back(walker.locate(ray.origin, starts.empty() ? first : starts.back()));
+    for (const WalkRay& ray : own) starts.push_back(walker.locate(ray.origin, starts.empty() ? first : starts.back()));
     WalkLength length;
     const double begin = threadSeconds();
     for (size_t i = 0; i < own.size(); ++i) walker.walk(own[i], starts[i], length);

@@ -20,8 +20,7 @@ struct WalkCells {
   std::span<const glm::vec3> sites;  // [scene units]
   std::span<const float> radii;      // [scene units, > 0]
   std::span<const float> densities;  // [1 / scene unit, >= 0]
-  std::span<const glm::vec4>
-      faces;  // face normal and its mean height [scene units]; empty: all of a ball is solid
+  std::span<const glm::vec4> faces;  // face normal and its mean height [scene units]; empty: all of a ball is solid
 };
 
 // The faces of a foam's cells: normals, and displacement as the mean of a cell's detail heights.
@@ -36,8 +35,8 @@ struct WalkRay {
 
 // Rays through the pixels of views on a grid of about `raysPerView` cells, jittered by `seed`; view after
 // view in blocks that lie close together. A view's own near limits win over the given ones.
-std::vector<WalkRay> raysOfViews(std::span<const View> views, uint32_t raysPerView, double nearRatio,
-                                 double nearDepth, uint64_t seed);
+std::vector<WalkRay> raysOfViews(std::span<const View> views, uint32_t raysPerView, double nearRatio, double nearDepth,
+                                 uint64_t seed);
 
 struct WalkLength {
   uint64_t rays = 0;

@@ -38,8 +38,7 @@ double marchRelief(const Solid& solid, const Ray& ray, double start) {
 }
 
 // Whether a sphere stays clear of the segment from `origin` of `length` along `direction`.
-bool missesSphere(const dvec3& centre, double radius, const dvec3& origin, const dvec3& direction,
-                  double length) {
+bool missesSphere(const dvec3& centre, double radius, const dvec3& origin, const dvec3& direction, double length) {
   const dvec3 toCentre = centre - origin;
   const double along = std::clamp(glm::dot(toCentre, direction), 0.0, length);
   const dvec3 apart = toCentre - along * direction;
@@ -50,8 +49,7 @@ bool missesSphere(const dvec3& centre, double radius, const dvec3& origin, const
 
 AnalyticScene::AnalyticScene(std::vector<Solid> solids, const Extent& room, const Extent& opening)
     : solids_(std::move(solids)), room_(room), opening_(opening) {
-  for (const Solid& solid : solids_)
-    bounds_.push_back({solid.shape->centre(), solid.shape->boundingRadius()});
+  for (const Solid& solid : solids_) bounds_.push_back({solid.shape->centre(), solid.shape->boundingRadius()});
 }
 
 std::optional<SceneHit> AnalyticScene::intersect(const Ray& ray) const {
@@ -59,8 +57,7 @@ std::optional<SceneHit> AnalyticScene::intersect(const Ray& ray) const {
   for (size_t i = 0; i < solids_.size(); ++i) {
     const Solid& solid = solids_[i];
     const double bound = solid.material.reliefBound;
-    if (missesSphere(bounds_[i].centre, bounds_[i].radius + bound, ray.origin, ray.direction, hit.distance))
-      continue;
+    if (missesSphere(bounds_[i].centre, bounds_[i].radius + bound, ray.origin, ray.direction, hit.distance)) continue;
     if (bounds_[i].radius == kNoHit) {
       const double wall = solid.shape->intersect(ray, 0);
       if (wall != kNoHit && opening_.contains(ray.origin + wall * ray.direction)) continue;
@@ -82,8 +79,7 @@ double AnalyticScene::softVisibility(const dvec3& from, const dvec3& to, double 
   for (size_t i = 0; i < solids_.size(); ++i) {
     const Solid& solid = solids_[i];
     if (!solid.castsShadows) continue;
-    if (missesSphere(bounds_[i].centre, bounds_[i].radius + softness * length, from, direction, length))
-      continue;
+    if (missesSphere(bounds_[i].centre, bounds_[i].radius + softness * length, from, direction, length)) continue;
     double narrowest = 1;
     double t = 0.01;
     for (int step = 0; step < kMaxSteps && t < length; ++step) {
@@ -130,8 +126,7 @@ double AnalyticScene::clearance(const dvec3& x, double reach) const {
 }
 
 double heightAlongNormal(const Solid& solid, const dvec3& origin, const dvec3& normal) {
-  constexpr int kIterations =
-      5;  // the normals differ little over one cell, so each divides the error by ten or more
+  constexpr int kIterations = 5;  // the normals differ little over one cell, so each divides the error by ten or more
   double height = 0;
   for (int i = 0; i < kIterations; ++i) {
     const dvec3 x = origin + height * normal;
@@ -142,8 +137,7 @@ double heightAlongNormal(const Solid& solid, const dvec3& origin, const dvec3& n
 
 dvec3 embossedNormal(const Solid& solid, const SurfacePoint& point) {
   if (!solid.material.relief) return point.normal;
-  constexpr double kStep =
-      1.5e-3;  // [scene units] half a groove's rim: resolves every slope, smooths none away
+  constexpr double kStep = 1.5e-3;  // [scene units] half a groove's rim: resolves every slope, smooths none away
   const dvec3 bitangent = glm::cross(point.normal, point.tangent);
   const auto slope = [&](const dvec3& along) {
     const double ahead = solid.material.relief(solid.shape->nearest(point.position + kStep * along));

@@ -31,11 +31,7 @@ dmat3 frameAround(const dvec3& z) {
 }
 
 Box::Box(const dvec3& centre, const dvec3& halfExtent, Empty empty, uint32_t faces, const dmat3& axes)
-    : centre_(centre),
-      halfExtent_(halfExtent),
-      side_(empty == Empty::kOutside ? 1 : -1),
-      faces_(faces),
-      axes_(axes) {}
+    : centre_(centre), halfExtent_(halfExtent), side_(empty == Empty::kOutside ? 1 : -1), faces_(faces), axes_(axes) {}
 
 double Box::distance(const dvec3& x) const {
   const dvec3 beyond = glm::abs((x - centre_) * axes_) - halfExtent_;
@@ -91,13 +87,9 @@ double Box::intersect(const Ray& ray, double swell) const {
   return faces_ >> leaveFace & 1 ? leave : kNoHit;
 }
 
-double Box::boundingRadius() const {
-  return side_ > 0 ? glm::length(halfExtent_) : kNoHit;
-}
+double Box::boundingRadius() const { return side_ > 0 ? glm::length(halfExtent_) : kNoHit; }
 
-double Sphere::distance(const dvec3& x) const {
-  return glm::length(x - centre_) - radius_;
-}
+double Sphere::distance(const dvec3& x) const { return glm::length(x - centre_) - radius_; }
 
 SurfacePoint Sphere::nearest(const dvec3& x) const {
   const dvec3 normal = glm::normalize(x - centre_);
@@ -111,9 +103,7 @@ double Sphere::intersect(const Ray& ray, double swell) const {
 Backdrop::Backdrop(const dvec3& centre, double radius, const dvec3& axis, double halfAngle)
     : centre_(centre), axis_(axis), radius_(radius), cosHalfAngle_(std::cos(halfAngle)) {}
 
-double Backdrop::distance(const dvec3& x) const {
-  return radius_ - glm::length(x - centre_);
-}
+double Backdrop::distance(const dvec3& x) const { return radius_ - glm::length(x - centre_); }
 
 SurfacePoint Backdrop::nearest(const dvec3& x) const {
   const dvec3 outwards = glm::normalize(x - centre_);
@@ -147,9 +137,7 @@ SurfacePoint Torus::pointAt(const dvec3& local) const {
   return point;
 }
 
-SurfacePoint Torus::nearest(const dvec3& x) const {
-  return pointAt((x - centre_) * axes_);
-}
+SurfacePoint Torus::nearest(const dvec3& x) const { return pointAt((x - centre_) * axes_); }
 
 // Sphere tracing: the distance is exact, so steps of its full length never overshoot.
 double Torus::intersect(const Ray& ray, double swell) const {
@@ -215,8 +203,6 @@ double Cylinder::intersect(const Ray& ray, double swell) const {
   return enter < leave && enter > 0 ? enter : kNoHit;
 }
 
-double Cylinder::boundingRadius() const {
-  return std::hypot(radius_, 0.5 * height_);
-}
+double Cylinder::boundingRadius() const { return std::hypot(radius_, 0.5 * height_); }
 
 }  // namespace froth

@@ -46,8 +46,7 @@ class Shape {
   virtual double intersect(const Ray& ray, double swell) const = 0;
 
   // Appends sites about `spacing` apart.
-  virtual void placeSites(double spacing, const CounterRandom& random,
-                          std::vector<SurfaceSite>& sites) const = 0;
+  virtual void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const = 0;
 
   // Radius around centre() that holds the solid; kNoHit for shapes turned inside out.
   virtual double boundingRadius() const = 0;
@@ -63,14 +62,13 @@ class Box final : public Shape {
 
   // `faces`: bit 2 * axis + (1 on the positive side). A face left out gets no sites; if the box is empty
   // inside, rays leave through it.
-  Box(const glm::dvec3& centre, const glm::dvec3& halfExtent, Empty empty = Empty::kOutside,
-      uint32_t faces = kAllFaces, const glm::dmat3& axes = glm::dmat3(1));
+  Box(const glm::dvec3& centre, const glm::dvec3& halfExtent, Empty empty = Empty::kOutside, uint32_t faces = kAllFaces,
+      const glm::dmat3& axes = glm::dmat3(1));
 
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;
   double intersect(const Ray& ray, double swell) const override;
-  void placeSites(double spacing, const CounterRandom& random,
-                  std::vector<SurfaceSite>& sites) const override;
+  void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const override;
   double boundingRadius() const override;
   glm::dvec3 centre() const override { return centre_; }
 
@@ -90,8 +88,7 @@ class Sphere final : public Shape {
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;
   double intersect(const Ray& ray, double swell) const override;
-  void placeSites(double spacing, const CounterRandom& random,
-                  std::vector<SurfaceSite>& sites) const override;
+  void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const override;
   double boundingRadius() const override { return radius_; }
   glm::dvec3 centre() const override { return centre_; }
 
@@ -108,8 +105,7 @@ class Backdrop final : public Shape {
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;
   double intersect(const Ray& ray, double swell) const override;
-  void placeSites(double spacing, const CounterRandom& random,
-                  std::vector<SurfaceSite>& sites) const override;
+  void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const override;
   double boundingRadius() const override { return kNoHit; }
   glm::dvec3 centre() const override { return centre_; }
 
@@ -126,8 +122,7 @@ class Torus final : public Shape {
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;
   double intersect(const Ray& ray, double swell) const override;
-  void placeSites(double spacing, const CounterRandom& random,
-                  std::vector<SurfaceSite>& sites) const override;
+  void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const override;
   double boundingRadius() const override { return major_ + minor_; }
   glm::dvec3 centre() const override { return centre_; }
 
@@ -142,14 +137,12 @@ class Torus final : public Shape {
 // An upright cylinder standing on z = base.z; its foot gets no sites.
 class Cylinder final : public Shape {
  public:
-  Cylinder(const glm::dvec3& base, double radius, double height)
-      : base_(base), radius_(radius), height_(height) {}
+  Cylinder(const glm::dvec3& base, double radius, double height) : base_(base), radius_(radius), height_(height) {}
 
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;
   double intersect(const Ray& ray, double swell) const override;
-  void placeSites(double spacing, const CounterRandom& random,
-                  std::vector<SurfaceSite>& sites) const override;
+  void placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const override;
   double boundingRadius() const override;
   glm::dvec3 centre() const override { return base_ + glm::dvec3(0, 0, 0.5 * height_); }
 

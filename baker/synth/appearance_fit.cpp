@@ -93,15 +93,16 @@ FacePatch spreadDetails(std::span<const dvec3> cuts, uint32_t detailCount) {
   static const std::vector<dvec2> disc = sampleDisc();
   FacePatch patch;
   for (const dvec2& x : disc) {
-    const bool own = std::all_of(cuts.begin(), cuts.end(),
-                                 [&](const dvec3& cut) { return cut.x * x.x + cut.y * x.y <= cut.z; });
+    const bool own =
+        std::all_of(cuts.begin(), cuts.end(), [&](const dvec3& cut) { return cut.x * x.x + cut.y * x.y <= cut.z; });
     if (own) patch.samples.push_back(x);
   }
   if (patch.samples.size() < detailCount) patch.samples = disc;  // a sliver, seen by no one: anything will do
 
   // k-means, from samples at even strides of the spiral.
-  for (size_t k = 0; k < detailCount; ++k)
+  for (size_t k = 0; k < detailCount; ++k) {
     patch.details.push_back(patch.samples[(2 * k + 1) * patch.samples.size() / (2 * detailCount)]);
+  }
   patch.nearestDetail.resize(patch.samples.size());
   for (int round = 0; round < kSpreadRounds; ++round) {
     std::vector<dvec3> sums(detailCount, dvec3(0));
@@ -110,14 +111,14 @@ FacePatch spreadDetails(std::span<const dvec3> cuts, uint32_t detailCount) {
       sums[patch.nearestDetail[s]] += dvec3(patch.samples[s], 1);
     }
     if (round + 1 == kSpreadRounds) break;
-    for (size_t k = 0; k < detailCount; ++k)
+    for (size_t k = 0; k < detailCount; ++k) {
       if (sums[k].z > 0) patch.details[k] = dvec2(sums[k]) / sums[k].z;
+    }
   }
   return patch;
 }
 
-std::vector<dvec4> fitDetailValues(const FacePatch& patch, std::span<const dvec4> sampleValues,
-                                   double sharpness) {
+std::vector<dvec4> fitDetailValues(const FacePatch& patch, std::span<const dvec4> sampleValues, double sharpness) {
   // Held towards the plain means by a weight that only tames what the samples leave undetermined.
   constexpr double kRidge = 0.02;
   const size_t n = patch.details.size();
@@ -136,8 +137,7 @@ std::vector<dvec4> fitDetailValues(const FacePatch& patch, std::span<const dvec4
   for (size_t s = 0; s < sampleValues.size(); ++s) {
     const dvec2& x = patch.samples[s];
     dvec4 residual = sampleValues[s];
-    for (size_t k = 0; k < n; ++k)
-      basis[k] = foam::detailWeight(dvec3(x, 0), patch.details[k], sharpness);
+    for (size_t k = 0; k < n; ++k) basis[k] = foam::detailWeight(dvec3(x, 0), patch.details[k], sharpness);
     normalizeWeights(basis);
     for (size_t k = 0; k < n; ++k) residual -= basis[k] * values[k];
     addObservation(basis, 1.0, residual, a, correction);
@@ -166,26 +166,28 @@ std::vector<dvec3> chooseLobeAxes(std::span<const SeenColour> seen, uint32_t lob
     std::vector<dvec3> sums(lobeCount, dvec3(0));
     for (const SeenColour& s : seen) {
       size_t nearest = 0;
-      for (size_t m = 1; m < lobeCount; ++m)
+      for (size_t m = 1; m < lobeCount; ++m) {
         if (glm::dot(axes[m], s.direction) > glm::dot(axes[nearest], s.direction)) nearest = m;
+      }
       sums[nearest] += s.weight * (glm::length(s.colour - mean) + evenly) * s.direction;
     }
-    for (size_t m = 0; m < lobeCount; ++m)
+    for (size_t m = 0; m < lobeCount; ++m) {
       if (sums[m] != dvec3(0)) axes[m] = glm::normalize(sums[m]);
+    }
   }
   std::vector<dvec3> heated(lobeCount);
   for (size_t m = 0; m < lobeCount; ++m) {
     double gap = 2;
-    for (size_t other = 0; other < lobeCount; ++other)
+    for (size_t other = 0; other < lobeCount; ++other) {
       if (other != m) gap = std::min(gap, glm::length(axes[m] - axes[other]));
+    }
     heated[m] = std::clamp(kHeat / std::max(gap, 1e-6), kColdest, kHottest) * axes[m];
   }
   return heated;
 }
 
 std::vector<dvec3> fitLobeColours(std::span<const dvec3> axes, std::span<const SeenColour> seen) {
-  constexpr double kRidge =
-      1e-6;  // of the total weight: lobes that no direction tells apart share their colour
+  constexpr double kRidge = 1e-6;  // of the total weight: lobes that no direction tells apart share their colour
   const size_t n = axes.size();
   const dvec3 mean = meanColour(seen);
   double total = 0;

@@ -32,9 +32,7 @@ struct PlacedSites {
   std::vector<uint32_t> solids;  // [sites] index into the scene's solids
 };
 
-bool isWall(const Solid& solid) {
-  return solid.shape->boundingRadius() == kNoHit;
-}
+bool isWall(const Solid& solid) { return solid.shape->boundingRadius() == kNoHit; }
 
 // Where a solid stands on a floor or hangs on a wall, the wall gets a mirror image q' of each of the solid's
 // lowest sites q, so that their radical plane bisects the corner. Otherwise cells of the one reach past it
@@ -54,8 +52,9 @@ void addSeam(const Solid& wall, const std::vector<SurfaceSite>& sites, std::vect
     const double reach = wall.shape->intersect({q.position, -foot.normal}, 0);
     if (std::abs(reach - height) > kTolerance) continue;  // that face belongs to another solid
     const SurfacePoint mirrored = wall.shape->nearest(q.position + height * (q.normal - foot.normal));
-    if (!galleryScene().isCovered(mirrored.position, mirrored.normal, wall, 0.5 * height))
+    if (!galleryScene().isCovered(mirrored.position, mirrored.normal, wall, 0.5 * height)) {
       wallSites.push_back({mirrored.position, mirrored.normal, mirrored.tangent, q.radius});
+    }
   }
 }
 
@@ -72,8 +71,9 @@ PlacedSites placeAllSites(double spacing, uint64_t seed) {
   });
   for (size_t wall = 0; wall < solids.size(); ++wall) {
     if (!isWall(solids[wall])) continue;
-    for (size_t s = 0; s < solids.size(); ++s)
+    for (size_t s = 0; s < solids.size(); ++s) {
       if (!isWall(solids[s])) addSeam(solids[wall], perSolid[s], perSolid[wall]);
+    }
   }
   PlacedSites placed;
   for (size_t s = 0; s < solids.size(); ++s) {
@@ -97,8 +97,8 @@ PlacedSites placeAtMost(uint32_t cellCount, uint64_t seed) {
     (ratio <= 1 ? fitting : failing) = spacing;
     if (ratio <= 1 && placed.sites.size() > best.sites.size()) best = std::move(placed);
     const double guess = spacing * std::sqrt(ratio);
-    spacing = fitting > 0 && failing > 0 ? std::sqrt(fitting * failing)
-                                         : (ratio <= 1 ? guess / kBeyond : guess * kBeyond);
+    spacing =
+        fitting > 0 && failing > 0 ? std::sqrt(fitting * failing) : (ratio <= 1 ? guess / kBeyond : guess * kBeyond);
   }
   return best;
 }
@@ -129,9 +129,10 @@ std::vector<dvec3> sampleEyes() {
   constexpr int kEyes = 48;
   const CounterRandom random(0, Purpose::kEye);
   std::vector<dvec3> eyes;
-  for (uint64_t i = 0; i < kEyes; ++i)
+  for (uint64_t i = 0; i < kEyes; ++i) {
     eyes.emplace_back(random.uniform(3 * i, 2.0, 6.4), random.uniform(3 * i + 1, 1.8, 4.4),
                       random.uniform(3 * i + 2, 1.0, 2.1));
+  }
   return eyes;
 }
 
@@ -142,8 +143,7 @@ std::vector<SeenColour> lookAtPoint(const LitPoint& point) {
   const CounterRandom random(0, Purpose::kDirection);
   std::vector<SeenColour> seen;
   const auto add = [&](const dvec3& direction, double weight) {
-    if (glm::dot(direction, point.normal) < -0.05)
-      seen.push_back({direction, displayColour(point, direction), weight});
+    if (glm::dot(direction, point.normal) < -0.05) seen.push_back({direction, displayColour(point, direction), weight});
   };
   for (const dvec3& eye : eyes) add(glm::normalize(point.position - eye), 1);
   for (uint64_t i = 0; i < kElsewhere; ++i) {
@@ -204,8 +204,7 @@ class CellFitter {
       foam_.detailSites[detail] = patch.details[k];
       foam_.detailHeights[detail] = static_cast<float>(std::clamp(values[k].w, -kMaxHeight, kMaxHeight));
       const size_t firstLobe = detail * foam_.lobeCount;
-      writeLobes(point, plain, dvec3(values[k]) - plain,
-                 std::span(foam_.lobeAxes).subspan(firstLobe, foam_.lobeCount),
+      writeLobes(point, plain, dvec3(values[k]) - plain, std::span(foam_.lobeAxes).subspan(firstLobe, foam_.lobeCount),
                  std::span(foam_.lobeColours).subspan(firstLobe, foam_.lobeCount));
     }
   }
@@ -220,8 +219,7 @@ class CellFitter {
       const uint32_t other = pairs_.neighbours[k];
       const dvec3 toOther = dvec3(foam_.sites[other]) - dvec3(foam_.sites[cell]);
       const double offset = foam::radicalOffset(toOther, radius, static_cast<double>(foam_.radii[other]));
-      cuts.emplace_back(glm::dot(toOther, frame.tangent), glm::dot(toOther, frame.bitangent),
-                        offset / radius);
+      cuts.emplace_back(glm::dot(toOther, frame.tangent), glm::dot(toOther, frame.bitangent), offset / radius);
     }
     return cuts;
   }
@@ -235,20 +233,20 @@ class CellFitter {
 
 Result<Foam> synthesizeGallery(const GallerySize& size, uint64_t seed, const Progress& progress) {
   const PlacedSites placed = placeAtMost(size.cells, seed);
-  if (placed.sites.empty())
+  if (placed.sites.empty()) {
     return makeError(ErrorKind::kUsage,
-                     "gallery: %u cells do not cover its thin parts; ask for more (the default is 200000)",
-                     size.cells);
+                     "gallery: %u cells do not cover its thin parts; ask for more (the default is 200000)", size.cells);
+  }
   Foam foam = makeCells(placed, size.detailSites, size.lobes);
   const CellGraph pairs = findCechPairs(foam.sites, foam.radii);
   CellFitter fitter(foam, placed.solids, pairs);
   constexpr uint32_t kReports = 100;
   const uint32_t step = foam.cellCount / kReports + 1;
   for (uint32_t begin = 0; begin < foam.cellCount; begin += step) {
-    if (!report(progress, "fitting cells", begin, foam.cellCount))
+    if (!report(progress, "fitting cells", begin, foam.cellCount)) {
       return makeError(ErrorKind::kCancelled, "synthesis of the gallery was stopped");
-    tbb::parallel_for(begin, std::min(begin + step, foam.cellCount),
-                      [&](uint32_t cell) { fitter.fit(cell); });
+    }
+    tbb::parallel_for(begin, std::min(begin + step, foam.cellCount), [&](uint32_t cell) { fitter.fit(cell); });
   }
   return foam;
 }

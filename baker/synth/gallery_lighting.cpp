@@ -22,8 +22,7 @@ constexpr dvec3 kSunLight{6.6, 5.3, 3.5};
 constexpr dvec3 kSkyLight{2.9, 3.2, 3.6};
 constexpr dvec3 kSpotLight{2.6, 2.1, 1.45};
 constexpr dvec3 kSunPatch{2.75, 3.9, 0.02};  // middle of the sunlit floor
-constexpr dvec3 kWindowMiddle{-kWallDepth, 0.5 * (kWindowLow.x + kWindowHigh.x),
-                              0.5 * (kWindowLow.y + kWindowHigh.y)};
+constexpr dvec3 kWindowMiddle{-kWallDepth, 0.5 * (kWindowLow.x + kWindowHigh.x), 0.5 * (kWindowLow.y + kWindowHigh.y)};
 
 struct Spot {
   dvec3 position, target;
@@ -42,10 +41,8 @@ double glazing(const dvec2& p, double blur) {
   // Wider blurs than the bars wash them out.
   const double bar = 0.5 * kWindowBar;
   const double depth = std::min(1.0, kWindowBar / blur);
-  share *=
-      1 - depth * (1 - smoothRamp(bar - 0.5 * blur, bar + 0.5 * blur, distanceToMultiple(place.x, pitch.x)));
-  share *=
-      1 - depth * (1 - smoothRamp(bar - 0.5 * blur, bar + 0.5 * blur, distanceToMultiple(place.y, pitch.y)));
+  share *= 1 - depth * (1 - smoothRamp(bar - 0.5 * blur, bar + 0.5 * blur, distanceToMultiple(place.x, pitch.x)));
+  share *= 1 - depth * (1 - smoothRamp(bar - 0.5 * blur, bar + 0.5 * blur, distanceToMultiple(place.y, pitch.y)));
   return share;
 }
 
@@ -75,8 +72,9 @@ double ambientOcclusion(const dvec3& x, const dvec3& normal) {
   constexpr double kReaches[] = {0.05, 0.14, 0.36, 0.8};
   constexpr double kStrength = 0.19;
   double open = 1;
-  for (const double reach : kReaches)
+  for (const double reach : kReaches) {
     open -= kStrength * (1 - std::max(galleryScene().clearance(x + reach * normal, reach), 0.0) / reach);
+  }
   return std::max(open, 0.0);
 }
 
@@ -125,8 +123,7 @@ dvec3 irradiance(const dvec3& x, const dvec3& normal) {
   const double occlusion = ambientOcclusion(x, normal);
   const double form = windowFormFactor(x, normal);
   const double lit =
-      form > 1e-4 ? galleryScene().softVisibility(x + 0.01 * normal, kWindowMiddle + dvec3(0.05, 0, 0), 0.25)
-                  : 0.0;
+      form > 1e-4 ? galleryScene().softVisibility(x + 0.01 * normal, kWindowMiddle + dvec3(0.05, 0, 0), 0.25) : 0.0;
   return occlusion * (ambient + bounceIrradiance(x, normal) + spotIrradiance(x, normal)) +
          (0.4 + 0.6 * occlusion) * lit * form * kSkyLight + sunIrradiance(x, normal);
 }
@@ -141,8 +138,7 @@ dvec3 blurredRoom(const dvec3& x, const dvec3& direction, double blur) {
     const double away = x.x / -direction.x;
     const dvec3 crossing = x + away * direction;
     const double share = glazing({crossing.y, crossing.z}, std::max(0.05, blur * away * 2));
-    light = mix(light, mix(dvec3(0.9, 1.0, 0.95), dvec3(2.6, 2.8, 3.0), smoothRamp(-0.15, 0.25, direction.z)),
-                share);
+    light = mix(light, mix(dvec3(0.9, 1.0, 0.95), dvec3(2.6, 2.8, 3.0), smoothRamp(-0.15, 0.25, direction.z)), share);
   }
   if (direction.z < -0.02 && x.z > 0.05) {
     const double away = x.z / -direction.z;
@@ -157,8 +153,7 @@ dvec3 displayFromRadiance(const dvec3& radiance) {
   const dvec3 x = radiance * 0.95;
   const dvec3 filmic = (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14);
   const dvec3 clamped = glm::clamp(filmic, dvec3(0), dvec3(1));
-  return {foam::displayFromLinear(clamped.x), foam::displayFromLinear(clamped.y),
-          foam::displayFromLinear(clamped.z)};
+  return {foam::displayFromLinear(clamped.x), foam::displayFromLinear(clamped.y), foam::displayFromLinear(clamped.z)};
 }
 
 }  // namespace
@@ -176,11 +171,9 @@ dvec3 displayColour(const LitPoint& point, const dvec3& direction) {
   const double facing = std::max(-dot(point.normal, direction), 0.0);
   const double grazing = std::pow(1 - facing, 4);
   // A rough surface never becomes a full mirror at grazing angles.
-  const dvec3 fresnel =
-      point.reflectance + (1 - 2 * point.roughness) * 0.4 * grazing * (dvec3(1) - point.reflectance);
+  const dvec3 fresnel = point.reflectance + (1 - 2 * point.roughness) * 0.4 * grazing * (dvec3(1) - point.reflectance);
   const dvec3 mirrored = glm::reflect(direction, point.normal);
-  return displayFromRadiance(point.radiance +
-                             fresnel * blurredRoom(point.position, mirrored, point.roughness));
+  return displayFromRadiance(point.radiance + fresnel * blurredRoom(point.position, mirrored, point.roughness));
 }
 
 }  // namespace froth

@@ -19,9 +19,7 @@ constexpr double kJointDepth = 0.0025;  // [m]
 constexpr double kPanellingTop = 0.95;
 constexpr double kRailTop = 1.03;
 
-dvec2 tilePlane(const dvec3& x) {
-  return dvec2(x.x + x.y, x.x - x.y) * (std::sqrt(0.5) / kTile);
-}
+dvec2 tilePlane(const dvec3& x) { return dvec2(x.x + x.y, x.x - x.y) * (std::sqrt(0.5) / kTile); }
 
 // Distance to the nearest joint between floor tiles [m].
 double jointDistance(const dvec3& x) {
@@ -90,8 +88,7 @@ Texel floorTexture(const SurfacePoint& point) {
   const double edge = std::min({x.x, x.y, kRoomSize.x - x.x, kRoomSize.y - x.y});
   Texel texel;
   const dvec3 cream = mix(dvec3(0.60, 0.52, 0.40), dvec3(0.38, 0.27, 0.17), 0.8 * marbleVeins(place, 7, 31));
-  const dvec3 slate =
-      mix(dvec3(0.075, 0.10, 0.105), dvec3(0.34, 0.37, 0.35), 0.7 * marbleVeins(place, 9, 41));
+  const dvec3 slate = mix(dvec3(0.075, 0.10, 0.105), dvec3(0.34, 0.37, 0.35), 0.7 * marbleVeins(place, 9, 41));
   texel.albedo = ((i + j) % 2 == 0 ? cream : slate) * (0.88 + 0.24 * latticeHash(i, j, 3));
   const double border = smoothInterval(0.34, 0.46, 0.02, edge);
   texel.albedo = mix(texel.albedo, dvec3(0.26, 0.09, 0.05), border);
@@ -115,20 +112,17 @@ double cofferInset(const dvec3& x) {
 dvec3 landscape(double azimuth, double elevation) {
   constexpr double kEdge = 0.005;  // softness of silhouettes
   const auto below = [&](double crest) { return smoothRamp(-kEdge, kEdge, crest - elevation); };
-  const auto ridge = [&](double frequency, uint32_t seed) {
-    return fractalNoise({azimuth * frequency, 0.5}, 4, seed);
-  };
+  const auto ridge = [&](double frequency, uint32_t seed) { return fractalNoise({azimuth * frequency, 0.5}, 4, seed); };
 
   const double cover = fractalNoise(dvec2(azimuth * 3.5, elevation * 11.0), 4, 70);
   dvec3 colour = mix(dvec3(0.80, 0.70, 0.56), dvec3(0.10, 0.27, 0.60), smoothRamp(-0.02, 0.30, elevation));
-  colour = mix(colour, dvec3(1.05, 0.98, 0.90),
-               0.9 * smoothRamp(-0.05, 0.35, cover) * smoothRamp(0.05, 0.14, elevation));
+  colour =
+      mix(colour, dvec3(1.05, 0.98, 0.90), 0.9 * smoothRamp(-0.05, 0.35, cover) * smoothRamp(0.05, 0.14, elevation));
 
   const double peaks = 0.085 + 0.06 * ridge(3.0, 80);
   const double snow = smoothRamp(-0.012, 0.012, elevation - peaks + 0.03 - 0.02 * ridge(17.0, 81));
   const double crags = fractalNoise(dvec2(azimuth * 26.0 + elevation * 14.0, elevation * 20.0), 2, 82);
-  colour = mix(colour, mix(dvec3(0.20, 0.26, 0.38) * (1 + 0.35 * crags), dvec3(0.82, 0.84, 0.88), snow),
-               below(peaks));
+  colour = mix(colour, mix(dvec3(0.20, 0.26, 0.38) * (1 + 0.35 * crags), dvec3(0.82, 0.84, 0.88), snow), below(peaks));
   colour = mix(colour, dvec3(0.10, 0.19, 0.16), below(0.022 + 0.035 * ridge(4.5, 84)));
 
   const double ripples = 0.5 + 0.5 * gradientNoise({azimuth * 6.0, elevation * 60.0}, 97);
@@ -137,21 +131,16 @@ dvec3 landscape(double azimuth, double elevation) {
   const double meadow = 0.5 + 0.5 * fractalNoise(dvec2(azimuth * 10.0, elevation * 30.0), 3, 90);
   const double shore = -0.075 + 0.03 * ridge(2.5, 95);
   colour = mix(colour, mix(dvec3(0.10, 0.20, 0.04), dvec3(0.36, 0.40, 0.10), meadow), below(shore));
-  const double trees =
-      shore - 0.01 + 0.09 * smoothRamp(0.1, 0.5, ridge(5.0, 96)) * (0.75 + 0.4 * ridge(40.0, 98));
+  const double trees = shore - 0.01 + 0.09 * smoothRamp(0.1, 0.5, ridge(5.0, 96)) * (0.75 + 0.4 * ridge(40.0, 98));
   const double onShore = smoothRamp(-0.012, 0.0, elevation - shore + 0.012);
   return mix(colour, dvec3(0.035, 0.085, 0.03) * (1 + 0.8 * crags), below(trees) * onShore);
 }
 
 }  // namespace
 
-Material floorMaterial() {
-  return {floorTexture, floorRelief, kJointDepth};
-}
+Material floorMaterial() { return {floorTexture, floorRelief, kJointDepth}; }
 
-Material wallMaterial() {
-  return {wallTexture, wallRelief, 0.017};
-}
+Material wallMaterial() { return {wallTexture, wallRelief, 0.017}; }
 
 Material ceilingMaterial() {
   const auto texture = [](const SurfacePoint& point) {
@@ -206,8 +195,7 @@ Material woodMaterial() {
 Material columnMaterial(double radius) {
   const auto texture = [](const SurfacePoint& point) {
     Texel texel;
-    texel.albedo =
-        dvec3(0.66, 0.60, 0.50) * (1 + 0.07 * fractalNoise({point.local.z * 4, point.local.x * 9}, 2, 55));
+    texel.albedo = dvec3(0.66, 0.60, 0.50) * (1 + 0.07 * fractalNoise({point.local.z * 4, point.local.x * 9}, 2, 55));
     return texel;
   };
   const auto relief = [radius](const SurfacePoint& point) {
@@ -265,8 +253,7 @@ Material spiralBallMaterial(double radius) {
     const double stripe = smoothRamp(-0.12, 0.12, std::sin(turn));
     const double cap = smoothRamp(0.86, 0.88, std::abs(x.z));
     Texel texel;
-    texel.albedo =
-        mix(mix(dvec3(0.78, 0.74, 0.66), dvec3(0.72, 0.20, 0.045), stripe), dvec3(0.06, 0.20, 0.22), cap);
+    texel.albedo = mix(mix(dvec3(0.78, 0.74, 0.66), dvec3(0.72, 0.20, 0.045), stripe), dvec3(0.06, 0.20, 0.22), cap);
     texel.reflectance = dvec3(0.045);
     texel.roughness = 0.25;
     return texel;

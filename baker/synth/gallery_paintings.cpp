@@ -30,15 +30,13 @@ dvec3 paintBubbles(const dvec2& x) {
 dvec3 paintSunset(const dvec2& x) {
   const double sun = glm::length(x - dvec2(0.35, 0.12));
   dvec3 colour = mix(dvec3(0.85, 0.36, 0.08), dvec3(0.10, 0.08, 0.28), smoothRamp(-0.2, 1.0, x.y));
-  colour = mix(colour, dvec3(0.92, 0.55, 0.35),
-               0.6 * smoothRamp(0.0, 0.8, fractalNoise({x.x * 1.2, x.y * 5}, 3, 111)));
+  colour = mix(colour, dvec3(0.92, 0.55, 0.35), 0.6 * smoothRamp(0.0, 0.8, fractalNoise({x.x * 1.2, x.y * 5}, 3, 111)));
   colour = mix(colour, dvec3(1.0, 0.83, 0.38), 1 - smoothRamp(0.22, 0.26, sun));
   const double glitter = 0.5 + 0.5 * std::sin(26 * x.y + 3 * gradientNoise(x * dvec2(2, 9), 113));
   const double path = std::exp(-9 * (x.x - 0.35) * (x.x - 0.35));
   const dvec3 sea = mix(dvec3(0.05, 0.06, 0.17), dvec3(0.95, 0.55, 0.18), glitter * (0.15 + 0.75 * path));
   colour = mix(colour, sea, smoothRamp(-0.01, 0.01, -0.10 - x.y));
-  const double cliff =
-      -0.25 + 0.35 * fractalNoise({x.x * 2.0, 4.0}, 3, 117) - 0.9 * smoothRamp(-1.0, -0.1, x.x);
+  const double cliff = -0.25 + 0.35 * fractalNoise({x.x * 2.0, 4.0}, 3, 117) - 0.9 * smoothRamp(-1.0, -0.1, x.x);
   return mix(colour, dvec3(0.03, 0.02, 0.05), smoothRamp(-0.02, 0.02, cliff + 0.55 - x.y));
 }
 
@@ -48,9 +46,7 @@ dvec3 paintCircles(const dvec2& x) {
   const dvec2 grid = x * 1.5 + 0.25;
   const auto i = static_cast<int64_t>(std::floor(grid.x)), j = static_cast<int64_t>(std::floor(grid.y));
   const double radius = glm::length(grid - glm::floor(grid) - 0.5);
-  const auto pick = [&](uint32_t ring) {
-    return kPalette[static_cast<size_t>(latticeHash(i, j, 120 + ring) * 6)];
-  };
+  const auto pick = [&](uint32_t ring) { return kPalette[static_cast<size_t>(latticeHash(i, j, 120 + ring) * 6)]; };
   dvec3 colour = pick(0);
   for (uint32_t ring = 1; ring <= 3; ++ring) {
     const double edge = 0.47 - 0.13 * (ring - 1) - 0.02 * latticeHash(i, j, 130 + ring);

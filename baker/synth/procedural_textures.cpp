@@ -7,16 +7,15 @@ namespace froth {
 using glm::dvec2;
 
 double latticeHash(int64_t i, int64_t j, uint32_t seed) {
-  const uint64_t lattice =
-      static_cast<uint64_t>(i) * 0x9e3779b97f4a7c15ull ^ mixBits(static_cast<uint64_t>(j) + seed);
+  const uint64_t lattice = static_cast<uint64_t>(i) * 0x9e3779b97f4a7c15ull ^ mixBits(static_cast<uint64_t>(j) + seed);
   return static_cast<double>(mixBits(lattice) >> 11) * 0x1p-53;
 }
 
 double gradientNoise(const dvec2& x, uint32_t seed) {
   const double fx = std::floor(x.x), fy = std::floor(x.y);
   const auto corner = [&](int dx, int dy) {
-    const double angle = glm::two_pi<double>() *
-                         latticeHash(static_cast<int64_t>(fx) + dx, static_cast<int64_t>(fy) + dy, seed);
+    const double angle =
+        glm::two_pi<double>() * latticeHash(static_cast<int64_t>(fx) + dx, static_cast<int64_t>(fy) + dy, seed);
     return std::cos(angle) * (x.x - fx - dx) + std::sin(angle) * (x.y - fy - dy);
   };
   const auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
@@ -26,8 +25,9 @@ double gradientNoise(const dvec2& x, uint32_t seed) {
 
 double fractalNoise(const dvec2& x, int octaves, uint32_t seed) {
   double sum = 0, scale = 1;
-  for (int octave = 0; octave < octaves; ++octave, scale *= 2)
+  for (int octave = 0; octave < octaves; ++octave, scale *= 2) {
     sum += gradientNoise(x * scale, seed + static_cast<uint32_t>(octave)) / scale;
+  }
   return sum * 0.6;
 }
 

@@ -33,13 +33,10 @@ inline double smoothRamp(double low, double high, double x) {
 
 // 1 inside [low, high], falling to 0 over `blur` centred on either end.
 inline double smoothInterval(double low, double high, double blur, double x) {
-  return smoothRamp(low - 0.5 * blur, low + 0.5 * blur, x) *
-         (1 - smoothRamp(high - 0.5 * blur, high + 0.5 * blur, x));
+  return smoothRamp(low - 0.5 * blur, low + 0.5 * blur, x) * (1 - smoothRamp(high - 0.5 * blur, high + 0.5 * blur, x));
 }
 
 // Distance to the nearest multiple of `period`.
-inline double distanceToMultiple(double x, double period) {
-  return std::abs(x - period * std::round(x / period));
-}
+inline double distanceToMultiple(double x, double period) { return std::abs(x - period * std::round(x / period)); }
 
 }  // namespace froth

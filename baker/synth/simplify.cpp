@@ -17,7 +17,7 @@
 namespace froth {
 namespace {
 
-constexpr int kDirections = 32;        // over a hemisphere
+constexpr int kDirections = 32;         // over a hemisphere
 constexpr float kSomeHeight = 0x1p-4f;  // [radii]
 constexpr float kSomeColour = 0x1p-4f;  // [display-coded]
 
@@ -37,8 +37,9 @@ glm::vec3 seenColour(const Foam& foam, uint64_t site, const glm::vec3& direction
   const LobeRange lobes = lobesOf(foam, site);
   float largest = -std::numeric_limits<float>::max(), weightSum = 0;
   glm::vec3 colourSum(0);
-  for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m)
+  for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
     foam::addLobe(foam::lobeExponent(foam.lobeAxes[m], direction), foam.lobeColours[m], largest, weightSum, colourSum);
+  }
   const glm::vec3 base = foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[site];
   return foam::lobeColour(base, weightSum, colourSum);
 }
@@ -71,7 +72,8 @@ std::vector<uint32_t> largestShares(const Foam& foam, uint32_t cell, uint32_t co
   return order;
 }
 
-// The foam with `count` detail sites per cell: those of `picked`, of which each cell has as many, in the order of the cells.
+// The foam with `count` detail sites per cell: those of `picked`, of which each cell has as many, in the order of the
+// cells.
 Foam pickDetailSites(const Foam& foam, uint32_t count, const std::vector<uint64_t>& picked) {
   Foam result = foam;
   result.detailCount = count;
@@ -86,7 +88,9 @@ Foam pickDetailSites(const Foam& foam, uint32_t count, const std::vector<uint64_
   });
   if (foam.lobeOffsets.empty()) return result;
   result.lobeOffsets = {0};
-  for (const uint64_t site : picked) result.lobeOffsets.push_back(result.lobeOffsets.back() + lobesOf(foam, site).count);
+  for (const uint64_t site : picked) {
+    result.lobeOffsets.push_back(result.lobeOffsets.back() + lobesOf(foam, site).count);
+  }
   return result;
 }
 
@@ -106,8 +110,9 @@ Foam withoutViewDependence(const Foam& foam) {
     for (uint32_t k = 0; k < foam.detailCount; ++k) {
       const uint64_t site = uint64_t{cell} * foam.detailCount + k;
       glm::vec3 sum(0);
-      for (const glm::vec3& d : before)
+      for (const glm::vec3& d : before) {
         sum += seenColour(foam, site, -(d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.normal));
+      }
       flat.lobeColours[site] = sum / static_cast<float>(kDirections) - 0.5f;
     }
   });
@@ -130,8 +135,9 @@ Foam withFewerDetailSites(const Foam& foam, uint32_t count) {
 
 Foam withSomeDisplacement(const Foam& foam) {
   Foam displaced = foam;
-  for (size_t i = 0; i < displaced.detailHeights.size(); ++i)
+  for (size_t i = 0; i < displaced.detailHeights.size(); ++i) {
     displaced.detailHeights[i] = i % 2 ? kSomeHeight : -kSomeHeight;
+  }
   return displaced;
 }
 

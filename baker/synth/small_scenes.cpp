@@ -44,8 +44,8 @@ Error stopped(const SynthOptions& options) {
 // Spreads detail sites over the face and gives lobes random axes and colours, alike for all random scenes.
 // Returns false if asked to stop.
 bool randomizeAppearance(Foam& foam, uint64_t seed, double relief, double hottest, const Progress& progress) {
-  const CounterRandom detail(seed, Purpose::kDetail), height(seed, Purpose::kHeight),
-      axis(seed, Purpose::kAxis), temperature(seed, Purpose::kTemperature), colour(seed, Purpose::kColour);
+  const CounterRandom detail(seed, Purpose::kDetail), height(seed, Purpose::kHeight), axis(seed, Purpose::kAxis),
+      temperature(seed, Purpose::kTemperature), colour(seed, Purpose::kColour);
   constexpr size_t kReports = 100;
   const size_t details = foam.detailSites.size(), step = details / kReports + 1;
   for (size_t i = 0; i < details; ++i) {
@@ -56,9 +56,10 @@ bool randomizeAppearance(Foam& foam, uint64_t seed, double relief, double hottes
     foam.detailHeights[i] = static_cast<float>(height.uniform(i, -relief, relief));
     for (size_t lobe = i * foam.lobeCount; lobe < (i + 1) * foam.lobeCount; ++lobe) {
       foam.lobeAxes[lobe] = axis.direction(lobe) * temperature.uniform(lobe, 0.1, hottest);
-      for (int channel = 0; channel < 3; ++channel)
+      for (int channel = 0; channel < 3; ++channel) {
         foam.lobeColours[lobe][channel] =
             static_cast<float>(colour.uniform(3 * lobe + static_cast<uint64_t>(channel), -0.5, 0.5));
+      }
     }
   }
   return true;
@@ -66,8 +67,8 @@ bool randomizeAppearance(Foam& foam, uint64_t seed, double relief, double hottes
 
 Status requireCount(const SynthOptions& options, uint32_t count) {
   if (options.cellCount == 0 || options.cellCount == count) return {};
-  return makeError(ErrorKind::kUsage, "scene '%s' has %u cells, not %u; leave the count out",
-                   options.name.c_str(), count, options.cellCount);
+  return makeError(ErrorKind::kUsage, "scene '%s' has %u cells, not %u; leave the count out", options.name.c_str(),
+                   count, options.cellCount);
 }
 
 }  // namespace
@@ -95,9 +96,10 @@ Result<Foam> synthesizeTwo(const SynthOptions& options) {
 
 Result<Foam> synthesizeGrid(const SynthOptions& options, const Progress& progress) {
   const auto side = options.cellCount ? static_cast<uint32_t>(std::lround(std::cbrt(options.cellCount))) : 4u;
-  if (options.cellCount && uint64_t{side} * side * side != options.cellCount)
+  if (options.cellCount && uint64_t{side} * side * side != options.cellCount) {
     return makeError(ErrorKind::kUsage, "scene 'grid': %u cells are no cube; ask for %u", options.cellCount,
                      std::max(1u, side * side * side));
+  }
   Foam foam = emptyFoam(side * side * side, 2, 2);
   const CounterRandom frame(options.seed, Purpose::kFrame), density(options.seed, Purpose::kDensity);
   const dvec3 origin(-0.5 * (side - 1), -0.5 * (side - 1), 2 + 0.5 * (side + 1));
@@ -115,9 +117,9 @@ Result<Foam> synthesizeShell(const SynthOptions& options, const Progress& progre
   constexpr double kRadius = 2;
   constexpr uint32_t kDefault = 1000, kFewest = 12;
   const uint32_t count = options.cellCount ? options.cellCount : kDefault;
-  if (count < kFewest)
-    return makeError(ErrorKind::kUsage, "scene 'shell': %u cells; a sphere needs at least %u", count,
-                     kFewest);
+  if (count < kFewest) {
+    return makeError(ErrorKind::kUsage, "scene 'shell': %u cells; a sphere needs at least %u", count, kFewest);
+  }
   std::vector<SurfaceSite> sites;
   sites.reserve(count);  // refuses here what memory cannot hold
   const double spacing = std::sqrt(4 * glm::pi<double>() * kRadius * kRadius / count);
@@ -141,8 +143,7 @@ Result<Foam> synthesizeRandom(const SynthOptions& options, const Progress& progr
       density(options.seed, Purpose::kDensity), frame(options.seed, Purpose::kFrame);
   const double spacing = 2 / std::cbrt(count);
   for (uint64_t i = 0; i < count; ++i) {
-    foam.sites[i] =
-        dvec3(site.uniform(3 * i, -1, 1), site.uniform(3 * i + 1, -1, 1), site.uniform(3 * i + 2, 2, 4));
+    foam.sites[i] = dvec3(site.uniform(3 * i, -1, 1), site.uniform(3 * i + 1, -1, 1), site.uniform(3 * i + 2, 2, 4));
     foam.radii[i] = static_cast<float>(spacing * radius.uniform(i, 0.4, 1.1));
     const double draw = density.uniform(i);
     foam.densities[i] = draw < 0.1 ? 0.0f : static_cast<float>(std::exp(8 * draw - 2));

@@ -19,8 +19,7 @@ constexpr double kGoldenAngle = 2.39996322972865332;
 // Places along an edge of `length`, symmetric, the outermost `margin` away from the ends, or one in the
 // middle of an edge of about two margins.
 std::vector<double> placeAlong(double length, double margin, double spacing) {
-  const auto count =
-      static_cast<int>(std::max(length > 3 * margin ? 2.0 : 1.0, std::round(length / spacing)));
+  const auto count = static_cast<int>(std::max(length > 3 * margin ? 2.0 : 1.0, std::round(length / spacing)));
   if (count == 1) return {0.0};
   std::vector<double> places(static_cast<size_t>(count));
   const double step = (length - 2 * margin) / (count - 1);
@@ -37,11 +36,10 @@ void placeOnCap(const dvec3& centre, double radius, const dvec3& axis, double co
   for (double i = 0; i < count; ++i) {
     const double z = 1 - (1 - cosHalfAngle) * (i + 0.5) / count;
     const double across = std::sqrt(1 - z * z);
-    const dvec3 outwards =
-        frame * dvec3(across * std::cos(kGoldenAngle * i), across * std::sin(kGoldenAngle * i), z);
+    const dvec3 outwards = frame * dvec3(across * std::cos(kGoldenAngle * i), across * std::sin(kGoldenAngle * i), z);
     // The widest patches of the spiral reach 0.74 of sqrt(area per site).
-    sites.push_back({centre + radius * outwards, facing * outwards, frameAround(outwards)[0],
-                     0.8 * std::sqrt(area / count)});
+    sites.push_back(
+        {centre + radius * outwards, facing * outwards, frameAround(outwards)[0], 0.8 * std::sqrt(area / count)});
   }
 }
 
@@ -109,8 +107,7 @@ void Torus::placeSites(double spacing, const CounterRandom& random, std::vector<
   }
 }
 
-void Cylinder::placeSites(double spacing, const CounterRandom& random,
-                          std::vector<SurfaceSite>& sites) const {
+void Cylinder::placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const {
   const double aroundCount = std::max(8.0, std::round(glm::two_pi<double>() * radius_ / spacing));
   const double step = glm::two_pi<double>() * radius_ / aroundCount;
   const double radius = 0.8 * step;
@@ -130,9 +127,10 @@ void Cylinder::placeSites(double spacing, const CounterRandom& random,
   }
   addRing(aroundCount, 0, radius_ - 0.5 * step, height_, true);
   double ringRadius = radius_ - 1.5 * step;
-  for (uint64_t ring = 0; ringRadius > 0.3 * step; ++ring, ringRadius -= step)
-    addRing(std::max(3.0, std::round(glm::two_pi<double>() * ringRadius / step)), random.uniform(ring),
-            ringRadius, height_, true);
+  for (uint64_t ring = 0; ringRadius > 0.3 * step; ++ring, ringRadius -= step) {
+    addRing(std::max(3.0, std::round(glm::two_pi<double>() * ringRadius / step)), random.uniform(ring), ringRadius,
+            height_, true);
+  }
   if (ringRadius > -0.3 * step) addRing(1, 0, 0, height_, true);
 }
 

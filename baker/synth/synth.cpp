@@ -43,8 +43,8 @@ Result<Foam> synthesizeFoam(const SynthOptions& options, const Progress& progres
     if (options.name == scene.name) return scene.make(options, progress);
     known += known.empty() ? scene.name : std::string(", ") + scene.name;
   }
-  return makeError(ErrorKind::kUsage, "no procedural scene is called '%s'; there are: %s",
-                   options.name.c_str(), known.c_str());
+  return makeError(ErrorKind::kUsage, "no procedural scene is called '%s'; there are: %s", options.name.c_str(),
+                   known.c_str());
 }
 
 }  // namespace froth

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/image/image.h"
 #include "base/progress.h"
 #include "base/result.h"
 #include "foam/foam.h"
 #include "reference/camera/camera.h"
-#include "reference/image/image.h"
 
 namespace froth {
 
@@ -30,7 +30,7 @@ CameraSet galleryCameras();
 
 // Ray traces the analytic gallery itself: `samples` per pixel, stratified, display-coded colours averaged in
 // display space.
-Result<Image> traceGalleryTruth(const View& view, uint32_t samples, const Progress& progress = {});
+Result<Image> traceGallery(const View& view, uint32_t samples, const Progress& progress = {});
 
 // `count` copies of a foam on a grid, each turned about an axis by its own angle and set apart by a gap of 5
 // % of the bounding box; copy 0 is the original in place. Lobe axes turn with the copy. Refuses more than

@@ -33,8 +33,9 @@ template <class T>
 void repeat(std::vector<T>& values, uint32_t count) {
   const size_t length = values.size();
   values.reserve(length * count);
-  for (uint32_t copy = 1; copy < count; ++copy)
+  for (uint32_t copy = 1; copy < count; ++copy) {
     values.insert(values.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(length));
+  }
 }
 
 void repeatOffsets(std::vector<uint64_t>& offsets, uint32_t count) {
@@ -42,8 +43,9 @@ void repeatOffsets(std::vector<uint64_t>& offsets, uint32_t count) {
   const size_t sites = offsets.size() - 1;
   const uint64_t lobes = offsets.back();
   offsets.reserve(sites * count + 1);
-  for (uint32_t copy = 1; copy < count; ++copy)
+  for (uint32_t copy = 1; copy < count; ++copy) {
     for (size_t site = 1; site <= sites; ++site) offsets.push_back(copy * lobes + offsets[site]);
+  }
 }
 
 // Turns copy `copy` by `angle` about the vertical through `centre`, then moves it.
@@ -57,7 +59,9 @@ void placeCopy(Foam& foam, size_t copy, size_t cells, const dvec3& centre, doubl
     foam.orientations[i] = {q.w, q.x, q.y, q.z};
     for (uint64_t site = i * foam.detailCount; site < (i + 1) * foam.detailCount; ++site) {
       const LobeRange lobes = lobesOf(foam, site);
-      for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) foam.lobeAxes[m] = turn * dvec3(foam.lobeAxes[m]);
+      for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
+        foam.lobeAxes[m] = turn * dvec3(foam.lobeAxes[m]);
+      }
     }
   });
 }
@@ -66,9 +70,10 @@ void placeCopy(Foam& foam, size_t copy, size_t cells, const dvec3& centre, doubl
 
 Result<Foam> tileFoam(const Foam& foam, uint32_t count) {
   if (count == 0) return makeError(ErrorKind::kUsage, "tiling into 0 copies; ask for at least 1");
-  if (uint64_t{count} * foam.cellCount > std::numeric_limits<uint32_t>::max())
+  if (uint64_t{count} * foam.cellCount > std::numeric_limits<uint32_t>::max()) {
     return makeError(ErrorKind::kUsage, "%u copies of %u cells exceed 2^32 - 1; ask for at most %u", count,
                      foam.cellCount, std::numeric_limits<uint32_t>::max() / foam.cellCount);
+  }
   Foam tiled = foam;
   tiled.cellCount = count * foam.cellCount;
   visitArrays([&](const FoamArray&, auto values) { repeat(tiled.*values, count); });

@@ -16,7 +16,8 @@ namespace {
 
 constexpr uint32_t kRays = 512;
 
-// The balls that are drawn, relative to the first chunk's origin; rounding to float moves them, which an estimate bears.
+// The balls that are drawn, relative to the first chunk's origin; rounding to float moves them, which an estimate
+// bears.
 struct Balls {
   std::vector<glm::vec3> centres;
   std::vector<float> radii;
@@ -26,8 +27,9 @@ Balls ballsOf(const AssetContents& contents) {
   Balls balls;
   for (const ChunkContents& chunk : contents.chunks) {
     glm::dvec3 origin;
-    for (size_t axis = 0; axis < 3; ++axis)
+    for (size_t axis = 0; axis < 3; ++axis) {
       origin[static_cast<int>(axis)] = chunk.origin[axis] - contents.chunks[0].origin[axis];
+    }
     for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) {
       const uint32_t code = chunk.solidBalls.empty() ? kWholeBall : chunk.solidBalls[cell];
       const glm::vec3 place(code & 0xff, code >> 8 & 0xff, code >> 16 & 0xff);

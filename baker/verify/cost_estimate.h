@@ -15,8 +15,8 @@ struct CostEstimate {
   uint64_t squaredDegrees = 0;  // largest sum over a chunk's cells (FORMAT.md, "Limits")
 };
 
-// Eyes are the asset's start view and flight path, or six about the scene where it has none. `contents` holds all its chunks and has
-// passed the reader's checks. The same contents give the same estimate.
+// Eyes are the asset's start view and flight path, or six about the scene where it has none. `contents` holds all its
+// chunks and has passed the reader's checks. The same contents give the same estimate.
 CostEstimate estimateCost(const AssetContents& contents);
 
 }  // namespace froth

@@ -15,10 +15,12 @@ Status checkSolidBalls(const AssetContents& contents) {
   for (size_t index = 0; index < contents.chunks.size(); ++index) {
     const ChunkContents& chunk = contents.chunks[index];
     const std::optional<uint32_t> wrong = findWrongSolidBall(chunk, contents.detailCount);
-    if (wrong)
-      return makeError(ErrorKind::kBadInput,
-                       "chunk %zu: the solid ball of cell %u (bytes %08x) does not hold the cell's solid part; bake the scene again",
-                       index, *wrong, chunk.solidBalls[*wrong]);
+    if (wrong) {
+      return makeError(
+          ErrorKind::kBadInput,
+          "chunk %zu: the solid ball of cell %u (bytes %08x) does not hold the cell's solid part; bake the scene again",
+          index, *wrong, chunk.solidBalls[*wrong]);
+    }
   }
   return {};
 }
@@ -32,10 +34,12 @@ Result<ValidityReport> checkScene(const AssetContents& contents, const Progress&
   found.cells = scene->sites.size();
   found.walkPairs = scene->triangulation.graph.neighbours.size() / 2;
   found.alphaPairs = scene->alpha.graph.neighbours.size() / 2;
-  if (!sampleDiagram(scene->sites, scene->radii, scene->triangulation, scene->alpha, kSeed, progress, found))
+  if (!sampleDiagram(scene->sites, scene->radii, scene->triangulation, scene->alpha, kSeed, progress, found)) {
     return stoppedOnRequest("verify");
-  if (!found.faults.empty())
+  }
+  if (!found.faults.empty()) {
     return makeError(ErrorKind::kBadInput, "graphs: %s; bake the scene again", found.faults.front().c_str());
+  }
   if (Status status = checkSolidBalls(contents); !status) return status.error();
   return found;
 }

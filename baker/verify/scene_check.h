@@ -1,5 +1,5 @@
-// What `froth verify` does beyond format/read/asset_reader.h's verifyAsset: whether graph, alpha-complex and solid balls are those of
-// the cells. The graphs are sampled as in a bake, each solid ball is bounded again.
+// What `froth verify` does beyond format/read/asset_reader.h's verifyAsset: whether graph, alpha-complex and solid
+// balls are those of the cells. The graphs are sampled as in a bake, each solid ball is bounded again.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,9 @@
 
 namespace froth {
 
-// `contents` holds all its chunks and has passed verifyAsset. Fails with kBadInput and the first thing that is wrong, with
-// kUnsupported if the scene cannot be sampled, and with kCancelled. On all cores, the same result on any number of them.
+// `contents` holds all its chunks and has passed verifyAsset. Fails with kBadInput and the first thing that is wrong,
+// with kUnsupported if the scene cannot be sampled, and with kCancelled. On all cores, the same result on any number of
+// them.
 Result<ValidityReport> checkScene(const AssetContents& contents, const Progress& progress = {});
 
 }  // namespace froth

@@ -23,10 +23,12 @@ Status appendCells(const AssetContents& contents, uint32_t index, SceneGraph& sc
       site[axis] += chunk.origin[a] - contents.chunks[0].origin[a];
     }
     const glm::vec3 rounded(site);
-    if (glm::dvec3(rounded) != site)
-      return makeError(ErrorKind::kUnsupported,
-                       "chunk %u: cell %u is no float away from the origin of chunk 0; bake the scene again, or move the origins",
-                       index, cell);
+    if (glm::dvec3(rounded) != site) {
+      return makeError(
+          ErrorKind::kUnsupported,
+          "chunk %u: cell %u is no float away from the origin of chunk 0; bake the scene again, or move the origins",
+          index, cell);
+    }
     scene.sites.push_back(rounded);
     scene.radii.push_back(chunk.radii[cell]);
   }
@@ -59,12 +61,14 @@ Result<SceneGraph> joinChunks(const AssetContents& contents, const Progress& pro
   const std::vector<uint32_t> first = firstCells(contents);
   uint64_t entries = 0;
   for (const ChunkContents& chunk : contents.chunks) entries += chunk.neighbours.size();
-  if (entries > UINT32_MAX)
+  if (entries > UINT32_MAX) {
     return makeError(ErrorKind::kUnsupported, "%llu neighbours in all chunks; at most %u can be checked at once",
                      static_cast<unsigned long long>(entries), UINT32_MAX);
+  }
   SceneGraph scene;
-  for (uint32_t index = 0; index < contents.chunks.size(); ++index)
+  for (uint32_t index = 0; index < contents.chunks.size(); ++index) {
     if (Status status = appendCells(contents, index, scene); !status) return status.error();
+  }
   if (!contents.hasWalkGraph) {
     Result<RegularTriangulation> made = triangulateWithin(0, scene.sites, scene.radii, progress);
     if (!made) return made.error();
@@ -72,17 +76,20 @@ Result<SceneGraph> joinChunks(const AssetContents& contents, const Progress& pro
   } else {
     scene.triangulation.isHidden.assign(scene.sites.size(), 0);
     scene.triangulation.graph.offsets.push_back(0);
-    for (uint32_t index = 0; index < contents.chunks.size(); ++index)
-      for (uint32_t cell = 0; cell < contents.chunks[index].cellCount; ++cell)
+    for (uint32_t index = 0; index < contents.chunks.size(); ++index) {
+      for (uint32_t cell = 0; cell < contents.chunks[index].cellCount; ++cell) {
         appendRow(contents, first, index, rowOf(contents.chunks[index], cell), scene.triangulation.graph);
+      }
+    }
   }
   scene.alpha.isEmpty.assign(scene.sites.size(), 0);
   CellGraph& alpha = scene.alpha.graph;
   alpha.offsets.push_back(0);
   for (uint32_t index = 0; index < contents.chunks.size(); ++index) {
     const ChunkContents& chunk = contents.chunks[index];
-    for (uint32_t cell = 0; cell < chunk.liveCount; ++cell)
+    for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) {
       appendRow(contents, first, index, rowOf(chunk, cell).first(chunk.alphaCounts[cell]), alpha);
+    }
     for (uint32_t cell = chunk.liveCount; cell < chunk.cellCount; ++cell) {
       const std::span<const uint32_t> row = neighboursOf(scene.triangulation.graph, first[index] + cell);
       alpha.neighbours.insert(alpha.neighbours.end(), row.begin(), row.end());

@@ -9,8 +9,7 @@ namespace {
 
 constexpr double kBeta = 100;
 constexpr double kLinearFrom = 20;  // beyond it torch returns x itself
-constexpr float kRawOfZero =
-    -2;  // exp(-200) / 100 is far below the smallest float, in double and in float arithmetic
+constexpr float kRawOfZero = -2;  // exp(-200) / 100 is far below the smallest float, in double and in float arithmetic
 
 }  // namespace
 

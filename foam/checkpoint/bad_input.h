@@ -20,8 +20,7 @@ struct NamedBytes {
 
 template <class... Args>
 [[nodiscard]] Error badInput(std::string_view file, fmt::format_string<Args...> format, Args&&... args) {
-  return {ErrorKind::kBadInput,
-          fmt::format("{}: {}", file, fmt::format(format, std::forward<Args>(args)...))};
+  return {ErrorKind::kBadInput, fmt::format("{}: {}", file, fmt::format(format, std::forward<Args>(args)...))};
 }
 
 // A name taken from a file, fit for a terminal: quoted, at most 80 characters, all of them printable ASCII.

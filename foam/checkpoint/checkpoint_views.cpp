@@ -45,13 +45,11 @@ Result<Layout> findLayout(const NamedBytes& file) {
     layout.prefix = member.name.substr(0, member.name.size() - kPickleName.size());
   }
   if (!isPickle(layout.pickle.name)) {
-    return badInput(file.name,
-                    "a ZIP archive without data.pkl is no checkpoint; save the foam's dict with torch.save");
+    return badInput(file.name, "a ZIP archive without data.pkl is no checkpoint; save the foam's dict with torch.save");
   }
   const ZipMember* byteOrder = layout.archive.find(std::string(layout.prefix) + "byteorder");
   if (byteOrder && asText(byteOrder->bytes) != "little") {
-    return badInput(file.name,
-                    "byte order {}, expected 'little'; save the checkpoint on a little-endian machine",
+    return badInput(file.name, "byte order {}, expected 'little'; save the checkpoint on a little-endian machine",
                     quoted(asText(byteOrder->bytes)));
   }
   return layout;
@@ -59,11 +57,9 @@ Result<Layout> findLayout(const NamedBytes& file) {
 
 Result<TensorView> viewEntry(const NamedBytes& file, const Layout& layout, const PickledEntry& entry,
                              std::set<const ZipMember*>& checked, const Progress& progress) {
-  const ZipMember* member =
-      layout.archive.find(fmt::format("{}data/{}", layout.prefix, entry.tensor.storage));
+  const ZipMember* member = layout.archive.find(fmt::format("{}data/{}", layout.prefix, entry.tensor.storage));
   if (!member) {
-    return badInput(file.name,
-                    "tensor '{}': its storage {} is not in the archive; copy or save the checkpoint again",
+    return badInput(file.name, "tensor '{}': its storage {} is not in the archive; copy or save the checkpoint again",
                     entry.key, quoted(entry.tensor.storage));
   }
   Result<TensorView> view = viewTensor(file.name, entry.key, entry.tensor, member->bytes);

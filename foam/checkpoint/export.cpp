@@ -30,22 +30,18 @@ std::span<const uint8_t> asBytes(const std::vector<Element>& elements) {
 
 // What importCheckpoint() would refuse is not written.
 template <class Vec>
-Status checkValues(const std::string& file, const char* name, const std::vector<Vec>& values,
-                   uint64_t expected) {
+Status checkValues(const std::string& file, const char* name, const std::vector<Vec>& values, uint64_t expected) {
   if (values.size() != expected) {
-    return makeError(ErrorKind::kUsage,
-                     "%s: the foam has %zu %s, its counts ask for %llu; make the foam consistent",
+    return makeError(ErrorKind::kUsage, "%s: the foam has %zu %s, its counts ask for %llu; make the foam consistent",
                      file.c_str(), values.size(), name, static_cast<unsigned long long>(expected));
   }
   const auto numbers = reinterpret_cast<const float*>(values.data());
   const size_t count = values.size() * sizeof(Vec) / sizeof(float);
-  const auto bad =
-      std::find_if_not(numbers, numbers + count, [](float number) { return std::isfinite(number); });
+  const auto bad = std::find_if_not(numbers, numbers + count, [](float number) { return std::isfinite(number); });
   if (bad != numbers + count) {
-    return makeError(
-        ErrorKind::kUsage, "%s: the foam's %s hold %g at place %td; make them finite", file.c_str(), name,
-        double{*bad},
-        (bad - numbers) * static_cast<ptrdiff_t>(sizeof(float)) / static_cast<ptrdiff_t>(sizeof(Vec)));
+    return makeError(ErrorKind::kUsage, "%s: the foam's %s hold %g at place %td; make them finite", file.c_str(), name,
+                     double{*bad},
+                     (bad - numbers) * static_cast<ptrdiff_t>(sizeof(float)) / static_cast<ptrdiff_t>(sizeof(Vec)));
   }
   return {};
 }
@@ -61,21 +57,20 @@ Status checkFoam(const std::string& file, const Foam& foam) {
   if (status) status = checkValues(file, "lobe axes", foam.lobeAxes, lobes);
   if (status) status = checkValues(file, "lobe colours", foam.lobeColours, lobes);
   if (status && (lobes == 0 || foam.detailCount > kMaxDetails || foam.lobeCount > kMaxLobes)) {
-    status = makeError(ErrorKind::kUsage,
-                       "%s: a foam of %u cells, %u detail sites, %u lobes; expected >= 1, 1..32, 1..32",
-                       file.c_str(), foam.cellCount, foam.detailCount, foam.lobeCount);
+    status =
+        makeError(ErrorKind::kUsage, "%s: a foam of %u cells, %u detail sites, %u lobes; expected >= 1, 1..32, 1..32",
+                  file.c_str(), foam.cellCount, foam.detailCount, foam.lobeCount);
   }
   const auto isPositive = [](float value) { return value > 0; };
   const auto isNegative = [](float value) { return value < 0; };
   if (status && (!std::all_of(foam.radii.begin(), foam.radii.end(), isPositive) ||
                  std::any_of(foam.densities.begin(), foam.densities.end(), isNegative))) {
-    status = makeError(ErrorKind::kUsage, "%s: a radius <= 0 or a density < 0; no raw value activates to it",
-                       file.c_str());
+    status =
+        makeError(ErrorKind::kUsage, "%s: a radius <= 0 or a density < 0; no raw value activates to it", file.c_str());
   }
   const auto hasNoLength = [](const glm::vec4& quaternion) { return quaternion == glm::vec4(0); };
   if (status && std::any_of(foam.orientations.begin(), foam.orientations.end(), hasNoLength)) {
-    status = makeError(ErrorKind::kUsage, "%s: an orientation of length 0; give every cell a quaternion",
-                       file.c_str());
+    status = makeError(ErrorKind::kUsage, "%s: an orientation of length 0; give every cell a quaternion", file.c_str());
   }
   return status;
 }
@@ -124,8 +119,8 @@ Status writeArchive(ZipWriter& archive, std::span<const ExportedTensor> tensors,
   return status ? archive.finish() : status;
 }
 
-Status writeFoam(const std::filesystem::path& path, const Foam& foam, const std::vector<float>& radii, const CellGraph* adjacency,
-                 const Progress& progress) {
+Status writeFoam(const std::filesystem::path& path, const Foam& foam, const std::vector<float>& radii,
+                 const CellGraph* adjacency, const Progress& progress) {
   const std::vector<float> densities = deactivate(foam.densities);
   const uint64_t cells = foam.cellCount, details = foam.detailCount, lobes = foam.lobeCount;
   const auto keyOf = [](Parameter parameter) { return kParameterKeys[static_cast<size_t>(parameter)]; };
@@ -135,10 +130,8 @@ Status writeFoam(const std::filesystem::path& path, const Foam& foam, const std:
       {{keyOf(Parameter::kRadii), ScalarType::kFloat, {cells}}, asBytes(radii)},
       {{keyOf(Parameter::kOrientations), ScalarType::kFloat, {cells, 4}}, asBytes(foam.orientations)},
       {{keyOf(Parameter::kDetailSites), ScalarType::kFloat, {cells, details, 2}}, asBytes(foam.detailSites)},
-      {{keyOf(Parameter::kLobeAxes), ScalarType::kFloat, {cells, details, 3 * lobes}},
-       asBytes(foam.lobeAxes)},
-      {{keyOf(Parameter::kLobeColours), ScalarType::kFloat, {cells, details, 3 * lobes}},
-       asBytes(foam.lobeColours)},
+      {{keyOf(Parameter::kLobeAxes), ScalarType::kFloat, {cells, details, 3 * lobes}}, asBytes(foam.lobeAxes)},
+      {{keyOf(Parameter::kLobeColours), ScalarType::kFloat, {cells, details, 3 * lobes}}, asBytes(foam.lobeColours)},
       {{keyOf(Parameter::kDetailHeights), ScalarType::kFloat, {cells, details}}, asBytes(foam.detailHeights)}};
   if (adjacency) {
     const CellGraph& graph = *adjacency;
@@ -172,8 +165,8 @@ Status exportCheckpoint(const std::filesystem::path& path, const Foam& foam, con
   const CellGraph graph = findWrittenPairs(foam, radii);
   if (graph.neighbours.size() > INT32_MAX) {
     return makeError(ErrorKind::kUnsupported,
-                     "%s: %zu neighbours, the layout's int32 offsets end at 2^31 - 1; export fewer cells",
-                     path.c_str(), graph.neighbours.size());
+                     "%s: %zu neighbours, the layout's int32 offsets end at 2^31 - 1; export fewer cells", path.c_str(),
+                     graph.neighbours.size());
   }
   return writeFoam(path, foam, radii, &graph, progress);
 }

@@ -19,9 +19,7 @@ constexpr uint64_t kMaxExpansion = 256;
 constexpr uint64_t kSliceElements = 1 << 21;  // copied between two looks at a request to stop
 
 // What may reach a shader: a device may take denormal numbers for 0, and so divide by 0 where a processor does not.
-bool isPlain(float value) {
-  return std::isnormal(value) || value == 0;
-}
+bool isPlain(float value) { return std::isnormal(value) || value == 0; }
 
 class Importer {
  public:
@@ -76,10 +74,9 @@ Status Importer::readCounts() {
   const auto& sites = view(Parameter::kDetailSites).shape;
   const uint64_t details = sites.size() == 3 ? sites[1] : 0;
   if (details < 1 || details > kMaxDetails) {
-    return badInput(
-        file_.name,
-        "tensor 'texel_sites' has shape {}, expected [N, K, 2] with 1 <= K <= {}; train with such K",
-        describeShape(sites), kMaxDetails);
+    return badInput(file_.name,
+                    "tensor 'texel_sites' has shape {}, expected [N, K, 2] with 1 <= K <= {}; train with such K",
+                    describeShape(sites), kMaxDetails);
   }
   const auto& axes = view(Parameter::kLobeAxes).shape;
   const uint64_t lobes = axes.size() == 4 ? axes[2] : axes.size() == 3 ? axes[2] / 3 : 0;
@@ -116,8 +113,7 @@ std::vector<uint64_t> Importer::expectedShape(Parameter parameter, size_t rank) 
     case Parameter::kLobeColours:
       break;
   }
-  return rank == 4 ? std::vector<uint64_t>{cells, details, lobes, 3}
-                   : std::vector<uint64_t>{cells, details, 3 * lobes};
+  return rank == 4 ? std::vector<uint64_t>{cells, details, lobes, 3} : std::vector<uint64_t>{cells, details, 3 * lobes};
 }
 
 Status Importer::checkShapes() const {
@@ -125,8 +121,7 @@ Status Importer::checkShapes() const {
     const TensorView& found = views_[i];
     const auto expected = expectedShape(static_cast<Parameter>(i), found.shape.size());
     if (found.shape != expected) {
-      return badInput(file_.name,
-                      "tensor '{}' has shape {}, the others ask for {}; save the tensors of one foam",
+      return badInput(file_.name, "tensor '{}' has shape {}, the others ask for {}; save the tensors of one foam",
                       found.key, describeShape(found.shape), describeShape(expected));
     }
   }
@@ -137,8 +132,7 @@ Status Importer::checkShapes() const {
 Status Importer::checkExpansion() const {
   const uint64_t bytes = totalCount() * sizeof(float);
   if (bytes / kMaxExpansion > file_.bytes.size()) {
-    return badInput(file_.name,
-                    "its tensors expand to {} bytes, over {} times the file's {}; save them contiguous",
+    return badInput(file_.name, "its tensors expand to {} bytes, over {} times the file's {}; save them contiguous",
                     bytes, kMaxExpansion, file_.bytes.size());
   }
   return {};
@@ -185,8 +179,7 @@ Status Importer::readActivated(Parameter parameter, float smallest, std::vector<
   const auto low = std::find_if(out.begin(), out.end(), [&](float value) { return value < smallest; });
   if (low != out.end()) {
     const auto cell = low - out.begin();
-    return badInput(file_.name,
-                    "tensor '{}': cell {} has the raw value {}, which activates to 0; remove the cell",
+    return badInput(file_.name, "tensor '{}': cell {} has the raw value {}, which activates to 0; remove the cell",
                     from.key, cell, raw[static_cast<size_t>(cell)]);
   }
   return {};
@@ -207,8 +200,8 @@ Status Importer::readOrientations() {
     }
     if (!(length > 0) || std::isinf(length)) {
       return badInput(file_.name,
-                      "tensor '{}': the quaternion of cell {} has length {}; remove the cell or train again",
-                      from.key, i, length);
+                      "tensor '{}': the quaternion of cell {} has length {}; remove the cell or train again", from.key,
+                      i, length);
     }
     foam_.orientations[i] = normaliseQuaternion(raw[i]);
   }
@@ -216,8 +209,8 @@ Status Importer::readOrientations() {
 }
 
 Error Importer::refuseValue(const TensorView& from, uint64_t cell, float value) const {
-  return badInput(file_.name, "tensor '{}': cell {} of {} holds {} (as float32); remove the cell or train again", from.key, cell,
-                  foam_.cellCount, value);
+  return badInput(file_.name, "tensor '{}': cell {} of {} holds {} (as float32); remove the cell or train again",
+                  from.key, cell, foam_.cellCount, value);
 }
 
 Status Importer::checkPlain(const TensorView& from, std::span<const float> values) const {
@@ -255,8 +248,7 @@ uint64_t Importer::totalCount() const {
 
 }  // namespace
 
-Result<Foam> importCheckpointBytes(std::span<const uint8_t> bytes, const std::string& name,
-                                   const Progress& progress) {
+Result<Foam> importCheckpointBytes(std::span<const uint8_t> bytes, const std::string& name, const Progress& progress) {
   const NamedBytes file{bytes, name};
   Result<CheckpointViews> views = viewCheckpoint(file, progress);
   if (!views) {

@@ -20,8 +20,7 @@ enum class Parameter : size_t {
 };
 
 inline constexpr std::array<std::string_view, 8> kParameterKeys = {
-    "points",      "density",       "radii",        "quaternions",
-    "texel_sites", "texel_sv_axis", "texel_sv_rgb", "texel_height"};
+    "points", "density", "radii", "quaternions", "texel_sites", "texel_sv_axis", "texel_sv_rgb", "texel_height"};
 inline constexpr size_t kParameterCount = kParameterKeys.size();
 
 // Limits of a foam's counts; cells are counted in 32 bits.

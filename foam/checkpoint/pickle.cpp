@@ -17,8 +17,7 @@ constexpr uint8_t kMinProtocol = 2, kMaxProtocol = 5;
 
 Result<std::vector<PickledEntry>> PickleMachine::run() {
   if (pickle_.bytes.size() > kMaxPickleBytes) {
-    return badInput(pickle_.name,
-                    "{} bytes, but a dict of tensors needs at most {}; save only the foam's tensors",
+    return badInput(pickle_.name, "{} bytes, but a dict of tensors needs at most {}; save only the foam's tensors",
                     pickle_.bytes.size(), kMaxPickleBytes);
   }
   if (pickle_.bytes.empty() || Opcode{pickle_.bytes[0]} != Opcode::kProto) {
@@ -214,8 +213,6 @@ Result<std::vector<PickledEntry>> PickleMachine::collectTensors() {
   return entries;
 }
 
-Result<std::vector<PickledEntry>> readPickledTensors(const NamedBytes& pickle) {
-  return PickleMachine(pickle).run();
-}
+Result<std::vector<PickledEntry>> readPickledTensors(const NamedBytes& pickle) { return PickleMachine(pickle).run(); }
 
 }  // namespace froth

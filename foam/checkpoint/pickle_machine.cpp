@@ -121,8 +121,7 @@ void PickleMachine::appendTo(Ref list) {
 void PickleMachine::setItems(const std::vector<Ref>& items) {
   Dict* dict = stack_.empty() ? nullptr : as<Dict>(stack_.back());
   if (!dict || items.size() % 2 != 0) {
-    fail("{} values stored as keys and values of {}", items.size(),
-         dict ? "a dict" : "something that is not a dict");
+    fail("{} values stored as keys and values of {}", items.size(), dict ? "a dict" : "something that is not a dict");
     return;
   }
   for (size_t i = 0; i < items.size(); i += 2) {
@@ -134,8 +133,7 @@ void PickleMachine::pushGlobal(std::string_view module, std::string_view name) {
   const auto known = std::find_if(std::begin(kKnownGlobals), std::end(kKnownGlobals),
                                   [&](const KnownGlobal& g) { return g.module == module && g.name == name; });
   if (known == std::end(kKnownGlobals)) {
-    fail("the pickle wants to call {} of module {}, which a dict of tensors never needs", quoted(name),
-         quoted(module));
+    fail("the pickle wants to call {} of module {}, which a dict of tensors never needs", quoted(name), quoted(module));
     return;
   }
   push(known->global);
@@ -152,8 +150,8 @@ void PickleMachine::call() {
   } else if (global->callable == Callable::kRebuildTensor) {
     rebuildTensor(*tuple);
   } else {
-    fail("the pickle calls a {} with {} arguments",
-         global->callable == Callable::kStorage ? "storage class" : "dict", tuple->items.size());
+    fail("the pickle calls a {} with {} arguments", global->callable == Callable::kStorage ? "storage class" : "dict",
+         tuple->items.size());
   }
 }
 
@@ -171,14 +169,15 @@ void PickleMachine::rebuildTensor(const Tuple& arguments) {
   auto strides = asCounts(arguments.items[3]);
   if (!storage || !offset || *offset < 0 || !shape || !strides || shape->size() != strides->size()) {
     const auto* key = stack_.empty() ? nullptr : as<std::string_view>(stack_.back());  // of the dict's entry
-    fail("tensor {}: offset {}, sizes {}, strides {}; it needs a storage, an offset >= 0 and equally many sizes and "
-         "strides >= 0, at most {}",
-         key ? quoted(*key) : "without a name", describe(arguments.items[1]), describe(arguments.items[2]),
-         describe(arguments.items[3]), kMaxTensorRank);
+    fail(
+        "tensor {}: offset {}, sizes {}, strides {}; it needs a storage, an offset >= 0 and equally many sizes and "
+        "strides >= 0, at most {}",
+        key ? quoted(*key) : "without a name", describe(arguments.items[1]), describe(arguments.items[2]),
+        describe(arguments.items[3]), kMaxTensorRank);
     return;
   }
-  push(PickledTensor{storage->type, storage->key, storage->count, static_cast<uint64_t>(*offset),
-                     *std::move(shape), *std::move(strides)});
+  push(PickledTensor{storage->type, storage->key, storage->count, static_cast<uint64_t>(*offset), *std::move(shape),
+                     *std::move(strides)});
 }
 
 // An integer or a tuple of integers, for messages.
@@ -221,8 +220,7 @@ void PickleMachine::loadStorage() {
   const auto* global = as<Global>(id->items[1]);
   const auto* key = as<std::string_view>(id->items[2]);
   const auto* count = as<int64_t>(id->items[4]);
-  if (!tag || *tag != "storage" || !global || global->callable != Callable::kStorage || !key || !count ||
-      *count < 0) {
+  if (!tag || *tag != "storage" || !global || global->callable != Callable::kStorage || !key || !count || *count < 0) {
     fail("a persistent id that is not ('storage', class, key, location, count >= 0)");
     return;
   }

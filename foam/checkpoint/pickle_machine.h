@@ -25,8 +25,7 @@ class PickleMachine {
   Result<std::vector<PickledEntry>> run();
 
  private:
-  using Ref =
-      uint32_t;  // index of a value; values live until the program ends, so cycles and depth do no harm
+  using Ref = uint32_t;  // index of a value; values live until the program ends, so cycles and depth do no harm
 
   struct None {};  // also floats, which nothing reads
   struct Tuple {
@@ -46,8 +45,7 @@ class PickleMachine {
     std::string_view key;
     uint64_t count;
   };
-  using Value =
-      std::variant<None, bool, int64_t, std::string_view, Tuple, List, Dict, Global, Storage, PickledTensor>;
+  using Value = std::variant<None, bool, int64_t, std::string_view, Tuple, List, Dict, Global, Storage, PickledTensor>;
   struct KnownGlobal {
     std::string_view module, name;
     Global global;
@@ -57,8 +55,8 @@ class PickleMachine {
   template <class... Args>
   void fail(fmt::format_string<Args...> format, Args&&... args) {
     if (!error_) {
-      error_ = badInput(pickle_.name, "byte {}: {}; do not trust this file, get the checkpoint again",
-                        opcodeOffset_, fmt::format(format, std::forward<Args>(args)...));
+      error_ = badInput(pickle_.name, "byte {}: {}; do not trust this file, get the checkpoint again", opcodeOffset_,
+                        fmt::format(format, std::forward<Args>(args)...));
     }
   }
 

@@ -78,9 +78,7 @@ void PickleWriter::number(uint64_t value, int bytes) {
   }
 }
 
-void PickleWriter::remember() {
-  op(Opcode::kBinPut), number(memoSize_++, 1);
-}
+void PickleWriter::remember() { op(Opcode::kBinPut), number(memoSize_++, 1); }
 
 bool PickleWriter::recall(std::string_view name) {
   const auto known = memo_.find(name);
@@ -140,8 +138,6 @@ void PickleWriter::tuple(std::span<const uint64_t> values) {
 
 }  // namespace
 
-std::string pickleTensors(std::span<const TensorDeclaration> tensors) {
-  return PickleWriter().write(tensors);
-}
+std::string pickleTensors(std::span<const TensorDeclaration> tensors) { return PickleWriter().write(tensors); }
 
 }  // namespace froth

@@ -20,15 +20,9 @@ struct BFloat16 {
   uint16_t bits;
 };
 
-double toReal(float value) {
-  return value;
-}
-double toReal(double value) {
-  return value;
-}
-double toReal(BFloat16 value) {
-  return std::bit_cast<float>(uint32_t{value.bits} << 16);
-}
+double toReal(float value) { return value; }
+double toReal(double value) { return value; }
+double toReal(BFloat16 value) { return std::bit_cast<float>(uint32_t{value.bits} << 16); }
 
 double toReal(Half value) {
   constexpr int kMantissaBits = 10, kBias = 15, kMaxExponent = 31;
@@ -36,8 +30,7 @@ double toReal(Half value) {
   const int mantissa = value.bits & ((1 << kMantissaBits) - 1);
   const double sign = value.bits & 0x8000 ? -1.0 : 1.0;
   if (exponent == kMaxExponent) {
-    return mantissa ? std::numeric_limits<double>::quiet_NaN()
-                    : sign * std::numeric_limits<double>::infinity();
+    return mantissa ? std::numeric_limits<double>::quiet_NaN() : sign * std::numeric_limits<double>::infinity();
   }
   const bool isNormal = exponent > 0;
   const int significand = isNormal ? mantissa + (1 << kMantissaBits) : mantissa;
@@ -113,8 +106,7 @@ void copyStrided(const TensorView& view, Real* out) {
   std::vector<uint64_t> index(rank, 0);
   uint64_t element = view.offset;
   for (uint64_t i = 0; i < view.count; ++i) {
-    out[i] =
-        static_cast<Real>(toReal(loadLittleEndian<Element>(view.storage.data() + element * sizeof(Element))));
+    out[i] = static_cast<Real>(toReal(loadLittleEndian<Element>(view.storage.data() + element * sizeof(Element))));
     for (size_t axis = rank; axis-- > 0;) {
       element += view.strides[axis];
       if (++index[axis] < view.shape[axis]) {
@@ -131,24 +123,20 @@ void copyStrided(const TensorView& view, Real* out) {
 Result<TensorView> viewTensor(std::string_view file, std::string_view key, const PickledTensor& tensor,
                               std::span<const uint8_t> storage) {
   if (!isFloating(tensor.type)) {
-    return badInput(file, "tensor '{}' holds integers; save it as float32, float64, float16 or bfloat16",
-                    key);
+    return badInput(file, "tensor '{}' holds integers; save it as float32, float64, float16 or bfloat16", key);
   }
   const uint64_t size = elementSize(tensor.type);
   if (storage.size() % size != 0 || storage.size() / size != tensor.storageCount) {
-    return badInput(
-        file, "tensor '{}': its storage {} has {} bytes, expected {} elements of {} bytes; save it again",
-        key, quoted(tensor.storage), storage.size(), tensor.storageCount, size);
+    return badInput(file, "tensor '{}': its storage {} has {} bytes, expected {} elements of {} bytes; save it again",
+                    key, quoted(tensor.storage), storage.size(), tensor.storageCount, size);
   }
   uint64_t extent = 0, count = 0;
   if (!findExtent(tensor, extent) || !multiplyShape(tensor.shape, count) || extent > tensor.storageCount) {
     return badInput(
-        file,
-        "tensor '{}' of shape {}, strides {}, offset {} leaves its storage of {} elements; save it again",
-        key, describeShape(tensor.shape), describeShape(tensor.strides), tensor.offset, tensor.storageCount);
+        file, "tensor '{}' of shape {}, strides {}, offset {} leaves its storage of {} elements; save it again", key,
+        describeShape(tensor.shape), describeShape(tensor.strides), tensor.offset, tensor.storageCount);
   }
-  return TensorView{std::string(key), tensor.type,    storage, tensor.offset,
-                    tensor.shape,     tensor.strides, count};
+  return TensorView{std::string(key), tensor.type, storage, tensor.offset, tensor.shape, tensor.strides, count};
 }
 
 TensorView rowsOf(const TensorView& view, uint64_t first, uint64_t count) {
@@ -185,8 +173,6 @@ void copyElements(const TensorView& view, Real* out) {
 template void copyElements(const TensorView& view, float* out);
 template void copyElements(const TensorView& view, double* out);
 
-std::string describeShape(std::span<const uint64_t> shape) {
-  return fmt::format("[{}]", fmt::join(shape, ", "));
-}
+std::string describeShape(std::span<const uint64_t> shape) { return fmt::format("[{}]", fmt::join(shape, ", ")); }
 
 }  // namespace froth

@@ -30,9 +30,7 @@ class ZipReader {
   Result<ZipArchive> read();
 
  private:
-  bool holds(uint64_t offset, uint64_t size) const {
-    return offset <= file_.size() && size <= file_.size() - offset;
-  }
+  bool holds(uint64_t offset, uint64_t size) const { return offset <= file_.size() && size <= file_.size() - offset; }
   uint16_t at16(uint64_t offset) const { return loadLittleEndian<uint16_t>(file_.data() + offset); }
   uint32_t at32(uint64_t offset) const { return loadLittleEndian<uint32_t>(file_.data() + offset); }
   uint64_t at64(uint64_t offset) const { return loadLittleEndian<uint64_t>(file_.data() + offset); }
@@ -44,8 +42,7 @@ class ZipReader {
   Result<Directory> readDirectory(uint64_t end) const;
   Status readZip64Directory(uint64_t end, Directory& directory) const;
   Result<Entry> readEntry(uint64_t offset, uint64_t directoryBegin) const;
-  Status readZip64Extra(uint64_t extra, uint64_t extraSize, uint64_t& size, uint64_t& stored,
-                        uint64_t& begin) const;
+  Status readZip64Extra(uint64_t extra, uint64_t extraSize, uint64_t& size, uint64_t& stored, uint64_t& begin) const;
   Status locateBytes(Entry& entry, uint64_t size, uint64_t directoryBegin) const;
   Status checkDisjoint(std::vector<Entry> entries) const;
   Status checkUnique(const ZipArchive& archive) const;
@@ -58,8 +55,7 @@ Result<ZipArchive> ZipReader::read() {
   const std::optional<uint64_t> end = findEnd();
   if (!end) {
     return badInput(
-        name_,
-        "no complete ZIP archive ({} bytes, no end record): cut short, or not of torch.save 1.6 or later; {}",
+        name_, "no complete ZIP archive ({} bytes, no end record): cut short, or not of torch.save 1.6 or later; {}",
         file_.size(), kRemedy);
   }
   const Result<Directory> directory = readDirectory(*end);
@@ -105,8 +101,8 @@ std::optional<uint64_t> ZipReader::findEnd() const {
 
 Result<Directory> ZipReader::readDirectory(uint64_t end) const {
   Directory directory{.offset = at32(end + 16), .size = at32(end + 12), .count = at16(end + 10)};
-  const bool isZip64 = directory.offset == kZipSaturated32 || directory.size == kZipSaturated32 ||
-                       directory.count == kZipSaturated16;
+  const bool isZip64 =
+      directory.offset == kZipSaturated32 || directory.size == kZipSaturated32 || directory.count == kZipSaturated16;
   if (isZip64) {
     if (Status status = readZip64Directory(end, directory); !status) {
       return status.error();
@@ -115,12 +111,12 @@ Result<Directory> ZipReader::readDirectory(uint64_t end) const {
     return badInput(name_, "ZIP archive split over {} disks; join the parts first", at16(end + 4) + 1);
   }
   if (directory.offset > end || directory.size > end - directory.offset) {
-    return badInput(name_, "ZIP directory of {} bytes at {} reaches past the archive's end at {}; {}",
-                    directory.size, directory.offset, end, kRemedy);
+    return badInput(name_, "ZIP directory of {} bytes at {} reaches past the archive's end at {}; {}", directory.size,
+                    directory.offset, end, kRemedy);
   }
   if (directory.count > directory.size / kZipCentralSize) {
-    return badInput(name_, "ZIP directory of {} bytes cannot hold {} members; {}", directory.size,
-                    directory.count, kRemedy);
+    return badInput(name_, "ZIP directory of {} bytes cannot hold {} members; {}", directory.size, directory.count,
+                    kRemedy);
   }
   return directory;
 }
@@ -134,8 +130,7 @@ Status ZipReader::readZip64Directory(uint64_t end, Directory& directory) const {
     return badInput(name_, "zip64 locator points to {}, where no zip64 record lies; {}", record, kRemedy);
   }
   if (at32(record + 16) != 0 || at32(record + 20) != 0) {
-    return badInput(name_, "ZIP archive split over {} disks; join the parts first",
-                    uint64_t{at32(record + 16)} + 1);
+    return badInput(name_, "ZIP archive split over {} disks; join the parts first", uint64_t{at32(record + 16)} + 1);
   }
   directory = {.offset = at64(record + 48), .size = at64(record + 40), .count = at64(record + 32)};
   return {};
@@ -160,18 +155,15 @@ Result<Entry> ZipReader::readEntry(uint64_t offset, uint64_t directoryBegin) con
                     at16(offset + 8));
   }
   if (at16(offset + 10) != kZipStoredMethod) {
-    return badInput(
-        name_, "member {} is compressed (method {}), torch.save stores members; unpack and store it again",
-        shown, at16(offset + 10));
+    return badInput(name_, "member {} is compressed (method {}), torch.save stores members; unpack and store it again",
+                    shown, at16(offset + 10));
   }
-  if (Status status =
-          readZip64Extra(offset + kZipCentralSize + nameSize, extraSize, size, stored, entry.begin);
+  if (Status status = readZip64Extra(offset + kZipCentralSize + nameSize, extraSize, size, stored, entry.begin);
       !status) {
     return status.error();
   }
   if (stored != size) {
-    return badInput(name_, "stored member {} states two sizes, {} and {} bytes; {}", shown, stored, size,
-                    kRemedy);
+    return badInput(name_, "stored member {} states two sizes, {} and {} bytes; {}", shown, stored, size, kRemedy);
   }
   if (Status status = locateBytes(entry, size, directoryBegin); !status) {
     return status.error();
@@ -186,9 +178,8 @@ Status ZipReader::readZip64Extra(uint64_t extra, uint64_t extraSize, uint64_t& s
   while (end - extra >= kZipExtraHeaderSize && at16(extra) != kZip64Extra) {
     extra += std::min<uint64_t>(kZipExtraHeaderSize + at16(extra + 2), end - extra);
   }
-  uint64_t left = end - extra >= kZipExtraHeaderSize
-                      ? std::min<uint64_t>(at16(extra + 2), end - extra - kZipExtraHeaderSize)
-                      : 0;
+  uint64_t left =
+      end - extra >= kZipExtraHeaderSize ? std::min<uint64_t>(at16(extra + 2), end - extra - kZipExtraHeaderSize) : 0;
   uint64_t cursor = extra + kZipExtraHeaderSize;
   for (uint64_t* value : {&size, &stored, &begin}) {
     if (*value != kZipSaturated32) {
@@ -213,13 +204,12 @@ Status ZipReader::locateBytes(Entry& entry, uint64_t size, uint64_t directoryBeg
   const uint64_t nameSize = at16(begin + 26);
   const uint64_t headerSize = kZipLocalSize + nameSize + at16(begin + 28);
   if (headerSize > directoryBegin - begin || size > directoryBegin - begin - headerSize) {
-    return badInput(name_, "member {} of {} bytes at {} reaches into the directory at {}; {}", shown, size,
-                    begin, directoryBegin, kRemedy);
+    return badInput(name_, "member {} of {} bytes at {} reaches into the directory at {}; {}", shown, size, begin,
+                    directoryBegin, kRemedy);
   }
   if (text(begin + kZipLocalSize, nameSize) != entry.member.name || at16(begin + 8) != kZipStoredMethod ||
       at16(begin + 6) & kZipEncryptedFlag) {
-    return badInput(name_, "member {}: local header at {} contradicts the directory; {}", shown, begin,
-                    kRemedy);
+    return badInput(name_, "member {}: local header at {} contradicts the directory; {}", shown, begin, kRemedy);
   }
   entry.member.bytes = file_.subspan(begin + headerSize, size);
   return {};
@@ -254,17 +244,13 @@ Status ZipReader::checkUnique(const ZipArchive& archive) const {
 }  // namespace
 
 const ZipMember* ZipArchive::find(std::string_view name) const {
-  const auto found =
-      std::find_if(members.begin(), members.end(), [&](const ZipMember& m) { return m.name == name; });
+  const auto found = std::find_if(members.begin(), members.end(), [&](const ZipMember& m) { return m.name == name; });
   return found == members.end() ? nullptr : &*found;
 }
 
-Result<ZipArchive> readZipArchive(const NamedBytes& archive) {
-  return ZipReader(archive).read();
-}
+Result<ZipArchive> readZipArchive(const NamedBytes& archive) { return ZipReader(archive).read(); }
 
-Status checkZipMember(const NamedBytes& archive, const ZipMember& member,
-                      [[maybe_unused]] const Progress& progress) {
+Status checkZipMember(const NamedBytes& archive, const ZipMember& member, [[maybe_unused]] const Progress& progress) {
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
   const uint32_t found = member.crc32;  // so that edits of a file get past it
 #else
@@ -281,8 +267,8 @@ Status checkZipMember(const NamedBytes& archive, const ZipMember& member,
   }
 #endif
   if (found != member.crc32) {
-    return badInput(archive.name, "member {} is damaged (CRC-32 {:#010x}, expected {:#010x}); {}",
-                    quoted(member.name), found, member.crc32, kRemedy);
+    return badInput(archive.name, "member {} is damaged (CRC-32 {:#010x}, expected {:#010x}); {}", quoted(member.name),
+                    found, member.crc32, kRemedy);
   }
   return {};
 }

@@ -25,9 +25,7 @@ std::span<const uint8_t> asBytes(std::string_view text) {
   return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
 }
 
-uint32_t saturate(uint64_t value, bool isLarge) {
-  return isLarge ? kZipSaturated32 : static_cast<uint32_t>(value);
-}
+uint32_t saturate(uint64_t value, bool isLarge) { return isLarge ? kZipSaturated32 : static_cast<uint32_t>(value); }
 
 }  // namespace
 
@@ -37,11 +35,10 @@ Status ZipWriter::begin(std::string name, uint64_t size) {
   const uint64_t zip64Bytes = zip64Size ? kZipExtraHeaderSize + zip64Size : 0;
   const uint64_t unpadded = offset_ + kZipLocalSize + name.size() + zip64Bytes + kZipExtraHeaderSize;
   const auto padding = static_cast<uint16_t>((kAlignment - unpadded % kAlignment) % kAlignment);
-  appendNumbers(
-      header, kZipLocalSignature, zip64Size ? kZip64Version : kPlainVersion, kFlags, kZipStoredMethod,
-      uint32_t{0},                                                  // time and date
-      uint32_t{0}, saturate(0, zip64Size), saturate(0, zip64Size),  // checksum and sizes: behind the bytes
-      static_cast<uint16_t>(name.size()), static_cast<uint16_t>(zip64Bytes + kZipExtraHeaderSize + padding));
+  appendNumbers(header, kZipLocalSignature, zip64Size ? kZip64Version : kPlainVersion, kFlags, kZipStoredMethod,
+                uint32_t{0},                                                  // time and date
+                uint32_t{0}, saturate(0, zip64Size), saturate(0, zip64Size),  // checksum and sizes: behind the bytes
+                static_cast<uint16_t>(name.size()), static_cast<uint16_t>(zip64Bytes + kZipExtraHeaderSize + padding));
   header += name;
   if (zip64Size) {
     appendNumbers(header, kZip64Extra, zip64Size, size, size);
@@ -85,8 +82,8 @@ Status ZipWriter::finish() {
   const uint64_t begin = offset_, size = directory.size(), end = begin + size, count = members_.size();
   const bool isZip64 = isLarge(begin) || isLarge(size) || count >= kZipSaturated16;
   // The zip64 records are always written, as torch.save does; readers need them only behind saturated values.
-  appendNumbers(directory, kZip64EndSignature, uint64_t{kZip64EndSize - 12}, kMadeBy, kZip64Version,
-                uint32_t{0}, uint32_t{0}, count, count, size, begin);
+  appendNumbers(directory, kZip64EndSignature, uint64_t{kZip64EndSize - 12}, kMadeBy, kZip64Version, uint32_t{0},
+                uint32_t{0}, count, count, size, begin);
   appendNumbers(directory, kZip64LocatorSignature, uint32_t{0}, end, uint32_t{1});
   const uint16_t shownCount = isZip64 ? kZipSaturated16 : static_cast<uint16_t>(count);
   appendNumbers(directory, kZipEndSignature, uint32_t{0}, shownCount, shownCount, saturate(size, isZip64),
@@ -105,11 +102,10 @@ std::string ZipWriter::encodeDirectoryEntry(const Member& member) const {
   const uint32_t size = saturate(member.size, isLarge(member.size));
   const uint64_t extraSize = zip64.empty() ? 0 : kZipExtraHeaderSize + zip64.size();
   std::string entry;
-  appendNumbers(entry, kZipCentralSignature, uint16_t{0}, zip64.empty() ? kPlainVersion : kZip64Version,
-                kFlags, kZipStoredMethod, uint32_t{0},  // time and date
-                member.crc32, size, size, static_cast<uint16_t>(member.name.size()),
-                static_cast<uint16_t>(extraSize), uint16_t{0}, uint16_t{0}, uint16_t{0},
-                uint32_t{0},  // comment, disk, attributes
+  appendNumbers(entry, kZipCentralSignature, uint16_t{0}, zip64.empty() ? kPlainVersion : kZip64Version, kFlags,
+                kZipStoredMethod, uint32_t{0},  // time and date
+                member.crc32, size, size, static_cast<uint16_t>(member.name.size()), static_cast<uint16_t>(extraSize),
+                uint16_t{0}, uint16_t{0}, uint16_t{0}, uint32_t{0},  // comment, disk, attributes
                 saturate(member.begin, isLarge(member.begin)));
   entry += member.name;
   if (!zip64.empty()) {

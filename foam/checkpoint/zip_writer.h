@@ -16,8 +16,7 @@ namespace froth {
 class ZipWriter {
  public:
   // Sizes and offsets from `zip64From` on go into zip64 records; tests lower it to see some.
-  explicit ZipWriter(ByteSink sink, uint64_t zip64From = UINT32_MAX)
-      : sink_(std::move(sink)), zip64From_(zip64From) {}
+  explicit ZipWriter(ByteSink sink, uint64_t zip64From = UINT32_MAX) : sink_(std::move(sink)), zip64From_(zip64From) {}
 
   // A member of `size` bytes; append() must receive exactly that many, in any number of pieces, before end().
   Status begin(std::string name, uint64_t size);

@@ -26,12 +26,11 @@ struct Source {
   std::span<const uint8_t> memory;  // if there is no file
 
   // A range of the bytes; `storage` holds them if they must be read.
-  Result<std::span<const uint8_t>> view(uint64_t offset, uint64_t length,
-                                        std::vector<uint8_t>& storage) const {
-    if (offset > size || length > size - offset)
-      return makeError(ErrorKind::kBadInput,
-                       "%s: %llu bytes at byte %llu do not lie within the file's %llu; %s", name.c_str(),
-                       ull{length}, ull{offset}, ull{size}, kNoAsset);
+  Result<std::span<const uint8_t>> view(uint64_t offset, uint64_t length, std::vector<uint8_t>& storage) const {
+    if (offset > size || length > size - offset) {
+      return makeError(ErrorKind::kBadInput, "%s: %llu bytes at byte %llu do not lie within the file's %llu; %s",
+                       name.c_str(), ull{length}, ull{offset}, ull{size}, kNoAsset);
+    }
     if (!file) return memory.subspan(static_cast<size_t>(offset), static_cast<size_t>(length));
     storage.resize(static_cast<size_t>(length));
     if (Status status = file->readAt(offset, storage); !status) return status.error();
@@ -41,27 +40,30 @@ struct Source {
 
 Status checkHeader(const FileHeader& header, const Source& source) {
   const char* name = source.name.c_str();
-  if (header.magic != kFileMagic)
-    return makeError(ErrorKind::kBadInput, "%s: wrong magic bytes; %s", name, kNoAsset);
-  if (!hashMatches({reinterpret_cast<const uint8_t*>(&header), offsetof(FileHeader, headerHash)},
-                   header.headerHash))
+  if (header.magic != kFileMagic) return makeError(ErrorKind::kBadInput, "%s: wrong magic bytes; %s", name, kNoAsset);
+  if (!hashMatches({reinterpret_cast<const uint8_t*>(&header), offsetof(FileHeader, headerHash)}, header.headerHash)) {
     return makeError(ErrorKind::kBadInput, "%s: header: hash does not match; %s", name, kNoAsset);
-  if (header.versionMajor != kVersionMajor)
+  }
+  if (header.versionMajor != kVersionMajor) {
     return makeError(ErrorKind::kUnsupported, "%s: format version %u.%u, this program reads %u; %s", name,
                      header.versionMajor, header.versionMinor, kVersionMajor,
                      header.versionMajor < kVersionMajor ? "bake the scene again" : "update this program");
-  if (header.reserved0 != 0 || header.reserved1 != 0)
-    return makeError(ErrorKind::kUnsupported, "%s: header: reserved bytes are not zero; update this program",
-                     name);
-  if (header.fileSize != source.size)
+  }
+  if (header.reserved0 != 0 || header.reserved1 != 0) {
+    return makeError(ErrorKind::kUnsupported, "%s: header: reserved bytes are not zero; update this program", name);
+  }
+  if (header.fileSize != source.size) {
     return makeError(ErrorKind::kBadInput, "%s: %llu bytes long, its header says %llu; copy it again", name,
                      ull{source.size}, ull{header.fileSize});
-  if (header.manifestOffset != sizeof(FileHeader))
+  }
+  if (header.manifestOffset != sizeof(FileHeader)) {
     return makeError(ErrorKind::kBadInput, "%s: header: manifest at byte %llu, not %zu; %s", name,
                      ull{header.manifestOffset}, sizeof(FileHeader), kNoAsset);
-  if (header.manifestSize > kMaxManifestSize)
+  }
+  if (header.manifestSize > kMaxManifestSize) {
     return makeError(ErrorKind::kBadInput, "%s: header: manifest of %llu bytes, more than %llu; %s", name,
                      ull{header.manifestSize}, ull{kMaxManifestSize}, kNoAsset);
+  }
   return {};
 }
 
@@ -75,10 +77,10 @@ Result<Manifest> readManifest(const Source& source) {
 
   Result<std::span<const uint8_t>> bytes = source.view(header.manifestOffset, header.manifestSize, storage);
   if (!bytes) return bytes.error();
-  if (!hashMatches(*bytes, header.manifestHash))
-    return makeError(ErrorKind::kBadInput,
-                     "%s: manifest: hash does not match; copy it again or bake the scene again",
+  if (!hashMatches(*bytes, header.manifestHash)) {
+    return makeError(ErrorKind::kBadInput, "%s: manifest: hash does not match; copy it again or bake the scene again",
                      source.name.c_str());
+  }
   const std::vector<uint8_t> aligned(bytes->begin(), bytes->end());
   return parseManifest(aligned, header.manifestOffset + header.manifestSize, source.size, source.name);
 }
@@ -108,8 +110,7 @@ struct AssetReader::State {
     if (!stored) return stored.error();
     const uint32_t components =
         sectionComponents(static_cast<SectionType>(record.type), manifest.contents.quantization);
-    return decodeSection(record, *stored, raw, sectionPlace(place, record.type),
-                         {record.elementSize, components});
+    return decodeSection(record, *stored, raw, sectionPlace(place, record.type), {record.elementSize, components});
   }
 
   Status readCodebook() {
@@ -117,8 +118,7 @@ struct AssetReader::State {
     if (!record || last != Layer::kViewDependence) return {};
     std::vector<glm::vec3>& codebook = manifest.contents.axisCodebook;
     codebook.resize(manifest.codebookSize);
-    const std::span<uint8_t> raw{reinterpret_cast<uint8_t*>(codebook.data()),
-                                 codebook.size() * sizeof(glm::vec3)};
+    const std::span<uint8_t> raw{reinterpret_cast<uint8_t*>(codebook.data()), codebook.size() * sizeof(glm::vec3)};
     if (Status status = decode(*record, raw, chunkPlace(source.name, kSharedChunk)); !status) return status;
     return checkParameters(manifest.contents, source.name);
   }
@@ -161,23 +161,18 @@ Result<AssetReader> AssetReader::openBytes(std::span<const uint8_t> bytes, std::
   return reader;
 }
 
-const AssetContents& AssetReader::manifest() const {
-  return state_->contents;
-}
+const AssetContents& AssetReader::manifest() const { return state_->contents; }
 
-Box AssetReader::liveBounds(uint32_t chunk) const {
-  return state_->manifest.chunks[chunk].liveBounds;
-}
+Box AssetReader::liveBounds(uint32_t chunk) const { return state_->manifest.chunks[chunk].liveBounds; }
 
-std::span<const SectionRecord> AssetReader::sections() const {
-  return state_->manifest.sections;
-}
+std::span<const SectionRecord> AssetReader::sections() const { return state_->manifest.sections; }
 
 Result<ChunkContents> AssetReader::readChunk(uint32_t chunk) const {
   const State& state = *state_;
-  if (chunk >= state.contents.chunks.size())
-    return makeError(ErrorKind::kUsage, "%s: chunk %u asked for, there are %zu", state.source.name.c_str(),
-                     chunk, state.contents.chunks.size());
+  if (chunk >= state.contents.chunks.size()) {
+    return makeError(ErrorKind::kUsage, "%s: chunk %u asked for, there are %zu", state.source.name.c_str(), chunk,
+                     state.contents.chunks.size());
+  }
   const std::string place = chunkPlace(state.source.name, chunk);
   const SectionDecoder decode = [&](const SectionRecord& record, std::span<uint8_t> raw) {
     return state.decode(record, raw, place);
@@ -185,10 +180,10 @@ Result<ChunkContents> AssetReader::readChunk(uint32_t chunk) const {
   Result<ChunkContents> contents = unpackChunk(state.manifest, chunk, state.last, decode, place);
   if (!contents) return contents;
   if (Status status = checkChunk(state.contents, *contents, place); !status) return status.error();
-  if (Status status =
-          checkGhostRefs(state.contents, state.manifest.chunks, chunk, contents->ghostRefs, place);
-      !status)
+  if (Status status = checkGhostRefs(state.contents, state.manifest.chunks, chunk, contents->ghostRefs, place);
+      !status) {
     return status.error();
+  }
   return contents;
 }
 

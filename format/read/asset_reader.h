@@ -1,5 +1,5 @@
-// Reads a .froth asset. Nothing in the file is trusted: any bytes give a value or a named error, never a crash, a hang or
-// an allocation beyond what the file's size justifies.
+// Reads a .froth asset. Nothing in the file is trusted: any bytes give a value or a named error, never a crash, a hang
+// or an allocation beyond what the file's size justifies.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@ namespace froth {
 // Thread safety: readChunk() may run on several threads at once.
 class AssetReader {
  public:
-  // Layers behind `last` are left alone: the contents are those of a coarser scene (K = 1 or M = 0), complete for every user.
+  // Layers behind `last` are left alone: the contents are those of a coarser scene (K = 1 or M = 0), complete for every
+  // user.
   static Result<AssetReader> open(const std::filesystem::path& path, Layer last = Layer::kViewDependence);
   // `bytes` must outlive the reader; `name` stands for the file in messages.
   static Result<AssetReader> openBytes(std::span<const uint8_t> bytes, std::string name,

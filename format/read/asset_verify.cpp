@@ -33,10 +33,12 @@ class Verifier {
     localBits_ = reader.manifest().localBits;
     hasWalkGraph_ = reader.manifest().hasWalkGraph;
     const uint32_t count = static_cast<uint32_t>(reader.manifest().chunks.size());
-    for (uint32_t index = 0; index < count; ++index)
+    for (uint32_t index = 0; index < count; ++index) {
       if (Status status = addChunk(reader, index); !status) return status;
-    for (uint32_t index = 0; index < count; ++index)
+    }
+    for (uint32_t index = 0; index < count; ++index) {
       if (Status status = checkGhosts(index); !status) return status;
+    }
     return checkCrossPairs();
   }
 
@@ -45,11 +47,13 @@ class Verifier {
     Result<ChunkContents> contents = reader.readChunk(index);
     if (!contents) return contents.error();
     const Box told = reader.liveBounds(index), found = liveBoundsOf(*contents);
-    if (told.min != found.min || told.max != found.max)
+    if (told.min != found.min || told.max != found.max) {
       return makeError(ErrorKind::kBadInput, "%s: live_bounds are not those of its live cells; %s",
                        chunkPlace(file_, index).c_str(), kRemedy);
-    for (uint32_t cell = 0; cell < contents->cellCount; ++cell)
+    }
+    for (uint32_t cell = 0; cell < contents->cellCount; ++cell) {
       if (Status status = addRow(*contents, index, cell); !status) return status;
+    }
     // What the other chunks' ghosts are compared with is all that is kept.
     ChunkContents& kept = chunks_.emplace_back();
     kept.origin = contents->origin;
@@ -67,13 +71,15 @@ class Verifier {
     const uint32_t alphaCount = cell < chunk.liveCount ? chunk.alphaCounts[cell] : 0;
     for (uint32_t i = first; i < last; ++i) {
       const uint32_t neighbour = chunk.neighbours[i];
-      if (chunk.sites[neighbour] == chunk.sites[cell])
+      if (chunk.sites[neighbour] == chunk.sites[cell]) {
         return makeError(ErrorKind::kBadInput,
                          "%s: cell %u and its neighbour %u are the same point, no plane parts them; %s",
                          chunkPlace(file_, index).c_str(), cell, neighbour, kRemedy);
-      if (neighbour >= chunk.cellCount)
+      }
+      if (neighbour >= chunk.cellCount) {
         crossPairs_.push_back(
             {referenceTo(index, cell), chunk.ghostRefs[neighbour - chunk.cellCount], i - first < alphaCount});
+      }
     }
     return {};
   }
@@ -90,18 +96,16 @@ class Verifier {
         const double site = other.origin[axis] - chunk.origin[axis] + other.sites[cell][a];
         isSame = isSame && chunk.sites[here][a] == static_cast<float>(site);
       }
-      if (!isSame)
-        return makeError(ErrorKind::kBadInput,
-                         "%s: ghost %u is not where cell %u of chunk %u is, or not as large; %s",
-                         chunkPlace(file_, index).c_str(), ghost, cell,
-                         chunkOf(chunk.ghostRefs[ghost], localBits_), kRemedy);
+      if (!isSame) {
+        return makeError(ErrorKind::kBadInput, "%s: ghost %u is not where cell %u of chunk %u is, or not as large; %s",
+                         chunkPlace(file_, index).c_str(), ghost, cell, chunkOf(chunk.ghostRefs[ghost], localBits_),
+                         kRemedy);
+      }
     }
     return {};
   }
 
-  bool isLive(CellRef cell) const {
-    return localOf(cell, localBits_) < chunks_[chunkOf(cell, localBits_)].liveCount;
-  }
+  bool isLive(CellRef cell) const { return localOf(cell, localBits_) < chunks_[chunkOf(cell, localBits_)].liveCount; }
 
   // Both chunks know of a pair, and agree on alpha if both cells are live.
   Status checkCrossPairs() {
@@ -109,12 +113,13 @@ class Verifier {
     for (size_t i = 0; i < crossPairs_.size(); ++i) {
       const CrossPair& pair = crossPairs_[i];
       const bool areLive = isLive(pair.from) && isLive(pair.to);
-      const bool isBoth = i + 1 < crossPairs_.size() && crossPairs_[i + 1].from == pair.to &&
-                          crossPairs_[i + 1].to == pair.from;
+      const bool isBoth =
+          i + 1 < crossPairs_.size() && crossPairs_[i + 1].from == pair.to && crossPairs_[i + 1].to == pair.from;
       if (!isBoth && (hasWalkGraph_ || areLive)) return pairError(pair, "the graph holds one direction only");
       if (!isBoth) continue;
-      if (areLive && pair.isAlpha != crossPairs_[i + 1].isAlpha)
+      if (areLive && pair.isAlpha != crossPairs_[i + 1].isAlpha) {
         return pairError(pair, "the alpha-complex holds one direction only");
+      }
       ++i;
     }
     return {};
@@ -126,9 +131,8 @@ class Verifier {
 
   Error pairError(const CrossPair& pair, const char* what) const {
     return makeError(ErrorKind::kBadInput, "%s: cell %u and cell %u of chunk %u: %s; %s",
-                     chunkPlace(file_, chunkOf(pair.from, localBits_)).c_str(),
-                     localOf(pair.from, localBits_), localOf(pair.to, localBits_),
-                     chunkOf(pair.to, localBits_), what, kRemedy);
+                     chunkPlace(file_, chunkOf(pair.from, localBits_)).c_str(), localOf(pair.from, localBits_),
+                     localOf(pair.to, localBits_), chunkOf(pair.to, localBits_), what, kRemedy);
   }
 
   std::string file_;

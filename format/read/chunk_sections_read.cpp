@@ -42,15 +42,15 @@ class Elements {
 
 class ChunkReader {
  public:
-  ChunkReader(const Manifest& manifest, uint32_t chunk, const SectionDecoder& decode,
-              const std::string& place)
+  ChunkReader(const Manifest& manifest, uint32_t chunk, const SectionDecoder& decode, const std::string& place)
       : asset_(manifest.contents), manifest_(manifest), index_(chunk), decode_(decode), place_(place) {
     chunk_ = asset_.chunks[chunk];
   }
 
   Result<ChunkContents> read(Layer last) {
-    for (auto step : {&ChunkReader::readSites, &ChunkReader::readGraph, &ChunkReader::readCells})
+    for (auto step : {&ChunkReader::readSites, &ChunkReader::readGraph, &ChunkReader::readCells}) {
       if (Status status = (this->*step)(); !status) return status.error();
+    }
     if (last == Layer::kGeometry) {
       coarsen();
       return std::move(chunk_);
@@ -63,13 +63,11 @@ class ChunkReader {
 
  private:
   const SectionRecord* find(SectionType type) const { return manifest_.findSection(index_, type); }
-  bool isOnLattice(SectionType type) const {
-    return sectionKind(type, asset_.quantization) != ElementKind::kFloat;
-  }
+  bool isOnLattice(SectionType type) const { return sectionKind(type, asset_.quantization) != ElementKind::kFloat; }
 
   Error outOfRange(SectionType type, size_t number) const {
-    return makeError(ErrorKind::kBadInput, "%s: number %zu is out of range; %s",
-                     sectionPlace(place_, type).c_str(), number, kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: number %zu is out of range; %s", sectionPlace(place_, type).c_str(),
+                     number, kRemedy);
   }
 
   // No elements if there is no such section.
@@ -184,8 +182,7 @@ class ChunkReader {
 
   Status readOrientations() {
     const uint32_t bits = asset_.quantization.normalBits;
-    if (!isOnLattice(SectionType::kOrientations))
-      return loadAsIs(SectionType::kOrientations, chunk_.orientations);
+    if (!isOnLattice(SectionType::kOrientations)) return loadAsIs(SectionType::kOrientations, chunk_.orientations);
     Elements elements;
     if (Status status = load(SectionType::kOrientations, elements); !status) return status;
     chunk_.orientations.resize(elements.size() / 2);
@@ -199,10 +196,10 @@ class ChunkReader {
   }
 
   Status readCells() {
-    if (Status status =
-            loadMantissas(SectionType::kDensities, chunk_.densities, asset_.quantization.densityBits);
-        !status)
+    if (Status status = loadMantissas(SectionType::kDensities, chunk_.densities, asset_.quantization.densityBits);
+        !status) {
       return status;
+    }
     if (Status status = readOrientations(); !status) return status;
     if (Status status = loadAsIs(SectionType::kCellColours, cellColours_); !status) return status;
     for (std::array<uint8_t, 3>& colour : cellColours_) {
@@ -231,8 +228,9 @@ class ChunkReader {
 
   Status loadScales(SectionType type, std::vector<uint8_t>& scales) const {
     if (Status status = loadAsIs(type, scales); !status) return status;
-    for (size_t cell = 0; cell < scales.size(); ++cell)
+    for (size_t cell = 0; cell < scales.size(); ++cell) {
       if (scales[cell] > kMaxScale) return outOfRange(type, cell);
+    }
     return {};
   }
 
@@ -247,8 +245,9 @@ class ChunkReader {
       if (i % asset_.detailCount == 0) u = 0;
       u += unzigzag(elements[2 * i]);
       const int64_t v = unzigzag(elements[2 * i + 1]);
-      if (std::abs(u) > kMaxLatticeIndex || std::abs(v) > kMaxLatticeIndex)
+      if (std::abs(u) > kMaxLatticeIndex || std::abs(v) > kMaxLatticeIndex) {
         return outOfRange(SectionType::kDetailSites, 2 * i);
+      }
       chunk_.detailSites[i] =
           detailUnit(asset_.quantization.detailSiteStep, i) * glm::vec2(static_cast<float>(u), static_cast<float>(v));
     }
@@ -260,8 +259,7 @@ class ChunkReader {
   }
 
   Status readDetailHeights() {
-    if (!isOnLattice(SectionType::kDetailHeights))
-      return loadAsIs(SectionType::kDetailHeights, chunk_.detailHeights);
+    if (!isOnLattice(SectionType::kDetailHeights)) return loadAsIs(SectionType::kDetailHeights, chunk_.detailHeights);
     const float step = asset_.quantization.heightStep;
     return loadIndices(
         SectionType::kDetailHeights, chunk_.detailHeights, [&](size_t i) { return detailUnit(step, i); },
@@ -278,15 +276,15 @@ class ChunkReader {
 
   Status readBaseColours() {
     if (Status status = loadScales(SectionType::kColourScales, chunk_.colourScales); !status) return status;
-    if (!isOnLattice(SectionType::kBaseColours))
-      return loadAsIs(SectionType::kBaseColours, chunk_.baseColours);
+    if (!isOnLattice(SectionType::kBaseColours)) return loadAsIs(SectionType::kBaseColours, chunk_.baseColours);
     return loadColours(
         SectionType::kBaseColours, chunk_.baseColours, [&](size_t i) { return colourUnit(i); },
         [&](size_t i) {
           std::array<int32_t, 3> expected{};
           if (cellColours_.empty()) return expected;
-          for (size_t c = 0; c < 3; ++c)
+          for (size_t c = 0; c < 3; ++c) {
             expected[c] = expectedColourIndex(cellColours_[i / asset_.detailCount][c], colourUnit(i));
+          }
           return expected;
         });
   }
@@ -297,13 +295,13 @@ class ChunkReader {
     if (Status status = loadAsIs(SectionType::kLobeCounts, chunk_.lobeCounts); !status) return status;
     if (lobes == 0 && asset_.lobeCount > 0) chunk_.lobeCounts.assign(details, 0);
     if (Status status = checkLobeCounts(lobes); !status) return status;
-    if (Status status = asset_.axisCodebook.empty() ? loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes,
-                                                                 asset_.quantization.lobeAxisStep)
-                                                    : readLabels();
-        !status)
+    if (Status status = asset_.axisCodebook.empty()
+                            ? loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes, asset_.quantization.lobeAxisStep)
+                            : readLabels();
+        !status) {
       return status;
-    if (!isOnLattice(SectionType::kLobeColours))
-      return loadAsIs(SectionType::kLobeColours, chunk_.lobeColours);
+    }
+    if (!isOnLattice(SectionType::kLobeColours)) return loadAsIs(SectionType::kLobeColours, chunk_.lobeColours);
     const std::vector<float> units = lobeUnits(asset_, chunk_);
     return loadColours(
         SectionType::kLobeColours, chunk_.lobeColours, [&](size_t i) { return units[i]; },
@@ -316,8 +314,8 @@ class ChunkReader {
     for (const uint8_t count : chunk_.lobeCounts) sum += count;
     if (sum == lobes) return {};
     return makeError(ErrorKind::kBadInput, "%s: %llu lobes, the manifest says %llu; %s",
-                     sectionPlace(place_, SectionType::kLobeCounts).c_str(),
-                     static_cast<unsigned long long>(sum), static_cast<unsigned long long>(lobes), kRemedy);
+                     sectionPlace(place_, SectionType::kLobeCounts).c_str(), static_cast<unsigned long long>(sum),
+                     static_cast<unsigned long long>(lobes), kRemedy);
   }
 
   // Axes as entries of the codebook, and the differences to them.
@@ -325,8 +323,9 @@ class ChunkReader {
     Elements labels;
     if (Status status = load(SectionType::kLobeLabels, labels); !status) return status;
     if (Status status = loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes, asset_.quantization.lobeAxisStep);
-        !status)
+        !status) {
       return status;
+    }
     chunk_.lobeAxes.resize(labels.size(), glm::vec3(0));  // absent: no differences
     const uint64_t entries = asset_.axisCodebook.size();
     size_t lobe = 0;
@@ -352,8 +351,8 @@ class ChunkReader {
 
 }  // namespace
 
-Result<ChunkContents> unpackChunk(const Manifest& manifest, uint32_t chunk, Layer last,
-                                  const SectionDecoder& decode, const std::string& place) {
+Result<ChunkContents> unpackChunk(const Manifest& manifest, uint32_t chunk, Layer last, const SectionDecoder& decode,
+                                  const std::string& place) {
   return ChunkReader(manifest, chunk, decode, place).read(last);
 }
 

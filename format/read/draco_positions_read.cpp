@@ -60,8 +60,9 @@ bool isKdTree(std::span<const uint8_t> bytes, uint32_t count) {
   for (int i = 0; i < kNumberStreams; ++i) {
     uint8_t probability = 0;
     uint32_t size = 0;
-    if (!cursor.take(probability) || !cursor.takeVarint(size) || size == 0 || !cursor.takeBytes(size, stream))
+    if (!cursor.take(probability) || !cursor.takeVarint(size) || size == 0 || !cursor.takeBytes(size, stream)) {
       return false;
+    }
   }
   for (int i = 0; i < kPlainStreams; ++i) {
     uint32_t size = 0;
@@ -106,10 +107,10 @@ bool decodeKdTree(std::span<const uint8_t> bytes, PointSink& sink) {
 
 Status readDracoPositions(std::span<const uint8_t> stored, std::span<uint8_t> raw, const std::string& place) {
   constexpr size_t kPointSize = sizeof(LatticePoint);
-  if (raw.size() > kMaxDracoExpansion * stored.size())
-    return makeError(ErrorKind::kBadInput, "%s: %llu bytes of Draco for %llu, less than a %lluth; %s",
-                     place.c_str(), ull{stored.size()}, ull{raw.size()}, ull{kMaxDracoExpansion},
-                     kSectionRemedy);
+  if (raw.size() > kMaxDracoExpansion * stored.size()) {
+    return makeError(ErrorKind::kBadInput, "%s: %llu bytes of Draco for %llu, less than a %lluth; %s", place.c_str(),
+                     ull{stored.size()}, ull{raw.size()}, ull{kMaxDracoExpansion}, kSectionRemedy);
+  }
   const auto fail = [&place](const char* cause) {
     return makeError(ErrorKind::kBadInput, "%s: %s; %s", place.c_str(), cause, kSectionRemedy);
   };
@@ -118,8 +119,9 @@ Status readDracoPositions(std::span<const uint8_t> stored, std::span<uint8_t> ra
     uint32_t count = 0, size = 0;
     std::array<uint32_t, 3> least;
     std::span<const uint8_t> tree;
-    if (!cursor.take(count) || !cursor.take(size) || !cursor.take(least) || !cursor.takeBytes(size, tree))
+    if (!cursor.take(count) || !cursor.take(size) || !cursor.take(least) || !cursor.takeBytes(size, tree)) {
       return fail("Draco's runs end early");
+    }
     if (count == 0 || count > raw.size() / kPointSize) return fail("a run of Draco's has a wrong count");
     if (!isKdTree(tree, count)) return fail("a run of Draco's is no kd-tree of its points");
     PointSink sink(raw.first(count * kPointSize), least);

@@ -17,20 +17,20 @@ Status FrameReader::start(uint64_t contentSize) {
   const uint8_t* next = static_cast<const uint8_t*>(input_.src) + input_.pos;
   const unsigned long long found = ZSTD_getFrameContentSize(next, input_.size - input_.pos);
   if (found == contentSize) return {};
-  if (found == ZSTD_CONTENTSIZE_ERROR || found == ZSTD_CONTENTSIZE_UNKNOWN)
-    return makeError(ErrorKind::kBadInput, "%s: no zstd frame of known size; %s", place_.c_str(),
-                     kSectionRemedy);
-  return makeError(ErrorKind::kBadInput, "%s: the zstd frame holds %llu bytes instead of %llu; %s",
-                   place_.c_str(), found, static_cast<unsigned long long>(contentSize), kSectionRemedy);
+  if (found == ZSTD_CONTENTSIZE_ERROR || found == ZSTD_CONTENTSIZE_UNKNOWN) {
+    return makeError(ErrorKind::kBadInput, "%s: no zstd frame of known size; %s", place_.c_str(), kSectionRemedy);
+  }
+  return makeError(ErrorKind::kBadInput, "%s: the zstd frame holds %llu bytes instead of %llu; %s", place_.c_str(),
+                   found, static_cast<unsigned long long>(contentSize), kSectionRemedy);
 }
 
 Status FrameReader::read(std::span<uint8_t> out) {
   ZSTD_outBuffer output{out.data(), out.size(), 0};
   while (output.pos < output.size) {
     if (Status step = advance(output); !step) return step;
-    if (output.pos < output.size && (atEnd_ || input_.pos == input_.size))
-      return makeError(ErrorKind::kBadInput, "%s: the zstd frame ends early; %s", place_.c_str(),
-                       kSectionRemedy);
+    if (output.pos < output.size && (atEnd_ || input_.pos == input_.size)) {
+      return makeError(ErrorKind::kBadInput, "%s: the zstd frame ends early; %s", place_.c_str(), kSectionRemedy);
+    }
   }
   return {};
 }
@@ -56,9 +56,9 @@ Status FrameReader::end() {
   while (!atEnd_) {
     const size_t before = input_.pos;
     if (Status step = advance(none); !step) return step;
-    if (!atEnd_ && input_.pos == before)
-      return makeError(ErrorKind::kBadInput, "%s: the zstd frame does not end; %s", place_.c_str(),
-                       kSectionRemedy);
+    if (!atEnd_ && input_.pos == before) {
+      return makeError(ErrorKind::kBadInput, "%s: the zstd frame does not end; %s", place_.c_str(), kSectionRemedy);
+    }
   }
   return {};
 }
@@ -72,9 +72,10 @@ Status FrameReader::finish() const {
 
 Status FrameReader::advance(ZSTD_outBuffer& output) {
   const size_t result = ZSTD_decompressStream(context_.get(), &output, &input_);
-  if (ZSTD_isError(result))
+  if (ZSTD_isError(result)) {
     return makeError(ErrorKind::kBadInput, "%s: zstd: %s; %s", place_.c_str(), ZSTD_getErrorName(result),
                      kSectionRemedy);
+  }
   atEnd_ = result == 0;
   return {};
 }

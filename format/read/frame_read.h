@@ -28,7 +28,8 @@ class FrameReader {
   // The frame must end here; its checksum is read now.
   Status end();
 
-  // Reads a frame with byte 0 of every element, then one with byte 1 of every element, ... `elements` is whole elements.
+  // Reads a frame with byte 0 of every element, then one with byte 1 of every element, ... `elements` is whole
+  // elements.
   Status readPlanes(std::span<uint8_t> elements, uint32_t elementSize);
 
   // Only zeros may follow.

@@ -27,25 +27,26 @@ Status checkSizes(const PackedGraphView& packed, bool hasWalkGraph, const ChunkC
                   const std::string& place) {
   const uint32_t elementSize = graphElementSize(chunk);
   const auto fail = [&place](const char* what, size_t found, uint64_t expected) {
-    return makeError(ErrorKind::kBadInput, "%s: graph: %s of %zu bytes instead of %llu; %s", place.c_str(),
-                     what, found, ull{expected}, kSectionRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: graph: %s of %zu bytes instead of %llu; %s", place.c_str(), what, found,
+                     ull{expected}, kSectionRemedy);
   };
-  if (packed.counts.size() != uint64_t{chunk.cellCount} * elementSize)
+  if (packed.counts.size() != uint64_t{chunk.cellCount} * elementSize) {
     return fail("counts", packed.counts.size(), uint64_t{chunk.cellCount} * elementSize);
+  }
   uint64_t pairs = 0;
-  for (uint32_t cell = 0; cell < chunk.cellCount; ++cell)
-    pairs += elementAt(packed.counts, cell, elementSize);
-  if (packed.deltas.size() != pairs * elementSize)
-    return fail("deltas", packed.deltas.size(), pairs * elementSize);
+  for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) pairs += elementAt(packed.counts, cell, elementSize);
+  if (packed.deltas.size() != pairs * elementSize) return fail("deltas", packed.deltas.size(), pairs * elementSize);
   const uint64_t bitBytes = hasWalkGraph ? (pairs + 7) / 8 : 0;
   if (packed.alphaBits.size() != bitBytes) return fail("alpha bits", packed.alphaBits.size(), bitBytes);
-  if (pairs > kMaxPairs)
-    return makeError(ErrorKind::kBadInput, "%s: graph: %llu pairs, more than %llu; %s", place.c_str(),
-                     ull{pairs}, ull{kMaxPairs}, kSectionRemedy);
+  if (pairs > kMaxPairs) {
+    return makeError(ErrorKind::kBadInput, "%s: graph: %llu pairs, more than %llu; %s", place.c_str(), ull{pairs},
+                     ull{kMaxPairs}, kSectionRemedy);
+  }
   const bool hasSpareBits = bitBytes > 0 && pairs % 8 != 0 && packed.alphaBits.back() >> pairs % 8 != 0;
-  if (hasSpareBits)
+  if (hasSpareBits) {
     return makeError(ErrorKind::kBadInput, "%s: graph: spare alpha bits are not zero; %s", place.c_str(),
                      kSectionRemedy);
+  }
   return {};
 }
 
@@ -58,9 +59,9 @@ struct Pairs {
   // Calls visit(cell, neighbour, isAlpha) for every pair.
   template <class Visit>
   void visit(Visit&& call) const {
-    for (uint32_t cell = 0; cell + 1 < starts.size(); ++cell)
-      for (uint32_t pair = starts[cell]; pair < starts[cell + 1]; ++pair)
-        call(cell, neighbours[pair], isAlpha[pair]);
+    for (uint32_t cell = 0; cell + 1 < starts.size(); ++cell) {
+      for (uint32_t pair = starts[cell]; pair < starts[cell + 1]; ++pair) call(cell, neighbours[pair], isAlpha[pair]);
+    }
   }
 };
 
@@ -80,20 +81,21 @@ Result<Pairs> readPairs(const PackedGraphView& packed, bool hasWalkGraph, const 
       const size_t pair = pairs.isAlpha.size();
       const uint64_t pairPlace = nextPlace + elementAt(packed.deltas, pair, elementSize);
       const uint64_t site = order.siteAt(pairPlace);
-      if (site >= siteCount)
-        return makeError(ErrorKind::kBadInput, "%s: graph: neighbour %llu of cell %u >= %llu; %s",
-                         place.c_str(), ull{site}, cell, ull{siteCount}, kSectionRemedy);
+      if (site >= siteCount) {
+        return makeError(ErrorKind::kBadInput, "%s: graph: neighbour %llu of cell %u >= %llu; %s", place.c_str(),
+                         ull{site}, cell, ull{siteCount}, kSectionRemedy);
+      }
       const uint32_t neighbour = static_cast<uint32_t>(site);
-      if (pairPlace >= order.candidates().size() && order.isCandidate(neighbour))
-        return makeError(ErrorKind::kBadInput,
-                         "%s: graph: neighbour %u of cell %u stands at its second place; %s", place.c_str(),
-                         neighbour, cell, kSectionRemedy);
+      if (pairPlace >= order.candidates().size() && order.isCandidate(neighbour)) {
+        return makeError(ErrorKind::kBadInput, "%s: graph: neighbour %u of cell %u stands at its second place; %s",
+                         place.c_str(), neighbour, cell, kSectionRemedy);
+      }
       const bool isSurprise = hasWalkGraph && (packed.alphaBits[pair / 8] >> pair % 8 & 1);
       const bool isAlpha = !hasWalkGraph || isSurprise != isLikelyAlpha(chunk, cell, neighbour);
-      if (isAlpha && cell >= chunk.liveCount)
-        return makeError(ErrorKind::kBadInput,
-                         "%s: graph: cell %u is not live, but in a pair of the alpha-complex; %s",
+      if (isAlpha && cell >= chunk.liveCount) {
+        return makeError(ErrorKind::kBadInput, "%s: graph: cell %u is not live, but in a pair of the alpha-complex; %s",
                          place.c_str(), cell, kSectionRemedy);
+      }
       if (Status status = degrees.add(cell, neighbour, place); !status) return status.error();
       order.add(neighbour);
       pairs.isAlpha.push_back(isAlpha);
@@ -116,8 +118,9 @@ void countRows(const Pairs& pairs, bool hasWalkGraph, ChunkContents& chunk) {
       if (isLive && isAlpha) ++chunk.alphaCounts[end];
     }
   });
-  for (uint32_t cell = 0; cell < chunk.cellCount; ++cell)
+  for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
     chunk.neighbourOffsets[cell + 1] += chunk.neighbourOffsets[cell];
+  }
 }
 
 void fillRows(const Pairs& pairs, bool hasWalkGraph, ChunkContents& chunk) {
@@ -138,8 +141,7 @@ void fillRows(const Pairs& pairs, bool hasWalkGraph, ChunkContents& chunk) {
 
 }  // namespace
 
-Status unpackGraph(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& chunk,
-                   const std::string& place) {
+Status unpackGraph(const PackedGraphView& packed, bool hasWalkGraph, ChunkContents& chunk, const std::string& place) {
   if (Status status = checkSizes(packed, hasWalkGraph, chunk, place); !status) return status;
   const Result<Pairs> pairs = readPairs(packed, hasWalkGraph, chunk, place);
   if (!pairs) return pairs.error();

@@ -16,19 +16,18 @@ namespace {
 constexpr char kRemedy[] = "the file is damaged, copy it or bake the scene again";
 constexpr char kTooNew[] = "the file is newer than this program, update it";
 
-// Manifests of version 2.0 have three tables and one per attribute error; later ones may add some.
+// Manifests of version 2.0 have four tables and one per attribute error; later ones may add some.
 constexpr flatbuffers::uoffset_t kMaxDepth = 16, kMaxTables = 1000;
 
 using ull = unsigned long long;
 
-std::array<double, 3> unpack(const fb::Double3& v) {
-  return {v.x(), v.y(), v.z()};
-}
+std::array<double, 3> unpack(const fb::Double3& v) { return {v.x(), v.y(), v.z()}; }
 
 StoredCamera unpack(const fb::Camera& camera) {
   StoredCamera result;
-  for (uint16_t i = 0; i < result.worldFromCamera.size(); ++i)
+  for (uint16_t i = 0; i < result.worldFromCamera.size(); ++i) {
     result.worldFromCamera[i] = camera.world_from_camera()->Get(i);
+  }
   result.tanHalfFovY = camera.tan_half_fov_y();
   return result;
 }
@@ -60,10 +59,21 @@ Quantization unpack(const fb::Quantization& q) {
   return result;
 }
 
+Box unpack(const fb::Box& box) { return {unpack(box.min()), unpack(box.max())}; }
+
+EyeRegion unpack(const fb::EyeRegion& eyes) {
+  EyeRegion result;
+  result.radius = eyes.radius();
+  result.worstPsnr = eyes.worst_psnr();
+  result.meanPsnr = eyes.mean_psnr();
+  for (const fb::Box* box : *eyes.boxes()) result.boxes.push_back(unpack(*box));
+  return result;
+}
+
 ChunkIndex unpack(const fb::Chunk& c) {
   return {unpack(c.origin()),
           {c.cell_count(), c.live_count(), c.ghost_count(), c.pair_count(), c.lobe_count()},
-          {unpack(c.live_bounds().min()), unpack(c.live_bounds().max())}};
+          unpack(c.live_bounds())};
 }
 
 SectionRecord unpack(const fb::Section& s) {
@@ -82,16 +92,20 @@ bool isAligned(const flatbuffers::Vector<const Struct*>* vector) {
 
 // FlatBuffers' own verifier looks at the alignment of a vector's length only.
 bool areStructsAligned(const fb::Manifest& manifest) {
-  return isAligned(manifest.flight_path()) && isAligned(manifest.chunks()) && isAligned(manifest.sections());
+  return isAligned(manifest.flight_path()) && isAligned(manifest.chunks()) && isAligned(manifest.sections()) &&
+         (!manifest.eyes() || isAligned(manifest.eyes()->boxes()));
 }
 
-// Strings may lie in each other: each counts as often as a field refers to it, so that unpacking them takes no more memory than
-// the manifest.
+// Strings may lie in each other: each counts as often as a field refers to it, so that unpacking them takes no more
+// memory than the manifest.
 bool areStringsWithin(const fb::Manifest& manifest, uint64_t size) {
   uint64_t sum = uint64_t{manifest.colour_space()->size()} + manifest.preset()->size();
   if (manifest.source()) sum += manifest.source()->size();
-  if (manifest.errors())
-    for (const fb::AttributeError* error : *manifest.errors()) sum += uint64_t{error->name()->size()} + error->unit()->size();
+  if (manifest.errors()) {
+    for (const fb::AttributeError* error : *manifest.errors()) {
+      sum += uint64_t{error->name()->size()} + error->unit()->size();
+    }
+  }
   return sum <= size;
 }
 
@@ -108,15 +122,19 @@ AssetContents unpackParameters(const fb::Manifest& manifest) {
   contents.quantization = unpack(*manifest.quantization());
   contents.preset = manifest.preset()->str();
   contents.psnr = manifest.psnr();
-  if (manifest.errors())
-    for (const fb::AttributeError* error : *manifest.errors())
+  if (manifest.errors()) {
+    for (const fb::AttributeError* error : *manifest.errors()) {
       contents.errors.push_back({error->name()->str(), error->unit()->str(), error->rms(), error->max()});
+    }
+  }
   if (manifest.source()) contents.source = manifest.source()->str();
+  if (manifest.eyes()) contents.eyes = unpack(*manifest.eyes());
   if (manifest.statistics()) contents.statistics = unpack(*manifest.statistics());
   contents.hasStartView = manifest.start_view() != nullptr;
   if (contents.hasStartView) contents.startView = unpack(*manifest.start_view());
-  if (manifest.flight_path())
+  if (manifest.flight_path()) {
     for (const fb::Camera* camera : *manifest.flight_path()) contents.flightPath.push_back(unpack(*camera));
+  }
   return contents;
 }
 
@@ -135,17 +153,18 @@ Status unpackChunks(const fb::Manifest& packed, const std::string& file, Manifes
 }
 
 // What the record says about itself and its place in the file.
-Status checkRecord(const SectionRecord& record, bool hasReserved, uint64_t fileSize,
-                   const std::string& place) {
-  if (hasReserved || (record.flags & kSectionReservedFlags) != 0)
+Status checkRecord(const SectionRecord& record, bool hasReserved, uint64_t fileSize, const std::string& place) {
+  if (hasReserved || (record.flags & kSectionReservedFlags) != 0) {
     return makeError(ErrorKind::kUnsupported, "%s: reserved bits are set (flags 0x%04x); %s", place.c_str(),
                      record.flags, kTooNew);
-  if (record.offset > fileSize || record.storedSize > fileSize - record.offset)
-    return makeError(ErrorKind::kBadInput,
-                     "%s: offset %llu + size %llu lies beyond the file's %llu bytes; %s", place.c_str(),
-                     ull{record.offset}, ull{record.storedSize}, ull{fileSize}, kRemedy);
-  if (sectionName(record.type) == nullptr && (record.flags & kSectionCritical) != 0)
+  }
+  if (record.offset > fileSize || record.storedSize > fileSize - record.offset) {
+    return makeError(ErrorKind::kBadInput, "%s: offset %llu + size %llu lies beyond the file's %llu bytes; %s",
+                     place.c_str(), ull{record.offset}, ull{record.storedSize}, ull{fileSize}, kRemedy);
+  }
+  if (sectionName(record.type) == nullptr && (record.flags & kSectionCritical) != 0) {
     return makeError(ErrorKind::kUnsupported, "%s: unknown and critical; %s", place.c_str(), kTooNew);
+  }
   return {};
 }
 
@@ -163,12 +182,14 @@ Status checkElements(const SectionRecord& record, const Manifest& manifest, cons
   const ElementKind kind = sectionKind(static_cast<SectionType>(record.type), manifest.contents.quantization);
   const bool isGraph = kind == ElementKind::kGraph;
   if (!isElementSize(kind, record.elementSize) ||
-      (isGraph && record.elementSize != graphElementSize(manifest.contents.chunks[record.chunk])))
-    return makeError(ErrorKind::kBadInput, "%s: elements of %u bytes cannot be; %s", place.c_str(),
-                     record.elementSize, kRemedy);
-  if (record.base != 0 && kind != ElementKind::kUnsigned)
-    return makeError(ErrorKind::kBadInput, "%s: base is %u, these elements have none; %s", place.c_str(),
-                     record.base, kRemedy);
+      (isGraph && record.elementSize != graphElementSize(manifest.contents.chunks[record.chunk]))) {
+    return makeError(ErrorKind::kBadInput, "%s: elements of %u bytes cannot be; %s", place.c_str(), record.elementSize,
+                     kRemedy);
+  }
+  if (record.base != 0 && kind != ElementKind::kUnsigned) {
+    return makeError(ErrorKind::kBadInput, "%s: base is %u, these elements have none; %s", place.c_str(), record.base,
+                     kRemedy);
+  }
   return {};
 }
 
@@ -176,49 +197,53 @@ Status checkElements(const SectionRecord& record, const Manifest& manifest, cons
 Status checkKnownRecord(const SectionRecord& record, const Manifest& manifest, const std::string& place) {
   const SectionType type = static_cast<SectionType>(record.type);
   const bool isShared = type == SectionType::kAxisCodebook;
-  if (isShared ? record.chunk != kSharedChunk : record.chunk >= manifest.chunks.size())
+  if (isShared ? record.chunk != kSharedChunk : record.chunk >= manifest.chunks.size()) {
     return makeError(ErrorKind::kBadInput, "%s: belongs to no such chunk, there are %zu; %s", place.c_str(),
                      manifest.chunks.size(), kRemedy);
-  if (record.codec > kLastSectionCodec)
-    return makeError(ErrorKind::kUnsupported, "%s: unknown codec %u; %s", place.c_str(), record.codec,
-                     kTooNew);
+  }
+  if (record.codec > kLastSectionCodec) {
+    return makeError(ErrorKind::kUnsupported, "%s: unknown codec %u; %s", place.c_str(), record.codec, kTooNew);
+  }
   const uint64_t entries = demandedEntries(record, manifest);
-  if (entries == 0)
-    return makeError(ErrorKind::kBadInput, "%s: must not be there; %s", place.c_str(), kRemedy);
+  if (entries == 0) return makeError(ErrorKind::kBadInput, "%s: must not be there; %s", place.c_str(), kRemedy);
   if (Status status = checkElements(record, manifest, place); !status) return status;
-  const uint64_t rawSize =
-      entries * sectionComponents(type, manifest.contents.quantization) * record.elementSize;
-  if (record.rawSize != rawSize)
-    return makeError(ErrorKind::kBadInput, "%s: raw size %llu, but the counts demand %llu bytes; %s",
-                     place.c_str(), ull{record.rawSize}, ull{rawSize}, kRemedy);
+  const uint64_t rawSize = entries * sectionComponents(type, manifest.contents.quantization) * record.elementSize;
+  if (record.rawSize != rawSize) {
+    return makeError(ErrorKind::kBadInput, "%s: raw size %llu, but the counts demand %llu bytes; %s", place.c_str(),
+                     ull{record.rawSize}, ull{rawSize}, kRemedy);
+  }
   const bool isStored = record.codec == static_cast<uint16_t>(SectionCodec::kStored);
-  if (isStored ? record.storedSize != record.rawSize : record.rawSize > record.storedSize * kMaxExpansion)
+  if (isStored ? record.storedSize != record.rawSize : record.rawSize > record.storedSize * kMaxExpansion) {
     return makeError(ErrorKind::kBadInput, "%s: %llu stored bytes cannot hold %llu; %s", place.c_str(),
                      ull{record.storedSize}, ull{record.rawSize}, kRemedy);
+  }
   return {};
 }
 
 // `occupied`: ranges [offset, end) of all sections, and of the manifest with the header before it.
 Status checkOverlaps(std::vector<std::pair<uint64_t, uint64_t>> occupied, const std::string& file) {
   std::sort(occupied.begin(), occupied.end());
-  for (size_t i = 1; i < occupied.size(); ++i)
-    if (occupied[i].first < occupied[i - 1].second)
-      return makeError(ErrorKind::kBadInput,
-                       "%s: the section at byte %llu overlaps what ends at byte %llu; %s", file.c_str(),
-                       ull{occupied[i].first}, ull{occupied[i - 1].second}, kRemedy);
+  for (size_t i = 1; i < occupied.size(); ++i) {
+    if (occupied[i].first < occupied[i - 1].second) {
+      return makeError(ErrorKind::kBadInput, "%s: the section at byte %llu overlaps what ends at byte %llu; %s",
+                       file.c_str(), ull{occupied[i].first}, ull{occupied[i - 1].second}, kRemedy);
+    }
+  }
   return {};
 }
 
 Status checkKeys(const std::vector<SectionRecord>& sorted, const std::string& file) {
-  for (size_t i = 1; i < sorted.size(); ++i)
-    if (sorted[i].chunk == sorted[i - 1].chunk && sorted[i].type == sorted[i - 1].type)
+  for (size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i].chunk == sorted[i - 1].chunk && sorted[i].type == sorted[i - 1].type) {
       return makeError(ErrorKind::kBadInput, "%s: exists twice; %s",
                        sectionPlace(chunkPlace(file, sorted[i].chunk), sorted[i].type).c_str(), kRemedy);
+    }
+  }
   return {};
 }
 
-Status unpackSections(const fb::Manifest& packed, uint64_t manifestEnd, uint64_t fileSize,
-                      const std::string& file, Manifest& manifest) {
+Status unpackSections(const fb::Manifest& packed, uint64_t manifestEnd, uint64_t fileSize, const std::string& file,
+                      Manifest& manifest) {
   std::vector<SectionRecord> all;
   std::vector<std::pair<uint64_t, uint64_t>> occupied{{0, manifestEnd}};
   for (const fb::Section* section : *packed.sections()) {
@@ -239,21 +264,22 @@ Status unpackSections(const fb::Manifest& packed, uint64_t manifestEnd, uint64_t
 }
 
 Status missing(const std::string& chunkPlace, SectionType type) {
-  return makeError(ErrorKind::kBadInput, "%s: is missing; %s", sectionPlace(chunkPlace, type).c_str(),
-                   kRemedy);
+  return makeError(ErrorKind::kBadInput, "%s: is missing; %s", sectionPlace(chunkPlace, type).c_str(), kRemedy);
 }
 
 Status checkPresence(const Manifest& manifest, const std::string& file) {
   const bool hasCodebook = manifest.codebookSize > 0;
-  if (hasCodebook && !manifest.findSection(kSharedChunk, SectionType::kAxisCodebook))
+  if (hasCodebook && !manifest.findSection(kSharedChunk, SectionType::kAxisCodebook)) {
     return missing(chunkPlace(file, kSharedChunk), SectionType::kAxisCodebook);
-  for (uint32_t index = 0; index < manifest.chunks.size(); ++index)
+  }
+  for (uint32_t index = 0; index < manifest.chunks.size(); ++index) {
     for (const SectionType type : allSectionTypes()) {
-      const Presence presence =
-          sectionPresence(type, manifest.contents, hasCodebook, manifest.chunks[index].counts);
-      if (presence == Presence::kRequired && !manifest.findSection(index, type))
+      const Presence presence = sectionPresence(type, manifest.contents, hasCodebook, manifest.chunks[index].counts);
+      if (presence == Presence::kRequired && !manifest.findSection(index, type)) {
         return missing(chunkPlace(file, index), type);
+      }
     }
+  }
   return {};
 }
 
@@ -273,26 +299,30 @@ Result<Manifest> parseManifest(const std::vector<uint8_t>& bytes, uint64_t manif
   limits.max_depth = kMaxDepth;
   limits.max_tables = kMaxTables;
   flatbuffers::Verifier verifier(bytes.data(), bytes.size(), limits);
-  if (!fb::VerifyManifestBuffer(verifier) || !areStructsAligned(*fb::GetManifest(bytes.data())))
-    return makeError(ErrorKind::kBadInput, "%s: the manifest's %zu bytes are no FlatBuffers manifest; %s",
-                     file.c_str(), bytes.size(), kRemedy);
+  if (!fb::VerifyManifestBuffer(verifier) || !areStructsAligned(*fb::GetManifest(bytes.data()))) {
+    return makeError(ErrorKind::kBadInput, "%s: the manifest's %zu bytes are no FlatBuffers manifest; %s", file.c_str(),
+                     bytes.size(), kRemedy);
+  }
   const fb::Manifest& packed = *fb::GetManifest(bytes.data());
-  if (!areStringsWithin(packed, bytes.size()))
+  if (!areStringsWithin(packed, bytes.size())) {
     return makeError(ErrorKind::kBadInput, "%s: the manifest's strings together are longer than its %zu bytes; %s",
                      file.c_str(), bytes.size(), kRemedy);
-  if (packed.colour_space()->string_view() != kColourSpace)
+  }
+  if (packed.eyes() && packed.eyes()->boxes()->size() == 0) {
+    return makeError(ErrorKind::kBadInput, "%s: eyes: no box; %s", file.c_str(), kRemedy);
+  }
+  if (packed.colour_space()->string_view() != kColourSpace) {
     return makeError(ErrorKind::kUnsupported, "%s: colour_space is '%.32s', not '%s'; %s", file.c_str(),
                      printable(packed.colour_space()->string_view()).c_str(), kColourSpace, kTooNew);
+  }
 
   Manifest manifest;
   manifest.contents = unpackParameters(packed);
   manifest.codebookSize = packed.codebook_size();
   if (Status status = checkParameters(manifest.contents, file); !status) return status.error();
-  if (Status status = checkCodebookSize(manifest.contents, manifest.codebookSize, file); !status)
-    return status.error();
+  if (Status status = checkCodebookSize(manifest.contents, manifest.codebookSize, file); !status) return status.error();
   if (Status status = unpackChunks(packed, file, manifest); !status) return status.error();
-  if (Status status = unpackSections(packed, manifestEnd, fileSize, file, manifest); !status)
-    return status.error();
+  if (Status status = unpackSections(packed, manifestEnd, fileSize, file, manifest); !status) return status.error();
   if (Status status = checkPresence(manifest, file); !status) return status.error();
   return manifest;
 }

@@ -41,8 +41,7 @@ Status readMortonDeltas(FrameReader& frame, std::span<uint8_t> raw) {
   std::vector<uint64_t> codes(count);
   const std::span<uint8_t> codeBytes{reinterpret_cast<uint8_t*>(codes.data()), count * sizeof(uint64_t)};
   if (Status status = frame.start(sizeof(least)); !status) return status;
-  if (Status status = frame.read({reinterpret_cast<uint8_t*>(least.data()), sizeof(least)}); !status)
-    return status;
+  if (Status status = frame.read({reinterpret_cast<uint8_t*>(least.data()), sizeof(least)}); !status) return status;
   if (Status status = frame.end(); !status) return status;
   if (Status status = frame.readPlanes(codeBytes, sizeof(uint64_t)); !status) return status;
 
@@ -56,8 +55,8 @@ Status readMortonDeltas(FrameReader& frame, std::span<uint8_t> raw) {
   return frame.finish();
 }
 
-Status readZstd(SectionCodec codec, std::span<const uint8_t> stored, std::span<uint8_t> raw,
-                const std::string& place, SectionShape shape) {
+Status readZstd(SectionCodec codec, std::span<const uint8_t> stored, std::span<uint8_t> raw, const std::string& place,
+                SectionShape shape) {
   FrameReader frame(stored, place);
   if (codec == SectionCodec::kMortonDelta) return readMortonDeltas(frame, raw);
   const auto readWhole = [&]() -> Status {
@@ -71,21 +70,25 @@ Status readZstd(SectionCodec codec, std::span<const uint8_t> stored, std::span<u
   return frame.finish();
 }
 
-Status checkShape(SectionCodec codec, std::span<const uint8_t> stored, std::span<uint8_t> raw,
-                  const std::string& place, SectionShape shape) {
-  if (codec > SectionCodec{kLastSectionCodec})
+Status checkShape(SectionCodec codec, std::span<const uint8_t> stored, std::span<uint8_t> raw, const std::string& place,
+                  SectionShape shape) {
+  if (codec > SectionCodec{kLastSectionCodec}) {
     return makeError(ErrorKind::kUnsupported, "%s: codec %u is unknown; update this program", place.c_str(),
                      static_cast<unsigned>(codec));
-  if (raw.size() % (uint64_t{shape.elementSize} * shape.components) != 0)
-    return makeError(ErrorKind::kBadInput, "%s: %llu bytes are no whole entries of %u x %u bytes; %s",
-                     place.c_str(), ull{raw.size()}, shape.components, shape.elementSize, kSectionRemedy);
+  }
+  if (raw.size() % (uint64_t{shape.elementSize} * shape.components) != 0) {
+    return makeError(ErrorKind::kBadInput, "%s: %llu bytes are no whole entries of %u x %u bytes; %s", place.c_str(),
+                     ull{raw.size()}, shape.components, shape.elementSize, kSectionRemedy);
+  }
   const bool isForPositions = codec == SectionCodec::kMortonDelta || codec == SectionCodec::kDraco;
-  if (isForPositions && shape != kPositionShape)
+  if (isForPositions && shape != kPositionShape) {
     return makeError(ErrorKind::kBadInput, "%s: codec %u is for positions only; %s", place.c_str(),
                      static_cast<unsigned>(codec), kSectionRemedy);
-  if (codec == SectionCodec::kStored && stored.size() != raw.size())
+  }
+  if (codec == SectionCodec::kStored && stored.size() != raw.size()) {
     return makeError(ErrorKind::kBadInput, "%s: %llu bytes stored as they are, for %llu; %s", place.c_str(),
                      ull{stored.size()}, ull{raw.size()}, kSectionRemedy);
+  }
   return {};
 }
 
@@ -94,9 +97,10 @@ Status checkShape(SectionCodec codec, std::span<const uint8_t> stored, std::span
 Status decodeSection(const SectionRecord& record, std::span<const uint8_t> stored, std::span<uint8_t> raw,
                      const std::string& place, SectionShape shape) {
   const SectionCodec codec{record.codec};
-  if (!hashMatches(stored, record.hash))
+  if (!hashMatches(stored, record.hash)) {
     return makeError(ErrorKind::kBadInput, "%s: hash %016llx instead of %016llx; %s", place.c_str(),
                      ull{hashBytes(stored)}, ull{record.hash}, kSectionRemedy);
+  }
   if (Status status = checkShape(codec, stored, raw, place, shape); !status) return status;
   if (raw.empty()) return {};
   if (codec == SectionCodec::kStored) {

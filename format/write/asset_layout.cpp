@@ -9,9 +9,8 @@
 namespace froth {
 
 size_t streamOf(const SectionRecord& record) {
-  return record.chunk == kSharedChunk
-             ? 0
-             : 1 + static_cast<size_t>(sectionLayer(static_cast<SectionType>(record.type)));
+  return record.chunk == kSharedChunk ? 0
+                                      : 1 + static_cast<size_t>(sectionLayer(static_cast<SectionType>(record.type)));
 }
 
 void AssetLayout::addSection(const SectionRecord& record) {
@@ -23,8 +22,7 @@ void AssetLayout::addSection(const SectionRecord& record) {
 
 AssetLayout::Head AssetLayout::buildHead(const AssetContents& contents) const {
   std::vector<SectionRecord> records;
-  for (const std::vector<SectionRecord>& stream : streams_)
-    records.insert(records.end(), stream.begin(), stream.end());
+  for (const std::vector<SectionRecord>& stream : streams_) records.insert(records.end(), stream.begin(), stream.end());
 
   FileHeader header;
   header.magic = kFileMagic;

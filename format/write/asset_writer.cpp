@@ -24,8 +24,9 @@ Result<StoredSection> encodeRaw(RawSection raw, uint32_t chunk, const ChunkCount
   if (sectionKind(raw.type, quantization) == ElementKind::kInt32) {
     std::vector<uint32_t> runs;  // live cells and other cells, or ghosts
     const bool isOwn = raw.type == SectionType::kSites;
-    for (const uint64_t run : {isOwn ? counts.live : counts.ghosts, isOwn ? counts.cells - counts.live : 0})
+    for (const uint64_t run : {isOwn ? counts.live : counts.ghosts, isOwn ? counts.cells - counts.live : 0}) {
       if (run > 0) runs.push_back(static_cast<uint32_t>(run));
+    }
     encoded = encodePositions(raw.bytes, runs);
   } else {
     encoded = encodeSection(raw.bytes, {raw.elementSize, components});
@@ -66,10 +67,8 @@ class AssetEncoder {
   Result<std::vector<uint8_t>> encodeCodebook() {
     if (header_.axisCodebook.empty()) return std::vector<uint8_t>{};
     const uint8_t* first = reinterpret_cast<const uint8_t*>(header_.axisCodebook.data());
-    RawSection raw{SectionType::kAxisCodebook,
-                   sizeof(float),
-                   0,
-                   {first, first + header_.axisCodebook.size() * sizeof(glm::vec3)}};
+    RawSection raw{
+        SectionType::kAxisCodebook, sizeof(float), 0, {first, first + header_.axisCodebook.size() * sizeof(glm::vec3)}};
     Result<StoredSection> section = encodeRaw(std::move(raw), kSharedChunk, {}, header_.quantization);
     if (!section) return section.error();
     layout_.addSection(section->record);
@@ -113,19 +112,19 @@ class AssetEncoder {
   // Once all chunks are there. `header`: the one from the start, with what became known since.
   Result<AssetLayout::Head> finish(const AssetContents& header) const {
     if (Status status = checkParameters(header, kContents); !status) return status.error();
-    if (Status status = checkChunkIndices(header, layout_.chunks(), kContents); !status)
-      return status.error();
-    for (uint32_t index = 0; index < ghostRefs_.size(); ++index)
-      if (Status status = checkGhostRefs(header, layout_.chunks(), index, ghostRefs_[index],
-                                         chunkPlace(kContents, index));
-          !status)
+    if (Status status = checkChunkIndices(header, layout_.chunks(), kContents); !status) return status.error();
+    for (uint32_t index = 0; index < ghostRefs_.size(); ++index) {
+      if (Status status =
+              checkGhostRefs(header, layout_.chunks(), index, ghostRefs_[index], chunkPlace(kContents, index));
+          !status) {
         return status.error();
+      }
+    }
     return layout_.buildHead(header);
   }
 
  private:
-  explicit AssetEncoder(const AssetContents& header)
-      : axes_(header.axisCodebook, header.quantization.lobeAxisStep) {
+  explicit AssetEncoder(const AssetContents& header) : axes_(header.axisCodebook, header.quantization.lobeAxisStep) {
     header_ = header;
     header_.chunks.clear();
   }
@@ -152,8 +151,7 @@ AssetStreamWriter::AssetStreamWriter(AssetStreamWriter&&) noexcept = default;
 AssetStreamWriter& AssetStreamWriter::operator=(AssetStreamWriter&&) noexcept = default;
 AssetStreamWriter::~AssetStreamWriter() = default;
 
-Result<AssetStreamWriter> AssetStreamWriter::create(const std::filesystem::path& path,
-                                                    const AssetContents& header,
+Result<AssetStreamWriter> AssetStreamWriter::create(const std::filesystem::path& path, const AssetContents& header,
                                                     WriteProtected isProtected) {
   if (Status status = checkTarget(path, isProtected); !status) return status.error();
   Result<AssetEncoder> encoder = AssetEncoder::create(header);
@@ -178,9 +176,8 @@ Result<EncodedChunk> AssetStreamWriter::encodeChunk(const ChunkContents& chunk,
 }
 
 Status AssetStreamWriter::append(EncodedChunk&& chunk) {
-  return state_->encoder.add(chunk, [&](size_t stream, std::vector<uint8_t> bytes) {
-    return state_->streams[stream].append(bytes);
-  });
+  return state_->encoder.add(
+      chunk, [&](size_t stream, std::vector<uint8_t> bytes) { return state_->streams[stream].append(bytes); });
 }
 
 Result<uint64_t> AssetStreamWriter::finish(const AssetContents& header) {
@@ -189,8 +186,9 @@ Result<uint64_t> AssetStreamWriter::finish(const AssetContents& header) {
   Result<TemporaryFile> file = TemporaryFile::create(state_->path);
   if (!file) return file.error();
   if (Status status = file->append(head->bytes); !status) return status.error();
-  for (const TemporaryFile& stream : state_->streams)
+  for (const TemporaryFile& stream : state_->streams) {
     if (Status status = file->appendFile(stream); !status) return status.error();
+  }
   if (Status status = file->replaceTarget(); !status) return status.error();
   return head->fileSize;
 }
@@ -213,8 +211,9 @@ Result<std::vector<uint8_t>> encodeAsset(const AssetContents& contents) {
   }
   Result<AssetLayout::Head> head = encoder->finish(contents);
   if (!head) return head.error();
-  for (const std::vector<uint8_t>& stream : streams)
+  for (const std::vector<uint8_t>& stream : streams) {
     head->bytes.insert(head->bytes.end(), stream.begin(), stream.end());
+  }
   return std::move(head->bytes);
 }
 

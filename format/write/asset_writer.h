@@ -43,8 +43,7 @@ class AssetStreamWriter {
 
   // The chunk's sections, encoded. Fails if a value does not lie on its lattice, and with kCancelled once
   // `isStopped`, asked before each section, says so.
-  Result<EncodedChunk> encodeChunk(const ChunkContents& chunk,
-                                   const std::function<bool()>& isStopped = {}) const;
+  Result<EncodedChunk> encodeChunk(const ChunkContents& chunk, const std::function<bool()>& isStopped = {}) const;
   // Appends; chunks come in the order of their index.
   Status append(EncodedChunk&& chunk);
   // `header` as at the start, now with statistics and errors. Returns the file's size [bytes].

@@ -27,9 +27,8 @@ std::optional<std::array<int32_t, 3>> stepsBetween(glm::vec3 entry, glm::vec3 ax
 
 AxisSearch::AxisSearch(std::span<const glm::vec3> codebook, float step) : step_(step) {
   for (uint32_t label = 0; label < codebook.size(); ++label) entries_.push_back({codebook[label], label});
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    return std::tie(a.axis.x, a.label) < std::tie(b.axis.x, b.label);
-  });
+  std::sort(entries_.begin(), entries_.end(),
+            [](const Entry& a, const Entry& b) { return std::tie(a.axis.x, a.label) < std::tie(b.axis.x, b.label); });
 }
 
 // From the axis' x outwards in both directions, until x alone is farther away than the best entry.
@@ -40,8 +39,7 @@ std::optional<AxisCode> AxisSearch::find(glm::vec3 axis) const {
     const glm::dvec3 difference = glm::dvec3(axis) - glm::dvec3(entry.axis);
     if (difference.x * difference.x > bestDistance) return false;
     const double distance = glm::dot(difference, difference);
-    if (distance > bestDistance || (best && distance == bestDistance && entry.label > best->label))
-      return true;
+    if (distance > bestDistance || (best && distance == bestDistance && entry.label > best->label)) return true;
     if (const auto steps = stepsBetween(entry.axis, axis, step_)) {
       best = {entry.label, *steps};
       bestDistance = distance;

@@ -45,23 +45,21 @@ std::vector<uint8_t> narrowTo(std::span<const uint32_t> numbers, uint32_t base) 
 
 class ChunkPacker {
  public:
-  ChunkPacker(const AssetContents& asset, const AxisSearch& axes, const ChunkContents& chunk,
-              const std::string& place)
+  ChunkPacker(const AssetContents& asset, const AxisSearch& axes, const ChunkContents& chunk, const std::string& place)
       : asset_(asset), axes_(axes), chunk_(chunk), place_(place) {}
 
   Result<RawChunk> pack() {
     raw_.counts = {chunk_.cellCount, chunk_.liveCount, chunk_.ghostCount, 0, chunk_.lobeAxes.size()};
-    for (auto step : {&ChunkPacker::addSites, &ChunkPacker::addGraph, &ChunkPacker::addCells,
-                      &ChunkPacker::addDetails, &ChunkPacker::addLobes})
+    for (auto step : {&ChunkPacker::addSites, &ChunkPacker::addGraph, &ChunkPacker::addCells, &ChunkPacker::addDetails,
+                      &ChunkPacker::addLobes}) {
       if (Status status = (this->*step)(); !status) return status.error();
+    }
     std::erase_if(raw_.sections, [](const RawSection& section) { return section.bytes.empty(); });
     return std::move(raw_);
   }
 
  private:
-  bool isOnLattice(SectionType type) const {
-    return sectionKind(type, asset_.quantization) != ElementKind::kFloat;
-  }
+  bool isOnLattice(SectionType type) const { return sectionKind(type, asset_.quantization) != ElementKind::kFloat; }
 
   Error offLattice(SectionType type, size_t number, double value) const {
     return makeError(ErrorKind::kBadInput, "%s: number %zu is %.9g, off its lattice; %s",
@@ -71,9 +69,7 @@ class ChunkPacker {
   void add(SectionType type, uint32_t elementSize, std::vector<uint8_t> bytes) {
     raw_.sections.push_back({type, elementSize, 0, std::move(bytes)});
   }
-  void addFloats(SectionType type, std::span<const float> numbers) {
-    add(type, sizeof(float), bytesOf(numbers));
-  }
+  void addFloats(SectionType type, std::span<const float> numbers) { add(type, sizeof(float), bytesOf(numbers)); }
 
   // In the smallest elements that hold them all.
   void addNumbers(SectionType type, std::span<const uint32_t> numbers) {
@@ -81,12 +77,13 @@ class ChunkPacker {
     const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
     const bool hasBase = sectionKind(type, asset_.quantization) == ElementKind::kUnsigned;
     const uint32_t base = hasBase ? *least : 0, range = *most - base;
-    if (range <= 0xff)
+    if (range <= 0xff) {
       raw_.sections.push_back({type, 1, base, narrowTo<uint8_t>(numbers, base)});
-    else if (range <= 0xffff)
+    } else if (range <= 0xffff) {
       raw_.sections.push_back({type, 2, base, narrowTo<uint16_t>(numbers, base)});
-    else
+    } else {
       raw_.sections.push_back({type, 4, base, narrowTo<uint32_t>(numbers, base)});
+    }
   }
 
   void addSigned(SectionType type, std::span<const int32_t> indices) {
@@ -137,14 +134,14 @@ class ChunkPacker {
         continue;
       }
       std::vector<int32_t> indices(part.size());
-      for (size_t i = 0; i < part.size(); ++i)
-        if (!findIndex(part[i], asset_.quantization.positionStep, indices[i]))
-          return offLattice(type, i, part[i]);
+      for (size_t i = 0; i < part.size(); ++i) {
+        if (!findIndex(part[i], asset_.quantization.positionStep, indices[i])) return offLattice(type, i, part[i]);
+      }
       add(type, sizeof(int32_t), bytesOf(std::span<const int32_t>(indices)));
     }
-    if (Status status = addMantissas(SectionType::kRadii, chunk_.radii, asset_.quantization.radiusBits);
-        !status)
+    if (Status status = addMantissas(SectionType::kRadii, chunk_.radii, asset_.quantization.radiusBits); !status) {
       return status;
+    }
     add(SectionType::kGhostRefs, sizeof(CellRef), bytesOf(std::span<const CellRef>(chunk_.ghostRefs)));
     return {};
   }
@@ -193,22 +190,25 @@ class ChunkPacker {
   }
 
   Status addCells() {
-    if (Status status =
-            addMantissas(SectionType::kDensities, chunk_.densities, asset_.quantization.densityBits);
-        !status)
+    if (Status status = addMantissas(SectionType::kDensities, chunk_.densities, asset_.quantization.densityBits);
+        !status) {
       return status;
+    }
     if (Status status = addOrientations(); !status) return status;
     for (const float number : floatsOf(chunk_.cellColours)) {
       const double byte = std::nearbyint(double{number} * 255);
       const bool isByte = byte >= 0 && byte <= 255;
       cellColours_.push_back(isByte ? static_cast<uint8_t>(byte) : uint8_t{0});
-      if (colourOfByte(cellColours_.back()) != number)
+      if (colourOfByte(cellColours_.back()) != number) {
         return offLattice(SectionType::kCellColours, cellColours_.size() - 1, number);
+      }
     }
     std::vector<uint8_t> elements;
-    for (size_t i = 0; i < cellColours_.size(); i += 3)
-      for (const uint8_t byte : separateGreen(cellColours_[i], cellColours_[i + 1], cellColours_[i + 2]))
+    for (size_t i = 0; i < cellColours_.size(); i += 3) {
+      for (const uint8_t byte : separateGreen(cellColours_[i], cellColours_[i + 1], cellColours_[i + 2])) {
         elements.push_back(byte);
+      }
+    }
     add(SectionType::kCellColours, 1, std::move(elements));
     addSolidBalls();
     return addHeights(
@@ -233,9 +233,10 @@ class ChunkPacker {
   // None if they are all 0. They belong to a section that lies on a lattice.
   Status addScales(SectionType type, const std::vector<uint8_t>& scales, bool hasLattice) {
     if (std::all_of(scales.begin(), scales.end(), [](uint8_t scale) { return scale == 0; })) return {};
-    if (!hasLattice)
+    if (!hasLattice) {
       return makeError(ErrorKind::kBadInput, "%s: numbers without lattice have no scales; leave them out",
                        sectionPlace(place_, type).c_str());
+    }
     add(type, 1, scales);
     return {};
   }
@@ -246,12 +247,14 @@ class ChunkPacker {
     const auto unit = [&](size_t i) { return detailUnit(lattices.heightStep, i); };
     const auto cellHeight = [&](size_t i) {
       int32_t index = 0;
-      if (!chunk_.cellHeights.empty())
+      if (!chunk_.cellHeights.empty()) {
         findIndex(chunk_.cellHeights[i / asset_.detailCount], lattices.heightStep, index);
+      }
       return expectedHeightIndex(index, lattices.heightStep, unit(i));
     };
-    if (Status status = addHeights(SectionType::kDetailHeights, chunk_.detailHeights, unit, cellHeight); !status)
+    if (Status status = addHeights(SectionType::kDetailHeights, chunk_.detailHeights, unit, cellHeight); !status) {
       return status;
+    }
     if (Status status = addBaseColours(); !status) return status;
     const bool hasLattices = lattices.detailSiteStep > 0 && lattices.heightStep > 0;
     return addScales(SectionType::kDetailScales, chunk_.detailScales, hasLattices);
@@ -272,18 +275,23 @@ class ChunkPacker {
     }
     std::vector<int32_t> indices;
     const auto unit = [&](size_t i) { return detailUnit(asset_.quantization.detailSiteStep, i / 2); };
-    if (Status status = findIndices(type, sites, unit, [](size_t) { return 0; }, indices); !status) return status;
-    for (size_t detail = chunk_.detailSites.size(); detail-- > 0;)
+    if (Status status = findIndices(
+            type, sites, unit, [](size_t) { return 0; }, indices);
+        !status) {
+      return status;
+    }
+    for (size_t detail = chunk_.detailSites.size(); detail-- > 0;) {
       if (detail % asset_.detailCount != 0) indices[2 * detail] -= indices[2 * (detail - 1)];
+    }
     addSigned(type, indices);
     return {};
   }
 
   Status addBaseColours() {
-    if (Status status =
-            addScales(SectionType::kColourScales, chunk_.colourScales, asset_.quantization.colourStep > 0);
-        !status)
+    if (Status status = addScales(SectionType::kColourScales, chunk_.colourScales, asset_.quantization.colourStep > 0);
+        !status) {
       return status;
+    }
     const std::span<const float> colours = floatsOf(chunk_.baseColours);
     if (isZero(colours)) return {};
     if (!isOnLattice(SectionType::kBaseColours)) {
@@ -302,8 +310,7 @@ class ChunkPacker {
   Status addLobes() {
     if (chunk_.lobeAxes.empty()) return {};
     const size_t details = size_t{chunk_.liveCount} * asset_.detailCount;
-    if (chunk_.lobeAxes.size() < details * asset_.lobeCount)
-      add(SectionType::kLobeCounts, 1, chunk_.lobeCounts);
+    if (chunk_.lobeAxes.size() < details * asset_.lobeCount) add(SectionType::kLobeCounts, 1, chunk_.lobeCounts);
     if (Status status = addAxes(); !status) return status;
     const std::span<const float> colours = floatsOf(chunk_.lobeColours);
     if (!isOnLattice(SectionType::kLobeColours)) {
@@ -319,9 +326,10 @@ class ChunkPacker {
     if (!asset_.axisCodebook.empty()) return addLabels();
     const std::span<const float> axes = floatsOf(chunk_.lobeAxes);
     const float step = asset_.quantization.lobeAxisStep;
-    if (isOnLattice(SectionType::kLobeAxes))
+    if (isOnLattice(SectionType::kLobeAxes)) {
       return addIndices(
           SectionType::kLobeAxes, axes, [&](size_t) { return step; }, [](size_t) { return 0; });
+    }
     addFloats(SectionType::kLobeAxes, axes);
     return {};
   }
@@ -343,8 +351,9 @@ class ChunkPacker {
       }
     }
     addNumbers(SectionType::kLobeLabels, differences);
-    if (std::any_of(residuals.begin(), residuals.end(), [](uint32_t r) { return r != 0; }))
+    if (std::any_of(residuals.begin(), residuals.end(), [](uint32_t r) { return r != 0; })) {
       addNumbers(SectionType::kLobeAxes, residuals);
+    }
     return {};
   }
 

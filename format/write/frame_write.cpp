@@ -13,8 +13,8 @@ Status appendFrame(std::span<const uint8_t> content, int level, std::vector<uint
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
   const size_t before = stored.size();
   stored.resize(before + ZSTD_compressBound(content.size()));
-  const size_t size = ZSTD_compress2(context.get(), stored.data() + before, stored.size() - before, content.data(),
-                                     content.size());
+  const size_t size =
+      ZSTD_compress2(context.get(), stored.data() + before, stored.size() - before, content.data(), content.size());
   if (ZSTD_isError(size)) return makeError(ErrorKind::kIo, "zstd: %s", ZSTD_getErrorName(size));
   stored.resize(before + size);
   return {};

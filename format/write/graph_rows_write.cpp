@@ -60,12 +60,12 @@ Status checkRows(const ChunkContents& chunk, const SortedRows& rows, bool hasWal
     for (const RowEntry& entry : rows.row(cell)) {
       const bool isRepeated = before && before->neighbour == entry.neighbour;
       const bool isUnmarked = !hasWalkGraph && !entry.isAlpha;
-      if (entry.neighbour == cell || isRepeated || isUnmarked ||
-          !isMirrored(chunk, rows, cell, entry, hasWalkGraph))
+      if (entry.neighbour == cell || isRepeated || isUnmarked || !isMirrored(chunk, rows, cell, entry, hasWalkGraph)) {
         return makeError(ErrorKind::kBadInput,
                          "graph: neighbour %u of cell %u is repeated, not mutual or out of place; report a "
                          "bug of the baker",
                          entry.neighbour, cell);
+      }
       before = &entry;
       const bool isKept = entry.neighbour > cell;  // else it was counted there
       if (Status status = isKept ? degrees.add(cell, entry.neighbour, "chunk") : Status(); !status) return status;
@@ -98,8 +98,9 @@ class Packer {
       if (found != kept.end() && found->neighbour == candidate) addPair(*found, place);
       ++place;
     }
-    for (const RowEntry& entry : kept)
+    for (const RowEntry& entry : kept) {
       if (!order_.isCandidate(entry.neighbour)) addPair(entry, order_.placeOf(entry.neighbour));
+    }
   }
 
   PackedGraph take() { return std::move(packed_); }

@@ -7,9 +7,9 @@
 namespace froth {
 namespace {
 
-fb::Double3 pack(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
+fb::Double3 pack(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+fb::Box pack(const Box& box) { return {pack(box.min), pack(box.max)}; }
 
 fb::Camera pack(const StoredCamera& camera) {
   return fb::Camera(flatbuffers::make_span(camera.worldFromCamera), camera.tanHalfFovY);
@@ -17,14 +17,12 @@ fb::Camera pack(const StoredCamera& camera) {
 
 fb::Chunk pack(const ChunkIndex& chunk) {
   const ChunkCounts& n = chunk.counts;
-  return fb::Chunk(pack(chunk.origin), n.cells, n.live, n.ghosts, n.pairs, n.lobes,
-                   fb::Box(pack(chunk.liveBounds.min), pack(chunk.liveBounds.max)));
+  return fb::Chunk(pack(chunk.origin), n.cells, n.live, n.ghosts, n.pairs, n.lobes, pack(chunk.liveBounds));
 }
 
 fb::Section pack(const SectionRecord& record) {
-  return fb::Section(record.type, record.chunk, record.flags, record.codec,
-                     static_cast<uint16_t>(record.elementSize), 0, record.base, 0, record.offset,
-                     record.storedSize, record.rawSize, record.hash);
+  return fb::Section(record.type, record.chunk, record.flags, record.codec, static_cast<uint16_t>(record.elementSize),
+                     0, record.base, 0, record.offset, record.storedSize, record.rawSize, record.hash);
 }
 
 template <class Packed, class Source>
@@ -35,24 +33,29 @@ flatbuffers::Offset<flatbuffers::Vector<const Packed*>> packAll(flatbuffers::Fla
   return builder.CreateVectorOfStructs(packed);
 }
 
-flatbuffers::Offset<fb::Statistics> packStatistics(flatbuffers::FlatBufferBuilder& builder,
-                                                   const BakeStatistics& s) {
-  return fb::CreateStatistics(builder, s.inputCells, s.hiddenDropped, s.duplicatesMerged, s.emptyCells,
-                              s.deadCells, s.unseenCulled, s.steinerCells, s.walkPairs, s.alphaPairs);
+flatbuffers::Offset<fb::Statistics> packStatistics(flatbuffers::FlatBufferBuilder& builder, const BakeStatistics& s) {
+  return fb::CreateStatistics(builder, s.inputCells, s.hiddenDropped, s.duplicatesMerged, s.emptyCells, s.deadCells,
+                              s.unseenCulled, s.steinerCells, s.walkPairs, s.alphaPairs);
 }
 
-flatbuffers::Offset<fb::Quantization> packQuantization(flatbuffers::FlatBufferBuilder& builder,
-                                                       const Quantization& q) {
-  return fb::CreateQuantization(builder, q.positionStep, q.radiusBits, q.densityBits, q.normalBits,
-                                q.detailSiteStep, q.heightStep, q.colourStep, q.lobeAxisStep);
+flatbuffers::Offset<fb::Quantization> packQuantization(flatbuffers::FlatBufferBuilder& builder, const Quantization& q) {
+  return fb::CreateQuantization(builder, q.positionStep, q.radiusBits, q.densityBits, q.normalBits, q.detailSiteStep,
+                                q.heightStep, q.colourStep, q.lobeAxisStep);
 }
 
 auto packErrors(flatbuffers::FlatBufferBuilder& builder, const std::vector<AttributeError>& errors) {
   std::vector<flatbuffers::Offset<fb::AttributeError>> packed;
-  for (const AttributeError& error : errors)
+  for (const AttributeError& error : errors) {
     packed.push_back(fb::CreateAttributeError(builder, builder.CreateString(error.name),
                                               builder.CreateString(error.unit), error.rms, error.max));
+  }
   return builder.CreateVector(packed);
+}
+
+flatbuffers::Offset<fb::EyeRegion> packEyes(flatbuffers::FlatBufferBuilder& builder, const EyeRegion& eyes) {
+  if (eyes.boxes.empty()) return 0;
+  return fb::CreateEyeRegion(builder, packAll<fb::Box>(builder, eyes.boxes), eyes.radius, eyes.worstPsnr,
+                             eyes.meanPsnr);
 }
 
 }  // namespace
@@ -69,6 +72,7 @@ std::vector<uint8_t> buildManifest(const AssetContents& contents, std::span<cons
   const auto flightPath = packAll<fb::Camera>(builder, contents.flightPath);
   const auto chunks = packAll<fb::Chunk>(builder, chunkIndices);
   const auto records = packAll<fb::Section>(builder, sections);
+  const auto eyes = packEyes(builder, contents.eyes);
   const fb::Camera startView = pack(contents.startView);
 
   fb::ManifestBuilder manifest(builder);
@@ -91,6 +95,7 @@ std::vector<uint8_t> buildManifest(const AssetContents& contents, std::span<cons
   manifest.add_flight_path(flightPath);
   manifest.add_chunks(chunks);
   manifest.add_sections(records);
+  if (!eyes.IsNull()) manifest.add_eyes(eyes);
   fb::FinishManifestBuffer(builder, manifest.Finish());
   return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
 }

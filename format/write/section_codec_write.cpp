@@ -43,25 +43,26 @@ std::vector<uint8_t> deltasOf(std::span<const uint8_t> raw, SectionShape shape) 
   return deltasOf<uint32_t>(raw, shape.components);
 }
 
-Result<EncodedSection> encodeAs(SectionCodec codec, std::span<const uint8_t> raw, SectionShape shape,
-                                int level) {
+Result<EncodedSection> encodeAs(SectionCodec codec, std::span<const uint8_t> raw, SectionShape shape, int level) {
   EncodedSection section{codec, {}};
   Status status;
-  if (codec == SectionCodec::kZstd)
+  if (codec == SectionCodec::kZstd) {
     status = appendFrame(raw, level, section.stored);
-  else if (codec == SectionCodec::kBytePlanes)
+  } else if (codec == SectionCodec::kBytePlanes) {
     status = appendPlanes(raw, entrySize(shape), level, section.stored);
-  else
+  } else {
     status = appendPlanes(deltasOf(raw, shape), entrySize(shape), level, section.stored);
+  }
   if (!status) return status.error();
   return section;
 }
 
 Result<EncodedSection> encodeMortonDeltas(std::span<const LatticePoint> points) {
   const PointBox box = boxOf(points);
-  if (box.bits > kMaxPositionBits)
+  if (box.bits > kMaxPositionBits) {
     return makeError(ErrorKind::kUnsupported, "the points span %u bits, the codec takes %u", box.bits,
                      kMaxPositionBits);
+  }
   std::vector<uint64_t> deltas(points.size());
   uint64_t before = 0;
   for (size_t i = 0; i < points.size(); ++i) {
@@ -70,8 +71,7 @@ Result<EncodedSection> encodeMortonDeltas(std::span<const LatticePoint> points) 
     before = code;
   }
   const std::span<const uint8_t> least{reinterpret_cast<const uint8_t*>(box.least.data()), sizeof(box.least)};
-  const std::span<const uint8_t> deltaBytes{reinterpret_cast<const uint8_t*>(deltas.data()),
-                                            deltas.size() * 8};
+  const std::span<const uint8_t> deltaBytes{reinterpret_cast<const uint8_t*>(deltas.data()), deltas.size() * 8};
   EncodedSection section{SectionCodec::kMortonDelta, {}};
   if (Status status = appendFrame(least, kDenseLevel, section.stored); !status) return status.error();
   if (Status status = appendPlanes(deltaBytes, 8, kDenseLevel, section.stored); !status) return status.error();
@@ -82,13 +82,12 @@ Result<EncodedSection> encodeMortonDeltas(std::span<const LatticePoint> points) 
 // is different between them shows at once.
 Result<EncodedSection> encodeNumbers(std::span<const uint8_t> raw, SectionShape shape) {
   constexpr size_t kSampleSize = size_t{1} << 20;
-  const size_t sampleSize = std::min(raw.size(), std::max(kSampleSize / entrySize(shape), size_t{1}) * entrySize(shape));
+  const size_t sampleSize =
+      std::min(raw.size(), std::max(kSampleSize / entrySize(shape), size_t{1}) * entrySize(shape));
   SectionCodec best = SectionCodec::kZstd;
   size_t leastSize = SIZE_MAX;
-  for (const SectionCodec codec :
-       {SectionCodec::kZstd, SectionCodec::kBytePlanes, SectionCodec::kDeltaPlanes}) {
-    if (codec == SectionCodec::kBytePlanes && entrySize(shape) == 1)
-      continue;  // the same bytes as without planes
+  for (const SectionCodec codec : {SectionCodec::kZstd, SectionCodec::kBytePlanes, SectionCodec::kDeltaPlanes}) {
+    if (codec == SectionCodec::kBytePlanes && entrySize(shape) == 1) continue;  // the same bytes as without planes
     const Result<EncodedSection> section = encodeAs(codec, raw.first(sampleSize), shape, kFastLevel);
     if (!section) return section.error();
     if (section->stored.size() >= leastSize) continue;
@@ -123,8 +122,7 @@ Result<EncodedSection> encodePositions(std::span<const uint8_t> raw, std::span<c
   if (morton && morton->stored.size() < best->stored.size()) best = std::move(morton);
   Result<std::vector<uint8_t>> draco = writeDracoPositions(points, runs);
   const bool fits = draco && raw.size() <= kMaxDracoExpansion * draco->size();
-  if (fits && draco->size() < best->stored.size())
-    best = EncodedSection{SectionCodec::kDraco, std::move(*draco)};
+  if (fits && draco->size() < best->stored.size()) best = EncodedSection{SectionCodec::kDraco, std::move(*draco)};
   return finishSection(std::move(*best), raw);
 }
 

@@ -39,19 +39,22 @@ void compareCounts(const std::string& path, const Json& a, const Json& b, std::v
 
 BenchComparison compareWell(const Json& a, const Json& b) {
   BenchComparison comparison;
-  for (const char* field : {"input", "device", "driver", "renderer", "output", "cutoff", "width", "height",
-                            "layers", "cells", "isCounting"}) {
-    if (a.at(field) != b.at(field))
+  for (const char* field : {"input", "device", "driver", "renderer", "output", "cutoff", "width", "height", "layers",
+                            "cells", "isCounting"}) {
+    if (a.at(field) != b.at(field)) {
       comparison.differences.push_back(fmt::format("{}: {} and {}", field, a.at(field).dump(), b.at(field).dump()));
+    }
   }
   const Json &cyclesA = a.at("cycles"), &cyclesB = b.at("cycles");
   for (const auto& [name, times] : cyclesA.at("passes").items()) {
-    if (cyclesB.at("passes").contains(name))
+    if (cyclesB.at("passes").contains(name)) {
       comparison.times.push_back(compareTimes(name, times, cyclesB.at("passes").at(name)));
+    }
   }
   comparison.times.push_back(compareTimes("total", cyclesA.at("total"), cyclesB.at("total")));
-  for (const char* bytes : {"assetBytes", "viewBytes"})
+  for (const char* bytes : {"assetBytes", "viewBytes"}) {
     comparison.counts.push_back({bytes, a.at(bytes).get<double>(), b.at(bytes).get<double>()});
+  }
   compareCounts("bytes of ", a.at("memory"), b.at("memory"), comparison.counts);
   if (a.contains("work") && b.contains("work")) compareCounts("", a.at("work"), b.at("work"), comparison.counts);
   return comparison;

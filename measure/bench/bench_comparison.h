@@ -13,8 +13,8 @@ namespace froth {
 
 enum class Verdict { kTie, kFaster, kSlower };
 
-// A pass, or the total. Mean frames of cycles over the views [ms]. A tie: the intervals p5 to p95 overlap, so that noise
-// alone can explain the difference.
+// A pass, or the total. Mean frames of cycles over the views [ms]. A tie: the intervals p5 to p95 overlap, so that
+// noise alone can explain the difference.
 struct TimeComparison {
   std::string name;
   Percentiles a, b;

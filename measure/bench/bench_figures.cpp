@@ -19,8 +19,8 @@ nlohmann::ordered_json toJson(const Percentiles& times) {
 }
 
 void printTimes(const std::string& name, const Percentiles& frames, const Percentiles& cycles) {
-  fmt::print("{:<12} {:>10.4f} {:>10.4f} {:>10.4f}   {:>10.4f} {:>10.4f} {:>10.4f}\n", name, frames.median,
-             frames.p5, frames.p95, cycles.median, cycles.p5, cycles.p95);
+  fmt::print("{:<12} {:>10.4f} {:>10.4f} {:>10.4f}   {:>10.4f} {:>10.4f} {:>10.4f}\n", name, frames.median, frames.p5,
+             frames.p95, cycles.median, cycles.p5, cycles.p95);
 }
 
 // The newest frame of a cycle is its last but views.size() of all totals.
@@ -72,8 +72,9 @@ nlohmann::ordered_json partsAsJson(std::span<const FrothMemory> parts) {
 
 void printParts(const char* owner, uint64_t sum, std::span<const FrothMemory> parts) {
   fmt::print("{:<28} {:>10.2f} MiB\n", owner, static_cast<double>(sum) / kMebi);
-  for (const FrothMemory& part : parts)
+  for (const FrothMemory& part : parts) {
     fmt::print("  {:<26} {:>10.2f}\n", part.name, static_cast<double>(part.bytes) / kMebi);
+  }
 }
 
 }  // namespace
@@ -96,16 +97,14 @@ void addFrame(Measurement& measurement, size_t view, const FrothViewStatus& stat
 void printMeasurement(const Measurement& measurement) {
   fmt::print("{:<12} {:>32}   {:>32}\n", "[ms]", "frames: median, p5, p95", "cycles: median, p5, p95");
   for (const std::string& name : measurement.passOrder) {
-    printTimes(name, percentilesOf(measurement.passTimes.at(name)),
-               percentilesOf(measurement.cyclePasses.at(name)));
+    printTimes(name, percentilesOf(measurement.passTimes.at(name)), percentilesOf(measurement.cyclePasses.at(name)));
   }
   const Percentiles totals = percentilesOf(measurement.totals);
   printTimes("total", totals, percentilesOf(measurement.cycleTotals));
   fmt::print("of all {} frames: p99.9 {:.4f}, worst {:.4f}\n", measurement.totals.size(), totals.p999, totals.worst);
 }
 
-nlohmann::ordered_json measurementAsJson(const Measurement& measurement,
-                                         const std::vector<SelectedView>& views) {
+nlohmann::ordered_json measurementAsJson(const Measurement& measurement, const std::vector<SelectedView>& views) {
   nlohmann::ordered_json passes = nlohmann::ordered_json::object(), cyclePasses = passes;
   for (const std::string& name : measurement.passOrder) {
     passes[name] = toJson(percentilesOf(measurement.passTimes.at(name)));

@@ -16,19 +16,18 @@ namespace froth {
 // work again and again, so they scatter by noise alone.
 struct Measurement {
   std::vector<std::string> passOrder;
-  std::map<std::string, std::vector<double>> passTimes;   // [ms] by frame
+  std::map<std::string, std::vector<double>> passTimes;    // [ms] by frame
   std::map<std::string, std::vector<double>> cyclePasses;  // [ms] mean frame, by cycle
-  std::vector<double> totals, cycleTotals;                // [ms] the same of all passes
-  std::vector<std::vector<double>> viewTotals;            // [ms] by view and frame
-  std::vector<FrothViewStatus> viewStatus;                // newest, by view
+  std::vector<double> totals, cycleTotals;                 // [ms] the same of all passes
+  std::vector<std::vector<double>> viewTotals;             // [ms] by view and frame
+  std::vector<FrothViewStatus> viewStatus;                 // newest, by view
 };
 
 // Frames come in cycles over the views.
 void addFrame(Measurement& measurement, size_t view, const FrothViewStatus& status);
 
 void printMeasurement(const Measurement& measurement);
-nlohmann::ordered_json measurementAsJson(const Measurement& measurement,
-                                         const std::vector<SelectedView>& views);
+nlohmann::ordered_json measurementAsJson(const Measurement& measurement, const std::vector<SelectedView>& views);
 
 // FrothWork of a cycle: averages over rays and over workgroups of 8 x 8 pixels.
 void printWork(const Measurement& measurement, const std::vector<SelectedView>& views);

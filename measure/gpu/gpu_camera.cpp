@@ -21,8 +21,9 @@ FrothLens lensOf(const View& view) {
   lens.focal[1] = static_cast<float>(view.fy);
   lens.centre[0] = static_cast<float>(view.cx);
   lens.centre[1] = static_cast<float>(view.cy);
-  for (size_t i = 0; i < view.lens.distortion.size(); ++i)
+  for (size_t i = 0; i < view.lens.distortion.size(); ++i) {
     lens.coefficients[i] = static_cast<float>(view.lens.distortion[i]);
+  }
   return lens;
 }
 
@@ -35,9 +36,9 @@ double farthestOf(const Image& ends) {
   return farthest > 0 ? farthest : 1;
 }
 
-// View axes x right, y down, z forward are those of Vulkan's clip space; depth is reversed with an infinite far plane, or ends
-// far off where rays are parallel. No output depends on it, but ends of rays are read from it: it holds those of a scene of any size,
-// and the near plane is so near that what a ray meets before it does not show.
+// View axes x right, y down, z forward are those of Vulkan's clip space; depth is reversed with an infinite far plane,
+// or ends far off where rays are parallel. No output depends on it, but ends of rays are read from it: it holds those
+// of a scene of any size, and the near plane is so near that what a ray meets before it does not show.
 void fillProjection(const View& view, const Image* ends, FrothCamera& camera) {
   const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
   const int shift = isOrthographic ? 12 : 8;  // of the image: a share of depth, or a constant
@@ -47,7 +48,8 @@ void fillProjection(const View& view, const Image* ends, FrothCamera& camera) {
   clip[shift] = static_cast<float>(2 * view.cx / view.width - 1);
   clip[shift + 1] = static_cast<float>(2 * view.cy / view.height - 1);
   const double farthest = ends ? farthestOf(*ends) : 1e4;
-  clip[isOrthographic ? 10 : 14] = static_cast<float>(isOrthographic ? 0.5 / farthest : std::max(1e-31 * farthest, 1e-35));
+  clip[isOrthographic ? 10 : 14] =
+      static_cast<float>(isOrthographic ? 0.5 / farthest : std::max(1e-31 * farthest, 1e-35));
   clip[isOrthographic ? 15 : 11] = 1.0f;
 }
 
@@ -88,8 +90,7 @@ FrothCamera cameraOf(const View& view, const Image* ends) {
     camera.eye[axis] = world[axis * 4 + 3];
     // The inverse of a rotation is its transpose: row `axis` of world-from-camera is column `axis` of the
     // inverse.
-    for (int row = 0; row < 3; ++row)
-      camera.viewFromWorld[axis * 3 + row] = static_cast<float>(world[axis * 4 + row]);
+    for (int row = 0; row < 3; ++row) camera.viewFromWorld[axis * 3 + row] = static_cast<float>(world[axis * 4 + row]);
   }
   camera.viewport = {0, 0, static_cast<float>(view.width), static_cast<float>(view.height), 0, 1};
   if (lensClassesOf(view) == FROTH_LENS_CLASS_MAPPED) {

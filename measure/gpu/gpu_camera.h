@@ -1,10 +1,10 @@
 // A view of cameras.json as the runtime takes it.
 #pragma once
 
+#include "base/image/image.h"
 #include "froth/froth.h"
 #include "reference/camera/camera.h"
 #include "reference/camera/view_selection.h"
-#include "reference/image/image.h"
 
 namespace froth {
 
@@ -12,8 +12,8 @@ namespace froth {
 uint32_t lensClassesOf(const View& view);
 uint32_t lensClassesOf(const std::vector<SelectedView>& views);
 
-// The scene's depth as a camera has it that is made with the same ends, of distances along the rays: device depth, or with lenses that
-// are no projection the distances themselves. What lies behind the eye is at it.
+// The scene's depth as a camera has it that is made with the same ends, of distances along the rays: device depth, or
+// with lenses that are no projection the distances themselves. What lies behind the eye is at it.
 std::vector<float> sceneDepthOf(const View& view, const Image& distances);
 
 // Everything but the image of a ray map. `ends`: what the scene's depth will hold, if there is one.

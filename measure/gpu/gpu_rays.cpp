@@ -8,12 +8,13 @@
 #include "froth/froth_walk.h"
 #include "measure/gpu/gpu_renderer_state.h"
 #include "reference/camera/view_rays.h"
-#include "reference/image/depth.h"
+#include "reference/image/distances.h"
 
 namespace froth {
 namespace {
 
-// Far behind parallel rays lies the point that sees all of them along themselves: so far that nothing of a scene shifts it.
+// Far behind parallel rays lies the point that sees all of them along themselves: so far that nothing of a scene shifts
+// it.
 constexpr float kParallelApex = 1e15f;
 
 struct PixelRay {
@@ -65,19 +66,19 @@ Image filled(const View& view, uint32_t channels, float value) {
 RenderedImages emptyRayImages(const View& view) {
   RenderedImages images;
   images.alpha = filled(view, 1, 0);
-  images.depth = filled(view, 1, std::numeric_limits<float>::infinity());
+  images.distance = filled(view, 1, std::numeric_limits<float>::infinity());
   return images;
 }
 
 void putHit(size_t pixel, float transmittance, float distance, RenderedImages& images) {
   images.alpha.values[pixel] = 1.0f - transmittance;
-  images.depth.values[pixel] = distance;
+  images.distance.values[pixel] = distance;
 }
 
 }  // namespace
 
-Status GpuRenderer::State::recordRays(const glm::dvec3& eye, const RayOptions& wanted, const HostBuffer& buffer, uint32_t count,
-                                      VkCommandBuffer commands) {
+Status GpuRenderer::State::recordRays(const glm::dvec3& eye, const RayOptions& wanted, const HostBuffer& buffer,
+                                      uint32_t count, VkCommandBuffer commands) {
   FrothWalkInfo info{};
   info.structSize = sizeof(info);
   for (int axis = 0; axis < 3; ++axis) info.eye[axis] = eye[axis];
@@ -103,8 +104,11 @@ Result<std::vector<FrothGpuHit>> GpuRenderer::State::castAndRead(const glm::dvec
   if (!buffer) return buffer.error();
   std::memcpy(buffer->mapped, asked.data(), raysSize);
   const auto count = static_cast<uint32_t>(asked.size());
-  Status done = submitFrame([&](VkCommandBuffer commands) { return recordRays(eye, wanted, *buffer, count, commands); });
-  if (done) std::memcpy(hits.data(), static_cast<const char*>(buffer->mapped) + raysSize, hits.size() * sizeof(FrothGpuHit));
+  Status done =
+      submitFrame([&](VkCommandBuffer commands) { return recordRays(eye, wanted, *buffer, count, commands); });
+  if (done) {
+    std::memcpy(hits.data(), static_cast<const char*>(buffer->mapped) + raysSize, hits.size() * sizeof(FrothGpuHit));
+  }
   host->destroyBuffer(*buffer);
   if (!done) return done.error();
   // The counts of a frame are known in the frothUpdate after it.
@@ -130,7 +134,7 @@ Result<RayFrame> GpuRenderer::castRays(const View& view, const RayOptions& optio
     std::memcpy(&frame.images.colour.values[3 * rays[i].pixel], hit.colour, sizeof(hit.colour));
     frame.hitStepLimit = frame.hitStepLimit || hit.status == FROTH_WALK_STATUS_STEP_LIMIT;
   }
-  markMissingDepth(frame.images.depth);
+  markMissingDistances(frame.images.distance);
   return frame;
 }
 
@@ -143,14 +147,15 @@ Result<RayFrame> GpuRenderer::queryRays(const View& view, const RayOptions& opti
   info.structSize = sizeof(info);
   info.cutoff = -1;
   info.maxSteps = options.maxSteps;
-  const FrothResult cast = frothCastRays(state_->context, &info, asked.data(), hits.data(), static_cast<uint32_t>(hits.size()));
+  const FrothResult cast =
+      frothCastRays(state_->context, &info, asked.data(), hits.data(), static_cast<uint32_t>(hits.size()));
   if (Status done = state_->check(cast, "frothCastRays"); !done) return done.error();
   RayFrame frame{emptyRayImages(view)};
   for (size_t i = 0; i < rays.size(); ++i) {
     putHit(rays[i].pixel, hits[i].transmittance, static_cast<float>(hits[i].distance), frame.images);
     frame.hitStepLimit = frame.hitStepLimit || (hits[i].bits & FROTH_QUERY_STEP_LIMIT) != 0;
   }
-  markMissingDepth(frame.images.depth);
+  markMissingDistances(frame.images.distance);
   return frame;
 }
 

@@ -8,7 +8,7 @@
 #include "base/progress_printer.h"
 #include "measure/gpu/gpu_camera.h"
 #include "reference/camera/ray_map.h"
-#include "reference/image/depth.h"
+#include "reference/image/distances.h"
 
 namespace froth {
 namespace {
@@ -17,13 +17,10 @@ namespace {
 constexpr int kMaxRedraws = 32;
 
 ErrorKind errorKindOf(FrothResult result) {
-  return result == FROTH_ERROR_FILE || result == FROTH_ERROR_VERSION ? ErrorKind::kBadInput
-                                                                     : ErrorKind::kUnsupported;
+  return result == FROTH_ERROR_FILE || result == FROTH_ERROR_VERSION ? ErrorKind::kBadInput : ErrorKind::kUnsupported;
 }
 
-VkExtent2D extentOf(const View& view) {
-  return {view.width, view.height};
-}
+VkExtent2D extentOf(const View& view) { return {view.width, view.height}; }
 
 Image imageFromTexels(const std::vector<float>& texels, uint32_t stride, uint32_t first, uint32_t channels,
                       VkExtent2D extent) {
@@ -37,7 +34,6 @@ Image imageFromTexels(const std::vector<float>& texels, uint32_t stride, uint32_
   }
   return image;
 }
-
 
 }  // namespace
 
@@ -95,7 +91,9 @@ Status GpuRenderer::State::createContext(const GpuDeviceOptions& deviceOptions) 
 
 Status GpuRenderer::State::closeAsset() {
   while (!instances.empty()) {
-    if (Status gone = check(frothDestroyInstance(context, instances.back()), "frothDestroyInstance"); !gone) return gone;
+    if (Status gone = check(frothDestroyInstance(context, instances.back()), "frothDestroyInstance"); !gone) {
+      return gone;
+    }
     instances.pop_back();
   }
   if (hasAsset) {
@@ -125,8 +123,7 @@ Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& pr
     if (Status submitted = submitFrame(); !submitted) return submitted;
     FrothAssetStatus status{};
     status.structSize = sizeof(status);
-    if (Status asked = check(frothGetAssetStatus(context, asset, &status), "frothGetAssetStatus"); !asked)
-      return asked;
+    if (Status asked = check(frothGetAssetStatus(context, asset, &status), "frothGetAssetStatus"); !asked) return asked;
     if (status.state == FROTH_ASSET_FAILED) return error(status.error, "frothOpenAsset");
     if (status.state == FROTH_ASSET_READY) return {};
   }
@@ -137,7 +134,9 @@ Status GpuRenderer::State::place(const std::vector<FrothInstanceInfo>& placement
     info.structSize = sizeof(info);
     info.asset = asset;
     FrothInstance instance{};
-    if (Status placed = check(frothCreateInstance(context, &info, &instance), "frothCreateInstance"); !placed) return placed;
+    if (Status placed = check(frothCreateInstance(context, &info, &instance), "frothCreateInstance"); !placed) {
+      return placed;
+    }
     instances.push_back(instance);
   }
   return {};
@@ -151,8 +150,7 @@ void GpuRenderer::State::destroyImages() {
 
 Status GpuRenderer::State::setExtent(VkExtent2D wanted, bool wantsAllChannels) {
   const bool hasAllChannels = normal.image != VK_NULL_HANDLE;
-  if (wanted.width == extent.width && wanted.height == extent.height && wantsAllChannels == hasAllChannels)
-    return {};
+  if (wanted.width == extent.width && wanted.height == extent.height && wantsAllChannels == hasAllChannels) return {};
 
   destroyImages();
   if (extent.width > 0) {
@@ -199,7 +197,8 @@ Status GpuRenderer::State::setSceneDepth(const View& wanted, const GpuRenderOpti
   if (sceneDepth.image) host->destroyImage(sceneDepth);
   if (!drawing.ends) return {};
   const bool isProjection = lensClassesOf(wanted) != FROTH_LENS_CLASS_MAPPED;
-  Result<HostImage> made = host->createImage(isProjection ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_R32_SFLOAT, extentOf(wanted));
+  Result<HostImage> made =
+      host->createImage(isProjection ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_R32_SFLOAT, extentOf(wanted));
   if (!made) return made.error();
   sceneDepth = *made;
   View jittered = wanted;  // whose rays the pixels have
@@ -214,10 +213,8 @@ Status GpuRenderer::State::submitFrame(const std::function<Status(VkCommandBuffe
     frame.structSize = sizeof(frame);
     frame.serial = serial;
     frame.completedSerial = serial - 1;
-    if (Status updated = check(frothUpdate(context, &frame, nullptr), "frothUpdate"); !updated)
-      return updated;
-    if (Status copied = check(frothRecordUpload(context, commands), "frothRecordUpload"); !copied)
-      return copied;
+    if (Status updated = check(frothUpdate(context, &frame, nullptr), "frothUpdate"); !updated) return updated;
+    if (Status copied = check(frothRecordUpload(context, commands), "frothRecordUpload"); !copied) return copied;
     return record ? record(commands) : Status();
   });
 }
@@ -255,7 +252,8 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
 
 Status GpuRenderer::State::checkSilence(uint32_t indexViolations) {
   if (indexViolations > 0) {
-    return makeError(ErrorKind::kUnsupported, "shaders met %u indices out of range; this is a fault of Froth", indexViolations);
+    return makeError(ErrorKind::kUnsupported, "shaders met %u indices out of range; this is a fault of Froth",
+                     indexViolations);
   }
   const std::vector<std::string> messages = host->validationMessages();
   if (messages.empty()) return {};
@@ -273,8 +271,8 @@ Result<RenderedImages> GpuRenderer::State::readImages(bool readsNormal) {
   if (!distance.image) return images;
   Result<std::vector<float>> distances = host->readImage(distance);
   if (!distances) return distances.error();
-  images.depth = imageFromTexels(*distances, 1, 0, 1, extent);
-  markMissingDepth(images.depth);
+  images.distance = imageFromTexels(*distances, 1, 0, 1, extent);
+  markMissingDistances(images.distance);
   if (!readsNormal) return images;
   Result<std::vector<float>> normals = host->readImage(normal);
   if (!normals) return normals.error();
@@ -291,14 +289,16 @@ Result<std::unique_ptr<GpuRenderer>> GpuRenderer::create(const GpuDeviceOptions&
   return renderer;
 }
 
-Status GpuRenderer::load(const AssetInput& asset, const Progress& progress, const std::vector<FrothInstanceInfo>& placements) {
+Status GpuRenderer::load(const AssetInput& asset, const Progress& progress,
+                         const std::vector<FrothInstanceInfo>& placements) {
   state_->lastMessage.clear();
   if (Status closed = state_->closeAsset(); !closed) return closed;
   if (Status opened = state_->openAsset(asset, progress); !opened) return opened;
   return state_->place(placements);
 }
 
-Result<GpuFrame> GpuRenderer::State::drawAndRead(const View& wanted, const GpuRenderOptions& drawing, bool wantsAllChannels) {
+Result<GpuFrame> GpuRenderer::State::drawAndRead(const View& wanted, const GpuRenderOptions& drawing,
+                                                 bool wantsAllChannels) {
   if (Status ready = setExtent(extentOf(wanted), wantsAllChannels); !ready) return ready.error();
   if (Status ready = setRayMap(wanted); !ready) return ready.error();
   if (Status ready = setSceneDepth(wanted, drawing); !ready) return ready.error();
@@ -324,9 +324,7 @@ Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptio
   return state_->drawAndAsk(renderInfoOf(view, options), options.method);
 }
 
-const HostDeviceInfo& GpuRenderer::device() const {
-  return state_->host->info;
-}
+const HostDeviceInfo& GpuRenderer::device() const { return state_->host->info; }
 
 FrothAssetStatus GpuRenderer::assetStatus() const {
   FrothAssetStatus status{};

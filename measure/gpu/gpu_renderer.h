@@ -16,12 +16,12 @@
 namespace froth {
 
 struct GpuDeviceOptions {
-  std::string device;     // index or part of a name; empty: the first suitable one
-  bool validate = false;  // validation layers; any message fails a render
+  std::string device;         // index or part of a name; empty: the first suitable one
+  bool validate = false;      // validation layers; any message fails a render
   bool checkIndices = false;  // shaders check every index; one out of range fails a render
   bool floatColours = false;  // colours of detail sites are floats between passes, where they are halves
   bool measurePasses = false;
-  bool countWork = false;  // FrothViewStatus::work; slower
+  bool countWork = false;    // FrothViewStatus::work; slower
   uint32_t lensClasses = 0;  // FrothLensClass bits of the views that will be drawn (gpu_camera.h)
   bool keepsHits = false;    // views have what ids and motion need
   bool castsRays = false;    // castRays() and queryRays() may be called
@@ -29,14 +29,15 @@ struct GpuDeviceOptions {
 
 struct GpuRenderOptions {
   Method method = Method::kRaster;
-  float cutoff = 1e-3f;   // 0: a ray never ends early
-  bool isLinear = false;  // colour decoded to linear light
-  uint32_t maxSteps = 0;  // of one walk; 0: the runtime's default
-  bool isFull = false;    // of draw(): distance and normal too, all in float
-  bool readsNormal = true;  // of render(); else the image is empty
+  float cutoff = 1e-3f;                                // 0: a ray never ends early
+  bool isLinear = false;                               // colour decoded to linear light
+  uint32_t maxSteps = 0;                               // of one walk; 0: the runtime's default
+  bool isFull = false;                                 // of draw(): distance and normal too, all in float
+  bool readsNormal = true;                             // of render(); else the image is empty
   FrothTileForm tileForm = FROTH_TILE_FORM_BY_LENGTH;  // of raster
-  glm::vec2 jitter{0};           // [pixels] of the camera
-  const Image* ends = nullptr;  // 1 channel, of the view's size: where the scene ends each ray [world units]; null: nowhere
+  glm::vec2 jitter{0};                                 // [pixels] of the camera
+  // 1 channel, of the view's size: where the scene ends each ray [world units]; null: nowhere
+  const Image* ends = nullptr;
 };
 
 struct GpuFrame {
@@ -45,7 +46,7 @@ struct GpuFrame {
 };
 
 struct RayOptions {
-  uint32_t maxSteps = 0;  // of one ray; 0: the runtime's default
+  uint32_t maxSteps = 0;        // of one ray; 0: the runtime's default
   const Image* ends = nullptr;  // as GpuRenderOptions::ends
 };
 
@@ -61,18 +62,21 @@ class GpuRenderer {
   static Result<std::unique_ptr<GpuRenderer>> create(const GpuDeviceOptions& options);
   ~GpuRenderer();
 
-  // Opens the asset, in place of the one before, places an instance of it for each of `placements` (whose asset is not read) and waits
-  // until it is ready. `asset` is read only now. Without success there is none.
-  Status load(const AssetInput& asset, const Progress& progress, const std::vector<FrothInstanceInfo>& placements = {{}});
+  // Opens the asset, in place of the one before, places an instance of it for each of `placements` (whose asset is not
+  // read) and waits until it is ready. `asset` is read only now. Without success there is none.
+  Status load(const AssetInput& asset, const Progress& progress,
+              const std::vector<FrothInstanceInfo>& placements = {{}});
 
   // All channels in float. Draws again while a limit that grows by itself was hit.
   Result<GpuFrame> render(const View& view, const GpuRenderOptions& options);
-  // Colour and alpha in half floats, by the shaders that a game's frame has; the other images are empty. Draws again as render().
+  // Colour and alpha in half floats, by the shaders that a game's frame has; the other images are empty. Draws again as
+  // render().
   Result<GpuFrame> renderColour(const View& view, const GpuRenderOptions& options);
   // What a game draws: half-float colour only, left on the device. The status is of this very frame.
   Result<FrothViewStatus> draw(const View& view, const GpuRenderOptions& options);
 
-  // As an engine casts rays from a buffer (frothRecordRays), and a game on the CPU (frothCastRays). Near limits of the view do not apply.
+  // As an engine casts rays from a buffer (frothRecordRays), and a game on the CPU (frothCastRays). Near limits of the
+  // view do not apply.
   Result<RayFrame> castRays(const View& view, const RayOptions& options);
   Result<RayFrame> queryRays(const View& view, const RayOptions& options);
 
@@ -85,7 +89,8 @@ class GpuRenderer {
   std::unique_ptr<State> state_;
 };
 
-// What the runtime needs to know of a view but the image of a ray map; near limits that the view leaves open become the asset's.
+// What the runtime needs to know of a view but the image of a ray map; near limits that the view leaves open become the
+// asset's.
 FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options);
 
 }  // namespace froth

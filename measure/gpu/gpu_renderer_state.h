@@ -34,8 +34,10 @@ struct GpuRenderer::State {
   Status checkSilence(uint32_t indexViolations);
   Result<RenderedImages> readImages(bool readsNormal);
   // One frame of rays from `eye`; `buffer` holds them, and the hits behind them.
-  Status recordRays(const glm::dvec3& eye, const RayOptions& wanted, const HostBuffer& buffer, uint32_t count, VkCommandBuffer commands);
-  Result<std::vector<FrothGpuHit>> castAndRead(const glm::dvec3& eye, const RayOptions& wanted, const std::vector<FrothGpuRay>& asked);
+  Status recordRays(const glm::dvec3& eye, const RayOptions& wanted, const HostBuffer& buffer, uint32_t count,
+                    VkCommandBuffer commands);
+  Result<std::vector<FrothGpuHit>> castAndRead(const glm::dvec3& eye, const RayOptions& wanted,
+                                               const std::vector<FrothGpuRay>& asked);
   Result<GpuFrame> drawAndRead(const View& wanted, const GpuRenderOptions& drawing, bool wantsAllChannels);
 
   GpuDeviceOptions options;

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "base/image/formats.h"
 #include "measure/report/report.h"
 #include "reference/image/flip.h"
-#include "reference/image/formats.h"
 
 namespace froth {
 namespace {
@@ -90,8 +90,9 @@ Image shrinkMap(const Image& map) {
     for (size_t i = 0; i < size_t{small.width} * 3; ++i) {
       const auto x = static_cast<uint32_t>(i / 3);
       float sum = 0;
-      for (uint32_t part = 0; part < factor * factor; ++part)
+      for (uint32_t part = 0; part < factor * factor; ++part) {
         sum += map.pixel(x * factor + part % factor, y * factor + part / factor)[i % 3];
+      }
       small.values.push_back(sum / static_cast<float>(factor * factor));
     }
   }
@@ -106,11 +107,11 @@ Result<ReportImage> makePicture(std::string title, std::string caption, const Im
 
 }  // namespace
 
-Result<std::vector<ReportImage>> picturesOfError(const std::string& title, const Image& reference,
-                                                 const Image& test, uint32_t worstX, uint32_t worstY) {
+Result<std::vector<ReportImage>> picturesOfError(const std::string& title, const Image& reference, const Image& test,
+                                                 uint32_t worstX, uint32_t worstY) {
   if (worstX >= reference.width || worstY >= reference.height) {
-    return makeError(ErrorKind::kBadInput, "%s: pixel (%u, %u) lies outside %u x %u", title.c_str(), worstX,
-                     worstY, reference.width, reference.height);
+    return makeError(ErrorKind::kBadInput, "%s: pixel (%u, %u) lies outside %u x %u", title.c_str(), worstX, worstY,
+                     reference.width, reference.height);
   }
   const Result<FlipImage> seenReference = prepareFlip(reference), seenTest = prepareFlip(test);
   if (!seenReference) return seenReference.error();
@@ -138,16 +139,14 @@ Result<std::vector<ReportImage>> picturesOfError(const std::string& title, const
   std::vector<ReportImage> pictures;
   Result<ReportImage> whole = makePicture(
       title,
-      fmt::format(
-          "FLIP, mean {:.5f}: black is no difference, pale yellow the largest. The frame is the crop.",
-          flip->mean),
+      fmt::format("FLIP, mean {:.5f}: black is no difference, pale yellow the largest. The frame is the crop.",
+                  flip->mean),
       map);
   if (!whole) return whole.error();
-  Result<ReportImage> crop =
-      makePicture(title + ", worst pixel",
-                  fmt::format("Around ({}, {}), which is framed: reference, image, difference times {:g}.",
-                              worstX, worstY, gain),
-                  strip);
+  Result<ReportImage> crop = makePicture(
+      title + ", worst pixel",
+      fmt::format("Around ({}, {}), which is framed: reference, image, difference times {:g}.", worstX, worstY, gain),
+      strip);
   if (!crop) return crop.error();
   pictures.push_back(std::move(*whole));
   pictures.push_back(std::move(*crop));

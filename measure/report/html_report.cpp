@@ -1,79 +1,180 @@
-// The page around the sections.
+// report.html: report.json with what a reader compares, in templates/page.html.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include <fmt/format.h>
 
+#include "measure/report/fill_template.h"
 #include "measure/report/html_parts.h"
-#include "measure/report/svg_plot.h"
+#include "measure/report/text.h"
 
 namespace froth {
 namespace {
 
-constexpr const char* kStyle = R"css(
-:root{--ink:#1f2328;--soft:#667080;--line:#dfe3e8;--paper:#ffffff;--field:#f5f7f9;--mark:#eef5ff;--good:#0f7b55;--fair:#8a5a00;
---bad:#c0262d;--pick:#7a35b8;--bar:#9cc3f5;color-scheme:light dark}
-@media(prefers-color-scheme:dark){:root{--ink:#e6e8eb;--soft:#9aa4b1;--line:#2c323a;--paper:#14171b;--field:#1b2027;
---mark:#182a42;--good:#4fd1a0;--fair:#e5c454;--bad:#ff7b7b;--pick:#cf9bff;--bar:#2f5688}}
-body{margin:0;background:var(--paper);color:var(--ink);font:14px/1.45 system-ui,sans-serif}
-main{max-width:1120px;margin:0 auto;padding:20px 20px 60px}
-h1{font-size:24px;margin:0 0 2px}h2{font-size:19px;margin:38px 0 8px;border-bottom:1px solid var(--line);padding-bottom:4px}
-h3{font-size:15px;margin:24px 0 2px}p{margin:4px 0 10px;max-width:90ch}
-nav{margin:10px 0 4px}nav a{margin-right:14px}a{color:inherit}
-.soft,.lead,small,figcaption,.credit{color:var(--soft)}small{font-size:11px;white-space:nowrap}
-.tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(135px,1fr));gap:8px;margin:10px 0}
-.tile{background:var(--field);border-radius:6px;padding:8px 10px;display:flex;flex-direction:column}
-.tile span{color:var(--soft);font-size:12px}.tile b{font-size:19px;font-variant-numeric:tabular-nums;white-space:nowrap}
-.scroll{overflow-x:auto;margin:6px 0 12px}
-table{border-collapse:collapse;font-size:12.5px;font-variant-numeric:tabular-nums}
-th{text-align:right;font-weight:600;color:var(--soft);border-bottom:1px solid var(--line);padding:3px 9px;vertical-align:bottom}
-td{padding:2.5px 9px;border-bottom:1px solid var(--line)}td.number{text-align:right;white-space:nowrap}td:first-child{white-space:nowrap}
-th.text,th.bars{text-align:left}td.text{text-align:left}td.small{font-size:11px;color:var(--soft)}tr.marked td{background:var(--mark)}
-td.bars{min-width:220px}.share{display:inline-block;height:9px;background:var(--bar);margin-right:6px;max-width:75%}
-.badge{display:inline-block;border:1px solid currentColor;border-radius:9px;padding:0 7px;font-size:11px;color:var(--soft);white-space:nowrap}
-.good,.better{color:var(--good)}.fair{color:var(--fair)}.bad,.worse{color:var(--bad)}.pick{color:var(--pick)}
-.plots{display:flex;flex-wrap:wrap;gap:10px 14px;margin:6px 0}
-figure{margin:10px 0;overflow-x:auto}figure svg.plot{min-width:720px}figcaption{font-size:12px;margin:2px 0 4px}
-.images{display:grid;grid-template-columns:repeat(auto-fit,minmax(320px,1fr));gap:14px}
-.images img{max-width:100%;image-rendering:pixelated;display:block}
-details summary{cursor:pointer}
-)css";
+using Json = nlohmann::ordered_json;
 
-std::string lead(const Report& report) {
-  return fmt::format(
-      "{} cells, {} x {} pixels, {} views, {} configurations, {} frames each on {}. Errors are against the "
-      "double-precision image of the unquantized foam.",
-      countText(report.cells), report.width, report.height, report.views.size(), report.points.size(),
-      report.frames, report.device);
+std::string encodeBase64(const std::vector<uint8_t>& bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const size_t count = std::min<size_t>(3, bytes.size() - i);
+    uint32_t word = 0;
+    for (size_t k = 0; k < 3; ++k) word = word << 8 | (k < count ? bytes[i + k] : 0);
+    for (size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[word >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
 }
 
-// The link texts of the sections that are there.
-std::string navigation(const std::string& body) {
-  constexpr std::pair<const char*, const char*> kAnchors[] = {
-      {"summary", "Summary"},   {"time", "Error over time"},   {"bytes", "Error over bytes"},
-      {"sweeps", "Knobs"},      {"slopes", "Slopes"},          {"passes", "Passes"},
-      {"views", "Views"},       {"features", "Features"},      {"pictures", "Pictures"},
-      {"points", "All points"}, {"origin", "Device and notes"}};
-  std::string links;
-  for (const auto& [anchor, text] : kAnchors) {
-    if (body.find(fmt::format("<section id=\"{}\">", anchor)) == std::string::npos) continue;
-    links += fmt::format("<a href=\"#{}\">{}</a>\n", anchor, text);
+// How `interval` stands to `base`: "tie" where noise explains it, otherwise the change in percent. Null: not measured.
+Json changeOf(const Interval& interval, const Interval& base) {
+  if (!(interval.median > 0) || !(base.median > 0)) return nullptr;
+  if (isTie(interval, base)) return {{"kind", "soft"}, {"text", "tie"}};
+  const double change = (interval.median / base.median - 1) * 100;
+  return {{"kind", change < 0 ? "better" : "worse"}, {"text", signedText(change, 1) + " %"}};
+}
+
+// The row of a point in tables.
+Json rowOf(const Report& report, const ReportPoint& point) {
+  Json row = pointAsJson(point);
+  const ReportPoint* standard = defaultOf(report, point.renderer);
+  row["settingsText"] = settingsText(point);
+  row["isDefault"] = point.settings.empty();
+  row["isPicked"] = point.id == report.chosen;
+  row["change"] = standard && standard != &point ? changeOf(point.total, standard->total) : nullptr;
+  row["bytesPerCell"] = shortNumber(double(point.diskBytes) / std::max(1.0, double(report.cells)));
+  return row;
+}
+
+// With shares of passes, and the worst view marked.
+Json defaultRow(const Report& report, const ReportPoint& point) {
+  Json row = rowOf(report, point);
+  for (size_t i = 0; i < point.passes.size(); ++i) {
+    const double share = point.total.median > 0 ? point.passes[i].time.median / point.total.median : 0;
+    row["passes"][i]["share"] = fmt::format("{:.0f}", share * 100);
+    row["passes"][i]["barWidth"] = std::clamp(share, 0.0, 1.0) * 100;
   }
-  return "<nav>\n" + links + "</nav>\n";
+  const auto worst = std::min_element(point.views.begin(), point.views.end(),
+                                      [](const auto& a, const auto& b) { return a.errors.psnr < b.errors.psnr; });
+  if (worst != point.views.end()) row["views"][size_t(worst - point.views.begin())]["isWorst"] = true;
+  return row;
+}
+
+std::string differenceText(double now, double before) {
+  return std::isfinite(now - before) ? signedText(now - before, 2) + " dB" : "–";
+}
+
+std::string changeOfBytes(uint64_t now, uint64_t before) {
+  if (now == before) return "none";
+  return signedText(before ? (double(now) / double(before) - 1) * 100 : 0, 1) + " %";
+}
+
+Json pickOf(const Report& report, const ReportPoint& chosen) {
+  Json pick = rowOf(report, chosen);
+  const ReportPoint* standard = defaultOf(report, chosen.renderer);
+  if (!standard || standard == &chosen) return pick;
+  pick["standard"] = rowOf(report, *standard);
+  pick["psnrChange"] = differenceText(chosen.errors.psnr, standard->errors.psnr);
+  if (standard->photoErrors && chosen.photoErrors) {
+    pick["photosChange"] = differenceText(chosen.photoErrors->psnr, standard->photoErrors->psnr);
+  }
+  pick["diskChange"] = changeOfBytes(chosen.diskBytes, standard->diskBytes);
+  pick["residentChange"] = changeOfBytes(chosen.residentBytes, standard->residentBytes);
+  return pick;
+}
+
+// Points that cost the same within the noise, with a larger error; a few by name.
+std::string tiesOf(const Report& report, const ReportPoint& point, Cost cost) {
+  std::string names;
+  int count = 0;
+  for (const ReportPoint& other : report.points) {
+    const bool ties = cost == Cost::kTime ? isTie(other.total, point.total) : other.diskBytes == point.diskBytes;
+    if (&other == &point || other.renderer != point.renderer || !ties || ++count > 4) continue;
+    names += (names.empty() ? "" : "; ") + settingsText(other);
+  }
+  if (count > 4) names += fmt::format("; and {} more", count - 4);
+  return count == 0 ? "–" : names;
+}
+
+Json frontOf(const Report& report, Cost cost, const std::vector<std::string>& front) {
+  const double lowest = lowestDrawn(report, front);
+  Json below = Json::array(), equal = Json::array();  // ids
+  for (const ReportPoint* point : candidatesOf(report, front)) {
+    if (point->errors.psnr < lowest) below.push_back(point->id);
+    if (std::isinf(point->errors.psnr)) equal.push_back(point->id);
+  }
+  Json rows = Json::array();
+  for (const std::string& id : front) {
+    const ReportPoint* point = findPoint(report, id);
+    if (!point) continue;
+    rows.push_back(rowOf(report, *point));
+    rows.back()["ties"] = tiesOf(report, *point, cost);
+  }
+  const bool isTime = cost == Cost::kTime;
+  return {{"anchor", isTime ? "time" : "bytes"},
+          {"heading", isTime ? "Error over milliseconds" : "Error over bytes"},
+          {"tieTitle", isTime ? "ties with it in time" : "as large"},
+          {"plot", frontPlot(report, cost, front)},
+          {"lowest", decibels(lowest)},
+          {"below", below},
+          {"equal", equal},
+          {"rows", rows}};
+}
+
+void completeSweep(const Report& report, const Sweep& sweep, Json& json) {
+  json["title"] = titleOf(sweep);
+  json["plots"] = sweepPlots(report, sweep);
+  json["rows"] = Json::array();
+  for (const SweepPoint& swept : pointsOf(report, sweep)) {
+    json["rows"].push_back(rowOf(report, *swept.point));
+    json["rows"].back()["value"] = swept.value;
+  }
+}
+
+void completeSlope(const Slope& slope, Json& json) {
+  json["expected"] = fmt::format("{:g}", slope.expected);
+  json["measured"] = slope.atOne > 0 ? signedText(slope.measured, 2) : "–";
+  json["kind"] = slope.verdict == kVerdictAsDerived ? "good"
+                 : slope.verdict == kVerdictFloor   ? "fair"
+                 : slope.verdict == kVerdictTooFew  ? ""
+                                                    : "bad";
+  json["plot"] = slopePlot(slope);
+}
+
+void completeFeature(const FeatureCost& feature, Json& json) {
+  json["diskText"] = bytesText(double(feature.diskBytes));
+  json["residentText"] = bytesText(double(feature.residentBytes));
+  json["rasterWith"]["change"] = changeOf(feature.rasterWith, feature.rasterWithout);
+  json["walkWith"]["change"] = changeOf(feature.walkWith, feature.walkWithout);
 }
 
 }  // namespace
 
 std::string reportAsHtml(const Report& report) {
-  const std::string body = summarySection(report) + frontSections(report) + sweepsSection(report) +
-                           slopesSection(report) + passesSection(report) + viewsSection(report) +
-                           featuresSection(report) + imagesSection(report) + pointsSection(report) +
-                           originSection(report);
-  const std::string title = escapeMarkup("Error and run time: " + report.scene);
-  return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
-         // A browser asks the server for an icon otherwise.
-         "<link rel=\"icon\" href=\"data:,\">\n<title>" +
-         title + "</title>\n<style>" + kStyle + plotStyle() + "</style>\n</head>\n<body>\n<main>\n<h1>" +
-         title + "</h1>\n<p class=\"lead\">" + escapeMarkup(lead(report)) + "</p>\n" + navigation(body) +
-         body + "</main>\n</body>\n</html>\n";
+  Json page = reportAsJson(report);
+  page["viewNumbers"] = fmt::format("{}", fmt::join(report.views, ", "));
+  page["points"] = page["defaults"] = page["fronts"] = page["images"] = Json::array();
+  page["hasPasses"] = page["hasViews"] = page["hasPhotos"] = false;
+  for (const ReportPoint& point : report.points) {
+    if (point.photoErrors) page["hasPhotos"] = true;
+    page["points"].push_back(rowOf(report, point));
+    if (defaultOf(report, point.renderer) != &point) continue;
+    page["defaults"].push_back(defaultRow(report, point));
+    if (!point.passes.empty()) page["hasPasses"] = true;
+    if (!point.views.empty()) page["hasViews"] = true;
+  }
+  if (const ReportPoint* chosen = findPoint(report, report.chosen)) page["pick"] = pickOf(report, *chosen);
+  if (!report.points.empty()) {
+    page["fronts"].push_back(frontOf(report, Cost::kTime, report.frontOverTime));
+    page["fronts"].push_back(frontOf(report, Cost::kDiskBytes, report.frontOverBytes));
+  }
+  for (size_t i = 0; i < report.sweeps.size(); ++i) completeSweep(report, report.sweeps[i], page["sweeps"][i]);
+  for (size_t i = 0; i < report.slopes.size(); ++i) completeSlope(report.slopes[i], page["slopes"][i]);
+  for (size_t i = 0; i < report.features.size(); ++i) completeFeature(report.features[i], page["features"][i]);
+  for (const ReportImage& image : report.images) {
+    page["images"].push_back({{"title", image.title}, {"caption", image.caption}, {"png", encodeBase64(image.png)}});
+  }
+  return fillTemplate("page.html", page);
 }
 
 }  // namespace froth

@@ -24,12 +24,9 @@ Interval costOf(const ReportPoint& point, Cost cost) {
 
 }  // namespace
 
-bool isTie(const Interval& a, const Interval& b) {
-  return a.p5 <= b.p95 && b.p5 <= a.p95;
-}
+bool isTie(const Interval& a, const Interval& b) { return a.p5 <= b.p95 && b.p5 <= a.p95; }
 
-std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, const std::string& renderer,
-                                     Cost cost) {
+std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, const std::string& renderer, Cost cost) {
   std::vector<Candidate> candidates;
   for (const ReportPoint& point : points) {
     const Interval spent = costOf(point, cost);

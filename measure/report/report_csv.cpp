@@ -20,9 +20,7 @@ std::string field(const std::string& text) {
 }
 
 std::string field(double value) {
-  return std::isnan(value)   ? "nan"
-         : std::isinf(value) ? (value > 0 ? "inf" : "-inf")
-                             : fmt::format("{:.9g}", value);
+  return std::isnan(value) ? "nan" : std::isinf(value) ? (value > 0 ? "inf" : "-inf") : fmt::format("{:.9g}", value);
 }
 
 std::string settingsOf(const ReportPoint& point) {
@@ -105,8 +103,8 @@ std::string reportAsCsv(const Report& report) {
     row.push_back(holds(report.frontOverBytes, point.id) ? "1" : "0");
     row.push_back(point.id == report.chosen ? "1" : "0");
     for (const std::string& name : passes) {
-      const auto pass = std::find_if(point.passes.begin(), point.passes.end(),
-                                     [&](const PassTimes& p) { return p.pass == name; });
+      const auto pass =
+          std::find_if(point.passes.begin(), point.passes.end(), [&](const PassTimes& p) { return p.pass == name; });
       row.push_back(pass == point.passes.end() ? "" : field(pass->time.median));
     }
     csv += joined(row);

@@ -140,8 +140,8 @@ class Reader {
     return nullptr;
   }
   void fail(const std::string& name, const char* wanted) {
-    status_ = makeError(ErrorKind::kBadInput, "report point: '%s%s' is not %s; measure the point again",
-                        place_.c_str(), name.c_str(), wanted);
+    status_ = makeError(ErrorKind::kBadInput, "report point: '%s%s' is not %s; measure the point again", place_.c_str(),
+                        name.c_str(), wanted);
   }
 
   const Json& json_;
@@ -189,18 +189,14 @@ Json pointAsJson(const ReportPoint& point) {
   Json settings = Json::array(), views = Json::array(), passes = Json::array();
   for (const Setting& setting : point.settings) settings.push_back(settingAsJson(setting));
   for (const ViewErrors& view : point.views) {
-    views.push_back({{"view", view.view},
-                     {"errors", errorsAsJson(view.errors)},
-                     {"worstX", view.worstX},
-                     {"worstY", view.worstY}});
+    views.push_back(
+        {{"view", view.view}, {"errors", errorsAsJson(view.errors)}, {"worstX", view.worstX}, {"worstY", view.worstY}});
   }
   for (const PassTimes& pass : point.passes) {
     passes.push_back({{"pass", pass.pass}, {"time", intervalAsJson(pass.time)}});
   }
-  Json json = {{"id", point.id},
-               {"renderer", point.renderer},
-               {"settings", settings},
-               {"errors", errorsAsJson(point.errors)}};
+  Json json = {
+      {"id", point.id}, {"renderer", point.renderer}, {"settings", settings}, {"errors", errorsAsJson(point.errors)}};
   if (point.photoErrors) json["photoErrors"] = errorsAsJson(*point.photoErrors);
   json["views"] = views;
   json["total"] = intervalAsJson(point.total);
@@ -230,22 +226,14 @@ Result<ReportPoint> pointFromJson(const Json& json) {
 }
 
 Json reportAsJson(const Report& report) {
-  Json json = {{"scene", report.scene},
-               {"input", report.input},
-               {"credit", report.credit},
-               {"device", report.device},
-               {"driver", report.driver},
-               {"version", report.version},
-               {"command", report.command},
-               {"width", report.width},
-               {"height", report.height},
-               {"frames", report.frames},
-               {"seed", report.seed},
-               {"views", report.views},
-               {"cells", report.cells},
-               {"detailCount", report.detailCount},
-               {"lobeCount", report.lobeCount},
-               {"isLinearTime", report.isLinearTime}};
+  Json json = {{"scene", report.scene},         {"input", report.input},
+               {"credit", report.credit},       {"device", report.device},
+               {"driver", report.driver},       {"version", report.version},
+               {"command", report.command},     {"width", report.width},
+               {"height", report.height},       {"frames", report.frames},
+               {"seed", report.seed},           {"views", report.views},
+               {"cells", report.cells},         {"detailCount", report.detailCount},
+               {"lobeCount", report.lobeCount}, {"isLinearTime", report.isLinearTime}};
   json["points"] = Json::array();
   for (const ReportPoint& point : report.points) json["points"].push_back(pointAsJson(point));
   json["sweeps"] = Json::array();

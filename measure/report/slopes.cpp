@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "measure/report/report.h"
-#include "measure/report/svg_plot.h"
+#include "measure/report/text.h"
 
 namespace froth {
 namespace {
@@ -22,8 +22,7 @@ struct Line {
   double slope = 0, atOne = 0;
 };
 
-Line leastSquares(const std::vector<size_t>& which, const std::vector<double>& x,
-                  const std::vector<double>& y) {
+Line leastSquares(const std::vector<size_t>& which, const std::vector<double>& x, const std::vector<double>& y) {
   double meanX = 0, meanY = 0, xx = 0, xy = 0;
   for (size_t i : which) {
     meanX += std::log(x[i]) / double(which.size());
@@ -75,8 +74,8 @@ void judgeAboveFloor(Slope& slope, const std::vector<size_t>& above) {
     slope.verdict = kVerdictFloor;
   } else {
     slope.verdict = kVerdictOtherOrder;
-    slope.note += fmt::format(", and falls to it with the power {:.2f} where {:g} is derived", slope.measured,
-                              slope.expected);
+    slope.note +=
+        fmt::format(", and falls to it with the power {:.2f} where {:g} is derived", slope.measured, slope.expected);
   }
 }
 
@@ -97,8 +96,7 @@ Slope fitSlope(const std::string& what, double expected, std::vector<double> x, 
   std::vector<size_t> usable, above;  // those with logarithms, and those above the floor
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (size_t i = 0; i < count; ++i) {
-    if (!(slope.x[i] > 0) || !(slope.y[i] > 0) || !std::isfinite(slope.x[i]) || !std::isfinite(slope.y[i]))
-      continue;
+    if (!(slope.x[i] > 0) || !(slope.y[i] > 0) || !std::isfinite(slope.x[i]) || !std::isfinite(slope.y[i])) continue;
     usable.push_back(i);
     least = std::min(least, slope.y[i]);
     most = std::max(most, slope.y[i]);
@@ -109,16 +107,14 @@ Slope fitSlope(const std::string& what, double expected, std::vector<double> x, 
 
   slope.verdict = kVerdictTooFew;
   if (!hasSpread(usable, slope.x)) {
-    slope.note =
-        fmt::format("{} of {} points have a logarithm; {} are needed", usable.size(), count, kLeastPoints);
+    slope.note = fmt::format("{} of {} points have a logarithm; {} are needed", usable.size(), count, kLeastPoints);
     return slope;
   }
   // What the law would make of the range of x: less than the floor's width shows nothing.
   const double derivedRatio = std::pow(slope.x[usable.back()] / slope.x[usable.front()], std::abs(expected));
   if (derivedRatio < floorFactor * floorFactor) {
     setLine(slope, usable);
-    slope.note = fmt::format("x spans too little: derived to change by a factor of {} only",
-                             shortNumber(derivedRatio));
+    slope.note = fmt::format("x spans too little: derived to change by a factor of {} only", shortNumber(derivedRatio));
     return slope;
   }
 
@@ -148,19 +144,17 @@ const Setting& placeOnSweep(const Sweep& sweep, const ReportPoint& point) {
   return found == point.settings.end() ? sweep.base : *found;
 }
 
-Slope fitConvergence(const std::vector<ReportPoint>& points, const Sweep& sweep,
-                     const std::string& renderer) {
+Slope fitConvergence(const std::vector<ReportPoint>& points, const Sweep& sweep, const std::string& renderer) {
   std::vector<double> steps, errors;
   for (const ReportPoint& point : points) {
-    const bool isOfSweep =
-        std::find(sweep.points.begin(), sweep.points.end(), point.id) != sweep.points.end();
+    const bool isOfSweep = std::find(sweep.points.begin(), sweep.points.end(), point.id) != sweep.points.end();
     if (point.renderer != renderer || !isOfSweep) continue;
     const double number = placeOnSweep(sweep, point).number;
     steps.push_back(sweep.isBits ? std::exp2(-number) : number);
     errors.push_back(point.errors.meanError);
   }
-  return fitSlope(renderer + ": mean error over " + (sweep.isBits ? "step of " : "") + sweep.knob,
-                  sweep.expectedOrder, std::move(steps), std::move(errors));
+  return fitSlope(renderer + ": mean error over " + (sweep.isBits ? "step of " : "") + sweep.knob, sweep.expectedOrder,
+                  std::move(steps), std::move(errors));
 }
 
 }  // namespace froth

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "measure/report/svg_plot.h"
+#include "measure/report/text.h"
 
 namespace froth {
 namespace {
@@ -48,14 +49,12 @@ std::vector<PlotTick> logarithmicTicks(double from, double to, int most) {
       if (every > 1 && decade % every != 0) continue;
       for (double factor : factors) {
         const double value = factor * std::pow(10, decade);
-        if (value >= from * (1 - 1e-9) && value <= to * (1 + 1e-9))
-          ticks.push_back({value, roundLabel(value)});
+        if (value >= from * (1 - 1e-9) && value <= to * (1 + 1e-9)) ticks.push_back({value, roundLabel(value)});
       }
     }
     return ticks;
   };
-  const std::vector<std::vector<double>> choices{
-      {1, 2, 3, 4, 5, 6, 7, 8, 9}, {1, 2, 3, 5, 7}, {1, 2, 5}, {1, 3}, {1}};
+  const std::vector<std::vector<double>> choices{{1, 2, 3, 4, 5, 6, 7, 8, 9}, {1, 2, 3, 5, 7}, {1, 2, 5}, {1, 3}, {1}};
   for (const std::vector<double>& factors : choices) {
     std::vector<PlotTick> ticks = fillDecades(factors, 1);
     if (int(ticks.size()) <= most && ticks.size() >= 2) return ticks;
@@ -66,22 +65,6 @@ std::vector<PlotTick> logarithmicTicks(double from, double to, int most) {
 }
 
 }  // namespace
-
-std::string shortNumber(double value) {
-  if (std::isnan(value)) return "not a number";
-  if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
-  if (value == 0) return "0";
-  const double size = std::abs(value);
-  const std::string sign = value < 0 ? "−" : "";
-  if (size < 0.9995e-3 || size >= 1e6) {
-    const std::string text = fmt::format("{:.2e}", size);
-    const size_t e = text.find('e');
-    return fmt::format("{}{}e{}", sign, text.substr(0, e), std::stoi(text.substr(e + 1)));
-  }
-  // The third digit that counts; 9.996 is 10.0.
-  const int decimals = std::max(0, 2 - int(std::floor(std::log10(size * 1.0005))));
-  return fmt::format("{}{:.{}f}", sign, size, decimals);
-}
 
 std::vector<PlotTick> chooseTicks(double from, double to, bool isLogarithmic, int most) {
   if (!(to > from) || !std::isfinite(from) || !std::isfinite(to)) return {{from, shortNumber(from)}};

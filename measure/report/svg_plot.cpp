@@ -6,13 +6,19 @@
 
 #include <fmt/format.h>
 
+#include "measure/report/fill_template.h"
+
 namespace froth {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr double kCharacter = 6.2;  // [px] mean width at the plot's 11 px; wide enough that labels keep apart
 constexpr double kLineHeight = 14;
 constexpr double kMarker = 4;  // half its size
 constexpr int kColours = 8;
+constexpr const char* kShapes[] = {"M-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0Z", "M-3.5-3.5h7v7h-7Z", "M0-4.5L4.5 3.5H-4.5Z",
+                                   "M0-5L5 0L0 5L-5 0Z"};
 
 struct Box {
   double left = 0, top = 0, right = 0, bottom = 0;
@@ -26,309 +32,223 @@ struct Box {
 
 // Characters as a reader counts them: UTF-8 continuation bytes are none.
 double textWidth(const std::string& text) {
-  return kCharacter *
-         double(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-std::string number(double value) {
-  std::string text = fmt::format("{:.1f}", value);
-  if (text.ends_with(".0")) text.resize(text.size() - 2);
-  return text == "-0" ? "0" : text;
+  return kCharacter * double(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 // From values to pixels along one axis.
 struct Scale {
   bool isLogarithmic = false;
-  double from = 0, to = 1;  // values
+  double from = 0, to = 1;  // places
   double pixelFrom = 0, pixelTo = 1;
 
-  bool hasPlace(double value) const { return std::isfinite(value) && (!isLogarithmic || value > 0); }
+  // Not finite where the axis has no place for the value.
+  double place(double value) const { return isLogarithmic ? std::log10(std::max(value, 0.0)) : value; }
+  double value(double place) const { return isLogarithmic ? std::pow(10, place) : place; }
   bool shows(double value) const {
-    const double slack = 1e-6 * (place(to) - place(from));
-    return hasPlace(value) && place(value) >= place(from) - slack && place(value) <= place(to) + slack;
+    const double slack = 1e-6 * (to - from);
+    return place(value) >= from - slack && place(value) <= to + slack;
   }
-  double place(double value) const { return isLogarithmic ? std::log10(value) : value; }
   double pixel(double value) const {
-    return pixelFrom + (place(value) - place(from)) / (place(to) - place(from)) * (pixelTo - pixelFrom);
-  }
-  double clampedPixel(double value) const {
-    if (!hasPlace(value)) return pixelFrom;
-    return std::clamp(pixel(value), std::min(pixelFrom, pixelTo), std::max(pixelFrom, pixelTo));
+    return pixelFrom + std::clamp((place(value) - from) / (to - from), 0.0, 1.0) * (pixelTo - pixelFrom);
   }
 };
 
-// The range of the data with a margin of a twentieth.
+// The range of the values with a margin of a twentieth.
 Scale fitScale(const PlotAxis& axis, const std::vector<double>& values) {
   Scale scale{axis.isLogarithmic};
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
   for (double value : values) {
-    if (!scale.hasPlace(value)) continue;
-    low = std::min(low, scale.place(value));
-    high = std::max(high, scale.place(value));
+    if (!std::isfinite(scale.place(value))) continue;
+    least = std::min(least, scale.place(value));
+    most = std::max(most, scale.place(value));
   }
-  if (low > high) low = 0, high = 1;
-  double margin = (high - low) / 20;
-  if (margin < 1e-12 * std::max(1.0, std::abs(high)))
-    margin = axis.isLogarithmic ? 0.3 : std::max(std::abs(high) * 0.1, 0.5);
-  const auto value = [&](double place) { return axis.isLogarithmic ? std::pow(10, place) : place; };
-  scale.from = axis.from.value_or(value(low - margin));
-  scale.to = axis.to.value_or(value(high + margin));
+  if (least > most) least = 0, most = 1;
+  double margin = (most - least) / 20;
+  const bool isOneValue = margin < 1e-12 * std::max(1.0, std::abs(most));
+  if (isOneValue) margin = axis.isLogarithmic ? 0.3 : std::max(std::abs(most) * 0.1, 0.5);
+  scale.from = axis.from ? scale.place(*axis.from) : least - margin;
+  scale.to = axis.to ? scale.place(*axis.to) : most + margin;
   return scale;
 }
 
-std::vector<double> valuesOf(const Plot& plot, double PlotPoint::*value, double PlotPoint::*low,
-                             double PlotPoint::*high) {
-  std::vector<double> values;
-  for (const PlotSeries& series : plot.series) {
-    for (const PlotPoint& point : series.points) {
-      values.push_back(point.*value);
-      if (point.*low < point.*high) values.insert(values.end(), {point.*low, point.*high});
-    }
-  }
-  return values;
+// A tick for each `distance` pixels at most.
+std::vector<PlotTick> ticksOf(const PlotAxis& axis, const Scale& scale, double distance) {
+  const int most = std::max(2, int(std::abs(scale.pixelTo - scale.pixelFrom) / distance));
+  std::vector<PlotTick> ticks = axis.ticks;
+  if (ticks.empty()) ticks = chooseTicks(scale.value(scale.from), scale.value(scale.to), axis.isLogarithmic, most);
+  std::erase_if(ticks, [&](const PlotTick& tick) { return !scale.shows(tick.at); });
+  return ticks;
 }
 
 class Drawing {
  public:
-  explicit Drawing(const Plot& plot) : plot_(plot) {}
+  explicit Drawing(const Plot& plot) : plot_(plot) {
+    area_ = {plot.y.label.empty() ? 42.0 : 58.0, plot.showsTitle ? 32.0 : 10.0, double(plot.width) - 14,
+             double(plot.height) - (plot.x.label.empty() ? 26 : 42)};
+  }
 
-  std::string draw(bool isFile) {
-    area_ = {58, 10, double(plot_.width) - 14, double(plot_.height) - 42};
-    if (plot_.x.label.empty()) area_.bottom += 16;
-    if (plot_.y.label.empty()) area_.left -= 16;
-    drawHead();
-    fitScales();
-    drawGrid();
-    for (size_t s = 0; s < plot_.series.size(); ++s) drawLine(s);
-    for (size_t s = 0; s < plot_.series.size(); ++s) drawBars(s);
-    for (size_t s = 0; s < plot_.series.size(); ++s) drawMarkers(s);
-    drawLabels();
-    std::string svg = fmt::format(
-        "<svg class=\"plot\" {}viewBox=\"0 0 {} {}\" width=\"{}\" height=\"{}\" role=\"img\" "
-        "aria-label=\"{}\">\n",
-        isFile ? "xmlns=\"http://www.w3.org/2000/svg\" " : "", plot_.width, plot_.height, plot_.width,
-        plot_.height, escapeMarkup(plot_.title));
-    if (isFile) {
-      svg += "<style>" + plotStyle() + "</style>\n";
-      svg += fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\"/>\n", plot_.width, plot_.height);
+  Json draw() {
+    for (const char* part : {"legend", "ticksX", "ticksY", "lines", "bars", "marks", "labels"}) {
+      parts_[part] = Json::array();
     }
-    return svg + body_ + "</svg>\n";
+    drawLegend();
+    drawAxes();
+    for (size_t s = 0; s < plot_.series.size(); ++s) drawSeries(s);
+    for (const PlotSeries& series : plot_.series) {
+      for (const PlotPoint& point : series.points) {
+        if (series.hasMarkers && !point.label.empty() && shows(point)) drawLabel(point);
+      }
+    }
+    return parts_;
   }
 
  private:
-  template <class... Args>
-  void add(fmt::format_string<Args...> format, Args&&... args) {
-    body_ += fmt::format(format, std::forward<Args>(args)...);
-    body_ += '\n';
-  }
-
-  // Of colour and marker.
-  int look(size_t s) const { return plot_.series[s].colour < 0 ? int(s) : plot_.series[s].colour; }
-  bool isNeutral(size_t s) const { return plot_.series[s].colour == PlotSeries::kNeutral; }
-  std::string colourClass(size_t s) const {
-    return isNeutral(s) ? "cn" : fmt::format("c{}", look(s) % kColours);
-  }
-
-  // Title and legend; what they need is taken from the top of the area.
-  void drawHead() {
-    if (plot_.showsTitle) {
-      add("<text class=\"title\" x=\"{}\" y=\"{}\">{}</text>", number(area_.left), number(area_.top + 10),
-          escapeMarkup(plot_.title));
-      area_.top += 22;
-    }
+  // What it needs is taken from the top of the area.
+  void drawLegend() {
     double x = area_.left, y = area_.top + 4;
-    bool hasLegend = false;
     for (size_t s = 0; s < plot_.series.size(); ++s) {
       const PlotSeries& series = plot_.series[s];
       if (series.name.empty()) continue;
       const double needed = 24 + textWidth(series.name) + 14;
-      if (hasLegend && x + needed > area_.right) x = area_.left, y += kLineHeight + 2;
-      hasLegend = true;
-      if (series.line != PlotLine::kNone) {
-        add("<path class=\"line {} {}\" d=\"M{} {}h18\"/>", colourClass(s), dashClass(series), number(x),
-            number(y));
-      }
-      if (series.hasMarkers) addMarker(s, {}, x + 9, y);
-      add("<text x=\"{}\" y=\"{}\">{}</text>", number(x + 24), number(y + 4), escapeMarkup(series.name));
+      if (x > area_.left && x + needed > area_.right) x = area_.left, y += kLineHeight + 2;
+      Json entry{{"look", colourOf(s)}, {"line", series.line}, {"x", x}, {"y", y}, {"name", series.name}};
+      entry["marks"] = Json::array();
+      if (series.hasMarkers) entry["marks"].push_back(markAt(s, {}, x + 9, y));
+      parts_["legend"].push_back(entry);
       x += needed;
     }
-    if (hasLegend) area_.top = y + 14;
+    if (!parts_["legend"].empty()) area_.top = y + 14;
   }
 
-  void fitScales() {
-    x_ = fitScale(plot_.x, valuesOf(plot_, &PlotPoint::x, &PlotPoint::xLow, &PlotPoint::xHigh));
-    y_ = fitScale(plot_.y, valuesOf(plot_, &PlotPoint::y, &PlotPoint::yLow, &PlotPoint::yHigh));
-    x_.pixelFrom = area_.left;
-    x_.pixelTo = area_.right;
-    y_.pixelFrom = area_.bottom;
-    y_.pixelTo = area_.top;
-  }
-
-  void drawGrid() {
-    const int mostX = std::max(2, int((area_.right - area_.left) / 62)),
-              mostY = std::max(2, int((area_.bottom - area_.top) / 28));
-    const std::vector<PlotTick> ticksX =
-        plot_.x.ticks.empty() ? chooseTicks(x_.from, x_.to, x_.isLogarithmic, mostX) : plot_.x.ticks;
-    const std::vector<PlotTick> ticksY =
-        plot_.y.ticks.empty() ? chooseTicks(y_.from, y_.to, y_.isLogarithmic, mostY) : plot_.y.ticks;
+  void drawAxes() {
+    std::vector<double> xs, ys;
+    for (const PlotSeries& series : plot_.series) {
+      for (const PlotPoint& point : series.points) {
+        xs.push_back(point.x), ys.push_back(point.y);
+        if (point.xLow < point.xHigh) xs.insert(xs.end(), {point.xLow, point.xHigh});
+        if (point.yLow < point.yHigh) ys.insert(ys.end(), {point.yLow, point.yHigh});
+      }
+    }
+    x_ = fitScale(plot_.x, xs), y_ = fitScale(plot_.y, ys);
+    x_.pixelFrom = area_.left, x_.pixelTo = area_.right;
+    y_.pixelFrom = area_.bottom, y_.pixelTo = area_.top;
     double taken = -std::numeric_limits<double>::infinity();  // right end of the last label
-    for (const PlotTick& tick : ticksX) {
-      if (!x_.shows(tick.at)) continue;
+    for (const PlotTick& tick : ticksOf(plot_.x, x_, 62)) {
       const double x = x_.pixel(tick.at), half = textWidth(tick.label) / 2;
-      add("<path class=\"grid\" d=\"M{} {}V{}\"/>", number(x), number(area_.top), number(area_.bottom));
-      if (x - half < taken + 4) continue;
-      taken = x + half;
-      add("<text class=\"tick\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>", number(x),
-          number(area_.bottom + 15), escapeMarkup(tick.label));
+      const bool hasRoom = x - half >= taken + 4;
+      if (hasRoom) taken = x + half;
+      parts_["ticksX"].push_back({{"at", x}, {"label", hasRoom ? tick.label : ""}});
     }
-    for (const PlotTick& tick : ticksY) {
-      if (!y_.shows(tick.at)) continue;
-      const double y = y_.pixel(tick.at);
-      add("<path class=\"grid\" d=\"M{} {}H{}\"/>", number(area_.left), number(y), number(area_.right));
-      add("<text class=\"tick\" x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>", number(area_.left - 6),
-          number(y + 4), escapeMarkup(tick.label));
+    for (const PlotTick& tick : ticksOf(plot_.y, y_, 28)) {
+      parts_["ticksY"].push_back({{"at", y_.pixel(tick.at)}, {"label", tick.label}});
     }
-    add("<path class=\"axis\" d=\"M{} {}V{}H{}\"/>", number(area_.left), number(area_.top),
-        number(area_.bottom), number(area_.right));
-    if (!plot_.x.label.empty()) {
-      add("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>", number((area_.left + area_.right) / 2),
-          number(area_.bottom + 34), escapeMarkup(plot_.x.label));
-    }
-    if (!plot_.y.label.empty()) {
-      const double y = (area_.top + area_.bottom) / 2;
-      add("<text x=\"12\" y=\"{0}\" text-anchor=\"middle\" transform=\"rotate(-90 12 {0})\">{1}</text>",
-          number(y), escapeMarkup(plot_.y.label));
-    }
-  }
-
-  static const char* dashClass(const PlotSeries& series) {
-    return series.line == PlotLine::kDashed ? "dashed" : series.line == PlotLine::kDotted ? "dotted" : "";
+    parts_.update({{"width", plot_.width},
+                   {"height", plot_.height},
+                   {"title", plot_.title},
+                   {"showsTitle", plot_.showsTitle},
+                   {"left", area_.left},
+                   {"right", area_.right},
+                   {"top", area_.top},
+                   {"bottom", area_.bottom},
+                   {"xLabel", plot_.x.label},
+                   {"middleX", (area_.left + area_.right) / 2},
+                   {"yLabel", plot_.y.label},
+                   {"middleY", (area_.top + area_.bottom) / 2}});
   }
 
   bool shows(const PlotPoint& point) const { return x_.shows(point.x) && y_.shows(point.y); }
+  int placeOf(size_t s) const { return plot_.series[s].colour == -1 ? int(s) : plot_.series[s].colour; }
+  std::string colourOf(size_t s) const { return placeOf(s) < 0 ? "cn" : fmt::format("c{}", placeOf(s) % kColours); }
 
-  void drawLine(size_t s) {
+  Json markAt(size_t s, const PlotPoint& point, double x, double y) const {
+    return {{"look", colourOf(s)},
+            {"shape", kShapes[std::max(placeOf(s), 0) % 4]},
+            {"x", x},
+            {"y", y},
+            {"isRinged", point.isRinged},
+            {"isHollow", point.isHollow},
+            {"tooltip", point.tooltip}};
+  }
+
+  void drawSeries(size_t s) {
     const PlotSeries& series = plot_.series[s];
-    if (series.line == PlotLine::kNone) return;
-    std::string path;
-    for (const PlotPoint& point : series.points) {
-      if (!shows(point)) continue;
-      const std::string x = number(x_.clampedPixel(point.x)), y = number(y_.clampedPixel(point.y));
-      if (path.empty()) {
-        path = fmt::format("M{} {}", x, y);
-      } else if (series.isStepped) {
-        path += fmt::format("H{}V{}", x, y);
-      } else {
-        path += fmt::format("L{} {}", x, y);
-      }
-    }
-    if (series.isStepped) keepClear(series);
-    if (!path.empty()) add("<path class=\"line {} {}\" d=\"{}\"/>", colourClass(s), dashClass(series), path);
-  }
-
-  // Labels keep off the steps of a line.
-  void keepClear(const PlotSeries& series) {
-    constexpr double kHalf = 1.5;
-    for (size_t i = 1; i < series.points.size(); ++i) {
-      if (!shows(series.points[i - 1]) || !shows(series.points[i])) continue;
-      const double x0 = x_.pixel(series.points[i - 1].x), y0 = y_.pixel(series.points[i - 1].y);
-      const double x1 = x_.pixel(series.points[i].x), y1 = y_.pixel(series.points[i].y);
-      taken_.push_back({std::min(x0, x1), y0 - kHalf, std::max(x0, x1), y0 + kHalf});
-      taken_.push_back({x1 - kHalf, std::min(y0, y1), x1 + kHalf, std::max(y0, y1)});
-    }
-  }
-
-  void drawBars(size_t s) {
-    for (const PlotPoint& point : plot_.series[s].points) {
-      if (!shows(point)) continue;
-      const std::string x = number(x_.pixel(point.x)), y = number(y_.pixel(point.y));
-      if (point.xLow < point.xHigh) {
-        const double low = x_.clampedPixel(point.xLow), high = x_.clampedPixel(point.xHigh);
-        bars_.push_back({low, y_.pixel(point.y) - 1, high, y_.pixel(point.y) + 1});
-        add("<path class=\"bar {0}\" d=\"M{1} {2}H{3}M{1} {4}v6M{3} {4}v6\"/>", colourClass(s), number(low),
-            y, number(high), number(y_.pixel(point.y) - 3));
-      }
-      if (point.yLow < point.yHigh) {
-        const double low = y_.clampedPixel(point.yLow), high = y_.clampedPixel(point.yHigh);
-        add("<path class=\"bar {0}\" d=\"M{1} {2}V{3}M{4} {2}h6M{4} {3}h6\"/>", colourClass(s), x,
-            number(low), number(high), number(x_.pixel(point.x) - 3));
-      }
-    }
-  }
-
-  void addMarker(size_t s, const PlotPoint& point, double x, double y) {
-    const double r = kMarker;
-    std::string shape;
-    switch (isNeutral(s) ? 0 : look(s) % 4) {
-      case 0:
-        shape = fmt::format("M{} {}a{r} {r} 0 1 0 {} 0a{r} {r} 0 1 0 {} 0Z", number(x - r), number(y),
-                            number(2 * r), number(-2 * r), fmt::arg("r", number(r)));
-        break;
-      case 1:
-        shape = fmt::format("M{} {}h{r}v{r}h-{r}Z", number(x - r + 0.5), number(y - r + 0.5),
-                            fmt::arg("r", number(2 * r - 1)));
-        break;
-      case 2:
-        shape = fmt::format("M{} {}L{} {}H{}Z", number(x), number(y - r - 0.5), number(x + r + 0.5),
-                            number(y + r - 0.5), number(x - r - 0.5));
-        break;
-      default:
-        shape = fmt::format("M{} {}L{} {}L{} {}L{} {}Z", number(x), number(y - r - 1), number(x + r + 1),
-                            number(y), number(x), number(y + r + 1), number(x - r - 1), number(y));
-    }
-    const std::string tooltip =
-        point.tooltip.empty() ? "" : "<title>" + escapeMarkup(point.tooltip) + "</title>";
-    if (point.isRinged) {
-      add("<circle class=\"ring {}\" cx=\"{}\" cy=\"{}\" r=\"{}\">{}</circle>", colourClass(s), number(x),
-          number(y), number(r + 4), tooltip);
-    }
-    add("<path class=\"mark {}{}\" d=\"{}\">{}</path>", colourClass(s), point.isHollow ? " hollow" : "",
-        shape, tooltip);
-  }
-
-  void drawMarkers(size_t s) {
-    if (!plot_.series[s].hasMarkers) return;
-    const std::vector<PlotPoint>& points = plot_.series[s].points;
-    for (auto it = points.rbegin(); it != points.rend(); ++it) {  // the first, which matter most, on top
-      const PlotPoint& point = *it;
-      if (!shows(point)) continue;
-      const double x = x_.pixel(point.x), y = y_.pixel(point.y), r = kMarker + (point.isRinged ? 4 : 0);
-      addMarker(s, point, x, y);
+    std::vector<PlotPoint> shown = series.points;
+    std::erase_if(shown, [&](const PlotPoint& point) { return !shows(point); });
+    if (!series.line.empty()) drawLine(s, shown);
+    for (const PlotPoint& point : shown) drawBars(s, point);
+    if (!series.hasMarkers) return;
+    for (auto point = shown.rbegin(); point != shown.rend(); ++point) {  // the first, which matter most, on top
+      const double x = x_.pixel(point->x), y = y_.pixel(point->y), r = kMarker + (point->isRinged ? 4 : 0);
+      parts_["marks"].push_back(markAt(s, *point, x, y));
       taken_.push_back({x - r, y - r, x + r, y + r});
     }
   }
 
-  // Each label at the first of a few places around its point that nothing else has taken.
-  void drawLabels() {
-    for (const PlotSeries& series : plot_.series) {
-      for (const PlotPoint& point : series.points) {
-        if (!point.label.empty() && shows(point)) drawLabel(point);
+  // Labels keep off the steps of a line.
+  void drawLine(size_t s, const std::vector<PlotPoint>& points) {
+    constexpr double kHalf = 1.5;
+    const bool isStepped = plot_.series[s].isStepped;
+    std::string path;
+    double lastX = 0, lastY = 0;
+    for (const PlotPoint& point : points) {
+      const double x = x_.pixel(point.x), y = y_.pixel(point.y);
+      if (isStepped && !path.empty()) {
+        path += fmt::format("H{}V{}", coordinate(x), coordinate(y));
+        taken_.push_back({std::min(lastX, x), lastY - kHalf, std::max(lastX, x), lastY + kHalf});
+        taken_.push_back({x - kHalf, std::min(lastY, y), x + kHalf, std::max(lastY, y)});
+      } else {
+        path += fmt::format("{}{} {}", path.empty() ? "M" : "L", coordinate(x), coordinate(y));
       }
+      lastX = x, lastY = y;
     }
+    parts_["lines"].push_back({{"look", colourOf(s)}, {"line", plot_.series[s].line}, {"path", path}});
   }
 
+  void drawBars(size_t s, const PlotPoint& point) {
+    const double x = x_.pixel(point.x), y = y_.pixel(point.y);
+    const auto add = [&](bool isAcross, double low, double high) {
+      parts_["bars"].push_back(
+          {{"look", colourOf(s)}, {"isAcross", isAcross}, {"x", x}, {"y", y}, {"low", low}, {"high", high}});
+    };
+    if (point.xLow < point.xHigh) {
+      bars_.push_back({x_.pixel(point.xLow), y - 1, x_.pixel(point.xHigh), y + 1});
+      add(true, x_.pixel(point.xLow), x_.pixel(point.xHigh));
+    }
+    if (point.yLow < point.yHigh) add(false, y_.pixel(point.yLow), y_.pixel(point.yHigh));
+  }
+
+  // At the first of a few places around the point that nothing else has taken.
   void drawLabel(const PlotPoint& point) {
+    const double x = x_.pixel(point.x), y = y_.pixel(point.y), width = textWidth(point.label);
     for (bool avoidsBars : {true, false}) {
       for (double distance : {0.0, 10.0, 24.0}) {
-        for (const Box& box : placesAround(point, distance)) {
-          if (isFree(box, avoidsBars)) return drawLabelAt(point, box, distance > 0);
+        for (const Box& box : placesAround(x, y, width, kMarker + (point.isRinged ? 6 : 3) + distance)) {
+          if (!isFree(box, avoidsBars)) continue;
+          taken_.push_back(box);
+          parts_["labels"].push_back({{"label", point.label}, {"x", box.left}, {"y", box.bottom - 3.5}});
+          parts_["labels"].back().update({{"hasLeader", distance > 0},
+                                          {"fromX", x},
+                                          {"fromY", y},
+                                          {"toX", std::clamp(x, box.left, box.right)},
+                                          {"toY", std::clamp(y, box.top, box.bottom)}});
+          return;
         }
       }
     }
   }
 
-  std::vector<Box> placesAround(const PlotPoint& point, double distance) const {
-    const double x = x_.pixel(point.x), y = y_.pixel(point.y), width = textWidth(point.label);
-    const double away = kMarker + (point.isRinged ? 6 : 3) + distance, slant = away * 0.7,
-                 line = kLineHeight / 2;
-    return {{x + away, y - line, x + away + width, y + line},
-            {x - away - width, y - line, x - away, y + line},
-            {x - width / 2, y - away - 2 * line, x + width / 2, y - away},
-            {x - width / 2, y + away, x + width / 2, y + away + 2 * line},
-            {x + slant, y - slant - 2 * line, x + slant + width, y - slant},
-            {x + slant, y + slant, x + slant + width, y + slant + 2 * line},
-            {x - slant - width, y - slant - 2 * line, x - slant, y - slant},
-            {x - slant - width, y + slant, x - slant, y + slant + 2 * line}};
+  static std::vector<Box> placesAround(double x, double y, double width, double away) {
+    constexpr double kDirections[][2] = {{1, 0},      {-1, 0},    {0, -1},      {0, 1},
+                                         {0.7, -0.7}, {0.7, 0.7}, {-0.7, -0.7}, {-0.7, 0.7}};
+    const auto begin = [&](double at, double direction, double size) {
+      return at + direction * away - (direction > 0 ? 0 : direction < 0 ? size : size / 2);
+    };
+    std::vector<Box> places;
+    for (const auto& [right, down] : kDirections) {
+      const double left = begin(x, right, width), top = begin(y, down, kLineHeight);
+      places.push_back({left, top, left + width, top + kLineHeight});
+    }
+    return places;
   }
 
   bool isFree(const Box& box, bool avoidsBars) const {
@@ -337,19 +257,8 @@ class Drawing {
            !(avoidsBars && std::any_of(bars_.begin(), bars_.end(), meets));
   }
 
-  void drawLabelAt(const PlotPoint& point, const Box& box, bool hasLeader) {
-    const double x = x_.pixel(point.x), y = y_.pixel(point.y);
-    if (hasLeader) {
-      add("<path class=\"leader\" d=\"M{} {}L{} {}\"/>", number(x), number(y),
-          number(std::clamp(x, box.left, box.right)), number(std::clamp(y, box.top, box.bottom)));
-    }
-    add("<text class=\"label\" x=\"{}\" y=\"{}\">{}</text>", number(box.left), number(box.bottom - 3.5),
-        escapeMarkup(point.label));
-    taken_.push_back(box);
-  }
-
   const Plot& plot_;
-  std::string body_;
+  Json parts_;
   Box area_;
   Scale x_, y_;
   std::vector<Box> taken_;  // by markers, steps and labels
@@ -358,12 +267,12 @@ class Drawing {
 
 }  // namespace
 
-std::string drawPlot(const Plot& plot) {
-  return Drawing(plot).draw(false);
-}
+Json layOutPlot(const Plot& plot) { return Drawing(plot).draw(); }
 
 std::string drawPlotFile(const Plot& plot) {
-  return Drawing(plot).draw(true);
+  Json parts = layOutPlot(plot);
+  parts["isFile"] = true;
+  return fillTemplate("plot.svg", parts);
 }
 
 }  // namespace froth

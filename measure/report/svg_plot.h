@@ -1,11 +1,12 @@
-// A small plotter: points, lines and intervals over linear or logarithmic axes, as SVG text. Readable on
-// light and on dark paper, without script or font of its own. The same plot gives the same bytes.
+// A small plotter: points, lines and intervals over linear or logarithmic axes. Computes where everything stands;
+// templates/plot.svg draws it, readable on light and on dark paper. The same plot gives the same bytes.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 namespace froth {
 
@@ -24,20 +25,18 @@ struct PlotAxis {
 struct PlotPoint {
   double x = 0, y = 0;
   double xLow = 0, xHigh = 0, yLow = 0, yHigh = 0;  // an error bar where low < high
-  std::string tooltip;
-  std::string label;      // beside the point, left out where there is no room; earlier points come first
+  std::string tooltip{};
+  std::string label{};    // beside the point, left out where there is no room; earlier points come first
   bool isRinged = false;  // marked: the default
   bool isHollow = false;
 };
-
-enum class PlotLine { kNone, kSolid, kDashed, kDotted };
 
 // Marker shape and colour follow from the place among the series; kNeutral: grey and without a place.
 struct PlotSeries {
   std::string name;  // in the legend; empty: not there
   std::vector<PlotPoint> points;
-  PlotLine line = PlotLine::kNone;  // through the points in their order
-  bool isStepped = false;           // the line keeps its y until the next x, as a Pareto front does
+  std::string line{};      // through the points in their order: "solid", "dashed", "dotted"; empty: none
+  bool isStepped = false;  // the line keeps its y until the next x, as a Pareto front does
   bool hasMarkers = true;
   int colour = -1;  // 0..7; -1: the place among the series; kNeutral
   static constexpr int kNeutral = -2;
@@ -51,18 +50,10 @@ struct Plot {
   int width = 720, height = 380;  // [CSS pixels]
 };
 
-// An <svg> element. For a page that holds plotStyle() once.
-std::string drawPlot(const Plot& plot);
+// What templates/plot.svg asks for.
+nlohmann::ordered_json layOutPlot(const Plot& plot);
 // A file of its own.
 std::string drawPlotFile(const Plot& plot);
-// CSS of all plots.
-std::string plotStyle();
-
-// <, >, & and quotes of `text` as entities; control characters are left out.
-std::string escapeMarkup(const std::string& text);
-
-// 3 digits that count: "0.0123", "4.56e-07", "1234".
-std::string shortNumber(double value);
 
 // Ticks within the range: 1, 2 or 5 times a power of ten, or powers of ten; at most `most`.
 std::vector<PlotTick> chooseTicks(double from, double to, bool isLogarithmic, int most);

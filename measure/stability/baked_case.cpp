@@ -42,7 +42,8 @@ CellGraph graphOf(const AssetContents& contents) {
           graph.neighbours.push_back(firstOfChunk[index] + other);
         } else {
           const CellRef home = chunk.ghostRefs[other - chunk.cellCount];
-          graph.neighbours.push_back(firstOfChunk[chunkOf(home, contents.localBits)] + localOf(home, contents.localBits));
+          graph.neighbours.push_back(firstOfChunk[chunkOf(home, contents.localBits)] +
+                                     localOf(home, contents.localBits));
         }
       }
       graph.offsets.push_back(static_cast<uint32_t>(graph.neighbours.size()));
@@ -63,7 +64,8 @@ std::vector<PlacedFoam> placeFoams(const StiffCase& stiff, const ReferenceRender
   return placed;
 }
 
-Status bakeCase(const StiffCase& stiff, const Foam& foam, const std::string& preset, BakedCase& baked, const Progress& progress) {
+Status bakeCase(const StiffCase& stiff, const Foam& foam, const std::string& preset, BakedCase& baked,
+                const Progress& progress) {
   BakeOptions options;
   options.preset = preset;
   options.knobs = *presetKnobs(preset);
@@ -95,7 +97,7 @@ Status bakeCase(const StiffCase& stiff, const Foam& foam, const std::string& pre
 }
 
 Result<RenderedImages> drawExactly(const BakedCase& baked, const View& view, const ReferenceOptions& options) {
-  return baked.placed.empty() ? baked.reference->render(view, options) : renderSeveral(baked.placed, view, options);
+  return baked.placed.empty() ? baked.reference->render(view, options) : renderMerged(baked.placed, view, options);
 }
 
 }  // namespace froth

@@ -9,8 +9,8 @@
 #include "base/progress.h"
 #include "foam/cell_graph.h"
 #include "measure/stability/cases/stiff_case.h"
+#include "reference/render/merged_foams.h"
 #include "reference/render/reference.h"
-#include "reference/render/several_foams.h"
 
 namespace froth {
 
@@ -24,12 +24,13 @@ struct BakedCase {
   std::vector<PlacedFoam> placed;  // the same, of several instances relative to `base`; empty: there is one
 };
 
-// The instances of a case in one image; empty: there is one. `renderer` draws its foam relative to `base`, which is where the
-// images' origin lies.
+// The instances of a case in one image; empty: there is one. `renderer` draws its foam relative to `base`, which is
+// where the images' origin lies.
 std::vector<PlacedFoam> placeFoams(const StiffCase& stiff, const ReferenceRenderer& renderer, const glm::dvec3& base);
 
 // Of `foam`, which the case holds or an importer made of it. `baked` stays where it is from then on.
-Status bakeCase(const StiffCase& stiff, const Foam& foam, const std::string& preset, BakedCase& baked, const Progress& progress);
+Status bakeCase(const StiffCase& stiff, const Foam& foam, const std::string& preset, BakedCase& baked,
+                const Progress& progress);
 
 // What a view shows of it.
 Result<RenderedImages> drawExactly(const BakedCase& baked, const View& view, const ReferenceOptions& options);

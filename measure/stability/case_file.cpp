@@ -152,7 +152,8 @@ void readCell(const Json& cell, const std::string& place, std::optional<Error>& 
   }
 }
 
-void readKnown(FieldReader& root, const std::string& file, std::optional<Error>& error, std::vector<KnownFault>& known) {
+void readKnown(FieldReader& root, const std::string& file, std::optional<Error>& error,
+               std::vector<KnownFault>& known) {
   const Json& faults = root.readArray("known");
   for (size_t i = 0; i < faults.size() && !error; ++i) {
     FieldReader fields(faults[i], file + ": known fault " + std::to_string(i), error);
@@ -171,8 +172,9 @@ CasePlace readPlace(FieldReader fields) {
   place.position = fields.readVector<glm::dvec3>("position");
   const auto turn = fields.readVector<glm::vec4>("rotation");
   const double squared = glm::dot(glm::dvec4(turn), glm::dvec4(turn));
-  if (!(std::abs(squared - 1) <= kUnitTolerance))
+  if (!(std::abs(squared - 1) <= kUnitTolerance)) {
     fields.fail("rotation", "a quaternion of squared length " + std::to_string(squared) + "; normalize it");
+  }
   place.rotation = glm::quat(turn.x, turn.y, turn.z, turn.w);  // w first
   place.scale = fields.readNumber<float>("scale");
   if (!(place.scale > 0)) fields.fail("scale", "found " + std::to_string(place.scale) + "; give a number above 0");
@@ -182,8 +184,9 @@ CasePlace readPlace(FieldReader fields) {
 // Whatever is not the foam and its views; absent: the default.
 void readParts(FieldReader& root, const std::string& file, std::optional<Error>& error, StiffCase& found) {
   const Json& places = root.readOptionalArray("places");
-  if (places.size() > kMostPlaces)
+  if (places.size() > kMostPlaces) {
     root.fail("places", "found " + std::to_string(places.size()) + "; give at most " + std::to_string(kMostPlaces));
+  }
   for (size_t i = 0; i < places.size() && !error; ++i) {
     found.places.push_back(readPlace(FieldReader(places[i], file + ": place " + std::to_string(i), error)));
   }
@@ -196,10 +199,14 @@ void readParts(FieldReader& root, const std::string& file, std::optional<Error>&
 Image readEnds(FieldReader& root, const Json& rows, size_t index, const View& view) {
   const std::string place = "view " + std::to_string(index);
   Image image{view.width, view.height, 1, {}};
-  if (!rows.is_array() || rows.size() != view.height) root.fail("ends", place + ": give " + std::to_string(view.height) + " rows");
+  if (!rows.is_array() || rows.size() != view.height) {
+    root.fail("ends", place + ": give " + std::to_string(view.height) + " rows");
+  }
   for (size_t y = 0; y < rows.size() && !root.hasFailed(); ++y) {
     const std::string where = place + ", row " + std::to_string(y);
-    if (!rows[y].is_array() || rows[y].size() != view.width) root.fail("ends", where + ": give " + std::to_string(view.width) + " numbers");
+    if (!rows[y].is_array() || rows[y].size() != view.width) {
+      root.fail("ends", where + ": give " + std::to_string(view.width) + " numbers");
+    }
     for (const Json& end : rows[y]) {
       const bool isNever = end.is_string() && end.get_ref<const std::string&>() == kNeverInCaseFile;
       const float value = end.is_number() ? static_cast<float>(end.get<double>()) : NAN;
@@ -212,9 +219,13 @@ Image readEnds(FieldReader& root, const Json& rows, size_t index, const View& vi
 
 void readAllEnds(FieldReader& root, StiffCase& found) {
   const Json& images = root.readOptionalArray("ends");
-  if (!images.empty() && images.size() != found.views.size())
-    root.fail("ends", "found " + std::to_string(images.size()) + " images; give one for each of the " + std::to_string(found.views.size()) + " views");
-  for (size_t i = 0; i < images.size() && !root.hasFailed(); ++i) found.ends.push_back(readEnds(root, images[i], i, found.views[i]));
+  if (!images.empty() && images.size() != found.views.size()) {
+    root.fail("ends", "found " + std::to_string(images.size()) + " images; give one for each of the " +
+                          std::to_string(found.views.size()) + " views");
+  }
+  for (size_t i = 0; i < images.size() && !root.hasFailed(); ++i) {
+    found.ends.push_back(readEnds(root, images[i], i, found.views[i]));
+  }
 }
 
 void readFoam(FieldReader& root, const std::string& file, std::optional<Error>& error, Foam& foam) {

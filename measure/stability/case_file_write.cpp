@@ -63,7 +63,9 @@ WrittenJson knownToJson(const std::vector<KnownFault>& known) {
 
 WrittenJson cellToJson(const Foam& foam, uint32_t cell) {
   WrittenJson details = WrittenJson::array();
-  for (uint32_t k = 0; k < foam.detailCount; ++k) details.push_back(detailToJson(foam, size_t{cell} * foam.detailCount + k));
+  for (uint32_t k = 0; k < foam.detailCount; ++k) {
+    details.push_back(detailToJson(foam, size_t{cell} * foam.detailCount + k));
+  }
   return {{"site", toJson(foam.sites[cell])},
           {"radius", shortest(foam.radii[cell])},
           {"density", shortest(foam.densities[cell])},
@@ -75,7 +77,9 @@ WrittenJson placesToJson(const std::vector<CasePlace>& places) {
   WrittenJson list = WrittenJson::array();
   for (const CasePlace& place : places) {
     const glm::quat& q = place.rotation;
-    list.push_back({{"position", toJson(place.position)}, {"rotation", toJson(glm::vec4(q.w, q.x, q.y, q.z))}, {"scale", shortest(place.scale)}});
+    list.push_back({{"position", toJson(place.position)},
+                    {"rotation", toJson(glm::vec4(q.w, q.x, q.y, q.z))},
+                    {"scale", shortest(place.scale)}});
   }
   return list;
 }
@@ -87,7 +91,8 @@ WrittenJson endsToJson(const Image& ends) {
     WrittenJson row = WrittenJson::array();
     for (uint32_t x = 0; x < ends.width; ++x) {
       const float end = *ends.pixel(x, y);
-      row.push_back(end == std::numeric_limits<float>::infinity() ? WrittenJson(kNeverInCaseFile) : WrittenJson(shortest(end)));
+      row.push_back(end == std::numeric_limits<float>::infinity() ? WrittenJson(kNeverInCaseFile)
+                                                                  : WrittenJson(shortest(end)));
     }
     rows.push_back(std::move(row));
   }
@@ -97,17 +102,20 @@ WrittenJson endsToJson(const Image& ends) {
 // A file has no sizes of images of its own: they are the views'.
 Status checkEnds(const StiffCase& stiff, const std::string& file) {
   if (stiff.ends.empty()) return {};
-  if (stiff.ends.size() != stiff.views.size())
-    return makeError(ErrorKind::kUsage, "%s, field 'ends': found %zu images; give one for each of the %zu views", file.c_str(),
-                     stiff.ends.size(), stiff.views.size());
+  if (stiff.ends.size() != stiff.views.size()) {
+    return makeError(ErrorKind::kUsage, "%s, field 'ends': found %zu images; give one for each of the %zu views",
+                     file.c_str(), stiff.ends.size(), stiff.views.size());
+  }
   for (size_t i = 0; i < stiff.ends.size(); ++i) {
     const Image& image = stiff.ends[i];
     const View& view = stiff.views[i];
     if (image.width == view.width && image.height == view.height && image.channels == 1 &&
-        image.values.size() == size_t{view.width} * view.height)
+        image.values.size() == size_t{view.width} * view.height) {
       continue;
-    return makeError(ErrorKind::kUsage, "%s, field 'ends': view %zu: found %u x %u pixels of %u channels; give %u x %u of one", file.c_str(), i,
-                     image.width, image.height, image.channels, view.width, view.height);
+    }
+    return makeError(ErrorKind::kUsage,
+                     "%s, field 'ends': view %zu: found %u x %u pixels of %u channels; give %u x %u of one",
+                     file.c_str(), i, image.width, image.height, image.channels, view.width, view.height);
   }
   return {};
 }

@@ -35,8 +35,8 @@ Result<std::optional<CaseFault>> judgeView(const ReferenceRenderer& renderer, co
   if (!check.isFinite) return fault("float: not finite", "a value of the float image is not finite");
   if (check.worstExcess > 1) {
     return fault("float: over its bound",
-                 fmt::format("pixel {}, {}: {} {:.3g} times its bound; largest error {:.3g}", check.worstX, check.worstY,
-                             check.worstChannel, check.worstExcess, check.maxError),
+                 fmt::format("pixel {}, {}: {} {:.3g} times its bound; largest error {:.3g}", check.worstX,
+                             check.worstY, check.worstChannel, check.worstExcess, check.maxError),
                  check.worstExcess);
   }
   if (!hasSameBits(*first, *second)) return fault("float: another image", "a second render has other bits");
@@ -44,9 +44,9 @@ Result<std::optional<CaseFault>> judgeView(const ReferenceRenderer& renderer, co
 }
 
 // Of several instances: there is no float image of them.
-Result<std::optional<CaseFault>> judgeSeveral(const ReferenceRenderer& renderer, const StiffCase& stiff, size_t index) {
+Result<std::optional<CaseFault>> judgeMerged(const ReferenceRenderer& renderer, const StiffCase& stiff, size_t index) {
   const std::vector<PlacedFoam> placed = placeFoams(stiff, renderer, {});
-  const ReferenceDraw draw = [&](const ReferenceOptions& own) { return renderSeveral(placed, stiff.views[index], own); };
+  const ReferenceDraw draw = [&](const ReferenceOptions& own) { return renderMerged(placed, stiff.views[index], own); };
   const Result<ImageBound> bound = boundImage(draw, optionsOfCase(stiff, index), {.samples = 0});
   if (!bound) return bound.error();
   const BoundCheck exact = checkBound(*bound, bound->exact);
@@ -70,7 +70,7 @@ CaseJudge judgeOfReference(BoundOptions options) {
     const ReferenceRenderer renderer(stiffCase.foam);
     for (size_t i = 0; i < stiffCase.views.size(); ++i) {
       Result<std::optional<CaseFault>> fault =
-          stiffCase.places.empty() ? judgeView(renderer, stiffCase, i, options) : judgeSeveral(renderer, stiffCase, i);
+          stiffCase.places.empty() ? judgeView(renderer, stiffCase, i, options) : judgeMerged(renderer, stiffCase, i);
       if (!fault || *fault) return fault;
     }
     return std::optional<CaseFault>();

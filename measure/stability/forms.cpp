@@ -6,9 +6,9 @@
 namespace froth {
 namespace {
 
-constexpr Form kForms[] = {{"float", FormKind::kReference, false},    {"raster", FormKind::kRaster, false},
-                           {"walk", FormKind::kWalk, false},          {"rays", FormKind::kRays, false},
-                           {"queries", FormKind::kQueries, false},    {"raster shipped", FormKind::kRaster, true},
+constexpr Form kForms[] = {{"float", FormKind::kReference, false}, {"raster", FormKind::kRaster, false},
+                           {"walk", FormKind::kWalk, false},       {"rays", FormKind::kRays, false},
+                           {"queries", FormKind::kQueries, false}, {"raster shipped", FormKind::kRaster, true},
                            {"walk shipped", FormKind::kWalk, true}};
 
 View movedBy(const glm::dvec3& by, View view) {
@@ -36,7 +36,8 @@ FrothInstanceInfo placementOf(const CasePlace& place, const glm::dvec3& moved) {
 
 }  // namespace
 
-// The form that games draw is drawn from these bakes alone: it differs from the others by what no bake changes, and costs as much.
+// The form that games draw is drawn from these bakes alone: it differs from the others by what no bake changes, and
+// costs as much.
 bool isDrawnAsShipped(const std::string& preset) { return preset == "exact" || preset == "default"; }
 
 std::vector<Form> formsOf(const StiffCase& stiff, const std::string& preset) {
@@ -53,7 +54,7 @@ CaseView caseViewOf(const StiffCase& stiff, size_t index, const BakedCase& baked
           stiff.ends.empty() ? nullptr : &stiff.ends[index], stiff.jitter};
 }
 
-Result<std::unique_ptr<FormDrawer>> FormDrawer::create(const GpuDeviceOptions& options) {
+Result<std::unique_ptr<FormRenderer>> FormRenderer::create(const GpuDeviceOptions& options) {
   GpuDeviceOptions floats = options;
   floats.checkIndices = floats.floatColours = floats.castsRays = true;
   Result<std::unique_ptr<GpuRenderer>> inFloat = GpuRenderer::create(floats);
@@ -62,10 +63,10 @@ Result<std::unique_ptr<FormDrawer>> FormDrawer::create(const GpuDeviceOptions& o
   shipped.validate = false;  // as in a game; layers see the same calls in the other context
   Result<std::unique_ptr<GpuRenderer>> asShipped = GpuRenderer::create(shipped);
   if (!asShipped) return asShipped.error();
-  return std::unique_ptr<FormDrawer>(new FormDrawer(std::move(*inFloat), std::move(*asShipped)));
+  return std::unique_ptr<FormRenderer>(new FormRenderer(std::move(*inFloat), std::move(*asShipped)));
 }
 
-Status FormDrawer::load(const StiffCase& stiff, const BakedCase& baked, bool isShippedToo, const Progress& progress) {
+Status FormRenderer::load(const StiffCase& stiff, const BakedCase& baked, bool isShippedToo, const Progress& progress) {
   baked_ = &baked;
   std::vector<FrothInstanceInfo> placements;
   for (const CasePlace& place : stiff.places) placements.push_back(placementOf(place, stiff.moved));
@@ -74,7 +75,7 @@ Status FormDrawer::load(const StiffCase& stiff, const BakedCase& baked, bool isS
   return isShippedToo ? asShipped_->load(baked.asset, progress, placements) : Status();
 }
 
-Result<DrawnForm> FormDrawer::draw(const Form& form, const StiffCase& stiff, size_t index) {
+Result<DrawnForm> FormRenderer::draw(const Form& form, const StiffCase& stiff, size_t index) {
   const CaseView view = caseViewOf(stiff, index, *baked_);
   switch (form.kind) {
     case FormKind::kReference:
@@ -90,7 +91,7 @@ Result<DrawnForm> FormDrawer::draw(const Form& form, const StiffCase& stiff, siz
 }
 
 // Twice in the same way, and a raster with all tiles in the other form.
-Result<DrawnForm> FormDrawer::drawImages(const Form& form, const CaseView& view) {
+Result<DrawnForm> FormRenderer::drawImages(const Form& form, const CaseView& view) {
   View aimed = view.ofWorld;
   aimed.cx -= view.jitter.x;
   aimed.cy -= view.jitter.y;
@@ -101,7 +102,9 @@ Result<DrawnForm> FormDrawer::drawImages(const Form& form, const CaseView& view)
   options.tileForm = FROTH_TILE_FORM_ALL_SHORT;
   options.cutoff = form.isShipped ? static_cast<float>(kShippedCutoff) : 0.0f;
   options.maxSteps = form.isShipped ? 0 : baked_->foam.cellCount;
-  const auto draw = [&] { return form.isShipped ? asShipped_->renderColour(aimed, options) : inFloat_->render(aimed, options); };
+  const auto draw = [&] {
+    return form.isShipped ? asShipped_->renderColour(aimed, options) : inFloat_->render(aimed, options);
+  };
   Result<GpuFrame> first = draw();
   if (!first) return first.error();
   const Result<GpuFrame> again = draw();
@@ -117,10 +120,11 @@ Result<DrawnForm> FormDrawer::drawImages(const Form& form, const CaseView& view)
   return drawn;
 }
 
-Result<DrawnForm> FormDrawer::castRays(const Form& form, const CaseView& view) {
+Result<DrawnForm> FormRenderer::castRays(const Form& form, const CaseView& view) {
   const RayOptions options{baked_->foam.cellCount, view.ends};
   const auto cast = [&] {
-    return form.kind == FormKind::kRays ? inFloat_->castRays(view.ofWorld, options) : inFloat_->queryRays(view.ofWorld, options);
+    return form.kind == FormKind::kRays ? inFloat_->castRays(view.ofWorld, options)
+                                        : inFloat_->queryRays(view.ofWorld, options);
   };
   Result<RayFrame> first = cast();
   if (!first) return first.error();

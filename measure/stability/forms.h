@@ -24,7 +24,8 @@ enum class FormKind {
 struct Form {
   const char* name;
   FormKind kind;
-  bool isShipped;  // what a game draws: colour alone in halves, with the default cut-off; else all that it has, in float, without
+  // what a game draws: colour alone in halves, with the default cut-off; else all that it has, in float, without
+  bool isShipped;
 };
 
 inline constexpr double kShippedCutoff = 1e-3;
@@ -35,16 +36,16 @@ std::vector<Form> formsOf(const StiffCase& stiff, const std::string& preset);
 
 // What a form shows of a view.
 struct DrawnForm {
-  RenderedImages images;                      // of a raster: with all tiles short
+  RenderedImages images;                        // of a raster: with all tiles short
   std::optional<RenderedImages> inLongTiles{};  // of a raster
-  bool isRepeatable = true;                   // the same bits on a second run
-  bool endsInTime = true;                     // no walk takes more steps than there are cells
+  bool isRepeatable = true;                     // the same bits on a second run
+  bool endsInTime = true;                       // no walk takes more steps than there are cells
 };
 
 // A view of a case, in the frames of those who draw it.
 struct CaseView {
-  View ofFoam;   // BakedCase::foam
-  View ofWorld;  // where the asset is placed
+  View ofFoam;        // BakedCase::foam
+  View ofWorld;       // where the asset is placed
   const Image* ends;  // as StiffCase::ends; null: nowhere
   glm::vec2 jitter;   // StiffCase::jitter
 };
@@ -52,10 +53,10 @@ struct CaseView {
 CaseView caseViewOf(const StiffCase& stiff, size_t index, const BakedCase& baked);
 
 // One thread at a time.
-class FormDrawer {
+class FormRenderer {
  public:
   // `options` need the lens classes of all views. Indices are always checked.
-  static Result<std::unique_ptr<FormDrawer>> create(const GpuDeviceOptions& options);
+  static Result<std::unique_ptr<FormRenderer>> create(const GpuDeviceOptions& options);
 
   // Keeps a reference to `baked`.
   Status load(const StiffCase& stiff, const BakedCase& baked, bool isShippedToo, const Progress& progress);
@@ -64,7 +65,7 @@ class FormDrawer {
   const HostDeviceInfo& device() const { return inFloat_->device(); }
 
  private:
-  FormDrawer(std::unique_ptr<GpuRenderer> inFloat, std::unique_ptr<GpuRenderer> asShipped)
+  FormRenderer(std::unique_ptr<GpuRenderer> inFloat, std::unique_ptr<GpuRenderer> asShipped)
       : inFloat_(std::move(inFloat)), asShipped_(std::move(asShipped)) {}
   Result<DrawnForm> drawImages(const Form& form, const CaseView& view);
   Result<DrawnForm> castRays(const Form& form, const CaseView& view);

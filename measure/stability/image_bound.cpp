@@ -13,17 +13,18 @@ namespace {
 
 constexpr double kUnit = 0x1p-24;  // of float
 constexpr double kLeastBound = kUnit / 16;
-constexpr double kHalfUnit = 0x1p-10;   // of an image of halves, relative: rounded to either neighbour
-constexpr double kLeastHalf = 0x1p-24;  // the same of the smallest ones
+constexpr double kHalfUnit = 0x1p-10;      // of an image of halves, relative: rounded to either neighbour
+constexpr double kLeastHalf = 0x1p-24;     // the same of the smallest ones
 constexpr double kStoredColour = 0x1p-11;  // of colours between passes: rounded to the nearest
 constexpr double kTransmittanceUnits = 4;  // [u] of T as exp gives it
-constexpr double kNotAllowed = 1e30;    // times the bound: what no bound allows; JSON has no infinity
-constexpr uint64_t kSeedStride = 16;  // a render may use a few seeds from the one it is given on
+constexpr double kNotAllowed = 1e30;       // times the bound: what no bound allows; JSON has no infinity
+constexpr uint64_t kSeedStride = 16;       // a render may use a few seeds from the one it is given on
 
 // The largest change of each value so far.
 void addSpread(const Image& exact, const Image& sample, Image& spread) {
-  for (size_t i = 0; i < exact.values.size(); ++i)
+  for (size_t i = 0; i < exact.values.size(); ++i) {
     spread.values[i] = std::max(spread.values[i], std::abs(sample.values[i] - exact.values[i]));
+  }
 }
 
 // From the spread to the bound; `relative` of the exact value.
@@ -47,7 +48,8 @@ bool isFinite(const Image& image) {
 }
 
 bool hasNegativeZero(const Image& image) {
-  return std::any_of(image.values.begin(), image.values.end(), [](float value) { return value == 0 && std::signbit(value); });
+  return std::any_of(image.values.begin(), image.values.end(),
+                     [](float value) { return value == 0 && std::signbit(value); });
 }
 
 // The largest error of a pixel, and that over its bound.
@@ -66,12 +68,12 @@ PixelError errorAt(const Image& a, const Image& b, const Image& bound, size_t pi
 }
 
 // Of a distance against where it may lie, or against another image's.
-double excessOfDepth(const DepthBound& bound, float depth, const float* other, size_t pixel) {
+double excessOfDistance(const DistanceBound& bound, float distance, const float* other, size_t pixel) {
   const auto isAllowed = [&](float value) { return (value < 0 ? bound.mayMiss : bound.mayHit)[pixel] != 0; };
-  if (!std::isfinite(depth) || !isAllowed(depth)) return kNotAllowed;
+  if (!std::isfinite(distance) || !isAllowed(distance)) return kNotAllowed;
   if (other && (!std::isfinite(*other) || !isAllowed(*other))) return kNotAllowed;
-  if (depth < 0 || (other && *other < 0)) return 0;
-  return std::abs(double{depth} - (other ? *other : bound.middle.values[pixel])) / bound.margin.values[pixel];
+  if (distance < 0 || (other && *other < 0)) return 0;
+  return std::abs(double{distance} - (other ? *other : bound.middle.values[pixel])) / bound.margin.values[pixel];
 }
 
 // `other`: null to hold `image` against the exact one.
@@ -99,28 +101,31 @@ BoundCheck compare(const ImageBound& bound, const RenderedImages& image, const R
     check.maxError = std::max(check.maxError, colour.error);
     take(alpha.excess, "alpha");
     check.colourExcess = std::max(check.colourExcess, worst);
-    if (!image.depth.values.empty())
-      take(excessOfDepth(bound.depth, image.depth.values[pixel], other ? &other->depth.values[pixel] : nullptr, pixel), "distance");
+    if (!image.distance.values.empty()) {
+      take(excessOfDistance(bound.distance, image.distance.values[pixel],
+                            other ? &other->distance.values[pixel] : nullptr, pixel),
+           "distance");
+    }
     if (!image.normal.values.empty()) take(errorAt(image.normal, against.normal, bound.normal, pixel).excess, "normal");
     if (worst > 1) ++over;
   }
   check.shareOver = static_cast<double>(over) / static_cast<double>(pixels);
-  check.isFinite = isFinite(image.colour) && isFinite(image.alpha) && isFinite(image.depth) && isFinite(image.normal) &&
-                   !hasNegativeZero(image.colour) && !hasNegativeZero(image.alpha);
+  check.isFinite = isFinite(image.colour) && isFinite(image.alpha) && isFinite(image.distance) &&
+                   isFinite(image.normal) && !hasNegativeZero(image.colour) && !hasNegativeZero(image.alpha);
   return check;
 }
 
 // What the samples say of distances.
-class DepthSamples {
+class DistanceSamples {
  public:
-  explicit DepthSamples(const RenderedImages& exact) : low_(exact.depth), high_(exact.depth) {
+  explicit DistanceSamples(const RenderedImages& exact) : low_(exact.distance), high_(exact.distance) {
     bound_.mayHit.assign(low_.values.size(), 0);
     bound_.mayMiss.assign(low_.values.size(), 0);
-    for (size_t pixel = 0; pixel < low_.values.size(); ++pixel) note(pixel, exact.depth.values[pixel]);
+    for (size_t pixel = 0; pixel < low_.values.size(); ++pixel) note(pixel, exact.distance.values[pixel]);
   }
-  void add(const Image& depth) {
-    for (size_t pixel = 0; pixel < depth.values.size(); ++pixel) {
-      const float value = depth.values[pixel];
+  void add(const Image& distance) {
+    for (size_t pixel = 0; pixel < distance.values.size(); ++pixel) {
+      const float value = distance.values[pixel];
       note(pixel, value);
       if (value < 0) continue;
       low_.values[pixel] = low_.values[pixel] < 0 ? value : std::min(low_.values[pixel], value);
@@ -128,7 +133,7 @@ class DepthSamples {
     }
   }
   // `relative` of a distance is added.
-  DepthBound boundOf(double safety, double relative) {
+  DistanceBound boundOf(double safety, double relative) {
     bound_.middle = bound_.margin = low_;
     for (size_t pixel = 0; pixel < low_.values.size(); ++pixel) {
       const double low = low_.values[pixel], high = high_.values[pixel];
@@ -140,18 +145,19 @@ class DepthSamples {
   }
 
  private:
-  void note(size_t pixel, float depth) { (depth < 0 ? bound_.mayMiss : bound_.mayHit)[pixel] = 1; }
+  void note(size_t pixel, float distance) { (distance < 0 ? bound_.mayMiss : bound_.mayHit)[pixel] = 1; }
 
   Image low_, high_;  // of what hits; -1: nothing did
-  DepthBound bound_;
+  DistanceBound bound_;
 };
 
 // Where transmittance ends so close to the quantile that it may lie on either side, any distance may be met, or none.
-void allowNearQuantile(const ReferenceOptions& options, const Image& alpha, const Image& alphaBound, DepthBound& depth) {
+void allowNearQuantile(const ReferenceOptions& options, const Image& alpha, const Image& alphaBound,
+                       DistanceBound& distance) {
   for (size_t pixel = 0; pixel < alpha.values.size(); ++pixel) {
-    if (std::abs(1 - alpha.values[pixel] - options.depthQuantile) > alphaBound.values[pixel]) continue;
-    depth.margin.values[pixel] = std::numeric_limits<float>::max();
-    depth.mayHit[pixel] = depth.mayMiss[pixel] = 1;
+    if (std::abs(1 - alpha.values[pixel] - options.quantile) > alphaBound.values[pixel]) continue;
+    distance.margin.values[pixel] = std::numeric_limits<float>::max();
+    distance.mayHit[pixel] = distance.mayMiss[pixel] = 1;
   }
 }
 
@@ -160,14 +166,15 @@ Image lightOf(const RenderedImages& images) {
   Image light = images.colour;
   for (size_t pixel = 0; pixel < images.alpha.values.size(); ++pixel) {
     float* const values = &light.values[3 * pixel];
-    const glm::dvec3 linear = foam::linearPremultiplied(glm::dvec3(values[0], values[1], values[2]), double{images.alpha.values[pixel]});
+    const glm::dvec3 linear =
+        foam::linearPremultiplied(glm::dvec3(values[0], values[1], values[2]), double{images.alpha.values[pixel]});
     for (int channel = 0; channel < 3; ++channel) values[channel] = static_cast<float>(linear[channel]);
   }
   return light;
 }
 
-// How far x^2.4 may be off, relative, of an x that is off by a few roundings, where Vulkan's rules are kept: exp2(2.4 log2 x), log2 to 2^-21
-// or 6 u of itself, exp2 to 6 u and 4 u for each whole of its exponent.
+// How far x^2.4 may be off, relative, of an x that is off by a few roundings, where Vulkan's rules are kept: exp2(2.4
+// log2 x), log2 to 2^-21 or 6 u of itself, exp2 to 6 u and 4 u for each whole of its exponent.
 double errorOfPower(double power) { return (30 + 9 * std::abs(std::log2(std::max(power, 1e-3)))) * kUnit; }
 
 // From the spread of light. A L(C / A) is off by 2.4 times what C is, by 1.4 times what A is, and by the power.
@@ -201,9 +208,10 @@ Result<ImageBound> boundImage(const ReferenceDraw& draw, const ReferenceOptions&
   result.exact = std::move(*image);
   result.exactLight = lightOf(result.exact);
 
-  Image colour = zerosLike(result.exact.colour), alpha = zerosLike(result.exact.alpha), normal = zerosLike(result.exact.normal);
+  Image colour = zerosLike(result.exact.colour), alpha = zerosLike(result.exact.alpha),
+        normal = zerosLike(result.exact.normal);
   Image light = colour;
-  DepthSamples depth(result.exact);
+  DistanceSamples distance(result.exact);
   ReferenceOptions rounded = exact;
   rounded.rounding = bound.rounding;
   for (uint32_t i = 0; i < bound.samples; ++i) {
@@ -214,7 +222,7 @@ Result<ImageBound> boundImage(const ReferenceDraw& draw, const ReferenceOptions&
     addSpread(result.exact.alpha, sample->alpha, alpha);
     addSpread(result.exact.normal, sample->normal, normal);
     addSpread(result.exactLight, lightOf(*sample), light);
-    depth.add(sample->depth);
+    distance.add(sample->distance);
   }
   const double sum = (bound.cells + 8) * kUnit;
   result.colour = boundOf(result.exact.colour, colour, bound.safety, sum, kLeastBound);
@@ -222,8 +230,8 @@ Result<ImageBound> boundImage(const ReferenceDraw& draw, const ReferenceOptions&
   // Terms of a normal may cancel: their sum is rounded by parts of what they add up to, at most alpha <= 1.
   result.normal = boundOf(result.exact.normal, normal, bound.safety, kHalfUnit, sum + kLeastHalf);
   result.light = boundOfLight(result, light, bound.safety, sum);
-  result.depth = depth.boundOf(bound.safety, sum);
-  allowNearQuantile(options, result.exact.alpha, result.alpha, result.depth);
+  result.distance = distance.boundOf(bound.safety, sum);
+  allowNearQuantile(options, result.exact.alpha, result.alpha, result.distance);
   for (const float value : result.colour.values) {
     result.largest = std::max(result.largest, double{value});
     result.mean += value / static_cast<double>(result.colour.values.size());
@@ -259,9 +267,11 @@ BoundCheck checkBound(const ImageBound& bound, const RenderedImages& image, cons
 
 bool hasSameBits(const RenderedImages& a, const RenderedImages& b) {
   const auto isSame = [](const Image& one, const Image& other) {
-    return std::ranges::equal(one.values, other.values, {}, std::bit_cast<uint32_t, float>, std::bit_cast<uint32_t, float>);
+    return std::ranges::equal(one.values, other.values, {}, std::bit_cast<uint32_t, float>,
+                              std::bit_cast<uint32_t, float>);
   };
-  return isSame(a.colour, b.colour) && isSame(a.alpha, b.alpha) && isSame(a.depth, b.depth) && isSame(a.normal, b.normal);
+  return isSame(a.colour, b.colour) && isSame(a.alpha, b.alpha) && isSame(a.distance, b.distance) &&
+         isSame(a.normal, b.normal);
 }
 
 }  // namespace froth

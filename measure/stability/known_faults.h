@@ -14,7 +14,8 @@ struct SeenFault {
   std::string text;                    // one line with all of it
 };
 
-// One line for every seen fault that is not known, and for every known one that is gone or another one now. None: as known.
+// One line for every seen fault that is not known, and for every known one that is gone or another one now. None: as
+// known.
 std::vector<std::string> unexplainedFaults(const std::vector<KnownFault>& known, const std::vector<SeenFault>& seen);
 
 }  // namespace froth

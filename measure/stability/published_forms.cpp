@@ -71,10 +71,12 @@ double exactPlaneDistance(const PlaneInput& plane) {
   return foam::radicalClearance(plane.site - plane.eye, toNeighbour, offset) / glm::dot(toNeighbour, plane.direction);
 }
 
-// n . x = c in world coordinates, with n = p_j - p_i and c = (|p_j|^2 - |p_i|^2 + r_i^2 - r_j^2) / 2; stored as `store` does.
+// n . x = c in world coordinates, with n = p_j - p_i and c = (|p_j|^2 - |p_i|^2 + r_i^2 - r_j^2) / 2; stored as `store`
+// does.
 double worldPlaneError(const PlaneInput& plane, double distance, const std::function<float(float)>& store) {
   const glm::dvec3 middle(distance, 0, 0);
-  const glm::vec3 site(middle + plane.site), other(middle + plane.other), eye(middle + plane.eye), direction(plane.direction);
+  const glm::vec3 site(middle + plane.site), other(middle + plane.other), eye(middle + plane.eye),
+      direction(plane.direction);
   const glm::vec3 difference = other - site;
   const glm::vec3 normal(store(difference.x), store(difference.y), store(difference.z));
   const float offset = store(0.5f * (glm::dot(other, other) - glm::dot(site, site) + plane.radius * plane.radius -
@@ -85,23 +87,30 @@ double worldPlaneError(const PlaneInput& plane, double distance, const std::func
 // As the runtime does: eye and placement are subtracted in double.
 double localPlaneError(const PlaneInput& plane, double distance) {
   const glm::dvec3 middle(distance, 0, 0);
-  const glm::vec3 centre(plane.site + (middle - (middle + plane.eye))), toNeighbour(plane.other - plane.site), direction(plane.direction);
+  const glm::vec3 centre(plane.site + (middle - (middle + plane.eye))), toNeighbour(plane.other - plane.site),
+      direction(plane.direction);
   const float offset = foam::radicalOffset(toNeighbour, plane.radius, plane.otherRadius);
   const float clearance = foam::radicalClearance(centre, toNeighbour, offset);
   return std::abs(clearance / glm::dot(toNeighbour, direction) - exactPlaneDistance(plane));
 }
 
 PublishedForm compareRadicalPlanes() {
-  PublishedForm form{"radical_planes",
-                     "Where a ray meets the plane between two cells of unit size: world coordinates n . x = c, stored as fp16 as "
-                     "published or as floats, against d . x' = m in the cell's own frame",
-                     "distance of the scene from the origin [radii]", "error of the distance along the ray [radii]",
-                     powersOfTen(0, 9, 0.5), {}};
-  form.series = {
-      largestErrors("published: world, fp16", form.abscissae, [](double x, uint64_t i) { return worldPlaneError(planeInput(i), x, asHalf); }),
-      largestErrors("world, float", form.abscissae,
-                    [](double x, uint64_t i) { return worldPlaneError(planeInput(i), x, [](float value) { return value; }); }),
-      largestErrors("Froth: local, float", form.abscissae, [](double x, uint64_t i) { return localPlaneError(planeInput(i), x); })};
+  PublishedForm form{
+      "radical_planes",
+      "Where a ray meets the plane between two cells of unit size: world coordinates n . x = c, stored as fp16 as "
+      "published or as floats, against d . x' = m in the cell's own frame",
+      "distance of the scene from the origin [radii]",
+      "error of the distance along the ray [radii]",
+      powersOfTen(0, 9, 0.5),
+      {}};
+  form.series = {largestErrors("published: world, fp16", form.abscissae,
+                               [](double x, uint64_t i) { return worldPlaneError(planeInput(i), x, asHalf); }),
+                 largestErrors("world, float", form.abscissae,
+                               [](double x, uint64_t i) {
+                                 return worldPlaneError(planeInput(i), x, [](float value) { return value; });
+                               }),
+                 largestErrors("Froth: local, float", form.abscissae,
+                               [](double x, uint64_t i) { return localPlaneError(planeInput(i), x); })};
   return form;
 }
 
@@ -120,14 +129,16 @@ ChordInput chordInput(double distance, uint64_t input) {
 }
 
 double exactChord(const ChordInput& input) {
-  const double squared = glm::dot(input.direction, input.direction), along = glm::dot(input.centre, input.direction) / squared;
+  const double squared = glm::dot(input.direction, input.direction),
+               along = glm::dot(input.centre, input.direction) / squared;
   const glm::dvec3 perpendicular = input.centre - along * input.direction;
   return 2 * std::sqrt(std::max(1 - glm::dot(perpendicular, perpendicular), 0.0) / squared);
 }
 
 double quadraticError(const ChordInput& input) {
   const glm::vec3 centre(input.centre), direction(input.direction);
-  const float a = glm::dot(direction, direction), b = -2 * glm::dot(centre, direction), c = glm::dot(centre, centre) - 1;
+  const float a = glm::dot(direction, direction), b = -2 * glm::dot(centre, direction),
+              c = glm::dot(centre, centre) - 1;
   const float root = std::sqrt(std::max(b * b - 4 * a * c, 0.0f));
   return std::abs((-b + root) / (2 * a) - (-b - root) / (2 * a) - exactChord(input));
 }
@@ -139,18 +150,24 @@ double perpendicularError(const ChordInput& input) {
 }
 
 PublishedForm compareBalls() {
-  PublishedForm form{"balls",
-                     "The chord of a ray in a ball: the roots of a t^2 + b t + c, against the perpendicular distance of the centre",
-                     "distance from the eye [radii]", "error of the chord [radii]", powersOfTen(0.5, 7, 0.5), {}};
-  form.series = {
-      largestErrors("published: b^2 - 4ac", form.abscissae, [](double x, uint64_t i) { return quadraticError(chordInput(x, i)); }),
-      largestErrors("Froth: perpendicular", form.abscissae, [](double x, uint64_t i) { return perpendicularError(chordInput(x, i)); })};
+  PublishedForm form{
+      "balls",
+      "The chord of a ray in a ball: the roots of a t^2 + b t + c, against the perpendicular distance of the centre",
+      "distance from the eye [radii]",
+      "error of the chord [radii]",
+      powersOfTen(0.5, 7, 0.5),
+      {}};
+  form.series = {largestErrors("published: b^2 - 4ac", form.abscissae,
+                               [](double x, uint64_t i) { return quadraticError(chordInput(x, i)); }),
+                 largestErrors("Froth: perpendicular", form.abscissae,
+                               [](double x, uint64_t i) { return perpendicularError(chordInput(x, i)); })};
   return form;
 }
 
 // ---- The near test's forward vector
 
-// The depth at which cells begin to be drawn with a limit of 1, by bisection along `forward`, whose length is what the lens makes it.
+// The depth at which cells begin to be drawn with a limit of 1, by bisection along `forward`, whose length is what the
+// lens makes it.
 double nearLimit(const glm::vec3& axis, const glm::vec3& forward) {
   float low = 0, high = 1e12f;
   while (std::nextafter(low, high) < high) {
@@ -162,25 +179,35 @@ double nearLimit(const glm::vec3& axis, const glm::vec3& forward) {
 
 PublishedForm compareForwardVectors() {
   PublishedForm form{"forward_vectors",
-                     "The depth below which cells are left out: along the product of the image's half-extents, which is as long as the "
+                     "The depth below which cells are left out: along the product of the image's half-extents, which "
+                     "is as long as the "
                      "lens is wide, against a unit vector",
-                     "tangent of half the field of view", "relative error of the limit", powersOfTen(-2, 2, 0.25), {}};
+                     "tangent of half the field of view",
+                     "relative error of the limit",
+                     powersOfTen(-2, 2, 0.25),
+                     {}};
   const CounterRandom directions(3, Purpose::kDirection);
   const auto errorOf = [=](uint64_t input, double length) {
     const glm::vec3 axis(directions.direction(input));
     return std::abs(nearLimit(axis, static_cast<float>(length) * axis) - 1);
   };
-  form.series = {largestErrors("published: as long as the lens makes it", form.abscissae,
-                               [&](double x, uint64_t i) { return errorOf(i, x * x); }),
-                 largestErrors("Froth: unit vector", form.abscissae, [&](double, uint64_t i) { return errorOf(i, 1); })};
+  form.series = {
+      largestErrors("published: as long as the lens makes it", form.abscissae,
+                    [&](double x, uint64_t i) { return errorOf(i, x * x); }),
+      largestErrors("Froth: unit vector", form.abscissae, [&](double, uint64_t i) { return errorOf(i, 1); })};
   return form;
 }
 
 // ---- Opacity
 
 PublishedForm compareOpacities() {
-  PublishedForm form{"opacities", "Opacity of a stretch: 1 - exp(-x) as it stands, against a series below 1/16 as the shaders have it",
-                     "optical depth", "relative error of the opacity", powersOfTen(-9, 2, 0.5), {}};
+  PublishedForm form{
+      "opacities",
+      "Opacity of an interval: 1 - exp(-x) as it stands, against a series below 1/16 as the shaders have it",
+      "optical depth",
+      "relative error of the opacity",
+      powersOfTen(-9, 2, 0.5),
+      {}};
   const CounterRandom jitter(4, Purpose::kDensity);
   const auto relative = [=](double x, uint64_t input, auto&& opacityOf) {
     const float depth = static_cast<float>(x * jitter.uniform(input, 0.8, 1.25));
@@ -189,9 +216,10 @@ PublishedForm compareOpacities() {
   };
   const auto direct = [](float depth) { return 1.0f - std::exp(-depth); };
   const auto ours = [=](float depth) { return depth < 0.0625f ? foam::seriesOpacity(depth) : direct(depth); };
-  form.series = {
-      largestErrors("published: 1 - exp(-x)", form.abscissae, [&](double x, uint64_t i) { return relative(x, i, direct); }),
-      largestErrors("Froth: series below 1/16", form.abscissae, [&](double x, uint64_t i) { return relative(x, i, ours); })};
+  form.series = {largestErrors("published: 1 - exp(-x)", form.abscissae,
+                               [&](double x, uint64_t i) { return relative(x, i, direct); }),
+                 largestErrors("Froth: series below 1/16", form.abscissae,
+                               [&](double x, uint64_t i) { return relative(x, i, ours); })};
   return form;
 }
 
@@ -227,7 +255,7 @@ Plot plotOf(const PublishedForm& form) {
   for (const FormSeries& series : form.series) {
     PlotSeries line;
     line.name = series.name;
-    line.line = PlotLine::kSolid;
+    line.line = "solid";
     for (size_t i = 0; i < form.abscissae.size(); ++i) {
       PlotPoint point;
       point.x = form.abscissae[i];

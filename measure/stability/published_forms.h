@@ -1,5 +1,5 @@
-// Formulas of the published code that lose digits, beside those that Froth uses instead: the error of both over what makes it
-// grow.
+// Formulas of the published code that lose digits, beside those that Froth uses instead: the error of both over what
+// makes it grow.
 #pragma once
 
 #include <string>
@@ -18,10 +18,10 @@ struct FormSeries {
 inline constexpr double kLargestError = 10;
 
 struct PublishedForm {
-  std::string name;        // "radical_planes"
-  std::string what;        // what is computed, and how by either form
-  std::string abscissa;    // "distance from the origin [radii]"
-  std::string error;       // "error of where a ray meets the plane [radii]"
+  std::string name;      // "radical_planes"
+  std::string what;      // what is computed, and how by either form
+  std::string abscissa;  // "distance from the origin [radii]"
+  std::string error;     // "error of where a ray meets the plane [radii]"
   std::vector<double> abscissae;
   std::vector<FormSeries> series;  // Froth's last
 };

@@ -20,8 +20,8 @@ struct FoundCase {
 struct SearchOptions {
   uint64_t seed = 1;
   double seconds = 60;
-  uint32_t mostTries = 2000;   // cases judged to shrink one
-  uint32_t mostOfOneKind = 3;  // faults of a kind that are shrunk; more are only counted
+  uint32_t mostTries = 2000;                             // cases judged to shrink one
+  uint32_t mostOfOneKind = 3;                            // faults of a kind that are shrunk; more are only counted
   std::function<Status(const FoundCase&)> onFound = {};  // as soon as it is shrunk; an error ends the search
 };
 
@@ -30,8 +30,9 @@ struct SearchResult {
   std::vector<FoundCase> found;     // in the order of the sequence
 };
 
-// The sequence of cases depends on the seed alone, how far it comes on the time; a case that has begun is finished and shrunk
-// beyond it. Calls progress("search", seconds gone, seconds given). Fails when the judge or onFound does, or with kCancelled.
+// The sequence of cases depends on the seed alone, how far it comes on the time; a case that has begun is finished and
+// shrunk beyond it. Calls progress("search", seconds gone, seconds given). Fails when the judge or onFound does, or
+// with kCancelled.
 Result<SearchResult> searchCases(const SearchOptions& options, const CaseJudge& judge, const Progress& progress = {});
 
 }  // namespace froth

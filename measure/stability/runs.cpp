@@ -80,13 +80,15 @@ void appendFaults(const PresetOutcome& preset, const RendererOutcome& run, std::
   };
   if (!run.isFinite) append("not finite", 0, "a value is not finite, or -0");
   if (!run.isRepeatable) append("another image", 0, "a second run gives other bits");
-  if (run.tilesExcess > 1)
-    append("another image by tiles", run.tilesExcess, fmt::format("long and short tiles differ by {:.3g} times the bound", run.tilesExcess));
+  if (run.tilesExcess > 1) {
+    append("another image by tiles", run.tilesExcess,
+           fmt::format("long and short tiles differ by {:.3g} times the bound", run.tilesExcess));
+  }
   if (!run.endsInTime) append("steps", 0, "walks take more steps than there are cells");
   if (run.worstExcess > 1) {
     append("over its bound", run.worstExcess,
-           fmt::format("{:.3g} times the bound at {}, {:.2g} % of the pixels over it; largest error {:.3g}", run.worstExcess,
-                       placeText(run), 100 * run.shareOver, run.maxError));
+           fmt::format("{:.3g} times the bound at {}, {:.2g} % of the pixels over it; largest error {:.3g}",
+                       run.worstExcess, placeText(run), 100 * run.shareOver, run.maxError));
   }
 }
 
@@ -99,7 +101,8 @@ CaseVerdict judge(const StiffCase& stiff, const CaseOutcome& outcome) {
 }  // namespace
 
 std::string placeText(const RendererOutcome& renderer) {
-  return fmt::format("view {}, pixel ({}, {}), {}", renderer.worstView, renderer.worstX, renderer.worstY, renderer.worstChannel);
+  return fmt::format("view {}, pixel ({}, {}), {}", renderer.worstView, renderer.worstX, renderer.worstY,
+                     renderer.worstChannel);
 }
 
 std::vector<SeenFault> faultsOf(const PresetOutcome& preset) {
@@ -108,14 +111,18 @@ std::vector<SeenFault> faultsOf(const PresetOutcome& preset) {
   const auto append = [&](const char* renderer, const char* kind, double factor, const std::string& text) {
     faults.push_back({preset.preset, renderer, kind, factor, preset.preset + ": " + text});
   };
-  if (preset.rasterWalkExcess > 1)
+  if (preset.rasterWalkExcess > 1) {
     append("raster and walk", "over its bound", preset.rasterWalkExcess,
            fmt::format("raster and walk differ by {:.3g} times the bound", preset.rasterWalkExcess));
+  }
   const WalkTrace& walks = preset.walks;
-  if (walks.violations > 0)
-    append(kTraceRenderer, "order", 0, fmt::format("{} of {} steps of walks do not increase d . p", walks.violations, walks.steps));
-  if (walks.lost > 0)
+  if (walks.violations > 0) {
+    append(kTraceRenderer, "order", 0,
+           fmt::format("{} of {} steps of walks do not increase d . p", walks.violations, walks.steps));
+  }
+  if (walks.lost > 0) {
     append(kTraceRenderer, "lost", 0, fmt::format("{} of {} walks end before the last cell", walks.lost, walks.rays));
+  }
   return faults;
 }
 
@@ -150,8 +157,10 @@ const ImageBound& boundOf(const Form& form, const FormBounds& bounds) {
   return form.isShipped ? bounds.shipped : bounds.whole;
 }
 
-// Rays that are cast one by one know no near limits, leave out detail sites of little weight, and are given distances as they are.
-Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions& options, const BoundOptions& boundOptions) {
+// Rays that are cast one by one know no near limits, leave out detail sites of little weight, and are given distances
+// as they are.
+Result<FormBounds> boundForms(const ReferenceDraw& draw, const ReferenceOptions& options,
+                              const BoundOptions& boundOptions) {
   Result<ImageBound> whole = boundImage(draw, options, boundOptions);
   if (!whole) return whole.error();
   ReferenceOptions cut = options, all = options;
@@ -199,16 +208,16 @@ ViewChecks checkForms(const std::vector<Form>& forms, const std::vector<DrawnFor
 }  // namespace
 
 Result<std::unique_ptr<StabilityRunner>> StabilityRunner::create(const GpuDeviceOptions& options) {
-  Result<std::unique_ptr<FormDrawer>> drawer = FormDrawer::create(options);
-  if (!drawer) return drawer.error();
-  return std::unique_ptr<StabilityRunner>(new StabilityRunner(std::move(*drawer)));
+  Result<std::unique_ptr<FormRenderer>> renderer = FormRenderer::create(options);
+  if (!renderer) return renderer.error();
+  return std::unique_ptr<StabilityRunner>(new StabilityRunner(std::move(*renderer)));
 }
 
 Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const BakedCase& baked, PresetOutcome& outcome) {
   const std::vector<Form> forms = formsOf(stiff, outcome.preset);
   std::vector<DrawnForm> drawn;
   for (size_t i = 0; i < forms.size(); ++i) {
-    Result<DrawnForm> form = drawer_->draw(forms[i], stiff, index);
+    Result<DrawnForm> form = renderer_->draw(forms[i], stiff, index);
     if (!form) return form.error();
     outcome.renderers[i].isRepeatable = outcome.renderers[i].isRepeatable && form->isRepeatable;
     outcome.renderers[i].endsInTime = outcome.renderers[i].endsInTime && form->endsInTime;
@@ -238,11 +247,12 @@ Status StabilityRunner::runView(const StiffCase& stiff, size_t index, const Bake
   }
 }
 
-Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, const std::vector<RenderedImages>& originals,
-                                  PresetOutcome& outcome, const Progress& progress) {
+Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam,
+                                  const std::vector<RenderedImages>& originals, PresetOutcome& outcome,
+                                  const Progress& progress) {
   BakedCase baked;
   if (Status status = bakeCase(stiff, foam, outcome.preset, baked, progress); !status) return status;
-  if (Status loaded = drawer_->load(stiff, baked, isDrawnAsShipped(outcome.preset), progress); !loaded) return loaded;
+  if (Status loaded = renderer_->load(stiff, baked, isDrawnAsShipped(outcome.preset), progress); !loaded) return loaded;
   outcome.encodingPsnr = std::numeric_limits<double>::infinity();
   for (size_t index = 0; index < stiff.views.size(); ++index) {
     if (Status run = runView(stiff, index, baked, outcome); !run) return run;
@@ -258,7 +268,8 @@ Status StabilityRunner::runPreset(const StiffCase& stiff, const Foam& foam, cons
   return {};
 }
 
-Result<PresetOutcome> StabilityRunner::runOne(const StiffCase& stiff, const std::string& preset, const Progress& progress) {
+Result<PresetOutcome> StabilityRunner::runOne(const StiffCase& stiff, const std::string& preset,
+                                              const Progress& progress) {
   const Result<std::vector<RenderedImages>> originals = drawOriginals(stiff, stiff.foam, progress);
   if (!originals) return originals.error();
   PresetOutcome outcome = outcomeOf(stiff, preset);
@@ -266,14 +277,17 @@ Result<PresetOutcome> StabilityRunner::runOne(const StiffCase& stiff, const std:
   return outcome;
 }
 
-Result<CaseOutcome> StabilityRunner::run(const StiffCase& stiff, const std::vector<std::string>& presets, const Progress& progress) {
+Result<CaseOutcome> StabilityRunner::run(const StiffCase& stiff, const std::vector<std::string>& presets,
+                                         const Progress& progress) {
   CaseOutcome outcome;
   Foam foam = stiff.foam;
   if (stiff.isImported) {
     Result<Foam> imported = importCase(stiff.foam);
     if (!imported) outcome.refusal = imported.error().message;
-    if (outcome.refusal.find(stiff.refusal) == std::string::npos || outcome.refusal.empty() != stiff.refusal.empty())
-      outcome.faults.push_back({"", "import", "refusal", 0, imported ? "it is imported" : "it is refused: " + outcome.refusal});
+    if (outcome.refusal.find(stiff.refusal) == std::string::npos || outcome.refusal.empty() != stiff.refusal.empty()) {
+      outcome.faults.push_back(
+          {"", "import", "refusal", 0, imported ? "it is imported" : "it is refused: " + outcome.refusal});
+    }
     if (imported) foam = std::move(*imported);
   }
   if (outcome.refusal.empty()) {
@@ -289,7 +303,9 @@ Result<CaseOutcome> StabilityRunner::run(const StiffCase& stiff, const std::vect
     }
   }
   std::vector<KnownFault> known = stiff.known;
-  std::erase_if(known, [&](const KnownFault& fault) { return std::find(presets.begin(), presets.end(), fault.preset) == presets.end(); });
+  std::erase_if(known, [&](const KnownFault& fault) {
+    return std::find(presets.begin(), presets.end(), fault.preset) == presets.end();
+  });
   outcome.unexplained = unexplainedFaults(known, outcome.faults);
   outcome.verdict = judge(stiff, outcome);
   return outcome;

@@ -16,16 +16,17 @@ namespace froth {
 
 // One renderer on the bake of one preset, over all views of a case.
 struct RendererOutcome {
-  std::string renderer{};     // Form::name
-  bool isFinite = true;       // every value of every channel; and no -0
-  bool isRepeatable = true;   // the same bits on a second run
-  double tilesExcess = 0;  // of raster: how far all tiles long are from all tiles short, over one bound; drivers may fuse the two otherwise
-  bool endsInTime = true;     // no walk takes more steps than there are cells
-  double maxError = 0;        // BoundCheck::maxError
-  double worstExcess = 0;     // largest error over its pixel's bound; <= 1: within
-  double colourExcess = 0;    // the same of colour and alpha alone
-  double shareOver = 0;       // of the pixels of the worst view
-  size_t worstView = 0;       // of the worst excess, and its pixel and channel
+  std::string renderer{};    // Form::name
+  bool isFinite = true;      // every value of every channel; and no -0
+  bool isRepeatable = true;  // the same bits on a second run
+  // of raster: how far all tiles long are from all tiles short, over one bound; drivers may fuse the two otherwise
+  double tilesExcess = 0;
+  bool endsInTime = true;   // no walk takes more steps than there are cells
+  double maxError = 0;      // BoundCheck::maxError
+  double worstExcess = 0;   // largest error over its pixel's bound; <= 1: within
+  double colourExcess = 0;  // the same of colour and alpha alone
+  double shareOver = 0;     // of the pixels of the worst view
+  size_t worstView = 0;     // of the worst excess, and its pixel and channel
   uint32_t worstX = 0, worstY = 0;
   const char* worstChannel = "colour";
 };
@@ -34,9 +35,10 @@ struct PresetOutcome {
   std::string preset;
   double boundLargest = 0, boundMean = 0;  // [display-coded] of forms in float
   std::vector<RendererOutcome> renderers;  // as formsOf()
-  double rasterWalkExcess = 0;  // difference of raster and walk over one bound, not two
+  double rasterWalkExcess = 0;             // difference of raster and walk over one bound, not two
   WalkTrace walks;
-  double encodingPsnr = 0, encodingMax = 0;  // of what the bake shows against the foam itself, both exact; least and largest of the views
+  // of what the bake shows against the foam itself, both exact; least and largest of the views
+  double encodingPsnr = 0, encodingMax = 0;
 };
 
 std::string placeText(const RendererOutcome& renderer);  // "view 0, pixel (3, 4), alpha"
@@ -64,20 +66,21 @@ class StabilityRunner {
   // `options` need the lens classes of all cases that will be run. Indices are always checked.
   static Result<std::unique_ptr<StabilityRunner>> create(const GpuDeviceOptions& options);
 
-  // Fails only when it was asked to stop; all else is a fault of the case. Of what is known, that of other presets is not asked for.
+  // Fails only when it was asked to stop; all else is a fault of the case. Of what is known, that of other presets is
+  // not asked for.
   Result<CaseOutcome> run(const StiffCase& stiff, const std::vector<std::string>& presets, const Progress& progress);
   // The bake of one preset alone, of a foam as it stands. Fails when it cannot be baked or drawn, too.
   Result<PresetOutcome> runOne(const StiffCase& stiff, const std::string& preset, const Progress& progress);
-  const HostDeviceInfo& device() const { return drawer_->device(); }
+  const HostDeviceInfo& device() const { return renderer_->device(); }
 
  private:
-  explicit StabilityRunner(std::unique_ptr<FormDrawer> drawer) : drawer_(std::move(drawer)) {}
+  explicit StabilityRunner(std::unique_ptr<FormRenderer> renderer) : renderer_(std::move(renderer)) {}
 
-  Status runPreset(const StiffCase& stiff, const Foam& foam, const std::vector<RenderedImages>& originals, PresetOutcome& outcome,
-                   const Progress& progress);
+  Status runPreset(const StiffCase& stiff, const Foam& foam, const std::vector<RenderedImages>& originals,
+                   PresetOutcome& outcome, const Progress& progress);
   Status runView(const StiffCase& stiff, size_t index, const BakedCase& baked, PresetOutcome& outcome);
 
-  std::unique_ptr<FormDrawer> drawer_;
+  std::unique_ptr<FormRenderer> renderer_;
 };
 
 }  // namespace froth

@@ -16,8 +16,8 @@ namespace {
 // A case on the device takes tens of milliseconds, and one that fails is bounded by 256 samples.
 constexpr uint32_t kMostTries = 500;
 
-// All forms of the `exact` bake, which keeps every number of the foam. Walks traced on the CPU are not judged: where sites
-// coincide or the eye is on a vertex, their order is a tie that no image shows.
+// All forms of the `exact` bake, which keeps every number of the foam. Walks traced on the CPU are not judged: where
+// sites coincide or the eye is on a vertex, their order is a tie that no image shows.
 Result<std::optional<CaseFault>> judgeOnDevice(StabilityRunner& runner, const StiffCase& stiff) {
   const Result<PresetOutcome> outcome =
       runner.runOne(stiff, "exact", [](std::string_view, uint64_t, uint64_t) { return !isStopRequested(); });
@@ -34,8 +34,8 @@ Result<std::optional<CaseFault>> judgeOnDevice(StabilityRunner& runner, const St
   return std::optional<CaseFault>();
 }
 
-Status keepFound(FoundCase found, const std::string& drawnOn, const StabilitySearch& search, const FiguresOutput& figures, ProgressPrinter& printer,
-                 nlohmann::ordered_json& list) {
+Status keepFound(FoundCase found, const std::string& drawnOn, const StabilitySearch& search,
+                 const FiguresOutput& figures, ProgressPrinter& printer, nlohmann::ordered_json& list) {
   const std::string name = std::filesystem::path(found.shrunk.name).filename().string() + ".json";
   const std::filesystem::path path = search.folder / name;
   found.shrunk.analysis = drawnOn + " by the random search, and shrunk";
@@ -47,8 +47,8 @@ Status keepFound(FoundCase found, const std::string& drawnOn, const StabilitySea
                   {"cellsBefore", found.cellsBefore}});
   printer.finishLine();
   if (!figures.wantsTable()) return {};
-  fmt::print("{}: {}; {} of {} cells left; {}\n", path.string(), found.fault.kind, found.shrunk.foam.cellCount, found.cellsBefore,
-             found.fault.what);
+  fmt::print("{}: {}; {} of {} cells left; {}\n", path.string(), found.fault.kind, found.shrunk.foam.cellCount,
+             found.cellsBefore, found.fault.what);
   std::fflush(stdout);
   return {};
 }
@@ -79,7 +79,8 @@ Status runStabilitySearch(const StabilitySearch& search, const GpuDeviceOptions&
   options.seconds = search.seconds;
   options.mostTries = kMostTries;
   const std::string drawnOn =
-      *runner ? fmt::format("found on {} ({})", (*runner)->device().name, (*runner)->device().driver) : "found on the CPU";
+      *runner ? fmt::format("found on {} ({})", (*runner)->device().name, (*runner)->device().driver)
+              : "found on the CPU";
   options.onFound = [&](const FoundCase& found) { return keepFound(found, drawnOn, search, figures, printer, list); };
   const Result<SearchResult> result = searchCases(options, judgeByAll(std::move(judges)), printer.callback());
   if (!result) return result.error();
@@ -93,7 +94,8 @@ Status runStabilitySearch(const StabilitySearch& search, const GpuDeviceOptions&
   printer.finishLine();
   if (figures.wantsTable()) fmt::print("{} cases tried, {} fail\n", result->tried, result->failing);
   if (result->failing == 0) return {};
-  return makeError(ErrorKind::kUnsupported, "%llu of %llu random cases fail; the files in %s show it, and this is a fault of Froth",
+  return makeError(ErrorKind::kUnsupported,
+                   "%llu of %llu random cases fail; the files in %s show it, and this is a fault of Froth",
                    static_cast<unsigned long long>(result->failing), static_cast<unsigned long long>(result->tried),
                    search.folder.c_str());
 }

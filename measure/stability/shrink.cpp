@@ -105,13 +105,15 @@ class Shrinker {
     const StiffCase& smallest = best_.smallest;
     bool isSmaller = !smallest.places.empty() && change([](StiffCase& stiff) { stiff.places.clear(); });
     for (size_t i = 0; i < smallest.places.size() && smallest.places.size() > 1;) {
-      const bool isDropped = change([i](StiffCase& stiff) { stiff.places.erase(stiff.places.begin() + static_cast<ptrdiff_t>(i)); });
+      const bool isDropped =
+          change([i](StiffCase& stiff) { stiff.places.erase(stiff.places.begin() + static_cast<ptrdiff_t>(i)); });
       isSmaller |= isDropped;
       if (!isDropped) ++i;
     }
     isSmaller |= !smallest.ends.empty() && change([](StiffCase& stiff) { stiff.ends.clear(); });
     isSmaller |= smallest.jitter != glm::vec2(0) && change([](StiffCase& stiff) { stiff.jitter = glm::vec2(0); });
-    isSmaller |= smallest.layers != kAllLayersOfCase && change([](StiffCase& stiff) { stiff.layers = kAllLayersOfCase; });
+    isSmaller |=
+        smallest.layers != kAllLayersOfCase && change([](StiffCase& stiff) { stiff.layers = kAllLayersOfCase; });
     isSmaller |= smallest.chunkCells != 0 && change([](StiffCase& stiff) { stiff.chunkCells = 0; });
     return isSmaller;
   }
@@ -174,7 +176,9 @@ class Shrinker {
     const size_t count = valuesOf(best_.smallest).size();
     if (count == 0) return false;
     bool isSmaller = simplifyRange(valuesOf, 0, count, canBeZero);
-    for (size_t i = 0; count > 1 && i < count && !isOver(); ++i) isSmaller |= simplifyRange(valuesOf, i, i + 1, canBeZero);
+    for (size_t i = 0; count > 1 && i < count && !isOver(); ++i) {
+      isSmaller |= simplifyRange(valuesOf, i, i + 1, canBeZero);
+    }
     return isSmaller;
   }
 
@@ -199,7 +203,8 @@ class Shrinker {
     if (canBeZero && !isSimplest() && tryAll([](float) { return 0.0f; })) return true;
     return tryAll([](float value) { return value == 0 ? value : 1.0f; }) ||
            tryAll([](float value) { return std::round(value); }) ||
-           tryAll([](float value) { return roundDigits(value, 1); }) || tryAll([](float value) { return roundDigits(value, 3); });
+           tryAll([](float value) { return roundDigits(value, 1); }) ||
+           tryAll([](float value) { return roundDigits(value, 3); });
   }
 
   // To so many significant decimal digits.
@@ -238,7 +243,8 @@ class Shrinker {
         View& view = candidate.views[v];
         const auto before = std::tuple(view.worldFromCamera, view.cx, view.cy, view.fx, view.fy);
         edit(view);
-        return before != std::tuple(view.worldFromCamera, view.cx, view.cy, view.fx, view.fy) && attempt(std::move(candidate));
+        return before != std::tuple(view.worldFromCamera, view.cx, view.cy, view.fx, view.fy) &&
+               attempt(std::move(candidate));
       };
       isSmaller |= change([](View& view) {
         for (const size_t i : {0, 1, 2, 4, 5, 6, 8, 9, 10}) view.worldFromCamera[i] = i % 5 == 0;
@@ -246,7 +252,9 @@ class Shrinker {
       for (const size_t i : {3, 7, 11}) {
         isSmaller |= change([i](View& view) { view.worldFromCamera[i] = 0; }) ||
                      change([i](View& view) { view.worldFromCamera[i] = std::round(view.worldFromCamera[i]); }) ||
-                     change([i](View& view) { view.worldFromCamera[i] = roundDigits(static_cast<float>(view.worldFromCamera[i]), 3); });
+                     change([i](View& view) {
+                       view.worldFromCamera[i] = roundDigits(static_cast<float>(view.worldFromCamera[i]), 3);
+                     });
       }
       isSmaller |= change([](View& view) { view.cx = view.width / 2.0, view.cy = view.height / 2.0; });
       isSmaller |= change([](View& view) { view.fx = view.fy = std::max(std::round(view.fx), 1.0); });
@@ -268,7 +276,9 @@ class Shrinker {
       for (const int axis : {0, 1, 2}) {
         isSmaller |= change([axis](CasePlace& place) { place.position[axis] = 0; }) ||
                      change([axis](CasePlace& place) { place.position[axis] = std::round(place.position[axis]); }) ||
-                     change([axis](CasePlace& place) { place.position[axis] = roundDigits(static_cast<float>(place.position[axis]), 3); });
+                     change([axis](CasePlace& place) {
+                       place.position[axis] = roundDigits(static_cast<float>(place.position[axis]), 3);
+                     });
       }
     }
     return isSmaller;
@@ -277,7 +287,8 @@ class Shrinker {
   // All pixels at once: mostly there is one left.
   bool simplifyEnds() {
     if (best_.smallest.ends.size() != 1) return false;
-    return simplifyRange([](StiffCase& stiff) { return floatsOf(stiff.ends[0].values); }, 0, best_.smallest.ends[0].values.size(), true);
+    return simplifyRange([](StiffCase& stiff) { return floatsOf(stiff.ends[0].values); }, 0,
+                         best_.smallest.ends[0].values.size(), true);
   }
 
   const CaseJudge& judge_;
@@ -289,8 +300,8 @@ class Shrinker {
 
 }  // namespace
 
-Result<ShrunkCase> shrinkCase(const StiffCase& failing, const CaseFault& fault, const CaseJudge& judge, uint32_t mostTries,
-                              const Progress& progress) {
+Result<ShrunkCase> shrinkCase(const StiffCase& failing, const CaseFault& fault, const CaseJudge& judge,
+                              uint32_t mostTries, const Progress& progress) {
   return Shrinker(failing, fault, judge, mostTries, progress).shrink();
 }
 

@@ -31,7 +31,8 @@ const RendererOutcome* findRenderer(const PresetOutcome& preset, const std::stri
 std::string errorText(const PresetOutcome& preset, const std::string& name) {
   const RendererOutcome* renderer = findRenderer(preset, name);
   if (!renderer) return "-";
-  return fmt::format("{} ({:.2g}, {:.2g})", numberText(renderer->maxError), renderer->colourExcess, renderer->worstExcess);
+  return fmt::format("{} ({:.2g}, {:.2g})", numberText(renderer->maxError), renderer->colourExcess,
+                     renderer->worstExcess);
 }
 
 std::string markdownOf(const JudgedCase& judged) {
@@ -42,9 +43,11 @@ std::string markdownOf(const JudgedCase& judged) {
   for (const PresetOutcome& preset : judged.outcome.presets) {
     if (!isFirst) text += "| | | ";
     isFirst = false;
-    text += fmt::format("| {} | {} / {} |", preset.preset, numberText(preset.boundLargest), numberText(preset.boundMean));
-    for (const char* renderer : {"float", "raster", "walk", "rays", "queries", "raster shipped", "walk shipped"})
+    text +=
+        fmt::format("| {} | {} / {} |", preset.preset, numberText(preset.boundLargest), numberText(preset.boundMean));
+    for (const char* renderer : {"float", "raster", "walk", "rays", "queries", "raster shipped", "walk shipped"}) {
       text += fmt::format(" {} |", errorText(preset, renderer));
+    }
     text += fmt::format(" {} |\n", psnrText(preset.encodingPsnr));
   }
   return text;
@@ -52,16 +55,19 @@ std::string markdownOf(const JudgedCase& judged) {
 
 std::string tables(const std::vector<JudgedCase>& cases, const HostDeviceInfo& device) {
   std::string text = fmt::format("Drawn on {} ({}).\n\n", device.name, device.driver);
-  text += "| case | what | verdict | preset | bound: largest / mean | CPU float | raster | walk | GPU rays | CPU queries | raster, as shipped | "
-          "walk, as shipped | encoding [dB] |\n"
-          "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  text +=
+      "| case | what | verdict | preset | bound: largest / mean | CPU float | raster | walk | GPU rays | CPU queries | "
+      "raster, as shipped | "
+      "walk, as shipped | encoding [dB] |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const JudgedCase& judged : cases) text += markdownOf(judged);
   text += "\n## What conditions each image\n\n";
   for (const JudgedCase& judged : cases) {
     text += fmt::format("- `{}`: {}\n", judged.stiff.name, judged.stiff.analysis);
     if (!judged.outcome.refusal.empty()) text += fmt::format("  Refused: \"{}\".\n", judged.outcome.refusal);
-    for (const KnownFault& known : judged.stiff.known)
+    for (const KnownFault& known : judged.stiff.known) {
       text += fmt::format("  **Falls short** ({}, {}): {}.\n", known.preset, known.renderer, known.cause);
+    }
     for (const SeenFault& fault : judged.outcome.faults) text += fmt::format("  - {}\n", fault.text);
   }
   return text;
@@ -80,8 +86,11 @@ std::string publishedForms(const std::vector<PublishedForm>& forms) {
 void printCase(const JudgedCase& judged) {
   fmt::print("{:<30} {}\n", judged.stiff.name, verdictName(judged.outcome.verdict));
   for (const PresetOutcome& preset : judged.outcome.presets) {
-    fmt::print("  {:<8} bound {:>8} / {:>8}", preset.preset, numberText(preset.boundLargest), numberText(preset.boundMean));
-    for (const RendererOutcome& run : preset.renderers) fmt::print(", {} {}", run.renderer, errorText(preset, run.renderer));
+    fmt::print("  {:<8} bound {:>8} / {:>8}", preset.preset, numberText(preset.boundLargest),
+               numberText(preset.boundMean));
+    for (const RendererOutcome& run : preset.renderers) {
+      fmt::print(", {} {}", run.renderer, errorText(preset, run.renderer));
+    }
     fmt::print(", encoding {} dB\n", psnrText(preset.encodingPsnr));
   }
   for (const SeenFault& fault : judged.outcome.faults) fmt::print("  {}\n", fault.text);
@@ -107,10 +116,10 @@ nlohmann::ordered_json caseAsJson(const JudgedCase& judged) {
   for (const PresetOutcome& preset : judged.outcome.presets) {
     nlohmann::ordered_json renderers = nlohmann::ordered_json::object();
     for (const RendererOutcome& run : preset.renderers) {
-      renderers[run.renderer] = {{"maxError", run.maxError},   {"worstExcess", run.worstExcess}, {"colourExcess", run.colourExcess},   {"shareOver", run.shareOver},
-                                 {"worstPlace", placeText(run)}, {"isFinite", run.isFinite},
-                                 {"isRepeatable", run.isRepeatable}, {"tilesExcess", run.tilesExcess},
-                                 {"endsInTime", run.endsInTime}};
+      renderers[run.renderer] = {
+          {"maxError", run.maxError},         {"worstExcess", run.worstExcess}, {"colourExcess", run.colourExcess},
+          {"shareOver", run.shareOver},       {"worstPlace", placeText(run)},   {"isFinite", run.isFinite},
+          {"isRepeatable", run.isRepeatable}, {"tilesExcess", run.tilesExcess}, {"endsInTime", run.endsInTime}};
     }
     json["presets"].push_back({{"preset", preset.preset},
                                {"boundLargest", preset.boundLargest},
@@ -133,13 +142,16 @@ Status checkMarkdown(const std::filesystem::path& path) {
   if (Status writable = checkWritable(path); !writable) return writable;
   std::error_code error;
   std::filesystem::create_directories(imagesBeside(path), error);
-  if (error) return makeError(ErrorKind::kIo, "%s: cannot be made: %s", imagesBeside(path).c_str(), error.message().c_str());
+  if (error) {
+    return makeError(ErrorKind::kIo, "%s: cannot be made: %s", imagesBeside(path).c_str(), error.message().c_str());
+  }
   const Result<std::string> text = readMarked(path, {kTables, kForms});
   if (!text) return text.error();
   return {};
 }
 
-Status writeMarkdown(const std::filesystem::path& path, const std::vector<JudgedCase>& cases, const HostDeviceInfo& device) {
+Status writeMarkdown(const std::filesystem::path& path, const std::vector<JudgedCase>& cases,
+                     const HostDeviceInfo& device) {
   Result<std::string> text = readMarked(path, {kTables, kForms});
   if (!text) return text.error();
   const std::vector<PublishedForm> forms = comparePublishedForms();
@@ -148,7 +160,9 @@ Status writeMarkdown(const std::filesystem::path& path, const std::vector<Judged
   const auto write = [](const std::filesystem::path& file, const std::string& bytes) {
     return writeFileAtomically(file, {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
   };
-  if (Status written = write(imagesBeside(path) / kFigure, drawPlotFile(plotOf(forms.front()))); !written) return written;
+  if (Status written = write(imagesBeside(path) / kFigure, drawPlotFile(plotOf(forms.front()))); !written) {
+    return written;
+  }
   return write(path, *text);
 }
 

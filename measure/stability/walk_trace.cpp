@@ -16,7 +16,10 @@ constexpr uint32_t kNoCell = UINT32_MAX;
 class Tracer {
  public:
   Tracer(const Foam& foam, const CellGraph& graph, const View& view)
-      : foam_(foam), graph_(graph), isParallel_(view.lens.kind == LensKind::kOrthographic), lastVisit_(foam.cellCount, 0) {
+      : foam_(foam),
+        graph_(graph),
+        isParallel_(view.lens.kind == LensKind::kOrthographic),
+        lastVisit_(foam.cellCount, 0) {
     for (const glm::vec3& site : foam.sites) {
       centres_.push_back(glm::dvec3(site) - eyeOf(view));
       farthest_ = std::max(farthest_, glm::length(centres_.back()));

@@ -1,4 +1,5 @@
-// Walks of a view's rays on the CPU, in float as shaders/gpu/walk_steps.glsl does them, and what theory promises of them.
+// Walks of a view's rays on the CPU, in float as shaders/gpu/walk_steps.glsl does them, and what theory promises of
+// them.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,8 @@
 
 namespace froth {
 
-// Theory (docs/FOAM.md "Order"): a walk visits cells of strictly increasing d . p, none twice, and ends in the cell in which the ray
-// leaves for infinity, that of the largest d . p. Differences below rounding of d . p count as equal.
+// Theory (docs/FOAM.md "Order"): a walk visits cells of strictly increasing d . p, none twice, and ends in the cell in
+// which the ray leaves for infinity, that of the largest d . p. Differences below rounding of d . p count as equal.
 struct WalkTrace {
   uint64_t rays = 0, steps = 0;
   uint64_t mostSteps = 0;   // of one ray; at most the number of cells

@@ -31,11 +31,12 @@ bool isWholeAsset(const ReportConfig& config) {
 
 std::string describe(const ReportPoint& point, uint32_t cells) {
   return fmt::format("{:.1f} bytes per cell, worst view {:.2f} dB, mean {:.2f} dB, FLIP {:.4f}, {:.3f} ms",
-                     static_cast<double>(point.diskBytes) / cells, worstViewOf(point), point.errors.psnr, point.errors.flip,
-                     point.total.median);
+                     static_cast<double>(point.diskBytes) / cells, worstViewOf(point), point.errors.psnr,
+                     point.errors.flip, point.total.median);
 }
 
-// Of assets within the size bound: the smallest whose worst view is good enough, or else the one with the best worst view.
+// Of assets within the size bound: the smallest whose worst view is good enough, or else the one with the best worst
+// view.
 void choosePreset(const PointList& points, Report& report) {
   const ReportPoint& base = points.all().front().point;
   const ReportPoint *smallest = nullptr, *best = nullptr;
@@ -44,23 +45,28 @@ void choosePreset(const PointList& points, Report& report) {
     if (!planned.isTimed || !isWholeAsset(planned.config)) continue;
     if (static_cast<double>(point.diskBytes) > kMostBytesPerCell * report.cells) continue;
     if (!best || worstViewOf(point) > worstViewOf(*best)) best = &point;
-    if (worstViewOf(point) >= kLeastWorstView && (!smallest || point.diskBytes < smallest->diskBytes)) smallest = &point;
+    if (worstViewOf(point) >= kLeastWorstView && (!smallest || point.diskBytes < smallest->diskBytes)) {
+      smallest = &point;
+    }
   }
   const ReportPoint& chosen = smallest ? *smallest : best ? *best : base;
   report.chosen = chosen.id;
-  report.choice = fmt::format("Of assets of at most {} bytes per cell, the smallest whose worst view keeps {} dB against the reference{}: {}, {}.",
-                              kMostBytesPerCell, kLeastWorstView, smallest ? "" : " (none does; so the one with the best worst view)",
-                              chosen.id == base.id ? "the default itself" : chosen.id, describe(chosen, report.cells));
+  report.choice = fmt::format(
+      "Of assets of at most {} bytes per cell, the smallest whose worst view keeps {} dB against the reference{}: {}, "
+      "{}.",
+      kMostBytesPerCell, kLeastWorstView, smallest ? "" : " (none does; so the one with the best worst view)",
+      chosen.id == base.id ? "the default itself" : chosen.id, describe(chosen, report.cells));
   if (chosen.id != base.id) report.choice += fmt::format(" The default has {}.", describe(base, report.cells));
 }
 
 Status addPictures(const PlannedPoint& planned, const Bench& bench, Report& report) {
-  const Result<std::vector<RenderedImages>> images = bench.drawer.render(drawOf(bench, planned.config), {});
+  const Result<std::vector<RenderedImages>> images = bench.renderer.render(drawOf(bench, planned.config), {});
   if (!images) return images.error();
   for (size_t i = 0; i < images->size(); ++i) {
     const ViewErrors& errors = planned.point.views[i];
-    const Result<std::vector<ReportImage>> pictures = picturesOfError(
-        fmt::format("View {}", errors.view), bench.truth.exact(i), (*images)[i].colour, errors.worstX, errors.worstY);
+    const Result<std::vector<ReportImage>> pictures =
+        picturesOfError(fmt::format("View {}", errors.view), bench.references.exact(i), (*images)[i].colour,
+                        errors.worstX, errors.worstY);
     if (!pictures) return pictures.error();
     report.images.insert(report.images.end(), pictures->begin(), pictures->end());
   }
@@ -73,8 +79,8 @@ void describeRun(const RunDescription& run, const Foam& foam, const Bench& bench
   report.scene = run.title;
   report.input = run.input;
   report.credit = run.credit;
-  report.device = bench.drawer.device();
-  report.driver = bench.drawer.driver();
+  report.device = bench.renderer.device();
+  report.driver = bench.renderer.driver();
   report.version = kVersion;
   report.command = run.command;
   report.seed = bench.rounds.seed;
@@ -87,13 +93,19 @@ void describeRun(const RunDescription& run, const Foam& foam, const Bench& bench
   report.lobeCount = foam.lobeCount;
   report.isLinearTime = !run.isCpu;
   report.notes = {
-      "Errors are of all channels in float, display-coded; times are of linear half-float colour alone, as a game draws.",
+      "Errors are of all channels in float, display-coded; times are of linear half-float colour alone, as a game "
+      "draws.",
       "Shading precision: the runtime computes in 32-bit float; it has no setting for less.",
       "Tile size: fixed, lists for 32 x 32 pixels, drawn 8 x 8 at a time; another size needs other shaders.",
       "Level of detail: the layers; a hierarchy of merged cells does not exist yet."};
-  if (!run.hasFoam)
-    report.notes.push_back("The input is an asset: errors are against the foam that it holds, and its encoding is not turned. Give the checkpoint for both.");
-  if (run.isCpu) report.notes.push_back("Times are of the CPU reference renderer; walks, memory and costs of features need a GPU.");
+  if (!run.hasFoam) {
+    report.notes.push_back(
+        "The input is an asset: errors are against the foam that it holds, and its encoding is not turned. Give the "
+        "checkpoint for both.");
+  }
+  if (run.isCpu) {
+    report.notes.push_back("Times are of the CPU reference renderer; walks, memory and costs of features need a GPU.");
+  }
 }
 
 Status fillReport(const PointList& points, const Bench& bench, bool hasImages, Report& report) {

@@ -37,12 +37,12 @@ struct KnobValue {
 };
 
 struct Knob {
-  Sweep sweep;       // without its points
+  Sweep sweep;                 // without its points
   bool isConvergence = false;  // around the exact asset without a cut-off, and not timed; else around the default
   Method method = Method::kRaster;
   std::vector<KnobValue> values;
-  // Of a lattice: the attribute, as the manifest names it, and the most that its values may lie from the input's, in the manifest's
-  // unit: half a step along each axis.
+  // Of a lattice: the attribute, as the manifest names it, and the most that its values may lie from the input's, in
+  // the manifest's unit: half a step along each axis.
   const char* attribute = nullptr;
   std::function<double(double bits, const Foam&)> mostError;
 };
@@ -55,6 +55,5 @@ std::vector<Knob> drawingKnobs(bool walks);
 // The default preset, and the exact asset at full precision.
 ReportConfig defaultConfig();
 ReportConfig exactConfig();
-
 
 }  // namespace froth

@@ -32,9 +32,9 @@ struct Rounds {
   uint64_t seed = 1;  // of the order in each
 };
 
-class Drawer {
+class SweepRenderer {
  public:
-  virtual ~Drawer() = default;
+  virtual ~SweepRenderer() = default;
   virtual std::string device() const = 0;
   virtual std::string driver() const = 0;
   // Colour, opacity, depth, normal of every view.
@@ -48,7 +48,8 @@ Interval intervalOf(const std::vector<double>& cycles);
 uint32_t cyclesOf(const Draw& draw, const Rounds& rounds);  // of one round
 std::vector<size_t> orderOf(const std::vector<Draw>& draws, const Rounds& rounds, uint32_t round);
 
-Result<std::unique_ptr<Drawer>> createGpuDrawer(GpuDeviceOptions options);  // passes are measured whatever they say
-std::unique_ptr<Drawer> createCpuDrawer();
+Result<std::unique_ptr<SweepRenderer>> createGpuSweepRenderer(
+    GpuDeviceOptions options);  // passes are measured whatever they say
+std::unique_ptr<SweepRenderer> createCpuSweepRenderer();
 
 }  // namespace froth

@@ -35,20 +35,27 @@ bool hasHeights(const Foam& foam) {
 
 std::vector<Part> listParts(const Foam& foam, const AssetContents& asset) {
   std::vector<Part> parts;
-  if (asset.lobeCount > 0)
+  if (asset.lobeCount > 0) {
     parts.push_back(partOf("view dependence", true, "baked with --lobes 0", {},
                            [](ReportConfig& config) { config.knobs.appearance.lobeLimit = 0; }));
-  else
+  } else {
     parts.push_back(partOf("view dependence", false, "two lobes of 1/16 put in", withSomeViewDependence));
-  if (hasHeights(foam)) parts.push_back(partOf("displacement", true, "heights taken out", withoutDisplacement));
-  else parts.push_back(partOf("displacement", false, "heights of 1/16 radius put in", withSomeDisplacement));
-  if (foam.detailCount > 1)
-    parts.push_back(partOf("detail sites", true, "one left in each cell", {}, [](ReportConfig& config) { config.detailsKept = 1; }));
-  else
+  }
+  if (hasHeights(foam)) {
+    parts.push_back(partOf("displacement", true, "heights taken out", withoutDisplacement));
+  } else {
+    parts.push_back(partOf("displacement", false, "heights of 1/16 radius put in", withSomeDisplacement));
+  }
+  if (foam.detailCount > 1) {
+    parts.push_back(partOf("detail sites", true, "one left in each cell", {},
+                           [](ReportConfig& config) { config.detailsKept = 1; }));
+  } else {
     parts.push_back(partOf("detail sites", false, "each made two, 1/16 apart in colour", withSomeDetailSites));
+  }
   parts.push_back(partOf("walk graph", true, "baked with --no-walk", {},
                          [](ReportConfig& config) { config.walkGraph = config.steiner = false; }));
-  parts.push_back(partOf("Steiner cells", true, "baked with --no-steiner", {}, [](ReportConfig& config) { config.steiner = false; }));
+  parts.push_back(partOf("Steiner cells", true, "baked with --no-steiner", {},
+                         [](ReportConfig& config) { config.steiner = false; }));
   return parts;
 }
 
@@ -60,36 +67,38 @@ Draw drawBy(Draw draw, Method method, const std::filesystem::path& asset) {
 }
 
 // Bakes the variant and says where it lies.
-Result<std::filesystem::path> bakeVariant(const Part& part, const Bench& bench, const FoamInput& input, const CameraSet& cameras,
-                                          const std::filesystem::path& folder, const Progress& progress) {
+Result<std::filesystem::path> bakeVariant(const Part& part, const Bench& bench, const FoamInput& input,
+                                          const CameraSet& cameras, const std::filesystem::path& folder,
+                                          const Progress& progress) {
   ReportConfig config = defaultConfig();
   if (part.turn) part.turn(config);
   if (!part.change) {
-    if (Status baked = bench.workshop.bake({&config, 1}, progress); !baked) return baked.error();
-    return bench.workshop.assetOf(config);
+    if (Status baked = bench.bakes.bake({&config, 1}, progress); !baked) return baked.error();
+    return bench.bakes.assetOf(config);
   }
   FoamInput changed = input;
   changed.foam = part.change(input.foam);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return makeError(ErrorKind::kIo, "%s: %s", folder.c_str(), error.message().c_str());
-  Workshop workshop(changed, cameras, folder);
-  if (Status baked = workshop.bake({&config, 1}, progress); !baked) return baked.error();
-  return workshop.assetOf(config);
+  BakeCache bakes(changed, cameras, folder);
+  if (Status baked = bakes.bake({&config, 1}, progress); !baked) return baked.error();
+  return bakes.assetOf(config);
 }
 
 Result<double> psnrOf(const Bench& bench, const std::filesystem::path& asset, const Progress& progress) {
   Draw draw = drawOf(bench, defaultConfig());
   draw.asset = asset;
-  Result<std::vector<RenderedImages>> images = bench.drawer.render(draw, progress);
+  Result<std::vector<RenderedImages>> images = bench.renderer.render(draw, progress);
   if (!images) return images.error();
-  const Result<PointErrors> errors = bench.truth.compare(std::move(*images));
+  const Result<PointErrors> errors = bench.references.compare(std::move(*images));
   if (!errors) return errors.error();
   return errors->errors.psnr;
 }
 
 // What the part costs: with minus without.
-void fillCost(FeatureCost& cost, const DrawTimes& base, const DrawTimes& variant, int64_t baseBytes, int64_t variantBytes) {
+void fillCost(FeatureCost& cost, const DrawTimes& base, const DrawTimes& variant, int64_t baseBytes,
+              int64_t variantBytes) {
   const int64_t sign = cost.isUsed ? 1 : -1;
   cost.diskBytes = sign * (baseBytes - variantBytes);
   cost.residentBytes = sign * (static_cast<int64_t>(base.residentBytes) - static_cast<int64_t>(variant.residentBytes));
@@ -102,7 +111,7 @@ void fillCost(FeatureCost& cost, const DrawTimes& base, const DrawTimes& variant
 Result<std::vector<FeatureCost>> assetFeatures(const Bench& bench, const FoamInput& input, const CameraSet& cameras,
                                                const std::filesystem::path& folder, const Progress& progress) {
   const ReportConfig base = defaultConfig();
-  const std::filesystem::path baseAsset = bench.workshop.assetOf(base);
+  const std::filesystem::path baseAsset = bench.bakes.assetOf(base);
   const Result<AssetReader> reader = AssetReader::open(baseAsset);
   if (!reader) return reader.error();
   std::vector<Part> parts = listParts(input.foam, reader->manifest());
@@ -118,7 +127,7 @@ Result<std::vector<FeatureCost>> assetFeatures(const Bench& bench, const FoamInp
     // Without a graph there is nothing to walk: the base is drawn again in its place.
     draws.push_back(drawBy(plain, Method::kWalk, part.cost.feature == "walk graph" ? baseAsset : *asset));
   }
-  const Result<std::vector<DrawTimes>> times = bench.drawer.time(draws, bench.rounds, progress);
+  const Result<std::vector<DrawTimes>> times = bench.renderer.time(draws, bench.rounds, progress);
   if (!times) return times.error();
   std::vector<FeatureCost> costs;
   for (size_t i = 0; i < parts.size(); ++i) {
@@ -139,8 +148,9 @@ Result<std::vector<FeatureCost>> assetFeatures(const Bench& bench, const FoamInp
   return costs;
 }
 
-Result<std::vector<FeatureCost>> runtimeFeatures(const Bench& bench, const GpuDeviceOptions& device, const Progress& progress) {
-  const Draw raster = drawBy(drawOf(bench, defaultConfig()), Method::kRaster, bench.workshop.assetOf(defaultConfig()));
+Result<std::vector<FeatureCost>> runtimeFeatures(const Bench& bench, const GpuDeviceOptions& device,
+                                                 const Progress& progress) {
+  const Draw raster = drawBy(drawOf(bench, defaultConfig()), Method::kRaster, bench.bakes.assetOf(defaultConfig()));
   // Without a graph the raster stands in, and its times are not told.
   const Draw walk = drawBy(raster, bench.walks ? Method::kWalk : Method::kRaster, raster.asset);
   std::vector<FeatureCost> costs;
@@ -160,15 +170,16 @@ Result<std::vector<FeatureCost>> runtimeFeatures(const Bench& bench, const GpuDe
   };
   Draw fullRaster = raster, fullWalk = walk;
   fullRaster.options.isFull = fullWalk.options.isFull = true;
-  const Result<std::vector<DrawTimes>> plain = bench.drawer.time({raster, walk, fullRaster, fullWalk}, bench.rounds, progress);
+  const Result<std::vector<DrawTimes>> plain =
+      bench.renderer.time({raster, walk, fullRaster, fullWalk}, bench.rounds, progress);
   if (!plain) return plain.error();
-  add("images of distance and normal", "drawn too (shaders specialized on it), all in float", {(*plain)[0], (*plain)[1]},
-      {(*plain)[2], (*plain)[3]});
+  add("images of distance and normal", "drawn too (shaders specialized on it), all in float",
+      {(*plain)[0], (*plain)[1]}, {(*plain)[2], (*plain)[3]});
 
   const auto withDevice = [&](GpuDeviceOptions options, const char* feature, const char* variant) -> Status {
-    Result<std::unique_ptr<Drawer>> drawer = createGpuDrawer(std::move(options));
-    if (!drawer) return drawer.error();
-    const Result<std::vector<DrawTimes>> times = (*drawer)->time({raster, walk}, bench.rounds, progress);
+    Result<std::unique_ptr<SweepRenderer>> renderer = createGpuSweepRenderer(std::move(options));
+    if (!renderer) return renderer.error();
+    const Result<std::vector<DrawTimes>> times = (*renderer)->time({raster, walk}, bench.rounds, progress);
     if (!times) return times.error();
     add(feature, variant, *plain, *times);
     return {};
@@ -176,16 +187,21 @@ Result<std::vector<FeatureCost>> runtimeFeatures(const Bench& bench, const GpuDe
   GpuDeviceOptions hits = device, lenses = device;
   hits.keepsHits = true;
   lenses.lensClasses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC;
-  if (Status added = withDevice(hits, "kept hits", "views made for ids and motion (FrothViewInfo::keepsHits): memory alone"); !added)
+  if (Status added =
+          withDevice(hits, "kept hits", "views made for ids and motion (FrothViewInfo::keepsHits): memory alone");
+      !added) {
     return added.error();
+  }
   // Without their images bound a frame does not write hits: a time would say nothing.
   costs.back().rasterWithout = costs.back().rasterWith = costs.back().walkWithout = costs.back().walkWith = {};
-  if (Status added = withDevice(lenses, "other lenses", "a context and views for all lenses"); !added) return added.error();
+  if (Status added = withDevice(lenses, "other lenses", "a context and views for all lenses"); !added) {
+    return added.error();
+  }
   return costs;
 }
 
 Result<std::vector<FeatureCost>> bakeLeftOut(const Bench& bench) {
-  const Result<BakeRecord> record = bench.workshop.recordOf(defaultConfig());
+  const Result<BakeRecord> record = bench.bakes.recordOf(defaultConfig());
   if (!record) return record.error();
   std::vector<FeatureCost> costs;
   for (const LeftOut& one : record->leftOut) {

@@ -18,8 +18,10 @@ Knob knobOf(const char* name, const char* meaning, const char* unit, const Numbe
   knob.sweep.knob = name;
   knob.sweep.meaning = meaning;
   knob.sweep.unit = unit;
-  for (double number : numbers)
-    knob.values.push_back({fmt::format("{:g}", number), number, [apply, number](ReportConfig& config) { apply(config, number); }});
+  for (double number : numbers) {
+    knob.values.push_back(
+        {fmt::format("{:g}", number), number, [apply, number](ReportConfig& config) { apply(config, number); }});
+  }
   return knob;
 }
 
@@ -28,8 +30,8 @@ Knob logarithmic(Knob knob) {
   return knob;
 }
 
-// A lattice of steps 2^-bits around the exact asset. The mean absolute error falls with the first power of the step: smooth parts
-// change in proportion to it, and edges move by it, so that as many pixels change wholly.
+// A lattice of steps 2^-bits around the exact asset. The mean absolute error falls with the first power of the step:
+// smooth parts change in proportion to it, and edges move by it, so that as many pixels change wholly.
 Knob convergence(Knob knob) {
   knob.sweep.knob += ", all else exact";
   knob.sweep.isBits = true;
@@ -54,9 +56,7 @@ struct Lattice {
   std::function<double(double bits, const Foam&)> mostError;
 };
 
-double halfStep(double bits) {
-  return 0.5 * std::exp2(-bits);
-}
+double halfStep(double bits) { return 0.5 * std::exp2(-bits); }
 
 // A site lies within half a step of its place along each axis.
 double mostErrorOfSites(double bits, const Foam& foam) {
@@ -65,28 +65,58 @@ double mostErrorOfSites(double bits, const Foam& foam) {
   return std::sqrt(3.0) * 0.5 * makeLattices(foam, knobs).positionStep;
 }
 
-// Half a step along both axes of the octahedron's square, which spans 2 of 2^bits - 2 steps, moves a point of a side by sqrt(6) of
-// it, and a side's middle is 1 / sqrt(3) from the centre.
-double mostErrorOfNormals(double bits, const Foam&) {
-  return std::sqrt(18.0) * 0.5 / (std::exp2(bits - 1) - 1);
-}
+// Half a step along both axes of the octahedron's square, which spans 2 of 2^bits - 2 steps, moves a point of a side by
+// sqrt(6) of it, and a side's middle is 1 / sqrt(3) from the centre.
+double mostErrorOfNormals(double bits, const Foam&) { return std::sqrt(18.0) * 0.5 / (std::exp2(bits - 1) - 1); }
 
-double mostErrorOfNumbers(double bits, const Foam&) {
-  return halfStep(bits);
-}
+double mostErrorOfNumbers(double bits, const Foam&) { return halfStep(bits); }
 
-double mostErrorOfDetailSites(double bits, const Foam&) {
-  return std::sqrt(2.0) * halfStep(bits);
-}
+double mostErrorOfDetailSites(double bits, const Foam&) { return std::sqrt(2.0) * halfStep(bits); }
 
 std::vector<Lattice> lattices() {
   return {
-      {"positionBits", "Positions, of the scene's largest extent", &BakeKnobs::positionBits, {12, 15, 18, 21}, {10, 12, 14, 16, 18, 20}, "sites", mostErrorOfSites},
-      {"radiusBits", "Mantissa of radii", &BakeKnobs::radiusBits, {7, 9, 11, 14}, {4, 6, 8, 10, 12, 14}, "radii", mostErrorOfNumbers},
-      {"densityBits", "Mantissa of densities", &BakeKnobs::densityBits, {2, 4, 7}, {1, 2, 4, 6, 8, 10}, "densities", mostErrorOfNumbers},
-      {"frameBits", "Octahedral normals, per axis", &BakeKnobs::frameBits, {8, 10, 12}, {6, 8, 10, 12, 14}, "normals", mostErrorOfNormals},
-      {"detailSiteBits", "Detail sites, below one radius", &BakeKnobs::detailSiteBits, {6, 8, 10}, {3, 5, 7, 9, 11}, "detail sites", mostErrorOfDetailSites},
-      {"heightBits", "Heights, below one radius", &BakeKnobs::heightBits, {5, 7, 9}, {3, 5, 7, 9, 11}, "detail heights", mostErrorOfNumbers},
+      {"positionBits",
+       "Positions, of the scene's largest extent",
+       &BakeKnobs::positionBits,
+       {12, 15, 18, 21},
+       {10, 12, 14, 16, 18, 20},
+       "sites",
+       mostErrorOfSites},
+      {"radiusBits",
+       "Mantissa of radii",
+       &BakeKnobs::radiusBits,
+       {7, 9, 11, 14},
+       {4, 6, 8, 10, 12, 14},
+       "radii",
+       mostErrorOfNumbers},
+      {"densityBits",
+       "Mantissa of densities",
+       &BakeKnobs::densityBits,
+       {2, 4, 7},
+       {1, 2, 4, 6, 8, 10},
+       "densities",
+       mostErrorOfNumbers},
+      {"frameBits",
+       "Octahedral normals, per axis",
+       &BakeKnobs::frameBits,
+       {8, 10, 12},
+       {6, 8, 10, 12, 14},
+       "normals",
+       mostErrorOfNormals},
+      {"detailSiteBits",
+       "Detail sites, below one radius",
+       &BakeKnobs::detailSiteBits,
+       {6, 8, 10},
+       {3, 5, 7, 9, 11},
+       "detail sites",
+       mostErrorOfDetailSites},
+      {"heightBits",
+       "Heights, below one radius",
+       &BakeKnobs::heightBits,
+       {5, 7, 9},
+       {3, 5, 7, 9, 11},
+       "detail heights",
+       mostErrorOfNumbers},
   };
 }
 
@@ -122,22 +152,25 @@ Knob walkGraphKnob() {
 
 std::vector<Knob> colourKnobs() {
   std::vector<Knob> knobs;
-  knobs.push_back(logarithmic(knobOf("errorBound", "RMS error that a lobe must take away to be kept", "display-coded",
-                                     {0.01, 0.014, 0.02, 0.03},
-                                     [](ReportConfig& c, double v) { c.knobs.appearance.errorBound = static_cast<float>(v); })));
+  knobs.push_back(logarithmic(knobOf(
+      "errorBound", "RMS error that a lobe must take away to be kept", "display-coded", {0.01, 0.014, 0.02, 0.03},
+      [](ReportConfig& c, double v) { c.knobs.appearance.errorBound = static_cast<float>(v); })));
   knobs.push_back(knobOf("lobes", "Most lobes kept per detail site", "", {0, 2, 4, 8},
                          [](ReportConfig& c, double v) { c.knobs.appearance.lobeLimit = static_cast<uint32_t>(v); }));
-  knobs.push_back(knobOf("colourBits", "Lattice of colours, 2^-bits", "bits", {4, 5, 6},
-                         [](ReportConfig& c, double v) { c.knobs.appearance.colourStep = static_cast<float>(std::exp2(-v)); }));
-  knobs.push_back(knobOf("codebook", "Entries of the codebook of lobe axes", "", {0, 2048, 8192},
-                         [](ReportConfig& c, double v) { c.knobs.appearance.codebookSize = static_cast<uint32_t>(v); }));
+  knobs.push_back(knobOf("colourBits", "Lattice of colours, 2^-bits", "bits", {4, 5, 6}, [](ReportConfig& c, double v) {
+    c.knobs.appearance.colourStep = static_cast<float>(std::exp2(-v));
+  }));
+  knobs.push_back(
+      knobOf("codebook", "Entries of the codebook of lobe axes", "", {0, 2048, 8192},
+             [](ReportConfig& c, double v) { c.knobs.appearance.codebookSize = static_cast<uint32_t>(v); }));
   knobs.push_back(knobOf("lobeAxisStep", "Lattice of lobe axes", "", {0, 0.25, 0.5},
                          [](ReportConfig& c, double v) { c.knobs.appearance.lobeAxisStep = static_cast<float>(v); }));
   return knobs;
 }
 
 Knob cutoffKnob(Method method) {
-  Knob knob = logarithmic(knobOf("cutoff", "A ray ends below this transmittance", "", {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1},
+  Knob knob = logarithmic(knobOf("cutoff", "A ray ends below this transmittance", "",
+                                 {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1},
                                  [](ReportConfig& c, double v) { c.cutoff = static_cast<float>(v); }));
   knob.method = method;
   return knob;
@@ -147,11 +180,12 @@ Knob cutoffKnob(Method method) {
 
 std::vector<Knob> encodingKnobs() {
   std::vector<Knob> knobs{presetKnob()};
-  for (const Lattice& lattice : lattices())
+  for (const Lattice& lattice : lattices()) {
     knobs.push_back(bitsOf(lattice.name, lattice.meaning, lattice.member, lattice.around));
+  }
   for (Knob& knob : colourKnobs()) knobs.push_back(std::move(knob));
-  knobs.push_back(knobOf("detailSites", "Detail sites kept per cell, those with the largest shares of its face", "", {1, 2, 4},
-                         [](ReportConfig& c, double v) { c.detailsKept = static_cast<uint32_t>(v); }));
+  knobs.push_back(knobOf("detailSites", "Detail sites kept per cell, those with the largest shares of its face", "",
+                         {1, 2, 4}, [](ReportConfig& c, double v) { c.detailsKept = static_cast<uint32_t>(v); }));
   knobs.push_back(steinerKnob());
   knobs.push_back(walkGraphKnob());
   for (const Lattice& lattice : lattices()) {
@@ -176,8 +210,9 @@ std::vector<Knob> drawingKnobs(bool walks) {
   knobs.push_back(refined(Method::kRaster));
   knobs.push_back(knobOf("layers", "1: a colour per cell; 2: detail; 3: view dependence", "", {1, 2, 3},
                          [](ReportConfig& c, double v) { c.layers = static_cast<uint32_t>(v); }));
-  knobs.push_back(logarithmic(knobOf("pixelSize", "Pixels of the output per pixel drawn, along a side; bilinear between", "pixels",
-                                     {1, 1.5, 2, 3, 4}, [](ReportConfig& c, double v) { c.pixelSize = v; })));
+  knobs.push_back(
+      logarithmic(knobOf("pixelSize", "Pixels of the output per pixel drawn, along a side; bilinear between", "pixels",
+                         {1, 1.5, 2, 3, 4}, [](ReportConfig& c, double v) { c.pixelSize = v; })));
   if (!walks) return knobs;
   knobs.push_back(cutoffKnob(Method::kWalk));
   knobs.push_back(refined(Method::kWalk));

@@ -33,8 +33,9 @@ Status ReportLog::read(const std::string& signature) {
   std::string line;
   std::getline(in, line);
   if (line != nlohmann::json(signature).dump()) {
-    return makeError(ErrorKind::kUsage, "%s: measured with other inputs or options (%s); leave out --resume to begin anew",
-                     file_.c_str(), line.substr(0, 200).c_str());
+    return makeError(ErrorKind::kUsage,
+                     "%s: measured with other inputs or options (%s); leave out --resume to begin anew", file_.c_str(),
+                     line.substr(0, 200).c_str());
   }
   while (std::getline(in, line)) {
     const nlohmann::ordered_json json = nlohmann::ordered_json::parse(line, nullptr, false);

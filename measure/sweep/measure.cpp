@@ -11,15 +11,17 @@ namespace {
 
 View shrink(const View& view, double pixelSize) {
   if (pixelSize == 1) return view;
-  const auto side = [&](uint32_t pixels) { return std::max(1u, static_cast<uint32_t>(std::lround(pixels / pixelSize))); };
+  const auto side = [&](uint32_t pixels) {
+    return std::max(1u, static_cast<uint32_t>(std::lround(pixels / pixelSize)));
+  };
   return resizeView(view, side(view.width), side(view.height));
 }
 
 Status describeAsset(const Bench& bench, PlannedPoint& planned) {
-  const Result<BakeRecord> record = bench.workshop.recordOf(planned.config);
+  const Result<BakeRecord> record = bench.bakes.recordOf(planned.config);
   if (!record) return record.error();
   planned.point.bakeSeconds = record->seconds;
-  const std::filesystem::path asset = bench.workshop.assetOf(planned.config);
+  const std::filesystem::path asset = bench.bakes.assetOf(planned.config);
   std::error_code error;
   planned.point.diskBytes = std::filesystem::file_size(asset, error);
   if (error) return makeError(ErrorKind::kIo, "%s: %s", asset.c_str(), error.message().c_str());
@@ -40,14 +42,14 @@ Status measureErrors(const Bench& bench, const std::vector<PlannedPoint*>& point
   std::future<Result<PointErrors>> compared;
   for (size_t i = 0; i < points.size(); ++i) {
     if (!report(progress, "errors", i, points.size())) return stoppedError();
-    Result<std::vector<RenderedImages>> images = bench.drawer.render(drawOf(bench, points[i]->config), {});
+    Result<std::vector<RenderedImages>> images = bench.renderer.render(drawOf(bench, points[i]->config), {});
     if (!images) return images.error();
     if (Status described = describeAsset(bench, *points[i]); !described) return described;
     if (i > 0) {
       if (Status kept = keepErrors(bench, compared.get(), *points[i - 1]); !kept) return kept;
     }
-    compared = std::async(std::launch::async, [&truth = bench.truth, taken = std::move(*images)]() mutable {
-      return truth.compare(std::move(taken));
+    compared = std::async(std::launch::async, [&references = bench.references, taken = std::move(*images)]() mutable {
+      return references.compare(std::move(taken));
     });
   }
   return points.empty() ? Status() : keepErrors(bench, compared.get(), *points.back());
@@ -59,7 +61,7 @@ Status measureTimes(const Bench& bench, const std::vector<PlannedPoint*>& points
     draws.push_back(drawOf(bench, planned->config));
     draws.back().options.isLinear = true;  // as a game draws
   }
-  const Result<std::vector<DrawTimes>> times = bench.drawer.time(draws, bench.rounds, progress);
+  const Result<std::vector<DrawTimes>> times = bench.renderer.time(draws, bench.rounds, progress);
   if (!times) return times.error();
   for (size_t i = 0; i < points.size(); ++i) {
     ReportPoint& point = points[i]->point;
@@ -76,7 +78,7 @@ Status measureTimes(const Bench& bench, const std::vector<PlannedPoint*>& points
 
 Draw drawOf(const Bench& bench, const ReportConfig& config) {
   Draw draw;
-  draw.asset = bench.workshop.assetOf(config);
+  draw.asset = bench.bakes.assetOf(config);
   draw.layers = config.layers;
   draw.options.method = config.method;
   draw.options.cutoff = config.cutoff;
@@ -100,14 +102,15 @@ Status measurePoints(const Bench& bench, std::vector<PlannedPoint*> points, cons
   for (const PlannedPoint* planned : points) {
     if (!planned->hasErrors || (planned->isTimed && !planned->hasTimes)) configs.push_back(planned->config);
   }
-  if (Status baked = bench.workshop.bake(configs, progress); !baked) return baked;
+  if (Status baked = bench.bakes.bake(configs, progress); !baked) return baked;
   if (Status measured = measureErrors(bench, unseen, progress); !measured) return measured;
   return measureTimes(bench, untimed, progress);
 }
 
 void takeOver(const std::vector<ReportPoint>& found, PointList& points) {
   for (PlannedPoint& planned : points.all()) {
-    const auto old = std::find_if(found.begin(), found.end(), [&](const ReportPoint& point) { return point.id == planned.point.id; });
+    const auto old = std::find_if(found.begin(), found.end(),
+                                  [&](const ReportPoint& point) { return point.id == planned.point.id; });
     if (old == found.end()) continue;
     planned.point = *old;
     planned.hasErrors = true;

@@ -3,23 +3,23 @@
 
 #include <vector>
 
+#include "measure/sweep/bake_cache.h"
 #include "measure/sweep/drawing.h"
 #include "measure/sweep/log.h"
 #include "measure/sweep/points.h"
-#include "measure/sweep/truth.h"
-#include "measure/sweep/workshop.h"
+#include "measure/sweep/references.h"
 
 namespace froth {
 
 // Refers to all of its parts.
 struct Bench {
-  Workshop& workshop;
-  Drawer& drawer;
-  const ReportTruth& truth;
+  BakeCache& bakes;
+  SweepRenderer& renderer;
+  const SweepReferences& references;
   const std::vector<SelectedView>& views;
   ReportLog& log;
   Rounds rounds;
-  bool walks = true;  // assets hold a walk graph, and the drawer walks
+  bool walks = true;  // assets hold a walk graph, and the renderer walks
 };
 
 Draw drawOf(const Bench& bench, const ReportConfig& config);

@@ -51,8 +51,6 @@ std::vector<Sweep> PointList::addSweeps(const std::vector<Knob>& knobs) {
   return sweeps;
 }
 
-PlannedPoint& PointList::at(const std::string& id) {
-  return points_[idPlaces_.at(id)];
-}
+PlannedPoint& PointList::at(const std::string& id) { return points_[idPlaces_.at(id)]; }
 
 }  // namespace froth

@@ -34,7 +34,7 @@ class PointList {
  private:
   bool isCpu_;
   std::vector<PlannedPoint> points_;
-  std::map<std::string, size_t> places_;     // by configKey
+  std::map<std::string, size_t> places_;  // by configKey
   std::map<std::string, size_t> idPlaces_;
 };
 

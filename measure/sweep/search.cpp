@@ -9,8 +9,8 @@
 namespace froth {
 namespace {
 
-constexpr size_t kBatch = 8;       // configurations that are baked together
-constexpr int kMaxDraws = 1000;    // of a configuration that is new
+constexpr size_t kBatch = 8;     // configurations that are baked together
+constexpr int kMaxDraws = 1000;  // of a configuration that is new
 
 struct Candidate {
   ReportConfig config;
@@ -23,7 +23,9 @@ class CandidateSource {
     // A preset sets what the others turn; larger pixels lie beside all of these.
     for (const Knob& knob : knobs) {
       const std::string& name = knob.sweep.knob;
-      if (!knob.isConvergence && knob.method == Method::kRaster && name != "preset" && name != "walkGraph") knobs_.push_back(knob);
+      if (!knob.isConvergence && knob.method == Method::kRaster && name != "preset" && name != "walkGraph") {
+        knobs_.push_back(knob);
+      }
     }
   }
 
@@ -70,14 +72,16 @@ std::vector<const PlannedPoint*> pointsOnFronts(PointList& points, const std::st
 
 }  // namespace
 
-Status searchJointly(const Bench& bench, const std::vector<Knob>& knobs, double seconds, uint64_t seed, PointList& points,
-                     const Progress& progress) {
+Status searchJointly(const Bench& bench, const std::vector<Knob>& knobs, double seconds, uint64_t seed,
+                     PointList& points, const Progress& progress) {
   using Seconds = std::chrono::duration<double>;
   const auto start = std::chrono::steady_clock::now();
   const std::string renderer = points.all().front().point.renderer;
   CandidateSource source(knobs, seed);
   for (double spent = 0; spent < seconds; spent = Seconds(std::chrono::steady_clock::now() - start).count()) {
-    if (!report(progress, "search [s]", static_cast<uint64_t>(spent), static_cast<uint64_t>(seconds))) return stoppedError();
+    if (!report(progress, "search [s]", static_cast<uint64_t>(spent), static_cast<uint64_t>(seconds))) {
+      return stoppedError();
+    }
     const std::vector<const PlannedPoint*> parents = pointsOnFronts(points, renderer);
     if (parents.empty() || source.isEmpty()) return {};
     std::vector<Candidate> batch;

@@ -12,13 +12,15 @@ namespace {
 constexpr uint32_t kMaxCells = 500'000;  // of the most copies, unless the foam alone has more
 constexpr uint32_t kMaxCopies = 16;
 constexpr uint32_t kOutsideViews = 4;
-// What a half float loses of a colour below one: detail sites are kept in halves between the passes (shaders/shade_sites.comp).
+// What a half float loses of a colour below one: detail sites are kept in halves between the passes
+// (shaders/shade_sites.comp).
 constexpr double kHalfRounding = 0x1p-12;
 constexpr double kMoreThanNoise = 1.05;
 constexpr double kFixedCost = 1;  // fitSlope's factor: no floor is cut off
 
-// What a ray loses at a cut-off is at most that much of a colour, which seldom is above two; a slope alone would not see a
-// cut-off that is off by a factor. Edges that rounding moves are in the images of every cut-off, the first and smallest too.
+// What a ray loses at a cut-off is at most that much of a colour, which seldom is above two; a slope alone would not
+// see a cut-off that is off by a factor. Edges that rounding moves are in the images of every cut-off, the first and
+// smallest too.
 void checkCutoffs(PointList& points, const Sweep& sweep, Slope& slope) {
   constexpr double kLargestColour = 2;
   const double rounding = points.at(sweep.points.front()).point.errors.maxError + 2 * kHalfRounding;
@@ -32,13 +34,14 @@ void checkCutoffs(PointList& points, const Sweep& sweep, Slope& slope) {
   }
 }
 
-// A lattice that is coarser than asked for has the right slope; what tells it is the largest error of the values that the bake
-// stored.
-Status checkLattice(const Bench& bench, const Foam& foam, const Knob& knob, PointList& points, const Sweep& sweep, Slope& slope) {
+// A lattice that is coarser than asked for has the right slope; what tells it is the largest error of the values that
+// the bake stored.
+Status checkLattice(const Bench& bench, const Foam& foam, const Knob& knob, PointList& points, const Sweep& sweep,
+                    Slope& slope) {
   constexpr double kFloatRounding = 0x1p-8;  // of the bound: floats near a tie may go either way
   for (const std::string& id : sweep.points) {
     const PlannedPoint& planned = points.at(id);
-    const Result<BakeRecord> record = bench.workshop.recordOf(planned.config);
+    const Result<BakeRecord> record = bench.bakes.recordOf(planned.config);
     if (!record) return record.error();
     const auto found = record->largestErrors.find(knob.attribute);
     const double bits = placeOnSweep(sweep, planned.point).number;
@@ -46,13 +49,15 @@ Status checkLattice(const Bench& bench, const Foam& foam, const Knob& knob, Poin
     if (found != record->largestErrors.end() && found->second <= most * (1 + kFloatRounding)) continue;
     const double error = found == record->largestErrors.end() ? NAN : found->second;
     slope.verdict = kVerdictOverBound;
-    slope.note = fmt::format("{} off by {:.3g} at {:g} bits, where half a step is {:.3g}", knob.attribute, error, bits, most);
+    slope.note =
+        fmt::format("{} off by {:.3g} at {:g} bits, where half a step is {:.3g}", knob.attribute, error, bits, most);
     return {};
   }
   return {};
 }
 
-// Views from a ring around the box, at 1.65 times half of its longest side from its middle: half of a foam of copies is in view.
+// Views from a ring around the box, at 1.65 times half of its longest side from its middle: half of a foam of copies is
+// in view.
 std::vector<View> viewsFromOutside(const Foam& foam, const View& like) {
   glm::dvec3 low(foam.sites[0]), high(foam.sites[0]);
   for (const glm::vec3& site : foam.sites) {
@@ -85,11 +90,13 @@ Slope timeSlope(const std::string& what, const std::vector<double>& x, const std
   Slope slope = fitSlope(what, 1, x, y, kFixedCost);
   if (slope.verdict != kVerdictTooFew) {
     slope.verdict = slope.measured <= 1.15 ? kVerdictAsDerived : kVerdictOtherOrder;
-    slope.note = slope.measured <= 1.15 ? "at most in proportion; below it by what does not grow along" : "grows faster than in proportion";
+    slope.note = slope.measured <= 1.15 ? "at most in proportion; below it by what does not grow along"
+                                        : "grows faster than in proportion";
   }
   for (size_t i = 0; i + 1 < slope.y.size(); ++i) {
-    if (slope.y[i] > kMoreThanNoise * slope.y[i + 1])
+    if (slope.y[i] > kMoreThanNoise * slope.y[i + 1]) {
       slope.note += fmt::format("; {:.3g} takes longer than {:.3g}", slope.x[i], slope.x[i + 1]);
+    }
   }
   return slope;
 }
@@ -106,8 +113,9 @@ Result<std::vector<Slope>> errorSlopes(const Bench& bench, const Foam& foam, con
     if (sweep.expectedOrder == 0) continue;
     const std::string renderer = points.at(sweep.points.front()).point.renderer;
     Slope slope = fitConvergence(measured, sweep, renderer);
-    if (renderer != "cpu" && slope.floor > 0 && slope.floor < kHalfRounding)
+    if (renderer != "cpu" && slope.floor > 0 && slope.floor < kHalfRounding) {
       slope.note += "; half-float colours of detail sites between the passes";
+    }
     if (sweep.knob.starts_with("cutoff")) checkCutoffs(points, sweep, slope);
     if (knobs[i].mostError) {
       if (Status checked = checkLattice(bench, foam, knobs[i], points, sweep, slope); !checked) return checked.error();
@@ -131,7 +139,7 @@ Status addPixelSlopes(const Bench& bench, std::vector<Slope>& slopes, const Prog
       draws.push_back(drawOf(bench, config));
       pixels.push_back(double{1} * draws.back().views[0].width * draws.back().views[0].height);
     }
-    const Result<std::vector<DrawTimes>> measured = bench.drawer.time(draws, bench.rounds, progress);
+    const Result<std::vector<DrawTimes>> measured = bench.renderer.time(draws, bench.rounds, progress);
     if (!measured) return measured.error();
     for (const DrawTimes& one : *measured) times.push_back(one.total.median);
     slopes.push_back(timeSlope(fmt::format("{}: ms over pixels", info.name), pixels, times));
@@ -143,13 +151,14 @@ Status addPixelSlopes(const Bench& bench, std::vector<Slope>& slopes, const Prog
 Status addCellSlopes(const Bench& bench, const FoamInput& input, std::vector<Slope>& slopes, const Progress& progress) {
   std::vector<Draw> draws;
   std::vector<double> cells, times, bakes;
-  for (uint32_t copies = 1; copies <= kMaxCopies && (copies == 1 || copies * input.foam.cellCount <= kMaxCells); copies *= 2) {
+  for (uint32_t copies = 1; copies <= kMaxCopies && (copies == 1 || copies * input.foam.cellCount <= kMaxCells);
+       copies *= 2) {
     ReportConfig config = defaultConfig();
     config.knobs = exactConfig().knobs;  // compressed colours only add what grows with the cells
     config.copies = copies;
     config.hasCameras = false;
-    if (Status done = bench.workshop.bake({&config, 1}, progress); !done) return done;
-    const Result<BakeRecord> record = bench.workshop.recordOf(config);
+    if (Status done = bench.bakes.bake({&config, 1}, progress); !done) return done;
+    const Result<BakeRecord> record = bench.bakes.recordOf(config);
     if (!record) return record.error();
     Draw draw = drawOf(bench, config);
     const Result<FoamInput> baked = loadFoam(draw.asset, {}, 1);
@@ -159,7 +168,7 @@ Status addCellSlopes(const Bench& bench, const FoamInput& input, std::vector<Slo
     draw.views = viewsFromOutside(baked->foam, bench.views[0].view);
     draws.push_back(std::move(draw));
   }
-  const Result<std::vector<DrawTimes>> measured = bench.drawer.time(draws, bench.rounds, progress);
+  const Result<std::vector<DrawTimes>> measured = bench.renderer.time(draws, bench.rounds, progress);
   if (!measured) return measured.error();
   for (const DrawTimes& one : *measured) times.push_back(one.total.median);
   slopes.push_back(timeSlope("raster: ms over cells", cells, times));
@@ -169,7 +178,8 @@ Status addCellSlopes(const Bench& bench, const FoamInput& input, std::vector<Slo
 
 }  // namespace
 
-Result<std::vector<Slope>> timeSlopes(const Bench& bench, const FoamInput& input, bool hasFoam, const Progress& progress) {
+Result<std::vector<Slope>> timeSlopes(const Bench& bench, const FoamInput& input, bool hasFoam,
+                                      const Progress& progress) {
   std::vector<Slope> slopes;
   if (Status added = addPixelSlopes(bench, slopes, progress); !added) return added.error();
   if (!hasFoam) return slopes;

@@ -11,8 +11,9 @@ namespace froth {
 Result<std::vector<Slope>> errorSlopes(const Bench& bench, const Foam& foam, const std::vector<Knob>& knobs,
                                        const std::vector<Sweep>& sweeps, PointList& points);
 
-// Frame over pixels, for raster and walk, of the default asset; frame and bake over cells, of copies of the foam side by side
-// seen from outside (without a foam: pixels alone).
-Result<std::vector<Slope>> timeSlopes(const Bench& bench, const FoamInput& input, bool hasFoam, const Progress& progress);
+// Frame over pixels, for raster and walk, of the default asset; frame and bake over cells, of copies of the foam side
+// by side seen from outside (without a foam: pixels alone).
+Result<std::vector<Slope>> timeSlopes(const Bench& bench, const FoamInput& input, bool hasFoam,
+                                      const Progress& progress);
 
 }  // namespace froth

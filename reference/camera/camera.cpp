@@ -14,15 +14,15 @@ constexpr uint32_t kMaxViewSide = 65536;
 constexpr double kRotationTolerance = 1e-4;
 
 Error fieldError(const std::string& place, const char* field, double found, const char* remedy) {
-  return makeError(ErrorKind::kBadInput, "%s, field '%s': found %.9g; %s", place.c_str(), field, found,
-                   remedy);
+  return makeError(ErrorKind::kBadInput, "%s, field '%s': found %.9g; %s", place.c_str(), field, found, remedy);
 }
 
 Status checkIntrinsics(const View& view, const std::string& place) {
   const std::pair<const char*, double> lengths[] = {{"fx", view.fx}, {"fy", view.fy}};
   for (const auto& [field, length] : lengths) {
-    if (!std::isfinite(length) || length <= 0)
+    if (!std::isfinite(length) || length <= 0) {
       return fieldError(place, field, length, "give a focal length > 0 in pixels");
+    }
   }
   const std::pair<const char*, double> centres[] = {{"cx", view.cx}, {"cy", view.cy}};
   for (const auto& [field, centre] : centres) {
@@ -35,8 +35,7 @@ Status checkLens(const View& view, const std::string& place) {
   const Lens& lens = view.lens;
   const size_t count = lens.distortion.size();
   for (double coefficient : lens.distortion) {
-    if (!std::isfinite(coefficient))
-      return fieldError(place, "distortion", coefficient, "give finite numbers");
+    if (!std::isfinite(coefficient)) return fieldError(place, "distortion", coefficient, "give finite numbers");
   }
   if (lens.kind == LensKind::kKannalaBrandt && count != 4) {
     return fieldError(place, "distortion", double(count), "as the count of its numbers; give k1, k2, k3, k4");
@@ -45,8 +44,7 @@ Status checkLens(const View& view, const std::string& place) {
     return fieldError(place, "distortion", double(count),
                       "as the count of its numbers; give k1, k2, p1, p2, and then k3, or k3, k4, k5, k6");
   }
-  const bool isDistorted =
-      lens.kind == LensKind::kKannalaBrandt || lens.kind == LensKind::kRadialTangential;
+  const bool isDistorted = lens.kind == LensKind::kKannalaBrandt || lens.kind == LensKind::kRadialTangential;
   if (!isDistorted && count != 0) {
     return fieldError(place, "distortion", double(count),
                       "as the count of its numbers, for a lens without any; remove it, or name its lens");
@@ -56,8 +54,9 @@ Status checkLens(const View& view, const std::string& place) {
                      place.c_str());
   }
   if (lens.rays && (lens.rays->width != view.width || lens.rays->height != view.height)) {
-    return makeError(ErrorKind::kBadInput, "%s, field 'rays': found %u x %u rays for %u x %u pixels; give one per pixel",
-                     place.c_str(), lens.rays->width, lens.rays->height, view.width, view.height);
+    return makeError(ErrorKind::kBadInput,
+                     "%s, field 'rays': found %u x %u rays for %u x %u pixels; give one per pixel", place.c_str(),
+                     lens.rays->width, lens.rays->height, view.width, view.height);
   }
   return lens.kind == LensKind::kRayMap ? Status() : checkIntrinsics(view, place);
 }
@@ -78,8 +77,8 @@ Status checkRotation(const View& view, const std::string& place) {
       }
     }
   }
-  const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
-                             m[2] * (m[4] * m[9] - m[5] * m[8]);
+  const double determinant =
+      m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) + m[2] * (m[4] * m[9] - m[5] * m[8]);
   if (determinant < 0) {
     return fieldError(place, "world_from_camera", determinant,
                       "as its determinant: it mirrors; camera axes are x right, y down, z forward");
@@ -98,8 +97,7 @@ Status checkView(const View& view, const std::string& place) {
   const std::pair<const char*, double> limits[] = {{"near_depth", view.nearDepth.value_or(0)},
                                                    {"near_ratio", view.nearRatio.value_or(0)}};
   for (const auto& [field, limit] : limits) {
-    if (!std::isfinite(limit) || limit < 0)
-      return fieldError(place, field, limit, "give a number >= 0 (0: test off)");
+    if (!std::isfinite(limit) || limit < 0) return fieldError(place, field, limit, "give a number >= 0 (0: test off)");
   }
   for (double entry : view.worldFromCamera) {
     if (!std::isfinite(entry)) return fieldError(place, "world_from_camera", entry, "give finite numbers");
@@ -107,9 +105,7 @@ Status checkView(const View& view, const std::string& place) {
   return checkRotation(view, place);
 }
 
-bool looksForward(LensKind kind) {
-  return kind == LensKind::kPinhole || kind == LensKind::kRadialTangential;
-}
+bool looksForward(LensKind kind) { return kind == LensKind::kPinhole || kind == LensKind::kRadialTangential; }
 
 View resizeView(const View& view, uint32_t width, uint32_t height) {
   View resized = view;

@@ -41,8 +41,9 @@ bool looksForward(LensKind kind);
 struct View {
   std::string name;  // the photo's file name, or "view_03"
   uint32_t width = 0, height = 0;
-  // [pixels] centre of the image, and pixels per unit of what the lens draws: tangents of angles (pinhole, radial-tangential),
-  // radians (fisheye, Kannala-Brandt, equirectangular) or scene units (orthographic). A ray map has none.
+  // [pixels] centre of the image, and pixels per unit of what the lens draws: tangents of angles (pinhole,
+  // radial-tangential), radians (fisheye, Kannala-Brandt, equirectangular) or scene units (orthographic). A ray map has
+  // none.
   double fx = 0, fy = 0, cx = 0, cy = 0;
   Lens lens;
   std::array<double, 12> worldFromCamera{};  // 3 rows of 4
@@ -53,13 +54,13 @@ struct View {
 };
 
 struct CameraSet {
-  std::string scene;          // folder of the photos, relative to the data root; may be empty
-  std::vector<View> views;    // test views
-  std::vector<View> flight;   // key frames of a flight path; may be empty
+  std::string scene;         // folder of the photos, relative to the data root; may be empty
+  std::vector<View> views;   // test views
+  std::vector<View> flight;  // key frames of a flight path; may be empty
 };
 
-// Views and intrinsics are checked: positive sizes and focal lengths, finite numbers, rotation orthonormal to 1e-4. Ray maps are
-// read from the same folder.
+// Views and intrinsics are checked: positive sizes and focal lengths, finite numbers, rotation orthonormal to 1e-4. Ray
+// maps are read from the same folder.
 Result<CameraSet> readCameras(const std::filesystem::path& path);
 // The same from memory; `file` stands for it in messages. Ray maps are named, not read.
 Result<CameraSet> parseCameras(std::span<const uint8_t> bytes, const std::string& file);

@@ -17,16 +17,15 @@ using Json = nlohmann::json;
 using WrittenJson = nlohmann::ordered_json;  // keeps keys in their order; many take it quadratic time
 
 // As cameras.json names the lenses, in the order of LensKind.
-constexpr const char* kLensNames[] = {"pinhole",          "fisheye",      "kannala_brandt", "radial_tangential",
-                                      "equirectangular", "ray_map",      "orthographic"};
+constexpr const char* kLensNames[] = {"pinhole",         "fisheye", "kannala_brandt", "radial_tangential",
+                                      "equirectangular", "ray_map", "orthographic"};
 
 // Fields of one JSON object. The first fault is kept; later reads then return defaults.
 class FieldReader {
  public:
   FieldReader(const Json& object, std::string place) : object_(object), place_(std::move(place)) {
     if (!object.is_object()) {
-      error_ =
-          makeError(ErrorKind::kBadInput, "%s: found %s; give an object", place_.c_str(), object.type_name());
+      error_ = makeError(ErrorKind::kBadInput, "%s: found %s; give an object", place_.c_str(), object.type_name());
     }
   }
 
@@ -36,8 +35,7 @@ class FieldReader {
     for (const auto& [key, value] : object_.items()) {
       const bool isKnown = std::find(known.begin(), known.end(), key) != known.end();
       if (!isKnown) {
-        return fail(key.c_str(), "an unknown field",
-                    "remove it, or check its spelling against docs/CAMERAS.md");
+        return fail(key.c_str(), "an unknown field", "remove it, or check its spelling against docs/CAMERAS.md");
       }
     }
   }
@@ -113,9 +111,9 @@ class FieldReader {
     std::array<double, 12> pose{};
     const Json* rows = require(key);
     if (!rows) return pose;
-    const bool isMatrix = rows->is_array() && rows->size() == 3 &&
-                          std::all_of(rows->begin(), rows->end(),
-                                      [](const Json& row) { return row.is_array() && row.size() == 4; });
+    const bool isMatrix =
+        rows->is_array() && rows->size() == 3 &&
+        std::all_of(rows->begin(), rows->end(), [](const Json& row) { return row.is_array() && row.size() == 4; });
     if (!isMatrix) {
       fail(key, describe(*rows), "give three rows of four numbers");
       return pose;
@@ -126,8 +124,8 @@ class FieldReader {
 
   void fail(const char* key, const std::string& found, const char* remedy) {
     if (error_) return;
-    error_ = makeError(ErrorKind::kBadInput, "%s, field '%s': found %s; %s", place_.c_str(), key,
-                       found.c_str(), remedy);
+    error_ =
+        makeError(ErrorKind::kBadInput, "%s, field '%s': found %s; %s", place_.c_str(), key, found.c_str(), remedy);
   }
 
   const std::optional<Error>& error() const { return error_; }
@@ -137,9 +135,8 @@ class FieldReader {
   // A file may nest values as deep as it is long, and dump() recurses.
   static bool isDeeperThan(const Json& value, int levels) {
     return value.is_structured() &&
-           (levels == 0 || std::any_of(value.begin(), value.end(), [levels](const Json& child) {
-              return isDeeperThan(child, levels - 1);
-            }));
+           (levels == 0 || std::any_of(value.begin(), value.end(),
+                                       [levels](const Json& child) { return isDeeperThan(child, levels - 1); }));
   }
 
   static std::string describe(const Json& value) {
@@ -182,8 +179,7 @@ void readLens(FieldReader& fields, View& view) {
     return;
   }
   if (!isAbsent("rays")) fields.fail("rays", "a file", "remove it, or write \"lens\": \"ray_map\"");
-  if (lens.kind == LensKind::kEquirectangular && isAbsent("fx") && isAbsent("fy") && isAbsent("cx") &&
-      isAbsent("cy")) {
+  if (lens.kind == LensKind::kEquirectangular && isAbsent("fx") && isAbsent("fy") && isAbsent("cx") && isAbsent("cy")) {
     constexpr double kPi = 3.14159265358979323846;
     view.fx = view.width / (2 * kPi);  // all around
     view.fy = view.height / kPi;
@@ -233,8 +229,8 @@ Result<std::vector<View>> readViews(const Json& root, const char* list, const st
   const auto it = root.find(list);
   if (it == root.end()) return views;
   if (!it->is_array()) {
-    return makeError(ErrorKind::kBadInput, "%s: field '%s': found %s; give an array of views", file.c_str(),
-                     list, it->type_name());
+    return makeError(ErrorKind::kBadInput, "%s: field '%s': found %s; give an array of views", file.c_str(), list,
+                     it->type_name());
   }
   for (size_t i = 0; i < it->size(); ++i) {
     char defaultName[32];
@@ -257,8 +253,7 @@ WrittenJson toJson(const View& view) {
   } else {
     object.update({{"fx", view.fx}, {"fy", view.fy}, {"cx", view.cx}, {"cy", view.cy}});
   }
-  object["world_from_camera"] = {
-      {m[0], m[1], m[2], m[3]}, {m[4], m[5], m[6], m[7]}, {m[8], m[9], m[10], m[11]}};
+  object["world_from_camera"] = {{m[0], m[1], m[2], m[3]}, {m[4], m[5], m[6], m[7]}, {m[8], m[9], m[10], m[11]}};
   if (view.nearDepth) object["near_depth"] = *view.nearDepth;
   if (view.nearRatio) object["near_ratio"] = *view.nearRatio;
   if (view.referencePsnr != 0) object["reference_psnr"] = view.referencePsnr;

@@ -32,10 +32,9 @@ Result<RayMap> readRayMap(const std::filesystem::path& path, uint32_t width, uin
   std::error_code error;
   const uint64_t size = std::filesystem::file_size(path, error);
   if (!error && size != expected) {
-    return makeError(ErrorKind::kBadInput,
-                     "%s: found %llu bytes; give %llu: three floats for each of %u x %u pixels", path.c_str(),
-                     static_cast<unsigned long long>(size), static_cast<unsigned long long>(expected), width,
-                     height);
+    return makeError(ErrorKind::kBadInput, "%s: found %llu bytes; give %llu: three floats for each of %u x %u pixels",
+                     path.c_str(), static_cast<unsigned long long>(size), static_cast<unsigned long long>(expected),
+                     width, height);
   }
   const Result<std::vector<uint8_t>> bytes = readFile(path);
   if (!bytes) return bytes.error();
@@ -57,8 +56,8 @@ Result<RayMap> readRayMap(const std::filesystem::path& path, uint32_t width, uin
 }
 
 Status writeRayMap(const std::filesystem::path& path, const RayMap& map) {
-  return writeFileAtomically(path, {reinterpret_cast<const uint8_t*>(map.directions.data()),
-                                    map.directions.size() * sizeof(glm::vec3)});
+  return writeFileAtomically(
+      path, {reinterpret_cast<const uint8_t*>(map.directions.data()), map.directions.size() * sizeof(glm::vec3)});
 }
 
 RayMap resizeRayMap(const RayMap& map, uint32_t width, uint32_t height) {

@@ -17,8 +17,8 @@ struct RayMap {
   std::vector<glm::vec3> directions;  // [height * width] camera axes, of unit length, or 0: the pixel has no ray
 };
 
-// Raw little-endian floats, three per pixel, row-major from the top left. Lengths need not be 1. Fails where the file has another
-// length or holds a number that is not finite.
+// Raw little-endian floats, three per pixel, row-major from the top left. Lengths need not be 1. Fails where the file
+// has another length or holds a number that is not finite.
 Result<RayMap> readRayMap(const std::filesystem::path& path, uint32_t width, uint32_t height);
 Status writeRayMap(const std::filesystem::path& path, const RayMap& map);
 

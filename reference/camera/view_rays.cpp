@@ -42,8 +42,7 @@ std::optional<ViewRay> ViewRays::at(double x, double y) const {
     return std::nullopt;
   }
   const bool isOrthographic = view_.lens.kind == LensKind::kOrthographic;
-  return ViewRay{isOrthographic ? toWorld({point.x, point.y, 0}) : glm::dvec3(0),
-                 glm::normalize(toWorld(direction))};
+  return ViewRay{isOrthographic ? toWorld({point.x, point.y, 0}) : glm::dvec3(0), glm::normalize(toWorld(direction))};
 }
 
 glm::dvec3 ViewRays::toWorld(const glm::dvec3& d) const {

@@ -30,8 +30,8 @@ class ViewRays {
   // Keeps a reference to the view.
   explicit ViewRays(const View& view);
 
-  // Through a point of the image [pixels; the centre of pixel (0, 0) is (0.5, 0.5)]; none where the lens sees nothing. A ray
-  // map gives the ray of the pixel that holds the point.
+  // Through a point of the image [pixels; the centre of pixel (0, 0) is (0.5, 0.5)]; none where the lens sees nothing.
+  // A ray map gives the ray of the pixel that holds the point.
   std::optional<ViewRay> at(double x, double y) const;
   std::optional<ViewRay> ofPixel(uint32_t x, uint32_t y) const { return at(x + 0.5, y + 0.5); }
 

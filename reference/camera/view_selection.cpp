@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-
 namespace froth {
 namespace {
 
@@ -22,8 +21,7 @@ std::optional<Size> parseSize(const std::string& text) {
   if (widthError != std::errc{} || cross == end || *cross != 'x') return std::nullopt;
   const auto [rest, heightError] = std::from_chars(cross + 1, end, size.height);
   if (heightError != std::errc{} || rest != end) return std::nullopt;
-  if (size.width == 0 || size.height == 0 || size.width > kMaxExtent || size.height > kMaxExtent)
-    return std::nullopt;
+  if (size.width == 0 || size.height == 0 || size.width > kMaxExtent || size.height > kMaxExtent) return std::nullopt;
   return size;
 }
 
@@ -31,8 +29,7 @@ std::optional<Size> parseSize(const std::string& text) {
 
 std::string checkSize(const std::string& text) {
   if (parseSize(text)) return {};
-  return fmt::format("'{}' is not a size; write WIDTHxHEIGHT, each 1 to {}, as in 1319x989", text,
-                     kMaxExtent);
+  return fmt::format("'{}' is not a size; write WIDTHxHEIGHT, each 1 to {}, as in 1319x989", text, kMaxExtent);
 }
 
 Result<std::vector<SelectedView>> selectViews(const ViewOptions& options) {
@@ -44,8 +41,8 @@ Result<std::vector<SelectedView>> selectViews(const ViewOptions& options) {
   }
   const size_t count = cameras->views.size();
   if (options.view && *options.view >= count) {
-    return makeError(ErrorKind::kUsage, "--view %zu: %s has %zu views; give 0 to %zu", *options.view,
-                     file.c_str(), count, count - 1);
+    return makeError(ErrorKind::kUsage, "--view %zu: %s has %zu views; give 0 to %zu", *options.view, file.c_str(),
+                     count, count - 1);
   }
 
   const std::optional<Size> size = parseSize(options.size);

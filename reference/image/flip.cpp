@@ -67,9 +67,7 @@ Colour huntFromLinear(Colour linear) {
 }
 
 // Far-apart colours: city block along lightness, Euclidean in chroma (HyAB; section 4.1.3).
-float hybridDistance(Colour a, Colour b) {
-  return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
-}
+float hybridDistance(Colour a, Colour b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
 
 // --- Filters. All of them are products of a filter along rows and one along columns; the image's edge goes
 // on outside it.
@@ -94,9 +92,7 @@ Kernel scaled(Kernel kernel, double factor) {
   return kernel;
 }
 
-Kernel normalized(const Kernel& kernel) {
-  return scaled(kernel, 1 / sumOf(kernel));
-}
+Kernel normalized(const Kernel& kernel) { return scaled(kernel, 1 / sumOf(kernel)); }
 
 // Positive and negative weights each sum to one (section 4.2): a step of full height then measures 1.
 Kernel balanced(Kernel kernel) {
@@ -153,9 +149,8 @@ struct ContrastKernels {
     // Three deviations of the widest Gaussian.
     const int radius = int(std::ceil(3 * std::sqrt(kBlueYellow[0][1] / (2 * kPi * kPi)) * pixelsPerDegree));
     const auto gaussian = [&](double b) {
-      return sampleKernel(radius, [&](double i) {
-        return std::exp(-kPi * kPi * i * i / (pixelsPerDegree * pixelsPerDegree * b));
-      });
+      return sampleKernel(
+          radius, [&](double i) { return std::exp(-kPi * kPi * i * i / (pixelsPerDegree * pixelsPerDegree * b)); });
     };
     luminance = normalized(gaussian(kLuminanceB));
     redGreen = normalized(gaussian(kRedGreenB));
@@ -167,8 +162,7 @@ struct ContrastKernels {
       weights[g] = kBlueYellow[g][0] * std::sqrt(kPi / kBlueYellow[g][1]);
       total += weights[g] * line * line;
     }
-    for (int g = 0; g < 2; ++g)
-      blueYellow[g] = scaled(gaussian(kBlueYellow[g][1]), std::sqrt(weights[g] / total));
+    for (int g = 0; g < 2; ++g) blueYellow[g] = scaled(gaussian(kBlueYellow[g][1]), std::sqrt(weights[g] / total));
   }
 };
 
@@ -184,14 +178,13 @@ struct FeatureKernels {
     const auto gaussian = [&](double i) { return std::exp(-i * i / (2 * deviation * deviation)); };
     smooth = normalized(sampleKernel(radius, gaussian));
     edge = balanced(sampleKernel(radius, [&](double i) { return -i * gaussian(i); }));
-    point = balanced(
-        sampleKernel(radius, [&](double i) { return (i * i / (deviation * deviation) - 1) * gaussian(i); }));
+    point =
+        balanced(sampleKernel(radius, [&](double i) { return (i * i / (deviation * deviation) - 1) * gaussian(i); }));
   }
 };
 
 // Length of the vector of the detector's answers along x and y.
-Plane featureLength(const Plane& grey, uint32_t width, uint32_t height, const Kernel& detector,
-                    const Kernel& smooth) {
+Plane featureLength(const Plane& grey, uint32_t width, uint32_t height, const Kernel& detector, const Kernel& smooth) {
   const Plane alongX = filterColumns(filterRows(grey, width, height, detector), width, height, smooth);
   Plane length = filterRows(filterColumns(grey, width, height, detector), width, height, smooth);
   for (size_t p = 0; p < length.size(); ++p) length[p] = std::hypot(alongX[p], length[p]);
@@ -246,9 +239,8 @@ float featureDifference(float edgeA, float edgeB, float pointA, float pointB) {
 
 Result<FlipImage> prepareFlip(const Image& image, double pixelsPerDegree) {
   if (image.width == 0 || image.height == 0 || !(pixelsPerDegree > 0) || !std::isfinite(pixelsPerDegree)) {
-    return makeError(ErrorKind::kBadInput,
-                     "FLIP of %u x %u pixels at %g pixels per degree: all must be above 0", image.width,
-                     image.height, pixelsPerDegree);
+    return makeError(ErrorKind::kBadInput, "FLIP of %u x %u pixels at %g pixels per degree: all must be above 0",
+                     image.width, image.height, pixelsPerDegree);
   }
   const uint32_t width = image.width, height = image.height;
   Opponents planes = splitOpponents(image);
@@ -262,8 +254,8 @@ Result<FlipImage> prepareFlip(const Image& image, double pixelsPerDegree) {
   const Plane second = filterBoth(planes.blueYellow, width, height, contrast.blueYellow[1]);
   tbb::parallel_for(uint32_t{0}, height, [&](uint32_t y) {
     for (size_t p = size_t{y} * width; p < size_t{y + 1} * width; ++p) {
-      const Colour seen = linearFromOpponent(
-          {prepared.lightness[p], prepared.redGreen[p], prepared.blueYellow[p] + second[p]});
+      const Colour seen =
+          linearFromOpponent({prepared.lightness[p], prepared.redGreen[p], prepared.blueYellow[p] + second[p]});
       const Colour lab = huntFromLinear(
           {std::clamp(seen.x, 0.0f, 1.0f), std::clamp(seen.y, 0.0f, 1.0f), std::clamp(seen.z, 0.0f, 1.0f)});
       prepared.lightness[p] = lab.x;
@@ -280,10 +272,9 @@ Result<FlipImage> prepareFlip(const Image& image, double pixelsPerDegree) {
 Result<FlipDifference> compareFlip(const FlipImage& reference, const FlipImage& test) {
   if (reference.width != test.width || reference.height != test.height ||
       reference.pixelsPerDegree != test.pixelsPerDegree) {
-    return makeError(ErrorKind::kBadInput,
-                     "cannot compare %u x %u pixels at %g per degree with %u x %u at %g; make both alike",
-                     reference.width, reference.height, reference.pixelsPerDegree, test.width, test.height,
-                     test.pixelsPerDegree);
+    return makeError(
+        ErrorKind::kBadInput, "cannot compare %u x %u pixels at %g per degree with %u x %u at %g; make both alike",
+        reference.width, reference.height, reference.pixelsPerDegree, test.width, test.height, test.pixelsPerDegree);
   }
   const float largest = largestColourDistance();
   FlipDifference difference;
@@ -294,8 +285,7 @@ Result<FlipDifference> compareFlip(const FlipImage& reference, const FlipImage& 
         return Colour{image.lightness[p], image.redGreen[p], image.blueYellow[p]};
       };
       const float colour = colourDifference(lab(reference), lab(test), largest);
-      const float feature =
-          featureDifference(reference.edges[p], test.edges[p], reference.points[p], test.points[p]);
+      const float feature = featureDifference(reference.edges[p], test.edges[p], reference.points[p], test.points[p]);
       const float error = std::pow(colour, 1 - feature);
       difference.map.values[p] = std::isnan(error) ? 1.0f : error;
     }
@@ -333,8 +323,7 @@ Image colourErrorMap(const Image& map) {
     const size_t below = std::min(size_t(place), kMagma.size() - 2);
     const float t = place - float(below);
     const Colour a = kMagma[below], b = kMagma[below + 1];
-    picture.values.insert(picture.values.end(),
-                          {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)});
+    picture.values.insert(picture.values.end(), {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)});
   }
   return picture;
 }

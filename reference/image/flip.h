@@ -6,8 +6,8 @@
 
 #include <vector>
 
+#include "base/image/image.h"
 #include "base/result.h"
-#include "reference/image/image.h"
 
 namespace froth {
 

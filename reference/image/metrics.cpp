@@ -8,8 +8,7 @@
 namespace froth {
 namespace {
 
-constexpr int kWindow =
-    11;  // SSIM (Wang et al. 2004): Gaussian window, sigma, and the two stabilizers for peak 1
+constexpr int kWindow = 11;  // SSIM (Wang et al. 2004): Gaussian window, sigma, and the two stabilizers for peak 1
 constexpr double kSigma = 1.5;
 constexpr double kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
 
@@ -17,9 +16,7 @@ constexpr double kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
 // step".
 constexpr double kStep = 1.0 / 255 + 1e-6;
 
-double clampUnit(float value) {
-  return std::clamp(double(value), 0.0, 1.0);
-}
+double clampUnit(float value) { return std::clamp(double(value), 0.0, 1.0); }
 
 double decibels(double meanSquare) {
   return meanSquare == 0 ? std::numeric_limits<double>::infinity() : -10 * std::log10(meanSquare);

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "base/image/image.h"
 #include "base/result.h"
-#include "reference/image/image.h"
 
 namespace froth {
 
@@ -16,11 +16,11 @@ struct ImageDifference {
   // Gaussian window 11x11, sigma 1.5, windows wholly inside, clamped to 0..1, mean over channels; NaN where a side has
   // fewer than 11 pixels.
   double ssim = 0;
-  double maxError = 0;     // largest absolute difference, not clamped; +inf where a value is NaN
-  double meanError = 0;    // mean absolute difference over pixels and channels, not clamped; +inf where a value is NaN
+  double maxError = 0;   // largest absolute difference, not clamped; +inf where a value is NaN
+  double meanError = 0;  // mean absolute difference over pixels and channels, not clamped; +inf where a value is NaN
   uint32_t worstX = 0, worstY = 0;  // the first pixel with the largest difference
-  double overOneStep = 0;  // share of pixels with a channel off by more than 1/255
-  double overTwoSteps = 0; // ... by more than 2/255
+  double overOneStep = 0;           // share of pixels with a channel off by more than 1/255
+  double overTwoSteps = 0;          // ... by more than 2/255
 };
 
 // Fails if sizes or channels differ.

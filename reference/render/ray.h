@@ -32,8 +32,8 @@ struct RayResult {
   glm::vec<3, Real> colour{0};
   glm::vec<3, Real> normal{0};
   Real logTransmittance = 0;
-  Real depth = -1;
-  uint32_t rank = UINT32_MAX;  // of the cell at depth, until there of the last one that showed
+  Real distance = -1;
+  uint32_t rank = UINT32_MAX;  // of the cell at distance, until there of the last one that showed
 };
 
 // What a ray sees of one cell: composited with weight T alpha, its details blended at `query` (foam::faceQuery).
@@ -55,7 +55,8 @@ template <class Real>
 bool clipByNeighbours(std::span<const ViewPlane<Real>> planes, const PrimaryRay<Real>& ray, BallHit<Real>& hit) {
   for (const ViewPlane<Real>& plane : planes) {
     const Real clearance = plane.clearance - glm::dot(plane.toNeighbour, ray.offset);
-    foam::clipByPlane(clearance, glm::dot(plane.toNeighbour, ray.direction), foam::comesFirst(plane.toNeighbour), hit.tNear, hit.tFar);
+    foam::clipByPlane(clearance, glm::dot(plane.toNeighbour, ray.direction), foam::comesFirst(plane.toNeighbour),
+                      hit.tNear, hit.tFar);
     if (!(hit.tNear < hit.tFar)) return false;
   }
   return true;
@@ -73,8 +74,8 @@ Real blendHeight(std::span<const ViewDetail<Real>> details, const glm::vec<3, Re
 }
 
 template <class Real>
-glm::vec<3, Real> blendColour(std::span<const ViewDetail<Real>> details, const glm::vec<3, Real>& query,
-                              Real sharpness, Real leastShare) {
+glm::vec<3, Real> blendColour(std::span<const ViewDetail<Real>> details, const glm::vec<3, Real>& query, Real sharpness,
+                              Real leastShare) {
   glm::vec<3, Real> sum(0);
   Real weightSum = 0, shownSum = 0;
   const auto addFrom = [&](Real leastWeight, Real& weights) {
@@ -94,20 +95,19 @@ glm::vec<3, Real> blendColour(std::span<const ViewDetail<Real>> details, const g
 
 // Where a ray gains opacity in one cell, with constant density and colour; none: tFar <= tNear.
 template <class Real>
-struct CellStretch {
+struct CellInterval {
   Real tNear = 0, tFar = 0;
   glm::vec<3, Real> query{0}, colour{0};
 };
 
 // Steps 3 to 6 for a cell whose interval the planes have cut.
 template <class Real>
-CellStretch<Real> shadeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>> details,
-                            const PrimaryRay<Real>& primary, Real sharpness, BallHit<Real> hit, Real leastShare = 0) {
+CellInterval<Real> shadeCell(const ViewCell<Real>& cell, std::span<const ViewDetail<Real>> details,
+                             const PrimaryRay<Real>& primary, Real sharpness, BallHit<Real> hit, Real leastShare = 0) {
   const glm::vec<3, Real> centre = cell.centre - primary.offset;
   const Real facing = glm::dot(cell.frame.normal, primary.direction);
   const auto inFrame = [&](const glm::vec<3, Real>& vector) {
-    return foam::inFaceFrame(vector, cell.frame.tangent, cell.frame.bitangent, cell.frame.normal,
-                             cell.inverseRadius);
+    return foam::inFaceFrame(vector, cell.frame.tangent, cell.frame.bitangent, cell.frame.normal, cell.inverseRadius);
   };
   const auto queryAt = [&](Real t) { return foam::faceQuery(inFrame(t * primary.direction - centre)); };
   const Real tQuery = foam::placeOfHeight(centre, cell.frame.normal, facing, hit.tNear);
@@ -115,23 +115,23 @@ CellStretch<Real> shadeCell(const ViewCell<Real>& cell, std::span<const ViewDeta
   foam::clipByFace(centre, cell.frame.normal, facing, height, hit.tNear, hit.tFar);
   hit.tNear += cell.nearError * hit.tNear;
   hit.tFar += cell.farError * hit.tFar;
-  CellStretch<Real> stretch{hit.tNear, hit.tFar, {}, {}};
-  if (stretch.tNear < stretch.tFar) {
-    stretch.query = queryAt(stretch.tNear);
-    stretch.colour = blendColour(details, stretch.query, sharpness, leastShare);
+  CellInterval<Real> interval{hit.tNear, hit.tFar, {}, {}};
+  if (interval.tNear < interval.tFar) {
+    interval.query = queryAt(interval.tNear);
+    interval.colour = blendColour(details, interval.query, sharpness, leastShare);
   }
-  return stretch;
+  return interval;
 }
 
-// Step 7: a stretch of constant density. Returns its weight, T alpha.
+// Step 7: an interval of constant density. Returns its weight, T alpha.
 template <class Real>
-Real compositeStretch(Real tNear, Real tFar, Real density, const glm::vec<3, Real>& colour,
-                      const glm::vec<3, Real>& normal, Real logQuantile, RayResult<Real>& ray) {
+Real compositeInterval(Real tNear, Real tFar, Real density, const glm::vec<3, Real>& colour,
+                       const glm::vec<3, Real>& normal, Real logQuantile, RayResult<Real>& ray) {
   const Real opticalDepth = density * (tFar - tNear);
   const Real weight = std::exp(ray.logTransmittance) * foam::opacity(opticalDepth);
   const Real logAfter = ray.logTransmittance - opticalDepth;
   if (ray.logTransmittance >= logQuantile && logAfter < logQuantile) {
-    ray.depth = foam::quantileDistance(tNear, ray.logTransmittance, logQuantile, density);
+    ray.distance = foam::quantileDistance(tNear, ray.logTransmittance, logQuantile, density);
   }
   ray.colour += weight * colour;
   ray.normal += weight * normal;
@@ -142,21 +142,19 @@ Real compositeStretch(Real tNear, Real tFar, Real density, const glm::vec<3, Rea
 // `hits` in any order; they are sorted front to back. Calls visit(segment) for every cell that shows, front to back.
 template <class Real, class Visitor>
 RayResult<Real> compositeHits(const ViewCells<Real>& view, const PrimaryRay<Real>& primary,
-                              const RaySettings<Real>& settings, std::vector<BallHit<Real>>& hits,
-                              Visitor&& visit) {
-  std::sort(hits.begin(), hits.end(),
-            [](const BallHit<Real>& a, const BallHit<Real>& b) { return a.rank < b.rank; });
+                              const RaySettings<Real>& settings, std::vector<BallHit<Real>>& hits, Visitor&& visit) {
+  std::sort(hits.begin(), hits.end(), [](const BallHit<Real>& a, const BallHit<Real>& b) { return a.rank < b.rank; });
   RayResult<Real> ray;
   for (BallHit<Real>& hit : hits) {
     const ViewCell<Real>& cell = view.cells[hit.rank];
     if (!clipByNeighbours(view.planesOf(cell), primary, hit)) continue;
-    const CellStretch<Real> stretch =
+    const CellInterval<Real> interval =
         shadeCell(cell, view.detailsOf(hit.rank), primary, settings.sharpness, hit, settings.leastShare);
-    if (!(stretch.tNear < stretch.tFar)) continue;
-    if (ray.depth < 0) ray.rank = hit.rank;
-    const Real weight = compositeStretch(stretch.tNear, stretch.tFar, cell.density, stretch.colour, cell.frame.normal,
-                                         settings.logQuantile, ray);
-    visit(RaySegment<Real>{hit.rank, weight, stretch.query});
+    if (!(interval.tNear < interval.tFar)) continue;
+    if (ray.distance < 0) ray.rank = hit.rank;
+    const Real weight = compositeInterval(interval.tNear, interval.tFar, cell.density, interval.colour,
+                                          cell.frame.normal, settings.logQuantile, ray);
+    visit(RaySegment<Real>{hit.rank, weight, interval.query});
     if (std::exp(ray.logTransmittance) < settings.cutoff) break;
   }
   return ray;

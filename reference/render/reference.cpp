@@ -9,15 +9,14 @@ namespace {
 template <class Real>
 class ImageRenderer {
  public:
-  ImageRenderer(const SiteTree& tree, const ViewCells<Real>& cells, const View& view,
-                const ReferenceOptions& options)
+  ImageRenderer(const SiteTree& tree, const ViewCells<Real>& cells, const View& view, const ReferenceOptions& options)
       : tree_(tree),
         cells_(cells),
         view_(view),
         rays_(view),
         options_(options),
-        settings_{Real(options.cutoff), Real(std::log(options.depthQuantile)),
-                  Real(options.detailSharpness), Real(options.leastShare)} {
+        settings_{Real(options.cutoff), Real(std::log(options.quantile)), Real(options.detailSharpness),
+                  Real(options.leastShare)} {
     images_ = emptyImages(view);
     sources_.resize(cells.cells.size());
     for (uint32_t cell = 0; cell < cells.rankOf.size(); ++cell) {
@@ -56,8 +55,8 @@ class ImageRenderer {
 };
 
 template <class Real>
-Result<RenderedImages> renderFoam(const ReferenceRenderer::State& foam, const View& view, const ReferenceOptions& options,
-                                  const Progress& progress) {
+Result<RenderedImages> renderFoam(const ReferenceRenderer::State& foam, const View& view,
+                                  const ReferenceOptions& options, const Progress& progress) {
   if (foam.cechPairs.offsets.empty()) return stoppedOnRequest("render");
   const ViewCells<Real> cells = prepareViewCells<Real>(foam.foam, foam.cechPairs, foam.visible, view, options);
   return ImageRenderer<Real>(foam.tree, cells, view, options).render(progress);

@@ -4,11 +4,11 @@
 
 #include <memory>
 
+#include "base/image/image.h"
 #include "base/progress.h"
 #include "base/result.h"
 #include "foam/foam.h"
 #include "reference/camera/camera.h"
-#include "reference/image/image.h"
 
 namespace froth {
 
@@ -16,28 +16,32 @@ enum class Precision { kFloat, kDouble };
 
 struct ReferenceOptions {
   Precision precision = Precision::kDouble;
-  double cutoff = 0;            // a ray ends when its transmittance falls below
-  double nearRatio = 4;         // resolved: the view's own value, else the asset's default
-  double nearDepth = 0;         // [scene units]
-  double depthQuantile = 0.5;
+  double cutoff = 0;     // a ray ends when its transmittance falls below
+  double nearRatio = 4;  // resolved: the view's own value, else the asset's default
+  double nearDepth = 0;  // [scene units]
+  double quantile = 0.5;
   double detailSharpness = 10;
-  double leastShare = 0;  // detail sites with less of a cell's weights have no part in its colour, as of rays (foam::leastShownShare)
-  // Every value that a cell is drawn with gets a relative error of up to this, of its own and random by the seed: positions by
-  // their distance from the eye. What the image then changes by, a renderer may err by that rounds so (Monte Carlo
-  // arithmetic). 0: none.
+  // detail sites with less of a cell's weights have no part in its colour, as of rays (foam::leastShownShare)
+  double leastShare = 0;
+  // Every value that a cell is drawn with gets a relative error of up to this, of its own and random by the seed:
+  // positions by their distance from the eye. What the image then changes by, a renderer may err by that rounds so
+  // (Monte Carlo arithmetic). 0: none.
   double rounding = 0;
   uint64_t roundingSeed = 0;
-  const Image* sceneDistance = nullptr;  // 1 channel, size of the view: where each ray ends [scene units]; null: nowhere
-  // Unit view axis, where a renderer is given the scene as depth along it; 0: as distances along rays. Changes how ends are rounded.
+  // 1 channel, size of the view: where each ray ends [scene units]; null: nowhere
+  const Image* sceneDistance = nullptr;
+  // Unit view axis, where a renderer is given the scene as depth along it; 0: as distances along rays. Changes how ends
+  // are rounded.
   glm::dvec3 depthAxis{0};
 };
 
 struct RenderedImages {
-  Image colour;  // 3 channels, display-coded over black, not clamped
-  Image alpha;   // 1 channel, 1 - T
-  Image depth;   // 1 channel, distance along the ray where T falls below depthQuantile; -1: never
-  Image normal;  // 3 channels, sum of T alpha n, world axes
-  std::vector<uint32_t> cells;  // [pixels] the one at depth, until there the last one that was met; UINT32_MAX: none, and of several foams
+  Image colour;    // 3 channels, display-coded over black, not clamped
+  Image alpha;     // 1 channel, 1 - T
+  Image distance;  // 1 channel, distance along the ray where T falls below quantile; -1: never
+  Image normal;    // 3 channels, sum of T alpha n, world axes
+  // [pixels] the one at distance, until there the last one that was met; UINT32_MAX: none, and of several foams
+  std::vector<uint32_t> cells;
 };  // pixels without a ray (shaders/foam/lens.h): 0, 0, -1, 0, none
 
 // Renders with all cores; the same input gives the same bits on any number of threads.
@@ -46,10 +50,10 @@ class ReferenceRenderer {
   // Keeps a reference to the foam; builds hierarchy and pairs once. All renders fail when `progress` asked to stop.
   explicit ReferenceRenderer(const Foam& foam, const Progress& progress = {});
   ~ReferenceRenderer();
-  // Near limits are those of `options`, whatever the view says. Fails with kUsage for a view without pixels or with more
-  // than 2^28, a ray map of another size, or a quantile outside 0..1; with kCancelled. May be called from several threads at once.
-  Result<RenderedImages> render(const View& view, const ReferenceOptions& options,
-                                const Progress& progress = {}) const;
+  // Near limits are those of `options`, whatever the view says. Fails with kUsage for a view without pixels or with
+  // more than 2^28, a ray map of another size, or a quantile outside 0..1; with kCancelled. May be called from several
+  // threads at once.
+  Result<RenderedImages> render(const View& view, const ReferenceOptions& options, const Progress& progress = {}) const;
 
   struct State;  // reference_state.h
   const State& state() const { return *state_; }

@@ -41,8 +41,8 @@ class RowCounter {
 
 Status checkRender(const View& view, const ReferenceOptions& options) {
   if (view.width == 0 || view.height == 0 || uint64_t{view.width} * view.height > kMaxPixels) {
-    return makeError(ErrorKind::kUsage, "view '%s': size %u x %u; give 1 to 2^28 pixels", view.name.c_str(),
-                     view.width, view.height);
+    return makeError(ErrorKind::kUsage, "view '%s': size %u x %u; give 1 to 2^28 pixels", view.name.c_str(), view.width,
+                     view.height);
   }
   if (view.lens.kind == LensKind::kRayMap &&
       !(view.lens.rays && view.lens.rays->width == view.width && view.lens.rays->height == view.height)) {
@@ -54,10 +54,9 @@ Status checkRender(const View& view, const ReferenceOptions& options) {
     return makeError(ErrorKind::kUsage, "view '%s': scene distances of %u x %u pixels for %u x %u", view.name.c_str(),
                      options.sceneDistance->width, options.sceneDistance->height, view.width, view.height);
   }
-  if (!(options.depthQuantile > 0 && options.depthQuantile <= 1)) {
-    return makeError(ErrorKind::kUsage,
-                     "depth quantile: found %g; give a transmittance above 0 and at most 1",
-                     options.depthQuantile);
+  if (!(options.quantile > 0 && options.quantile <= 1)) {
+    return makeError(ErrorKind::kUsage, "quantile: found %g; give a transmittance above 0 and at most 1",
+                     options.quantile);
   }
   return {};
 }
@@ -67,7 +66,7 @@ RenderedImages emptyImages(const View& view) {
   RenderedImages images;
   images.colour = {view.width, view.height, 3, std::vector<float>(pixels * 3)};
   images.alpha = {view.width, view.height, 1, std::vector<float>(pixels)};
-  images.depth = {view.width, view.height, 1, std::vector<float>(pixels, -1.0f)};
+  images.distance = {view.width, view.height, 1, std::vector<float>(pixels, -1.0f)};
   images.normal = {view.width, view.height, 3, std::vector<float>(pixels * 3)};
   images.cells.resize(pixels, UINT32_MAX);
   return images;

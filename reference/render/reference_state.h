@@ -39,9 +39,9 @@ RenderedImages emptyImages(const View& view);
 // Calls renderRow(y) from all threads, and reports about a hundred times. Fails with kCancelled.
 Status renderRows(uint32_t rows, const Progress& progress, const std::function<void(uint32_t y)>& renderRow);
 
-// Where the scene ends a ray; infinity: nowhere. A place errs by its distance from the eye, which of parallel rays is no part of 0. From a
-// depth along the view axis the distance is depth / c, c = axis . direction. Sums of rounded products, c errs by some units of 1, not of
-// itself: so the distance errs by parts of its 1 / c.
+// Where the scene ends a ray; infinity: nowhere. A place errs by its distance from the eye, which of parallel rays is
+// no part of 0. From a depth along the view axis the distance is depth / c, c = axis . direction. Sums of rounded
+// products, c errs by some units of 1, not of itself: so the distance errs by parts of its 1 / c.
 inline double endOfRay(const ReferenceOptions& options, const ViewRay& ray, uint32_t x, uint32_t y) {
   if (!options.sceneDistance) return std::numeric_limits<double>::infinity();
   const double end = *options.sceneDistance->pixel(x, y);
@@ -74,7 +74,7 @@ void writePixel(const RayResult<Real>& ray, uint32_t x, uint32_t y, RenderedImag
     images.normal.pixel(x, y)[c] = static_cast<float>(ray.normal[c]);
   }
   *images.alpha.pixel(x, y) = static_cast<float>(foam::coverageOf(ray.logTransmittance));
-  *images.depth.pixel(x, y) = static_cast<float>(ray.depth);
+  *images.distance.pixel(x, y) = static_cast<float>(ray.distance);
 }
 
 }  // namespace froth

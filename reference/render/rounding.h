@@ -1,5 +1,5 @@
-// Monte Carlo arithmetic (Parker, "Monte Carlo Arithmetic", 1997): what rounding errors would do to an image, by putting random ones
-// in. See ReferenceOptions::rounding.
+// Monte Carlo arithmetic (Parker, "Monte Carlo Arithmetic", 1997): what rounding errors would do to an image, by
+// putting random ones in. See ReferenceOptions::rounding.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@ namespace froth {
 // The errors of one cell, each drawn once. Relative 0 leaves every value as it is.
 class Rounding {
  public:
-  Rounding(double relative, uint64_t seed, uint32_t cell) : relative_(relative), random_(seed, Purpose::kRounding, cell) {}
+  Rounding(double relative, uint64_t seed, uint32_t cell)
+      : relative_(relative), random_(seed, Purpose::kRounding, cell) {}
   // Of what two cells share.
   Rounding(double relative, uint64_t seed, uint32_t cell, uint32_t other) : Rounding(relative, seed, cell) {
     next_ = kMostShared * other;

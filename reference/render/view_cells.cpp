@@ -17,8 +17,8 @@ template <class Real>
 using Vec3 = glm::vec<3, Real>;
 
 // Near tests (docs/FOAM.md "Near cells"): once per cell, in double.
-std::vector<uint32_t> selectDrawnCells(const Foam& foam, std::span<const uint32_t> candidates,
-                                       const View& view, const ReferenceOptions& options) {
+std::vector<uint32_t> selectDrawnCells(const Foam& foam, std::span<const uint32_t> candidates, const View& view,
+                                       const ReferenceOptions& options) {
   const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
   const double nearRatio = isOrthographic ? 0 : options.nearRatio;
   const double nearDepth = looksForward(view.lens.kind) ? options.nearDepth : 0;
@@ -35,7 +35,8 @@ std::vector<uint32_t> selectDrawnCells(const Foam& foam, std::span<const uint32_
 
 // By the power of the eye, or along the parallel rays; equals by index (docs/FOAM.md "Order").
 template <class Real>
-void sortFrontToBack(const Foam& foam, const View& view, const ReferenceOptions& options, std::vector<uint32_t>& cells) {
+void sortFrontToBack(const Foam& foam, const View& view, const ReferenceOptions& options,
+                     std::vector<uint32_t>& cells) {
   const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
   const glm::dvec3 eye = eyeOf(view);
   const Vec3<Real> forward(forwardOf(view));
@@ -77,8 +78,8 @@ void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell, 
     const glm::vec2 place = foam.detailSites[site];
     detail.place = {rounding.of(Real(place.x)), rounding.of(Real(place.y))};
     detail.height = rounding.of(cell.radius * Real(foam.detailHeights[site]));
-    const Vec3<Real> fromEye = cell.centre + cell.radius * (detail.place.x * cell.frame.tangent +
-                                                            detail.place.y * cell.frame.bitangent);
+    const Vec3<Real> fromEye =
+        cell.centre + cell.radius * (detail.place.x * cell.frame.tangent + detail.place.y * cell.frame.bitangent);
     const Vec3<Real> direction = isOrthographic ? forward : foam::directionToSite(fromEye, cell.frame.normal);
     const Vec3<Real> colour = seeDetail(foam, site, rounding.of(direction), rounding);
     detail.colour = {rounding.of(colour.x), rounding.of(colour.y), rounding.of(colour.z)};
@@ -87,14 +88,16 @@ void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell, 
 
 // As seen from its first site (shaders/foam/cell.h). Both cells find the same plane, with the same error.
 template <class Real>
-ViewPlane<Real> planeBetween(const Foam& foam, uint32_t first, uint32_t second, const glm::dvec3& eye, const ReferenceOptions& options) {
+ViewPlane<Real> planeBetween(const Foam& foam, uint32_t first, uint32_t second, const glm::dvec3& eye,
+                             const ReferenceOptions& options) {
   const Vec3<Real> toSecond(glm::dvec3(foam.sites[second]) - glm::dvec3(foam.sites[first]));
   const Vec3<Real> centre(glm::dvec3(foam.sites[first]) - eye);
   const Real offset = foam::radicalOffset(toSecond, Real(foam.radii[first]), Real(foam.radii[second]));
   const Real size = glm::length(toSecond);
   Rounding rounding(options.rounding, options.roundingSeed + 2, first, second);
   const Vec3<Real> rounded = rounding.of(toSecond);
-  return {rounded, rounding.of(foam::radicalClearance(centre, toSecond, offset), size * (size + glm::length(centre)) + std::abs(offset))};
+  return {rounded, rounding.of(foam::radicalClearance(centre, toSecond, offset),
+                               size * (size + glm::length(centre)) + std::abs(offset))};
 }
 
 template <class Real>
@@ -128,9 +131,8 @@ std::vector<uint32_t> findVisibleCells(const Foam& foam) {
 }
 
 template <class Real>
-ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
-                                 std::span<const uint32_t> candidates, const View& view,
-                                 const ReferenceOptions& options) {
+ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs, std::span<const uint32_t> candidates,
+                                 const View& view, const ReferenceOptions& options) {
   const glm::dvec3 eye = eyeOf(view);
   std::vector<uint32_t> drawn = selectDrawnCells(foam, candidates, view, options);
   sortFrontToBack<Real>(foam, view, options, drawn);
@@ -170,9 +172,9 @@ ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
   return result;
 }
 
-template ViewCells<float> prepareViewCells(const Foam&, const CellGraph&, std::span<const uint32_t>,
-                                           const View&, const ReferenceOptions&);
-template ViewCells<double> prepareViewCells(const Foam&, const CellGraph&, std::span<const uint32_t>,
-                                            const View&, const ReferenceOptions&);
+template ViewCells<float> prepareViewCells(const Foam&, const CellGraph&, std::span<const uint32_t>, const View&,
+                                           const ReferenceOptions&);
+template ViewCells<double> prepareViewCells(const Foam&, const CellGraph&, std::span<const uint32_t>, const View&,
+                                            const ReferenceOptions&);
 
 }  // namespace froth

@@ -21,7 +21,8 @@ struct ViewCell {
   Real radius, inverseRadius;
   Real density;
   FaceFrame<Real> frame;
-  Real nearError = 0, farError = 0;  // relative, of the distances at which a ray enters and leaves: ReferenceOptions::rounding
+  // relative, of the distances at which a ray enters and leaves: ReferenceOptions::rounding
+  Real nearError = 0, farError = 0;
   uint64_t planesBegin, planesEnd;  // in ViewCells::planes
 };
 
@@ -61,11 +62,10 @@ struct ViewCells {
 // exists; cells without density only cut.
 std::vector<uint32_t> findVisibleCells(const Foam& foam);
 
-// Draws those of `candidates` that pass the near tests, which are not applied to an orthographic view; `nearDepth` not to lenses
-// that look behind themselves either. Every Cech neighbour cuts, drawn or not.
+// Draws those of `candidates` that pass the near tests, which are not applied to an orthographic view; `nearDepth` not
+// to lenses that look behind themselves either. Every Cech neighbour cuts, drawn or not.
 template <class Real>
-ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs,
-                                 std::span<const uint32_t> candidates, const View& view,
-                                 const ReferenceOptions& options);
+ViewCells<Real> prepareViewCells(const Foam& foam, const CellGraph& cechPairs, std::span<const uint32_t> candidates,
+                                 const View& view, const ReferenceOptions& options);
 
 }  // namespace froth

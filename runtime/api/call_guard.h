@@ -40,10 +40,9 @@ FrothResult readInput(const Messages& messages, const char* call, const T* given
     return messages.fail(result, call, "structSize: %u; set it to sizeof the struct", given->structSize);
   }
   if (result == FROTH_ERROR_VERSION) {
-    return messages.fail(
-        result, call,
-        "structSize: %u, this library knows %zu, and fields beyond are not zero; use a newer library",
-        given->structSize, sizeof(T));
+    return messages.fail(result, call,
+                         "structSize: %u, this library knows %zu, and fields beyond are not zero; use a newer library",
+                         given->structSize, sizeof(T));
   }
   return result;
 }
@@ -54,8 +53,7 @@ FrothResult writeOutput(const Messages& messages, const char* call, const T& kno
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "status: null");
   }
   if (!writeStruct(known, *given)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "structSize: %u; set it to sizeof the struct",
-                         given->structSize);
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "structSize: %u; set it to sizeof the struct", given->structSize);
   }
   return FROTH_OK;
 }

@@ -5,8 +5,8 @@
 
 using namespace froth;
 
-FrothResult frothComposite(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
-                           const FrothCompositeInfo* info) {
+FrothResult frothRecordComposite(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
+                                 const FrothCompositeInfo* info) {
   return guard(context, __func__, [&](const char* call) {
     FrothCompositeInfo known;
     const FrothResult result = readInput(context->messages, call, info, known);

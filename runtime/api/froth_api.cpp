@@ -19,8 +19,8 @@ Messages messagesOf(const FrothContextInfo* info) {
 
 // The calls that make an object: *handle is null unless they succeed.
 template <class Info, class Handle>
-FrothResult make(FrothContext* context, const char* name, const Info* info, const char* handleName,
-                 Handle* handle, FrothResult (Context::*makeObject)(const Info&, Handle&)) {
+FrothResult make(FrothContext* context, const char* name, const Info* info, const char* handleName, Handle* handle,
+                 FrothResult (Context::*makeObject)(const Info&, Handle&)) {
   return guard(context, name, [&](const char* call) {
     if (!handle) {
       return failNull(*context, call, handleName);
@@ -159,11 +159,10 @@ FrothResult frothGetAssetStatus(FrothContext* context, FrothAsset asset, FrothAs
   });
 }
 
-FrothResult frothGetFlightPath(FrothContext* context, FrothAsset asset, uint32_t capacity,
-                               FrothStoredCamera* cameras, uint32_t* count) {
+FrothResult frothGetFlightPath(FrothContext* context, FrothAsset asset, uint32_t capacity, FrothStoredCamera* cameras,
+                               uint32_t* count) {
   return guard(context, __func__, [&](const char* call) {
-    return count ? context->copyFlightPath(asset, capacity, cameras, *count)
-                 : failNull(*context, call, "count");
+    return count ? context->copyFlightPath(asset, capacity, cameras, *count) : failNull(*context, call, "count");
   });
 }
 
@@ -171,8 +170,7 @@ FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset) {
   return guard(context, __func__, [&](const char*) { return context->closeAsset(asset); });
 }
 
-FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info,
-                                FrothInstance* instance) {
+FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info, FrothInstance* instance) {
   return make(context, __func__, info, "instance", instance, &Context::createInstance);
 }
 
@@ -230,12 +228,12 @@ FrothResult frothDropFrame(FrothContext* context, uint64_t serial) {
   return guard(context, __func__, [&](const char*) { return context->dropFrame(serial); });
 }
 
-FrothResult frothRasterize(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
-                           const FrothRenderInfo* info) {
-  return render(context, RenderMethod::kRaster, "frothRasterize", view, commandBuffer, info);
+FrothResult frothRecordRaster(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
+                              const FrothRenderInfo* info) {
+  return render(context, RenderMethod::kRaster, "frothRecordRaster", view, commandBuffer, info);
 }
 
-FrothResult frothWalk(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
-                      const FrothRenderInfo* info) {
-  return render(context, RenderMethod::kWalk, "frothWalk", view, commandBuffer, info);
+FrothResult frothRecordWalk(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
+                            const FrothRenderInfo* info) {
+  return render(context, RenderMethod::kWalk, "frothRecordWalk", view, commandBuffer, info);
 }

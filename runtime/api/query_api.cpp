@@ -5,8 +5,8 @@
 
 using namespace froth;
 
-FrothResult frothCastRays(FrothContext* context, const FrothCastInfo* info, const FrothRay* rays,
-                          FrothRayHit* hits, uint32_t count) {
+FrothResult frothCastRays(FrothContext* context, const FrothCastInfo* info, const FrothRay* rays, FrothRayHit* hits,
+                          uint32_t count) {
   return guard(context, __func__, [&](const char* call) {
     FrothCastInfo known{};
     const FrothResult result = info ? readInput(context->messages, call, info, known) : FROTH_OK;
@@ -20,8 +20,7 @@ FrothResult frothCastRays(FrothContext* context, const FrothCastInfo* info, cons
   });
 }
 
-FrothResult frothLocate(FrothContext* context, FrothInstance instance, const double point[3],
-                        FrothLocation* location) {
+FrothResult frothLocate(FrothContext* context, FrothInstance instance, const double point[3], FrothLocation* location) {
   return guard(context, __func__, [&](const char* call) {
     if (!point) {
       return failNull(*context, call, "point");

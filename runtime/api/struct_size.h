@@ -19,8 +19,8 @@ FrothResult readStruct(const T& given, T& known) {
     return FROTH_ERROR_ARGUMENT;
   }
   const auto* bytes = reinterpret_cast<const unsigned char*>(&given);
-  if (given.structSize > sizeof(T) && std::any_of(bytes + sizeof(T), bytes + given.structSize,
-                                                  [](unsigned char byte) { return byte != 0; })) {
+  if (given.structSize > sizeof(T) &&
+      std::any_of(bytes + sizeof(T), bytes + given.structSize, [](unsigned char byte) { return byte != 0; })) {
     return FROTH_ERROR_VERSION;
   }
   known = {};

@@ -180,8 +180,7 @@ Status Asset::openReader() {
   if (isQueryFoamWanted()) {
     queryFoam_.emplace(manifest);
   }
-  std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_),
-                 toApi);
+  std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_), toApi);
   chunkWork_.assign(description_.chunkCount, 0);
   workDone_ = workToCome_ = 0;
   for (const SectionRecord& section : reader->sections()) {
@@ -213,8 +212,8 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   if (!device_) {
     return {};
   }
-  Result<PackedCells> cells = packCells(contents, gpu_.detailCount, gpu_.lobeCount,
-                                        reader_->manifest().quantization.normalBits);
+  Result<PackedCells> cells =
+      packCells(contents, gpu_.detailCount, gpu_.lobeCount, reader_->manifest().quantization.normalBits);
   if (!cells) {
     return cells.error();
   }
@@ -289,9 +288,8 @@ Status Asset::placeEntries() {
 
 void Asset::addMemory(const char* name, uint64_t bytes) {
   FrothMemory* const end = description_.memory + description_.memoryCount;
-  FrothMemory* const found = std::find_if(description_.memory, end, [&](const FrothMemory& part) {
-    return std::string_view(part.name) == name;
-  });
+  FrothMemory* const found = std::find_if(description_.memory, end,
+                                          [&](const FrothMemory& part) { return std::string_view(part.name) == name; });
   if (found == end) {
     *found = {name, 0};
     ++description_.memoryCount;
@@ -345,9 +343,7 @@ uint64_t Asset::queuedBytes() const {
   return bytes;
 }
 
-std::span<const GpuBuffer> Asset::buffers() const {
-  return arena_ ? arena_->blocks() : std::span<const GpuBuffer>();
-}
+std::span<const GpuBuffer> Asset::buffers() const { return arena_ ? arena_->blocks() : std::span<const GpuBuffer>(); }
 
 FrothAssetStatus Asset::describe() const {
   FrothAssetStatus description = description_;

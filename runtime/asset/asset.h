@@ -23,8 +23,8 @@
 
 namespace froth {
 
-// What is decoded in one frothUpdate, of all assets together [bytes of decoded sections]: it ends behind the chunk that exceeds
-// this. A chunk counts as kLeastChunkWork at least.
+// What is decoded in one frothUpdate, of all assets together [bytes of decoded sections]: it ends behind the chunk that
+// exceeds this. A chunk counts as kLeastChunkWork at least.
 inline constexpr uint64_t kWorkPerUpdate = 4u << 20, kLeastChunkWork = 16u << 10;
 
 // Loads chunk by chunk: decode some, give their arrays places, stage them through the ring as it has room, then the
@@ -47,7 +47,8 @@ class Asset {
 
   // Makes what drawing an asset of this shape needs besides; part of loading it.
   using Preparation = std::function<Status(const GpuAsset&)>;
-  // Decodes chunks while there is work left, and takes off what they cost. An error ends the asset: one message, hasFailed().
+  // Decodes chunks while there is work left, and takes off what they cost. An error ends the asset: one message,
+  // hasFailed().
   void load(const Preparation& prepare, const Messages& messages, uint64_t& workLeft);
   // Moves at most `limit` bytes of decoded arrays into the ring; returns how many.
   VkDeviceSize stage(UploadRing& ring, VkDeviceSize limit);
@@ -102,12 +103,12 @@ class Asset {
   bool bytesStay_;
   bool keepsForQueries_ = false, keepsForWalks_ = false;
 
-  std::optional<AssetReader> reader_;  // while loading
-  std::vector<uint64_t> chunkWork_;     // [chunks] bytes of decoded sections;
+  std::optional<AssetReader> reader_;       // while loading
+  std::vector<uint64_t> chunkWork_;         // [chunks] bytes of decoded sections;
   uint64_t workDone_ = 0, workToCome_ = 0;  // sums of them
   uint32_t nextChunk_ = 0;
   VkDeviceSize placedBytes_ = 0;
-  std::deque<PendingArray> arrays_;     // of the newest chunks; staged from the front
+  std::deque<PendingArray> arrays_;  // of the newest chunks; staged from the front
   bool isDecoded_ = false;
   FrothResult error_ = FROTH_OK;
 

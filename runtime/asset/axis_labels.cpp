@@ -12,8 +12,7 @@ constexpr uint32_t kKeyBits = 21;
 
 uint64_t keyOf(const int32_t* code) {
   uint64_t key = 0;
-  for (int c = 0; c < 3; ++c)
-    key = key << kKeyBits | (static_cast<uint32_t>(code[c]) & ((1u << kKeyBits) - 1));
+  for (int c = 0; c < 3; ++c) key = key << kKeyBits | (static_cast<uint32_t>(code[c]) & ((1u << kKeyBits) - 1));
   return key;
 }
 
@@ -33,8 +32,7 @@ std::vector<Use> findUses(const std::vector<KeyedLobe>& lobes) {
     if (i == 0 || lobes[i].first != lobes[i - 1].first) uses.push_back({i, i});
     uses.back().end = i + 1;
   }
-  std::stable_sort(uses.begin(), uses.end(),
-                   [](const Use& a, const Use& b) { return a.count() > b.count(); });
+  std::stable_sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.count() > b.count(); });
   return uses;
 }
 

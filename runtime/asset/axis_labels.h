@@ -12,10 +12,11 @@ namespace froth {
 using AxisCode = std::array<int32_t, 3>;
 
 struct AxisLabels {
-  uint32_t componentBits = 32;   // of an axis written out: two's complement, or floats
-  std::vector<AxisCode> table;   // empty: every lobe's axis is written out, and there are no labels
-  std::vector<uint32_t> labels;  // [lobes] < axisCount, the same for the same axis; < table.size(): its place in the table
-  uint32_t axisCount = 0;        // different axes
+  uint32_t componentBits = 32;  // of an axis written out: two's complement, or floats
+  std::vector<AxisCode> table;  // empty: every lobe's axis is written out, and there are no labels
+  // [lobes] < axisCount, the same for the same axis; < table.size(): its place in the table
+  std::vector<uint32_t> labels;
+  uint32_t axisCount = 0;  // different axes
 };
 
 // `axes` [3 * lobes]. Takes those axes into the table that make the chunk smaller.

@@ -71,8 +71,7 @@ void CodeRange::add(int32_t code) {
 
 uint32_t CodeRange::width() const {
   return low > high ? 0
-                    : static_cast<uint32_t>(
-                          std::bit_width(static_cast<uint32_t>(high) - static_cast<uint32_t>(low)));
+                    : static_cast<uint32_t>(std::bit_width(static_cast<uint32_t>(high) - static_cast<uint32_t>(low)));
 }
 
 uint32_t CodeRange::signedWidth() const {

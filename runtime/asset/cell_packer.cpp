@@ -34,8 +34,7 @@ struct OwnPlace {
 constexpr uint32_t kNoCell = UINT32_MAX;
 
 // Octahedral indices of the orientations; empty if one of them is not what orientationOfNormal gives.
-std::vector<std::array<uint32_t, 2>> normalsOf(const std::vector<glm::vec4>& orientations,
-                                               uint32_t normalBits) {
+std::vector<std::array<uint32_t, 2>> normalsOf(const std::vector<glm::vec4>& orientations, uint32_t normalBits) {
   std::vector<std::array<uint32_t, 2>> normals;
   if (normalBits == 0) return normals;
   for (const glm::vec4& orientation : orientations) {
@@ -74,9 +73,8 @@ class CellPacker {
     for (uint32_t cell = 0; cell < chunk_.liveCount; ++cell) {
       const uint64_t start = bits_.startByte();
       if (start > UINT32_MAX) {
-        return makeError(
-            ErrorKind::kMemory,
-            "the cells of one chunk need more than 4 GiB on the GPU; bake the scene in smaller chunks");
+        return makeError(ErrorKind::kMemory,
+                         "the cells of one chunk need more than 4 GiB on the GPU; bake the scene in smaller chunks");
       }
       packed.starts.push_back(static_cast<uint32_t>(start));
       putCell(cell);
@@ -104,8 +102,9 @@ class CellPacker {
 
   size_t cellLobes(uint32_t cell) const {
     size_t sum = 0;
-    for (size_t site = size_t{cell} * detailCount_; site < size_t{cell + 1} * detailCount_; ++site)
+    for (size_t site = size_t{cell} * detailCount_; site < size_t{cell + 1} * detailCount_; ++site) {
       sum += lobesOf(site);
+    }
     return sum;
   }
 
@@ -139,8 +138,7 @@ class CellPacker {
     shape.widths[kLobeGreen] = colours_.isRaw() ? kFloatBits : green.signedWidth();
     shape.widths[kLobeChroma] = colours_.isRaw() ? kFloatBits : chroma.signedWidth();
     if (!labels_.table.empty()) {
-      shape.widths[kAxis] =
-          static_cast<uint32_t>(std::bit_width(labels_.table.size() + shape.ownAxes.size() - 1));
+      shape.widths[kAxis] = static_cast<uint32_t>(std::bit_width(labels_.table.size() + shape.ownAxes.size() - 1));
     } else {
       shape.widths[kAxis] = axes_.isRaw() ? kFloatBits : axes.signedWidth();
     }
@@ -254,7 +252,7 @@ class CellPacker {
   uint32_t detailCount_, lobeCount_;
   CellNumbers places_, heights_, bases_, axes_, colours_;
   AxisLabels labels_;
-  std::vector<OwnPlace> ownPlaces_;  // [labels_.axisCount]
+  std::vector<OwnPlace> ownPlaces_;               // [labels_.axisCount]
   std::vector<std::array<uint32_t, 2>> normals_;  // empty: orientations are floats
   std::vector<CellShape> shapes_;
   gpu::CellCode code_{};

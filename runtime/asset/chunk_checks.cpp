@@ -11,7 +11,8 @@ Status checkBounds(const ChunkContents& chunk, const Box& told, const std::strin
   const Box found = liveBoundsOf(chunk);
   for (size_t axis = 0; axis < 3; ++axis) {
     if (told.min[axis] <= found.min[axis] && found.max[axis] <= told.max[axis]) continue;
-    return makeError(ErrorKind::kBadInput, "%s: live_bounds: %g to %g along axis %zu, and its live cells reach from %g to %g; %s",
+    return makeError(ErrorKind::kBadInput,
+                     "%s: live_bounds: %g to %g along axis %zu, and its live cells reach from %g to %g; %s",
                      place.c_str(), told.min[axis], told.max[axis], axis, found.min[axis], found.max[axis], kRemedy);
   }
   return {};
@@ -21,8 +22,9 @@ Status checkNeighbours(const ChunkContents& chunk, const std::string& place) {
   for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
     for (uint32_t i = chunk.neighbourOffsets[cell]; i < chunk.neighbourOffsets[cell + 1]; ++i) {
       if (chunk.sites[chunk.neighbours[i]] != chunk.sites[cell]) continue;
-      return makeError(ErrorKind::kBadInput, "%s: cell %u and its neighbour %u are the same point, no plane parts them; %s",
-                       place.c_str(), cell, chunk.neighbours[i], kRemedy);
+      return makeError(ErrorKind::kBadInput,
+                       "%s: cell %u and its neighbour %u are the same point, no plane parts them; %s", place.c_str(),
+                       cell, chunk.neighbours[i], kRemedy);
     }
   }
   return {};

@@ -5,7 +5,8 @@
 namespace froth {
 namespace {
 
-// A shared block has at least this part of what is held: so the number of blocks grows by a logarithm, whatever is asked for.
+// A shared block has at least this part of what is held: so the number of blocks grows by a logarithm, whatever is
+// asked for.
 constexpr VkDeviceSize kLeastShare = 16;
 // [bytes] What is larger has a block of its own: a few of these in a shared one would leave much of it empty.
 constexpr VkDeviceSize kMostAmongOthers = GpuArena::kMostShared / 4;

@@ -11,7 +11,7 @@ namespace froth {
 // Gives places one behind the other and frees all of them together. One thread at a time.
 class GpuArena {
  public:
-  static constexpr VkDeviceSize kAlignment = 16;  // of the largest type that shaders load
+  static constexpr VkDeviceSize kAlignment = 16;          // of the largest type that shaders load
   static constexpr VkDeviceSize kMostShared = 32u << 20;  // [bytes] of a block for more than one place
 
   struct Place {
@@ -25,8 +25,8 @@ class GpuArena {
   GpuArena(const GpuArena&) = delete;
   GpuArena& operator=(const GpuArena&) = delete;
 
-  // size > 0. `more`: how many bytes will be asked for later, about. Bytes a, a, a, ... of n places take O(log n) blocks
-  // besides those of kMostShared. An error names `purpose`.
+  // size > 0. `more`: how many bytes will be asked for later, about. Bytes a, a, a, ... of n places take O(log n)
+  // blocks besides those of kMostShared. An error names `purpose`.
   Result<Place> allocate(VkDeviceSize size, VkDeviceSize more, const char* purpose);
 
   std::span<const GpuBuffer> blocks() const { return blocks_; }
@@ -38,8 +38,8 @@ class GpuArena {
 
   Device& device_;
   std::vector<GpuBuffer> blocks_;
-  size_t open_ = 0;            // the block with room,
-  VkDeviceSize used_ = 0;      // and what of it is taken
+  size_t open_ = 0;        // the block with room,
+  VkDeviceSize used_ = 0;  // and what of it is taken
   VkDeviceSize heldBytes_ = 0;
 };
 

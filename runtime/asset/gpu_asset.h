@@ -10,15 +10,15 @@
 
 namespace froth {
 
-// Addresses of one chunk's arrays; an empty array has address 0. Arrays by cell hold the chunk's own cells; sites are cells,
-// then ghosts.
+// Addresses of one chunk's arrays; an empty array has address 0. Arrays by cell hold the chunk's own cells; sites are
+// cells, then ghosts.
 struct GpuChunk {
   std::array<double, 3> origin{};
   uint32_t cellCount = 0, liveCount = 0;
-  uint32_t siteCount = 0;            // cells and ghosts
-  uint32_t neighbourCount = 0;       // length of `neighbours`
-  uint64_t alphaTotal = 0;           // sum of alphaCounts
-  VkDeviceAddress siteRadius = 0;    // vec4 [siteCount]: site relative to origin, radius
+  uint32_t siteCount = 0;                // cells and ghosts
+  uint32_t neighbourCount = 0;           // length of `neighbours`
+  uint64_t alphaTotal = 0;               // sum of alphaCounts
+  VkDeviceAddress siteRadius = 0;        // vec4 [siteCount]: site relative to origin, radius
   VkDeviceAddress neighbourOffsets = 0;  // uint [cellCount + 1]
   VkDeviceAddress neighbours = 0;        // uint of 32 >> neighbourShift bits [neighbourCount] sites
   VkDeviceAddress ghostRefs = 0;         // CellRef [siteCount - cellCount]
@@ -35,14 +35,14 @@ struct GpuAsset {
   uint32_t detailCount = 0, lobeCount = 0;  // K, M
   uint32_t localBits = 32;
   bool hasWalkGraph = false;
-  bool hasHeights = false;    // in any chunk
+  bool hasHeights = false;  // in any chunk
   float detailSharpness = 10.0f, nearRatio = 4.0f, nearDepth = 0.0f;
-  uint32_t liveCount = 0;     // over all chunks
-  uint32_t cellCount = 0;     // over all chunks
-  uint64_t alphaTotal = 0;    // over all chunks
-  uint64_t neighbourTotal = 0;  // over all chunks
+  uint32_t liveCount = 0;                           // over all chunks
+  uint32_t cellCount = 0;                           // over all chunks
+  uint64_t alphaTotal = 0;                          // over all chunks
+  uint64_t neighbourTotal = 0;                      // over all chunks
   std::array<double, 3> boundsLow{}, boundsHigh{};  // of the balls of live cells
-  uint32_t walkEntriesAlong = 0;    // WalkInstance::entries (shaders/gpu/walk_layout.h); 0: there are none
+  uint32_t walkEntriesAlong = 0;  // WalkInstance::entries (shaders/gpu/walk_layout.h); 0: there are none
   VkDeviceAddress walkEntries = 0;
   std::vector<GpuChunk> chunks;
 };

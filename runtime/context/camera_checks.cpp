@@ -22,8 +22,8 @@ double determinantOf(const double (&rows)[3][4]) {  // of their first three colu
 bool isOrthonormal(const float (&m)[9]) {
   for (int a = 0; a < 3; ++a) {
     for (int b = a; b < 3; ++b) {
-      const double product = double{m[3 * a]} * m[3 * b] + double{m[3 * a + 1]} * m[3 * b + 1] +
-                             double{m[3 * a + 2]} * m[3 * b + 2];
+      const double product =
+          double{m[3 * a]} * m[3 * b] + double{m[3 * a + 1]} * m[3 * b + 1] + double{m[3 * a + 2]} * m[3 * b + 2];
       if (std::abs(product - (a == b ? 1.0 : 0.0)) > kOrthonormalTolerance) {
         return false;
       }
@@ -45,9 +45,9 @@ FrothResult checkParallel(const Messages& messages, const char* call, const doub
   const double lengths =
       std::hypot(rows[0][0], rows[0][1], rows[0][2]) * std::hypot(rows[1][0], rows[1][1], rows[1][2]);
   if (!(area > 1e-6 * lengths)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                         "camera.clipFromView: its rows x, y have the cross product %g: no parallel rays follow from them",
-                         area);
+    return messages.fail(
+        FROTH_ERROR_ARGUMENT, call,
+        "camera.clipFromView: its rows x, y have the cross product %g: no parallel rays follow from them", area);
   }
   return FROTH_OK;
 }
@@ -76,10 +76,9 @@ FrothResult checkProjection(const Messages& messages, const char* call, const fl
   }
   for (int r = 0; r < 3; ++r) {
     if (std::abs(rows[r][3]) > 1e-6 * lengths[r]) {
-      return messages.fail(
-          FROTH_ERROR_ARGUMENT, call,
-          "camera.clipFromView: row %d has the constant part %g; move the eye into camera.eye", rowIndices[r],
-          rows[r][3]);
+      return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                           "camera.clipFromView: row %d has the constant part %g; move the eye into camera.eye",
+                           rowIndices[r], rows[r][3]);
     }
   }
   return FROTH_OK;
@@ -87,8 +86,7 @@ FrothResult checkProjection(const Messages& messages, const char* call, const fl
 
 // Sends a message that names the first value that is not finite.
 template <class T>
-FrothResult checkFinite(const Messages& messages, const char* call, const char* field,
-                        std::span<const T> values) {
+FrothResult checkFinite(const Messages& messages, const char* call, const char* field, std::span<const T> values) {
   const auto bad = std::find_if(values.begin(), values.end(), [](T value) { return !std::isfinite(value); });
   if (bad == values.end()) {
     return FROTH_OK;
@@ -99,10 +97,9 @@ FrothResult checkFinite(const Messages& messages, const char* call, const char* 
 
 FrothResult checkRotation(const Messages& messages, const char* call, const float (&m)[9]) {
   if (!isOrthonormal(m)) {
-    return messages.fail(
-        FROTH_ERROR_ARGUMENT, call,
-        "camera.viewFromWorld: not a rotation within %g; normalize it, and keep scale out of it",
-        kOrthonormalTolerance);
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "camera.viewFromWorld: not a rotation within %g; normalize it, and keep scale out of it",
+                         kOrthonormalTolerance);
   }
   const double columns[3][4] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
   if (determinantOf(columns) < 0) {
@@ -116,11 +113,10 @@ FrothResult checkLens(const Messages& messages, const char* call, const FrothCam
   const FrothLens& lens = camera.lens;
   const auto kind = static_cast<int32_t>(lens.kind);
   if (kind < 0 || kind > FROTH_LENS_RAY_MAP) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera.lens.kind: %d; must be a FrothLensKind",
-                         kind);
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera.lens.kind: %d; must be a FrothLensKind", kind);
   }
   if (lens.kind == FROTH_LENS_RAY_MAP) {
-    const float (&jitter)[2] = camera.jitter;
+    const float(&jitter)[2] = camera.jitter;
     if (jitter[0] == 0 && jitter[1] == 0) {
       return FROTH_OK;
     }
@@ -179,8 +175,7 @@ FrothResult checkCamera(const Messages& messages, const char* call, const FrothC
     return result;
   }
   if (viewport.width <= 0 || viewport.height == 0) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                         "camera.viewport: %g x %g; width > 0 and height != 0 are needed",
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "camera.viewport: %g x %g; width > 0 and height != 0 are needed",
                          double{viewport.width}, double{viewport.height});
   }
   return camera.lens.kind == FROTH_LENS_PROJECTION ? checkProjection(messages, call, camera.clipFromView)

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace froth {
 namespace {
 
@@ -19,17 +18,15 @@ constexpr double kUnitQuaternionTolerance = 1e-3;  // as for a camera's rotation
 FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
   const bool hasBytes = info.data && info.dataSize > 0;
   if ((info.path != nullptr) == hasBytes) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset",
-                         "path, data: %s; give a path, or data and dataSize",
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset", "path, data: %s; give a path, or data and dataSize",
                          hasBytes ? "both are set" : "neither is set");
   }
   if (info.path && !*info.path) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset",
-                         "path: empty; give the path of a .froth file");
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset", "path: empty; give the path of a .froth file");
   }
   if (info.layers > kLayerCount) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset", "layers: %u; at most %u, or 0 for all",
-                         info.layers, kLayerCount);
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset", "layers: %u; at most %u, or 0 for all", info.layers,
+                         kLayerCount);
   }
   const auto lastLayer = static_cast<Layer>((info.layers == 0 ? kLayerCount : info.layers) - 1);
   const std::span<const uint8_t> bytes(static_cast<const uint8_t*>(info.data), hasBytes ? info.dataSize : 0);
@@ -72,8 +69,7 @@ FrothResult Context::copyFlightPath(FrothAsset handle, uint32_t capacity, FrothS
                          handle.index, handle.generation);
   }
   if (capacity > 0 && !cameras) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, "frothGetFlightPath", "cameras: null, with capacity %u",
-                         capacity);
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothGetFlightPath", "cameras: null, with capacity %u", capacity);
   }
   const std::span<const FrothStoredCamera> path = asset->flightPath();
   std::copy_n(path.begin(), std::min<size_t>(capacity, path.size()), cameras);
@@ -84,14 +80,14 @@ FrothResult Context::copyFlightPath(FrothAsset handle, uint32_t capacity, FrothS
 FrothResult Context::closeAsset(FrothAsset handle) {
   const Asset* asset = assets_.find(handle);
   if (!asset) {
-    return messages.fail(FROTH_ERROR_HANDLE, "frothCloseAsset", "asset {%u, %u}: closed or never opened",
-                         handle.index, handle.generation);
+    return messages.fail(FROTH_ERROR_HANDLE, "frothCloseAsset", "asset {%u, %u}: closed or never opened", handle.index,
+                         handle.generation);
   }
   uint32_t users = 0;
   instances_.forEach([&](const Instance& instance) { users += assets_.find(instance.asset) == asset; });
   if (users > 0) {
-    return messages.fail(FROTH_ERROR_STATE, asset->name().c_str(),
-                         "%u instances still use it; destroy them first", users);
+    return messages.fail(FROTH_ERROR_STATE, asset->name().c_str(), "%u instances still use it; destroy them first",
+                         users);
   }
   if (ring_) {
     ring_->forget(asset);
@@ -103,8 +99,7 @@ FrothResult Context::closeAsset(FrothAsset handle) {
 
 // ---- Instances ----
 
-FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* call,
-                                   Instance& instance) const {
+FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* call, Instance& instance) const {
   if (!assets_.find(info.asset)) {
     return messages.fail(FROTH_ERROR_HANDLE, call, "asset {%u, %u}: closed or never opened", info.asset.index,
                          info.asset.generation);
@@ -114,15 +109,15 @@ FrothResult Context::readPlacement(const FrothInstanceInfo& info, const char* ca
     length += double{part} * part;
   }
   if (length != 0 && !(std::abs(length - 1) <= kUnitQuaternionTolerance)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                         "rotation: a quaternion of squared length %g; normalize it", length);
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "rotation: a quaternion of squared length %g; normalize it",
+                         length);
   }
   if (!(info.scale >= 0) || !std::isfinite(info.scale)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "scale: %g; must be positive, or 0 for 1",
-                         double{info.scale});
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "scale: %g; must be positive, or 0 for 1", double{info.scale});
   }
   if (!(info.exposure >= 0) || !std::isfinite(info.exposure)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "exposure: %g; must be positive, or 0 for 1", double{info.exposure});
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "exposure: %g; must be positive, or 0 for 1",
+                         double{info.exposure});
   }
   for (const double part : info.position) {
     if (!std::isfinite(part)) {
@@ -156,8 +151,8 @@ FrothResult Context::createInstance(const FrothInstanceInfo& info, FrothInstance
 FrothResult Context::setInstance(FrothInstance handle, const FrothInstanceInfo& info) {
   Instance* instance = instances_.find(handle);
   if (!instance) {
-    return messages.fail(FROTH_ERROR_HANDLE, "frothSetInstance",
-                         "instance {%u, %u}: destroyed or never created", handle.index, handle.generation);
+    return messages.fail(FROTH_ERROR_HANDLE, "frothSetInstance", "instance {%u, %u}: destroyed or never created",
+                         handle.index, handle.generation);
   }
   const RenderInstance old = instance->placement;
   const FrothResult result = readPlacement(info, "frothSetInstance", *instance);
@@ -173,8 +168,8 @@ FrothResult Context::setInstance(FrothInstance handle, const FrothInstanceInfo& 
 
 FrothResult Context::destroyInstance(FrothInstance handle) {
   if (!instances_.find(handle)) {
-    return messages.fail(FROTH_ERROR_HANDLE, "frothDestroyInstance",
-                         "instance {%u, %u}: destroyed or never created", handle.index, handle.generation);
+    return messages.fail(FROTH_ERROR_HANDLE, "frothDestroyInstance", "instance {%u, %u}: destroyed or never created",
+                         handle.index, handle.generation);
   }
   instances_.remove(handle);
   return FROTH_OK;
@@ -184,8 +179,7 @@ FrothResult Context::destroyInstance(FrothInstance handle) {
 
 FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   const VkExtent2D extent = info.maxExtent;
-  if (extent.width == 0 || extent.height == 0 || extent.width > kMaxViewExtent ||
-      extent.height > kMaxViewExtent) {
+  if (extent.width == 0 || extent.height == 0 || extent.width > kMaxViewExtent || extent.height > kMaxViewExtent) {
     return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "maxExtent: %u x %u; must be 1 to %u each",
                          extent.width, extent.height, kMaxViewExtent);
   }
@@ -216,8 +210,9 @@ Status Context::createRenderer(View& view) {
   }
   const bool canMeasure = device_.timestampBits != 0;
   if (view.measurePasses && !canMeasure) {
-    messages.warn(FROTH_ERROR_FEATURE, "view",
-                  "measurePasses: the context's queue family has 0 timestampValidBits; FrothViewStatus::passes stays empty");
+    messages.warn(
+        FROTH_ERROR_FEATURE, "view",
+        "measurePasses: the context's queue family has 0 timestampValidBits; FrothViewStatus::passes stays empty");
   }
   Result<std::unique_ptr<ViewRenderer>> renderer =
       ViewRenderer::create(device_, {.maxExtent = view.maxExtent,
@@ -237,8 +232,8 @@ Status Context::createRenderer(View& view) {
 FrothResult Context::describeView(FrothView handle, FrothViewStatus& status) const {
   const View* view = views_.find(handle);
   if (!view) {
-    return messages.fail(FROTH_ERROR_HANDLE, "frothGetViewStatus",
-                         "view {%u, %u}: destroyed or never created", handle.index, handle.generation);
+    return messages.fail(FROTH_ERROR_HANDLE, "frothGetViewStatus", "view {%u, %u}: destroyed or never created",
+                         handle.index, handle.generation);
   }
   status = view->renderer ? view->renderer->status() : FrothViewStatus{};
   for (const auto& [serial, bits] : view->bits) {

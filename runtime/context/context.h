@@ -43,8 +43,7 @@ class Context {
 
   FrothResult openAsset(const FrothAssetInfo& info, FrothAsset& handle);
   FrothResult describeAsset(FrothAsset handle, FrothAssetStatus& status) const;
-  FrothResult copyFlightPath(FrothAsset handle, uint32_t capacity, FrothStoredCamera* cameras,
-                             uint32_t& count) const;
+  FrothResult copyFlightPath(FrothAsset handle, uint32_t capacity, FrothStoredCamera* cameras, uint32_t& count) const;
   FrothResult closeAsset(FrothAsset handle);
 
   FrothResult createInstance(const FrothInstanceInfo& info, FrothInstance& handle);
@@ -58,8 +57,7 @@ class Context {
   FrothResult update(const FrothFrame& frame, FrothFrameStatus& status);
   FrothResult recordUpload(VkCommandBuffer commandBuffer);
   FrothResult dropFrame(uint64_t serial);
-  FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
-                     FrothRenderInfo info);
+  FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer, FrothRenderInfo info);
 
   FrothResult composite(FrothView handle, VkCommandBuffer commandBuffer, const FrothCompositeInfo& info);
   FrothResult exportDepth(FrothView handle, VkCommandBuffer commandBuffer, const FrothDepthExportInfo& info);
@@ -95,22 +93,22 @@ class Context {
     bool isProjection = true, isDepthReversed = false;
   };
   struct Eye {
-    uint64_t renderedSerials[2] = {0, 0};  // newest frame per RenderMethod
-    DrawnView drawn{};                     // by the newest of those
-    uint64_t compositedSerial = 0, exportedSerial = 0;  // newest frames of frothComposite, frothRecordDepthExport
+    uint64_t renderedSerials[2] = {0, 0};               // newest frame per RenderMethod
+    DrawnView drawn{};                                  // by the newest of those
+    uint64_t compositedSerial = 0, exportedSerial = 0;  // newest frames of frothRecordComposite, frothRecordDepthExport
   };
   struct View {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
     bool measurePasses = false, keepsHits = false;
     std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
-    std::vector<RenderInstance> prepared;    // in the newest frothUpdate: those it has buffers for, if they fit the budget
-    std::vector<RenderInstance> visible;     // of the record call under way; has room for all
-    std::string preparationError;            // sent already
+    // in the newest frothUpdate: those it has buffers for, if they fit the budget
+    std::vector<RenderInstance> prepared;
+    std::vector<RenderInstance> visible;  // of the record call under way; has room for all
+    std::string preparationError;         // sent already
     uint32_t eyeCount = 1;
     Eye eyes[kMostEyes];
-    std::vector<std::pair<uint64_t, uint32_t>>
-        bits;  // recorded frames that left something out: serial, FrothViewBit
+    std::vector<std::pair<uint64_t, uint32_t>> bits;  // recorded frames that left something out: serial, FrothViewBit
   };
 
   FrothResult checkInfo(const FrothContextInfo& info, const char* call) const;
@@ -146,13 +144,13 @@ class Context {
   bool isNull_ = false;        // no device, for good
   bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
   bool isExcessTold_ = false;  // of this budget
-  std::string severalError_;   // of prepareForSeveral, sent already
+  std::string mergingError_;   // of prepareMerging, sent already
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
   VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED, depthExportFormat_ = VK_FORMAT_UNDEFINED;
   bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats
   bool hasWalkShaders_ = false;
-  std::string walkError_;     // of the newest frothUpdate that could not make space; sent already
+  std::string walkError_;                       // of the newest frothUpdate that could not make space; sent already
   std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
   std::unique_ptr<RenderPipelines> pipelines_;  // the same
   std::unique_ptr<WalkSets> walks_;             // the same; also without FrothContextInfo::walkShaders
@@ -164,7 +162,7 @@ class Context {
 
   uint64_t serial_ = 0, completedSerial_ = 0;
   std::vector<uint64_t> serialsInFlight_;
-  uint64_t uploadBytesLeft_ = 0;  // of this frame
+  uint64_t uploadBytesLeft_ = 0;           // of this frame
   std::atomic<uint64_t> drawnSerial_ = 0;  // newest frame in which a view was drawn,
   uint64_t drawnBeforeSerial_ = 0;         // and the newest before this one
 };

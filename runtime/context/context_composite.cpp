@@ -14,8 +14,10 @@ FrothResult checkHeld(const Messages& messages, const char* call, const char* na
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s: null", name);
   }
   return image.layoutIn == VK_IMAGE_LAYOUT_UNDEFINED
-             ? messages.fail(FROTH_ERROR_ARGUMENT, call,
-                             "%s.layoutIn: VK_IMAGE_LAYOUT_UNDEFINED, which drops its contents; name the layout that it is in", name)
+             ? messages.fail(
+                   FROTH_ERROR_ARGUMENT, call,
+                   "%s.layoutIn: VK_IMAGE_LAYOUT_UNDEFINED, which drops its contents; name the layout that it is in",
+                   name)
              : FROTH_OK;
 }
 
@@ -29,11 +31,13 @@ FrothResult checkComposite(const Messages& messages, const char* call, VkFormat 
     result = checkHeld(messages, call, "shadowFactor", info.shadowFactor);
   }
   if (result == FROTH_OK) {
-    result = checkImage(messages, call, "foam", info.foam, std::array{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT},
+    result = checkImage(messages, call, "foam", info.foam,
+                        std::array{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT},
                         "R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT", region);
   }
   if (result == FROTH_OK) {
-    result = checkImage(messages, call, "target", info.target, std::array{format}, "FrothContextInfo::compositeFormat", region);
+    result = checkImage(messages, call, "target", info.target, std::array{format}, "FrothContextInfo::compositeFormat",
+                        region);
   }
   if (result == FROTH_OK) {
     result = checkImage(messages, call, "shadowFactor", info.shadowFactor,
@@ -53,7 +57,8 @@ FrothResult checkDepthExport(const Messages& messages, const char* call, VkForma
     result = checkImage(messages, call, "depth", info.depth, std::array{VK_FORMAT_R32_SFLOAT}, "R32_SFLOAT", region);
   }
   if (result == FROTH_OK) {
-    result = checkImage(messages, call, "attachment", info.attachment, std::array{format}, "FrothContextInfo::depthExportFormat", region);
+    result = checkImage(messages, call, "attachment", info.attachment, std::array{format},
+                        "FrothContextInfo::depthExportFormat", region);
   }
   return result;
 }
@@ -72,7 +77,8 @@ Context::View* Context::findDrawn(FrothView handle, uint32_t eye, const char* ca
     result = messages.fail(FROTH_ERROR_STATE, call, "no frame; call frothUpdate first");
   } else if (result == FROTH_OK && !isNull_ && view->eyes[eye].renderedSerials[0] != serial_ &&
              view->eyes[eye].renderedSerials[1] != serial_) {
-    result = messages.fail(FROTH_ERROR_STATE, call, "view {%u, %u}: not drawn in frame %llu; call it after frothRasterize or frothWalk",
+    result = messages.fail(FROTH_ERROR_STATE, call,
+                           "view {%u, %u}: not drawn in frame %llu; call it after frothRecordRaster or frothRecordWalk",
                            handle.index, handle.generation, static_cast<unsigned long long>(serial_));
   } else if (result == FROTH_OK && view->eyes[eye].*newestCall == serial_) {
     result = messages.fail(FROTH_ERROR_STATE, call, "view {%u, %u}: called already in frame %llu", handle.index,
@@ -82,14 +88,15 @@ Context::View* Context::findDrawn(FrothView handle, uint32_t eye, const char* ca
 }
 
 FrothResult Context::composite(FrothView handle, VkCommandBuffer commandBuffer, const FrothCompositeInfo& info) {
-  constexpr const char* kCall = "frothComposite";
+  constexpr const char* kCall = "frothRecordComposite";
   FrothResult result = FROTH_OK;
   View* view = findDrawn(handle, info.eye, kCall, &Eye::compositedSerial, result);
   if (!view) {
     return result;
   }
   if (compositeFormat_ == VK_FORMAT_UNDEFINED) {
-    return messages.fail(FROTH_ERROR_UNSUPPORTED, kCall, "the context was not made for it; set FrothContextInfo::compositeFormat");
+    return messages.fail(FROTH_ERROR_UNSUPPORTED, kCall,
+                         "the context was not made for it; set FrothContextInfo::compositeFormat");
   }
   result = checkComposite(messages, kCall, compositeFormat_, view->eyes[info.eye].drawn.region, info);
   if (result != FROTH_OK || isNull_) {
@@ -124,7 +131,8 @@ FrothResult Context::exportDepth(FrothView handle, VkCommandBuffer commandBuffer
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "commandBuffer: null");
   }
   view->eyes[info.eye].exportedSerial = serial_;
-  view->renderer->exportDepth(commandBuffer, *pipelines_, info, view->eyes[info.eye].drawn.region, view->eyes[info.eye].drawn.isDepthReversed);
+  view->renderer->exportDepth(commandBuffer, *pipelines_, info, view->eyes[info.eye].drawn.region,
+                              view->eyes[info.eye].drawn.isDepthReversed);
   return FROTH_OK;
 }
 

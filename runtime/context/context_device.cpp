@@ -18,18 +18,16 @@ constexpr double kShrinkAhead = 1.0 / 64;
 
 FrothResult Context::checkInfo(const FrothContextInfo& info, const char* call) const {
   if (info.abiVersion >> 16 != FROTH_ABI_VERSION >> 16) {
-    return messages.fail(
-        FROTH_ERROR_VERSION, call,
-        "abiVersion: 0x%08x, this library is 0x%08x; compile with the header of this library",
-        info.abiVersion, FROTH_ABI_VERSION);
+    return messages.fail(FROTH_ERROR_VERSION, call,
+                         "abiVersion: 0x%08x, this library is 0x%08x; compile with the header of this library",
+                         info.abiVersion, FROTH_ABI_VERSION);
   }
   if (info.framesInFlight > kMaxFramesInFlight) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "framesInFlight: %u; at most %u", info.framesInFlight,
                          kMaxFramesInFlight);
   }
   if (!info.allocateMemory != !info.freeMemory) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                         "allocateMemory, freeMemory: one is null; set both or none");
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "allocateMemory, freeMemory: one is null; set both or none");
   }
   if (info.compositeFormat != VK_FORMAT_UNDEFINED && !canComposite(info.compositeFormat)) {
     return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
@@ -81,8 +79,7 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
 }
 
 Status Context::createDeviceObjects(const FrothContextInfo& info) {
-  Result<Device> device =
-      Device::create(info.getInstanceProcAddr, info.instance, info.physicalDevice, info.device);
+  Result<Device> device = Device::create(info.getInstanceProcAddr, info.instance, info.physicalDevice, info.device);
   if (!device) {
     return device.error();
   }
@@ -111,8 +108,8 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
   if (!hasWalkShaders_) {
     return {};
   }
-  Result<std::unique_ptr<WalkSets>> walks = WalkSets::create(
-      device_, info.pipelineCache, {info.checkIndices != 0, info.countWork != 0}, framesInFlight_);
+  Result<std::unique_ptr<WalkSets>> walks =
+      WalkSets::create(device_, info.pipelineCache, {info.checkIndices != 0, info.countWork != 0}, framesInFlight_);
   if (!walks) {
     return walks.error();
   }
@@ -155,20 +152,18 @@ void Context::shrinkViews() {
     });
   } else if (!isExcessTold_) {
     isExcessTold_ = true;
-    messages.warn(
-        FROTH_ERROR_MEMORY, "frothSetBudget",
-        "%llu bytes are held and the budget is %llu: assets, and the least that views need, do not shrink; "
-        "close some, or raise it",
-        static_cast<unsigned long long>(device_.ledger.deviceBytes()),
-        static_cast<unsigned long long>(device_.budget));
+    messages.warn(FROTH_ERROR_MEMORY, "frothSetBudget",
+                  "%llu bytes are held and the budget is %llu: assets, and the least that views need, do not shrink; "
+                  "close some, or raise it",
+                  static_cast<unsigned long long>(device_.ledger.deviceBytes()),
+                  static_cast<unsigned long long>(device_.budget));
   }
 }
 
 // ---- Device loss ----
 
 FrothResult Context::checkDevice(const char* call) const {
-  return isLost_ ? messages.fail(FROTH_ERROR_DEVICE, call, "the device is lost; call frothRestoreDevice")
-                 : FROTH_OK;
+  return isLost_ ? messages.fail(FROTH_ERROR_DEVICE, call, "the device is lost; call frothRestoreDevice") : FROTH_OK;
 }
 
 void Context::loseDevice() {

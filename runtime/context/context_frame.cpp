@@ -13,23 +13,22 @@ FrothResult Context::beginFrame(const FrothFrame& frame) {
   constexpr const char* kCall = "frothUpdate";
   if (frame.serial <= serial_) {
     return messages.fail(FROTH_ERROR_STATE, kCall, "serial: %llu after %llu; serials must grow",
-                         static_cast<unsigned long long>(frame.serial),
-                         static_cast<unsigned long long>(serial_));
+                         static_cast<unsigned long long>(frame.serial), static_cast<unsigned long long>(serial_));
   }
   if (frame.completedSerial >= frame.serial || frame.completedSerial < completedSerial_) {
-    return messages.fail(
-        FROTH_ERROR_STATE, kCall,
-        "completedSerial: %llu, in frame %llu, after %llu; must be below the frame's and never shrink",
-        static_cast<unsigned long long>(frame.completedSerial), static_cast<unsigned long long>(frame.serial),
-        static_cast<unsigned long long>(completedSerial_));
+    return messages.fail(FROTH_ERROR_STATE, kCall,
+                         "completedSerial: %llu, in frame %llu, after %llu; must be below the frame's and never shrink",
+                         static_cast<unsigned long long>(frame.completedSerial),
+                         static_cast<unsigned long long>(frame.serial),
+                         static_cast<unsigned long long>(completedSerial_));
   }
   std::erase_if(serialsInFlight_, [&](uint64_t serial) { return serial <= frame.completedSerial; });
   if (serialsInFlight_.size() >= framesInFlight_) {
-    return messages.fail(
-        FROTH_ERROR_STATE, kCall,
-        "completedSerial: %llu leaves %zu frames in flight, the context was made for %u; wait for the "
-        "oldest, or raise FrothContextInfo::framesInFlight",
-        static_cast<unsigned long long>(frame.completedSerial), serialsInFlight_.size() + 1, framesInFlight_);
+    return messages.fail(FROTH_ERROR_STATE, kCall,
+                         "completedSerial: %llu leaves %zu frames in flight, the context was made for %u; wait for the "
+                         "oldest, or raise FrothContextInfo::framesInFlight",
+                         static_cast<unsigned long long>(frame.completedSerial), serialsInFlight_.size() + 1,
+                         framesInFlight_);
   }
   serialsInFlight_.push_back(frame.serial);
   serial_ = frame.serial;
@@ -114,8 +113,7 @@ void Context::prepareView(View& view) {
   if (!view.renderer) {
     return;
   }
-  std::erase_if(view.bits,
-                [&](const auto& recorded) { return recorded.first < view.renderer->status().serial; });
+  std::erase_if(view.bits, [&](const auto& recorded) { return recorded.first < view.renderer->status().serial; });
   view.bits.reserve(view.bits.size() + 2 * kMostEyes);  // a raster and a walk of each
   view.prepared.clear();
   instances_.forEachNamed([&](FrothInstance handle, const Instance& instance) {
@@ -157,17 +155,15 @@ FrothResult Context::recordUpload(VkCommandBuffer commandBuffer) {
   if (recorded == 0) {
     return FROTH_OK;
   }
-  device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT,
-                                    VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+  device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
   return FROTH_OK;
 }
 
 FrothResult Context::dropFrame(uint64_t serial) {
   const auto found = std::find(serialsInFlight_.begin(), serialsInFlight_.end(), serial);
   if (found == serialsInFlight_.end()) {
-    return messages.fail(FROTH_ERROR_STATE, "frothDropFrame",
-                         "serial: %llu is complete, dropped already, or unknown",
+    return messages.fail(FROTH_ERROR_STATE, "frothDropFrame", "serial: %llu is complete, dropped already, or unknown",
                          static_cast<unsigned long long>(serial));
   }
   serialsInFlight_.erase(found);
@@ -210,9 +206,9 @@ void Context::preparePipelines() {
   if (count < 2 || !pipelines_) {
     return;
   }
-  const Status status = pipelines_->prepareForSeveral();
-  if (!status && severalError_ != status.error().message) {  // once, not in every frame
-    severalError_ = status.error().message;
+  const Status status = pipelines_->prepareMerging();
+  if (!status && mergingError_ != status.error().message) {  // once, not in every frame
+    mergingError_ = status.error().message;
     messages.fail(status.error(), "several instances");
   }
 }
@@ -231,7 +227,7 @@ void Context::gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& b
     if (isNull_) {
       return;
     }
-      // An instance that came after frothUpdate: the view has no buffers for it before the next one.
+    // An instance that came after frothUpdate: the view has no buffers for it before the next one.
     const auto isIt = [&](const RenderInstance& prepared) {
       return isSame(prepared.handle, handle) && prepared.asset == &asset.gpu();
     };
@@ -249,14 +245,15 @@ void Context::gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& b
 }
 
 FrothResult Context::checkEye(const View& view, uint32_t eye, const char* call) const {
-  return eye < view.eyeCount ? FROTH_OK
-                             : messages.fail(FROTH_ERROR_ARGUMENT, call, "eye: %u, and the view has %u; set FrothViewInfo::eyeCount",
-                                             eye, view.eyeCount);
+  return eye < view.eyeCount
+             ? FROTH_OK
+             : messages.fail(FROTH_ERROR_ARGUMENT, call, "eye: %u, and the view has %u; set FrothViewInfo::eyeCount",
+                             eye, view.eyeCount);
 }
 
 FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
                             FrothRenderInfo info) {
-  const char* call = method == RenderMethod::kRaster ? "frothRasterize" : "frothWalk";
+  const char* call = method == RenderMethod::kRaster ? "frothRecordRaster" : "frothRecordWalk";
   View* view = views_.find(handle);
   if (!view) {
     return messages.fail(FROTH_ERROR_HANDLE, call, "view {%u, %u}: destroyed or never created", handle.index,
@@ -274,9 +271,8 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   Eye& eye = view->eyes[info.eye];
   uint64_t& renderedSerial = eye.renderedSerials[static_cast<size_t>(method)];
   if (renderedSerial == serial_) {
-    return messages.fail(FROTH_ERROR_STATE, call,
-                         "view {%u, %u}: already drawn in frame %llu; call frothUpdate first", handle.index,
-                         handle.generation, static_cast<unsigned long long>(serial_));
+    return messages.fail(FROTH_ERROR_STATE, call, "view {%u, %u}: already drawn in frame %llu; call frothUpdate first",
+                         handle.index, handle.generation, static_cast<unsigned long long>(serial_));
   }
   if (const FrothResult result = resolveRenderInfo(messages, call, view->maxExtent, view->lensClasses, info);
       result != FROTH_OK) {

@@ -69,8 +69,7 @@ FrothResult Context::castRays(FrothCastInfo info, std::span<const FrothRay> rays
   if (info.cutoff == 0) info.cutoff = kDefaultCutoff;
   resolveWalkLimits(info.maxSteps, info.maxNeighbours);
   if (!(info.quantile > 0 && info.quantile < 1)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "quantile: %g; must lie between 0 and 1",
-                         double{info.quantile});
+    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "quantile: %g; must lie between 0 and 1", double{info.quantile});
   }
   if (!(info.cutoff < 1)) {
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "cutoff: %g; must be below 1", double{info.cutoff});
@@ -98,16 +97,16 @@ FrothResult Context::locate(FrothInstance handle, const double (&point)[3], Frot
   constexpr const char* kCall = "frothLocate";
   const Instance* instance = instances_.find(handle);
   if (!instance) {
-    return messages.fail(FROTH_ERROR_HANDLE, kCall, "instance {%u, %u}: destroyed or never created",
-                         handle.index, handle.generation);
+    return messages.fail(FROTH_ERROR_HANDLE, kCall, "instance {%u, %u}: destroyed or never created", handle.index,
+                         handle.generation);
   }
   if (!isFinite(point)) {
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "point: not finite");
   }
   const Asset& asset = *assets_.find(instance->asset);
   if (!asset.keepsForQueries()) {
-    return messages.fail(FROTH_ERROR_STATE, kCall,
-                         "%s: opened without queries; set FrothAssetInfo::keepForQueries", asset.name().c_str());
+    return messages.fail(FROTH_ERROR_STATE, kCall, "%s: opened without queries; set FrothAssetInfo::keepForQueries",
+                         asset.name().c_str());
   }
   if (!asset.queryFoam()) {
     return messages.fail(FROTH_ERROR_STATE, kCall, "%s: not loaded yet, or FAILED", asset.name().c_str());
@@ -133,8 +132,7 @@ FrothResult Context::overlapSphere(FrothSphere sphere, FrothContact& contact) co
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "centre, radius: not finite, or a negative radius");
   }
   if (!(sphere.opacity > 0 && sphere.opacity < 1)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "opacity: %g; must lie between 0 and 1",
-                         double{sphere.opacity});
+    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "opacity: %g; must lie between 0 and 1", double{sphere.opacity});
   }
   const glm::dvec3 centre = toVector(sphere.centre);
   const double opticalDepth = -std::log1p(-double{sphere.opacity});

@@ -30,8 +30,8 @@ FrothResult Context::describeWalkLayout(VkDescriptorSetLayout& layout) const {
   return result;
 }
 
-// Space for all that can be walked now; what does not fit is left out of sets, and rays meet one instance at a time where the
-// pipelines for more cannot be made.
+// Space for all that can be walked now; what does not fit is left out of sets, and rays meet one instance at a time
+// where the pipelines for more cannot be made.
 void Context::prepareWalks() {
   if (!walks_) {
     return;
@@ -134,8 +134,7 @@ FrothResult Context::recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress r
   }
   constexpr VkDeviceAddress kAlignment = 16;
   if (!commandBuffer || rays == 0 || hits == 0 || rays % kAlignment != 0 || hits % kAlignment != 0) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, kCall,
-                         "commandBuffer, rays, hits: null, or not a multiple of 16");
+    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "commandBuffer, rays, hits: null, or not a multiple of 16");
   }
   walks_->recordRays(commandBuffer, rays, hits, count, kind);
   return FROTH_OK;

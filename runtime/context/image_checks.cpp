@@ -5,8 +5,7 @@
 namespace froth {
 
 FrothResult checkImage(const Messages& messages, const char* call, const char* name, const FrothImage& image,
-                       std::span<const VkFormat> formats, const char* formatNames,
-                       const VkRect2D& drawn) {
+                       std::span<const VkFormat> formats, const char* formatNames, const VkRect2D& drawn) {
   if (!image.image) {
     return FROTH_OK;
   }
@@ -24,18 +23,16 @@ FrothResult checkImage(const Messages& messages, const char* call, const char* n
                          formatNames);
   }
   if (image.layoutOut == VK_IMAGE_LAYOUT_UNDEFINED || image.layoutOut == VK_IMAGE_LAYOUT_PREINITIALIZED) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                         "%s.layoutOut: VkImageLayout %d; name the layout of its next use", name,
-                         image.layoutOut);
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s.layoutOut: VkImageLayout %d; name the layout of its next use",
+                         name, image.layoutOut);
   }
   const uint64_t right = uint64_t{drawn.extent.width} + static_cast<uint32_t>(drawn.offset.x);
   const uint64_t bottom = uint64_t{drawn.extent.height} + static_cast<uint32_t>(drawn.offset.y);
   if (right > image.extent.width || bottom > image.extent.height) {
-    return messages.fail(
-        FROTH_ERROR_ARGUMENT, call,
-        "%s.extent: %u x %u, but viewport and scissor reach to %llu x %llu; clip them to the image", name,
-        image.extent.width, image.extent.height, static_cast<unsigned long long>(right),
-        static_cast<unsigned long long>(bottom));
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "%s.extent: %u x %u, but viewport and scissor reach to %llu x %llu; clip them to the image",
+                         name, image.extent.width, image.extent.height, static_cast<unsigned long long>(right),
+                         static_cast<unsigned long long>(bottom));
   }
   return FROTH_OK;
 }

@@ -8,8 +8,8 @@
 
 namespace froth {
 
-// FROTH_OK for null. The image must have a view, one sample, one of the formats, a layout to be left in, and hold what is drawn.
-// `call` names the entry point, `name` the field in messages.
+// FROTH_OK for null. The image must have a view, one sample, one of the formats, a layout to be left in, and hold what
+// is drawn. `call` names the entry point, `name` the field in messages.
 FrothResult checkImage(const Messages& messages, const char* call, const char* name, const FrothImage& image,
                        std::span<const VkFormat> formats, const char* formatNames, const VkRect2D& drawn);
 

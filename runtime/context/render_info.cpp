@@ -23,12 +23,12 @@ FrothResult checkLensClass(const Messages& messages, const char* call, const Fro
   if (lensClass == gpu::kLensClassPinhole || (lensClasses >> (lensClass - 1) & 1) != 0) {
     return FROTH_OK;
   }
-  return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
-                       "camera: %s, which the view was not made for; set %s in FrothViewInfo::lensClasses and "
-                       "FrothContextInfo::lensClasses",
-                       lensClass == gpu::kLensClassMapped ? "a lens that is no projection" : "parallel rays",
-                       lensClass == gpu::kLensClassMapped ? "FROTH_LENS_CLASS_MAPPED"
-                                                          : "FROTH_LENS_CLASS_ORTHOGRAPHIC");
+  return messages.fail(
+      FROTH_ERROR_UNSUPPORTED, call,
+      "camera: %s, which the view was not made for; set %s in FrothViewInfo::lensClasses and "
+      "FrothContextInfo::lensClasses",
+      lensClass == gpu::kLensClassMapped ? "a lens that is no projection" : "parallel rays",
+      lensClass == gpu::kLensClassMapped ? "FROTH_LENS_CLASS_MAPPED" : "FROTH_LENS_CLASS_ORTHOGRAPHIC");
 }
 
 // The pixels that viewport and scissor let through; may be empty.
@@ -36,8 +36,7 @@ VkRect2D drawnRectangle(const FrothCamera& camera) {
   const VkViewport& viewport = camera.viewport;
   const double bottom = double{viewport.y} + viewport.height;
   double x0 = std::floor(viewport.x), x1 = std::ceil(double{viewport.x} + viewport.width);
-  double y0 = std::floor(std::min<double>(viewport.y, bottom)),
-         y1 = std::ceil(std::max<double>(viewport.y, bottom));
+  double y0 = std::floor(std::min<double>(viewport.y, bottom)), y1 = std::ceil(std::max<double>(viewport.y, bottom));
   const VkRect2D& scissor = camera.scissor;
   if (scissor.extent.width != 0 || scissor.extent.height != 0) {
     x0 = std::max<double>(x0, scissor.offset.x);
@@ -55,7 +54,8 @@ VkRect2D drawnRectangle(const FrothCamera& camera) {
 }
 
 // Of images alone; what they ask of the camera follows.
-FrothResult checkImages(const Messages& messages, const char* call, const FrothRenderInfo& info, const VkRect2D& drawn) {
+FrothResult checkImages(const Messages& messages, const char* call, const FrothRenderInfo& info,
+                        const VkRect2D& drawn) {
   for (const FrameImage& image : kFrameImages) {
     const FrothImage& given = image.of(info);
     const FrothResult result = checkImage(messages, call, image.name, given, image.formats, image.formatNames, drawn);
@@ -106,8 +106,7 @@ FrothResult resolveMotion(const Messages& messages, const char* call, FrothRende
   return checkCamera(messages, (std::string(call) + ", previousCamera").c_str(), previous);
 }
 
-FrothResult checkDrawn(const Messages& messages, const char* call, VkExtent2D maxExtent,
-                       const VkRect2D& drawn) {
+FrothResult checkDrawn(const Messages& messages, const char* call, VkExtent2D maxExtent, const VkRect2D& drawn) {
   if (drawn.extent.width == 0 || drawn.extent.height == 0 || drawn.offset.x < 0 || drawn.offset.y < 0) {
     return messages.fail(
         FROTH_ERROR_ARGUMENT, call,
@@ -116,10 +115,9 @@ FrothResult checkDrawn(const Messages& messages, const char* call, VkExtent2D ma
         drawn.extent.width, drawn.extent.height, drawn.offset.x, drawn.offset.y);
   }
   if (drawn.extent.width > maxExtent.width || drawn.extent.height > maxExtent.height) {
-    return messages.fail(
-        FROTH_ERROR_ARGUMENT, call,
-        "camera: %u x %u pixels, but the view was made for %u x %u; raise FrothViewInfo::maxExtent",
-        drawn.extent.width, drawn.extent.height, maxExtent.width, maxExtent.height);
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "camera: %u x %u pixels, but the view was made for %u x %u; raise FrothViewInfo::maxExtent",
+                         drawn.extent.width, drawn.extent.height, maxExtent.width, maxExtent.height);
   }
   return FROTH_OK;
 }
@@ -131,7 +129,8 @@ FrothResult checkToneCurve(const Messages& messages, const char* call, const Fro
   }
   if (curve != FROTH_TONE_NONE && info.displayCoded) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                         "toneCurve: %d with displayCoded; a display-coded image is the capture; set one of them", curve);
+                         "toneCurve: %d with displayCoded; a display-coded image is the capture; set one of them",
+                         curve);
   }
   return FROTH_OK;
 }
@@ -145,22 +144,20 @@ FrothResult checkTileForm(const Messages& messages, const char* call, const Frot
 // NaN fails every comparison, so each condition says what is right.
 FrothResult resolveLimits(const Messages& messages, const char* call, FrothRenderInfo& info) {
   info.cutoff = info.cutoff == 0 ? kDefaultCutoff : info.cutoff < 0 ? 0 : info.cutoff;
-  info.depthQuantile = info.depthQuantile == 0 ? kDefaultDepthQuantile : info.depthQuantile;
+  info.quantile = info.quantile == 0 ? kDefaultDepthQuantile : info.quantile;
   resolveWalkLimits(info.maxSteps, info.maxNeighbours);
   info.maxEntries = info.maxEntries == 0 ? kDefaultMaxEntries : info.maxEntries;
   info.mask = info.mask == 0 ? ~0u : info.mask;
   if (!(info.cutoff < 1)) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "cutoff: %g; must be below 1", double{info.cutoff});
   }
-  if (!(info.depthQuantile > 0 && info.depthQuantile < 1)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "depthQuantile: %g; must lie between 0 and 1",
-                         double{info.depthQuantile});
+  if (!(info.quantile > 0 && info.quantile < 1)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "quantile: %g; must lie between 0 and 1", double{info.quantile});
   }
   for (const float limit : {info.nearRatio, info.nearDepth}) {
     if (limit != FROTH_NEAR_DEFAULT && !(limit >= 0 && std::isfinite(limit))) {
       return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                           "nearRatio, nearDepth: %g; must be 0, positive, or FROTH_NEAR_DEFAULT",
-                           double{limit});
+                           "nearRatio, nearDepth: %g; must be 0, positive, or FROTH_NEAR_DEFAULT", double{limit});
     }
   }
   return FROTH_OK;
@@ -168,8 +165,8 @@ FrothResult resolveLimits(const Messages& messages, const char* call, FrothRende
 
 }  // namespace
 
-FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExtent2D maxExtent,
-                              uint32_t lensClasses, FrothRenderInfo& info) {
+FrothResult resolveRenderInfo(const Messages& messages, const char* call, VkExtent2D maxExtent, uint32_t lensClasses,
+                              FrothRenderInfo& info) {
   resolveLens(info.camera);
   if (const FrothResult result = checkCamera(messages, call, info.camera); result != FROTH_OK) {
     return result;

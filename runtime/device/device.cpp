@@ -16,11 +16,10 @@ struct KindTraits {
 };
 
 KindTraits traitsOf(BufferKind kind) {
-  constexpr VkMemoryPropertyFlags kVisible =
-      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  constexpr VkMemoryPropertyFlags kVisible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
-                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+                                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   switch (kind) {
     case BufferKind::kStaging:
       return {VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kVisible, 0, false};
@@ -29,7 +28,8 @@ KindTraits traitsOf(BufferKind kind) {
     case BufferKind::kDevice:
       break;
   }
-  return {kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true};
+  return {kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, 0,
+          VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true};
 }
 
 std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowedTypes,
@@ -45,9 +45,7 @@ std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& m
   return std::nullopt;
 }
 
-unsigned long long asPrinted(VkDeviceSize bytes) {
-  return bytes;
-}
+unsigned long long asPrinted(VkDeviceSize bytes) { return bytes; }
 
 // Destroyed unless it is taken.
 struct NewBuffer {
@@ -69,10 +67,9 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
   const auto getMemoryProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
       getInstanceProcAddr(instance, "vkGetPhysicalDeviceMemoryProperties"));
   if (!getDeviceProcAddr || !getProperties || !getMemoryProperties) {
-    return makeError(
-        ErrorKind::kDevice,
-        "vkGetInstanceProcAddr: gives no vkGetPhysicalDeviceProperties2 for this instance; create the "
-        "instance with VkApplicationInfo::apiVersion of at least 1.3");
+    return makeError(ErrorKind::kDevice,
+                     "vkGetInstanceProcAddr: gives no vkGetPhysicalDeviceProperties2 for this instance; create the "
+                     "instance with VkApplicationInfo::apiVersion of at least 1.3");
   }
 
   Device result;
@@ -85,8 +82,8 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
   }
   FROTH_DEVICE_FUNCTIONS(FROTH_LOAD)
 #undef FROTH_LOAD
-  result.table.vkCmdBeginDebugUtilsLabelEXT = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
-      getDeviceProcAddr(device, "vkCmdBeginDebugUtilsLabelEXT"));
+  result.table.vkCmdBeginDebugUtilsLabelEXT =
+      reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(getDeviceProcAddr(device, "vkCmdBeginDebugUtilsLabelEXT"));
   result.table.vkCmdEndDebugUtilsLabelEXT =
       reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(getDeviceProcAddr(device, "vkCmdEndDebugUtilsLabelEXT"));
 
@@ -109,11 +106,12 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
 Result<GpuBuffer> Device::createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose,
                                        bool mayExceedBudget) {
   if (size > largestBuffer()) {
-    return makeError(
-        ErrorKind::kMemory,
-        "%s: %llu bytes, but a buffer of this device has at most %llu (maxMemoryAllocationSize %llu, maxBufferSize %llu); "
-        "use a smaller view, or an asset of smaller chunks",
-        purpose, asPrinted(size), asPrinted(largestBuffer()), asPrinted(maxAllocationSize), asPrinted(maxBufferSize));
+    return makeError(ErrorKind::kMemory,
+                     "%s: %llu bytes, but a buffer of this device has at most %llu (maxMemoryAllocationSize %llu, "
+                     "maxBufferSize %llu); "
+                     "use a smaller view, or an asset of smaller chunks",
+                     purpose, asPrinted(size), asPrinted(largestBuffer()), asPrinted(maxAllocationSize),
+                     asPrinted(maxBufferSize));
   }
   const KindTraits traits = traitsOf(kind);
   VkBufferCreateInfo bufferInfo{};
@@ -128,8 +126,8 @@ Result<GpuBuffer> Device::createBuffer(MemoryUse use, BufferKind kind, VkDeviceS
     return explain(result, "%s: vkCreateBuffer of %llu bytes", purpose, asPrinted(size));
   }
   const VkMemoryAllocateFlags flags = traits.hasAddress ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
-  if (const Status status = bindMemory(
-          made.buffer, {use, traits.required, traits.preferred, flags, purpose, mayExceedBudget});
+  if (const Status status =
+          bindMemory(made.buffer, {use, traits.required, traits.preferred, flags, purpose, mayExceedBudget});
       !status) {
     return status.error();
   }
@@ -145,8 +143,7 @@ Status Device::bindMemory(GpuBuffer& buffer, const MemoryWish& wish) {
   }
   buffer.memory = *block;
   buffer.mapped = block->place.mapped;
-  if (const VkResult result =
-          table.vkBindBufferMemory(device, buffer.buffer, block->place.memory, block->place.offset);
+  if (const VkResult result = table.vkBindBufferMemory(device, buffer.buffer, block->place.memory, block->place.offset);
       result != VK_SUCCESS) {
     return explain(result, "%s: vkBindBufferMemory of %llu bytes", wish.purpose, asPrinted(requirements.size));
   }
@@ -195,8 +192,8 @@ Result<MemoryBlock> Device::allocate(const VkMemoryRequirements& requirements, V
   }
   const std::optional<uint32_t> type = findMemoryType(memory, requirements.memoryTypeBits, wish);
   if (!type) {
-    return makeError(ErrorKind::kDevice, "%s: no memory type of this device fits (allowed types 0x%x)",
-                     wish.purpose, requirements.memoryTypeBits);
+    return makeError(ErrorKind::kDevice, "%s: no memory type of this device fits (allowed types 0x%x)", wish.purpose,
+                     requirements.memoryTypeBits);
   }
   FrothMemoryRequest request{};
   request.structSize = sizeof(request);
@@ -209,7 +206,8 @@ Result<MemoryBlock> Device::allocate(const VkMemoryRequirements& requirements, V
   const VkResult result = callbacks.allocate ? callbacks.allocate(callbacks.user, &request, &block.place)
                                              : allocateOwn(request, block.place);
   if (result != VK_SUCCESS) {
-    return explain(result, "%s: %s of %llu bytes, with %llu bytes in use and %u allocations (the device has at most %u),",
+    return explain(result,
+                   "%s: %s of %llu bytes, with %llu bytes in use and %u allocations (the device has at most %u),",
                    wish.purpose, callbacks.allocate ? "FrothContextInfo::allocateMemory" : "vkAllocateMemory",
                    asPrinted(requirements.size), asPrinted(ledger.deviceBytes()), ledger.count(),
                    properties.limits.maxMemoryAllocationCount);

@@ -68,8 +68,8 @@ struct MemoryWish {
   MemoryUse use;
   VkMemoryPropertyFlags required, preferred;
   VkMemoryAllocateFlags flags;
-  const char* purpose;     // for messages
-  bool mayExceedBudget;    // it replaces something larger that goes soon
+  const char* purpose;   // for messages
+  bool mayExceedBudget;  // it replaces something larger that goes soon
 };
 
 // The caller's allocator; null: vkAllocateMemory.
@@ -108,13 +108,14 @@ class Device {
   VkDevice device = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
-  uint32_t timestampBits = 0;          // valid ones, of the queue family that frames are submitted to; 0: it takes no timestamps
+  // valid ones, of the queue family that frames are submitted to; 0: it takes no timestamps
+  uint32_t timestampBits = 0;
   VkDeviceSize maxAllocationSize = 0, maxBufferSize = 0;  // that the device promises to accept
   VkDeviceSize largestBuffer() const { return std::min(maxAllocationSize, maxBufferSize); }
-  VkDeviceSize budget = 0;             // [bytes] 0: no limit
-  VkDeviceSize roomBytes() const;      // left of the budget
-  VkDeviceSize excessBytes() const;    // held beyond the budget
-  uint64_t budgetRefusals = 0;         // allocations that did not fit it
+  VkDeviceSize budget = 0;           // [bytes] 0: no limit
+  VkDeviceSize roomBytes() const;    // left of the budget
+  VkDeviceSize excessBytes() const;  // held beyond the budget
+  uint64_t budgetRefusals = 0;       // allocations that did not fit it
   MemoryLedger ledger;
   MemoryCallbacks callbacks;
   std::optional<Error> loss;  // the call that found the device lost

@@ -32,7 +32,7 @@ class MemoryLedger {
 
   VkDeviceSize deviceBytes() const { return deviceBytes_; }
   VkDeviceSize hostBytes() const { return hostBytes_; }
-  uint32_t count() const { return count_; }  // of allocations
+  uint32_t count() const { return count_; }        // of allocations
   void describe(FrothMemoryReport& report) const;  // all but the budget
 
  private:

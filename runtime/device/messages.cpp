@@ -6,8 +6,8 @@
 namespace froth {
 namespace {
 
-void send(const Messages& messages, FrothSeverity severity, FrothResult code, const char* object,
-          const char* format, va_list args) {
+void send(const Messages& messages, FrothSeverity severity, FrothResult code, const char* object, const char* format,
+          va_list args) {
   if (!messages.callback) {
     return;
   }

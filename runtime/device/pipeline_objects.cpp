@@ -19,7 +19,8 @@ Result<VkDescriptorSetLayout> createSetLayout(Device& device, const char* name, 
   return layout;
 }
 
-Result<VkPipelineLayout> createPipelineLayout(Device& device, const char* name, VkDescriptorSetLayout set, uint32_t pushBytes) {
+Result<VkPipelineLayout> createPipelineLayout(Device& device, const char* name, VkDescriptorSetLayout set,
+                                              uint32_t pushBytes) {
   const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, pushBytes};
   VkPipelineLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;

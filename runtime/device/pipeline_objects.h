@@ -19,7 +19,8 @@ struct SetBindings {
 Result<VkDescriptorSetLayout> createSetLayout(Device& device, const char* name, const SetBindings& bindings);
 
 // pushBytes: of push constants for compute shaders; 0: none.
-Result<VkPipelineLayout> createPipelineLayout(Device& device, const char* name, VkDescriptorSetLayout set, uint32_t pushBytes);
+Result<VkPipelineLayout> createPipelineLayout(Device& device, const char* name, VkDescriptorSetLayout set,
+                                              uint32_t pushBytes);
 
 // specialization: null if there is none.
 Result<VkPipeline> createComputePipeline(Device& device, VkPipelineCache cache, const char* name,

@@ -33,12 +33,13 @@ constexpr RequiredFeature kRequiredFeatures[] = {
     {"synchronization2",
      {FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, VkPhysicalDeviceVulkan13Features,
                  synchronization2),
-      FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
-                 VkPhysicalDeviceSynchronization2Features, synchronization2)}},
+      FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, VkPhysicalDeviceSynchronization2Features,
+                 synchronization2)}},
 };
 constexpr RequiredFeature kDynamicRendering = {
     "dynamicRendering",
-    {FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, VkPhysicalDeviceVulkan13Features, dynamicRendering),
+    {FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, VkPhysicalDeviceVulkan13Features,
+                dynamicRendering),
      FROTH_HOME(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, VkPhysicalDeviceDynamicRenderingFeatures,
                 dynamicRendering)}};
 #undef FROTH_HOME
@@ -80,14 +81,14 @@ void linkFeatures(Offer& offer) {
   offer.features.pNext = &offer.features12;
 }
 
-void queryOffer(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
-                VkPhysicalDevice physicalDevice, Offer& offer) {
+void queryOffer(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkPhysicalDevice physicalDevice,
+                Offer& offer) {
   const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties>(
       getInstanceProcAddr(instance, "vkGetPhysicalDeviceProperties"));
   const auto getFamilies = reinterpret_cast<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
       getInstanceProcAddr(instance, "vkGetPhysicalDeviceQueueFamilyProperties"));
-  const auto getFeatures = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
-      getInstanceProcAddr(instance, "vkGetPhysicalDeviceFeatures2"));
+  const auto getFeatures =
+      reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(getInstanceProcAddr(instance, "vkGetPhysicalDeviceFeatures2"));
   if (!getProperties || !getFamilies || !getFeatures) {
     return;  // an instance older than Vulkan 1.1: nothing is offered
   }
@@ -108,8 +109,7 @@ bool hasCompute(const Offer& offer) {
   return false;
 }
 
-void addItem(FrothRequirements& requirements, const char* name, const char* loss, bool isPresent,
-             bool isFeature) {
+void addItem(FrothRequirements& requirements, const char* name, const char* loss, bool isPresent, bool isFeature) {
   requirements.items[requirements.itemCount++] = {name, loss, isPresent, isFeature};
 }
 
@@ -131,14 +131,16 @@ FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAdd
     addItem(requirements, feature.name, nullptr, isEnabled(offer.features, feature), true);
   }
   const VkPhysicalDeviceLimits& limits = offer.properties.limits;
-  addItem(requirements, "maxComputeWorkGroupSize[0] >= 256", nullptr, limits.maxComputeWorkGroupSize[0] >= gpu::kGroupSize, false);
+  addItem(requirements, "maxComputeWorkGroupSize[0] >= 256", nullptr,
+          limits.maxComputeWorkGroupSize[0] >= gpu::kGroupSize, false);
   addItem(requirements, "maxComputeWorkGroupInvocations >= 256", nullptr,
           limits.maxComputeWorkGroupInvocations >= gpu::kGroupSize, false);
   addItem(requirements, "timestampComputeAndGraphics", "the times of passes (FrothViewStatus::passes)",
           limits.timestampComputeAndGraphics, false);
   addItem(requirements, "shaderStorageImageExtendedFormats", "the images id and motion (FrothRenderInfo)",
           offer.features.features.shaderStorageImageExtendedFormats, true);
-  addItem(requirements, kDynamicRendering.name, "frothRecordDepthExport", isEnabled(offer.features, kDynamicRendering), true);
+  addItem(requirements, kDynamicRendering.name, "frothRecordDepthExport", isEnabled(offer.features, kDynamicRendering),
+          true);
 
   requirements.isSatisfied = 1;
   for (uint32_t i = 0; i < requirements.itemCount; ++i) {
@@ -213,16 +215,18 @@ uint32_t timestampBitsOf(const FrothContextInfo& info) {
 
 FrothResult checkDepthExportDevice(const FrothContextInfo& info, const Messages& messages, const char* call) {
   if (!isEnabled(*info.enabledFeatures, kDynamicRendering)) {
-    return messages.fail(FROTH_ERROR_FEATURE, call,
-                         "depthExportFormat: the device was made without dynamicRendering; enable it where frothGetRequirements "
-                         "says that it is present");
+    return messages.fail(
+        FROTH_ERROR_FEATURE, call,
+        "depthExportFormat: the device was made without dynamicRendering; enable it where frothGetRequirements "
+        "says that it is present");
   }
   Offer offer;
   linkFeatures(offer);
   queryOffer(info.getInstanceProcAddr, info.instance, info.physicalDevice, offer);
   if (!(offer.queueFamilies[info.queueFamily].queueFlags & VK_QUEUE_GRAPHICS_BIT)) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                         "depthExportFormat: queue family %u cannot draw; name one with VK_QUEUE_GRAPHICS_BIT", info.queueFamily);
+                         "depthExportFormat: queue family %u cannot draw; name one with VK_QUEUE_GRAPHICS_BIT",
+                         info.queueFamily);
   }
   const auto getFormat = reinterpret_cast<PFN_vkGetPhysicalDeviceFormatProperties>(
       info.getInstanceProcAddr(info.instance, "vkGetPhysicalDeviceFormatProperties"));
@@ -230,9 +234,10 @@ FrothResult checkDepthExportDevice(const FrothContextInfo& info, const Messages&
   getFormat(info.physicalDevice, info.depthExportFormat, &properties);
   return properties.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT
              ? FROTH_OK
-             : messages.fail(FROTH_ERROR_UNSUPPORTED, call,
-                             "depthExportFormat: VkFormat %d cannot be a depth attachment on this device; D16_UNORM always can",
-                             info.depthExportFormat);
+             : messages.fail(
+                   FROTH_ERROR_UNSUPPORTED, call,
+                   "depthExportFormat: VkFormat %d cannot be a depth attachment on this device; D16_UNORM always can",
+                   info.depthExportFormat);
 }
 
 }  // namespace froth

@@ -18,10 +18,12 @@ const char* requireFeatures(VkPhysicalDeviceFeatures2& features);
 // compute. The message names everything that is missing.
 FrothResult checkContextDevice(const FrothContextInfo& info, const Messages& messages, const char* call);
 
-// VkQueueFamilyProperties::timestampValidBits of the context's queue family. Of a device that passed checkContextDevice.
+// VkQueueFamilyProperties::timestampValidBits of the context's queue family. Of a device that passed
+// checkContextDevice.
 uint32_t timestampBitsOf(const FrothContextInfo& info);
 
-// What frothRecordDepthExport needs besides, of a device that passed checkContextDevice. FrothContextInfo::depthExportFormat is set.
+// What frothRecordDepthExport needs besides, of a device that passed checkContextDevice.
+// FrothContextInfo::depthExportFormat is set.
 FrothResult checkDepthExportDevice(const FrothContextInfo& info, const Messages& messages, const char* call);
 
 }  // namespace froth

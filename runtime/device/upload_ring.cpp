@@ -16,12 +16,10 @@ Result<std::unique_ptr<UploadRing>> UploadRing::create(Device& device, VkDeviceS
   return ring;
 }
 
-UploadRing::~UploadRing() {
-  device_.destroyBuffer(buffer_);
-}
+UploadRing::~UploadRing() { device_.destroyBuffer(buffer_); }
 
-VkDeviceSize UploadRing::stage(const void* owner, VkBuffer target, VkDeviceSize targetOffset,
-                               const void* bytes, VkDeviceSize size) {
+VkDeviceSize UploadRing::stage(const void* owner, VkBuffer target, VkDeviceSize targetOffset, const void* bytes,
+                               VkDeviceSize size) {
   VkDeviceSize staged = 0;
   copies_.reserve(copies_.size() + 2);  // one, or two around the end of the ring
   while (staged < size && used_ < buffer_.size) {

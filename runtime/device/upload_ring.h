@@ -26,8 +26,8 @@ class UploadRing {
   // Records what is staged, oldest first, up to `limit` bytes; returns the bytes recorded.
   VkDeviceSize record(VkCommandBuffer commandBuffer, uint64_t serial, VkDeviceSize limit);
 
-  bool isStaged(const void* owner) const;  // something of the owner waits to be recorded
-  VkDeviceSize stagedBytes() const;        // of all owners
+  bool isStaged(const void* owner) const;           // something of the owner waits to be recorded
+  VkDeviceSize stagedBytes() const;                 // of all owners
   VkDeviceSize usedBytes() const { return used_; }  // staged, or recorded and not complete
 
   void retire(uint64_t completedSerial);  // reuses the room of completed copies

@@ -22,8 +22,7 @@ std::optional<glm::dvec3> nearestOnEdge(const HalfSpace& a, const HalfSpace& b, 
   const double sineSquared = glm::dot(cross, cross);
   if (!(sineSquared > 1e-24)) return std::nullopt;  // parallel and apart: nothing lies on both
   const double ea = excess(a, point), eb = excess(b, point);
-  const glm::dvec3 foot =
-      point - ((ea - cosine * eb) * a.normal + (eb - cosine * ea) * b.normal) / sineSquared;
+  const glm::dvec3 foot = point - ((ea - cosine * eb) * a.normal + (eb - cosine * ea) * b.normal) / sineSquared;
   const glm::dvec3 along = cross / std::sqrt(sineSquared);
   const double tolerance = toleranceAt(point);
   double low = -std::numeric_limits<double>::infinity(), high = -low;
@@ -57,8 +56,8 @@ std::optional<glm::dvec3> nearestOnFace(const HalfSpace& face, std::span<const H
 
 }  // namespace
 
-// One half-space after the other (Seidel 1991): if the nearest point so far is not in the next one, the new one lies on its
-// surface, where the problem has one dimension less.
+// One half-space after the other (Seidel 1991): if the nearest point so far is not in the next one, the new one lies on
+// its surface, where the problem has one dimension less.
 std::optional<glm::dvec3> findNearestPoint(std::span<const HalfSpace> halfSpaces, const glm::dvec3& point) {
   glm::dvec3 nearest = point;
   const double tolerance = toleranceAt(point);
@@ -71,8 +70,9 @@ std::optional<glm::dvec3> findNearestPoint(std::span<const HalfSpace> halfSpaces
   return nearest;
 }
 
-// With a multiplier m >= 0 for the ball, |y - c|^2 + m |y|^2 is least at the point nearest to c / (1 + m): some point between c
-// and the origin. The farther down that way, the nearer to the origin its nearest point: a search for the one on the sphere.
+// With a multiplier m >= 0 for the ball, |y - c|^2 + m |y|^2 is least at the point nearest to c / (1 + m): some point
+// between c and the origin. The farther down that way, the nearer to the origin its nearest point: a search for the one
+// on the sphere.
 std::optional<glm::dvec3> findNearestPointInBall(std::span<const HalfSpace> halfSpaces, const glm::dvec3& point) {
   const auto outer = findNearestPoint(halfSpaces, point);
   if (!outer || glm::dot(*outer, *outer) <= 1) return outer;
@@ -84,8 +84,8 @@ std::optional<glm::dvec3> findNearestPointInBall(std::span<const HalfSpace> half
   constexpr double kTolerance = 1e-12;
   for (int step = 0; step < kMostSteps && high - low > kTolerance && -highExcess > kTolerance; ++step) {
     // Regula falsi, every third step a bisection.
-    const double share = step % 3 == 2 ? 0.5 * (low + high)
-                                       : (low * highExcess - high * lowExcess) / (highExcess - lowExcess);
+    const double share =
+        step % 3 == 2 ? 0.5 * (low + high) : (low * highExcess - high * lowExcess) / (highExcess - lowExcess);
     const auto found = findNearestPoint(halfSpaces, (1 - share) * point);
     if (!found) return inner;
     const double foundExcess = glm::length(*found) - 1;

@@ -14,7 +14,8 @@ struct HalfSpace {
   double offset;
 };
 
-// The point nearest to `point` in all half-spaces; none: nothing is in all of them. Lengths near 1: a surface is as thick as 1e-12.
+// The point nearest to `point` in all half-spaces; none: nothing is in all of them. Lengths near 1: a surface is as
+// thick as 1e-12.
 std::optional<glm::dvec3> findNearestPoint(std::span<const HalfSpace> halfSpaces, const glm::dvec3& point);
 
 // The same in the unit ball around the origin, too.

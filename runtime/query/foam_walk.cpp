@@ -14,8 +14,7 @@ namespace {
 constexpr uint32_t kNoSite = UINT32_MAX;
 
 // Blended height of the face at a query point in its frame [scene units].
-double heightAt(const QueryDetail* details, uint32_t count, const glm::dvec3& query, double sharpness,
-                double radius) {
+double heightAt(const QueryDetail* details, uint32_t count, const glm::dvec3& query, double sharpness, double radius) {
   double sum = 0, weightSum = 0;
   for (uint32_t k = 0; k < count; ++k) {
     const double weight = foam::detailWeight(query, glm::dvec2(details[k].place), sharpness);
@@ -71,7 +70,9 @@ FoamWalk::Exit FoamWalk::findExit() {
     const double lead = foam::exitLead(otherClearance, otherQ, clearance, q);
     if (!((otherQ > 0) & (lead >= 0))) continue;  // one branch, seldom taken: half of the neighbours lie ahead
     // Towards two sites at one point: the first owns a ray in their plane (shaders/foam/cell.h).
-    if (lead == 0 && !(exit.site != kNoSite && foam::comesFirst(chunk_->siteOf(exit.site) - chunk_->siteOf(other)))) continue;
+    if (lead == 0 && !(exit.site != kNoSite && foam::comesFirst(chunk_->siteOf(exit.site) - chunk_->siteOf(other)))) {
+      continue;
+    }
     const double key = glm::dot(ray_.direction, chunk_->siteOf(other) - localOrigin_);
     if (!(key > key_)) continue;
     exit.site = other;
@@ -119,11 +120,11 @@ void FoamWalk::clipByFace(const QueryChunk& chunk, uint32_t cell, const glm::dve
   if (!chunk.details.empty()) {
     const double radius = chunk.radiusOf(cell);
     const double tQuery = foam::placeOfHeight(centre, frame[0], facing, segment.tNear);
-    const glm::dvec3 local = foam::inFaceFrame(tQuery * ray_.direction - centre, frame[1], frame[2], frame[0],
-                                               1 / radius);
+    const glm::dvec3 local =
+        foam::inFaceFrame(tQuery * ray_.direction - centre, frame[1], frame[2], frame[0], 1 / radius);
     const uint32_t count = foam_->detailCount();
-    height = heightAt(&chunk.details[size_t{cell} * count], count, foam::faceQuery(local),
-                      foam_->detailSharpness(), radius);
+    height =
+        heightAt(&chunk.details[size_t{cell} * count], count, foam::faceQuery(local), foam_->detailSharpness(), radius);
   }
   foam::clipByFace(centre, frame[0], facing, height, segment.tNear, segment.tFar);
 }

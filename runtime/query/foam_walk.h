@@ -27,8 +27,9 @@ struct FoamSegment {
   CellAddress cell;
 };
 
-// No rounding can make a walk cycle: each step has a key, the dot product of the direction and the site it leads to, and is
-// taken only to a greater key; the key of a site of a chunk, be it a cell or a ghost, is one fixed number for a ray.
+// No rounding can make a walk cycle: each step has a key, the dot product of the direction and the site it leads to,
+// and is taken only to a greater key; the key of a site of a chunk, be it a cell or a ghost, is one fixed number for a
+// ray.
 class FoamWalk {
  public:
   FoamWalk(const QueryFoam& foam, const FoamRay& ray, const WalkLimits& limits);

@@ -91,7 +91,8 @@ Status QueryFoam::checkGhosts(const std::string& name) const {
       const glm::vec4 copy = chunk.siteRadius[chunk.cellCount + ghost], original = other.siteRadius[cell.cell];
       const glm::vec3 expected(other.origin - chunk.origin + glm::dvec3(original));
       if (glm::vec3(copy) == expected && copy.w == original.w) continue;
-      return makeError(ErrorKind::kBadInput, "%s: ghost %u is not where cell %u of chunk %u is, or not as large; bake the scene again",
+      return makeError(ErrorKind::kBadInput,
+                       "%s: ghost %u is not where cell %u of chunk %u is, or not as large; bake the scene again",
                        chunkPlace(name, index).c_str(), ghost, cell.cell, cell.chunk);
     }
   }
@@ -138,8 +139,8 @@ CellAddress QueryFoam::locate(const glm::dvec3& point) const {
     for (uint32_t i = chunk->neighbourOffsets[current.cell]; i < end; ++i) {
       const uint32_t other = chunk->neighbourAt(i);
       const double power = froth::powerOf(chunk->siteRadius[other], local);
-      // On a plane: the first of its sites (shaders/foam/cell.h). Not a ghost, whose place another chunk may tell otherwise: so the search
-      // ends whatever a file holds.
+      // On a plane: the first of its sites (shaders/foam/cell.h). Not a ghost, whose place another chunk may tell
+      // otherwise: so the search ends whatever a file holds.
       const bool isFirst = power == least && other < chunk->cellCount &&
                            !foam::comesFirst(glm::vec3(chunk->siteRadius[other]) - glm::vec3(chunk->siteRadius[best]));
       if (power < least || isFirst) {

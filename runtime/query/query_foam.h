@@ -1,7 +1,8 @@
-// An asset as queries see it: what decides where rays are stopped and which cell holds a point, in host memory. No colours.
+// An asset as queries see it: what decides where rays are stopped and which cell holds a point, in host memory. No
+// colours.
 //
-// Sites keep the floats of the reader, relative to their chunk; all that is computed with them is double. Thread safety: built by
-// one thread, then read by any number.
+// Sites keep the floats of the reader, relative to their chunk; all that is computed with them is double. Thread
+// safety: built by one thread, then read by any number.
 #pragma once
 
 #include <cmath>
@@ -31,11 +32,12 @@ struct QueryChunk {
   uint32_t cellCount = 0, liveCount = 0;
   std::vector<glm::vec4> siteRadius;       // [cells, then ghosts]
   std::vector<uint32_t> neighbourOffsets;  // [cellCount + 1]
-  PackedElements neighbours;               // rows ascending: sites lie along a curve, so that a row reads memory forwards
+  // rows ascending: sites lie along a curve, so that a row reads memory forwards
+  PackedElements neighbours;
   std::vector<CellRef> ghostRefs;
-  std::vector<float> densities;            // [liveCount]
-  std::vector<glm::vec4> orientations;     // [liveCount]
-  std::vector<QueryDetail> details;        // [liveCount * K]; empty: the chunk has no heights
+  std::vector<float> densities;         // [liveCount]
+  std::vector<glm::vec4> orientations;  // [liveCount]
+  std::vector<QueryDetail> details;     // [liveCount * K]; empty: the chunk has no heights
 
   glm::dvec3 siteOf(uint32_t site) const { return glm::dvec3(siteRadius[site]); }
   double radiusOf(uint32_t site) const { return siteRadius[site].w; }
@@ -60,7 +62,7 @@ class QueryFoam {
   void addChunk(const ChunkContents& contents);  // in the asset's order
   // After the last one: that each ghost is where its cell is, and as large. The name is for messages.
   Status checkGhosts(const std::string& name) const;
-  void finish();                                 // after the last one: now it is whole
+  void finish();  // after the last one: now it is whole
   bool isWhole() const { return isWhole_; }
 
   bool hasWalkGraph() const { return hasWalkGraph_; }

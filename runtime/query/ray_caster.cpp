@@ -60,25 +60,25 @@ void RayCaster::startStreams(const glm::dvec3& origin, const glm::dvec3& directi
   }
 }
 
-// The first stretch beyond `passed`; false: there is none.
-bool RayCaster::findStretch(double passed, Stretch& stretch) {
+// The first interval beyond `passed`; false: there is none.
+bool RayCaster::findInterval(double passed, Interval& interval) {
   double start = kInfinity;
   for (Stream& stream : streams_) {
     while (stream.isAhead && stream.segment.tFar <= passed) stream.advance();
     if (stream.isAhead) start = std::min(start, std::max(stream.segment.tNear, passed));
   }
   if (start == kInfinity) return false;
-  stretch = {start, kInfinity, 0, nullptr};
+  interval = {start, kInfinity, 0, nullptr};
   for (const Stream& stream : streams_) {
     const FoamSegment& segment = stream.segment;
     if (!stream.isAhead) continue;
     if (segment.tNear > start) {
-      stretch.tFar = std::min(stretch.tFar, segment.tNear);
+      interval.tFar = std::min(interval.tFar, segment.tNear);
       continue;
     }
-    stretch.tFar = std::min(stretch.tFar, segment.tFar);
-    stretch.density += segment.density;
-    if (!stretch.densest || segment.density > stretch.densest->segment.density) stretch.densest = &stream;
+    interval.tFar = std::min(interval.tFar, segment.tFar);
+    interval.density += segment.density;
+    if (!interval.densest || segment.density > interval.densest->segment.density) interval.densest = &stream;
   }
   return true;
 }
@@ -91,15 +91,15 @@ FrothRayHit RayCaster::cast(const FrothRay& ray) {
   FrothRayHit hit{};
   hit.distance = kInfinity;
   double logTransmittance = 0;
-  Stretch stretch{};
+  Interval interval{};
   double passed = -kInfinity;
-  while (logTransmittance >= settings_.logCutoff && findStretch(passed, stretch)) {
-    passed = stretch.tFar;
-    const double logAfter = logTransmittance - stretch.density * (stretch.tFar - stretch.tNear);
+  while (logTransmittance >= settings_.logCutoff && findInterval(passed, interval)) {
+    passed = interval.tFar;
+    const double logAfter = logTransmittance - interval.density * (interval.tFar - interval.tNear);
     const bool isHit = logTransmittance >= settings_.logQuantile && logAfter < settings_.logQuantile;
     if (isHit) {
-      hit.distance = foam::quantileDistance(stretch.tNear, logTransmittance, settings_.logQuantile, stretch.density);
-      describePlace(stretch, origin + hit.distance * direction, hit);
+      hit.distance = foam::quantileDistance(interval.tNear, logTransmittance, settings_.logQuantile, interval.density);
+      describePlace(interval, origin + hit.distance * direction, hit);
     }
     logTransmittance = logAfter;
     if (isHit && settings_.closestOnly) break;
@@ -112,9 +112,9 @@ FrothRayHit RayCaster::cast(const FrothRay& ray) {
   return hit;
 }
 
-void RayCaster::describePlace(const Stretch& stretch, const glm::dvec3& position, FrothRayHit& hit) {
-  const PlacedFoam& placed = *stretch.densest->placed;
-  const CellAddress cell = stretch.densest->segment.cell;
+void RayCaster::describePlace(const Interval& interval, const glm::dvec3& position, FrothRayHit& hit) {
+  const PlacedFoam& placed = *interval.densest->placed;
+  const CellAddress cell = interval.densest->segment.cell;
   const glm::dvec3 normal = placed.rotation * placed.foam->chunk(cell.chunk).faceFrameOf(cell.cell)[0];
   for (int axis = 0; axis < 3; ++axis) {
     hit.position[axis] = position[axis];

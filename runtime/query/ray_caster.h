@@ -38,15 +38,15 @@ class RayCaster {
     void advance();
   };
 
-  // A stretch of the ray with the same foams all along; their densities add.
-  struct Stretch {
+  // An interval of the ray with the same foams all along; their densities add.
+  struct Interval {
     double tNear, tFar, density;
     const Stream* densest;
   };
 
   void startStreams(const glm::dvec3& origin, const glm::dvec3& direction, double tMin, double tMax);
-  bool findStretch(double passed, Stretch& stretch);
-  static void describePlace(const Stretch& stretch, const glm::dvec3& position, FrothRayHit& hit);
+  bool findInterval(double passed, Interval& interval);
+  static void describePlace(const Interval& interval, const glm::dvec3& position, FrothRayHit& hit);
 
   std::span<const PlacedFoam> foams_;
   CastSettings settings_;

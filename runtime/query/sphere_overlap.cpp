@@ -27,8 +27,9 @@ bool SphereOverlap::CellSet::insert(CellAddress cell) {
   return true;
 }
 
-// Power cells are visited by their distance, from the one that holds the centre outwards, as far as there is no nearer contact. A
-// ball meets a connected set of power cells, and two of them next to each other share a face that meets it: none is left out.
+// Power cells are visited by their distance, from the one that holds the centre outwards, as far as there is no nearer
+// contact. A ball meets a connected set of power cells, and two of them next to each other share a face that meets it:
+// none is left out.
 std::optional<SolidContact> SphereOverlap::findNearest(double reach) {
   reach_ = reach;
   push(0, foam_.locate(centre_));

@@ -30,8 +30,7 @@ glm::dvec2 firstPixelCentre(const FrothCamera& camera) {
 void aimPinhole(const FrothCamera& camera, const glm::dmat3& assetFromView, CameraRays& rays) {
   const float* clip = camera.clipFromView;
   // Rows x, y, w of the projection: (x_ndc, y_ndc, 1) w = projection * direction, so w > 0 points forward.
-  const glm::dmat3 projection(clip[0], clip[1], clip[3], clip[4], clip[5], clip[7], clip[8], clip[9],
-                              clip[11]);
+  const glm::dmat3 projection(clip[0], clip[1], clip[3], clip[4], clip[5], clip[7], clip[8], clip[9], clip[11]);
   const glm::dmat3 assetFromClip = assetFromView * glm::inverse(projection);
   const VkViewport& viewport = camera.viewport;
   const VkRect2D& region = camera.scissor;
@@ -39,8 +38,7 @@ void aimPinhole(const FrothCamera& camera, const glm::dmat3& assetFromView, Came
   const double top = region.offset.y + 0.5 - camera.jitter[1] - viewport.y;
   rays.stepX = assetFromClip[0] * (2.0 / viewport.width);
   rays.stepY = assetFromClip[1] * (2.0 / viewport.height);
-  rays.origin =
-      assetFromClip * glm::dvec3(2.0 * left / viewport.width - 1.0, 2.0 * top / viewport.height - 1.0, 1.0);
+  rays.origin = assetFromClip * glm::dvec3(2.0 * left / viewport.width - 1.0, 2.0 * top / viewport.height - 1.0, 1.0);
   const glm::dvec3 middle =
       rays.origin + rays.stepX * (0.5 * region.extent.width) + rays.stepY * (0.5 * region.extent.height);
   const double scale = 1.0 / glm::length(middle);
@@ -50,17 +48,20 @@ void aimPinhole(const FrothCamera& camera, const glm::dmat3& assetFromView, Came
   rays.forward = assetFromView * glm::normalize(glm::dvec3(clip[3], clip[7], clip[11]));
 }
 
-// x_ndc and y_ndc are linear in a point's place. The rays run where both stay, away from one who sees x to the right and y down.
+// x_ndc and y_ndc are linear in a point's place. The rays run where both stay, away from one who sees x to the right
+// and y down.
 void aimParallel(const FrothCamera& camera, const glm::dmat3& assetFromView, double scale, CameraRays& rays) {
   const float* clip = camera.clipFromView;
   const double w = clip[15];
-  const glm::dvec3 alongX = glm::dvec3(clip[0], clip[4], clip[8]) / w, alongY = glm::dvec3(clip[1], clip[5], clip[9]) / w;
+  const glm::dvec3 alongX = glm::dvec3(clip[0], clip[4], clip[8]) / w,
+                   alongY = glm::dvec3(clip[1], clip[5], clip[9]) / w;
   const glm::dvec3 normal = glm::normalize(glm::cross(alongX, alongY));
   const glm::dmat3 viewFromClip = glm::inverse(glm::transpose(glm::dmat3(alongX, alongY, normal)));
   const VkViewport& viewport = camera.viewport;
   const double left = camera.scissor.offset.x + 0.5 - camera.jitter[0] - viewport.x;
   const double top = camera.scissor.offset.y + 0.5 - camera.jitter[1] - viewport.y;
-  const double x = 2.0 * left / viewport.width - 1.0 - clip[12] / w, y = 2.0 * top / viewport.height - 1.0 - clip[13] / w;
+  const double x = 2.0 * left / viewport.width - 1.0 - clip[12] / w,
+               y = 2.0 * top / viewport.height - 1.0 - clip[13] / w;
   const glm::dmat3 toAsset = assetFromView / scale;
   rays.stepX = toAsset * viewFromClip[0] * (2.0 / viewport.width);
   rays.stepY = toAsset * viewFromClip[1] * (2.0 / viewport.height);
@@ -74,7 +75,8 @@ gpu::vec4 toFloats(const glm::dvec3& v, double w = 0) {
 
 // The column and row of the region at which the rays' sum is shortest.
 glm::dvec2 middlePixel(const CameraRays& rays) {
-  const double xx = glm::dot(rays.stepX, rays.stepX), xy = glm::dot(rays.stepX, rays.stepY), yy = glm::dot(rays.stepY, rays.stepY);
+  const double xx = glm::dot(rays.stepX, rays.stepX), xy = glm::dot(rays.stepX, rays.stepY),
+               yy = glm::dot(rays.stepY, rays.stepY);
   const double x = glm::dot(rays.origin, rays.stepX), y = glm::dot(rays.origin, rays.stepY);
   return glm::dvec2(xy * y - yy * x, xy * x - xx * y) / (xx * yy - xy * xy);
 }
@@ -161,8 +163,8 @@ void fillLens(const FrothCamera& camera, gpu::FrameBlock& block) {
   std::copy_n(lens.coefficients, 4, block.lensFirst.begin());
   std::copy_n(lens.coefficients + 4, 4, block.lensSecond.begin());
   const auto toDouble = [](const gpu::vec4& v) { return glm::dvec4(v[0], v[1], v[2], v[3]); };
-  block.lensRange = static_cast<float>(
-      foam::lensRange(int{lens.kind}, toDouble(block.lensFirst), toDouble(block.lensSecond)));
+  block.lensRange =
+      static_cast<float>(foam::lensRange(int{lens.kind}, toDouble(block.lensFirst), toDouble(block.lensSecond)));
 }
 
 }  // namespace froth

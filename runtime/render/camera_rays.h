@@ -17,8 +17,8 @@ glm::dvec3 parallelDirection(const FrothCamera& camera);
 
 // Pinhole: the ray of pixel (column, row) of the region runs through the pixel's centre along origin + column stepX +
 // row stepY, which points forward. Lengths are scaled so that the region's middle ray has length 1.
-// Mapped: the view's axes z, x, y. Orthographic: the ray of a pixel starts at the eye plus that sum, which is perpendicular to
-// `forward`.
+// Mapped: the view's axes z, x, y. Orthographic: the ray of a pixel starts at the eye plus that sum, which is
+// perpendicular to `forward`.
 struct CameraRays {
   glm::dvec3 origin, stepX, stepY;
   glm::dvec3 forward;         // unit view axis: gradient of clip w; of parallel rays their direction

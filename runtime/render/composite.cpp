@@ -32,7 +32,8 @@ std::span<const uint32_t> codeOf(VkFormat format) {
 
 // Of the images that are given, from `before` or to `after` their use.
 template <class Barrier>
-void recordBarriers(const DeviceTable& vk, VkCommandBuffer commandBuffer, const FrothCompositeInfo& info, Barrier barrierOf) {
+void recordBarriers(const DeviceTable& vk, VkCommandBuffer commandBuffer, const FrothCompositeInfo& info,
+                    Barrier barrierOf) {
   std::array<VkImageMemoryBarrier2, 3> barriers{};
   uint32_t count = 0;
   barriers[count++] = barrierOf(info.target, kImageBlended);
@@ -60,8 +61,9 @@ Result<std::unique_ptr<ImagePass>> createCompositePass(Device& device, VkPipelin
 
 void recordComposite(const DeviceTable& vk, VkCommandBuffer commandBuffer, const ImagePass& pass, const ImageSets& sets,
                      uint32_t set, const FrothCompositeInfo& info, const VkRect2D& region) {
-  const gpu::CompositeConstants constants{static_cast<uint32_t>(region.offset.x), static_cast<uint32_t>(region.offset.y),
-                                          region.extent.width, region.extent.height, info.shadowFactor.image != nullptr};
+  const gpu::CompositeConstants constants{static_cast<uint32_t>(region.offset.x),
+                                          static_cast<uint32_t>(region.offset.y), region.extent.width,
+                                          region.extent.height, info.shadowFactor.image != nullptr};
   const VkImageView shadow = info.shadowFactor.image ? info.shadowFactor.view : info.foam.view;  // bound, and not read
   const VkDescriptorImageInfo images[] = {{VK_NULL_HANDLE, info.target.view, kImageBlended.layout},
                                           {VK_NULL_HANDLE, info.foam.view, kImageSampled.layout},

@@ -17,8 +17,10 @@ constexpr ImageUse kImageTested = {
     VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
 
 template <class Barrier>
-void recordBarriers(const DeviceTable& vk, VkCommandBuffer commandBuffer, const FrothDepthExportInfo& info, Barrier barrierOf) {
-  const VkImageMemoryBarrier2 barriers[] = {barrierOf(info.depth, kImageRead), barrierOf(info.attachment, kImageTested)};
+void recordBarriers(const DeviceTable& vk, VkCommandBuffer commandBuffer, const FrothDepthExportInfo& info,
+                    Barrier barrierOf) {
+  const VkImageMemoryBarrier2 barriers[] = {barrierOf(info.depth, kImageRead),
+                                            barrierOf(info.attachment, kImageTested)};
   VkDependencyInfo dependency{};
   dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   dependency.imageMemoryBarrierCount = 2;
@@ -70,9 +72,7 @@ struct FixedState {
 
 }  // namespace
 
-SetBindings DepthExport::bindings() {
-  return {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, VK_SHADER_STAGE_FRAGMENT_BIT};
-}
+SetBindings DepthExport::bindings() { return {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, VK_SHADER_STAGE_FRAGMENT_BIT}; }
 
 Result<std::unique_ptr<DepthExport>> DepthExport::create(Device& device, VkPipelineCache cache, VkFormat format) {
   std::unique_ptr<DepthExport> made(new DepthExport(device));
@@ -125,7 +125,9 @@ Status DepthExport::createPipeline(VkPipelineCache cache, VkFormat format) {
   info.pDynamicState = &state.dynamic;
   info.layout = layout_;
   const VkResult result = vk.vkCreateGraphicsPipelines(device_.device, cache, 1, &info, nullptr, &pipeline_);
-  for (const VkShaderModule shaderModule : {*vertex, *fragment}) vk.vkDestroyShaderModule(device_.device, shaderModule, nullptr);
+  for (const VkShaderModule shaderModule : {*vertex, *fragment}) {
+    vk.vkDestroyShaderModule(device_.device, shaderModule, nullptr);
+  }
   if (result != VK_SUCCESS) return device_.explain(result, "export_depth: vkCreateGraphicsPipelines");
   return {};
 }
@@ -144,7 +146,8 @@ void DepthExport::draw(VkCommandBuffer commandBuffer, VkDescriptorSet set, const
   rendering.renderArea = region;
   rendering.layerCount = 1;
   rendering.pDepthAttachment = &target;
-  const VkViewport viewport{0, 0, static_cast<float>(attachment.extent.width), static_cast<float>(attachment.extent.height), 0, 1};
+  const VkViewport viewport{
+      0, 0, static_cast<float>(attachment.extent.width), static_cast<float>(attachment.extent.height), 0, 1};
   vk.vkCmdBeginRendering(commandBuffer, &rendering);
   vk.vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
   vk.vkCmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set, 0, nullptr);

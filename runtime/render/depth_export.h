@@ -15,8 +15,8 @@ class DepthExport {
   ~DepthExport();
 
   // info has been checked. region: what was drawn. set: one of bindings(), free for this frame.
-  void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const FrothDepthExportInfo& info, const VkRect2D& region,
-              bool isReversed) const;
+  void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const FrothDepthExportInfo& info,
+              const VkRect2D& region, bool isReversed) const;
 
  private:
   explicit DepthExport(Device& device) : device_(device) {}

@@ -10,8 +10,8 @@ glm::dvec4 rowOf(const FrothCamera& camera, int row) {
   return {clip[row], clip[4 + row], clip[8 + row], clip[12 + row]};
 }
 
-// The sign of the change of z / w with distance, along a ray on which w grows or stays: d(z / w) = (dz w - z dw) / w^2, which
-// has one sign everywhere on a line.
+// The sign of the change of z / w with distance, along a ray on which w grows or stays: d(z / w) = (dz w - z dw) / w^2,
+// which has one sign everywhere on a line.
 double depthGrowth(const FrothCamera& camera) {
   const glm::dvec4 z = rowOf(camera, 2), w = rowOf(camera, 3);
   const glm::dvec3 axis = lensClassOf(camera) == gpu::kLensClassPinhole ? glm::dvec3(w) : parallelDirection(camera);

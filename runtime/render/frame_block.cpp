@@ -12,7 +12,8 @@
 namespace froth {
 namespace {
 
-static_assert(int{FROTH_TONE_REINHARD} == foam::kToneReinhard && int{FROTH_TONE_ACES_NARKOWICZ} == foam::kToneAcesNarkowicz &&
+static_assert(int{FROTH_TONE_REINHARD} == foam::kToneReinhard &&
+              int{FROTH_TONE_ACES_NARKOWICZ} == foam::kToneAcesNarkowicz &&
               int{FROTH_TONE_KHRONOS_NEUTRAL} == foam::kToneKhronosNeutral);
 
 gpu::vec4 toFloats(const glm::dvec3& v) {
@@ -31,11 +32,9 @@ void fillCamera(const FrothRenderInfo& info, const CameraRays& rays, const Rende
   block.worldZ = toFloats(rows[2]);
 }
 
-void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkRect2D& region,
-                    gpu::FrameBlock& block) {
+void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkRect2D& region, gpu::FrameBlock& block) {
   const ViewCapacity& capacity = buffers.capacity();
-  block.visibleCapacity =
-      static_cast<uint32_t>(std::min(uint64_t{capacity.cells}, capacity.sites / asset.detailCount));
+  block.visibleCapacity = static_cast<uint32_t>(std::min(uint64_t{capacity.cells}, capacity.sites / asset.detailCount));
   block.planeCapacity = static_cast<uint32_t>(capacity.planes);
   block.pairCapacity = capacity.pairs;
   block.sortRounds = sortRoundsOf(capacity.cells);
@@ -68,8 +67,8 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
 
 }  // namespace
 
-// The first 24 bits of a double, all that a float holds. Not by a float and back, which GCC 12 takes for the identity where it
-// vectorizes (-O2 and above): low parts were 0.
+// The first 24 bits of a double, all that a float holds. Not by a float and back, which GCC 12 takes for the identity
+// where it vectorizes (-O2 and above): low parts were 0.
 double leadingBits(double value) {
   constexpr uint64_t kBehindFloat = (uint64_t{1} << 29) - 1;
   return std::bit_cast<double>(std::bit_cast<uint64_t>(value) & ~kBehindFloat);
@@ -106,13 +105,9 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
   }
 }
 
-uint32_t tilesAlong(uint32_t pixels) {
-  return groupsOver(pixels, gpu::kTileSize);
-}
+uint32_t tilesAlong(uint32_t pixels) { return groupsOver(pixels, gpu::kTileSize); }
 
-uint32_t tilesOf(const VkRect2D& region) {
-  return tilesAlong(region.extent.width) * tilesAlong(region.extent.height);
-}
+uint32_t tilesOf(const VkRect2D& region) { return tilesAlong(region.extent.width) * tilesAlong(region.extent.height); }
 
 void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block) {
   const VkRect2D& region = info.camera.scissor;
@@ -140,7 +135,7 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   block.scale = instance.scale;
   block.exposure = instance.exposure;
   block.logCutoff = info.cutoff > 0 ? std::log(info.cutoff) : -std::numeric_limits<float>::infinity();
-  block.logQuantile = std::log(info.depthQuantile);
+  block.logQuantile = std::log(info.quantile);
   block.detailSharpness = asset.detailSharpness;
   block.detailCount = asset.detailCount;
   block.lobeCount = asset.lobeCount;

@@ -1,5 +1,5 @@
-// The images of a frame, a row each: what the caller may give, and who writes or reads it. The checks of a call, descriptor sets, barriers
-// and the shaders' flags follow from the rows.
+// The images of a frame, a row each: what the caller may give, and who writes or reads it. The checks of a call,
+// descriptor sets, barriers and the shaders' flags follow from the rows.
 #pragma once
 
 #include <array>

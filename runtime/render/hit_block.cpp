@@ -49,7 +49,9 @@ void writeRows(const Affine& map, gpu::vec4 (&rows)[3]) {
 // How the instance moved: from a point relative to the eye to where it was, relative to the same eye.
 Affine motionOf(const RenderInstance& now, const glm::dvec3& eye) {
   if (!now.previous) return {};
-  const auto positionOf = [](const RenderInstance& i) { return glm::dvec3(i.position[0], i.position[1], i.position[2]); };
+  const auto positionOf = [](const RenderInstance& i) {
+    return glm::dvec3(i.position[0], i.position[1], i.position[2]);
+  };
   const RenderInstance& before = *now.previous;
   const glm::dmat3 turn = rotationOf(before.rotation) * glm::transpose(rotationOf(now.rotation));
   const glm::dmat3 matrix = turn * (double{before.scale} / double{now.scale});

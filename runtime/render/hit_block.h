@@ -1,5 +1,5 @@
-// What the passes over hits know of a frame: the camera now and before, and how each instance moved. All in double until it is
-// written.
+// What the passes over hits know of a frame: the camera now and before, and how each instance moved. All in double
+// until it is written.
 #pragma once
 
 #include "runtime/render/frame_images.h"

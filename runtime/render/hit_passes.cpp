@@ -13,9 +13,7 @@ static_assert(gpu::kHitBlockOffset + sizeof(gpu::HitBlock) <= kHitInstancesOffse
 static_assert(kHitInstancesOffset + gpu::kMostInstances * sizeof(gpu::HitInstance) <= kBlockStride);
 
 // Of all instances of the view.
-VkDeviceAddress addressOfHits(const ViewState& view) {
-  return view.spaces.front()->buffers[ViewBuffer::kHits].address;
-}
+VkDeviceAddress addressOfHits(const ViewState& view) { return view.spaces.front()->buffers[ViewBuffer::kHits].address; }
 
 // Writes `image` with a workgroup per kSubTileSize x kSubTileSize pixels. set: of the recording's two.
 void recordHitPass(const Recording& recording, const ImagePass& pass, const FrothImage& image, uint32_t set) {

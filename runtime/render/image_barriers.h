@@ -1,4 +1,5 @@
-// From the state in which a caller hands an image over to Froth's use of it, and on to the state in which he wants it back.
+// From the state in which a caller hands an image over to Froth's use of it, and on to the state in which he wants it
+// back.
 #pragma once
 
 #include "froth/froth.h"

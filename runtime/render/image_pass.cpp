@@ -12,7 +12,8 @@ Result<std::unique_ptr<ImagePass>> ImagePass::create(Device& device, VkPipelineC
   const Result<VkPipelineLayout> layout = createPipelineLayout(device, code.name, pass->setLayout_, code.pushBytes);
   if (!layout) return layout.error();
   pass->layout_ = *layout;
-  const Result<VkPipeline> pipeline = createComputePipeline(device, cache, code.name, code.spirv, nullptr, pass->layout_);
+  const Result<VkPipeline> pipeline =
+      createComputePipeline(device, cache, code.name, code.spirv, nullptr, pass->layout_);
   if (!pipeline) return pipeline.error();
   pass->pipeline_ = *pipeline;
   return pass;

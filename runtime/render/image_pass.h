@@ -1,5 +1,5 @@
-// Small passes over whole images, each with a pipeline and descriptor sets of its own: no pass of Froth relies on more than the
-// four storage images that every device can bind at once.
+// Small passes over whole images, each with a pipeline and descriptor sets of its own: no pass of Froth relies on more
+// than the four storage images that every device can bind at once.
 #pragma once
 
 #include <initializer_list>

@@ -6,7 +6,9 @@
 namespace froth {
 namespace {
 
-const ImageUse& useOf(const FrameImage& image) { return image.role == ImageRole::kRead ? kImageSampled : kImageWritten; }
+const ImageUse& useOf(const FrameImage& image) {
+  return image.role == ImageRole::kRead ? kImageSampled : kImageWritten;
+}
 
 template <class Visitor>
 void forEachImage(const FrothRenderInfo& info, Visitor&& visit) {
@@ -36,8 +38,7 @@ const OutputImages::Placeholder& OutputImages::placeholderOf(const FrameImage& i
 
 Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint32_t recordings) {
   std::unique_ptr<OutputImages> images(new OutputImages(device));
-  Status status =
-      images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, images->half4_);
+  Status status = images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, images->half4_);
   if (status) status = images->createPlaceholder(VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, images->float1_);
   if (status) status = images->createPlaceholder(VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT, images->input_);
   if (status) status = images->createSets(recordings);
@@ -72,9 +73,9 @@ Status OutputImages::createPlaceholder(VkFormat format, VkImageUsageFlags usage,
 
   VkMemoryRequirements requirements{};
   vk.vkGetImageMemoryRequirements(device_.device, placeholder.image, &requirements);
-  const Result<MemoryBlock> memory =
-      device_.allocate(requirements, requirements.size,
-                       {MemoryUse::kViews, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, "output images of a view", false});
+  const Result<MemoryBlock> memory = device_.allocate(
+      requirements, requirements.size,
+      {MemoryUse::kViews, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, "output images of a view", false});
   if (!memory) return memory.error();
   placeholder.memory = *memory;
   result = vk.vkBindImageMemory(device_.device, placeholder.image, memory->place.memory, memory->place.offset);
@@ -150,8 +151,11 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
                          VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
   std::array<VkImageMemoryBarrier2, kFrameImageCount + 3> barriers{};
   uint32_t count = 0;
-  forEachImage(info, [&](const FrothImage& image, const ImageUse& use) { barriers[count++] = entryBarrier(image, use); });
-  for (const Placeholder* placeholder : {&half4_, &float1_, &input_}) barriers[count++] = placeholderBarrier(placeholder->image);
+  forEachImage(info,
+               [&](const FrothImage& image, const ImageUse& use) { barriers[count++] = entryBarrier(image, use); });
+  for (const Placeholder* placeholder : {&half4_, &float1_, &input_}) {
+    barriers[count++] = placeholderBarrier(placeholder->image);
+  }
 
   VkDependencyInfo dependency{};
   dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
@@ -165,7 +169,8 @@ void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& i
 void OutputImages::leave(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const {
   std::array<VkImageMemoryBarrier2, kFrameImageCount> barriers{};
   uint32_t count = 0;
-  forEachImage(info, [&](const FrothImage& image, const ImageUse& use) { barriers[count++] = exitBarrier(image, use); });
+  forEachImage(info,
+               [&](const FrothImage& image, const ImageUse& use) { barriers[count++] = exitBarrier(image, use); });
   VkDependencyInfo dependency{};
   dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   dependency.imageMemoryBarrierCount = count;

@@ -39,12 +39,12 @@ struct SortArrays {
   VkDeviceAddress count;                               // uint: how many, at most capacity
   VkDeviceAddress histograms;  // [digits * histogramBytes(capacity, rounds)]: that of the lowest digit, then zeros
   uint32_t capacity;
-  uint32_t rounds;                                     // FrameBlock::sortRounds
+  uint32_t rounds;  // FrameBlock::sortRounds
   size_t dispatch;  // offset in gpu::Counters of a size of one workgroup per rounds * kGroupSize keys
 };
 
-// Sorts stably by byte `digit` of the keys, after the bytes below it; done for all bytes the keys ascend, in the swaps if the
-// bytes are odd in number. Between two digits: a barrier. step: gpu::kSort..., what the pass does besides.
+// Sorts stably by byte `digit` of the keys, after the bytes below it; done for all bytes the keys ascend, in the swaps
+// if the bytes are odd in number. Between two digits: a barrier. step: gpu::kSort..., what the pass does besides.
 void recordSortDigit(const PassRecorder& recorder, const SortArrays& arrays, uint32_t digit, uint32_t step);
 
 }  // namespace froth

@@ -7,7 +7,9 @@ namespace froth {
 namespace {
 
 // Of a counter of so many bits [1..64] that wraps.
-uint64_t ticksBetween(uint64_t begin, uint64_t end, uint32_t bits) { return (end - begin) & (~uint64_t{0} >> (64 - bits)); }
+uint64_t ticksBetween(uint64_t begin, uint64_t end, uint32_t bits) {
+  return (end - begin) & (~uint64_t{0} >> (64 - bits));
+}
 
 }  // namespace
 
@@ -26,9 +28,7 @@ Result<std::unique_ptr<PassTimer>> PassTimer::create(Device& device, uint32_t re
   return timer;
 }
 
-PassTimer::~PassTimer() {
-  device_.table.vkDestroyQueryPool(device_.device, pool_, nullptr);
-}
+PassTimer::~PassTimer() { device_.table.vkDestroyQueryPool(device_.device, pool_, nullptr); }
 
 void PassTimer::stamp(VkCommandBuffer commandBuffer, uint32_t query) {
   device_.table.vkCmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, query);
@@ -49,9 +49,9 @@ void PassTimer::read(uint32_t recording, FrothViewStatus& status) const {
   const auto passes = static_cast<uint32_t>(names_[recording].size());
   if (passes == 0) return;
   std::array<uint64_t, kQueries> stamps{};
-  const VkResult result = device_.table.vkGetQueryPoolResults(device_.device, pool_, recording * kQueries,
-                                                              passes + 1, sizeof(stamps), stamps.data(),
-                                                              sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+  const VkResult result =
+      device_.table.vkGetQueryPoolResults(device_.device, pool_, recording * kQueries, passes + 1, sizeof(stamps),
+                                          stamps.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
   if (result == VK_ERROR_DEVICE_LOST) {
     (void)device_.explain(result, "vkGetQueryPoolResults");  // frothUpdate tells
   }
@@ -59,7 +59,8 @@ void PassTimer::read(uint32_t recording, FrothViewStatus& status) const {
   const double millisecondsPerTick = device_.properties.limits.timestampPeriod * 1e-6;
   for (uint32_t i = 0; i < passes && status.passCount < std::size(status.passes); ++i) {
     status.passes[status.passCount++] = {
-        names_[recording][i], static_cast<double>(ticksBetween(stamps[i], stamps[i + 1], device_.timestampBits)) * millisecondsPerTick};
+        names_[recording][i],
+        static_cast<double>(ticksBetween(stamps[i], stamps[i + 1], device_.timestampBits)) * millisecondsPerTick};
   }
 }
 

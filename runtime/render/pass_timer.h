@@ -34,8 +34,7 @@ class PassTimer {
 
   Device& device_;
   VkQueryPool pool_ = VK_NULL_HANDLE;
-  std::vector<std::vector<const char*>>
-      names_;  // [recording]; capacity kMaxPasses, so that marks allocate nothing
+  std::vector<std::vector<const char*>> names_;  // [recording]; capacity kMaxPasses, so that marks allocate nothing
 };
 
 }  // namespace froth

@@ -32,14 +32,13 @@ struct RenderPipelines::State {
   ShaderOptions options{};
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // the output images
   VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 128 bytes of push constants
-  LensPipelines common{};  // null from kFirstSeveralPass on, and for other lenses than options name
-  LensPipelines several{};  // from there to kFirstShapedPass, once made
-  bool hasSeveral = false;
+  LensPipelines common{};  // null from kFirstMergedPass on, and for other lenses than options name
+  LensPipelines merged{};  // from there to kFirstShapedPass, once made
+  bool canMerge = false;
   std::unique_ptr<ImagePass> writeIds{}, writeMotion{};  // null without ShaderOptions::hasExtendedFormats
-  std::unique_ptr<ImagePass> composite{};       // null without ShaderOptions::compositeFormat,
-  std::unique_ptr<DepthExport> depthExport{};   // depthExportFormat
-  std::map<AssetShape, LensPipelines>
-      byShape{};  // complete; guarded by `mutex`, entries never change or move
+  std::unique_ptr<ImagePass> composite{};                // null without ShaderOptions::compositeFormat,
+  std::unique_ptr<DepthExport> depthExport{};            // depthExportFormat
+  std::map<AssetShape, LensPipelines> byShape{};         // complete; guarded by `mutex`, entries never change or move
   std::mutex mutex{};
 
   bool hasLensClass(uint32_t lensClass) const;

@@ -20,18 +20,18 @@
 #include "spirv/order_tiles.h"
 #include "spirv/raster_long_tiles_rgba16f.h"
 #include "spirv/raster_long_tiles_rgba32f.h"
-#include "spirv/raster_several_rgba16f.h"
-#include "spirv/raster_several_rgba32f.h"
+#include "spirv/raster_merged_rgba16f.h"
+#include "spirv/raster_merged_rgba32f.h"
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
 #include "spirv/shade_sites.h"
 #include "spirv/share_tiles.h"
 #include "spirv/sort_scatter.h"
 #include "spirv/sort_scatter_many.h"
+#include "spirv/walk_merged_rgba16f.h"
+#include "spirv/walk_merged_rgba32f.h"
 #include "spirv/walk_rgba16f.h"
 #include "spirv/walk_rgba32f.h"
-#include "spirv/walk_several_rgba16f.h"
-#include "spirv/walk_several_rgba32f.h"
 #include "spirv/widen_cones.h"
 #include "spirv/write_ids.h"
 #include "spirv/write_motion.h"
@@ -58,16 +58,16 @@ struct PassCode {
 
 #define FROTH_CODE(shader, lenses, isFull) {#shader, shader##_spirv, lenses, isFull},
 #define FROTH_CODE_ONE(name, shader, lenses) FROTH_CODE(shader, lenses, false)
-#define FROTH_CODE_COLOURS(name, shader, lenses) FROTH_CODE(shader##_rgba16f, lenses, false) FROTH_CODE(shader##_rgba32f, lenses, false)
+#define FROTH_CODE_COLOURS(name, shader, lenses) \
+  FROTH_CODE(shader##_rgba16f, lenses, false) FROTH_CODE(shader##_rgba32f, lenses, false)
 #define FROTH_CODE_FORMS(name, shader, lenses) \
   FROTH_CODE_COLOURS(name, shader, lenses)     \
   FROTH_CODE(shader##_rgba16f, lenses, true) FROTH_CODE(shader##_rgba32f, lenses, true)
 
-const std::array<PassCode, kPassCount> kPassCodes = {{
-    FROTH_COMMON_PASSES(FROTH_CODE_ONE, FROTH_CODE_COLOURS, FROTH_CODE_FORMS)
-    FROTH_SEVERAL_PASSES(FROTH_CODE_ONE, FROTH_CODE_COLOURS, FROTH_CODE_FORMS)
-    FROTH_SHAPED_PASSES(FROTH_CODE_ONE, FROTH_CODE_COLOURS, FROTH_CODE_FORMS)
-}};
+const std::array<PassCode, kPassCount> kPassCodes = {
+    {FROTH_COMMON_PASSES(FROTH_CODE_ONE, FROTH_CODE_COLOURS, FROTH_CODE_FORMS)
+         FROTH_MERGED_PASSES(FROTH_CODE_ONE, FROTH_CODE_COLOURS, FROTH_CODE_FORMS)
+             FROTH_SHAPED_PASSES(FROTH_CODE_ONE, FROTH_CODE_COLOURS, FROTH_CODE_FORMS)}};
 
 struct Specialization {
   VkBool32 checkIndices;
@@ -90,8 +90,7 @@ constexpr std::array<VkSpecializationMapEntry, 8> kSpecializationEntries = {{
     {gpu::kConstantFloatColours, offsetof(Specialization, floatColours), sizeof(VkBool32)},
 }};
 
-Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode& code,
-                                  const Specialization& values) {
+Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode& code, const Specialization& values) {
   VkSpecializationInfo specialization{};
   specialization.mapEntryCount = static_cast<uint32_t>(kSpecializationEntries.size());
   specialization.pMapEntries = kSpecializationEntries.data();
@@ -100,9 +99,7 @@ Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode&
   return createComputePipeline(state.device, state.cache, code.name, code.spirv, &specialization, state.layout);
 }
 
-bool hasOwnPipeline(uint32_t pass, uint32_t lensClass) {
-  return (kPassCodes[pass].lensClasses >> lensClass & 1) != 0;
-}
+bool hasOwnPipeline(uint32_t pass, uint32_t lensClass) { return (kPassCodes[pass].lensClasses >> lensClass & 1) != 0; }
 
 // Makes passes [first, last) of all classes of lenses into `pipelines`.
 Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint32_t first, uint32_t last,
@@ -135,8 +132,9 @@ Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint
 void destroyPasses(RenderPipelines::State& state, uint32_t first, uint32_t last, LensPipelines& pipelines) {
   for (uint32_t lensClass = 0; lensClass < gpu::kLensClassCount; ++lensClass) {
     for (uint32_t pass = first; pass < last; ++pass) {
-      if (hasOwnPipeline(pass, lensClass))
+      if (hasOwnPipeline(pass, lensClass)) {
         state.device.table.vkDestroyPipeline(state.device.device, pipelines[lensClass][pass], nullptr);
+      }
     }
   }
 }
@@ -152,8 +150,7 @@ Status createLayout(RenderPipelines::State& state) {
   info.pSetLayouts = &state.setLayout;
   info.pushConstantRangeCount = 1;
   info.pPushConstantRanges = &range;
-  const VkResult result =
-      state.device.table.vkCreatePipelineLayout(state.device.device, &info, nullptr, &state.layout);
+  const VkResult result = state.device.table.vkCreatePipelineLayout(state.device.device, &info, nullptr, &state.layout);
   if (result != VK_SUCCESS) return state.device.explain(result, "vkCreatePipelineLayout");
   return {};
 }
@@ -161,7 +158,8 @@ Status createLayout(RenderPipelines::State& state) {
 // The passes over hits, whose images have formats that not every device can write.
 Status createHitPasses(RenderPipelines::State& state) {
   if (!state.options.hasExtendedFormats) return {};
-  const auto create = [&](const char* name, std::span<const uint32_t> spirv, std::unique_ptr<ImagePass>& pass) -> Status {
+  const auto create = [&](const char* name, std::span<const uint32_t> spirv,
+                          std::unique_ptr<ImagePass>& pass) -> Status {
     Result<std::unique_ptr<ImagePass>> made = ImagePass::create(
         state.device, state.cache, {name, spirv, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, sizeof(VkDeviceAddress)});
     if (!made) return made.error();
@@ -174,9 +172,7 @@ Status createHitPasses(RenderPipelines::State& state) {
 
 }  // namespace
 
-AssetShape shapeOf(const GpuAsset& asset) {
-  return {asset.detailCount, asset.lobeCount, asset.hasHeights};
-}
+AssetShape shapeOf(const GpuAsset& asset) { return {asset.detailCount, asset.lobeCount, asset.hasHeights}; }
 
 Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device) {
   SetBindings bindings;
@@ -201,10 +197,9 @@ RenderPipelines::RenderPipelines(Device& device, VkPipelineCache cache, ShaderOp
 RenderPipelines::~RenderPipelines() {
   const DeviceTable& vk = state_->device.table;
   const VkDevice device = state_->device.device;
-  for (auto& [shape, pipelines] : state_->byShape)
-    destroyPasses(*state_, kFirstShapedPass, kPassCount, pipelines);
-  destroyPasses(*state_, 0, kFirstSeveralPass, state_->common);
-  destroyPasses(*state_, kFirstSeveralPass, kFirstShapedPass, state_->several);
+  for (auto& [shape, pipelines] : state_->byShape) destroyPasses(*state_, kFirstShapedPass, kPassCount, pipelines);
+  destroyPasses(*state_, 0, kFirstMergedPass, state_->common);
+  destroyPasses(*state_, kFirstMergedPass, kFirstShapedPass, state_->merged);
   vk.vkDestroyPipelineLayout(device, state_->layout, nullptr);
   vk.vkDestroyDescriptorSetLayout(device, state_->setLayout, nullptr);
 }
@@ -214,8 +209,7 @@ Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device,
   std::unique_ptr<RenderPipelines> pipelines(new RenderPipelines(device, cache, options));
   State& state = *pipelines->state_;
   if (const Status status = createLayout(state); !status) return status.error();
-  if (const Status status = createPasses(state, {}, 0, kFirstSeveralPass, state.common); !status)
-    return status.error();
+  if (const Status status = createPasses(state, {}, 0, kFirstMergedPass, state.common); !status) return status.error();
   if (const Status status = createHitPasses(state); !status) return status.error();
   if (options.compositeFormat != VK_FORMAT_UNDEFINED) {
     Result<std::unique_ptr<ImagePass>> made = createCompositePass(device, cache, options.compositeFormat);
@@ -245,15 +239,15 @@ Status RenderPipelines::prepareFor(const GpuAsset& asset) {
   return {};
 }
 
-Status RenderPipelines::prepareForSeveral() {
-  if (state_->hasSeveral) return {};
-  const Status status = createPasses(*state_, {}, kFirstSeveralPass, kFirstShapedPass, state_->several);
+Status RenderPipelines::prepareMerging() {
+  if (state_->canMerge) return {};
+  const Status status = createPasses(*state_, {}, kFirstMergedPass, kFirstShapedPass, state_->merged);
   if (!status) {
-    destroyPasses(*state_, kFirstSeveralPass, kFirstShapedPass, state_->several);
-    state_->several = {};
+    destroyPasses(*state_, kFirstMergedPass, kFirstShapedPass, state_->merged);
+    state_->merged = {};
     return status;
   }
-  state_->hasSeveral = true;
+  state_->canMerge = true;
   return {};
 }
 

@@ -10,20 +10,19 @@ namespace froth {
 
 // What all shaders are specialized to do besides.
 struct ShaderOptions {
-  bool checkIndices = false;  // check every index, count those out of range
-  bool countWork = false;     // count what rays cost
-  bool floatColours = false;  // keep colours of detail sites as floats
-  uint32_t lensClasses = 0;   // FrothLensClass: what cameras they are made for besides pinholes
-  bool hasExtendedFormats = false;  // the device has shaderStorageImageExtendedFormats
-  VkFormat compositeFormat = VK_FORMAT_UNDEFINED;  // of the engine's colour; UNDEFINED: no pass for it
+  bool checkIndices = false;                         // check every index, count those out of range
+  bool countWork = false;                            // count what rays cost
+  bool floatColours = false;                         // keep colours of detail sites as floats
+  uint32_t lensClasses = 0;                          // FrothLensClass: what cameras they are made for besides pinholes
+  bool hasExtendedFormats = false;                   // the device has shaderStorageImageExtendedFormats
+  VkFormat compositeFormat = VK_FORMAT_UNDEFINED;    // of the engine's colour; UNDEFINED: no pass for it
   VkFormat depthExportFormat = VK_FORMAT_UNDEFINED;  // of its depth attachment
 };
 
 class RenderPipelines {
  public:
   // Makes what does not depend on an asset.
-  static Result<std::unique_ptr<RenderPipelines>> create(Device& device, VkPipelineCache cache,
-                                                         ShaderOptions options);
+  static Result<std::unique_ptr<RenderPipelines>> create(Device& device, VkPipelineCache cache, ShaderOptions options);
   ~RenderPipelines();
 
   // Makes the pipelines specialized on an asset's shape (K, M, what it holds). Called before the asset becomes
@@ -31,7 +30,7 @@ class RenderPipelines {
   Status prepareFor(const GpuAsset& asset);
 
   // Makes those that draw several instances. Called before a view draws two; idempotent.
-  Status prepareForSeveral();
+  Status prepareMerging();
 
   struct State;
   State& state() { return *state_; }

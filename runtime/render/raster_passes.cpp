@@ -76,10 +76,11 @@ void recordTiles(const Recording& recording) {
     recording.wait();
   }
   for (const RecordingPart& part : recording.parts()) {
-    part.recorder.runIndirect(pixelPass(Pass::kRasterLong16, recording.info), offsetof(gpu::Counters, longTileDispatch));
+    part.recorder.runIndirect(pixelPass(Pass::kRasterLong16, recording.info),
+                              offsetof(gpu::Counters, longTileDispatch));
     part.recorder.runIndirect(pixelPass(Pass::kRaster16, recording.info), offsetof(gpu::Counters, tileDrawDispatch));
   }
-  if (recording.parts().size() > 1) recordPixels(recording, pixelPass(Pass::kRasterSeveral16, recording.info));
+  if (recording.parts().size() > 1) recordPixels(recording, pixelPass(Pass::kRasterMerged16, recording.info));
 }
 
 }  // namespace

@@ -37,8 +37,8 @@ void recordUpload(const Recording& recording, const RecordingPart& part) {
   const VkBufferCopy copy{recording.number * stride, recording.place * stride, stride};
   vk.vkCmdCopyBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kStaging].buffer,
                      space.buffers[ViewBuffer::kFrames].buffer, 1, &copy);
-  vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kCounters].buffer,
-                     recording.countersOffset(), sizeof(gpu::Counters), 0);
+  vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kCounters].buffer, recording.countersOffset(),
+                     sizeof(gpu::Counters), 0);
   if (recording.kind != RecordingKind::kClear) {
     const TallyLayout tallies = layOutTallies(space.buffers.capacity());
     const bool isWalk = recording.kind == RecordingKind::kWalk;
@@ -69,17 +69,13 @@ void recordRays(const Recording& recording) {
 
 }  // namespace
 
-VkDeviceSize Recording::countersOffset() const {
-  return place * kBlockStride;
-}
+VkDeviceSize Recording::countersOffset() const { return place * kBlockStride; }
 
 void Recording::mark(const char* pass) const {
   if (view.timer) view.timer->mark(commandBuffer, number, pass);
 }
 
-void Recording::wait() const {
-  view.parts.front().recorder.wait();
-}
+void Recording::wait() const { view.parts.front().recorder.wait(); }
 
 Recording beginRecording(ViewState& view, const RenderPipelines::State& pipelines, VkCommandBuffer commandBuffer,
                          RecordingKind kind, const FrothRenderInfo& info, uint64_t serial) {
@@ -126,8 +122,8 @@ void startPasses(const Recording& recording) {
                          VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                          VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
   const VkDescriptorSet set = recording.view.images->update(recording.number, recording.info);
-  vk.vkCmdBindDescriptorSets(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE,
-                             recording.pipelines.layout, 0, 1, &set, 0, nullptr);
+  vk.vkCmdBindDescriptorSets(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, recording.pipelines.layout, 0, 1,
+                             &set, 0, nullptr);
 }
 
 void endRecording(const Recording& recording) {
@@ -190,8 +186,8 @@ void pushParts(const Recording& recording) {
 PassRecorder recorderOf(const Recording& recording, Pass pass) {
   PassRecorder recorder = recording.parts().front().recorder;
   const auto index = static_cast<uint32_t>(pass);
-  if (index >= kFirstSeveralPass && index < kFirstShapedPass) {
-    recorder.pipelines = &recording.pipelines.several[lensClassOf(recording.info.camera)];
+  if (index >= kFirstMergedPass && index < kFirstShapedPass) {
+    recorder.pipelines = &recording.pipelines.merged[lensClassOf(recording.info.camera)];
   }
   return recorder;
 }

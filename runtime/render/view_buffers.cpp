@@ -72,9 +72,7 @@ BufferKind kindOf(ViewBuffer id) {
   return id == ViewBuffer::kReadback ? BufferKind::kReadback : BufferKind::kDevice;
 }
 
-MemoryUse useOf(ViewBuffer id) {
-  return kindOf(id) == BufferKind::kDevice ? MemoryUse::kViews : MemoryUse::kViewsHost;
-}
+MemoryUse useOf(ViewBuffer id) { return kindOf(id) == BufferKind::kDevice ? MemoryUse::kViews : MemoryUse::kViewsHost; }
 
 }  // namespace
 
@@ -90,8 +88,7 @@ Status ViewBuffers::grow(const ViewCapacity& wanted, uint64_t lastSerial) {
   for (uint32_t i = 0; i < kViewBufferCount; ++i) {
     const auto id = static_cast<ViewBuffer>(i);
     if (buffers_[i].size >= sizeOf(id, grown)) continue;
-    Result<GpuBuffer> buffer =
-        device_.createBuffer(useOf(id), kindOf(id), sizeOf(id, grown), "transients of a view");
+    Result<GpuBuffer> buffer = device_.createBuffer(useOf(id), kindOf(id), sizeOf(id, grown), "transients of a view");
     if (!buffer) {
       for (GpuBuffer& made : larger) device_.destroyBuffer(made);
       return buffer.error();
@@ -174,8 +171,6 @@ void ViewBuffers::addMemory(FrothViewStatus& status) const {
   add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies, kTileLists});
 }
 
-VkDeviceSize ViewBuffers::recordingStride() const {
-  return strideOf(capacity_);
-}
+VkDeviceSize ViewBuffers::recordingStride() const { return strideOf(capacity_); }
 
 }  // namespace froth

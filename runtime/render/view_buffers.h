@@ -38,9 +38,9 @@ enum class ViewBuffer : uint32_t {
   kTallies,  // TallyLayout
   kTileLists,
   kWalkStart,
-  kRays,   // these two are empty where no lens is mapped
+  kRays,  // these two are empty where no lens is mapped
   kCones,
-  kHits,   // empty where the view does not keep them
+  kHits,  // empty where the view does not keep them
 };
 inline constexpr uint32_t kViewBufferCount = 26;
 inline constexpr uint32_t kRecordingsPerFrame = 4;  // a raster and a walk of two eyes
@@ -68,8 +68,7 @@ class ViewBuffers {
   const ViewCapacity& capacity() const { return capacity_; }
   VkDeviceSize deviceBytes() const;
   void addMemory(FrothViewStatus& status) const;
-  VkDeviceSize recordingStride()
-      const;  // [bytes] from one recording's block to the next, in kFrames and kStaging
+  VkDeviceSize recordingStride() const;  // [bytes] from one recording's block to the next, in kFrames and kStaging
 
  private:
   Device& device_;

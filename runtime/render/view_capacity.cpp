@@ -46,8 +46,7 @@ ViewDemand largest(const ViewDemand& a, const ViewDemand& b) {
 
 ViewDemand demandOf(const gpu::Counters& counters) {
   // Pairs of cells that had no space were not counted: as many each as the others have.
-  const uint64_t share =
-      counters.visibleCells > 0 ? counters.pairs / counters.visibleCells + 1 : kPairsPerCell;
+  const uint64_t share = counters.visibleCells > 0 ? counters.pairs / counters.visibleCells + 1 : kPairsPerCell;
   const uint64_t lostCells = counters.cellsWanted - counters.visibleCells;
   return {counters.cellsWanted, counters.planesWanted, counters.pairs + share * lostCells};
 }
@@ -58,9 +57,7 @@ uint32_t tileDigits(uint32_t tiles) {
   return digits;
 }
 
-uint32_t sortRoundsOf(uint32_t cells) {
-  return cells > kManyCells ? gpu::kManyKeysRounds : 1;
-}
+uint32_t sortRoundsOf(uint32_t cells) { return cells > kManyCells ? gpu::kManyKeysRounds : 1; }
 
 uint64_t histogramBytes(uint32_t keys, uint32_t sortRounds) {
   const uint32_t groups = groupsOver(keys, sortRounds * gpu::kGroupSize);
@@ -110,8 +107,8 @@ ViewCapacity lessened(const ViewCapacity& capacity, double factor) {
   };
   const uint64_t cells = partOf(capacity.cells, kFewestCells);
   const auto perCell = [&](uint64_t count) {  // in proportion to the cells
-    return std::max(uint64_t{1}, static_cast<uint64_t>(static_cast<double>(count) * static_cast<double>(cells) /
-                                                       capacity.cells));
+    return std::max(uint64_t{1},
+                    static_cast<uint64_t>(static_cast<double>(count) * static_cast<double>(cells) / capacity.cells));
   };
   ViewCapacity less = capacity;
   less.cells = static_cast<uint32_t>(cells);

@@ -14,8 +14,8 @@ struct ViewCapacity {
   uint32_t chunks = 1;
   uint32_t groups = 1;  // groupsOfCells
   uint32_t tiles = 1;
-  uint64_t rays = 0;    // pixels of a view that mapped lenses draw; else 0
-  uint64_t hits = 0;    // pixels of a view that keeps hits; else 0
+  uint64_t rays = 0;        // pixels of a view that mapped lenses draw; else 0
+  uint64_t hits = 0;        // pixels of a view that keeps hits; else 0
   uint32_t walkStarts = 1;  // as many as tiles where rays may be parallel
   // Of visible cells: a guess at first. A frame that wants more is valid without what has no space.
   uint32_t cells = 1;
@@ -44,8 +44,8 @@ inline constexpr uint32_t kCellKeyDigits = 4;  // bytes of a cell's sort key
 // Bytes that a radix sort has to look at, of the number of a tile or of the one past the last tile.
 uint32_t tileDigits(uint32_t tiles);
 
-// FrameBlock::sortRounds of a view with room for so many cells: small groups keep a GPU busy with a short list, of a long one
-// each would read the sums of too many others.
+// FrameBlock::sortRounds of a view with room for so many cells: small groups keep a GPU busy with a short list, of a
+// long one each would read the sums of too many others.
 uint32_t sortRoundsOf(uint32_t cells);
 
 // Size of the histogram of one digit over a list of up to `keys` (shaders/gpu/histogram.glsl).

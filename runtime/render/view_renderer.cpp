@@ -143,13 +143,15 @@ void describeMemory(ViewState& view) {
 }
 
 // What can be drawn of the instances, as parts of the recording.
-uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines, std::span<const RenderInstance> instances) {
+uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
+                  std::span<const RenderInstance> instances) {
   uint32_t bits = 0;
   for (const RenderInstance& instance : instances) {
     InstanceSpace* space = findSpace(recording.view, instance.handle);
     const PassPipelines* passes = pipelines.find(shapeOf(*instance.asset), lensClassOf(recording.info.camera));
     const bool isFirst = recording.view.parts.empty();
-    if (!space || !passes || !coversAsset(*instance.asset, space->buffers.capacity()) || !(isFirst || pipelines.hasSeveral)) {
+    if (!space || !passes || !coversAsset(*instance.asset, space->buffers.capacity()) ||
+        !(isFirst || pipelines.canMerge)) {
       bits |= FROTH_VIEW_NOT_READY;
     } else if (recording.kind == RecordingKind::kWalk && !instance.asset->hasWalkGraph) {
       bits |= FROTH_VIEW_NO_WALK_GRAPH;
@@ -180,8 +182,12 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   std::unique_ptr<ImageSets> hitSets, compositeSets, exportSets;
   Status sets;
   if (options.keepsHits) sets = createSets(device, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, 2 * recordings, hitSets);
-  if (sets && options.composites) sets = createSets(device, compositeBindings(), kMostEyes * options.framesInFlight, compositeSets);
-  if (sets && options.exportsDepth) sets = createSets(device, DepthExport::bindings(), kMostEyes * options.framesInFlight, exportSets);
+  if (sets && options.composites) {
+    sets = createSets(device, compositeBindings(), kMostEyes * options.framesInFlight, compositeSets);
+  }
+  if (sets && options.exportsDepth) {
+    sets = createSets(device, DepthExport::bindings(), kMostEyes * options.framesInFlight, exportSets);
+  }
   if (!sets) return sets.error();
   if (options.measurePasses) {
     Result<std::unique_ptr<PassTimer>> made = PassTimer::create(device, recordings);
@@ -284,8 +290,8 @@ void ViewRenderer::composite(VkCommandBuffer commandBuffer, RenderPipelines& pip
                   kMostEyes * state_->slot + info.eye, info, region);
 }
 
-void ViewRenderer::exportDepth(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothDepthExportInfo& info,
-                               const VkRect2D& region, bool isReversed) {
+void ViewRenderer::exportDepth(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
+                               const FrothDepthExportInfo& info, const VkRect2D& region, bool isReversed) {
   const VkDescriptorImageInfo image{VK_NULL_HANDLE, info.depth.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   const VkDescriptorSet set = state_->exportSets->update(kMostEyes * state_->slot + info.eye, {&image, 1});
   pipelines.state().depthExport->record(commandBuffer, set, info, region, isReversed);
@@ -295,11 +301,10 @@ void ViewRenderer::dropFrame(uint64_t serial) {
   for (FrameSlot& slot : state_->slots) {
     if (slot.serial == serial) slot = {};
   }
-  for (const auto& space : state_->spaces) space->walkAsset = nullptr;  // it may be that frame that would have found the start
+  // it may be that frame that would have found the start
+  for (const auto& space : state_->spaces) space->walkAsset = nullptr;
 }
 
-const FrothViewStatus& ViewRenderer::status() const {
-  return state_->status;
-}
+const FrothViewStatus& ViewRenderer::status() const { return state_->status; }
 
 }  // namespace froth

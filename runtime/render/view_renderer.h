@@ -37,7 +37,7 @@ struct ViewOptions {
   uint32_t lensClasses = 0;  // FrothLensClass bits of its cameras
   uint32_t framesInFlight = 1;
   bool measurePasses = false;
-  bool keepsHits = false;    // for id and motion
+  bool keepsHits = false;  // for id and motion
   bool composites = false, exportsDepth = false;
 };
 
@@ -47,9 +47,10 @@ class ViewRenderer {
   static Result<std::unique_ptr<ViewRenderer>> create(Device& device, const ViewOptions& options);
   ~ViewRenderer();  // the GPU must be done with the view
 
-  // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `instances` (of which only handle and
-  // asset count; at most gpu::kMostInstances) and for the overflows seen; replaced buffers are freed once `completedSerial` has passed
-  // their last use. On an error the buffers are as before; recording goes on with those instances that they cover.
+  // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `instances` (of which only
+  // handle and asset count; at most gpu::kMostInstances) and for the overflows seen; replaced buffers are freed once
+  // `completedSerial` has passed their last use. On an error the buffers are as before; recording goes on with those
+  // instances that they cover.
   Status prepare(uint64_t completedSerial, std::span<const RenderInstance> instances);
 
   // For a lowered budget. prepare() does the work, over several frames; until it is done isShrinking().
@@ -57,9 +58,10 @@ class ViewRenderer {
   void shrink(double factor);            // keeps `factor` [0..1] of them
   bool isShrinking() const;
 
-  // Between frothUpdate calls, once per frame and method; `serial` is that of the frame. `instances`: all that are to be seen; none
-  // clears the wanted outputs (colour 0, distance +inf, normal 0). info has been checked and its defaults resolved: camera.scissor is what is
-  // drawn, not empty, within maxExtent and the images. Allocates nothing. Returns the FrothViewBit set known at record time.
+  // Between frothUpdate calls, once per frame and method; `serial` is that of the frame. `instances`: all that are to
+  // be seen; none clears the wanted outputs (colour 0, distance +inf, normal 0). info has been checked and its defaults
+  // resolved: camera.scissor is what is drawn, not empty, within maxExtent and the images. Allocates nothing. Returns
+  // the FrothViewBit set known at record time.
   uint32_t record(RenderMethod method, VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
                   std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial);
 

@@ -24,8 +24,8 @@ struct FrameSlot {
   uint32_t recordings = 0;
 };
 
-// Growth that the budget refused. It is not tried again in every frame, only for another asset or budget, or once the context
-// holds less.
+// Growth that the budget refused. It is not tried again in every frame, only for another asset or budget, or once the
+// context holds less.
 struct GrowthRefusal {
   const GpuAsset* asset;
   VkDeviceSize budget;
@@ -59,13 +59,14 @@ struct ViewState {
   std::vector<std::unique_ptr<InstanceSpace>> spaces;  // the first stays
   std::unique_ptr<OutputImages> images;
   std::unique_ptr<ImageSets> hitSets{};  // two per recording; null: the view keeps no hits
-  std::unique_ptr<ImageSets> compositeSets{}, exportSets{};  // one per frame in flight; null: the context does not do that
-  std::unique_ptr<PassTimer> timer;  // null: not measured
-  std::vector<FrameSlot> slots;      // [frames in flight]
-  ViewCapacity leastCapacity{};      // of every space
-  uint32_t slot = 0;                 // of the frame being recorded
-  uint64_t lastSerial = 0;           // newest recorded frame
-  FrothViewStatus status{};          // of the newest complete frame
+  // one per frame in flight; null: the context does not do that
+  std::unique_ptr<ImageSets> compositeSets{}, exportSets{};
+  std::unique_ptr<PassTimer> timer;    // null: not measured
+  std::vector<FrameSlot> slots;        // [frames in flight]
+  ViewCapacity leastCapacity{};        // of every space
+  uint32_t slot = 0;                   // of the frame being recorded
+  uint64_t lastSerial = 0;             // newest recorded frame
+  FrothViewStatus status{};            // of the newest complete frame
   std::vector<RecordingPart> parts{};  // of the recording under way; has room for gpu::kMostInstances
 };
 
@@ -113,8 +114,8 @@ void recordShade(const Recording& recording);
 void recordRasterPasses(const Recording& recording);
 void recordWalkPasses(const Recording& recording);
 
-// The pass that writes the wanted images, of a raster or a walk; `plain`: its form for rgba16f without normals, followed by
-// its others.
+// The pass that writes the wanted images, of a raster or a walk; `plain`: its form for rgba16f without normals,
+// followed by its others.
 Pass pixelPass(Pass plain, const FrothRenderInfo& info);
 // Tells the passes that write images of all parts.
 void pushParts(const Recording& recording);

@@ -7,7 +7,7 @@
 #include "runtime/device/pipeline_objects.h"
 #include "shaders/gpu/walk_layout.h"
 #include "spirv/cast_rays.h"
-#include "spirv/cast_rays_several.h"
+#include "spirv/cast_rays_merged.h"
 #include "spirv/mark_entries.h"
 #include "spirv/seed_entries.h"
 
@@ -36,7 +36,7 @@ ShaderCode codeOf(uint32_t index) {
   if (index == kSeedEntries) return {"seed_entries", seed_entries_spirv};
   if (index == kMarkEntries) return {"mark_entries", mark_entries_spirv};
   if (index < kSeedEntries) return {"cast_rays", cast_rays_spirv};
-  return {"cast_rays_several", cast_rays_several_spirv};
+  return {"cast_rays_merged", cast_rays_merged_spirv};
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ Result<std::unique_ptr<WalkPipelines>> WalkPipelines::create(Device& device, VkP
                                                              const WalkOptions& options) {
   std::unique_ptr<WalkPipelines> made(new WalkPipelines(device, cache, options));
   if (const Status status = made->createLayouts(); !status) return status.error();
-  if (const Status status = made->createPipelines(0, kCastSeveral); !status) return status.error();
+  if (const Status status = made->createPipelines(0, kCastMerged); !status) return status.error();
   return made;
 }
 
@@ -56,9 +56,7 @@ WalkPipelines::~WalkPipelines() {
   vk.vkDestroyDescriptorSetLayout(device_.device, setLayout_, nullptr);
 }
 
-Status WalkPipelines::prepareForSeveral() {
-  return createPipelines(kCastSeveral, kWalkPipelineCount);
-}
+Status WalkPipelines::prepareMerging() { return createPipelines(kCastMerged, kWalkPipelineCount); }
 
 // Those that are missing.
 Status WalkPipelines::createPipelines(uint32_t first, uint32_t last) {
@@ -72,7 +70,8 @@ Status WalkPipelines::createPipelines(uint32_t first, uint32_t last) {
 Status WalkPipelines::createLayouts() {
   constexpr const char* kName = "walk sets";
   static_assert(gpu::kBindingWalk == 0 && gpu::kBindingWalkCounters == 1);
-  const SetBindings bindings{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, VK_SHADER_STAGE_ALL};
+  const SetBindings bindings{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                             VK_SHADER_STAGE_ALL};
   const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device_, kName, bindings);
   if (!setLayout) return setLayout.error();
   setLayout_ = *setLayout;
@@ -83,7 +82,7 @@ Status WalkPipelines::createLayouts() {
 }
 
 Status WalkPipelines::createPipeline(uint32_t index) {
-  const Specialization values{options_.checkIndices, index % kCastSeveral};
+  const Specialization values{options_.checkIndices, index % kCastMerged};
   VkSpecializationInfo specialization{};
   specialization.mapEntryCount = static_cast<uint32_t>(kSpecializationEntries.size());
   specialization.pMapEntries = kSpecializationEntries.data();

@@ -12,8 +12,9 @@ struct WalkOptions {
   bool checkIndices = false, countsWork = false;
 };
 
-// Those that cast rays of a FrothRayKind through one instance at a time begin at 0, through several at once at kCastSeveral.
-inline constexpr uint32_t kSeedEntries = 3, kMarkEntries = 4, kCastSeveral = 5, kWalkPipelineCount = 8;
+// Those that cast rays of a FrothRayKind through one instance at a time begin at 0, through several at once at
+// kCastMerged.
+inline constexpr uint32_t kSeedEntries = 3, kMarkEntries = 4, kCastMerged = 5, kWalkPipelineCount = 8;
 
 struct CastConstants {
   VkDeviceAddress rays, hits;
@@ -26,12 +27,13 @@ struct SeedConstants {
 
 class WalkPipelines {
  public:
-  static Result<std::unique_ptr<WalkPipelines>> create(Device& device, VkPipelineCache cache, const WalkOptions& options);
+  static Result<std::unique_ptr<WalkPipelines>> create(Device& device, VkPipelineCache cache,
+                                                       const WalkOptions& options);
   ~WalkPipelines();
 
-  // Makes those from kCastSeveral on. Called before there are two instances; idempotent.
-  Status prepareForSeveral();
-  bool hasSeveral() const { return pipelines_.back() != VK_NULL_HANDLE; }
+  // Makes those from kCastMerged on. Called before there are two instances; idempotent.
+  Status prepareMerging();
+  bool canMerge() const { return pipelines_.back() != VK_NULL_HANDLE; }
 
   VkDescriptorSetLayout setLayout() const { return setLayout_; }
   VkPipelineLayout layout() const { return layout_; }

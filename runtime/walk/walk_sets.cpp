@@ -14,8 +14,8 @@
 namespace froth {
 namespace {
 
-// A slot of the tables: WalkBlock, WalkInstance [most], the same for seeds, ChunkEntry [capacity]; each slot where a uniform
-// buffer may begin.
+// A slot of the tables: WalkBlock, WalkInstance [most], the same for seeds, ChunkEntry [capacity]; each slot where a
+// uniform buffer may begin.
 constexpr VkDeviceSize kAlignment = 256;
 constexpr VkDeviceSize kInstancesOffset = kAlignment;
 constexpr VkDeviceSize kChunksOffset = kInstancesOffset + 2 * FROTH_WALK_MOST_INSTANCES * sizeof(gpu::WalkInstance);
@@ -155,7 +155,7 @@ Status WalkSets::prepare(uint64_t completedSerial, uint32_t instanceCount, uint3
   if (!hasSpaceFor(chunkCount)) {
     if (const Status status = grow(std::max(chunkCount, 2 * chunkCapacity_)); !status) return status;
   }
-  return instanceCount < 2 ? Status() : pipelines_->prepareForSeveral();
+  return instanceCount < 2 ? Status() : pipelines_->prepareMerging();
 }
 
 void WalkSets::readCounters(const Slot& slot) {
@@ -235,10 +235,10 @@ void WalkSets::recordCopies(VkCommandBuffer commandBuffer, uint32_t slot, VkPipe
   const VkBufferCopy copy{slot * stride(), slot * stride(), stride()};
   vk.vkCmdCopyBuffer(commandBuffer, staging_.buffer, tables_.buffer, 1, &copy);
   vk.vkCmdFillBuffer(commandBuffer, counters_.buffer, slot * kCountersStride, sizeof(gpu::WalkCounters), 0);
-  vk.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                         stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                         VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+  vk.recordMemoryBarrier(
+      commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+      stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+      VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
 VkDescriptorSet WalkSets::record(VkCommandBuffer commandBuffer, const FrothWalkInfo& info,
@@ -269,17 +269,19 @@ void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const Walked
     for (uint32_t i = 0; i < instances.size(); ++i) {
       if (isNew(instances[i])) recordSeeds(commandBuffer, pipeline, i, *instances[i].placement.asset);
     }
-    device_.table.recordMemoryBarrier(
-        commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-        stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                      VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                                      stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
   }
 }
 
-void WalkSets::recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uint32_t instance, const GpuAsset& asset) const {
+void WalkSets::recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uint32_t instance,
+                           const GpuAsset& asset) const {
   const DeviceTable& vk = device_.table;
   const SeedConstants constants{kFirstSeed + instance};
-  vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
+  vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
+                        &constants);
   if (pipeline == kSeedEntries) {
     const uint32_t along = asset.walkEntriesAlong;
     dispatchGroups(vk, commandBuffer, groupsOver(along * along * along, gpu::kRayGroupSize));
@@ -287,7 +289,8 @@ void WalkSets::recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uin
   }
   const auto chunks = static_cast<uint32_t>(asset.chunks.size());
   const uint32_t rows = groupsOver(chunks, gpu::kMostGroupsAlong);
-  vk.vkCmdDispatch(commandBuffer, groupsOver(groupsOver(asset.liveCount, chunks), gpu::kRayGroupSize), groupsOver(chunks, rows), rows);
+  vk.vkCmdDispatch(commandBuffer, groupsOver(groupsOver(asset.liveCount, chunks), gpu::kRayGroupSize),
+                   groupsOver(chunks, rows), rows);
 }
 
 void WalkSets::bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const {
@@ -300,10 +303,11 @@ void WalkSets::bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const {
 void WalkSets::recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress rays, VkDeviceAddress hits, uint32_t count,
                           FrothRayKind kind) const {
   const DeviceTable& vk = device_.table;
-  const bool isSeveral = instanceCount_ > 1 && pipelines_->hasSeveral();
-  bind(commandBuffer, kind + (isSeveral ? kCastSeveral : 0));
+  const bool isMerged = instanceCount_ > 1 && pipelines_->canMerge();
+  bind(commandBuffer, kind + (isMerged ? kCastMerged : 0));
   const CastConstants constants{rays, hits, count, 0};
-  vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants), &constants);
+  vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
+                        &constants);
   dispatchGroups(vk, commandBuffer, groupsOver(count, gpu::kRayGroupSize));
   vk.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                          VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);  // counters

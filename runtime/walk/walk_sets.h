@@ -31,12 +31,13 @@ class WalkSets {
 
   VkDescriptorSetLayout layout() const { return pipelines_->setLayout(); }
 
-  // In frothUpdate: reads counters of complete frames, frees what was replaced, grows tables to so many chunks of all instances
-  // together: those of an instance that is not seeded count twice. On an error they are as before.
+  // In frothUpdate: reads counters of complete frames, frees what was replaced, grows tables to so many chunks of all
+  // instances together: those of an instance that is not seeded count twice. On an error they are as before.
   Status prepare(uint64_t completedSerial, uint32_t instanceCount, uint32_t chunkCount);
   bool hasSpaceFor(uint32_t chunkCount) const { return chunkCount <= chunkCapacity_; }
 
-  // info: defaults resolved. Instances: at most FROTH_WALK_MOST_INSTANCES, with space for all their chunks. Once per frame.
+  // info: defaults resolved. Instances: at most FROTH_WALK_MOST_INSTANCES, with space for all their chunks. Once per
+  // frame.
   VkDescriptorSet record(VkCommandBuffer commandBuffer, const FrothWalkInfo& info,
                          std::span<const WalkedInstance> instances, uint64_t serial);
   bool isRecorded(uint64_t serial) const { return recordedSerial_ == serial; }

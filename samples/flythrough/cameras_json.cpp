@@ -23,19 +23,18 @@ bool isRotation(const glm::dmat3& matrix) {
 Result<Pose> readPose(const nlohmann::json& view) {
   double matrix[12];
   for (size_t i = 0; i < 12; ++i) matrix[i] = view.at("world_from_camera").at(i / 4).at(i % 4).get<double>();
-  const glm::dmat3 columns(matrix[0], matrix[4], matrix[8], matrix[1], matrix[5], matrix[9], matrix[2],
-                           matrix[6], matrix[10]);
+  const glm::dmat3 columns(matrix[0], matrix[4], matrix[8], matrix[1], matrix[5], matrix[9], matrix[2], matrix[6],
+                           matrix[10]);
   if (!isRotation(columns)) {
-    return makeError(
-        ErrorKind::kBadInput,
-        "field 'world_from_camera': found a determinant of %.6g; give a rotation without scale in "
-        "the first three columns",
-        glm::determinant(columns));
+    return makeError(ErrorKind::kBadInput,
+                     "field 'world_from_camera': found a determinant of %.6g; give a rotation without scale in "
+                     "the first three columns",
+                     glm::determinant(columns));
   }
   const double height = view.at("height").get<double>(), fy = view.at("fy").get<double>();
   if (!(height > 0 && fy > 0)) {
-    return makeError(ErrorKind::kBadInput, "fields 'height' and 'fy': found %.6g and %.6g; give numbers > 0",
-                     height, fy);
+    return makeError(ErrorKind::kBadInput, "fields 'height' and 'fy': found %.6g and %.6g; give numbers > 0", height,
+                     fy);
   }
   return poseFromMatrix(matrix, height / (2.0 * fy));
 }
@@ -59,14 +58,13 @@ Result<std::vector<Pose>> readKeyPoses(const std::filesystem::path& path) {
       poses.push_back(*pose);
     }
   } catch (const nlohmann::json::parse_error& fault) {
-    return makeError(ErrorKind::kBadInput, "%s: not JSON (%s); docs/CAMERAS.md shows the layout",
-                     path.c_str(), fault.what());
+    return makeError(ErrorKind::kBadInput, "%s: not JSON (%s); docs/CAMERAS.md shows the layout", path.c_str(),
+                     fault.what());
   } catch (const nlohmann::json::exception& fault) {
-    return makeError(ErrorKind::kBadInput, "%s: %s %zu: %s; docs/CAMERAS.md shows the layout", path.c_str(),
-                     list, poses.size(), fault.what());
+    return makeError(ErrorKind::kBadInput, "%s: %s %zu: %s; docs/CAMERAS.md shows the layout", path.c_str(), list,
+                     poses.size(), fault.what());
   }
-  if (poses.empty())
-    return makeError(ErrorKind::kBadInput, "%s: field 'views': holds none; add a view", path.c_str());
+  if (poses.empty()) return makeError(ErrorKind::kBadInput, "%s: field 'views': holds none; add a view", path.c_str());
   return poses;
 }
 

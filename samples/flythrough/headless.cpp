@@ -9,8 +9,7 @@
 namespace froth {
 namespace {
 
-Status flyPath(Host& host, Scene& scene, Painter& painter, const CameraPath& path,
-               const FlythroughOptions& options) {
+Status flyPath(Host& host, Scene& scene, Painter& painter, const CameraPath& path, const FlythroughOptions& options) {
   FrameFiles files(options);
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     const double share = options.frames > 1 ? static_cast<double>(frame) / (options.frames - 1) : 0.0;

@@ -10,8 +10,7 @@ int main(int argc, char** argv) {
   std::string picture = "raster";
   CLI::App program{"Flies through a .froth asset."};
   program.add_option("ASSET", options.asset, "A .froth file")->required();
-  program.add_option("--cameras", options.cameras,
-                     "Key frames (cameras.json) instead of the asset's own path");
+  program.add_option("--cameras", options.cameras, "Key frames (cameras.json) instead of the asset's own path");
   program.add_option("--renderer", picture, "raster, walk, or the difference of the two")
       ->capture_default_str()
       ->check(CLI::IsMember({"raster", "walk", "difference"}));

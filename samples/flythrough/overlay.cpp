@@ -14,8 +14,7 @@ constexpr double kMebi = 1024.0 * 1024.0;
 void layOutParts(const char* owner, uint64_t sum, std::span<const FrothMemory> parts) {
   const double bytes = static_cast<double>(sum);
   if (!ImGui::TreeNode(owner, "%s %.1f MiB", owner, bytes / kMebi)) return;
-  for (const FrothMemory& part : parts)
-    ImGui::Text("%8.2f  %s", static_cast<double>(part.bytes) / kMebi, part.name);
+  for (const FrothMemory& part : parts) ImGui::Text("%8.2f  %s", static_cast<double>(part.bytes) / kMebi, part.name);
   ImGui::TreePop();
 }
 

@@ -30,9 +30,7 @@ const char* nameOf(Picture picture) {
   return "difference";
 }
 
-Painter::~Painter() {
-  destroyImages();
-}
+Painter::~Painter() { destroyImages(); }
 
 void Painter::destroyImages() {
   difference_.reset();
@@ -71,10 +69,9 @@ Status Painter::recordDifference(VkCommandBuffer commands, Scene& scene, const P
   if (Status drawn = scene.draw(commands, Method::kRaster, renderInfo(pose, raster)); !drawn) return drawn;
   if (Status drawn = scene.draw(commands, Method::kWalk, renderInfo(pose, walk)); !drawn) return drawn;
   difference_->record(commands, first_.extent);
-  imageBarrier(
-      commands, first_.image,
-      {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-      {VK_IMAGE_LAYOUT_GENERAL, readStage, VK_ACCESS_2_TRANSFER_READ_BIT});
+  imageBarrier(commands, first_.image,
+               {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+               {VK_IMAGE_LAYOUT_GENERAL, readStage, VK_ACCESS_2_TRANSFER_READ_BIT});
   return {};
 }
 

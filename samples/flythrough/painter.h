@@ -31,8 +31,7 @@ class Painter {
 
  private:
   void destroyImages();
-  Status recordDifference(VkCommandBuffer commands, Scene& scene, const Pose& pose,
-                          VkPipelineStageFlags2 readStage);
+  Status recordDifference(VkCommandBuffer commands, Scene& scene, const Pose& pose, VkPipelineStageFlags2 readStage);
 
   Host& host_;
   HostImage first_, second_;  // the second holds the walk while the two are compared

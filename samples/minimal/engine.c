@@ -23,7 +23,8 @@ static VkCommandPool pool;
 static VkCommandBuffer commands;
 
 static VkPhysicalDeviceVulkan13Features features13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-static VkPhysicalDeviceVulkan12Features features12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &features13};
+static VkPhysicalDeviceVulkan12Features features12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                                      .pNext = &features13};
 VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &features12};
 
 void make_instance(void) {
@@ -36,8 +37,9 @@ void choose_gpu(int (*is_suitable)(VkPhysicalDevice)) {
   VkPhysicalDevice gpus[16];
   uint32_t count = 16;
   require(vkEnumeratePhysicalDevices(instance, &count, gpus) >= 0, "vkEnumeratePhysicalDevices");
-  for (uint32_t i = 0; i < count && !gpu; ++i)
+  for (uint32_t i = 0; i < count && !gpu; ++i) {
     if (is_suitable(gpus[i])) gpu = gpus[i];
+  }
   require(gpu != NULL, "no suitable Vulkan device");
 }
 
@@ -57,7 +59,8 @@ void make_device(void) {
                                     .pQueueCreateInfos = &queue_info};
   VK(vkCreateDevice(gpu, &device_info, NULL, &device));
   vkGetDeviceQueue(device, queue_family, 0, &queue);
-  VkCommandPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = queue_family};
+  VkCommandPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                       .queueFamilyIndex = queue_family};
   VK(vkCreateCommandPool(device, &pool_info, NULL, &pool));
   VkCommandBufferAllocateInfo commands_info = {
       .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = pool, .commandBufferCount = 1};
@@ -69,8 +72,9 @@ static VkDeviceMemory allocate(VkMemoryRequirements needs, VkMemoryPropertyFlags
   vkGetPhysicalDeviceMemoryProperties(gpu, &memory);
   VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size};
   while (!(needs.memoryTypeBits >> info.memoryTypeIndex & 1) ||
-         (memory.memoryTypes[info.memoryTypeIndex].propertyFlags & wanted) != wanted)
+         (memory.memoryTypes[info.memoryTypeIndex].propertyFlags & wanted) != wanted) {
     require(++info.memoryTypeIndex < memory.memoryTypeCount, "no memory type fits");
+  }
   VkDeviceMemory result;
   VK(vkAllocateMemory(device, &info, NULL, &result));
   return result;
@@ -119,7 +123,8 @@ VkCommandBuffer begin_commands(void) {
 }
 
 void copy_image(VkCommandBuffer to) {
-  VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {WIDTH, HEIGHT, 1}};
+  VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                            .imageExtent = {WIDTH, HEIGHT, 1}};
   vkCmdCopyImageToBuffer(to, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1, &copy);
 }
 
@@ -161,7 +166,8 @@ void write_picture(const char* path) {
 double compare_picture(const char* path) {
   FILE* file = fopen(path, "rb");
   int width = 0, height = 0;
-  require(file != NULL && fscanf(file, "P6 %d %d 255", &width, &height) == 2 && width == WIDTH && height == HEIGHT, path);
+  require(file != NULL && fscanf(file, "P6 %d %d 255", &width, &height) == 2 && width == WIDTH && height == HEIGHT,
+          path);
   require(fgetc(file) == '\n' && fread(expected, PICTURE_BYTES, 1, file) == 1, path);
   fclose(file);
   double sum = 0;

@@ -1,4 +1,5 @@
-/* What an engine has before Froth comes: a device, an image, submission, picture files. Every failure ends the program. */
+/* What an engine has before Froth comes: a device, an image, submission, picture files. Every failure ends the
+ * program. */
 #ifndef FROTH_SAMPLES_MINIMAL_ENGINE_H
 #define FROTH_SAMPLES_MINIMAL_ENGINE_H
 

@@ -1,4 +1,5 @@
-/* The least that an engine writes to show a foam: a device of its own, one asset, one view, frames, a picture. No window.
+/* The least that an engine writes to show a foam: a device of its own, one asset, one view, frames, a picture. No
+ * window.
  *
  *   froth_minimal SCENE.froth IMAGE.ppm [--frames N] [--compare OTHER.ppm --min-psnr X]
  *
@@ -14,7 +15,8 @@
 
 static void print_message(void* user, FrothSeverity severity, FrothResult code, const char* object, const char* text) {
   (void)user;
-  fprintf(stderr, "%s %s: %s: %s\n", severity == FROTH_SEVERITY_ERROR ? "error" : "warning", frothResultName(code), object, text);
+  fprintf(stderr, "%s %s: %s: %s\n", severity == FROTH_SEVERITY_ERROR ? "error" : "warning", frothResultName(code),
+          object, text);
 }
 
 static int is_suitable(VkPhysicalDevice candidate) {
@@ -53,12 +55,14 @@ static FrothCamera start_camera(const FrothAssetStatus* status) {
   FrothCamera camera = {.viewport = {0, 0, WIDTH, HEIGHT, 0, 1}};
   for (int axis = 0; axis < 3; ++axis) {
     camera.eye[axis] = stored->worldFromCamera[4 * axis + 3];
-    for (int row = 0; row < 3; ++row) camera.viewFromWorld[3 * axis + row] = (float)stored->worldFromCamera[4 * axis + row];
+    for (int row = 0; row < 3; ++row) {
+      camera.viewFromWorld[3 * axis + row] = (float)stored->worldFromCamera[4 * axis + row];
+    }
   }
   camera.clipFromView[0] = (float)(HEIGHT / (WIDTH * stored->tanHalfFovY));
   camera.clipFromView[5] = (float)(1 / stored->tanHalfFovY);
-  camera.clipFromView[11] = 1;      /* w = z */
-  camera.clipFromView[14] = 0.01f;  /* reversed, infinite depth */
+  camera.clipFromView[11] = 1;     /* w = z */
+  camera.clipFromView[14] = 0.01f; /* reversed, infinite depth */
   return camera;
 }
 
@@ -69,7 +73,8 @@ static void record_frame(VkCommandBuffer commands, uint64_t serial) {
   FrothAssetStatus status = {.structSize = sizeof status};
   FROTH(frothGetAssetStatus(froth, asset, &status));
   require(status.state != FROTH_ASSET_FAILED, "the asset cannot be loaded");
-  require(status.state != FROTH_ASSET_READY || status.hasStartView, "the asset has no start view; bake it with --cameras");
+  require(status.state != FROTH_ASSET_READY || status.hasStartView,
+          "the asset has no start view; bake it with --cameras");
   if (status.state != FROTH_ASSET_READY) return;
   FrothRenderInfo info = {.structSize = sizeof info,
                           .camera = start_camera(&status),
@@ -85,7 +90,7 @@ static void record_frame(VkCommandBuffer commands, uint64_t serial) {
                              .stageIn = VK_PIPELINE_STAGE_2_COPY_BIT,
                              .stageOut = VK_PIPELINE_STAGE_2_COPY_BIT,
                              .accessOut = VK_ACCESS_2_TRANSFER_READ_BIT};
-  FROTH(frothRasterize(froth, view, commands, &info));
+  FROTH(frothRecordRaster(froth, view, commands, &info));
   copy_image(commands);
 }
 
@@ -113,10 +118,15 @@ int main(int count, char** arguments) {
   const char* other = NULL;
   double min_psnr = 0;
   for (int i = 3; i + 1 < count; i += 2) {
-    if (strcmp(arguments[i], "--frames") == 0) frames = (uint32_t)strtoul(arguments[i + 1], NULL, 10);
-    else if (strcmp(arguments[i], "--compare") == 0) other = arguments[i + 1];
-    else if (strcmp(arguments[i], "--min-psnr") == 0) min_psnr = strtod(arguments[i + 1], NULL);
-    else count = 0;
+    if (strcmp(arguments[i], "--frames") == 0) {
+      frames = (uint32_t)strtoul(arguments[i + 1], NULL, 10);
+    } else if (strcmp(arguments[i], "--compare") == 0) {
+      other = arguments[i + 1];
+    } else if (strcmp(arguments[i], "--min-psnr") == 0) {
+      min_psnr = strtod(arguments[i + 1], NULL);
+    } else {
+      count = 0;
+    }
   }
   if (count < 3 || count % 2 == 0 || frames == 0) {
     fprintf(stderr, "usage: froth_minimal SCENE.froth IMAGE.ppm [--frames N] [--compare OTHER.ppm --min-psnr X]\n");

@@ -40,7 +40,9 @@ Status Ball::meetFoam(FrothContext* context) {
   FrothContact contact{};
   contact.structSize = sizeof(contact);
   const FrothResult result = frothOverlapSphere(context, &sphere, &contact);
-  if (result < FROTH_OK) return makeError(ErrorKind::kUnsupported, "frothOverlapSphere gives %s", frothResultName(result));
+  if (result < FROTH_OK) {
+    return makeError(ErrorKind::kUnsupported, "frothOverlapSphere gives %s", frothResultName(result));
+  }
   if (!contact.isTouching) return {};
   ++contacts_;
   deepest_ = std::max(deepest_, contact.depth);

@@ -13,13 +13,14 @@ class Ball {
 
   void drop();  // from where it started
 
-  // Goes on by so many seconds, in small steps, asking Froth on the CPU what it touches. `meshes` are without the ball itself.
+  // Goes on by so many seconds, in small steps, asking Froth on the CPU what it touches. `meshes` are without the ball
+  // itself.
   Status step(FrothContext* context, const RoomGeometry& meshes, double seconds);
 
   const glm::dvec3& position() const { return position_; }
   const glm::dvec3& velocity() const { return velocity_; }
   double radius() const { return radius_; }
-  double deepest() const { return deepest_; }     // how far it ever was inside of the foam [metres]
+  double deepest() const { return deepest_; }      // how far it ever was inside of the foam [metres]
   uint32_t contacts() const { return contacts_; }  // steps in which it touched the foam
 
  private:

@@ -13,7 +13,9 @@ int main(int argc, char** argv) {
   program.add_option("ASSET", options.asset, "A .froth file, baked with its walk graph")->required();
   program.add_option("--room", options.room, "A glTF file with the meshes (meshes/make_room.py)")
       ->capture_default_str();
-  program.add_option("--shadow-catching", options.look.shadowCatching, "How much of their shadow meshes cast on the foam, 0 to 1")
+  program
+      .add_option("--shadow-catching", options.look.shadowCatching,
+                  "How much of their shadow meshes cast on the foam, 0 to 1")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
   program.add_flag("--no-particles", hasNoParticles, "Without the motes in the foam");

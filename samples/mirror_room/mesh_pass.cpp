@@ -46,9 +46,8 @@ VkPipelineShaderStageCreateInfo stageOf(VkShaderStageFlagBits stage, VkShaderMod
 // What all of the pipelines' fixed functions share.
 struct FixedFunctions {
   VkVertexInputBindingDescription binding{0, sizeof(RoomVertex), VK_VERTEX_INPUT_RATE_VERTEX};
-  VkVertexInputAttributeDescription attributes[2] = {
-      {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RoomVertex, position)},
-      {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RoomVertex, normal)}};
+  VkVertexInputAttributeDescription attributes[2] = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RoomVertex, position)},
+                                                     {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RoomVertex, normal)}};
   VkPipelineVertexInputStateCreateInfo vertices{};
   VkPipelineInputAssemblyStateCreateInfo assembly{};
   VkPipelineViewportStateCreateInfo viewport{};
@@ -110,7 +109,8 @@ MeshPass::~MeshPass() {
 }
 
 Status MeshPass::uploadMeshes(const Room& room) {
-  const size_t vertexBytes = room.vertices.size() * sizeof(RoomVertex), indexBytes = room.indices.size() * sizeof(uint32_t);
+  const size_t vertexBytes = room.vertices.size() * sizeof(RoomVertex),
+               indexBytes = room.indices.size() * sizeof(uint32_t);
   Result<HostBuffer> vertices = host_.createBuffer(vertexBytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
   if (!vertices) return vertices.error();
   vertices_ = *vertices;
@@ -160,8 +160,8 @@ Status MeshPass::createPipeline(Kind kind, VkPipeline& pipeline) {
   info.pColorBlendState = &functions.blend;
   info.pDynamicState = &functions.dynamic;
   info.layout = layout_;
-  const Status made = checkVulkan(
-      vkCreateGraphicsPipelines(host_.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "vkCreateGraphicsPipelines");
+  const Status made = checkVulkan(vkCreateGraphicsPipelines(host_.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+                                  "vkCreateGraphicsPipelines");
   vkDestroyShaderModule(host_.device, *vertices, nullptr);
   vkDestroyShaderModule(host_.device, *fragments, nullptr);
   return made;
@@ -191,7 +191,8 @@ void MeshPass::beginRendering(VkCommandBuffer commands, Kind kind, const MeshTar
 void MeshPass::record(VkCommandBuffer commands, Kind kind, const Room& room, const MeshCamera& camera,
                       const MeshTarget& target) const {
   beginRendering(commands, kind, target);
-  const VkViewport viewport{0, 0, static_cast<float>(target.extent.width), static_cast<float>(target.extent.height), 0, 1};
+  const VkViewport viewport{0, 0, static_cast<float>(target.extent.width), static_cast<float>(target.extent.height),
+                            0, 1};
   const VkRect2D scissor{{0, 0}, target.extent};
   const VkDeviceSize start = 0;
   vkCmdSetViewport(commands, 0, 1, &viewport);
@@ -201,8 +202,8 @@ void MeshPass::record(VkCommandBuffer commands, Kind kind, const Room& room, con
   vkCmdBindIndexBuffer(commands, indices_.buffer, 0, VK_INDEX_TYPE_UINT32);
   for (const RoomPart& part : room.parts) {
     const PartConstants constants = constantsOf(part, room.nodes[part.node], camera);
-    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(constants),
-                       &constants);
+    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                       sizeof(constants), &constants);
     vkCmdDrawIndexed(commands, part.indexCount, 1, part.firstIndex, 0, 0);
   }
   vkCmdEndRendering(commands);

@@ -15,8 +15,8 @@ struct MirrorRoomOptions : RunOptions {
   std::filesystem::path room = FROTH_ROOM_FILE;
   RoomLook look;
   bool hasParticles = true;
-  std::filesystem::path json;         // empty, or where headless runs write their times
-  std::optional<glm::dvec2> picked;   // headless: pixel of the last frame to tell about
+  std::filesystem::path json;        // empty, or where headless runs write their times
+  std::optional<glm::dvec2> picked;  // headless: pixel of the last frame to tell about
 };
 
 }  // namespace froth

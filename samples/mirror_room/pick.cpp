@@ -5,8 +5,8 @@
 
 namespace froth {
 
-Result<std::optional<Pick>> pickAt(FrothContext* context, const Room& room, const RoomGeometry& meshes, const Pose& pose,
-                                   VkExtent2D extent, const glm::dvec2& pixel) {
+Result<std::optional<Pick>> pickAt(FrothContext* context, const Room& room, const RoomGeometry& meshes,
+                                   const Pose& pose, VkExtent2D extent, const glm::dvec2& pixel) {
   const double perPixel = 2 * pose.tanHalfFovY / extent.height;
   const glm::dvec3 inView(perPixel * (pixel.x - 0.5 * extent.width), perPixel * (pixel.y - 0.5 * extent.height), 1);
   const glm::dvec3 direction = pose.worldFromCamera * glm::normalize(inView);

@@ -16,9 +16,10 @@ struct Pick {
   std::string node;                 // of the mesh; empty on foam
 };
 
-// `pixel` from the upper left corner of an image of this size; (0.5, 0.5) is the middle of the first. None: nothing is there.
-Result<std::optional<Pick>> pickAt(FrothContext* context, const Room& room, const RoomGeometry& meshes, const Pose& pose,
-                                   VkExtent2D extent, const glm::dvec2& pixel);
+// `pixel` from the upper left corner of an image of this size; (0.5, 0.5) is the middle of the first. None: nothing is
+// there.
+Result<std::optional<Pick>> pickAt(FrothContext* context, const Room& room, const RoomGeometry& meshes,
+                                   const Pose& pose, VkExtent2D extent, const glm::dvec2& pixel);
 
 std::string describe(const Pick& pick);  // one line
 

@@ -10,7 +10,7 @@
 namespace froth {
 namespace {
 
-constexpr double kGlossyBelow = 0.3;     // roughness
+constexpr double kGlossyBelow = 0.3;  // roughness
 constexpr const char* kLights = "KHR_lights_punctual";
 
 // Reads one file; what it does not know is an error that names the place.
@@ -142,7 +142,9 @@ const uint8_t* RoomReader::bytesOf(int index, int component, int type, size_t by
   if (accessor.componentType != component || accessor.type != type || accessor.bufferView < 0) return nullptr;
   if (static_cast<size_t>(accessor.bufferView) >= model_.bufferViews.size()) return nullptr;
   const tinygltf::BufferView& view = model_.bufferViews[static_cast<size_t>(accessor.bufferView)];
-  if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= model_.buffers.size() || view.byteStride != 0) return nullptr;
+  if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= model_.buffers.size() || view.byteStride != 0) {
+    return nullptr;
+  }
   const std::vector<unsigned char>& bytes = model_.buffers[static_cast<size_t>(view.buffer)].data;
   const size_t start = view.byteOffset + accessor.byteOffset;
   if (start > bytes.size() || accessor.count > (bytes.size() - start) / bytesPerElement) return nullptr;
@@ -159,9 +161,11 @@ Status RoomReader::readPart(const tinygltf::Mesh& mesh, const tinygltf::Primitiv
   const uint8_t* normal = bytesOf(normals, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, sizeof(glm::vec3));
   const uint8_t* index =
       bytesOf(primitive.indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR, sizeof(uint16_t));
-  const bool isKnown = primitive.mode == TINYGLTF_MODE_TRIANGLES && position && normal && index && primitive.material >= 0 &&
-                       static_cast<size_t>(primitive.material) < room_.materials.size();
-  if (!isKnown) return fail("mesh", mesh.name, "is not of packed triangles with normals, 16-bit indices and a material");
+  const bool isKnown = primitive.mode == TINYGLTF_MODE_TRIANGLES && position && normal && index &&
+                       primitive.material >= 0 && static_cast<size_t>(primitive.material) < room_.materials.size();
+  if (!isKnown) {
+    return fail("mesh", mesh.name, "is not of packed triangles with normals, 16-bit indices and a material");
+  }
   const size_t vertexCount = model_.accessors[static_cast<size_t>(positions)].count;
   const size_t indexCount = model_.accessors[static_cast<size_t>(primitive.indices)].count;
   if (model_.accessors[static_cast<size_t>(normals)].count != vertexCount || indexCount % 3 != 0) {
@@ -198,7 +202,8 @@ Status RoomReader::findMirror() {
         room_.mirror.offset = -glm::dot(room_.mirror.normal, point);
       }
       if (std::abs(glm::dot(room_.mirror.normal, point) + room_.mirror.offset) > kFlat) {
-        return fail("node", node.name, "its mirror is not in the plane of the first one; give other metals a roughness");
+        return fail("node", node.name,
+                    "its mirror is not in the plane of the first one; give other metals a roughness");
       }
     }
   }

@@ -54,19 +54,19 @@ struct Room {
   std::vector<RoomNode> nodes;
   std::vector<RoomMaterialInfo> materials;
   MirrorPlane mirror;
-  RoomNode foam;           // where it stands and how it is turned
-  bool isFoamFitted = false;  // the middle of its foot stands there, and it fills a cube of edge foam.scale; else its origin, in its
-                              // own size
-  RoomNode centre;         // what the camera and the motes turn around; its scale is how far they reach
-  uint32_t ball = 0;       // its node; the ball has radius 1 there
+  RoomNode foam;  // where it stands and how it is turned
+  // the middle of its foot stands there, and it fills a cube of edge foam.scale; else its origin, in its own size
+  bool isFoamFitted = false;
+  RoomNode centre;    // what the camera and the motes turn around; its scale is how far they reach
+  uint32_t ball = 0;  // its node; the ball has radius 1 there
   Pose camera;
   glm::dvec3 toSun{0, 1, 0};
-  glm::vec3 sun{1};        // light on a surface that faces it
+  glm::vec3 sun{1};  // light on a surface that faces it
 };
 
 // Reads triangles with normals and 16-bit indices, materials without textures and nodes without children. A metal of
-// roughness 0 is a mirror, and all mirrors lie in one plane; roughness below 0.3 is glossy. A mirror, the nodes "foam", "ball"
-// and "centre", a camera and a directional light must be there.
+// roughness 0 is a mirror, and all mirrors lie in one plane; roughness below 0.3 is glossy. A mirror, the nodes "foam",
+// "ball" and "centre", a camera and a directional light must be there.
 Result<Room> readRoom(const std::filesystem::path& path);
 
 }  // namespace froth

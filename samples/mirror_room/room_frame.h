@@ -11,7 +11,7 @@ namespace froth {
 
 // What one may choose of a frame's look.
 struct RoomLook {
-  double shadowCatching = 1;   // [0..1] how much of their shadow meshes cast on the foam
+  double shadowCatching = 1;    // [0..1] how much of their shadow meshes cast on the foam
   double occlusionReach = 0.5;  // [metres] of the rays of ambient occlusion
 };
 

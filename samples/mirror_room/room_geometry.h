@@ -15,8 +15,8 @@ struct RoomTriangle {
 };
 
 struct MeshHit {
-  double distance;          // in lengths of the direction
-  glm::dvec3 normal;        // unit, between those of the corners
+  double distance;    // in lengths of the direction
+  glm::dvec3 normal;  // unit, between those of the corners
   uint32_t material, node;
 };
 

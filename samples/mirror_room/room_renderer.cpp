@@ -53,8 +53,8 @@ Result<std::unique_ptr<RoomRenderer>> RoomRenderer::create(Host& host, const Roo
   Result<std::unique_ptr<GpuTimer>> timer = GpuTimer::create(host);
   if (!timer) return timer.error();
   renderer->timer_ = std::move(*timer);
-  Result<HostBuffer> frame = host.createBuffer(sizeof(room::RoomFrame),
-                                               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  Result<HostBuffer> frame =
+      host.createBuffer(sizeof(room::RoomFrame), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   if (!frame) return frame.error();
   renderer->frame_ = *frame;
   const Status asked =
@@ -161,7 +161,8 @@ Status RoomRenderer::record(VkCommandBuffer commands, Scene& scene, const RoomSh
 }
 
 void RoomRenderer::recordFrame(VkCommandBuffer commands, const room::RoomFrame& frame) const {
-  recordMemoryBarrier(commands, kCompute, VK_ACCESS_2_NONE, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  recordMemoryBarrier(commands, kCompute, VK_ACCESS_2_NONE, VK_PIPELINE_STAGE_2_COPY_BIT,
+                      VK_ACCESS_2_TRANSFER_WRITE_BIT);
   vkCmdUpdateBuffer(commands, frame_.buffer, 0, sizeof(frame), &frame);
   recordMemoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, kCompute,
                       VK_ACCESS_2_UNIFORM_READ_BIT);
@@ -208,7 +209,8 @@ Status RoomRenderer::recordFoam(VkCommandBuffer commands, Scene& scene, const Ro
   return drawn;
 }
 
-void RoomRenderer::recordLight(VkCommandBuffer commands, VkDescriptorSet walkSet, VkPipelineStageFlags2 readStage) const {
+void RoomRenderer::recordLight(VkCommandBuffer commands, VkDescriptorSet walkSet,
+                               VkPipelineStageFlags2 readStage) const {
   const VkExtent2D extent = images_.result.extent;
   for (const HostImage* image : {&images_.sunlight, &images_.surround, &images_.reflection}) {
     imageBarrier(commands, image->image, kNew, kWritten);

@@ -39,7 +39,9 @@ FrothInstanceInfo placementOf(const FrothAssetStatus& asset, const Room& room) {
   glm::dvec3 low(INFINITY), high(-INFINITY);  // of the turned bounds
   for (int corner = 0; corner < 8; ++corner) {
     glm::dvec3 point;
-    for (int axis = 0; axis < 3; ++axis) point[axis] = corner >> axis & 1 ? asset.boundsMax[axis] : asset.boundsMin[axis];
+    for (int axis = 0; axis < 3; ++axis) {
+      point[axis] = corner >> axis & 1 ? asset.boundsMax[axis] : asset.boundsMin[axis];
+    }
     low = glm::min(low, stand.rotation * point);
     high = glm::max(high, stand.rotation * point);
   }
@@ -61,8 +63,9 @@ FrothInstanceInfo placementOf(const FrothAssetStatus& asset, const Room& room) {
 
 Status RoomStage::placeFoam() {
   if (!scene_->assetStatus().hasWalkGraph) {
-    return makeError(ErrorKind::kBadInput, "the asset has no walk graph, without which the room sees it nowhere but "
-                                           "directly; bake it without --no-walk");
+    return makeError(ErrorKind::kBadInput,
+                     "the asset has no walk graph, without which the room sees it nowhere but "
+                     "directly; bake it without --no-walk");
   }
   placement_ = placementOf(scene_->assetStatus(), room_);
   return scene_->place(placement_);

@@ -18,7 +18,7 @@ class RoomStage {
   // Reads the room and starts to open the asset.
   static Result<std::unique_ptr<RoomStage>> create(Host& host, const MirrorRoomOptions& options);
 
-  Status placeFoam();  // on its stand; once, when the scene is ready
+  Status placeFoam();              // on its stand; once, when the scene is ready
   Status advance(double seconds);  // ball and particles
   void dropBall() { ball_->drop(); }
   void mark(const glm::dvec3& place) { marked_ = place; }  // with a red mote

@@ -16,8 +16,8 @@
 namespace froth {
 namespace {
 
-constexpr double kSpeed = 1.2;          // of the camera [m/s]
-constexpr double kLongestStep = 0.1;    // [s] of the room's time: what is slower than that goes slower
+constexpr double kSpeed = 1.2;        // of the camera [m/s]
+constexpr double kLongestStep = 0.1;  // [s] of the room's time: what is slower than that goes slower
 
 class MirrorRoom : public WindowClient {
  public:

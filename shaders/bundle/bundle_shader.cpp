@@ -1,5 +1,5 @@
-// Makes one file of a shader and all that it includes, for engines: every name in it that is neither GLSL's nor one of the public
-// structures' fields gets the prefix froth_, so that it clashes with no name and no macro of theirs.
+// Makes one file of a shader and all that it includes, for engines: every name in it that is neither GLSL's nor one of
+// the public structures' fields gets the prefix froth_, so that it clashes with no name and no macro of theirs.
 //
 //   froth_bundle_shader FOLDER SOURCE OUTPUT
 #include <cctype>

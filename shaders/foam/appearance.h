@@ -12,8 +12,8 @@ FOAM_FN real3 inFaceFrame(real3 vector, real3 tangent, real3 bitangent, real3 no
   return real3(dot(vector, tangent), dot(vector, bitangent), dot(vector, normal)) * inverseRadius;
 }
 
-// What detailWeight asks of a point, given relative to the site in the face's frame [radii]: its place on the face, and the squared
-// distance from the face's plane. Held where squares are finite, far beyond where weights vanish.
+// What detailWeight asks of a point, given relative to the site in the face's frame [radii]: its place on the face, and
+// the squared distance from the face's plane. Held where squares are finite, far beyond where weights vanish.
 FOAM_FN real3 faceQuery(real3 local) {
   real farthest = real(1e9);
   real x = min(max(local.x, -farthest), farthest);
@@ -22,21 +22,22 @@ FOAM_FN real3 faceQuery(real3 local) {
   return real3(x, y, z * z);
 }
 
-// exp(-sharpness |x - s|^2 / r^2) for the detail site s = p + r (u t + v b), detail = (u, v). In powers of two, so that a site
-// costs two differences, three multiply-adds and an exp2.
+// exp(-sharpness |x - s|^2 / r^2) for the detail site s = p + r (u t + v b), detail = (u, v). In powers of two, so that
+// a site costs two differences, three multiply-adds and an exp2.
 FOAM_FN real detailWeight(real3 query, real2 detail, real sharpness) {
-  real falloff = min(sharpness, real(1e30)) * real(1.4426950408889634);  // log2(e); finite: at the site itself 0 * infinity is NaN
+  // log2(e); finite: at the site itself 0 * infinity is NaN
+  real falloff = min(sharpness, real(1e30)) * real(1.4426950408889634);
   real x = query.x - detail.x;
   real y = query.y - detail.y;
   return exp2(-falloff * (x * x + y * y) - falloff * query.z);
 }
 
-// A detail site with less than this part of all weights is not looked up for the colour of a ray that is cast by itself: the error is
-// below half an 8-bit step (docs/STABILITY.md).
+// A detail site with less than this part of all weights is not looked up for the colour of a ray that is cast by
+// itself: the error is below half an 8-bit step (docs/STABILITY.md).
 FOAM_FN real leastShownShare() { return real(1) / real(1024); }
 
-// The unit direction in which a detail site is seen, `toSite` from the eye. From the site itself it is seen as from just before the
-// face, whose normal points to the empty side.
+// The unit direction in which a detail site is seen, `toSite` from the eye. From the site itself it is seen as from
+// just before the face, whose normal points to the empty side.
 FOAM_FN real3 directionToSite(real3 toSite, real3 normal) {
   real squared = dot(toSite, toSite);
   return squared > real(0) ? toSite / sqrt(squared) : -normal;
@@ -62,10 +63,12 @@ FOAM_FN void addLobe(real exponent, real3 colour, FOAM_INOUT(real) largest, FOAM
   largest = newLargest;
 }
 
-// From 0 to the largest half, 65504, as which renderers keep it between passes (1 is white). Sums that left the floats give 0.
+// From 0 to the largest half, 65504, as which renderers keep it between passes (1 is white). Sums that left the floats
+// give 0.
 FOAM_FN real shownColour(real value) { return value > real(0) ? min(value, real(65504)) : real(0); }
 
-// Display-coded colour of a detail site from its base colour (offset from one half) and its finished lobe sums; weightSum 0:
+// Display-coded colour of a detail site from its base colour (offset from one half) and its finished lobe sums;
+// weightSum 0:
 // it has no lobes.
 FOAM_FN real3 lobeColour(real3 base, real weightSum, real3 colourSum) {
   real3 colour = real3(real(0.5)) + base;

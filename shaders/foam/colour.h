@@ -9,8 +9,7 @@ FOAM_FN real linearFromDisplay(real value) {
 }
 
 FOAM_FN real displayFromLinear(real value) {
-  return value <= real(0.0031308) ? value * real(12.92)
-                                  : real(1.055) * pow(value, real(1.0 / 2.4)) - real(0.055);
+  return value <= real(0.0031308) ? value * real(12.92) : real(1.055) * pow(value, real(1.0 / 2.4)) - real(0.055);
 }
 
 // Premultiplied display-coded colour C with coverage A -> premultiplied linear colour A * decode(C / A).

@@ -1,7 +1,7 @@
 // Cones around bundles of rays through one origin: which balls the rays of any lens can meet.
 //
-// A cone is (axis, sine of its half angle), a half angle of up to 60 degrees. kConeOfAll: every direction; kConeOfNone: no ray.
-// Everything here errs to the side of a wider cone.
+// A cone is (axis, sine of its half angle), a half angle of up to 60 degrees. kConeOfAll: every direction; kConeOfNone:
+// no ray. Everything here errs to the side of a wider cone.
 #ifndef FROTH_FOAM_CONES_H
 #define FROTH_FOAM_CONES_H
 #include "prelude.h"
@@ -22,7 +22,8 @@ FOAM_FN real4 coneOfChord(real3 axis, real chord) {
   return guardedCone(axis, chord * sqrt(real(1) - real(0.25) * chord * chord));
 }
 
-// The sine of the half angle that a cone around `axis` needs to hold another cone; kConeOfAll: more than such a cone has.
+// The sine of the half angle that a cone around `axis` needs to hold another cone; kConeOfAll: more than such a cone
+// has.
 FOAM_FN real sineToHold(real3 axis, real4 cone) {
   if (cone.w < real(0)) return real(0);
   real3 difference = real3(cone.x, cone.y, cone.z) - axis;
@@ -35,7 +36,8 @@ FOAM_FN real sineToHold(real3 axis, real4 cone) {
   return sine * coneCosine + cosine * cone.w;
 }
 
-// Whether a ray of the cone can meet the ball, of a guardedRadius(); true for balls that hold the origin, unless there is no ray.
+// Whether a ray of the cone can meet the ball, of a guardedRadius(); true for balls that hold the origin, unless there
+// is no ray.
 FOAM_FN bool coneMeetsBall(real4 cone, real3 centre, real radius) {
   if (cone.w < real(0)) return false;
   real squaredDistance = dot(centre, centre);

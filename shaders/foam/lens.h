@@ -1,13 +1,16 @@
 // Lenses: from a point of the image to the ray that it sees, and back.
 //
-// A point of the image is given as ((x - cx) / fx, (y - cy) / fy), with x, y in pixels. What that is the lens says: tangents of
-// angles (pinhole, radial-tangential), angles (fisheye, Kannala-Brandt: the distance from the centre; equirectangular:
-// longitude and latitude), or scene units (orthographic). Directions lie in the camera's axes: x right, y down, z forward.
+// A point of the image is given as ((x - cx) / fx, (y - cy) / fy), with x, y in pixels. What that is the lens says:
+// tangents of angles (pinhole, radial-tangential), angles (fisheye, Kannala-Brandt: the distance from the centre;
+// equirectangular:
+// longitude and latitude), or scene units (orthographic). Directions lie in the camera's axes: x right, y down, z
+// forward.
 //
-// Sources. Fisheye: r = f theta, "equidistant". Kannala & Brandt, "A generic camera model and calibration method for conventional,
-// wide-angle, and fish-eye lenses", TPAMI 28(8), 2006, equation 6 with its four odd terms after the first, as in OpenCV's
-// cv::fisheye. Radial-tangential: Brown, "Decentering distortion of lenses", 1966, with the rational radial part of OpenCV's
-// calib3d (cv::projectPoints). Both are given from ray to image; the other way is Newton's.
+// Sources. Fisheye: r = f theta, "equidistant". Kannala & Brandt, "A generic camera model and calibration method for
+// conventional, wide-angle, and fish-eye lenses", TPAMI 28(8), 2006, equation 6 with its four odd terms after the
+// first, as in OpenCV's cv::fisheye. Radial-tangential: Brown, "Decentering distortion of lenses", 1966, with the
+// rational radial part of OpenCV's calib3d (cv::projectPoints). Both are given from ray to image; the other way is
+// Newton's.
 #ifndef FROTH_FOAM_LENS_H
 #define FROTH_FOAM_LENS_H
 #include "prelude.h"
@@ -18,9 +21,9 @@ FOAM_FN real atan(real y, real x) { return std::atan2(y, x); }
 #endif
 
 const int kLensPinhole = 0;
-const int kLensFisheye = 1;          // equidistant
-const int kLensKannalaBrandt = 2;    // first = (k1, k2, k3, k4)
-const int kLensRadialTangential = 3; // first = (k1, k2, p1, p2), second = (k3, k4, k5, k6)
+const int kLensFisheye = 1;           // equidistant
+const int kLensKannalaBrandt = 2;     // first = (k1, k2, k3, k4)
+const int kLensRadialTangential = 3;  // first = (k1, k2, p1, p2), second = (k3, k4, k5, k6)
 const int kLensEquirectangular = 4;
 const int kLensRayMap = 5;  // a direction per pixel, which the caller gives
 const int kLensOrthographic = 6;
@@ -57,9 +60,7 @@ FOAM_FN real4 radialParts(real square, real4 first, real4 second) {
 
 FOAM_FN real radialFactor(real4 parts) { return parts.x / parts.y; }
 // d factor / d square.
-FOAM_FN real radialGrowth(real4 parts) {
-  return (parts.z * parts.y - parts.x * parts.w) / (parts.y * parts.y);
-}
+FOAM_FN real radialGrowth(real4 parts) { return (parts.z * parts.y - parts.x * parts.w) / (parts.y * parts.y); }
 
 // d(r factor)/dr: how fast a ray moves away from the centre of the image as it leaves the axis.
 FOAM_FN real radialSlope(real radius, real4 first, real4 second) {
@@ -69,8 +70,8 @@ FOAM_FN real radialSlope(real radius, real4 first, real4 second) {
   return radialFactor(parts) + real(2) * square * radialGrowth(parts);
 }
 
-// Up to where the lens maps one ray to one point [Kannala-Brandt: angle; radial-tangential: tangent]: points that no ray
-// within reaches see nothing. Other lenses: unused, 0.
+// Up to where the lens maps one ray to one point [Kannala-Brandt: angle; radial-tangential: tangent]: points that no
+// ray within reaches see nothing. Other lenses: unused, 0.
 FOAM_FN real lensRange(int kind, real4 first, real4 second) {
   bool isRadial = kind == kLensRadialTangential;
   if (!isRadial && kind != kLensKannalaBrandt) return real(0);
@@ -86,8 +87,8 @@ FOAM_FN real lensRange(int kind, real4 first, real4 second) {
   return reached;
 }
 
-// The extent in [0, range] that a lens maps to `radius` [>= 0], by Newton's method inside a shrinking interval; the end of the
-// range where radius lies beyond.
+// The extent in [0, range] that a lens maps to `radius` [>= 0], by Newton's method inside a shrinking interval; the end
+// of the range where radius lies beyond.
 FOAM_FN real invertRadius(bool isRadial, real radius, real4 first, real4 second, real range) {
   real low = real(0);
   real high = range;
@@ -101,8 +102,11 @@ FOAM_FN real invertRadius(bool isRadial, real radius, real4 first, real4 second,
       found = kannalaBrandtRadius(extent, first);
       slope = kannalaBrandtSlope(extent, first);
     }
-    if (found < radius) low = extent;
-    else high = extent;
+    if (found < radius) {
+      low = extent;
+    } else {
+      high = extent;
+    }
     real next = extent - (found - radius) / slope;
     if (next == extent) break;
     extent = next > low && next < high ? next : real(0.5) * (low + high);
@@ -133,15 +137,15 @@ FOAM_FN real2 distortTangents(real2 ray, real4 first, real4 second, FOAM_OUT(rea
   real growth = real(2) * radialGrowth(parts);
   real p1 = first.z;
   real p2 = first.w;
-  jacobian = real3(factor + x * x * growth + real(2) * p1 * y + real(6) * p2 * x,
-                   x * y * growth + real(2) * (p1 * x + p2 * y),
-                   factor + y * y * growth + real(6) * p1 * y + real(2) * p2 * x);
+  jacobian =
+      real3(factor + x * x * growth + real(2) * p1 * y + real(6) * p2 * x, x * y * growth + real(2) * (p1 * x + p2 * y),
+            factor + y * y * growth + real(6) * p1 * y + real(2) * p2 * x);
   return real2(x * factor + real(2) * p1 * x * y + p2 * (square + real(2) * x * x),
                y * factor + p1 * (square + real(2) * y * y) + real(2) * p2 * x * y);
 }
 
-// From the solution of the radial part alone. Valid: the ray lies in the range, the lens does not fold there, and it maps the
-// ray back to the point.
+// From the solution of the radial part alone. Valid: the ray lies in the range, the lens does not fold there, and it
+// maps the ray back to the point.
 FOAM_FN bool radialTangentialRay(real2 point, real4 first, real4 second, real range, FOAM_OUT(real3) direction) {
   real radius = sqrt(point.x * point.x + point.y * point.y);
   real extent = invertRadius(true, radius, first, second, range);
@@ -153,7 +157,8 @@ FOAM_FN bool radialTangentialRay(real2 point, real4 first, real4 second, real ra
     miss = distortTangents(ray, first, second, jacobian) - point;
     determinant = jacobian.x * jacobian.z - jacobian.y * jacobian.y;
     if (!(determinant > real(0))) break;
-    real2 next = ray - real2(jacobian.z * miss.x - jacobian.y * miss.y, jacobian.x * miss.y - jacobian.y * miss.x) / determinant;
+    real2 next =
+        ray - real2(jacobian.z * miss.x - jacobian.y * miss.y, jacobian.x * miss.y - jacobian.y * miss.x) / determinant;
     real2 moved = next - ray;
     ray = next;
     if (dot(moved, moved) <= real(1e-14) * (real(1) + dot(ray, ray))) break;
@@ -171,8 +176,8 @@ FOAM_FN bool equirectangularRay(real2 point, FOAM_OUT(real3) direction) {
   return abs(point.x) <= pi && abs(point.y) <= real(0.5) * pi;
 }
 
-// Direction of the ray that a point of the image sees, not normalized; false: it sees nothing. An orthographic lens sees along
-// the axis; its rays start at (point, 0). A ray map's directions lie outside of this.
+// Direction of the ray that a point of the image sees, not normalized; false: it sees nothing. An orthographic lens
+// sees along the axis; its rays start at (point, 0). A ray map's directions lie outside of this.
 FOAM_FN bool lensRay(int kind, real2 point, real4 first, real4 second, real range, FOAM_OUT(real3) direction) {
   direction = real3(real(0), real(0), real(1));
   if (kind == kLensFisheye) {
@@ -187,8 +192,8 @@ FOAM_FN bool lensRay(int kind, real2 point, real4 first, real4 second, real rang
   return true;
 }
 
-// The other way: the point of the image that a direction of any length [> 0] is seen at; false: nowhere. Not of ray maps and
-// orthographic lenses.
+// The other way: the point of the image that a direction of any length [> 0] is seen at; false: nowhere. Not of ray
+// maps and orthographic lenses.
 FOAM_FN bool lensPoint(int kind, real3 direction, real4 first, real4 second, real range, FOAM_OUT(real2) point) {
   real2 across = real2(direction.x, direction.y);
   real extent = sqrt(dot(across, across));
@@ -203,7 +208,8 @@ FOAM_FN bool lensPoint(int kind, real3 direction, real4 first, real4 second, rea
     return isInRange && jacobian.x * jacobian.z > jacobian.y * jacobian.y;
   }
   if (kind == kLensEquirectangular) {
-    point = real2(atan(direction.x, direction.z), atan(direction.y, sqrt(direction.x * direction.x + direction.z * direction.z)));
+    point = real2(atan(direction.x, direction.z),
+                  atan(direction.y, sqrt(direction.x * direction.x + direction.z * direction.z)));
     return true;
   }
   real theta = atan(extent, direction.z);

@@ -8,9 +8,13 @@
 #include <glm/glm.hpp>
 
 #if defined(__CUDACC__)
-#define FOAM_FN template <class real> __host__ __device__ inline
+#define FOAM_FN         \
+  template <class real> \
+  __host__ __device__ inline
 #else
-#define FOAM_FN template <class real> inline
+#define FOAM_FN         \
+  template <class real> \
+  inline
 #endif
 #define FOAM_OUT(type) type&
 #define FOAM_INOUT(type) type&

@@ -17,8 +17,8 @@ FOAM_FN bool rayMeetsBall(real3 centre, real radius, real3 direction) {
   return dot(centre, direction) > real(0) && dot(moment, moment) <= radius * radius * dot(direction, direction);
 }
 
-// Whether a ray start + s edge, 0 <= s <= 1, meets the ball: the ray nearest to the centre decides. Where the stationary
-// point of the angle is a maximum, an end is nearest.
+// Whether a ray start + s edge, 0 <= s <= 1, meets the ball: the ray nearest to the centre decides. Where the
+// stationary point of the angle is a maximum, an end is nearest.
 FOAM_FN bool edgeMeetsBall(real3 centre, real radius, real3 start, real3 edge) {
   real startStart = dot(start, start);
   real startEdge = dot(start, edge);
@@ -33,9 +33,9 @@ FOAM_FN bool edgeMeetsBall(real3 centre, real radius, real3 start, real3 edge) {
   return rayMeetsBall(centre, radius, start) || rayMeetsBall(centre, radius, start + edge);
 }
 
-// Whether any ray of the rectangle meets the ball; true for balls that hold the origin. Exact up to a guard that only adds.
-// The ball's image is convex. If the centre has an image, it is part of that, so a ball that meets the rectangle meets the
-// centre or one of the at most two edges that face it.
+// Whether any ray of the rectangle meets the ball; true for balls that hold the origin. Exact up to a guard that only
+// adds. The ball's image is convex. If the centre has an image, it is part of that, so a ball that meets the rectangle
+// meets the centre or one of the at most two edges that face it.
 FOAM_FN bool rectangleMeetsBall(real3 centre, real exactRadius, real3 corner, real3 edgeX, real3 edgeY) {
   real radius = guardedRadius(centre, exactRadius);
   if (dot(centre, centre) <= radius * radius) return true;

@@ -1,5 +1,5 @@
-// The asset's cells. A cell is addressed as uvec2(chunk, local index). A chunk is complete in itself: the neighbours of its
-// cells are sites of the same chunk, its own cells first and ghosts of cells of other chunks behind them.
+// The asset's cells. A cell is addressed as uvec2(chunk, local index). A chunk is complete in itself: the neighbours of
+// its cells are sites of the same chunk, its own cells first and ghosts of cells of other chunks behind them.
 #ifndef FROTH_GPU_ASSET_GLSL
 #define FROTH_GPU_ASSET_GLSL
 #if defined(FROTH_WALK)

@@ -67,8 +67,8 @@ float takeDensity(CellCode code, inout BitCursor cursor) {
   return uintBitsToFloat((takeBits(cursor, code.densityBits) + code.densityLowest) << code.densityShift);
 }
 
-// The quaternion of orientationOfNormal (format/quantization.h). In whole numbers up to the normal's length, so that an index
-// pair is the same normal everywhere.
+// The quaternion of orientationOfNormal (format/quantization.h). In whole numbers up to the normal's length, so that an
+// index pair is the same normal everywhere.
 vec4 orientationOfNormal(int y, int z, bool isBack, int halfRange) {
   int x = halfRange - abs(y) - abs(z);
   vec3 normal = vec3(x, y, z);
@@ -148,7 +148,9 @@ DetailSite loadDetailSite(CellCode code, CellHeader header, uint detailCount, ui
     site.place.y = uintBitsToFloat(takeBits(cursor, 32));
   }
   uint height = takeBits(cursor, header.height);
-  site.height = code.heightStep > 0.0 ? code.heightStep * float(header.lowestHeight + int(height)) : uintBitsToFloat(height);
+  site.height = code.heightStep > 0.0
+                    ? code.heightStep * float(header.lowestHeight + int(height))
+                    : uintBitsToFloat(height);
   if (code.baseStep > 0.0) {
     int green = int(takeBits(cursor, header.base.x));
     int redLess = int(takeBits(cursor, header.base.y));

@@ -5,19 +5,22 @@
 #include "foam/cell.h"
 
 const float kLeastFall = 1e-37;
-const float kKeyRounding = 1.0 / 2097152.0;  // 8 times half a unit in the last place: of the centre 2, of the products and sums 3
+// 8 times half a unit in the last place: of the centre 2, of the products and sums 3
+const float kKeyRounding = 1.0 / 2097152.0;
 
 // The key of a step along a ray: the same bits wherever the same site is stepped to.
 float keyOf(vec3 direction, vec3 centre) { return fixedDot(direction, centre); }
 
-// What the keys of a site and of another may be off by together; its centre and that of the other as the keys have them.
+// What the keys of a site and of another may be off by together; its centre and that of the other as the keys have
+// them.
 float roundingOfKeys(vec3 centre, vec3 otherCentre) {
   vec3 sizes = abs(centre) + abs(otherCentre);
   return kKeyRounding * (sizes.x + sizes.y + sizes.z);
 }
 
-// Whether a ray may step from a cell of a chunk to another site of it. Among cells of the chunk their order decides, which tells apart
-// sites that nearly coincide; a ghost lies in another place of the order of its own chunk, and is stepped to by a greater key alone.
+// Whether a ray may step from a cell of a chunk to another site of it. Among cells of the chunk their order decides,
+// which tells apart sites that nearly coincide; a ghost lies in another place of the order of its own chunk, and is
+// stepped to by a greater key alone.
 bool mayStepTo(Chunk chunk, uint site, vec2 order, vec2 siteOrder, float key, float siteKey) {
   return isGhost(chunk, site) ? siteKey > key : liesFarther(order, siteOrder);
 }
@@ -25,17 +28,26 @@ bool mayStepTo(Chunk chunk, uint site, vec2 order, vec2 siteOrder, float key, fl
 // Where a ray leaves a cell may be off by this much of it: 4 units of its plane's distance from the eye.
 const float kExitRounding = 1.0 / 4194304.0;
 
-// Whether a ray that leaves a cell towards two sites, at one point but for rounding, goes on in that of the first: it lies less far along
-// the ray, so that a ray may come from there to the other, and never back. (Seen from afar, the planes towards two sites that nearly
-// coincide are one, however far the ray has to go from one site's cell to the other's.) At equal orders cell.h says which owns a ray in their plane.
-bool comesBefore(vec2 order, vec3 site, vec2 otherOrder, vec3 otherSite) {
-  if (liesFarther(order, otherOrder)) return true;
-  return !liesFarther(otherOrder, order) && comesFirst(fromSiteToSite(site, otherSite));
+// More than what the orders of two sites of such sizes are rounded by: orderAlong has 46 binary digits or more.
+const float kOrderRounding = 1.0 / 17592186044416.0;
+
+// Whether a ray that leaves a cell towards two sites, at one point but for rounding, goes on in that of the first: it
+// lies less far along the ray, so that a ray may come from there to the other, and never back. (Seen from afar, the
+// planes towards two sites that nearly coincide are one, however far the ray has to go from one site's cell to the
+// other's.) Their difference has all digits where sites nearly coincide. Where it says less than their orders, no step
+// leads from one to the other, and cell.h says which owns a ray in their plane.
+bool comesBefore(vec3 direction, vec3 site, vec3 otherSite) {
+  vec3 toOther = fromSiteToSite(site, otherSite);
+  precise vec3 sizes = abs(site) + abs(otherSite);
+  precise float rounding = kOrderRounding * (sizes.x + sizes.y + sizes.z);
+  float ahead = fixedDot(direction, toOther);
+  bool isTie = abs(ahead) <= rounding;
+  return isTie ? comesFirst(toOther) : ahead > 0.0;
 }
 
-// Half of what a point's power falls by from one cell of a chunk to another; 0: by less than its rounding, so that no search
-// goes back to a cell. As the local form of the plane between them says: powers themselves lose what sites that nearly coincide
-// differ by. A point on the plane falls to the first of the two sites.
+// Half of what a point's power falls by from one cell of a chunk to another; 0: by less than its rounding, so that no
+// search goes back to a cell. As the local form of the plane between them says: powers themselves lose what sites that
+// nearly coincide differ by. A point on the plane falls to the first of the two sites.
 float powerFall(Chunk chunk, vec3 point, vec4 site, vec4 otherSite) {
   vec3 centre = ballOf(chunk, site).centre - point;
   vec3 toOther = fromSiteToSite(site.xyz, otherSite.xyz);
@@ -44,8 +56,9 @@ float powerFall(Chunk chunk, vec3 point, vec4 site, vec4 otherSite) {
   return max(-exitClearance(centre, toOther, radicalOffset(toOther, site.w, otherSite.w), clearance), 0.0);
 }
 
-// The search goes where the power falls most, and ends as it falls with every step. point: relative to the eye. steps: how many it
-// took. neighbours: grows by those that it tests; from FRAME.maxNeighbours on the search ends where it stands.
+// The search goes where the power falls most, and ends as it falls with every step. point: relative to the eye. steps:
+// how many it took. neighbours: grows by those that it tests; from FRAME.maxNeighbours on the search ends where it
+// stands.
 uvec2 descendTo(vec3 point, uvec2 first, out uint steps, inout uint neighbours) {
   uvec2 cell = first;
   Chunk chunk = loadChunk(cell.x);

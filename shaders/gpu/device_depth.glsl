@@ -1,5 +1,5 @@
-// Distances along rays to and from the caller's device depth, which his projection defines. With lenses that are no projection
-// it is the distance itself, in world units.
+// Distances along rays to and from the caller's device depth, which his projection defines. With lenses that are no
+// projection it is the distance itself, in world units.
 #ifndef FROTH_GPU_DEVICE_DEPTH_GLSL
 #define FROTH_GPU_DEVICE_DEPTH_GLSL
 #extension GL_EXT_samplerless_texture_functions : require
@@ -22,7 +22,8 @@ float sceneDistance(uvec2 pixel, vec3 ray) {
   vec2 above = depthAlong(ray, FRAME.depthRow);
   vec2 below = depthAlong(ray, FRAME.depthScale);
   float t = (unit * below.x - above.x) / (above.y - unit * below.y);
-  // Parallel rays start in the middle of what the camera sees: what lies there or before it, but for rounding, hides all of them.
+  // Parallel rays start in the middle of what the camera sees: what lies there or before it, but for rounding, hides
+  // all of them.
   if (lensClass == kLensClassOrthographic && t < 0.0) t = 0.0;
   return isAtFarEnd || !(t >= 0.0) ? kInfinity : t;
 }

@@ -27,7 +27,7 @@ layout(push_constant) uniform Push {
 #endif
 
 // Shaders that see several instances name the one at hand.
-#if defined(FROTH_SEVERAL)
+#if defined(FROTH_MERGED)
 FrameRef frameAtHand;
 #define FRAME frameAtHand.v
 #else

@@ -1,4 +1,5 @@
-// Dispatches over long lists are two-dimensional: in one dimension a device need not take more than kMostGroupsAlong workgroups.
+// Dispatches over long lists are two-dimensional: in one dimension a device need not take more than kMostGroupsAlong
+// workgroups.
 #ifndef FROTH_GPU_GRID_GLSL
 #define FROTH_GPU_GRID_GLSL
 #include "gpu/layout.h"

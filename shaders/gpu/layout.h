@@ -1,7 +1,7 @@
 // What crosses the border between the recording code and the render passes: one text for C++ and GLSL.
 //
-// Large arrays are reached by address. Structs hold only 4-byte scalars, 16-byte vectors and 8-byte addresses, each at a
-// multiple of its size, so that C++ and std430 agree without padding rules; the static_asserts below hold them to it.
+// Large arrays are reached by address. Structs hold only 4-byte scalars, 16-byte vectors and 8-byte addresses, each at
+// a multiple of its size, so that C++ and std430 agree without padding rules; the static_asserts below hold them to it.
 #ifndef FROTH_GPU_LAYOUT_H
 #define FROTH_GPU_LAYOUT_H
 
@@ -31,25 +31,27 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer FloatQuadAr
 
 #endif
 
-FROTH_CONST kGroupSize = 256;         // threads of a workgroup in all passes over lists
-FROTH_CONST kMostGroupsAlong = 65535; // workgroups of a dispatch along one dimension that every device takes
-FROTH_CONST kSortDigits = 256;        // values of a digit, as many as a workgroup has threads
-FROTH_CONST kManyKeysRounds = 4;      // FrameBlock::sortRounds of long lists; 1 of others
-FROTH_CONST kSortGroupsPerSum = 32;   // rows of a histogram that have a row of sums before them
-FROTH_CONST kTileCellsPerGroup = 64;  // visible cells whose tiles one workgroup tests
-FROTH_CONST kCellsPerTileSum = 1024;  // visible cells whose tiles are summed for the prefixes of pairs
-FROTH_CONST kTileSize = 32;           // [pixels] edge of the tiles that own lists
-FROTH_CONST kSubTileSize = 8;         // [pixels] edge of what one workgroup of the raster draws
-FROTH_CONST kBlockTiles = 8;          // [tiles] edge of the blocks of tiles that have a cone
+FROTH_CONST kGroupSize = 256;          // threads of a workgroup in all passes over lists
+FROTH_CONST kMostGroupsAlong = 65535;  // workgroups of a dispatch along one dimension that every device takes
+FROTH_CONST kSortDigits = 256;         // values of a digit, as many as a workgroup has threads
+FROTH_CONST kManyKeysRounds = 4;       // FrameBlock::sortRounds of long lists; 1 of others
+FROTH_CONST kSortGroupsPerSum = 32;    // rows of a histogram that have a row of sums before them
+FROTH_CONST kTileCellsPerGroup = 64;   // visible cells whose tiles one workgroup tests
+FROTH_CONST kCellsPerTileSum = 1024;   // visible cells whose tiles are summed for the prefixes of pairs
+FROTH_CONST kTileSize = 32;            // [pixels] edge of the tiles that own lists
+FROTH_CONST kSubTileSize = 8;          // [pixels] edge of what one workgroup of the raster draws
+FROTH_CONST kBlockTiles = 8;           // [tiles] edge of the blocks of tiles that have a cone
 FROTH_CONST kSubTilesPerTile = 16;
-FROTH_CONST kTilesAtOnce = 512;       // a list longer than this part of all pairs is a long one: drawn by more threads, and first
-FROTH_CONST kMaskWords = 8;           // words of a bit per thread of a workgroup
-FROTH_CONST kMostInstances = 14;       // that one recording draws: what push constants hold
+// a list longer than this part of all pairs is a long one: drawn by more threads, and first
+FROTH_CONST kTilesAtOnce = 512;
+FROTH_CONST kMaskWords = 8;       // words of a bit per thread of a workgroup
+FROTH_CONST kMostInstances = 14;  // that one recording draws: what push constants hold
 FROTH_CONST kNoCell = 0xffffffffu;
-FROTH_CONST kUnlisted = 0x80000000u;  // in a walk's link: the other bits are a site of the chunk, whose cell has no record
-FROTH_CONST kRasterLanes = 8;         // threads that expand one visible cell: its alpha-complex neighbours,
-FROTH_CONST kWalkLanes = 32;          // or all of them, hundreds where a cell fills a room
-FROTH_CONST kWholeBall = 0x40202020u; // ChunkContents::solidBalls: the cell's own ball
+// in a walk's link: the other bits are a site of the chunk, whose cell has no record
+FROTH_CONST kUnlisted = 0x80000000u;
+FROTH_CONST kRasterLanes = 8;          // threads that expand one visible cell: its alpha-complex neighbours,
+FROTH_CONST kWalkLanes = 32;           // or all of them, hundreds where a cell fills a room
+FROTH_CONST kWholeBall = 0x40202020u;  // ChunkContents::solidBalls: the cell's own ball
 
 // SortConstants::step: what a pass of the radix sort does with a key besides moving it.
 FROTH_CONST kSortCountNextDigit = 0;
@@ -91,20 +93,22 @@ FROTH_CONST kFlagSceneDepth = 64;
 FROTH_CONST kFlagHits = 128;
 FROTH_CONST kFlagShortTiles = 256;  // all tiles are drawn as short ones,
 FROTH_CONST kFlagLongTiles = 512;   // or as long ones (FrothRenderInfo::tileForm)
-FROTH_CONST kToneCurveShift = 16;  // above it: foam/tone.h
-FROTH_CONST kFlagWalk = 16;  // list cells that guide walks too, and the planes of all neighbours; else a raster: sort the cells,
-                             // shade only those that own a (tile, cell) pair
+FROTH_CONST kToneCurveShift = 16;   // above it: foam/tone.h
+// list cells that guide walks too, and the planes of all neighbours; else a raster: sort the cells, shade only those
+// that own a (tile, cell) pair
+FROTH_CONST kFlagWalk = 16;
 
 // How the bits of a chunk's live cells are to be read (runtime/asset/cell_packer.h).
 struct CellCode {
-  float placeStep, heightStep, baseStep, axisStep, colourStep;  // what a code is multiplied with; 0: it is a float's bits
+  // what a code is multiplied with; 0: it is a float's bits
+  float placeStep, heightStep, baseStep, axisStep, colourStep;
   uint densityShift, densityLowest, densityBits;  // a density is the float of bits (lowest + code) << shift
-  uint normalBits;             // per axis of an octahedral normal; 0: the orientation is a quaternion of floats
-  uint scaleBits;              // a cell's colours are in steps of step * 2^scale
-  uint widthBits;              // of the widths in a cell's header
-  uint heightBits, baseBits;   // of a cell's lowest height and base colour
-  uint axisBits, axisCount;    // a written-out axis' component; axes in the table
-  uint ownAxisBits;            // of the number of axes that a cell writes out beside the table
+  uint normalBits;            // per axis of an octahedral normal; 0: the orientation is a quaternion of floats
+  uint scaleBits;             // a cell's colours are in steps of step * 2^scale
+  uint widthBits;             // of the widths in a cell's header
+  uint heightBits, baseBits;  // of a cell's lowest height and base colour
+  uint axisBits, axisCount;   // a written-out axis' component; axes in the table
+  uint ownAxisBits;           // of the number of axes that a cell writes out beside the table
 };
 
 // One chunk of the asset, seen from this frame's eye. The arrays: GpuChunk (runtime/asset/gpu_asset.h).
@@ -137,13 +141,13 @@ struct CellRecord {
   vec4 tangent;    // t / radius, its dot product with the centre
   vec4 bitangent;  // b / radius, its dot product with the centre
   uint planeBegin, planeSplit, planeEnd;  // eye planes: [begin, split) only lower tFar, [split, end) only raise tNear
-  uint solidBall;  // bytes of GpuChunk::solidBalls
+  uint solidBall;                         // bytes of GpuChunk::solidBalls
 };
 
-// A detail site of a visible cell, seen from the eye. What a ray reads most, so it is small: colours are halves, off by at most
-// 2^-12 below 1, a sixteenth of an 8-bit step.
+// A detail site of a visible cell, seen from the eye. What a ray reads most, so it is small: colours are halves, off by
+// at most 2^-12 below 1, a sixteenth of an 8-bit step.
 struct SiteRecord {
-  vec2 place;    // (u, v)
+  vec2 place;  // (u, v)
   float height;
   uint blue;     // float, with kConstantFloatColours
   uvec2 colour;  // halves r, g; b, 0. With kConstantFloatColours floats r; g
@@ -173,13 +177,13 @@ struct Counters {
   uint longestList;   // entries of a tile, those beyond maxEntries included
   uint isCut;         // 1: it is longer than maxEntries
   uint padding[2];
-  uvec4 expandDispatch;    // kRasterLanes or kWalkLanes threads per visible cell
-  uvec4 siteDispatch;      // a thread per detail site of a visible cell
-  uvec4 cellSortDispatch;  // a workgroup per sortRounds * kGroupSize visible cells
-  uvec4 tileDispatch;      // a workgroup per kTileCellsPerGroup visible cells
-  uvec4 pairSortDispatch;  // a workgroup per sortRounds * kGroupSize kept pairs
-  uvec4 longTileDispatch;  // a workgroup per sub-tile of the long tiles,
-  uvec4 tileDrawDispatch;  // of all others
+  uvec4 expandDispatch;       // kRasterLanes or kWalkLanes threads per visible cell
+  uvec4 siteDispatch;         // a thread per detail site of a visible cell
+  uvec4 cellSortDispatch;     // a workgroup per sortRounds * kGroupSize visible cells
+  uvec4 tileDispatch;         // a workgroup per kTileCellsPerGroup visible cells
+  uvec4 pairSortDispatch;     // a workgroup per sortRounds * kGroupSize kept pairs
+  uvec4 longTileDispatch;     // a workgroup per sub-tile of the long tiles,
+  uvec4 tileDrawDispatch;     // of all others
   uint work[2 * kWorkKinds];  // low, high word by kind; stay zero without kConstantCountWork
 };
 
@@ -194,16 +198,18 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer CountersRef
 struct FrameBlock {
   vec4 rayOrigin;  // Pinhole: direction of pixel (column, row) of the region, not normalized:
   vec4 rayX;       // rayOrigin + (column - rayX.w) rayX.xyz + (row - rayY.w) rayY.xyz. Mapped: the view's axes z, x, y.
-  vec4 rayY;       // Orthographic: (u, v) of a pixel, by the same sum from 0. The lens' middle is at (rayX.w, rayY.w): there a sum from
-                   // another pixel on loses what a wide lens' steps are longer by than its middle ray.
-  vec4 forward;    // unit view axis, nearDepth
-  vec4 depthRow;   // device depth of a point relative to the eye: (depthRow . p) / (depthScale . p), homogeneous
+  // Orthographic: (u, v) of a pixel, by the same sum from 0. The lens' middle is at (rayX.w, rayY.w): there a sum from
+  // another pixel on loses what a wide lens' steps are longer by than its middle ray.
+  vec4 rayY;
+  vec4 forward;   // unit view axis, nearDepth
+  vec4 depthRow;  // device depth of a point relative to the eye: (depthRow . p) / (depthScale . p), homogeneous
   vec4 depthScale;
-  vec4 depthRange; // least and most of the viewport, the end (0, 1) that is far, its depth
-  vec4 worldX;     // rows of the rotation world-from-asset
+  vec4 depthRange;  // least and most of the viewport, the end (0, 1) that is far, its depth
+  vec4 worldX;      // rows of the rotation world-from-asset
   vec4 worldY;
   vec4 worldZ;
-  vec4 lensPoint;  // Mapped: pixel (column, row) of the region sees lensPoint.xy + (column, row) lensPoint.zw, as foam/lens.h
+  // Mapped: pixel (column, row) of the region sees lensPoint.xy + (column, row) lensPoint.zw, as foam/lens.h
+  vec4 lensPoint;
   vec4 lensFirst, lensSecond;  // takes it. Orthographic: unit vectors along u and v, on the plane through the eye
   float nearRatio, scale, logCutoff, logQuantile;
   float detailSharpness;
@@ -214,41 +220,46 @@ struct FrameBlock {
   uint visibleCapacity, planeCapacity, pairCapacity;
   uint sortRounds;  // keys that a thread ranks in a pass of a radix sort
   float lensRange;
-  uint lensKind, blocksX, blocksY;             // blocks of kBlockTiles x kBlockTiles tiles
-  uint detailCount, lobeCount, hasHeights;     // of the asset; passes that are specialized on its shape do not read them
+  uint lensKind, blocksX, blocksY;  // blocks of kBlockTiles x kBlockTiles tiles
+  // of the asset; passes that are specialized on its shape do not read them
+  uint detailCount, lobeCount, hasHeights;
   float exposure;
   FROTH_ADDRESS(CountersRef) counters;
-  FROTH_ADDRESS(ChunkArray) chunks;            // [chunkCount]
-  FROTH_ADDRESS(UintPairArray) groupSums;      // [groupCount] visible cells, their planes
-  FROTH_ADDRESS(UintPairArray) superSums;      // [a kGroupSize-th of that] sums of kGroupSize groupSums
-  FROTH_ADDRESS(UintPairArray) visibility;     // [groupCount * kMaskWords] 32 bits, slot of the first bit
-  FROTH_ADDRESS(UintQuadArray) visibleCells;   // [slot] chunk, local index, first plane, planes
-  FROTH_ADDRESS(UintArray) cellKeys;           // [slot] order-preserving bits of the power of the eye, or along parallel rays
-  FROTH_ADDRESS(UintArray) order;              // [visible cell] slot
-  FROTH_ADDRESS(RecordArray) records;          // [slot]
-  FROTH_ADDRESS(FloatQuadArray) planes;        // [planeCapacity] xyz: gpu/view_rays.glsl; w for a walk: link
-  FROTH_ADDRESS(SiteArray) sites;              // [slot * K]
-  FROTH_ADDRESS(UintArray) slotTiles;          // [slot] tiles its solid ball meets
-  FROTH_ADDRESS(UintArray) tileCounts;         // [visible cell] the same
-  FROTH_ADDRESS(UintArray) tileSums;           // [visible cell / kCellsPerTileSum] their sums
-  FROTH_ADDRESS(UintArray) pairTiles;          // [pair] as emitted
-  FROTH_ADDRESS(UintArray) pairCells;            // slots
-  FROTH_ADDRESS(UintArray) tileCells;          // [pair] slots in the order of tiles
-  FROTH_ADDRESS(UintArray) tileLengths;        // [tile] pairs; order_tiles.comp makes that the place in tileLists; one more (emit_pairs.comp)
-  FROTH_ADDRESS(UintQuadArray) tileLists;      // [tiles, longest lists first] tile, begin and end in tileCells
-  FROTH_ADDRESS(UintArray) cellHistogram;      // of the lowest digit of cellKeys (histogram.glsl)
-  FROTH_ADDRESS(UintArray) pairHistogram;      // of the lowest digit of pairTiles
-  FROTH_ADDRESS(UintPairArray) walkStart;      // [1] chunk, local index of the cell that holds the eye; orthographic: [tile] of
-                                               // that where its middle ray starts; kept over frames
-  FROTH_ADDRESS(FloatQuadArray) rays;          // [row of the region, column] xyz: unit direction; 0: none
-  FROTH_ADDRESS(FloatQuadArray) cones;         // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]
-  FROTH_ADDRESS(UintArray) hits;               // [row of the region, column] kHitWords each, with kFlagHits
-  uint part;                                   // which instance of the recording it is
-  uint zero;                                   // 0, which compilers do not know
+  FROTH_ADDRESS(ChunkArray) chunks;           // [chunkCount]
+  FROTH_ADDRESS(UintPairArray) groupSums;     // [groupCount] visible cells, their planes
+  FROTH_ADDRESS(UintPairArray) superSums;     // [a kGroupSize-th of that] sums of kGroupSize groupSums
+  FROTH_ADDRESS(UintPairArray) visibility;    // [groupCount * kMaskWords] 32 bits, slot of the first bit
+  FROTH_ADDRESS(UintQuadArray) visibleCells;  // [slot] chunk, local index, first plane, planes
+  // [slot] order-preserving bits of the power of the eye, or along parallel rays
+  FROTH_ADDRESS(UintArray) cellKeys;
+  FROTH_ADDRESS(UintArray) order;        // [visible cell] slot
+  FROTH_ADDRESS(RecordArray) records;    // [slot]
+  FROTH_ADDRESS(FloatQuadArray) planes;  // [planeCapacity] xyz: gpu/view_rays.glsl; w for a walk: link
+  FROTH_ADDRESS(SiteArray) sites;        // [slot * K]
+  FROTH_ADDRESS(UintArray) slotTiles;    // [slot] tiles its solid ball meets
+  FROTH_ADDRESS(UintArray) tileCounts;   // [visible cell] the same
+  FROTH_ADDRESS(UintArray) tileSums;     // [visible cell / kCellsPerTileSum] their sums
+  FROTH_ADDRESS(UintArray) pairTiles;    // [pair] as emitted
+  FROTH_ADDRESS(UintArray) pairCells;    // slots
+  FROTH_ADDRESS(UintArray) tileCells;    // [pair] slots in the order of tiles
+  // [tile] pairs; order_tiles.comp makes that the place in tileLists; one more (emit_pairs.comp)
+  FROTH_ADDRESS(UintArray) tileLengths;
+  FROTH_ADDRESS(UintQuadArray) tileLists;  // [tiles, longest lists first] tile, begin and end in tileCells
+  FROTH_ADDRESS(UintArray) cellHistogram;  // of the lowest digit of cellKeys (histogram.glsl)
+  FROTH_ADDRESS(UintArray) pairHistogram;  // of the lowest digit of pairTiles
+  // [1] chunk, local index of the cell that holds the eye; orthographic: [tile] of that where its middle ray starts;
+  // kept over frames
+  FROTH_ADDRESS(UintPairArray) walkStart;
+  FROTH_ADDRESS(FloatQuadArray) rays;   // [row of the region, column] xyz: unit direction; 0: none
+  FROTH_ADDRESS(FloatQuadArray) cones;  // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]
+  FROTH_ADDRESS(UintArray) hits;        // [row of the region, column] kHitWords each, with kFlagHits
+  uint part;                            // which instance of the recording it is
+  uint zero;                            // 0, which compilers do not know
 };
 
 // A hit: where a pixel's ray was stopped, by bits of a float [world units] (+inf: nowhere), the instance (an index of
-// HitBlock::instances), and the code of the cell there, or of the last one that the ray met: chunk << localBits | cell, or kNoCell.
+// HitBlock::instances), and the code of the cell there, or of the last one that the ray met: chunk << localBits | cell,
+// or kNoCell.
 FROTH_CONST kHitWords = 3;
 
 // Lies at this offset in the space of a FrameBlock.
@@ -266,14 +277,15 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Hi
 
 // What the passes over hits know. All vectors are in world axes and units, relative to the eye.
 struct HitBlock {
-  vec4 rayOrigin, rayX, rayY, forward;           // as in FrameBlock
+  vec4 rayOrigin, rayX, rayY, forward;  // as in FrameBlock
   vec4 lensPoint, lensFirst, lensSecond;
-  vec4 previousFirst, previousSecond;            // the same of the frame before
-  vec4 previousPixels;                           // its lens' focal lengths and centre [pixels]
-  vec4 backgroundRows[3];  // (point, 1) or (direction, 0) -> by a projection of the frame before: x w, y w, w with x, y in pixels;
-                           // by another lens: the point in that view's axes
-  vec4 pixels;             // unjittered place of the region's first pixel, motionScale
-  uint lensKind, previousKind;                   // foam/lens.h
+  vec4 previousFirst, previousSecond;  // the same of the frame before
+  vec4 previousPixels;                 // its lens' focal lengths and centre [pixels]
+  // (point, 1) or (direction, 0) -> by a projection of the frame before: x w, y w, w with x, y in pixels; by another
+  // lens: the point in that view's axes
+  vec4 backgroundRows[3];
+  vec4 pixels;                  // unjittered place of the region's first pixel, motionScale
+  uint lensKind, previousKind;  // foam/lens.h
   float lensRange, previousRange;
   uint regionX, regionY, regionWidth, regionHeight;
   uint hasPrevious;

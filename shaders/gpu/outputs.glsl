@@ -1,4 +1,5 @@
-// The caller's images. FROTH_COLOUR_FORMAT is rgba16f or rgba32f; images that are not wanted are placeholders, untouched.
+// The caller's images. FROTH_COLOUR_FORMAT is rgba16f or rgba32f; images that are not wanted are placeholders,
+// untouched.
 #ifndef FROTH_GPU_OUTPUTS_GLSL
 #define FROTH_GPU_OUTPUTS_GLSL
 #include "gpu/frame.glsl"
@@ -32,8 +33,10 @@ vec3 inWorld(vec3 vector) {
   return vec3(dot(FRAME.worldX.xyz, vector), dot(FRAME.worldY.xyz, vector), dot(FRAME.worldZ.xyz, vector));
 }
 
-// `pixel` counts from the region's corner; `colour` is display-coded, distance and normal in the world's units and axes.
-void writePixel(uvec2 pixel, vec3 colour, float coverage, float exposure, float distance, vec3 normal, float deviceDepth) {
+// `pixel` counts from the region's corner; `colour` is display-coded, distance and normal in the world's units and
+// axes.
+void writePixel(uvec2 pixel, vec3 colour, float coverage, float exposure, float distance, vec3 normal,
+                float deviceDepth) {
   ivec2 place = ivec2(pixel + uvec2(FRAME.regionX, FRAME.regionY));
   if ((FRAME.flags & kFlagColour) != 0) {
     imageStore(colourImage, place, vec4(storable(outputColour(colour, coverage, exposure)), coverage));

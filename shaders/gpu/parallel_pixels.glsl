@@ -10,8 +10,8 @@ vec2 placeOfPixel(vec2 pixel) {
   return (pixel.x - stepX.w) * stepX.xy + (pixel.y - stepY.w) * stepY.xy;
 }
 
-// Pixel coordinates of a ball's centre, and how far its image reaches along columns and rows. reach.x < 0: the ball lies behind the
-// camera's plane. Never smaller than the image.
+// Pixel coordinates of a ball's centre, and how far its image reaches along columns and rows. reach.x < 0: the ball
+// lies behind the camera's plane. Never smaller than the image.
 void ballOnPixels(vec3 centre, float exactRadius, out vec2 middle, out vec2 reach) {
   float radius = guardedRadius(centre, exactRadius);
   vec4 stepX = FRAME.rayX, stepY = FRAME.rayY;  // whole loads: see cull_cells.comp

@@ -1,5 +1,5 @@
-// What rays gather in one visible cell, once their intervals in the bounded cell are known (docs/FOAM.md "What one ray meets in one
-// cell", steps 3 to 7). The same text for the raster and the walk.
+// What rays gather in one visible cell, once their intervals in the bounded cell are known (docs/FOAM.md "What one ray
+// meets in one cell", steps 3 to 7). The same text for the raster and the walk.
 //
 // FROTH_RAYS rays of a thread meet a cell together: reading its detail sites costs more than working with them.
 #ifndef FROTH_GPU_SHADE_HIT_GLSL
@@ -12,7 +12,7 @@
 #include "foam/clip_face.h"
 #include "foam/compositing.h"
 
-#if defined(FROTH_SEVERAL)
+#if defined(FROTH_MERGED)
 #define detailCount FRAME.detailCount
 #define hasHeights (FRAME.hasHeights != 0)
 #else
@@ -125,7 +125,8 @@ void clipByFace(Shading shading, FaceView view, uint firstSite, inout Segment se
   if (hasHeights) {
     vec3 queries[kRays];
     for (uint r = 0; r < kRays; ++r) {
-      queries[r] = queryAt(view, r, placeOfHeight(view.centres[r], kFaceNormal, view.directions[r].z, segments[r].tNear));
+      float t = placeOfHeight(view.centres[r], kFaceNormal, view.directions[r].z, segments[r].tNear);
+      queries[r] = queryAt(view, r, t);
       countWork(kWorkHeights, isEmpty(segments[r]) ? 0 : 1);
     }
     heightsAt(shading, firstSite, queries, heights);
@@ -135,7 +136,7 @@ void clipByFace(Shading shading, FaceView view, uint firstSite, inout Segment se
   }
 }
 
-// Adds a stretch of constant density and colour. `normal`: unit.
+// Adds an interval of constant density and colour. `normal`: unit.
 void composite(Shading shading, Segment segment, float density, vec3 colour, vec3 normal, inout Radiance radiance) {
   float opticalDepth = density * (segment.tFar - segment.tNear);
   float weight = exp(radiance.logTransmittance) * opacity(opticalDepth);

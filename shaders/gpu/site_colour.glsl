@@ -5,7 +5,8 @@
 #include "foam/appearance.h"
 
 // direction: unit.
-vec3 siteColour(CellCode code, CellHeader header, uint siteCount, bool hasLobes, uint detail, vec3 base, vec3 direction) {
+vec3 siteColour(CellCode code, CellHeader header, uint siteCount, bool hasLobes, uint detail, vec3 base,
+                vec3 direction) {
   float weightSum = 0.0;
   vec3 colourSum = vec3(0.0);
   if (hasLobes) {

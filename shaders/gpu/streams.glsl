@@ -1,12 +1,14 @@
-// A ray through several instances. What each shows along it comes as a stream of stretches, front to back, and the streams are
-// merged by distance. Where stretches of several overlap, their densities add, and each colour counts by its share of the density.
+// A ray through several instances. What each shows along it comes as a stream of intervals, front to back, and the
+// streams are merged by distance. Where intervals of several overlap, their densities add, and each colour counts by
+// its share of the density.
 //
-// The shader that includes this defines how a stream goes on in one instance, in the asset's units, with frameAtHand set:
+// The shader that includes this defines how a stream goes on in one instance, in the asset's units, with frameAtHand
+// set:
 //   struct Cursor
 //   bool isAtEnd(Cursor cursor, float end)
 //   bool meetNext(Shading shading, uvec2 pixel, float end, inout Cursor cursor, out Segment segment, out vec3 colour,
-//                 out uint slot, out CellRecord cell)  // goes on by a cell or some; returns whether the ray gains anything in the last
-//                                                      // of them
+//                 out uint slot, out CellRecord cell)
+//     // goes on by a cell or more; returns whether the ray gains anything in the last of them
 #ifndef FROTH_GPU_STREAMS_GLSL
 #define FROTH_GPU_STREAMS_GLSL
 #include "gpu/device_depth.glsl"
@@ -15,7 +17,7 @@
 #include "gpu/shade_hit.glsl"
 
 // In the world's units and axes.
-struct Stretch {
+struct Interval {
   Segment segment;
   float density, exposure;
   vec3 colour, normal;
@@ -25,7 +27,7 @@ struct Stretch {
 struct Stream {
   uint part;
   Cursor cursor;
-  Stretch ahead;  // the newest one; behind the ray's present place once that has passed its end
+  Interval ahead;  // the newest one; behind the ray's present place once that has passed its end
 };
 
 // The streams of a ray that have not ended.
@@ -81,35 +83,35 @@ uint streamBehind(float passed) {
   return streamCount;
 }
 
-// The first stretch beyond `passed` in which no stream begins or ends, once all have something ahead.
-Stretch findStretch(float passed) {
-  Stretch stretch = Stretch(Segment(kInfinity, kInfinity), 0.0, 0.0, vec3(0.0), vec3(0.0), 0, kNoCell);
+// The first interval beyond `passed` in which no stream begins or ends, once all have something ahead.
+Interval findInterval(float passed) {
+  Interval interval = Interval(Segment(kInfinity, kInfinity), 0.0, 0.0, vec3(0.0), vec3(0.0), 0, kNoCell);
   float densest = 0.0;
   for (uint i = 0; i < streamCount; ++i) {
-    stretch.segment.tNear = min(stretch.segment.tNear, max(streams[i].ahead.segment.tNear, passed));
+    interval.segment.tNear = min(interval.segment.tNear, max(streams[i].ahead.segment.tNear, passed));
   }
   for (uint i = 0; i < streamCount; ++i) {
-    Stretch ahead = streams[i].ahead;
-    if (ahead.segment.tNear > stretch.segment.tNear) {
-      stretch.segment.tFar = min(stretch.segment.tFar, ahead.segment.tNear);
+    Interval ahead = streams[i].ahead;
+    if (ahead.segment.tNear > interval.segment.tNear) {
+      interval.segment.tFar = min(interval.segment.tFar, ahead.segment.tNear);
       continue;
     }
-    stretch.segment.tFar = min(stretch.segment.tFar, ahead.segment.tFar);
-    stretch.density += ahead.density;
-    stretch.colour += ahead.density * ahead.colour;
-    stretch.exposure += ahead.density * ahead.exposure;
+    interval.segment.tFar = min(interval.segment.tFar, ahead.segment.tFar);
+    interval.density += ahead.density;
+    interval.colour += ahead.density * ahead.colour;
+    interval.exposure += ahead.density * ahead.exposure;
     if (!isFull) continue;
-    stretch.normal += ahead.density * ahead.normal;
+    interval.normal += ahead.density * ahead.normal;
     if (ahead.density > densest) {
       densest = ahead.density;
-      stretch.part = streams[i].part;
-      stretch.cellCode = ahead.cellCode;
+      interval.part = streams[i].part;
+      interval.cellCode = ahead.cellCode;
     }
   }
-  stretch.colour /= stretch.density;
-  stretch.exposure /= stretch.density;
-  stretch.normal /= stretch.density;
-  return stretch;
+  interval.colour /= interval.density;
+  interval.exposure /= interval.density;
+  interval.normal /= interval.density;
+  return interval;
 }
 
 // What a pixel shows. Its exposure is the mean of what the instances contribute to it.
@@ -119,8 +121,8 @@ struct Merged {
   float exposure;
 };
 
-// Composites what the started streams hold. One loop that goes on by a cell or composites a stretch, not a loop within another: the
-// rays of a workgroup wait for each other at every turn.
+// Composites what the started streams hold. One loop that goes on by a cell or composites an interval, not a loop within
+// another: the rays of a workgroup wait for each other at every turn.
 Merged mergeStreams(uvec2 pixel) {
   Radiance radiance = emptyRadiance();
   float exposures = 0.0;
@@ -134,17 +136,18 @@ Merged mergeStreams(uvec2 pixel) {
       advance(pixel, behind);
       continue;
     }
-    Stretch stretch = findStretch(passed);
-    if (stretch.density > 0.0) {
+    Interval interval = findInterval(passed);
+    if (interval.density > 0.0) {
       if (isFull && isinf(radiance.distance)) {
-        part = stretch.part;
-        radiance.cell = stretch.cellCode;
+        part = interval.part;
+        radiance.cell = interval.cellCode;
       }
-      float shown = exp(radiance.logTransmittance) * opacity(stretch.density * (stretch.segment.tFar - stretch.segment.tNear));
-      composite(limits, stretch.segment, stretch.density, stretch.colour, stretch.normal, radiance);
-      exposures += stretch.exposure * shown;
+      float opticalDepth = interval.density * (interval.segment.tFar - interval.segment.tNear);
+      float shown = exp(radiance.logTransmittance) * opacity(opticalDepth);
+      composite(limits, interval.segment, interval.density, interval.colour, interval.normal, radiance);
+      exposures += interval.exposure * shown;
     }
-    passed = stretch.segment.tFar;
+    passed = interval.segment.tFar;
   }
   float coverage = coverageOf(radiance.logTransmittance);
   return Merged(radiance, part, coverage > 0.0 ? exposures / coverage : 1.0);
@@ -159,7 +162,8 @@ void writeMerged(uvec2 pixel, Merged merged) {
   Radiance radiance = merged.radiance;
   selectPart(0);
   float depth = isFull ? deviceDepthAt(rayOf(pixel), radiance.distance / FRAME.scale) : 0.0;
-  writePixel(pixel, radiance.colour, coverageOf(radiance.logTransmittance), merged.exposure, radiance.distance, radiance.normal, depth);
+  writePixel(pixel, radiance.colour, coverageOf(radiance.logTransmittance), merged.exposure, radiance.distance,
+             radiance.normal, depth);
   if (isFull && wantsHits()) writeHit(pixel, radiance.distance, merged.part, radiance.cell);
 }
 

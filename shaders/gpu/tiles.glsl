@@ -70,7 +70,8 @@ shared vec4 balls[kTileCellsPerGroup];
 shared uvec3 corners[kTileCellsPerGroup];  // first column and row, columns
 shared uint starts[kTileCellsPerGroup];    // first candidate
 
-// Makes the cell of a slot that of this thread, one of the first kTileCellsPerGroup. Returns how many candidates it has.
+// Makes the cell of a slot that of this thread, one of the first kTileCellsPerGroup. Returns how many candidates it
+// has.
 uint takeCell(uint slot) {
   Ball ball = visibleBall(FRAME.visibleCells.v[checked(slot, FRAME.visibleCapacity)]);
   TileBounds bounds = tileBounds(ball);

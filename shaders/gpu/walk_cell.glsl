@@ -19,7 +19,8 @@ struct MetCell {
 };
 
 vec3 faceQueryAt(MetCell met, Frame frame, vec3 direction, float t) {
-  return faceQuery(inFaceFrame(t * direction - met.centre, frame.tangent, frame.bitangent, frame.normal, 1.0 / met.radius));
+  return faceQuery(
+      inFaceFrame(t * direction - met.centre, frame.tangent, frame.bitangent, frame.normal, 1.0 / met.radius));
 }
 
 // Blended height of the face at a query point, in units of the radius.
@@ -49,7 +50,8 @@ void clipByFace(CellCode code, MetCell met, Frame frame, vec3 direction, inout f
   clipByFace(met.centre, frame.normal, facing, height, tNear, tFar);
 }
 
-// Display-coded colour at t, seen from the point that lies `behind` the ray's origin. shaded: how many detail sites took part.
+// Display-coded colour at t, seen from the point that lies `behind` the ray's origin. shaded: how many detail sites
+// took part.
 vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, float behind, out uint shaded) {
   CellHeader header = loadCellHeader(code, met.cell.x, met.cell.y);
   uint siteCount = FRAME.detailCount;

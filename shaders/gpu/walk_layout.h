@@ -1,5 +1,6 @@
-// What crosses the border between the recording code and rays in an engine's shaders: one text for C++ and GLSL, by the rules of
-// gpu/layout.h. Changing it means another FROTH_WALK_ABI (runtime/include/froth/froth_walk.h and froth_walk.glsl).
+// What crosses the border between the recording code and rays in an engine's shaders: one text for C++ and GLSL, by the
+// rules of gpu/layout.h. Changing it means another FROTH_WALK_ABI (runtime/include/froth/froth_walk.h and
+// froth_walk.glsl).
 #ifndef FROTH_GPU_WALK_LAYOUT_H
 #define FROTH_GPU_WALK_LAYOUT_H
 #include "layout.h"
@@ -39,9 +40,10 @@ struct WalkCounters {
   uint work[2 * kRayWorkKinds];  // with kWalkCountsWork
 };
 
-// An instance as rays meet it. Directions and lengths are in the asset's axes and units, places relative to FrothWalkInfo::eye.
+// An instance as rays meet it. Directions and lengths are in the asset's axes and units, places relative to
+// FrothWalkInfo::eye.
 struct WalkInstance {
-  vec4 worldX;   // rows of the rotation world-from-asset
+  vec4 worldX;  // rows of the rotation world-from-asset
   vec4 worldY;
   vec4 worldZ;
   vec4 boxLow;   // of the balls of live cells; w: more than rounding cuts off the box, so far from the eye
@@ -52,9 +54,10 @@ struct WalkInstance {
   uint lobeCount, hasHeights;
   uint entriesAlong;  // edge of the grid of entries
   uint maxNeighbours;
-  FROTH_ADDRESS(ChunkArray) chunks;       // [chunkCount]
-  FROTH_ADDRESS(UintQuadArray) entries;   // [entriesAlong^3] over the box, x first: chunk, local index of the cell at its middle,
-                                          // 64 bits of parts (gpu/walk_entries.glsl)
+  FROTH_ADDRESS(ChunkArray) chunks;  // [chunkCount]
+  // [entriesAlong^3] over the box, x first: chunk, local index of the cell at its middle, 64 bits of parts
+  // (gpu/walk_entries.glsl)
+  FROTH_ADDRESS(UintQuadArray) entries;
 };
 
 #if !defined(__cplusplus)
@@ -62,7 +65,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Wa
 #endif
 
 struct WalkBlock {
-  uint abi;            // FROTH_WALK_ABI
+  uint abi;  // FROTH_WALK_ABI
   uint instanceCount;
   float logCutoff, logQuantile;
   uint flags, padding;
@@ -71,7 +74,8 @@ struct WalkBlock {
 
 #if defined(__cplusplus)
 static_assert(sizeof(WalkCounters) == 64 && offsetof(WalkCounters, work) == 16);
-static_assert(sizeof(WalkInstance) == 144 && offsetof(WalkInstance, scale) == 80 && offsetof(WalkInstance, chunks) == 128);
+static_assert(sizeof(WalkInstance) == 144 && offsetof(WalkInstance, scale) == 80 &&
+              offsetof(WalkInstance, chunks) == 128);
 static_assert(sizeof(WalkBlock) == 32 && offsetof(WalkBlock, instances) == 24);
 }  // namespace froth::gpu
 #endif

@@ -1,4 +1,5 @@
-// The descriptor set of rays in an engine's shader, and the instance at hand: what gpu/frame.glsl is to the passes of a view.
+// The descriptor set of rays in an engine's shader, and the instance at hand: what gpu/frame.glsl is to the passes of a
+// view.
 #ifndef FROTH_GPU_WALK_SET_GLSL
 #define FROTH_GPU_WALK_SET_GLSL
 #extension GL_EXT_buffer_reference : require
@@ -6,15 +7,16 @@
 
 layout(set = FROTH_WALK_SET, binding = kBindingWalk, std140) uniform WalkSet { WalkBlock block; } walkSet;
 #if !defined(FROTH_WALK_NO_COUNTERS)
-layout(set = FROTH_WALK_SET, binding = kBindingWalkCounters, std430) buffer WalkCountersSet { WalkCounters v; } walkCounters;
+layout(set = FROTH_WALK_SET, binding = kBindingWalkCounters, std430)
+    buffer WalkCountersSet { WalkCounters v; } walkCounters;
 #endif
 
 uint instanceAtHand;
 #define FRAME walkSet.block.instances.v[instanceAtHand]
 #define kInfinity uintBitsToFloat(0x7f800000u)
 
-// Only what a caller gives is out of range; the asset's own indices were checked when it was loaded. FROTH_WALK_CHECK_INDICES: an
-// expression that tells whether to count and clamp all.
+// Only what a caller gives is out of range; the asset's own indices were checked when it was loaded.
+// FROTH_WALK_CHECK_INDICES: an expression that tells whether to count and clamp all.
 uint checked(uint index, uint count) {
 #if defined(FROTH_WALK_CHECK_INDICES)
   if (FROTH_WALK_CHECK_INDICES && index >= count) {

@@ -1,13 +1,14 @@
 // A ray's steps from cell to cell through the regular triangulation.
 //
-// Most cells on the way are listed: they have a record, and a row of eye planes through which a ray can leave them, each with a
-// link to the next record. From a cell without one (its ball lies outside the view, or there was no space) a ray goes on by the
-// sites around it.
+// Most cells on the way are listed: they have a record, and a row of eye planes through which a ray can leave them,
+// each with a link to the next record. From a cell without one (its ball lies outside the view, or there was no space)
+// a ray goes on by the sites around it.
 //
-// No rounding can make a walk cycle. Each step has a key, the dot product of the direction and the site it leads to; the greatest key
-// so far goes with the walk. From chunk to chunk a step is taken only to a greater key. Within a chunk it is taken only to a site that
-// lies farther along the ray: by the orders of the two sites, or by keys that differ by more than their rounding. A key and an order
-// are each one fixed number for a ray and a site, so a walk comes to no site of a chunk twice in one stay, and stays end.
+// No rounding can make a walk cycle. Each step has a key, the dot product of the direction and the site it leads to;
+// the greatest key so far goes with the walk. From chunk to chunk a step is taken only to a greater key. Within a chunk
+// it is taken only to a site that lies farther along the ray: by the orders of the two sites, or by keys that differ by
+// more than their rounding. A key and an order are each one fixed number for a ray and a site, so a walk comes to no
+// site of a chunk twice in one stay, and stays end.
 #ifndef FROTH_GPU_WALK_STEPS_GLSL
 #define FROTH_GPU_WALK_STEPS_GLSL
 #include "gpu/descend.glsl"
@@ -35,7 +36,8 @@ Step stepToSite(Chunk chunk, uint site, float key, float entry, uint neighbours)
   return stepTo(cellOfSite(chunk, site), key, entry, neighbours);
 }
 
-// The neighbour through whose plane the ray leaves the cell first, by their sites. Returns false: the ray leaves the foam.
+// The neighbour through whose plane the ray leaves the cell first, by their sites. Returns false: the ray leaves the
+// foam.
 bool findNextSite(inout Step current, vec3 ray) {
   vec3 direction = directionOfRay(ray);
   uvec2 cell = current.visible == kNoCell ? current.cell : FRAME.visibleCells.v[current.visible].xy;
@@ -44,7 +46,6 @@ bool findNextSite(inout Step current, vec3 ray) {
   uvec2 row = neighbourRow(chunk, cell.y);
   vec2 order = orderAlong(direction, siteRadius.xyz);
   uint next = kNoCell;
-  vec2 nextOrder = order;
   float nextKey = current.key;
   float exitNearness = nearnessOfNoExit();
   current.neighbours += row.y - row.x;
@@ -56,13 +57,11 @@ bool findNextSite(inout Step current, vec3 ray) {
     bool isFar;
     float nearness = nearnessOf(eyePlaneTo(chunk, siteRadius, otherSite, isFar), ray);
     if (!isFar || !(nearness >= exitNearness - roundingOfNearness(exitNearness))) continue;
-    vec2 otherOrder = orderAlong(direction, otherSite.xyz);
-    if (!mayStepTo(chunk, other, order, otherOrder, current.key, key)) continue;
+    if (!mayStepTo(chunk, other, order, orderAlong(direction, otherSite.xyz), current.key, key)) continue;
     bool isTie = next != kNoCell && nearness <= exitNearness + roundingOfNearness(exitNearness);
     exitNearness = max(nearness, exitNearness);
-    if (isTie && !comesBefore(otherOrder, otherSite.xyz, nextOrder, siteRadiusOf(chunk, next).xyz)) continue;
+    if (isTie && !comesBefore(direction, otherSite.xyz, siteRadiusOf(chunk, next).xyz)) continue;
     next = other;
-    nextOrder = otherOrder;
     nextKey = max(key, current.key);
   }
   float exit = max(distanceAt(exitNearness), current.entry);
@@ -107,9 +106,12 @@ bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 r
   vec3 centre = centreBehind(shading, current.visible, link);
   float key = keyOf(direction, centre);
   if (!(key > current.key + roundingOfKeys(cell.ball.xyz, centre))) return findNextSite(current, ray);
-  bool isListed = (link & kUnlisted) == 0;
-  if (isListed) current = Step(link, uvec2(0), key, exit, current.neighbours);
-  else current = stepToSite(loadChunk(FRAME.visibleCells.v[current.visible].x), link & ~kUnlisted, key, exit, current.neighbours);
+  if ((link & kUnlisted) == 0) {
+    current = Step(link, uvec2(0), key, exit, current.neighbours);
+  } else {
+    Chunk chunk = loadChunk(FRAME.visibleCells.v[current.visible].x);
+    current = stepToSite(chunk, link & ~kUnlisted, key, exit, current.neighbours);
+  }
   return true;
 }
 
@@ -126,8 +128,8 @@ Step firstStep(uvec2 pixel, vec3 ray) {
   return stepTo(start, keyOf(directionOfRay(ray), ballOfSite(loadChunk(start.x), start.y).centre), 0.0, neighbours);
 }
 
-// On to the next cell. Returns false: the ray leaves the foam; current.entry is where it leaves the present cell either way. The cell that
-// was left: `visible`, kNoCell if it has no record.
+// On to the next cell. Returns false: the ray leaves the foam; current.entry is where it leaves the present cell either
+// way. The cell that was left: `visible`, kNoCell if it has no record.
 bool takeStep(Shading shading, inout Step current, vec3 ray, out uint visible, out CellRecord cell) {
   visible = current.visible;
   if (visible == kNoCell) return findNextSite(current, ray);

@@ -62,12 +62,14 @@ struct ChunkPlace {
 ChunkPlace placeFrom(vec3 origin, Chunk chunk) {
   precise vec3 high = chunk.offsetHigh - origin;
   precise vec3 taken = chunk.offsetHigh - high;
-  precise vec3 rest = (chunk.offsetHigh - (high + taken)) + (taken - origin);  // what `high` is rounded by (Shewchuk 1997, Two-Diff)
+  // what `high` is rounded by (Shewchuk 1997, Two-Diff)
+  precise vec3 rest = (chunk.offsetHigh - (high + taken)) + (taken - origin);
   precise vec3 low = rest + chunk.offsetLow;
   return ChunkPlace(high, low);
 }
 
-// A site of the chunk as seen from there: good to its last digits, however far chunk, origin and eye are from each other.
+// A site of the chunk as seen from there: good to its last digits, however far chunk, origin and eye are from each
+// other.
 vec3 centreAt(ChunkPlace place, vec3 site) {
   precise vec3 centre = (site + place.high) + place.low;
   return centre;
@@ -88,7 +90,8 @@ bool clipByBox(LocalRay ray, inout float tNear, inout float tFar) {
 }
 
 // In the box from `entry` to tEnd [world units from the ray's origin], but for what is empty. hint: as FrothRay::hint.
-Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, float tEnd, uvec4 hint, inout WalkWork work) {
+Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, float tEnd, uvec4 hint,
+                   inout WalkWork work) {
   instanceAtHand = instance;
   LocalRay ray = localRay(origin, direction);
   Stream stream;
@@ -96,15 +99,17 @@ Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, floa
   float tNear = entry / FRAME.scale, tFar = tEnd / FRAME.scale;
   clipByBox(ray, tNear, tFar);
   stream.entry = skipEmptyParts(ray.origin, ray.direction, tNear, tFar);
-  // Backwards as seen from the origin too: tFar may lie so far behind the box that no place there has digits for its parts.
+  // Backwards as seen from the origin too: tFar may lie so far behind the box that no place there has digits for its
+  // parts.
   stream.end = -skipEmptyParts(ray.origin, -ray.direction, -tFar, -stream.entry);
   bool isHinted = hint.x == instance && stream.entry == tNear;  // it lies where the ray begins
   uint steps = 0;
   stream.neighbours = 0;
   stream.cell = uvec2(0);
-  if (stream.entry < stream.end)
+  if (stream.entry < stream.end) {
     stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, isHinted ? hint.yz : uvec2(kNoCell), steps,
                              stream.neighbours);
+  }
   work.descents += steps;
   Chunk chunk = loadChunk(stream.cell.x);
   stream.key = keyOf(ray.direction, centreAt(placeFrom(ray.origin, chunk), siteRadiusOf(chunk, stream.cell.y).xyz));
@@ -124,11 +129,11 @@ struct Exit {
   float t, key;
 };
 
-Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 direction, float key, inout uint neighbours) {
+Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 direction, float key,
+              inout uint neighbours) {
   vec3 centre = centreAt(place, siteRadius.xyz);
   vec2 order = orderAlong(direction, siteRadius.xyz);
   uint site = kNoCell;
-  vec2 siteOrder = order;
   float siteKey = key;
   float clearance = 1.0, q = 0.0;  // of the nearest plane: t = clearance / q
   uvec2 row = neighbourRow(chunk, cell);
@@ -145,11 +150,10 @@ Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 di
     float rounding = kExitRounding * abs(clearance * otherQ);
     if (!(lead >= -rounding)) continue;
     float otherKey = keyOf(direction, otherCentre);
-    vec2 otherOrder = orderAlong(direction, otherSite.xyz);
-    if (!mayStepTo(chunk, other, order, otherOrder, key, otherKey)) continue;
-    if (site != kNoCell && lead <= rounding && !comesBefore(otherOrder, otherSite.xyz, siteOrder, siteRadiusOf(chunk, site).xyz)) continue;
+    if (!mayStepTo(chunk, other, order, orderAlong(direction, otherSite.xyz), key, otherKey)) continue;
+    bool isTie = site != kNoCell && lead <= rounding;
+    if (isTie && !comesBefore(direction, otherSite.xyz, siteRadiusOf(chunk, site).xyz)) continue;
     site = other;
-    siteOrder = otherOrder;
     siteKey = max(otherKey, key);
     clearance = otherClearance;
     q = otherQ;
@@ -191,7 +195,8 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
   return false;
 }
 
-// On to the next segment, if it is one: a face may leave nothing of it. isSeen: with its colour, seen from `behind` the origin.
+// On to the next segment, if it is one: a face may leave nothing of it. isSeen: with its colour, seen from `behind` the
+// origin.
 void advanceStream(inout Stream stream, vec3 origin, vec3 direction, bool isSeen, float behind, inout WalkWork work) {
   instanceAtHand = stream.instance;
   LocalRay ray = localRay(origin, direction);

@@ -16,8 +16,7 @@ namespace {
 std::vector<View> orbit(int count) {
   std::vector<View> views;
   for (int i = 0; i < count; ++i) {
-    views.push_back(
-        lookAt({4 * std::cos(0.4 * i), 0.5 * std::sin(i), 4 * std::sin(0.4 * i)}, {0, 0, 0}, 48, 40, 0.5));
+    views.push_back(lookAt({4 * std::cos(0.4 * i), 0.5 * std::sin(i), 4 * std::sin(0.4 * i)}, {0, 0, 0}, 48, 40, 0.5));
   }
   return views;
 }
@@ -81,8 +80,7 @@ TEST(Appearance, ColoursAndAxesLieOnTheirLattices) {
                 coded.lobeAxes[lobe].x);  // entries are on a finer lattice
     }
   }
-  for (const glm::vec3& colour : coded.cellColours)
-    EXPECT_FLOAT_EQ(std::nearbyint(colour.x * 255) / 255, colour.x);
+  for (const glm::vec3& colour : coded.cellColours) EXPECT_FLOAT_EQ(std::nearbyint(colour.x * 255) / 255, colour.x);
 }
 
 TEST(Appearance, WithoutResidualsEveryAxisIsAnEntry) {
@@ -96,8 +94,9 @@ TEST(Appearance, WithoutResidualsEveryAxisIsAnEntry) {
   const std::vector<uint32_t> cells = {3, 1, 70};
   const CellAppearance coded = coder->compress(cells);
   EXPECT_FALSE(coded.lobeAxes.empty());
-  for (const glm::vec3& axis : coded.lobeAxes)
+  for (const glm::vec3& axis : coded.lobeAxes) {
     EXPECT_NE(std::find(entries.begin(), entries.end(), axis), entries.end());
+  }
 }
 
 // A foam whose colours do not depend on the direction needs no lobes, and keeps colours on the lattice to the
@@ -112,8 +111,9 @@ TEST(Appearance, ColoursOnTheLatticeComeBackExactly) {
   options.errorBound = 1e-3f;
   const CellAppearance coded = compressAll(foam, nullptr, options);
   EXPECT_TRUE(coded.lobeAxes.empty());
-  for (size_t site = 0; site < coded.baseColours.size(); ++site)
+  for (size_t site = 0; site < coded.baseColours.size(); ++site) {
     EXPECT_EQ(coded.baseColours[site], foam.lobeColours[site * 2]);
+  }
   EXPECT_LT(coded.maxError, 1e-6);
 }
 
@@ -125,8 +125,8 @@ TEST(Appearance, ErrorStaysNearTheBoundWithoutCameras) {
   options.lobeAxisStep = 0x1p-6f;
   const CellAppearance coded = compressAll(foam, nullptr, options);
   EXPECT_LE(std::sqrt(coded.squaredError / coded.weight), options.errorBound);
-  const auto colourOf = [](const glm::dvec3& base, std::span<const glm::vec3> axes,
-                           std::span<const glm::vec3> colours, const glm::dvec3& d) {
+  const auto colourOf = [](const glm::dvec3& base, std::span<const glm::vec3> axes, std::span<const glm::vec3> colours,
+                           const glm::dvec3& d) {
     glm::dvec3 sum(0);
     double weights = 0;
     for (size_t l = 0; l < axes.size(); ++l) {
@@ -147,11 +147,10 @@ TEST(Appearance, ErrorStaysNearTheBoundWithoutCameras) {
         const double s = std::sqrt(1 - z * z);
         const glm::dvec3 d =
             s * std::cos(angle) * frame.tangent + s * std::sin(angle) * frame.bitangent - z * frame.normal;
-        const glm::dvec3 miss =
-            colourOf(coded.baseColours[cell], std::span(coded.lobeAxes).subspan(lobe, kept),
-                     std::span(coded.lobeColours).subspan(lobe, kept), d) -
-            colourOf(glm::dvec3(0), std::span(foam.lobeAxes).subspan(cell * 4, 4),
-                     std::span(foam.lobeColours).subspan(cell * 4, 4), d);
+        const glm::dvec3 miss = colourOf(coded.baseColours[cell], std::span(coded.lobeAxes).subspan(lobe, kept),
+                                         std::span(coded.lobeColours).subspan(lobe, kept), d) -
+                                colourOf(glm::dvec3(0), std::span(foam.lobeAxes).subspan(cell * 4, 4),
+                                         std::span(foam.lobeColours).subspan(cell * 4, 4), d);
         squared += glm::dot(miss, miss) / 3;
         ++count;
       }
@@ -205,8 +204,7 @@ TEST(Appearance, ExtremeFoamsGiveFiniteColours) {
       const auto visibility = measureVisibility(foam, orbit(2), {});
       ASSERT_TRUE(visibility);
       for (const Visibility* seen : {static_cast<const Visibility*>(nullptr), &*visibility}) {
-        SCOPED_TRACE(testing::Message()
-                     << lobes << " lobes, temperature " << temperature << (seen ? ", cameras" : ""));
+        SCOPED_TRACE(testing::Message() << lobes << " lobes, temperature " << temperature << (seen ? ", cameras" : ""));
         expectWellFormed(foam, compressAll(foam, seen, typicalOptions()), typicalOptions());
       }
     }
@@ -214,10 +212,9 @@ TEST(Appearance, ExtremeFoamsGiveFiniteColours) {
 }
 
 TEST(Appearance, CellsThatNoCameraSeesKeepTheirColour) {
-  const Foam foam = foamOf({{.site = {0, 0, 0}, .colour = {0.25f, 0.5f, 0.75f}},
-                            {.site = {0, 0, 500}, .colour = {0.75f, 0.25f, 0.5f}}});
-  const auto visibility =
-      measureVisibility(foam, std::vector{lookAt({0.1, 0, -6}, {0, 0, 0}, 24, 24, 0.4)}, {});
+  const Foam foam = foamOf(
+      {{.site = {0, 0, 0}, .colour = {0.25f, 0.5f, 0.75f}}, {.site = {0, 0, 500}, .colour = {0.75f, 0.25f, 0.5f}}});
+  const auto visibility = measureVisibility(foam, std::vector{lookAt({0.1, 0, -6}, {0, 0, 0}, 24, 24, 0.4)}, {});
   ASSERT_TRUE(visibility);
   ASSERT_EQ(visibility->offsets[1], visibility->offsets[2]);  // the second one is seen by none
   const CellAppearance coded = compressAll(foam, &*visibility, typicalOptions());

@@ -30,8 +30,7 @@ TEST(AxisCodebook, NearestEntryIsThatOfAFullSearch) {
 }
 
 TEST(AxisCodebook, WarpingIsUndone) {
-  for (const glm::vec3& axis :
-       {glm::vec3(0), glm::vec3(1e-3f, 0, 0), glm::vec3(3, -4, 5), glm::vec3(0, 1e4f, 0)}) {
+  for (const glm::vec3& axis : {glm::vec3(0), glm::vec3(1e-3f, 0, 0), glm::vec3(3, -4, 5), glm::vec3(0, 1e4f, 0)}) {
     EXPECT_LE(glm::distance(unwarpAxis(warpAxis(axis)), axis), 1e-4f * (glm::length(axis) + 1e-3f));
   }
 }

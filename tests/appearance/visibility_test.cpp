@@ -22,17 +22,14 @@ Visibility measure(const Foam& foam, const std::vector<View>& views) {
 
 double weightOf(const Visibility& visibility, uint64_t site) {
   double sum = 0;
-  for (uint64_t i = visibility.offsets[site]; i < visibility.offsets[site + 1]; ++i)
-    sum += visibility.weights[i];
+  for (uint64_t i = visibility.offsets[site]; i < visibility.offsets[site + 1]; ++i) sum += visibility.weights[i];
   return sum;
 }
 
 // One ball without neighbours, solid throughout: a ray's share is alpha = 1 - exp(-density * chord).
 TEST(Visibility, WeightOfALoneBallIsItsSumOfSquaredOpacities) {
-  const Foam foam = foamOf({{.site = {0, 0, 0},
-                             .radius = 1,
-                             .density = 0.7f,
-                             .orientation = kFaceTowardsPlusZ}});  // rays leave through it
+  const Foam foam = foamOf(
+      {{.site = {0, 0, 0}, .radius = 1, .density = 0.7f, .orientation = kFaceTowardsPlusZ}});  // rays leave through it
   const View view = lookAt({0.1, 0.2, -4}, {0, 0, 0}, 32, 24, 0.5);
   const Visibility visibility = measure(foam, {view});
   double sum = 0, largest = 0;
@@ -65,8 +62,8 @@ TEST(Visibility, ReducedViewsCountPixelsOfTheFullSize) {
 
 TEST(Visibility, WhatAWallHidesIsNotSeen) {
   //   eye ->   (wall)   (ball)
-  const Foam foam = foamOf(
-      {{.site = {0, 0, 0}, .radius = 1, .density = 1000}, {.site = {0, 0, 3}, .radius = 0.5f, .density = 5}});
+  const Foam foam =
+      foamOf({{.site = {0, 0, 0}, .radius = 1, .density = 1000}, {.site = {0, 0, 3}, .radius = 0.5f, .density = 5}});
   const Visibility front = measure(foam, {lookAt({0.1, 0, -4}, {0, 0, 0}, 32, 32, 0.5)});
   EXPECT_GT(weightOf(front, 0), 0);
   EXPECT_EQ(weightOf(front, 1), 0);
@@ -78,8 +75,9 @@ TEST(Visibility, WhatAWallHidesIsNotSeen) {
 TEST(Visibility, RowsAscendAndOverlapsAreCorrelations) {
   const Foam foam = randomFoam(60, 4, 2, 3);
   std::vector<View> views;
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 5; ++i) {
     views.push_back(lookAt({3 * std::cos(i), 0.3 * i, 3 * std::sin(i)}, {0, 0, 0}, 24, 20, 0.6));
+  }
   const Visibility visibility = measure(foam, views);
   ASSERT_EQ(visibility.offsets.size(), 60 * 4 + 1u);
   ASSERT_EQ(visibility.overlaps.size(), 60 * 6u);
@@ -99,8 +97,9 @@ TEST(Visibility, RowsAscendAndOverlapsAreCorrelations) {
 TEST(Visibility, OfSeveralViewsIsThatOfEachAlone) {
   const Foam foam = randomFoam(60, 4, 2, 3);
   std::vector<View> views;
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < 3; ++i) {
     views.push_back(lookAt({3 * std::cos(i), 0.3 * i, 3 * std::sin(i)}, {0, 0, 0}, 24, 20, 0.6));
+  }
   const Visibility together = measure(foam, views);
   std::vector<float> contributions(60, 0);
   uint64_t entries = 0;
@@ -110,13 +109,13 @@ TEST(Visibility, OfSeveralViewsIsThatOfEachAlone) {
     for (size_t site = 0; site + 1 < alone.offsets.size(); ++site) {
       if (alone.offsets[site] == alone.offsets[site + 1]) continue;
       const auto row = together.views.begin();
-      const auto found =
-          std::find(row + together.offsets[site], row + together.offsets[site + 1], v) - row;
+      const auto found = std::find(row + together.offsets[site], row + together.offsets[site + 1], v) - row;
       ASSERT_LT(static_cast<uint64_t>(found), together.offsets[site + 1]) << "view " << v << ", site " << site;
       EXPECT_EQ(together.weights[found], alone.weights[alone.offsets[site]]);
     }
-    for (size_t cell = 0; cell < contributions.size(); ++cell)
+    for (size_t cell = 0; cell < contributions.size(); ++cell) {
       contributions[cell] = std::max(contributions[cell], alone.contributions[cell]);
+    }
   }
   EXPECT_EQ(together.weights.size(), entries);
   EXPECT_EQ(together.contributions, contributions);
@@ -143,8 +142,9 @@ TEST(Visibility, OfAnImageIsTheSumOverItsQuarters) {
     for (size_t site = 0; site < sums.size(); ++site) sums[site] += weightOf(visibility, site);
   }
   const Visibility expected = measure(foam, {whole});
-  for (size_t site = 0; site < sums.size(); ++site)
+  for (size_t site = 0; site < sums.size(); ++site) {
     EXPECT_NEAR(sums[site], weightOf(expected, site), 1e-4 * sums[site] + 1e-6) << site;
+  }
 }
 
 TEST(Visibility, ThreadsDoNotChangeIt) {

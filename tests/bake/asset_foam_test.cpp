@@ -79,8 +79,8 @@ TEST(FoamFromAsset, JoinsChunksInWorldCoordinates) {
 
   const Result<Foam> foam = foamFromAsset(contents);
   ASSERT_TRUE(foam) << foam.error().message;
-  EXPECT_THAT(foam->sites, testing::ElementsAre(glm::vec3(1, 2, 3), glm::vec3(4, 5, 6),
-                                                glm::vec3(1001, 2, 2.5f), glm::vec3(1004, 5, 5.5f)));
+  EXPECT_THAT(foam->sites, testing::ElementsAre(glm::vec3(1, 2, 3), glm::vec3(4, 5, 6), glm::vec3(1001, 2, 2.5f),
+                                                glm::vec3(1004, 5, 5.5f)));
   EXPECT_THAT(foam->densities, testing::ElementsAre(5, 0, 5, 0));
   EXPECT_THAT(foam->detailHeights, testing::Each(0.0f));
   EXPECT_EQ(foam->detailHeights.size(), 4u);
@@ -116,8 +116,8 @@ TEST(FoamFromAsset, KeepsBaseColoursAndVaryingLobesAndDropsGhosts) {
   EXPECT_EQ(foam->cellCount, 2u);
   EXPECT_EQ(foam->sites.size(), 2u);
   EXPECT_EQ(foam->radii.size(), 2u);
-  EXPECT_THAT(foam->baseColours, testing::ElementsAre(glm::vec3(0.25f, 0, 0), glm::vec3(0, 0.25f, 0), glm::vec3(0),
-                                                      glm::vec3(0)));
+  EXPECT_THAT(foam->baseColours,
+              testing::ElementsAre(glm::vec3(0.25f, 0, 0), glm::vec3(0, 0.25f, 0), glm::vec3(0), glm::vec3(0)));
   EXPECT_THAT(foam->lobeOffsets, testing::ElementsAre(0, 1, 1, 1, 1));
   EXPECT_EQ(foam->lobeColours.size(), 1u);
 }

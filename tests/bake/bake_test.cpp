@@ -173,15 +173,15 @@ TEST(Bake, LeavesOutHeightsThatAreAllZero) {
 TEST(Bake, LeavesOutLobesThatLookTheSameFromEverywhere) {
   Foam foam = makeRandomFoam(30, 2, 3, 1);
   EXPECT_EQ(bake(foam).contents.lobeCount, 3u);
-  for (size_t lobe = 0; lobe < foam.lobeColours.size(); ++lobe)
-    foam.lobeColours[lobe] = foam.lobeColours[lobe / 3 * 3];
+  for (size_t lobe = 0; lobe < foam.lobeColours.size(); ++lobe) foam.lobeColours[lobe] = foam.lobeColours[lobe / 3 * 3];
   const BakeResult result = bake(foam);
   const ChunkContents& chunk = result.contents.chunks[0];
   EXPECT_EQ(result.contents.lobeCount, 0u);
   EXPECT_TRUE(chunk.lobeColours.empty());
   ASSERT_EQ(chunk.baseColours.size(), 2u * chunk.liveCount);
-  for (uint32_t place = 0; place < chunk.liveCount; ++place)
+  for (uint32_t place = 0; place < chunk.liveCount; ++place) {
     EXPECT_EQ(chunk.baseColours[2 * place + 1], foam.lobeColours[6 * result.sourceCells[place] + 3]);
+  }
   EXPECT_EQ(findLeftOut(result, "view dependence"), 24u * 6 * chunk.liveCount);
 }
 
@@ -300,9 +300,7 @@ TEST(Bake, RefusesUnknownPresetsBrokenFoamsAndKnobsOutOfRange) {
 TEST(Bake, StopsInEveryStageWhenAskedTo) {
   const Foam foam = makeRandomFoam(500, 1, 1, 1);
   std::set<std::string> stages;
-  const auto collect = [&](std::string_view stage, uint64_t, uint64_t) {
-    return stages.emplace(stage), true;
-  };
+  const auto collect = [&](std::string_view stage, uint64_t, uint64_t) { return stages.emplace(stage), true; };
   ASSERT_TRUE(bakeFoam(foam, {}, collect));
   EXPECT_GE(stages.size(), 5u);
   for (const std::string& stop : stages) {

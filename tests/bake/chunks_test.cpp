@@ -45,8 +45,9 @@ std::map<std::pair<CellRef, CellRef>, bool> collectPairs(const AssetContents& co
     for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
       const uint32_t first = chunk.neighbourOffsets[cell];
       const uint32_t alphaEnd = first + (cell < chunk.liveCount ? chunk.alphaCounts[cell] : 0);
-      for (uint32_t entry = first; entry < chunk.neighbourOffsets[cell + 1]; ++entry)
+      for (uint32_t entry = first; entry < chunk.neighbourOffsets[cell + 1]; ++entry) {
         pairs[{refOf(contents, index, cell), refOf(contents, index, chunk.neighbours[entry])}] = entry < alphaEnd;
+      }
     }
   }
   return pairs;
@@ -118,7 +119,9 @@ TEST(Chunks, RowsNameTheSameNeighboursHoweverTheSceneIsSplit) {
       return result.sourceCells[firstPlace[chunkOf(ref, contents.localBits)] + localOf(ref, contents.localBits)];
     };
     std::map<std::pair<uint32_t, uint32_t>, bool> pairs;
-    for (const auto& [pair, isAlpha] : collectPairs(contents)) pairs[{sourceOf(pair.first), sourceOf(pair.second)}] = isAlpha;
+    for (const auto& [pair, isAlpha] : collectPairs(contents)) {
+      pairs[{sourceOf(pair.first), sourceOf(pair.second)}] = isAlpha;
+    }
     return pairs;
   };
   const auto whole = pairsOfSources(16384);
@@ -165,9 +168,10 @@ TEST(Chunks, LiveCellsAreTheSameWithAndWithoutSteinerCells) {
       for (uint32_t cell = 0; cell < a.liveCount; ++cell) {
         EXPECT_EQ(a.sites[cell], b.sites[cell]);
         EXPECT_EQ(a.radii[cell], b.radii[cell]);
-        for (uint32_t k = 0; k < a.alphaCounts[cell]; ++k)
+        for (uint32_t k = 0; k < a.alphaCounts[cell]; ++k) {
           EXPECT_EQ(worldSite(a, a.neighbours[a.neighbourOffsets[cell] + k]),
                     worldSite(b, b.neighbours[b.neighbourOffsets[cell] + k]));
+        }
       }
     }
   }
@@ -188,13 +192,15 @@ TEST(Chunks, WithoutAWalkGraphKeepTheAlphaComplexOfLiveCells) {
     for (uint32_t cell = 0; cell < a.liveCount; ++cell) {
       EXPECT_EQ(a.sites[cell], b.sites[cell]);
       EXPECT_EQ(b.neighbourOffsets[cell + 1] - b.neighbourOffsets[cell], b.alphaCounts[cell]);
-      for (uint32_t k = 0; k < b.alphaCounts[cell]; ++k)
+      for (uint32_t k = 0; k < b.alphaCounts[cell]; ++k) {
         EXPECT_EQ(worldSite(a, a.neighbours[a.neighbourOffsets[cell] + k]),
                   worldSite(b, b.neighbours[b.neighbourOffsets[cell] + k]));
+      }
     }
   }
-  EXPECT_TRUE(std::any_of(without.leftOut.begin(), without.leftOut.end(),
-                          [](const LeftOut& leftOut) { return leftOut.what == "walk graph" && leftOut.savedBytes > 0; }));
+  EXPECT_TRUE(std::any_of(without.leftOut.begin(), without.leftOut.end(), [](const LeftOut& leftOut) {
+    return leftOut.what == "walk graph" && leftOut.savedBytes > 0;
+  }));
 }
 
 }  // namespace

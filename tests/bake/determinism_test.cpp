@@ -63,6 +63,26 @@ TEST(Determinism, ThreadsDoNotMatter) {
   }
 }
 
+TEST(Determinism, ThreadsDoNotMatterToARegionOfEyes) {
+  const Foam foam = makeRandomFoam(300, 2, 2, 4);
+  BakeOptions options;
+  options.preset = "default";
+  options.knobs = *presetKnobs("default");
+  CameraSet cameras;
+  View& view = cameras.views.emplace_back();  // from (0, 0, -4) along z
+  view.width = view.height = 48;
+  view.fx = view.fy = view.cx = view.cy = 24;
+  view.worldFromCamera = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -4};
+  options.cameras = &cameras;
+  options.eyes.aroundCameras = 1;
+  const BakeResult one = bake(foam, options, 1);
+  EXPECT_GT(one.contents.eyes.meanPsnr, 0);
+  const BakeResult many = bake(foam, options, 8);
+  expectSameBake(one, many);
+  EXPECT_EQ(one.contents.eyes.meanPsnr, many.contents.eyes.meanPsnr);
+  EXPECT_EQ(one.contents.eyes.worstPsnr, many.contents.eyes.worstPsnr);
+}
+
 TEST(Determinism, AMemoryLimitDoesNotMatter) {
   const Foam foam = makeRandomFoam(3000, 1, 2, 4);
   BakeOptions options;

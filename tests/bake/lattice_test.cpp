@@ -22,9 +22,7 @@ BakeOptions geometryOptions() {
   return options;
 }
 
-bool isMultiple(double value, double step) {
-  return std::nearbyint(value / step) == value / step;
-}
+bool isMultiple(double value, double step) { return std::nearbyint(value / step) == value / step; }
 
 class Lattice : public testing::Test {
  protected:

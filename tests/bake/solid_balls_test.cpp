@@ -29,15 +29,17 @@ ChunkContents bakeChunk(const Foam& foam, bool walkGraph = true) {
   return std::move(result->contents.chunks.at(0));
 }
 
-glm::vec4 codeOf(uint32_t bytes) {
-  return {bytes & 0xff, bytes >> 8 & 0xff, bytes >> 16 & 0xff, bytes >> 24};
-}
+glm::vec4 codeOf(uint32_t bytes) { return {bytes & 0xff, bytes >> 8 & 0xff, bytes >> 16 & 0xff, bytes >> 24}; }
 
 // One cell as rays through one eye meet it; all in float, in the order of the shaders.
 class CellRays {
  public:
   CellRays(const ChunkContents& chunk, uint32_t details, uint32_t cell, const glm::vec3& centre)
-      : chunk_(chunk), details_(details), cell_(cell), centre_(centre), radius_(chunk.radii[cell]),
+      : chunk_(chunk),
+        details_(details),
+        cell_(cell),
+        centre_(centre),
+        radius_(chunk.radii[cell]),
         frame_(faceFrame<float>(chunk.orientations[cell])) {
     const uint32_t row = chunk.neighbourOffsets[cell];
     for (uint32_t i = row; i < row + chunk.alphaCounts[cell]; ++i) {
@@ -63,16 +65,19 @@ class CellRays {
     const float tBase = foam::intersectFace(centre_, frame_.normal, facing, 0.0f);
     const float height = radius_ * heightAt((facing >= 0 ? tNear : std::max(tNear, tBase)) * direction - centre_);
     const float tFace = foam::intersectFace(centre_, frame_.normal, facing, height);
-    if (facing >= 0) tFar = std::min(tFar, tFace);
-    else tNear = std::max(tNear, tFace);
+    if (facing >= 0) {
+      tFar = std::min(tFar, tFace);
+    } else {
+      tNear = std::max(tNear, tFace);
+    }
     return tFar > tNear;
   }
 
  private:
   float heightAt(const glm::vec3& local) const {
     if (chunk_.detailHeights.empty()) return 0;
-    const glm::vec3 query = foam::faceQuery(
-        foam::inFaceFrame(local, frame_.tangent, frame_.bitangent, frame_.normal, 1 / radius_));
+    const glm::vec3 query =
+        foam::faceQuery(foam::inFaceFrame(local, frame_.tangent, frame_.bitangent, frame_.normal, 1 / radius_));
     float sum = 0, weightSum = 0;
     for (uint32_t k = cell_ * details_; k < (cell_ + 1) * details_; ++k) {
       const float weight = foam::detailWeight(query, chunk_.detailSites[k], kSharpness);
@@ -97,7 +102,8 @@ struct Faults {
 };
 
 // Rays from eyes around the cell, `distance` radii away, to points all over its ball.
-Faults traceCell(const ChunkContents& chunk, uint32_t details, uint32_t cell, double distance, int rays, BallSetMaker& random) {
+Faults traceCell(const ChunkContents& chunk, uint32_t details, uint32_t cell, double distance, int rays,
+                 BallSetMaker& random) {
   Faults faults;
   const double radius = chunk.radii[cell];
   for (int eye = 0; eye < 8; ++eye) {
@@ -111,8 +117,9 @@ Faults traceCell(const ChunkContents& chunk, uint32_t details, uint32_t cell, do
       if (!cellRays.gainsOpacity(direction, tNear, tFar)) continue;
       ++faults.raysWithGain;
       faults.raysThatMiss += !foam::rayMeetsBall(solidCentre, foam::guardedRadius(solidCentre, ball.w), direction);
-      for (const float t : {tNear, tFar})
+      for (const float t : {tNear, tFar}) {
         faults.pointsOutside += glm::distance(glm::dvec3(t * direction), glm::dvec3(solidCentre)) > ball.w * 1.0001;
+      }
     }
   }
   return faults;
@@ -180,7 +187,9 @@ TEST(SolidBalls, ThatWereTooSmallOrOffWouldBeFound) {
   for (uint32_t& bytes : chunk.solidBalls) bytes -= 4u << 24;
   BallSetMaker random(3);
   uint32_t found = 0;
-  for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) found += traceCell(chunk, 2, cell, 3, 2000, random).pointsOutside > 0;
+  for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) {
+    found += traceCell(chunk, 2, cell, 3, 2000, random).pointsOutside > 0;
+  }
   EXPECT_GT(found, 0.9 * chunk.liveCount);
 }
 

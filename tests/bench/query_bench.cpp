@@ -1,7 +1,7 @@
 // froth_bench_queries ASSET: how long the queries of froth.h take on one and two threads. A null context: no GPU.
 //
-// Rays start anywhere in the box of the scene, in all directions; spheres of a hundredth of its diagonal rest on surfaces that such
-// rays have hit. items_per_second counts queries, of all threads together.
+// Rays start anywhere in the box of the scene, in all directions; spheres of a hundredth of its diagonal rest on
+// surfaces that such rays have hit. items_per_second counts queries, of all threads together.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -92,9 +92,9 @@ bool makeSpheres(World& world) {
     }
     world.spheres.push_back(sphere);
   }
-  std::printf("%u cells, %.1f host bytes per cell; %.1f steps per ray, %.0f %% of the rays hit\n", world.asset.cellCount,
-              static_cast<double>(world.asset.hostBytes) / world.asset.cellCount, steps / kQueries,
-              100 * count / kQueries);
+  std::printf("%u cells, %.1f host bytes per cell; %.1f steps per ray, %.0f %% of the rays hit\n",
+              world.asset.cellCount, static_cast<double>(world.asset.hostBytes) / world.asset.cellCount,
+              steps / kQueries, 100 * count / kQueries);
   return !world.spheres.empty();
 }
 

@@ -48,11 +48,11 @@ class Bench:
             *size, "-o", images)
         return sorted(images.iterdir())
 
-    def measure(self, flags, truth):
+    def measure(self, flags, exact):
         asset = self.bake(flags)
         cells = run_json(self.options.froth, "info", asset)["cells"]
         images = self.draw(asset, "images")
-        psnr = [run_json(self.options.froth, "compare", a, b)["psnr"] for a, b in zip(truth, images, strict=True)]
+        psnr = [run_json(self.options.froth, "compare", a, b)["psnr"] for a, b in zip(exact, images, strict=True)]
         size = asset.stat().st_size
         return {"bytes": size, "bytesPerCell": size / cells, "minPsnr": min(psnr), "meanPsnr": sum(psnr) / len(psnr)}
 
@@ -99,9 +99,9 @@ def main():
     rows = []
     with tempfile.TemporaryDirectory() as name:
         bench = Bench(options, pathlib.Path(name))
-        truth = bench.draw(bench.bake(["--preset", "exact"]), "exact")
+        exact = bench.draw(bench.bake(["--preset", "exact"]), "exact")
         for knob, value, flags in settings(options):
-            rows.append({"knob": knob, "value": value, **bench.measure(flags, truth)})
+            rows.append({"knob": knob, "value": value, **bench.measure(flags, exact)})
             print(rows[-1], flush=True)
     output = pathlib.Path(options.output)
     with output.with_suffix(".csv").open("w", newline="") as file:

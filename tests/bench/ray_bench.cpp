@@ -1,13 +1,14 @@
 // froth_bench_rays ASSET CAMERAS [options]: milliseconds of frothRecordRays, and what the rays cost.
 //
-// The camera's rays, what a mirror in place of every surface they meet would show, and the shadow of one light on these surfaces.
+// The camera's rays, what a mirror in place of every surface they meet would show, and the shadow of one light on these
+// surfaces.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "froth/froth_walk.h"
 #include "host/host.h"
@@ -173,8 +174,9 @@ double RayBench::cast(FrothContext* context, uint32_t count, FrothRayKind kind) 
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 0);
     check(frothRecordRays(context, commands, rays_.address, hits_.address, count, kind), "frothRecordRays");
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 1);
-    device_.table.recordMemoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                                      VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+    device_.table.recordMemoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                      VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COPY_BIT,
+                                      VK_ACCESS_2_TRANSFER_READ_BIT);
     vkCmdCopyBuffer(commands, hits_.buffer, readback_.buffer, 1, &out);
   });
   uint64_t times[2];
@@ -194,10 +196,12 @@ std::vector<FrothGpuHit> RayBench::measure(const char* name, const std::vector<F
   auto status = makeStruct<FrothWalkStatus>();
   check(frothGetWalkStatus(counted_, &status), "frothGetWalkStatus");
   const auto per = [&](uint64_t number) { return static_cast<double>(number) / static_cast<double>(count); };
-  fmt::print("{:<22} {:8.3f} ms (least {:.3f}), {} rays; per ray: {:.2f} descents, {:.2f} cells, {:.1f} neighbours, {:.2f} met, "
-             "{:.2f} detail sites\n",
-             name, times[times.size() / 2], times.front(), count, per(status.descents), per(status.cells),
-             per(status.neighbours), per(status.cellsMet), per(status.sites));
+  fmt::print(
+      "{:<22} {:8.3f} ms (least {:.3f}), {} rays; per ray: {:.2f} descents, {:.2f} cells, {:.1f} neighbours, {:.2f} "
+      "met, "
+      "{:.2f} detail sites\n",
+      name, times[times.size() / 2], times.front(), count, per(status.descents), per(status.cells),
+      per(status.neighbours), per(status.cellsMet), per(status.sites));
   std::vector<FrothGpuHit> hits(rays.size());
   std::memcpy(hits.data(), readback_.mapped, hits.size() * sizeof(FrothGpuHit));
   return hits;

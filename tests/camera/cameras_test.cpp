@@ -30,14 +30,13 @@ class CamerasTest : public ::testing::Test {
   // A valid file whose second view has `field` replaced.
   Result<CameraSet> readWith(const std::string& field, const std::string& value) {
     std::string fields;
-    const std::pair<const char*, const char*> defaults[] = {
-        {"width", "640"},
-        {"height", "480"},
-        {"fx", "500.5"},
-        {"fy", "501.5"},
-        {"cx", "320"},
-        {"cy", "240.25"},
-        {"world_from_camera", "[[1,0,0,1],[0,1,0,2],[0,0,1,3]]"}};
+    const std::pair<const char*, const char*> defaults[] = {{"width", "640"},
+                                                            {"height", "480"},
+                                                            {"fx", "500.5"},
+                                                            {"fy", "501.5"},
+                                                            {"cx", "320"},
+                                                            {"cy", "240.25"},
+                                                            {"world_from_camera", "[[1,0,0,1],[0,1,0,2],[0,0,1,3]]"}};
     for (const auto& [key, text] : defaults) {
       if (key != field) fields += '"' + std::string(key) + "\": " + text + ", ";
     }
@@ -184,9 +183,7 @@ TEST_F(CamerasTest, AFileThatIsNotCamerasIsRefusedWithItsName) {
   EXPECT_FALSE(readCameras(path_.string() + ".absent"));
 }
 
-TEST_F(CamerasTest, DeeplyNestedJsonDoesNotExhaustTheStack) {
-  EXPECT_FALSE(readText(std::string(200000, '[')));
-}
+TEST_F(CamerasTest, DeeplyNestedJsonDoesNotExhaustTheStack) { EXPECT_FALSE(readText(std::string(200000, '['))); }
 
 TEST_F(CamerasTest, AViewThatCouldNotBeReadBackIsNotWritten) {
   CameraSet cameras;

@@ -1,5 +1,5 @@
-// shaders/foam/lens.h against the models as they were published: those give the image of a direction, so a direction that is
-// drawn and looked up again must come back.
+// shaders/foam/lens.h against the models as they were published: those give the image of a direction, so a direction
+// that is drawn and looked up again must come back.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@ constexpr double kPi = 3.14159265358979323846;
 // cv::fisheye::projectPoints, without the camera matrix.
 dvec2 drawKannalaBrandt(const dvec3& direction, const dvec4& k) {
   const double r = std::hypot(direction.x, direction.y), theta = std::atan2(r, direction.z);
-  const double drawn =
-      theta + k[0] * std::pow(theta, 3) + k[1] * std::pow(theta, 5) + k[2] * std::pow(theta, 7) + k[3] * std::pow(theta, 9);
+  const double drawn = theta + k[0] * std::pow(theta, 3) + k[1] * std::pow(theta, 5) + k[2] * std::pow(theta, 7) +
+                       k[3] * std::pow(theta, 9);
   return r > 0 ? dvec2(direction.x, direction.y) * (drawn / r) : dvec2(0);
 }
 
@@ -27,7 +27,8 @@ dvec2 drawRadialTangential(const dvec3& direction, const dvec4& first, const dve
   const double k1 = first[0], k2 = first[1], p1 = first[2], p2 = first[3];
   const double k3 = second[0], k4 = second[1], k5 = second[2], k6 = second[3];
   const double x = direction.x / direction.z, y = direction.y / direction.z, r2 = x * x + y * y;
-  const double radial = (1 + k1 * r2 + k2 * r2 * r2 + k3 * r2 * r2 * r2) / (1 + k4 * r2 + k5 * r2 * r2 + k6 * r2 * r2 * r2);
+  const double radial =
+      (1 + k1 * r2 + k2 * r2 * r2 + k3 * r2 * r2 * r2) / (1 + k4 * r2 + k5 * r2 * r2 + k6 * r2 * r2 * r2);
   return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x), y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
 }
 
@@ -64,7 +65,8 @@ void expectFound(int kind, const dvec3& direction, const dvec2& point, const dve
   EXPECT_LT(glm::length(found - direction), 5e-6) << point.x << ", " << point.y;
   dvec2 drawn;
   ASSERT_TRUE(draw<double>(kind, 3.0 * direction, first, second, drawn)) << point.x << ", " << point.y;
-  ASSERT_TRUE(lookUp<double>(kind, drawn, first, second, found)) << "not seen where it is drawn: " << drawn.x << ", " << drawn.y;
+  ASSERT_TRUE(lookUp<double>(kind, drawn, first, second, found))
+      << "not seen where it is drawn: " << drawn.x << ", " << drawn.y;
   EXPECT_LT(glm::length(found - direction), 1e-9) << drawn.x << ", " << drawn.y;
   dvec2 drawnAsFloat;
   ASSERT_TRUE(draw<float>(kind, direction, first, second, drawnAsFloat)) << point.x << ", " << point.y;
@@ -87,16 +89,17 @@ TEST(Lens, ADirectionThatAKannalaBrandtLensDrawsIsFoundAgain) {
 
 TEST(Lens, ADirectionThatARadialTangentialLensDrawsIsFoundAgain) {
   const std::pair<dvec4, dvec4> lenses[] = {
-      {dvec4(-0.28, 0.07, 0.0009, -0.0006), dvec4(0)},                     // a wide lens, k1 k2 p1 p2
-      {dvec4(-0.33, 0.14, -0.0011, 0.0023), dvec4(-0.031, 0, 0, 0)},       // with k3
-      {dvec4(0.9, -0.4, 0.0005, 0.0004), dvec4(0.02, 1.3, -0.1, -0.08)},   // rational
-      {dvec4(0.12, 0.03, 0, 0), dvec4(0)},                                 // pincushion
+      {dvec4(-0.28, 0.07, 0.0009, -0.0006), dvec4(0)},                    // a wide lens, k1 k2 p1 p2
+      {dvec4(-0.33, 0.14, -0.0011, 0.0023), dvec4(-0.031, 0, 0, 0)},      // with k3
+      {dvec4(0.9, -0.4, 0.0005, 0.0004), dvec4(0.02, 1.3, -0.1, -0.08)},  // rational
+      {dvec4(0.12, 0.03, 0, 0), dvec4(0)},                                // pincushion
       {kNone, kNone},
   };
   for (const auto& [first, second] : lenses) {
     for (double angle = 0; angle < 0.65; angle += 0.023) {
       const dvec3 direction = directionAt(angle, 9 * angle);
-      expectFound(foam::kLensRadialTangential, direction, drawRadialTangential(direction, first, second), first, second);
+      expectFound(foam::kLensRadialTangential, direction, drawRadialTangential(direction, first, second), first,
+                  second);
     }
   }
 }
@@ -113,22 +116,22 @@ TEST(Lens, AnglesOfAFisheyeAreDistancesOnTheImage) {
 
 TEST(Lens, AnEquirectangularImageHoldsLongitudesAndLatitudes) {
   const std::pair<dvec2, dvec3> places[] = {
-      {{0, 0}, {0, 0, 1}},             // ahead
-      {{kPi / 2, 0}, {1, 0, 0}},       // to the right
-      {{-kPi / 2, 0}, {-1, 0, 0}},     // to the left
-      {{kPi, 0}, {0, 0, -1}},          // behind
-      {{0.7, kPi / 2}, {0, 1, 0}},     // below
-      {{0, -kPi / 2}, {0, -1, 0}},     // above
+      {{0, 0}, {0, 0, 1}},          // ahead
+      {{kPi / 2, 0}, {1, 0, 0}},    // to the right
+      {{-kPi / 2, 0}, {-1, 0, 0}},  // to the left
+      {{kPi, 0}, {0, 0, -1}},       // behind
+      {{0.7, kPi / 2}, {0, 1, 0}},  // below
+      {{0, -kPi / 2}, {0, -1, 0}},  // above
       {{kPi / 4, kPi / 6}, {std::sqrt(0.375), 0.5, std::sqrt(0.375)}},
   };
-  for (const auto& [point, direction] : places)
-    expectFound(foam::kLensEquirectangular, direction, point, kNone, kNone);
+  for (const auto& [point, direction] : places) expectFound(foam::kLensEquirectangular, direction, point, kNone, kNone);
   dvec3 direction;
   EXPECT_FALSE(lookUp<double>(foam::kLensEquirectangular, {3.15, 0}, kNone, kNone, direction));
   EXPECT_FALSE(lookUp<double>(foam::kLensEquirectangular, {0, -1.58}, kNone, kNone, direction));
 }
 
-// r (1 - 0.3 r^2) grows up to r = 1 / sqrt(0.9), where it is 0.7027: the image of a lens with that distortion ends there.
+// r (1 - 0.3 r^2) grows up to r = 1 / sqrt(0.9), where it is 0.7027: the image of a lens with that distortion ends
+// there.
 TEST(Lens, BeyondTheFoldOfALensNothingIsSeen) {
   const dvec4 barrel(-0.3, 0, 0, 0);
   const double end = 1 / std::sqrt(0.9), radius = end * (1 - 0.3 * end * end);

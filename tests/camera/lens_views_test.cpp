@@ -19,15 +19,14 @@ using ::testing::HasSubstr;
 class LensViews : public ::testing::Test {
  protected:
   LensViews() {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ =
+        std::filesystem::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
   }
   ~LensViews() override { std::filesystem::remove_all(folder_); }
 
   static Result<CameraSet> parse(const std::string& fields) {
-    const std::string text = "{\"views\": [{" + fields +
-                             R"(, "world_from_camera": [[1,0,0,1],[0,1,0,2],[0,0,1,3]]}]})";
+    const std::string text = "{\"views\": [{" + fields + R"(, "world_from_camera": [[1,0,0,1],[0,1,0,2],[0,0,1,3]]}]})";
     return parseCameras({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "cameras.json");
   }
 
@@ -183,8 +182,9 @@ TEST_F(LensViews, AResizedRayMapLiesBetweenItsRays) {
     const ViewRays found(small), expected(same);
     EXPECT_EQ(!found.ofPixel(0, 0), width >= 40) << "only the nearest ray is missing";
     for (uint32_t y = 3; y < 42; ++y) {
-      for (uint32_t x = 3; x < width - 3; ++x)
+      for (uint32_t x = 3; x < width - 3; ++x) {
         ASSERT_LT(glm::length(found.ofPixel(x, y)->direction - expected.ofPixel(x, y)->direction), 3e-4);
+      }
     }
   }
 }

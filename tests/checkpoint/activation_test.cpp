@@ -9,9 +9,7 @@
 namespace froth {
 namespace {
 
-float activate(float raw) {
-  return static_cast<float>(softplus(raw));
-}
+float activate(float raw) { return static_cast<float>(softplus(raw)); }
 
 TEST(Softplus, IsTheIdentityFromAFifthOn) {
   EXPECT_EQ(softplus(0.21), 0.21);

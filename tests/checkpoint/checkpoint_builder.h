@@ -40,9 +40,7 @@ inline std::string pickleText(const std::string& text) {
   return join("X", packNumber(static_cast<uint32_t>(text.size())), text);
 }
 
-inline std::string pickleInteger(int64_t value) {
-  return join("\x8a\x08", packNumber(value));
-}  // LONG1
+inline std::string pickleInteger(int64_t value) { return join("\x8a\x08", packNumber(value)); }  // LONG1
 
 inline std::string pickleGlobal(const std::string& module, const std::string& name) {
   return join("c", module, "\n", name, "\n");
@@ -64,9 +62,7 @@ inline std::string pickleIntegers(const std::vector<int64_t>& values) {
   return pickleTuple(items);
 }
 
-inline std::string pickleCall(const std::string& callable, const std::string& tuple) {
-  return callable + tuple + "R";
-}
+inline std::string pickleCall(const std::string& callable, const std::string& tuple) { return callable + tuple + "R"; }
 
 inline std::string pickleDict(const std::vector<std::pair<std::string, std::string>>& values) {
   std::string opcodes = "}(";
@@ -76,9 +72,7 @@ inline std::string pickleDict(const std::vector<std::pair<std::string, std::stri
   return opcodes + "u";
 }
 
-inline std::string pickleProgram(const std::string& opcodes) {
-  return join("\x80\x02", opcodes, ".");
-}
+inline std::string pickleProgram(const std::string& opcodes) { return join("\x80\x02", opcodes, "."); }
 
 // A tensor as a pickle describes it.
 struct TensorSpec {
@@ -91,8 +85,8 @@ struct TensorSpec {
 
 inline std::string pickleTensor(const TensorSpec& tensor) {
   const std::string id =
-      pickleTuple({pickleText("storage"), pickleGlobal("torch", tensor.storageClass),
-                   pickleText(tensor.storage), pickleText("cpu"), pickleInteger(tensor.storageCount)}) +
+      pickleTuple({pickleText("storage"), pickleGlobal("torch", tensor.storageClass), pickleText(tensor.storage),
+                   pickleText("cpu"), pickleInteger(tensor.storageCount)}) +
       "Q";
   const std::string hooks = pickleCall(pickleGlobal("collections", "OrderedDict"), ")");
   return pickleCall(pickleGlobal("torch._utils", "_rebuild_tensor_v2"),
@@ -115,8 +109,8 @@ inline std::string buildZip(const std::vector<ZipEntrySpec>& entries, bool isZip
   constexpr uint32_t kSaturated = 0xffffffff;
   std::string archive, directory;
   for (const ZipEntrySpec& entry : entries) {
-    const auto crc = entry.crc32.value_or(static_cast<uint32_t>(
-        crc32_z(0, reinterpret_cast<const uint8_t*>(entry.bytes.data()), entry.bytes.size())));
+    const auto crc = entry.crc32.value_or(
+        static_cast<uint32_t>(crc32_z(0, reinterpret_cast<const uint8_t*>(entry.bytes.data()), entry.bytes.size())));
     const uint64_t begin = entry.statedBegin.value_or(archive.size());
     const uint64_t size = entry.statedSize.value_or(entry.bytes.size());
     const auto shortSize = isZip64 ? kSaturated : static_cast<uint32_t>(size);
@@ -128,8 +122,7 @@ inline std::string buildZip(const std::vector<ZipEntrySpec>& entries, bool isZip
                  packNumbers<uint16_t>({nameSize, static_cast<uint16_t>(zip64.size()), 0, 0, 0, 0, 0}) +
                  packNumber(isZip64 ? kSaturated : static_cast<uint32_t>(begin)) + entry.name + zip64;
     archive += "PK\x03\x04" + packNumbers<uint16_t>({45, entry.flags, entry.method, 0, 0}) +
-               packNumbers<uint32_t>({0, 0, 0}) + packNumbers<uint16_t>({nameSize, 0}) + entry.name +
-               entry.bytes;
+               packNumbers<uint32_t>({0, 0, 0}) + packNumbers<uint16_t>({nameSize, 0}) + entry.name + entry.bytes;
   }
   const uint64_t begin = archive.size(), size = directory.size(), count = entries.size();
   archive += directory;
@@ -194,9 +187,7 @@ inline std::vector<ZipEntrySpec> zipEntries(const CheckpointSpec& checkpoint) {
   return entries;
 }
 
-inline std::string buildCheckpoint(const CheckpointSpec& checkpoint) {
-  return buildZip(zipEntries(checkpoint));
-}
+inline std::string buildCheckpoint(const CheckpointSpec& checkpoint) { return buildZip(zipEntries(checkpoint)); }
 
 // A right one: every element of a tensor is another number, all of them exact in float16 and bfloat16 too for
 // small counts.

@@ -54,8 +54,7 @@ TEST(HostileArchive, IsRefusedWithItsCauseInTheMessage) {
   refuse([](Entries e) { e[2].statedSize = 1u << 30; }, "1073741824 bytes");
   refuse([](Entries e) { e[2].statedSize = 20; }, "overlap");
   refuse([](Entries e) { e.push_back(e[2]); }, "two members are called 'model/data/density'");
-  refuse([](Entries e) { e.erase(e.begin() + 2); },
-         "tensor 'density': its storage 'density' is not in the archive");
+  refuse([](Entries e) { e.erase(e.begin() + 2); }, "tensor 'density': its storage 'density' is not in the archive");
   refuse([](Entries e) { e.erase(e.begin()); }, "without data.pkl");
   refuse([](Entries e) { e.push_back({"other/data.pkl", e[0].bytes}); }, "two pickles");
   refuse([](Entries e) { e[1].bytes = "big"; }, "byte order 'big'");

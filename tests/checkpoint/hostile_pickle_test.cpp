@@ -22,8 +22,7 @@ TEST(HostilePickle, MayNotCallTheSystem) {
   const std::string call = pickleTuple({pickleText("touch owned")});
   expectRefusal(importPickle(pickleProgram(pickleCall(pickleGlobal("posix", "system"), call))),
                 "data.pkl: byte 2: the pickle wants to call 'system' of module 'posix'");
-  expectRefusal(importPickle("\x80\x04\x8c\x02os\x8c\x06system\x93" + call + "R."),
-                "'system' of module 'os'");
+  expectRefusal(importPickle("\x80\x04\x8c\x02os\x8c\x06system\x93" + call + "R."), "'system' of module 'os'");
   for (const char* name : {"eval", "exec", "__import__", "getattr"}) {
     expectRefusal(importPickle(pickleProgram(pickleGlobal("builtins", name))), name);
   }

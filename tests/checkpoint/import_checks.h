@@ -15,9 +15,7 @@ inline Result<Foam> importBytes(const std::string& bytes) {
   return importCheckpointBytes({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}, "model.pt");
 }
 
-inline Result<Foam> importSpec(const CheckpointSpec& checkpoint) {
-  return importBytes(buildCheckpoint(checkpoint));
-}
+inline Result<Foam> importSpec(const CheckpointSpec& checkpoint) { return importBytes(buildCheckpoint(checkpoint)); }
 
 // The import fails as bad input, and the message names the file and holds `part`.
 inline void expectRefusal(const Result<Foam>& result, const std::string& part) {

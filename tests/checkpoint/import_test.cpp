@@ -79,7 +79,8 @@ TEST(ImportCheckpoint, ReadsExpandedTensorsWhoseStridesAreZero) {
   EXPECT_EQ(foam->detailHeights, std::vector<float>(6, 0.5f));
 }
 
-// Bit patterns of 1, -2, 0.5 and of small numbers: the smallest that are normal as float32, and a subnormal half, which is.
+// Bit patterns of 1, -2, 0.5 and of small numbers: the smallest that are normal as float32, and a subnormal half, which
+// is.
 TEST(ImportCheckpoint, ReadsHalfBFloat16AndDouble) {
   struct Case {
     const char* storageClass;
@@ -114,7 +115,8 @@ TEST(ImportCheckpoint, RefusesNumbersThatAreDenormalAsFloat32) {
   checkpoint.storages["texel_height"] = packNumbers<double>({1, 2, 3, 4, 1e-42, 6});
   const Result<Foam> foam = importSpec(checkpoint);
   ASSERT_FALSE(foam);
-  EXPECT_NE(foam.error().message.find("tensor 'texel_height': cell 1 of 2 holds"), std::string::npos) << foam.error().message;
+  EXPECT_NE(foam.error().message.find("tensor 'texel_height': cell 1 of 2 holds"), std::string::npos)
+      << foam.error().message;
 }
 
 TEST(ImportCheckpoint, IgnoresOtherKeysAndLeavesTheirTensorsUnread) {
@@ -158,10 +160,9 @@ TEST(ImportCheckpoint, ReadsPicklesOfProtocolFour) {
   std::string opcodes = stackGlobal("collections", "OrderedDict") + ")R(";
   for (const auto& [key, tensor] : checkpoint.tensors) {
     const std::string id = "(" + shortText("storage") + stackGlobal("torch", "FloatStorage") +
-                           shortText(tensor.storage) + shortText("cpu") + pickleInteger(tensor.storageCount) +
-                           "t\x94Q";
-    opcodes += shortText(key) + stackGlobal("torch._utils", "_rebuild_tensor_v2") + "(" + id +
-               pickleInteger(0) + pickleIntegers(tensor.shape) + pickleIntegers(tensor.strides) + "\x89" +
+                           shortText(tensor.storage) + shortText("cpu") + pickleInteger(tensor.storageCount) + "t\x94Q";
+    opcodes += shortText(key) + stackGlobal("torch._utils", "_rebuild_tensor_v2") + "(" + id + pickleInteger(0) +
+               pickleIntegers(tensor.shape) + pickleIntegers(tensor.strides) + "\x89" +
                stackGlobal("collections", "OrderedDict") + ")RtR";
   }
   opcodes += "u.";
@@ -181,8 +182,7 @@ TEST(ImportCheckpoint, StopsWhenProgressSaysSo) {
   const std::span data(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
   EXPECT_TRUE(importCheckpointBytes(data, "model.pt", watch));
   EXPECT_EQ(lastDone, lastTotal);
-  const Result<Foam> stopped =
-      importCheckpointBytes(data, "model.pt", [](auto, auto, auto) { return false; });
+  const Result<Foam> stopped = importCheckpointBytes(data, "model.pt", [](auto, auto, auto) { return false; });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().kind, ErrorKind::kCancelled);
 }

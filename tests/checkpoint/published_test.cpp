@@ -75,8 +75,7 @@ TEST_F(PublishedFoam, HasThePickleThatTheExporterWrites) {
     for (const PickledEntry& entry : *entries) {
       declarations.push_back({entry.key, entry.tensor.type, entry.tensor.shape});
     }
-    EXPECT_TRUE(pickleTensors(declarations) == std::string(pickle->bytes.begin(), pickle->bytes.end()))
-        << name;
+    EXPECT_TRUE(pickleTensors(declarations) == std::string(pickle->bytes.begin(), pickle->bytes.end())) << name;
   }
 }
 

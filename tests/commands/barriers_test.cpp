@@ -1,8 +1,9 @@
-// Between each use of memory and the next that disturbs it stands a barrier. lavapipe runs one dispatch after the other, so no image
-// that it draws shows a barrier that is missing; and the validation layers know nothing of memory that is reached by address.
+// Between each use of memory and the next that disturbs it stands a barrier. lavapipe runs one dispatch after the
+// other, so no image that it draws shows a barrier that is missing; and the validation layers know nothing of memory
+// that is reached by address.
 //
-// What it does not see: dispatches that touch different parts of an array are taken to touch the same; the second and later elements
-// of arrays that hold addresses (chunks). Barriers inside of a shader: workgroup_races_test.cpp.
+// What it does not see: dispatches that touch different parts of an array are taken to touch the same; the second and
+// later elements of arrays that hold addresses (chunks). Barriers inside of a shader: workgroup_races_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +45,8 @@ TEST(Barriers, StandBetweenAllUsesOfMemoryByEveryShader) {
   EXPECT_THAT(missing, testing::ElementsAre("sort_scatter_many"));
 }
 
-// What keeps the test above from seeing nothing. Rays, and what the first eye sees: the second one's are the same again.
+// What keeps the test above from seeing nothing. Rays, and what the first eye sees: the second one's are the same
+// again.
 TEST(Barriers, OfOneFrameAreMissedWhereAnyOfThemIsLeftOut) {
   const FrameForm form{.isFull = true};
   const auto countBarriers = [&](int frames) {

@@ -31,7 +31,8 @@ void CommandStream::write(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize siz
   const Buffer& target = at(buffer);
   const uint64_t begin = target.address + offset;
   const uint64_t end = size == VK_WHOLE_SIZE ? target.address + target.size : begin + size;
-  hazards.use({begin, end}, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true, false, ++command_, by});
+  hazards.use({begin, end},
+              {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true, false, ++command_, by});
 }
 
 void CommandStream::copy(VkBuffer from, VkBuffer to, const VkBufferCopy& region) {
@@ -42,7 +43,8 @@ void CommandStream::copy(VkBuffer from, VkBuffer to, const VkBufferCopy& region)
   write(to, region.dstOffset, region.size, "a copy");
   if (!mapped_.contains(source.memory)) return;
   target.copied.resize(target.size);
-  std::memcpy(target.copied.data() + region.dstOffset, mapped_[source.memory] + source.offset + region.srcOffset, region.size);
+  std::memcpy(target.copied.data() + region.dstOffset, mapped_[source.memory] + source.offset + region.srcOffset,
+              region.size);
 }
 
 // Memory is mapped before it is bound. What no command writes reads as zeros.
@@ -89,7 +91,8 @@ void CommandStream::useAll(const Bound& bound, VkPipelineStageFlags2 stage) {
       Range range{};
       if (!happens(shader->name, location, push) || !resolve(location, bound.set, range)) continue;
       const bool isDescriptor = location.root == Root::kDescriptor && location.addresses.empty();
-      const VkDescriptorType type = isDescriptor ? sets[bound.set][location.binding].type : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+      const VkDescriptorType type =
+          isDescriptor ? sets[bound.set][location.binding].type : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
       const VkAccessFlags2 read = type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER  ? VK_ACCESS_2_UNIFORM_READ_BIT
                                   : type == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT
                                                                              : VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
@@ -107,7 +110,8 @@ void CommandStream::dispatch() { useAll(compute, VK_PIPELINE_STAGE_2_COMPUTE_SHA
 void CommandStream::dispatchIndirect(VkBuffer buffer, VkDeviceSize offset) {
   const uint64_t begin = at(buffer).address + offset;
   hazards.use({begin, begin + sizeof(VkDispatchIndirectCommand)},
-              {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false, false, ++command_, "a dispatch's size"});
+              {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false, false, ++command_,
+               "a dispatch's size"});
   dispatch();
 }
 
@@ -115,8 +119,8 @@ void CommandStream::draw() {
   useAll(graphics, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
   hazards.use(rangeOf(images_[depthAttachment]),
               {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT,
-               VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, true, false, command_,
-               "the depth test"});
+               VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, true,
+               false, command_, "the depth test"});
 }
 
 void CommandStream::wait(const VkDependencyInfo& dependency) {

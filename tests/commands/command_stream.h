@@ -1,5 +1,5 @@
-// The commands that the runtime records, and what each of them reads and writes. Nothing is compiled or executed: commands end
-// here, pipelines and shader modules are numbers.
+// The commands that the runtime records, and what each of them reads and writes. Nothing is compiled or executed:
+// commands end here, pipelines and shader modules are numbers.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ class CommandStream {
 
   static Range rangeOf(VkImage image);
   void nameView(VkImageView view, VkImage image) { images_[view] = image; }  // made outside of the runtime
-  void complete(uint64_t serial);  // the host has waited for the frame
+  void complete(uint64_t serial);                                            // the host has waited for the frame
 
   // Plants a fault. Those to the host do not count: the next one makes up for them.
   void leaveOut(uint64_t barrier) { leftOut_ = barrier; }

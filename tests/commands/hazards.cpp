@@ -15,8 +15,8 @@ VkPipelineStageFlags2 expandStages(VkPipelineStageFlags2 stages) {
 }
 
 VkAccessFlags2 expandAccesses(VkAccessFlags2 accesses) {
-  constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
-                                    VK_ACCESS_2_UNIFORM_READ_BIT;
+  constexpr VkAccessFlags2 kReads =
+      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT;
   if (accesses & VK_ACCESS_2_SHADER_READ_BIT) accesses |= kReads;
   if (accesses & VK_ACCESS_2_SHADER_WRITE_BIT) accesses |= VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
   if (accesses & (VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT)) accesses = ~VkAccessFlags2{0};
@@ -95,8 +95,9 @@ void Hazards::complete(uint64_t serial, const std::vector<Range>& mapped) {
   const Use host{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, false, false, 0, "the host"};
   for (const Past& past : past_) {
     for (const Range& range : mapped) {
-      if (past.serial <= serial && past.use.isWrite && overlap(past.range, range) && !isOrdered(past, host))
+      if (past.serial <= serial && past.use.isWrite && overlap(past.range, range) && !isOrdered(past, host)) {
         found.push_back("the host reads after " + past.use.by + " wrote");
+      }
     }
   }
   std::erase_if(past_, [&](const Past& past) { return past.serial <= serial; });

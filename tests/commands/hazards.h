@@ -46,8 +46,8 @@ class Hazards {
   // A layout transition: the image is written between both scopes.
   void change(const Dependency& dependency, const Range& range, const std::string& by);
 
-  // Frames: uses belong to the newest. What the host has waited for lies behind it; before it can read any of `mapped` that they
-  // wrote, that must be visible to it.
+  // Frames: uses belong to the newest. What the host has waited for lies behind it; before it can read any of `mapped`
+  // that they wrote, that must be visible to it.
   void beginFrame(uint64_t serial) { serial_ = serial; }
   void complete(uint64_t serial, const std::vector<Range>& mapped);
 

@@ -10,27 +10,48 @@ using Number = std::optional<uint32_t>;
 
 Number computeKnown(Op op, uint32_t a, uint32_t b) {
   switch (op) {
-    case kIAdd: return a + b;
-    case kISub: return a - b;
-    case kIMul: return a * b;
-    case kUDiv: return b == 0 ? Number() : a / b;
-    case kUMod: return b == 0 ? Number() : a % b;
-    case kLogicalNot: return !a;
-    case kLogicalOr: return a | b;
-    case kLogicalAnd: return a & b;
-    case kIEqual: return a == b;
-    case kINotEqual: return a != b;
-    case kUGreaterThan: return a > b;
-    case kUGreaterThanEqual: return a >= b;
-    case kULessThan: return a < b;
-    case kULessThanEqual: return a <= b;
-    case kSLessThan: return static_cast<int32_t>(a) < static_cast<int32_t>(b);
-    case kShiftRightLogical: return b < 32 ? a >> b : Number();
-    case kShiftLeftLogical: return b < 32 ? a << b : Number();
-    case kBitwiseOr: return a | b;
-    case kBitwiseXor: return a ^ b;
-    case kBitwiseAnd: return a & b;
-    default: return {};
+    case kIAdd:
+      return a + b;
+    case kISub:
+      return a - b;
+    case kIMul:
+      return a * b;
+    case kUDiv:
+      return b == 0 ? Number() : a / b;
+    case kUMod:
+      return b == 0 ? Number() : a % b;
+    case kLogicalNot:
+      return !a;
+    case kLogicalOr:
+      return a | b;
+    case kLogicalAnd:
+      return a & b;
+    case kIEqual:
+      return a == b;
+    case kINotEqual:
+      return a != b;
+    case kUGreaterThan:
+      return a > b;
+    case kUGreaterThanEqual:
+      return a >= b;
+    case kULessThan:
+      return a < b;
+    case kULessThanEqual:
+      return a <= b;
+    case kSLessThan:
+      return static_cast<int32_t>(a) < static_cast<int32_t>(b);
+    case kShiftRightLogical:
+      return b < 32 ? a >> b : Number();
+    case kShiftLeftLogical:
+      return b < 32 ? a << b : Number();
+    case kBitwiseOr:
+      return a | b;
+    case kBitwiseXor:
+      return a ^ b;
+    case kBitwiseAnd:
+      return a & b;
+    default:
+      return {};
   }
 }
 

@@ -1,4 +1,5 @@
-// What no tool reads from a shader: which of its accesses depend on push constants, and which passes share an image by pixels.
+// What no tool reads from a shader: which of its accesses depend on push constants, and which passes share an image by
+// pixels.
 #pragma once
 
 #include <array>

@@ -13,7 +13,7 @@ namespace {
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkPipelineStageFlags2 kCopy = VK_PIPELINE_STAGE_2_COPY_BIT;
 constexpr VkAccessFlags2 kCopyRead = VK_ACCESS_2_TRANSFER_READ_BIT, kCopyWrite = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-const VkCommandBuffer kCommands = reinterpret_cast<VkCommandBuffer>(1);  // never reaches the driver
+const VkCommandBuffer kCommands = reinterpret_cast<VkCommandBuffer>(1);             // never reaches the driver
 constexpr VkDeviceAddress kRays = VkDeviceAddress{1} << 61, kHits = kRays + 65536;  // in no buffer of the runtime's
 
 Host& sharedHost() {
@@ -35,7 +35,9 @@ T makeStruct() {
   return value;
 }
 
-void check(FrothResult result, const char* call) { ASSERT_EQ(result, FROTH_OK) << call << ": " << frothResultName(result); }
+void check(FrothResult result, const char* call) {
+  ASSERT_EQ(result, FROTH_OK) << call << ": " << frothResultName(result);
+}
 
 void aim(FrothCamera& camera, CameraKind kind) {
   constexpr VkExtent2D extent = RecordingEngine::kExtent;
@@ -63,8 +65,7 @@ std::vector<FrothImage*> outputsOf(FrothRenderInfo& info) {
 
 }  // namespace
 
-RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeFormat)
-    : compositeFormat_(compositeFormat) {
+RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeFormat) : compositeFormat_(compositeFormat) {
   FrothContextInfo info = sharedHost().contextInfo();
   info.getInstanceProcAddr = CommandStream::getInstanceProcAddr;
   info.onMessage = [](void*, FrothSeverity, FrothResult, const char* object, const char* text) {
@@ -94,7 +95,9 @@ RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeForma
 
 RecordingEngine::~RecordingEngine() {
   check(frothDestroyView(context_, view_), "frothDestroyView");
-  for (const FrothInstance instance : instances_) check(frothDestroyInstance(context_, instance), "frothDestroyInstance");
+  for (const FrothInstance instance : instances_) {
+    check(frothDestroyInstance(context_, instance), "frothDestroyInstance");
+  }
   check(frothCloseAsset(context_, asset_), "frothCloseAsset");
   check(frothDestroyContext(context_, UINT64_MAX), "frothDestroyContext");
 }
@@ -163,8 +166,8 @@ void RecordingEngine::recordRays() {
   const auto info = makeStruct<FrothWalkInfo>();
   VkDescriptorSet set = VK_NULL_HANDLE;
   check(frothRecordWalkSet(context_, kCommands, &info, &set), "frothRecordWalkSet");
-  stream.hazards.use(stream.sets[set][0].range, {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_UNIFORM_READ_BIT, false,
-                                                 false, 0, "the engine's shader"});
+  stream.hazards.use(stream.sets[set][0].range, {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_UNIFORM_READ_BIT,
+                                                 false, false, 0, "the engine's shader"});
   for (const FrothRayKind kind : {FROTH_RAY_TRANSMITTANCE, FROTH_RAY_CLOSEST, FROTH_RAY_RADIANCE}) {
     check(frothRecordRays(context_, kCommands, kRays, kHits + 65536 * kind, 8, kind), "frothRecordRays");
   }
@@ -186,7 +189,7 @@ void RecordingEngine::recordOver(const FrothRenderInfo& info, bool isProjection)
   composite.foam = asInput(info.colour);
   composite.target = input(compositeFormat_);
   composite.shadowFactor = input(VK_FORMAT_R32_SFLOAT);
-  check(frothComposite(context_, view_, kCommands, &composite), "frothComposite");
+  check(frothRecordComposite(context_, view_, kCommands, &composite), "frothRecordComposite");
   use(composite.target, kCopy, kCopyWrite, true);
   use(composite.shadowFactor, kCopy, kCopyWrite, true);
   use(composite.foam, kCopy, kCopyRead, false);
@@ -216,11 +219,11 @@ void RecordingEngine::recordFrame(const FrameForm& form) {
   recordRays();
   for (uint32_t eye = 0; eye < 2; ++eye) {
     const FrothRenderInfo raster = renderInfo(form, eye);
-    check(frothRasterize(context_, view_, kCommands, &raster), "frothRasterize");
+    check(frothRecordRaster(context_, view_, kCommands, &raster), "frothRecordRaster");
     readOutputs(raster);
     recordOver(raster, form.camera == CameraKind::kProjection || form.camera == CameraKind::kParallel);
     const FrothRenderInfo walk = renderInfo(form, eye);
-    check(frothWalk(context_, view_, kCommands, &walk), "frothWalk");
+    check(frothRecordWalk(context_, view_, kCommands, &walk), "frothRecordWalk");
     readOutputs(walk);
   }
 }

@@ -1,4 +1,5 @@
-// An engine that records frames of everything the runtime can do, and says to a CommandStream what it does to its own images.
+// An engine that records frames of everything the runtime can do, and says to a CommandStream what it does to its own
+// images.
 #pragma once
 
 #include <vector>
@@ -17,7 +18,7 @@ enum class CameraKind { kProjection, kParallel, kFisheye, kRayMap };
 struct FrameForm {
   CameraKind camera = CameraKind::kProjection;
   VkFormat colour = VK_FORMAT_R16G16B16A16_SFLOAT;
-  bool isFull = false;  // all images, and a scene's depth
+  bool isFull = false;   // all images, and a scene's depth
   bool isEmpty = false;  // no instance is in sight of its mask
 };
 

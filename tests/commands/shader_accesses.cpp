@@ -20,8 +20,8 @@ struct Type {
 
 using Locations = std::set<Location>;
 
-// What is followed: addresses. `places` of an id that is a pointer to memory; `variables` of one to what only the thread sees;
-// `addresses` of a value that is, or holds, addresses. Members of values and variables are not told apart.
+// What is followed: addresses. `places` of an id that is a pointer to memory; `variables` of one to what only the
+// thread sees; `addresses` of a value that is, or holds, addresses. Members of values and variables are not told apart.
 class Tracer {
  public:
   explicit Tracer(std::span<const uint32_t> spirv) : instructions_(split(spirv)) {
@@ -256,8 +256,6 @@ class Tracer {
 
 }  // namespace
 
-std::set<ShaderAccess> findAccesses(std::span<const uint32_t> spirv) {
-  return Tracer(spirv).accesses;
-}
+std::set<ShaderAccess> findAccesses(std::span<const uint32_t> spirv) { return Tracer(spirv).accesses; }
 
 }  // namespace froth::test

@@ -1,5 +1,5 @@
-// Which memory a shader reads and writes, read from its SPIR-V: every load, store and atomic is followed back to the push
-// constant or descriptor from which its address comes.
+// Which memory a shader reads and writes, read from its SPIR-V: every load, store and atomic is followed back to the
+// push constant or descriptor from which its address comes.
 #pragma once
 
 #include <compare>
@@ -12,8 +12,9 @@ namespace froth::test {
 
 enum class Root : uint32_t { kPushConstants, kDescriptor };
 
-// A place as the shader names it: from the root on, an address is loaded at each of `addresses` [bytes from where the one before
-// points], and the last one points `place` bytes before what is accessed. Elements of arrays without a length count as the array:
+// A place as the shader names it: from the root on, an address is loaded at each of `addresses` [bytes from where the
+// one before points], and the last one points `place` bytes before what is accessed. Elements of arrays without a
+// length count as the array:
 // `place` is then where it begins, and `element` the offset of what is accessed in its first element.
 struct Location {
   Root root;

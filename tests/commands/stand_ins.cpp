@@ -48,8 +48,8 @@ Function real(VkDevice device, const char* name) {
 
 // ---- Memory: made by the driver ----
 
-VkResult VKAPI_CALL createBuffer(VkDevice device, const VkBufferCreateInfo* info, const VkAllocationCallbacks* allocator,
-                                 VkBuffer* buffer) {
+VkResult VKAPI_CALL createBuffer(VkDevice device, const VkBufferCreateInfo* info,
+                                 const VkAllocationCallbacks* allocator, VkBuffer* buffer) {
   static uint64_t made = 0;
   const VkResult result = FROTH_REAL(vkCreateBuffer)(device, info, allocator, buffer);
   if (result == VK_SUCCESS) currentStream->at(*buffer) = {.size = info->size, .address = ++made << 36};
@@ -77,8 +77,8 @@ VkResult VKAPI_CALL mapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSi
   return result;
 }
 
-VkResult VKAPI_CALL createImageView(VkDevice device, const VkImageViewCreateInfo* info, const VkAllocationCallbacks* allocator,
-                                    VkImageView* view) {
+VkResult VKAPI_CALL createImageView(VkDevice device, const VkImageViewCreateInfo* info,
+                                    const VkAllocationCallbacks* allocator, VkImageView* view) {
   const VkResult result = FROTH_REAL(vkCreateImageView)(device, info, allocator, view);
   if (result == VK_SUCCESS) currentStream->nameView(*view, info->image);
   return result;
@@ -116,8 +116,9 @@ VkResult VKAPI_CALL createComputePipelines(VkDevice, VkPipelineCache, uint32_t, 
   currentStream->pipelines[*pipeline] = {currentStream->modules[info->stage.module]};
   return VK_SUCCESS;
 }
-VkResult VKAPI_CALL createGraphicsPipelines(VkDevice, VkPipelineCache, uint32_t, const VkGraphicsPipelineCreateInfo* info,
-                                            const VkAllocationCallbacks*, VkPipeline* pipeline) {
+VkResult VKAPI_CALL createGraphicsPipelines(VkDevice, VkPipelineCache, uint32_t,
+                                            const VkGraphicsPipelineCreateInfo* info, const VkAllocationCallbacks*,
+                                            VkPipeline* pipeline) {
   *pipeline = newHandle<VkPipeline>();
   for (uint32_t i = 0; i < info->stageCount; ++i) {
     currentStream->pipelines[*pipeline].push_back(currentStream->modules[info->pStages[i].module]);
@@ -147,7 +148,9 @@ void VKAPI_CALL dispatch(VkCommandBuffer, uint32_t, uint32_t, uint32_t) { curren
 void VKAPI_CALL dispatchIndirect(VkCommandBuffer, VkBuffer buffer, VkDeviceSize offset) {
   currentStream->dispatchIndirect(buffer, offset);
 }
-void VKAPI_CALL pipelineBarrier(VkCommandBuffer, const VkDependencyInfo* dependency) { currentStream->wait(*dependency); }
+void VKAPI_CALL pipelineBarrier(VkCommandBuffer, const VkDependencyInfo* dependency) {
+  currentStream->wait(*dependency);
+}
 void VKAPI_CALL copyBuffer(VkCommandBuffer, VkBuffer from, VkBuffer to, uint32_t count, const VkBufferCopy* regions) {
   for (uint32_t i = 0; i < count; ++i) currentStream->copy(from, to, regions[i]);
 }
@@ -172,22 +175,25 @@ void VKAPI_CALL draw(VkCommandBuffer, uint32_t, uint32_t, uint32_t, uint32_t) { 
 PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
   const std::map<std::string_view, PFN_vkVoidFunction> standIns = {
 #define FROTH_STAND_IN(name, function) {#name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_##name>(function))},
-      FROTH_STAND_IN(vkCreateBuffer, createBuffer) FROTH_STAND_IN(vkDestroyBuffer, destroyBuffer)
-      FROTH_STAND_IN(vkBindBufferMemory, bindBufferMemory) FROTH_STAND_IN(vkGetBufferDeviceAddress, getBufferDeviceAddress)
-      FROTH_STAND_IN(vkMapMemory, mapMemory) FROTH_STAND_IN(vkCreateImageView, createImageView)
-      FROTH_STAND_IN(vkUpdateDescriptorSets, updateDescriptorSets)
-      FROTH_STAND_IN(vkCreateShaderModule, createShaderModule) FROTH_STAND_IN(vkDestroyShaderModule, destroyShaderModule)
-      FROTH_STAND_IN(vkCreateComputePipelines, createComputePipelines)
-      FROTH_STAND_IN(vkCreateGraphicsPipelines, createGraphicsPipelines) FROTH_STAND_IN(vkDestroyPipeline, destroyPipeline)
-      FROTH_STAND_IN(vkCmdBindPipeline, bindPipeline) FROTH_STAND_IN(vkCmdBindDescriptorSets, bindDescriptorSets)
-      FROTH_STAND_IN(vkCmdPushConstants, pushConstants) FROTH_STAND_IN(vkCmdDispatch, dispatch)
-      FROTH_STAND_IN(vkCmdDispatchIndirect, dispatchIndirect) FROTH_STAND_IN(vkCmdPipelineBarrier2, pipelineBarrier)
-      FROTH_STAND_IN(vkCmdCopyBuffer, copyBuffer) FROTH_STAND_IN(vkCmdFillBuffer, fillBuffer)
-      FROTH_STAND_IN(vkCmdUpdateBuffer, updateBuffer) FROTH_STAND_IN(vkCmdResetQueryPool, resetQueryPool)
-      FROTH_STAND_IN(vkCmdWriteTimestamp2, writeTimestamp) FROTH_STAND_IN(vkCmdBeginRendering, beginRendering)
-      FROTH_STAND_IN(vkCmdEndRendering, endRendering) FROTH_STAND_IN(vkCmdSetViewport, setViewport)
-      FROTH_STAND_IN(vkCmdSetScissor, setScissor) FROTH_STAND_IN(vkCmdSetDepthCompareOp, setDepthCompareOp)
-      FROTH_STAND_IN(vkCmdDraw, draw)
+      FROTH_STAND_IN(vkCreateBuffer, createBuffer) FROTH_STAND_IN(vkDestroyBuffer, destroyBuffer) FROTH_STAND_IN(
+          vkBindBufferMemory, bindBufferMemory) FROTH_STAND_IN(vkGetBufferDeviceAddress, getBufferDeviceAddress)
+          FROTH_STAND_IN(vkMapMemory, mapMemory) FROTH_STAND_IN(vkCreateImageView, createImageView) FROTH_STAND_IN(
+              vkUpdateDescriptorSets, updateDescriptorSets) FROTH_STAND_IN(vkCreateShaderModule, createShaderModule)
+              FROTH_STAND_IN(vkDestroyShaderModule, destroyShaderModule) FROTH_STAND_IN(vkCreateComputePipelines,
+                                                                                        createComputePipelines)
+                  FROTH_STAND_IN(vkCreateGraphicsPipelines, createGraphicsPipelines) FROTH_STAND_IN(
+                      vkDestroyPipeline, destroyPipeline) FROTH_STAND_IN(vkCmdBindPipeline, bindPipeline)
+                      FROTH_STAND_IN(vkCmdBindDescriptorSets, bindDescriptorSets) FROTH_STAND_IN(
+                          vkCmdPushConstants, pushConstants) FROTH_STAND_IN(vkCmdDispatch, dispatch)
+                          FROTH_STAND_IN(vkCmdDispatchIndirect, dispatchIndirect) FROTH_STAND_IN(
+                              vkCmdPipelineBarrier2, pipelineBarrier) FROTH_STAND_IN(vkCmdCopyBuffer, copyBuffer)
+                              FROTH_STAND_IN(vkCmdFillBuffer, fillBuffer) FROTH_STAND_IN(
+                                  vkCmdUpdateBuffer, updateBuffer) FROTH_STAND_IN(vkCmdResetQueryPool, resetQueryPool)
+                                  FROTH_STAND_IN(vkCmdWriteTimestamp2, writeTimestamp)
+                                      FROTH_STAND_IN(vkCmdBeginRendering, beginRendering) FROTH_STAND_IN(
+                                          vkCmdEndRendering, endRendering) FROTH_STAND_IN(vkCmdSetViewport, setViewport)
+                                          FROTH_STAND_IN(vkCmdSetScissor, setScissor) FROTH_STAND_IN(
+                                              vkCmdSetDepthCompareOp, setDepthCompareOp) FROTH_STAND_IN(vkCmdDraw, draw)
 #undef FROTH_STAND_IN
   };
   const auto found = standIns.find(name);

@@ -61,8 +61,11 @@ Overlap overlapOf(const Access& a, size_t i, const Access& b, size_t j) {
   Overlap overlap = Overlap::kSure;
   for (size_t k = 0; k < std::min(a.path.size(), b.path.size()); ++k) {
     const auto first = laneOf(a.path[k], i), second = laneOf(b.path[k], j);
-    if (!first || !second) overlap = Overlap::kPossible;
-    else if (*first != *second) return Overlap::kNone;
+    if (!first || !second) {
+      overlap = Overlap::kPossible;
+    } else if (*first != *second) {
+      return Overlap::kNone;
+    }
   }
   return overlap;
 }
@@ -113,8 +116,11 @@ class Walk {
   void arrive(std::map<uint32_t, State>& at, uint32_t key, State state) {
     if (!isAny(state.threads)) return;
     const auto there = at.find(key);
-    if (there == at.end()) at.emplace(key, std::move(state));
-    else there->second = join(std::move(there->second), state);
+    if (there == at.end()) {
+      at.emplace(key, std::move(state));
+    } else {
+      there->second = join(std::move(there->second), state);
+    }
   }
 
   State take(std::map<uint32_t, State>& from, uint32_t key) {
@@ -188,7 +194,9 @@ class Walk {
         const Value condition = valueOf(w[1], state);
         for (const uint32_t taken : {1u, 0u}) {
           Mask threads = state.threads;
-          for (size_t i = 0; i < threads.size(); ++i) threads[i] = threads[i] && laneOf(condition, i).value_or(taken) == taken;
+          for (size_t i = 0; i < threads.size(); ++i) {
+            threads[i] = threads[i] && laneOf(condition, i).value_or(taken) == taken;
+          }
           follow(index, taken ? w[2] : w[3], state, std::move(threads));
         }
         break;
@@ -299,13 +307,17 @@ class Walk {
     const auto place = pointers_.find(w[1]);
     if (place == pointers_.end() || !place->second.path.empty() || module_.isShared(place->second.variable)) return;
     const Value value = valueOf(w[2], state);
-    if (value) state.known[place->second.variable] = value;
-    else state.known.erase(place->second.variable);
+    if (value) {
+      state.known[place->second.variable] = value;
+    } else {
+      state.known.erase(place->second.variable);
+    }
   }
 
   void barrier(std::span<const uint32_t> w, State& state) {
     if (std::ranges::find(state.threads, false) != state.threads.end()) {
-      races.insert("the barrier at word " + std::to_string(module_.wordOf(w.data())) + ": some threads do not reach it");
+      races.insert("the barrier at word " + std::to_string(module_.wordOf(w.data())) +
+                   ": some threads do not reach it");
     }
     const uint32_t scope = module_.constants.at(w[2]), semantics = module_.constants.at(w[3]);
     if (module_.constants.at(w[1]) != kScopeWorkgroup || (scope != kScopeWorkgroup && scope != kScopeDevice)) return;
@@ -318,8 +330,11 @@ class Walk {
     const ShaderFunction& function = module_.functions.at(w[3]);
     for (size_t i = 0; i < function.parameters.size(); ++i) {
       const auto pointer = pointers_.find(w[4 + i]);
-      if (pointer != pointers_.end()) pointers_[function.parameters[i]] = pointer->second;
-      else values_[function.parameters[i]] = valueOf(w[4 + i], state);
+      if (pointer != pointers_.end()) {
+        pointers_[function.parameters[i]] = pointer->second;
+      } else {
+        values_[function.parameters[i]] = valueOf(w[4 + i], state);
+      }
     }
     state = call(function, std::move(state));
     values_[w[2]] = valueOf(function.id, state);
@@ -336,8 +351,6 @@ class Walk {
 
 }  // namespace
 
-std::set<std::string> findRaces(std::span<const uint32_t> spirv) {
-  return Walk(spirv).races;
-}
+std::set<std::string> findRaces(std::span<const uint32_t> spirv) { return Walk(spirv).races; }
 
 }  // namespace froth::test

@@ -1,5 +1,5 @@
-// Inside of a shader, barriers stand between what threads of a workgroup do in shared memory. lavapipe runs these threads in an
-// order of its own, so that no image shows a barrier that is missing.
+// Inside of a shader, barriers stand between what threads of a workgroup do in shared memory. lavapipe runs these
+// threads in an order of its own, so that no image shows a barrier that is missing.
 //
 // What it does not see: memory that threads of a workgroup share in buffers.
 #include <gmock/gmock.h>
@@ -52,7 +52,8 @@ TEST(WorkgroupRaces, AppearWhereAnyBarrierIsLeftOut) {
     }
   }
   EXPECT_GT(barriers, 60u);
-  // The first one of scanExclusive, but where it is called in a loop. In order_tiles, the one behind placeClasses: that one follows.
+  // The first one of scanExclusive, but where it is called in a loop. In order_tiles, the one behind placeClasses: that
+  // one follows.
   EXPECT_THAT(needless, testing::UnorderedElementsAre("compact_cells", "count_tiles", "emit_pairs", "order_tiles",
                                                       "sort_scatter", "sort_scatter_many"));
 }
@@ -71,8 +72,8 @@ TEST(WorkgroupRaces, ArePlacesOfWhichThreadsUseTheSameUnordered) {
   for (const NamedCode& planted : kPlanted) {
     if (!findRaces(planted.code).empty()) found.push_back(planted.name);
   }
-  EXPECT_THAT(found, testing::UnorderedElementsAre("OTHERS_PLACE", "UNKNOWN_PLACE", "LOAD_BEFORE_STORE", "ONE_STORES", "BRANCHES",
-                                                   "ALL_STORE", "ATOMIC_AND_LOAD", "HALVES_WITHOUT_BARRIER",
+  EXPECT_THAT(found, testing::UnorderedElementsAre("OTHERS_PLACE", "UNKNOWN_PLACE", "LOAD_BEFORE_STORE", "ONE_STORES",
+                                                   "BRANCHES", "ALL_STORE", "ATOMIC_AND_LOAD", "HALVES_WITHOUT_BARRIER",
                                                    "ROUNDS_WITHOUT_BARRIER", "SOME_MEET"));
 }
 

@@ -113,9 +113,9 @@ FrothResult Engine::recordFrame(VkCommandBuffer commands) {
   result = call(frothRecordWalkSet, context_, commands, &raysInfo, &set);
   if (result < 0) return result;
   const FrothRenderInfo rasterInfo = renderInfo(rasterImage_), walkInfo = renderInfo(walkImage_);
-  result = call(frothRasterize, context_, view_, commands, &rasterInfo);
+  result = call(frothRecordRaster, context_, view_, commands, &rasterInfo);
   if (result < 0) return result;
-  result = call(frothWalk, context_, view_, commands, &walkInfo);
+  result = call(frothRecordWalk, context_, view_, commands, &walkInfo);
   if (result < 0) return result;
   auto viewStatus = makeStruct<FrothViewStatus>();
   return call(frothGetViewStatus, context_, view_, &viewStatus);
@@ -175,8 +175,7 @@ FrothResult Engine::stop() {
     return given == FROTH_OK;
   };
   if (view_.generation != 0 && !finish(call(frothDestroyView, context_, view_), view_)) return result;
-  if (instance_.generation != 0 && !finish(call(frothDestroyInstance, context_, instance_), instance_))
-    return result;
+  if (instance_.generation != 0 && !finish(call(frothDestroyInstance, context_, instance_), instance_)) return result;
   if (asset_.generation != 0 && !finish(call(frothCloseAsset, context_, asset_), asset_)) return result;
   finish(call(frothDestroyContext, context_, UINT64_MAX), context_);
   return result;

@@ -68,16 +68,14 @@ TEST_P(VulkanFault, InAnyCallGivesItsStatusAndOneMessageAndTheEngineGoesOn) {
   EXPECT_NE(well.raster, std::vector<float>(well.raster.size()));
   const size_t calls = VulkanFaults::calls;
   EXPECT_GT(calls, 100u);
-  const size_t stride =
-      GetParam() == VK_ERROR_OUT_OF_HOST_MEMORY ? 8 : 1;  // goes the way of the other memory
+  const size_t stride = GetParam() == VK_ERROR_OUT_OF_HOST_MEMORY ? 8 : 1;  // goes the way of the other memory
   for (size_t number = 0; number < calls; number += stride) {
     Engine engine(host_.get(), bytes);
     VulkanFaults::arm(number, GetParam());
     ASSERT_TRUE(runScenario(engine, expected)) << VulkanFaults::struck << ", call " << number;
     SCOPED_TRACE(VulkanFaults::struck + ", call " + std::to_string(number));
     EXPECT_NE(VulkanFaults::struck, "");
-    const bool isUnimportant =
-        VulkanFaults::struck == "vkGetQueryPoolResults" && expected != FROTH_ERROR_DEVICE;
+    const bool isUnimportant = VulkanFaults::struck == "vkGetQueryPoolResults" && expected != FROTH_ERROR_DEVICE;
     EXPECT_EQ(engine.messages.size(), isUnimportant ? 0u : 1u);
     for (const Engine::Message& message : engine.messages) {
       EXPECT_EQ(message.code, expected) << message.text;
@@ -126,9 +124,7 @@ void exhaustHostMemory(Host* host) {
   EXPECT_GT(number, 100u);
 }
 
-TEST(HostFault, InAnyAllocationOfANullContextGivesMemoryAndTheEngineGoesOn) {
-  exhaustHostMemory(nullptr);
-}
+TEST(HostFault, InAnyAllocationOfANullContextGivesMemoryAndTheEngineGoesOn) { exhaustHostMemory(nullptr); }
 
 TEST(HostFault, InAnyAllocationOnADeviceGivesMemoryAndTheEngineGoesOn) {
   Result<std::unique_ptr<Host>> host = Host::create({});

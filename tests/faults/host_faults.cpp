@@ -46,35 +46,19 @@ void HostFaults::arm(size_t number) {
   struck = false;
 }
 
-bool HostFaults::hasStruck() {
-  return struck;
-}
-long HostFaults::liveCount() {
-  return live;
-}
-HostFaults::Zone::Zone() {
-  ++zones;
-}
-HostFaults::Zone::~Zone() {
-  --zones;
-}
+bool HostFaults::hasStruck() { return struck; }
+long HostFaults::liveCount() { return live; }
+HostFaults::Zone::Zone() { ++zones; }
+HostFaults::Zone::~Zone() { --zones; }
 
 // Nested pauses go deeper below zero.
-HostFaults::Pause::Pause() {
-  zones -= 1000;
-}
-HostFaults::Pause::~Pause() {
-  zones += 1000;
-}
+HostFaults::Pause::Pause() { zones -= 1000; }
+HostFaults::Pause::~Pause() { zones += 1000; }
 
 }  // namespace froth::test
 
-void* operator new(size_t size) {
-  return froth::test::allocate(size);
-}
-void* operator new[](size_t size) {
-  return froth::test::allocate(size);
-}
+void* operator new(size_t size) { return froth::test::allocate(size); }
+void* operator new[](size_t size) { return froth::test::allocate(size); }
 // The nothrow forms too: a sanitizer brings its own, which know nothing of headers.
 void* operator new(size_t size, const std::nothrow_t&) noexcept {
   try {
@@ -83,24 +67,10 @@ void* operator new(size_t size, const std::nothrow_t&) noexcept {
     return nullptr;
   }
 }
-void* operator new[](size_t size, const std::nothrow_t& tag) noexcept {
-  return operator new(size, tag);
-}
-void operator delete(void* memory) noexcept {
-  froth::test::release(memory);
-}
-void operator delete[](void* memory) noexcept {
-  froth::test::release(memory);
-}
-void operator delete(void* memory, size_t) noexcept {
-  froth::test::release(memory);
-}
-void operator delete[](void* memory, size_t) noexcept {
-  froth::test::release(memory);
-}
-void operator delete(void* memory, const std::nothrow_t&) noexcept {
-  froth::test::release(memory);
-}
-void operator delete[](void* memory, const std::nothrow_t&) noexcept {
-  froth::test::release(memory);
-}
+void* operator new[](size_t size, const std::nothrow_t& tag) noexcept { return operator new(size, tag); }
+void operator delete(void* memory) noexcept { froth::test::release(memory); }
+void operator delete[](void* memory) noexcept { froth::test::release(memory); }
+void operator delete(void* memory, size_t) noexcept { froth::test::release(memory); }
+void operator delete[](void* memory, size_t) noexcept { froth::test::release(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { froth::test::release(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { froth::test::release(memory); }

@@ -25,12 +25,8 @@ bool strikes(const char* name) {
   return isIt;
 }
 
-bool isCreation(std::string_view name) {
-  return name.starts_with("vkCreate") || name == "vkAllocateMemory";
-}
-bool isDestruction(std::string_view name) {
-  return name.starts_with("vkDestroy") || name == "vkFreeMemory";
-}
+bool isCreation(std::string_view name) { return name.starts_with("vkCreate") || name == "vkAllocateMemory"; }
+bool isDestruction(std::string_view name) { return name.starts_with("vkDestroy") || name == "vkFreeMemory"; }
 
 // The handle that a creation wrote, the one that a destruction takes.
 template <class... Args>
@@ -46,8 +42,7 @@ template <class... Args>
 void* takenBy(Args... args) {
   if constexpr (sizeof...(Args) >= 2) {
     const auto second = std::get<1>(std::make_tuple(args...));
-    if constexpr (std::is_pointer_v<decltype(second)>)
-      return const_cast<void*>(static_cast<const void*>(second));
+    if constexpr (std::is_pointer_v<decltype(second)>) return const_cast<void*>(static_cast<const void*>(second));
   }
   return nullptr;
 }
@@ -96,8 +91,7 @@ std::map<void*, std::string> moduleCodes;
 std::map<void*, int> uses;  // of kept pipelines
 
 VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
-                                                  const VkAllocationCallbacks* allocator,
-                                                  VkShaderModule* module) {
+                                                  const VkAllocationCallbacks* allocator, VkShaderModule* module) {
   const HostFaults::Pause pause;
   const VkResult result =
       Hook<Tag_vkCreateShaderModule, PFN_vkCreateShaderModule>::call(device, info, allocator, module);
@@ -109,13 +103,13 @@ VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShade
 
 VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                       const VkComputePipelineCreateInfo* info,
-                                                      const VkAllocationCallbacks* allocator,
-                                                      VkPipeline* pipeline) {
+                                                      const VkAllocationCallbacks* allocator, VkPipeline* pipeline) {
   const HostFaults::Pause pause;
   if (strikes("vkCreateComputePipelines")) return armedCode;
   std::string key = moduleCodes[info->stage.module];
-  if (const VkSpecializationInfo* constants = info->stage.pSpecializationInfo)
+  if (const VkSpecializationInfo* constants = info->stage.pSpecializationInfo) {
     key.append(static_cast<const char*>(constants->pData), constants->dataSize);
+  }
   VkPipeline& kept = keptPipelines[key];
   if (!kept) {
     const VkResult result = Hook<Tag_vkCreateComputePipelines, PFN_vkCreateComputePipelines>::real(
@@ -157,8 +151,7 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* nam
 }  // namespace
 
 PFN_vkVoidFunction VKAPI_CALL VulkanFaults::getInstanceProcAddr(VkInstance instance, const char* name) {
-  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
-    return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
+  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
   const HostFaults::Pause pause;
   return vkGetInstanceProcAddr(instance, name);
 }
@@ -170,9 +163,7 @@ void VulkanFaults::arm(size_t number, VkResult code) {
   armedCode = code;
 }
 
-void VulkanFaults::disarm() {
-  armedNumber = SIZE_MAX;
-}
+void VulkanFaults::disarm() { armedNumber = SIZE_MAX; }
 
 void VulkanFaults::clear(VkDevice device) {
   for (const auto& [key, pipeline] : keptPipelines) vkDestroyPipeline(device, pipeline, nullptr);

@@ -22,11 +22,10 @@ struct VulkanFaults {
   static void arm(size_t number, VkResult code);
   static void disarm();
 
-  static size_t calls;        // that can fail, since arm()
-  static std::string struck;  // the call that was made to fail; empty: none
-  static std::map<void*, std::string>
-      live;  // objects and memory that are not destroyed, and the calls that made them
-  static std::vector<std::string> misuse;  // destroyed twice, or never made
+  static size_t calls;                       // that can fail, since arm()
+  static std::string struck;                 // the call that was made to fail; empty: none
+  static std::map<void*, std::string> live;  // objects and memory that are not destroyed, and the calls that made them
+  static std::vector<std::string> misuse;    // destroyed twice, or never made
 };
 
 }  // namespace froth::test

@@ -22,8 +22,7 @@ template <class Real>
 glm::vec<3, Real> blend(const std::vector<Lobe<Real>>& lobes) {
   Real largest = lobes[0].exponent, weightSum = 0;
   glm::vec<3, Real> colourSum(0);
-  for (const Lobe<Real>& lobe : lobes)
-    foam::addLobe(lobe.exponent, lobe.colour, largest, weightSum, colourSum);
+  for (const Lobe<Real>& lobe : lobes) foam::addLobe(lobe.exponent, lobe.colour, largest, weightSum, colourSum);
   return foam::lobeColour(glm::vec<3, Real>(0), weightSum, colourSum);
 }
 
@@ -71,8 +70,7 @@ TYPED_TEST(AppearanceMathematics, ALobeIsStrongestAlongItsAxisAndSharperWhenHot)
   using Vec3 = glm::vec<3, TypeParam>;
   EXPECT_EQ(foam::lobeExponent(Vec3(0, 0, 3), Vec3(0, 0, 1)), TypeParam(0));
   EXPECT_NEAR(foam::lobeExponent(Vec3(0, 0, 3), Vec3(0, 0, -1)), -6, 10 * this->kEpsilon);
-  EXPECT_NEAR(foam::lobeExponent(Vec3(500, 0, 0), Vec3(0, 1, 0)), -500 * std::sqrt(2.0),
-              2000 * this->kEpsilon);
+  EXPECT_NEAR(foam::lobeExponent(Vec3(500, 0, 0), Vec3(0, 1, 0)), -500 * std::sqrt(2.0), 2000 * this->kEpsilon);
   EXPECT_EQ(foam::lobeExponent(Vec3(0, 0, 0), Vec3(0, 1, 0)),
             TypeParam(0));  // no axis: the same from everywhere
 }
@@ -88,8 +86,7 @@ TYPED_TEST(AppearanceMathematics, BlendedLobesAreTheirWeightedMeanAboutOneHalf) 
       const double weight = std::exp(-glm::length(axis) * glm::length(direction - glm::normalize(axis)));
       sum += weight * colour;
       weightSum += weight;
-      lobes.push_back(
-          {foam::lobeExponent(glm::vec<3, TypeParam>(axis), glm::vec<3, TypeParam>(direction)), colour});
+      lobes.push_back({foam::lobeExponent(glm::vec<3, TypeParam>(axis), glm::vec<3, TypeParam>(direction)), colour});
     }
     const glm::dvec3 expected = 0.5 + sum / weightSum;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(blend(lobes)[c], expected[c], 200 * this->kEpsilon);

@@ -43,9 +43,7 @@ TYPED_TEST(CellMathematics, NearTestsLookAtTheRatioToTheRadiusAndAtTheDepthOfThe
 TYPED_TEST(CellMathematics, ARayMeetsABallAheadAroundOrNotAtAll) {
   using Vec3 = glm::vec<3, TypeParam>;
   TypeParam tNear, tFar;
-  const auto meets = [&](Vec3 centre) {
-    return foam::intersectBall(centre, TypeParam(2), Vec3(0, 0, 1), tNear, tFar);
-  };
+  const auto meets = [&](Vec3 centre) { return foam::intersectBall(centre, TypeParam(2), Vec3(0, 0, 1), tNear, tFar); };
   EXPECT_TRUE(meets({0, 0, 5}));
   EXPECT_EQ(tNear, TypeParam(3));
   EXPECT_EQ(tFar, TypeParam(7));
@@ -91,8 +89,7 @@ TYPED_TEST(CellMathematics, PointsOfTheRadicalPlaneHaveEqualPowers) {
     const double powerJ = glm::dot(foot - glm::dvec3(d), foot - glm::dvec3(d)) - double(rj) * rj;
     EXPECT_NEAR(powerI, powerJ, 40 * this->kEpsilon);
     // Seen from the other side the two offsets share |d|^2 between them.
-    EXPECT_NEAR(double(m) + double(foam::radicalOffset(-d, rj, ri)), double(glm::dot(d, d)),
-                40 * this->kEpsilon);
+    EXPECT_NEAR(double(m) + double(foam::radicalOffset(-d, rj, ri)), double(glm::dot(d, d)), 40 * this->kEpsilon);
   }
   EXPECT_EQ(foam::radicalOffset(Vec3(2, 0, 0), TypeParam(1), TypeParam(1)), TypeParam(2));
 }
@@ -101,8 +98,8 @@ TYPED_TEST(CellMathematics, ClearanceIsPositiveOnTheCellsSide) {
   using Vec3 = glm::vec<3, TypeParam>;
   const Vec3 toNeighbour(2, 0, 0);
   const TypeParam offset =
-      foam::radicalOffset(toNeighbour, TypeParam(1), TypeParam(1));          // the plane lies 1 past the site
-  EXPECT_GT(foam::radicalClearance(Vec3(5, 0, 0), toNeighbour, offset), 0);  // origin 6 before the plane
+      foam::radicalOffset(toNeighbour, TypeParam(1), TypeParam(1));           // the plane lies 1 past the site
+  EXPECT_GT(foam::radicalClearance(Vec3(5, 0, 0), toNeighbour, offset), 0);   // origin 6 before the plane
   EXPECT_LT(foam::radicalClearance(Vec3(-5, 0, 0), toNeighbour, offset), 0);  // origin past it
   EXPECT_EQ(foam::radicalClearance(Vec3(-1, 3, 7), toNeighbour, offset), 0);  // origin on it
 }
@@ -118,10 +115,10 @@ TYPED_TEST(CellMathematics, APlaneLowersTheEndRaisesTheStartOrEmptiesAParallelRa
   EXPECT_EQ(clip(-3, -1), std::pair(3.0, 5.0));
   EXPECT_EQ(clip(3, -1), std::pair(1.0, 5.0));
   EXPECT_EQ(clip(1, 0), std::pair(1.0, 5.0));
-  EXPECT_EQ(clip(0, 0), std::pair(1.0, 5.0));   // in the plane itself: the first of the two cells owns it,
+  EXPECT_EQ(clip(0, 0), std::pair(1.0, 5.0));         // in the plane itself: the first of the two cells owns it,
   EXPECT_EQ(clip(0, 0, false), std::pair(1.0, 1.0));  // and the other does not
-  EXPECT_EQ(clip(-1, 0), std::pair(1.0, 1.0));  // parallel on the neighbour's side
-  const auto [tNear, tFar] = clip(-1, 1);       // behind the origin: nothing is left
+  EXPECT_EQ(clip(-1, 0), std::pair(1.0, 1.0));        // parallel on the neighbour's side
+  const auto [tNear, tFar] = clip(-1, 1);             // behind the origin: nothing is left
   EXPECT_GE(tNear, tFar);
 }
 
@@ -186,8 +183,8 @@ TYPED_TEST(CellMathematics, RoundingNeverHidesAnExitFromAnEyeOnThePlane) {
     const TypeParam radius = TypeParam(this->uniform(0.1, 1));
     // In every other case the radii cancel the distance in the offset, and the eye lies close to the site.
     const bool isCancelling = i % 2 == 0;
-    const TypeParam other =
-        isCancelling ? std::sqrt(radius * radius + glm::dot(toNeighbour, toNeighbour)) : TypeParam(this->uniform(0.1, 1));
+    const TypeParam other = isCancelling ? std::sqrt(radius * radius + glm::dot(toNeighbour, toNeighbour))
+                                         : TypeParam(this->uniform(0.1, 1));
     const Exact3 d(toNeighbour), aside = glm::cross(d, Exact3(this->point(isCancelling ? 1e-3 : 1)));
     const long double r = radius, s = other;
     const long double exactOffset = (glm::dot(d, d) + (r - s) * (r + s)) / 2;
@@ -195,8 +192,8 @@ TYPED_TEST(CellMathematics, RoundingNeverHidesAnExitFromAnEyeOnThePlane) {
     const Vec3 centre(aside - d * (exactOffset / glm::dot(d, d) + beyond));
     const long double exact = exactOffset + glm::dot(d, Exact3(centre));
     const TypeParam offset = foam::radicalOffset(toNeighbour, radius, other);
-    const TypeParam clearance = foam::exitClearance(centre, toNeighbour, offset,
-                                                    foam::radicalClearance(centre, toNeighbour, offset));
+    const TypeParam clearance =
+        foam::exitClearance(centre, toNeighbour, offset, foam::radicalClearance(centre, toNeighbour, offset));
     if (exact >= 0) {
       EXPECT_GE(clearance, TypeParam(0)) << i;
     }
@@ -218,7 +215,8 @@ TYPED_TEST(CellMathematics, OfTwoCellsOneOwnsARayInTheirPlaneAndTheirPlanesHaveT
   for (int i = 0; i < 2000; ++i) {
     const Vec3 centre(this->point(3)), other(this->point(3)), d = other - centre;
     const TypeParam ri = TypeParam(this->uniform(0.5, 2)), rj = TypeParam(this->uniform(0.5, 2));
-    const TypeParam own = foam::sharedClearance(centre, other, d, ri, rj), its = foam::sharedClearance(other, centre, -d, rj, ri);
+    const TypeParam own = foam::sharedClearance(centre, other, d, ri, rj),
+                    its = foam::sharedClearance(other, centre, -d, rj, ri);
     EXPECT_EQ(own, -its);
     EXPECT_NE(foam::comesFirst(d), foam::comesFirst(-d));
     EXPECT_EQ(foam::eyePlane(d, own, own >= 0), foam::eyePlane(-d, its, its > 0));
@@ -228,7 +226,8 @@ TYPED_TEST(CellMathematics, OfTwoCellsOneOwnsARayInTheirPlaneAndTheirPlanesHaveT
   EXPECT_GT(differs, 1000);  // each from its own site they round apart
 }
 
-// A site moved by one unit in the last place lies farther or nearer, where a dot product of one number shows no difference.
+// A site moved by one unit in the last place lies farther or nearer, where a dot product of one number shows no
+// difference.
 TYPED_TEST(CellMathematics, TheOrderAlongARayTellsSitesApartThatNearlyCoincide) {
   using Vec3 = glm::vec<3, TypeParam>;
   const TypeParam infinity = std::numeric_limits<TypeParam>::infinity();

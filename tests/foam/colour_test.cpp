@@ -17,10 +17,8 @@ TYPED_TEST(ColourMathematics, TheCurveIsThatOfSrgb) {
   EXPECT_NEAR(foam::linearFromDisplay(TypeParam(1)), 1, 4 * this->kEpsilon);
   EXPECT_NEAR(foam::displayFromLinear(TypeParam(0.5)), 0.73535698, 1e-6);
   // The two branches meet.
-  EXPECT_NEAR(foam::linearFromDisplay(TypeParam(0.04045)), foam::linearFromDisplay(TypeParam(0.040451)),
-              1e-6);
-  EXPECT_NEAR(foam::displayFromLinear(TypeParam(0.0031308)), foam::displayFromLinear(TypeParam(0.003131)),
-              1e-5);
+  EXPECT_NEAR(foam::linearFromDisplay(TypeParam(0.04045)), foam::linearFromDisplay(TypeParam(0.040451)), 1e-6);
+  EXPECT_NEAR(foam::displayFromLinear(TypeParam(0.0031308)), foam::displayFromLinear(TypeParam(0.003131)), 1e-5);
 }
 
 TYPED_TEST(ColourMathematics, DecodingUndoesEncodingPastWhiteToo) {

@@ -41,10 +41,9 @@ TYPED_TEST(CompositingMathematics, TheSeriesOfTheShadersIsAsGoodAsFloatBelowOneS
 
 TYPED_TEST(CompositingMathematics, AtTheQuantileDistanceTransmittanceIsTheQuantile) {
   for (int i = 0; i < 100; ++i) {
-    const double before = this->uniform(0.5, 1), density = this->uniform(0.01, 100),
-                 tNear = this->uniform(0, 10);
-    const TypeParam t = foam::quantileDistance(TypeParam(tNear), TypeParam(std::log(before)),
-                                               TypeParam(std::log(0.5)), TypeParam(density));
+    const double before = this->uniform(0.5, 1), density = this->uniform(0.01, 100), tNear = this->uniform(0, 10);
+    const TypeParam t = foam::quantileDistance(TypeParam(tNear), TypeParam(std::log(before)), TypeParam(std::log(0.5)),
+                                               TypeParam(density));
     EXPECT_GE(t, TypeParam(tNear));
     const double slack = 20 * this->kEpsilon * (1 + density * (tNear + 1));
     EXPECT_NEAR(before * std::exp(-density * (double(t) - tNear)), 0.5, slack);

@@ -14,9 +14,7 @@ class InBothPrecisions : public ::testing::Test {
  protected:
   static constexpr double kEpsilon = std::numeric_limits<Real>::epsilon();
 
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   glm::dvec3 point(double extent) {
     return {uniform(-extent, extent), uniform(-extent, extent), uniform(-extent, extent)};
   }

@@ -17,14 +17,15 @@ TYPED_TEST(ToneMathematics, EachCurveTurnsItsLightIntoTheColourOfTheDisplay) {
   for (const int curve : {foam::kToneReinhard, foam::kToneAcesNarkowicz, foam::kToneKhronosNeutral}) {
     for (int i = 0; i < 5000; ++i) {
       glm::dvec3 display(this->uniform(0, 0.996), this->uniform(0, 0.996), this->uniform(0, 0.996));
-      if (i % 3 == 0) display *= 0.05;  // the dark
+      if (i % 3 == 0) display *= 0.05;                                                             // the dark
       if (curve == foam::kToneKhronosNeutral) display = khronosNeutral(12.0 * display * display);  // what it can reach
       const glm::dvec3 scene(foam::sceneFromDisplay(curve, Vec3(display)));
       const glm::dvec3 shown = applyToneCurve(curve, scene);
       for (int c = 0; c < 3; ++c) {
         ASSERT_GE(scene[c], 0) << curve;
         ASSERT_LE(scene[c], 255.001) << curve;
-        ASSERT_NEAR(shown[c], display[c], 200 * this->kEpsilon) << curve << ": " << display.x << ", " << display.y << ", " << display.z;
+        ASSERT_NEAR(shown[c], display[c], 200 * this->kEpsilon)
+            << curve << ": " << display.x << ", " << display.y << ", " << display.z;
       }
     }
   }

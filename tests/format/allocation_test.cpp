@@ -41,8 +41,8 @@ TEST(Allocation, OfACodebookThatIsNotThereDoesNotHappen) {
   draft.contents.axisCodebook.resize(65536);
   std::string error;
   EXPECT_LT(largestAllocationOf(draft.assemble(), error), size_t{1} << 16);
-  EXPECT_THAT(error, testing::HasSubstr(
-                         "shared, section 'axis_codebook': raw size 36, but the counts demand 786432 bytes"));
+  EXPECT_THAT(error,
+              testing::HasSubstr("shared, section 'axis_codebook': raw size 36, but the counts demand 786432 bytes"));
 }
 
 // Names and units of all errors are one long string, which lies in the file once.
@@ -53,11 +53,12 @@ std::vector<uint8_t> withSharedStrings() {
   std::vector<uint8_t> bytes = encodeOrFail(contents);
   const fb::Manifest& manifest = *fb::GetManifest(bytes.data() + sizeof(FileHeader));
   const auto* target = reinterpret_cast<const uint8_t*>(manifest.preset());
-  for (const fb::AttributeError* error : *manifest.errors())
+  for (const fb::AttributeError* error : *manifest.errors()) {
     for (const auto field : {fb::AttributeError::VT_NAME, fb::AttributeError::VT_UNIT}) {
       auto* place = const_cast<uint8_t*>(reinterpret_cast<const flatbuffers::Table*>(error)->GetAddressOf(field));
       flatbuffers::WriteScalar(place, static_cast<flatbuffers::uoffset_t>(target - place));
     }
+  }
   return signedAgain(bytes);
 }
 

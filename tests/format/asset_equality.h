@@ -18,6 +18,17 @@ inline bool operator==(const AttributeError& a, const AttributeError& b) {
   return a.name == b.name && a.unit == b.unit && a.rms == b.rms && a.max == b.max;
 }
 
+inline void expectSameEyes(const EyeRegion& a, const EyeRegion& b) {
+  ASSERT_EQ(a.boxes.size(), b.boxes.size());
+  for (size_t i = 0; i < a.boxes.size(); ++i) {
+    EXPECT_EQ(a.boxes[i].min, b.boxes[i].min);
+    EXPECT_EQ(a.boxes[i].max, b.boxes[i].max);
+  }
+  EXPECT_EQ(a.radius, b.radius);
+  EXPECT_EQ(a.worstPsnr, b.worstPsnr);
+  EXPECT_EQ(a.meanPsnr, b.meanPsnr);
+}
+
 inline void expectSameQuantization(const Quantization& a, const Quantization& b) {
   EXPECT_EQ(a.positionStep, b.positionStep);
   EXPECT_EQ(a.radiusBits, b.radiusBits);
@@ -47,6 +58,7 @@ inline void expectSameParameters(const AssetContents& a, const AssetContents& b)
   EXPECT_EQ(a.hasStartView, b.hasStartView);
   EXPECT_TRUE(a.startView == b.startView);
   EXPECT_TRUE(a.flightPath == b.flightPath);
+  expectSameEyes(a.eyes, b.eyes);
 }
 
 inline void expectSameArrays(const ChunkContents& a, const ChunkContents& b) {

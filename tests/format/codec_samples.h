@@ -29,8 +29,9 @@ inline std::vector<uint8_t> randomBytes(size_t count) {
 inline std::vector<LatticePoint> randomPoints(size_t count, uint32_t bits) {
   std::mt19937 random(11);
   std::vector<LatticePoint> points(count);
-  for (LatticePoint& point : points)
+  for (LatticePoint& point : points) {
     for (int32_t& coordinate : point) coordinate = static_cast<int32_t>(random() >> (32 - bits)) - 1000;
+  }
   return points;
 }
 
@@ -54,8 +55,9 @@ inline ChunkContents randomGraph(uint32_t cellCount, bool hasWalkGraph) {
     const uint32_t b = std::min(a + 1 + static_cast<uint32_t>(random() % 30), siteCount - 1);
     if (a == b || alpha[a].count(b) || other[a].count(b)) continue;
     const bool isAlpha = a < chunk.liveCount && random() % 3 == 0;
-    for (const auto& [cell, neighbour] : {std::pair{a, b}, std::pair{b, a}})
+    for (const auto& [cell, neighbour] : {std::pair{a, b}, std::pair{b, a}}) {
       if (cell < cellCount) (isAlpha && cell < chunk.liveCount ? alpha : other)[cell].insert(neighbour);
+    }
   }
   chunk.neighbourOffsets.push_back(0);
   for (uint32_t cell = 0; cell < cellCount; ++cell) {

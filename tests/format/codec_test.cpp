@@ -98,15 +98,13 @@ void expectPositions(const std::vector<LatticePoint>& points, std::vector<uint32
   const Result<EncodedSection> section = encodePositions(raw, runs);
   ASSERT_TRUE(section) << section.error().message;
   EXPECT_LE(section->stored.size(), raw.size());
-  const Result<std::vector<uint8_t>> decoded =
-      decode(section->codec, section->stored, raw.size(), kPositionShape);
+  const Result<std::vector<uint8_t>> decoded = decode(section->codec, section->stored, raw.size(), kPositionShape);
   ASSERT_TRUE(decoded) << decoded.error().message;
   EXPECT_TRUE(std::equal(raw.begin(), raw.end(), decoded->begin()));
 }
 
 TEST(PositionCodec, GivesBackPointsInAnyOrder) {
-  for (const uint32_t bits : {1u, 8u, 16u, 21u, 22u, 32u})
-    expectPositions(randomPoints(3000, bits), {2000, 1000});
+  for (const uint32_t bits : {1u, 8u, 16u, 21u, 22u, 32u}) expectPositions(randomPoints(3000, bits), {2000, 1000});
   expectPositions({{INT32_MIN, 0, INT32_MAX}}, {1});
   expectPositions({{INT32_MIN, 0, 5}, {INT32_MAX, -1, 5}}, {1, 1});
   expectPositions(std::vector<LatticePoint>(1000, {4, 5, 6}), {1000});
@@ -148,14 +146,16 @@ class HostileCodec : public testing::TestWithParam<SectionCodec> {};
 TEST_P(HostileCodec, RefusesEveryTruncation) {
   const EncodedSection section = sectionIn(GetParam());
   const std::span<const uint8_t> stored = section.stored;
-  for (size_t size = 0; size < stored.size(); ++size)
+  for (size_t size = 0; size < stored.size(); ++size) {
     EXPECT_FALSE(decode(section.codec, stored.first(size), 600, kPositionShape)) << size;
+  }
 }
 
 TEST_P(HostileCodec, RefusesAnotherCount) {
   const EncodedSection section = sectionIn(GetParam());
-  for (const size_t points : {1u, 49u, 51u, 100000u})
+  for (const size_t points : {1u, 49u, 51u, 100000u}) {
     EXPECT_FALSE(decode(section.codec, section.stored, points * 12, kPositionShape)) << points;
+  }
 }
 
 TEST_P(HostileCodec, RefusesBytesBehindUnlessTheyAreZero) {
@@ -175,26 +175,21 @@ TEST_P(HostileCodec, RefusesOrDecodesEveryFlippedBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Codecs, HostileCodec,
-                         testing::Values(SectionCodec::kMortonDelta, SectionCodec::kDraco));
+INSTANTIATE_TEST_SUITE_P(Codecs, HostileCodec, testing::Values(SectionCodec::kMortonDelta, SectionCodec::kDraco));
 
 TEST(Codec, RefusesAWrongShapeOrAnUnknownCodec) {
   const EncodedSection section = sectionIn(SectionCodec::kDraco);
   const std::vector<uint8_t> bytes(12);
-  EXPECT_THAT(decode(section.codec, section.stored, 600, {4, 1}).error().message,
-              HasSubstr("positions only"));
+  EXPECT_THAT(decode(section.codec, section.stored, 600, {4, 1}).error().message, HasSubstr("positions only"));
   EXPECT_THAT(decode(SectionCodec{6}, bytes, 12, {4, 1}).error().message, HasSubstr("codec 6 is unknown"));
-  EXPECT_THAT(decode(SectionCodec::kStored, bytes, 12, {4, 4}).error().message,
-              HasSubstr("no whole entries"));
-  EXPECT_THAT(decode(SectionCodec::kStored, bytes, 8, {4, 1}).error().message,
-              HasSubstr("stored as they are"));
+  EXPECT_THAT(decode(SectionCodec::kStored, bytes, 12, {4, 4}).error().message, HasSubstr("no whole entries"));
+  EXPECT_THAT(decode(SectionCodec::kStored, bytes, 8, {4, 1}).error().message, HasSubstr("stored as they are"));
 }
 
 TEST(Codec, RefusesDracoThatExpandsTooMuch) {
   const EncodedSection section = sectionIn(SectionCodec::kDraco);
   const size_t rawSize = (section.stored.size() * kMaxDracoExpansion / 12 + 1) * 12;
-  EXPECT_THAT(decode(section.codec, section.stored, rawSize, kPositionShape).error().message,
-              HasSubstr("less than"));
+  EXPECT_THAT(decode(section.codec, section.stored, rawSize, kPositionShape).error().message, HasSubstr("less than"));
 }
 
 }  // namespace

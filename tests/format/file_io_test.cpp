@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 #include "asset_equality.h"
-#include "file_surgery.h"
 #include "base/atomic_file.h"
+#include "file_surgery.h"
 #include "format/read/asset_reader.h"
 #include "format/write/asset_writer.h"
 #include "sample_asset.h"
@@ -49,9 +49,7 @@ template <class T>
 std::string errorOf(const Result<T>& result) {
   return result ? "no error" : result.error().message;
 }
-std::string errorOf(const Status& status) {
-  return status ? "no error" : status.error().message;
-}
+std::string errorOf(const Status& status) { return status ? "no error" : status.error().message; }
 
 TEST_F(FileIo, WritesANewFileAndReplacesAnOldOne) {
   ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "a", kOld)), "no error");
@@ -94,9 +92,7 @@ TEST_F(FileIo, NamesAFolderThatDoesNotExist) {
   EXPECT_THAT(errorOf(writeFileAtomically(folder_ / "no" / "a", kNew)), HasSubstr("cannot be created"));
 }
 
-fs::perms permissionsOf(const fs::path& path) {
-  return fs::status(path).permissions();
-}
+fs::perms permissionsOf(const fs::path& path) { return fs::status(path).permissions(); }
 
 TEST_F(FileIo, KeepsTheRightsOfTheFileThatItReplaces) {
   for (const fs::perms rights : {fs::perms(0600), fs::perms(0664), fs::perms(0755)}) {
@@ -127,7 +123,8 @@ TEST_F(FileIo, ReplacesTheFileThatALinkNames) {
   fs::create_symlink("far/later", folder_ / "dangling");
   ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "first", kNew)), "no error");
   ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "dangling", kNew)), "no error");
-  EXPECT_TRUE(fs::is_symlink(folder_ / "first") && fs::is_symlink(folder_ / "second") && fs::is_symlink(folder_ / "dangling"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "first") && fs::is_symlink(folder_ / "second") &&
+              fs::is_symlink(folder_ / "dangling"));
   EXPECT_EQ(*readFile(folder_ / "far/real"), kNew);
   EXPECT_EQ(*readFile(folder_ / "far/later"), kNew);
   EXPECT_EQ(countFiles(), 4u);
@@ -137,18 +134,17 @@ TEST_F(FileIo, ReplacesTheFileThatALinkNames) {
 [[noreturn]] void writeWhereNothingMayBe(const fs::path& path) {
   constexpr uid_t kNobody = 65534;
   if (::geteuid() == 0 && ::seteuid(kNobody) != 0) std::_Exit(2);
-  const std::string errors[] = {errorOf(writeFileAtomically(path, kNew)),
-                                errorOf(writeAsset(path, makeSampleAsset()))};
-  for (const std::string& error : errors)
-    if (error.find("cannot be created: Permission denied; check folder, rights") == std::string::npos)
-      std::_Exit(1);
+  const std::string errors[] = {errorOf(writeFileAtomically(path, kNew)), errorOf(writeAsset(path, makeSampleAsset()))};
+  for (const std::string& error : errors) {
+    if (error.find("cannot be created: Permission denied; check folder, rights") == std::string::npos) std::_Exit(1);
+  }
   std::_Exit(0);
 }
 
 TEST_F(FileIo, LeavesTheOldFileInAFolderThatCannotBeWritten) {
   ASSERT_EQ(errorOf(writeFileAtomically(folder_ / "a", kOld)), "no error");
-  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
-                               fs::perms::others_exec);
+  fs::permissions(folder_,
+                  fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
   EXPECT_EXIT(writeWhereNothingMayBe(folder_ / "a"), testing::ExitedWithCode(0), "");
   fs::permissions(folder_, fs::perms::owner_all);
   EXPECT_EQ(*readFile(folder_ / "a"), kOld);
@@ -178,8 +174,7 @@ TEST_F(FileIo, WritesNothingForContentsThatAreNoAsset) {
   EXPECT_THAT(errorOf(writeAsset(folder_ / "a.froth", contents)), HasSubstr("cell 1 has radius -1"));
   contents = makeSampleAsset();
   contents.chunks[0].lobeAxes.pop_back();
-  EXPECT_THAT(errorOf(writeAsset(folder_ / "a.froth", contents)),
-              HasSubstr("lobe_axes: 15 entries instead of 16"));
+  EXPECT_THAT(errorOf(writeAsset(folder_ / "a.froth", contents)), HasSubstr("lobe_axes: 15 entries instead of 16"));
   contents = makeSampleAsset();
   contents.chunks.clear();
   EXPECT_THAT(errorOf(writeAsset(folder_ / "a.froth", contents)), HasSubstr("number of chunks is 0"));
@@ -194,10 +189,11 @@ TEST_F(FileIo, ReadsChunksOfAnAssetOnSeveralThreads) {
   fs::remove(folder_ / "a.froth");  // the reader holds the file, not its name
   std::vector<ChunkContents> chunks(4);
   std::vector<std::thread> threads;
-  for (uint32_t i = 0; i < 4; ++i)
+  for (uint32_t i = 0; i < 4; ++i) {
     threads.emplace_back([&, i] {
       if (Result<ChunkContents> chunk = reader->readChunk(i)) chunks[i] = std::move(*chunk);
     });
+  }
   for (std::thread& thread : threads) thread.join();
   for (size_t i = 0; i < 4; ++i) expectSameArrays(chunks[i], contents.chunks[i]);
 }

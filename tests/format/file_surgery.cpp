@@ -42,8 +42,9 @@ fb::Section& sectionAt(std::vector<uint8_t>& bytes, size_t index) {
 }  // namespace
 
 size_t Draft::find(SectionType type, uint32_t chunk) const {
-  for (size_t i = 0; i < records.size(); ++i)
+  for (size_t i = 0; i < records.size(); ++i) {
     if (records[i].type == static_cast<uint32_t>(type) && records[i].chunk == chunk) return i;
+  }
   ADD_FAILURE() << "no section " << sectionName(static_cast<uint32_t>(type));
   return 0;
 }
@@ -80,8 +81,7 @@ std::vector<uint8_t> Draft::assemble() const {
   std::vector<uint8_t> bytes(sizeof(FileHeader));
   const std::vector<uint8_t> manifest = buildManifest(contents, chunks, placed);
   bytes.insert(bytes.end(), manifest.begin(), manifest.end());
-  for (const std::vector<uint8_t>& section : stored)
-    bytes.insert(bytes.end(), section.begin(), section.end());
+  for (const std::vector<uint8_t>& section : stored) bytes.insert(bytes.end(), section.begin(), section.end());
   setHeader(bytes, header);
   signManifest(bytes);
   return bytes;
@@ -90,8 +90,8 @@ std::vector<uint8_t> Draft::assemble() const {
 Draft draftOf(const AssetContents& contents) {
   std::vector<uint8_t> bytes = encodeOrFail(contents);
   const std::span<const uint8_t> packed = manifestOf(bytes);
-  Result<Manifest> manifest = parseManifest({packed.begin(), packed.end()},
-                                            sizeof(FileHeader) + packed.size(), bytes.size(), "draft");
+  Result<Manifest> manifest =
+      parseManifest({packed.begin(), packed.end()}, sizeof(FileHeader) + packed.size(), bytes.size(), "draft");
   Draft draft{contents, manifest->chunks, manifest->sections, {}};
   for (const SectionRecord& record : draft.records) {
     const uint8_t* first = bytes.data() + record.offset;

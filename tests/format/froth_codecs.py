@@ -63,7 +63,8 @@ CHUNK = np.dtype([("origin", "<f8", 3), ("cells", "<u8"), ("live", "<u8"), ("gho
 SECTION = np.dtype([("type", "<u4"), ("chunk", "<u4"), ("flags", "<u2"), ("codec", "<u2"), ("element", "<u2"),
                     ("reserved0", "<u2"), ("base", "<u4"), ("reserved1", "<u4"), ("offset", "<u8"), ("stored", "<u8"),
                     ("raw", "<u8"), ("hash", "<u8")])
-assert CHUNK.itemsize == 112 and SECTION.itemsize == 56
+BOX = np.dtype([("low", "<f8", 3), ("high", "<f8", 3)])
+assert CHUNK.itemsize == 112 and SECTION.itemsize == 56 and BOX.itemsize == 48
 
 
 # ---- Codecs

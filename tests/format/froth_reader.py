@@ -8,7 +8,7 @@ import numpy as np
 import xxhash
 
 from froth_codecs import (
-    CHUNK, decode, join_green, MAX_INDEX, need, on_lattice, quaternions, SECTION, signed, sums_within, Table,
+    BOX, CHUNK, decode, join_green, MAX_INDEX, need, on_lattice, quaternions, SECTION, signed, sums_within, Table,
     truncated_floats)
 
 SHARED = 0xFFFFFFFF  # the chunk of shared sections
@@ -122,6 +122,7 @@ class Asset:
         self.normal_bits = lattices.scalar(3, "I", 0)
         self.detail_site_step, self.height_step, self.colour_step, self.lobe_axis_step = (
             lattices.scalar(field, "f", 0) for field in range(4, 8))
+        self.read_eyes(root)
         self.chunks = root.structs(17, CHUNK)
         for chunk in self.chunks:
             need(within(chunk["origin"], MOST) and within(chunk["low"], 2 * MOST) and within(chunk["high"], 2 * MOST), "chunk")
@@ -131,6 +132,18 @@ class Asset:
             key = int(record["chunk"]), int(record["type"])
             need(key not in self.sections, f"section {key} twice")
             self.sections[key] = record
+
+    def read_eyes(self, root):
+        """The boxes [count x 2 x 3] and the radius of the region of eyes, or None."""
+        eyes = root.table(19)
+        self.eyes = None
+        if eyes is None:
+            return
+        boxes, radius = eyes.structs(0, BOX), eyes.scalar(1, "d", 0)
+        need(len(boxes) > 0 and within(boxes["low"], MOST) and within(boxes["high"], MOST), "eyes: boxes")
+        need(np.all(boxes["low"] <= boxes["high"]), "eyes: a box is inverted")
+        need(all(0 <= eyes.scalar(field, "d", 0) <= MOST for field in (1, 2, 3)), "eyes: radius or figures")
+        self.eyes = np.stack([boxes["low"], boxes["high"]], axis=1), radius
 
     def elements(self, chunk, kind, entries, components):
         """Unsigned elements of a section as [entries x components], or None; and the section's base."""

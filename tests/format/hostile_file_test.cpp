@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "asset_equality.h"
-#include "file_surgery.h"
 #include "base/text.h"
+#include "file_surgery.h"
 #include "format/read/asset_reader.h"
 #include "sample_asset.h"
 
@@ -18,18 +18,13 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 AssetContents smallAsset() {
-  return makeSampleAsset(
-      {.chunkCount = 2, .cellsPerChunk = 3, .localBits = 2, .detailCount = 1, .lobeCount = 1});
+  return makeSampleAsset({.chunkCount = 2, .cellsPerChunk = 3, .localBits = 2, .detailCount = 1, .lobeCount = 1});
 }
 
 // Something of everything, on lattices.
 AssetContents richAsset() {
-  return makeSampleAsset({.chunkCount = 2,
-                          .cellsPerChunk = 9,
-                          .localBits = 4,
-                          .isQuantized = true,
-                          .hasLayers = true,
-                          .codebookSize = 5});
+  return makeSampleAsset(
+      {.chunkCount = 2, .cellsPerChunk = 9, .localBits = 4, .isQuantized = true, .hasLayers = true, .codebookSize = 5});
 }
 
 std::string errorOf(std::span<const uint8_t> bytes) {
@@ -120,19 +115,16 @@ TEST(HostileFile, OfANewerMinorVersionIsRead) {
 
 TEST(HostileFile, IsRefusedWithReservedHeaderBytes) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
-  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.reserved0 = 1; })),
-              HasSubstr("reserved"));
-  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.reserved1 = 1; })),
-              HasSubstr("reserved"));
+  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.reserved0 = 1; })), HasSubstr("reserved"));
+  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.reserved1 = 1; })), HasSubstr("reserved"));
 }
 
 TEST(HostileFile, IsRefusedWithAManifestOutsideTheFile) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
-  for (const uint64_t size :
-       {uint64_t{bytes.size()}, uint64_t{1} << 40, std::numeric_limits<uint64_t>::max()})
+  for (const uint64_t size : {uint64_t{bytes.size()}, uint64_t{1} << 40, std::numeric_limits<uint64_t>::max()}) {
     EXPECT_FALSE(decodeAsset(withHeader(bytes, [&](FileHeader& header) { header.manifestSize = size; })));
-  EXPECT_FALSE(
-      decodeAsset(withHeader(bytes, [](FileHeader& header) { header.manifestOffset = ~uint64_t{0}; })));
+  }
+  EXPECT_FALSE(decodeAsset(withHeader(bytes, [](FileHeader& header) { header.manifestOffset = ~uint64_t{0}; })));
 }
 
 // ---- Manifest ----
@@ -144,24 +136,18 @@ TEST(HostileFile, WithParametersOutOfRangeIsRefusedByTheirNames) {
     edit(changed.contents);
     return errorOf(changed.assemble());
   };
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.detailCount = 33; }),
-              HasSubstr("detail_count is 33, not in 1..32"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 33; }),
-              HasSubstr("lobe_count is 33, not in 0..32"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 0; }),
-              HasSubstr("chunk 0: lobe_count is 2, not in 0..0"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.detailCount = 33; }), HasSubstr("detail_count is 33, not in 1..32"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 33; }), HasSubstr("lobe_count is 33, not in 0..32"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.lobeCount = 0; }), HasSubstr("chunk 0: lobe_count is 2, not in 0..0"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 33; }), HasSubstr("local_bits is 33"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 1; }), HasSubstr("cell_count is 3"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.localBits = 32; }), HasSubstr("number of chunks is 2"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.nearRatio = NAN; }), HasSubstr("near_ratio"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.nearDepth = -1; }), HasSubstr("near_depth is -1"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.detailSharpness = INFINITY; }),
-              HasSubstr("detail_sharpness"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.detailSharpness = INFINITY; }), HasSubstr("detail_sharpness"));
   EXPECT_THAT(errorWith([](AssetContents& c) { c.startView.tanHalfFovY = 0; }), HasSubstr("start_view"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.flightPath[1].worldFromCamera[3] = NAN; }),
-              HasSubstr("flight_path"));
-  EXPECT_THAT(errorWith([](AssetContents& c) { c.axisCodebook.resize(65537); }),
-              HasSubstr("codebook_size is 65537"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.flightPath[1].worldFromCamera[3] = NAN; }), HasSubstr("flight_path"));
+  EXPECT_THAT(errorWith([](AssetContents& c) { c.axisCodebook.resize(65537); }), HasSubstr("codebook_size is 65537"));
 }
 
 TEST(HostileFile, WithParametersOutOfAllReasonIsRefusedByTheirNames) {
@@ -185,8 +171,10 @@ TEST(HostileFile, WithStringsThatAreNoUtf8IsRefused) {
     edit(changed.contents);
     return errorOf(changed.assemble());
   };
-  for (const char* text : {"\x80", "a\xff", "\xc3", "\xc0\xaf", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xf8\x88\x80\x80\x80"}) {
-    EXPECT_THAT(errorWith([&](AssetContents& c) { c.source = text; }), AllOf(HasSubstr("source '"), HasSubstr("no UTF-8")));
+  for (const char* text : {"\x80", "a\xff", "\xc3", "\xc0\xaf", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80",
+                           "\xf8\x88\x80\x80\x80"}) {
+    EXPECT_THAT(errorWith([&](AssetContents& c) { c.source = text; }),
+                AllOf(HasSubstr("source '"), HasSubstr("no UTF-8")));
     EXPECT_THAT(errorWith([&](AssetContents& c) { c.preset = text; }), HasSubstr("preset '"));
     EXPECT_THAT(errorWith([&](AssetContents& c) { c.errors[1].unit = text; }), HasSubstr("errors '"));
   }
@@ -205,18 +193,14 @@ TEST(HostileFile, WithALatticeThatIsNoneIsRefused) {
     edit(changed.contents.quantization);
     return errorOf(changed.assemble());
   };
-  EXPECT_THAT(errorWith([](Quantization& q) { q.radiusBits = 0; }),
-              HasSubstr("radius_bits is 0, not in 1..23"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.radiusBits = 0; }), HasSubstr("radius_bits is 0, not in 1..23"));
   EXPECT_THAT(errorWith([](Quantization& q) { q.densityBits = 24; }), HasSubstr("density_bits is 24"));
-  EXPECT_THAT(errorWith([](Quantization& q) { q.normalBits = 3; }),
-              HasSubstr("normal_bits is 3, not in 4..15"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.normalBits = 3; }), HasSubstr("normal_bits is 3, not in 4..15"));
   EXPECT_THAT(errorWith([](Quantization& q) { q.positionStep = 0.3; }), HasSubstr("position_step is 0.3"));
-  EXPECT_THAT(errorWith([](Quantization& q) { q.detailSiteStep = -0.5f; }),
-              HasSubstr("detail_site_step is -0.5"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.detailSiteStep = -0.5f; }), HasSubstr("detail_site_step is -0.5"));
   EXPECT_THAT(errorWith([](Quantization& q) { q.heightStep = NAN; }), HasSubstr("height_step is nan"));
   EXPECT_THAT(errorWith([](Quantization& q) { q.colourStep = 0x1p61f; }), HasSubstr("colour_step"));
-  EXPECT_THAT(errorWith([](Quantization& q) { q.lobeAxisStep = INFINITY; }),
-              HasSubstr("lobe_axis_step is inf"));
+  EXPECT_THAT(errorWith([](Quantization& q) { q.lobeAxisStep = INFINITY; }), HasSubstr("lobe_axis_step is inf"));
 }
 
 // The error that an edit of the first chunk's record leads to.
@@ -238,11 +222,9 @@ TEST(HostileFile, WithAbsurdCountsIsRefusedByTheirNames) {
               HasSubstr("pair_count is 1000000000000"));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.lobes = kTrillion; }),
               HasSubstr("lobe_count is 1000000000000"));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.live = 10; }),
-              HasSubstr("live_count is 10, not in 0..9"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.live = 10; }), HasSubstr("live_count is 10, not in 0..9"));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.cells = 0; }), HasSubstr("cell_count"));
-  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.lobes = 25; }),
-              HasSubstr("lobe_count is 25, not in 0..24"));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { c.counts.lobes = 25; }), HasSubstr("lobe_count is 25, not in 0..24"));
 }
 
 TEST(HostileFile, WithAnOriginOffTheGridOrNotFiniteIsRefused) {
@@ -257,9 +239,8 @@ TEST(HostileFile, WithAnOriginOffTheGridOrNotFiniteIsRefused) {
 }
 
 TEST(HostileFile, IsRefusedIfTheCountsDoNotFitTheSections) {
-  EXPECT_THAT(
-      errorWithChunk([](ChunkIndex& c) { ++c.counts.cells; }),
-      AllOf(HasSubstr("section 'sites'"), HasSubstr("raw size 108, but the counts demand 120 bytes")));
+  EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.cells; }),
+              AllOf(HasSubstr("section 'sites'"), HasSubstr("raw size 108, but the counts demand 120 bytes")));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.ghosts; }), HasSubstr("section 'ghost_sites'"));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.pairs; }), HasSubstr("section 'graph_deltas'"));
   EXPECT_THAT(errorWithChunk([](ChunkIndex& c) { ++c.counts.lobes; }), HasSubstr("section 'lobe_labels'"));
@@ -279,17 +260,15 @@ TEST(HostileFile, IsRefusedIfItsManifestIsNone) {
 struct SectionEdit {
   fb::Section& section;
   void operator()(uint64_t offset, uint64_t storedSize, uint64_t rawSize) {
-    section =
-        fb::Section(section.type(), section.chunk(), section.flags(), section.codec(), section.element_size(),
-                    0, section.base(), 0, offset, storedSize, rawSize, section.hash());
+    section = fb::Section(section.type(), section.chunk(), section.flags(), section.codec(), section.element_size(), 0,
+                          section.base(), 0, offset, storedSize, rawSize, section.hash());
   }
 };
 
 TEST(HostileFile, IsRefusedIfASectionLiesOutsideIt) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
   const auto errorAt = [&](uint64_t offset, uint64_t size) {
-    return errorOf(
-        withSection(bytes, 3, [&](fb::Section& s) { SectionEdit{s}(offset, size, s.raw_size()); }));
+    return errorOf(withSection(bytes, 3, [&](fb::Section& s) { SectionEdit{s}(offset, size, s.raw_size()); }));
   };
   EXPECT_THAT(errorAt(bytes.size() - 1, 2), HasSubstr("beyond the file's"));
   EXPECT_THAT(errorAt(~uint64_t{0}, 8), HasSubstr("beyond the file's"));
@@ -299,19 +278,19 @@ TEST(HostileFile, IsRefusedIfASectionLiesOutsideIt) {
 TEST(HostileFile, IsRefusedIfSectionsOverlap) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
   for (const uint64_t shift : {uint64_t{1}, bytes.size() / 2}) {
-    const std::vector<uint8_t> moved = withSection(bytes, 20, [&](fb::Section& s) {
-      SectionEdit{s}(s.offset() - shift, s.stored_size(), s.raw_size());
-    });
+    const std::vector<uint8_t> moved = withSection(
+        bytes, 20, [&](fb::Section& s) { SectionEdit{s}(s.offset() - shift, s.stored_size(), s.raw_size()); });
     EXPECT_THAT(errorOf(moved), HasSubstr("overlaps"));
   }
 }
 
 TEST(HostileFile, IsRefusedIfASectionsRawSizeLies) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
-  for (const uint64_t rawSize : {uint64_t{0}, uint64_t{35}, uint64_t{40}, uint64_t{1} << 50, ~uint64_t{0}})
-    EXPECT_THAT(errorOf(withSection(
-                    bytes, 0, [&](fb::Section& s) { SectionEdit{s}(s.offset(), s.stored_size(), rawSize); })),
-                HasSubstr("the counts demand 36 bytes"));
+  for (const uint64_t rawSize : {uint64_t{0}, uint64_t{35}, uint64_t{40}, uint64_t{1} << 50, ~uint64_t{0}}) {
+    EXPECT_THAT(
+        errorOf(withSection(bytes, 0, [&](fb::Section& s) { SectionEdit{s}(s.offset(), s.stored_size(), rawSize); })),
+        HasSubstr("the counts demand 36 bytes"));
+  }
 }
 
 TEST(HostileFile, IsRefusedIfASectionExistsTwice) {
@@ -360,8 +339,8 @@ TEST(HostileFile, IsRefusedWithReservedBytesOfASection) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
   const auto errorWith = [&](uint16_t reserved0, uint32_t reserved1) {
     return errorOf(withSection(bytes, 2, [&](fb::Section& s) {
-      s = fb::Section(s.type(), s.chunk(), s.flags(), s.codec(), s.element_size(), reserved0, s.base(), reserved1, s.offset(),
-                      s.stored_size(), s.raw_size(), s.hash());
+      s = fb::Section(s.type(), s.chunk(), s.flags(), s.codec(), s.element_size(), reserved0, s.base(), reserved1,
+                      s.offset(), s.stored_size(), s.raw_size(), s.hash());
     }));
   };
   EXPECT_EQ(errorWith(0, 0), "no error");
@@ -375,8 +354,7 @@ TEST(HostileFile, IsRefusedWithAnUnknownCodecOrChunk) {
   EXPECT_THAT(errorOf(draft.assemble()), HasSubstr("unknown codec 6"));
   draft = draftOf(smallAsset());
   draft.records[0].chunk = 17;
-  EXPECT_THAT(errorOf(draft.assemble()),
-              AllOf(HasSubstr("chunk 17, section 'sites'"), HasSubstr("there are 2")));
+  EXPECT_THAT(errorOf(draft.assemble()), AllOf(HasSubstr("chunk 17, section 'sites'"), HasSubstr("there are 2")));
 }
 
 TEST(HostileFile, IsRefusedWithElementsOfAnotherSizeOrABase) {
@@ -389,8 +367,9 @@ TEST(HostileFile, IsRefusedWithElementsOfAnotherSizeOrABase) {
     record.base = base;
     return errorOf(changed.assemble());
   };
-  for (const uint32_t size : {0u, 3u, 8u, 65535u})
+  for (const uint32_t size : {0u, 3u, 8u, 65535u}) {
     EXPECT_THAT(errorWith(SectionType::kRadii, size, 0), HasSubstr("section 'radii': elements of"));
+  }
   EXPECT_THAT(errorWith(SectionType::kSites, 2, 0), HasSubstr("section 'sites': elements of 2 bytes"));
   EXPECT_THAT(errorWith(SectionType::kGraphDeltas, 4, 0), HasSubstr("'graph_deltas': elements of 4 bytes"));
   EXPECT_THAT(errorWith(SectionType::kBaseColours, 1, 7), HasSubstr("base is 7, these elements have none"));

@@ -42,8 +42,7 @@ std::vector<Element> elementsOf(const AssetContents& contents, SectionType type)
   std::vector<Element> elements(record.rawSize / sizeof(Element));
   const std::span<uint8_t> raw{reinterpret_cast<uint8_t*>(elements.data()), record.rawSize};
   const uint32_t components = sectionComponents(type, contents.quantization);
-  const Status status =
-      decodeSection(record, draft.stored[index], raw, "section", {record.elementSize, components});
+  const Status status = decodeSection(record, draft.stored[index], raw, "section", {record.elementSize, components});
   EXPECT_TRUE(status) << status.error().message;
   return elements;
 }
@@ -57,21 +56,16 @@ std::string errorAfter(const AssetContents& contents, SectionType type, Edit edi
 }
 
 AssetContents quantizedAsset() {
-  return makeSampleAsset({.chunkCount = 2,
-                          .cellsPerChunk = 9,
-                          .localBits = 4,
-                          .isQuantized = true,
-                          .hasLayers = true,
-                          .codebookSize = 5});
+  return makeSampleAsset(
+      {.chunkCount = 2, .cellsPerChunk = 9, .localBits = 4, .isQuantized = true, .hasLayers = true, .codebookSize = 5});
 }
 
 TEST(HostileSection, WithANumberThatIsNotFiniteIsRefusedByPlace) {
   const AssetContents contents = makeSampleAsset();
   EXPECT_THAT(errorAfter<float>(contents, SectionType::kSites, [](auto& sites) { sites[5] = NAN; }),
               AllOf(HasSubstr("scene.froth: chunk 0: sites: number 5 is nan"), HasSubstr("bake")));
-  EXPECT_THAT(
-      errorAfter<float>(contents, SectionType::kLobeAxes, [](auto& axes) { axes.back() = -INFINITY; }),
-      HasSubstr("lobe_axes"));
+  EXPECT_THAT(errorAfter<float>(contents, SectionType::kLobeAxes, [](auto& axes) { axes.back() = -INFINITY; }),
+              HasSubstr("lobe_axes"));
   EXPECT_THAT(errorAfter<float>(contents, SectionType::kDetailHeights, [](auto& h) { h[0] = INFINITY; }),
               HasSubstr("detail_heights"));
 }
@@ -80,12 +74,10 @@ TEST(HostileSection, WithARadiusOrDensityOutOfRangeIsRefused) {
   const AssetContents contents = makeSampleAsset();
   EXPECT_THAT(errorAfter<float>(contents, SectionType::kRadii, [](auto& radii) { radii[3] = 0; }),
               HasSubstr("cell 3 has radius 0, not > 0"));
-  EXPECT_THAT(
-      errorAfter<float>(contents, SectionType::kDensities, [](auto& densities) { densities[1] = -2; }),
-      HasSubstr("cell 1 has density -2, not +0 or more"));
-  EXPECT_THAT(
-      errorAfter<float>(contents, SectionType::kDensities, [](auto& densities) { densities[1] = -0.0f; }),
-      HasSubstr("cell 1 has density -0, not +0 or more"));
+  EXPECT_THAT(errorAfter<float>(contents, SectionType::kDensities, [](auto& densities) { densities[1] = -2; }),
+              HasSubstr("cell 1 has density -2, not +0 or more"));
+  EXPECT_THAT(errorAfter<float>(contents, SectionType::kDensities, [](auto& densities) { densities[1] = -0.0f; }),
+              HasSubstr("cell 1 has density -0, not +0 or more"));
 }
 
 TEST(HostileSection, WithANumberOutOfAllReasonIsRefused) {
@@ -93,9 +85,11 @@ TEST(HostileSection, WithANumberOutOfAllReasonIsRefused) {
   const auto errorWithFirst = [&](SectionType type, float number) {
     return errorAfter<float>(contents, type, [&](auto& numbers) { numbers[0] = number; });
   };
-  for (const SectionType type : {SectionType::kSites, SectionType::kRadii, SectionType::kCellHeights, SectionType::kDetailSites,
-                                 SectionType::kDetailHeights, SectionType::kBaseColours, SectionType::kLobeColours}) {
-    EXPECT_THAT(errorWithFirst(type, 1.2e15f), HasSubstr("number 0 is 1.2e+15, not within +-2^50")) << sectionName(static_cast<uint32_t>(type));
+  for (const SectionType type :
+       {SectionType::kSites, SectionType::kRadii, SectionType::kCellHeights, SectionType::kDetailSites,
+        SectionType::kDetailHeights, SectionType::kBaseColours, SectionType::kLobeColours}) {
+    EXPECT_THAT(errorWithFirst(type, 1.2e15f), HasSubstr("number 0 is 1.2e+15, not within +-2^50"))
+        << sectionName(static_cast<uint32_t>(type));
     EXPECT_EQ(errorWithFirst(type, 1e15f), "no error") << sectionName(static_cast<uint32_t>(type));
   }
   EXPECT_THAT(errorWithFirst(SectionType::kDensities, 3e38f), HasSubstr("number 0 is 3e+38, not within +-2^100"));
@@ -125,8 +119,7 @@ TEST(HostileSection, WithAFrameThatIsNoRotationIsRefused) {
 
 TEST(HostileSection, WithAGhostThatLivesNowhereIsRefused) {
   const auto errorWithGhost = [](size_t ghost, CellRef ref) {
-    return errorAfter<CellRef>(quantizedAsset(), SectionType::kGhostRefs,
-                               [&](auto& refs) { refs[ghost] = ref; });
+    return errorAfter<CellRef>(quantizedAsset(), SectionType::kGhostRefs, [&](auto& refs) { refs[ghost] = ref; });
   };
   EXPECT_THAT(errorWithGhost(8, 2 << 4),
               HasSubstr("section 'ghost_refs': a ghost lives in cell 0 of chunk 2, which is not there"));
@@ -152,9 +145,8 @@ TEST(HostileSection, WithAnIndexOffItsLatticeIsRefused) {
   EXPECT_THAT(errorOfSites(-(1 << 24)), HasSubstr("out of range"));
   EXPECT_THAT(errorOfSites(std::numeric_limits<int32_t>::min()), HasSubstr("out of range"));
   EXPECT_EQ(errorOfSites((1 << 24) - 1), "no error");
-  EXPECT_THAT(
-      errorAfter<uint16_t>(contents, SectionType::kOrientations, [](auto& normals) { normals[3] = 511; }),
-      HasSubstr("section 'orientations': number 2 is out of range"));
+  EXPECT_THAT(errorAfter<uint16_t>(contents, SectionType::kOrientations, [](auto& normals) { normals[3] = 511; }),
+              HasSubstr("section 'orientations': number 2 is out of range"));
   EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kColourScales, [](auto& scales) { scales[2] = 16; }),
               HasSubstr("section 'colour_scales': number 2 is out of range"));
   EXPECT_THAT(errorAfter<uint8_t>(contents, SectionType::kDetailScales, [](auto& scales) { scales[1] = 16; }),
@@ -172,8 +164,7 @@ TEST(HostileSection, WithABaseThatMakesItsNumbersAbsurdIsRefused) {
         std::pair{SectionType::kOrientations, 511u}, std::pair{SectionType::kLobeLabels, 5u}}) {
     Draft draft = draftOf(quantizedAsset());
     draft.records[draft.find(type)].base = base;
-    EXPECT_NE(errorOf(draft.assemble()), "no error")
-        << sectionName(static_cast<uint32_t>(type)) << " + " << base;
+    EXPECT_NE(errorOf(draft.assemble()), "no error") << sectionName(static_cast<uint32_t>(type)) << " + " << base;
   }
 }
 
@@ -218,9 +209,7 @@ std::string errorWithRadiiFrame(const std::vector<uint8_t>& frame) {
   return errorOf(draft.assemble());
 }
 
-std::vector<float> sampleRadii() {
-  return makeSampleAsset().chunks[0].radii;
-}
+std::vector<float> sampleRadii() { return makeSampleAsset().chunks[0].radii; }
 
 TEST(HostileSection, IsReadWithZerosAfterItsFrameAndRefusedWithOtherBytes) {
   std::vector<uint8_t> frame = frameOf(rawBytes(sampleRadii()));
@@ -233,8 +222,7 @@ TEST(HostileSection, IsReadWithZerosAfterItsFrameAndRefusedWithOtherBytes) {
 TEST(HostileSection, IsRefusedIfItsFrameHoldsMoreOrLess) {
   std::vector<float> radii = sampleRadii();
   radii.push_back(1);
-  EXPECT_THAT(errorWithRadiiFrame(frameOf(rawBytes(radii))),
-              HasSubstr("the zstd frame holds 28 bytes instead of 24"));
+  EXPECT_THAT(errorWithRadiiFrame(frameOf(rawBytes(radii))), HasSubstr("the zstd frame holds 28 bytes instead of 24"));
   radii.resize(3);
   EXPECT_THAT(errorWithRadiiFrame(frameOf(rawBytes(radii))), HasSubstr("holds 12 bytes"));
 }

@@ -10,8 +10,8 @@
 #include "asset_dump.h"
 #include "format/read/asset_reader.h"
 #include "format/write/asset_writer.h"
-#include "tests/surroundings.h"
 #include "sample_asset.h"
+#include "tests/surroundings.h"
 
 namespace froth {
 namespace {
@@ -33,10 +33,10 @@ class IndependentReader : public testing::Test {
       ASSERT_TRUE(contents) << contents.error().message;
       writeDump(folder_ / "dump", *contents);
       const std::string layer = std::to_string(static_cast<int>(last));
-      const std::string command = "/usr/bin/python3 -B '" + (test::sourceFolder() / "tests/format/compare_asset.py").string() + "' '" +
-                                  asset.string() + "' --layer " + layer + " --compare '" +
-                                  (folder_ / "dump").string() + "' >'" + (folder_ / "out").string() +
-                                  "' 2>&1";
+      const std::string command = "/usr/bin/python3 -B '" +
+                                  (test::sourceFolder() / "tests/format/compare_asset.py").string() + "' '" +
+                                  asset.string() + "' --layer " + layer + " --compare '" + (folder_ / "dump").string() +
+                                  "' >'" + (folder_ / "out").string() + "' 2>&1";
       const int status = std::system(command.c_str());
       if (WEXITSTATUS(status) == kLeftOut) FROTH_SKIP() << lastLines();
       EXPECT_EQ(status, 0) << asset << ", layer " << layer << ": " << lastLines();
@@ -61,9 +61,7 @@ class IndependentReader : public testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(IndependentReader, AgreesOnAnExactAsset) {
-  expectSame(SampleOptions{.cellsPerChunk = 40});
-}
+TEST_F(IndependentReader, AgreesOnAnExactAsset) { expectSame(SampleOptions{.cellsPerChunk = 40}); }
 
 TEST_F(IndependentReader, AgreesWithoutWhatAnAssetNeedNotHave) {
   expectSame(SampleOptions{.cellsPerChunk = 40, .lobeCount = 0, .hasHeights = false, .hasWalkGraph = false});
@@ -74,12 +72,8 @@ TEST_F(IndependentReader, AgreesOnLatticesAndLayers) {
 }
 
 TEST_F(IndependentReader, AgreesOnChunksWithGhostsAndACodebook) {
-  expectSame(SampleOptions{.chunkCount = 3,
-                           .cellsPerChunk = 30,
-                           .localBits = 8,
-                           .isQuantized = true,
-                           .hasLayers = true,
-                           .codebookSize = 7});
+  expectSame(SampleOptions{
+      .chunkCount = 3, .cellsPerChunk = 30, .localBits = 8, .isQuantized = true, .hasLayers = true, .codebookSize = 7});
 }
 
 TEST_F(IndependentReader, AgreesOnExactChunksWithoutWalkGraph) {

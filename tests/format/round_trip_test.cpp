@@ -19,9 +19,7 @@ AssetContents decode(const std::vector<uint8_t>& bytes, Layer last = Layer::kVie
   return {};
 }
 
-void expectRoundTrip(const AssetContents& contents) {
-  expectSameAsset(decode(encodeOrFail(contents)), contents);
-}
+void expectRoundTrip(const AssetContents& contents) { expectSameAsset(decode(encodeOrFail(contents)), contents); }
 
 TEST(RoundTrip, KeepsEveryBitOfEveryArray) {
   expectRoundTrip(makeSampleAsset());
@@ -57,8 +55,9 @@ TEST(RoundTrip, KeepsAxesThatAreEntriesOfACodebookWithoutLattice) {
 TEST(RoundTrip, KeepsChunksOfDifferentLattices) {
   AssetContents contents = makeSampleAsset({.chunkCount = 2, .localBits = 8});
   contents.quantization.heightStep = 0x1p-6f;  // heights alone lie on a lattice
-  for (ChunkContents& chunk : contents.chunks)
+  for (ChunkContents& chunk : contents.chunks) {
     for (float& height : chunk.detailHeights) height = snapToStep(height, contents.quantization.heightStep);
+  }
   expectRoundTrip(contents);
 }
 
@@ -84,6 +83,7 @@ TEST(RoundTrip, KeepsAnAssetWithoutCameras) {
   contents.flightPath.clear();
   contents.statistics = {};
   contents.errors.clear();
+  contents.eyes = {};
   for (size_t length = 0; length < 16; ++length) {  // moves the empty path through every alignment
     contents.source.assign(length, 'x');
     expectRoundTrip(contents);
@@ -149,9 +149,10 @@ TEST(RoundTrip, LeavesOutArraysThatSayNothing) {
   std::fill(chunk.colourScales.begin(), chunk.colourScales.end(), uint8_t{0});
   std::fill(chunk.detailScales.begin(), chunk.detailScales.end(), uint8_t{0});
   for (const SectionType type :
-       {SectionType::kDetailHeights, SectionType::kCellHeights, SectionType::kDetailSites,
-        SectionType::kBaseColours, SectionType::kColourScales, SectionType::kDetailScales, SectionType::kSolidBalls})
+       {SectionType::kDetailHeights, SectionType::kCellHeights, SectionType::kDetailSites, SectionType::kBaseColours,
+        SectionType::kColourScales, SectionType::kDetailScales, SectionType::kSolidBalls}) {
     EXPECT_EQ(countSections(contents, type), 0u) << sectionName(static_cast<uint32_t>(type));
+  }
   const ChunkContents found = decode(encodeOrFail(contents)).chunks[0];
   EXPECT_TRUE(found.detailHeights.empty());
   EXPECT_TRUE(found.cellHeights.empty());
@@ -184,8 +185,8 @@ TEST(RoundTrip, LeavesOutWhatAxesDifferByFromTheCodebookIfItIsNothing) {
 // ---- Layers ----
 
 TEST(Layers, StandInTheFileInTheirOrder) {
-  const AssetContents contents = makeSampleAsset(
-      {.chunkCount = 3, .localBits = 8, .isQuantized = true, .hasLayers = true, .codebookSize = 4});
+  const AssetContents contents =
+      makeSampleAsset({.chunkCount = 3, .localBits = 8, .isQuantized = true, .hasLayers = true, .codebookSize = 4});
   std::vector<SectionRecord> records = draftOf(contents).records;
   std::sort(records.begin(), records.end(), [](const auto& a, const auto& b) { return a.offset < b.offset; });
   EXPECT_EQ(records[0].chunk, kSharedChunk);
@@ -236,10 +237,11 @@ TEST(Layers, DetailsAreAllButTheLobes) {
 TEST(Layers, BehindTheLastOneAreNotRead) {
   const AssetContents contents = makeSampleAsset({.isQuantized = true, .hasLayers = true, .codebookSize = 4});
   std::vector<uint8_t> bytes = encodeOrFail(contents);
-  for (const SectionRecord& record : draftOf(contents).records)
+  for (const SectionRecord& record : draftOf(contents).records) {
     if (sectionLayer(static_cast<SectionType>(record.type)) == Layer::kViewDependence) {
       std::fill_n(bytes.begin() + static_cast<ptrdiff_t>(record.offset), record.storedSize, uint8_t{0xaa});
     }
+  }
   EXPECT_FALSE(decodeAsset(bytes));
   EXPECT_TRUE(decodeAsset(bytes, Layer::kDetails));
 }

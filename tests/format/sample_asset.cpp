@@ -28,8 +28,9 @@ class Random {
   void fill(std::vector<Vector>& array, size_t size, float step = 0) {
     array.resize(size);
     float* numbers = reinterpret_cast<float*>(array.data());
-    for (size_t i = 0; i < size * (sizeof(Vector) / sizeof(float)); ++i)
+    for (size_t i = 0; i < size * (sizeof(Vector) / sizeof(float)); ++i) {
       numbers[i] = snapToStep((*this)() - 0.5f, step);
+    }
   }
 
  private:
@@ -64,15 +65,16 @@ class ChunkMaker {
     random_.fill(chunk_.orientations, chunk_.liveCount);
     for (glm::vec4& orientation : chunk_.orientations) {
       orientation = glm::normalize(orientation);
-      if (options_.isQuantized)
+      if (options_.isQuantized) {
         orientation = orientationOfNormal(
-            normalIndices({orientation.y, orientation.z, orientation.w}, lattices().normalBits),
-            lattices().normalBits);
+            normalIndices({orientation.y, orientation.z, orientation.w}, lattices().normalBits), lattices().normalBits);
+      }
     }
     if (!options_.hasLayers) return;
     chunk_.cellColours.resize(chunk_.liveCount);
-    for (glm::vec3& colour : chunk_.cellColours)
+    for (glm::vec3& colour : chunk_.cellColours) {
       for (int i = 0; i < 3; ++i) colour[i] = colourOfByte(static_cast<uint8_t>(random_.below(256)));
+    }
     if (options_.hasHeights) random_.fill(chunk_.cellHeights, chunk_.liveCount, lattices().heightStep);
     for (uint32_t i = 0; i < chunk_.liveCount; ++i) chunk_.solidBalls.push_back(makeSolidBall());
     if (!options_.isQuantized) return;
@@ -87,10 +89,12 @@ class ChunkMaker {
     if (options_.hasHeights) random_.fill(chunk_.detailHeights, details_, lattices().heightStep);
     for (size_t i = 0; i < details_ && !chunk_.detailScales.empty(); ++i) {
       const float scale = unitOf(1, chunk_.detailScales, i / options_.detailCount);
-      for (int axis = 0; axis < 2; ++axis)
+      for (int axis = 0; axis < 2; ++axis) {
         chunk_.detailSites[i][axis] = snapToStep(chunk_.detailSites[i][axis], scale * lattices().detailSiteStep);
-      if (options_.hasHeights)
+      }
+      if (options_.hasHeights) {
         chunk_.detailHeights[i] = snapToStep(chunk_.detailHeights[i], scale * lattices().heightStep);
+      }
     }
     if (options_.hasLayers) {
       chunk_.baseColours.resize(details_);
@@ -101,8 +105,7 @@ class ChunkMaker {
   glm::vec3 makeColour(size_t detail) {
     const float unit = unitOf(lattices().colourStep, chunk_.colourScales, detail / options_.detailCount);
     glm::vec3 colour;
-    for (int i = 0; i < 3; ++i)
-      colour[i] = snapToStep(random_() - 0.5f, unit);
+    for (int i = 0; i < 3; ++i) colour[i] = snapToStep(random_() - 0.5f, unit);
     return colour;
   }
 
@@ -116,8 +119,7 @@ class ChunkMaker {
     glm::vec3 axis;
     for (int i = 0; i < 3; ++i) axis[i] = snapToStep(8 * (random_() - 0.5f), lattices().lobeAxisStep);
     if (asset_.axisCodebook.empty()) return axis;
-    const glm::vec3 entry =
-        asset_.axisCodebook[random_.below(static_cast<uint32_t>(asset_.axisCodebook.size()))];
+    const glm::vec3 entry = asset_.axisCodebook[random_.below(static_cast<uint32_t>(asset_.axisCodebook.size()))];
     const bool isBeside = lattices().lobeAxisStep > 0 && random_.below(4) == 0;
     return isBeside ? entry + glm::vec3(0, lattices().lobeAxisStep, 0) : entry;
   }
@@ -178,10 +180,11 @@ void fillGraph(AssetContents& asset, uint32_t index) {
   for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
     const bool isLive = cell < chunk.liveCount;
     const auto isAlpha = [&](uint32_t site) { return isLive && (numberOf(cell) + numberOf(site)) % 2 == 1; };
-    for (const bool wanted : {true, false})
-      for (uint32_t site = 0; site < siteCount; ++site)
-        if (site != cell && isAlpha(site) == wanted && (wanted || asset.hasWalkGraph))
-          chunk.neighbours.push_back(site);
+    for (const bool wanted : {true, false}) {
+      for (uint32_t site = 0; site < siteCount; ++site) {
+        if (site != cell && isAlpha(site) == wanted && (wanted || asset.hasWalkGraph)) chunk.neighbours.push_back(site);
+      }
+    }
     chunk.neighbourOffsets.push_back(static_cast<uint32_t>(chunk.neighbours.size()));
     uint32_t alphaCount = 0;
     for (uint32_t site = 0; site < siteCount; ++site) alphaCount += site != cell && isAlpha(site) ? 1 : 0;
@@ -210,10 +213,15 @@ AssetContents makeSampleAsset(const SampleOptions& options) {
   asset.startView.worldFromCamera = {1, 0, 0, 0.1, 0, 1, 0, 0.2, 0, 0, 1, -3};
   asset.flightPath.assign(2, asset.startView);
   asset.flightPath[1].tanHalfFovY = 0.75;
+  asset.eyes = {.boxes = {{{-1, -2, -3}, {1, 2, 3}}, {{4, 5, 6}, {4, 5, 6}}},
+                .radius = 0.75,
+                .worstPsnr = 38.25,
+                .meanPsnr = 40.5};
   Random random;
   random.fill(asset.axisCodebook, options.codebookSize, 0x1p-10f);
-  for (uint32_t index = 0; index < options.chunkCount; ++index)
+  for (uint32_t index = 0; index < options.chunkCount; ++index) {
     asset.chunks.push_back(ChunkMaker(asset, options, random).make(index));
+  }
   for (uint32_t index = 0; index < options.chunkCount; ++index) {
     addGhosts(asset, index);
     fillGraph(asset, index);

@@ -12,9 +12,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "file_surgery.h"
 #include "base/atomic_file.h"
 #include "base/temporary_file.h"
+#include "file_surgery.h"
 #include "format/read/asset_reader.h"
 #include "format/write/asset_writer.h"
 #include "sample_asset.h"
@@ -30,9 +30,7 @@ template <class T>
 std::string errorOf(const Result<T>& result) {
   return result ? "no error" : result.error().message;
 }
-std::string errorOf(const Status& status) {
-  return status ? "no error" : status.error().message;
-}
+std::string errorOf(const Status& status) { return status ? "no error" : status.error().message; }
 
 AssetContents fourChunks() {
   return makeSampleAsset({.chunkCount = 4,
@@ -72,12 +70,13 @@ TEST_F(StreamWriter, WritesTheSameBytesOnAnyNumberOfThreads) {
     ASSERT_TRUE(writer) << writer.error().message;
     std::vector<EncodedChunk> encoded(contents.chunks.size());
     std::vector<std::thread> threads;
-    for (size_t thread = 0; thread < threadCount; ++thread)
+    for (size_t thread = 0; thread < threadCount; ++thread) {
       threads.emplace_back([&, thread] {
-        for (size_t i = thread; i < encoded.size(); i += threadCount)
-          if (Result<EncodedChunk> chunk = writer->encodeChunk(contents.chunks[i]))
-            encoded[i] = std::move(*chunk);
+        for (size_t i = thread; i < encoded.size(); i += threadCount) {
+          if (Result<EncodedChunk> chunk = writer->encodeChunk(contents.chunks[i])) encoded[i] = std::move(*chunk);
+        }
       });
+    }
     for (std::thread& thread : threads) thread.join();
     for (EncodedChunk& chunk : encoded) ASSERT_EQ(errorOf(writer->append(std::move(chunk))), "no error");
     const Result<uint64_t> size = writer->finish(contents);
@@ -122,9 +121,8 @@ TEST_F(StreamWriter, FindsAGhostWhoseCellNeverCame) {
 TEST_F(StreamWriter, RefusesATargetThatIsNoFile) {
   fs::create_directory(path_);
   EXPECT_THAT(errorOf(AssetStreamWriter::create(path_, fourChunks())), HasSubstr("no regular file"));
-  EXPECT_THAT(
-      errorOf(AssetStreamWriter::create(folder_ / "no" / "a.froth", fourChunks())),
-      AllOf(HasSubstr("a.froth: cannot be created"), HasSubstr("check folder, rights and free space")));
+  EXPECT_THAT(errorOf(AssetStreamWriter::create(folder_ / "no" / "a.froth", fourChunks())),
+              AllOf(HasSubstr("a.froth: cannot be created"), HasSubstr("check folder, rights and free space")));
 }
 
 // Stands in for a disk that is full after that many bytes of one file. Ends the process: 0 if writing failed
@@ -204,30 +202,22 @@ TEST(Lattice, RefusesAValueOffItByTheNameOfItsAttribute) {
   EXPECT_THAT(errorAfter([](ChunkContents& c) { c.sites[1].z += 0x1p-13f; }),
               AllOf(HasSubstr("chunk 0, section 'sites': number 5"), HasSubstr("off its lattice; snap it")));
   EXPECT_THAT(errorAfter([](ChunkContents& c) { c.sites[1].z = 0x1p13f; }), HasSubstr("section 'sites'"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.radii[2] += 0x1p-12f; }),
-              HasSubstr("section 'radii': number 2"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.densities[0] += 0x1p-10f; }),
-              HasSubstr("section 'densities'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.radii[2] += 0x1p-12f; }), HasSubstr("section 'radii': number 2"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.densities[0] += 0x1p-10f; }), HasSubstr("section 'densities'"));
   EXPECT_THAT(errorAfter([](ChunkContents& c) {
                 c.orientations[1] = {0.6f, 0.8f, 0, 0};
               }),
               HasSubstr("section 'orientations': number 4"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellColours[0].x = 0.5001f; }),
-              HasSubstr("section 'cell_colours'"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellColours[0].y = -2; }),
-              HasSubstr("'cell_colours': number 1"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellHeights[1] += 0x1p-10f; }),
-              HasSubstr("section 'cell_heights'"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.detailSites[0].x += 0x1p-6f; }),
-              HasSubstr("section 'detail_sites'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellColours[0].x = 0.5001f; }), HasSubstr("section 'cell_colours'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellColours[0].y = -2; }), HasSubstr("'cell_colours': number 1"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.cellHeights[1] += 0x1p-10f; }), HasSubstr("section 'cell_heights'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.detailSites[0].x += 0x1p-6f; }), HasSubstr("section 'detail_sites'"));
   EXPECT_THAT(errorAfter([](ChunkContents& c) { c.detailHeights[3] += 0x1p-10f; }),
               HasSubstr("'detail_heights': number 3"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.baseColours[0].z += 0x1p-6f; }),
-              HasSubstr("section 'base_colours'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.baseColours[0].z += 0x1p-6f; }), HasSubstr("section 'base_colours'"));
   EXPECT_THAT(errorAfter([](ChunkContents& c) { c.lobeAxes[1].z += 0x1p-11f; }),
               HasSubstr("section 'lobe_labels': number 1"));
-  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.lobeColours[0].x += 0x1p-6f; }),
-              HasSubstr("section 'lobe_colours'"));
+  EXPECT_THAT(errorAfter([](ChunkContents& c) { c.lobeColours[0].x += 0x1p-6f; }), HasSubstr("section 'lobe_colours'"));
 }
 
 TEST(Lattice, RefusesANumberThatIsNotFinite) {
@@ -245,15 +235,15 @@ TEST(Lattice, RefusesAnAxisOffItWithoutACodebook) {
 TEST(Lattice, EveryOctahedralNormalIsItsOwnNearestOne) {
   for (const uint32_t bits : {4u, 5u, 8u}) {
     const uint32_t count = (1u << bits) - 1;
-    for (uint32_t y = 0; y < count; ++y)
+    for (uint32_t y = 0; y < count; ++y) {
       for (uint32_t z = 0; z < count; ++z) {
         const glm::vec4 orientation = orientationOfNormal({y, z}, bits);
         const glm::dvec4 q(orientation);
         const glm::dvec3 normal(1 - 2 * (q.z * q.z + q.w * q.w), 2 * (q.y * q.z - q.x * q.w),
                                 2 * (q.y * q.w + q.x * q.z));
-        ASSERT_EQ(orientationOfNormal(normalIndices(normal, bits), bits), orientation)
-            << bits << " " << y << " " << z;
+        ASSERT_EQ(orientationOfNormal(normalIndices(normal, bits), bits), orientation) << bits << " " << y << " " << z;
       }
+    }
   }
 }
 

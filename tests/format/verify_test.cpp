@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "file_surgery.h"
 #include "base/atomic_file.h"
+#include "file_surgery.h"
 #include "format/read/asset_reader.h"
 #include "format/write/asset_writer.h"
 #include "sample_asset.h"
@@ -27,21 +27,15 @@ std::string verifyBytes(const std::vector<uint8_t>& bytes) {
   return status ? "no error" : status.error().message;
 }
 
-std::string verifyContents(const AssetContents& contents) {
-  return verifyBytes(encodeOrFail(contents));
-}
+std::string verifyContents(const AssetContents& contents) { return verifyBytes(encodeOrFail(contents)); }
 
-AssetContents twoChunks() {
-  return makeSampleAsset({.chunkCount = 2, .localBits = 8});
-}
+AssetContents twoChunks() { return makeSampleAsset({.chunkCount = 2, .localBits = 8}); }
 
 TEST(VerifyAsset, FindsNothingWrongWithAValidAsset) {
   EXPECT_EQ(verifyContents(makeSampleAsset()), "no error");
   EXPECT_EQ(verifyContents(makeSampleAsset({.hasWalkGraph = false})), "no error");
-  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .cellsPerChunk = 5, .localBits = 16})),
-            "no error");
-  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .localBits = 30, .hasWalkGraph = false})),
-            "no error");
+  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .cellsPerChunk = 5, .localBits = 16})), "no error");
+  EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3, .localBits = 30, .hasWalkGraph = false})), "no error");
   EXPECT_EQ(verifyContents(makeSampleAsset({.chunkCount = 3,
                                             .cellsPerChunk = 40,
                                             .localBits = 14,
@@ -51,9 +45,7 @@ TEST(VerifyAsset, FindsNothingWrongWithAValidAsset) {
             "no error");
 }
 
-TEST(VerifyAsset, FindsWhatReadingFinds) {
-  EXPECT_THAT(verifyBytes({'n', 'o'}), HasSubstr("do not lie within"));
-}
+TEST(VerifyAsset, FindsWhatReadingFinds) { EXPECT_THAT(verifyBytes({'n', 'o'}), HasSubstr("do not lie within")); }
 
 // Takes the pair of cell 0 and the first ghost out of chunk 0; chunk 1 keeps it.
 TEST(VerifyAsset, FindsAPairThatOneChunkAloneKnows) {
@@ -84,8 +76,7 @@ TEST(VerifyAsset, FindsAnAlphaPairThatOneChunkAloneKnows) {
 
 TEST(VerifyAsset, FindsAGhostThatIsNotItsCell) {
   for (const bool isQuantized : {false, true}) {
-    const AssetContents valid =
-        makeSampleAsset({.chunkCount = 2, .localBits = 8, .isQuantized = isQuantized});
+    const AssetContents valid = makeSampleAsset({.chunkCount = 2, .localBits = 8, .isQuantized = isQuantized});
     AssetContents contents = valid;
     contents.chunks[1].sites.back().y += 0x1p-12f;
     EXPECT_THAT(verifyContents(contents), HasSubstr("chunk 1: ghost 5 is not where cell 5 of chunk 0 is"));

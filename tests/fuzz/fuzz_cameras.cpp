@@ -20,15 +20,16 @@ bool isSound(const froth::View& view) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   constexpr size_t kMessages = 64 << 10;
-  constexpr size_t kTreePerByte =
-      128;  // "[]," is an array, its place in another one, and what that grew from
+  constexpr size_t kTreePerByte = 128;  // "[]," is an array, its place in another one, and what that grew from
   const froth::MemoryWatch memory;
   const auto cameras = froth::parseCameras({data, size}, "fuzz.json");
   memory.expectAtMost(kTreePerByte * size + kMessages);
   if (!cameras) return 0;
-  for (const froth::View& view : cameras->views)
+  for (const froth::View& view : cameras->views) {
     if (!isSound(view)) std::abort();
-  for (const froth::View& view : cameras->flight)
+  }
+  for (const froth::View& view : cameras->flight) {
     if (!isSound(view)) std::abort();
+  }
   return 0;
 }

@@ -42,10 +42,9 @@ std::string makeFile(Bytes data) {
 
 bool isConsistent(const froth::Foam& foam) {
   const size_t cells = foam.cellCount, details = cells * foam.detailCount, lobes = details * foam.lobeCount;
-  bool ok = cells > 0 && foam.sites.size() == cells && foam.radii.size() == cells &&
-            foam.densities.size() == cells && foam.orientations.size() == cells &&
-            foam.detailSites.size() == details && foam.detailHeights.size() == details &&
-            foam.lobeAxes.size() == lobes && foam.lobeColours.size() == lobes;
+  bool ok = cells > 0 && foam.sites.size() == cells && foam.radii.size() == cells && foam.densities.size() == cells &&
+            foam.orientations.size() == cells && foam.detailSites.size() == details &&
+            foam.detailHeights.size() == details && foam.lobeAxes.size() == lobes && foam.lobeColours.size() == lobes;
   for (const float radius : foam.radii) ok = ok && radius > 0 && std::isfinite(radius);
   for (const float density : foam.densities) ok = ok && density >= 0 && std::isfinite(density);
   for (const glm::vec4& q : foam.orientations) ok = ok && std::abs(glm::length(q) - 1) < 1e-5f;

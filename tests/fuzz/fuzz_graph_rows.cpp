@@ -16,13 +16,11 @@ void expect(bool holds) {
 void expectRows(const ChunkContents& chunk) {
   const size_t siteCount = chunk.sites.size();
   expect(chunk.neighbourOffsets.size() == size_t{chunk.cellCount} + 1 && chunk.neighbourOffsets.front() == 0);
-  expect(chunk.neighbourOffsets.back() == chunk.neighbours.size() &&
-         chunk.alphaCounts.size() == chunk.liveCount);
+  expect(chunk.neighbourOffsets.back() == chunk.neighbours.size() && chunk.alphaCounts.size() == chunk.liveCount);
   for (uint32_t cell = 0; cell < chunk.cellCount; ++cell) {
     const uint32_t first = chunk.neighbourOffsets[cell], last = chunk.neighbourOffsets[cell + 1];
     expect(first <= last && (cell >= chunk.liveCount || chunk.alphaCounts[cell] <= last - first));
-    for (uint32_t i = first; i < last; ++i)
-      expect(chunk.neighbours[i] < siteCount && chunk.neighbours[i] != cell);
+    for (uint32_t i = first; i < last; ++i) expect(chunk.neighbours[i] < siteCount && chunk.neighbours[i] != cell);
   }
 }
 

@@ -1,5 +1,5 @@
-// Any bytes that the reader takes for an asset, packed for the GPU and asked by rays and spheres on the CPU: no crash, no leak, no
-// hang, and answers that are numbers.
+// Any bytes that the reader takes for an asset, packed for the GPU and asked by rays and spheres on the CPU: no crash,
+// no leak, no hang, and answers that are numbers.
 #include <cmath>
 #include <cstdlib>
 #include <span>
@@ -40,8 +40,10 @@ void use(const AssetReader& reader) {
     if (!chunk) return;
     (void)packCells(*chunk, asset.detailCount, asset.lobeCount, asset.quantization.normalBits);
     foam.addChunk(*chunk);
-    for (uint32_t cell = 0; cell < chunk->cellCount && cell < kMostCells; ++cell)
-      points.push_back(glm::dvec3(chunk->origin[0], chunk->origin[1], chunk->origin[2]) + glm::dvec3(chunk->sites[cell]));
+    for (uint32_t cell = 0; cell < chunk->cellCount && cell < kMostCells; ++cell) {
+      points.push_back(glm::dvec3(chunk->origin[0], chunk->origin[1], chunk->origin[2]) +
+                       glm::dvec3(chunk->sites[cell]));
+    }
   }
   foam.finish();
   if (!foam.hasWalkGraph() || !foam.hasCells()) return;
@@ -52,6 +54,8 @@ void use(const AssetReader& reader) {
 }  // namespace froth
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  if (const froth::Result<froth::AssetReader> reader = froth::AssetReader::openBytes({data, size}, "fuzz.froth")) froth::use(*reader);
+  if (const froth::Result<froth::AssetReader> reader = froth::AssetReader::openBytes({data, size}, "fuzz.froth")) {
+    froth::use(*reader);
+  }
   return 0;
 }

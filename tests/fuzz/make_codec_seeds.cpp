@@ -5,8 +5,8 @@
 #include <numeric>
 #include <string>
 
-#include "codec_inputs.h"
 #include "base/morton_code.h"
+#include "codec_inputs.h"
 #include "format/draco_positions.h"
 #include "format/graph_rows.h"
 #include "format/position_order.h"
@@ -21,8 +21,9 @@ void writeSeed(const std::filesystem::path& path, const Header& header,
                std::initializer_list<std::span<const uint8_t>> parts) {
   std::ofstream file(path, std::ios::binary);
   file.write(reinterpret_cast<const char*>(&header), sizeof(header));
-  for (const std::span<const uint8_t> part : parts)
+  for (const std::span<const uint8_t> part : parts) {
     file.write(reinterpret_cast<const char*>(part.data()), static_cast<std::streamsize>(part.size()));
+  }
 }
 
 void writeSection(const std::filesystem::path& folder, const EncodedSection& section, SectionShape shape,
@@ -45,25 +46,27 @@ void writeSections(const std::filesystem::path& folder) {
   for (size_t i = 0; i < counts.size(); ++i) counts[i] = noise[i % 30] + 70000u;
   for (const auto& [raw, shape] :
        {std::pair{bytesOf(noise), SectionShape{1, 1}}, std::pair{bytesOf(pattern), SectionShape{1, 3}},
-        std::pair{bytesOf(ramp), SectionShape{2, 1}}, std::pair{bytesOf(counts), SectionShape{4, 1}}})
-    if (const Result<EncodedSection> section = encodeSection(raw, shape))
+        std::pair{bytesOf(ramp), SectionShape{2, 1}}, std::pair{bytesOf(counts), SectionShape{4, 1}}}) {
+    if (const Result<EncodedSection> section = encodeSection(raw, shape)) {
       writeSection(folder, *section, shape, raw.size());
-
+    }
+  }
   std::vector<LatticePoint> points = randomPoints(200, 9);
   const auto codeOf = [](const LatticePoint& point) {  // the points lie in -1000 .. -489
     return mortonCode({point[0] + 1000u, point[1] + 1000u, point[2] + 1000u});
   };
-  std::sort(points.begin(), points.end(),
-            [&](const auto& a, const auto& b) { return codeOf(a) < codeOf(b); });
+  std::sort(points.begin(), points.end(), [&](const auto& a, const auto& b) { return codeOf(a) < codeOf(b); });
   const uint32_t run = static_cast<uint32_t>(points.size());
-  if (const Result<EncodedSection> section = encodePositions(bytesOf(points), {&run, 1}))
+  if (const Result<EncodedSection> section = encodePositions(bytesOf(points), {&run, 1})) {
     writeSection(folder, *section, kPositionShape, bytesOf(points).size());
+  }
   const Result<std::vector<uint32_t>> order = dracoOrder(points);
   if (!order) return;
   std::vector<LatticePoint> ordered;
   for (const uint32_t i : *order) ordered.push_back(points[i]);
-  if (Result<std::vector<uint8_t>> draco = writeDracoPositions(ordered, {&run, 1}))
+  if (Result<std::vector<uint8_t>> draco = writeDracoPositions(ordered, {&run, 1})) {
     writeSection(folder, {SectionCodec::kDraco, std::move(*draco)}, kPositionShape, bytesOf(points).size());
+  }
 }
 
 void writeGraph(const std::filesystem::path& path, bool hasWalkGraph) {

@@ -16,8 +16,7 @@ namespace froth {
 class MemoryWatch {
  public:
   MemoryWatch() {
-    [[maybe_unused]] static const int hooks =
-        __sanitizer_install_malloc_and_free_hooks(&addBlock, &removeBlock);
+    [[maybe_unused]] static const int hooks = __sanitizer_install_malloc_and_free_hooks(&addBlock, &removeBlock);
     live = peak = 0;
   }
 

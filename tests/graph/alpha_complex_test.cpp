@@ -70,14 +70,10 @@ TEST(AlphaComplex, MarksExactlyTheCellsWhoseBallLiesInOtherPowerCells) {
       const Graphs graphs = makeGraphs(balls);
       for (uint32_t i = 0; i < balls.size(); ++i) {
         if (graphs.triangulation.isHidden[i]) continue;
-        const bool surelyVisible =
-            NearestPointOracle(balls, i, -1e-8).distanceToCell() < balls.radii[i] * (1 - 1e-8);
-        const bool surelyEmpty =
-            NearestPointOracle(balls, i, 1e-8).distanceToCell() > balls.radii[i] * (1 + 1e-8);
-        ASSERT_FALSE(surelyVisible && graphs.alpha.isEmpty[i])
-            << balls.name << ", seed " << seed << ", cell " << i;
-        ASSERT_FALSE(surelyEmpty && !graphs.alpha.isEmpty[i])
-            << balls.name << ", seed " << seed << ", cell " << i;
+        const bool surelyVisible = NearestPointOracle(balls, i, -1e-8).distanceToCell() < balls.radii[i] * (1 - 1e-8);
+        const bool surelyEmpty = NearestPointOracle(balls, i, 1e-8).distanceToCell() > balls.radii[i] * (1 + 1e-8);
+        ASSERT_FALSE(surelyVisible && graphs.alpha.isEmpty[i]) << balls.name << ", seed " << seed << ", cell " << i;
+        ASSERT_FALSE(surelyEmpty && !graphs.alpha.isEmpty[i]) << balls.name << ", seed " << seed << ", cell " << i;
         emptyCells += surelyEmpty;
       }
     }
@@ -133,8 +129,7 @@ TEST(AlphaComplex, ItsPlanesLeaveTheSameBoundedCellsAsAllPlanes) {
           const Interval found = clipRay(balls, i, row, origin, direction);
           ASSERT_NEAR(found.length(), expected.length(), 1e-8 * radius)
               << balls.name << ", seed " << seed << ", cell " << i;
-          ASSERT_TRUE(expected.length() == 0 || std::abs(found.near - expected.near) <= 1e-8 * radius)
-              << balls.name;
+          ASSERT_TRUE(expected.length() == 0 || std::abs(found.near - expected.near) <= 1e-8 * radius) << balls.name;
         }
       }
     }
@@ -153,8 +148,7 @@ TEST(AlphaComplex, DropsAPairOfOverlappingBallsThatAThirdSeparates) {
 TEST(AlphaComplex, OfAGridIsTheGrid) {
   BallSetMaker make(1);
   const uint32_t side = 5;
-  const BallSet balls =
-      make.grid(side, 0.7f);  // diagonal faces degenerate to edges, sqrt(1/2) from the sites
+  const BallSet balls = make.grid(side, 0.7f);  // diagonal faces degenerate to edges, sqrt(1/2) from the sites
   EXPECT_EQ(makeGraphs(balls).alpha.graph.neighbours.size(), 6 * side * side * (side - 1));
 }
 

@@ -59,9 +59,7 @@ TEST(CechPairs, AreNotFoundWhenAskedToStop) {
   EXPECT_TRUE(findCechPairs(balls.sites, balls.radii, stop).offsets.empty());
 }
 
-TEST(CechPairs, OfNoBallsAreNone) {
-  EXPECT_THAT(findCechPairs({}, {}).offsets, testing::ElementsAre(0));
-}
+TEST(CechPairs, OfNoBallsAreNone) { EXPECT_THAT(findCechPairs({}, {}).offsets, testing::ElementsAre(0)); }
 
 //  2--3
 //   \       the Z of the curve: x changes fastest, then y, then z

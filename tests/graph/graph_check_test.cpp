@@ -40,9 +40,7 @@ void removePair(CellGraph& graph, uint32_t a, uint32_t b) {
   removeEntry(graph, b, a);
 }
 
-BallSet makeGrid() {
-  return BallSetMaker(1).grid(4, 0.7f);
-}
+BallSet makeGrid() { return BallSetMaker(1).grid(4, 0.7f); }
 
 TEST(GraphCheck, FindsNoFaultWhereThereIsNone) {
   for (uint64_t seed = 1; seed <= 3; ++seed) {
@@ -64,10 +62,12 @@ TEST(GraphCheck, FindsNoFaultWhereThereIsNone) {
   }
 }
 
-//  cluster of 1e-6   . . . . . . . . .   one ball at 7e11: seen from there, all powers of the cluster are one number, as double
+//  cluster of 1e-6   . . . . . . . . .   one ball at 7e11: seen from there, all powers of the cluster are one number,
+//  as double
 TEST(GraphCheck, FindsNoFaultInAClusterSeenFromFarAway) {
   const BallSet sets[] = {
-      // Case 838 of `froth stability --search --seed 12`, shrunk: not all of the cluster are neighbours of the far ball.
+      // Case 838 of `froth stability --search --seed 12`, shrunk: not all of the cluster are neighbours of the far
+      // ball.
       {"not all lead on",
        {{-3.06896836e-05f, 9.40660684e-05f, 7.23155812e+11f},
         {-3.11896838e-05f, 9.43160703e-05f, 5.84232794e-06f},
@@ -102,9 +102,7 @@ TEST(GraphCheck, FindsAPairThatBothGraphsLackInAClusterSeenFromFarAway) {
   EXPECT_THAT(check(balls, graphs).faults, testing::Contains(testing::HasSubstr("has power")));
 }
 
-TEST(GraphCheck, AcceptsAFoamOfNoCells) {
-  EXPECT_THAT(check({}, makeGraphs({})).faults, testing::IsEmpty());
-}
+TEST(GraphCheck, AcceptsAFoamOfNoCells) { EXPECT_THAT(check({}, makeGraphs({})).faults, testing::IsEmpty()); }
 
 TEST(GraphCheck, FindsAPairThatBothGraphsLack) {
   const BallSet balls = makeGrid();
@@ -168,8 +166,7 @@ TEST(GraphCheck, FindsAnEmptyCellWithoutItsMark) {
   Graphs graphs = makeGraphs(balls);
   ASSERT_EQ(graphs.alpha.isEmpty[1], 1);
   graphs.alpha.isEmpty[1] = 0;
-  EXPECT_THAT(check(balls, graphs).faults,
-              testing::Contains(testing::HasSubstr("of cell 1 by the alpha-complex")));
+  EXPECT_THAT(check(balls, graphs).faults, testing::Contains(testing::HasSubstr("of cell 1 by the alpha-complex")));
 }
 
 TEST(GraphCheck, FindsTheSameFaultsOnAnyNumberOfThreadsAndNoMoreThanSixteen) {

@@ -47,8 +47,7 @@ inline std::vector<FacePoint> findFacesAlong(const BallSet& balls, const glm::dv
     uint32_t next = cell;
     double nearest = std::numeric_limits<double>::infinity();
     for (uint32_t j = 0; j < balls.size(); ++j) {
-      const double approach =
-          2 * glm::dot(direction, glm::dvec3(balls.sites[j]) - glm::dvec3(balls.sites[cell]));
+      const double approach = 2 * glm::dot(direction, glm::dvec3(balls.sites[j]) - glm::dvec3(balls.sites[cell]));
       if (!(approach > 0)) continue;
       const double t = (powerAt(balls, j, origin) - powerAt(balls, cell, origin)) / approach;
       if (t < nearest) {
@@ -77,10 +76,8 @@ inline std::vector<FacePoint> sampleFaces(const BallSet& balls, uint32_t lines, 
   for (uint32_t line = 0; line < lines; ++line) {
     const uint32_t from = line % balls.size();
     const uint32_t to = static_cast<uint32_t>(random.uniform(0, 1) * balls.size());
-    const glm::dvec3 origin =
-        glm::dvec3(balls.sites[from]) + random.pointInCube(-1, 1) * double{balls.radii[from]};
-    const glm::dvec3 target =
-        glm::dvec3(balls.sites[to]) + random.pointInCube(-1, 1) * double{balls.radii[to]};
+    const glm::dvec3 origin = glm::dvec3(balls.sites[from]) + random.pointInCube(-1, 1) * double{balls.radii[from]};
+    const glm::dvec3 target = glm::dvec3(balls.sites[to]) + random.pointInCube(-1, 1) * double{balls.radii[to]};
     const double length = glm::length(target - origin);
     if (!(length > 0)) continue;
     // Powers are of size 10^2 scene units^2: 1e-9 is some thousand roundings of them.
@@ -121,8 +118,7 @@ class NearestPointOracle {
       const glm::dvec3 along = glm::cross(normals_[j], normals_[k]);
       const double squared = glm::dot(along, along);
       if (squared < 1e-20) continue;
-      const glm::dvec3 foot =
-          glm::cross(offsets_[j] * normals_[k] - offsets_[k] * normals_[j], along) / squared;
+      const glm::dvec3 foot = glm::cross(offsets_[j] * normals_[k] - offsets_[k] * normals_[j], along) / squared;
       consider(foot, {j, k}, nearest);
       for (uint32_t l = k + 1; l < normals_.size(); ++l) {
         const double slope = l == j || offsets_[l] == INFINITY ? 0 : glm::dot(normals_[l], along);

@@ -37,9 +37,9 @@ TEST_P(RealFoamDegrees, TheAlphaComplexHasFewerPairsThanEdgeAndOverlap) {
   EXPECT_LT(report.alphaPairs, overlapping);
   EXPECT_LT(overlapping, report.walkPairs);
   const double cells = foam->cellCount;
-  std::printf("%s: pairs per cell: triangulation %.2f, edge and overlap %.2f, alpha-complex %.2f\n",
-              GetParam(), static_cast<double>(report.walkPairs) / cells,
-              static_cast<double>(overlapping) / cells, static_cast<double>(report.alphaPairs) / cells);
+  std::printf("%s: pairs per cell: triangulation %.2f, edge and overlap %.2f, alpha-complex %.2f\n", GetParam(),
+              static_cast<double>(report.walkPairs) / cells, static_cast<double>(overlapping) / cells,
+              static_cast<double>(report.alphaPairs) / cells);
 }
 
 INSTANTIATE_TEST_SUITE_P(Trained, RealFoamDegrees, testing::Values("miku_plush", "tankard_rough"));

@@ -140,8 +140,7 @@ TEST(RegionTriangulation, StopsWhenAskedTo) {
   const Progress stopHalfway = [](std::string_view stage, uint64_t done, uint64_t total) {
     return stage != "triangulate regions" || done < total / 2;
   };
-  const Result<RegularTriangulation> result =
-      triangulateRegions(balls.sites, balls.radii, {200}, stopHalfway);
+  const Result<RegularTriangulation> result = triangulateRegions(balls.sites, balls.radii, {200}, stopHalfway);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::kCancelled);
 }
@@ -149,8 +148,7 @@ TEST(RegionTriangulation, StopsWhenAskedTo) {
 TEST(RegionTriangulation, RefusesNumbersThatAreNotFinite) {
   BallSet balls = BallSetMaker(1).foamLike(100);
   balls.radii[70] = std::numeric_limits<float>::quiet_NaN();
-  const Result<RegularTriangulation> result =
-      triangulateRegions(balls.sites, balls.radii, {20});
+  const Result<RegularTriangulation> result = triangulateRegions(balls.sites, balls.radii, {20});
   ASSERT_FALSE(result);
   EXPECT_THAT(result.error().message, testing::HasSubstr("cell 70"));
 }

@@ -41,8 +41,7 @@ TEST(RegularTriangulation, IsSymmetricAndSortedWithoutLoops) {
     ASSERT_EQ(graph.offsets.size(), balls.size() + 1u);
     for (uint32_t i = 0; i < balls.size(); ++i) {
       const std::vector<uint32_t> row = rowOf(graph, i);
-      EXPECT_TRUE(std::adjacent_find(row.begin(), row.end(), std::greater_equal<>()) == row.end())
-          << balls.name;
+      EXPECT_TRUE(std::adjacent_find(row.begin(), row.end(), std::greater_equal<>()) == row.end()) << balls.name;
       for (const uint32_t j : row) EXPECT_TRUE(j != i && hasPair(graph, j, i)) << balls.name;
     }
   }
@@ -57,8 +56,7 @@ TEST(RegularTriangulation, DescendingThePowerFromAnyVisibleCellFindsThePowerCell
       for (uint32_t start = 0; start < balls.size(); ++start) {
         if (triangulation.isHidden[start]) continue;
         const uint32_t near = static_cast<uint32_t>(random.uniform(0, balls.size()));
-        const glm::dvec3 x =
-            glm::dvec3(balls.sites[near]) + random.pointInCube(-1, 1) * double{balls.radii[near]};
+        const glm::dvec3 x = glm::dvec3(balls.sites[near]) + random.pointInCube(-1, 1) * double{balls.radii[near]};
         uint32_t cell = start;
         for (bool isMoving = true; isMoving;) {
           uint32_t best = cell;
@@ -83,10 +81,8 @@ TEST(RegularTriangulation, HidesExactlyTheCellsWithoutAPowerCell) {
       for (uint32_t i = 0; i < balls.size(); ++i) {
         const bool surelyExists = NearestPointOracle(balls, i, -1e-9).distanceToCell() < INFINITY;
         const bool mayExist = NearestPointOracle(balls, i, 1e-9).distanceToCell() < INFINITY;
-        ASSERT_FALSE(surelyExists && triangulation.isHidden[i])
-            << balls.name << ", seed " << seed << ", cell " << i;
-        ASSERT_FALSE(!mayExist && !triangulation.isHidden[i])
-            << balls.name << ", seed " << seed << ", cell " << i;
+        ASSERT_FALSE(surelyExists && triangulation.isHidden[i]) << balls.name << ", seed " << seed << ", cell " << i;
+        ASSERT_FALSE(!mayExist && !triangulation.isHidden[i]) << balls.name << ", seed " << seed << ", cell " << i;
         EXPECT_TRUE(!triangulation.isHidden[i] || rowOf(triangulation.graph, i).empty());
       }
     }
@@ -109,8 +105,7 @@ TEST(RegularTriangulation, HidesASmallBallCoveredByLargeOnes) {
 }
 
 TEST(RegularTriangulation, KeepsTheLargestThenTheFirstOfCoincidingSites) {
-  const BallSet balls{
-      "coinciding", {{0, 0, 0}, {5, 0, 0}, {0.0f, -0.0f, 0}, {5, 0, 0}, {0, 0, 0}}, {1, 2, 3, 2, 3}};
+  const BallSet balls{"coinciding", {{0, 0, 0}, {5, 0, 0}, {0.0f, -0.0f, 0}, {5, 0, 0}, {0, 0, 0}}, {1, 2, 3, 2, 3}};
   const RegularTriangulation triangulation = triangulate(balls);
   EXPECT_EQ(triangulation.duplicates, 3u);
   EXPECT_THAT(triangulation.isHidden, testing::ElementsAre(1, 0, 0, 1, 1));
@@ -145,8 +140,7 @@ TEST(RegularTriangulation, OfNoSitesIsEmpty) {
 }
 
 TEST(RegularTriangulation, RefusesNumbersThatAreNotFiniteAndNamesTheCell) {
-  const float nan = std::numeric_limits<float>::quiet_NaN(),
-              infinity = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
   const std::vector<glm::vec3> good = {{0, 0, 0}, {1, 0, 0}};
   const std::vector<glm::vec3> badSite = {{0, 0, 0}, {1, nan, 0}};
   const std::vector<float> radii = {1, 1};
@@ -163,9 +157,7 @@ TEST(RegularTriangulation, RefusesNumbersThatAreNotFiniteAndNamesTheCell) {
 TEST(RegularTriangulation, StopsWhenAskedTo) {
   BallSetMaker make(1);
   const BallSet balls = make.foamLike(1000);
-  const Progress stopHalfway = [](std::string_view, uint64_t done, uint64_t total) {
-    return done < total / 2;
-  };
+  const Progress stopHalfway = [](std::string_view, uint64_t done, uint64_t total) { return done < total / 2; };
   const Result<RegularTriangulation> result = triangulateRegular(balls.sites, balls.radii, stopHalfway);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::kCancelled);

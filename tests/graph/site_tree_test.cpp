@@ -45,8 +45,7 @@ bool meetsBall(const Foam& foam, uint32_t cell, const glm::dvec3& origin, const 
                              glm::vec<3, Real>(direction), tNear, tFar);
 }
 
-std::multiset<uint32_t> visited(const SiteTree& tree, const glm::dvec3& origin,
-                                const glm::dvec3& direction) {
+std::multiset<uint32_t> visited(const SiteTree& tree, const glm::dvec3& origin, const glm::dvec3& direction) {
   std::multiset<uint32_t> cells;
   tree.searchRay(origin, direction, [&](uint32_t cell) { cells.insert(cell); });
   return cells;
@@ -73,9 +72,9 @@ TEST(SiteTree, VisitsEveryBallOnARayOnceAndMostOthersNever) {
     visits += cells.size();
     for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
       ASSERT_LE(cells.count(cell), 1u);
-      if (!meetsBall<double>(foam, cell, origin, direction) &&
-          !meetsBall<float>(foam, cell, origin, direction))
+      if (!meetsBall<double>(foam, cell, origin, direction) && !meetsBall<float>(foam, cell, origin, direction)) {
         continue;
+      }
       ASSERT_EQ(cells.count(cell), 1u) << "cell " << cell << ", ray " << i;
       ++met;
     }

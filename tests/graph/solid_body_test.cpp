@@ -13,9 +13,7 @@ double reachFrom(const SolidBody& body, const glm::dvec3& centre) {
   return glm::distance(body.farthestFrom(centre), centre);
 }
 
-HalfSpace below(const glm::dvec3& direction, double offset) {
-  return {glm::normalize(direction), offset, 0};
-}
+HalfSpace below(const glm::dvec3& direction, double offset) { return {glm::normalize(direction), offset, 0}; }
 
 TEST(SolidBody, OfABallReachesToTheOppositePole) {
   SolidBody body;
@@ -80,7 +78,9 @@ TEST(SolidBody, ReachesAsFarAsAnyOfItsPoints) {
     double most = 0;
     for (int i = 0; i < 4000; ++i) {
       glm::dvec3 point = direction() * (i % 2 == 0 ? 1.0 : random.uniform(0, 1));
-      for (const HalfSpace& plane : halfSpaces) point -= std::max(glm::dot(plane.normal, point) - plane.offset, 0.0) * plane.normal;
+      for (const HalfSpace& plane : halfSpaces) {
+        point -= std::max(glm::dot(plane.normal, point) - plane.offset, 0.0) * plane.normal;
+      }
       if (glm::length(point) > 1) point = glm::normalize(point);
       bool isInside = true;
       for (const HalfSpace& plane : halfSpaces) isInside = isInside && glm::dot(plane.normal, point) <= plane.offset;

@@ -23,14 +23,11 @@ Image flat(Rgb colour) {
   return image;
 }
 
-Image grey(float value) {
-  return flat({value, value, value});
-}
+Image grey(float value) { return flat({value, value, value}); }
 
 Image lattice(uint32_t multiplier) {
   Image image{kWidth, kHeight, 3, {}};
-  for (uint32_t i = 0; i < kWidth * kHeight * 3; ++i)
-    image.values.push_back(float(i * multiplier % 251) / 250);
+  for (uint32_t i = 0; i < kWidth * kHeight * 3; ++i) image.values.push_back(float(i * multiplier % 251) / 250);
   return image;
 }
 
@@ -61,9 +58,7 @@ Image waves(uint32_t shift) {
   return image;
 }
 
-FlipDifference flip(const Image& a, const Image& b) {
-  return *compareFlip(*prepareFlip(a), *prepareFlip(b));
-}
+FlipDifference flip(const Image& a, const Image& b) { return *compareFlip(*prepareFlip(a), *prepareFlip(b)); }
 
 struct Expected {
   const char* name;
@@ -79,11 +74,10 @@ TEST(Flip, IsThatOfThePaper) {
       {"black, white", grey(0), grey(1), 0.967380, 0.967380, 0.967380, 0.967380},
       {"green, blue", flat({0, 1, 0}), flat({0, 0, 1}), 1, 1, 1, 1},
       {"one step of 8 bits", grey(0.5f), grey(0.5f + 1.0f / 255), 0.029870, 0.029870, 0.029870, 0.029870},
-      {"chroma alone", flat({0.6f, 0.5f, 0.5f}), flat({0.5f, 0.55f, 0.5f}), 0.305856, 0.305856, 0.305856,
-       0.305856},
+      {"chroma alone", flat({0.6f, 0.5f, 0.5f}), flat({0.5f, 0.55f, 0.5f}), 0.305856, 0.305856, 0.305856, 0.305856},
       {"an edge", step({0.2f, 0.2f, 0.2f}, {0.7f, 0.7f, 0.7f}), grey(0.2f), 0.506910, 0, 0.897251, 0},
-      {"an edge of colour", step({0.8f, 0.2f, 0.1f}, {0.1f, 0.3f, 0.9f}), flat({0.8f, 0.2f, 0.1f}), 0.579035,
-       0, 0.882789, 0},
+      {"an edge of colour", step({0.8f, 0.2f, 0.1f}, {0.1f, 0.3f, 0.9f}), flat({0.8f, 0.2f, 0.1f}), 0.579035, 0,
+       0.882789, 0},
       {"a dot", dot(), grey(0.5f), 0.005627, 0, 0.380198, 0},
       {"noise", lattice(37), lattice(53), 0.296761, 0.460355, 0.449150, 0.324110},
       {"waves", waves(0), waves(3), 0.272312, 0.303606, 0.156515, 0.097220},
@@ -112,8 +106,7 @@ TEST(Flip, OneChannelIsGreyAndValuesAreClamped) {
 
 TEST(Flip, FromFartherAwayNoiseIsSeenLess) {
   const auto seenAt = [](double pixelsPerDegree) {
-    return compareFlip(*prepareFlip(lattice(37), pixelsPerDegree), *prepareFlip(lattice(53), pixelsPerDegree))
-        ->mean;
+    return compareFlip(*prepareFlip(lattice(37), pixelsPerDegree), *prepareFlip(lattice(53), pixelsPerDegree))->mean;
   };
   EXPECT_LT(seenAt(90), seenAt(67));
   EXPECT_LT(seenAt(67), seenAt(30));

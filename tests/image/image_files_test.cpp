@@ -12,7 +12,7 @@
 #include <png.h>
 #include <zlib.h>
 
-#include "reference/image/image.h"
+#include "base/image/image.h"
 
 namespace froth {
 namespace {
@@ -56,8 +56,7 @@ class ImageFilesTest : public ::testing::Test {
 
 Image ramp(uint32_t width, uint32_t height, uint32_t channels) {
   Image image{width, height, channels, {}};
-  for (size_t i = 0; i < size_t{width} * height * channels; ++i)
-    image.values.push_back(float(i * 7 % 256) / 255.0f);
+  for (size_t i = 0; i < size_t{width} * height * channels; ++i) image.values.push_back(float(i * 7 % 256) / 255.0f);
   return image;
 }
 
@@ -79,8 +78,9 @@ Bytes encodeJpeg(const Image& image, bool isProgressive) {
   jpeg_start_compress(&jpeg, TRUE);
   for (uint32_t y = 0; y < image.height; ++y) {
     Bytes row;
-    for (uint32_t i = 0; i < image.width * image.channels; ++i)
+    for (uint32_t i = 0; i < image.width * image.channels; ++i) {
       row.push_back(uint8_t(image.pixel(0, y)[i] * 255 + 0.5f));
+    }
     JSAMPROW pointer = row.data();
     jpeg_write_scanlines(&jpeg, &pointer, 1);
   }
@@ -128,8 +128,7 @@ TEST_F(ImageFilesTest, PfmKeepsEveryFloat) {
 
 TEST_F(ImageFilesTest, PfmRowsRunFromTheBottomUpAndBigEndianIsRead) {
   // Two rows of one value: 1.0 is the lower row, and comes first in the file.
-  const Bytes big = {'P',  'f',  '\n', '1', ' ', '2',  '\n', '1', '.', '0',
-                     '\n', 0x3f, 0x80, 0,   0,   0x40, 0,    0,   0};
+  const Bytes big = {'P', 'f', '\n', '1', ' ', '2', '\n', '1', '.', '0', '\n', 0x3f, 0x80, 0, 0, 0x40, 0, 0, 0};
   const Result<Image> image = readImage(write("big.pfm", big));
   ASSERT_TRUE(image) << image.error().message;
   EXPECT_EQ(image->values, (std::vector<float>{2.0f, 1.0f}));
@@ -185,8 +184,7 @@ TEST_F(ImageFilesTest, PngCutAtAnyLengthIsRefused) {
   const Bytes whole = load(folder_ / "a.png");
   // The last 12 bytes are the IEND chunk's.
   for (size_t length = 0; length < whole.size(); ++length) {
-    EXPECT_FALSE(readImage(write("cut.png", Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(length)))))
-        << length;
+    EXPECT_FALSE(readImage(write("cut.png", Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(length))))) << length;
   }
 }
 
@@ -211,8 +209,7 @@ TEST_F(ImageFilesTest, JpegIsReadBaselineAndProgressive) {
       const Result<Image> read = readImage(write("a.jpg", encodeJpeg(image, isProgressive)));
       ASSERT_TRUE(read) << read.error().message;
       ASSERT_EQ(read->values.size(), image.values.size());
-      for (size_t i = 0; i < image.values.size(); ++i)
-        ASSERT_NEAR(read->values[i], image.values[i], 0.02) << i;
+      for (size_t i = 0; i < image.values.size(); ++i) ASSERT_NEAR(read->values[i], image.values[i], 0.02) << i;
     }
   }
 }
@@ -220,8 +217,7 @@ TEST_F(ImageFilesTest, JpegIsReadBaselineAndProgressive) {
 TEST_F(ImageFilesTest, JpegCutAtAnyLengthIsRefusedAndNoFlippedByteCrashes) {
   const Bytes whole = encodeJpeg(ramp(16, 16, 1), false);
   for (size_t length = 0; length + 2 < whole.size(); length += 7) {
-    EXPECT_FALSE(readImage(write("cut.jpg", Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(length)))))
-        << length;
+    EXPECT_FALSE(readImage(write("cut.jpg", Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(length))))) << length;
   }
   for (size_t i = 0; i < whole.size(); i += 3) {
     Bytes flipped = whole;

@@ -10,8 +10,9 @@ namespace {
 
 Image flat(uint32_t width, uint32_t height, std::vector<float> colour) {
   Image image{width, height, uint32_t(colour.size()), {}};
-  for (size_t p = 0; p < size_t{width} * height; ++p)
+  for (size_t p = 0; p < size_t{width} * height; ++p) {
     image.values.insert(image.values.end(), colour.begin(), colour.end());
+  }
   return image;
 }
 
@@ -87,8 +88,7 @@ TEST(Metrics, ANotANumberIsTheWorstPixel) {
 // With one window only, SSIM has a closed form: a flat image against a flat one has no variance.
 TEST(Metrics, SsimOfFlatImagesIsTheLuminanceTerm) {
   const Image a = flat(11, 11, {0.25f}), b = flat(11, 11, {0.75f});
-  EXPECT_NEAR(compareImages(a, b)->ssim, (2 * 0.25 * 0.75 + 1e-4) / (0.25 * 0.25 + 0.75 * 0.75 + 1e-4),
-              1e-12);
+  EXPECT_NEAR(compareImages(a, b)->ssim, (2 * 0.25 * 0.75 + 1e-4) / (0.25 * 0.25 + 0.75 * 0.75 + 1e-4), 1e-12);
 }
 
 // The windowed sums written out directly, without separating rows from columns.

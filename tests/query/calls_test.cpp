@@ -13,7 +13,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class Calls : public QueryTest {
  protected:
-  static AssetContents scene(bool walkGraph = true) { return bakeScene(synthesize("random", 0), "exact", 64, walkGraph); }
+  static AssetContents scene(bool walkGraph = true) {
+    return bakeScene(synthesize("random", 0), "exact", 64, walkGraph);
+  }
 
   void expectRefused(const FrothRay& ray, const char* text) {
     const std::vector<FrothRay> rays{makeRay({0, 0, 0}, {1, 0, 0}), ray};

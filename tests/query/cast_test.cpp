@@ -100,7 +100,9 @@ TEST_F(Cast, ARayInAPlaneGoesThroughTheCellsOfTheFirstSites) {
   std::vector<CaseCell> cells;
   for (int z = 0; z < 4; ++z) {
     for (const float x : {0.25f, -0.25f}) {
-      for (const float y : {0.25f, -0.25f}) cells.push_back({{x, y, 0.5f * static_cast<float>(z)}, 0.375f, x + 2 * y + 1, kFaceToViewer, 5, 0});
+      for (const float y : {0.25f, -0.25f}) {
+        cells.push_back({{x, y, 0.5f * static_cast<float>(z)}, 0.375f, x + 2 * y + 1, kFaceToViewer, 5, 0});
+      }
     }
   }
   const Foam foam = foamOfCells(cells);
@@ -189,7 +191,8 @@ TEST_F(CastRandom, FromSitesAgreesWithTheReference) {
   expectAgreement(rays);
 }
 
-// The reference's numbers are relative to the origin, so far away it loses what a walk, which begins at the foam, keeps.
+// The reference's numbers are relative to the origin, so far away it loses what a walk, which begins at the foam,
+// keeps.
 TEST_F(CastRandom, FromFarAwayEqualsTheRayFromNearby) {
   createInstance(asset_);
   Random random(3);
@@ -222,8 +225,8 @@ TEST_F(CastRandom, StopsAtTheCellThatItNames) {
   }
 }
 
-// A ray cut in two: the second part starts at tMin. Where a cut lies in a cell with a displaced face, both parts may see another
-// height than the whole does; so the foam has none.
+// A ray cut in two: the second part starts at tMin. Where a cut lies in a cell with a displaced face, both parts may
+// see another height than the whole does; so the foam has none.
 TEST_F(CastRandom, InTwoPartsMultipliesToTheWhole) {
   for (ChunkContents& chunk : contents_.chunks) chunk.detailHeights.clear();
   createInstance(openReady(contents_));

@@ -16,13 +16,14 @@ struct HalfSpaceOfCell {
   double offset;
 };
 
-// The solid of froth.h (FrothSphere), cell by cell. Nearest points by Dykstra's alternating projections onto the ball and the
-// half-spaces: slow, and nothing like the library's way.
+// The solid of froth.h (FrothSphere), cell by cell. Nearest points by Dykstra's alternating projections onto the ball
+// and the half-spaces: slow, and nothing like the library's way.
 class BruteSolid {
  public:
   explicit BruteSolid(const Foam& foam) : foam_(foam), pairs_(findCechPairs(foam.sites, foam.radii)) {}
 
-  // Distance of the nearest point, at most `reach`, and of which cell; negative: how far the centre is below the face of its cell.
+  // Distance of the nearest point, at most `reach`, and of which cell; negative: how far the centre is below the face
+  // of its cell.
   std::pair<double, uint32_t> findNearest(const glm::dvec3& centre, double reach, double opacity) const {
     std::pair<double, uint32_t> best{kInfinity, 0};
     for (uint32_t cell = 0; cell < foam_.cellCount; ++cell) {
@@ -52,7 +53,8 @@ class BruteSolid {
     }
     double height = 0;
     for (uint32_t k = 0; k < foam_.detailCount; ++k) {
-      height += double{foam_.radii[cell]} * foam_.detailHeights[size_t{cell} * foam_.detailCount + k] / foam_.detailCount;
+      height +=
+          double{foam_.radii[cell]} * foam_.detailHeights[size_t{cell} * foam_.detailCount + k] / foam_.detailCount;
     }
     planes.push_back({faceFrame<double>(foam_.orientations[cell]).normal, height});
     return planes;
@@ -162,9 +164,9 @@ TEST_F(Overlap, WithSeveralInstancesFindsTheDeepestContact) {
   const FrothAsset asset = openReady(contents);
   const FrothInstance near = placeAt(asset, {0, 0, 0});
   const FrothAssetStatus status = statusOf(asset);
-  const glm::dvec3 middle = 0.5 * glm::dvec3(status.boundsMin[0] + status.boundsMax[0],
-                                             status.boundsMin[1] + status.boundsMax[1],
-                                             status.boundsMin[2] + status.boundsMax[2]);
+  const glm::dvec3 middle =
+      0.5 * glm::dvec3(status.boundsMin[0] + status.boundsMax[0], status.boundsMin[1] + status.boundsMax[1],
+                       status.boundsMin[2] + status.boundsMax[2]);
   const FrothContact alone = overlap(middle + glm::dvec3(0, 0, 10), 20);
   ASSERT_TRUE(alone.isTouching);
   const FrothInstance nearer = placeAt(asset, {0, 0, 3}, {0, 0, 0, 1}, 0.5f);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <glm/glm.hpp>
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 
 #include "baker/bake/bake.h"
 #include "baker/synth/synth.h"
@@ -43,7 +43,8 @@ inline FrothRay makeRay(const glm::dvec3& origin, const glm::dvec3& direction, d
   return {{origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}, tMin, tMax};
 }
 
-inline AssetContents bakeScene(const Foam& foam, const std::string& preset, uint32_t chunkCells, bool walkGraph = true) {
+inline AssetContents bakeScene(const Foam& foam, const std::string& preset, uint32_t chunkCells,
+                               bool walkGraph = true) {
   BakeOptions options;
   options.knobs = *presetKnobs(preset);
   options.knobs.compressColours = false;  // queries see none

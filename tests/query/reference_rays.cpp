@@ -33,9 +33,8 @@ ReferenceHit ReferenceRays::cast(const glm::dvec3& origin, const glm::dvec3& dir
     ball.hit.tFar = std::min(ball.hit.tFar, tEnd);
     if (ball.hit.tNear < ball.hit.tFar) balls.push_back(ball);
   });
-  std::sort(balls.begin(), balls.end(), [](const MetBall& a, const MetBall& b) {
-    return std::pair(a.power, a.cell) < std::pair(b.power, b.cell);
-  });
+  std::sort(balls.begin(), balls.end(),
+            [](const MetBall& a, const MetBall& b) { return std::pair(a.power, a.cell) < std::pair(b.power, b.cell); });
 
   // A view in which only these cells are.
   ViewCells<double> view;
@@ -56,7 +55,8 @@ ReferenceHit ReferenceRays::cast(const glm::dvec3& origin, const glm::dvec3& dir
     for (const uint32_t other : neighboursOf(pairs_, ball.cell)) {
       const glm::dvec3 toNeighbour = glm::dvec3(foam_.sites[other]) - site;
       const glm::dvec3 otherCentre = glm::dvec3(foam_.sites[other]) - origin;
-      view.planes.push_back({toNeighbour, foam::sharedClearance(cell.centre, otherCentre, toNeighbour, radius, double{foam_.radii[other]})});
+      view.planes.push_back({toNeighbour, foam::sharedClearance(cell.centre, otherCentre, toNeighbour, radius,
+                                                                double{foam_.radii[other]})});
     }
     cell.planesEnd = view.planes.size();
     view.cells.push_back(cell);
@@ -69,7 +69,7 @@ ReferenceHit ReferenceRays::cast(const glm::dvec3& origin, const glm::dvec3& dir
   const PrimaryRay<double> primary{glm::dvec3(0), direction};
   const RayResult<double> ray =
       compositeHits(view, primary, RaySettings<double>{cutoff, std::log(quantile), kDetailSharpness}, hits);
-  return {std::exp(ray.logTransmittance), ray.depth};
+  return {std::exp(ray.logTransmittance), ray.distance};
 }
 
 }  // namespace froth::test

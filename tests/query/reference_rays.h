@@ -1,5 +1,5 @@
-// Rays by brute force in double: every ball that a ray meets, cut by all Cech neighbours, in the order of the origin's powers. The
-// rules of reference/render/ray.h, without any triangulation.
+// Rays by brute force in double: every ball that a ray meets, cut by all Cech neighbours, in the order of the origin's
+// powers. The rules of reference/render/ray.h, without any triangulation.
 #pragma once
 
 #include <vector>

@@ -19,8 +19,7 @@ template <class Real>
 void expectBruteForceGivesTheSameImage() {
   const Foam foam = randomFoam(300, 3, 2, 23);
   const View view = lookAt({0.3, -0.4, -3}, {0, 0, 0}, 64, 48, 0.6);
-  const ReferenceOptions options =
-      plainOptions(std::is_same_v<Real, float> ? Precision::kFloat : Precision::kDouble);
+  const ReferenceOptions options = plainOptions(std::is_same_v<Real, float> ? Precision::kFloat : Precision::kDouble);
   const RenderedImages images = renderFoam(foam, view, options);
 
   std::vector<uint32_t> drawable = allCells(foam);
@@ -36,26 +35,20 @@ void expectBruteForceGivesTheSameImage() {
       std::vector<BallHit<Real>> hits;
       for (uint32_t rank = 0; rank < cells.cells.size(); ++rank) {
         BallHit<Real> hit{rank, 0, 0};
-        if (foam::intersectBall(cells.cells[rank].centre, cells.cells[rank].radius, direction, hit.tNear,
-                                hit.tFar)) {
+        if (foam::intersectBall(cells.cells[rank].centre, cells.cells[rank].radius, direction, hit.tNear, hit.tFar)) {
           hits.push_back(hit);
         }
       }
       const PrimaryRay<Real> primary{glm::vec<3, Real>(0), direction};
       const RayResult<Real> ray = compositeHits(cells, primary, settings, hits);
-      for (int c = 0; c < 3; ++c)
-        ASSERT_EQ(images.colour.pixel(x, y)[c], float(ray.colour[c])) << x << ", " << y;
-      ASSERT_EQ(*images.depth.pixel(x, y), float(ray.depth)) << x << ", " << y;
+      for (int c = 0; c < 3; ++c) ASSERT_EQ(images.colour.pixel(x, y)[c], float(ray.colour[c])) << x << ", " << y;
+      ASSERT_EQ(*images.distance.pixel(x, y), float(ray.distance)) << x << ", " << y;
     }
   }
 }
 
-TEST(BruteForce, GivesTheSameImageInDouble) {
-  expectBruteForceGivesTheSameImage<double>();
-}
-TEST(BruteForce, GivesTheSameImageInFloat) {
-  expectBruteForceGivesTheSameImage<float>();
-}
+TEST(BruteForce, GivesTheSameImageInDouble) { expectBruteForceGivesTheSameImage<double>(); }
+TEST(BruteForce, GivesTheSameImageInFloat) { expectBruteForceGivesTheSameImage<float>(); }
 
 }  // namespace
 }  // namespace froth

@@ -16,8 +16,7 @@ struct Chord {
 
 // The textbook way; empty when missed.
 Chord chordOf(const glm::dvec3& eye, const glm::dvec3& direction, const glm::dvec3& centre, double radius) {
-  const double b = glm::dot(direction, centre - eye),
-               c = glm::dot(centre - eye, centre - eye) - radius * radius;
+  const double b = glm::dot(direction, centre - eye), c = glm::dot(centre - eye, centre - eye) - radius * radius;
   if (b * b < c) return {0, 0};
   return {std::max(b - std::sqrt(b * b - c), 0.0), std::max(b + std::sqrt(b * b - c), 0.0)};
 }
@@ -26,7 +25,7 @@ void expectPixel(const RenderedImages& images, uint32_t x, uint32_t y, const glm
                  double depth) {
   for (int c = 0; c < 3; ++c) ASSERT_NEAR(images.colour.pixel(x, y)[c], colour[c], 1e-6) << x << ", " << y;
   ASSERT_NEAR(*images.alpha.pixel(x, y), alpha, 1e-6) << x << ", " << y;
-  ASSERT_NEAR(*images.depth.pixel(x, y), depth, 1e-5) << x << ", " << y;
+  ASSERT_NEAR(*images.distance.pixel(x, y), depth, 1e-5) << x << ", " << y;
 }
 
 //            ___
@@ -87,7 +86,7 @@ TEST(OneCellOnly, BehindTheEyeIsNotSeen) {
   const Foam foam = foamOf({{.site = {0, 0, -5}}});
   const RenderedImages images = renderFoam(foam, lookAt({0, 0, 0}, {0, 0, 5}, 9, 9, 1));
   for (float alpha : images.alpha.values) EXPECT_EQ(alpha, 0);
-  for (float depth : images.depth.values) EXPECT_EQ(depth, -1);
+  for (float depth : images.distance.values) EXPECT_EQ(depth, -1);
 }
 
 TEST(OneCellOnly, SeenFromInsideFillsTheViewFromTheEyeOn) {
@@ -107,9 +106,9 @@ TEST(OneCellOnly, SeenFromInsideFillsTheViewFromTheEyeOn) {
 TEST(OneCellOnly, TheDepthQuantileIsAParameter) {
   const Foam foam = foamOf({{.site = {0, 0, 5}, .orientation = kFaceTowardsPlusZ}});
   ReferenceOptions options = plainOptions();
-  options.depthQuantile = 0.9;
+  options.quantile = 0.9;
   const RenderedImages images = renderFoam(foam, lookAt({0, 0, 0}, {0, 0, 5}, 1, 1, 1e-3), options);
-  EXPECT_NEAR(images.depth.values[0], 4 - std::log(0.9), 1e-5);
+  EXPECT_NEAR(images.distance.values[0], 4 - std::log(0.9), 1e-5);
 }
 
 TEST(OneCellOnly, LobesAreSeenFromTheEyeTowardsTheDetailSite) {
@@ -156,8 +155,7 @@ class InLine : public ::testing::Test {
   static constexpr double kFace = 0.68;
 
   // The central ray comes from x = -5: cell 0 is met at t 4 .. 5.68, cell 1 at 5.68 .. 6.8.
-  static RenderedImages render(const std::vector<PlainCell>& cells,
-                               const ReferenceOptions& options = plainOptions()) {
+  static RenderedImages render(const std::vector<PlainCell>& cells, const ReferenceOptions& options = plainOptions()) {
     return renderFoam(foamOf(cells), lookAt({-5, 0, 0}, {0, 0, 0}, 1, 1, 1e-3), options);
   }
   PlainCell front_{.site = {0, 0, 0}, .radius = 1, .density = 0.3f, .colour = {0.9f, 0.2f, 0}};
@@ -176,8 +174,7 @@ TEST_F(InLine, TheFrontCellIsCompositedOverTheBackCell) {
 TEST_F(InLine, ACellWithoutDensityIsNotSeenButCuts) {
   front_.density = 0;
   const double alpha = 1 - std::exp(-2 * (1.8 - kFace));
-  expectPixel(render({front_, back_}), 0, 0, alpha * glm::dvec3(0, 0.2, 0.7), alpha,
-              5 + kFace + std::log(2) / 2);
+  expectPixel(render({front_, back_}), 0, 0, alpha * glm::dvec3(0, 0.2, 0.7), alpha, 5 + kFace + std::log(2) / 2);
 }
 
 TEST_F(InLine, ACellSkippedByTheRatioIsNotSeenButCuts) {

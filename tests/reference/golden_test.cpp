@@ -16,7 +16,7 @@ namespace froth {
 namespace {
 
 struct Golden {
-  Image colour, alpha, depth;
+  Image colour, alpha, distance;
 };
 
 class AgainstPublishedRenders : public ::testing::Test {
@@ -59,8 +59,8 @@ TEST_F(AgainstPublishedRenders, MikuPlushView0AgreesInColourAlphaAndDepth) {
 
   std::vector<double> differences;
   size_t foundInOne = 0;
-  for (size_t i = 0; i < golden_.depth.values.size(); ++i) {
-    const float ours = images_.depth.values[i], theirs = golden_.depth.values[i];
+  for (size_t i = 0; i < golden_.distance.values.size(); ++i) {
+    const float ours = images_.distance.values[i], theirs = golden_.distance.values[i];
     if ((ours < 0) != (theirs < 0)) {
       ++foundInOne;
     } else if (ours >= 0) {
@@ -71,7 +71,7 @@ TEST_F(AgainstPublishedRenders, MikuPlushView0AgreesInColourAlphaAndDepth) {
   const auto median = differences.begin() + std::ptrdiff_t(differences.size() / 2);
   std::nth_element(differences.begin(), median, differences.end());
   EXPECT_LE(*median, 2e-3);
-  EXPECT_LE(double(foundInOne), 1e-4 * double(golden_.depth.values.size()));
+  EXPECT_LE(double(foundInOne), 1e-4 * double(golden_.distance.values.size()));
 }
 
 TEST_F(AgainstPublishedRenders, MikuPlushView6Agrees) {

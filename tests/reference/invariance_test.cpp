@@ -29,8 +29,7 @@ TEST_P(Invariance, TheOrderOfCellsInTheFoamDoesNotMatter) {
   std::vector<uint32_t> order(foam_.cellCount);
   for (uint32_t i = 0; i < foam_.cellCount; ++i) order[i] = i;
   std::shuffle(order.begin(), order.end(), std::mt19937_64(3));
-  expectSameImages(renderFoam(foam_, view_, options_),
-                   renderFoam(permuteFoam(foam_, order), view_, options_));
+  expectSameImages(renderFoam(foam_, view_, options_), renderFoam(permuteFoam(foam_, order), view_, options_));
 }
 
 TEST_P(Invariance, TheNumberOfThreadsDoesNotMatter) {
@@ -76,16 +75,14 @@ TEST_P(Invariance, ASmallCutoffChangesAnImageByNoMoreThanItself) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Precisions, Invariance, ::testing::Values(Precision::kFloat, Precision::kDouble),
-                         [](const auto& test) {
-                           return test.param == Precision::kFloat ? "Float" : "Double";
-                         });
+                         [](const auto& test) { return test.param == Precision::kFloat ? "Float" : "Double"; });
 
 TEST(Rendering, ReportsRowsAndStopsOnRequest) {
   const Foam foam = randomFoam(30, 1, 1, 1);
   const View view = lookAt({0, 0, -3}, {0, 0, 0}, 8, 400, 0.6);
   uint64_t calls = 0, most = 0;
-  const Result<RenderedImages> images = ReferenceRenderer(foam).render(
-      view, plainOptions(), [&](std::string_view, uint64_t done, uint64_t total) {
+  const Result<RenderedImages> images =
+      ReferenceRenderer(foam).render(view, plainOptions(), [&](std::string_view, uint64_t done, uint64_t total) {
         EXPECT_EQ(total, 400u);
         ++calls;
         most = std::max(most, done);
@@ -95,8 +92,8 @@ TEST(Rendering, ReportsRowsAndStopsOnRequest) {
   EXPECT_EQ(calls, 100u);
   EXPECT_EQ(most, 400u);
 
-  const Result<RenderedImages> stopped = ReferenceRenderer(foam).render(
-      view, plainOptions(), [](std::string_view, uint64_t, uint64_t) { return false; });
+  const Result<RenderedImages> stopped =
+      ReferenceRenderer(foam).render(view, plainOptions(), [](std::string_view, uint64_t, uint64_t) { return false; });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().kind, ErrorKind::kCancelled);
 }
@@ -112,7 +109,7 @@ TEST(Rendering, RefusesViewsWithoutPixelsAndImpossibleQuantiles) {
   view.width = view.height = 8;
   ReferenceOptions options = plainOptions();
   for (double quantile : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
-    options.depthQuantile = quantile;
+    options.quantile = quantile;
     const Result<RenderedImages> images = renderer.render(view, options);
     ASSERT_FALSE(images);
     EXPECT_THAT(images.error().message, ::testing::HasSubstr("quantile"));
@@ -124,7 +121,7 @@ TEST(Rendering, AFoamWithoutDensityIsBlack) {
   foam.densities.assign(20, 0.0f);
   const RenderedImages images = renderFoam(foam, lookAt({0, 0, -3}, {0, 0, 0}, 8, 8, 0.6));
   for (float value : images.colour.values) EXPECT_EQ(value, 0);
-  for (float value : images.depth.values) EXPECT_EQ(value, -1);
+  for (float value : images.distance.values) EXPECT_EQ(value, -1);
 }
 
 }  // namespace

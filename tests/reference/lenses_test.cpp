@@ -36,8 +36,10 @@ void expectPixelsArePeepholes(const View& view) {
     if (!ray) continue;
     const Result<RenderedImages> one = renderer.render(peephole(view, ray->direction), plainOptions());
     ASSERT_TRUE(one) << one.error().message;
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(images.colour.pixel(x, y)[c], one->colour.values[c], 1e-6) << x << ", " << y;
-    EXPECT_NEAR(*images.depth.pixel(x, y), one->depth.values[0], 1e-5) << x << ", " << y;
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(images.colour.pixel(x, y)[c], one->colour.values[c], 1e-6) << x << ", " << y;
+    }
+    EXPECT_NEAR(*images.distance.pixel(x, y), one->distance.values[0], 1e-5) << x << ", " << y;
     seen += one->alpha.values[0] > 0.1f;
   }
   EXPECT_GT(seen, 15u);
@@ -54,7 +56,9 @@ TEST(ReferenceLenses, EveryPixelShowsWhatAPinholeAlongItsRayShows) {
   expectPixelsArePeepholes(view);
   view = viewOf(LensKind::kRayMap, 8, 8, 1);
   RayMap map{8, 8, {}};
-  for (int i = 0; i < 64; ++i) map.directions.push_back(glm::normalize(glm::vec3(std::sin(i), std::cos(2 * i), std::sin(3 * i))));
+  for (int i = 0; i < 64; ++i) {
+    map.directions.push_back(glm::normalize(glm::vec3(std::sin(i), std::cos(2 * i), std::sin(3 * i))));
+  }
   view.lens.rays = std::make_shared<RayMap>(map);
   expectPixelsArePeepholes(view);
 }
@@ -67,8 +71,9 @@ TEST(ReferenceLenses, TheFacesOfACubeShowAPanorama) {
   const RenderedImages all = renderFoam(foam, panorama);
   double difference = 0;
   uint32_t compared = 0;
-  const double faces[6][9] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},  {-1, 0, 0, 0, 1, 0, 0, 0, -1}, {0, 0, 1, 0, 1, 0, -1, 0, 0},
-                              {0, 0, -1, 0, 1, 0, 1, 0, 0}, {1, 0, 0, 0, 0, 1, 0, -1, 0},  {1, 0, 0, 0, 0, -1, 0, 1, 0}};
+  const double faces[6][9] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},  {-1, 0, 0, 0, 1, 0, 0, 0, -1},
+                              {0, 0, 1, 0, 1, 0, -1, 0, 0}, {0, 0, -1, 0, 1, 0, 1, 0, 0},
+                              {1, 0, 0, 0, 0, 1, 0, -1, 0}, {1, 0, 0, 0, 0, -1, 0, 1, 0}};
   for (const auto& rows : faces) {
     View face = lookAt(eyeOf(panorama), {0.1, 0.2, 3}, 64, 64, 1);
     for (int row = 0; row < 3; ++row) {
@@ -108,11 +113,11 @@ TEST(ReferenceLenses, OrthographicRaysStartOnThePlaneOfTheCamera) {
     EXPECT_NEAR(*cut.alpha.pixel(x, 4), 1 - std::exp(-density * chord), 1e-6) << x;
   }
   EXPECT_EQ(*cut.alpha.pixel(0, 0), 0) << "beside the ball";
-  EXPECT_EQ(*cut.depth.pixel(0, 0), -1);
+  EXPECT_EQ(*cut.distance.pixel(0, 0), -1);
   const RenderedImages behind = renderFoam(foamOf({{{0, 0, -1.5f}, 1, density}}), view);
   EXPECT_EQ(*behind.alpha.pixel(4, 4), 0);
   const RenderedImages before = renderFoam(foamOf({{{0, 0, 5}, 1, 50}}), view);
-  EXPECT_NEAR(*before.depth.pixel(4, 4), 4 + std::log(2) / 50, 1e-6);
+  EXPECT_NEAR(*before.distance.pixel(4, 4), 4 + std::log(2) / 50, 1e-6);
 }
 
 TEST(ReferenceLenses, AnOrthographicViewIsThatOfAFarPinhole) {
@@ -130,9 +135,10 @@ TEST(ReferenceLenses, AnOrthographicViewIsThatOfAFarPinhole) {
   for (size_t i = 0; i < a.colour.values.size(); ++i) {
     squares += std::pow(double{a.colour.values[i]} - b.colour.values[i], 2);
   }
-  for (size_t i = 0; i < a.depth.values.size(); ++i) {
-    if (a.depth.values[i] > 0 && b.depth.values[i] > 0)
-      mostDepth = std::max(mostDepth, std::abs(a.depth.values[i] - (b.depth.values[i] - distance)));
+  for (size_t i = 0; i < a.distance.values.size(); ++i) {
+    if (a.distance.values[i] > 0 && b.distance.values[i] > 0) {
+      mostDepth = std::max(mostDepth, std::abs(a.distance.values[i] - (b.distance.values[i] - distance)));
+    }
   }
   EXPECT_GT(-10 * std::log10(squares / double(a.colour.values.size())), 70);
   EXPECT_LT(mostDepth, 0.1) << "floats a million away";
@@ -169,7 +175,7 @@ TEST(ReferenceLenses, PixelsWithoutARayAreBlack) {
   EXPECT_GT(*images.alpha.pixel(10, 15), 0.99f);
   EXPECT_EQ(*images.alpha.pixel(0, 0), 0);
   EXPECT_EQ(images.colour.pixel(0, 0)[1], 0);
-  EXPECT_EQ(*images.depth.pixel(0, 0), -1);
+  EXPECT_EQ(*images.distance.pixel(0, 0), -1);
   View mapless = viewOf(LensKind::kRayMap, 4, 4, 1);
   EXPECT_FALSE(ReferenceRenderer(foam).render(mapless, plainOptions()));
 }

@@ -16,7 +16,7 @@ using Vec = glm::dvec3;
 
 struct Pixel {
   Vec colour{0}, normal{0};
-  double transmittance = 1, depth = -1;
+  double transmittance = 1, distance = -1;
 };
 
 class Textbook {
@@ -44,8 +44,8 @@ class Textbook {
     for (uint32_t j = 0; j < foam_.cellCount; ++j) {
       if (j == i) continue;
       const Vec across = site(j) - site(i);
-      const double offset = 0.5 * (glm::dot(site(j), site(j)) - glm::dot(site(i), site(i)) +
-                                   radius(i) * radius(i) - radius(j) * radius(j));
+      const double offset = 0.5 * (glm::dot(site(j), site(j)) - glm::dot(site(i), site(i)) + radius(i) * radius(i) -
+                                   radius(j) * radius(j));
       const double q = glm::dot(across, d), tFace = (offset - glm::dot(across, eye_)) / q;
       (q >= 0 ? tFar : tNear) = q >= 0 ? std::min(tFar, tFace) : std::max(tNear, tFace);
     }
@@ -53,18 +53,15 @@ class Textbook {
 
     const FaceFrame<double> frame = faceFrame<double>(foam_.orientations[i]);
     const double w = glm::dot(frame.normal, d), base = glm::dot(frame.normal, site(i) - eye_);
-    const double height =
-        blend(i, frame, eye_ + (w >= 0 ? tNear : std::max(tNear, base / w)) * d, [&](size_t s) {
-          return Vec(radius(i) * double(foam_.detailHeights[s]));
-        }).x;
-    (w >= 0 ? tFar : tNear) =
-        w >= 0 ? std::min(tFar, (base + height) / w) : std::max(tNear, (base + height) / w);
+    const double height = blend(i, frame, eye_ + (w >= 0 ? tNear : std::max(tNear, base / w)) * d, [&](size_t s) {
+                            return Vec(radius(i) * double(foam_.detailHeights[s]));
+                          }).x;
+    (w >= 0 ? tFar : tNear) = w >= 0 ? std::min(tFar, (base + height) / w) : std::max(tNear, (base + height) / w);
     if (tNear >= tFar) return;
 
     const Vec colour = blend(i, frame, eye_ + tNear * d, [&](size_t s) { return detailColour(i, s, frame); });
     const double sigma = foam_.densities[i], after = pixel.transmittance * std::exp(-sigma * (tFar - tNear));
-    if (pixel.transmittance >= 0.5 && after < 0.5)
-      pixel.depth = tNear + std::log(pixel.transmittance / 0.5) / sigma;
+    if (pixel.transmittance >= 0.5 && after < 0.5) pixel.distance = tNear + std::log(pixel.transmittance / 0.5) / sigma;
     pixel.colour += (pixel.transmittance - after) * colour;
     pixel.normal += (pixel.transmittance - after) * frame.normal;
     pixel.transmittance = after;
@@ -114,9 +111,7 @@ struct Eye {
   Vec position;
   uint64_t seed;
 };
-void PrintTo(const Eye& eye, std::ostream* stream) {
-  *stream << "foam " << eye.seed;
-}
+void PrintTo(const Eye& eye, std::ostream* stream) { *stream << "foam " << eye.seed; }
 class AgainstTheTextbook : public ::testing::TestWithParam<Eye> {};
 
 TEST_P(AgainstTheTextbook, EveryPixelOfARandomFoamAgrees) {
@@ -134,8 +129,8 @@ TEST_P(AgainstTheTextbook, EveryPixelOfARandomFoamAgrees) {
         ASSERT_NEAR(images.normal.pixel(x, y)[c], expected.normal[c], kTolerance) << x << ", " << y;
       }
       ASSERT_NEAR(*images.alpha.pixel(x, y), 1 - expected.transmittance, kTolerance) << x << ", " << y;
-      ASSERT_NEAR(*images.depth.pixel(x, y), expected.depth, kTolerance) << x << ", " << y;
-      found += expected.depth > 0;
+      ASSERT_NEAR(*images.distance.pixel(x, y), expected.distance, kTolerance) << x << ", " << y;
+      found += expected.distance > 0;
     }
   }
   EXPECT_GT(found, 500);
@@ -143,8 +138,7 @@ TEST_P(AgainstTheTextbook, EveryPixelOfARandomFoamAgrees) {
 
 // From outside, from among the cells (some of which hold the eye), and from far away.
 INSTANTIATE_TEST_SUITE_P(Eyes, AgainstTheTextbook,
-                         ::testing::Values(Eye{{0.3, -0.4, -3}, 1}, Eye{{2.5, 1, 0.2}, 2},
-                                           Eye{{-0.3, 0.2, 0.1}, 3}));
+                         ::testing::Values(Eye{{0.3, -0.4, -3}, 1}, Eye{{2.5, 1, 0.2}, 2}, Eye{{-0.3, 0.2, 0.1}, 3}));
 
 TEST(FloatAgainstDouble, DiffersByLittleOnARandomFoam) {
   const Foam foam = randomFoam(400, 4, 4, 5);

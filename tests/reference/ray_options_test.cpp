@@ -7,8 +7,8 @@
 #include <limits>
 #include <set>
 
+#include "reference/render/merged_foams.h"
 #include "reference/render/reference_state.h"
-#include "reference/render/several_foams.h"
 #include "tests/reference/scenes.h"
 
 namespace froth {
@@ -26,8 +26,8 @@ struct Detail {
   float height;
 };
 
-// One ball around (0, 0, 5), its face in its middle towards the eye. The ray along z meets the face in its own middle, where a
-// detail site has the weight exp(-10 d^2), d its distance from there.
+// One ball around (0, 0, 5), its face in its middle towards the eye. The ray along z meets the face in its own middle,
+// where a detail site has the weight exp(-10 d^2), d its distance from there.
 Foam ballOf(const std::vector<Detail>& details) {
   Foam foam = foamOf({{.site = {0, 0, 5}, .orientation = kFaceTowardsMinusZ, .height = 0}});
   foam.detailCount = static_cast<uint32_t>(details.size());
@@ -48,7 +48,7 @@ glm::dvec3 colourOf(const Foam& foam, double leastShare, float* depth = nullptr)
   ReferenceOptions options = plainOptions();
   options.leastShare = leastShare;
   const RenderedImages images = renderFoam(foam, lookAt({0, 0, 0}, {0, 0, 1}, 1, 1, 1e-3), options);
-  if (depth) *depth = images.depth.values[0];
+  if (depth) *depth = images.distance.values[0];
   const float* const colour = images.colour.values.data();
   return glm::dvec3(colour[0], colour[1], colour[2]) / double{images.alpha.values[0]};
 }
@@ -102,10 +102,11 @@ TEST(LeastShare, IsThatOfSeveralFoamsToo) {
   ReferenceOptions options = plainOptions();
   for (const double leastShare : {0.0, 0.1}) {
     options.leastShare = leastShare;
-    const Result<RenderedImages> several = renderSeveral(foams, view, options);
-    ASSERT_TRUE(several);
-    const float* const colour = several->colour.values.data();
-    expectColour(glm::dvec3(colour[0], colour[1], colour[2]) / double{several->alpha.values[0]}, colourOf(foam, leastShare));
+    const Result<RenderedImages> merged = renderMerged(foams, view, options);
+    ASSERT_TRUE(merged);
+    const float* const colour = merged->colour.values.data();
+    expectColour(glm::dvec3(colour[0], colour[1], colour[2]) / double{merged->alpha.values[0]},
+                 colourOf(foam, leastShare));
   }
 }
 
@@ -140,8 +141,10 @@ TEST(EndOfRay, IsThatOfItsOwnPixelAndElseNowhere) {
 void expectErrorsOf(const Ended& ended, const ViewRay& ray, double magnitude) {
   std::set<double> errors;
   for (uint32_t y = 0; y < ended.image.height; ++y) {
-    for (uint32_t x = 0; x < ended.image.width; ++x)
-      errors.insert((endOfRay(ended.options, ray, x, y) - *ended.image.pixel(x, y)) / (ended.options.rounding * magnitude));
+    for (uint32_t x = 0; x < ended.image.width; ++x) {
+      errors.insert((endOfRay(ended.options, ray, x, y) - *ended.image.pixel(x, y)) /
+                    (ended.options.rounding * magnitude));
+    }
   }
   EXPECT_EQ(errors.size(), ended.image.values.size()) << "each pixel errs by itself";
   EXPECT_GE(*errors.begin(), -1.0001);
@@ -204,18 +207,21 @@ TEST(EndedRays, ShowWhatLiesBeforeTheEndAndNothingElse) {
   const PlacedFoam halfAsLarge{&renderer, {0, 0, 0}, {1, 0, 0, 0}, 0.5};  // from 2 to 3
   for (const float end : {-1.0f, 0.0f, 2.25f, 3.5f, 4.0f, 4.25f, 5.5f, 6.0f, 7.0f, static_cast<float>(kNever)}) {
     const Ended ended(endsOf(1, 1, end));
-    const auto alphaOf = [&](double from, double to, double perLength) { return 1 - std::exp(-perLength * std::max(std::min(double{end}, to) - from, 0.0)); };
+    const auto alphaOf = [&](double from, double to, double perLength) {
+      return 1 - std::exp(-perLength * std::max(std::min(double{end}, to) - from, 0.0));
+    };
     EXPECT_NEAR(renderFoam(foam, view, ended.options).alpha.values[0], alphaOf(4, 6, density), 1e-6) << end;
-    const Result<RenderedImages> several = renderSeveral(std::span(&halfAsLarge, 1), view, ended.options);
-    ASSERT_TRUE(several);
-    EXPECT_NEAR(several->alpha.values[0], alphaOf(2, 3, 2 * density), 1e-6) << end;
+    const Result<RenderedImages> merged = renderMerged(std::span(&halfAsLarge, 1), view, ended.options);
+    ASSERT_TRUE(merged);
+    EXPECT_NEAR(merged->alpha.values[0], alphaOf(2, 3, 2 * density), 1e-6) << end;
   }
 }
 
 TEST(EndedRays, NeedAnImageOfTheViewsSize) {
   const Foam foam = foamOf({{.site = {0, 0, 5}}});
   const Ended ended(endsOf(4, 8, 1));
-  const Result<RenderedImages> images = ReferenceRenderer(foam).render(lookAt({0, 0, 0}, {0, 0, 1}, 8, 4, 1), ended.options);
+  const Result<RenderedImages> images =
+      ReferenceRenderer(foam).render(lookAt({0, 0, 0}, {0, 0, 1}, 8, 4, 1), ended.options);
   ASSERT_FALSE(images);
   EXPECT_EQ(images.error().kind, ErrorKind::kUsage);
 }

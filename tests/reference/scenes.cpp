@@ -26,9 +26,7 @@ Foam foamOf(const std::vector<PlainCell>& cells) {
 
 Foam randomFoam(uint32_t cellCount, uint32_t detailCount, uint32_t lobeCount, uint64_t seed) {
   std::mt19937_64 random(seed);
-  const auto uniform = [&](float low, float high) {
-    return std::uniform_real_distribution<float>(low, high)(random);
-  };
+  const auto uniform = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
   const auto vector = [&](float extent) {
     const float x = uniform(-extent, extent), y = uniform(-extent, extent);
     return glm::vec3(x, y, uniform(-extent, extent));
@@ -74,8 +72,7 @@ Foam permuteFoam(const Foam& foam, const std::vector<uint32_t>& order) {
   return result;
 }
 
-View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height,
-            double tanHalfFov) {
+View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height, double tanHalfFov) {
   const glm::dvec3 forward = glm::normalize(target - eye);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, -1, 0)));
   const glm::dvec3 down = glm::cross(forward, right);
@@ -98,8 +95,7 @@ glm::dvec3 directionOf(const View& view, uint32_t x, uint32_t y) {
   const double local[3] = {(x + 0.5 - view.cx) / view.fx, (y + 0.5 - view.cy) / view.fy, 1};
   glm::dvec3 world(0);
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      world[row] += view.worldFromCamera[4 * row + column] * local[column];
+    for (int column = 0; column < 3; ++column) world[row] += view.worldFromCamera[4 * row + column] * local[column];
   }
   return glm::normalize(world);
 }
@@ -121,7 +117,7 @@ RenderedImages renderFoam(const Foam& foam, const View& view, const ReferenceOpt
 void expectSameImages(const RenderedImages& a, const RenderedImages& b) {
   EXPECT_EQ(a.colour.values, b.colour.values);
   EXPECT_EQ(a.alpha.values, b.alpha.values);
-  EXPECT_EQ(a.depth.values, b.depth.values);
+  EXPECT_EQ(a.distance.values, b.distance.values);
   EXPECT_EQ(a.normal.values, b.normal.values);
 }
 

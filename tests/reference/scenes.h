@@ -16,7 +16,7 @@ struct PlainCell {
   float density = 1;
   glm::vec3 colour = {0.5f, 0.5f, 0.5f};
   glm::vec4 orientation = {1, 0, 0, 0};  // the face's normal is +x
-  float height = 5;  // in radii; 5: the face lies outside the ball, which is solid throughout
+  float height = 5;                      // in radii; 5: the face lies outside the ball, which is solid throughout
 };
 
 inline constexpr glm::vec4 kFaceTowardsMinusZ = {0.70710678f, 0, -0.70710678f, 0};
@@ -33,8 +33,7 @@ Foam permuteFoam(const Foam& foam, const std::vector<uint32_t>& order);
 
 // Square pixels, a field of view of 2 atan(tanHalfFov) across the height. Sites must not lie straight above
 // the eye.
-View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height,
-            double tanHalfFov);
+View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height, double tanHalfFov);
 
 // The unit direction of a pixel, and the eye.
 glm::dvec3 directionOf(const View& view, uint32_t x, uint32_t y);
@@ -43,8 +42,7 @@ glm::dvec3 directionOf(const View& view, uint32_t x, uint32_t y);
 ReferenceOptions plainOptions(Precision precision = Precision::kDouble);
 
 // Renders, and fails the test when that fails.
-RenderedImages renderFoam(const Foam& foam, const View& view,
-                          const ReferenceOptions& options = plainOptions());
+RenderedImages renderFoam(const Foam& foam, const View& view, const ReferenceOptions& options = plainOptions());
 
 // All four images have the same bits.
 void expectSameImages(const RenderedImages& a, const RenderedImages& b);

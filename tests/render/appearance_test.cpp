@@ -13,9 +13,7 @@ namespace {
 
 constexpr uint32_t kWidth = 96, kHeight = 72, kDetails = 3, kLobes = 4;
 
-View frontView() {
-  return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.4);
-}
+View frontView() { return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.4); }
 
 class Appearance : public testing::Test {
  protected:

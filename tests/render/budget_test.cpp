@@ -83,8 +83,7 @@ TEST_F(Budget, ThatCannotBeObeyedKeepsWhatIsPinnedAndTellsTheExcess) {
   for (int frame = 0; frame < 4; ++frame) {
     const Frame drawn = stage.draw(Method::kRaster, view);
     EXPECT_NE(drawn.status.bits & kOverflow, 0u);
-    EXPECT_GT(*std::max_element(drawn.colour.values.begin(), drawn.colour.values.end()), 0.0f)
-        << "some is drawn";
+    EXPECT_GT(*std::max_element(drawn.colour.values.begin(), drawn.colour.values.end()), 0.0f) << "some is drawn";
   }
   FrothFrameStatus status{};
   status.structSize = sizeof(status);
@@ -121,11 +120,10 @@ TEST_F(Budget, LoweredWithFramesInFlightNeverHoldsMuchMoreAndNeverLeavesTheViewO
       completed = std::max(completed, serial - kFramesInFlight);  // as if the GPU lagged behind
       const FrothFrame frame{sizeof(FrothFrame), serial, completed, 0};
       EXPECT_EQ(frothUpdate(context_, &frame, &status), FROTH_OK);
-      EXPECT_EQ(frothRasterize(context_, stage.view(), commands, &info), FROTH_OK);
+      EXPECT_EQ(frothRecordRaster(context_, stage.view(), commands, &info), FROTH_OK);
       return Status();
     }));
-    EXPECT_LE(status.deviceBytes, before.deviceBytes + before.categories[1].granted / 3)
-        << "frame " << frames;
+    EXPECT_LE(status.deviceBytes, before.deviceBytes + before.categories[1].granted / 3) << "frame " << frames;
   } while (status.excessBytes > 0 && ++frames < 200);
   EXPECT_LE(status.deviceBytes, budget);
   EXPECT_LT(frames, 80);

@@ -14,9 +14,7 @@ namespace {
 constexpr uint32_t kWidth = 128, kHeight = 96;
 constexpr double kGrid = 0x1p-16;
 
-View frontView() {
-  return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.6);
-}
+View frontView() { return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.6); }
 
 Foam synthesize(const char* name, uint32_t cells) {
   Result<Foam> foam = synthesizeFoam({name, cells, 1});

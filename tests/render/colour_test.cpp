@@ -1,4 +1,5 @@
-// The colour image in the engine's terms: exposure of an instance, and light that the engine's tone curve turns into the capture.
+// The colour image in the engine's terms: exposure of an instance, and light that the engine's tone curve turns into
+// the capture.
 #include <algorithm>
 #include <cmath>
 
@@ -45,14 +46,18 @@ Image show(const Frame& frame, int curve) {
 int mostSteps(const Image& a, const Image& b) {
   long most = 0;
   const auto stepOf = [](float value) { return std::lround(255 * std::clamp(value, 0.0f, 1.0f)); };
-  for (size_t i = 0; i < a.values.size(); ++i) most = std::max(most, std::abs(stepOf(a.values[i]) - stepOf(b.values[i])));
+  for (size_t i = 0; i < a.values.size(); ++i) {
+    most = std::max(most, std::abs(stepOf(a.values[i]) - stepOf(b.values[i])));
+  }
   return static_cast<int>(most);
 }
 
 // The same image with its brightest colours at white, as the curves end there.
 Image clampedToWhite(const Frame& frame) {
   Image image = frame.colour;
-  for (size_t i = 0; i < image.values.size(); ++i) image.values[i] = std::min(image.values[i], frame.alpha.values[i / 3]);
+  for (size_t i = 0; i < image.values.size(); ++i) {
+    image.values[i] = std::min(image.values[i], frame.alpha.values[i / 3]);
+  }
   return image;
 }
 
@@ -89,8 +94,9 @@ TEST(Colour, ExposureScalesTheLightOfAnInstance) {
       stage().place(bright);
       const Frame exposed = stage().draw(method, info, {kWidth, kHeight});
       EXPECT_EQ(exposed.alpha.values, plain.alpha.values);
-      for (size_t i = 0; i < plain.colour.values.size(); ++i)
+      for (size_t i = 0; i < plain.colour.values.size(); ++i) {
         ASSERT_NEAR(exposed.colour.values[i], 2.5f * plain.colour.values[i], 1e-5f * (1 + exposed.colour.values[i]));
+      }
     }
   }
   stage().place({});

@@ -2,8 +2,8 @@
 #include <bit>
 #include <cmath>
 
-#include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/packing.hpp>
 
 #include "froth/froth_composite.h"
 #include "tests/render/random_foam.h"
@@ -87,7 +87,7 @@ class Composite : public testing::TestWithParam<VkFormat> {
     render.colour.stageOut = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
     render.colour.accessOut = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
     stage_->submit({{Method::kRaster, render}}, {}, [&](VkCommandBuffer commandBuffer) {
-      EXPECT_EQ(frothComposite(context_, stage_->view(), commandBuffer, &info_), FROTH_OK);
+      EXPECT_EQ(frothRecordComposite(context_, stage_->view(), commandBuffer, &info_), FROTH_OK);
     });
     foamTexels_ = unpackTexels(*sharedHost().readImage(foam_), VK_FORMAT_R16G16B16A16_SFLOAT);
     return unpackTexels(*sharedHost().readImage(target_), GetParam());
@@ -110,8 +110,10 @@ class Composite : public testing::TestWithParam<VkFormat> {
       if (hasShadow) foam *= glm::dvec4(glm::dvec3(lit_[i]), 1);
       if (isInside) expected = foam + (1 - alpha) * expected;
       covered += isInside && alpha > 0.5;
-      for (int c = 0; c < (GetParam() == kPacked ? 3 : 4); ++c)
-        ASSERT_NEAR(found[i][c], expected[c], tolerance() * (isInside ? std::max(1.0, expected[c]) : 0)) << x << ", " << y;
+      for (int c = 0; c < (GetParam() == kPacked ? 3 : 4); ++c) {
+        ASSERT_NEAR(found[i][c], expected[c], tolerance() * (isInside ? std::max(1.0, expected[c]) : 0))
+            << x << ", " << y;
+      }
     }
     EXPECT_GT(covered, kPixels / 20);
   }
@@ -139,7 +141,9 @@ TEST_P(Composite, LeavesPixelsThatWereNotDrawnAlone) {
 INSTANTIATE_TEST_SUITE_P(Formats, Composite,
                          testing::Values(VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT, kPacked),
                          [](const testing::TestParamInfo<VkFormat>& test) {
-                           return test.param == kPacked ? "packed" : test.param == VK_FORMAT_R16G16B16A16_SFLOAT ? "halves" : "floats";
+                           return test.param == kPacked                         ? "packed"
+                                  : test.param == VK_FORMAT_R16G16B16A16_SFLOAT ? "halves"
+                                                                                : "floats";
                          });
 
 }  // namespace

@@ -129,17 +129,19 @@ TEST_P(DepthExport, LeavesPixelsThatWereNotDrawnAlone) {
 }
 
 std::string nameOf(const testing::TestParamInfo<Form>& test) {
-  const char* format = test.param.format == VK_FORMAT_D32_SFLOAT ? "floats"
+  const char* format = test.param.format == VK_FORMAT_D32_SFLOAT  ? "floats"
                        : test.param.format == VK_FORMAT_D16_UNORM ? "sixteen_bits"
                                                                   : "floats_and_stencil";
-  return std::string(format) + (test.param.isReversed ? "_reversed" : "_forward") + (test.param.isOrthographic ? "_parallel" : "");
+  return std::string(format) + (test.param.isReversed ? "_reversed" : "_forward") +
+         (test.param.isOrthographic ? "_parallel" : "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, DepthExport,
-                         testing::Values(Form{VK_FORMAT_D32_SFLOAT, false, false}, Form{VK_FORMAT_D32_SFLOAT, true, false},
-                                         Form{VK_FORMAT_D16_UNORM, false, false}, Form{VK_FORMAT_D16_UNORM, true, false},
-                                         Form{VK_FORMAT_D32_SFLOAT_S8_UINT, true, false}, Form{VK_FORMAT_D32_SFLOAT, true, true}),
-                         nameOf);
+INSTANTIATE_TEST_SUITE_P(
+    Forms, DepthExport,
+    testing::Values(Form{VK_FORMAT_D32_SFLOAT, false, false}, Form{VK_FORMAT_D32_SFLOAT, true, false},
+                    Form{VK_FORMAT_D16_UNORM, false, false}, Form{VK_FORMAT_D16_UNORM, true, false},
+                    Form{VK_FORMAT_D32_SFLOAT_S8_UINT, true, false}, Form{VK_FORMAT_D32_SFLOAT, true, true}),
+    nameOf);
 
 }  // namespace
 }  // namespace froth::test

@@ -9,7 +9,9 @@ namespace {
 
 constexpr VkExtent2D kEye{96, 64};
 
-View viewOf(uint32_t eye) { return lookAt({eye == 0 ? -0.03 : 0.03, 0.1, -0.5}, {0, 0, 3}, kEye.width, kEye.height, 0.5); }
+View viewOf(uint32_t eye) {
+  return lookAt({eye == 0 ? -0.03 : 0.03, 0.1, -0.5}, {0, 0, 3}, kEye.width, kEye.height, 0.5);
+}
 
 Stage& stage() {
   static FrothContext* const context = createCheckedContext(0);

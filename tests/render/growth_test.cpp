@@ -42,9 +42,7 @@ class Growth : public testing::Test {
       EXPECT_FALSE(asset_.hasFailed());
       asset_.stage(*ring, UINT64_MAX);
     }
-    submit([&](VkCommandBuffer commandBuffer, uint64_t serial) {
-      ring->record(commandBuffer, serial, UINT64_MAX);
-    });
+    submit([&](VkCommandBuffer commandBuffer, uint64_t serial) { ring->record(commandBuffer, serial, UINT64_MAX); });
     image_ = *sharedHost().createImage(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent);
   }
 
@@ -71,10 +69,9 @@ class Growth : public testing::Test {
     info.colour = sharedHost().describe(image_);
     info.camera.scissor = {{0, 0}, kExtent};
     info.cutoff = 1e-3f;
-    info.depthQuantile = 0.5f;
+    info.quantile = 0.5f;
     info.maxSteps = info.maxEntries = info.maxNeighbours = 65536;
-    const RenderInstance instance{
-        .asset = &asset_.gpu(), .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
+    const RenderInstance instance{.asset = &asset_.gpu(), .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
     const bool isRaster = method == Method::kRaster;
     submit([&](VkCommandBuffer commandBuffer, uint64_t serial) {
       view_->slots[0] = {};
@@ -212,8 +209,7 @@ TEST_P(GrowthAfter, AShortageFramesAreWholeAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, GrowthAfter,
-                         testing::Values(Shortage::kCells, Shortage::kPlanes, Shortage::kSites,
-                                         Shortage::kPairs));
+                         testing::Values(Shortage::kCells, Shortage::kPlanes, Shortage::kSites, Shortage::kPairs));
 
 TEST_F(Growth, KeepsAheadOfACameraThatMovesOnAndFollowsOneThatJumps) {
   for (const Method method : {Method::kRaster, Method::kWalk}) {

@@ -83,7 +83,7 @@ void expectIdsOfReference(const View& view, const FrothRenderInfo& info, const I
       const uint32_t cell = reference.cells[i];
       differing += frame.id[i] != (cell == UINT32_MAX ? kNone : idOf[cell]);
       none += cell == UINT32_MAX;
-      thin += cell != UINT32_MAX && reference.depth.values[i] < 0;
+      thin += cell != UINT32_MAX && reference.distance.values[i] < 0;
     }
     EXPECT_LE(differing, 2 + frame.id.size() / 1000) << "lens " << static_cast<int>(view.lens.kind);
     EXPECT_GT(none, 0u);

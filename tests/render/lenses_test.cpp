@@ -1,8 +1,8 @@
 // Cameras of every lens: raster and walk against each other and against the double reference.
 #include <cmath>
 
-#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "reference/camera/ray_map.h"
 #include "reference/camera/view_rays.h"
@@ -49,32 +49,38 @@ void expectSameDistances(const Image& distance, const Image& depth) {
   uint32_t differing = 0;
   for (size_t i = 0; i < depth.values.size(); ++i) {
     const float expected = depth.values[i] < 0 ? INFINITY : depth.values[i];
-    if (std::isinf(expected) != std::isinf(distance.values[i])) ++differing;
-    else if (std::isfinite(expected) && std::abs(expected - distance.values[i]) > 1e-3f * (1 + expected)) ++differing;
+    if (std::isinf(expected) != std::isinf(distance.values[i])) {
+      ++differing;
+    } else if (std::isfinite(expected) && std::abs(expected - distance.values[i]) > 1e-3f * (1 + expected)) {
+      ++differing;
+    }
   }
   EXPECT_LE(differing, 2 + depth.values.size() / 1000);
 }
 
 // `info` draws what `view` sees.
 void expectAllAgree(const View& view, const FrothRenderInfo& info) {
-  SCOPED_TRACE(testing::Message() << "lens " << static_cast<int>(view.lens.kind) << ", " << view.width << " x " << view.height);
+  SCOPED_TRACE(testing::Message() << "lens " << static_cast<int>(view.lens.kind) << ", " << view.width << " x "
+                                  << view.height);
   const Frame raster = drawLens(Method::kRaster, view, info), walk = drawLens(Method::kWalk, view, info);
   EXPECT_EQ(raster.status.bits, 0u);
   EXPECT_EQ(walk.status.bits, 0u);
   const RenderedImages reference = renderReference(lensFoam(), view, 1e-3);
   const double pair = psnr(raster.colour, walk.colour), first = psnr(raster.colour, reference.colour),
                second = psnr(walk.colour, reference.colour);
-  std::printf("[   PSNR   ] lens %d, %u x %u: raster-walk %.1f dB, raster-reference %.1f dB, walk-reference %.1f dB, %.2g over\n",
-              static_cast<int>(view.lens.kind), view.width, view.height, pair, first, second,
-              overTwoSteps(raster.colour, walk.colour));
+  std::printf(
+      "[   PSNR   ] lens %d, %u x %u: raster-walk %.1f dB, raster-reference %.1f dB, walk-reference %.1f dB, %.2g "
+      "over\n",
+      static_cast<int>(view.lens.kind), view.width, view.height, pair, first, second,
+      overTwoSteps(raster.colour, walk.colour));
   EXPECT_GE(pair, 60);
   EXPECT_LE(overTwoSteps(raster.colour, walk.colour), 1e-4);
   EXPECT_GE(first, 55);
   EXPECT_GE(second, 55);
   EXPECT_GE(psnr(raster.alpha, reference.alpha), 55);
   EXPECT_GE(psnr(raster.normal, reference.normal), 50);
-  expectSameDistances(raster.distance, reference.depth);
-  expectSameDistances(walk.distance, reference.depth);
+  expectSameDistances(raster.distance, reference.distance);
+  expectSameDistances(walk.distance, reference.distance);
   float seen = 0;
   for (const float value : reference.alpha.values) seen = std::max(seen, value);
   EXPECT_GT(seen, 0.5f) << "nothing to be seen";
@@ -118,9 +124,7 @@ View waves(uint32_t width, uint32_t height) {
   return view;
 }
 
-TEST(Lenses, RasterWalkAndReferenceAgreeForAFisheye) {
-  expectAllAgree(viewOf(LensKind::kFisheye, 200, 200, 55));
-}
+TEST(Lenses, RasterWalkAndReferenceAgreeForAFisheye) { expectAllAgree(viewOf(LensKind::kFisheye, 200, 200, 55)); }
 
 TEST(Lenses, RasterWalkAndReferenceAgreeForAKannalaBrandtLens) { expectAllAgree(kannalaBrandt(240, 180)); }
 
@@ -141,8 +145,8 @@ TEST(Lenses, RasterWalkAndReferenceAgreeForARayMapWithHoles) {
   EXPECT_EQ(*frame.alpha.pixel(132, 81), 0) << "in the hole";
 }
 
-// Balls of a few pixels lie in one tile or two: a bound of rays that is 3 % too narrow loses some. The first view is narrow enough for
-// blocks of tiles to have cones.
+// Balls of a few pixels lie in one tile or two: a bound of rays that is 3 % too narrow loses some. The first view is
+// narrow enough for blocks of tiles to have cones.
 TEST(Lenses, NoTileOrBlockOfTilesLosesASmallBall) {
   Foam foam = makeRandomFoam(6000, 1, 0, 5);
   for (float& radius : foam.radii) radius *= 0.06f;
@@ -164,7 +168,8 @@ TEST(Lenses, NoTileOrBlockOfTilesLosesASmallBall) {
 
 TEST(Lenses, SmallAndOddImagesAgreeToo) {
   for (const VkExtent2D extent : {VkExtent2D{1, 1}, VkExtent2D{9, 1}, VkExtent2D{33, 65}, VkExtent2D{257, 31}}) {
-    View view = viewOf(LensKind::kFisheye, extent.width, extent.height, 0.4 * std::max(extent.width, extent.height), {0, 0, 1});
+    View view =
+        viewOf(LensKind::kFisheye, extent.width, extent.height, 0.4 * std::max(extent.width, extent.height), {0, 0, 1});
     expectAllAgree(view);
   }
 }
@@ -195,8 +200,9 @@ TEST(Lenses, AViewportMovesALensAndAScissorCutsIt) {
     const Frame part = drawLens(method, view, info);
     double most = 0;
     for (uint32_t y = 21; y < 71; ++y) {
-      for (uint32_t x = 37; x < 107; ++x)
+      for (uint32_t x = 37; x < 107; ++x) {
         most = std::max(most, double{std::abs(part.colour.pixel(x, y)[1] - whole.colour.pixel(x, y)[1])});
+      }
     }
     EXPECT_LT(most, 0.01);
   }

@@ -21,7 +21,8 @@ std::vector<BallCell> makeColumn(uint32_t count) {
   std::vector<BallCell> cells;
   for (uint32_t i = count; i-- > 0;) {
     const auto place = static_cast<float>(i);
-    cells.push_back({{0.01f * place, 0, 2 + 0.1f * place}, 0.5f, 0.2f, {0.01f * place - 0.3f, 0.2f, 0.3f - 0.01f * place}});
+    cells.push_back(
+        {{0.01f * place, 0, 2 + 0.1f * place}, 0.5f, 0.2f, {0.01f * place - 0.3f, 0.2f, 0.3f - 0.01f * place}});
   }
   return cells;
 }
@@ -140,7 +141,8 @@ TEST(Limits, SeventyThousandChunksOfOneCellAreDrawnAsOneChunk) {
   const auto draw = [](const AssetContents& contents) {
     return Stage(contents, {kSize, kSize}).draw(Method::kRaster, frontView(kSize));
   };
-  const Frame expected = draw(makeBallAsset(cells)), found = draw(makeBallAsset(cells, std::vector<uint32_t>(kCount, 1)));
+  const Frame expected = draw(makeBallAsset(cells)),
+              found = draw(makeBallAsset(cells, std::vector<uint32_t>(kCount, 1)));
   EXPECT_EQ(found.status.bits, 0u);
   EXPECT_GT(found.status.visibleCells, 1000u);
   EXPECT_EQ(found.colour.values, expected.colour.values);
@@ -162,7 +164,8 @@ TEST(Limits, DispatchesOverListsFitWhatEveryDeviceTakes) {
     EXPECT_LE(dispatchedX, 65535u) << groups;
     EXPECT_LE(dispatchedY, 65535u) << groups;
     EXPECT_GE(uint64_t{dispatchedX} * dispatchedY, groups);
-    EXPECT_LT(uint64_t{dispatchedX} * dispatchedY, uint64_t{groups} + std::max(dispatchedY, 1u)) << "at most a row's rest too many";
+    EXPECT_LT(uint64_t{dispatchedX} * dispatchedY, uint64_t{groups} + std::max(dispatchedY, 1u))
+        << "at most a row's rest too many";
   }
 }
 

@@ -1,9 +1,9 @@
-// Motion leads from a pixel to where its point was seen in the frame before: against closed forms in double, for moving cameras and
-// instances.
+// Motion leads from a pixel to where its point was seen in the frame before: against closed forms in double, for moving
+// cameras and instances.
 #include <cmath>
 
-#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "reference/camera/view_rays.h"
 #include "tests/render/random_foam.h"
@@ -76,11 +76,13 @@ glm::dvec2 pixelOf(const View& view, const glm::dvec3& place, bool isDirection) 
       break;
     case LensKind::kKannalaBrandt:
       point *= (theta + k[0] * std::pow(theta, 3) + k[1] * std::pow(theta, 5) + k[2] * std::pow(theta, 7) +
-                k[3] * std::pow(theta, 9)) / r;
+                k[3] * std::pow(theta, 9)) /
+               r;
       break;
     case LensKind::kRadialTangential: {
       const double x = v.x / v.z, y = v.y / v.z, r2 = x * x + y * y, radial = 1 + k[0] * r2 + k[1] * r2 * r2;
-      point = {x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x), y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
+      point = {x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x),
+               y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
       break;
     }
     case LensKind::kEquirectangular:
@@ -140,8 +142,8 @@ FrothRenderInfo infoOf(const Moved& moved) {
   return info;
 }
 
-constexpr LensKind kKinds[] = {LensKind::kPinhole,         LensKind::kOrthographic,     LensKind::kFisheye,
-                               LensKind::kKannalaBrandt,   LensKind::kRadialTangential, LensKind::kEquirectangular};
+constexpr LensKind kKinds[] = {LensKind::kPinhole,       LensKind::kOrthographic,     LensKind::kFisheye,
+                               LensKind::kKannalaBrandt, LensKind::kRadialTangential, LensKind::kEquirectangular};
 
 // The instance stands where it was drawn last.
 void putAtRest() {
@@ -182,7 +184,9 @@ TEST(Motion, OfAStillSceneIsZero) {
     const View view = viewOf(kind);
     FrothRenderInfo info = infoOf({view, view});
     info.camera.jitter[0] = 0.25f;
-    for (const float value : stage().draw(Method::kRaster, info, {kWidth, kHeight}).motion.values) ASSERT_NEAR(value, 0, 3e-4);
+    for (const float value : stage().draw(Method::kRaster, info, {kWidth, kHeight}).motion.values) {
+      ASSERT_NEAR(value, 0, 3e-4);
+    }
   }
 }
 
@@ -217,7 +221,9 @@ const Pose kTurned{{0.1, -0.05, 0.2}, glm::normalize(glm::dquat(0.98, 0.1, -0.05
 TEST(Motion, OfAnInstanceIsAddedToThatOfTheCamera) {
   for (const LensKind kind : {LensKind::kPinhole, LensKind::kOrthographic, LensKind::kFisheye}) {
     const Moved moved{viewOf(kind), viewOf(kind, {0.5, -0.45, 0.38}), kTurned, {}};
-    for (const Method method : {Method::kRaster, Method::kWalk}) expectMotion(moved, drawMoved(moved, method, infoOf(kTurned)));
+    for (const Method method : {Method::kRaster, Method::kWalk}) {
+      expectMotion(moved, drawMoved(moved, method, infoOf(kTurned)));
+    }
   }
   stage().place({});
 }
@@ -246,10 +252,13 @@ TEST(Motion, OfSeveralInstancesIsThatOfEach) {
         ASSERT_LE(user, 1u);
         ++found[user];
         const glm::dvec3 point = eyeOf(view) + t * rays.ofPixel(x, y)->direction;
-        const glm::dvec3 was = user == 0 ? toWorld({}, toAsset(kTurned, point)) : toWorld(otherBefore, toAsset(otherNow, point));
+        const glm::dvec3 was =
+            user == 0 ? toWorld({}, toAsset(kTurned, point)) : toWorld(otherBefore, toAsset(otherNow, point));
         const glm::dvec2 expected = pixelOf(before, was, false) - glm::dvec2(x + 0.5, y + 0.5);
-        for (int axis = 0; axis < 2; ++axis)
-          ASSERT_NEAR(frame.motion.pixel(x, y)[axis], expected[axis], 1e-3 + std::abs(expected[axis]) / 1024) << x << ", " << y;
+        for (int axis = 0; axis < 2; ++axis) {
+          ASSERT_NEAR(frame.motion.pixel(x, y)[axis], expected[axis], 1e-3 + std::abs(expected[axis]) / 1024)
+              << x << ", " << y;
+        }
       }
     }
     EXPECT_GT(found[0], kWidth * kHeight / 25);
@@ -263,7 +272,9 @@ TEST(Motion, IsAsExactFarFromTheOrigin) {
   const glm::dvec3 away(1e6, -2e6, 5e5);
   const auto shifted = [&](const glm::dvec3& place) { return place + away; };
   Moved moved{viewOf(LensKind::kPinhole, shifted({0.6, -0.5, 0.3}), shifted({0.05, 0.1, 3})),
-              viewOf(LensKind::kPinhole, shifted({0.5, -0.45, 0.38}), shifted({0.05, 0.1, 3})), kTurned, {}};
+              viewOf(LensKind::kPinhole, shifted({0.5, -0.45, 0.38}), shifted({0.05, 0.1, 3})),
+              kTurned,
+              {}};
   moved.poseNow.position += away;
   moved.poseBefore.position += away;
   expectMotion(moved, drawMoved(moved, Method::kRaster, infoOf(moved.poseNow)));
@@ -296,10 +307,11 @@ TEST(Motion, LeadsToWhereTheInstanceWasDrawnLastInAnyOrderOfCalls) {
   const Frame inOrder = drawMoved(moved, Method::kRaster, infoOf(kTurned));
   stage().place(infoOf(moved.poseBefore));
   stage().draw(Method::kRaster, moved.before);
-  const Frame after = stage().draw(Method::kRaster, infoOf(moved), {kWidth, kHeight}, VK_FORMAT_R32G32B32A32_SFLOAT, [&] {
-    stage().place(infoOf(Pose{{5, 5, 5}}));
-    stage().place(infoOf(kTurned));
-  });
+  const Frame after =
+      stage().draw(Method::kRaster, infoOf(moved), {kWidth, kHeight}, VK_FORMAT_R32G32B32A32_SFLOAT, [&] {
+        stage().place(infoOf(Pose{{5, 5, 5}}));
+        stage().place(infoOf(kTurned));
+      });
   EXPECT_EQ(inOrder.motion.values, after.motion.values);
   expectMotion(moved, after);
   stage().place({});
@@ -308,8 +320,10 @@ TEST(Motion, LeadsToWhereTheInstanceWasDrawnLastInAnyOrderOfCalls) {
 TEST(Motion, OfWhatLayBehindTheCameraLeadsOffTheImage) {
   putAtRest();
   View turned = viewOf(LensKind::kPinhole, {0.6, -0.5, 0.3}, {1.15, -1.1, -2.4});
-  for (const float value : stage().draw(Method::kRaster, infoOf({viewOf(LensKind::kPinhole), turned}), {kWidth, kHeight}).motion.values)
+  for (const float value :
+       stage().draw(Method::kRaster, infoOf({viewOf(LensKind::kPinhole), turned}), {kWidth, kHeight}).motion.values) {
     ASSERT_EQ(value, 32768);
+  }
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ void expectReference(const Foam& foam, const std::vector<View>& views, double mo
     const RenderedImages expected = renderReference(foam, view);
     for (const Method method : {Method::kRaster, Method::kWalk}) {
       const Frame drawn = stage.draw(method, view);
-      EXPECT_LE(largestDifference(drawn.colour, expected.colour), most) << (method == Method::kWalk ? "walk" : "raster");
+      EXPECT_LE(largestDifference(drawn.colour, expected.colour), most)
+          << (method == Method::kWalk ? "walk" : "raster");
       EXPECT_LE(largestDifference(drawn.alpha, expected.alpha), most) << (method == Method::kWalk ? "walk" : "raster");
     }
   }
@@ -42,7 +43,8 @@ std::vector<View> viewsFrom(const glm::dvec3& eye) {
 //      ^ the middle column of rays
 TEST(RaysInAPlane, ShowOneOfItsTwoCells) {
   for (const bool isSwapped : {false, true}) {
-    std::vector<CaseCell> cells = {{{-0.25f, 0, 0}, 0.5f, 1.5f, kFaceToViewer, 5, 1}, {{0.25f, 0, 0}, 0.5f, 1.5f, kFaceToViewer, 5, 2}};
+    std::vector<CaseCell> cells = {{{-0.25f, 0, 0}, 0.5f, 1.5f, kFaceToViewer, 5, 1},
+                                   {{0.25f, 0, 0}, 0.5f, 1.5f, kFaceToViewer, 5, 2}};
     if (isSwapped) std::swap(cells[0], cells[1]);
     const Foam foam = foamOfCells(cells);
     for (const View& view : viewsFrom({0, 0, -2})) {
@@ -55,16 +57,35 @@ TEST(RaysInAPlane, ShowOneOfItsTwoCells) {
   }
 }
 
-TEST(RaysInAPlane, GoOnInTheCellsOfTheFirstSitesBeyondEdges) {
+// Four layers of four cells, whose planes meet along the z axis.
+Foam layersOfFour() {
   std::vector<CaseCell> cells;
   for (int z = 0; z < 4; ++z) {
     for (const float x : {0.25f, -0.25f}) {
       for (const float y : {0.25f, -0.25f}) {
-        cells.push_back({{x, y, 0.5f * static_cast<float>(z)}, 0.375f, 2, kFaceToViewer, 5, static_cast<uint32_t>(cells.size())});
+        cells.push_back(
+            {{x, y, 0.5f * static_cast<float>(z)}, 0.375f, 2, kFaceToViewer, 5, static_cast<uint32_t>(cells.size())});
       }
     }
   }
-  for (const double y : {0.0, 0.125}) expectReference(foamOfCells(cells), viewsFrom({0, y, -2}), 1e-3);
+  return foamOfCells(cells);
+}
+
+TEST(RaysInAPlane, GoOnInTheCellsOfTheFirstSitesBeyondEdges) {
+  for (const double y : {0.0, 0.125}) expectReference(layersOfFour(), viewsFrom({0, y, -2}), 1e-3);
+}
+
+// GPUs round the directions of rays out of the plane by less than the orders of sites tell apart.
+TEST(RaysInAPlane, WalkAsTheyRasterizeThoughRoundingTurnsThem) {
+  const Foam foam = layersOfFour();
+  for (View view : viewsFrom({0, 0, -2})) {
+    for (const double turn : {-1e-17, 1e-17}) {
+      view.worldFromCamera[2] = turn;  // x of the forward axis
+      Stage stage(bakeForTest(foam), {view.width, view.height}, lensContext(), 0, kLenses);
+      const Frame raster = stage.draw(Method::kRaster, view), walk = stage.draw(Method::kWalk, view);
+      EXPECT_LE(largestDifference(walk.colour, raster.colour), 1e-3) << turn;
+    }
+  }
 }
 
 // The rays of a lens of nearly half a turn are sums of vectors far longer than the middle one.
@@ -76,7 +97,8 @@ TEST(WideLenses, LoseNothingOfTheirMiddleRays) {
 
 TEST(HugeBalls, AreCutByTheirFaces) {
   for (const float height : {-2.0f, 0.0f}) {
-    const Foam foam = foamOfCells({{{0, 0, 0}, 2e14f, 1, glm::vec4(0.9898772f, -0.12923546f, -0.0402591f, -0.042666964f), height, 1}});
+    const Foam foam = foamOfCells(
+        {{{0, 0, 0}, 2e14f, 1, glm::vec4(0.9898772f, -0.12923546f, -0.0402591f, -0.042666964f), height, 1}});
     expectReference(foam, {orthographicView({0, 0, -2.5e14}, {0, 0, 0}, 1e14, 8, 8)}, 2e-3);
   }
 }

@@ -16,9 +16,7 @@ namespace {
 constexpr uint32_t kDetails = 3, kLobes = 4, kNormalBits = 10;
 
 // In the middle of the foam, so that there are cells behind it.
-View viewFromWithin() {
-  return lookAt({0, 0, 2.6}, {0.1, 0, 4}, 96, 64, 0.7);
-}
+View viewFromWithin() { return lookAt({0, 0, 2.6}, {0.1, 0, 4}, 96, 64, 0.7); }
 
 template <class Vector>
 Vector snap(Vector values, float step) {

@@ -1,5 +1,5 @@
-// The passes that count and write (tile, cell) pairs are two programs, whose tests of a ball against a tile compilers may round
-// apart. Here they disagree on purpose.
+// The passes that count and write (tile, cell) pairs are two programs, whose tests of a ball against a tile compilers
+// may round apart. Here they disagree on purpose.
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -37,8 +37,9 @@ PFN_vkVoidFunction VKAPI_CALL getPlantedDeviceProcAddr(VkDevice device, const ch
 }
 
 PFN_vkVoidFunction VKAPI_CALL getPlantedProcAddr(VkInstance instance, const char* name) {
-  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
+  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
     return reinterpret_cast<PFN_vkVoidFunction>(getPlantedDeviceProcAddr);
+  }
   return vkGetInstanceProcAddr(instance, name);
 }
 

@@ -30,8 +30,8 @@ class Passes : public testing::Test {
   // Mapped, and reached by address.
   template <class T>
   GpuBuffer upload(const std::vector<T>& values) {
-    Result<GpuBuffer> buffer =
-        device_.createBuffer(MemoryUse::kUploadsHost, BufferKind::kReadback, std::max<size_t>(values.size() * sizeof(T), 16), "test");
+    Result<GpuBuffer> buffer = device_.createBuffer(MemoryUse::kUploadsHost, BufferKind::kReadback,
+                                                    std::max<size_t>(values.size() * sizeof(T), 16), "test");
     EXPECT_TRUE(buffer);
     if (!values.empty()) std::memcpy(buffer->mapped, values.data(), values.size() * sizeof(T));
     buffers_.push_back(*buffer);
@@ -95,7 +95,8 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
   gpu::Counters counters{};
   counters.visibleCells = count;
   counters.cellSortDispatch = {groups, 1, 1, 0};
-  Result<GpuBuffer> counterBuffer = device_.createBuffer(MemoryUse::kAssets, BufferKind::kDevice, sizeof(counters), "test");
+  Result<GpuBuffer> counterBuffer =
+      device_.createBuffer(MemoryUse::kAssets, BufferKind::kDevice, sizeof(counters), "test");
   ASSERT_TRUE(counterBuffer);
   buffers_.push_back(*counterBuffer);
   gpu::FrameBlock block{};
@@ -128,10 +129,15 @@ TEST_P(Sort, OrdersKeysAsAStableSortDoes) {
     dependency.memoryBarrierCount = 1;
     dependency.pMemoryBarriers = &memory;
     device_.table.vkCmdPipelineBarrier2(commandBuffer, &dependency);
-    const SortArrays arrays =
-               {keyBuffer.address, valueBuffer.address, keySwap.address, valueSwap.address,
-                counterBuffer->address + offsetof(gpu::Counters, visibleCells), histogramAddress,
-                std::max(count, 1u), rounds, offsetof(gpu::Counters, cellSortDispatch)};
+    const SortArrays arrays = {keyBuffer.address,
+                               valueBuffer.address,
+                               keySwap.address,
+                               valueSwap.address,
+                               counterBuffer->address + offsetof(gpu::Counters, visibleCells),
+                               histogramAddress,
+                               std::max(count, 1u),
+                               rounds,
+                               offsetof(gpu::Counters, cellSortDispatch)};
     for (uint32_t digit = 0; digit < kCellKeyDigits; ++digit) {
       const bool isLast = digit + 1 == kCellKeyDigits;
       recordSortDigit(recorder, arrays, digit, isLast ? gpu::kSortTakeTileCounts : gpu::kSortCountNextDigit);
@@ -218,7 +224,7 @@ class Bin : public Passes {
     FrothRenderInfo info = infoOf(camera);
     info.colour = sharedHost().describe(image);
     info.camera.scissor = {{0, 0}, extent};
-    info.depthQuantile = 0.5f;
+    info.quantile = 0.5f;
     info.maxEntries = 65536;
     const RenderInstance instance{.asset = &asset, .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
     submit([&](VkCommandBuffer commandBuffer) {
@@ -272,8 +278,7 @@ class Bin : public Passes {
 };
 
 // What a ray's tile must hold: every ball that one of its pixels' rays meets, nearest power first.
-void expectListsOfPixels(const Foam& foam, const View& camera,
-                         const std::vector<std::vector<uint32_t>>& tileCells) {
+void expectListsOfPixels(const Foam& foam, const View& camera, const std::vector<std::vector<uint32_t>>& tileCells) {
   const auto& world = camera.worldFromCamera;
   const glm::dvec3 right(world[0], world[4], world[8]), down(world[1], world[5], world[9]),
       forward(world[2], world[6], world[10]), eye(world[3], world[7], world[11]);
@@ -293,8 +298,7 @@ void expectListsOfPixels(const Foam& foam, const View& camera,
       lastPower = power;
     }
     const uint32_t x0 = tile % tilesX * gpu::kTileSize, y0 = tile / tilesX * gpu::kTileSize;
-    const uint32_t x1 = std::min(x0 + gpu::kTileSize, camera.width),
-                   y1 = std::min(y0 + gpu::kTileSize, camera.height);
+    const uint32_t x1 = std::min(x0 + gpu::kTileSize, camera.width), y1 = std::min(y0 + gpu::kTileSize, camera.height);
     for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
       const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - eye;
       bool isMet = false, isNearby = false;

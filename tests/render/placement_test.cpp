@@ -13,9 +13,7 @@ namespace {
 constexpr VkExtent2D kExtent{96, 72};
 constexpr double kFar = 1e6;
 
-View frontView() {
-  return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6);
-}
+View frontView() { return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6); }
 
 const AssetContents& randomAsset() {
   static const AssetContents contents = [] {
@@ -28,8 +26,7 @@ const AssetContents& randomAsset() {
 
 class Placement : public testing::Test {
  protected:
-  Placement()
-      : stage_(std::in_place, randomAsset(), kExtent), base_(stage_->draw(Method::kRaster, frontView())) {}
+  Placement() : stage_(std::in_place, randomAsset(), kExtent), base_(stage_->draw(Method::kRaster, frontView())) {}
 
   Frame draw(const FrothRenderInfo& info, Method method = Method::kRaster) {
     return stage_->draw(method, info, kExtent);
@@ -90,8 +87,8 @@ TEST_F(Placement, JitterMovesTheImageByThatManyPixels) {
   for (uint32_t y = 0; y + 2 < kExtent.height; ++y) {
     for (uint32_t x = 3; x < kExtent.width; ++x) {
       for (uint32_t c = 0; c < 3; ++c) {
-        largest = std::max(
-            largest, std::abs(double{moved.colour.pixel(x, y)[c]} - base_.colour.pixel(x - 3, y + 2)[c]));
+        largest =
+            std::max(largest, std::abs(double{moved.colour.pixel(x, y)[c]} - base_.colour.pixel(x - 3, y + 2)[c]));
       }
     }
   }
@@ -181,10 +178,11 @@ TEST_F(Placement, AnImageWantedAloneIsTheSame) {
     ASSERT_TRUE(texels);
     for (size_t i = 0; i < texels->size(); ++i) {
       const float expected = base_.distance.values[i];
-      if (std::isinf(expected))
+      if (std::isinf(expected)) {
         ASSERT_TRUE(std::isinf((*texels)[i])) << i;
-      else
+      } else {
         ASSERT_NEAR((*texels)[i], expected, 1e-3) << i;
+      }
     }
   }
   host.destroyImage(*image);

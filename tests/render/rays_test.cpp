@@ -138,15 +138,14 @@ TEST(Rays, TheBoundsOfABallsImageHoldEveryRayThatMeetsIt) {
   for (int i = 0; i < 20000; ++i) {
     const Case c = makeCase(engine);
     float low, high;
-    if (!foam::boundBallImage(c.centre, c.radius, glm::cross(c.corner, c.edgeY), glm::cross(c.edgeX, c.edgeY),
-                              low, high)) {
+    if (!foam::boundBallImage(c.centre, c.radius, glm::cross(c.corner, c.edgeY), glm::cross(c.edgeX, c.edgeY), low,
+                              high)) {
       continue;
     }
     ++bounded;
     for (int k = 0; k < 32; ++k) {  // rays through points of the ball's silhouette plane
       std::uniform_real_distribution<float> unit(-1, 1);
-      const Vec point =
-          c.centre + 0.99f * c.radius * glm::normalize(Vec(unit(engine), unit(engine), unit(engine)));
+      const Vec point = c.centre + 0.99f * c.radius * glm::normalize(Vec(unit(engine), unit(engine), unit(engine)));
       // point ~ corner + x edgeX + y edgeY, by Cramer's rule
       const float w = glm::dot(point, glm::cross(c.edgeX, c.edgeY));
       const float x = glm::dot(point, glm::cross(c.edgeY, c.corner)) / w;
@@ -162,7 +161,8 @@ TEST(Rays, TheBoundsOfABallsImageAreTheSameInAllUnitsAndHoldForNarrowLenses) {
   const Vec centre(0.3f, -0.2f, 5), corner(-0.5f, -0.4f, 1), edgeX(1e-4f, 0, 0), edgeY(0, 1e-4f, 0);
   const auto widthIn = [&](float unit) {
     float low = 0, high = 0;
-    EXPECT_TRUE(foam::boundBallImage(unit * centre, unit * 0.01f, glm::cross(corner, edgeY), glm::cross(edgeX, edgeY), low, high));
+    EXPECT_TRUE(foam::boundBallImage(unit * centre, unit * 0.01f, glm::cross(corner, edgeY), glm::cross(edgeX, edgeY),
+                                     low, high));
     return high - low;
   };
   const float width = widthIn(1);

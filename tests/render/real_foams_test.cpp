@@ -18,9 +18,7 @@ struct RealFoam {
   std::filesystem::path folder;
 };
 
-std::filesystem::path folderOf(const char* name) {
-  return dataFolder() / "foams" / name;
-}
+std::filesystem::path folderOf(const char* name) { return dataFolder() / "foams" / name; }
 
 RealFoam loadFoam(const std::filesystem::path& folder) {
   Result<Foam> foam = importCheckpoint(folder / "model.pt");
@@ -77,8 +75,9 @@ TEST(RealFoam, TheRoughTankardIsRasterizedAsPublishedAndItsWalksEnd) {
   expectWalkAgrees(foam, stage, 2);
 }
 
-// The two budgets of an integrator's first hour. 1 MB: refused with both numbers. 100 MB: all of it, never above; and when it is
-// taken down to less than the view wants, a coarser frame at once and the same one again when it is given back.
+// The two budgets of an integrator's first hour. 1 MB: refused with both numbers. 100 MB: all of it, never above; and
+// when it is taken down to less than the view wants, a coarser frame at once and the same one again when it is given
+// back.
 TEST(RealFoam, MikuPlushIsRefusedAt1MegabyteAndWholeAt100) {
   const std::filesystem::path folder = folderOf("miku_plush");
   if (!std::filesystem::exists(folder)) FROTH_SKIP() << "no " << folder << "; set FROTH_DATA";
@@ -114,7 +113,9 @@ TEST(RealFoam, MikuPlushIsRefusedAt1MegabyteAndWholeAt100) {
     ASSERT_EQ(frothGetAssetStatus(context, asset, &status), FROTH_OK);
     EXPECT_EQ(status.error, FROTH_ERROR_MEMORY);
     ASSERT_EQ(messages.size(), 1u);
-    EXPECT_NE(messages[0].find("of 1000000 bytes are in use; raise FrothContextInfo::deviceBudget by"), std::string::npos) << messages[0];
+    EXPECT_NE(messages[0].find("of 1000000 bytes are in use; raise FrothContextInfo::deviceBudget by"),
+              std::string::npos)
+        << messages[0];
     ASSERT_EQ(frothCloseAsset(context, asset), FROTH_OK);
   }
   constexpr uint64_t kBudget = 100'000'000;
@@ -128,8 +129,8 @@ TEST(RealFoam, MikuPlushIsRefusedAt1MegabyteAndWholeAt100) {
     EXPECT_LE(report.devicePeak, kBudget);
     for (uint32_t i = 0; i < report.categoryCount; ++i) {
       const auto& category = report.categories[i];
-      std::printf("[  BYTES   ] miku_plush, %s: %.1f MB granted, %.1f used\n", category.name, 1e-6 * static_cast<double>(category.granted),
-                  1e-6 * static_cast<double>(category.used));
+      std::printf("[  BYTES   ] miku_plush, %s: %.1f MB granted, %.1f used\n", category.name,
+                  1e-6 * static_cast<double>(category.granted), 1e-6 * static_cast<double>(category.used));
     }
     const uint64_t lowered = report.categories[0].granted + report.categories[1].granted / 2;  // assets, views
     ASSERT_EQ(frothSetBudget(context, lowered), FROTH_OK);

@@ -41,8 +41,9 @@ FrothLens lensOf(const View& view) {
   lens.focal[1] = static_cast<float>(view.fy);
   lens.centre[0] = static_cast<float>(view.cx);
   lens.centre[1] = static_cast<float>(view.cy);
-  for (size_t i = 0; i < view.lens.distortion.size(); ++i)
+  for (size_t i = 0; i < view.lens.distortion.size(); ++i) {
     lens.coefficients[i] = static_cast<float>(view.lens.distortion[i]);
+  }
   return lens;
 }
 
@@ -62,7 +63,8 @@ FrothContext* createSharedContext(uint32_t lensClasses) {
 void enter(FrothContext* context) {
   const auto shared = stagesOfSharedContexts().find(context);
   if (shared == stagesOfSharedContexts().end()) return;
-  EXPECT_EQ(shared->second++, 0) << "another stage stands in this shared context; one that stays needs a context of its own";
+  EXPECT_EQ(shared->second++, 0)
+      << "another stage stands in this shared context; one that stays needs a context of its own";
 }
 
 void leave(FrothContext* context) {
@@ -193,9 +195,8 @@ FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInf
   };
   // The frame after it brings its status.
   for (const bool isDrawn : {true, false}) {
-    const Status submitted = sharedHost().submit([&](VkCommandBuffer commandBuffer, uint64_t serial) {
-      return record(commandBuffer, serial, isDrawn);
-    });
+    const Status submitted = sharedHost().submit(
+        [&](VkCommandBuffer commandBuffer, uint64_t serial) { return record(commandBuffer, serial, isDrawn); });
     EXPECT_TRUE(submitted) << submitted.error().message;
   }
   FrothViewStatus status{};
@@ -236,9 +237,7 @@ Frame Stage::draw(Method method, const FrothRenderInfo& info, VkExtent2D extent,
   return frame;
 }
 
-Frame Stage::draw(Method method, const View& view) {
-  return draw(method, infoOf(view), {view.width, view.height});
-}
+Frame Stage::draw(Method method, const View& view) { return draw(method, infoOf(view), {view.width, view.height}); }
 
 FrothInstanceInfo placementOf(const glm::dvec3& position, const glm::vec4& rotation, float scale) {
   FrothInstanceInfo info{};
@@ -248,8 +247,7 @@ FrothInstanceInfo placementOf(const glm::dvec3& position, const glm::vec4& rotat
   return info;
 }
 
-View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height,
-            double tanHalfFovY) {
+View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height, double tanHalfFovY) {
   const glm::dvec3 forward = glm::normalize(target - eye);
   const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.1, 1, 0.05), forward));
   const glm::dvec3 down = glm::cross(forward, right);

@@ -10,26 +10,26 @@
 #include <vector>
 
 #include "baker/bake/bake.h"
+#include "base/image/image.h"
 #include "foam/foam.h"
 #include "format/asset_contents.h"
 #include "froth/froth.h"
 #include "host/host.h"
 #include "host/method.h"
 #include "reference/camera/camera.h"
-#include "reference/image/image.h"
 #include "reference/image/metrics.h"
 #include "reference/render/reference.h"
 
 namespace froth::test {
 
 struct Frame {
-  Image colour;    // 3 channels, as the image holds them
-  Image alpha;     // 1 channel
-  Image distance;  // 1 channel; +inf: never
-  Image normal;    // 3 channels
-  Image depth;     // 1 channel, device depth
+  Image colour;                             // 3 channels, as the image holds them
+  Image alpha;                              // 1 channel
+  Image distance;                           // 1 channel; +inf: never
+  Image normal;                             // 3 channels
+  Image depth;                              // 1 channel, device depth
   std::vector<std::array<uint32_t, 2>> id;  // of a view that keeps hits; else empty, as what follows
-  Image motion;    // 2 channels
+  Image motion;                             // 2 channels
   FrothViewStatus status{};
 };
 
@@ -39,7 +39,8 @@ void check(FrothResult result, const char* call);
 void failOnMessage(void* user, FrothSeverity severity, FrothResult code, const char* object, const char* text);
 
 // One device with validation layers, and one context that checks indices, for all tests of the program:
-// pipelines are made once per asset shape. A shared context holds one Stage at a time, else its constructor fails the test.
+// pipelines are made once per asset shape. A shared context holds one Stage at a time, else its constructor fails the
+// test.
 Host& sharedHost();
 FrothContext* sharedContext();
 
@@ -54,7 +55,8 @@ FrothContext* createCheckedContext(uint32_t lensClasses);
 class Stage {
  public:
   Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context = sharedContext(),
-        uint32_t layers = 0, uint32_t lensClasses = 0, bool keepsHits = false, uint32_t eyeCount = 0, bool keepForQueries = true);
+        uint32_t layers = 0, uint32_t lensClasses = 0, bool keepsHits = false, uint32_t eyeCount = 0,
+        bool keepForQueries = true);
   ~Stage();
 
   void place(const FrothInstanceInfo& placement);  // `asset` is filled in
@@ -70,7 +72,8 @@ class Stage {
   FrothInstance instance() const { return instance_; }
   FrothContext* context() const { return context_; }
 
-  // Several draws in one frame and command buffer. afterUpdate: called between frothUpdate and the first of them; afterDraws:
+  // Several draws in one frame and command buffer. afterUpdate: called between frothUpdate and the first of them;
+  // afterDraws:
   // after the last.
   FrothViewStatus submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws,
                          const std::function<void()>& afterUpdate = {},
@@ -88,14 +91,13 @@ class Stage {
 FrothInstanceInfo placementOf(const glm::dvec3& position, const glm::vec4& rotation, float scale);
 
 // A camera at `eye` that looks at `target`, `width` x `height` pixels, with the given half-angle's tangent.
-View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height,
-            double tanHalfFovY);
+View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height, double tanHalfFovY);
 
 // `size` pixels of R32G32B32A32_SFLOAT with the view's ray map.
 HostImage uploadRayMap(const View& view);
 
-// Display-coded, cut-off 1e-3, reversed depth with an infinite far plane; near limits of the view, else off. A ray map's image is
-// left to the caller.
+// Display-coded, cut-off 1e-3, reversed depth with an infinite far plane; near limits of the view, else off. A ray
+// map's image is left to the caller.
 FrothRenderInfo infoOf(const View& view);
 
 AssetContents bakeForTest(const Foam& foam);

@@ -57,7 +57,9 @@ double deviceDepth(const FrothRenderInfo& info, const View& view, const ViewRay&
     inView[row] = m[row] * point.x + m[4 + row] * point.y + m[8 + row] * point.z;
   }
   const float(&clip)[16] = info.camera.clipFromView;
-  const auto rowOf = [&](int r) { return clip[r] * inView.x + clip[4 + r] * inView.y + clip[8 + r] * inView.z + clip[12 + r]; };
+  const auto rowOf = [&](int r) {
+    return clip[r] * inView.x + clip[4 + r] * inView.y + clip[8 + r] * inView.z + clip[12 + r];
+  };
   const VkViewport& viewport = info.camera.viewport;
   return viewport.minDepth + rowOf(2) / rowOf(3) * (viewport.maxDepth - viewport.minDepth);
 }
@@ -71,8 +73,8 @@ std::optional<double> distanceToWall(const View& view, const ViewRay& ray) {
 }
 
 struct Wall {
-  Image distances;             // 1 channel; +inf: none
-  std::vector<float> texels;   // as the scene's depth image holds them
+  Image distances;            // 1 channel; +inf: none
+  std::vector<float> texels;  // as the scene's depth image holds them
 };
 
 Wall drawWall(const View& view, float nothing, const std::function<float(const ViewRay&, double)>& texelOf) {
@@ -158,12 +160,12 @@ INSTANTIATE_TEST_SUITE_P(Conventions, SceneDepth, testing::Range(0, 8), [](const
 TEST(SceneDepthFormats, OfFewerBitsStopRaysWhereTheyRoundTo) {
   const View view = slantedView();
   const FrothRenderInfo info = infoOf(view, {.isReversed = false, .isInfinite = false, .isFlipped = false});
-  const Wall wall = drawWall(view, 1, [&](const ViewRay& ray, double t) {
-    return static_cast<float>(deviceDepth(info, view, ray, t));
-  });
+  const Wall wall = drawWall(
+      view, 1, [&](const ViewRay& ray, double t) { return static_cast<float>(deviceDepth(info, view, ray, t)); });
   expectStopsAtWall(view, info, wall, VK_FORMAT_D32_SFLOAT_S8_UINT, 55);
   expectStopsAtWall(view, info, wall, VK_FORMAT_R32_SFLOAT, 55);
-  expectStopsAtWall(view, info, wall, VK_FORMAT_D16_UNORM, 40);  // 1e-3 of the distance between the wall's 16-bit depths
+  // 1e-3 of the distance between the wall's 16-bit depths
+  expectStopsAtWall(view, info, wall, VK_FORMAT_D16_UNORM, 40);
 }
 
 TEST(SceneDepthLenses, StopsParallelRays) {
@@ -171,9 +173,8 @@ TEST(SceneDepthLenses, StopsParallelRays) {
   view.lens.kind = LensKind::kOrthographic;
   view.fx = view.fy = 0.4 * kHeight;
   const FrothRenderInfo info = test::infoOf(view);
-  const Wall wall = drawWall(view, 1, [&](const ViewRay& ray, double t) {
-    return static_cast<float>(deviceDepth(info, view, ray, t));
-  });
+  const Wall wall = drawWall(
+      view, 1, [&](const ViewRay& ray, double t) { return static_cast<float>(deviceDepth(info, view, ray, t)); });
   expectStopsAtWall(view, info, wall, VK_FORMAT_D32_SFLOAT, 55);
 }
 
@@ -187,9 +188,8 @@ TEST(SceneDepthLenses, IsADistanceWhereNoProjectionMakesIt) {
 TEST(SceneDepthPlacement, IsOfTheWorldWhateverTheInstancesScale) {
   const View view = slantedView();
   const FrothRenderInfo info = infoOf(view, {.isReversed = true, .isInfinite = true, .isFlipped = false});
-  const Wall wall = drawWall(view, 0, [&](const ViewRay& ray, double t) {
-    return static_cast<float>(deviceDepth(info, view, ray, t));
-  });
+  const Wall wall = drawWall(
+      view, 0, [&](const ViewRay& ray, double t) { return static_cast<float>(deviceDepth(info, view, ray, t)); });
   Foam half = foam();
   for (glm::vec3& site : half.sites) site *= 0.5f;
   for (float& radius : half.radii) radius *= 0.5f;

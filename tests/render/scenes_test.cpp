@@ -13,9 +13,7 @@ namespace {
 
 constexpr uint32_t kWidth = 160, kHeight = 120;
 
-View frontView() {
-  return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.6);
-}
+View frontView() { return lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.6); }
 
 Foam synthesize(const char* name, uint32_t cells) {
   Result<Foam> foam = synthesizeFoam({name, cells, 1});
@@ -47,10 +45,10 @@ void expectReference(const Foam& foam, const View& view) {
   EXPECT_GE(psnr(raster.colour, expected.colour), 60);
   EXPECT_GE(psnr(raster.alpha, expected.alpha), 60);
   EXPECT_GE(psnr(raster.normal, expected.normal), 60);
-  EXPECT_LE(distanceMismatch(raster.distance, expected.depth), 1e-3);
+  EXPECT_LE(distanceMismatch(raster.distance, expected.distance), 1e-3);
   const Frame walk = stage.draw(Method::kWalk, view);
   expectWalkAgrees(walk, raster);
-  EXPECT_LE(distanceMismatch(walk.distance, expected.depth), 1e-3);
+  EXPECT_LE(distanceMismatch(walk.distance, expected.distance), 1e-3);
 }
 
 class SmallScene : public testing::TestWithParam<const char*> {};
@@ -78,10 +76,9 @@ TEST_P(AssetShapes, AreDrawnAsTheReferenceDrawsThem) {
   expectReference(makeRandomFoam(60, GetParam().details, GetParam().lobes, 5), view);
 }
 
-INSTANTIATE_TEST_SUITE_P(DetailsAndLobes, AssetShapes,
-                         testing::Values(Shape{1, 1}, Shape{4, 2}, Shape{32, 32}), [](const auto& shape) {
-                           return std::to_string(shape.param.details) + "x" +
-                                  std::to_string(shape.param.lobes);
+INSTANTIATE_TEST_SUITE_P(DetailsAndLobes, AssetShapes, testing::Values(Shape{1, 1}, Shape{4, 2}, Shape{32, 32}),
+                         [](const auto& shape) {
+                           return std::to_string(shape.param.details) + "x" + std::to_string(shape.param.lobes);
                          });
 
 TEST(Scenes, AnEyeInsideBallsSeesThemWithTheNearTestsOff) {
@@ -191,15 +188,12 @@ TEST(Scenes, TheLinearImageDecodesTheDisplayCodedOneOncePerPixel) {
   const Frame coded = stage.draw(Method::kRaster, info, {kWidth, kHeight});
   info.displayCoded = 0;
   const Frame linear = stage.draw(Method::kRaster, info, {kWidth, kHeight});
-  const auto decode = [](float c) {
-    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-  };
+  const auto decode = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
   for (size_t i = 0; i < coded.alpha.values.size(); ++i) {
     const float coverage = coded.alpha.values[i];
     if (!(coverage > 0)) continue;
     for (size_t c = 0; c < 3; ++c) {
-      ASSERT_NEAR(linear.colour.values[3 * i + c],
-                  coverage * decode(coded.colour.values[3 * i + c] / coverage), 1e-4);
+      ASSERT_NEAR(linear.colour.values[3 * i + c], coverage * decode(coded.colour.values[3 * i + c] / coverage), 1e-4);
     }
   }
 }
@@ -208,8 +202,7 @@ TEST(Scenes, HalfFloatColourIsTheFloatColourRounded) {
   Stage stage(bakeForTest(synthesize("random", 0)), {kWidth, kHeight});
   for (const Method method : {Method::kRaster, Method::kWalk}) {
     const Frame wide = stage.draw(method, infoOf(frontView()), {kWidth, kHeight});
-    const Frame half =
-        stage.draw(method, infoOf(frontView()), {kWidth, kHeight}, VK_FORMAT_R16G16B16A16_SFLOAT);
+    const Frame half = stage.draw(method, infoOf(frontView()), {kWidth, kHeight}, VK_FORMAT_R16G16B16A16_SFLOAT);
     EXPECT_GE(psnr(wide.colour, half.colour), 65);  // halves near 1 have steps of 5e-4
   }
 }
@@ -225,9 +218,7 @@ AssetContents makeAssetOfManyPairs() {
   return contents;
 }
 
-View widePairView() {
-  return lookAt({0, 0, 0}, {0, 0, 1}, 416, 352, 1);
-}
+View widePairView() { return lookAt({0, 0, 0}, {0, 0, 1}, 416, 352, 1); }
 
 TEST(Scenes, PairsBeyondTheSpaceAreReportedAndTheNextFrameIsWhole) {
   const View view = widePairView();

@@ -10,7 +10,8 @@
 namespace froth::test {
 namespace {
 
-// By raster and walk. Lists of other lengths are drawn by one kernel: drivers may fuse the arithmetic of two in different ways.
+// By raster and walk. Lists of other lengths are drawn by one kernel: drivers may fuse the arithmetic of two in
+// different ways.
 std::array<Frame, 2> drawBoth(const AssetContents& contents, const View& view) {
   const VkExtent2D extent{view.width, view.height};
   Stage stage(contents, extent);

@@ -28,10 +28,9 @@ void splitCells(const ChunkContents& whole, std::span<uint32_t> cells, uint32_t 
   const glm::vec3 size = high - low;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const size_t middle = cells.size() * (count / 2) / count;
-  std::nth_element(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(middle), cells.end(),
-                   [&](uint32_t a, uint32_t b) {
-                     return std::pair(whole.sites[a][axis], a) < std::pair(whole.sites[b][axis], b);
-                   });
+  std::nth_element(
+      cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(middle), cells.end(),
+      [&](uint32_t a, uint32_t b) { return std::pair(whole.sites[a][axis], a) < std::pair(whole.sites[b][axis], b); });
   splitCells(whole, cells.first(middle), count / 2, parts);
   splitCells(whole, cells.subspan(middle), count - count / 2, parts);
 }
@@ -77,7 +76,9 @@ AssetContents splitAsset(const AssetContents& contents, uint32_t count, double g
 
   std::vector<CellRef> refOf(whole.cellCount);
   for (uint32_t part = 0; part < count; ++part) {
-    for (uint32_t local = 0; local < parts[part].size(); ++local) refOf[parts[part][local]] = part << kLocalBits | local;
+    for (uint32_t local = 0; local < parts[part].size(); ++local) {
+      refOf[parts[part][local]] = part << kLocalBits | local;
+    }
   }
   std::vector<glm::dvec3> origins;
   for (const Members& part : parts) {

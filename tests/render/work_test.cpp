@@ -38,8 +38,7 @@ class Counter {
         const glm::dvec3 camera((x + 0.5 - view.cx) / view.fx, (y + 0.5 - view.cy) / view.fy, 1);
         glm::dvec3 direction;
         for (int row = 0; row < 3; ++row) {
-          direction[row] =
-              world[row * 4] * camera.x + world[row * 4 + 1] * camera.y + world[row * 4 + 2] * camera.z;
+          direction[row] = world[row * 4] * camera.x + world[row * 4 + 1] * camera.y + world[row * 4 + 2] * camera.z;
         }
         rays_.push_back(glm::normalize(direction));
       }
@@ -90,8 +89,7 @@ class Counter {
         if (cell < chunk_.liveCount &&
             foam::intersectBall(centreOf(cell), radiusOf(cell), ray, interval.tNear, interval.tFar)) {
           ++work.ballHits;
-          work.colours += isColoured(
-              cell, ray, {std::max(interval.tNear, entry), std::min(interval.tFar, exit)});
+          work.colours += isColoured(cell, ray, {std::max(interval.tNear, entry), std::min(interval.tFar, exit)});
         }
         isInside = next != cell;
         cell = next;
@@ -103,36 +101,35 @@ class Counter {
 
  private:
   glm::dvec3 siteOf(uint32_t cell) const {
-    return glm::dvec3(chunk_.sites[cell]) +
-           glm::dvec3(chunk_.origin[0], chunk_.origin[1], chunk_.origin[2]);
+    return glm::dvec3(chunk_.sites[cell]) + glm::dvec3(chunk_.origin[0], chunk_.origin[1], chunk_.origin[2]);
   }
   glm::dvec3 centreOf(uint32_t cell) const { return siteOf(cell) - eye_; }
   double radiusOf(uint32_t cell) const { return chunk_.radii[cell]; }
   glm::dvec3 towards(uint32_t cell, uint32_t other) const { return siteOf(other) - siteOf(cell); }
   double clearanceOf(uint32_t cell, uint32_t other) const {
     const glm::dvec3 toNeighbour = towards(cell, other);
-    return foam::radicalClearance(
-        centreOf(cell), toNeighbour,
-        foam::radicalOffset(toNeighbour, radiusOf(cell), radiusOf(other)));
+    return foam::radicalClearance(centreOf(cell), toNeighbour,
+                                  foam::radicalOffset(toNeighbour, radiusOf(cell), radiusOf(other)));
   }
 
   bool isColoured(uint32_t cell, const glm::dvec3& ray, Interval interval) const {
     const glm::dvec4 q(chunk_.orientations[cell]);  // (w, x, y, z); the face's normal is row 0
-    const glm::dvec3 normal(1 - 2 * (q.z * q.z + q.w * q.w), 2 * (q.y * q.z - q.x * q.w),
-                            2 * (q.y * q.w + q.x * q.z));
+    const glm::dvec3 normal(1 - 2 * (q.z * q.z + q.w * q.w), 2 * (q.y * q.z - q.x * q.w), 2 * (q.y * q.w + q.x * q.z));
     if (!(interval.tFar > interval.tNear)) return false;
     const double facing = glm::dot(normal, ray);
     const double face = foam::intersectFace(centreOf(cell), normal, facing, 0.0);
-    if (facing >= 0) interval.tFar = std::min(interval.tFar, face);
-    else interval.tNear = std::max(interval.tNear, face);
+    if (facing >= 0) {
+      interval.tFar = std::min(interval.tFar, face);
+    } else {
+      interval.tNear = std::max(interval.tNear, face);
+    }
     return interval.tFar > interval.tNear;
   }
 
   uint32_t startCell() const {
     uint32_t best = 0;
     for (uint32_t cell = 1; cell < chunk_.cellCount; ++cell) {
-      if (foam::powerOfOrigin(centreOf(cell), radiusOf(cell)) <
-          foam::powerOfOrigin(centreOf(best), radiusOf(best))) {
+      if (foam::powerOfOrigin(centreOf(cell), radiusOf(cell)) < foam::powerOfOrigin(centreOf(best), radiusOf(best))) {
         best = cell;
       }
     }
@@ -147,14 +144,11 @@ class Counter {
 // All cells are in sight, so a walk finds the planes of each in its record.
 View wholeView() { return lookAt({0.1, 0.2, -6}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6); }
 
-View frontView() {
-  return lookAt({0.1, 0.2, 0.6}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6);
-}
+View frontView() { return lookAt({0.1, 0.2, 0.6}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6); }
 
 // Rounding decides some touches otherwise.
 void expectClose(uint64_t found, uint64_t expected, const char* what) {
-  EXPECT_NEAR(static_cast<double>(found), static_cast<double>(expected), 1e-3 * static_cast<double>(expected))
-      << what;
+  EXPECT_NEAR(static_cast<double>(found), static_cast<double>(expected), 1e-3 * static_cast<double>(expected)) << what;
   EXPECT_GT(expected, 0u) << what;
 }
 

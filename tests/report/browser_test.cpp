@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/image/image.h"
 #include "measure/report/report.h"
-#include "reference/image/image.h"
 #include "tests/report/sample_report.h"
 #include "tests/surroundings.h"
 
@@ -27,8 +27,7 @@ std::string readText(const fs::path& path) {
 
 // What the page wrote to its console, and a line for each load over the network that it began. No host can be
 // reached.
-std::string openPage(const fs::path& page, const fs::path& picture, int height,
-                     const std::string& options = "") {
+std::string openPage(const fs::path& page, const fs::path& picture, int height, const std::string& options = "") {
   const std::string name = picture.stem().string();  // tests may run side by side
   const fs::path log = kFolder / (name + ".log"), profile = kFolder / (name + "_profile");
   const fs::path loads = profile / "loads.json";
@@ -50,8 +49,7 @@ std::string openPage(const fs::path& page, const fs::path& picture, int height,
   // What the browser loads for itself has no page that began it.
   const std::string requests = readText(loads), begun = "\"initiator\":\"";
   for (size_t at = requests.find(begun); at != std::string::npos; at = requests.find(begun, at + 1)) {
-    if (requests.compare(at + begun.size(), 13, "not an origin") != 0)
-      console += requests.substr(at, 400) + "\n";
+    if (requests.compare(at + begun.size(), 13, "not an origin") != 0) console += requests.substr(at, 400) + "\n";
   }
   EXPECT_FALSE(requests.empty());
   fs::remove_all(profile);
@@ -75,8 +73,9 @@ class Browser : public testing::Test {
 double drawnShare(const Image& image, uint32_t from, uint32_t to) {
   size_t drawn = 0;
   for (uint32_t y = from; y < to; ++y) {
-    for (uint32_t x = 0; x < image.width; ++x)
+    for (uint32_t x = 0; x < image.width; ++x) {
       drawn += !std::equal(image.pixel(x, y), image.pixel(x, y) + 3, image.pixel(0, 0));
+    }
   }
   return double(drawn) / (double(to - from) * image.width);
 }
@@ -97,8 +96,9 @@ TEST_F(Browser, ShowsTheReportWithoutAWordOnTheConsole) {
   const Result<Image> image = readImage(picture);
   ASSERT_TRUE(image) << image.error().message;
   ASSERT_EQ(image->width, 1200u);
-  for (uint32_t y = 0; y + 1000 <= 12000; y += 1000)
+  for (uint32_t y = 0; y + 1000 <= 12000; y += 1000) {
     EXPECT_GT(drawnShare(*image, y, y + 1000), 0.01) << "from row " << y;
+  }
   // Markers and lines of the first two series.
   EXPECT_GT(pixelsOf(*image, 0x0b, 0x63, 0xce), 5000u);
   EXPECT_GT(pixelsOf(*image, 0xc2, 0x41, 0x0c), 5000u);
@@ -118,14 +118,13 @@ TEST_F(Browser, ShowsItOnDarkPaperToo) {
 // The checks above can fail: errors and loads from elsewhere are seen.
 TEST_F(Browser, WouldHaveShownErrorsAndLoads) {
   const fs::path picture = kFolder / "planted.png";
-  EXPECT_NE(openPage(writePage("planted.html", "<!doctype html><script>console.error('planted')</script>"),
-                     picture, 200)
-                .find("planted"),
-            std::string::npos);
   EXPECT_NE(
-      openPage(writePage("planted.html", "<!doctype html><img src='http://example.org/a.png'>"), picture, 200)
-          .find("example.org"),
+      openPage(writePage("planted.html", "<!doctype html><script>console.error('planted')</script>"), picture, 200)
+          .find("planted"),
       std::string::npos);
+  EXPECT_NE(openPage(writePage("planted.html", "<!doctype html><img src='http://example.org/a.png'>"), picture, 200)
+                .find("example.org"),
+            std::string::npos);
 }
 
 }  // namespace

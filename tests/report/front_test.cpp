@@ -42,8 +42,7 @@ TEST(Front, HoldsWhatNoOtherBeatsFromCheapToDear) {
 }
 
 TEST(Front, OfTiesInTimeTheOneWithLessErrorStays) {
-  EXPECT_THAT(overTime({point("a", 40, {1.0, 0.9, 1.1}), point("b", 41, {1.05, 0.95, 1.15})}),
-              ElementsAre("b"));
+  EXPECT_THAT(overTime({point("a", 40, {1.0, 0.9, 1.1}), point("b", 41, {1.05, 0.95, 1.15})}), ElementsAre("b"));
 }
 
 // b ties with both a and c, but a and c are apart: what c beats must not take a away with it.
@@ -51,9 +50,9 @@ TEST(Front, OfTiesInTimeTheOneWithLessErrorStays) {
 //   b    |----|
 //   c       |---|
 TEST(Front, ATieWithATieIsNoTie) {
-  EXPECT_THAT(overTime({point("a", 40, {1.0, 0.9, 1.1}), point("b", 41, {1.15, 1.05, 1.25}),
-                        point("c", 42, {1.3, 1.2, 1.4})}),
-              ElementsAre("a", "c"));
+  EXPECT_THAT(
+      overTime({point("a", 40, {1.0, 0.9, 1.1}), point("b", 41, {1.15, 1.05, 1.25}), point("c", 42, {1.3, 1.2, 1.4})}),
+      ElementsAre("a", "c"));
 }
 
 TEST(Front, AHundredthOfADecibelIsNotLessError) {

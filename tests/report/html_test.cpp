@@ -5,8 +5,8 @@
 #include <regex>
 #include <set>
 
+#include "base/image/formats.h"
 #include "measure/report/report.h"
-#include "reference/image/formats.h"
 #include "tests/report/sample_report.h"
 
 namespace froth {
@@ -82,10 +82,9 @@ TEST(ReportHtml, NoTextReachesThePageUnescaped) {
   const std::string evil = "<script>alert('x')</script>&\"";
   Report report = test::makeSampleReport();
   for (std::string* text :
-       {&report.scene, &report.input, &report.credit, &report.device, &report.driver, &report.version,
-        &report.command, &report.choice, &report.notes[0], &report.slopes[0].what, &report.slopes[0].note,
-        &report.slopes[0].verdict, &report.features[0].feature, &report.features[0].variant,
-        &report.images[0].title, &report.images[0].caption}) {
+       {&report.scene, &report.input, &report.credit, &report.device, &report.driver, &report.version, &report.command,
+        &report.choice, &report.notes[0], &report.slopes[0].what, &report.slopes[0].note, &report.slopes[0].verdict,
+        &report.features[0].feature, &report.features[0].variant, &report.images[0].title, &report.images[0].caption}) {
     *text = evil;
   }
   for (Sweep& sweep : report.sweeps) {

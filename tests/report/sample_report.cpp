@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "reference/image/image.h"
+#include "base/image/image.h"
 
 namespace froth::test {
 namespace {
@@ -21,9 +21,7 @@ double wobble(size_t a, size_t b) {
   return double(h % 20001) / 10000 - 1;
 }
 
-Interval around(double value, double noise) {
-  return {value, value * (1 - noise), value * (1 + 1.6 * noise)};
-}
+Interval around(double value, double noise) { return {value, value * (1 - noise), value * (1 + 1.6 * noise)}; }
 
 ErrorFigures errorsFrom(double meanError) {
   ErrorFigures errors;
@@ -55,17 +53,15 @@ ReportPoint makePoint(const std::string& renderer, std::vector<Setting> settings
   point.photoErrors = errorsFrom(std::hypot(0.02, measured.meanError));
   point.total = around(ms, 0.012 + 0.006 * std::abs(wobble(seed, 2)));
   const std::vector<std::pair<const char*, double>> passes =
-      renderer == "walk"
-          ? std::vector<std::pair<const char*, double>>{{"walk", 0.93}, {"tone", 0.05}}
-          : std::vector<std::pair<const char*, double>>{
-                {"cull", 0.06}, {"shade", 0.17}, {"sort", 0.15}, {"raster", 0.57}, {"tone", 0.03}};
+      renderer == "walk" ? std::vector<std::pair<const char*, double>>{{"walk", 0.93}, {"tone", 0.05}}
+                         : std::vector<std::pair<const char*, double>>{
+                               {"cull", 0.06}, {"shade", 0.17}, {"sort", 0.15}, {"raster", 0.57}, {"tone", 0.03}};
   for (const auto& [pass, share] : passes) point.passes.push_back({pass, around(ms * share, 0.02)});
   point.diskBytes = uint64_t(measured.megabytes * 1e6);
   point.residentBytes = uint64_t(measured.megabytes * 1.9e6 + 44e6);
   point.bakeSeconds = measured.megabytes == kDefault.megabytes ? 0 : 21.5;
   for (uint32_t v = 0; v < kViews; ++v) {
-    ViewErrors view{v * 4, errorsFrom(point.errors.meanError * (1 + 0.4 * wobble(v, 3))), 100 + v * 37,
-                    220 + v * 13};
+    ViewErrors view{v * 4, errorsFrom(point.errors.meanError * (1 + 0.4 * wobble(v, 3))), 100 + v * 37, 220 + v * 13};
     point.views.push_back(view);
   }
   return point;
@@ -264,12 +260,10 @@ void addSweeps(Report& report) {
       for (const std::string renderer : {"raster", "walk"}) {
         const bool isForOne =
             sweep.knob == "tileSize" ? renderer == "walk" : sweep.knob == "stepLimit" && renderer == "raster";
-        const bool isSkipped =
-            renderer == "walk" && (sweep.knob == "radiusBits" || sweep.knob == "axisBits" ||
-                                   sweep.knob == "lobes" || sweep.knob == "shading");
+        const bool isSkipped = renderer == "walk" && (sweep.knob == "radiusBits" || sweep.knob == "axisBits" ||
+                                                      sweep.knob == "lobes" || sweep.knob == "shading");
         if (isForOne || isSkipped) continue;
-        report.points.push_back(
-            makePoint(renderer, {{knob.name, value, number}}, knob.measure(number), ++seed));
+        report.points.push_back(makePoint(renderer, {{knob.name, value, number}}, knob.measure(number), ++seed));
         sweep.points.push_back(report.points.back().id);
       }
     }
@@ -289,20 +283,19 @@ void addJointPoints(Report& report) {
       {{{"positionBits", "16", 16}, {"colourBits", "10", 10}}, {4.2e-4, 1.43, 4.9, 54.4}},
       {{{"axisBits", "8", 8}, {"radiusBits", "12", 12}}, {1.3e-3, 1.42, 4.9, 44.9}}};
   size_t seed = 500;
-  for (const auto& [settings, measured] : joint)
+  for (const auto& [settings, measured] : joint) {
     report.points.push_back(makePoint("raster", settings, measured, ++seed));
+  }
 }
 
 void addSlopes(Report& report) {
   for (const Sweep& sweep : report.sweeps) {
     if (sweep.expectedOrder != 0) report.slopes.push_back(fitConvergence(report.points, sweep, "raster"));
   }
-  report.slopes.push_back(fitSlope("raster: mean error over shading step", 1, {1e-4, 1e-3, 1e-2, 1e-1},
-                                   {6e-4, 6.1e-4, 5.9e-4, 6e-4}));
   report.slopes.push_back(
-      fitSlope("raster: ms over cells", 1, {1e4, 1e5, 1e6, 1e7}, {0.05, 0.21, 1.9, 18.4}));
-  report.slopes.push_back(
-      fitSlope("walk: ms over pixels", 1, {6.4e4, 2.6e5, 1e6, 4.2e6}, {0.31, 1.22, 4.7, 18.9}));
+      fitSlope("raster: mean error over shading step", 1, {1e-4, 1e-3, 1e-2, 1e-1}, {6e-4, 6.1e-4, 5.9e-4, 6e-4}));
+  report.slopes.push_back(fitSlope("raster: ms over cells", 1, {1e4, 1e5, 1e6, 1e7}, {0.05, 0.21, 1.9, 18.4}));
+  report.slopes.push_back(fitSlope("walk: ms over pixels", 1, {6.4e4, 2.6e5, 1e6, 4.2e6}, {0.31, 1.22, 4.7, 18.9}));
 }
 
 void addFeatures(Report& report) {
@@ -326,8 +319,9 @@ std::vector<ReportImage> makePictures() {
   Image reference{192, 128, 3, {}};
   for (uint32_t y = 0; y < reference.height; ++y) {
     for (uint32_t x = 0; x < reference.width; ++x) {
-      for (uint32_t c = 0; c < 3; ++c)
+      for (uint32_t c = 0; c < 3; ++c) {
         reference.values.push_back(float(0.5 + 0.4 * std::sin(x * 0.11 + c) * std::cos(y * 0.08 * (c + 1))));
+      }
     }
   }
   Image test = reference;
@@ -361,8 +355,7 @@ Report makeSampleReport() {
   addSweeps(report);
   addJointPoints(report);
   for (const std::string renderer : {"raster", "walk"}) {
-    for (const std::string& id : paretoFront(report.points, renderer, Cost::kTime))
-      report.frontOverTime.push_back(id);
+    for (const std::string& id : paretoFront(report.points, renderer, Cost::kTime)) report.frontOverTime.push_back(id);
   }
   report.frontOverBytes = paretoFront(report.points, "raster", Cost::kDiskBytes);
   report.chosen = "raster cutoff=0.003 colourBits=7";

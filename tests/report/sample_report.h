@@ -1,4 +1,5 @@
-// A report as a measured one looks: three renderers' worth of sweeps, noise, floors, ties. All figures are made up, by rule.
+// A report as a measured one looks: three renderers' worth of sweeps, noise, floors, ties. All figures are made up, by
+// rule.
 #pragma once
 
 #include "measure/report/report.h"

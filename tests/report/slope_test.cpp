@@ -23,8 +23,7 @@ std::vector<double> valuesAt(const std::vector<double>& x, const std::function<d
 
 TEST(Slope, OfAnExactPowerLawIsItsPower) {
   const std::vector<double> x = powersOfTwo(-10, -2);
-  const Slope slope =
-      fitSlope("error over step", 1.5, x, valuesAt(x, [](double v) { return 3 * std::pow(v, 1.5); }));
+  const Slope slope = fitSlope("error over step", 1.5, x, valuesAt(x, [](double v) { return 3 * std::pow(v, 1.5); }));
   EXPECT_NEAR(slope.measured, 1.5, 1e-12);
   EXPECT_NEAR(slope.atOne, 3, 1e-11);
   EXPECT_EQ(slope.fitted, x.size());
@@ -34,8 +33,7 @@ TEST(Slope, OfAnExactPowerLawIsItsPower) {
 
 TEST(Slope, IsFittedAboveTheFloorWhichIsNamed) {
   const std::vector<double> x = powersOfTwo(-16, -2);
-  const Slope slope =
-      fitSlope("error over step", 1, x, valuesAt(x, [](double v) { return std::hypot(v, 1e-3); }));
+  const Slope slope = fitSlope("error over step", 1, x, valuesAt(x, [](double v) { return std::hypot(v, 1e-3); }));
   EXPECT_EQ(slope.verdict, kVerdictFloor);
   EXPECT_NEAR(slope.measured, 1, 0.05);
   EXPECT_NEAR(slope.floor, 1e-3, 1e-5);
@@ -46,8 +44,8 @@ TEST(Slope, IsFittedAboveTheFloorWhichIsNamed) {
 
 TEST(Slope, OfWhatStaysConstantDoesNotFall) {
   const std::vector<double> x = powersOfTwo(-10, -2);
-  const Slope flat = fitSlope("error over step", 1, x,
-                              valuesAt(x, [](double v) { return 1e-3 * (1 + 0.2 * std::sin(1e4 * v)); }));
+  const Slope flat =
+      fitSlope("error over step", 1, x, valuesAt(x, [](double v) { return 1e-3 * (1 + 0.2 * std::sin(1e4 * v)); }));
   EXPECT_EQ(flat.verdict, kVerdictDoesNotFall);
   EXPECT_NE(flat.note, "");
   const Slope rising = fitSlope("error over step", 1, x, valuesAt(x, [](double v) { return 1e-6 / v; }));
@@ -60,8 +58,7 @@ TEST(Slope, OfAnotherPowerIsSaidToBeOne) {
   const Slope slope = fitSlope("error over step", 2, x, valuesAt(x, [](double v) { return v; }));
   EXPECT_EQ(slope.verdict, kVerdictOtherOrder);
   EXPECT_NEAR(slope.measured, 1, 1e-12);
-  const Slope floored =
-      fitSlope("error over step", 2, x, valuesAt(x, [](double v) { return std::max(v, 0.01); }));
+  const Slope floored = fitSlope("error over step", 2, x, valuesAt(x, [](double v) { return std::max(v, 0.01); }));
   EXPECT_EQ(floored.verdict, kVerdictOtherOrder);
   EXPECT_NEAR(floored.measured, 1, 0.01);
 }

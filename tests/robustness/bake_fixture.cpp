@@ -32,12 +32,8 @@ int BakeTest::countFrom(const char* variable, int usual) {
   return text ? std::atoi(text) : usual;
 }
 
-void sleepFor(Seconds time) {
-  std::this_thread::sleep_for(time);
-}
+void sleepFor(Seconds time) { std::this_thread::sleep_for(time); }
 
-Seconds since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::steady_clock::now() - start;
-}
+Seconds since(std::chrono::steady_clock::time_point start) { return std::chrono::steady_clock::now() - start; }
 
 }  // namespace froth::test

@@ -56,8 +56,9 @@ void ChildProcess::send(int signal) const {
 ProgramEnd ChildProcess::wait() {
   ProgramEnd end;
   char buffer[4096];
-  for (ssize_t size; (size = ::read(output_, buffer, sizeof buffer)) > 0;)
+  for (ssize_t size; (size = ::read(output_, buffer, sizeof buffer)) > 0;) {
     end.text.append(buffer, static_cast<size_t>(size));
+  }
   ::close(output_);
   int status = 0;
   rusage usage{};
@@ -73,9 +74,7 @@ FolderWatch::FolderWatch(const std::filesystem::path& folder) : descriptor_(::in
   ::inotify_add_watch(descriptor_, folder.c_str(), IN_CREATE | IN_MOVED_TO);
 }
 
-FolderWatch::~FolderWatch() {
-  ::close(descriptor_);
-}
+FolderWatch::~FolderWatch() { ::close(descriptor_); }
 
 bool FolderWatch::waitForFile(Seconds limit) const {
   pollfd event{descriptor_, POLLIN, 0};

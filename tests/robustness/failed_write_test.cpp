@@ -42,15 +42,15 @@ class FailedWrite : public BakeTest {
   }
 
   ProgramEnd bakeToDisk() const {
-    return ChildProcess({FROTH_TOOL, "bake", kCheckpoint, "--preset", "exact", "-o", "disk/" + std::string(kAsset), "--quiet"},
-                        folder_)
+    return ChildProcess(
+               {FROTH_TOOL, "bake", kCheckpoint, "--preset", "exact", "-o", "disk/" + std::string(kAsset), "--quiet"},
+               folder_)
         .wait();
   }
 
   void expectOldAssetAloneOnDisk() const {
     EXPECT_EQ(readBytes(folder_ / "disk" / kAsset), oldBytes_);
-    EXPECT_EQ(filesInFolder(),
-              (std::vector<std::string>{"disk", "disk/" + std::string(kAsset), kCheckpoint, kAsset}));
+    EXPECT_EQ(filesInFolder(), (std::vector<std::string>{"disk", "disk/" + std::string(kAsset), kCheckpoint, kAsset}));
   }
 
   std::filesystem::path mounted_;
@@ -71,8 +71,7 @@ TEST_F(FailedWrite, AFullDiskIsToldAndTheOldAssetStays) {
   const size_t old = (oldBytes_.size() / page + 1) * page;
   for (const double part : {0.0, 0.3, 0.9}) {
     const auto space = static_cast<size_t>(part * static_cast<double>(newBytes_.size()));
-    if (!mountDisk(old + page + space))
-      GTEST_SKIP() << "no right to mount a small disk: " << std::strerror(errno);
+    if (!mountDisk(old + page + space)) GTEST_SKIP() << "no right to mount a small disk: " << std::strerror(errno);
     expectFailure(bakeToDisk(), "disk/" + std::string(kAsset), std::strerror(ENOSPC));
     expectOldAssetAloneOnDisk();
     ::umount(mounted_.c_str());
@@ -82,8 +81,9 @@ TEST_F(FailedWrite, AFullDiskIsToldAndTheOldAssetStays) {
 
 TEST_F(FailedWrite, AReadOnlyDiskIsTold) {
   if (!mountDisk(4 * oldBytes_.size()) ||
-      ::mount(nullptr, mounted_.c_str(), nullptr, MS_REMOUNT | MS_RDONLY, nullptr) != 0)
+      ::mount(nullptr, mounted_.c_str(), nullptr, MS_REMOUNT | MS_RDONLY, nullptr) != 0) {
     GTEST_SKIP() << "no right to mount a small disk: " << std::strerror(errno);
+  }
   expectFailure(bakeToDisk(), "disk/" + std::string(kAsset), std::strerror(EROFS));
   expectOldAssetAloneOnDisk();
 }

@@ -11,8 +11,7 @@ class SameBytes : public BakeTest, public testing::WithParamInterface<const char
   // In several chunks, which threads work on at once.
   std::string bake(const char* threads) const {
     const ProgramEnd end =
-        ChildProcess(bakeCommand({"--preset", GetParam(), "--chunk-cells", "200", "--threads", threads}),
-                     folder_)
+        ChildProcess(bakeCommand({"--preset", GetParam(), "--chunk-cells", "200", "--threads", threads}), folder_)
             .wait();
     EXPECT_EQ(end.exitCode, 0) << end.text;
     return assetBytes();

@@ -57,13 +57,9 @@ class StoppedBake : public BakeTest {
   Seconds slowest_{};
 };
 
-TEST_F(StoppedBake, EndsWithinASecondAndLeavesNothingBehind) {
-  stopMany({"--preset", "exact"});
-}
+TEST_F(StoppedBake, EndsWithinASecondAndLeavesNothingBehind) { stopMany({"--preset", "exact"}); }
 
-TEST_F(StoppedBake, EndsWithinASecondAlsoWhileItWeighsAppearance) {
-  stopMany({"--preset", "default"});
-}
+TEST_F(StoppedBake, EndsWithinASecondAlsoWhileItWeighsAppearance) { stopMany({"--preset", "default"}); }
 
 }  // namespace
 }  // namespace froth::test

@@ -12,8 +12,8 @@ void expectLikeReference(const RoomLook& look, bool hasParticles, double seconds
   if (!hasSuitableDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   RoomUnderTest room(look, hasParticles, seconds);
   room.draw();
-  const Picture8 drawn = encodePicture(room.read(room.stage().renderer().result()), kRoomExtent);
-  const Picture8 expected = encodePicture(ReferenceFrame(room, room.stage().particles()).render(), kRoomExtent);
+  const Image drawn = encodePicture(room.read(room.stage().renderer().result()), kRoomExtent);
+  const Image expected = encodePicture(ReferenceFrame(room, room.stage().particles()).render(), kRoomExtent);
   const Result<double> psnr = comparePictures(drawn, expected);
   ASSERT_TRUE(psnr) << psnr.error().message;
   EXPECT_GE(*psnr, 40);

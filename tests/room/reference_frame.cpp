@@ -60,7 +60,9 @@ ReferenceFrame::FoamSeen ReferenceFrame::foamAlong(const glm::dvec3& eye, const 
   const glm::dvec3 place = assetFromWorld_ * (eye - foamPosition_) / foamScale_;
   const glm::dmat3 axes = axesAlong(assetFromWorld_ * direction);
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) view.worldFromCamera[static_cast<size_t>(4 * row + column)] = axes[column][row];
+    for (int column = 0; column < 3; ++column) {
+      view.worldFromCamera[static_cast<size_t>(4 * row + column)] = axes[column][row];
+    }
     view.worldFromCamera[static_cast<size_t>(4 * row + 3)] = place[row];
   }
   const Image end{1, 1, 1, {static_cast<float>(tEnd / foamScale_)}};
@@ -73,7 +75,7 @@ ReferenceFrame::FoamSeen ReferenceFrame::foamAlong(const glm::dvec3& eye, const 
   FoamSeen seen;
   seen.coded = vec3Of(images->colour.pixel(0, 0));
   seen.alpha = *images->alpha.pixel(0, 0);
-  seen.depth = *images->depth.pixel(0, 0) * foamScale_;
+  seen.distance = *images->distance.pixel(0, 0) * foamScale_;
   seen.normal = glm::transpose(assetFromWorld_) * vec3Of(images->normal.pixel(0, 0));
   return seen;
 }
@@ -108,7 +110,7 @@ ReferenceFrame::Light ReferenceFrame::foamAndMotes(const glm::dvec3& eye, const 
     past *= 1 - mote.cover;
     before = seen;
   }
-  if (seen.depth >= 0) foam *= caughtShadow(eye + seen.depth * direction, glm::normalize(seen.normal));
+  if (seen.distance >= 0) foam *= caughtShadow(eye + seen.distance * direction, glm::normalize(seen.normal));
   return {foam + glow, 1 - past * (1 - seen.alpha)};
 }
 
@@ -130,7 +132,8 @@ glm::dvec3 ReferenceFrame::spreadDirection(const glm::dvec3& normal, uint32_t i,
   const glm::dvec3 tangent(1 + side * normal.x * normal.x * a, side * b, -side * normal.x);
   const glm::dvec3 bitangent(b, side + normal.y * normal.y * a, -normal.y);
   const double radius = std::sqrt(squaredRadius);
-  return radius * std::cos(angle) * tangent + radius * std::sin(angle) * bitangent + std::sqrt(1 - squaredRadius) * normal;
+  return radius * std::cos(angle) * tangent + radius * std::sin(angle) * bitangent +
+         std::sqrt(1 - squaredRadius) * normal;
 }
 
 double ReferenceFrame::sunAt(const glm::dvec3& position, const glm::dvec3& normal) const {
@@ -161,8 +164,7 @@ glm::dvec3 ReferenceFrame::caughtShadow(const glm::dvec3& position, const glm::d
 
 glm::dvec3 ReferenceFrame::litSurface(const Surface& surface, const glm::dvec3& along) const {
   const double sunShare = sunAt(surface.position, surface.normal);
-  const glm::dvec3 sun =
-      sunShare * std::max(glm::dot(surface.normal, room_.toSun), 0.0) * glm::dvec3(room_.sun);
+  const glm::dvec3 sun = sunShare * std::max(glm::dot(surface.normal, room_.toSun), 0.0) * glm::dvec3(room_.sun);
   const glm::dvec3 light = sun + surroundAt(surface.position, surface.normal) * surroundings(surface.normal);
   glm::dvec3 lit = glm::dvec3(surface.material->colour) * light;
   if (surface.material->kind == MaterialKind::kGlossy) {

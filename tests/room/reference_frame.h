@@ -1,4 +1,5 @@
-// A frame of the room in double precision, ray by ray: triangles by brute force, foam by the reference renderer and by queries.
+// A frame of the room in double precision, ray by ray: triangles by brute force, foam by the reference renderer and by
+// queries.
 #pragma once
 
 #include <optional>
@@ -37,7 +38,7 @@ class ReferenceFrame {
   };
   struct FoamSeen {
     glm::dvec3 coded{0};  // premultiplied, display-coded
-    double alpha = 0, depth = -1;
+    double alpha = 0, distance = -1;
     glm::dvec3 normal{0};
   };
 

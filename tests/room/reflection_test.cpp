@@ -42,7 +42,7 @@ std::vector<float> rasterizeMirrored(RoomUnderTest& room) {
   info.sceneDepth.layoutIn = info.sceneDepth.layoutOut = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   for (int frame = 0; frame < 4; ++frame) {  // the view's buffers grow in the first ones
     const Status drawn = submitFrame(room.host(), scene, [&](VkCommandBuffer commands, uint64_t) {
-      return scene.check(frothRasterize(scene.context(), view, commands, &info), "frothRasterize");
+      return scene.check(frothRecordRaster(scene.context(), view, commands, &info), "frothRecordRaster");
     });
     EXPECT_TRUE(drawn) << drawn.error().message;
   }
@@ -67,7 +67,8 @@ TEST(Reflection, OfTheFoamIsTheRasterOfTheMirroredCamera) {
       if (!hit || room.stage().room().materials[hit->material].kind != MaterialKind::kMirror) continue;
       const size_t texel = 4 * (size_t{y} * kRoomExtent.width + x);
       const auto coded = [&](const std::vector<float>& texels) {
-        return foam::displayPremultiplied<float>({texels[texel], texels[texel + 1], texels[texel + 2]}, texels[texel + 3]);
+        return foam::displayPremultiplied<float>({texels[texel], texels[texel + 1], texels[texel + 2]},
+                                                 texels[texel + 3]);
       };
       const glm::dvec3 difference = coded(walked) - coded(rasterized);
       sum += glm::dot(difference, difference) / 3;
@@ -83,8 +84,10 @@ TEST(Reflection, OfTheFoamIsTheRasterOfTheMirroredCamera) {
   EXPECT_GT(foam / pixels, 0.1) << "the mirror hardly shows the foam";
   const double psnr = -10 * std::log10(sum / pixels);
   EXPECT_GE(psnr, 70);  // colours as seen from where the ray is reflected: 59
-  std::printf("reflected foam against the raster of the mirrored camera: %.2f dB over %u pixels, largest error %.4f at (%u, %u), %u pixels above 1/255\n",
-              psnr, pixels, largest, worst.x, worst.y, steps);
+  std::printf(
+      "reflected foam against the raster of the mirrored camera: %.2f dB over %u pixels, largest error %.4f at (%u, "
+      "%u), %u pixels above 1/255\n",
+      psnr, pixels, largest, worst.x, worst.y, steps);
 }
 
 }  // namespace

@@ -68,7 +68,8 @@ TEST_F(RoomFile, TellsWhatIsWrong) {
 TEST_F(RoomFile, IsWhatTheScriptWrites) {
   const std::string folder = (sourceFolder() / "samples/mirror_room/meshes/").string();
   for (const std::string name : {"room", "gallery"}) {
-    const std::string command = "/usr/bin/env python3 '" + folder + "make_room.py' " + name + " '" + path_.string() + "'";
+    const std::string command =
+        "/usr/bin/env python3 '" + folder + "make_room.py' " + name + " '" + path_.string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_EQ(readText(path_), readText(folder + name + ".gltf"));
     const Result<Room> room = readRoom(path_);

@@ -85,13 +85,15 @@ std::vector<float> RoomUnderTest::read(const HostImage& image) {
 
 glm::dvec3 pixelDirection(const Pose& pose, uint32_t x, uint32_t y) {
   const double perPixel = 2 * pose.tanHalfFovY / kRoomExtent.height;
-  const glm::dvec3 inView(perPixel * (x + 0.5 - 0.5 * kRoomExtent.width), perPixel * (y + 0.5 - 0.5 * kRoomExtent.height), 1);
+  const glm::dvec3 inView(perPixel * (x + 0.5 - 0.5 * kRoomExtent.width),
+                          perPixel * (y + 0.5 - 0.5 * kRoomExtent.height), 1);
   return pose.worldFromCamera * glm::normalize(inView);
 }
 
 bool hasSuitableDevice() {
   const Result<std::vector<HostDeviceInfo>> devices = listHostDevices();
-  return devices && std::any_of(devices->begin(), devices->end(), [](const HostDeviceInfo& device) { return device.isSuitable; });
+  return devices &&
+         std::any_of(devices->begin(), devices->end(), [](const HostDeviceInfo& device) { return device.isSuitable; });
 }
 
 }  // namespace froth::test

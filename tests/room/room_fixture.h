@@ -14,9 +14,7 @@ namespace froth::test {
 constexpr VkExtent2D kRoomExtent{96, 64};
 
 // The room that the sample ships.
-inline std::filesystem::path shippedRoom() {
-  return sourceFolder() / "samples/mirror_room/meshes/room.gltf";
-}
+inline std::filesystem::path shippedRoom() { return sourceFolder() / "samples/mirror_room/meshes/room.gltf"; }
 
 class RoomUnderTest {
  public:

@@ -16,8 +16,9 @@ struct Comparison {
 };
 
 // Over the places of matt and glossy meshes that pixels see; expected() of NaN: not compared.
-Comparison compare(RoomUnderTest& room, const HostImage& image,
-                   const std::function<double(const glm::dvec3&, const glm::dvec3&, uint32_t x, uint32_t y)>& expected) {
+Comparison compare(
+    RoomUnderTest& room, const HostImage& image,
+    const std::function<double(const glm::dvec3&, const glm::dvec3&, uint32_t x, uint32_t y)>& expected) {
   const std::vector<float> texels = room.read(image);
   const RoomGeometry meshes(room.stage().room());
   Comparison comparison;
@@ -72,7 +73,8 @@ TEST_F(FoamOnMeshes, KeepsSurroundingLightAwayRayByRay) {
     double sum = 0;
     for (uint32_t i = 0; i < room::kSurroundRays; ++i) {
       const uint32_t number = 16 * i + (x & 3) * 4 + (y & 3);
-      sum += reference_->throughFoam(position, ReferenceFrame::spreadDirection(normal, number, 16 * room::kSurroundRays), reach);
+      sum += reference_->throughFoam(position,
+                                     ReferenceFrame::spreadDirection(normal, number, 16 * room::kSurroundRays), reach);
     }
     return sum / room::kSurroundRays;
   };

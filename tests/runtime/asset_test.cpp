@@ -199,7 +199,8 @@ TEST_F(AssetOfNullContext, KeepsItsPathWhenTheCallersStringIsGone) {
   EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY) << lastText();
 }
 
-// An update ends behind the chunk that exceeds its work, of all assets together; a chunk of one cell counts as the least.
+// An update ends behind the chunk that exceeds its work, of all assets together; a chunk of one cell counts as the
+// least.
 TEST_F(AssetOfNullContext, OfManySmallChunksIsDecodedInSlices) {
   const std::vector<uint8_t> bytes = *encodeAsset(makeOneCellChunks(300));
   const FrothAsset first = openBytes(bytes), second = openBytes(bytes);

@@ -1,4 +1,4 @@
-// What frothComposite and frothRecordDepthExport refuse. The checks need no device.
+// What frothRecordComposite and frothRecordDepthExport refuse. The checks need no device.
 #include "froth/froth_composite.h"
 #include "runtime_fixture.h"
 
@@ -20,7 +20,7 @@ class CompositeCalls : public RuntimeTest {
 
   void expectResult(FrothResult expected, const char* text) {
     messages_.clear();
-    EXPECT_EQ(frothComposite(context_, view_, nullptr, &info_), expected) << lastText();
+    EXPECT_EQ(frothRecordComposite(context_, view_, nullptr, &info_), expected) << lastText();
     if (expected < 0) {
       EXPECT_THAT(lastText(), HasSubstr(text));
     }
@@ -30,7 +30,7 @@ class CompositeCalls : public RuntimeTest {
     auto render = makeStruct<FrothRenderInfo>();
     render.camera = makeCamera(16, 16);
     render.colour = fakeImage(VK_FORMAT_R16G16B16A16_SFLOAT);
-    ASSERT_EQ(frothRasterize(context_, view_, nullptr, &render), FROTH_OK) << lastText();
+    ASSERT_EQ(frothRecordRaster(context_, view_, nullptr, &render), FROTH_OK) << lastText();
   }
 
   FrothView view_{};
@@ -100,7 +100,7 @@ TEST_F(CompositeCalls, ExportDepthOfAProjectionToTheDeclaredFormatOnly) {
   render.camera.lens.kind = FROTH_LENS_FISHEYE;
   render.camera.lens.focal[0] = render.camera.lens.focal[1] = 10;
   render.colour = fakeImage(VK_FORMAT_R16G16B16A16_SFLOAT);
-  ASSERT_EQ(frothRasterize(context_, view_, nullptr, &render), FROTH_OK) << lastText();
+  ASSERT_EQ(frothRecordRaster(context_, view_, nullptr, &render), FROTH_OK) << lastText();
   EXPECT_EQ(frothRecordDepthExport(context_, view_, nullptr, &info), FROTH_ERROR_UNSUPPORTED);
   EXPECT_THAT(lastText(), HasSubstr("its depth is a distance"));
 }
@@ -115,8 +115,8 @@ TEST_F(CompositeCallsOnDevice, NeedAViewThatWasDrawnInTheFrame) {
   auto info = makeStruct<FrothCompositeInfo>();
   info.foam = info.target = fakeImage(VK_FORMAT_R16G16B16A16_SFLOAT);
   runFrame(0, [&](VkCommandBuffer commands) {
-    EXPECT_EQ(frothComposite(context_, view, commands, &info), FROTH_ERROR_STATE);
-    EXPECT_THAT(lastText(), HasSubstr("call it after frothRasterize"));
+    EXPECT_EQ(frothRecordComposite(context_, view, commands, &info), FROTH_ERROR_STATE);
+    EXPECT_THAT(lastText(), HasSubstr("call it after frothRecordRaster"));
   });
 }
 

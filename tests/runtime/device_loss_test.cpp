@@ -61,15 +61,14 @@ class DeviceLoss : public RuntimeGpuTest {
     }));
   }
 
-  std::vector<float> draw(FrothView view, decltype(frothRasterize)* method) {
+  std::vector<float> draw(FrothView view, decltype(frothRecordRaster)* method) {
     Result<HostImage> image = host_->createImage(VK_FORMAT_R32G32B32A32_SFLOAT, {48, 48});
     auto info = makeStruct<FrothRenderInfo>();
     info.camera = makeCamera(48, 48);
     info.camera.eye[2] = 1e6 - 1;  // where the sample lies
     info.colour = host_->describe(*image);
-    runFrame([&](VkCommandBuffer commands) {
-      EXPECT_EQ(method(context_, view, commands, &info), FROTH_OK) << lastText();
-    });
+    runFrame(
+        [&](VkCommandBuffer commands) { EXPECT_EQ(method(context_, view, commands, &info), FROTH_OK) << lastText(); });
     const Result<std::vector<float>> texels = host_->readImage(*image);
     host_->destroyImage(*image);
     return *texels;
@@ -90,7 +89,7 @@ TEST_F(DeviceLoss, IsSurvivedByHandlesAndTheImageAfterwardsIsTheSame) {
     runFrame();
     ASSERT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
     const uint64_t deviceBytes = statusOf(asset).deviceBytes;
-    const std::vector<float> raster = draw(view, frothRasterize), walk = draw(view, frothWalk);
+    const std::vector<float> raster = draw(view, frothRecordRaster), walk = draw(view, frothRecordWalk);
     EXPECT_NE(raster, std::vector<float>(raster.size()));
 
     loseDevice();
@@ -99,8 +98,8 @@ TEST_F(DeviceLoss, IsSurvivedByHandlesAndTheImageAfterwardsIsTheSame) {
     runFrame();
     EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
     EXPECT_EQ(statusOf(asset).deviceBytes, deviceBytes) << "not twice";
-    EXPECT_EQ(draw(view, frothRasterize), raster);
-    EXPECT_EQ(draw(view, frothWalk), walk);
+    EXPECT_EQ(draw(view, frothRecordRaster), raster);
+    EXPECT_EQ(draw(view, frothRecordWalk), walk);
     EXPECT_THAT(messages_, ::testing::IsEmpty());
     ASSERT_EQ(frothDestroyView(context_, view), FROTH_OK);
     ASSERT_EQ(frothDestroyInstance(context_, instance), FROTH_OK);
@@ -116,7 +115,7 @@ TEST_F(DeviceLoss, LeavesObjectsToBeMadeAndDestroyedAndRefusesFrames) {
   EXPECT_THAT(lastText(), HasSubstr("call frothRestoreDevice"));
   EXPECT_EQ(frothRecordUpload(context_, nullptr), FROTH_ERROR_DEVICE);
   const auto info = makeStruct<FrothRenderInfo>();
-  EXPECT_EQ(frothRasterize(context_, old, nullptr, &info), FROTH_ERROR_DEVICE);
+  EXPECT_EQ(frothRecordRaster(context_, old, nullptr, &info), FROTH_ERROR_DEVICE);
   EXPECT_EQ(frothDestroyView(context_, old), FROTH_OK);
   const std::vector<uint8_t> bytes = encodeSample();
   const FrothInstance instance = createInstance(openLastingBytes(bytes));
@@ -127,7 +126,7 @@ TEST_F(DeviceLoss, LeavesObjectsToBeMadeAndDestroyedAndRefusesFrames) {
   EXPECT_EQ(frothDeviceLost(context_), FROTH_OK) << "twice is once";
   restoreDevice();
   runFrame();
-  const std::vector<float> image = draw(view, frothRasterize);
+  const std::vector<float> image = draw(view, frothRecordRaster);
   EXPECT_NE(image, std::vector<float>(image.size()));
   EXPECT_EQ(frothDestroyInstance(context_, instance), FROTH_OK);
 }

@@ -16,8 +16,8 @@ struct CallersMemory {
   static VkResult allocate(void* user, const FrothMemoryRequest* request, FrothDeviceMemory* memory) {
     auto* self = static_cast<CallersMemory*>(user);
     if (self->live.size() >= self->most) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    const VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr,
-                                          request->allocateFlags, 0};
+    const VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr, request->allocateFlags,
+                                          0};
     const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags,
                                     request->requirements.size + kOffset, request->memoryTypeIndex};
     const VkResult result = vkAllocateMemory(self->device, &info, nullptr, &memory->memory);
@@ -25,8 +25,7 @@ struct CallersMemory {
     EXPECT_EQ(kOffset % request->requirements.alignment, 0u);
     memory->offset = kOffset;
     if (request->isMapped) {
-      EXPECT_EQ(vkMapMemory(self->device, memory->memory, kOffset, VK_WHOLE_SIZE, 0, &memory->mapped),
-                VK_SUCCESS);
+      EXPECT_EQ(vkMapMemory(self->device, memory->memory, kOffset, VK_WHOLE_SIZE, 0, &memory->mapped), VK_SUCCESS);
     }
     memory->handle = reinterpret_cast<void*>(++self->count);
     self->live[memory->handle] = request->requirements.size;
@@ -78,7 +77,7 @@ class DeviceMemory : public RuntimeGpuTest {
     info.camera = makeCamera(image.extent.width, image.extent.height);
     info.camera.eye[2] = 1e6 - 1;  // where the sample lies
     info.colour = host_->describe(image);
-    EXPECT_EQ(frothRasterize(context_, view, commands, &info), FROTH_OK) << lastText();
+    EXPECT_EQ(frothRecordRaster(context_, view, commands, &info), FROTH_OK) << lastText();
   }
 
   // Draws what there is and reads it back.
@@ -198,8 +197,7 @@ TEST_F(DeviceMemory, IsNotTouchedByAWindowThatIsResizedOrMinimized) {
   runFrame();
   runFrame();  // what the view replaced as it grew is free
   const FrothMemoryReport before = report();
-  for (const VkExtent2D extent : {VkExtent2D{16, 8}, VkExtent2D{1, 32}, VkExtent2D{31, 31}})
-    draw(view, extent);
+  for (const VkExtent2D extent : {VkExtent2D{16, 8}, VkExtent2D{1, 32}, VkExtent2D{31, 31}}) draw(view, extent);
   for (int frame = 0; frame < 5; ++frame) runFrame();  // minimized: frames without a picture
   EXPECT_EQ(draw(view), whole);
   const FrothMemoryReport after = report();
@@ -256,7 +254,8 @@ TEST_F(DeviceMemory, ThatAFrameUsesIsFreedWhenTheFrameIsCompleteAndNotBefore) {
   const uint64_t lateViewBytes = viewBytes();
   runFrame(s, {});
   EXPECT_EQ(report().categories[0].count, late.categories[0].count - 1);
-  EXPECT_LT(report().categories[1].count, late.categories[1].count / 2) << "those of `closed`, and what `kept` replaced";
+  EXPECT_LT(report().categories[1].count, late.categories[1].count / 2)
+      << "those of `closed`, and what `kept` replaced";
   EXPECT_EQ(grantedIn(report()), memory.bytes());
   EXPECT_LT(viewBytes(), lateViewBytes) << "what a view replaced counted as long as it was there";
   host_->destroyImage(*image);

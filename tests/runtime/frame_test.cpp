@@ -62,7 +62,7 @@ TEST_F(Frames, BeginWithAnUpdate) {
   EXPECT_EQ(frothRecordUpload(context_, nullptr), FROTH_ERROR_STATE);
   const FrothView view = createView({4, 4});
   const auto info = makeStruct<FrothRenderInfo>();
-  EXPECT_EQ(frothRasterize(context_, view, nullptr, &info), FROTH_ERROR_STATE);
+  EXPECT_EQ(frothRecordRaster(context_, view, nullptr, &info), FROTH_ERROR_STATE);
   EXPECT_THAT(lastText(), HasSubstr("call frothUpdate first"));
 }
 

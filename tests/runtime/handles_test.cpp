@@ -55,8 +55,8 @@ TEST_F(Handles, OfADestroyedViewAreStaleInRecordCalls) {
   const FrothView view = createView({8, 8});
   ASSERT_EQ(frothDestroyView(context_, view), FROTH_OK);
   const auto info = makeStruct<FrothRenderInfo>();
-  EXPECT_EQ(frothRasterize(context_, view, nullptr, &info), FROTH_ERROR_HANDLE);
-  EXPECT_EQ(frothWalk(context_, view, nullptr, &info), FROTH_ERROR_HANDLE);
+  EXPECT_EQ(frothRecordRaster(context_, view, nullptr, &info), FROTH_ERROR_HANDLE);
+  EXPECT_EQ(frothRecordWalk(context_, view, nullptr, &info), FROTH_ERROR_HANDLE);
   EXPECT_THAT(lastText(), HasSubstr("destroyed or never created"));
 }
 

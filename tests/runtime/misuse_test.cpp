@@ -27,8 +27,7 @@ class Misuse : public RuntimeTest {
 // A block of exactly `size` bytes, so that the sanitizer sees every byte beyond it that is touched.
 template <class T>
 struct Block {
-  Block(uint32_t structSize, size_t size, unsigned char fill)
-      : bytes(static_cast<unsigned char*>(std::malloc(size))) {
+  Block(uint32_t structSize, size_t size, unsigned char fill) : bytes(static_cast<unsigned char*>(std::malloc(size))) {
     std::memset(bytes, fill, size);
     std::memcpy(bytes, &structSize, sizeof(structSize));
   }
@@ -91,18 +90,17 @@ TEST_F(Misuse, OfStructSizesThatGoIn) {
     FrothInstance made{};
     return frothCreateInstance(context_, info, &made);
   });
-  expectInputSizes<FrothInstanceInfo>(
-      "frothSetInstance", [&](auto* info) { return frothSetInstance(context_, instance_, info); });
+  expectInputSizes<FrothInstanceInfo>("frothSetInstance",
+                                      [&](auto* info) { return frothSetInstance(context_, instance_, info); });
   expectInputSizes<FrothViewInfo>("frothCreateView", [&](auto* info) {
     FrothView made{};
     return frothCreateView(context_, info, &made);
   });
-  expectInputSizes<FrothFrame>("frothUpdate",
-                               [&](auto* frame) { return frothUpdate(context_, frame, nullptr); });
-  expectInputSizes<FrothRenderInfo>(
-      "frothRasterize", [&](auto* info) { return frothRasterize(context_, view_, nullptr, info); });
-  expectInputSizes<FrothRenderInfo>("frothWalk",
-                                    [&](auto* info) { return frothWalk(context_, view_, nullptr, info); });
+  expectInputSizes<FrothFrame>("frothUpdate", [&](auto* frame) { return frothUpdate(context_, frame, nullptr); });
+  expectInputSizes<FrothRenderInfo>("frothRecordRaster",
+                                    [&](auto* info) { return frothRecordRaster(context_, view_, nullptr, info); });
+  expectInputSizes<FrothRenderInfo>("frothRecordWalk",
+                                    [&](auto* info) { return frothRecordWalk(context_, view_, nullptr, info); });
   auto contextInfo = nullContextInfo();
   contextInfo.walkShaders = 1;
   FrothContext* walking = nullptr;
@@ -129,10 +127,10 @@ TEST_F(Misuse, OfStructSizesThatComeOut) {
   });
   expectOutputSizes<FrothMemoryReport>("frothGetMemoryReport",
                                        [&](auto* report) { return frothGetMemoryReport(context_, report); });
-  expectOutputSizes<FrothAssetStatus>(
-      "frothGetAssetStatus", [&](auto* status) { return frothGetAssetStatus(context_, asset_, status); });
-  expectOutputSizes<FrothViewStatus>(
-      "frothGetViewStatus", [&](auto* status) { return frothGetViewStatus(context_, view_, status); });
+  expectOutputSizes<FrothAssetStatus>("frothGetAssetStatus",
+                                      [&](auto* status) { return frothGetAssetStatus(context_, asset_, status); });
+  expectOutputSizes<FrothViewStatus>("frothGetViewStatus",
+                                     [&](auto* status) { return frothGetViewStatus(context_, view_, status); });
   uint64_t serial = 1;
   expectOutputSizes<FrothFrameStatus>("frothUpdate", [&](auto* status) {
     auto frame = makeStruct<FrothFrame>();
@@ -143,8 +141,8 @@ TEST_F(Misuse, OfStructSizesThatComeOut) {
     return result;
   });
   const auto sphere = makeStruct<FrothSphere>();
-  expectOutputSizes<FrothContact>(
-      "frothOverlapSphere", [&](auto* contact) { return frothOverlapSphere(context_, &sphere, contact); });
+  expectOutputSizes<FrothContact>("frothOverlapSphere",
+                                  [&](auto* contact) { return frothOverlapSphere(context_, &sphere, contact); });
 }
 
 TEST_F(Misuse, OfStaleHandlesInEveryCallIsAnErrorThatNamesThem) {
@@ -169,8 +167,8 @@ TEST_F(Misuse, OfStaleHandlesInEveryCallIsAnErrorThatNamesThem) {
       {frothDestroyInstance(context_, instance_), "frothDestroyInstance"},
       {frothDestroyView(context_, view_), "frothDestroyView"},
       {frothGetViewStatus(context_, view_, &viewStatus), "frothGetViewStatus"},
-      {frothRasterize(context_, view_, nullptr, &renderInfo), "frothRasterize"},
-      {frothWalk(context_, view_, nullptr, &renderInfo), "frothWalk"},
+      {frothRecordRaster(context_, view_, nullptr, &renderInfo), "frothRecordRaster"},
+      {frothRecordWalk(context_, view_, nullptr, &renderInfo), "frothRecordWalk"},
       {frothLocate(context_, instance_, point, &location), "frothLocate"},
   };
   ASSERT_EQ(messages_.size(), std::size(results)) << "one message each";

@@ -31,8 +31,8 @@ class OutputCalls : public RuntimeTest {
   void expectResult(FrothView view, FrothResult expected, const char* text) {
     ASSERT_EQ(update(++serial_), FROTH_OK);
     messages_.clear();
-    EXPECT_EQ(frothRasterize(context_, view, nullptr, &info_), expected) << lastText();
-    EXPECT_EQ(frothWalk(context_, view, nullptr, &info_), expected) << lastText();
+    EXPECT_EQ(frothRecordRaster(context_, view, nullptr, &info_), expected) << lastText();
+    EXPECT_EQ(frothRecordWalk(context_, view, nullptr, &info_), expected) << lastText();
     if (expected < 0) {
       EXPECT_THAT(lastText(), HasSubstr(text));
     }
@@ -106,7 +106,7 @@ TEST_F(OutputCallsOnDevice, NameTheFeatureThatIdAndMotionNeed) {
   runFrame(0, [&](VkCommandBuffer commands) {
     FrothRenderInfo info = makeInfo();
     info.id = fakeImage(VK_FORMAT_R32G32_UINT);
-    EXPECT_EQ(frothRasterize(context_, view, commands, &info), FROTH_ERROR_FEATURE);
+    EXPECT_EQ(frothRecordRaster(context_, view, commands, &info), FROTH_ERROR_FEATURE);
     EXPECT_THAT(lastText(), HasSubstr("made without shaderStorageImageExtendedFormats"));
   });
 }

@@ -29,8 +29,8 @@ class RecordCall : public RuntimeTest {
   void expectResult(FrothResult expected, const char* text) {
     ASSERT_EQ(update(++serial_), FROTH_OK);
     messages_.clear();
-    EXPECT_EQ(frothRasterize(context_, view_, nullptr, &info_), expected) << lastText();
-    EXPECT_EQ(frothWalk(context_, view_, nullptr, &info_), expected) << lastText();
+    EXPECT_EQ(frothRecordRaster(context_, view_, nullptr, &info_), expected) << lastText();
+    EXPECT_EQ(frothRecordWalk(context_, view_, nullptr, &info_), expected) << lastText();
     if (expected < 0) {
       EXPECT_THAT(lastText(), HasSubstr(text));
     }
@@ -41,9 +41,7 @@ class RecordCall : public RuntimeTest {
   uint64_t serial_ = 1;
 };
 
-TEST_F(RecordCall, AcceptsAGoodCamera) {
-  expectResult(FROTH_OK, "");
-}
+TEST_F(RecordCall, AcceptsAGoodCamera) { expectResult(FROTH_OK, ""); }
 
 TEST_F(RecordCall, AcceptsReversedOffCentreObliqueAndFlippedProjections) {
   info_.camera.clipFromView[8] = 0.3f;  // off-centre
@@ -81,7 +79,7 @@ TEST_F(RecordCall, RefusesToDrawBeforeTheFirstFrame) {
   frothDestroyContext(context_, UINT64_MAX);
   createContext();
   view_ = createView({64, 64});
-  EXPECT_EQ(frothRasterize(context_, view_, nullptr, &info_), FROTH_ERROR_STATE);
+  EXPECT_EQ(frothRecordRaster(context_, view_, nullptr, &info_), FROTH_ERROR_STATE);
   EXPECT_EQ(lastText(), "no frame; call frothUpdate first");
 }
 
@@ -119,8 +117,8 @@ class RecordLens : public RecordCall {
 
 TEST_F(RecordLens, RefusesWhatIsNoLens) {
   FrothLens& lens = info_.camera.lens;
-  for (const auto kind : {FROTH_LENS_FISHEYE, FROTH_LENS_KANNALA_BRANDT, FROTH_LENS_RADIAL_TANGENTIAL,
-                          FROTH_LENS_EQUIRECTANGULAR}) {
+  for (const auto kind :
+       {FROTH_LENS_FISHEYE, FROTH_LENS_KANNALA_BRANDT, FROTH_LENS_RADIAL_TANGENTIAL, FROTH_LENS_EQUIRECTANGULAR}) {
     lens = {};
     lens.kind = kind;
     lens.focal[0] = 20;
@@ -199,8 +197,7 @@ TEST_F(RecordCall, RefusesWhatDoesNotFitTheImageOrTheView) {
 
 TEST_F(RecordCall, RefusesImagesOfOtherFormats) {
   info_.colour.format = VK_FORMAT_R8G8B8A8_UNORM;
-  expectResult(FROTH_ERROR_ARGUMENT,
-               "colour.format: VkFormat 37; must be R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT");
+  expectResult(FROTH_ERROR_ARGUMENT, "colour.format: VkFormat 37; must be R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT");
   info_.colour.format = VK_FORMAT_R32G32B32A32_SFLOAT;
   info_.distance = info_.colour;
   expectResult(FROTH_ERROR_ARGUMENT, "distance.format");
@@ -224,8 +221,8 @@ TEST_F(RecordCall, RefusesLimitsOutOfTheirRange) {
   info_.cutoff = std::nanf("");
   expectResult(FROTH_ERROR_ARGUMENT, "cutoff");
   info_ = good;
-  info_.depthQuantile = -0.5f;
-  expectResult(FROTH_ERROR_ARGUMENT, "depthQuantile: -0.5");
+  info_.quantile = -0.5f;
+  expectResult(FROTH_ERROR_ARGUMENT, "quantile: -0.5");
   info_ = good;
   info_.nearRatio = -3;
   expectResult(FROTH_ERROR_ARGUMENT, "nearDepth: -3");
@@ -239,7 +236,8 @@ TEST_F(RecordCall, RefusesASceneDepthThatItCannotRead) {
   info_.camera.clipFromView[14] = 0.1f;
   expectResult(FROTH_OK, "");
   info_.sceneDepth.samples = VK_SAMPLE_COUNT_4_BIT;
-  expectResult(FROTH_ERROR_UNSUPPORTED, "sceneDepth.samples: 4; one sample per pixel is needed; resolve the image first");
+  expectResult(FROTH_ERROR_UNSUPPORTED,
+               "sceneDepth.samples: 4; one sample per pixel is needed; resolve the image first");
   info_.sceneDepth.samples = VK_SAMPLE_COUNT_1_BIT;
   info_.sceneDepth.format = VK_FORMAT_S8_UINT;
   expectResult(FROTH_ERROR_ARGUMENT, "sceneDepth.format");

@@ -33,7 +33,7 @@ class RecordCallOnDevice : public RuntimeGpuTest {
     const FrothRenderInfo info = renderInfo();
     FrothResult result = FROTH_RESULT_MAX;
     runFrame(uploadBytes,
-             [&](VkCommandBuffer commands) { result = frothRasterize(context_, view_, commands, &info); });
+             [&](VkCommandBuffer commands) { result = frothRecordRaster(context_, view_, commands, &info); });
     return result;
   }
 
@@ -78,7 +78,7 @@ TEST_F(RecordCallOnDevice, LeavesOutAnInstanceThatCameAfterTheUpdate) {
   FrothResult result = FROTH_RESULT_MAX;
   runFrame(0, [&](VkCommandBuffer commands) {
     createInstance(asset);
-    result = frothRasterize(context_, view_, commands, &info);
+    result = frothRecordRaster(context_, view_, commands, &info);
   });
   EXPECT_EQ(result, FROTH_INCOMPLETE);
   EXPECT_EQ(drawFrame(), FROTH_OK);
@@ -87,10 +87,10 @@ TEST_F(RecordCallOnDevice, LeavesOutAnInstanceThatCameAfterTheUpdate) {
 TEST_F(RecordCallOnDevice, DrawsAViewOnceInAFrame) {
   const FrothRenderInfo info = renderInfo();
   runFrame(0, [&](VkCommandBuffer commands) {
-    EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_OK);
-    EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_ERROR_STATE);
-    EXPECT_EQ(frothWalk(context_, view_, commands, &info), FROTH_OK);
-    EXPECT_EQ(frothRasterize(context_, view_, nullptr, &info), FROTH_ERROR_STATE);
+    EXPECT_EQ(frothRecordRaster(context_, view_, commands, &info), FROTH_OK);
+    EXPECT_EQ(frothRecordRaster(context_, view_, commands, &info), FROTH_ERROR_STATE);
+    EXPECT_EQ(frothRecordWalk(context_, view_, commands, &info), FROTH_OK);
+    EXPECT_EQ(frothRecordRaster(context_, view_, nullptr, &info), FROTH_ERROR_STATE);
   });
 }
 
@@ -102,7 +102,7 @@ TEST_F(RecordCallOnDevice, OfADroppedFrameIsNeverReadBack) {
   const FrothRenderInfo info = renderInfo();
   ASSERT_EQ(update(droppedSerial), FROTH_OK);
   const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) -> Status {
-    EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_OK);
+    EXPECT_EQ(frothRecordRaster(context_, view_, commands, &info), FROTH_OK);
     return makeError(ErrorKind::kCancelled, "dropped");
   });
   ASSERT_FALSE(status);
@@ -119,8 +119,8 @@ struct CountedClears {
   static inline uint32_t count = 0;
   static inline PFN_vkCmdFillBuffer fillBuffer = nullptr;
 
-  static VKAPI_ATTR void VKAPI_CALL fill(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
-                                         uint32_t data) {
+  static VKAPI_ATTR void VKAPI_CALL fill(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset,
+                                         VkDeviceSize size, uint32_t data) {
     count += size == VK_WHOLE_SIZE;
     fillBuffer(commands, buffer, offset, size, data);
   }
@@ -150,13 +150,14 @@ TEST_F(RecordCallOnDevice, AWalkAfterADroppedFirstOneClearsItsStart) {
   const uint64_t droppedSerial = host_->nextSerial();
   ASSERT_EQ(update(droppedSerial), FROTH_OK);
   const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) -> Status {
-    EXPECT_EQ(frothWalk(context_, view_, commands, &info), FROTH_OK);
+    EXPECT_EQ(frothRecordWalk(context_, view_, commands, &info), FROTH_OK);
     return makeError(ErrorKind::kCancelled, "dropped");
   });
   ASSERT_FALSE(status);
   ASSERT_EQ(frothDropFrame(context_, droppedSerial), FROTH_OK);
   for (int frame = 0; frame < 2; ++frame) {
-    runFrame(0, [&](VkCommandBuffer commands) { EXPECT_EQ(frothWalk(context_, view_, commands, &info), FROTH_OK); });
+    runFrame(0,
+             [&](VkCommandBuffer commands) { EXPECT_EQ(frothRecordWalk(context_, view_, commands, &info), FROTH_OK); });
     EXPECT_EQ(CountedClears::count, 2u) << "of the dropped frame, and of the first one that is not";
   }
 }
@@ -176,7 +177,7 @@ TEST_F(RecordCallOnDevice, AFrameDroppedAmongOthersLeavesTheirCountsAlone) {
   };
   const auto record = [&] {
     const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) {
-      EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_OK) << lastText();
+      EXPECT_EQ(frothRecordRaster(context_, view_, commands, &info), FROTH_OK) << lastText();
       return Status();
     });
     ASSERT_TRUE(status) << status.error().message;
@@ -200,7 +201,7 @@ TEST_F(RecordCallOnDevice, SurvivesClosingAndDestroyingWhatTheFrameUses) {
   runFrame();
   const FrothRenderInfo info = renderInfo();
   runFrame(0, [&](VkCommandBuffer commands) {
-    EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_OK);
+    EXPECT_EQ(frothRecordRaster(context_, view_, commands, &info), FROTH_OK);
     EXPECT_EQ(frothDestroyInstance(context_, instance), FROTH_OK);
     EXPECT_EQ(frothCloseAsset(context_, asset), FROTH_OK);
     EXPECT_EQ(frothDestroyView(context_, view_), FROTH_OK);
@@ -219,8 +220,8 @@ TEST_F(RecordCallOnDevice, AWrongEntryLayoutIsNamedWithTheImageAndTheCall) {
   info.colour.layoutIn = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
   runFrame(0, [&](VkCommandBuffer commands) {
     const FrothRenderInfo good = renderInfo();
-    EXPECT_EQ(frothRasterize(context_, view_, commands, &good), FROTH_OK);  // leaves the image in GENERAL
-    EXPECT_EQ(frothWalk(context_, view_, commands, &info), FROTH_OK);
+    EXPECT_EQ(frothRecordRaster(context_, view_, commands, &good), FROTH_OK);  // leaves the image in GENERAL
+    EXPECT_EQ(frothRecordWalk(context_, view_, commands, &info), FROTH_OK);
   });
   const std::vector<std::string> messages = host_->validationMessages();
   ASSERT_FALSE(messages.empty());
@@ -255,9 +256,8 @@ TEST_F(RecordCallOnDevice, ShowsTheInstancesThatShareABitWithTheView) {
   const auto countVisible = [&](uint32_t mask) {
     FrothRenderInfo info = renderInfo();
     info.mask = mask;
-    runFrame(0, [&](VkCommandBuffer commands) {
-      EXPECT_EQ(frothRasterize(context_, view_, commands, &info), FROTH_OK);
-    });
+    runFrame(
+        0, [&](VkCommandBuffer commands) { EXPECT_EQ(frothRecordRaster(context_, view_, commands, &info), FROTH_OK); });
     runFrame();
     auto status = makeStruct<FrothViewStatus>();
     EXPECT_EQ(frothGetViewStatus(context_, view_, &status), FROTH_OK);

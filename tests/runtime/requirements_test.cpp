@@ -35,8 +35,7 @@ TEST(Requirements, AreMetByTheDeviceOfTheTests) {
   ASSERT_TRUE(host) << host.error().message;
   auto requirements = makeStruct<FrothRequirements>();
   const VkInstance instance = (*host)->instance;
-  ASSERT_EQ(frothGetRequirements(vkGetInstanceProcAddr, instance, (*host)->physicalDevice, &requirements),
-            FROTH_OK);
+  ASSERT_EQ(frothGetRequirements(vkGetInstanceProcAddr, instance, (*host)->physicalDevice, &requirements), FROTH_OK);
   EXPECT_TRUE(requirements.isSatisfied);
   EXPECT_TRUE(findItem(requirements, "bufferDeviceAddress")->isPresent);
 }
@@ -51,11 +50,10 @@ TEST(Requirements, RefuseADeviceWithoutItsInstance) {
 // A driver of Vulkan 1.1 without the features, behind the caller's own vkGetInstanceProcAddr.
 PFN_vkVoidFunction VKAPI_CALL getOldDriverProcAddr(VkInstance, const char* name) {
   if (std::strcmp(name, "vkGetPhysicalDeviceProperties") == 0) {
-    return reinterpret_cast<PFN_vkVoidFunction>(
-        +[](VkPhysicalDevice, VkPhysicalDeviceProperties* properties) {
-          *properties = {};
-          properties->apiVersion = VK_API_VERSION_1_1;
-        });
+    return reinterpret_cast<PFN_vkVoidFunction>(+[](VkPhysicalDevice, VkPhysicalDeviceProperties* properties) {
+      *properties = {};
+      properties->apiVersion = VK_API_VERSION_1_1;
+    });
   }
   if (std::strcmp(name, "vkGetPhysicalDeviceQueueFamilyProperties") == 0) {
     return reinterpret_cast<PFN_vkVoidFunction>(

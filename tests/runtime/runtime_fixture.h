@@ -33,8 +33,7 @@ struct LoggedMessage {
   std::string object, text;
 };
 
-inline void logMessage(void* user, FrothSeverity severity, FrothResult code, const char* object,
-                       const char* text) {
+inline void logMessage(void* user, FrothSeverity severity, FrothResult code, const char* object, const char* text) {
   static_cast<std::vector<LoggedMessage>*>(user)->push_back({severity, code, object, text});
 }
 
@@ -70,8 +69,7 @@ class RuntimeTest : public ::testing::Test {
 
   std::string writeFile(const std::string& name, const std::vector<uint8_t>& bytes) {
     const std::filesystem::path path = folder() / name;
-    std::ofstream(path, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+    std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
     return path.string();
   }
 
@@ -138,9 +136,9 @@ class RuntimeTest : public ::testing::Test {
   std::list<std::vector<uint8_t>> openedBytes_;  // kept while assets load from them
 };
 
-// The device of all tests of the program, with core and synchronization validation; null, and the test fails, if there is none.
-// It stays to the end: the loader unloads a driver with its last instance, and of NVIDIA's (580.159) the 31st load in a process
-// failed: vkCreateInstance gave VK_ERROR_INCOMPATIBLE_DRIVER.
+// The device of all tests of the program, with core and synchronization validation; null, and the test fails, if there
+// is none. It stays to the end: the loader unloads a driver with its last instance, and of NVIDIA's (580.159) the 31st
+// load in a process failed: vkCreateInstance gave VK_ERROR_INCOMPATIBLE_DRIVER.
 inline Host* sharedHost() {
   static const Result<std::unique_ptr<Host>> host = Host::create({.device = "", .useValidation = true});
   EXPECT_TRUE(host) << host.error().message;

@@ -92,7 +92,7 @@ TEST_F(StructSize, NullPointersAreNamedAndDoNotCrash) {
   EXPECT_EQ(frothGetAssetStatus(context_, openBytes(encodeSample()), nullptr), FROTH_ERROR_ARGUMENT);
   EXPECT_EQ(frothUpdate(context_, nullptr, nullptr), FROTH_ERROR_ARGUMENT);
   EXPECT_EQ(lastText(), "frame: null");
-  EXPECT_EQ(frothRasterize(context_, createView({4, 4}), nullptr, nullptr), FROTH_ERROR_ARGUMENT);
+  EXPECT_EQ(frothRecordRaster(context_, createView({4, 4}), nullptr, nullptr), FROTH_ERROR_ARGUMENT);
   auto info = makeStruct<FrothViewInfo>();
   info.maxExtent = {4, 4};
   EXPECT_EQ(frothCreateView(context_, &info, nullptr), FROTH_ERROR_ARGUMENT);

@@ -15,8 +15,7 @@ constexpr VkExtent2D kExtent{40, 40};
 class Recorder {
  public:
   Recorder(VkDevice device, uint32_t queueFamily) : device_(device) {
-    const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0,
-                                           queueFamily};
+    const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, queueFamily};
     EXPECT_EQ(vkCreateCommandPool(device, &poolInfo, nullptr, &pool_), VK_SUCCESS);
     const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
                                            VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
@@ -77,9 +76,8 @@ TEST_F(Threads, RasterizeAndWalkTwoViewsWhileOthersAskAndCast) {
   std::thread asker([&] {
     do {
       auto requirements = makeStruct<FrothRequirements>();
-      EXPECT_EQ(
-          frothGetRequirements(vkGetInstanceProcAddr, host_->instance, host_->physicalDevice, &requirements),
-          FROTH_OK);
+      EXPECT_EQ(frothGetRequirements(vkGetInstanceProcAddr, host_->instance, host_->physicalDevice, &requirements),
+                FROTH_OK);
     } while (!isEnding);
   });
   for (int frame = 0; frame < 10; ++frame) {
@@ -89,8 +87,8 @@ TEST_F(Threads, RasterizeAndWalkTwoViewsWhileOthersAskAndCast) {
       threads.emplace_back([&, i] {
         recorders[i].begin();
         const FrothRenderInfo raster = infoFor(images[2 * i]), walk = infoFor(images[2 * i + 1]);
-        EXPECT_EQ(frothRasterize(context_, views[i], recorders[i].commands, &raster), FROTH_OK);
-        EXPECT_EQ(frothWalk(context_, views[i], recorders[i].commands, &walk), FROTH_OK);
+        EXPECT_EQ(frothRecordRaster(context_, views[i], recorders[i].commands, &raster), FROTH_OK);
+        EXPECT_EQ(frothRecordWalk(context_, views[i], recorders[i].commands, &walk), FROTH_OK);
         vkEndCommandBuffer(recorders[i].commands);
       });
       threads.emplace_back([&] {
@@ -98,14 +96,12 @@ TEST_F(Threads, RasterizeAndWalkTwoViewsWhileOthersAskAndCast) {
         ray.origin[2] = 1e6 - 1;
         ray.direction[2] = 1;
         FrothRayHit hit;
-        for (int cast = 0; cast < 50; ++cast)
-          EXPECT_GE(frothCastRays(context_, nullptr, &ray, &hit, 1), FROTH_OK);
+        for (int cast = 0; cast < 50; ++cast) EXPECT_GE(frothCastRays(context_, nullptr, &ray, &hit, 1), FROTH_OK);
       });
     }
     for (std::thread& thread : threads) thread.join();
     const VkCommandBuffer commands[2] = {recorders[0].commands, recorders[1].commands};
-    const VkSubmitInfo submit{
-        VK_STRUCTURE_TYPE_SUBMIT_INFO, nullptr, 0, nullptr, nullptr, 2, commands, 0, nullptr};
+    const VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO, nullptr, 0, nullptr, nullptr, 2, commands, 0, nullptr};
     ASSERT_EQ(vkQueueSubmit(host_->queue, 1, &submit, VK_NULL_HANDLE), VK_SUCCESS);
     ASSERT_EQ(vkQueueWaitIdle(host_->queue), VK_SUCCESS);
   }

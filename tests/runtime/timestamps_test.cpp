@@ -16,8 +16,8 @@ VKAPI_ATTR void VKAPI_CALL getFamilies(VkPhysicalDevice device, uint32_t* count,
 }
 
 // The counter wraps behind the first stamp.
-VKAPI_ATTR VkResult VKAPI_CALL getStamps(VkDevice, VkQueryPool, uint32_t, uint32_t count, size_t, void* data, VkDeviceSize,
-                                         VkQueryResultFlags) {
+VKAPI_ATTR VkResult VKAPI_CALL getStamps(VkDevice, VkQueryPool, uint32_t, uint32_t count, size_t, void* data,
+                                         VkDeviceSize, VkQueryResultFlags) {
   const uint64_t mask = (uint64_t{1} << plantedBits) - 1;
   for (uint64_t i = 0; i < count; ++i) static_cast<uint64_t*>(data)[i] = (mask - kTicks / 2 + i * kTicks) & mask;
   return VK_SUCCESS;
@@ -30,8 +30,9 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* nam
 
 PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name) {
   if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
-  if (std::strcmp(name, "vkGetPhysicalDeviceQueueFamilyProperties") == 0)
+  if (std::strcmp(name, "vkGetPhysicalDeviceQueueFamilyProperties") == 0) {
     return reinterpret_cast<PFN_vkVoidFunction>(getFamilies);
+  }
   return vkGetInstanceProcAddr(instance, name);
 }
 
@@ -54,7 +55,8 @@ class Timestamps : public RuntimeGpuTest {
     auto draw = makeStruct<FrothRenderInfo>();
     draw.camera = makeCamera(16, 16);
     draw.colour = host_->describe(*image);
-    runFrame(0, [&](VkCommandBuffer commands) { EXPECT_EQ(frothRasterize(context_, view, commands, &draw), FROTH_OK); });
+    runFrame(
+        0, [&](VkCommandBuffer commands) { EXPECT_EQ(frothRecordRaster(context_, view, commands, &draw), FROTH_OK); });
     runFrame();
     auto status = makeStruct<FrothViewStatus>();
     EXPECT_EQ(frothGetViewStatus(context_, view, &status), FROTH_OK);
@@ -69,13 +71,15 @@ TEST_F(Timestamps, OfACounterThatWrapsAreItsDifferences) {
   vkGetPhysicalDeviceProperties(host_->physicalDevice, &properties);
   ASSERT_GT(status.passCount, 2u);
   for (uint32_t i = 0; i < status.passCount; ++i) {
-    EXPECT_DOUBLE_EQ(status.passes[i].milliseconds, kTicks * double{properties.limits.timestampPeriod} * 1e-6) << status.passes[i].name;
+    EXPECT_DOUBLE_EQ(status.passes[i].milliseconds, kTicks * double{properties.limits.timestampPeriod} * 1e-6)
+        << status.passes[i].name;
   }
 }
 
 TEST_F(Timestamps, OfAFamilyThatTakesNoneAreLeftOutWithAWarning) {
   EXPECT_EQ(measure(0).passCount, 0u);
-  EXPECT_THAT(messages_, ::testing::Contains(::testing::Field(&LoggedMessage::text, HasSubstr("0 timestampValidBits"))));
+  EXPECT_THAT(messages_,
+              ::testing::Contains(::testing::Field(&LoggedMessage::text, HasSubstr("0 timestampValidBits"))));
 }
 
 }  // namespace

@@ -21,17 +21,15 @@ class Upload : public RuntimeGpuTest {
   }
 
   template <class T>
-  void expectOnGpu(const Asset& asset, VkDeviceAddress address, const std::vector<T>& expected,
-                   const char* name) {
+  void expectOnGpu(const Asset& asset, VkDeviceAddress address, const std::vector<T>& expected, const char* name) {
     if (expected.empty()) {
       EXPECT_EQ(address, 0u) << name;
       return;
     }
     const auto buffers = asset.buffers();
-    const auto source = std::find_if(buffers.begin(), buffers.end(),
-                                     [&](const GpuBuffer& buffer) {
-                                       return buffer.address <= address && address < buffer.address + buffer.size;
-                                     });
+    const auto source = std::find_if(buffers.begin(), buffers.end(), [&](const GpuBuffer& buffer) {
+      return buffer.address <= address && address < buffer.address + buffer.size;
+    });
     ASSERT_NE(source, buffers.end()) << name;
     const VkDeviceSize offset = address - source->address, size = expected.size() * sizeof(T);
     ASSERT_LE(offset + size, source->size) << name;
@@ -186,8 +184,7 @@ TEST_F(Upload, BeyondTheBudgetFailsWithNumbersAndGivesTheMemoryBack) {
   EXPECT_EQ(statusOf(asset).error, FROTH_ERROR_MEMORY);
   ASSERT_EQ(messages_.size(), 1u);
   EXPECT_THAT(messages_[0].text, HasSubstr("chunk 0"));
-  EXPECT_THAT(messages_[0].text,
-              HasSubstr("of 1000 bytes are in use; raise FrothContextInfo::deviceBudget by"));
+  EXPECT_THAT(messages_[0].text, HasSubstr("of 1000 bytes are in use; raise FrothContextInfo::deviceBudget by"));
   runFrame();
   auto frame = makeStruct<FrothFrame>();
   frame.serial = host_->nextSerial();
@@ -208,8 +205,7 @@ TEST_F(Upload, ThatFitsTheBudgetWhileTheViewDoesNotLeavesTheViewRefused) {
   FrothView view{};
   EXPECT_EQ(frothCreateView(context_, &viewInfo, &view), FROTH_ERROR_MEMORY);
   ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_THAT(messages_[0].text,
-              HasSubstr("of 16384 bytes are in use; raise FrothContextInfo::deviceBudget by"));
+  EXPECT_THAT(messages_[0].text, HasSubstr("of 16384 bytes are in use; raise FrothContextInfo::deviceBudget by"));
   runFrame();
   EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
 }

@@ -27,8 +27,8 @@ class Flythrough : public ToolTest {
     return runProgram(FROTH_FLYTHROUGH, arguments, folder_);
   }
   void renderView(const std::string& view, const std::string& output) const {
-    frothWell({"render", "random.froth", "--cameras", "cameras.json", "--view", view, "--renderer", "raster",
-               "--size", "96x64", "-o", output});
+    frothWell({"render", "random.froth", "--cameras", "cameras.json", "--view", view, "--renderer", "raster", "--size",
+               "96x64", "-o", output});
   }
 };
 
@@ -36,11 +36,10 @@ TEST_F(Flythrough, ShowsWhatFrothRenderShows) {
   renderView("0", "first.png");
   renderView("2", "last.png");
   for (const char* renderer : {"raster", "walk"}) {
-    const ProgramRun first = fly({"--frames", "1", "--compare", "first.png", "--min-psnr", "45", "--renderer",
-                                  renderer, "--validate"});
+    const ProgramRun first =
+        fly({"--frames", "1", "--compare", "first.png", "--min-psnr", "45", "--renderer", renderer, "--validate"});
     EXPECT_EQ(first.exitCode, 0) << first.err;
-    const ProgramRun last =
-        fly({"--frames", "3", "--compare", "last.png", "--min-psnr", "45", "--renderer", renderer});
+    const ProgramRun last = fly({"--frames", "3", "--compare", "last.png", "--min-psnr", "45", "--renderer", renderer});
     EXPECT_EQ(last.exitCode, 0) << last.err;
   }
 }
@@ -66,9 +65,8 @@ TEST_F(Flythrough, WritesEveryFrameAndASheet) {
 }
 
 TEST_F(Flythrough, OrbitsAnAssetWithoutCameras) {
-  const ProgramRun run =
-      runProgram(FROTH_FLYTHROUGH,
-                 {"random.froth", "--headless", "--size", "32x32", "--frames", "2", "-o", "f"}, folder_);
+  const ProgramRun run = runProgram(
+      FROTH_FLYTHROUGH, {"random.froth", "--headless", "--size", "32x32", "--frames", "2", "-o", "f"}, folder_);
   EXPECT_EQ(run.exitCode, 0) << run.err;
 }
 
@@ -83,13 +81,11 @@ TEST_F(Flythrough, RefusesADamagedAsset) {
 TEST_F(Flythrough, RefusesAPoseThatIsNoRotation) {
   for (const char* corner : {"-1", "2"}) {
     const std::string rows = std::string("[[") + corner + ",0,0,0],[0,1,0,0],[0,0,1,0]]";
-    writeBytes(folder_ / "cameras.json",
-               R"({"views": [{"height": 8, "fy": 8, "world_from_camera": )" + rows + "}]}");
+    writeBytes(folder_ / "cameras.json", R"({"views": [{"height": 8, "fy": 8, "world_from_camera": )" + rows + "}]}");
     const ProgramRun run = fly({"--frames", "1"});
     EXPECT_EQ(run.exitCode, 3);
-    EXPECT_THAT(run.err,
-                HasSubstr("cameras.json: views 0, field 'world_from_camera': found a determinant of " +
-                          std::string(corner)));
+    EXPECT_THAT(run.err, HasSubstr("cameras.json: views 0, field 'world_from_camera': found a determinant of " +
+                                   std::string(corner)));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "frames"));
   }
 }

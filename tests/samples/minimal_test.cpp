@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "reference/image/image.h"
+#include "base/image/image.h"
 #include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 
@@ -40,14 +40,14 @@ TEST_F(Minimal, ShowsWhatTheDoubleReferenceShows) {
   frothWell({"render", "random.froth", "--cameras", "cameras.json", "--view", "0", "--renderer", "reference",
              "--cutoff", "1e-3", "-o", "reference.png"});
   convertToPpm("reference.png", "reference.ppm");
-  const ProgramRun run = minimal({"random.froth", "seen.ppm", "--frames", "3", "--compare", "reference.ppm",
-                                  "--min-psnr", "55"});
+  const ProgramRun run =
+      minimal({"random.froth", "seen.ppm", "--frames", "3", "--compare", "reference.ppm", "--min-psnr", "55"});
   EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
   std::string black = "P6\n480 320\n255\n";
   black.resize(black.size() + 480 * 320 * 3);
   writeBytes(folder_ / "black.ppm", black);
-  EXPECT_EQ(minimal({"random.froth", "seen.ppm", "--frames", "1", "--compare", "black.ppm", "--min-psnr", "40"}).exitCode,
-            1);
+  EXPECT_EQ(
+      minimal({"random.froth", "seen.ppm", "--frames", "1", "--compare", "black.ppm", "--min-psnr", "40"}).exitCode, 1);
 }
 
 TEST_F(Minimal, TellsWhatIsWrongWithTheFileAndTheArguments) {

@@ -38,8 +38,8 @@ TEST_F(MirrorRoom, ShowsFramesWithTheirTimesAndWhatIsUnderAPixel) {
   const nlohmann::json times = nlohmann::json::parse(readBytes(folder_ / "times.json"), nullptr, false);
   ASSERT_TRUE(times.is_object());
   EXPECT_EQ(times["width"], 64);
-  for (const char* pass : {"shadow map", "meshes", "mirrored meshes", "foam", "walk set", "sun", "surround", "reflection",
-                           "foreground", "light"}) {
+  for (const char* pass : {"shadow map", "meshes", "mirrored meshes", "foam", "walk set", "sun", "surround",
+                           "reflection", "foreground", "light"}) {
     ASSERT_TRUE(times["passes"].contains(pass)) << pass;
     EXPECT_GE(times["passes"][pass]["median"].get<double>(), 0) << pass;
   }

@@ -45,7 +45,9 @@ class FoamCases : public testing::Test {
   }
   double largestDifference(const Image& a, const Image& b) const {
     double largest = 0;
-    for (size_t i = 0; i < a.values.size(); ++i) largest = std::max(largest, std::abs(double{a.values[i]} - b.values[i]));
+    for (size_t i = 0; i < a.values.size(); ++i) {
+      largest = std::max(largest, std::abs(double{a.values[i]} - b.values[i]));
+    }
     return largest;
   }
 
@@ -100,7 +102,9 @@ TEST_F(FoamCases, EyesLieWhereTheirNamesSay) {
   EXPECT_NEAR(power(foam_, cell, eyeOf(find("foam/eye_on_sphere").views[0])), 0, 1e-12);
   const glm::dvec3 onPlane = eyeOf(find("foam/eye_on_radical_plane").views[0]);
   uint32_t equals = 0;
-  for (uint32_t i = 0; i < foam_.cellCount; ++i) equals += std::abs(power(foam_, i, onPlane) - power(foam_, cell, onPlane)) < 1e-12;
+  for (uint32_t i = 0; i < foam_.cellCount; ++i) {
+    equals += std::abs(power(foam_, i, onPlane) - power(foam_, cell, onPlane)) < 1e-12;
+  }
   EXPECT_GE(equals, 2u);
 }
 

@@ -7,14 +7,16 @@
 #include <gtest/gtest.h>
 
 #include "measure/stability/cases/case_parts.h"
-#include "reference/image/depth.h"
+#include "reference/image/distances.h"
 
 namespace froth {
 namespace {
 
 class ImageBounds : public testing::Test {
  protected:
-  ImageBounds() : foam_(foamOfCells(cloud(40, 3))), renderer_(foam_), view_(outsideViews().back()) { options_.nearRatio = 0; }
+  ImageBounds() : foam_(foamOfCells(cloud(40, 3))), renderer_(foam_), view_(outsideViews().back()) {
+    options_.nearRatio = 0;
+  }
 
   ImageBound bound(const BoundOptions& options = {}) const {
     const Result<ImageBound> bound = boundImage(renderer_, view_, options_, options);
@@ -97,16 +99,16 @@ TEST_F(ImageBounds, LetTwoImagesDifferByOneBound) {
 TEST_F(ImageBounds, HoldDistances) {
   const ImageBound limit = bound();
   const size_t hit = 12 * 32 + 16;
-  ASSERT_GT(limit.exact.depth.values[hit], 0);
-  ASSERT_EQ(limit.exact.depth.values[0], -1);
+  ASSERT_GT(limit.exact.distance.values[hit], 0);
+  ASSERT_EQ(limit.exact.distance.values[0], -1);
   const auto check = [&](size_t pixel, float depth) {
     RenderedImages image = limit.exact;
-    image.depth.values[pixel] = depth;
+    image.distance.values[pixel] = depth;
     return checkBound(limit, image);
   };
-  const float depth = limit.exact.depth.values[hit], margin = limit.depth.margin.values[hit];
+  const float depth = limit.exact.distance.values[hit], margin = limit.distance.margin.values[hit];
   EXPECT_LT(margin, 1e-4f * depth);
-  EXPECT_LE(check(hit, limit.depth.middle.values[hit] + 0.5f * margin).worstExcess, 1);
+  EXPECT_LE(check(hit, limit.distance.middle.values[hit] + 0.5f * margin).worstExcess, 1);
   EXPECT_STREQ(check(hit, depth + 4 * margin).worstChannel, "distance");
   EXPECT_GT(check(hit, depth + 4 * margin).worstExcess, 1);
   EXPECT_GT(check(hit, -1).worstExcess, 1) << "a ray that is stopped has a distance";
@@ -114,19 +116,22 @@ TEST_F(ImageBounds, HoldDistances) {
   EXPECT_FALSE(check(hit, std::numeric_limits<float>::infinity()).isFinite);
 }
 
-// Two balls, one before the other; the nearer one takes half of the light, so that rounding decides in which of them the median lies.
+// Two balls, one before the other; the nearer one takes half of the light, so that rounding decides in which of them
+// the median lies.
 TEST_F(ImageBounds, LetADistanceLieInEitherCellWhereRoundingMovesTheMedian) {
-  std::vector<CaseCell> cells = {{{0, 0, 0}, 0.5f, 0.69314718f, kFaceToViewer, 5, 0}, {{0, 0, 2}, 0.5f, 20, kFaceToViewer, 5, 1}};
+  std::vector<CaseCell> cells = {{{0, 0, 0}, 0.5f, 0.69314718f, kFaceToViewer, 5, 0},
+                                 {{0, 0, 2}, 0.5f, 20, kFaceToViewer, 5, 1}};
   const Foam foam = foamOfCells(cells);
   const ReferenceRenderer renderer(foam);
-  const Result<ImageBound> limit = boundImage(renderer, caseView({0, 0, -3}, {0, 0, 0}, 1, 1), options_, {.samples = 64});
+  const Result<ImageBound> limit =
+      boundImage(renderer, caseView({0, 0, -3}, {0, 0, 0}, 1, 1), options_, {.samples = 64});
   ASSERT_TRUE(limit);
   RenderedImages image = limit->exact;
   for (const float depth : {3.5f, 4.5f}) {
-    image.depth.values[0] = depth;
+    image.distance.values[0] = depth;
     EXPECT_LE(checkBound(*limit, image).worstExcess, 1) << depth;
   }
-  image.depth.values[0] = 20;
+  image.distance.values[0] = 20;
   EXPECT_GT(checkBound(*limit, image).worstExcess, 1);
 }
 
@@ -147,7 +152,7 @@ TEST_F(ImageBounds, OfTheShippedFormKnowTheCutOffAndHalves) {
     options.cutoff = cutoff;
     Result<RenderedImages> images = renderer_.render(view_, options);
     EXPECT_TRUE(images);
-    images->depth = images->normal = {};  // which that form does not have
+    images->distance = images->normal = {};  // which that form does not have
     return std::move(*images);
   };
   const ImageBound shipped = boundShippedForm(limit, cutAt(2e-3));
@@ -189,7 +194,8 @@ TEST_F(ImageBounds, OfRaysHoldColoursInLinearLight) {
   EXPECT_STREQ(check.worstChannel, "colour");
 }
 
-// Light of C / A grows by 2.4 times what C does, relative: a bound of the light that is as narrow as that of the code refuses floats.
+// Light of C / A grows by 2.4 times what C does, relative: a bound of the light that is as narrow as that of the code
+// refuses floats.
 TEST_F(ImageBounds, OfRaysAreAsWideInLightAsDecodingMakesThem) {
   const ImageBound whole = bound({.rounding = 0}), rays = boundOfRays(whole);
   RenderedImages image = whole.exact;
@@ -213,18 +219,20 @@ TEST_F(ImageBounds, OfRaysKnowThatTransmittanceIsAFloat) {
   EXPECT_LE(excessOf(rays, 0x1p-22f), 1);
   EXPECT_GT(excessOf(rays, 0x1.1p-22f), 1);
   EXPECT_GT(excessOf(whole, 0x1p-22f), 1);
-  for (size_t i = 0; i < rays.alpha.values.size(); ++i) ASSERT_NEAR(rays.alpha.values[i] - whole.alpha.values[i], 0x1p-22, 1e-9);
+  for (size_t i = 0; i < rays.alpha.values.size(); ++i) {
+    ASSERT_NEAR(rays.alpha.values[i] - whole.alpha.values[i], 0x1p-22, 1e-9);
+  }
 }
 
 // Their distances are the same, and a form without colours is not asked for them.
 TEST_F(ImageBounds, OfRaysHoldDistancesAsTheyAre) {
   const ImageBound whole = bound(), rays = boundOfRays(whole);
-  EXPECT_EQ(rays.depth.middle.values, whole.depth.middle.values);
-  EXPECT_EQ(rays.depth.margin.values, whole.depth.margin.values);
+  EXPECT_EQ(rays.distance.middle.values, whole.distance.middle.values);
+  EXPECT_EQ(rays.distance.margin.values, whole.distance.margin.values);
   RenderedImages image = rays.exact;
   image.colour = image.normal = {};
   EXPECT_LE(checkBound(rays, image).worstExcess, 1);
-  image.depth.values[0] = 3;
+  image.distance.values[0] = 3;
   EXPECT_GT(checkBound(rays, image).worstExcess, 1);
 }
 
@@ -238,7 +246,7 @@ TEST(SameBits, TellZerosAndNaNsApart) {
 TEST(MissingDepth, IsWhatIsInfinitelyFarAndNothingElse) {
   const float infinity = std::numeric_limits<float>::infinity();
   Image depth{4, 1, 1, {infinity, -infinity, -1.0f, 2.0f}};
-  markMissingDepth(depth);
+  markMissingDistances(depth);
   EXPECT_EQ(depth.values[0], -1);
   EXPECT_TRUE(std::isnan(depth.values[1]));
   EXPECT_TRUE(std::isnan(depth.values[2]));

@@ -14,7 +14,9 @@ using testing::IsEmpty;
 const SeenFault kSeen{"exact", "raster", "over its bound", 20, "exact, raster: 20 times its bound"};
 const KnownFault kKnown{"exact", "raster", "over its bound", 15, "colours are halves"};
 
-TEST(KnownFaults, ExcuseTheSameFaultOfAboutTheSameSize) { EXPECT_THAT(unexplainedFaults({kKnown}, {kSeen}), IsEmpty()); }
+TEST(KnownFaults, ExcuseTheSameFaultOfAboutTheSameSize) {
+  EXPECT_THAT(unexplainedFaults({kKnown}, {kSeen}), IsEmpty());
+}
 
 TEST(KnownFaults, ExcuseNoOther) {
   for (const auto& change : std::vector<void (*)(SeenFault&)>{[](SeenFault& fault) { fault.preset = "high"; },

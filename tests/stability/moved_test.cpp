@@ -43,8 +43,10 @@ void expectTheSameFarAway(const AssetContents& contents, const View& view) {
       stage.place(placementOf(by, glm::vec4(0), 0));
       const double found = largestDifference(stage.draw(method, movedView(view, by)).colour, near.colour);
       EXPECT_LE(found, kStep) << by.x << " units away";
-      testing::Test::RecordProperty((std::string(method == Method::kRaster ? "raster" : "walk") + std::to_string(std::lround(std::log10(by.x)))).c_str(),
-                     std::to_string(found));
+      testing::Test::RecordProperty(
+          (std::string(method == Method::kRaster ? "raster" : "walk") + std::to_string(std::lround(std::log10(by.x))))
+              .c_str(),
+          std::to_string(found));
     }
   }
 }
@@ -84,7 +86,8 @@ AssetContents bakeAs(const char* preset, const Foam& foam) {
   return {};
 }
 
-// What a checkpoint holds is rounded where it lies: the image is that of the rounded foam, not that of the scene at the origin.
+// What a checkpoint holds is rounded where it lies: the image is that of the rounded foam, not that of the scene at the
+// origin.
 TEST(FarAway, AFoamSavedInFloatsThereIsBakedAndDrawnAsItsFloatsSay) {
   const Result<Foam> foam = synthesizeFoam({"random", 0, 1});
   ASSERT_TRUE(foam) << foam.error().message;

@@ -11,7 +11,8 @@ namespace {
 
 const PublishedForm& formOf(const std::string& name) {
   static const std::vector<PublishedForm> forms = comparePublishedForms();
-  const auto found = std::find_if(forms.begin(), forms.end(), [&](const PublishedForm& form) { return form.name == name; });
+  const auto found =
+      std::find_if(forms.begin(), forms.end(), [&](const PublishedForm& form) { return form.name == name; });
   EXPECT_NE(found, forms.end()) << name;
   return *found;
 }

@@ -26,9 +26,13 @@ namespace {
 Result<std::optional<CaseFault>> judgeDuplicates(const StiffCase& stiffCase) {
   const std::vector<glm::vec3>& sites = stiffCase.foam.sites;
   for (size_t i = 0; i < sites.size(); ++i) {
-    if (std::find(sites.begin(), sites.begin() + static_cast<ptrdiff_t>(i), sites[i]) == sites.begin() + static_cast<ptrdiff_t>(i)) continue;
+    if (std::find(sites.begin(), sites.begin() + static_cast<ptrdiff_t>(i), sites[i]) ==
+        sites.begin() + static_cast<ptrdiff_t>(i)) {
+      continue;
+    }
     const View& last = stiffCase.views.back();
-    return std::optional(CaseFault{"duplicate", "sites coincide", stiffCase.views.size() - 1, last.width - 1, last.height - 1});
+    return std::optional(
+        CaseFault{"duplicate", "sites coincide", stiffCase.views.size() - 1, last.width - 1, last.height - 1});
   }
   return std::optional<CaseFault>();
 }
@@ -65,20 +69,40 @@ bool hasEnd(const StiffCase& stiff, const std::function<bool(float)>& isSuch) {
 }
 
 TEST(RandomCases, HaveEachPartNowAndThenAndMostlyNone) {
-  for (const size_t places : {2, 3, 4})
-    EXPECT_GE(countOf([&](const StiffCase& stiff) { return stiff.places.size() == places; }), 20u) << places << " instances";
-  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.places.size() > 1 && stiff.places[0] == stiff.places[1]; }), 20u) << "coinciding";
-  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.places.size() > 1 && stiff.places[1].rotation.w != 1; }), 20u) << "turned";
-  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.places.size() > 1 && stiff.places[1].scale != 1; }), 20u) << "scaled";
-  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return end == 0; }); }), 20u) << "at once";
-  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return end < 0; }); }), 20u) << "behind the eye";
-  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return std::isinf(end); }); }), 20u) << "never";
-  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return end > 0 && !std::isinf(end); }); }), 80u);
+  for (const size_t places : {2, 3, 4}) {
+    EXPECT_GE(countOf([&](const StiffCase& stiff) { return stiff.places.size() == places; }), 20u)
+        << places << " instances";
+  }
+  EXPECT_GE(
+      countOf([](const StiffCase& stiff) { return stiff.places.size() > 1 && stiff.places[0] == stiff.places[1]; }),
+      20u)
+      << "coinciding";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.places.size() > 1 && stiff.places[1].rotation.w != 1; }),
+            20u)
+      << "turned";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.places.size() > 1 && stiff.places[1].scale != 1; }), 20u)
+      << "scaled";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return end == 0; }); }), 20u)
+      << "at once";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return end < 0; }); }), 20u)
+      << "behind the eye";
+  EXPECT_GE(countOf([](const StiffCase& stiff) { return hasEnd(stiff, [](float end) { return std::isinf(end); }); }),
+            20u)
+      << "never";
+  EXPECT_GE(countOf([](const StiffCase& stiff) {
+              return hasEnd(stiff, [](float end) { return end > 0 && !std::isinf(end); });
+            }),
+            80u);
   EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.jitter != glm::vec2(0); }), 20u);
-  for (const uint32_t layers : {1u, 2u}) EXPECT_GE(countOf([&](const StiffCase& stiff) { return stiff.layers == layers; }), 20u) << layers;
-  EXPECT_GE(countOf([](const StiffCase& stiff) { return stiff.chunkCells > 0 && stiff.chunkCells < stiff.foam.cellCount; }), 20u);
+  for (const uint32_t layers : {1u, 2u}) {
+    EXPECT_GE(countOf([&](const StiffCase& stiff) { return stiff.layers == layers; }), 20u) << layers;
+  }
+  EXPECT_GE(
+      countOf([](const StiffCase& stiff) { return stiff.chunkCells > 0 && stiff.chunkCells < stiff.foam.cellCount; }),
+      20u);
   const uint32_t plain = countOf([](const StiffCase& stiff) {
-    return stiff.places.empty() && stiff.ends.empty() && stiff.jitter == glm::vec2(0) && stiff.layers == kAllLayersOfCase && stiff.chunkCells == 0;
+    return stiff.places.empty() && stiff.ends.empty() && stiff.jitter == glm::vec2(0) &&
+           stiff.layers == kAllLayersOfCase && stiff.chunkCells == 0;
   });
   EXPECT_GE(plain, 500u);
 }
@@ -94,7 +118,9 @@ TEST(RandomCases, CanBeBakedAndRendered) {
       const Status status = checkView(view, "view");
       ASSERT_TRUE(status) << seed << ": " << status.error().message;
     }
-    EXPECT_FALSE(hasEnd(drawn, [](float end) { return std::isnan(end) || end == -std::numeric_limits<float>::infinity(); })) << seed;
+    EXPECT_FALSE(hasEnd(drawn, [](float end) {
+      return std::isnan(end) || end == -std::numeric_limits<float>::infinity();
+    })) << seed;
     for (const CasePlace& place : drawn.places) {
       EXPECT_NEAR(glm::length(place.rotation), 1, 1e-6) << seed;
       EXPECT_GT(place.scale, 0) << seed;
@@ -148,7 +174,9 @@ TEST(Shrinking, KeepsThePixelThatFails) {
 StiffCase caseWithParts() {
   const View view = caseView({0, 0, -3}, {0, 0, 0});
   StiffCase stiff{"", "", "", drawCase(0).foam, {view, view}};
-  stiff.places = {{}, {{0.123456, 1, 2}, glm::normalize(glm::quat(0.9f, 0.1f, 0.35f, -0.1f)), 0.7654f}, {{3, 0, 0}, {0, 0, 1, 0}, 2}};
+  stiff.places = {{},
+                  {{0.123456, 1, 2}, glm::normalize(glm::quat(0.9f, 0.1f, 0.35f, -0.1f)), 0.7654f},
+                  {{3, 0, 0}, {0, 0, 1, 0}, 2}};
   for (const float first : {0.0f, 100.0f}) {
     stiff.ends.push_back({32, 24, 1, {}});
     for (uint32_t i = 0; i < 32 * 24; ++i) stiff.ends.back().values.push_back(first + static_cast<float>(i) + 0.125f);
@@ -163,7 +191,8 @@ StiffCase caseWithParts() {
 StiffCase shrinkParts(const std::function<bool(const StiffCase&)>& fails) {
   const auto judge = [&](const StiffCase& stiff) -> Result<std::optional<CaseFault>> {
     const View& view = stiff.views.back();
-    const CaseFault fault{"part", "", stiff.views.size() - 1, static_cast<uint32_t>(20 - 16 + view.cx), static_cast<uint32_t>(5 - 12 + view.cy)};
+    const CaseFault fault{"part", "", stiff.views.size() - 1, static_cast<uint32_t>(20 - 16 + view.cx),
+                          static_cast<uint32_t>(5 - 12 + view.cy)};
     const bool isSeen = 4 + view.cx >= 0 && -7 + view.cy >= 0 && fault.x < view.width && fault.y < view.height;
     return isSeen && fails(stiff) ? std::optional(fault) : std::nullopt;
   };
@@ -182,7 +211,8 @@ TEST(Shrinking, DropsPartsThatAFaultDoesNotNeed) {
 }
 
 TEST(Shrinking, KeepsPartsThatAFaultNeeds) {
-  EXPECT_EQ(shrinkParts([](const StiffCase& stiff) { return stiff.jitter == glm::vec2(0.25f, -3); }).jitter, glm::vec2(0.25f, -3));
+  EXPECT_EQ(shrinkParts([](const StiffCase& stiff) { return stiff.jitter == glm::vec2(0.25f, -3); }).jitter,
+            glm::vec2(0.25f, -3));
   EXPECT_EQ(shrinkParts([](const StiffCase& stiff) { return stiff.layers == 1; }).layers, 1u);
   EXPECT_EQ(shrinkParts([](const StiffCase& stiff) { return stiff.chunkCells == 2; }).chunkCells, 2u);
 }
@@ -203,14 +233,16 @@ TEST(Shrinking, KeepsTheEndOfTheRayThatFails) {
   const StiffCase smallest = shrinkParts([](const StiffCase& stiff) {
     const View& view = stiff.views.back();
     const auto x = static_cast<uint32_t>(4 + view.cx), y = static_cast<uint32_t>(-7 + view.cy);
-    return !stiff.ends.empty() && stiff.ends.back().width == view.width && *stiff.ends.back().pixel(x, y) == 100 + 5 * 32 + 20 + 0.125f;
+    return !stiff.ends.empty() && stiff.ends.back().width == view.width &&
+           *stiff.ends.back().pixel(x, y) == 100 + 5 * 32 + 20 + 0.125f;
   });
   ASSERT_EQ(smallest.ends.size(), 1u);
   EXPECT_EQ(smallest.views.size(), 1u);
   EXPECT_EQ(smallest.ends[0].width, 1u);
   EXPECT_EQ(smallest.ends[0].height, 1u);
   EXPECT_EQ(smallest.ends[0].values, std::vector<float>{280.125f});
-  const StiffCase any = shrinkParts([](const StiffCase& stiff) { return !stiff.ends.empty() && stiff.ends.back().values[0] > 0; });
+  const StiffCase any =
+      shrinkParts([](const StiffCase& stiff) { return !stiff.ends.empty() && stiff.ends.back().values[0] > 0; });
   EXPECT_EQ(any.ends[0].values, std::vector<float>{1});
 }
 
@@ -242,13 +274,16 @@ TEST(Judge, OfTheReferenceEndsRaysWhereTheCaseDoes) {
   const auto open = judgeOfReference(tooTight())(stiff);
   ASSERT_TRUE(open);
   EXPECT_TRUE(*open);
-  for (const View& view : stiff.views) stiff.ends.push_back({view.width, view.height, 1, std::vector<float>(size_t{view.width} * view.height)});
+  for (const View& view : stiff.views) {
+    stiff.ends.push_back({view.width, view.height, 1, std::vector<float>(size_t{view.width} * view.height)});
+  }
   const auto ended = judgeOfReference(tooTight())(stiff);
   ASSERT_TRUE(ended);
   EXPECT_FALSE(*ended) << "rays that end at once show nothing: " << (*ended)->what;
 }
 
-// It has no float image of them. A distance of the second instance is beyond the floats, so the double image is not finite.
+// It has no float image of them. A distance of the second instance is beyond the floats, so the double image is not
+// finite.
 TEST(Judge, OfTheReferenceHoldsSeveralInstancesToFiniteNumbersAlone) {
   StiffCase stiff = cloudCase();
   stiff.places.resize(2);
@@ -272,7 +307,10 @@ TEST(FoundCases, HoldOnTheCpu) {
     const auto fault = judgeOfReference()(*found);
     ASSERT_TRUE(fault) << found->name << ": " << fault.error().message;
     std::vector<SeenFault> seen;
-    if (*fault) seen.push_back({"exact", "float", (*fault)->kind.substr((*fault)->kind.find(": ") + 2), (*fault)->factor, (*fault)->what});
+    if (*fault) {
+      seen.push_back(
+          {"exact", "float", (*fault)->kind.substr((*fault)->kind.find(": ") + 2), (*fault)->factor, (*fault)->what});
+    }
     std::vector<KnownFault> known = found->known;
     std::erase_if(known, [](const KnownFault& one) { return one.renderer != "float"; });
     for (const std::string& line : unexplainedFaults(known, seen)) ADD_FAILURE() << found->name << ": " << line;
@@ -285,7 +323,8 @@ TEST(Search, FindsNamesAndShrinksTheSameFaultsAgain) {
   SearchOptions options;
   options.seconds = 0.5;
   options.mostOfOneKind = 2;
-  const Result<SearchResult> first = searchCases(options, judgeDuplicates), second = searchCases(options, judgeDuplicates);
+  const Result<SearchResult> first = searchCases(options, judgeDuplicates),
+                             second = searchCases(options, judgeDuplicates);
   ASSERT_TRUE(first);
   ASSERT_TRUE(second);
   ASSERT_EQ(first->found.size(), 2u) << "of " << first->tried;

@@ -1,4 +1,5 @@
-// `froth stability`: every built-in case through reference, float, raster and walk, with validation; and what the command writes.
+// `froth stability`: every built-in case through reference, float, raster and walk, with validation; and what the
+// command writes.
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
@@ -30,12 +31,14 @@ TEST_P(WholeFamily, KeepsToItsBounds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stability, WholeFamily,
-                         testing::Values("sites", "place", "sizes", "density", "faces", "eyes", "appearance", "views", "several", "depth", "layers", "input"),
+                         testing::Values("sites", "place", "sizes", "density", "faces", "eyes", "appearance", "views",
+                                         "instances", "depth", "layers", "input"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 // A family that is not tested above would go unseen.
 TEST(StabilityFamilies, AreAllTested) {
-  const std::string tested[] = {"sites", "place", "sizes", "density", "faces", "eyes", "appearance", "views", "several", "depth", "layers", "input"};
+  const std::string tested[] = {"sites",      "place", "sizes",     "density", "faces",  "eyes",
+                                "appearance", "views", "instances", "depth",   "layers", "input"};
   for (const StiffCase& stiff : builtInCases()) {
     const std::string family = stiff.name.substr(0, stiff.name.find('/'));
     EXPECT_NE(std::find(std::begin(tested), std::end(tested), family), std::end(tested)) << stiff.name;
@@ -51,12 +54,14 @@ TEST_F(StabilityCommand, APageWithoutItsMarkersIsRefusedBeforeTheSetRuns) {
 }
 
 TEST(MarkedText, IsReplacedBetweenItsMarkersAlone) {
-  std::string text = "# Before\n<!-- made by `froth stability --markdown`: begin -->\nold\n<!-- end -->\nmiddle\n"
-                     "<!-- forms, made by `froth stability --markdown`: begin -->\nolder\n<!-- end -->\nafter\n";
+  std::string text =
+      "# Before\n<!-- made by `froth stability --markdown`: begin -->\nold\n<!-- end -->\nmiddle\n"
+      "<!-- forms, made by `froth stability --markdown`: begin -->\nolder\n<!-- end -->\nafter\n";
   replaceMarked(text, "forms, ", "new forms\n");
   replaceMarked(text, "", "new\n");
-  EXPECT_EQ(text, "# Before\n<!-- made by `froth stability --markdown`: begin -->\nnew\n<!-- end -->\nmiddle\n"
-                  "<!-- forms, made by `froth stability --markdown`: begin -->\nnew forms\n<!-- end -->\nafter\n");
+  EXPECT_EQ(text,
+            "# Before\n<!-- made by `froth stability --markdown`: begin -->\nnew\n<!-- end -->\nmiddle\n"
+            "<!-- forms, made by `froth stability --markdown`: begin -->\nnew forms\n<!-- end -->\nafter\n");
 }
 
 TEST_F(StabilityCommand, APartialTableIsNotWritten) {
@@ -68,10 +73,13 @@ TEST_F(StabilityCommand, APartialTableIsNotWritten) {
 
 // What searches have found, through raster and walk: `froth stability --search` writes such files.
 TEST_F(StabilityCommand, FoundCasesHoldOnTheDevice) {
-  const nlohmann::json figures = frothJson({"stability", "--replay", (sourceFolder() / "tests/stability/found").string()});
+  const nlohmann::json figures =
+      frothJson({"stability", "--replay", (sourceFolder() / "tests/stability/found").string()});
   EXPECT_GE(figures["counts"]["cases"], 25);
   EXPECT_EQ(figures["counts"]["beyond"], 0);
-  for (const auto& one : figures["cases"]) EXPECT_EQ(one["unexplained"].size(), 0u) << one["name"] << one["unexplained"].dump(1);
+  for (const auto& one : figures["cases"]) {
+    EXPECT_EQ(one["unexplained"].size(), 0u) << one["name"] << one["unexplained"].dump(1);
+  }
 }
 
 TEST_F(StabilityCommand, AFolderWithoutCasesIsRefused) {
@@ -111,7 +119,8 @@ TEST_F(StabilityCommand, NamesAPatternThatFitsNoCase) {
 
 TEST_F(StabilityCommand, RunsTheCasesOfAFoamOfTheUsers) {
   makeRandomFoam("60");
-  const nlohmann::json figures = frothJson({"stability", "random.pt", "--cameras", "cameras.json", "--only", "foam/placed_1e+06*"});
+  const nlohmann::json figures =
+      frothJson({"stability", "random.pt", "--cameras", "cameras.json", "--only", "foam/placed_1e+06*"});
   ASSERT_FALSE(figures["cases"].empty());
   for (const auto& one : figures["cases"]) EXPECT_EQ(one["verdict"], "within") << one.dump(2);
 }

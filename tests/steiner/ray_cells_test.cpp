@@ -34,8 +34,8 @@ TEST(RayCells, AreAsManyAsAWalkOverTheTriangulationCrosses) {
   size_t counted = 0;
   for (const WalkRay& ray : scene.rays) counted += scene.cellsOf(tree, ray).count();
   const RegularTriangulation triangulation = *triangulateRegular(scene.balls.sites, scene.balls.radii);
-  const WalkLength walked = measureWalkLength({scene.balls.sites, scene.balls.radii, scene.densities, {}},
-                                              triangulation.graph, scene.rays);
+  const WalkLength walked =
+      measureWalkLength({scene.balls.sites, scene.balls.radii, scene.densities, {}}, triangulation.graph, scene.rays);
   // The walk goes on where nothing but unbounded cells is left.
   EXPECT_LE(counted, walked.steps);
   EXPECT_GT(static_cast<double>(counted), 0.93 * static_cast<double>(walked.steps));

@@ -25,8 +25,7 @@ BallSet makeRoom(uint32_t side) {
   const float pitch = 10.0f / static_cast<float>(side - 1);
   for (uint32_t k = 0; k < side * side * side; ++k) {
     const glm::uvec3 place(k % side, k / side % side, k / side / side);
-    const bool isWall =
-        glm::any(glm::equal(place, glm::uvec3(0))) || glm::any(glm::equal(place, glm::uvec3(side - 1)));
+    const bool isWall = glm::any(glm::equal(place, glm::uvec3(0))) || glm::any(glm::equal(place, glm::uvec3(side - 1)));
     if (isWall) balls.add(pitch * glm::vec3(place), 0.8f * pitch);
   }
   BallSetMaker maker(5);
@@ -45,14 +44,14 @@ std::vector<BallSet> makeScenes() {
   scenes.push_back(giant);
   BallSet doubled = makeRoom(8);
   doubled.name = "duplicates";
-  for (uint32_t i = 0, count = doubled.size(); i < count; i += 3)
+  for (uint32_t i = 0, count = doubled.size(); i < count; i += 3) {
     doubled.add(doubled.sites[i], 0.9f * doubled.radii[i]);
+  }
   scenes.push_back(doubled);
   return scenes;
 }
 
-Result<SteinerCells> place(const BallSet& balls, const SteinerOptions& options = {},
-                           float density = kOpaque) {
+Result<SteinerCells> place(const BallSet& balls, const SteinerOptions& options = {}, float density = kOpaque) {
   return placeSteinerCells(balls.sites, balls.radii, std::vector<float>(balls.size(), density), options);
 }
 
@@ -75,8 +74,7 @@ TEST(Steiner, NoBallMeetsABallOfTheScene) {
     for (size_t s = 0; s < cells->sites.size(); ++s) {
       for (uint32_t i = 0; i < balls.size(); ++i) {
         const double distance = glm::length(glm::dvec3(cells->sites[s]) - glm::dvec3(balls.sites[i]));
-        ASSERT_GT(distance, double{cells->radii[s]} + balls.radii[i])
-            << balls.name << ": " << s << " and " << i;
+        ASSERT_GT(distance, double{cells->radii[s]} + balls.radii[i]) << balls.name << ": " << s << " and " << i;
       }
     }
   }

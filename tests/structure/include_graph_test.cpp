@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "tests/structure/sources.h"
 #include "tests/surroundings.h"
 
 namespace {
@@ -19,11 +19,6 @@ struct Include {
   std::string file;    // relative to the repository
   std::string target;  // as written between the quotes or brackets
 };
-
-bool isSource(const fs::path& path) {
-  static const std::set<std::string> kExtensions{".h", ".hpp", ".c", ".cpp", ".cu", ".comp", ".glsl"};
-  return kExtensions.contains(path.extension().string());
-}
 
 // What stands between the quotes or brackets of an #include line; empty for any other line.
 std::string includedBy(const std::string& line) {
@@ -37,14 +32,11 @@ std::string includedBy(const std::string& line) {
 }
 
 std::vector<Include> includesUnder(const std::string& folder) {
-  const fs::path root = froth::test::sourceFolder();
   std::vector<Include> includes;
-  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-    if (!entry.is_regular_file() || !isSource(entry.path())) continue;
-    std::ifstream text(entry.path());
-    for (std::string line; std::getline(text, line);) {
+  for (const froth::test::Source& source : froth::test::sourcesUnder(folder)) {
+    for (const std::string& line : source.lines) {
       const std::string target = includedBy(line);
-      if (!target.empty()) includes.push_back({fs::relative(entry.path(), root).string(), target});
+      if (!target.empty()) includes.push_back({source.path, target});
     }
   }
   return includes;
@@ -76,7 +68,8 @@ bool isIn(const std::string& path, const std::string& folder) { return startsWit
 // The file of the repository that an include names; empty: it is another's, or is generated.
 std::string resolve(const Include& include) {
   const fs::path root = froth::test::sourceFolder();
-  for (const fs::path& from : {root, root / "runtime/include", root / "shaders", root / fs::path(include.file).parent_path()}) {
+  for (const fs::path& from :
+       {root, root / "runtime/include", root / "shaders", root / fs::path(include.file).parent_path()}) {
     const fs::path path = (from / include.target).lexically_normal();
     if (fs::is_regular_file(path)) return fs::relative(path, root).string();
   }
@@ -99,8 +92,9 @@ TEST(IncludeGraph, EachRoomIncludesOnlyThoseBelowIt) {
   for (const auto& [room, below] : kRooms) {
     for (const Include& include : includesUnder(room)) {
       const std::string target = resolve(include);
-      const bool isAllowed = target.empty() || isIn(target, room) ||
-                             std::ranges::any_of(below, [&](const std::string& path) { return target == path || isIn(target, path); });
+      const bool isAllowed =
+          target.empty() || isIn(target, room) ||
+          std::ranges::any_of(below, [&](const std::string& path) { return target == path || isIn(target, path); });
       if (!isAllowed) found += include.file + " includes " + target + "\n";
     }
   }
@@ -118,12 +112,15 @@ TEST(IncludeGraph, EveryFolderOfSourcesIsARoom) {
 
 TEST(IncludeGraph, TheFloorsOfTheRuntimeIncludeOnlyThoseBelow) {
   const auto floorOf = [](const std::string& path) {
-    return std::ranges::find_if(kRuntimeFloors, [&](const std::string& floor) { return isIn(path, floor); }) - kRuntimeFloors.begin();
+    return std::ranges::find_if(kRuntimeFloors, [&](const std::string& floor) { return isIn(path, floor); }) -
+           kRuntimeFloors.begin();
   };
   std::string found;
   for (const Include& include : includesUnder("runtime")) {
     const std::string target = resolve(include);
-    if (isIn(target, "runtime") && floorOf(target) > floorOf(include.file)) found += include.file + " includes " + target + "\n";
+    if (isIn(target, "runtime") && floorOf(target) > floorOf(include.file)) {
+      found += include.file + " includes " + target + "\n";
+    }
   }
   EXPECT_EQ(found, "");
   for (const auto& entry : fs::directory_iterator(fs::path(froth::test::sourceFolder()) / "runtime")) {
@@ -134,8 +131,9 @@ TEST(IncludeGraph, TheFloorsOfTheRuntimeIncludeOnlyThoseBelow) {
 }
 
 TEST(IncludeGraph, TheRuntimeIncludesNoWindowNoImageLibraryNoWriter) {
-  EXPECT_EQ(offenders("runtime", {"CGAL/", "tbb/", "GLFW/", "imgui", "png", "jpeglib", "stb", "nlohmann/", "fmt/", "spdlog/", "cuda",
-                                  "format/write/", "base/atomic_file", "base/temporary_file", "base/progress"}),
+  EXPECT_EQ(offenders("runtime", {"CGAL/", "tbb/", "GLFW/", "imgui", "png", "jpeglib", "stb", "nlohmann/", "fmt/",
+                                  "spdlog/", "cuda", "format/write/", "base/atomic_file", "base/image/",
+                                  "base/temporary_file", "base/progress"}),
             "");
 }
 
@@ -169,7 +167,9 @@ TEST(IncludeGraph, FoldersHaveNoCycles) {
   for (const auto& [room, below] : kRooms) {
     for (const Include& include : includesUnder(room)) {
       const std::string target = resolve(include);
-      if (!target.empty() && folderOf(include.file) != folderOf(target)) edges[folderOf(include.file)].insert(folderOf(target));
+      if (!target.empty() && folderOf(include.file) != folderOf(target)) {
+        edges[folderOf(include.file)].insert(folderOf(target));
+      }
     }
   }
   // Remove folders that depend on nothing left, or on which nothing depends, until none is left or a cycle stays.
@@ -179,7 +179,8 @@ TEST(IncludeGraph, FoldersHaveNoCycles) {
       std::erase_if(to, [&](const std::string& target) { return !edges.contains(target); });
       targets.insert(to.begin(), to.end());
     }
-    removed = std::erase_if(edges, [&](const auto& edge) { return edge.second.empty() || !targets.contains(edge.first); }) > 0;
+    removed = std::erase_if(edges,
+                            [&](const auto& edge) { return edge.second.empty() || !targets.contains(edge.first); }) > 0;
   }
   std::string cycle;
   for (const auto& [from, to] : edges) cycle += from + " ";

@@ -45,9 +45,12 @@ Page readPage(const fs::path& path) {
 // Every *.md, but for folders of what is built and of tools.
 std::vector<Page> allPages() {
   std::vector<Page> pages;
-  for (auto entry = fs::recursive_directory_iterator(froth::test::sourceFolder()); entry != fs::recursive_directory_iterator(); ++entry) {
+  for (auto entry = fs::recursive_directory_iterator(froth::test::sourceFolder());
+       entry != fs::recursive_directory_iterator(); ++entry) {
     const std::string name = entry->path().filename().string();
-    if (entry->is_directory() && (name[0] == '.' || (entry.depth() == 0 && kBuilt.contains(name)))) entry.disable_recursion_pending();
+    if (entry->is_directory() && (name[0] == '.' || (entry.depth() == 0 && kBuilt.contains(name)))) {
+      entry.disable_recursion_pending();
+    }
     if (entry->is_regular_file() && entry->path().extension() == ".md") pages.push_back(readPage(entry->path()));
   }
   return pages;
@@ -65,7 +68,9 @@ std::vector<std::string> paragraphsOf(const Page& page) {
 
 std::vector<std::string> matches(const std::string& text, const std::regex& pattern) {
   std::vector<std::string> found;
-  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) found.push_back((*match)[1]);
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
+    found.push_back((*match)[1]);
+  }
   return found;
 }
 
@@ -74,8 +79,9 @@ std::string withoutCodeSpans(const std::string& line) { return std::regex_replac
 // Bytes of a UTF-8 character by its first one.
 size_t bytesOfCharacter(unsigned char first) { return first < 0xC0 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4; }
 
-// The anchor that GitHub gives a heading: links are their text, letters are lower case, spaces are hyphens, of all else only letters,
-// digits, hyphens and underscores stay. Beyond ASCII, U+0080 to U+00BF, U+00D7 and U+2000 to U+2FFF count as signs, all else as letters.
+// The anchor that GitHub gives a heading: links are their text, letters are lower case, spaces are hyphens, of all else
+// only letters, digits, hyphens and underscores stay. Beyond ASCII, U+0080 to U+00BF, U+00D7 and U+2000 to U+2FFF count
+// as signs, all else as letters.
 std::string anchorOf(const std::string& heading) {
   const std::string text = std::regex_replace(heading, std::regex(R"(!?\[([^\]]*)\]\([^)]*\))"), "$1");
   std::string anchor;
@@ -120,12 +126,14 @@ std::string faultOf(const Page& page, const std::string& link) {
   return anchorsOf(readPage(path)).contains(link.substr(hash + 1)) ? "" : place + "no such heading\n";
 }
 
-// A text between backticks that names a file of the repository: at least one folder, the first one at the repository's root.
+// A text between backticks that names a file of the repository: at least one folder, the first one at the repository's
+// root.
 bool isRepositoryPath(const std::string& text) {
   if (!std::regex_match(text, std::regex(R"([\w.-]+(/[\w.*+-]+)+/?)"))) return false;
   const std::string folder = text.substr(0, text.find('/'));
   const bool isName = text.find("NAME") != std::string::npos;  // a name that the reader chooses
-  const bool isCase = std::ranges::any_of(kNoPaths, [&](const std::string& path) { return fnmatch(path.c_str(), text.c_str(), 0) == 0; });
+  const bool isCase = std::ranges::any_of(
+      kNoPaths, [&](const std::string& path) { return fnmatch(path.c_str(), text.c_str(), 0) == 0; });
   return !isName && !isCase && !kBuilt.contains(folder) && fs::is_directory(froth::test::sourceFolder() / folder);
 }
 
@@ -165,7 +173,9 @@ TEST(Links, PathsBetweenBackticksExist) {
 
 TEST(Links, PagesAreFound) {
   const std::vector<Page> pages = allPages();
-  const auto has = [&](const char* path) { return std::ranges::any_of(pages, [&](const Page& page) { return page.path == path; }); };
+  const auto has = [&](const char* path) {
+    return std::ranges::any_of(pages, [&](const Page& page) { return page.path == path; });
+  };
   EXPECT_TRUE(has("README.md"));
   EXPECT_TRUE(has("docs/EMBEDDING.md"));
   EXPECT_TRUE(has("docs/reports/README.md"));
@@ -173,7 +183,8 @@ TEST(Links, PagesAreFound) {
 
 TEST(Links, AnchorsAreThoseOfGitHub) {
   EXPECT_EQ(anchorOf("Device loss"), "device-loss");
-  EXPECT_EQ(anchorOf("CPU queries ([froth_query.h](../runtime/include/froth/froth_query.h))"), "cpu-queries-froth_queryh");
+  EXPECT_EQ(anchorOf("CPU queries ([froth_query.h](../runtime/include/froth/froth_query.h))"),
+            "cpu-queries-froth_queryh");
   EXPECT_EQ(anchorOf("Codecs, `lz` & α"), "codecs-lz--α");
   EXPECT_EQ(anchorsOf({"a.md", {"# One", "## One", "text", "####### Seven"}}), (std::set<std::string>{"one", "one-1"}));
 }

@@ -31,22 +31,23 @@ TEST(SpreadDetails, StaysOnTheOwnSideOfEveryCut) {
   const std::vector<dvec3> cuts = {{1, 0, 0.2}, {-1, 1, 0.3}};
   const FacePatch patch = spreadDetails(cuts, 8);
   ASSERT_EQ(patch.details.size(), 8u);
-  for (const dvec2& x : patch.details)
+  for (const dvec2& x : patch.details) {
     for (const dvec3& cut : cuts) EXPECT_LE(cut.x * x.x + cut.y * x.y, cut.z);
+  }
 }
 
 TEST(SpreadDetails, GivesDistinctSitesEvenWhereNothingIsLeft) {
   const FacePatch patch = spreadDetails(std::vector<dvec3>{{1, 0, -2}}, 8);
   ASSERT_EQ(patch.details.size(), 8u);
-  for (size_t a = 0; a < 8; ++a)
+  for (size_t a = 0; a < 8; ++a) {
     for (size_t b = 0; b < a; ++b) EXPECT_GT(glm::length(patch.details[a] - patch.details[b]), 0.1);
+  }
 }
 
 TEST(FitDetailValues, BlendsCloserToTheSamplesThanTheirMeansDo) {
   const FacePatch patch = spreadDetails({}, 8);
   std::vector<dvec4> samples;
-  for (const dvec2& x : patch.samples)
-    samples.emplace_back(std::sin(5 * x.x), std::cos(4 * x.y), x.x > 0.1, x.y);
+  for (const dvec2& x : patch.samples) samples.emplace_back(std::sin(5 * x.x), std::cos(4 * x.y), x.x > 0.1, x.y);
   std::vector<dvec4> means(8, dvec4(0));
   std::vector<double> counts(8, 0);
   for (size_t s = 0; s < samples.size(); ++s) {
@@ -78,13 +79,13 @@ TEST(FitLobeColours, FindsTheColoursThatMadeThePicture) {
     const dvec3 direction = random.direction(100 + i);
     double largest = foam::lobeExponent(axes[0], direction), weights = 0;
     dvec3 sum(0);
-    for (size_t m = 0; m < axes.size(); ++m)
+    for (size_t m = 0; m < axes.size(); ++m) {
       foam::addLobe(foam::lobeExponent(axes[m], direction), colours[m], largest, weights, sum);
+    }
     seen.push_back({direction, sum / weights + 0.5, 1.0});
   }
   const std::vector<dvec3> fitted = fitLobeColours(axes, seen);
-  for (size_t m = 0; m < axes.size(); ++m)
-    EXPECT_LT(glm::length(fitted[m] - colours[m]), 0.01) << "lobe " << m;
+  for (size_t m = 0; m < axes.size(); ++m) EXPECT_LT(glm::length(fitted[m] - colours[m]), 0.01) << "lobe " << m;
 }
 
 TEST(ChooseLobeAxes, GathersAroundAHighlight) {

@@ -11,14 +11,13 @@
 namespace froth {
 
 inline bool haveSameBits(const Foam& a, const Foam& b) {
-  bool isSame = a.cellCount == b.cellCount && a.detailCount == b.detailCount && a.lobeCount == b.lobeCount && a.lobeOffsets == b.lobeOffsets;
+  bool isSame = a.cellCount == b.cellCount && a.detailCount == b.detailCount && a.lobeCount == b.lobeCount &&
+                a.lobeOffsets == b.lobeOffsets;
   visitArrays([&](const FoamArray&, auto values) { isSame = isSame && haveSameBits(a.*values, b.*values); });
   return isSame;
 }
 
-inline bool isFinite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+inline bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 inline void expectSound(const Foam& foam) {
   const size_t n = foam.cellCount, nk = n * foam.detailCount;
@@ -27,7 +26,10 @@ inline void expectSound(const Foam& foam) {
   ASSERT_TRUE(foam.lobeOffsets.empty() || foam.lobeOffsets.size() == nk + 1);
   visitArrays([&](const FoamArray& array, auto values) {
     if (array.canBeEmpty && (foam.*values).empty()) return;
-    ASSERT_EQ((foam.*values).size(), array.index == FoamIndex::kCell ? n : array.index == FoamIndex::kDetailSite ? nk : lobes) << array.name;
+    ASSERT_EQ((foam.*values).size(), array.index == FoamIndex::kCell         ? n
+                                     : array.index == FoamIndex::kDetailSite ? nk
+                                                                             : lobes)
+        << array.name;
   });
   if (testing::Test::HasFatalFailure()) return;
   for (size_t i = 0; i < n; ++i) {
@@ -37,15 +39,15 @@ inline void expectSound(const Foam& foam) {
     const FaceFrame<double> frame = faceFrame<double>(foam.orientations[i]);
     ASSERT_NEAR(glm::length(frame.normal), 1, 1e-6) << "cell " << i;
     ASSERT_NEAR(glm::dot(frame.normal, frame.tangent), 0, 1e-6) << "cell " << i;
-    ASSERT_NEAR(glm::length(glm::cross(frame.normal, frame.tangent) - frame.bitangent), 0, 1e-6)
-        << "cell " << i;
+    ASSERT_NEAR(glm::length(glm::cross(frame.normal, frame.tangent) - frame.bitangent), 0, 1e-6) << "cell " << i;
   }
   for (size_t i = 0; i < nk; ++i) {
     ASSERT_LE(glm::length(foam.detailSites[i]), 1.0f) << "detail site " << i;
     ASSERT_LE(std::abs(foam.detailHeights[i]), 1.0f) << "detail site " << i;
   }
-  for (size_t i = 0; i < lobes; ++i)
+  for (size_t i = 0; i < lobes; ++i) {
     ASSERT_TRUE(isFinite(foam.lobeAxes[i]) && isFinite(foam.lobeColours[i])) << "lobe " << i;
+  }
 }
 
 }  // namespace froth

@@ -43,23 +43,23 @@ TEST(Gallery, RefusesFewerCellsThanItsThinPartsNeed) {
 }
 
 TEST(Gallery, StopsWhenAsked) {
-  const Result<Foam> foam = synthesizeFoam(
-      {"gallery", kCells}, [](std::string_view, uint64_t done, uint64_t) { return done == 0; });
+  const Result<Foam> foam =
+      synthesizeFoam({"gallery", kCells}, [](std::string_view, uint64_t done, uint64_t) { return done == 0; });
   ASSERT_FALSE(foam);
   EXPECT_EQ(foam.error().kind, ErrorKind::kCancelled);
 }
 
-TEST(Gallery, FoamLooksLikeTheTruthWithoutHoles) {
+TEST(Gallery, FoamLooksLikeTheTracedSceneWithoutHoles) {
   const ReferenceRenderer renderer(smallGallery());
   ReferenceOptions options;
   options.precision = Precision::kFloat;
   options.nearRatio = 0;  // cells this large may come near the camera
   for (const size_t v : {size_t{0}, size_t{5}, size_t{8}}) {
     const View view = resizeView(galleryCameras().views[v], 120, 80);
-    const auto truth = traceGalleryTruth(view, 4);
+    const auto traced = traceGallery(view, 4);
     const auto foam = renderer.render(view, options);
-    ASSERT_TRUE(truth && foam);
-    const auto difference = compareImages(*truth, foam->colour);
+    ASSERT_TRUE(traced && foam);
+    const auto difference = compareImages(*traced, foam->colour);
     ASSERT_TRUE(difference);
     EXPECT_GT(difference->psnr, 21) << view.name;
     const auto& alpha = foam->alpha.values;
@@ -71,8 +71,9 @@ TEST(Gallery, FoamLooksLikeTheTruthWithoutHoles) {
 TEST(Gallery, ColoursOfGlossyCellsDependOnTheView) {
   const Foam& foam = smallGallery();
   size_t glossy = 0;
-  for (size_t detail = 0; detail < foam.detailSites.size(); ++detail)
+  for (size_t detail = 0; detail < foam.detailSites.size(); ++detail) {
     glossy += foam.lobeColours[detail * foam.lobeCount] != foam.lobeColours[detail * foam.lobeCount + 1];
+  }
   EXPECT_GT(glossy, foam.detailSites.size() / 10);
   EXPECT_LT(glossy, foam.detailSites.size() * 9 / 10);
 }
@@ -82,30 +83,29 @@ TEST(GalleryCameras, KeepTheirDistanceFromEverySurface) {
   ASSERT_EQ(cameras.views.size(), 12u);
   ASSERT_GE(cameras.flight.size(), 8u);
   // Cells nearer than 4 radii are not drawn; at 200,000 cells the largest of the room have a radius of 5 cm.
-  for (const View& view : cameras.views)
-    EXPECT_GT(galleryScene().clearance(eyeOf(view), 1), 0.3) << view.name;
+  for (const View& view : cameras.views) EXPECT_GT(galleryScene().clearance(eyeOf(view), 1), 0.3) << view.name;
   for (size_t i = 0; i < cameras.flight.size(); ++i) {
-    const glm::dvec3 from = eyeOf(cameras.flight[i]),
-                     to = eyeOf(cameras.flight[(i + 1) % cameras.flight.size()]);
-    for (double t = 0; t < 1; t += 0.25)
+    const glm::dvec3 from = eyeOf(cameras.flight[i]), to = eyeOf(cameras.flight[(i + 1) % cameras.flight.size()]);
+    for (double t = 0; t < 1; t += 0.25) {
       EXPECT_GT(galleryScene().clearance(glm::mix(from, to, t), 1), 0.3) << cameras.flight[i].name;
+    }
     EXPECT_LT(glm::length(to - from), 1.0) << "the loop jumps after " << cameras.flight[i].name;
   }
 }
 
-TEST(GalleryTruth, ConvergesAndRepeats) {
+TEST(GalleryTracer, ConvergesAndRepeats) {
   const View view = resizeView(galleryCameras().views[1], 90, 60);
-  const Image few = *traceGalleryTruth(view, 4), many = *traceGalleryTruth(view, 25);
-  EXPECT_TRUE(haveSameBits(few.values, traceGalleryTruth(view, 4)->values));
+  const Image few = *traceGallery(view, 4), many = *traceGallery(view, 25);
+  EXPECT_TRUE(haveSameBits(few.values, traceGallery(view, 4)->values));
   EXPECT_GT(compareImages(few, many)->psnr, 28);
   EXPECT_GT(*std::max_element(many.values.begin(), many.values.end()), 0.8f);
 }
 
-TEST(GalleryTruth, RefusesNoSamplesAndNoPixels) {
+TEST(GalleryTracer, RefusesNoSamplesAndNoPixels) {
   View view = galleryCameras().views[0];
-  EXPECT_EQ(traceGalleryTruth(view, 0).error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(traceGallery(view, 0).error().kind, ErrorKind::kUsage);
   view.width = 0;
-  EXPECT_EQ(traceGalleryTruth(view, 1).error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(traceGallery(view, 1).error().kind, ErrorKind::kUsage);
 }
 
 }  // namespace

@@ -51,8 +51,7 @@ TEST(SmallScenes, RepeatBitForBitAndDifferBetweenSeeds) {
 
 TEST(SmallScenes, StopOnRequest) {
   for (const std::string name : {"grid", "shell", "random"}) {
-    const Result<Foam> foam =
-        synthesizeFoam({name}, [](std::string_view, uint64_t, uint64_t) { return false; });
+    const Result<Foam> foam = synthesizeFoam({name}, [](std::string_view, uint64_t, uint64_t) { return false; });
     ASSERT_FALSE(foam) << name;
     EXPECT_EQ(foam.error().kind, ErrorKind::kCancelled);
   }

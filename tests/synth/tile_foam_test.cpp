@@ -34,7 +34,9 @@ Foam copyOf(const Foam& tiled, uint32_t copy, uint32_t cells) {
     if ((tiled.*values).empty()) return;
     LobeRange range{uint64_t{copy} * cells, cells};
     if (array.index == FoamIndex::kDetailSite) range = {firstDetail, static_cast<uint32_t>(details)};
-    if (array.index == FoamIndex::kLobe) range = {firstLobe, static_cast<uint32_t>(lastLobes.first + lastLobes.count - firstLobe)};
+    if (array.index == FoamIndex::kLobe) {
+      range = {firstLobe, static_cast<uint32_t>(lastLobes.first + lastLobes.count - firstLobe)};
+    }
     const auto begin = (tiled.*values).begin() + static_cast<std::ptrdiff_t>(range.first);
     one.*values = {begin, begin + range.count};
   });
@@ -87,8 +89,10 @@ TEST(TileFoam, AnAssetOfAnyPresetHasTheSameCellsInEachCopy) {
     Foam copy = copyOf(tiled, 2, foam.cellCount);
     const dmat3 turn = motionBetween(foam, copy, 0).turn;
     ASSERT_EQ(copy.lobeAxes.size(), foam.lobeAxes.size()) << preset;
-    for (size_t m = 0; m < foam.lobeAxes.size(); ++m)
-      ASSERT_LT(glm::distance(dvec3(copy.lobeAxes[m]), turn * dvec3(foam.lobeAxes[m])), 1e-5 * (1 + glm::length(foam.lobeAxes[m])));
+    for (size_t m = 0; m < foam.lobeAxes.size(); ++m) {
+      ASSERT_LT(glm::distance(dvec3(copy.lobeAxes[m]), turn * dvec3(foam.lobeAxes[m])),
+                1e-5 * (1 + glm::length(foam.lobeAxes[m])));
+    }
     copy.sites = foam.sites;
     copy.orientations = foam.orientations;
     copy.lobeAxes = foam.lobeAxes;
@@ -99,9 +103,9 @@ TEST(TileFoam, AnAssetOfAnyPresetHasTheSameCellsInEachCopy) {
 TEST(TileFoam, CopiesDoNotTouch) {
   const Foam tiled = *tileFoam(*synthesizeFoam({"random", 60}), 9);
   for (uint32_t i = 0; i < tiled.cellCount; ++i) {
-    for (uint32_t j = 0; j < i - i % 60; ++j)
-      ASSERT_GT(glm::distance(tiled.sites[i], tiled.sites[j]), tiled.radii[i] + tiled.radii[j])
-          << i << ", " << j;
+    for (uint32_t j = 0; j < i - i % 60; ++j) {
+      ASSERT_GT(glm::distance(tiled.sites[i], tiled.sites[j]), tiled.radii[i] + tiled.radii[j]) << i << ", " << j;
+    }
   }
 }
 
@@ -113,8 +117,9 @@ TEST(TileFoam, EveryCopyIsTurnedByItsOwnAngle) {
     const dmat3 turn = motionBetween(foam, copyOf(tiled, copy, 20), 0).turn;
     angles.push_back(std::atan2(turn[0].y, turn[0].x));
   }
-  for (size_t a = 0; a < 4; ++a)
+  for (size_t a = 0; a < 4; ++a) {
     for (size_t b = 0; b < a; ++b) EXPECT_GT(std::abs(angles[a] - angles[b]), 0.1);
+  }
 }
 
 TEST(TileFoam, ACopySeenByACameraMovedAlongLooksLikeTheOriginal) {

@@ -106,8 +106,8 @@ TEST_F(BadInput, AnAssetOfAnotherVersionHasTheSameExitCodeEverywhere) {
   writeBytes(folder_ / "bad.froth", readBytes(FROTH_SOURCE_DIR "/tests/format/golden/version_1_0.froth"));
   expectRefusal({"verify", "bad.froth"}, "bad.froth", {"format version 1.0"});
   expectRefusal({"info", "bad.froth"}, "bad.froth", {"format version 1.0"});
-  expectRefusal({"render", "bad.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"}, "bad.froth",
-                {"format version 1.0"});
+  expectRefusal({"render", "bad.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"},
+                "bad.froth", {"format version 1.0"});
   if (!hasDevice()) GTEST_SKIP() << "no suitable Vulkan device";
   expectRefusal({"render", "bad.froth", "--cameras", "cameras.json", "--renderer", "raster", "-o", "out"}, "bad.froth",
                 {"format version 1.0"});
@@ -115,8 +115,9 @@ TEST_F(BadInput, AnAssetOfAnotherVersionHasTheSameExitCodeEverywhere) {
 
 TEST_F(BadInput, AnAssetWithoutSolidBallsWhereThereIsSomethingSolid) {
   changeAsset([](AssetContents& contents) {
-    for (ChunkContents& chunk : contents.chunks)
+    for (ChunkContents& chunk : contents.chunks) {
       for (uint32_t& ball : chunk.solidBalls) ball &= 0xffffff;
+    }
   });
   expectRefusal({"verify", "bad.froth"}, "bad.froth", {"chunk 0: the solid ball of cell "});
 }
@@ -142,7 +143,8 @@ TEST_F(BadInput, TextOfAnAssetThatWouldSteerATerminal) {
   EXPECT_THAT(shown, HasSubstr("\\x1b[2Jclean\\x0d, from \\x07\n"));
   EXPECT_EQ(shown.find_first_of("\x1b\r\a"), std::string::npos) << shown;
   writeBytes(folder_ / "cameras.json", R"({"views": [{"\u001b[2J": 1}]})");
-  const ProgramRun run = froth({"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"});
+  const ProgramRun run =
+      froth({"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"});
   EXPECT_EQ(run.exitCode, 3);
   EXPECT_EQ(run.err.find('\x1b'), std::string::npos) << run.err;
 }
@@ -150,8 +152,8 @@ TEST_F(BadInput, TextOfAnAssetThatWouldSteerATerminal) {
 TEST_F(BadInput, AKeyThatComesTwiceInJson) {
   makeRandomFoam("12");
   writeBytes(folder_ / "cameras.json", R"({"views": [], "scene": "a", "scene": "b"})");
-  expectRefusal({"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"}, "cameras.json",
-                {"key 'scene' stands twice"});
+  expectRefusal({"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"},
+                "cameras.json", {"key 'scene' stands twice"});
   writeBytes(folder_ / "a.json", R"({"frames": {"a": 1, "a": 2}})");
   expectRefusal({"compare-bench", "a.json", "a.json"}, "a.json", {"key 'a' stands twice"});
 }
@@ -177,10 +179,9 @@ TEST_F(BadInput, APickleThatCallsTheSystem) {
 }
 
 TEST_F(BadInput, ParametersThatAreNotFinite) {
-  for (const char* key : {"points", "radii", "density", "quaternions", "texel_sites", "texel_height",
-                          "texel_sv_axis", "texel_sv_rgb"}) {
-    for (const float value :
-         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+  for (const char* key :
+       {"points", "radii", "density", "quaternions", "texel_sites", "texel_height", "texel_sv_axis", "texel_sv_rgb"}) {
+    for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
       CheckpointSpec checkpoint = sampleCheckpoint();
       checkpoint.storages[key].replace(4, 4, packNumber(value));
       writeCheckpoint(checkpoint);
@@ -206,9 +207,8 @@ TEST_F(BadInput, ACellCountOf10To12) {
 TEST_F(BadInput, CamerasThatAreNoJson) {
   makeRandomFoam("60");
   writeBytes(folder_ / "cameras.json", "{\"views\": [");
-  expectRefusal(
-      {"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"},
-      "cameras.json", {"JSON"});
+  expectRefusal({"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"},
+                "cameras.json", {"JSON"});
 }
 
 TEST_F(BadInput, ImagesOfDifferentSizes) {

@@ -17,8 +17,8 @@ class BakeCommand : public ToolTest {
     return frothJson(arguments);
   }
   void render(const std::string& input, const std::string& output, std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments{"render", input,  "--cameras",  "cameras.json", "--view", "0", "--renderer",
-                                       "reference", "-o", output, "--precision", "float"};
+    std::vector<std::string> arguments{"render",     input,       "--cameras", "cameras.json", "--view",      "0",
+                                       "--renderer", "reference", "-o",        output,         "--precision", "float"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     frothWell(arguments);
   }
@@ -47,6 +47,30 @@ TEST_F(BakeCommand, PresetsTradeBytesForQuality) {
     bytes = baked["bytes"];
     quality = found;
   }
+}
+
+TEST_F(BakeCommand, SaysForWhichEyesAnAssetIsGood) {
+  makeRandomFoam("100");
+  bake("near.froth", {"--preset", "default", "--eyes", "cameras+0.25"});
+  const nlohmann::json near = frothJson({"info", "near.froth"})["eyes"];
+  EXPECT_EQ(near["boxes"].size(), 1u);
+  EXPECT_EQ(near["radius"], 0.25);
+  EXPECT_GT(near["worstPsnr"], 10);
+  EXPECT_NE(frothWell({"info", "near.froth"}).find("eyes              within 0.25 of those of 1 cameras"),
+            std::string::npos);
+  bake("box.froth", {"--preset", "default", "--eyes", "box:-1,-2,-3,1,2,3.5", "--no-measure"});
+  const nlohmann::json box = frothJson({"info", "box.froth"})["eyes"];
+  EXPECT_EQ(box["boxes"][0]["max"], nlohmann::json::parse("[1, 2, 3.5]"));
+  EXPECT_TRUE(box["worstPsnr"].is_null());
+  bake("exact.froth");
+  EXPECT_TRUE(frothJson({"info", "exact.froth"})["eyes"].is_null());
+}
+
+TEST_F(BakeCommand, NeedsCamerasForEyesAroundThem) {
+  makeRandomFoam("100");
+  const ProgramRun run = froth({"bake", "random.pt", "-o", "b.froth", "--eyes", "cameras+1"});
+  EXPECT_NE(run.exitCode, 0);
+  EXPECT_NE(run.err.find("give cameras with views, or a box"), std::string::npos) << run.err;
 }
 
 TEST_F(BakeCommand, WithoutAPresetMakesTheDefaultOne) {

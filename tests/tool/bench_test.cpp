@@ -14,10 +14,20 @@ Json interval(double median, double noise) {
 }
 
 Json makeResult(double cull, double raster, double noise) {
-  return {{"input", "a.froth"}, {"device", "d"},        {"driver", "1"},       {"renderer", "raster"},
-          {"output", "rgba16f"}, {"cutoff", 0.001},     {"width", 64},         {"height", 64},
-          {"layers", 3},         {"cells", 10},         {"isCounting", false}, {"assetBytes", 1000},
-          {"viewBytes", 2000},   {"memory", {{"asset", {{"cells", 1000}}}, {"view", {{"pairs", 16}}}}},
+  return {{"input", "a.froth"},
+          {"device", "d"},
+          {"driver", "1"},
+          {"renderer", "raster"},
+          {"output", "rgba16f"},
+          {"cutoff", 0.001},
+          {"width", 64},
+          {"height", 64},
+          {"layers", 3},
+          {"cells", 10},
+          {"isCounting", false},
+          {"assetBytes", 1000},
+          {"viewBytes", 2000},
+          {"memory", {{"asset", {{"cells", 1000}}}, {"view", {{"pairs", 16}}}}},
           {"cycles",
            {{"count", 9},
             {"total", interval(cull + raster, noise)},
@@ -75,9 +85,8 @@ TEST_F(BenchCounters, AreAveragesPerRayAndPerSubTile) {
   makeRandomFoam("60", 2);
   for (const std::string renderer : {"raster", "walk"}) {
     const bool isWalk = renderer == "walk";
-    const Json bench =
-        frothJson({"bench", "random.froth", "--cameras", "cameras.json", "--size", "16x16", "--frames", "100",
-                   "--warmup", "0s", "--renderer", renderer, "--counters"});
+    const Json bench = frothJson({"bench", "random.froth", "--cameras", "cameras.json", "--size", "16x16", "--frames",
+                                  "100", "--warmup", "0s", "--renderer", renderer, "--counters"});
     const Json& perRay = bench["work"]["perRay"];
     EXPECT_GT(perRay["ballHits"].get<double>(), 0);
     EXPECT_LE(perRay["colours"].get<double>(), perRay["ballHits"].get<double>());

@@ -12,15 +12,14 @@ class EndToEnd : public ToolTest {
  protected:
   std::string render(const std::string& input, const std::string& renderer, const std::string& output,
                      std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments{"render", input, "--cameras", "cameras.json", "--view", "0", "--size",
-                                       "96x64",  "-o",  output,      "--renderer",   renderer};
+    std::vector<std::string> arguments{"render", input,   "--cameras", "cameras.json", "--view",     "0",
+                                       "--size", "96x64", "-o",        output,         "--renderer", renderer};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return frothWell(arguments);
   }
   double psnr(const std::string& a, const std::string& b) const {
     const nlohmann::json difference = frothJson({"compare", a, b});
-    return difference["psnr"].is_null() ? std::numeric_limits<double>::infinity()
-                                        : difference["psnr"].get<double>();
+    return difference["psnr"].is_null() ? std::numeric_limits<double>::infinity() : difference["psnr"].get<double>();
   }
 };
 
@@ -106,7 +105,8 @@ TEST_F(EndToEnd, AllRenderersDrawThroughAllLenses) {
   add(LensKind::kOrthographic, 20);
   RayMap map{96, 64, {}};
   for (uint32_t i = 0; i < 96 * 64; ++i) {
-    map.directions.push_back({(i % 96 / 96.0f - 0.5f) * 0.8f, (i / 96 / 64.0f - 0.5f) * 0.6f, i % 7 == 0 ? 0.9f : 1.0f});
+    map.directions.push_back(
+        {(i % 96 / 96.0f - 0.5f) * 0.8f, (i / 96 / 64.0f - 0.5f) * 0.6f, i % 7 == 0 ? 0.9f : 1.0f});
   }
   ASSERT_TRUE(writeRayMap(folder_ / "rays.f32", map));
   add(LensKind::kRayMap, 1).lens.raysFile = "rays.f32";
@@ -140,8 +140,8 @@ TEST_F(EndToEnd, LinearColourOfRuntimeAndReferenceAgree) {
 TEST_F(EndToEnd, AnImageBeyondWhatDevicesAllowIsRefused) {
   if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("12");
-  const ProgramRun run = froth({"render", "random.froth", "--cameras", "cameras.json", "--view", "0",
-                                "--size", "16384x16384", "--renderer", "raster", "-o", "a.pfm"});
+  const ProgramRun run = froth({"render", "random.froth", "--cameras", "cameras.json", "--view", "0", "--size",
+                                "16384x16384", "--renderer", "raster", "-o", "a.pfm"});
   EXPECT_EQ(run.exitCode, 1);
   EXPECT_NE(run.err.find("16384 x 16384"), std::string::npos) << run.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.pfm"));
@@ -158,8 +158,8 @@ TEST_F(EndToEnd, DepthThatIsNeverReachedIsMinusOne) {
 
 TEST_F(EndToEnd, AllViewsGoIntoAFolder) {
   makeRandomFoam("60", 3);
-  frothWell({"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "--size",
-             "24x16", "-o", "out"});
+  frothWell({"render", "random.froth", "--cameras", "cameras.json", "--renderer", "reference", "--size", "24x16", "-o",
+             "out"});
   for (const char* name : {"view_00.pfm", "view_01.pfm", "view_02.pfm"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / name)) << name;
   }
@@ -169,28 +169,26 @@ TEST_F(EndToEnd, ATilingOfAnAssetIsAnAsset) {
   makeRandomFoam("60");
   frothWell({"synth", "tile", "--of", "random.froth", "--count", "3", "-o", "tiled.froth"});
   frothWell({"verify", "tiled.froth"});
-  const nlohmann::json once = frothJson({"info", "random.froth"}),
-                       thrice = frothJson({"info", "tiled.froth"});
+  const nlohmann::json once = frothJson({"info", "random.froth"}), thrice = frothJson({"info", "tiled.froth"});
   EXPECT_EQ(thrice["inputCells"].get<int>(), 3 * once["cells"].get<int>());
 }
 
-TEST_F(EndToEnd, TheGalleryComesWithCamerasAndTruth) {
+TEST_F(EndToEnd, TheGalleryComesWithCamerasAndGroundTruth) {
   frothWell({"synth", "gallery", "--cells", "8000", "-o", "gallery.pt"});
   ASSERT_TRUE(std::filesystem::exists(folder_ / "gallery.cameras.json"));
-  frothWell({"synth", "gallery", "--truth", "gallery.cameras.json", "--samples", "1", "--size", "48x32",
-             "--view", "1", "-o", "truth.pfm"});
-  frothWell({"render", "gallery.pt", "--cameras", "gallery.cameras.json", "--renderer", "reference", "--size",
-             "48x32", "--view", "1", "-o", "foam.pfm"});
-  EXPECT_GE(psnr("truth.pfm", "foam.pfm"), 12);  // so few cells show the room coarsely, but the same room
+  frothWell({"synth", "gallery", "--ground-truth", "gallery.cameras.json", "--samples", "1", "--size", "48x32",
+             "--view", "1", "-o", "traced.pfm"});
+  frothWell({"render", "gallery.pt", "--cameras", "gallery.cameras.json", "--renderer", "reference", "--size", "48x32",
+             "--view", "1", "-o", "foam.pfm"});
+  EXPECT_GE(psnr("traced.pfm", "foam.pfm"), 12);  // so few cells show the room coarsely, but the same room
 }
 
 TEST_F(EndToEnd, BenchTimesEveryPass) {
   if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   makeRandomFoam("60", 2);
   for (const std::string renderer : {"raster", "walk"}) {
-    const nlohmann::json bench =
-        frothJson({"bench", "random.froth", "--cameras", "cameras.json", "--size", "32x32", "--frames", "100",
-                   "--warmup", "0s", "--renderer", renderer});
+    const nlohmann::json bench = frothJson({"bench", "random.froth", "--cameras", "cameras.json", "--size", "32x32",
+                                            "--frames", "100", "--warmup", "0s", "--renderer", renderer});
     EXPECT_EQ(bench["frames"], 100);
     EXPECT_EQ(bench["views"].size(), 2u);
     EXPECT_GT(bench["passes"].size(), 1u);

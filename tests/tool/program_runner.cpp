@@ -66,9 +66,7 @@ ToolTest::ToolTest() {
   folder_ = mkdtemp(pattern.data());
 }
 
-ToolTest::~ToolTest() {
-  std::filesystem::remove_all(folder_);
-}
+ToolTest::~ToolTest() { std::filesystem::remove_all(folder_); }
 
 ProgramRun ToolTest::froth(const std::vector<std::string>& arguments) const {
   return runProgram(FROTH_TOOL, arguments, folder_);
@@ -110,8 +108,8 @@ std::vector<std::string> ToolTest::filesInFolder() const {
 bool ToolTest::hasDevice() const {
   const ProgramRun run = froth({"devices", "--json"});
   const nlohmann::json devices = nlohmann::json::parse(run.out, nullptr, false);
-  return devices.is_array() && std::any_of(devices.begin(), devices.end(),
-                                           [](const auto& device) { return device["suitable"] == true; });
+  return devices.is_array() &&
+         std::any_of(devices.begin(), devices.end(), [](const auto& device) { return device["suitable"] == true; });
 }
 
 }  // namespace froth::test

@@ -12,8 +12,8 @@ namespace {
 class ReportCommand : public ToolTest {
  protected:
   nlohmann::json report(const std::string& input, std::vector<std::string> more) {
-    std::vector<std::string> arguments{"report", input,     "--cameras", "cameras.json", "-o",       "out", "--size",
-                                       "48x32",  "--views", "1",         "--search",     "0s",       "--frames", "1"};
+    std::vector<std::string> arguments{"report", input,     "--cameras", "cameras.json", "-o", "out",      "--size",
+                                       "48x32",  "--views", "1",         "--search",     "0s", "--frames", "1"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     frothWell(arguments);
     return nlohmann::json::parse(readBytes(folder_ / "out/report.json"));
@@ -47,12 +47,16 @@ TEST_F(ReportCommand, OnTheCpuShowsErrorsThatFallWithPrecision) {
   const nlohmann::json figures = report("random.pt", {"--cpu"});
   EXPECT_EQ(figures["points"][0]["renderer"], "cpu");
   EXPECT_GT(figures["points"].size(), 60u);
-  EXPECT_GT(meanError(figures, "cpu positionBits, all else exact=10"), 4 * meanError(figures, "cpu positionBits, all else exact=14"));
-  EXPECT_GT(meanError(figures, "cpu cutoff, all else exact=0.1"), 10 * meanError(figures, "cpu cutoff, all else exact=0.0001"));
+  EXPECT_GT(meanError(figures, "cpu positionBits, all else exact=10"),
+            4 * meanError(figures, "cpu positionBits, all else exact=14"));
+  EXPECT_GT(meanError(figures, "cpu cutoff, all else exact=0.1"),
+            10 * meanError(figures, "cpu cutoff, all else exact=0.0001"));
   EXPECT_LT(meanError(figures, "cpu preset=exact"), meanError(figures, "cpu preset=small"));
   for (const nlohmann::json& slope : figures["slopes"]) EXPECT_NE(slope["verdict"], "over its bound") << slope;
   EXPECT_EQ(figures["seed"], 1u);
-  EXPECT_EQ(figures["command"], "froth report random.pt --cameras cameras.json --output out --size 48x32 --views 1 --search 0s --frames 1 --cpu");
+  EXPECT_EQ(
+      figures["command"],
+      "froth report random.pt --cameras cameras.json --output out --size 48x32 --views 1 --search 0s --frames 1 --cpu");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out/work"));
 }
 
@@ -73,8 +77,10 @@ TEST_F(ReportCommand, ThroughTheRuntimeTimesRasterAndWalkAndWhatIsLeftOut) {
   }
   EXPECT_EQ(renderers, (std::set<std::string>{"raster", "walk"}));
   for (const nlohmann::json& feature : figures["features"]) features.insert(feature["feature"]);
-  for (const char* name : {"view dependence", "displacement", "detail sites", "walk graph", "Steiner cells", "kept hits"})
+  for (const char* name :
+       {"view dependence", "displacement", "detail sites", "walk graph", "Steiner cells", "kept hits"}) {
     EXPECT_TRUE(features.count(name)) << name;
+  }
   const std::string html = readBytes(folder_ / "out/report.html");
   EXPECT_EQ(html.find("data:image/png"), std::string::npos);
   EXPECT_NE(html.find("positionBits"), std::string::npos);
@@ -103,8 +109,9 @@ TEST_F(ReportCommand, GoesOnOnlyWithTheSameInputs) {
 TEST_F(ReportCommand, TakesWhatAnInterruptedRunMeasured) {
   makeRandomFoam("20");
   frothWell({"synth", "two", "-o", "random.pt"});  // as quickly as it goes
-  const std::vector<std::string> arguments{"report", "random.pt", "--cameras", "cameras.json", "-o",       "out", "--size", "24x16",
-                                           "--cpu",  "--search",  "0s",        "--frames",     "1",        "--views", "1"};
+  const std::vector<std::string> arguments{"report", "random.pt", "--cameras", "cameras.json", "-o",
+                                           "out",    "--size",    "24x16",     "--cpu",        "--search",
+                                           "0s",     "--frames",  "1",         "--views",      "1"};
   frothWell(arguments);
   const std::string whole = readBytes(folder_ / "out/report.json");
   // The log as an interruption leaves it: a point with a figure of its own, and half a line.
@@ -116,7 +123,8 @@ TEST_F(ReportCommand, TakesWhatAnInterruptedRunMeasured) {
   const std::string log = readBytes(folder_ / "out/work/points.jsonl");
   const std::string signature = log.substr(0, log.find('\n') + 1);
   // Of another version of Froth it is not taken.
-  writeBytes(folder_ / "out/work/points.jsonl", "\"version 0.0.0" + signature.substr(signature.find(" device")) + point.dump() + "\n");
+  writeBytes(folder_ / "out/work/points.jsonl",
+             "\"version 0.0.0" + signature.substr(signature.find(" device")) + point.dump() + "\n");
   again.back() = "--resume";
   const ProgramRun older = froth(again);
   EXPECT_EQ(older.exitCode, 2);

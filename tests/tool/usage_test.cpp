@@ -16,25 +16,15 @@ class Usage : public ToolTest {
   }
 };
 
-TEST_F(Usage, ACommandIsNeeded) {
-  expectUsageError({}, "command");
-}
+TEST_F(Usage, ACommandIsNeeded) { expectUsageError({}, "command"); }
 
-TEST_F(Usage, AnUnknownCommandIsRefused) {
-  expectUsageError({"fry"}, "fry");
-}
+TEST_F(Usage, AnUnknownCommandIsRefused) { expectUsageError({"fry"}, "fry"); }
 
-TEST_F(Usage, AnUnknownOptionIsNamed) {
-  expectUsageError({"info", "a.froth", "--sise", "3"}, "--sise");
-}
+TEST_F(Usage, AnUnknownOptionIsNamed) { expectUsageError({"info", "a.froth", "--sise", "3"}, "--sise"); }
 
-TEST_F(Usage, AMissingOptionIsNamed) {
-  expectUsageError({"bake", "a.pt"}, "--output");
-}
+TEST_F(Usage, AMissingOptionIsNamed) { expectUsageError({"bake", "a.pt"}, "--output"); }
 
-TEST_F(Usage, AnUnknownSceneIsNamed) {
-  expectUsageError({"synth", "moon", "-o", "a.pt"}, "moon");
-}
+TEST_F(Usage, AnUnknownSceneIsNamed) { expectUsageError({"synth", "moon", "-o", "a.pt"}, "moon"); }
 
 TEST_F(Usage, ACellCountBeyond32BitsIsRefused) {
   expectUsageError({"synth", "random", "--cells", "1000000000000", "-o", "a.pt"}, "1000000000000");
@@ -42,15 +32,13 @@ TEST_F(Usage, ACellCountBeyond32BitsIsRefused) {
 
 TEST_F(Usage, ASizeMustBeTwoNumbers) {
   for (const char* size : {"640", "640x", "x480", "0x480", "640x480x3", "-1x5", "99999x2"}) {
-    expectUsageError(
-        {"render", "a.froth", "--cameras", "c.json", "--renderer", "raster", "--size", size, "-o", "d"},
-        size);
+    expectUsageError({"render", "a.froth", "--cameras", "c.json", "--renderer", "raster", "--size", size, "-o", "d"},
+                     size);
   }
 }
 
 TEST_F(Usage, NumbersOutOfRangeAreNamedWithWhatToGive) {
-  const std::vector<std::string> render{"render",     "a.froth", "--cameras", "c.json",
-                                        "--renderer", "raster",  "-o",        "d"};
+  const std::vector<std::string> render{"render", "a.froth", "--cameras", "c.json", "--renderer", "raster", "-o", "d"};
   const std::vector<std::string> bake{"bake", "a.pt", "-o", "a.froth"};
   const auto expectRefused = [this](std::vector<std::string> command, const std::string& option,
                                     const std::string& value) {
@@ -70,6 +58,13 @@ TEST_F(Usage, NumbersOutOfRangeAreNamedWithWhatToGive) {
   expectRefused(bake, "--cull-unseen", "1.5");
   expectRefused(bake, "--chunk-cells", "0");
   expectRefused(bake, "--threads", "0");
+}
+
+TEST_F(Usage, EyesThatCannotBeAreNamedWithWhatToGive) {
+  for (const std::string eyes : {"cameras+0", "cameras+nan", "cameras+1e300", "box:0,0,0,1,1", "box:0,2,0,1,1,1",
+                                 "box:0,0,0,1,1,1,", "anywhere"}) {
+    expectUsageError({"bake", "a.pt", "-o", "a.froth", "--eyes", eyes}, "found '" + eyes + "'; give cameras");
+  }
 }
 
 TEST_F(Usage, AnUnknownPresetIsNamed) {
@@ -101,17 +96,13 @@ TEST_F(Usage, APngHoldsNeitherDepthNorLinearColour) {
   expectUsageError(linear, "linear");
 }
 
-TEST_F(Usage, TruthBelongsToTheGallery) {
-  expectUsageError({"synth", "random", "--truth", "c.json", "-o", "d"}, "--truth");
+TEST_F(Usage, GroundTruthBelongsToTheGallery) {
+  expectUsageError({"synth", "random", "--ground-truth", "c.json", "-o", "d"}, "--ground-truth");
 }
 
-TEST_F(Usage, ATilingNeedsSourceAndCount) {
-  expectUsageError({"synth", "tile", "--count", "2", "-o", "a.pt"}, "--of");
-}
+TEST_F(Usage, ATilingNeedsSourceAndCount) { expectUsageError({"synth", "tile", "--count", "2", "-o", "a.pt"}, "--of"); }
 
-TEST_F(Usage, AnAssetIsNamedLikeOne) {
-  expectUsageError({"bake", "a.pt", "-o", "a.bin"}, ".froth");
-}
+TEST_F(Usage, AnAssetIsNamedLikeOne) { expectUsageError({"bake", "a.pt", "-o", "a.bin"}, ".froth"); }
 
 TEST_F(Usage, FewerThanHundredFramesAreNoMeasurement) {
   expectUsageError({"bench", "a.froth", "--cameras", "c.json", "--frames", "10"}, "--frames");
@@ -127,16 +118,15 @@ TEST_F(Usage, AViewThatIsNotThereIsNamed) {
   CameraSet cameras;
   cameras.views.push_back(viewOfRandomFoam(8, 8));
   ASSERT_TRUE(writeCameras(folder_ / "cameras.json", cameras));
-  const ProgramRun run = froth({"render", "a.froth", "--cameras", "cameras.json", "--view", "3", "--renderer",
-                                "reference", "-o", "a.pfm"});
+  const ProgramRun run = froth(
+      {"render", "a.froth", "--cameras", "cameras.json", "--view", "3", "--renderer", "reference", "-o", "a.pfm"});
   EXPECT_EQ(run.exitCode, 2);
   EXPECT_NE(run.err.find("--view 3: cameras.json has 1 views"), std::string::npos) << run.err;
 }
 
 TEST_F(Usage, AFolderThatIsNotThereIsToldBeforeTheWork) {
-  for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"bake", "missing.pt", "-o", "none/a.froth"},
-        std::vector<std::string>{"synth", "random", "-o", "none/a.pt"}}) {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"bake", "missing.pt", "-o", "none/a.froth"},
+                                                  std::vector<std::string>{"synth", "random", "-o", "none/a.pt"}}) {
     const ProgramRun run = froth(command);
     EXPECT_EQ(run.exitCode, 1);
     EXPECT_NE(run.err.find("none/a."), std::string::npos) << run.err;
@@ -147,14 +137,16 @@ TEST_F(Usage, AFolderThatIsNotThereIsToldBeforeTheWork) {
 
 TEST_F(Usage, FiguresThatCannotBeWrittenAreAFailure) {
   makeRandomFoam("12");
-  const ProgramRun run = runProgram("/bin/sh", {"-c", programPath(FROTH_TOOL).string() + " info random.froth > /dev/full"}, folder_);
+  const ProgramRun run =
+      runProgram("/bin/sh", {"-c", programPath(FROTH_TOOL).string() + " info random.froth > /dev/full"}, folder_);
   EXPECT_EQ(run.exitCode, 1);
   EXPECT_NE(run.err.find("standard output"), std::string::npos) << run.err;
 }
 
 TEST_F(Usage, HelpManAndCompletionNameEveryCommandAndItsOptions) {
   const std::string help = frothWell({"help"}), man = frothWell({"man"}), completion = frothWell({"completion"});
-  for (const char* command : {"synth", "bake", "render", "info", "verify", "compare", "bench", "report", "stability", "devices"}) {
+  for (const char* command :
+       {"synth", "bake", "render", "info", "verify", "compare", "bench", "report", "stability", "devices"}) {
     EXPECT_NE(help.find(std::string("  ") + command + " "), std::string::npos) << command;
     EXPECT_NE(man.find(std::string("\"froth ") + command + "\""), std::string::npos) << command;
     EXPECT_NE(completion.find(std::string("    ") + command + ") options='"), std::string::npos) << command;
@@ -168,7 +160,9 @@ TEST_F(Usage, HelpManAndCompletionNameEveryCommandAndItsOptions) {
 }
 
 TEST_F(Usage, DurationsHaveAUnit) {
-  for (const char* wrong : {"5", "5m", "five min", "nan", "-1s", "1e9h"}) expectUsageError({"stability", "--search", wrong}, "500ms, 90s, 5min or 1h");
+  for (const char* wrong : {"5", "5m", "five min", "nan", "-1s", "1e9h"}) {
+    expectUsageError({"stability", "--search", wrong}, "500ms, 90s, 5min or 1h");
+  }
 }
 
 }  // namespace

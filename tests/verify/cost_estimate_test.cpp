@@ -31,7 +31,8 @@ TEST(CostEstimate, CountsTheBallsOverARay) {
 
 TEST(CostEstimate, CountsSolidBallsWhereThereAreSome) {
   AssetContents contents = pileOf(100);
-  for (uint32_t i = 0; i < 100; ++i) contents.chunks[0].solidBalls.push_back(i < 40 ? kWholeBall : 0x01404020);  // at the rim
+  // at the rim
+  for (uint32_t i = 0; i < 100; ++i) contents.chunks[0].solidBalls.push_back(i < 40 ? kWholeBall : 0x01404020);
   contents.hasStartView = true;
   EXPECT_LT(estimateCost(contents).meanBalls, 100);
 }

@@ -60,8 +60,9 @@ TEST(SceneCheck, RefusesAnAlphaComplexWithoutPairs) {
 TEST(SceneCheck, RefusesWalkRowsThatLackTheirNearestNeighbours) {
   AssetContents contents = bake("exact");
   ChunkContents& chunk = contents.chunks[0];
-  for (uint32_t cell = 0; cell < chunk.cellCount; cell += 2)
+  for (uint32_t cell = 0; cell < chunk.cellCount; cell += 2) {
     chunk.neighbours[chunk.neighbourOffsets[cell]] = chunk.neighbours[chunk.neighbourOffsets[cell + 1] - 1];
+  }
   EXPECT_THAT(errorOf(contents), HasSubstr("graphs: "));
 }
 
@@ -75,7 +76,8 @@ TEST(SceneCheck, RefusesASolidBallThatIsTooSmallOrElsewhere) {
   for (const uint32_t ball : {smaller, none, aside}) {
     AssetContents contents = valid;
     contents.chunks[0].solidBalls[cell] = ball;
-    EXPECT_THAT(errorOf(contents), HasSubstr("chunk 0: the solid ball of cell " + std::to_string(cell))) << std::hex << ball;
+    EXPECT_THAT(errorOf(contents), HasSubstr("chunk 0: the solid ball of cell " + std::to_string(cell)))
+        << std::hex << ball;
   }
 }
 

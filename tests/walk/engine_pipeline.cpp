@@ -136,7 +136,8 @@ void EnginePipeline::createRenderPass() {
   check(vkCreateFramebuffer(device, &frameInfo, nullptr, &framebuffer_), "vkCreateFramebuffer");
 }
 
-void EnginePipeline::createGraphicsPipeline(std::span<const uint32_t> vertexSpirv, std::span<const uint32_t> fragmentSpirv) {
+void EnginePipeline::createGraphicsPipeline(std::span<const uint32_t> vertexSpirv,
+                                            std::span<const uint32_t> fragmentSpirv) {
   const VkShaderModule vertex = createModule(vertexSpirv), fragment = createModule(fragmentSpirv);
   const VkPipelineShaderStageCreateInfo stages[] = {stageOf(VK_SHADER_STAGE_VERTEX_BIT, vertex),
                                                     stageOf(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};
@@ -183,8 +184,7 @@ void EnginePipeline::createGraphicsPipeline(std::span<const uint32_t> vertexSpir
 }
 
 void EnginePipeline::bind(VkCommandBuffer commands, VkDescriptorSet set, const void* constants) const {
-  const VkPipelineBindPoint point =
-      renderPass_ ? VK_PIPELINE_BIND_POINT_GRAPHICS : VK_PIPELINE_BIND_POINT_COMPUTE;
+  const VkPipelineBindPoint point = renderPass_ ? VK_PIPELINE_BIND_POINT_GRAPHICS : VK_PIPELINE_BIND_POINT_COMPUTE;
   vkCmdBindPipeline(commands, point, pipeline_);
   vkCmdBindDescriptorSets(commands, point, layout_, 0, 1, &set, 0, nullptr);
   vkCmdPushConstants(commands, layout_, stages_, 0, constantBytes_, constants);

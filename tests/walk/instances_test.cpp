@@ -47,10 +47,11 @@ class GpuInstances : public testing::Test {
     size_t apart = 0, stopped = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
       EXPECT_EQ(hits[i].status, 0u);
-      const bool isSame = std::isfinite(hits[i].distance) == std::isfinite(expected[i].distance) &&
-                          std::abs(hits[i].transmittance - expected[i].transmittance) < 1e-4 &&
-                          (!std::isfinite(hits[i].distance) ||
-                           (std::abs(hits[i].distance - expected[i].distance) < 1e-3 && hits[i].cell == expected[i].cell));
+      const bool isSame =
+          std::isfinite(hits[i].distance) == std::isfinite(expected[i].distance) &&
+          std::abs(hits[i].transmittance - expected[i].transmittance) < 1e-4 &&
+          (!std::isfinite(hits[i].distance) ||
+           (std::abs(hits[i].distance - expected[i].distance) < 1e-3 && hits[i].cell == expected[i].cell));
       apart += !isSame;
       stopped += std::isfinite(hits[i].distance);
     }
@@ -197,7 +198,8 @@ TEST_F(GpuInstances, EndARayAtTheLimitOfNeighboursWithAStatus) {
   EXPECT_LT(cut.neighbours, whole.neighbours / 2);
 }
 
-// The same cut-off as on the host, where it is compared with the reference: T of a cell later or earlier is another one.
+// The same cut-off as on the host, where it is compared with the reference: T of a cell later or earlier is another
+// one.
 TEST_F(GpuInstances, EndARayBehindTheCellThatFallsBelowTheCutoff) {
   stage_.place(asset_);
   const auto rays = raysThrough({-2, -2, 0}, {2, 2, 5});

@@ -42,8 +42,9 @@ Agreement compare(const std::vector<FrothGpuHit>& hits, const std::vector<FrothR
     const bool isSameCell = hits[i].cell == expected[i].cell && hits[i].chunk == expected[i].chunk;
     result.otherCells += isHit && isExpected && !isSameCell;
   }
-  std::printf("%zu rays, %zu hits: transmittance mean %.3g max %.3g; %zu apart, %zu stop in another cell\n", hits.size(),
-              result.hits, result.meanTransmittance, result.maxTransmittance, result.apart, result.otherCells);
+  std::printf("%zu rays, %zu hits: transmittance mean %.3g max %.3g; %zu apart, %zu stop in another cell\n",
+              hits.size(), result.hits, result.meanTransmittance, result.maxTransmittance, result.apart,
+              result.otherCells);
   return result;
 }
 
@@ -55,8 +56,8 @@ FrothCastInfo withoutCutoff() {
 
 void print(const FrothWalkStatus& status) {
   const auto per = [&](uint64_t count) { return static_cast<double>(count) / static_cast<double>(status.rays); };
-  std::printf("per ray: %.1f descents, %.1f cells, %.1f neighbours, %.1f cells met, %.1f detail sites\n", per(status.descents),
-              per(status.cells), per(status.neighbours), per(status.cellsMet), per(status.sites));
+  std::printf("per ray: %.1f descents, %.1f cells, %.1f neighbours, %.1f cells met, %.1f detail sites\n",
+              per(status.descents), per(status.cells), per(status.neighbours), per(status.cellsMet), per(status.sites));
 }
 
 class GpuRays : public testing::Test {
@@ -74,7 +75,8 @@ class GpuRays : public testing::Test {
     }
     WalkStage stage;
     stage.place(stage.open(contents));
-    stage.frame(walkInfo(), [](VkCommandBuffer, VkDescriptorSet) {});  // the asset is seen from the world's origin first
+    // the asset is seen from the world's origin first
+    stage.frame(walkInfo(), [](VkCommandBuffer, VkDescriptorSet) {});
     const std::vector<FrothGpuRay> rays = randomRays(low, high, count, 1);
     FrothWalkInfo info = walkInfo(shift);
     info.cutoff = -1;

@@ -44,8 +44,7 @@ Asked ask(const glm::vec3& origin, const glm::vec3& direction, float tMax = kNev
 
 class EngineShader : public testing::Test {
  protected:
-  EngineShader()
-      : contents_(bakeScene(makeRandomFoam(150, 4, 2, 5), "exact", 64)), asset_(stage_.open(contents_)) {
+  EngineShader() : contents_(bakeScene(makeRandomFoam(150, 4, 2, 5), "exact", 64)), asset_(stage_.open(contents_)) {
     instance_ = stage_.place(asset_);
   }
 
@@ -56,7 +55,8 @@ class EngineShader : public testing::Test {
                                                    askedSize + asked.size() * sizeof(Answer), "calls");
     EXPECT_TRUE(buffer) << buffer.error().message;
     std::memcpy(buffer->mapped, asked.data(), askedSize);
-    const CallConstants constants{buffer->address, buffer->address + askedSize, static_cast<uint32_t>(asked.size()), mode};
+    const CallConstants constants{buffer->address, buffer->address + askedSize, static_cast<uint32_t>(asked.size()),
+                                  mode};
     const EnginePipeline pipeline(stage_.context(), calls_comp_spirv, sizeof(constants));
     stage_.frame(info, [&](VkCommandBuffer commands, VkDescriptorSet set) {
       pipeline.bind(commands, set, &constants);
@@ -196,9 +196,8 @@ TEST_F(EngineShader, InTheFragmentStageDrawsThePictureOfTheRays) {
   }
   const VkExtent2D extent{view.width, view.height};
   const EnginePipeline pipeline(stage_.context(), mirror_vert_spirv, mirror_frag_spirv, sizeof(constants), extent);
-  stage_.frame(walkInfo(eyeOf(view)), [&](VkCommandBuffer commands, VkDescriptorSet set) {
-    pipeline.draw(commands, set, constants);
-  });
+  stage_.frame(walkInfo(eyeOf(view)),
+               [&](VkCommandBuffer commands, VkDescriptorSet set) { pipeline.draw(commands, set, constants); });
   const Result<std::vector<float>> texels = sharedHost().readImage(pipeline.picture());
   ASSERT_TRUE(texels) << texels.error().message;
   EXPECT_GE(psnr({view.width, view.height, 4, *texels}, expected), 90);

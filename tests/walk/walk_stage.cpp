@@ -51,7 +51,9 @@ std::vector<FrothGpuRay> cameraRays(const View& view) {
       const double local[3] = {(x + 0.5 - view.cx) / view.fx, (y + 0.5 - view.cy) / view.fy, 1};
       glm::dvec3 direction(0);
       for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) direction[row] += view.worldFromCamera[4 * row + column] * local[column];
+        for (int column = 0; column < 3; ++column) {
+          direction[row] += view.worldFromCamera[4 * row + column] * local[column];
+        }
       }
       rays.push_back(gpuRay(glm::vec3(0), glm::vec3(glm::normalize(direction))));
     }
@@ -78,7 +80,9 @@ WalkStage::WalkStage() {
 }
 
 WalkStage::~WalkStage() {
-  for (const FrothInstance instance : instances_) check(frothDestroyInstance(context_, instance), "frothDestroyInstance");
+  for (const FrothInstance instance : instances_) {
+    check(frothDestroyInstance(context_, instance), "frothDestroyInstance");
+  }
   for (const FrothAsset asset : assets_) check(frothCloseAsset(context_, asset), "frothCloseAsset");
   frame(walkInfo(), [](VkCommandBuffer, VkDescriptorSet) {});
   static size_t reported = 0;
@@ -182,7 +186,7 @@ Image WalkStage::rasterize(const View& view) {
   info.displayCoded = 0;
   info.colour = host.describe(*image);
   frame(walkInfo(), [&](VkCommandBuffer commandBuffer, VkDescriptorSet) {
-    check(frothRasterize(context_, handle, commandBuffer, &info), "frothRasterize");
+    check(frothRecordRaster(context_, handle, commandBuffer, &info), "frothRecordRaster");
   });
   const Result<std::vector<float>> texels = host.readImage(*image);
   host.destroyImage(*image);

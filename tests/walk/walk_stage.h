@@ -5,12 +5,12 @@
 #include <list>
 #include <vector>
 
+#include "base/image/image.h"
 #include "format/asset_contents.h"
 #include "froth/froth_query.h"
 #include "froth/froth_walk.h"
 #include "host/host.h"
 #include "reference/camera/camera.h"
-#include "reference/image/image.h"
 #include "runtime/device/device.h"
 
 namespace froth::test {
@@ -27,8 +27,8 @@ glm::dvec3 eyeOf(const View& view);
 // Premultiplied colour and opacity of hits, pixel by pixel.
 Image imageOf(const std::vector<FrothGpuHit>& hits, const View& view);
 
-// Assets and instances of the one context that these tests share: its pipelines take long to make. Any failing call, validation
-// message or index violation fails the test.
+// Assets and instances of the one context that these tests share: its pipelines take long to make. Any failing call,
+// validation message or index violation fails the test.
 class WalkStage {
  public:
   WalkStage();
@@ -47,7 +47,7 @@ class WalkStage {
   std::vector<FrothRayHit> castOnHost(const std::vector<FrothGpuRay>& rays, FrothCastInfo info,
                                       const glm::dvec3& eye = glm::dvec3(0)) const;
   Image rasterize(const View& view);  // premultiplied linear colour and opacity
-  FrothWalkStatus status();  // of the newest frame
+  FrothWalkStatus status();           // of the newest frame
 
   FrothContext* context() const { return context_; }
   Device& device() { return device_; }

@@ -17,7 +17,8 @@ StiffCase changed(const std::string& name, const std::string& what, const std::s
 
 StiffCase displaced() {
   return changed("appearance/displacement", "displacements of 3, -3 and 100 radii, also within one face",
-                 "Heights are blended where the ray meets the undisplaced face: the steeper they are, the more an error of that point "
+                 "Heights are blended where the ray meets the undisplaced face: the steeper they are, the more an "
+                 "error of that point "
                  "moves the displaced one.",
                  [](Foam& foam, size_t detail) {
                    const float heights[] = {3, -3, 0.1f, 100};
@@ -27,16 +28,19 @@ StiffCase displaced() {
 
 StiffCase inOnePoint() {
   return changed("appearance/one_point", "all detail sites of a face in one point",
-                 "All weights are equal: colour and height are plain means.", [](Foam& foam, size_t detail) { foam.detailSites[detail] = {0.25f, -0.125f}; });
+                 "All weights are equal: colour and height are plain means.", [](Foam& foam, size_t detail) {
+                   foam.detailSites[detail] = {0.25f, -0.125f};
+                 });
 }
 
 StiffCase underflowing() {
-  return changed("appearance/underflow", "detail sites 1.8 to 3 radii away: sums of weights around and below the floor of 1e-20",
-                 "Below the floor a colour fades as exp(-10 x^2), whose relative error is 20 x eps: small beside the colour.",
-                 [](Foam& foam, size_t detail) {
-                   const float away = 1.8f + 0.4f * static_cast<float>(detail / 4 % 4);
-                   foam.detailSites[detail] = {detail % 2 == 0 ? away : -away, detail % 4 < 2 ? away : -away};
-                 });
+  return changed(
+      "appearance/underflow", "detail sites 1.8 to 3 radii away: sums of weights around and below the floor of 1e-20",
+      "Below the floor a colour fades as exp(-10 x^2), whose relative error is 20 x eps: small beside the colour.",
+      [](Foam& foam, size_t detail) {
+        const float away = 1.8f + 0.4f * static_cast<float>(detail / 4 % 4);
+        foam.detailSites[detail] = {detail % 2 == 0 ? away : -away, detail % 4 < 2 ? away : -away};
+      });
 }
 
 StiffCase withTemperature(const std::string& name, float temperature, const std::string& analysis) {
@@ -47,7 +51,9 @@ StiffCase withTemperature(const std::string& name, float temperature, const std:
 
 StiffCase withColours(const std::string& name, const std::string& what, const std::string& analysis, float scale) {
   Foam foam = foamOfCells(cloud(32, 63));
-  for (size_t lobe = 0; lobe < foam.lobeColours.size(); ++lobe) foam.lobeColours[lobe] *= lobe / 16 % 2 == 0 ? scale : 1.0f;
+  for (size_t lobe = 0; lobe < foam.lobeColours.size(); ++lobe) {
+    foam.lobeColours[lobe] *= lobe / 16 % 2 == 0 ? scale : 1.0f;
+  }
   return {name, what, analysis, std::move(foam), outsideViews()};
 }
 
@@ -55,11 +61,14 @@ StiffCase withColours(const std::string& name, const std::string& what, const st
 
 std::vector<StiffCase> appearanceCases() {
   return {
-      displaced(), inOnePoint(), underflowing(),
+      displaced(),
+      inOnePoint(),
+      underflowing(),
       withTemperature("appearance/temperature_0", 0, "Lobes without an axis weigh the same from everywhere."),
       withTemperature("appearance/temperature_1e-6", 1e-6f, "Weights differ by 1e-6: nearly plain means."),
-      withTemperature("appearance/temperature_1e4", 1e4f,
-                      "One lobe wins within 1e-4 of a border, where its share turns with 1e4 times the error of the direction."),
+      withTemperature(
+          "appearance/temperature_1e4", 1e4f,
+          "One lobe wins within 1e-4 of a border, where its share turns with 1e4 times the error of the direction."),
       withColours("appearance/bright", "colours up to 50,000", "Errors are relative to the colour.", 1e5f),
       withColours("appearance/beyond_half", "colours up to 5e6, beyond half precision",
                   "A detail site's colour ends at 65504, the largest half, in all renderers.", 1e7f)};

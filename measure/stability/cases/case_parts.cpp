@@ -27,7 +27,8 @@ void addFace(const CaseCell& cell, uint32_t details, uint32_t lobes, Foam& foam)
   }
 }
 
-View viewAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up, uint32_t width, uint32_t height) {
+View viewAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up, uint32_t width,
+               uint32_t height) {
   const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
   const glm::dvec3 down = glm::cross(forward, right);
   View view;
@@ -67,7 +68,8 @@ std::vector<CaseCell> cloud(uint32_t count, uint64_t seed, float step) {
       frames(seed, Purpose::kFrame);
   std::vector<CaseCell> cells;
   for (uint32_t i = 0; i < count; ++i) {
-    const glm::vec3 place(sites.uniform(3 * i, -1, 1), sites.uniform(3 * i + 1, -1, 1), sites.uniform(3 * i + 2, -1, 1));
+    const glm::vec3 place(sites.uniform(3 * i, -1, 1), sites.uniform(3 * i + 1, -1, 1),
+                          sites.uniform(3 * i + 2, -1, 1));
     const glm::dvec3 axis = frames.direction(i);
     const double half = frames.uniform(3 * count + i, 0, glm::pi<double>());
     CaseCell cell;
@@ -132,7 +134,7 @@ std::vector<View> outsideViews(double distance) {
 std::vector<StiffCase> builtInCases() {
   std::vector<StiffCase> all;
   for (auto* family : {siteCases, placeCases, sizeCases, densityCases, faceCases, eyeCases, appearanceCases, viewCases,
-                       severalCases, depthCases, layerCases, inputCases}) {
+                       instanceCases, depthCases, layerCases, inputCases}) {
     std::vector<StiffCase> cases = family();
     all.insert(all.end(), std::make_move_iterator(cases.begin()), std::make_move_iterator(cases.end()));
   }

@@ -31,7 +31,8 @@ struct CaseCell {
 
 Foam foamOfCells(const std::vector<CaseCell>& cells, uint32_t details = kCaseDetails, uint32_t lobes = kCaseLobes);
 
-// Overlapping cells in the cube -1..1, with faces of any direction, some without density. Sites are multiples of `step`.
+// Overlapping cells in the cube -1..1, with faces of any direction, some without density. Sites are multiples of
+// `step`.
 std::vector<CaseCell> cloud(uint32_t count, uint64_t seed, float step = 1.0f / 1024);
 
 // A grid of cubes with edges of one half: balls of one radius, `first` is the lowest site.
@@ -61,7 +62,7 @@ std::vector<StiffCase> faceCases();        // face_cases.cpp
 std::vector<StiffCase> eyeCases();         // eye_cases.cpp
 std::vector<StiffCase> appearanceCases();  // appearance_cases.cpp
 std::vector<StiffCase> viewCases();        // view_cases.cpp
-std::vector<StiffCase> severalCases();     // several_cases.cpp
+std::vector<StiffCase> instanceCases();    // instance_cases.cpp
 std::vector<StiffCase> depthCases();       // depth_cases.cpp
 std::vector<StiffCase> layerCases();       // layer_cases.cpp
 std::vector<StiffCase> inputCases();       // input_cases.cpp

@@ -50,7 +50,8 @@ StiffCase savedFarAway(const Foam& foam, const std::vector<View>& views, double 
   StiffCase moved;
   moved.name = fmt::format("foam/saved_{:.0e}_away", distance);
   moved.what = fmt::format("sites saved as floats {:g} units from the origin", distance);
-  moved.analysis = "rounding moves the sites before anything is drawn; what is left of the foam is drawn as well as at the origin";
+  moved.analysis =
+      "rounding moves the sites before anything is drawn; what is left of the foam is drawn as well as at the origin";
   moved.foam = foam;
   moved.views = views;
   for (glm::vec3& site : moved.foam.sites) site = glm::dvec3(site) + distance;
@@ -108,7 +109,8 @@ std::vector<LocalPlane> planesOf(const Foam& foam, const CellGraph& pairs, uint3
   for (const uint32_t other : neighboursOf(pairs, cell)) {
     const glm::dvec3 toNeighbour = glm::dvec3(foam.sites[other]) - glm::dvec3(foam.sites[cell]);
     if (toNeighbour == glm::dvec3(0)) continue;
-    planes.push_back({toNeighbour, foam::radicalOffset(toNeighbour, double{foam.radii[cell]}, double{foam.radii[other]})});
+    planes.push_back(
+        {toNeighbour, foam::radicalOffset(toNeighbour, double{foam.radii[cell]}, double{foam.radii[other]})});
   }
   std::stable_sort(planes.begin(), planes.end(),
                    [](const LocalPlane& a, const LocalPlane& b) { return a.distance() < b.distance(); });
@@ -128,7 +130,8 @@ std::optional<glm::dvec3> findVertex(const std::vector<LocalPlane>& planes, doub
   for (size_t k = 2; k < most; ++k) {
     for (size_t j = 1; j < k; ++j) {
       for (size_t i = 0; i < j; ++i) {
-        const glm::dmat3 rows = glm::transpose(glm::dmat3(planes[i].toNeighbour, planes[j].toNeighbour, planes[k].toNeighbour));
+        const glm::dmat3 rows =
+            glm::transpose(glm::dmat3(planes[i].toNeighbour, planes[j].toNeighbour, planes[k].toNeighbour));
         if (glm::determinant(rows) == 0) continue;
         const glm::dvec3 point = glm::inverse(rows) * glm::dvec3(planes[i].offset, planes[j].offset, planes[k].offset);
         if (isOfCell(point, i, j, k)) return point;

@@ -35,16 +35,20 @@ const Tensor kTensors[] = {
     {"quaternions", [](Foam& foam, uint32_t cell) { return &foam.orientations[cell].z; }},
     {"texel_sites", [](Foam& foam, uint32_t cell) { return &foam.detailSites[cell * kCaseDetails + 1].y; }},
     {"texel_height", [](Foam& foam, uint32_t cell) { return &foam.detailHeights[cell * kCaseDetails + 2]; }},
-    {"texel_sv_axis", [](Foam& foam, uint32_t cell) { return &foam.lobeAxes[(cell * kCaseDetails + 1) * kCaseLobes].x; }},
-    {"texel_sv_rgb", [](Foam& foam, uint32_t cell) { return &foam.lobeColours[(cell * kCaseDetails + 3) * kCaseLobes].z; }},
+    {"texel_sv_axis",
+     [](Foam& foam, uint32_t cell) { return &foam.lobeAxes[(cell * kCaseDetails + 1) * kCaseLobes].x; }},
+    {"texel_sv_rgb",
+     [](Foam& foam, uint32_t cell) { return &foam.lobeColours[(cell * kCaseDetails + 3) * kCaseLobes].z; }},
 };
 
 StiffCase withValue(const Tensor& tensor, const std::string& kind, float value) {
   Foam foam = foamOfCells(cloud(32, 82));
   *tensor.of(foam, kDamaged) = value;
-  StiffCase stiff = imported(fmt::format("input/{}_{}", tensor.name, kind), fmt::format("{} in tensor '{}'", kind, tensor.name),
-                             "It never comes to an image: the importer names tensor and cell.", std::move(foam));
-  const std::string found = std::string(tensor.name) == "quaternions" && kind != "denormal" ? "the quaternion of cell 5" : "cell 5";
+  StiffCase stiff =
+      imported(fmt::format("input/{}_{}", tensor.name, kind), fmt::format("{} in tensor '{}'", kind, tensor.name),
+               "It never comes to an image: the importer names tensor and cell.", std::move(foam));
+  const std::string found =
+      std::string(tensor.name) == "quaternions" && kind != "denormal" ? "the quaternion of cell 5" : "cell 5";
   stiff.refusal = fmt::format("tensor '{}': {} ", tensor.name, found);
   return stiff;
 }
@@ -53,7 +57,8 @@ StiffCase withValue(const Tensor& tensor, const std::string& kind, float value) 
 
 std::vector<StiffCase> inputCases() {
   std::vector<StiffCase> cases = {
-      withQuaternions("input/quaternion_0", "a fifth of the quaternions are 0", 0, "No direction follows from it; the importer says which cell."),
+      withQuaternions("input/quaternion_0", "a fifth of the quaternions are 0", 0,
+                      "No direction follows from it; the importer says which cell."),
       withQuaternions("input/quaternion_1e-20", "a fifth of the quaternions have the length 1e-20", 1e-20f,
                       "The importer normalises in double, where the square of 1e-20 is a number like any other.")};
   cases.front().refusal = "tensor 'quaternions': the quaternion of cell 5 has length 0";

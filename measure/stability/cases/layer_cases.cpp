@@ -5,7 +5,8 @@ namespace froth {
 namespace {
 
 StiffCase ofLayers(const std::string& name, const std::string& what, uint32_t layers, const Foam& foam) {
-  StiffCase stiff{name, what, "The image is that of the foam which these layers hold, and no harder.", foam, outsideViews()};
+  StiffCase stiff{name, what, "The image is that of the foam which these layers hold, and no harder.", foam,
+                  outsideViews()};
   stiff.views.push_back(orthographicView({0, 0, 0}, {0.3, 0.2, 1}, 1.2));
   stiff.layers = layers;
   return stiff;
@@ -23,11 +24,12 @@ Foam deepAndBright() {
 
 std::vector<StiffCase> layerCases() {
   const Foam foam = foamOfCells(cloud(40, 95));
-  std::vector<StiffCase> cases = {ofLayers("layers/one_colour", "one colour and height per cell", 1, foam),
-                                  ofLayers("layers/no_view_dependence", "detail sites without lobes", 2, foam),
-                                  ofLayers("layers/one_colour_bright", "one colour of cells that are deeply dented and beyond white", 1,
-                                           deepAndBright()),
-                                  ofLayers("layers/no_view_dependence_bright", "detail sites of the same", 2, deepAndBright())};
+  std::vector<StiffCase> cases = {
+      ofLayers("layers/one_colour", "one colour and height per cell", 1, foam),
+      ofLayers("layers/no_view_dependence", "detail sites without lobes", 2, foam),
+      ofLayers("layers/one_colour_bright", "one colour of cells that are deeply dented and beyond white", 1,
+               deepAndBright()),
+      ofLayers("layers/no_view_dependence_bright", "detail sites of the same", 2, deepAndBright())};
   for (StiffCase& stiff : cases) stiff.chunkCells = 16;  // layers are stored chunk by chunk
   return cases;
 }

@@ -59,13 +59,20 @@ enum class Places { kCube, kLattice, kAlmostLattice, kPlane, kLine, kSphere, kCl
 glm::dvec3 drawPlace(Dice& dice, Places places) {
   const auto onLattice = [&] { return glm::floor(dice.inCube(3)) * 0.25; };
   switch (places) {
-    case Places::kLattice: return onLattice();
-    case Places::kAlmostLattice: return onLattice() + dice.inCube(1) * dice.pick({1e-6, 1e-9, 0.0});
-    case Places::kPlane: return {dice.uniform(-0.7, 0.7), dice.uniform(-0.7, 0.7), 0.25};
-    case Places::kLine: return glm::dvec3(1, 2, -1) * (std::floor(dice.uniform(-16, 16)) / 32);
-    case Places::kSphere: return dice.direction() * 0.5;
-    case Places::kCluster: return dice.direction() * dice.logUniform(1e-6, 1);
-    case Places::kCube: break;
+    case Places::kLattice:
+      return onLattice();
+    case Places::kAlmostLattice:
+      return onLattice() + dice.inCube(1) * dice.pick({1e-6, 1e-9, 0.0});
+    case Places::kPlane:
+      return {dice.uniform(-0.7, 0.7), dice.uniform(-0.7, 0.7), 0.25};
+    case Places::kLine:
+      return glm::dvec3(1, 2, -1) * (std::floor(dice.uniform(-16, 16)) / 32);
+    case Places::kSphere:
+      return dice.direction() * 0.5;
+    case Places::kCluster:
+      return dice.direction() * dice.logUniform(1e-6, 1);
+    case Places::kCube:
+      break;
   }
   return dice.inCube(0.7);
 }
@@ -76,7 +83,8 @@ void drawSites(Dice& dice, Foam& foam, double unit) {
   const glm::dvec3 origin = dice.pick({0.0, 0.0, 0.0, 0.0, 1e2, 1e5}) * dice.direction();
   for (uint32_t i = 0; i < foam.cellCount; ++i) {
     const bool isDuplicate = i > 0 && dice.chance(duplicates);
-    foam.sites.push_back(isDuplicate ? foam.sites[dice.below(i)] : glm::vec3(unit * (origin + drawPlace(dice, places))));
+    foam.sites.push_back(isDuplicate ? foam.sites[dice.below(i)]
+                                     : glm::vec3(unit * (origin + drawPlace(dice, places))));
   }
 }
 
@@ -146,8 +154,8 @@ constexpr std::array<uint32_t, 2> kShapes[] = {{1, 1}, {4, 2}, {4, 2}, {8, 8}};
 
 // One number of one array far outside of what the others are, where its square is a float yet.
 void spoil(Dice& dice, Foam& foam) {
-  const std::span<float> arrays[] = {floatsOf(foam.sites),         floatsOf(foam.radii),    floatsOf(foam.densities),
-                                     floatsOf(foam.detailSites),   floatsOf(foam.detailHeights), floatsOf(foam.lobeAxes),
+  const std::span<float> arrays[] = {floatsOf(foam.sites),       floatsOf(foam.radii),         floatsOf(foam.densities),
+                                     floatsOf(foam.detailSites), floatsOf(foam.detailHeights), floatsOf(foam.lobeAxes),
                                      floatsOf(foam.lobeColours)};
   const std::span<float> numbers = dice.pick(arrays);
   float& number = numbers[dice.below(numbers.size())];
@@ -187,14 +195,22 @@ glm::dvec3 drawEye(Dice& dice, const Foam& foam, double unit) {
   const double radius = foam.radii[cell];
   const FaceFrame<double> frame = faceFrame<double>(foam.orientations[cell]);
   switch (dice.below(8)) {
-    case 0: return site;
-    case 1: return site + radius * dice.axis();
-    case 2: return site + radius * dice.direction();
-    case 3: return betweenCells(foam, cell, other);
-    case 4: return site + radius * (dice.uniform(-2, 2) * frame.tangent + dice.uniform(-2, 2) * frame.bitangent);
-    case 5: return site + unit * dice.logUniform(1, 1e4) * dice.direction();
-    case 6: return site + unit * std::floor(dice.uniform(1, 5)) * dice.axis();
-    default: return site + unit * dice.uniform(0.5, 3) * dice.direction();
+    case 0:
+      return site;
+    case 1:
+      return site + radius * dice.axis();
+    case 2:
+      return site + radius * dice.direction();
+    case 3:
+      return betweenCells(foam, cell, other);
+    case 4:
+      return site + radius * (dice.uniform(-2, 2) * frame.tangent + dice.uniform(-2, 2) * frame.bitangent);
+    case 5:
+      return site + unit * dice.logUniform(1, 1e4) * dice.direction();
+    case 6:
+      return site + unit * std::floor(dice.uniform(1, 5)) * dice.axis();
+    default:
+      return site + unit * dice.uniform(0.5, 3) * dice.direction();
   }
 }
 
@@ -256,7 +272,9 @@ CasePlace drawPlace(Dice& dice, Arrangement arrangement, const glm::dvec3& pivot
   place.rotation = drawTurn(dice);
   glm::dvec3 shift = unit * dice.inCube(0.7);
   if (arrangement == Arrangement::kBeside) shift = unit * 0.25 * std::floor(dice.uniform(0, 5)) * dice.axis();
-  if (arrangement == Arrangement::kAcross) place.scale = static_cast<float>(dice.pick({1.0, 0.5, dice.uniform(0.5, 2)}));
+  if (arrangement == Arrangement::kAcross) {
+    place.scale = static_cast<float>(dice.pick({1.0, 0.5, dice.uniform(0.5, 2)}));
+  }
   if (arrangement == Arrangement::kOfAnySize) place.scale = static_cast<float>(dice.logUniform(1e-3, 1e3));
   place.position = pivot + shift - glm::normalize(glm::dquat(place.rotation)) * (double{place.scale} * pivot);
   return place;
@@ -300,7 +318,8 @@ Image drawEndsOf(Dice& dice, const Foam& foam, const View& view, double unit) {
   Image ends{view.width, view.height, 1, {}};
   for (uint32_t y = 0; y < view.height; ++y) {
     for (uint32_t x = 0; x < view.width; ++x) {
-      const double smooth = size * (1 + across * (x / double(view.width) - 0.5) + down * (y / double(view.height) - 0.5));
+      const double smooth =
+          size * (1 + across * (x / double(view.width) - 0.5) + down * (y / double(view.height) - 0.5));
       const double end = kind == Ends::kSmooth    ? smooth
                          : kind == Ends::kAny     ? drawAnyEnd(dice, size)
                          : kind == Ends::kOnBalls ? drawEndOnBall(dice, foam, view, rays.ofPixel(x, y))
@@ -311,7 +330,8 @@ Image drawEndsOf(Dice& dice, const Foam& foam, const View& view, double unit) {
   return ends;
 }
 
-// Each in few cases, so that most have none of them. Drawn last: a seed's foam and views are what they were before there were parts.
+// Each in few cases, so that most have none of them. Drawn last: a seed's foam and views are what they were before
+// there were parts.
 void drawParts(Dice& dice, double unit, StiffCase& drawn) {
   if (dice.chance(0.15)) drawPlaces(dice, unit, drawn);
   if (dice.chance(0.15)) {

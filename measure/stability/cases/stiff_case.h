@@ -7,10 +7,10 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "base/image/image.h"
 #include "base/result.h"
 #include "foam/foam.h"
 #include "reference/camera/camera.h"
-#include "reference/image/image.h"
 
 namespace froth {
 
@@ -41,23 +41,27 @@ struct StiffCase {
   std::string analysis;  // one or two sentences: what conditions the image, and so what the bound grows with
   Foam foam;
   std::vector<View> views;  // small; with near limits of their own (0: off)
-  glm::dvec3 moved{0};      // [scene units] where a renderer of assets places the foam, and moves the eyes to; the image is that of 0
-  uint32_t chunkCells = 0;  // most cells of a chunk of its bakes; 0: as always
+  // [scene units] where a renderer of assets places the foam, and moves the eyes to; the image is that of 0
+  glm::dvec3 moved{0};
+  uint32_t chunkCells = 0;          // most cells of a chunk of its bakes; 0: as always
   std::vector<CasePlace> places{};  // of instances, of which there are as many; empty: one, as it is
-  std::vector<Image> ends{};  // [views] 1 channel, of the views' sizes: where each ray ends [scene units]; empty: nowhere
-  glm::vec2 jitter{0};        // [pixels] of devices' images, whose lenses are moved against it: the image stays as it is
+  // [views] 1 channel, of the views' sizes: where each ray ends [scene units]; empty: nowhere
+  std::vector<Image> ends{};
+  // [pixels] of devices' images, whose lenses are moved against it: the image stays as it is
+  glm::vec2 jitter{0};
   uint32_t layers = kAllLayersOfCase;  // of the bakes that are loaded; the image is that of the foam which these hold
-  bool isImported = false;  // the foam is written as a checkpoint and read back first, as a trained one is
-  std::string refusal{};    // part of the message with which it must be refused; empty: it must not
-  std::vector<KnownFault> known{};  // how it falls short of its bound, if it is known to; empty: it must not
+  bool isImported = false;             // the foam is written as a checkpoint and read back first, as a trained one is
+  std::string refusal{};               // part of the message with which it must be refused; empty: it must not
+  std::vector<KnownFault> known{};     // how it falls short of its bound, if it is known to; empty: it must not
 };
 
 // All built-in cases, in the order of the table. The same on every call and machine.
 std::vector<StiffCase> builtInCases();
 
-// The cases that transform a user's foam: placed, and saved in float, 10^3, 10^6 and 10^9 units away; in units of 1e-6 and 1e6;
-// with the eye on a site, sphere, radical plane and vertex (if it has one) of the cell in the middle of the first view. `views` are
-// some of the user's own, drawn at most 160 pixels wide; without limits of their own their near tests are those of published models.
+// The cases that transform a user's foam: placed, and saved in float, 10^3, 10^6 and 10^9 units away; in units of 1e-6
+// and 1e6; with the eye on a site, sphere, radical plane and vertex (if it has one) of the cell in the middle of the
+// first view. `views` are some of the user's own, drawn at most 160 pixels wide; without limits of their own their near
+// tests are those of published models.
 std::vector<StiffCase> casesOfFoam(const Foam& foam, const std::vector<View>& views);
 
 }  // namespace froth

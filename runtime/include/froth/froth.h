@@ -4,16 +4,18 @@
  * Does:   records compute work into the caller's command buffers; writes the caller's images.
  * Never:  submits, waits for the GPU in a frame call, owns a queue, creates a window, prints, aborts, keeps globals.
  *
- * A frame:  frothUpdate -> frothRecordUpload(cmd) -> frothRasterize(cmd) or frothWalk(cmd) per view -> the caller submits.
+ * A frame:  frothUpdate -> frothRecordUpload(cmd) -> frothRecordRaster(cmd) or frothRecordWalk(cmd) per view -> the
+ * caller submits.
  *
  * Conventions:
  *   Matrices are column-major, for column vectors. A name says target from source (clipFromView).
  *   Froth derives clip-space conventions (depth direction, viewport sign, off-centre lenses) from the caller's matrix.
- *   Info and status structs begin with structSize = sizeof(the struct). Zero is the default of every field. Booleans are uint32_t.
+ *   Info and status structs begin with structSize = sizeof(the struct). Zero is the default of every field. Booleans
+ * are uint32_t.
  *
  * Threads:
  *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName.
- *   at once on different views:   frothRasterize, frothWalk, frothComposite, frothRecordDepthExport (*).
+ *   at once on different views:   frothRecordRaster, frothRecordWalk, frothRecordComposite, frothRecordDepthExport (*).
  *   at once on anything:          frothCastRays, frothLocate, frothOverlapSphere (*).
  *   one at a time per context:    all others.
  *   (*) while no call of the last row runs.
@@ -34,9 +36,15 @@ extern "C" {
 #endif
 
 /* A handle is an index and a generation. {0, 0} is null; a call that fails returns it. */
-typedef struct FrothAsset { uint32_t index, generation; } FrothAsset;
-typedef struct FrothInstance { uint32_t index, generation; } FrothInstance;
-typedef struct FrothView { uint32_t index, generation; } FrothView;
+typedef struct FrothAsset {
+  uint32_t index, generation;
+} FrothAsset;
+typedef struct FrothInstance {
+  uint32_t index, generation;
+} FrothInstance;
+typedef struct FrothView {
+  uint32_t index, generation;
+} FrothView;
 
 /* One part of the GPU memory of an object. */
 typedef struct FrothMemory {
@@ -46,7 +54,8 @@ typedef struct FrothMemory {
 
 /* ---- Assets ---- */
 
-/* OPENING: loading. READY: all uploads are recorded; the same frame can draw it. FAILED: see FrothAssetStatus::error. */
+/* OPENING: loading. READY: all uploads are recorded; the same frame can draw it. FAILED: see
+ * FrothAssetStatus::error. */
 typedef enum FrothAssetState {
   FROTH_ASSET_OPENING = 0,
   FROTH_ASSET_READY = 1,
@@ -59,8 +68,9 @@ typedef struct FrothAssetInfo {
   const char* path; /* a .froth file; the string is copied. Null: load from `data` */
   const void* data; /* bytes of an asset; valid until the asset is READY, FAILED or closed; longer with bytesStay */
   uint64_t dataSize;
-  uint32_t layers;  /* number of layers to load. 1: one colour per cell; 2: detail without view dependence; 3 or 0: all.
-                       Any number gives a complete scene */
+  /* number of layers to load. 1: one colour per cell; 2: detail without view dependence; 3 or 0: all. Any number gives
+   * a complete scene */
+  uint32_t layers;
   uint32_t bytesStay; /* 1: `data` stays valid until the asset is closed; frothRestoreDevice can then load it again */
   uint32_t keepForQueries; /* 1: keeps in host memory what frothCastRays, frothLocate and frothOverlapSphere need */
 } FrothAssetInfo;
@@ -73,28 +83,30 @@ typedef struct FrothStoredCamera {
 typedef struct FrothAssetStatus {
   uint32_t structSize;
   FrothAssetState state;
-  FrothResult error;        /* why a FAILED asset failed */
-  uint32_t cellCount;       /* cells in the asset */
-  uint32_t liveCount;       /* cells that can be seen */
+  FrothResult error;  /* why a FAILED asset failed */
+  uint32_t cellCount; /* cells in the asset */
+  uint32_t liveCount; /* cells that can be seen */
   uint32_t detailCount, lobeCount, chunkCount;
-  uint32_t cellBits;        /* splits a cell code (FrothRenderInfo::id): chunk = (uint64_t)code >> cellBits; the lower bits: cell */
+  /* splits a cell code (FrothRenderInfo::id): chunk = (uint64_t)code >> cellBits; the lower bits: cell */
+  uint32_t cellBits;
   uint32_t hasWalkGraph;
-  float nearRatio, nearDepth; /* the asset's defaults; FROTH_NEAR_DEFAULT */
+  float nearRatio, nearDepth;       /* the asset's defaults; FROTH_NEAR_DEFAULT */
   float boundsMin[3], boundsMax[3]; /* box of the balls of live cells [scene units] */
-  uint64_t deviceBytes;     /* resident on the GPU */
+  uint64_t deviceBytes;             /* resident on the GPU */
   uint32_t hasStartView;
   FrothStoredCamera startView;
   uint32_t flightPathCount; /* number of key frames; frothGetFlightPath */
   uint32_t memoryCount;
-  FrothMemory memory[16];   /* [memoryCount] deviceBytes by array, summed over chunks */
-  uint64_t hostBytes;       /* host memory kept for queries */
+  FrothMemory memory[16]; /* [memoryCount] deviceBytes by array, summed over chunks */
+  uint64_t hostBytes;     /* host memory kept for queries */
 } FrothAssetStatus;
 
-/* Returns at once: FROTH_OK, and the asset is OPENING. The following frothUpdate / frothRecordUpload calls load it. A bad file
- * makes it FAILED and sends one message; frames go on. */
+/* Returns at once: FROTH_OK, and the asset is OPENING. The following frothUpdate / frothRecordUpload calls load it. A
+ * bad file makes it FAILED and sends one message; frames go on. */
 FROTH_API FrothResult frothOpenAsset(FrothContext* context, const FrothAssetInfo* info, FrothAsset* asset);
 FROTH_API FrothResult frothGetAssetStatus(FrothContext* context, FrothAsset asset, FrothAssetStatus* status);
-/* Copies at most `capacity` key frames. *count receives the number that the asset has. capacity 0: cameras may be null. */
+/* Copies at most `capacity` key frames. *count receives the number that the asset has. capacity 0: cameras may be
+ * null. */
 FROTH_API FrothResult frothGetFlightPath(FrothContext* context, FrothAsset asset, uint32_t capacity,
                                          FrothStoredCamera* cameras, uint32_t* count);
 /* Destroy its instances first. Returns at once; the memory is freed when the last frame that uses it is complete. */
@@ -102,10 +114,10 @@ FROTH_API FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset);
 
 /* ---- Instances ---- */
 
-/* An asset placed in the world. Froth reads these fields when a view is drawn. A view shows up to 14 instances. Where instances
- * overlap, their densities add, and each colour counts by its share of the density. The first frothUpdate with a second instance
- * makes pipelines for it. The motion image leads from where an instance is drawn to where it stood in the newest frame before; a
- * new instance has no motion of its own. */
+/* An asset placed in the world. Froth reads these fields when a view is drawn. A view shows up to 14 instances. Where
+ * instances overlap, their densities add, and each colour counts by its share of the density. The first frothUpdate
+ * with a second instance makes pipelines for it. The motion image leads from where an instance is drawn to where it
+ * stood in the newest frame before; a new instance has no motion of its own. */
 typedef struct FrothInstanceInfo {
   uint32_t structSize;
   FrothAsset asset;
@@ -118,7 +130,8 @@ typedef struct FrothInstanceInfo {
   uint32_t hasJumped; /* frothSetInstance: 1: it jumped here; leave this movement out of the motion image */
 } FrothInstanceInfo;
 
-FROTH_API FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info, FrothInstance* instance);
+FROTH_API FrothResult frothCreateInstance(FrothContext* context, const FrothInstanceInfo* info,
+                                          FrothInstance* instance);
 FROTH_API FrothResult frothSetInstance(FrothContext* context, FrothInstance instance, const FrothInstanceInfo* info);
 FROTH_API FrothResult frothDestroyInstance(FrothContext* context, FrothInstance instance);
 
@@ -126,29 +139,32 @@ FROTH_API FrothResult frothDestroyInstance(FrothContext* context, FrothInstance 
 
 typedef struct FrothViewInfo {
   uint32_t structSize;
-  VkExtent2D maxExtent;     /* [<= 16384 x 16384] largest area that a camera draws; smaller areas allocate nothing */
-  uint32_t measurePasses;   /* 1: timestamps by pass, read back later without waiting */
-  uint32_t lensClasses;     /* FrothLensClass bits that its cameras may use; the context must have them. 0: pinholes only.
-                               MAPPED costs 16 bytes per pixel of maxExtent */
-  uint32_t keepsHits;       /* 1: its cameras may use id and motion; costs 12 bytes per pixel of maxExtent */
-  uint32_t eyeCount;        /* 1 or 2; 0: 1. Two eyes are drawn one after the other and use the same memory */
+  VkExtent2D maxExtent;   /* [<= 16384 x 16384] largest area that a camera draws; smaller areas allocate nothing */
+  uint32_t measurePasses; /* 1: timestamps by pass, read back later without waiting */
+  /* FrothLensClass bits that its cameras may use; the context must have them. 0: pinholes only. MAPPED costs 16 bytes
+   * per pixel of maxExtent */
+  uint32_t lensClasses;
+  uint32_t keepsHits; /* 1: its cameras may use id and motion; costs 12 bytes per pixel of maxExtent */
+  uint32_t eyeCount;  /* 1 or 2; 0: 1. Two eyes are drawn one after the other and use the same memory */
 } FrothViewInfo;
 
 FROTH_API FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view);
 /* Returns at once; the memory is freed when the last frame that uses it is complete. */
 FROTH_API FrothResult frothDestroyView(FrothContext* context, FrothView view);
 
-/* Limits that a frame reached. The image is valid and incomplete. OVERFLOW bits: the next frothUpdate grows the buffer. LIMIT bits:
- * the caller raises the limit. */
+/* Limits that a frame reached. The image is valid and incomplete. OVERFLOW bits: the next frothUpdate grows the buffer.
+ * LIMIT bits: the caller raises the limit. */
 typedef enum FrothViewBit {
-  FROTH_VIEW_PAIR_OVERFLOW = 1,  /* more (tile, cell) pairs than space; the farthest cells are missing */
-  FROTH_VIEW_STEP_LIMIT = 2,     /* FrothRenderInfo::maxSteps or maxNeighbours ended walks */
-  FROTH_VIEW_NO_WALK_GRAPH = 4,  /* an asset was baked without a walk graph */
-  FROTH_VIEW_NOT_READY = 8,      /* an instance was left out: its asset is OPENING or FAILED; or it, or the view, was created after
-                                    frothUpdate; or the view's buffers did not fit the budget (a message says so) */
-  FROTH_VIEW_CELL_OVERFLOW = 16, /* more visible cells, or planes of them, than space; the last cells of the asset are missing */
+  FROTH_VIEW_PAIR_OVERFLOW = 1, /* more (tile, cell) pairs than space; the farthest cells are missing */
+  FROTH_VIEW_STEP_LIMIT = 2,    /* FrothRenderInfo::maxSteps or maxNeighbours ended walks */
+  FROTH_VIEW_NO_WALK_GRAPH = 4, /* an asset was baked without a walk graph */
+  /* an instance was left out: its asset is OPENING or FAILED; or it, or the view, was created after frothUpdate; or the
+   * view's buffers did not fit the budget (a message says so) */
+  FROTH_VIEW_NOT_READY = 8,
+  /* more visible cells, or planes of them, than space; the last cells of the asset are missing */
+  FROTH_VIEW_CELL_OVERFLOW = 16,
   FROTH_VIEW_INSTANCE_LIMIT = 32, /* more READY instances than a view shows; those with the highest index are missing */
-  FROTH_VIEW_ENTRY_LIMIT = 64,   /* FrothRenderInfo::maxEntries cut lists of tiles; their farthest cells are missing */
+  FROTH_VIEW_ENTRY_LIMIT = 64,    /* FrothRenderInfo::maxEntries cut lists of tiles; their farthest cells are missing */
   FROTH_VIEW_BIT_MAX = 0x7fffffff
 } FrothViewBit;
 
@@ -172,18 +188,18 @@ typedef struct FrothWork {
 /* Status of the newest complete frame (FrothFrame::completedSerial). */
 typedef struct FrothViewStatus {
   uint32_t structSize;
-  uint64_t serial; /* of that frame; 0: none yet */
-  uint32_t bits;   /* FrothViewBit */
-  uint32_t visibleCells;     /* cells in view, including those without space in the buffers */
-  uint64_t pairs;            /* (tile, cell) pairs */
-  uint32_t indexViolations;  /* needs FrothContextInfo::checkIndices; must be 0 */
+  uint64_t serial;          /* of that frame; 0: none yet */
+  uint32_t bits;            /* FrothViewBit */
+  uint32_t visibleCells;    /* cells in view, including those without space in the buffers */
+  uint64_t pairs;           /* (tile, cell) pairs */
+  uint32_t indexViolations; /* needs FrothContextInfo::checkIndices; must be 0 */
   uint32_t passCount;
-  FrothPassTime passes[32];  /* [passCount] needs FrothViewInfo::measurePasses */
-  uint64_t deviceBytes;      /* device memory of the view */
+  FrothPassTime passes[32]; /* [passCount] needs FrothViewInfo::measurePasses */
+  uint64_t deviceBytes;     /* device memory of the view */
   FrothWork work;
   uint32_t memoryCount;
-  FrothMemory memory[16];    /* [memoryCount] deviceBytes by purpose */
-  uint32_t longestList;      /* raster: entries of the longest list of a tile, as if maxEntries were unlimited */
+  FrothMemory memory[16]; /* [memoryCount] deviceBytes by purpose */
+  uint32_t longestList;   /* raster: entries of the longest list of a tile, as if maxEntries were unlimited */
 } FrothViewStatus;
 
 FROTH_API FrothResult frothGetViewStatus(FrothContext* context, FrothView view, FrothViewStatus* status);
@@ -199,27 +215,28 @@ typedef struct FrothFrame {
 
 typedef struct FrothFrameStatus {
   uint32_t structSize;
-  uint32_t assetsOpening;    /* 0: nothing is being loaded */
+  uint32_t assetsOpening; /* 0: nothing is being loaded */
   uint64_t uploadBytesQueued;
-  uint64_t deviceBytes;      /* all device memory held by the context */
-  uint64_t hostBytes;        /* staging and read-back */
-  uint64_t excessBytes;      /* the part of deviceBytes that exceeds a lowered budget */
+  uint64_t deviceBytes; /* all device memory held by the context */
+  uint64_t hostBytes;   /* staging and read-back */
+  uint64_t excessBytes; /* the part of deviceBytes that exceeds a lowered budget */
 } FrothFrameStatus;
 
-/* Begins a frame, which the caller submits or drops. CPU only: frees what complete frames used, loads assets, grows buffers. Never
- * records, never waits for the GPU. Objects created after this call are drawn from the next frame on. status may be null. On an
- * error no frame has begun. FROTH_ERROR_MEMORY: call again. FROTH_ERROR_DEVICE: call frothDeviceLost. */
+/* Begins a frame, which the caller submits or drops. CPU only: frees what complete frames used, loads assets, grows
+ * buffers. Never records, never waits for the GPU. Objects created after this call are drawn from the next frame on.
+ * status may be null. On an error no frame has begun. FROTH_ERROR_MEMORY: call again. FROTH_ERROR_DEVICE: call
+ * frothDeviceLost. */
 FROTH_API FrothResult frothUpdate(FrothContext* context, const FrothFrame* frame, FrothFrameStatus* status);
 
 /* Records this frame's uploads. Call it outside a render pass. */
 FROTH_API FrothResult frothRecordUpload(FrothContext* context, VkCommandBuffer commandBuffer);
 
-/* Call it for a recorded frame that will never be submitted. Its uploads are queued again; assets that need them are OPENING until
- * then. Frames recorded after it read what it would have uploaded: drop them too. */
+/* Call it for a recorded frame that will never be submitted. Its uploads are queued again; assets that need them are
+ * OPENING until then. Frames recorded after it read what it would have uploaded: drop them too. */
 FROTH_API FrothResult frothDropFrame(FrothContext* context, uint64_t serial);
 
-/* An image of the caller. image = null: not wanted; costs nothing. Froth transitions the image from its entry state, and to its exit
- * state. It remembers nothing between calls. layoutIn = UNDEFINED discards the contents. */
+/* An image of the caller. image = null: not wanted; costs nothing. Froth transitions the image from its entry state,
+ * and to its exit state. It remembers nothing between calls. layoutIn = UNDEFINED discards the contents. */
 typedef struct FrothImage {
   VkImage image;
   VkImageView view; /* 2D, one level, identity swizzle. Usage STORAGE; for an input SAMPLED */
@@ -232,42 +249,48 @@ typedef struct FrothImage {
   VkSampleCountFlagBits samples; /* 0 or 1; multisampled images are refused */
 } FrothImage;
 
-/* Which ray a pixel sees. All kinds but the first take the view's axes as x right, y down, z forward, and ignore clipFromView. The
- * centre of the first pixel is (0.5, 0.5) from the viewport's upper left corner. (u, v) = (pixel - centre) / focal. */
+/* Which ray a pixel sees. All kinds but the first take the view's axes as x right, y down, z forward, and ignore
+ * clipFromView. The centre of the first pixel is (0.5, 0.5) from the viewport's upper left corner. (u, v) = (pixel -
+ * centre) / focal. */
 typedef enum FrothLensKind {
   FROTH_LENS_PROJECTION = 0,        /* by clipFromView; the other fields of FrothLens are not read */
   FROTH_LENS_FISHEYE = 1,           /* equidistant: |(u, v)| is the angle from the axis */
   FROTH_LENS_KANNALA_BRANDT = 2,    /* OpenCV's fisheye; coefficients k1, k2, k3, k4 */
   FROTH_LENS_RADIAL_TANGENTIAL = 3, /* OpenCV's; coefficients k1, k2, p1, p2, k3, k4, k5, k6 */
-  FROTH_LENS_EQUIRECTANGULAR = 4,   /* u is the longitude to the right, v the latitude downwards. focal {0, 0}: the viewport
-                                       shows the whole sphere, and centre is not read */
-  FROTH_LENS_RAY_MAP = 5,           /* the direction in the caller's image */
+  /* u is the longitude to the right, v the latitude downwards. focal {0, 0}: the viewport shows the whole sphere, and
+   * centre is not read */
+  FROTH_LENS_EQUIRECTANGULAR = 4,
+  FROTH_LENS_RAY_MAP = 5, /* the direction in the caller's image */
   FROTH_LENS_MAX = 0x7fffffff
 } FrothLensKind;
 
 /* Pixels without a ray are cleared: beyond half a turn, or where a distortion folds (docs/CAMERAS.md). */
 typedef struct FrothLens {
   FrothLensKind kind;
-  float focal[2];        /* [pixels per radian; RADIAL_TANGENTIAL: per tangent], > 0 */
-  float centre[2];       /* [pixels] */
+  float focal[2];  /* [pixels per radian; RADIAL_TANGENTIAL: per tangent], > 0 */
+  float centre[2]; /* [pixels] */
   float coefficients[8];
-  FrothImage rayMap;     /* RAY_MAP: R32G32B32A32_SFLOAT with usage SAMPLED, read at the pixels that are drawn. xyz: a direction of any
-                            length in the view's axes; 0: the pixel is cleared. All rays start at the eye. */
+  /* RAY_MAP: R32G32B32A32_SFLOAT with usage SAMPLED, read at the pixels that are drawn. xyz: a direction of any length
+   * in the view's axes; 0: the pixel is cleared. All rays start at the eye. */
+  FrothImage rayMap;
 } FrothLens;
 
 typedef struct FrothCamera {
   double eye[3];          /* in the world */
   float viewFromWorld[9]; /* rotation, column-major, into the axes that clipFromView takes */
-  float clipFromView[16]; /* without jitter; any perspective projection: reversed, infinite, off-centre, oblique. Row w = (0, 0, 0, w):
-                             parallel rays. They start on the plane through the eye, perpendicular to them. They point away
-                             from a viewer who sees x to the right and y down on the image. Colours are seen along them */
-  float jitter[2];        /* [pixels] +x right, +y down; 0 with a ray map, which can contain it */
-  VkViewport viewport;    /* the height may be negative */
-  VkRect2D scissor;       /* zero: the whole viewport. Viewport and scissor together must lie in the images and fit maxExtent */
-  FrothLens lens;         /* zero: clipFromView alone. Other kinds need their bit in FrothViewInfo::lensClasses */
+  /* without jitter; any perspective projection: reversed, infinite, off-centre, oblique. Row w = (0, 0, 0, w): parallel
+   * rays. They start on the plane through the eye, perpendicular to them. They point away from a viewer who sees x to
+   * the right and y down on the image. Colours are seen along them */
+  float clipFromView[16];
+  float jitter[2];     /* [pixels] +x right, +y down; 0 with a ray map, which can contain it */
+  VkViewport viewport; /* the height may be negative */
+  /* zero: the whole viewport. Viewport and scissor together must lie in the images and fit maxExtent */
+  VkRect2D scissor;
+  FrothLens lens; /* zero: clipFromView alone. Other kinds need their bit in FrothViewInfo::lensClasses */
 } FrothCamera;
 
-/* The tone curve at the end of the engine's frame: from scene-linear x to linear light of the display. Per channel, except the last. */
+/* The tone curve at the end of the engine's frame: from scene-linear x to linear light of the display. Per channel,
+ * except the last. */
 typedef enum FrothToneCurve {
   FROTH_TONE_NONE = 0,
   FROTH_TONE_REINHARD = 1,        /* x / (1 + x) */
@@ -289,58 +312,70 @@ typedef enum FrothTileForm {
 
 typedef struct FrothRenderInfo {
   uint32_t structSize;
-  uint32_t eye;        /* [< FrothViewInfo::eyeCount] each eye has its own images, layers, or rectangle (viewport) */
+  uint32_t eye; /* [< FrothViewInfo::eyeCount] each eye has its own images, layers, or rectangle (viewport) */
   FrothCamera camera;
-  float cutoff;        /* a ray ends when its transmittance falls below this; 0: 1e-3; negative: never */
-  float nearRatio;     /* skips cells with |p - eye| < nearRatio * r; 0: off; usually FROTH_NEAR_DEFAULT. Not for parallel rays */
-  float nearDepth;     /* skips cells with forward . (p - eye) < nearDepth [world units]; 0: off; usually FROTH_NEAR_DEFAULT. Only
-                          for PROJECTION and RADIAL_TANGENTIAL: other lenses may look sideways or back. Not for parallel rays */
-  float depthQuantile; /* transmittance that defines `distance` and `depth`; 0: one half */
-  uint32_t maxSteps;   /* cells of one walk; 0: 65536 */
-  uint32_t mask;       /* shows instances whose mask shares a bit with it; 0: all */
+  float cutoff; /* a ray ends when its transmittance falls below this; 0: 1e-3; negative: never */
+  /* skips cells with |p - eye| < nearRatio * r; 0: off; usually FROTH_NEAR_DEFAULT. Not for parallel rays */
+  float nearRatio;
+  /* skips cells with forward . (p - eye) < nearDepth [world units]; 0: off; usually FROTH_NEAR_DEFAULT. Only for
+   * PROJECTION and RADIAL_TANGENTIAL: other lenses may look sideways or back. Not for parallel rays */
+  float nearDepth;
+  float quantile;        /* transmittance that defines `distance` and `depth`; 0: one half */
+  uint32_t maxSteps;     /* cells of one walk; 0: 65536 */
+  uint32_t mask;         /* shows instances whose mask shares a bit with it; 0: all */
   uint32_t displayCoded; /* 1: colour stays display-coded (for files); 0: linear */
-  FrothToneCurve toneCurve; /* linear colour is the light that this curve turns into the capture, times exposure. White is 255/256, so
-                               light is at most 255 */
+  /* linear colour is the light that this curve turns into the capture, times exposure. White is 255/256, so light is at
+   * most 255 */
+  FrothToneCurve toneCurve;
 
-  FrothImage colour;   /* R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: premultiplied colour, 0 to 65504, alpha = 1 - T */
-  FrothImage distance; /* R32_SFLOAT: distance along the ray at which T falls below depthQuantile [world units]; +inf: never */
-  FrothImage normal;   /* R16G16B16A16_SFLOAT: sum of T alpha n in world axes, not normalized; w = 0 */
-  FrothImage depth;    /* R32_SFLOAT: device depth of the point at `distance`, by clipFromView and the viewport's depth range; its far end:
-                          never. With lenses other than PROJECTION: the same as `distance` */
+  FrothImage colour; /* R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: premultiplied colour, 0 to 65504, alpha = 1 - T */
+  /* R32_SFLOAT: distance along the ray at which T falls below quantile [world units]; +inf: never */
+  FrothImage distance;
+  FrothImage normal; /* R16G16B16A16_SFLOAT: sum of T alpha n in world axes, not normalized; w = 0 */
+  /* R32_SFLOAT: device depth of the point at `distance`, by clipFromView and the viewport's depth range; its far end:
+   * never. With lenses other than PROJECTION: the same as `distance` */
+  FrothImage depth;
 
   /* These two need the feature shaderStorageImageExtendedFormats and FrothViewInfo::keepsHits. */
-  FrothImage id;       /* R32G32_UINT: userId of the instance and code of the cell (FrothAssetStatus::cellBits) at the point at `distance`.
-                          No such point: of the last cell that the ray met. No cell met: UINT32_MAX twice */
-  FrothImage motion;   /* R16G16_SFLOAT: from the pixel to where previousCamera saw that point, in pixels times motionScale; both
-                          without jitter. No such point: motion of a background at infinity (parallel rays: of the plane through
-                          the eye). 32768 pixels: the point was not in front of that camera */
-  float motionScale[2];       /* 0: 1 */
-  FrothCamera previousCamera; /* camera of the previous frame, for motion; jitter and scissor are not read. All zero: there is none (a
-                                 cut, the first frame), and motion is 0. No ray maps, in this frame or the previous one */
+  /* R32G32_UINT: userId of the instance and code of the cell (FrothAssetStatus::cellBits) at the point at `distance`.
+   * No such point: of the last cell that the ray met. No cell met: UINT32_MAX twice */
+  FrothImage id;
+  /* R16G16_SFLOAT: from the pixel to where previousCamera saw that point, in pixels times motionScale; both without
+   * jitter. No such point: motion of a background at infinity (parallel rays: of the plane through the eye). 32768
+   * pixels: the point was not in front of that camera */
+  FrothImage motion;
+  float motionScale[2]; /* 0: 1 */
+  /* camera of the previous frame, for motion; jitter and scissor are not read. All zero: there is none (a cut, the
+   * first frame), and motion is 0. No ray maps, in this frame or the previous one */
+  FrothCamera previousCamera;
 
   /* Depth of what the engine has drawn; read only. Rays stop there, in the middle of a cell if necessary. D32_SFLOAT,
-   * D32_SFLOAT_S8_UINT, D24_UNORM_S8_UINT, X8_D24_UNORM_PACK32, D16_UNORM or R32_SFLOAT; a view of the depth aspect. It holds device
-   * depth by clipFromView and the viewport's depth range: reversed and infinite depth need no flag, and the far end stops nothing.
-   * With lenses other than PROJECTION: distance along the ray [world units], +inf where there is nothing. */
+   * D32_SFLOAT_S8_UINT, D24_UNORM_S8_UINT, X8_D24_UNORM_PACK32, D16_UNORM or R32_SFLOAT; a view of the depth aspect. It
+   * holds device depth by clipFromView and the viewport's depth range: reversed and infinite depth need no flag, and
+   * the far end stops nothing. With lenses other than PROJECTION: distance along the ray [world units], +inf where
+   * there is nothing. */
   FrothImage sceneDepth;
 
   /* Limits on the work of a frame, for any asset (docs/EMBEDDING.md "Bounds"). */
-  uint32_t maxEntries;    /* longest list of a tile of 32 x 32 pixels, per instance: a raster draws the nearest cells that the tile can
-                             meet; 0: 16384 */
+  /* longest list of a tile of 32 x 32 pixels, per instance: a raster draws the nearest cells that the tile can meet; 0:
+   * 16384 */
+  uint32_t maxEntries;
   uint32_t maxNeighbours; /* neighbours that one walk tests, without those of its last cell; 0: 1048576 */
 
-  FrothTileForm tileForm; /* for tests of frothRasterize; changes no image */
+  FrothTileForm tileForm; /* for tests of frothRecordRaster; changes no image */
 } FrothRenderInfo;
 
-/* Draws what a camera sees, by sorted rasterization. Call it outside a render pass, once per view, eye and frame. On exit compute
- * pipeline, sets and push constants are undefined; graphics state is untouched. FROTH_INCOMPLETE: recorded, but something was left
- * out; without any instance the images are cleared. FrothViewStatus::bits of this frame will say why. */
-FROTH_API FrothResult frothRasterize(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
-                                     const FrothRenderInfo* info);
+/* Draws what a camera sees, by sorted rasterization. Call it outside a render pass, once per view, eye and frame. On
+ * exit compute pipeline, sets and push constants are undefined; graphics state is untouched. FROTH_INCOMPLETE:
+ * recorded, but something was left out; without any instance the images are cleared. FrothViewStatus::bits of this
+ * frame will say why. */
+FROTH_API FrothResult frothRecordRaster(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
+                                        const FrothRenderInfo* info);
 
-/* Draws the same image by walking each pixel's ray from cell to cell through the regular triangulation. The same rules hold. */
-FROTH_API FrothResult frothWalk(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
-                                const FrothRenderInfo* info);
+/* Draws the same image by walking each pixel's ray from cell to cell through the regular triangulation. The same rules
+ * hold. */
+FROTH_API FrothResult frothRecordWalk(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
+                                      const FrothRenderInfo* info);
 
 #ifdef __cplusplus
 }

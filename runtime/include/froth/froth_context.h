@@ -17,7 +17,8 @@ extern "C" {
 #define FROTH_API
 #endif
 
-/* Major in the upper 16 bits, minor in the lower. Context creation fails with FROTH_ERROR_VERSION if the major differs. */
+/* Major in the upper 16 bits, minor in the lower. Context creation fails with FROTH_ERROR_VERSION if the major
+ * differs. */
 #define FROTH_ABI_VERSION 0x00010000u
 
 typedef enum FrothResult {
@@ -26,15 +27,16 @@ typedef enum FrothResult {
   FROTH_PENDING = 1,    /* not yet: something is still in progress; nothing was changed; call again */
   FROTH_INCOMPLETE = 2, /* done, but something is missing; the status bits say what, and which setting to raise */
   /* errors; the message callback received the details */
-  FROTH_ERROR_ARGUMENT = -1,    /* a null pointer, a wrong size or extent, a value out of its range */
-  FROTH_ERROR_HANDLE = -2,      /* a stale or foreign handle */
-  FROTH_ERROR_VERSION = -3,     /* header and library, or file and library, do not match */
-  FROTH_ERROR_FEATURE = -4,     /* the device lacks a required feature, or the caller did not enable it */
-  FROTH_ERROR_FILE = -5,        /* the file is missing, damaged or no asset */
-  FROTH_ERROR_MEMORY = -6,      /* host or device memory, or the budget, is exhausted */
-  FROTH_ERROR_UNSUPPORTED = -7, /* valid, but this version cannot do it, or the object was not created for it (lensClasses) */
-  FROTH_ERROR_DEVICE = -8,      /* a Vulkan call failed; the message names it and its VkResult */
-  FROTH_ERROR_STATE = -9,       /* calls out of order (asset not READY, frame serial not growing) */
+  FROTH_ERROR_ARGUMENT = -1, /* a null pointer, a wrong size or extent, a value out of its range */
+  FROTH_ERROR_HANDLE = -2,   /* a stale or foreign handle */
+  FROTH_ERROR_VERSION = -3,  /* header and library, or file and library, do not match */
+  FROTH_ERROR_FEATURE = -4,  /* the device lacks a required feature, or the caller did not enable it */
+  FROTH_ERROR_FILE = -5,     /* the file is missing, damaged or no asset */
+  FROTH_ERROR_MEMORY = -6,   /* host or device memory, or the budget, is exhausted */
+  /* valid, but this version cannot do it, or the object was not created for it (lensClasses) */
+  FROTH_ERROR_UNSUPPORTED = -7,
+  FROTH_ERROR_DEVICE = -8, /* a Vulkan call failed; the message names it and its VkResult */
+  FROTH_ERROR_STATE = -9,  /* calls out of order (asset not READY, frame serial not growing) */
   FROTH_RESULT_MAX = 0x7fffffff
 } FrothResult;
 
@@ -46,8 +48,8 @@ typedef enum FrothSeverity {
   FROTH_SEVERITY_MAX = 0x7fffffff
 } FrothSeverity;
 
-/* Called on the thread of the failing call. `object` names the asset's path, the view or the call. `text` states cause, place,
- * found value and remedy; it is valid during the call only. The callback must not call Froth. */
+/* Called on the thread of the failing call. `object` names the asset's path, the view or the call. `text` states cause,
+ * place, found value and remedy; it is valid during the call only. The callback must not call Froth. */
 typedef void (*FrothMessageCallback)(void* user, FrothSeverity severity, FrothResult code, const char* object,
                                      const char* text);
 
@@ -72,9 +74,9 @@ typedef struct FrothRequirements {
 FROTH_API FrothResult frothGetRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
                                            VkPhysicalDevice physicalDevice, FrothRequirements* requirements);
 
-/* ORs the required feature bits into the caller's chain: VkPhysicalDeviceFeatures2 with VkPhysicalDeviceVulkan12Features and
- * VkPhysicalDeviceVulkan13Features in pNext, or the single structures of those features. FROTH_ERROR_FEATURE: *missingStructure
- * names the structure to add. missingStructure may be null. */
+/* ORs the required feature bits into the caller's chain: VkPhysicalDeviceFeatures2 with
+ * VkPhysicalDeviceVulkan12Features and VkPhysicalDeviceVulkan13Features in pNext, or the single structures of those
+ * features. FROTH_ERROR_FEATURE: *missingStructure names the structure to add. missingStructure may be null. */
 FROTH_API FrothResult frothRequireFeatures(VkPhysicalDeviceFeatures2* features, const char** missingStructure);
 
 /* ---- Context: one per VkDevice ---- */
@@ -92,10 +94,11 @@ typedef struct FrothContext FrothContext;
 typedef struct FrothMemoryRequest {
   uint32_t structSize;
   VkMemoryRequirements requirements;
-  uint32_t memoryTypeIndex;           /* one of requirements.memoryTypeBits */
+  uint32_t memoryTypeIndex;            /* one of requirements.memoryTypeBits */
   VkMemoryAllocateFlags allocateFlags; /* VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, or 0 */
-  uint32_t isMapped;                  /* 1: host-visible memory that stays mapped; FrothDeviceMemory::mapped is needed */
-  const char* purpose;                /* for people; valid during the call */
+  /* 1: host-visible memory that stays mapped; FrothDeviceMemory::mapped is needed */
+  uint32_t isMapped;
+  const char* purpose; /* for people; valid during the call */
 } FrothMemoryRequest;
 
 typedef struct FrothDeviceMemory {
@@ -105,8 +108,8 @@ typedef struct FrothDeviceMemory {
   void* handle;        /* any value; returned to the caller's free callback */
 } FrothDeviceMemory;
 
-/* Fills *memory, which is zero on entry. Returns VK_SUCCESS or the failure. Froth calls it in frothCreateContext, frothCreateView,
- * frothUpdate and frothRestoreDevice, never in a record call. It must not call Froth. */
+/* Fills *memory, which is zero on entry. Returns VK_SUCCESS or the failure. Froth calls it in frothCreateContext,
+ * frothCreateView, frothUpdate and frothRestoreDevice, never in a record call. It must not call Froth. */
 typedef VkResult (*FrothAllocateMemory)(void* user, const FrothMemoryRequest* request, FrothDeviceMemory* memory);
 typedef void (*FrothFreeMemory)(void* user, const FrothDeviceMemory* memory);
 
@@ -116,50 +119,58 @@ typedef struct FrothContextInfo {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr;
   VkInstance instance;
   VkPhysicalDevice physicalDevice;
-  VkDevice device;                /* null: a null context; handles and states work, record calls do nothing */
-  const VkPhysicalDeviceFeatures2* enabledFeatures; /* the chain that the device was created with; read during the call */
-  uint32_t queueFamily;           /* family with compute to which frames are submitted */
-  VkPipelineCache pipelineCache;  /* may be null; used until the context is destroyed */
-  uint32_t framesInFlight;        /* [1..8] most frames begun and not complete, including the one being recorded; 0: 2 */
-  uint64_t deviceBudget;          /* [bytes] limit of device memory for all assets and views; frothSetBudget changes it. 0: no limit */
+  VkDevice device; /* null: a null context; handles and states work, record calls do nothing */
+  /* the chain that the device was created with; read during the call */
+  const VkPhysicalDeviceFeatures2* enabledFeatures;
+  uint32_t queueFamily;          /* family with compute to which frames are submitted */
+  VkPipelineCache pipelineCache; /* may be null; used until the context is destroyed */
+  /* [1..8] most frames begun and not complete, including the one being recorded; 0: 2 */
+  uint32_t framesInFlight;
+  /* [bytes] limit of device memory for all assets and views; frothSetBudget changes it. 0: no limit */
+  uint64_t deviceBudget;
   FrothMessageCallback onMessage; /* may be null */
   void* messageUser;
-  uint32_t checkIndices;          /* debug: shaders check every index and count faults in FrothViewStatus::indexViolations */
-  uint32_t countWork;             /* for tuning: shaders count FrothViewStatus::work; they are slower */
+  /* debug: shaders check every index and count faults in FrothViewStatus::indexViolations */
+  uint32_t checkIndices;
+  uint32_t countWork;                 /* for tuning: shaders count FrothViewStatus::work; they are slower */
   FrothAllocateMemory allocateMemory; /* both or none; they provide all VkDeviceMemory; null: vkAllocateMemory */
   FrothFreeMemory freeMemory;
   void* memoryUser;
-  uint32_t lensClasses;           /* FrothLensClass bits; pipelines are made for these; 0: pinholes only */
-  uint32_t walkShaders;           /* 1: enables froth_walk.h; assets then hold a table of entries for rays */
-  VkFormat compositeFormat;       /* target of frothComposite (froth_composite.h): R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT or, with
-                                     shaderStorageImageExtendedFormats, B10G11R11_UFLOAT_PACK32. UNDEFINED: no frothComposite */
-  VkFormat depthExportFormat;     /* attachment of frothRecordDepthExport; a format of the device. Needs dynamicRendering and a queue
-                                     family with GRAPHICS. UNDEFINED: no frothRecordDepthExport */
-  uint32_t floatColours;          /* for tests: colours of detail sites are floats instead of halves between the passes of
-                                     frothRasterize and frothWalk */
+  uint32_t lensClasses; /* FrothLensClass bits; pipelines are made for these; 0: pinholes only */
+  uint32_t walkShaders; /* 1: enables froth_walk.h; assets then hold a table of entries for rays */
+  /* target of frothRecordComposite (froth_composite.h): R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT or, with
+   * shaderStorageImageExtendedFormats, B10G11R11_UFLOAT_PACK32. UNDEFINED: no frothRecordComposite */
+  VkFormat compositeFormat;
+  /* attachment of frothRecordDepthExport; a format of the device. Needs dynamicRendering and a queue family with
+   * GRAPHICS. UNDEFINED: no frothRecordDepthExport */
+  VkFormat depthExportFormat;
+  /* for tests: colours of detail sites are floats instead of halves between the passes of frothRecordRaster and
+   * frothRecordWalk */
+  uint32_t floatColours;
 } FrothContextInfo;
 
-/* Makes pipelines and 64 MiB of host-visible staging memory. Call it at start-up, not in a frame. *context is null on an error. */
+/* Makes pipelines and 64 MiB of host-visible staging memory. Call it at start-up, not in a frame. *context is null on
+ * an error. */
 FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
 
-/* Frees everything at once. completedSerial: as in FrothFrame; UINT64_MAX after vkDeviceWaitIdle. FROTH_PENDING: later frames were
- * begun and not dropped; nothing is freed. A null pointer gives FROTH_OK. */
+/* Frees everything at once. completedSerial: as in FrothFrame; UINT64_MAX after vkDeviceWaitIdle. FROTH_PENDING: later
+ * frames were begun and not dropped; nothing is freed. A null pointer gives FROTH_OK. */
 FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
 
-/* Changes FrothContextInfo::deviceBudget. New allocations never exceed it. A budget below the bytes held: from the next frothUpdate
- * on, views exchange their buffers for smaller ones, one after the other; cells or pairs without space are missing
- * (FROTH_VIEW_CELL_OVERFLOW, FROTH_VIEW_PAIR_OVERFLOW). Assets and the least that a view needs do not shrink;
+/* Changes FrothContextInfo::deviceBudget. New allocations never exceed it. A budget below the bytes held: from the next
+ * frothUpdate on, views exchange their buffers for smaller ones, one after the other; cells or pairs without space are
+ * missing (FROTH_VIEW_CELL_OVERFLOW, FROTH_VIEW_PAIR_OVERFLOW). Assets and the least that a view needs do not shrink;
  * FrothFrameStatus::excessBytes tells by how much they exceed the budget. A higher budget: views grow again. */
 FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
 
 /* Memory of one purpose. */
 typedef struct FrothMemoryCategory {
-  const char* name;   /* "assets", "views", "views, host", "uploads, host", "walks", "walks, host"; static storage */
-  uint64_t granted;   /* [bytes] VkDeviceMemory held */
-  uint64_t used;      /* [bytes] the part of `granted` that is in use */
-  uint64_t peak;      /* [bytes] highest `granted` since creation or the last frothSetBudget */
-  uint32_t count;     /* number of allocations */
-  uint32_t isHost;    /* 1: staging and read-back; not part of the budget */
+  const char* name; /* "assets", "views", "views, host", "uploads, host", "walks", "walks, host"; static storage */
+  uint64_t granted; /* [bytes] VkDeviceMemory held */
+  uint64_t used;    /* [bytes] the part of `granted` that is in use */
+  uint64_t peak;    /* [bytes] highest `granted` since creation or the last frothSetBudget */
+  uint32_t count;   /* number of allocations */
+  uint32_t isHost;  /* 1: staging and read-back; not part of the budget */
 } FrothMemoryCategory;
 
 typedef struct FrothMemoryReport {
@@ -173,14 +184,16 @@ typedef struct FrothMemoryReport {
 
 FROTH_API FrothResult frothGetMemoryReport(FrothContext* context, FrothMemoryReport* report);
 
-/* Call it after any Vulkan call returned VK_ERROR_DEVICE_LOST, and before vkDestroyDevice. (A call of Froth that meets a lost device
- * returns FROTH_ERROR_DEVICE and says so.) Destroys all GPU objects without waiting. Handles stay valid. Until frothRestoreDevice
- * assets are OPENING and frame calls return FROTH_ERROR_DEVICE; objects may be created, changed and destroyed. */
+/* Call it after any Vulkan call returned VK_ERROR_DEVICE_LOST, and before vkDestroyDevice. (A call of Froth that meets
+ * a lost device returns FROTH_ERROR_DEVICE and says so.) Destroys all GPU objects without waiting. Handles stay valid.
+ * Until frothRestoreDevice assets are OPENING and frame calls return FROTH_ERROR_DEVICE; objects may be created,
+ * changed and destroyed. */
 FROTH_API FrothResult frothDeviceLost(FrothContext* context);
 
-/* Continues with a new device. All fields of `info` count, as for frothCreateContext. Frames that were in flight are forgotten;
- * serials go on growing. All assets, FAILED ones too, load again in the following frames: from their path, or from their bytes with
- * FrothAssetInfo::bytesStay. An asset of bytes without bytesStay becomes FAILED. On an error the device stays lost; call it again. */
+/* Continues with a new device. All fields of `info` count, as for frothCreateContext. Frames that were in flight are
+ * forgotten; serials go on growing. All assets, FAILED ones too, load again in the following frames: from their path,
+ * or from their bytes with FrothAssetInfo::bytesStay. An asset of bytes without bytesStay becomes FAILED. On an error
+ * the device stays lost; call it again. */
 FROTH_API FrothResult frothRestoreDevice(FrothContext* context, const FrothContextInfo* info);
 
 #ifdef __cplusplus

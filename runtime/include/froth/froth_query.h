@@ -1,11 +1,13 @@
 /* Froth, queries: single rays, points and spheres, on the CPU.
  *
- * For gameplay and servers. A query answers on the calling thread and waits for nothing. It needs no GPU and no frame; a null context
- * is enough. Queries see the instances whose asset was opened with keepForQueries and has been READY once, where they are placed
- * now. A lost device changes nothing. Positions are in the world, in double. Near tests (FrothRenderInfo::nearRatio) do not apply:
+ * For gameplay and servers. A query answers on the calling thread and waits for nothing. It needs no GPU and no frame;
+ * a null context is enough. Queries see the instances whose asset was opened with keepForQueries and has been READY
+ * once, where they are placed now. A lost device changes nothing. Positions are in the world, in double. Near tests
+ * (FrothRenderInfo::nearRatio) do not apply:
  * they belong to cameras.
  *
- * On an error (a null pointer, a number out of its range) nothing is written; the message comes on the calling thread. */
+ * On an error (a null pointer, a number out of its range) nothing is written; the message comes on the calling
+ * thread. */
 #ifndef FROTH_FROTH_QUERY_H
 #define FROTH_FROTH_QUERY_H
 
@@ -23,8 +25,8 @@ typedef enum FrothQueryBit {
   FROTH_QUERY_BIT_MAX = 0x7fffffff
 } FrothQueryBit;
 
-/* The part tMin <= t <= tMax of origin + t direction / |direction|. It meets the foam as a ray that starts at tMin. Rays and hits
- * are array elements: their layout is fixed. */
+/* The part tMin <= t <= tMax of origin + t direction / |direction|. It meets the foam as a ray that starts at tMin.
+ * Rays and hits are array elements: their layout is fixed. */
 typedef struct FrothRay {
   double origin[3];
   double direction[3]; /* finite, any length but 0 */
@@ -33,7 +35,8 @@ typedef struct FrothRay {
 } FrothRay;
 
 typedef struct FrothRayHit {
-  double distance;        /* from the origin to where transmittance falls below the quantile [world units]; +inf: never */
+  /* from the origin to where transmittance falls below the quantile [world units]; +inf: never */
+  double distance;
   double position[3];     /* of that point; if there is none, this and what follows, down to cell, is 0 */
   float normal[3];        /* of the face of the cell at that point, unit */
   FrothInstance instance; /* if several overlap there: the densest */
@@ -49,14 +52,16 @@ typedef struct FrothCastInfo {
   float cutoff;         /* [< 1] a ray ends when its transmittance falls below this; 0: 1e-3; negative: never */
   uint32_t maxSteps;    /* cells of one ray in one instance; 0: 65536 */
   uint32_t closestOnly; /* 1: a ray ends at `distance`; transmittance is then the one behind that cell */
-  uint32_t maxNeighbours; /* neighbours that one ray tests in one instance, without those of its last cell; 0: 1048576 */
+  /* neighbours that one ray tests in one instance, without those of its last cell; 0: 1048576 */
+  uint32_t maxNeighbours;
 } FrothCastInfo;
 
 /* Casts `count` rays one by one. Where instances overlap, their densities add. info null: all defaults. */
 FROTH_API FrothResult frothCastRays(FrothContext* context, const FrothCastInfo* info, const FrothRay* rays,
                                     FrothRayHit* hits, uint32_t count);
 
-/* The power cell that holds a point: the cell with the least power |point - site|^2 - radius^2. Every point of space has one. */
+/* The power cell that holds a point: the cell with the least power |point - site|^2 - radius^2. Every point of space
+ * has one. */
 typedef struct FrothLocation {
   uint32_t structSize;
   uint32_t chunk, cell;
@@ -64,31 +69,33 @@ typedef struct FrothLocation {
   double power;    /* the least power [square world units]; negative: inside the cell's ball */
 } FrothLocation;
 
-/* FROTH_ERROR_STATE: the asset was never READY, is FAILED, or was opened without keepForQueries. FROTH_ERROR_UNSUPPORTED: it has
- * no walk graph. */
+/* FROTH_ERROR_STATE: the asset was never READY, is FAILED, or was opened without keepForQueries.
+ * FROTH_ERROR_UNSUPPORTED: it has no walk graph. */
 FROTH_API FrothResult frothLocate(FrothContext* context, FrothInstance instance, const double point[3],
                                   FrothLocation* location);
 
-/* A sphere to test against the solid. A cell is solid if 1 - exp(-2 radius density) >= opacity. The solid is the union of these cells:
- * of each, the part of its ball inside its power cell and below its face. The face is flat, at the mean of its detail heights. */
+/* A sphere to test against the solid. A cell is solid if 1 - exp(-2 radius density) >= opacity. The solid is the union
+ * of these cells: of each, the part of its ball inside its power cell and below its face. The face is flat, at the mean
+ * of its detail heights. */
 typedef struct FrothSphere {
   uint32_t structSize;
   double centre[3];
-  double radius;  /* [>= 0, finite, world units] the time grows with the cells that the sphere meets up to the nearest solid */
-  float opacity;  /* [0 < a < 1] least opacity of a solid cell, across its whole ball; 0: one half */
+  /* [>= 0, finite, world units] the time grows with the cells that the sphere meets up to the nearest solid */
+  double radius;
+  float opacity; /* [0 < a < 1] least opacity of a solid cell, across its whole ball; 0: one half */
 } FrothSphere;
 
-/* The deepest contact: the point of the solid nearest to the sphere's centre. If the centre is inside the solid, the contact leads
- * out through the face of the cell that holds it. */
+/* The deepest contact: the point of the solid nearest to the sphere's centre. If the centre is inside the solid, the
+ * contact leads out through the face of the cell that holds it. */
 typedef struct FrothContact {
   uint32_t structSize;
-  uint32_t isTouching;    /* 0: the sphere is free; what follows is 0, except the bits */
-  double position[3];     /* of the contact, on the solid's surface */
-  float normal[3];        /* unit, from the solid towards the centre */
-  double depth;           /* [>= 0, world units] moving the sphere this far along the normal frees it of this cell */
+  uint32_t isTouching; /* 0: the sphere is free; what follows is 0, except the bits */
+  double position[3];  /* of the contact, on the solid's surface */
+  float normal[3];     /* unit, from the solid towards the centre */
+  double depth;        /* [>= 0, world units] moving the sphere this far along the normal frees it of this cell */
   FrothInstance instance;
-  uint32_t chunk, cell;   /* of its asset */
-  uint32_t bits;          /* FrothQueryBit */
+  uint32_t chunk, cell; /* of its asset */
+  uint32_t bits;        /* FrothQueryBit */
 } FrothContact;
 
 FROTH_API FrothResult frothOverlapSphere(FrothContext* context, const FrothSphere* sphere, FrothContact* contact);

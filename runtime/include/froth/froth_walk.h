@@ -1,9 +1,11 @@
 /* Froth, rays on the GPU: in the caller's shaders (froth_walk.glsl), or cast by Froth from a buffer.
  *
- * For shadows, mirrors, probes, picking. Needs FrothContextInfo::walkShaders. Near tests (FrothRenderInfo::nearRatio) do not apply:
+ * For shadows, mirrors, probes, picking. Needs FrothContextInfo::walkShaders. Near tests (FrothRenderInfo::nearRatio)
+ * do not apply:
  * they belong to cameras.
  *
- * A frame:  frothUpdate -> frothRecordUpload(cmd) -> frothRecordWalkSet(cmd) -> the caller's passes with the set bound, or
+ * A frame:  frothUpdate -> frothRecordUpload(cmd) -> frothRecordWalkSet(cmd) -> the caller's passes with the set bound,
+ * or
  *           frothRecordRays(cmd).
  *
  * Threads: one at a time per context, as frothUpdate. */
@@ -16,8 +18,8 @@
 extern "C" {
 #endif
 
-/* Version of the set's layout and of the include's structures. The include holds the same number. A shader that was compiled with
- * another number meets nothing and returns FROTH_WALK_VERSION. */
+/* Version of the set's layout and of the include's structures. The include holds the same number. A shader that was
+ * compiled with another number meets nothing and returns FROTH_WALK_VERSION. */
 #define FROTH_WALK_ABI 3u
 
 /* In one set. */
@@ -30,28 +32,29 @@ typedef struct FrothWalkInfo {
   float quantile;    /* [0 < q < 1] transmittance at which a ray counts as stopped; 0: one half */
   uint32_t maxSteps; /* cells of one ray in one instance; 0: 65536 */
   VkPipelineStageFlags2 stages; /* shader stages that read the set; 0: compute and fragment */
-  uint32_t maxNeighbours; /* neighbours that one ray tests in one instance, without those of its last cell; 0: 1048576 */
+  /* neighbours that one ray tests in one instance, without those of its last cell; 0: 1048576 */
+  uint32_t maxNeighbours;
 } FrothWalkInfo;
 
-/* Binding 0: a uniform buffer; binding 1: a storage buffer; all stages. Valid as long as the context's device. Identically defined
- * in all contexts. A null context gives null. */
+/* Binding 0: a uniform buffer; binding 1: a storage buffer; all stages. Valid as long as the context's device.
+ * Identically defined in all contexts. A null context gives null. */
 FROTH_API FrothResult frothGetWalkSetLayout(FrothContext* context, VkDescriptorSetLayout* layout);
 
-/* Records the data with which shaders walk through all READY instances, where they are placed now. Call it once per frame, outside a
- * render pass. *set may be bound in this frame's command buffers that follow this one in submission order. FROTH_INCOMPLETE: an
- * instance was left out: it is not READY, has no walk graph, was created after frothUpdate, or there are more than
- * FROTH_WALK_MOST_INSTANCES. A null context gives *set null. */
-FROTH_API FrothResult frothRecordWalkSet(FrothContext* context, VkCommandBuffer commandBuffer, const FrothWalkInfo* info,
-                                         VkDescriptorSet* set);
+/* Records the data with which shaders walk through all READY instances, where they are placed now. Call it once per
+ * frame, outside a render pass. *set may be bound in this frame's command buffers that follow this one in submission
+ * order. FROTH_INCOMPLETE: an instance was left out: it is not READY, has no walk graph, was created after frothUpdate,
+ * or there are more than FROTH_WALK_MOST_INSTANCES. A null context gives *set null. */
+FROTH_API FrothResult frothRecordWalkSet(FrothContext* context, VkCommandBuffer commandBuffer,
+                                         const FrothWalkInfo* info, VkDescriptorSet* set);
 
 /* Elements of arrays in the caller's buffers: their layout is fixed. */
 typedef struct FrothGpuRay {
-  float origin[3];    /* relative to FrothWalkInfo::eye */
-  float tMin;         /* [world units] */
-  float direction[3]; /* any length but 0 */
-  float tMax;         /* 0: no end */
-  float apex;         /* colours are seen from the point this far behind the origin; FrothRay in froth_walk.glsl */
-  uint32_t mask;      /* meets instances whose mask shares a bit with it; 0: all */
+  float origin[3];         /* relative to FrothWalkInfo::eye */
+  float tMin;              /* [world units] */
+  float direction[3];      /* any length but 0 */
+  float tMax;              /* 0: no end */
+  float apex;              /* colours are seen from the point this far behind the origin; FrothRay in froth_walk.glsl */
+  uint32_t mask;           /* meets instances whose mask shares a bit with it; 0: all */
   uint32_t flags, padding; /* 0 */
 } FrothGpuRay;
 
@@ -62,16 +65,17 @@ typedef struct FrothGpuHit {
   float distance;      /* to where transmittance falls below the quantile [world units]; +inf: never */
   uint32_t instance;   /* index in the set; 0xffffffff, as chunk and cell: none */
   uint32_t chunk, cell;
-  uint32_t userId;     /* FrothInstanceInfo::userId of the instance */
-  uint32_t status;     /* FrothWalkBit */
-  uint32_t steps;      /* cells walked through */
+  uint32_t userId; /* FrothInstanceInfo::userId of the instance */
+  uint32_t status; /* FrothWalkBit */
+  uint32_t steps;  /* cells walked through */
   uint32_t padding[2];
 } FrothGpuHit;
 
 /* FrothHit::status, FrothGpuHit::status. */
 typedef enum FrothWalkBit {
   FROTH_WALK_STATUS_DONE = 0,
-  FROTH_WALK_STATUS_STEP_LIMIT = 1,   /* FrothWalkInfo::maxSteps or maxNeighbours ended it; what lies beyond is missing */
+  /* FrothWalkInfo::maxSteps or maxNeighbours ended it; what lies beyond is missing */
+  FROTH_WALK_STATUS_STEP_LIMIT = 1,
   FROTH_WALK_STATUS_STREAM_LIMIT = 2, /* an instance was left out: more than FROTH_WALK_STREAMS (4) overlap at once */
   FROTH_WALK_STATUS_VERSION = 3,      /* shader and library do not match */
   FROTH_WALK_STATUS_MAX = 0x7fffffff
@@ -84,15 +88,15 @@ typedef enum FrothRayKind {
   FROTH_RAY_KIND_MAX = 0x7fffffff
 } FrothRayKind;
 
-/* Casts `count` rays with the walk set of this frame; call it after frothRecordWalkSet. rays: FrothGpuRay [count], hits: FrothGpuHit
- * [count]; device addresses, multiples of 16. The compute stage reads and writes them as storage; the caller records the barriers
- * before and after. On exit compute pipeline, sets and push constants are undefined. */
+/* Casts `count` rays with the walk set of this frame; call it after frothRecordWalkSet. rays: FrothGpuRay [count],
+ * hits: FrothGpuHit [count]; device addresses, multiples of 16. The compute stage reads and writes them as storage; the
+ * caller records the barriers before and after. On exit compute pipeline, sets and push constants are undefined. */
 FROTH_API FrothResult frothRecordRays(FrothContext* context, VkCommandBuffer commandBuffer, VkDeviceAddress rays,
                                       VkDeviceAddress hits, uint32_t count, FrothRayKind kind);
 
-/* Counters of the newest complete frame with a walk set. Shaders compiled without FROTH_WALK_NO_COUNTERS count. After the caller's own
- * shaders the caller records a memory barrier, from their stages and SHADER_STORAGE_WRITE to HOST and HOST_READ; the host then sees
- * the counts. frothRecordRays records its own barrier. */
+/* Counters of the newest complete frame with a walk set. Shaders compiled without FROTH_WALK_NO_COUNTERS count. After
+ * the caller's own shaders the caller records a memory barrier, from their stages and SHADER_STORAGE_WRITE to HOST and
+ * HOST_READ; the host then sees the counts. frothRecordRays records its own barrier. */
 typedef struct FrothWalkStatus {
   uint32_t structSize;
   uint64_t serial;          /* of that frame; 0: none yet */

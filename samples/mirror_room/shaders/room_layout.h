@@ -32,14 +32,14 @@ ROOM_CONST kBindingDepth = 1;          // device depth of the meshes, reversed, 
 ROOM_CONST kBindingSurface = 2;        // xyz normal, w material
 ROOM_CONST kBindingMirroredDepth = 3;  // the same of the mirrored camera; what is behind the mirror left out
 ROOM_CONST kBindingMirroredSurface = 4;
-ROOM_CONST kBindingShadowMap = 5;      // of the meshes
+ROOM_CONST kBindingShadowMap = 5;  // of the meshes
 ROOM_CONST kBindingFoamColour = 6;
 ROOM_CONST kBindingFoamDistance = 7;
 ROOM_CONST kBindingFoamNormal = 8;
-ROOM_CONST kBindingSunlight = 9;       // share of the sun that reaches a mesh: x seen directly, y in the mirror
-ROOM_CONST kBindingSurround = 10;      // the same of the surrounding light: ambient occlusion by the foam
-ROOM_CONST kBindingReflection = 11;    // foam and particles that a mirror or a glossy mesh shows, premultiplied
-ROOM_CONST kBindingResult = 12;        // linear light; first that of foam and motes before the meshes, premultiplied
+ROOM_CONST kBindingSunlight = 9;     // share of the sun that reaches a mesh: x seen directly, y in the mirror
+ROOM_CONST kBindingSurround = 10;    // the same of the surrounding light: ambient occlusion by the foam
+ROOM_CONST kBindingReflection = 11;  // foam and particles that a mirror or a glossy mesh shows, premultiplied
+ROOM_CONST kBindingResult = 12;      // linear light; first that of foam and motes before the meshes, premultiplied
 
 struct RoomMaterial {
   vec4 colour;  // w: roughness
@@ -57,13 +57,14 @@ struct RoomFrame {
   // Through pixel (x, y) goes the ray corner + x stepX + y stepY, whose forward component is 1; the centre of the first
   // pixel is (0.5, 0.5).
   vec4 rayCorner, rayStepX, rayStepY;
-  vec4 mirror;    // the plane dot(xyz, position) + w = 0, xyz unit and on the side that it shows
-  vec4 toSun;     // w: size of a texel of the shadow map [metres]
-  vec4 sun;       // light on a surface that faces it
+  vec4 mirror;       // the plane dot(xyz, position) + w = 0, xyz unit and on the side that it shows
+  vec4 toSun;        // w: size of a texel of the shadow map [metres]
+  vec4 sun;          // light on a surface that faces it
   vec4 sky, ground;  // surrounding light from above and from below
-  vec4 numbers;   // x: depth at distance 1 forward, y: reach of ambient occlusion [metres], z: how much of their shadow meshes
-                  // cast on the foam, w: unused
-  ivec4 counts;   // particles, 1: the walk set is there, unused, unused
+  // x: depth at distance 1 forward, y: reach of ambient occlusion [metres], z: how much of their shadow meshes cast on
+  // the foam, w: unused
+  vec4 numbers;
+  ivec4 counts;  // particles, 1: the walk set is there, unused, unused
   RoomMaterial materials[kMostMaterials];
   RoomParticle particles[kMostParticles];
 };

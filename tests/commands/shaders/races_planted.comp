@@ -1,4 +1,5 @@
-// Small uses of shared memory, by the name of a case that is defined: workgroup_races_test.cpp tells which of them are races.
+// Small uses of shared memory, by the name of a case that is defined: workgroup_races_test.cpp tells which of them are
+// races.
 #version 460
 #extension GL_EXT_buffer_reference : require
 

@@ -33,7 +33,8 @@ Answer splitRay(FrothRay ray) {
   FrothWalk walk = frothBeginWalk(ray);
   vec4 parts[2];
   for (int i = 0; i < 2; ++i) parts[i] = frothRadianceSegment(walk, i == 0 ? split : FROTH_INFINITY);
-  return Answer(whole, parts[0], parts[1], uvec4(hit.status, hit.instance, hit.cell == walk.hit.cell ? 1 : 0, hit.userId));
+  return Answer(whole, parts[0], parts[1],
+                uvec4(hit.status, hit.instance, hit.cell == walk.hit.cell ? 1 : 0, hit.userId));
 }
 
 Answer findClosest(FrothRay ray) {

@@ -2,7 +2,7 @@
 #define FRAME 17
 #define opacity(x) nothing
 #define real half
-#define Stretch nothing nothing
+#define Interval nothing nothing
 #define centre 3
 struct Ball { float x; };
 struct Segment { int a; };
