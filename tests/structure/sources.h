@@ -19,8 +19,7 @@ struct Source {
 // Those of a folder of the repository and of the folders in it; "": of all but hidden ones and what is built.
 inline std::vector<Source> sourcesUnder(const std::string& folder) {
   namespace fs = std::filesystem;
-  static const std::set<std::string> kExtensions{".h",  ".hpp",  ".c",    ".cpp", ".cu",
-                                                 ".glsl", ".comp", ".vert", ".frag"};
+  static const std::set<std::string> kExtensions{".h", ".hpp", ".c", ".cpp", ".cu", ".glsl", ".comp", ".vert", ".frag"};
   const fs::path root = sourceFolder();
   std::vector<Source> sources;
   for (auto entry = fs::recursive_directory_iterator(root / folder); entry != fs::recursive_directory_iterator();
