@@ -35,10 +35,10 @@ struct LobeRange {
   uint32_t count = 0;
 };
 
-// The lobes of detail site `site` = cell * K + k.
-inline LobeRange lobesOf(const Foam& foam, uint64_t site) {
-  if (foam.lobeOffsets.empty()) return {site * foam.lobeCount, foam.lobeCount};
-  return {foam.lobeOffsets[site], static_cast<uint32_t>(foam.lobeOffsets[site + 1] - foam.lobeOffsets[site])};
+// The lobes of detail site `detail` = cell * K + k.
+inline LobeRange lobesOf(const Foam& foam, uint64_t detail) {
+  if (foam.lobeOffsets.empty()) return {detail * foam.lobeCount, foam.lobeCount};
+  return {foam.lobeOffsets[detail], static_cast<uint32_t>(foam.lobeOffsets[detail + 1] - foam.lobeOffsets[detail])};
 }
 
 // Rows n (face normal), t, b of the rotation matrix of a unit quaternion (w, x, y, z).

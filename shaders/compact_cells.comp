@@ -57,7 +57,7 @@ void listCell(uint slot, uvec4 cell, uint key) {
 void planVisible(uint kept) {
   COUNTERS.visibleCells = kept;
   COUNTERS.expandDispatch = dispatchOf(groupsOver(kept, kGroupSize / lanesPerCell()));
-  COUNTERS.siteDispatch = dispatchOf(groupsOver(kept * detailCount, kGroupSize));
+  COUNTERS.detailDispatch = dispatchOf(groupsOver(kept * detailCount, kGroupSize));
   COUNTERS.cellSortDispatch = dispatchOf(groupsOver(kept, keysPerSortGroup()));
   COUNTERS.tileDispatch = dispatchOf(groupsOver(kept, kTileCellsPerGroup));
 }

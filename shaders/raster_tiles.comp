@@ -28,9 +28,9 @@ shared uint liveMask;
 // faster.
 void shadeHitsAtOnce(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
                      inout Radiance radiances[kRays]) {
-  uint firstSite = visible * detailCount;
+  uint firstDetail = visible * detailCount;
   FaceView view = faceViewOf(cell, rays);
-  clipByFace(shading, view, firstSite, segments);
+  clipByFace(shading, view, firstDetail, segments);
   bool isAny = false;
   vec3 queries[kRays];
   for (uint r = 0; r < kRays; ++r) {
@@ -39,7 +39,7 @@ void shadeHitsAtOnce(Shading shading, uint visible, CellRecord cell, vec3 rays[k
   }
   if (!isAny) return;
   vec3 colours[kRays];
-  coloursAt(shading, firstSite, queries, colours);
+  coloursAt(shading, firstDetail, queries, colours);
   compositeCell(shading, visible, cell, segments, colours, radiances);
 }
 
@@ -68,10 +68,10 @@ void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], 
 // need not have planes.)
 bool fetchCell(uint slot, uvec3 row) {
   uint lastPlane = max(row.z, 1u) - 1;
-  uint firstSite = slot * detailCount;
+  uint firstDetail = slot * detailCount;
   uint bits = floatBitsToUint(FRAME.planes.v[min(row.x, lastPlane)].x) ^ floatBitsToUint(FRAME.planes.v[lastPlane].x);
-  bits ^= floatBitsToUint(FRAME.sites.v[firstSite].place.x);
-  bits ^= floatBitsToUint(FRAME.sites.v[firstSite + detailCount - 1].place.x);
+  bits ^= floatBitsToUint(FRAME.details.v[firstDetail].place.x);
+  bits ^= floatBitsToUint(FRAME.details.v[firstDetail + detailCount - 1].place.x);
   return (bits & FRAME.zero) == 0;
 }
 

@@ -13,18 +13,18 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kSitesPerEntry = 4;  // of the sample that trains the codebook
+constexpr uint32_t kDetailsPerEntry = 4;  // of the sample that trains the codebook
 
-std::span<const glm::vec3> axesOf(const Foam& foam, uint64_t site) {
-  const LobeRange lobes = lobesOf(foam, site);
+std::span<const glm::vec3> axesOf(const Foam& foam, uint64_t detail) {
+  const LobeRange lobes = lobesOf(foam, detail);
   return std::span(foam.lobeAxes).subspan(lobes.first, lobes.count);
 }
 
-// The axes that detail site `site` would keep if they could be stored exactly.
+// The axes that detail site `detail` would keep if they could be stored exactly.
 std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer, const AppearanceOptions& options,
-                                  uint64_t site) {
-  const Observations seen = observer.observe(site);
-  const auto axes = axesOf(foam, site);
+                                  uint64_t detail) {
+  const Observations seen = observer.observe(detail);
+  const auto axes = axesOf(foam, detail);
   const LobeBasis basis(seen, {axes.begin(), axes.end()});
   const glm::dvec3 base = meanColour(seen);
   const double bound = double(options.errorBound) * options.errorBound;
@@ -39,17 +39,17 @@ std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer, co
 
 std::vector<glm::vec3> sampleAxes(const Foam& foam, const Observer& observer, const AppearanceOptions& options,
                                   const Progress& progress) {
-  constexpr uint64_t kSlice = 512;  // sites between looks at the progress
-  const uint64_t siteCount = uint64_t{foam.cellCount} * foam.detailCount;
-  const uint64_t count = std::min<uint64_t>(siteCount, uint64_t{kSitesPerEntry} * options.codebookSize);
-  std::vector<std::vector<glm::vec3>> perSite(count);
+  constexpr uint64_t kSlice = 512;  // detail sites between looks at the progress
+  const uint64_t allDetails = uint64_t{foam.cellCount} * foam.detailCount;
+  const uint64_t count = std::min<uint64_t>(allDetails, uint64_t{kDetailsPerEntry} * options.codebookSize);
+  std::vector<std::vector<glm::vec3>> perDetail(count);
   for (uint64_t first = 0; first < count; first += kSlice) {
     if (!report(progress, "lobes sampled", first, count)) return {};
     tbb::parallel_for(first, std::min(first + kSlice, count),
-                      [&](uint64_t i) { perSite[i] = sampleAxes(foam, observer, options, i * siteCount / count); });
+                      [&](uint64_t i) { perDetail[i] = sampleAxes(foam, observer, options, i * allDetails / count); });
   }
   std::vector<glm::vec3> samples;
-  for (const auto& some : perSite) samples.insert(samples.end(), some.begin(), some.end());
+  for (const auto& some : perDetail) samples.insert(samples.end(), some.begin(), some.end());
   return samples;
 }
 

@@ -39,121 +39,121 @@ void addCarried(const Observations& seen, const Observations& other, std::span<c
 
 }  // namespace
 
-std::vector<CellCoder::Site> CellCoder::observeCell(uint32_t cell) const {
-  std::vector<Site> sites(foam_.detailCount);
+std::vector<CellCoder::Detail> CellCoder::observeCell(uint32_t cell) const {
+  std::vector<Detail> details(foam_.detailCount);
   for (uint32_t k = 0; k < foam_.detailCount; ++k) {
-    sites[k].seen = observer_.observe(uint64_t{cell} * foam_.detailCount + k);
-    sites[k].weight = totalWeight(sites[k].seen);
+    details[k].seen = observer_.observe(uint64_t{cell} * foam_.detailCount + k);
+    details[k].weight = totalWeight(details[k].seen);
   }
-  return sites;
+  return details;
 }
 
 // The coarsest lattice on which rounding (uniform errors of +- half a step) stays small even where the cell
 // shows most.
-uint8_t CellCoder::chooseColourScale(const std::vector<Site>& sites) const {
+uint8_t CellCoder::chooseColourScale(const std::vector<Detail>& details) const {
   if (!(options_.colourStep > 0)) return 0;
   double weight = 0;
-  for (const Site& site : sites) weight = std::max(weight, site.weight);
+  for (const Detail& detail : details) weight = std::max(weight, detail.weight);
   const double step = std::min(std::sqrt(12 * kRoundingShare * lobePrice() / weight), kCoarsestStep);
   const double scale = std::floor(std::log2(std::max(step / options_.colourStep, 1.0)));
   return static_cast<uint8_t>(std::min<double>(scale, kLargestScale));
 }
 
-glm::dvec3 CellCoder::meanOf(const std::vector<Site>& sites) {
+glm::dvec3 CellCoder::meanOf(const std::vector<Detail>& details) {
   glm::dvec3 colours(0);
   double weights = 0;
-  for (const Site& site : sites) {
-    colours += site.weight * meanColour(site.seen);
-    weights += site.weight;
+  for (const Detail& detail : details) {
+    colours += detail.weight * meanColour(detail.seen);
+    weights += detail.weight;
   }
   return colours / weights;
 }
 
-double CellCoder::shiftError(const Site& site, const glm::dvec3& cellMean) {
-  const glm::dvec3 difference = meanColour(site.seen) - cellMean;
+double CellCoder::shiftError(const Detail& detail, const glm::dvec3& cellMean) {
+  const glm::dvec3 difference = meanColour(detail.seen) - cellMean;
   return kShiftGain * kShiftGain * (kLeastDifference * kLeastDifference + glm::dot(difference, difference) / 3);
 }
 
-uint8_t CellCoder::chooseDetailScale(const std::vector<Site>& sites) const {
-  const glm::dvec3 mean = meanOf(sites);
+uint8_t CellCoder::chooseDetailScale(const std::vector<Detail>& details) const {
+  const glm::dvec3 mean = meanOf(details);
   double error = 0;
-  for (const Site& site : sites) error += site.weight * shiftError(site, mean);
+  for (const Detail& detail : details) error += detail.weight * shiftError(detail, mean);
   const double step = std::min(std::sqrt(kShiftShare * lobePrice() / error), kCoarsestDetailStep);
   return static_cast<uint8_t>(std::floor(std::log2(std::max(step / options_.detailSiteStep, 1.0))));
 }
 
-void CellCoder::codeSites(uint32_t cell, double step, std::vector<Site>& sites) const {
-  const SiteCoder coder(options_, codebook_, lobePrice());
-  std::vector<uint32_t> order(sites.size());
+void CellCoder::codeDetails(uint32_t cell, double step, std::vector<Detail>& details) const {
+  const DetailCoder coder(options_, codebook_, lobePrice());
+  std::vector<uint32_t> order(details.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
-                   [&](uint32_t a, uint32_t b) { return sites[a].weight < sites[b].weight; });
+                   [&](uint32_t a, uint32_t b) { return details[a].weight < details[b].weight; });
   for (int round = 0; round <= kRefits; ++round) {
     for (size_t n = 0; n < order.size(); ++n) {
       const uint32_t k = order[n];
-      Site& site = sites[k];
+      Detail& detail = details[k];
       const auto others = std::span(order).first(round > 0 ? order.size() : n);
-      const std::vector<glm::vec3> carried = carriedTo(cell, k, sites, others);
-      Observations wanted = site.seen;
+      const std::vector<glm::vec3> carried = carriedTo(cell, k, details, others);
+      Observations wanted = detail.seen;
       for (size_t i = 0; i < wanted.size(); ++i) wanted.colours[i] -= carried[i];
       if (round == 0) {
-        const LobeRange lobes = lobesOf(foam_, uint64_t{cell} * sites.size() + k);
-        site.coded = coder.code(wanted, std::span(foam_.lobeAxes).subspan(lobes.first, lobes.count), step);
+        const LobeRange lobes = lobesOf(foam_, uint64_t{cell} * details.size() + k);
+        detail.coded = coder.code(wanted, std::span(foam_.lobeAxes).subspan(lobes.first, lobes.count), step);
       } else {
-        coder.refit(wanted, step, site.coded);
+        coder.refit(wanted, step, detail.coded);
       }
-      site.misses = site.coded.error.misses;
-      for (size_t i = 0; i < wanted.size(); ++i) site.misses[i] -= carried[i];
+      detail.misses = detail.coded.error.misses;
+      for (size_t i = 0; i < wanted.size(); ++i) detail.misses[i] -= carried[i];
     }
   }
 }
 
-std::vector<glm::vec3> CellCoder::carriedTo(uint32_t cell, uint32_t k, const std::vector<Site>& sites,
+std::vector<glm::vec3> CellCoder::carriedTo(uint32_t cell, uint32_t k, const std::vector<Detail>& details,
                                             std::span<const uint32_t> others) const {
-  std::vector<glm::vec3> carried(sites[k].seen.size(), glm::vec3(0));
+  std::vector<glm::vec3> carried(details[k].seen.size(), glm::vec3(0));
   for (uint32_t l : others) {
-    if (l != k) addCarried(sites[k].seen, sites[l].seen, sites[l].misses, observer_.overlap(cell, k, l), carried);
+    if (l != k) addCarried(details[k].seen, details[l].seen, details[l].misses, observer_.overlap(cell, k, l), carried);
   }
   for (glm::vec3& c : carried) c = glm::clamp(c, -kMostCarried, kMostCarried);
   return carried;
 }
 
 void CellCoder::addViewErrors(uint32_t cell, std::span<double> perView) const {
-  std::vector<Site> sites = observeCell(cell);
-  codeSites(cell, std::ldexp(double(options_.colourStep), chooseColourScale(sites)), sites);
-  const glm::dvec3 mean = meanOf(sites);
-  const double step = options_.detailSiteStep > 0 ? std::ldexp(options_.detailSiteStep, chooseDetailScale(sites)) : 0;
-  for (const Site& site : sites) {
-    const double shifted = step * step * shiftError(site, mean);
-    for (size_t i = 0; i < site.seen.size(); ++i) {
-      const std::optional<uint32_t> view = observer_.viewOfEye(site.seen.eyes[i]);
+  std::vector<Detail> details = observeCell(cell);
+  codeDetails(cell, std::ldexp(double(options_.colourStep), chooseColourScale(details)), details);
+  const glm::dvec3 mean = meanOf(details);
+  const double step = options_.detailSiteStep > 0 ? std::ldexp(options_.detailSiteStep, chooseDetailScale(details)) : 0;
+  for (const Detail& detail : details) {
+    const double shifted = step * step * shiftError(detail, mean);
+    for (size_t i = 0; i < detail.seen.size(); ++i) {
+      const std::optional<uint32_t> view = observer_.viewOfEye(detail.seen.eyes[i]);
       if (!view) continue;
       // Times what the cell's other errors look like there too.
-      const double squared = glm::dot(glm::dvec3(site.misses[i]), glm::dvec3(site.coded.error.misses[i])) / 3;
-      perView[*view] += site.seen.weights[i] / observer_.viewWeight(*view) * (squared + shifted);
+      const double squared = glm::dot(glm::dvec3(detail.misses[i]), glm::dvec3(detail.coded.error.misses[i])) / 3;
+      perView[*view] += detail.seen.weights[i] / observer_.viewWeight(*view) * (squared + shifted);
     }
   }
 }
 
 void CellCoder::append(uint32_t cell, CellAppearance& out) const {
-  std::vector<Site> sites = observeCell(cell);
-  const uint8_t scale = chooseColourScale(sites);
-  codeSites(cell, std::ldexp(double(options_.colourStep), scale), sites);
+  std::vector<Detail> details = observeCell(cell);
+  const uint8_t scale = chooseColourScale(details);
+  codeDetails(cell, std::ldexp(double(options_.colourStep), scale), details);
   double weightSum = 0;
-  for (const Site& site : sites) {
-    weightSum += site.weight;
-    out.baseColours.push_back(glm::vec3(site.coded.base));
-    out.lobeCounts.push_back(static_cast<uint8_t>(site.coded.axes.size()));
-    out.lobeAxes.insert(out.lobeAxes.end(), site.coded.axes.begin(), site.coded.axes.end());
-    for (const glm::dvec3& colour : site.coded.colours) out.lobeColours.push_back(glm::vec3(colour));
-    for (size_t i = 0; i < site.seen.size(); ++i) {
-      const glm::dvec3 miss = site.misses[i];
-      out.squaredError += site.seen.weights[i] * glm::dot(miss, miss) / 3;
+  for (const Detail& detail : details) {
+    weightSum += detail.weight;
+    out.baseColours.push_back(glm::vec3(detail.coded.base));
+    out.lobeCounts.push_back(static_cast<uint8_t>(detail.coded.axes.size()));
+    out.lobeAxes.insert(out.lobeAxes.end(), detail.coded.axes.begin(), detail.coded.axes.end());
+    for (const glm::dvec3& colour : detail.coded.colours) out.lobeColours.push_back(glm::vec3(colour));
+    for (size_t i = 0; i < detail.seen.size(); ++i) {
+      const glm::dvec3 miss = detail.misses[i];
+      out.squaredError += detail.seen.weights[i] * glm::dot(miss, miss) / 3;
       for (int c = 0; c < 3; ++c) out.maxError = std::max(out.maxError, std::abs(miss[c]));
     }
   }
-  if (options_.detailSiteStep > 0) out.detailScales.push_back(chooseDetailScale(sites));
-  out.cellColours.push_back(snapCellColour(meanOf(sites)));
+  if (options_.detailSiteStep > 0) out.detailScales.push_back(chooseDetailScale(details));
+  out.cellColours.push_back(snapCellColour(meanOf(details)));
   out.colourScales.push_back(scale);
   out.weight += weightSum;
 }

@@ -9,8 +9,8 @@
 
 #include "baker/appearance/appearance.h"
 #include "baker/appearance/axis_codebook.h"
+#include "baker/appearance/detail_coder.h"
 #include "baker/appearance/observations.h"
-#include "baker/appearance/site_coder.h"
 
 namespace froth {
 
@@ -27,25 +27,25 @@ class CellCoder {
   void addViewErrors(uint32_t cell, std::span<double> perView) const;
 
  private:
-  struct Site {
+  struct Detail {
     Observations seen;
     double weight = 0;
-    CodedSite coded;
+    CodedDetail coded;
     std::vector<glm::vec3> misses;  // [observations] shown - wanted
   };
 
   double lobePrice() const { return double(options_.errorBound) * options_.errorBound; }
-  std::vector<Site> observeCell(uint32_t cell) const;
-  uint8_t chooseColourScale(const std::vector<Site>& sites) const;
+  std::vector<Detail> observeCell(uint32_t cell) const;
+  uint8_t chooseColourScale(const std::vector<Detail>& details) const;
   // The coarsest lattice of detail sites and heights whose error shows little.
-  uint8_t chooseDetailScale(const std::vector<Site>& sites) const;
+  uint8_t chooseDetailScale(const std::vector<Detail>& details) const;
   // Squared error of a shown colour, per squared step of a lattice of detail sites [radii].
-  static double shiftError(const Site& site, const glm::dvec3& cellMean);
-  static glm::dvec3 meanOf(const std::vector<Site>& sites);
-  void codeSites(uint32_t cell, double step, std::vector<Site>& sites) const;
-  // [observations of site k] What the errors of `others` (k itself does not count) look like where site k
+  static double shiftError(const Detail& detail, const glm::dvec3& cellMean);
+  static glm::dvec3 meanOf(const std::vector<Detail>& details);
+  void codeDetails(uint32_t cell, double step, std::vector<Detail>& details) const;
+  // [observations of detail site k] What the errors of `others` (k itself does not count) look like where detail site k
   // shows.
-  std::vector<glm::vec3> carriedTo(uint32_t cell, uint32_t k, const std::vector<Site>& sites,
+  std::vector<glm::vec3> carriedTo(uint32_t cell, uint32_t k, const std::vector<Detail>& details,
                                    std::span<const uint32_t> others) const;
 
   const Foam& foam_;

@@ -99,17 +99,17 @@ Observer::Observer(const Foam& foam, const Visibility* visibility, float eyeRadi
   if (sum > 0) typicalWeight_ = sum * shares / static_cast<double>(seen);
 }
 
-Observations Observer::observe(uint64_t site) const {
-  const uint64_t cell = site / foam_.detailCount;
+Observations Observer::observe(uint64_t detail) const {
+  const uint64_t cell = detail / foam_.detailCount;
   const FaceFrame<float> frame = faceFrame<float>(foam_.orientations[cell]);
-  const glm::vec2 place = foam_.detailSites[site] * foam_.radii[cell];
+  const glm::vec2 place = foam_.detailSites[detail] * foam_.radii[cell];
   const glm::vec3 position = foam_.sites[cell] + place.x * frame.tangent + place.y * frame.bitangent;
   Observations seen;
-  if (visibility_) addCameras(site, position, seen);
+  if (visibility_) addCameras(detail, position, seen);
   addHemisphere(frame, seen);
-  if (region_) addRegion(site, position, frame, seen);
+  if (region_) addRegion(detail, position, frame, seen);
   seen.colours.reserve(seen.size());
-  for (const glm::vec3& direction : seen.directions) seen.colours.push_back(colourAlong(site, direction));
+  for (const glm::vec3& direction : seen.directions) seen.colours.push_back(colourAlong(detail, direction));
   return seen;
 }
 
@@ -126,7 +126,7 @@ float Observer::overlap(uint32_t cell, uint32_t k, uint32_t l) const {
   return visibility_->overlaps[cell * (K * (K - 1) / 2) + before + (l - k - 1)];
 }
 
-void Observer::addCameras(uint64_t site, const glm::vec3& position, Observations& seen) const {
+void Observer::addCameras(uint64_t detail, const glm::vec3& position, Observations& seen) const {
   const auto add = [&](uint32_t number, const glm::vec3& eye, double weight) {
     const glm::vec3 fromEye = position - eye;
     const float distance = glm::length(fromEye);
@@ -136,7 +136,7 @@ void Observer::addCameras(uint64_t site, const glm::vec3& position, Observations
     seen.directions.push_back(fromEye / distance);
     seen.weights.push_back(relative);
   };
-  for (uint64_t i = visibility_->offsets[site]; i < visibility_->offsets[site + 1]; ++i) {
+  for (uint64_t i = visibility_->offsets[detail]; i < visibility_->offsets[detail + 1]; ++i) {
     const uint32_t view = visibility_->views[i], number = view * (1 + kEyesAround);
     const float weight = viewWeight(view) * visibility_->weights[i];
     add(number, visibility_->eyes[view], weight);
@@ -144,14 +144,14 @@ void Observer::addCameras(uint64_t site, const glm::vec3& position, Observations
   }
 }
 
-void Observer::addRegion(uint64_t site, const glm::vec3& position, const FaceFrame<float>& frame,
+void Observer::addRegion(uint64_t detail, const glm::vec3& position, const FaceFrame<float>& frame,
                          Observations& seen) const {
   double shown = 0;
-  for (uint64_t i = visibility_->offsets[site]; i < visibility_->offsets[site + 1]; ++i) {
+  for (uint64_t i = visibility_->offsets[detail]; i < visibility_->offsets[detail + 1]; ++i) {
     shown += double(viewWeight(visibility_->views[i])) * visibility_->weights[i];
   }
   const auto first = static_cast<uint32_t>(visibility_->eyes.size() * (1 + kEyesAround) + hemisphere_.size());
-  for (const RegionEyes::Sight& sight : region_->sightsOf(site, position, frame, shown)) {
+  for (const RegionEyes::Sight& sight : region_->sightsOf(detail, position, frame, shown)) {
     const auto relative = static_cast<float>(kRegionShare * sight.weight / typicalWeight_);
     if (!(relative > 0)) continue;
     seen.eyes.push_back(first + sight.eye);
@@ -170,15 +170,15 @@ void Observer::addHemisphere(const FaceFrame<float>& frame, Observations& seen) 
   }
 }
 
-glm::vec3 Observer::colourAlong(uint64_t site, const glm::vec3& direction) const {
-  const LobeRange lobes = lobesOf(foam_, site);
+glm::vec3 Observer::colourAlong(uint64_t detail, const glm::vec3& direction) const {
+  const LobeRange lobes = lobesOf(foam_, detail);
   float largest = -std::numeric_limits<float>::max(), weightSum = 0;
   glm::vec3 colourSum(0);
   for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
     foam::addLobe(foam::lobeExponent(foam_.lobeAxes[m], direction), foam_.lobeColours[m], largest, weightSum,
                   colourSum);
   }
-  const glm::vec3 base = foam_.baseColours.empty() ? glm::vec3(0) : foam_.baseColours[site];
+  const glm::vec3 base = foam_.baseColours.empty() ? glm::vec3(0) : foam_.baseColours[detail];
   return glm::min(foam::lobeColour(base, weightSum, colourSum), kBrightest);
 }
 

@@ -42,17 +42,17 @@ class Observer {
   std::optional<uint32_t> viewOfEye(uint32_t eye) const;
   float viewWeight(uint32_t view) const { return viewWeights_.empty() ? 1.0f : viewWeights_[view]; }
 
-  Observations observe(uint64_t site) const;
+  Observations observe(uint64_t detail) const;
   // How much of where one detail site of a cell shows the other one shows too [0..1] (Visibility::overlaps).
   float overlap(uint32_t cell, uint32_t k, uint32_t l) const;
 
  private:
   static constexpr uint32_t kEyesAround = 2;
 
-  void addCameras(uint64_t site, const glm::vec3& position, Observations& seen) const;
-  void addRegion(uint64_t site, const glm::vec3& position, const FaceFrame<float>& frame, Observations& seen) const;
+  void addCameras(uint64_t detail, const glm::vec3& position, Observations& seen) const;
+  void addRegion(uint64_t detail, const glm::vec3& position, const FaceFrame<float>& frame, Observations& seen) const;
   void addHemisphere(const FaceFrame<float>& frame, Observations& seen) const;
-  glm::vec3 colourAlong(uint64_t site, const glm::vec3& direction) const;
+  glm::vec3 colourAlong(uint64_t detail, const glm::vec3& direction) const;
 
   const Foam& foam_;
   const Visibility* visibility_;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLeastOpenness = 0.05;  // relative to the mean: what no view shows is coded too
 constexpr uint32_t kLeastEyes = 48;      // of a cell: few cameras may have a large region around them
-constexpr uint64_t kSampledSites = 16384;
+constexpr uint64_t kSampledDetails = 16384;
 constexpr uint64_t kSeed = 1;
 
 // How large a face of this radius looks along `fromEye`, up to a factor; 0 from behind.
@@ -26,12 +26,13 @@ RegionEyes::RegionEyes(const Foam& foam, const Visibility& visibility, float rad
       visibility_(visibility),
       radius_(radius),
       eyeCount_(std::max(static_cast<uint32_t>(visibility.eyes.size()), kLeastEyes)) {
-  const uint64_t siteCount = visibility.offsets.size() - 1, count = std::min(siteCount, kSampledSites);
+  const uint64_t allDetails = visibility.offsets.size() - 1, count = std::min(allDetails, kSampledDetails);
   double shown = 0, faced = 0;
   for (uint64_t i = 0; i < count; ++i) {
-    const uint64_t site = i * siteCount / count, cell = site / foam.detailCount;
+    const uint64_t detail = i * allDetails / count, cell = detail / foam.detailCount;
     double weight = 0;
-    for (uint64_t k = visibility.offsets[site]; k < visibility.offsets[site + 1]; ++k) weight += visibility.weights[k];
+    for (uint64_t k = visibility.offsets[detail]; k < visibility.offsets[detail + 1]; ++k)
+      weight += visibility.weights[k];
     if (!(weight > 0)) continue;
     shown += weight;
     faced += sumFacing(cell, foam.sites[cell], faceFrame<float>(foam.orientations[cell]));
@@ -49,9 +50,9 @@ double RegionEyes::sumFacing(uint64_t cell, const glm::vec3& position, const Fac
   return sum;
 }
 
-std::vector<RegionEyes::Sight> RegionEyes::sightsOf(uint64_t site, const glm::vec3& position,
+std::vector<RegionEyes::Sight> RegionEyes::sightsOf(uint64_t detail, const glm::vec3& position,
                                                     const FaceFrame<float>& frame, double shown) const {
-  const uint64_t cell = site / foam_.detailCount, viewCount = visibility_.eyes.size();
+  const uint64_t cell = detail / foam_.detailCount, viewCount = visibility_.eyes.size();
   const double faced = sumFacing(cell, position, frame);
   const double openness = std::max(faced > 0 ? shown / faced : 0, leastOpenness_);
   const CounterRandom direction(kSeed, Purpose::kEye), distance(kSeed, Purpose::kRadius);

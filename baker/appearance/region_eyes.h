@@ -26,7 +26,7 @@ class RegionEyes {
   RegionEyes(const Foam& foam, const Visibility& visibility, float radius);
 
   // `shown`: the sum of the detail site's weights in the views. Eyes behind the face have no sight of it.
-  std::vector<Sight> sightsOf(uint64_t site, const glm::vec3& position, const FaceFrame<float>& frame,
+  std::vector<Sight> sightsOf(uint64_t detail, const glm::vec3& position, const FaceFrame<float>& frame,
                               double shown) const;
 
  private:

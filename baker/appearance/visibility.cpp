@@ -150,7 +150,7 @@ class ViewMeasurer {
 
 // Seen detail sites of one view, in no useful order.
 struct ViewEntries {
-  std::vector<uint64_t> sites;
+  std::vector<uint64_t> details;
   std::vector<float> weights;  // [full-size pixels]
 };
 
@@ -165,7 +165,7 @@ void addEntries(const ViewCells<float>& cells, const ViewSums& sums, double pixe
       const uint64_t sum = sums.details[uint64_t{rank} * K + k];
       if (sum == 0) continue;
       squares[cell * K + k] += sum;
-      entries.sites.push_back(cell * K + k);
+      entries.details.push_back(cell * K + k);
       entries.weights.push_back(static_cast<float>(sum / kFixedPoint * pixelsPerSample));
     }
   }
@@ -189,15 +189,15 @@ void correlate(uint32_t detailCount, const std::vector<uint64_t>& squares, const
 void gatherRows(const std::vector<ViewEntries>& views, Visibility& visibility) {
   auto& offsets = visibility.offsets;
   for (const ViewEntries& view : views) {
-    for (uint64_t site : view.sites) ++offsets[site + 1];
+    for (uint64_t detail : view.details) ++offsets[detail + 1];
   }
   for (size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];
   visibility.views.resize(offsets.back());
   visibility.weights.resize(offsets.back());
   std::vector<uint64_t> next(offsets.begin(), offsets.end() - 1);
   for (size_t v = 0; v < views.size(); ++v) {
-    for (size_t i = 0; i < views[v].sites.size(); ++i) {
-      const uint64_t place = next[views[v].sites[i]]++;
+    for (size_t i = 0; i < views[v].details.size(); ++i) {
+      const uint64_t place = next[views[v].details[i]]++;
       visibility.views[place] = static_cast<uint16_t>(v);
       visibility.weights[place] = views[v].weights[i];
     }

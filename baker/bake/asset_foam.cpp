@@ -72,8 +72,8 @@ void FoamAssembler::appendLobes(const ChunkContents& chunk, size_t bareDetails) 
   appendValues(foam_.lobeColours, chunk.lobeColours, fillers, glm::vec3(0));
   if (!hasLobeOffsets_) return;
   const size_t liveDetails = size_t{chunk.liveCount} * foam_.detailCount;
-  for (size_t site = 0; site < liveDetails; ++site) {
-    foam_.lobeOffsets.push_back(foam_.lobeOffsets.back() + lobeCountOf(chunk, foam_.lobeCount, site));
+  for (size_t detail = 0; detail < liveDetails; ++detail) {
+    foam_.lobeOffsets.push_back(foam_.lobeOffsets.back() + lobeCountOf(chunk, foam_.lobeCount, detail));
   }
   foam_.lobeOffsets.insert(foam_.lobeOffsets.end(), bareDetails, foam_.lobeOffsets.back());
 }

@@ -51,16 +51,16 @@ Status checkDetailNumbers(const Foam& foam, const char* name, std::span<const gl
   const auto bad =
       std::find_if_not(values.begin(), values.end(), [](const glm::vec3& value) { return areWithin(value); });
   if (bad == values.end()) return {};
-  uint64_t site = static_cast<uint64_t>(bad - values.begin());
-  if (areLobes && foam.lobeOffsets.empty()) site /= foam.lobeCount;
+  uint64_t detail = static_cast<uint64_t>(bad - values.begin());
+  if (areLobes && foam.lobeOffsets.empty()) detail /= foam.lobeCount;
   if (areLobes && !foam.lobeOffsets.empty()) {
     const auto& offsets = foam.lobeOffsets;
-    site = static_cast<uint64_t>(std::upper_bound(offsets.begin(), offsets.end(), site) - offsets.begin()) - 1;
+    detail = static_cast<uint64_t>(std::upper_bound(offsets.begin(), offsets.end(), detail) - offsets.begin()) - 1;
   }
   return makeError(ErrorKind::kBadInput,
                    "cell %llu, detail site %llu: array '%s' holds (%g, %g, %g), not within +-2^50; repair the foam",
-                   static_cast<unsigned long long>(site / foam.detailCount),
-                   static_cast<unsigned long long>(site % foam.detailCount), name, double{bad->x}, double{bad->y},
+                   static_cast<unsigned long long>(detail / foam.detailCount),
+                   static_cast<unsigned long long>(detail % foam.detailCount), name, double{bad->x}, double{bad->y},
                    double{bad->z});
 }
 
@@ -113,10 +113,10 @@ Status checkFoam(const Foam& foam) {
   }
   if (Status status = checkLengths(foam); !status) return status;
   if (Status status = checkNumbers(foam); !status) return status;
-  for (size_t site = 0; site + 1 < foam.lobeOffsets.size(); ++site) {
-    if (foam.lobeOffsets[site + 1] - foam.lobeOffsets[site] <= foam.lobeCount) continue;
+  for (size_t detail = 0; detail + 1 < foam.lobeOffsets.size(); ++detail) {
+    if (foam.lobeOffsets[detail + 1] - foam.lobeOffsets[detail] <= foam.lobeCount) continue;
     return makeError(ErrorKind::kBadInput,
-                     "foam: array 'lobeOffsets' gives detail site %zu more than %u lobes; import it again", site,
+                     "foam: array 'lobeOffsets' gives detail site %zu more than %u lobes; import it again", detail,
                      foam.lobeCount);
   }
   return {};

@@ -38,15 +38,15 @@ const std::array<glm::vec3, 4> kFaceDirections = {glm::vec3(-1, 0, 0), glm::vec3
                                                   glm::vec3(-0.70710678f, -0.35355339f, 0.61237244f),
                                                   glm::vec3(-0.70710678f, -0.35355339f, -0.61237244f)};
 
-glm::vec3 colourAlong(const Foam& foam, uint64_t site, const glm::vec3& direction) {
+glm::vec3 colourAlong(const Foam& foam, uint64_t detail, const glm::vec3& direction) {
   float largest = std::numeric_limits<float>::lowest(), weightSum = 0;
   glm::vec3 colourSum(0);
-  const LobeRange lobes = lobesOf(foam, site);
+  const LobeRange lobes = lobesOf(foam, detail);
   for (uint64_t lobe = lobes.first; lobe < lobes.first + lobes.count; ++lobe) {
     foam::addLobe(foam::lobeExponent(foam.lobeAxes[lobe], direction), foam.lobeColours[lobe], largest, weightSum,
                   colourSum);
   }
-  return foam::lobeColour(foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[site], weightSum, colourSum);
+  return foam::lobeColour(foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[detail], weightSum, colourSum);
 }
 
 // Mean over detail sites and directions, to a byte per channel.
@@ -63,8 +63,8 @@ glm::vec3 meanColour(const Foam& foam, uint32_t cell) {
   return glm::round(glm::clamp(mean, 0.0f, 1.0f) * 255.0f) / 255.0f;
 }
 
-bool hasVaryingLobes(const Foam& foam, uint64_t site) {
-  const LobeRange lobes = lobesOf(foam, site);
+bool hasVaryingLobes(const Foam& foam, uint64_t detail) {
+  const LobeRange lobes = lobesOf(foam, detail);
   for (uint64_t lobe = lobes.first + 1; lobe < lobes.first + lobes.count; ++lobe) {
     if (foam.lobeColours[lobe] != foam.lobeColours[lobes.first]) return true;
   }
@@ -90,9 +90,9 @@ void fillLobes(const Foam& foam, std::span<const uint32_t> sources, ChunkContent
 void fillPlainColours(const Foam& foam, std::span<const uint32_t> sources, ChunkContents& chunk) {
   for (const uint32_t cell : sources) {
     for (uint32_t k = 0; k < foam.detailCount; ++k) {
-      const uint64_t site = uint64_t{cell} * foam.detailCount + k;
-      const LobeRange lobes = lobesOf(foam, site);
-      glm::vec3 base = foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[site];
+      const uint64_t detail = uint64_t{cell} * foam.detailCount + k;
+      const LobeRange lobes = lobesOf(foam, detail);
+      glm::vec3 base = foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[detail];
       if (lobes.count > 0) base += foam.lobeColours[lobes.first];
       chunk.baseColours.push_back(base);
     }
@@ -107,7 +107,7 @@ void fillFaces(const Foam& foam, const BakeCells& cells, std::span<const uint32_
   bool isFlat = true;
   for (size_t i = 0; i < live.size(); ++i) {
     const uint32_t cell = live[i], source = cells.sources[cell];
-    const float siteUnit = unitOf(lattices.detailSiteStep, chunk.detailScales, i);
+    const float detailUnit = unitOf(lattices.detailSiteStep, chunk.detailScales, i);
     const float heightUnit = unitOf(lattices.heightStep, chunk.detailScales, i);
     errors.sites.add(glm::distance(glm::dvec3(cells.sites[cell]), glm::dvec3(foam.sites[source])));
     errors.radii.add(relativeError(cells.radii[cell], foam.radii[source]));
@@ -119,8 +119,8 @@ void fillFaces(const Foam& foam, const BakeCells& cells, std::span<const uint32_
 
     double heightSum = 0;
     for (size_t k = size_t{source} * details; k < (size_t{source} + 1) * details; ++k) {
-      const glm::dvec2 site(foam.detailSites[k]), snapped(snapDetailSite(face, foam.detailSites[k], siteUnit));
-      errors.detailSites.add(glm::distance(site.x * face.from.tangent + site.y * face.from.bitangent,
+      const glm::dvec2 place(foam.detailSites[k]), snapped(snapDetailSite(face, foam.detailSites[k], detailUnit));
+      errors.detailSites.add(glm::distance(place.x * face.from.tangent + place.y * face.from.bitangent,
                                            snapped.x * face.to.tangent + snapped.y * face.to.bitangent));
       chunk.detailSites.emplace_back(snapped);
       const float height = snapToStep(foam.detailHeights[k], heightUnit);
@@ -143,9 +143,9 @@ void fillColours(const Foam& foam, std::span<const uint32_t> sources, bool keeps
 }
 
 bool isViewDependent(const Foam& foam) {
-  const uint64_t siteCount = uint64_t{foam.cellCount} * foam.detailCount;
-  for (uint64_t site = 0; site < siteCount; ++site) {
-    if (hasVaryingLobes(foam, site)) return true;
+  const uint64_t allDetails = uint64_t{foam.cellCount} * foam.detailCount;
+  for (uint64_t detail = 0; detail < allDetails; ++detail) {
+    if (hasVaryingLobes(foam, detail)) return true;
   }
   return false;
 }

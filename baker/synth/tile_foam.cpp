@@ -40,11 +40,11 @@ void repeat(std::vector<T>& values, uint32_t count) {
 
 void repeatOffsets(std::vector<uint64_t>& offsets, uint32_t count) {
   if (offsets.empty()) return;
-  const size_t sites = offsets.size() - 1;
+  const size_t details = offsets.size() - 1;
   const uint64_t lobes = offsets.back();
-  offsets.reserve(sites * count + 1);
+  offsets.reserve(details * count + 1);
   for (uint32_t copy = 1; copy < count; ++copy) {
-    for (size_t site = 1; site <= sites; ++site) offsets.push_back(copy * lobes + offsets[site]);
+    for (size_t detail = 1; detail <= details; ++detail) offsets.push_back(copy * lobes + offsets[detail]);
   }
 }
 
@@ -57,8 +57,8 @@ void placeCopy(Foam& foam, size_t copy, size_t cells, const dvec3& centre, doubl
     const glm::vec4 o = foam.orientations[i];
     const glm::dquat q = glm::normalize(glm::dquat(o.x, o.y, o.z, o.w) * glm::conjugate(turn));
     foam.orientations[i] = {q.w, q.x, q.y, q.z};
-    for (uint64_t site = i * foam.detailCount; site < (i + 1) * foam.detailCount; ++site) {
-      const LobeRange lobes = lobesOf(foam, site);
+    for (uint64_t detail = i * foam.detailCount; detail < (i + 1) * foam.detailCount; ++detail) {
+      const LobeRange lobes = lobesOf(foam, detail);
       for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
         foam.lobeAxes[m] = turn * dvec3(foam.lobeAxes[m]);
       }

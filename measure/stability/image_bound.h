@@ -60,7 +60,7 @@ Result<ImageBound> boundImage(const ReferenceRenderer& renderer, const View& vie
                               const BoundOptions& bound);
 
 // The bound of the form that games draw: colours of detail sites are halves between passes (shaders/gpu/layout.h,
-// SiteRecord), off by at most 2^-11 of themselves, and a pixel is a sum of them with weights >= 0; the image is of
+// DetailRecord), off by at most 2^-11 of themselves, and a pixel is a sum of them with weights >= 0; the image is of
 // halves, which may be rounded either way (2^-10); and a ray ends when its transmittance falls below a cut-off. What
 // that leaves out is what the exact image gains between a cut-off and none. `atTwice`: the exact image with twice the
 // cut-off, as transmittance is itself off by rounding.

@@ -13,7 +13,7 @@ constexpr uint32_t kMaxCells = 500'000;  // of the most copies, unless the foam 
 constexpr uint32_t kMaxCopies = 16;
 constexpr uint32_t kOutsideViews = 4;
 // What a half float loses of a colour below one: detail sites are kept in halves between the passes
-// (shaders/shade_sites.comp).
+// (shaders/shade_details.comp).
 constexpr double kHalfRounding = 0x1p-12;
 constexpr double kMoreThanNoise = 1.05;
 constexpr double kFixedCost = 1;  // fitSlope's factor: no floor is cut off

@@ -55,15 +55,15 @@ void sortFrontToBack(const Foam& foam, const View& view, const ReferenceOptions&
 
 // The colour of a detail site from the eye: its lobes weighed by the direction in which it is seen.
 template <class Real>
-Vec3<Real> seeDetail(const Foam& foam, size_t site, const Vec3<Real>& direction, Rounding& rounding) {
-  const LobeRange lobes = lobesOf(foam, site);
+Vec3<Real> seeDetail(const Foam& foam, size_t detail, const Vec3<Real>& direction, Rounding& rounding) {
+  const LobeRange lobes = lobesOf(foam, detail);
   Real largest = -std::numeric_limits<Real>::max(), weightSum = 0;
   Vec3<Real> colourSum(0);
   for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
     const Real exponent = rounding.of(foam::lobeExponent(Vec3<Real>(foam.lobeAxes[m]), direction));
     foam::addLobe(exponent, rounding.of(Vec3<Real>(foam.lobeColours[m])), largest, weightSum, colourSum);
   }
-  const Vec3<Real> base = foam.baseColours.empty() ? Vec3<Real>(0) : Vec3<Real>(foam.baseColours[site]);
+  const Vec3<Real> base = foam.baseColours.empty() ? Vec3<Real>(0) : Vec3<Real>(foam.baseColours[detail]);
   return foam::lobeColour(base, weightSum, colourSum);
 }
 
@@ -73,15 +73,15 @@ void fillDetails(const Foam& foam, uint32_t source, const ViewCell<Real>& cell, 
   const bool isOrthographic = view.lens.kind == LensKind::kOrthographic;
   const Vec3<Real> forward(forwardOf(view));
   for (size_t k = 0; k < details.size(); ++k) {
-    const size_t site = size_t{source} * details.size() + k;
+    const size_t own = size_t{source} * details.size() + k;
     ViewDetail<Real>& detail = details[k];
-    const glm::vec2 place = foam.detailSites[site];
+    const glm::vec2 place = foam.detailSites[own];
     detail.place = {rounding.of(Real(place.x)), rounding.of(Real(place.y))};
-    detail.height = rounding.of(cell.radius * Real(foam.detailHeights[site]));
+    detail.height = rounding.of(cell.radius * Real(foam.detailHeights[own]));
     const Vec3<Real> fromEye =
         cell.centre + cell.radius * (detail.place.x * cell.frame.tangent + detail.place.y * cell.frame.bitangent);
-    const Vec3<Real> direction = isOrthographic ? forward : foam::directionToSite(fromEye, cell.frame.normal);
-    const Vec3<Real> colour = seeDetail(foam, site, rounding.of(direction), rounding);
+    const Vec3<Real> direction = isOrthographic ? forward : foam::directionToDetail(fromEye, cell.frame.normal);
+    const Vec3<Real> colour = seeDetail(foam, own, rounding.of(direction), rounding);
     detail.colour = {rounding.of(colour.x), rounding.of(colour.y), rounding.of(colour.z)};
   }
 }

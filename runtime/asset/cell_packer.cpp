@@ -52,12 +52,12 @@ class CellPacker {
     places_ = toNumbers(floatsOf(chunk.detailSites));
     heights_ = toNumbers(chunk.detailHeights);
     axes_ = toNumbers(floatsOf(chunk.lobeAxes));
-    std::vector<uint8_t> siteScales, lobeScales;
-    for (size_t site = 0; site < siteCount() && !chunk.colourScales.empty(); ++site) {
-      siteScales.push_back(chunk.colourScales[site / detailCount]);
-      lobeScales.insert(lobeScales.end(), lobesOf(site), siteScales.back());
+    std::vector<uint8_t> detailScales, lobeScales;
+    for (size_t detail = 0; detail < allDetails() && !chunk.colourScales.empty(); ++detail) {
+      detailScales.push_back(chunk.colourScales[detail / detailCount]);
+      lobeScales.insert(lobeScales.end(), lobesOf(detail), detailScales.back());
     }
-    bases_ = toColourNumbers(chunk.baseColours, siteScales);
+    bases_ = toColourNumbers(chunk.baseColours, detailScales);
     colours_ = toColourNumbers(chunk.lobeColours, lobeScales);
     labels_ = labelAxes(axes_);
     ownPlaces_.resize(labels_.axisCount, {kNoCell, 0});
@@ -84,15 +84,15 @@ class CellPacker {
   }
 
  private:
-  uint32_t lobesOf(size_t site) const { return lobeCountOf(chunk_, lobeCount_, site); }
-  size_t siteCount() const { return size_t{chunk_.liveCount} * detailCount_; }
+  uint32_t lobesOf(size_t detail) const { return lobeCountOf(chunk_, lobeCount_, detail); }
+  size_t allDetails() const { return size_t{chunk_.liveCount} * detailCount_; }
 
   void measureCells() {
     size_t lobe = 0;
     for (uint32_t cell = 0; cell < chunk_.liveCount; ++cell) {
       CellShape shape;
       shape.firstLobe = lobe;
-      measureSites(cell, shape);
+      measureDetails(cell, shape);
       shape.endLobe = shape.firstLobe + cellLobes(cell);
       lobe = shape.endLobe;
       measureLobes(cell, shape);
@@ -102,20 +102,20 @@ class CellPacker {
 
   size_t cellLobes(uint32_t cell) const {
     size_t sum = 0;
-    for (size_t site = size_t{cell} * detailCount_; site < size_t{cell + 1} * detailCount_; ++site) {
-      sum += lobesOf(site);
+    for (size_t detail = size_t{cell} * detailCount_; detail < size_t{cell + 1} * detailCount_; ++detail) {
+      sum += lobesOf(detail);
     }
     return sum;
   }
 
-  void measureSites(uint32_t cell, CellShape& shape) const {
+  void measureDetails(uint32_t cell, CellShape& shape) const {
     CodeRange places, heights, lobes;
     std::array<CodeRange, 3> bases;
-    for (size_t site = size_t{cell} * detailCount_; site < size_t{cell + 1} * detailCount_; ++site) {
-      for (size_t c = 0; c < 2; ++c) places.add(places_.codes[2 * site + c]);
-      if (!heights_.codes.empty()) heights.add(heights_.codes[site]);
-      for (size_t c = 0; c < 3 && !bases_.codes.empty(); ++c) bases[c].add(bases_.codes[3 * site + c]);
-      lobes.add(static_cast<int32_t>(lobesOf(site)));
+    for (size_t detail = size_t{cell} * detailCount_; detail < size_t{cell + 1} * detailCount_; ++detail) {
+      for (size_t c = 0; c < 2; ++c) places.add(places_.codes[2 * detail + c]);
+      if (!heights_.codes.empty()) heights.add(heights_.codes[detail]);
+      for (size_t c = 0; c < 3 && !bases_.codes.empty(); ++c) bases[c].add(bases_.codes[3 * detail + c]);
+      lobes.add(static_cast<int32_t>(lobesOf(detail)));
     }
     shape.widths[kPlace] = places_.isRaw() ? kFloatBits : places.signedWidth();
     shape.widths[kHeight] = heights_.isRaw() ? kFloatBits : heights.width();
@@ -208,7 +208,7 @@ class CellPacker {
     for (const int32_t lowest : shape.lowestBase) putSigned(lowest, code_.baseBits);
     bits_.put(static_cast<uint32_t>(shape.ownAxes.size()), code_.ownAxisBits);
     for (const AxisCode& axis : shape.ownAxes) putAxis(axis);
-    putSites(cell, shape);
+    putDetails(cell, shape);
     for (size_t lobe = shape.firstLobe; lobe < shape.endLobe; ++lobe) putLobe(shape, lobe);
   }
 
@@ -222,15 +222,15 @@ class CellPacker {
     for (const uint32_t index : normals_[cell]) bits_.put(index, code_.normalBits);
   }
 
-  void putSites(uint32_t cell, const CellShape& shape) {
+  void putDetails(uint32_t cell, const CellShape& shape) {
     const size_t first = size_t{cell} * detailCount_;
     const auto& widths = shape.widths;
-    for (size_t site = first; site < first + detailCount_; ++site) bits_.put(lobesOf(site), widths[kLobes]);
-    for (size_t site = first; site < first + detailCount_; ++site) {
-      for (size_t c = 0; c < 2; ++c) putNumber(places_, 2 * site + c, 0, widths[kPlace]);
-      if (!heights_.codes.empty()) putNumber(heights_, site, shape.lowestHeight, widths[kHeight]);
+    for (size_t detail = first; detail < first + detailCount_; ++detail) bits_.put(lobesOf(detail), widths[kLobes]);
+    for (size_t detail = first; detail < first + detailCount_; ++detail) {
+      for (size_t c = 0; c < 2; ++c) putNumber(places_, 2 * detail + c, 0, widths[kPlace]);
+      if (!heights_.codes.empty()) putNumber(heights_, detail, shape.lowestHeight, widths[kHeight]);
       for (size_t c = 0; c < 3 && !bases_.codes.empty(); ++c) {
-        putNumber(bases_, 3 * site + c, shape.lowestBase[c], widths[c == 0 ? kBaseGreen : kBaseChroma]);
+        putNumber(bases_, 3 * detail + c, shape.lowestBase[c], widths[c == 0 ? kBaseGreen : kBaseChroma]);
       }
     }
   }

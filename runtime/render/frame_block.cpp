@@ -34,7 +34,8 @@ void fillCamera(const FrothRenderInfo& info, const CameraRays& rays, const Rende
 
 void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkRect2D& region, gpu::FrameBlock& block) {
   const ViewCapacity& capacity = buffers.capacity();
-  block.visibleCapacity = static_cast<uint32_t>(std::min(uint64_t{capacity.cells}, capacity.sites / asset.detailCount));
+  block.visibleCapacity =
+      static_cast<uint32_t>(std::min(uint64_t{capacity.cells}, capacity.details / asset.detailCount));
   block.planeCapacity = static_cast<uint32_t>(capacity.planes);
   block.pairCapacity = capacity.pairs;
   block.sortRounds = sortRoundsOf(capacity.cells);
@@ -45,7 +46,7 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
   block.order = buffers[ViewBuffer::kOrder].address;
   block.records = buffers[ViewBuffer::kRecords].address;
   block.planes = buffers[ViewBuffer::kPlanes].address;
-  block.sites = buffers[ViewBuffer::kSites].address;
+  block.details = buffers[ViewBuffer::kDetails].address;
   block.slotTiles = buffers[ViewBuffer::kSlotTiles].address;
   block.tileCounts = buffers[ViewBuffer::kTileCounts].address;
   block.pairTiles = buffers[ViewBuffer::kPairTiles].address;

@@ -34,7 +34,7 @@ namespace froth {
 // Made for each shape of assets, on which they are specialized. RasterLong: of tiles with long lists.
 #define FROTH_SHAPED_PASSES(ONE, COLOURS, FORMS)  \
   ONE(CompactCells, compact_cells, kEyeOrNone)    \
-  ONE(ShadeSites, shade_sites, kEyeOrNone)        \
+  ONE(ShadeDetails, shade_details, kEyeOrNone)    \
   FORMS(RasterLong, raster_long_tiles, kEachLens) \
   FORMS(Raster, raster_tiles, kEachLens)          \
   FORMS(Walk, walk, kEachLens)

@@ -24,7 +24,7 @@
 #include "spirv/raster_merged_rgba32f.h"
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
-#include "spirv/shade_sites.h"
+#include "spirv/shade_details.h"
 #include "spirv/share_tiles.h"
 #include "spirv/sort_scatter.h"
 #include "spirv/sort_scatter_many.h"

@@ -166,7 +166,7 @@ void recordExpand(const Recording& recording) {
 
 void recordShade(const Recording& recording) {
   for (const RecordingPart& part : recording.parts()) {
-    part.recorder.runIndirect(Pass::kShadeSites, offsetof(gpu::Counters, siteDispatch));
+    part.recorder.runIndirect(Pass::kShadeDetails, offsetof(gpu::Counters, detailDispatch));
   }
 }
 

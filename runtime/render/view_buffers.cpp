@@ -37,8 +37,8 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
       return sizeof(gpu::CellRecord) * cells;
     case ViewBuffer::kPlanes:
       return 16 * capacity.planes;
-    case ViewBuffer::kSites:
-      return sizeof(gpu::SiteRecord) * capacity.sites;
+    case ViewBuffer::kDetails:
+      return sizeof(gpu::DetailRecord) * capacity.details;
     case ViewBuffer::kCellKeys:
     case ViewBuffer::kCellKeysSwap:
     case ViewBuffer::kOrder:
@@ -165,7 +165,7 @@ void ViewBuffers::addMemory(FrothViewStatus& status) const {
   add("visible cells", {kVisibleCells, kCellKeys, kCellKeysSwap, kOrder, kOrderSwap, kSlotTiles, kTileCounts});
   add("records", {kRecords});
   add("planes", {kPlanes});
-  add("sites", {kSites});
+  add("detail sites", {kDetails});
   if (capacity_.rays > 0) add("rays", {kRays, kCones});
   if (capacity_.hits > 0) add("hits", {kHits});
   add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies, kTileLists});

@@ -28,7 +28,7 @@ enum class ViewBuffer : uint32_t {
   kOrderSwap,
   kRecords,
   kPlanes,
-  kSites,
+  kDetails,
   kSlotTiles,
   kTileCounts,
   kPairTiles,

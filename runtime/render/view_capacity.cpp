@@ -36,7 +36,7 @@ ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b) {
           .walkStarts = std::max(a.walkStarts, b.walkStarts),
           .cells = std::max(a.cells, b.cells),
           .planes = std::max(a.planes, b.planes),
-          .sites = std::max(a.sites, b.sites),
+          .details = std::max(a.details, b.details),
           .pairs = std::max(a.pairs, b.pairs)};
 }
 
@@ -91,7 +91,7 @@ void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
   needed.groups = groupsOfCells(asset);
   needed.cells = static_cast<uint32_t>(cells);
   needed.planes = std::min(asset.alphaTotal, cells * meanPlanes);
-  needed.sites = cells * asset.detailCount;
+  needed.details = cells * asset.detailCount;
   needed.pairs = static_cast<uint32_t>(
       std::clamp(kPairsPerCell * cells + kPairsPerTile * capacity.tiles, kLeastPairs, kMostPairs));
   capacity = largest(capacity, needed);
@@ -113,7 +113,7 @@ ViewCapacity lessened(const ViewCapacity& capacity, double factor) {
   ViewCapacity less = capacity;
   less.cells = static_cast<uint32_t>(cells);
   less.planes = perCell(capacity.planes);
-  less.sites = perCell(capacity.sites);
+  less.details = perCell(capacity.details);
   less.pairs = static_cast<uint32_t>(partOf(capacity.pairs, kFewestPairs));
   return less;
 }
@@ -122,7 +122,7 @@ void coverDemand(const GpuAsset& asset, const ViewDemand& demand, ViewCapacity& 
   const uint64_t cells = roomFor(demand.cells, capacity.cells, asset.cellCount);
   capacity.cells = static_cast<uint32_t>(cells);
   capacity.planes = roomFor(demand.planes, capacity.planes, asset.neighbourTotal);
-  capacity.sites = std::max(capacity.sites, cells * asset.detailCount);
+  capacity.details = std::max(capacity.details, cells * asset.detailCount);
   capacity.pairs = static_cast<uint32_t>(roomFor(demand.pairs, capacity.pairs, kMostPairs));
 }
 

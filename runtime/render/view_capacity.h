@@ -20,7 +20,7 @@ struct ViewCapacity {
   // Of visible cells: a guess at first. A frame that wants more is valid without what has no space.
   uint32_t cells = 1;
   uint64_t planes = 1;
-  uint64_t sites = 1;  // cells times K
+  uint64_t details = 1;  // cells times K
   uint32_t pairs = 1;
 
   friend bool operator==(const ViewCapacity&, const ViewCapacity&) = default;

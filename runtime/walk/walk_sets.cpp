@@ -172,7 +172,7 @@ void WalkSets::readCounters(const Slot& slot) {
   status_.cells = sumOf(counters, gpu::kRayWorkCells);
   status_.neighbours = sumOf(counters, gpu::kRayWorkNeighbours);
   status_.cellsMet = sumOf(counters, gpu::kRayWorkMet);
-  status_.sites = sumOf(counters, gpu::kRayWorkShaded);
+  status_.detailSites = sumOf(counters, gpu::kRayWorkShaded);
 }
 
 void WalkSets::dropFrame(uint64_t serial) {

@@ -36,11 +36,11 @@ FOAM_FN real detailWeight(real3 query, real2 detail, real sharpness) {
 // itself: the error is below half an 8-bit step (docs/STABILITY.md).
 FOAM_FN real leastShownShare() { return real(1) / real(1024); }
 
-// The unit direction in which a detail site is seen, `toSite` from the eye. From the site itself it is seen as from
+// The unit direction in which a detail site is seen, `toDetail` from the eye. From the site itself it is seen as from
 // just before the face, whose normal points to the empty side.
-FOAM_FN real3 directionToSite(real3 toSite, real3 normal) {
-  real squared = dot(toSite, toSite);
-  return squared > real(0) ? toSite / sqrt(squared) : -normal;
+FOAM_FN real3 directionToDetail(real3 toDetail, real3 normal) {
+  real squared = dot(toDetail, toDetail);
+  return squared > real(0) ? toDetail / sqrt(squared) : -normal;
 }
 
 // Exponent of one lobe seen along `direction` (unit): -tau |direction - axis/tau|, tau = |axis|.

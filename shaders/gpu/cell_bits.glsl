@@ -137,29 +137,29 @@ struct DetailSite {
 
 DetailSite loadDetailSite(CellCode code, CellHeader header, uint detailCount, uint detail) {
   BitCursor cursor = header.lobeCounts;
-  uint siteBits = 2 * header.place + header.height + header.base.x + 2 * header.base.y;
-  skipBits(cursor, detailCount * header.lobes + detail * siteBits);
-  DetailSite site;
+  uint detailBits = 2 * header.place + header.height + header.base.x + 2 * header.base.y;
+  skipBits(cursor, detailCount * header.lobes + detail * detailBits);
+  DetailSite detailSite;
   if (code.placeStep > 0.0) {
-    site.place.x = code.placeStep * float(takeSigned(cursor, header.place));
-    site.place.y = code.placeStep * float(takeSigned(cursor, header.place));
+    detailSite.place.x = code.placeStep * float(takeSigned(cursor, header.place));
+    detailSite.place.y = code.placeStep * float(takeSigned(cursor, header.place));
   } else {
-    site.place.x = uintBitsToFloat(takeBits(cursor, 32));
-    site.place.y = uintBitsToFloat(takeBits(cursor, 32));
+    detailSite.place.x = uintBitsToFloat(takeBits(cursor, 32));
+    detailSite.place.y = uintBitsToFloat(takeBits(cursor, 32));
   }
   uint height = takeBits(cursor, header.height);
-  site.height = code.heightStep > 0.0
+  detailSite.height = code.heightStep > 0.0
                     ? code.heightStep * float(header.lowestHeight + int(height))
                     : uintBitsToFloat(height);
   if (code.baseStep > 0.0) {
     int green = int(takeBits(cursor, header.base.x));
     int redLess = int(takeBits(cursor, header.base.y));
     int blueLess = int(takeBits(cursor, header.base.y));
-    site.base = joinGreen(header.lowestBase + ivec3(green, redLess, blueLess), code.baseStep * header.unit);
+    detailSite.base = joinGreen(header.lowestBase + ivec3(green, redLess, blueLess), code.baseStep * header.unit);
   } else {
-    site.base = takeFloats(cursor);
+    detailSite.base = takeFloats(cursor);
   }
-  return site;
+  return detailSite;
 }
 
 // The lobes of one detail site, to be taken one after the other.
@@ -175,9 +175,9 @@ Lobes loadLobes(CellCode code, CellHeader header, uint detailCount, uint detail)
   Lobes lobes;
   lobes.count = takeBits(counts, header.lobes);
   lobes.cursor = header.lobeCounts;
-  uint siteBits = header.lobes + 2 * header.place + header.height + header.base.x + 2 * header.base.y;
+  uint detailBits = header.lobes + 2 * header.place + header.height + header.base.x + 2 * header.base.y;
   uint lobeBits = (code.axisCount > 0 ? 1 : 3) * header.axis + header.lobe.x + 2 * header.lobe.y;
-  skipBits(lobes.cursor, detailCount * siteBits + before * lobeBits);
+  skipBits(lobes.cursor, detailCount * detailBits + before * lobeBits);
   return lobes;
 }
 

@@ -66,7 +66,7 @@ FROTH_CONST kConstantHasHeights = 3;
 FROTH_CONST kConstantCountWork = 4;
 FROTH_CONST kConstantIsFull = 5;  // the frame wants more than colour and distance, or has a scene's depth
 FROTH_CONST kConstantLensClass = 6;
-FROTH_CONST kConstantFloatColours = 7;  // SiteRecord::colour
+FROTH_CONST kConstantFloatColours = 7;  // DetailRecord::colour
 
 // How the passes of a pipeline see: kConstantLensClass.
 FROTH_CONST kLensClassPinhole = 0;
@@ -146,7 +146,7 @@ struct CellRecord {
 
 // A detail site of a visible cell, seen from the eye. What a ray reads most, so it is small: colours are halves, off by
 // at most 2^-12 below 1, a sixteenth of an 8-bit step.
-struct SiteRecord {
+struct DetailRecord {
   vec2 place;  // (u, v)
   float height;
   uint blue;     // float, with kConstantFloatColours
@@ -178,7 +178,7 @@ struct Counters {
   uint isCut;         // 1: it is longer than maxEntries
   uint padding[2];
   uvec4 expandDispatch;       // kRasterLanes or kWalkLanes threads per visible cell
-  uvec4 siteDispatch;         // a thread per detail site of a visible cell
+  uvec4 detailDispatch;       // a thread per detail site of a visible cell
   uvec4 cellSortDispatch;     // a workgroup per sortRounds * kGroupSize visible cells
   uvec4 tileDispatch;         // a workgroup per kTileCellsPerGroup visible cells
   uvec4 pairSortDispatch;     // a workgroup per sortRounds * kGroupSize kept pairs
@@ -190,7 +190,7 @@ struct Counters {
 #if !defined(__cplusplus)
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer ChunkArray { ChunkEntry v[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer RecordArray { CellRecord v[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) buffer SiteArray { SiteRecord v[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer DetailArray { DetailRecord v[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer CountersRef { Counters v; };
 #endif
 
@@ -235,7 +235,7 @@ struct FrameBlock {
   FROTH_ADDRESS(UintArray) order;        // [visible cell] slot
   FROTH_ADDRESS(RecordArray) records;    // [slot]
   FROTH_ADDRESS(FloatQuadArray) planes;  // [planeCapacity] xyz: gpu/view_rays.glsl; w for a walk: link
-  FROTH_ADDRESS(SiteArray) sites;        // [slot * K]
+  FROTH_ADDRESS(DetailArray) details;    // [slot * K]
   FROTH_ADDRESS(UintArray) slotTiles;    // [slot] tiles its solid ball meets
   FROTH_ADDRESS(UintArray) tileCounts;   // [visible cell] the same
   FROTH_ADDRESS(UintArray) tileSums;     // [visible cell / kCellsPerTileSum] their sums
@@ -321,7 +321,7 @@ struct PartConstants {
 
 static_assert(sizeof(ChunkEntry) == 208 && offsetof(ChunkEntry, siteRadius) == 32);
 static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 144 && sizeof(CellCode) == 64);
-static_assert(sizeof(SiteRecord) == 24 && offsetof(SiteRecord, colour) == 16);
+static_assert(sizeof(DetailRecord) == 24 && offsetof(DetailRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(offsetof(Counters, expandDispatch) == 48 && offsetof(Counters, work) == 160 && sizeof(Counters) == 224);
 static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 248);

@@ -34,12 +34,12 @@ struct Radiance {
 struct Shading {
   RecordArray records;
   FloatQuadArray planes;
-  SiteArray sites;
+  DetailArray details;
   float detailSharpness, logCutoff, logQuantile;
 };
 
 Shading loadShading() {
-  return Shading(FRAME.records, FRAME.planes, FRAME.sites, FRAME.detailSharpness, FRAME.logCutoff, FRAME.logQuantile);
+  return Shading(FRAME.records, FRAME.planes, FRAME.details, FRAME.detailSharpness, FRAME.logCutoff, FRAME.logQuantile);
 }
 
 // A ray's interval in a cell; none: tFar <= tNear.
@@ -79,12 +79,12 @@ vec3 queryAt(FaceView view, uint ray, float t) { return faceQuery(t * view.direc
 const vec3 kFaceNormal = vec3(0.0, 0.0, 1.0);
 
 // Heights of the displaced face at query points, in units of the radius.
-void heightsAt(Shading shading, uint firstSite, vec3 queries[kRays], out float heights[kRays]) {
+void heightsAt(Shading shading, uint firstDetail, vec3 queries[kRays], out float heights[kRays]) {
   float weightSums[kRays];
   for (uint r = 0; r < kRays; ++r) weightSums[r] = heights[r] = 0.0;
   for (uint k = 0; k < detailCount; ++k) {
-    vec2 place = shading.sites.v[firstSite + k].place;
-    float height = shading.sites.v[firstSite + k].height;
+    vec2 place = shading.details.v[firstDetail + k].place;
+    float height = shading.details.v[firstDetail + k].height;
     for (uint r = 0; r < kRays; ++r) {
       float weight = detailWeight(queries[r], place, shading.detailSharpness);
       weightSums[r] += weight;
@@ -94,21 +94,21 @@ void heightsAt(Shading shading, uint firstSite, vec3 queries[kRays], out float h
   for (uint r = 0; r < kRays; ++r) heights[r] /= flooredWeightSum(weightSums[r]);
 }
 
-vec3 colourOfSite(Shading shading, uint site) {
-  uvec2 words = shading.sites.v[site].colour;
-  if (floatColours) return uintBitsToFloat(uvec3(words, shading.sites.v[site].blue));
+vec3 colourOfDetail(Shading shading, uint detail) {
+  uvec2 words = shading.details.v[detail].colour;
+  if (floatColours) return uintBitsToFloat(uvec3(words, shading.details.v[detail].blue));
   return vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y).x);
 }
 
-void coloursAt(Shading shading, uint firstSite, vec3 queries[kRays], out vec3 colours[kRays]) {
+void coloursAt(Shading shading, uint firstDetail, vec3 queries[kRays], out vec3 colours[kRays]) {
   float weightSums[kRays];
   for (uint r = 0; r < kRays; ++r) {
     weightSums[r] = 0.0;
     colours[r] = vec3(0.0);
   }
   for (uint k = 0; k < detailCount; ++k) {
-    vec2 place = shading.sites.v[firstSite + k].place;
-    vec3 colour = colourOfSite(shading, firstSite + k);
+    vec2 place = shading.details.v[firstDetail + k].place;
+    vec3 colour = colourOfDetail(shading, firstDetail + k);
     for (uint r = 0; r < kRays; ++r) {
       float weight = detailWeight(queries[r], place, shading.detailSharpness);
       weightSums[r] += weight;
@@ -119,7 +119,7 @@ void coloursAt(Shading shading, uint firstSite, vec3 queries[kRays], out vec3 co
 }
 
 // Cuts the intervals by the displaced face.
-void clipByFace(Shading shading, FaceView view, uint firstSite, inout Segment segments[kRays]) {
+void clipByFace(Shading shading, FaceView view, uint firstDetail, inout Segment segments[kRays]) {
   float heights[kRays];
   for (uint r = 0; r < kRays; ++r) heights[r] = 0.0;
   if (hasHeights) {
@@ -129,7 +129,7 @@ void clipByFace(Shading shading, FaceView view, uint firstSite, inout Segment se
       queries[r] = queryAt(view, r, t);
       countWork(kWorkHeights, isEmpty(segments[r]) ? 0 : 1);
     }
-    heightsAt(shading, firstSite, queries, heights);
+    heightsAt(shading, firstDetail, queries, heights);
   }
   for (uint r = 0; r < kRays; ++r) {
     clipByFace(view.centres[r], kFaceNormal, view.directions[r].z, heights[r], segments[r].tNear, segments[r].tFar);
@@ -152,16 +152,16 @@ void composite(Shading shading, Segment segment, float density, vec3 colour, vec
 // Cuts the intervals down to what shows, and finds its colours; false: nothing does.
 bool shadeSegments(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], inout Segment segments[kRays],
                    out vec3 colours[kRays]) {
-  uint firstSite = visible * detailCount;
+  uint firstDetail = visible * detailCount;
   FaceView view = faceViewOf(cell, rays);
-  clipByFace(shading, view, firstSite, segments);
+  clipByFace(shading, view, firstDetail, segments);
   bool isAny = false;
   vec3 queries[kRays];
   for (uint r = 0; r < kRays; ++r) {
     isAny = isAny || !isEmpty(segments[r]);
     queries[r] = queryAt(view, r, segments[r].tNear);
   }
-  if (isAny) coloursAt(shading, firstSite, queries, colours);
+  if (isAny) coloursAt(shading, firstDetail, queries, colours);
   return isAny;
 }
 

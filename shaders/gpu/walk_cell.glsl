@@ -1,7 +1,7 @@
 // What one ray meets in one cell, from the cell's bits (docs/FOAM.md "What one ray meets in one cell").
 #ifndef FROTH_GPU_WALK_CELL_GLSL
 #define FROTH_GPU_WALK_CELL_GLSL
-#include "gpu/site_colour.glsl"
+#include "gpu/detail_colour.glsl"
 #include "foam/cell.h"
 #include "foam/clip_face.h"
 
@@ -25,15 +25,15 @@ vec3 faceQueryAt(MetCell met, Frame frame, vec3 direction, float t) {
 
 // Blended height of the face at a query point, in units of the radius.
 float heightAt(CellCode code, CellHeader header, vec3 query) {
-  uint siteCount = FRAME.detailCount;
+  uint detailCount = FRAME.detailCount;
   float sharpness = FRAME.detailSharpness;
   float weightSum = 0.0;
   float heightSum = 0.0;
-  for (uint k = 0; k < siteCount; ++k) {
-    DetailSite site = loadDetailSite(code, header, siteCount, k);
-    float weight = detailWeight(query, site.place, sharpness);
+  for (uint k = 0; k < detailCount; ++k) {
+    DetailSite detail = loadDetailSite(code, header, detailCount, k);
+    float weight = detailWeight(query, detail.place, sharpness);
     weightSum += weight;
-    heightSum += weight * site.height;
+    heightSum += weight * detail.height;
   }
   return heightSum / flooredWeightSum(weightSum);
 }
@@ -54,25 +54,25 @@ void clipByFace(CellCode code, MetCell met, Frame frame, vec3 direction, inout f
 // took part.
 vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, float behind, out uint shaded) {
   CellHeader header = loadCellHeader(code, met.cell.x, met.cell.y);
-  uint siteCount = FRAME.detailCount;
+  uint detailCount = FRAME.detailCount;
   float sharpness = FRAME.detailSharpness;
   bool hasLobes = FRAME.lobeCount > 0;
   vec3 query = faceQueryAt(met, frame, direction, t);
   float weightSum = 0.0;
-  for (uint k = 0; k < siteCount; ++k) {
-    weightSum += detailWeight(query, loadDetailSite(code, header, siteCount, k).place, sharpness);
+  for (uint k = 0; k < detailCount; ++k) {
+    weightSum += detailWeight(query, loadDetailSite(code, header, detailCount, k).place, sharpness);
   }
   vec3 colour = vec3(0.0);
   float shownSum = 0.0;
   shaded = 0;
-  for (uint k = 0; k < siteCount; ++k) {
-    DetailSite site = loadDetailSite(code, header, siteCount, k);
-    float weight = detailWeight(query, site.place, sharpness);
+  for (uint k = 0; k < detailCount; ++k) {
+    DetailSite detail = loadDetailSite(code, header, detailCount, k);
+    float weight = detailWeight(query, detail.place, sharpness);
     if (!(weight > leastShownShare() * weightSum)) continue;
-    vec3 toSite = met.centre + behind * direction +
-                  met.radius * (frame.tangent * site.place.x + frame.bitangent * site.place.y);
-    vec3 seen = directionToSite(toSite, frame.normal);
-    colour += weight * siteColour(code, header, siteCount, hasLobes, k, site.base, seen);
+    vec3 toDetail = met.centre + behind * direction +
+                  met.radius * (frame.tangent * detail.place.x + frame.bitangent * detail.place.y);
+    vec3 seen = directionToDetail(toDetail, frame.normal);
+    colour += weight * detailColour(code, header, detailCount, hasLobes, k, detail.base, seen);
     shownSum += weight;
     ++shaded;
   }

@@ -201,7 +201,7 @@ std::vector<FrothGpuHit> RayBench::measure(const char* name, const std::vector<F
       "met, "
       "{:.2f} detail sites\n",
       name, times[times.size() / 2], times.front(), count, per(status.descents), per(status.cells),
-      per(status.neighbours), per(status.cellsMet), per(status.sites));
+      per(status.neighbours), per(status.cellsMet), per(status.detailSites));
   std::vector<FrothGpuHit> hits(rays.size());
   std::memcpy(hits.data(), readback_.mapped, hits.size() * sizeof(FrothGpuHit));
   return hits;

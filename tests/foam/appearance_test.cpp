@@ -29,8 +29,8 @@ glm::vec<3, Real> blend(const std::vector<Lobe<Real>>& lobes) {
 TYPED_TEST(AppearanceMathematics, ADetailSiteUnderTheEyeIsSeenFromBeforeItsFace) {
   using Vec3 = glm::vec<3, TypeParam>;
   const Vec3 normal(0, 0.6, -0.8);
-  EXPECT_EQ(foam::directionToSite(Vec3(0), normal), -normal);
-  const Vec3 seen = foam::directionToSite(Vec3(0, 3, -4), normal);
+  EXPECT_EQ(foam::directionToDetail(Vec3(0), normal), -normal);
+  const Vec3 seen = foam::directionToDetail(Vec3(0, 3, -4), normal);
   EXPECT_NEAR(glm::length(seen - Vec3(0, 0.6, -0.8)), 0, 1e-6);
 }
 

@@ -47,7 +47,7 @@ constexpr double kMost = 3.4e38;
 
 TEST_F(Extremes, ADetailSitesColourLiesBetweenZeroAndTheLargestHalf) {
   for (int i = 0; i < 20000; ++i) {
-    const vec3 base = anyVector(kMost), seen = foam::directionToSite(anyVector(kMost), direction());
+    const vec3 base = anyVector(kMost), seen = foam::directionToDetail(anyVector(kMost), direction());
     float largest = -3.402823466e38f, weightSum = 0;
     vec3 colourSum(0);
     for (int lobe = 0; lobe < 4; ++lobe) {

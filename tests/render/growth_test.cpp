@@ -175,7 +175,7 @@ class GrowthAfter : public Growth, public testing::WithParamInterface<Shortage> 
         capacity.planes = 500;
         break;
       case Shortage::kSites:
-        capacity.sites = 200;
+        capacity.details = 200;
         break;
       case Shortage::kPairs:
         capacity.pairs = 50;
@@ -249,7 +249,7 @@ TEST(Capacity, OfALargeAssetStartsWithWhatAnImageMightShow) {
   EXPECT_LT(small.cells, 20'000u);
   EXPECT_LT(wide.cells, 100'000u);
   EXPECT_TRUE(coversAsset(asset, small));
-  EXPECT_EQ(wide.sites, uint64_t{8} * wide.cells);
+  EXPECT_EQ(wide.details, uint64_t{8} * wide.cells);
 }
 
 TEST(Capacity, NeverExceedsWhatTheAssetCanWant) {
@@ -261,7 +261,7 @@ TEST(Capacity, NeverExceedsWhatTheAssetCanWant) {
   coverDemand(asset, {.cells = 900, .planes = 6800, .pairs = 100}, capacity);
   EXPECT_EQ(capacity.cells, 1000u);
   EXPECT_EQ(capacity.planes, 7000u);
-  EXPECT_EQ(capacity.sites, 4000u);
+  EXPECT_EQ(capacity.details, 4000u);
   EXPECT_EQ(capacity.pairs, 150u);
   const ViewCapacity before = capacity;
   coverDemand(asset, {.cells = 1000, .planes = 7000, .pairs = 120}, capacity);

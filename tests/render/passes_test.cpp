@@ -213,7 +213,7 @@ class Bin : public Passes {
     ViewCapacity capacity;
     capacity.tiles = tilesOf({{0, 0}, extent});
     capacity.cells = asset.liveCount;
-    capacity.sites = asset.liveCount;
+    capacity.details = asset.liveCount;
     capacity.pairs = 1 << 19;
     coverAsset(asset, capacity);
     view.parts.reserve(1);

@@ -33,7 +33,7 @@ void expectPictures(const Foam& foam, const View& view) {
   const Image rays = imageOf(stage.cast(cameraRays(view), FROTH_RAY_RADIANCE, walkInfo(eyeOf(view))), view);
   const FrothWalkStatus status = stage.status();
   std::printf("%.1f cells, %.1f cells met, %.1f detail sites per ray\n", double(status.cells) / double(status.rays),
-              double(status.cellsMet) / double(status.rays), double(status.sites) / double(status.rays));
+              double(status.cellsMet) / double(status.rays), double(status.detailSites) / double(status.rays));
   const double toRaster = psnr(rays, stage.rasterize(view));
   const double toReference = psnr(rays, linearOf(renderReference(foam, view)));
   print("rays and raster", toRaster);

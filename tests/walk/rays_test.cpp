@@ -57,7 +57,8 @@ FrothCastInfo withoutCutoff() {
 void print(const FrothWalkStatus& status) {
   const auto per = [&](uint64_t count) { return static_cast<double>(count) / static_cast<double>(status.rays); };
   std::printf("per ray: %.1f descents, %.1f cells, %.1f neighbours, %.1f cells met, %.1f detail sites\n",
-              per(status.descents), per(status.cells), per(status.neighbours), per(status.cellsMet), per(status.sites));
+              per(status.descents), per(status.cells), per(status.neighbours), per(status.cellsMet),
+              per(status.detailSites));
 }
 
 class GpuRays : public testing::Test {

@@ -105,11 +105,11 @@ typedef struct FrothWalkStatus {
   uint32_t indexViolations; /* of frothRecordRays; needs FrothContextInfo::checkIndices; must be 0 */
   /* need FrothContextInfo::countWork; summed over rays: */
   uint64_t rays;
-  uint64_t descents;   /* cells visited in the search for the first cell */
-  uint64_t cells;      /* cells walked through */
-  uint64_t neighbours; /* neighbours tested in these */
-  uint64_t cellsMet;   /* cells whose ball the ray meets */
-  uint64_t sites;      /* detail sites whose colour was evaluated */
+  uint64_t descents;    /* cells visited in the search for the first cell */
+  uint64_t cells;       /* cells walked through */
+  uint64_t neighbours;  /* neighbours tested in these */
+  uint64_t cellsMet;    /* cells whose ball the ray meets */
+  uint64_t detailSites; /* detail sites whose colour was evaluated */
 } FrothWalkStatus;
 
 FROTH_API FrothResult frothGetWalkStatus(FrothContext* context, FrothWalkStatus* status);

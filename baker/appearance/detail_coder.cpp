@@ -1,4 +1,4 @@
-#include "baker/appearance/site_coder.h"
+#include "baker/appearance/detail_coder.h"
 
 #include <algorithm>
 #include <numeric>
@@ -27,7 +27,7 @@ std::vector<glm::dvec3> fitColours(const Observations& seen, const LobeBasis& ba
 }  // namespace
 
 // Ascending by codebook entry.
-std::vector<glm::vec3> SiteCoder::candidates(std::span<const glm::vec3> axes, AxisChoice choice) const {
+std::vector<glm::vec3> DetailCoder::candidates(std::span<const glm::vec3> axes, AxisChoice choice) const {
   std::vector<std::pair<uint32_t, glm::vec3>> labelled;
   for (const glm::vec3& axis : axes) {
     const uint32_t label = codebook_.isEmpty() ? 0 : codebook_.findNearest(axis);
@@ -43,8 +43,8 @@ std::vector<glm::vec3> SiteCoder::candidates(std::span<const glm::vec3> axes, Ax
   return candidates;
 }
 
-CodedSite SiteCoder::code(const Observations& seen, std::span<const glm::vec3> axes, double step) const {
-  CodedSite best;
+CodedDetail DetailCoder::code(const Observations& seen, std::span<const glm::vec3> axes, double step) const {
+  CodedDetail best;
   best.base = snapColour(meanColour(seen) - 0.5, step);
   best.error = measureFit(seen, LobeBasis(seen, {}), {}, best.base + 0.5, {});
   double least = best.error.squared;
@@ -55,20 +55,20 @@ CodedSite SiteCoder::code(const Observations& seen, std::span<const glm::vec3> a
   return best;
 }
 
-void SiteCoder::refit(const Observations& seen, double step, CodedSite& site) const {
-  CodedSite better = site;
-  const LobeBasis basis(seen, site.axes);
-  std::vector<uint32_t> all(site.axes.size());
+void DetailCoder::refit(const Observations& seen, double step, CodedDetail& detail) const {
+  CodedDetail better = detail;
+  const LobeBasis basis(seen, detail.axes);
+  std::vector<uint32_t> all(detail.axes.size());
   std::iota(all.begin(), all.end(), 0u);
   better.base = snapColour(meanColour(seen) - 0.5, step);
   better.colours = fitColours(seen, basis, all, better.base + 0.5, step);
   better.error = measureFit(seen, basis, all, better.base + 0.5, better.colours);
-  site.error = measureFit(seen, basis, all, site.base + 0.5, site.colours);
-  if (better.error.squared < site.error.squared) site = std::move(better);
+  detail.error = measureFit(seen, basis, all, detail.base + 0.5, detail.colours);
+  if (better.error.squared < detail.error.squared) detail = std::move(better);
 }
 
-void SiteCoder::tryLobes(const Observations& seen, std::span<const glm::vec3> axes, AxisChoice choice, double price,
-                         double step, CodedSite& best, double& least) const {
+void DetailCoder::tryLobes(const Observations& seen, std::span<const glm::vec3> axes, AxisChoice choice, double price,
+                           double step, CodedDetail& best, double& least) const {
   if (least <= price) return;
   const LobeBasis basis(seen, candidates(axes, choice));
   const glm::dvec3 base = best.base + 0.5;
