@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+
+#include "format/lattice.h"
 
 namespace froth {
 namespace {
@@ -13,6 +16,8 @@ double signOf(double value) { return value < 0 ? -1.0 : 1.0; }
 
 // Folds the lower half of the octahedron's square over its diagonals, or back.
 glm::dvec2 foldSquare(double y, double z) { return {(1 - std::abs(z)) * signOf(y), (1 - std::abs(y)) * signOf(z)}; }
+
+constexpr int kExponentBias = 127;
 
 }  // namespace
 
@@ -35,6 +40,23 @@ float floorMantissa(float value, uint32_t bits) {
 float snapToStep(float value, float step) { return step > 0 ? std::nearbyint(value / step) * step + 0.0f : value; }
 
 double snapToStep(double value, double step) { return step > 0 ? std::nearbyint(value / step) * step + 0.0 : value; }
+
+float commonStep(std::span<const float> values) {
+  int lowest = std::numeric_limits<int>::max();
+  float largest = 0;
+  for (const float value : values) {
+    const uint32_t bits = std::bit_cast<uint32_t>(value);
+    if (bits == 0) continue;  // the only zero of a lattice is +0
+    if (!std::isnormal(value)) return 0;
+    const uint32_t mantissa = (bits & ((1u << kMantissaBits) - 1)) | 1u << kMantissaBits;
+    const int exponent = static_cast<int>(bits >> kMantissaBits & 255) - kExponentBias - int{kMantissaBits};
+    lowest = std::min(lowest, exponent + std::countr_zero(mantissa));
+    largest = std::max(largest, std::abs(value));
+  }
+  if (largest == 0) return 1;
+  const float step = std::ldexp(1.0f, lowest);
+  return std::isnormal(step) && largest / step <= static_cast<float>(kMaxLatticeIndex) ? step : 0;
+}
 
 std::array<uint32_t, 2> normalIndices(glm::dvec3 normal, uint32_t bits) {
   // The axis of the octahedron is x, so that the fold lies where the shortest rotation changes its base.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <glm/glm.hpp>
 
@@ -33,6 +34,10 @@ float floorMantissa(float value, uint32_t bits);
 // The nearest multiple of step (a power of two); ties to even. step 0: the value.
 float snapToStep(float value, float step);
 double snapToStep(double value, double step);
+
+// The largest power of two of which all values are multiples, by at most kMaxLatticeIndex (format/lattice.h); 0: there
+// is none.
+float commonStep(std::span<const float> values);
 
 // Octahedral map (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 2014):
 // index pair [0 .. 2^bits - 2] of a unit normal, and back to the unit quaternion (w, x, y, z) whose matrix has the

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <system_error>
+
+#include "base/image/mean_square.h"
 
 namespace froth {
 namespace {
@@ -53,13 +54,7 @@ Result<double> comparePictures(const Image& a, const Image& b) {
                      "the pictures are %ux%u and %ux%u, with %u and %u channels; render at the same --size", a.width,
                      a.height, b.width, b.height, a.channels, b.channels);
   }
-  double sum = 0;
-  for (size_t i = 0; i < a.values.size(); ++i) {
-    const double difference = double(a.values[i]) - double(b.values[i]);
-    sum += difference * difference;
-  }
-  if (sum == 0) return std::numeric_limits<double>::infinity();
-  return -10.0 * std::log10(sum / static_cast<double>(a.values.size()));
+  return decibels(meanSquare(a, b));
 }
 
 Image contactSheet(std::span<const Image> pictures) {

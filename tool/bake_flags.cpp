@@ -26,12 +26,13 @@ CLI::Validator stepUpTo(float most) {
   return {check, ""};
 }
 
-std::string checkEyesText(const std::string& text) {
-  const Result<EyeChoice> eyes = parseEyes(text);
-  return eyes ? std::string() : eyes.error().message;
-}
-
 }  // namespace
+
+void BakeFlags::takeEyes(const std::string& text) {
+  const Result<EyeChoice> eyes = parseEyes(text);
+  if (!eyes) throw CLI::ValidationError("--eyes", eyes.error().message);
+  options_.eyes = *eyes;
+}
 
 template <class Number>
 void BakeFlags::addKnob(CLI::App& command, const std::string& name, const std::string& description,
@@ -94,10 +95,10 @@ void BakeFlags::addTo(CLI::App& command) {
   command.add_flag("--no-steiner", noSteiner_, "No cells in empty space, which shorten walks");
   command.add_flag("--no-measure", noMeasure_, "No PSNR on sample views");
   command
-      .add_option("--eyes", eyes_,
-                  "Eyes to bake for: cameras, cameras+R (all within R of one [scene units]) or box:X0,Y0,Z0,X1,Y1,Z1")
-      ->capture_default_str()
-      ->check(CLI::Validator(checkEyesText, ""));
+      .add_option_function<std::string>(
+          "--eyes", [this](const std::string& text) { takeEyes(text); },
+          "Eyes to bake for: cameras, cameras+R (all within R of one [scene units]) or box:X0,Y0,Z0,X1,Y1,Z1")
+      ->default_str("cameras");
   command
       .add_option("--cull-unseen", options_.cullUnseen,
                   "Drop cells of which no view sees more [opacity, 0..1]; needs --cameras; 0: none")
@@ -122,9 +123,6 @@ Result<BakeOptions> BakeFlags::options() const {
   BakeOptions options = options_;
   options.knobs = *knobs;
   for (const auto& change : changes_) change(options.knobs);
-  const Result<EyeChoice> eyes = parseEyes(eyes_);
-  if (!eyes) return eyes.error();
-  options.eyes = *eyes;
   options.walkGraph = !noWalk_;
   options.steiner = !noSteiner_;
   options.measure = !noMeasure_;

@@ -23,11 +23,11 @@ class BakeFlags {
   template <class Number>
   void addKnob(CLI::App& command, const std::string& name, const std::string& description, const CLI::Validator& check,
                std::function<void(BakeKnobs&, Number)> apply);
+  void takeEyes(const std::string& text);
   void addGeometryKnobs(CLI::App& command);
   void addColourKnobs(CLI::App& command);
 
   BakeOptions options_;
-  std::string eyes_ = "cameras";
   uint32_t threads_ = 0;
   bool noWalk_ = false, noSteiner_ = false, noMeasure_ = false;
   std::vector<std::function<void(BakeKnobs&)>> changes_;  // by the flags that were given

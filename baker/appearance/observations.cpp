@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "shaders/foam/appearance.h"
+#include "foam/detail_colour.h"
 
 namespace froth {
 namespace {
@@ -109,7 +109,9 @@ Observations Observer::observe(uint64_t detail) const {
   addHemisphere(frame, seen);
   if (region_) addRegion(detail, position, frame, seen);
   seen.colours.reserve(seen.size());
-  for (const glm::vec3& direction : seen.directions) seen.colours.push_back(colourAlong(detail, direction));
+  for (const glm::vec3& direction : seen.directions) {
+    seen.colours.push_back(glm::min(detailColour(foam_, detail, direction), kBrightest));
+  }
   return seen;
 }
 
@@ -168,18 +170,6 @@ void Observer::addHemisphere(const FaceFrame<float>& frame, Observations& seen) 
     seen.directions.push_back(d.x * frame.tangent + d.y * frame.bitangent - d.z * frame.normal);
     seen.weights.push_back(weight * d.z);  // as large as the face looks from there
   }
-}
-
-glm::vec3 Observer::colourAlong(uint64_t detail, const glm::vec3& direction) const {
-  const LobeRange lobes = lobesOf(foam_, detail);
-  float largest = -std::numeric_limits<float>::max(), weightSum = 0;
-  glm::vec3 colourSum(0);
-  for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
-    foam::addLobe(foam::lobeExponent(foam_.lobeAxes[m], direction), foam_.lobeColours[m], largest, weightSum,
-                  colourSum);
-  }
-  const glm::vec3 base = foam_.baseColours.empty() ? glm::vec3(0) : foam_.baseColours[detail];
-  return glm::min(foam::lobeColour(base, weightSum, colourSum), kBrightest);
 }
 
 }  // namespace froth

@@ -52,7 +52,6 @@ class Observer {
   void addCameras(uint64_t detail, const glm::vec3& position, Observations& seen) const;
   void addRegion(uint64_t detail, const glm::vec3& position, const FaceFrame<float>& frame, Observations& seen) const;
   void addHemisphere(const FaceFrame<float>& frame, Observations& seen) const;
-  glm::vec3 colourAlong(uint64_t detail, const glm::vec3& direction) const;
 
   const Foam& foam_;
   const Visibility* visibility_;

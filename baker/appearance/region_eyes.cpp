@@ -31,8 +31,9 @@ RegionEyes::RegionEyes(const Foam& foam, const Visibility& visibility, float rad
   for (uint64_t i = 0; i < count; ++i) {
     const uint64_t detail = i * allDetails / count, cell = detail / foam.detailCount;
     double weight = 0;
-    for (uint64_t k = visibility.offsets[detail]; k < visibility.offsets[detail + 1]; ++k)
+    for (uint64_t k = visibility.offsets[detail]; k < visibility.offsets[detail + 1]; ++k) {
       weight += visibility.weights[k];
+    }
     if (!(weight > 0)) continue;
     shown += weight;
     faced += sumFacing(cell, foam.sites[cell], faceFrame<float>(foam.orientations[cell]));

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include <tbb/parallel_for.h>
 
 #include "baker/bake/snap_cells.h"
+#include "foam/detail_colour.h"
 #include "format/lattice.h"
-#include "shaders/foam/appearance.h"
 
 namespace froth {
 namespace {
@@ -38,17 +37,6 @@ const std::array<glm::vec3, 4> kFaceDirections = {glm::vec3(-1, 0, 0), glm::vec3
                                                   glm::vec3(-0.70710678f, -0.35355339f, 0.61237244f),
                                                   glm::vec3(-0.70710678f, -0.35355339f, -0.61237244f)};
 
-glm::vec3 colourAlong(const Foam& foam, uint64_t detail, const glm::vec3& direction) {
-  float largest = std::numeric_limits<float>::lowest(), weightSum = 0;
-  glm::vec3 colourSum(0);
-  const LobeRange lobes = lobesOf(foam, detail);
-  for (uint64_t lobe = lobes.first; lobe < lobes.first + lobes.count; ++lobe) {
-    foam::addLobe(foam::lobeExponent(foam.lobeAxes[lobe], direction), foam.lobeColours[lobe], largest, weightSum,
-                  colourSum);
-  }
-  return foam::lobeColour(foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[detail], weightSum, colourSum);
-}
-
 // Mean over detail sites and directions, to a byte per channel.
 glm::vec3 meanColour(const Foam& foam, uint32_t cell) {
   const FaceFrame<float> frame = faceFrame<float>(foam.orientations[cell]);
@@ -56,7 +44,7 @@ glm::vec3 meanColour(const Foam& foam, uint32_t cell) {
   for (const glm::vec3& local : kFaceDirections) {
     const glm::vec3 direction = local.x * frame.normal + local.y * frame.tangent + local.z * frame.bitangent;
     for (uint32_t k = 0; k < foam.detailCount; ++k) {
-      sum += colourAlong(foam, uint64_t{cell} * foam.detailCount + k, direction);
+      sum += detailColour(foam, uint64_t{cell} * foam.detailCount + k, direction);
     }
   }
   const glm::vec3 mean = sum / static_cast<float>(kFaceDirections.size() * foam.detailCount);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "baker/bake/eye_region.h"
+#include "base/image/mean_square.h"
 #include "reference/render/reference.h"
 
 namespace froth {
@@ -68,11 +69,7 @@ std::vector<View> chooseViews(const Foam& foam, const BakeOptions& options) {
   return views;
 }
 
-double clampedDifference(float a, float b) { return double{std::clamp(a, 0.0f, 1.0f)} - std::clamp(b, 0.0f, 1.0f); }
-
-double psnrOf(double meanSquare) {
-  return meanSquare > 0 ? std::min(kMaxPsnr, -10 * std::log10(meanSquare)) : kMaxPsnr;
-}
+double psnrOf(double meanSquare) { return std::min(kMaxPsnr, decibels(meanSquare)); }
 
 class Comparison {
  public:
@@ -91,12 +88,7 @@ class Comparison {
       if (!expected) return expected.error();
       const Result<RenderedImages> found = baked_.render(view, reference, progress_);
       if (!found) return found.error();
-      double squares = 0;
-      for (size_t k = 0; k < expected->colour.values.size(); ++k) {
-        const double difference = clampedDifference(expected->colour.values[k], found->colour.values[k]);
-        squares += difference * difference;
-      }
-      errors.push_back(squares / static_cast<double>(expected->colour.values.size()));
+      errors.push_back(meanSquare(expected->colour, found->colour));
     }
     return errors;
   }

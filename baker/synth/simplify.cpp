@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
 #include <glm/gtc/constants.hpp>
 
-#include "foam/foam_arrays.h"
-#include "shaders/foam/appearance.h"
+#include "foam/detail_colour.h"
+#include "foam/pick_foam.h"
 
 namespace froth {
 namespace {
@@ -33,22 +32,11 @@ std::array<glm::vec3, kDirections> hemisphere() {
   return directions;
 }
 
-glm::vec3 seenColour(const Foam& foam, uint64_t site, const glm::vec3& direction) {
-  const LobeRange lobes = lobesOf(foam, site);
-  float largest = -std::numeric_limits<float>::max(), weightSum = 0;
-  glm::vec3 colourSum(0);
-  for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) {
-    foam::addLobe(foam::lobeExponent(foam.lobeAxes[m], direction), foam.lobeColours[m], largest, weightSum, colourSum);
-  }
-  const glm::vec3 base = foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[site];
-  return foam::lobeColour(base, weightSum, colourSum);
-}
-
 // Shares of the unit disc that are nearest to each of a cell's detail sites, on a grid.
 std::vector<int> faceShares(const Foam& foam, uint32_t cell) {
   constexpr int kGrid = 16;
   std::vector<int> shares(foam.detailCount, 0);
-  const glm::vec2* sites = &foam.detailSites[size_t{cell} * foam.detailCount];
+  const glm::vec2* details = &foam.detailSites[size_t{cell} * foam.detailCount];
   for (int y = 0; y < kGrid; ++y) {
     for (int x = 0; x < kGrid; ++x) {
       const glm::vec2 place = glm::vec2(x + 0.5f, y + 0.5f) * (2.0f / kGrid) - 1.0f;
@@ -56,7 +44,7 @@ std::vector<int> faceShares(const Foam& foam, uint32_t cell) {
       const auto nearer = [&](const glm::vec2& a, const glm::vec2& b) {
         return glm::dot(a - place, a - place) < glm::dot(b - place, b - place);
       };
-      ++shares[std::min_element(sites, sites + foam.detailCount, nearer) - sites];
+      ++shares[std::min_element(details, details + foam.detailCount, nearer) - details];
     }
   }
   return shares;
@@ -75,23 +63,9 @@ std::vector<uint32_t> largestShares(const Foam& foam, uint32_t cell, uint32_t co
 // The foam with `count` detail sites per cell: those of `picked`, of which each cell has as many, in the order of the
 // cells.
 Foam pickDetailSites(const Foam& foam, uint32_t count, const std::vector<uint64_t>& picked) {
-  Foam result = foam;
-  result.detailCount = count;
-  visitArrays([&](const FoamArray& array, auto values) {
-    if (array.index == FoamIndex::kCell || (foam.*values).empty()) return;
-    (result.*values).clear();
-    for (const uint64_t site : picked) {
-      const LobeRange range = array.index == FoamIndex::kLobe ? lobesOf(foam, site) : LobeRange{site, 1};
-      const auto first = (foam.*values).begin() + static_cast<std::ptrdiff_t>(range.first);
-      (result.*values).insert((result.*values).end(), first, first + range.count);
-    }
-  });
-  if (foam.lobeOffsets.empty()) return result;
-  result.lobeOffsets = {0};
-  for (const uint64_t site : picked) {
-    result.lobeOffsets.push_back(result.lobeOffsets.back() + lobesOf(foam, site).count);
-  }
-  return result;
+  std::vector<uint32_t> cells(foam.cellCount);
+  std::iota(cells.begin(), cells.end(), 0u);
+  return pickFoam(foam, {.cells = cells, .details = picked, .detailCount = count, .mostLobes = foam.lobeCount});
 }
 
 }  // namespace
@@ -99,21 +73,21 @@ Foam pickDetailSites(const Foam& foam, uint32_t count, const std::vector<uint64_
 Foam withoutViewDependence(const Foam& foam) {
   Foam flat = foam;
   const std::array<glm::vec3, kDirections> before = hemisphere();
-  const size_t sites = size_t{foam.cellCount} * foam.detailCount;
+  const size_t details = size_t{foam.cellCount} * foam.detailCount;
   flat.lobeCount = 1;
   flat.lobeOffsets.clear();
   flat.baseColours.clear();
-  flat.lobeAxes.assign(sites, glm::vec3(0));
-  flat.lobeColours.resize(sites);
+  flat.lobeAxes.assign(details, glm::vec3(0));
+  flat.lobeColours.resize(details);
   tbb::parallel_for(uint32_t{0}, foam.cellCount, [&](uint32_t cell) {
     const FaceFrame<float> frame = faceFrame<float>(foam.orientations[cell]);
     for (uint32_t k = 0; k < foam.detailCount; ++k) {
-      const uint64_t site = uint64_t{cell} * foam.detailCount + k;
+      const uint64_t detail = uint64_t{cell} * foam.detailCount + k;
       glm::vec3 sum(0);
       for (const glm::vec3& d : before) {
-        sum += seenColour(foam, site, -(d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.normal));
+        sum += detailColour(foam, detail, -(d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.normal));
       }
-      flat.lobeColours[site] = sum / static_cast<float>(kDirections) - 0.5f;
+      flat.lobeColours[detail] = sum / static_cast<float>(kDirections) - 0.5f;
     }
   });
   return flat;
@@ -143,12 +117,12 @@ Foam withSomeDisplacement(const Foam& foam) {
 
 Foam withSomeDetailSites(const Foam& foam) {
   std::vector<uint64_t> picked;
-  for (uint64_t site = 0; site < foam.detailSites.size(); ++site) picked.insert(picked.end(), 2, site);
+  for (uint64_t detail = 0; detail < foam.detailSites.size(); ++detail) picked.insert(picked.end(), 2, detail);
   Foam detailed = pickDetailSites(foam, 2, picked);
-  for (size_t site = 0; site < detailed.detailSites.size(); ++site) {
-    const float sign = site % 2 ? 1.0f : -1.0f;
-    detailed.detailSites[site].x += sign * 0.5f;
-    const LobeRange lobes = lobesOf(detailed, site);
+  for (size_t detail = 0; detail < detailed.detailSites.size(); ++detail) {
+    const float sign = detail % 2 ? 1.0f : -1.0f;
+    detailed.detailSites[detail].x += sign * 0.5f;
+    const LobeRange lobes = lobesOf(detailed, detail);
     for (uint64_t m = lobes.first; m < lobes.first + lobes.count; ++m) detailed.lobeColours[m] += sign * kSomeColour;
   }
   return detailed;

@@ -12,6 +12,7 @@
 #include "foam/checkpoint/parameters.h"
 #include "foam/checkpoint/pickle_writer.h"
 #include "foam/checkpoint/zip_writer.h"
+#include "foam/foam_arrays.h"
 
 namespace froth {
 namespace {
@@ -48,14 +49,12 @@ Status checkValues(const std::string& file, const char* name, const std::vector<
 
 Status checkFoam(const std::string& file, const Foam& foam) {
   const uint64_t cells = foam.cellCount, details = cells * foam.detailCount, lobes = details * foam.lobeCount;
-  Status status = checkValues(file, "sites", foam.sites, cells);
-  if (status) status = checkValues(file, "radii", foam.radii, cells);
-  if (status) status = checkValues(file, "densities", foam.densities, cells);
-  if (status) status = checkValues(file, "orientations", foam.orientations, cells);
-  if (status) status = checkValues(file, "detail sites", foam.detailSites, details);
-  if (status) status = checkValues(file, "detail heights", foam.detailHeights, details);
-  if (status) status = checkValues(file, "lobe axes", foam.lobeAxes, lobes);
-  if (status) status = checkValues(file, "lobe colours", foam.lobeColours, lobes);
+  Status status;
+  visitArrays([&](const FoamArray& array, auto values) {
+    if (!status || array.canBeEmpty) return;
+    const uint64_t count = array.index == FoamIndex::kCell ? cells : array.index == FoamIndex::kLobe ? lobes : details;
+    status = checkValues(file, array.name, foam.*values, count);
+  });
   if (status && (lobes == 0 || foam.detailCount > kMaxDetails || foam.lobeCount > kMaxLobes)) {
     status =
         makeError(ErrorKind::kUsage, "%s: a foam of %u cells, %u detail sites, %u lobes; expected >= 1, 1..32, 1..32",

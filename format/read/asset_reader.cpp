@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/float_span.h"
 #include "base/input_file.h"
 #include "format/checks.h"
 #include "format/container.h"
@@ -120,6 +121,7 @@ struct AssetReader::State {
     codebook.resize(manifest.codebookSize);
     const std::span<uint8_t> raw{reinterpret_cast<uint8_t*>(codebook.data()), codebook.size() * sizeof(glm::vec3)};
     if (Status status = decode(*record, raw, chunkPlace(source.name, kSharedChunk)); !status) return status;
+    manifest.codebookStep = commonStep(floatsOf(codebook));
     return checkParameters(manifest.contents, source.name);
   }
 
@@ -167,7 +169,7 @@ Box AssetReader::liveBounds(uint32_t chunk) const { return state_->manifest.chun
 
 std::span<const SectionRecord> AssetReader::sections() const { return state_->manifest.sections; }
 
-Result<ChunkContents> AssetReader::readChunk(uint32_t chunk) const {
+Result<CodedChunk> AssetReader::readCodedChunk(uint32_t chunk) const {
   const State& state = *state_;
   if (chunk >= state.contents.chunks.size()) {
     return makeError(ErrorKind::kUsage, "%s: chunk %u asked for, there are %zu", state.source.name.c_str(), chunk,
@@ -177,14 +179,21 @@ Result<ChunkContents> AssetReader::readChunk(uint32_t chunk) const {
   const SectionDecoder decode = [&](const SectionRecord& record, std::span<uint8_t> raw) {
     return state.decode(record, raw, place);
   };
-  Result<ChunkContents> contents = unpackChunk(state.manifest, chunk, state.last, decode, place);
-  if (!contents) return contents;
-  if (Status status = checkChunk(state.contents, *contents, place); !status) return status.error();
-  if (Status status = checkGhostRefs(state.contents, state.manifest.chunks, chunk, contents->ghostRefs, place);
+  Result<CodedChunk> coded = unpackChunk(state.manifest, chunk, state.last, decode, place);
+  if (!coded) return coded;
+  const ChunkContents& contents = coded->contents;
+  if (Status status = checkChunk(state.contents, contents, place); !status) return status.error();
+  if (Status status = checkGhostRefs(state.contents, state.manifest.chunks, chunk, contents.ghostRefs, place);
       !status) {
     return status.error();
   }
-  return contents;
+  return coded;
+}
+
+Result<ChunkContents> AssetReader::readChunk(uint32_t chunk) const {
+  Result<CodedChunk> coded = readCodedChunk(chunk);
+  if (!coded) return coded.error();
+  return std::move(coded->contents);
 }
 
 Result<AssetContents> readAsset(const std::filesystem::path& path, Layer last) {

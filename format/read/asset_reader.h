@@ -10,12 +10,13 @@
 
 #include "base/result.h"
 #include "format/asset_contents.h"
+#include "format/chunk_codes.h"
 #include "format/section.h"
 
 namespace froth {
 
 // An opened asset: header and manifest are read and checked, sections are decoded on demand.
-// Thread safety: readChunk() may run on several threads at once.
+// Thread safety: readChunk() and readCodedChunk() may run on several threads at once.
 class AssetReader {
  public:
   // Layers behind `last` are left alone: the contents are those of a coarser scene (K = 1 or M = 0), complete for every
@@ -37,6 +38,7 @@ class AssetReader {
   std::span<const SectionRecord> sections() const;
   // Decodes and checks all sections of one chunk (up to the last layer): hashes, sizes, index ranges, finite numbers,
   // positive radii. Needs no other chunk.
+  Result<CodedChunk> readCodedChunk(uint32_t chunk) const;
   Result<ChunkContents> readChunk(uint32_t chunk) const;
 
  private:

@@ -1,8 +1,10 @@
 #include "format/read/chunk_sections_read.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
+#include "base/float_span.h"
 #include "format/chunk_lobes.h"
 #include "format/graph_rows.h"
 #include "format/lattice.h"
@@ -47,21 +49,23 @@ class ChunkReader {
     chunk_ = asset_.chunks[chunk];
   }
 
-  Result<ChunkContents> read(Layer last) {
+  Result<CodedChunk> read(Layer last) {
     for (auto step : {&ChunkReader::readSites, &ChunkReader::readGraph, &ChunkReader::readCells}) {
       if (Status status = (this->*step)(); !status) return status.error();
     }
     if (last == Layer::kGeometry) {
       coarsen();
-      return std::move(chunk_);
+      return take();
     }
     if (Status status = readDetails(); !status) return status.error();
-    if (last == Layer::kDetails) return std::move(chunk_);
+    if (last == Layer::kDetails) return take();
     if (Status status = readLobes(); !status) return status.error();
-    return std::move(chunk_);
+    return take();
   }
 
  private:
+  CodedChunk take() { return {std::move(chunk_), std::move(codes_)}; }
+
   const SectionRecord* find(SectionType type) const { return manifest_.findSection(index_, type); }
   bool isOnLattice(SectionType type) const { return sectionKind(type, asset_.quantization) != ElementKind::kFloat; }
 
@@ -93,14 +97,17 @@ class ChunkReader {
 
   // Numbers on a lattice: stepOf(i) is the step of number i, expected(i) was taken off its index.
   template <class Vector, class StepOf, class Expected>
-  Status loadIndices(SectionType type, std::vector<Vector>& array, StepOf stepOf, Expected expected) const {
+  Status loadIndices(SectionType type, std::vector<Vector>& array, std::vector<int32_t>& codes, StepOf stepOf,
+                     Expected expected) const {
     Elements elements;
     if (Status status = load(type, elements); !status) return status;
     array.resize(elements.size() / (sizeof(Vector) / sizeof(float)));
+    codes.resize(elements.size());
     float* numbers = reinterpret_cast<float*>(array.data());
     for (size_t i = 0; i < elements.size(); ++i) {
       const int64_t index = int64_t{unzigzag(elements[i])} + expected(i);
       if (std::abs(index) > kMaxLatticeIndex) return outOfRange(type, i);
+      codes[i] = static_cast<int32_t>(index);
       numbers[i] = stepOf(i) * static_cast<float>(index);
     }
     return {};
@@ -108,10 +115,12 @@ class ChunkReader {
 
   // Colours on a lattice, in steps of stepOf(i) for entry i; expected(i) was taken off the indices of that entry.
   template <class StepOf, class Expected>
-  Status loadColours(SectionType type, std::vector<glm::vec3>& array, StepOf stepOf, Expected expected) const {
+  Status loadColours(SectionType type, std::vector<glm::vec3>& array, std::vector<int32_t>& codes, StepOf stepOf,
+                     Expected expected) const {
     Elements elements;
     if (Status status = load(type, elements); !status) return status;
     array.resize(elements.size() / 3);
+    codes.reserve(elements.size());
     for (size_t i = 0; i < array.size(); ++i) {
       const auto element = [&](size_t c) { return int64_t{unzigzag(elements[3 * i + c])}; };
       const std::array<int64_t, 3> indices = joinGreen(element(0), element(1), element(2));
@@ -119,6 +128,7 @@ class ChunkReader {
       for (int c = 0; c < 3; ++c) {
         const int64_t index = indices[static_cast<size_t>(c)] + known[static_cast<size_t>(c)];
         if (std::abs(index) > kMaxLatticeIndex) return outOfRange(type, 3 * i);
+        codes.push_back(static_cast<int32_t>(index));
         array[i][c] = stepOf(i) * static_cast<float>(index);
       }
     }
@@ -126,10 +136,10 @@ class ChunkReader {
   }
 
   template <class Vector>
-  Status loadFloats(SectionType type, std::vector<Vector>& array, float step) const {
+  Status loadFloats(SectionType type, std::vector<Vector>& array, std::vector<int32_t>& codes, float step) const {
     if (!isOnLattice(type)) return loadAsIs(type, array);
     return loadIndices(
-        type, array, [&](size_t) { return step; }, [](size_t) { return 0; });
+        type, array, codes, [&](size_t) { return step; }, [](size_t) { return 0; });
   }
 
   Status loadSites(SectionType type, size_t first) {
@@ -191,6 +201,7 @@ class ChunkReader {
       const std::array<uint32_t, 2> indices{elements[2 * i], elements[2 * i + 1]};
       if (indices[0] > most || indices[1] > most) return outOfRange(SectionType::kOrientations, 2 * i);
       chunk_.orientations[i] = orientationOfNormal(indices, bits);
+      codes_.normals.push_back(indices);
     }
     return {};
   }
@@ -207,13 +218,14 @@ class ChunkReader {
       chunk_.cellColours.emplace_back(colourOfByte(colour[0]), colourOfByte(colour[1]), colourOfByte(colour[2]));
     }
     if (Status status = loadAsIs(SectionType::kSolidBalls, chunk_.solidBalls); !status) return status;
-    return loadFloats(SectionType::kCellHeights, chunk_.cellHeights, asset_.quantization.heightStep);
+    return loadFloats(SectionType::kCellHeights, chunk_.cellHeights, cellHeights_, asset_.quantization.heightStep);
   }
 
   // Layer 0 alone: one detail site in the middle of the face, of the cell's colour and height.
   void coarsen() {
     chunk_.detailSites.assign(chunk_.liveCount, glm::vec2(0));
     chunk_.detailHeights = chunk_.cellHeights;
+    codes_.detailHeights = std::move(cellHeights_);
     for (const glm::vec3& colour : chunk_.cellColours) chunk_.baseColours.push_back(colour - 0.5f);
   }
 
@@ -248,6 +260,7 @@ class ChunkReader {
       if (std::abs(u) > kMaxLatticeIndex || std::abs(v) > kMaxLatticeIndex) {
         return outOfRange(SectionType::kDetailSites, 2 * i);
       }
+      codes_.detailSites.insert(codes_.detailSites.end(), {static_cast<int32_t>(u), static_cast<int32_t>(v)});
       chunk_.detailSites[i] =
           detailUnit(asset_.quantization.detailSiteStep, i) * glm::vec2(static_cast<float>(u), static_cast<float>(v));
     }
@@ -262,11 +275,11 @@ class ChunkReader {
     if (!isOnLattice(SectionType::kDetailHeights)) return loadAsIs(SectionType::kDetailHeights, chunk_.detailHeights);
     const float step = asset_.quantization.heightStep;
     return loadIndices(
-        SectionType::kDetailHeights, chunk_.detailHeights, [&](size_t i) { return detailUnit(step, i); },
+        SectionType::kDetailHeights, chunk_.detailHeights, codes_.detailHeights,
+        [&](size_t i) { return detailUnit(step, i); },
         [&](size_t i) {
-          if (chunk_.cellHeights.empty()) return 0;
-          const auto cellHeight = static_cast<int32_t>(chunk_.cellHeights[i / asset_.detailCount] / step);
-          return expectedHeightIndex(cellHeight, step, detailUnit(step, i));
+          if (cellHeights_.empty()) return 0;
+          return expectedHeightIndex(cellHeights_[i / asset_.detailCount], step, detailUnit(step, i));
         });
   }
 
@@ -278,7 +291,7 @@ class ChunkReader {
     if (Status status = loadScales(SectionType::kColourScales, chunk_.colourScales); !status) return status;
     if (!isOnLattice(SectionType::kBaseColours)) return loadAsIs(SectionType::kBaseColours, chunk_.baseColours);
     return loadColours(
-        SectionType::kBaseColours, chunk_.baseColours, [&](size_t i) { return colourUnit(i); },
+        SectionType::kBaseColours, chunk_.baseColours, codes_.baseColours, [&](size_t i) { return colourUnit(i); },
         [&](size_t i) {
           std::array<int32_t, 3> expected{};
           if (cellColours_.empty()) return expected;
@@ -295,16 +308,19 @@ class ChunkReader {
     if (Status status = loadAsIs(SectionType::kLobeCounts, chunk_.lobeCounts); !status) return status;
     if (lobes == 0 && asset_.lobeCount > 0) chunk_.lobeCounts.assign(details, 0);
     if (Status status = checkLobeCounts(lobes); !status) return status;
-    if (Status status = asset_.axisCodebook.empty()
-                            ? loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes, asset_.quantization.lobeAxisStep)
-                            : readLabels();
+    if (Status status =
+            loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes, codes_.lobeAxes, asset_.quantization.lobeAxisStep);
         !status) {
       return status;
+    }
+    codes_.axisStep = asset_.quantization.lobeAxisStep;
+    if (!asset_.axisCodebook.empty()) {
+      if (Status status = readLabels(); !status) return status;
     }
     if (!isOnLattice(SectionType::kLobeColours)) return loadAsIs(SectionType::kLobeColours, chunk_.lobeColours);
     const std::vector<float> units = lobeUnits(asset_, chunk_);
     return loadColours(
-        SectionType::kLobeColours, chunk_.lobeColours, [&](size_t i) { return units[i]; },
+        SectionType::kLobeColours, chunk_.lobeColours, codes_.lobeColours, [&](size_t i) { return units[i]; },
         [](size_t) { return std::array<int32_t, 3>{}; });
   }
 
@@ -318,15 +334,15 @@ class ChunkReader {
                      static_cast<unsigned long long>(lobes), kRemedy);
   }
 
-  // Axes as entries of the codebook, and the differences to them.
+  // Axes as entries of the codebook, to which the axes that were read are the differences.
   Status readLabels() {
     Elements labels;
     if (Status status = load(SectionType::kLobeLabels, labels); !status) return status;
-    if (Status status = loadFloats(SectionType::kLobeAxes, chunk_.lobeAxes, asset_.quantization.lobeAxisStep);
-        !status) {
-      return status;
-    }
+    const float differenceStep = asset_.quantization.lobeAxisStep, entryStep = manifest_.codebookStep;
+    bool areCoded = entryStep > 0 && codes_.lobeAxes.size() == floatsOf(chunk_.lobeAxes).size();
+    codes_.axisStep = differenceStep > 0 ? std::min(differenceStep, entryStep) : entryStep;
     chunk_.lobeAxes.resize(labels.size(), glm::vec3(0));  // absent: no differences
+    codes_.lobeAxes.resize(3 * labels.size(), 0);
     const uint64_t entries = asset_.axisCodebook.size();
     size_t lobe = 0;
     for (size_t detail = 0; lobe < labels.size(); ++detail) {
@@ -335,9 +351,21 @@ class ChunkReader {
         if (labels[lobe] >= entries) return outOfRange(SectionType::kLobeLabels, lobe);
         label = (label + labels[lobe]) % entries;
         chunk_.lobeAxes[lobe] = asset_.axisCodebook[label] + chunk_.lobeAxes[lobe];
+        areCoded = areCoded && codeAxis(lobe);
       }
     }
+    if (!areCoded) codes_.lobeAxes.clear();
     return {};
+  }
+
+  // Both an entry and the difference to it are multiples of the step; false: their sum has no index.
+  bool codeAxis(size_t lobe) {
+    for (size_t c = 0; c < 3; ++c) {
+      const float index = chunk_.lobeAxes[lobe][static_cast<int>(c)] / codes_.axisStep;
+      if (!(std::abs(index) <= kMaxLatticeIndex)) return false;
+      codes_.lobeAxes[3 * lobe + c] = static_cast<int32_t>(index);
+    }
+    return true;
   }
 
   const AssetContents& asset_;
@@ -346,13 +374,15 @@ class ChunkReader {
   const SectionDecoder& decode_;
   const std::string& place_;
   std::vector<std::array<uint8_t, 3>> cellColours_;  // red, green, blue
+  std::vector<int32_t> cellHeights_;                 // in steps; empty: absent or floats
   ChunkContents chunk_;
+  ChunkCodes codes_;
 };
 
 }  // namespace
 
-Result<ChunkContents> unpackChunk(const Manifest& manifest, uint32_t chunk, Layer last, const SectionDecoder& decode,
-                                  const std::string& place) {
+Result<CodedChunk> unpackChunk(const Manifest& manifest, uint32_t chunk, Layer last, const SectionDecoder& decode,
+                               const std::string& place) {
   return ChunkReader(manifest, chunk, decode, place).read(last);
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/result.h"
-#include "format/asset_contents.h"
+#include "format/chunk_codes.h"
 #include "format/read/manifest_read.h"
 #include "format/section.h"
 
@@ -19,7 +19,7 @@ using SectionDecoder = std::function<Status(const SectionRecord& record, std::sp
 // Of layers up to `last`; behind it the contents are those of a coarser scene (FORMAT.md, "Layers"). What
 // indices and references say is not checked any further than needed to stay within the arrays; checkChunk
 // does that. `place` names the chunk.
-Result<ChunkContents> unpackChunk(const Manifest& manifest, uint32_t chunk, Layer last, const SectionDecoder& decode,
-                                  const std::string& place);
+Result<CodedChunk> unpackChunk(const Manifest& manifest, uint32_t chunk, Layer last, const SectionDecoder& decode,
+                               const std::string& place);
 
 }  // namespace froth

@@ -15,6 +15,7 @@ struct Manifest {
   AssetContents contents;  // chunks: origin and counts, no arrays
   std::vector<ChunkIndex> chunks;
   uint32_t codebookSize = 0;
+  float codebookStep = 0;               // commonStep of its entries, once they are read
   std::vector<SectionRecord> sections;  // of known types, sorted by {chunk, type}
 
   // Null if there is none.

@@ -35,7 +35,7 @@ const std::map<std::string, std::string (*)(double)> kFormats{{"psnr", decibels}
                                                               {"residentBytes", bytesOrNone},
                                                               {"bakeSeconds", secondsOrNone},
                                                               {"cells", countText},
-                                                              {"depthError", shortNumber}};
+                                                              {"distanceError", shortNumber}};
 
 double numberOf(const Json& value) {
   if (value.is_number()) return value.get<double>();

@@ -20,8 +20,8 @@ struct ErrorFigures {
   double flip = 0;       // mean FLIP [0..1]
   double meanError = 0;  // mean absolute difference: falls with the first power of a step, at edges too
   double maxError = 0;
-  double overOneStep = 0;  // share of pixels with a channel off by more than 1/255
-  double depthError = 0;   // median |depth - reference| where both have one [scene units]
+  double overOneStep = 0;    // share of pixels with a channel off by more than 1/255
+  double distanceError = 0;  // median |distance - reference| where both have one [scene units]
 };
 
 struct ViewErrors {

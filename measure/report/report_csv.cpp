@@ -48,7 +48,7 @@ bool holds(const std::vector<std::string>& ids, const std::string& id) {
 void append(std::vector<std::string>& row, const ErrorFigures* errors) {
   if (!errors) return void(row.insert(row.end(), 7, ""));
   for (double value : {errors->psnr, errors->ssim, errors->flip, errors->meanError, errors->maxError,
-                       errors->overOneStep, errors->depthError}) {
+                       errors->overOneStep, errors->distanceError}) {
     row.push_back(field(value));
   }
 }
@@ -72,14 +72,14 @@ std::string reportAsCsv(const Report& report) {
                                 "meanError",
                                 "maxError",
                                 "overOneStep",
-                                "depthError",
+                                "distanceError",
                                 "photoPsnr",
                                 "photoSsim",
                                 "photoFlip",
                                 "photoMeanError",
                                 "photoMaxError",
                                 "photoOverOneStep",
-                                "photoDepthError",
+                                "photoDistanceError",
                                 "msMedian",
                                 "msP5",
                                 "msP95",

@@ -21,7 +21,7 @@ Json errorsAsJson(const ErrorFigures& errors) {
           {"meanError", figure(errors.meanError)},
           {"maxError", figure(errors.maxError)},
           {"overOneStep", figure(errors.overOneStep)},
-          {"depthError", figure(errors.depthError)}};
+          {"distanceError", figure(errors.distanceError)}};
 }
 
 Json intervalAsJson(const Interval& interval) {
@@ -156,7 +156,7 @@ void readErrors(Reader& reader, ErrorFigures& errors) {
   reader.read("meanError", errors.meanError);
   reader.read("maxError", errors.maxError);
   reader.read("overOneStep", errors.overOneStep);
-  reader.read("depthError", errors.depthError);
+  reader.read("distanceError", errors.distanceError);
 }
 
 void readInterval(Reader& reader, Interval& interval) {

@@ -37,7 +37,7 @@ class SweepRenderer {
   virtual ~SweepRenderer() = default;
   virtual std::string device() const = 0;
   virtual std::string driver() const = 0;
-  // Colour, opacity, depth, normal of every view.
+  // Colour, opacity, distance, normal of every view.
   virtual Result<std::vector<RenderedImages>> render(const Draw& draw, const Progress& progress) = 0;
   // Times all draws in each round, in an order of its own, so that slow changes of the device meet all alike.
   virtual Result<std::vector<DrawTimes>> time(const std::vector<Draw>& draws, const Rounds& rounds,

@@ -19,12 +19,12 @@ Result<Image> readPhoto(const std::filesystem::path& folder, const View& view) {
                    photo->width, photo->height, view.width, view.height);
 }
 
-// [scene units] of pixels where both have a depth; 0 where there is none.
-double medianDepthError(const Image& depth, const Image& exact) {
+// [scene units] of pixels where both have a distance; 0 where there is none.
+double medianDistanceError(const Image& distance, const Image& exact) {
   std::vector<double> errors;
-  for (size_t i = 0; i < depth.values.size(); ++i) {
-    if (depth.values[i] >= 0 && exact.values[i] >= 0) {
-      errors.push_back(std::abs(double{depth.values[i]} - exact.values[i]));
+  for (size_t i = 0; i < distance.values.size(); ++i) {
+    if (distance.values[i] >= 0 && exact.values[i] >= 0) {
+      errors.push_back(std::abs(double{distance.values[i]} - exact.values[i]));
     }
   }
   if (errors.empty()) return 0;
@@ -82,7 +82,7 @@ Image enlarge(const Image& image, uint32_t width, uint32_t height) {
   return large;
 }
 
-// A depth has no value between those of two pixels.
+// A distance has no value between those of two pixels.
 Image repeatPixels(const Image& image, uint32_t width, uint32_t height) {
   Image large{width, height, 1, {}};
   large.values.reserve(size_t{width} * height);
@@ -108,11 +108,13 @@ ErrorFigures meanOf(const std::vector<ErrorFigures>& figures) {
     mean.meanError += one.meanError;
     mean.maxError = std::max(mean.maxError, one.maxError);
     mean.overOneStep += one.overOneStep;
-    mean.depthError += one.depthError;
+    mean.distanceError += one.distanceError;
   }
   const auto count = static_cast<double>(figures.size());
   mean.psnr = -10 * std::log10(square / count);
-  for (double* value : {&mean.ssim, &mean.flip, &mean.meanError, &mean.overOneStep, &mean.depthError}) *value /= count;
+  for (double* value : {&mean.ssim, &mean.flip, &mean.meanError, &mean.overOneStep, &mean.distanceError}) {
+    *value /= count;
+  }
   return mean;
 }
 
@@ -150,10 +152,10 @@ Result<PointErrors> SweepReferences::compare(std::vector<RenderedImages> images)
   std::vector<Status> statuses(images.size());
   tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
     const ReferenceImage& exact = exact_[i];
-    Image colour = std::move(images[i].colour), depth = std::move(images[i].distance);
+    Image colour = std::move(images[i].colour), distance = std::move(images[i].distance);
     if (colour.width != exact.colour.width) {
       colour = enlarge(colour, exact.colour.width, exact.colour.height);
-      depth = repeatPixels(depth, exact.colour.width, exact.colour.height);
+      distance = repeatPixels(distance, exact.colour.width, exact.colour.height);
     }
     Result<ViewErrors> errors = compareColours(colour, exact);
     if (!errors) {
@@ -161,7 +163,7 @@ Result<PointErrors> SweepReferences::compare(std::vector<RenderedImages> images)
       return;
     }
     errors->view = static_cast<uint32_t>(views_[i].index);
-    errors->errors.depthError = medianDepthError(depth, distances_[i]);
+    errors->errors.distanceError = medianDistanceError(distance, distances_[i]);
     figures[i] = errors->errors;
     point.views[i] = *errors;
     if (photos_.empty()) return;

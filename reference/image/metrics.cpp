@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/image/mean_square.h"
+
 namespace froth {
 namespace {
 
@@ -17,10 +19,6 @@ constexpr double kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
 constexpr double kStep = 1.0 / 255 + 1e-6;
 
 double clampUnit(float value) { return std::clamp(double(value), 0.0, 1.0); }
-
-double decibels(double meanSquare) {
-  return meanSquare == 0 ? std::numeric_limits<double>::infinity() : -10 * std::log10(meanSquare);
-}
 
 std::array<double, kWindow> gaussianWindow() {
   std::array<double, kWindow> window;

@@ -102,16 +102,16 @@ void Asset::load(const Preparation& prepare, const Messages& messages, uint64_t&
 Status Asset::loadChunk() {
   workDone_ += chunkWork_[nextChunk_];
   workToCome_ -= chunkWork_[nextChunk_];
-  Result<ChunkContents> contents = reader_->readChunk(nextChunk_);
-  if (!contents) {
-    return contents.error();
+  Result<CodedChunk> coded = reader_->readCodedChunk(nextChunk_);
+  if (!coded) {
+    return coded.error();
   }
   const std::string place = chunkPlace(name_, nextChunk_);
-  if (const Status status = checkClaims(*contents, reader_->liveBounds(nextChunk_), place); !status) {
+  if (const Status status = checkClaims(coded->contents, reader_->liveBounds(nextChunk_), place); !status) {
     return status;
   }
   ++nextChunk_;
-  return placeChunk(std::move(*contents));
+  return placeChunk(std::move(*coded));
 }
 
 Status Asset::finish(const Preparation& prepare) {
@@ -192,7 +192,8 @@ Status Asset::openReader() {
   return {};
 }
 
-Status Asset::placeChunk(ChunkContents&& contents) {
+Status Asset::placeChunk(CodedChunk&& coded) {
+  ChunkContents& contents = coded.contents;
   growBounds(contents);
   gpu_.hasHeights |= !contents.detailHeights.empty();
   gpu_.liveCount += contents.liveCount;
@@ -212,8 +213,7 @@ Status Asset::placeChunk(ChunkContents&& contents) {
   if (!device_) {
     return {};
   }
-  Result<PackedCells> cells =
-      packCells(contents, gpu_.detailCount, gpu_.lobeCount, reader_->manifest().quantization.normalBits);
+  Result<PackedCells> cells = packCells(contents, std::move(coded.codes), reader_->manifest());
   if (!cells) {
     return cells.error();
   }

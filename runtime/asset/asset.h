@@ -84,7 +84,7 @@ class Asset {
   Status openReader();
   Status loadChunk();
   Status finish(const Preparation& prepare);
-  Status placeChunk(ChunkContents&& contents);
+  Status placeChunk(CodedChunk&& coded);
   Status placeArrays(const ChunkArrays& arrays);
   Status placeEntries();
   VkDeviceSize bytesToCome(VkDeviceSize size) const;

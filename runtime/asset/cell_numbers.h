@@ -17,12 +17,16 @@ struct CellNumbers {
   bool isRaw() const { return step == 0; }
 };
 
-// With the largest step there is: small codes.
-CellNumbers toNumbers(std::span<const float> values);
+// `indices` in steps of `step` (format/chunk_codes.h); none: the bits of `values`.
+CellNumbers toNumbers(std::vector<int32_t> indices, float step, std::span<const float> values);
 
-// Colours in steps of step * 2^scales[i]. The codes of a colour are green, red - green, blue - green; if they
-// are raw, red, green, blue. `scales` empty: all 0.
-CellNumbers toColourNumbers(std::span<const glm::vec3> colours, std::span<const uint8_t> scales);
+// Indices in steps of step * 2^scale of their cell. `scales`: of the chunk's cells; empty: all 0.
+CellNumbers toNumbers(std::vector<int32_t> indices, float step, std::span<const float> values,
+                      std::span<const uint8_t> scales);
+
+// Of red, green, blue. The codes of a colour are green, red - green, blue - green, in steps of step * 2^scale of the
+// cell; if they are raw, red, green, blue.
+CellNumbers toColourNumbers(std::vector<int32_t> indices, float step, std::span<const float> values);
 
 // The codes that some numbers of a cell take.
 struct CodeRange {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 #include "base/float_span.h"
 #include "format/chunk_lobes.h"
-#include "format/quantization.h"
 #include "runtime/asset/axis_labels.h"
 #include "runtime/asset/bit_writer.h"
 #include "runtime/asset/cell_numbers.h"
@@ -33,36 +33,23 @@ struct OwnPlace {
 };
 constexpr uint32_t kNoCell = UINT32_MAX;
 
-// Octahedral indices of the orientations; empty if one of them is not what orientationOfNormal gives.
-std::vector<std::array<uint32_t, 2>> normalsOf(const std::vector<glm::vec4>& orientations, uint32_t normalBits) {
-  std::vector<std::array<uint32_t, 2>> normals;
-  if (normalBits == 0) return normals;
-  for (const glm::vec4& orientation : orientations) {
-    const auto indices = findNormalIndices(orientation, normalBits);
-    if (!indices) return {};
-    normals.push_back(*indices);
-  }
-  return normals;
-}
-
 class CellPacker {
  public:
-  CellPacker(const ChunkContents& chunk, uint32_t detailCount, uint32_t lobeCount, uint32_t normalBits)
-      : chunk_(chunk), detailCount_(detailCount), lobeCount_(lobeCount) {
-    places_ = toNumbers(floatsOf(chunk.detailSites));
-    heights_ = toNumbers(chunk.detailHeights);
-    axes_ = toNumbers(floatsOf(chunk.lobeAxes));
-    std::vector<uint8_t> detailScales, lobeScales;
-    for (size_t detail = 0; detail < allDetails() && !chunk.colourScales.empty(); ++detail) {
-      detailScales.push_back(chunk.colourScales[detail / detailCount]);
-      lobeScales.insert(lobeScales.end(), lobesOf(detail), detailScales.back());
-    }
-    bases_ = toColourNumbers(chunk.baseColours, detailScales);
-    colours_ = toColourNumbers(chunk.lobeColours, lobeScales);
+  CellPacker(const ChunkContents& chunk, ChunkCodes&& codes, const AssetContents& asset)
+      : chunk_(chunk),
+        detailCount_(asset.detailCount),
+        lobeCount_(asset.lobeCount),
+        normals_(std::move(codes.normals)) {
+    const Quantization& steps = asset.quantization;
+    places_ =
+        toNumbers(std::move(codes.detailSites), steps.detailSiteStep, floatsOf(chunk.detailSites), chunk.detailScales);
+    heights_ = toNumbers(std::move(codes.detailHeights), steps.heightStep, chunk.detailHeights, chunk.detailScales);
+    bases_ = toColourNumbers(std::move(codes.baseColours), steps.colourStep, floatsOf(chunk.baseColours));
+    axes_ = toNumbers(std::move(codes.lobeAxes), codes.axisStep, floatsOf(chunk.lobeAxes));
+    colours_ = toColourNumbers(std::move(codes.lobeColours), steps.colourStep, floatsOf(chunk.lobeColours));
     labels_ = labelAxes(axes_);
     ownPlaces_.resize(labels_.axisCount, {kNoCell, 0});
-    normals_ = normalsOf(chunk.orientations, normalBits);
-    code_.normalBits = normals_.empty() ? 0 : normalBits;
+    code_.normalBits = normals_.empty() ? 0 : steps.normalBits;
   }
 
   Result<PackedCells> pack() {
@@ -85,7 +72,6 @@ class CellPacker {
 
  private:
   uint32_t lobesOf(size_t detail) const { return lobeCountOf(chunk_, lobeCount_, detail); }
-  size_t allDetails() const { return size_t{chunk_.liveCount} * detailCount_; }
 
   void measureCells() {
     size_t lobe = 0;
@@ -261,9 +247,8 @@ class CellPacker {
 
 }  // namespace
 
-Result<PackedCells> packCells(const ChunkContents& chunk, uint32_t detailCount, uint32_t lobeCount,
-                              uint32_t normalBits) {
-  return CellPacker(chunk, detailCount, lobeCount, normalBits).pack();
+Result<PackedCells> packCells(const ChunkContents& chunk, ChunkCodes codes, const AssetContents& asset) {
+  return CellPacker(chunk, std::move(codes), asset).pack();
 }
 
 }  // namespace froth

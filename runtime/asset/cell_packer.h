@@ -29,6 +29,7 @@
 
 #include "base/result.h"
 #include "format/asset_contents.h"
+#include "format/chunk_codes.h"
 #include "shaders/gpu/layout.h"
 
 namespace froth {
@@ -39,8 +40,7 @@ struct PackedCells {
   std::vector<uint32_t> words;
 };
 
-// normalBits: of the asset's quantization. Fails if the bits of one chunk are beyond 32-bit addresses.
-Result<PackedCells> packCells(const ChunkContents& chunk, uint32_t detailCount, uint32_t lobeCount,
-                              uint32_t normalBits);
+// `asset`: without its chunks. Fails if the bits of one chunk are beyond 32-bit addresses.
+Result<PackedCells> packCells(const ChunkContents& chunk, ChunkCodes codes, const AssetContents& asset);
 
 }  // namespace froth

@@ -21,7 +21,7 @@ void writeBlock(const Recording& recording, const RecordingPart& part, const Ren
     const VkDeviceAddress counters = buffers[ViewBuffer::kCounters].address + recording.countersOffset();
     fillFrame(recording.info, *instance, buffers, {part.recorder.frame, counters}, block,
               reinterpret_cast<gpu::ChunkEntry*>(staged + kBlockStride));
-    block.flags |= recording.kind == RecordingKind::kWalk ? gpu::kFlagWalk : 0;
+    block.flags |= recording.method == RenderMethod::kWalk ? gpu::kFlagWalk : 0;
   }
   const auto index = static_cast<uint32_t>(recording.parts().size() - 1);
   describeHits(recording, index, block);
@@ -39,14 +39,13 @@ void recordUpload(const Recording& recording, const RecordingPart& part) {
                      space.buffers[ViewBuffer::kFrames].buffer, 1, &copy);
   vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kCounters].buffer, recording.countersOffset(),
                      sizeof(gpu::Counters), 0);
-  if (recording.kind != RecordingKind::kClear) {
-    const TallyLayout tallies = layOutTallies(space.buffers.capacity());
-    const bool isWalk = recording.kind == RecordingKind::kWalk;
-    const uint64_t first = isWalk ? tallies.superSums : 0;
-    const uint64_t end = isWalk ? tallies.tileSums : tallies.end;
-    vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kTallies].buffer, first, end - first, 0);
-  }
-  if (recording.kind == RecordingKind::kWalk && space.walkAsset != part.asset) {
+  if (!part.asset) return;
+  const TallyLayout tallies = layOutTallies(space.buffers.capacity());
+  const bool isWalk = recording.method == RenderMethod::kWalk;
+  const uint64_t first = isWalk ? tallies.superSums : 0;
+  const uint64_t end = isWalk ? tallies.tileSums : tallies.end;
+  vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kTallies].buffer, first, end - first, 0);
+  if (isWalk && space.walkAsset != part.asset) {
     vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kWalkStart].buffer, 0, VK_WHOLE_SIZE, 0);
     space.walkAsset = part.asset;
   }
@@ -78,21 +77,21 @@ void Recording::mark(const char* pass) const {
 void Recording::wait() const { view.parts.front().recorder.wait(); }
 
 Recording beginRecording(ViewState& view, const RenderPipelines::State& pipelines, VkCommandBuffer commandBuffer,
-                         RecordingKind kind, const FrothRenderInfo& info, uint64_t serial) {
+                         RenderMethod method, const FrothRenderInfo& info, uint64_t serial) {
   FrameSlot& slot = view.slots[view.slot];
   const uint32_t place = slot.recordings % kRecordingsPerFrame;
   const Recording recording{.view = view,
                             .pipelines = pipelines,
                             .info = info,
                             .commandBuffer = commandBuffer,
-                            .kind = kind,
+                            .method = method,
                             .place = place,
                             .number = view.slot * kRecordingsPerFrame + place};
   slot.serial = serial;
   slot.recordings = place + 1;
   view.lastSerial = serial;
   view.parts.clear();
-  view.device.table.beginLabel(commandBuffer, kind == RecordingKind::kRaster ? "froth raster" : "froth walk");
+  view.device.table.beginLabel(commandBuffer, method == RenderMethod::kRaster ? "froth raster" : "froth walk");
   view.images->enter(commandBuffer, info);
   if (view.timer) view.timer->begin(commandBuffer, recording.number);
   return recording;

@@ -153,7 +153,7 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
     if (!space || !passes || !coversAsset(*instance.asset, space->buffers.capacity()) ||
         !(isFirst || pipelines.canMerge)) {
       bits |= FROTH_VIEW_NOT_READY;
-    } else if (recording.kind == RecordingKind::kWalk && !instance.asset->hasWalkGraph) {
+    } else if (recording.method == RenderMethod::kWalk && !instance.asset->hasWalkGraph) {
       bits |= FROTH_VIEW_NO_WALK_GRAPH;
     } else {
       addPart(recording, *space, &instance, *passes);
@@ -264,20 +264,18 @@ bool ViewRenderer::isShrinking() const {
 uint32_t ViewRenderer::record(RenderMethod method, VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
                               std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial) {
   ViewState& view = *state_;
-  const bool isRaster = method == RenderMethod::kRaster;
-  Recording recording = beginRecording(view, pipelines.state(), commandBuffer,
-                                       isRaster ? RecordingKind::kRaster : RecordingKind::kWalk, info, serial);
+  const Recording recording = beginRecording(view, pipelines.state(), commandBuffer, method, info, serial);
   const uint32_t bits = addParts(recording, pipelines.state(), instances);
-  if (view.parts.empty()) {
-    recording.kind = RecordingKind::kClear;
-    addPart(recording, *view.spaces.front(), nullptr, pipelines.state().common[gpu::kLensClassPinhole]);
-  }
+  const bool isClear = view.parts.empty();
+  if (isClear) addPart(recording, *view.spaces.front(), nullptr, pipelines.state().common[gpu::kLensClassPinhole]);
   startPasses(recording);
-  if (recording.kind == RecordingKind::kRaster) recordRasterPasses(recording);
-  if (recording.kind == RecordingKind::kWalk) recordWalkPasses(recording);
-  if (recording.kind == RecordingKind::kClear) {
+  if (isClear) {
     recordPixels(recording, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
     recording.mark("clear");
+  } else if (method == RenderMethod::kRaster) {
+    recordRasterPasses(recording);
+  } else {
+    recordWalkPasses(recording);
   }
   recordHitPasses(recording);
   endRecording(recording);

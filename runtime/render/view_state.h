@@ -70,15 +70,13 @@ struct ViewState {
   std::vector<RecordingPart> parts{};  // of the recording under way; has room for gpu::kMostInstances
 };
 
-enum class RecordingKind { kRaster, kWalk, kClear };
-
-// From the first barrier to the last of one raster, walk or clear.
+// From the first barrier to the last of one raster or walk, or of a clear where there is nothing to draw.
 struct Recording {
   ViewState& view;
   const RenderPipelines::State& pipelines;
   const FrothRenderInfo& info;
   VkCommandBuffer commandBuffer;
-  RecordingKind kind;
+  RenderMethod method;
   uint32_t place;   // within the frame: device block, counters
   uint32_t number;  // among all recordings in flight: descriptor set, staging, read-back
 
@@ -90,7 +88,7 @@ struct Recording {
 
 // Enters the images.
 Recording beginRecording(ViewState& view, const RenderPipelines::State& pipelines, VkCommandBuffer commandBuffer,
-                         RecordingKind kind, const FrothRenderInfo& info, uint64_t serial);
+                         RenderMethod method, const FrothRenderInfo& info, uint64_t serial);
 
 // Uploads the block of an instance in its space and clears the counters. instance: null for a clear.
 void addPart(const Recording& recording, InstanceSpace& space, const RenderInstance* instance,

@@ -118,7 +118,7 @@ TEST_F(ExportCheckpoint, RefusesFoamsThatCouldNotBeReadBack) {
   refuse([](Foam& foam) { foam.radii[2] = 0; }, "radius <= 0");
   refuse([](Foam& foam) { foam.densities[2] = -1; }, "density < 0");
   refuse([](Foam& foam) { foam.sites[2].y = NAN; }, "sites hold nan at place 2");
-  refuse([](Foam& foam) { foam.lobeAxes.pop_back(); }, "3 lobe axes");
+  refuse([](Foam& foam) { foam.lobeAxes.pop_back(); }, "3 lobeAxes");
   refuse([](Foam& foam) { foam = Foam{}; }, "0 cells");
   refuse([](Foam& foam) { foam.orientations[2] = {}; }, "orientation of length 0");
   EXPECT_TRUE(filesInFolder().empty());

@@ -36,9 +36,10 @@ void use(const AssetReader& reader) {
   QueryFoam foam(asset);
   std::vector<glm::dvec3> points;
   for (uint32_t index = 0; index < asset.chunks.size(); ++index) {
-    const Result<ChunkContents> chunk = reader.readChunk(index);
-    if (!chunk) return;
-    (void)packCells(*chunk, asset.detailCount, asset.lobeCount, asset.quantization.normalBits);
+    const Result<CodedChunk> coded = reader.readCodedChunk(index);
+    if (!coded) return;
+    const ChunkContents* chunk = &coded->contents;
+    (void)packCells(*chunk, coded->codes, asset);
     foam.addChunk(*chunk);
     for (uint32_t cell = 0; cell < chunk->cellCount && cell < kMostCells; ++cell) {
       points.push_back(glm::dvec3(chunk->origin[0], chunk->origin[1], chunk->origin[2]) +

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/image/mean_square.h"
+
 namespace froth {
 namespace {
 
@@ -31,6 +33,7 @@ TEST(Metrics, PsnrIsTakenOverPixelsAndChannelsOrAveragedOverChannels) {
   const Image b = flat(4, 4, {0.6f, 0.51f, 0.501f});
   const ImageDifference d = *compareImages(a, b);
   EXPECT_NEAR(d.psnr, -10 * std::log10((1e-2 + 1e-4 + 1e-6) / 3), 1e-4);
+  EXPECT_NEAR(decibels(meanSquare(a, b)), d.psnr, 1e-12);
   EXPECT_NEAR(d.psnrChannelMean, (20.0 + 40.0 + 60.0) / 3, 1e-4);
   EXPECT_NEAR(d.maxError, 0.1, 1e-7);
   EXPECT_TRUE(std::isnan(d.ssim));  // smaller than SSIM's window
@@ -39,6 +42,7 @@ TEST(Metrics, PsnrIsTakenOverPixelsAndChannelsOrAveragedOverChannels) {
 TEST(Metrics, PsnrClampsAndTheMaximumDoesNot) {
   const Image a = flat(3, 3, {1.0f}), b = flat(3, 3, {1.5f});
   EXPECT_EQ(compareImages(a, b)->psnr, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(meanSquare(a, b), 0);
   EXPECT_EQ(compareImages(a, b)->maxError, 0.5);
   EXPECT_EQ(compareImages(a, b)->overTwoSteps, 1);
 }

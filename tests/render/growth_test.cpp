@@ -75,9 +75,8 @@ class Growth : public testing::Test {
     const bool isRaster = method == Method::kRaster;
     submit([&](VkCommandBuffer commandBuffer, uint64_t serial) {
       view_->slots[0] = {};
-      const Recording recording =
-          beginRecording(*view_, pipelines_->state(), commandBuffer,
-                         isRaster ? RecordingKind::kRaster : RecordingKind::kWalk, info, serial);
+      const Recording recording = beginRecording(*view_, pipelines_->state(), commandBuffer,
+                                                 isRaster ? RenderMethod::kRaster : RenderMethod::kWalk, info, serial);
       addPart(recording, space(), &instance, *pipelines_->state().find(shapeOf(asset_.gpu()), gpu::kLensClassPinhole));
       startPasses(recording);
       const auto record = isRaster ? recordRasterPasses : recordWalkPasses;

@@ -185,7 +185,9 @@ class Bin : public Passes {
     contents.detailSites = foam.detailSites;
     contents.lobeAxes = foam.lobeAxes;
     contents.lobeColours = foam.lobeColours;
-    const PackedCells cells = *packCells(contents, 1, 1, 0);
+    AssetContents shape;
+    shape.detailCount = shape.lobeCount = 1;
+    const PackedCells cells = *packCells(contents, {}, shape);
     chunk.cellStarts = upload(cells.starts).address;
     chunk.cellWords = upload(cells.words).address;
     chunk.cellWordCount = static_cast<uint32_t>(cells.words.size());
@@ -229,7 +231,7 @@ class Bin : public Passes {
     const RenderInstance instance{.asset = &asset, .position = {}, .rotation = {0, 0, 0, 1}, .scale = 1};
     submit([&](VkCommandBuffer commandBuffer) {
       const Recording recording =
-          beginRecording(view, pipelines_->state(), commandBuffer, RecordingKind::kRaster, info, 1);
+          beginRecording(view, pipelines_->state(), commandBuffer, RenderMethod::kRaster, info, 1);
       addPart(recording, space, &instance, *pipelines_->state().find(shapeOf(asset), gpu::kLensClassPinhole));
       startPasses(recording);
       recordRasterPasses(recording);

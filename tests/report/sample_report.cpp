@@ -31,7 +31,7 @@ ErrorFigures errorsFrom(double meanError) {
   errors.meanError = meanError;
   errors.maxError = std::min(1.0, meanError * 70);
   errors.overOneStep = std::min(1.0, meanError * 30);
-  errors.depthError = meanError * 0.4;
+  errors.distanceError = meanError * 0.4;
   return errors;
 }
 

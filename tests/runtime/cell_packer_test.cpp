@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "format/lattice.h"
 #include "runtime/asset/axis_labels.h"
 #include "runtime/asset/cell_packer.h"
 #include "tests/format/sample_asset.h"
@@ -49,7 +50,7 @@ TEST(PackedCells, GiveDensitiesBackBitForBit) {
   ChunkContents& chunk = sample.chunks[0];
   for (const std::vector<float>& some : {std::vector<float>{0.3f, -0.0f, 1.1f}, {0.0f, 3e38f, 1e-45f}, {2, 4, 1}}) {
     for (size_t cell = 0; cell < chunk.densities.size(); ++cell) chunk.densities[cell] = some[cell % some.size()];
-    const Result<PackedCells> packed = packCells(chunk, sample.detailCount, sample.lobeCount, 0);
+    const Result<PackedCells> packed = packCells(chunk, {}, sample);
     ASSERT_TRUE(packed);
     for (size_t cell = 0; cell < chunk.densities.size(); ++cell) {
       const uint32_t code = bitsAt(packed->words, uint64_t{packed->starts[cell]} * 8, packed->code.densityBits);
@@ -57,6 +58,28 @@ TEST(PackedCells, GiveDensitiesBackBitForBit) {
                 std::bit_cast<uint32_t>(chunk.densities[cell]));
     }
   }
+}
+
+TEST(CellNumbers, OfALatticeAreItsIndicesInTheFinestStepOfACell) {
+  const CellNumbers numbers = toNumbers({1, -2, 3, 4}, 0.25f, {}, std::vector<uint8_t>{3, 1});
+  EXPECT_EQ(numbers.step, 0.5f);
+  EXPECT_EQ(numbers.codes, (std::vector<int32_t>{4, -8, 3, 4}));
+  EXPECT_EQ(toColourNumbers({1, 5, 2}, 0.25f, {}).codes, (std::vector<int32_t>{5, -4, -3}));
+}
+
+// A shader makes floats of them.
+TEST(CellNumbers, AreFloatsWhereAnIndexIsTooLargeForOne) {
+  const std::vector<float> values{2.5f, 1e6f};
+  const CellNumbers numbers = toNumbers({1, kMaxLatticeIndex}, 0.25f, values, std::vector<uint8_t>{0, 1});
+  EXPECT_TRUE(numbers.isRaw());
+  EXPECT_EQ(numbers.codes, (std::vector<int32_t>{std::bit_cast<int32_t>(2.5f), std::bit_cast<int32_t>(1e6f)}));
+  EXPECT_FALSE(toNumbers({1, kMaxLatticeIndex}, 0.25f, values, std::vector<uint8_t>{1, 1}).isRaw());
+}
+
+TEST(CellNumbers, ThatAreAllZeroNeedNoBits) {
+  EXPECT_FALSE(toNumbers({}, 0, std::vector<float>{0, 0}).isRaw());
+  EXPECT_TRUE(toNumbers({}, 0, std::vector<float>{0, 1}).isRaw());
+  EXPECT_TRUE(toNumbers({}, 0, std::vector<float>{0, -0.0f}).isRaw());
 }
 
 }  // namespace

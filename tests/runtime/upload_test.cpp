@@ -62,8 +62,7 @@ class Upload : public RuntimeGpuTest {
       expectOnGpu(*asset, gpu.neighbourOffsets, chunk.neighbourOffsets, "neighbourOffsets");
       expectOnGpu(*asset, gpu.neighbours, packElements(chunk.neighbours).words, "neighbours");
       expectOnGpu(*asset, gpu.alphaCounts, packElements(chunk.alphaCounts).words, "alphaCounts");
-      const Result<PackedCells> cells =
-          packCells(chunk, contents.detailCount, contents.lobeCount, contents.quantization.normalBits);
+      const Result<PackedCells> cells = packCells(chunk, {}, contents);
       ASSERT_TRUE(cells);
       expectOnGpu(*asset, gpu.cellStarts, cells->starts, "cellStarts");
       expectOnGpu(*asset, gpu.cellWords, cells->words, "cellWords");
