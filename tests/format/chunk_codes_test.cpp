@@ -108,8 +108,8 @@ TEST(ChunkCodes, OfTheFirstLayerAloneAreThoseOfTheCells) {
   const Read read = readCodes(makeSampleAsset({.isQuantized = true, .hasLayers = true}), Layer::kGeometry);
   const auto& [contents, codes] = read.chunk;
   expectFloatsOfCodes(
-      contents.detailHeights, codes.detailHeights, read.manifest.quantization.heightStep, {},
-      [](size_t) { return 0; }, "heights");
+      contents.detailHeights, codes.detailHeights, read.manifest.quantization.heightStep, {}, [](size_t) { return 0; },
+      "heights");
   EXPECT_TRUE(codes.baseColours.empty());
   EXPECT_FALSE(contents.baseColours.empty());
 }
