@@ -9,6 +9,7 @@ namespace {
 
 constexpr uint32_t kMaxViewExtent = 16384;
 constexpr uint32_t kLayerCount = 3;
+constexpr uint32_t kReservedCells = 1u << 20;      // FrothViewInfo::reserveCells
 constexpr double kUnitQuaternionTolerance = 1e-3;  // as for a camera's rotation
 
 }  // namespace
@@ -197,8 +198,17 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   view->lensClasses = info.lensClasses;
   view->measurePasses = info.measurePasses != 0;
   view->keepsHits = info.keepsHits != 0;
+  view->reservedCells = info.reserveCells == 0 ? kReservedCells : info.reserveCells;
+  const View* like = views_.find(info.startLike);
+  if (!like && info.startLike.generation != 0) {
+    return messages.fail(FROTH_ERROR_HANDLE, "frothCreateView", "startLike: view {%u, %u}: destroyed or never created",
+                         info.startLike.index, info.startLike.generation);
+  }
   if (const Status status = createRenderer(*view); !status) {
     return messages.fail(status.error(), "frothCreateView");
+  }
+  if (like && like->renderer && view->renderer) {
+    view->renderer->startLike(*like->renderer);
   }
   handle = views_.add(std::move(view));
   return FROTH_OK;
@@ -221,7 +231,8 @@ Status Context::createRenderer(View& view) {
                                      .measurePasses = view.measurePasses && canMeasure,
                                      .keepsHits = view.keepsHits && hasExtendedFormats_,
                                      .composites = compositeFormat_ != VK_FORMAT_UNDEFINED,
-                                     .exportsDepth = depthExportFormat_ != VK_FORMAT_UNDEFINED});
+                                     .exportsDepth = depthExportFormat_ != VK_FORMAT_UNDEFINED,
+                                     .reservedCells = view.reservedCells});
   if (!renderer) {
     return renderer.error();
   }

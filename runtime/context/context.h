@@ -100,6 +100,7 @@ class Context {
   struct View {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
+    uint32_t reservedCells = 0;
     bool measurePasses = false, keepsHits = false;
     std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
     // in the newest frothUpdate: those it has buffers for, if they fit the budget

@@ -5,9 +5,7 @@
 namespace froth {
 namespace {
 
-// The first guess: small foams wholly, of large ones what such an image might show.
-constexpr uint64_t kLeastCells = uint64_t{1} << 14;
-constexpr uint64_t kCellsPerTile = 32;
+// Beside the cells, what an image usually takes.
 constexpr uint64_t kLeastPairs = uint64_t{1} << 14;
 constexpr uint64_t kPairsPerCell = 4;
 constexpr uint64_t kPairsPerTile = 32;
@@ -82,9 +80,9 @@ uint32_t groupsOfCells(const GpuAsset& asset) {
   return groups;
 }
 
-void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
+void coverAsset(const GpuAsset& asset, uint32_t mostCells, ViewCapacity& capacity) {
   const auto chunks = static_cast<uint32_t>(asset.chunks.size());
-  const uint64_t cells = std::min(uint64_t{asset.cellCount}, kLeastCells + kCellsPerTile * capacity.tiles);
+  const uint64_t cells = std::min(asset.cellCount, mostCells);
   const uint64_t meanPlanes = asset.alphaTotal / std::max(asset.liveCount, 1u) + 1;
   ViewCapacity needed;
   needed.chunks = chunks;
@@ -99,6 +97,13 @@ void coverAsset(const GpuAsset& asset, ViewCapacity& capacity) {
 
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
   return asset.chunks.size() <= capacity.chunks && groupsOfCells(asset) <= capacity.groups;
+}
+
+bool mayLack(const GpuAsset& asset, const ViewDemand& demand, const ViewCapacity& capacity) {
+  const bool isKnown = demand.cells > 0;
+  const bool holdsCells = capacity.cells >= asset.cellCount || (isKnown && demand.cells <= capacity.cells);
+  const bool holdsPlanes = capacity.planes >= asset.alphaTotal || (isKnown && demand.planes <= capacity.planes);
+  return !holdsCells || !holdsPlanes || demand.pairs > capacity.pairs;
 }
 
 ViewCapacity lessened(const ViewCapacity& capacity, double factor) {

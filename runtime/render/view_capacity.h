@@ -17,7 +17,7 @@ struct ViewCapacity {
   uint64_t rays = 0;        // pixels of a view that mapped lenses draw; else 0
   uint64_t hits = 0;        // pixels of a view that keeps hits; else 0
   uint32_t walkStarts = 1;  // as many as tiles where rays may be parallel
-  // Of visible cells: a guess at first. A frame that wants more is valid without what has no space.
+  // Of visible cells. A frame that wants more is valid without what has no space.
   uint32_t cells = 1;
   uint64_t planes = 1;
   uint64_t details = 1;  // cells times K
@@ -63,10 +63,14 @@ TallyLayout layOutTallies(const ViewCapacity& capacity);
 // Workgroups over the cells of all chunks, each of one chunk (ChunkEntry::firstGroup).
 uint32_t groupsOfCells(const GpuAsset& asset);
 
-// Adds what an asset needs, and a guess at what is visible of it that does not grow with the asset.
-void coverAsset(const GpuAsset& asset, ViewCapacity& capacity);
+// Adds what an asset needs, for all of its cells or, if it has more, `mostCells` of them to be visible.
+void coverAsset(const GpuAsset& asset, uint32_t mostCells, ViewCapacity& capacity);
 // Whether the asset can be recorded.
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity);
+
+// Whether a frame may have to leave cells out, for all that is known: `demand` is of the newest complete frame, all 0
+// before there is one. Pairs are not known before.
+bool mayLack(const GpuAsset& asset, const ViewDemand& demand, const ViewCapacity& capacity);
 
 // For a lowered budget: `factor` [0..1] of the guessed capacities, and no less than a few cells and pairs.
 ViewCapacity lessened(const ViewCapacity& capacity, double factor);

@@ -68,6 +68,15 @@ void readBack(ViewState& view, uint64_t completedSerial) {
   for (uint32_t number = firstNumber; number < firstNumber + newest->recordings; ++number) readRecording(view, number);
 }
 
+// The largest part of what is wanted that the budget has room for, by halves.
+void growToLess(InstanceSpace& space, const ViewCapacity& wanted) {
+  const ViewCapacity least = lessened(wanted, 0);
+  for (double factor = 0.5;; factor *= 0.5) {
+    const ViewCapacity less = lessened(wanted, factor);
+    if (space.buffers.grow(less, space.lastSerial) || less == least) return;
+  }
+}
+
 Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, const ViewCapacity& wanted) {
   if (wanted == space.buffers.capacity()) return {};
   const VkDeviceSize heldBytes = device.ledger.deviceBytes();
@@ -79,7 +88,9 @@ Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, 
   space.refusal.reset();
   const uint64_t budgetRefusals = device.budgetRefusals;
   const Status status = space.buffers.grow(wanted, space.lastSerial);
-  if (device.budgetRefusals != budgetRefusals) space.refusal = {asset, budget, heldBytes, status.error()};
+  if (device.budgetRefusals == budgetRefusals) return status;
+  if (asset && !coversAsset(*asset, space.buffers.capacity())) growToLess(space, wanted);
+  space.refusal = {asset, budget, device.ledger.deviceBytes(), status.error()};
   return status;
 }
 
@@ -90,7 +101,7 @@ Status prepareSpace(ViewState& view, InstanceSpace& space, uint64_t completedSer
   ViewCapacity wanted = largest(space.buffers.capacity(), view.leastCapacity);
   const bool isHeldBack = view.device.excessBytes() > 0;  // what views give up now they would take again
   if (asset && !(isHeldBack && coversAsset(*asset, wanted))) {
-    coverAsset(*asset, wanted);
+    coverAsset(*asset, view.reservedCells, wanted);
     coverDemand(*asset, space.demand, wanted);
   }
   const VkBuffer oldWalkStart = space.buffers[ViewBuffer::kWalkStart].buffer;
@@ -157,6 +168,7 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
       bits |= FROTH_VIEW_NO_WALK_GRAPH;
     } else {
       addPart(recording, *space, &instance, *passes);
+      if (mayLack(*instance.asset, space->demand, space->buffers.capacity())) bits |= FROTH_VIEW_MAY_LACK_CELLS;
     }
   }
   return bits;
@@ -207,6 +219,7 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   ViewCapacity& capacity = view.leastCapacity;
   const VkExtent2D extent = options.maxExtent;
   const uint64_t pixels = uint64_t{extent.width} * extent.height;
+  view.reservedCells = options.reservedCells;
   capacity.frames = options.framesInFlight;
   capacity.tiles = tilesAlong(extent.width) * tilesAlong(extent.height);
   if (options.lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
@@ -217,6 +230,16 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   if (options.keepsHits) first.hits = pixels;
   if (const Status status = view.spaces.front()->buffers.grow(first, 0); !status) return status.error();
   return renderer;
+}
+
+void ViewRenderer::startLike(const ViewRenderer& other) {
+  const double area = static_cast<double>(state_->leastCapacity.tiles) / other.state_->leastCapacity.tiles;
+  for (const auto& space : other.state_->spaces) {
+    if (!space->isTaken) continue;
+    ViewDemand& demand = takeSpace(*state_, space->instance).demand;
+    demand = space->demand;
+    demand.pairs = static_cast<uint64_t>(static_cast<double>(demand.pairs) * std::max(area, 1.0));
+  }
 }
 
 Status ViewRenderer::prepare(uint64_t completedSerial, std::span<const RenderInstance> instances) {

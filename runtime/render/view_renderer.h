@@ -39,6 +39,7 @@ struct ViewOptions {
   bool measurePasses = false;
   bool keepsHits = false;  // for id and motion
   bool composites = false, exportsDepth = false;
+  uint32_t reservedCells = 0;  // room from the first frame on, for each instance; no more than its asset has
 };
 
 class ViewRenderer {
@@ -47,10 +48,13 @@ class ViewRenderer {
   static Result<std::unique_ptr<ViewRenderer>> create(Device& device, const ViewOptions& options);
   ~ViewRenderer();  // the GPU must be done with the view
 
+  // Starts with what the other view's newest complete frame wanted of its instances. Pairs go with the area.
+  void startLike(const ViewRenderer& other);
+
   // In frothUpdate: reads back the counts and times of completed frames; grows buffers for `instances` (of which only
   // handle and asset count; at most gpu::kMostInstances) and for the overflows seen; replaced buffers are freed once
-  // `completedSerial` has passed their last use. On an error the buffers are as before; recording goes on with those
-  // instances that they cover.
+  // `completedSerial` has passed their last use. On an error the buffers are as before, or hold what the budget has
+  // room for; recording goes on with those instances that they cover.
   Status prepare(uint64_t completedSerial, std::span<const RenderInstance> instances);
 
   // For a lowered budget. prepare() does the work, over several frames; until it is done isShrinking().

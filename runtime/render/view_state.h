@@ -64,6 +64,7 @@ struct ViewState {
   std::unique_ptr<PassTimer> timer;    // null: not measured
   std::vector<FrameSlot> slots;        // [frames in flight]
   ViewCapacity leastCapacity{};        // of every space
+  uint32_t reservedCells = 0;          // of an instance, at most: coverAsset
   uint32_t slot = 0;                   // of the frame being recorded
   uint64_t lastSerial = 0;             // newest recorded frame
   FrothViewStatus status{};            // of the newest complete frame

@@ -89,7 +89,7 @@ RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeForma
     placement.mask = 1;
     check(frothCreateInstance(context_, &placement, &instance), "frothCreateInstance");
   }
-  const FrothViewInfo view{sizeof(FrothViewInfo), kExtent, 1, info.lensClasses, 1, 2};
+  const FrothViewInfo view{sizeof(FrothViewInfo), kExtent, 1, info.lensClasses, 1, 2, 0, {}};
   check(frothCreateView(context_, &view, &view_), "frothCreateView");
 }
 

@@ -60,7 +60,7 @@ class Growth : public testing::Test {
   ViewCapacity wholeCapacity() const {
     ViewCapacity capacity;
     capacity.tiles = tilesAlong(kExtent.width) * tilesAlong(kExtent.height);
-    coverAsset(asset_.gpu(), capacity);
+    coverAsset(asset_.gpu(), UINT32_MAX, capacity);
     return capacity;
   }
 
@@ -233,7 +233,7 @@ TEST_F(Growth, KeepsAheadOfACameraThatMovesOnAndFollowsOneThatJumps) {
   }
 }
 
-TEST(Capacity, OfALargeAssetStartsWithWhatAnImageMightShow) {
+TEST(Capacity, StartsWithAllCellsOrAsManyAsAreReserved) {
   GpuAsset asset;
   asset.detailCount = 8;
   asset.liveCount = asset.cellCount = 5'000'000;
@@ -241,14 +241,20 @@ TEST(Capacity, OfALargeAssetStartsWithWhatAnImageMightShow) {
   GpuChunk chunk;
   chunk.liveCount = chunk.cellCount = asset.liveCount;
   asset.chunks = {chunk};
-  ViewCapacity small, wide;
-  wide.tiles = 60 * 34;  // 1920 x 1080
-  coverAsset(asset, small);
-  coverAsset(asset, wide);
-  EXPECT_LT(small.cells, 20'000u);
-  EXPECT_LT(wide.cells, 100'000u);
-  EXPECT_TRUE(coversAsset(asset, small));
-  EXPECT_EQ(wide.details, uint64_t{8} * wide.cells);
+  ViewCapacity all, some;
+  coverAsset(asset, UINT32_MAX, all);
+  coverAsset(asset, 1'000'000, some);
+  EXPECT_EQ(all.cells, asset.cellCount);
+  EXPECT_EQ(all.planes, asset.alphaTotal);
+  EXPECT_EQ(some.cells, 1'000'000u);
+  EXPECT_EQ(some.details, uint64_t{8} * some.cells);
+  EXPECT_TRUE(coversAsset(asset, some));
+  EXPECT_FALSE(mayLack(asset, {}, all));
+  EXPECT_TRUE(mayLack(asset, {}, some)) << "no frame has told yet";
+  EXPECT_FALSE(mayLack(asset, {.cells = 900'000, .planes = 6'300'000, .pairs = 1}, some));
+  EXPECT_TRUE(mayLack(asset, {.cells = 1'000'001, .planes = 6'300'000, .pairs = 1}, some));
+  EXPECT_TRUE(mayLack(asset, {.cells = 1, .planes = some.planes + 1, .pairs = 1}, some));
+  EXPECT_TRUE(mayLack(asset, {.cells = 1, .planes = 1, .pairs = uint64_t{all.pairs} + 1}, all));
 }
 
 TEST(Capacity, NeverExceedsWhatTheAssetCanWant) {

@@ -217,7 +217,7 @@ class Bin : public Passes {
     capacity.cells = asset.liveCount;
     capacity.details = asset.liveCount;
     capacity.pairs = 1 << 19;
-    coverAsset(asset, capacity);
+    coverAsset(asset, UINT32_MAX, capacity);
     view.parts.reserve(1);
     InstanceSpace& space = *view.spaces.emplace_back(std::make_unique<InstanceSpace>(device_, kRecordingsPerFrame));
     EXPECT_TRUE(space.buffers.grow(capacity, 0));

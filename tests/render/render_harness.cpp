@@ -142,7 +142,7 @@ Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* 
   assetInfo.layers = layers;
   assetInfo.keepForQueries = keepForQueries;
   check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
-  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses, keepsHits, eyeCount};
+  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses, keepsHits, eyeCount, 0, {}};
   check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");
   place({});
 
@@ -181,6 +181,7 @@ void Stage::place(const FrothInstanceInfo& placement) {
 FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInfo>>& draws,
                               const std::function<void()>& afterUpdate,
                               const std::function<void(VkCommandBuffer)>& afterDraws) {
+  bool isIncomplete = false;
   const auto record = [&](VkCommandBuffer commandBuffer, uint64_t serial, bool isDrawn) -> Status {
     const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0};
     check(frothUpdate(context_, &frame, nullptr), "frothUpdate");
@@ -188,7 +189,9 @@ FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInf
     if (isDrawn && afterUpdate) afterUpdate();
     for (const auto& [method, info] : draws) {
       if (!isDrawn) break;
-      check(infoOf(method).record(context_, view_, commandBuffer, &info), infoOf(method).call);
+      const FrothResult result = infoOf(method).record(context_, view_, commandBuffer, &info);
+      isIncomplete = isIncomplete || result == FROTH_INCOMPLETE;
+      check(result == FROTH_INCOMPLETE ? FROTH_OK : result, infoOf(method).call);
     }
     if (isDrawn && afterDraws) afterDraws(commandBuffer);
     return {};
@@ -203,6 +206,7 @@ FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInf
   status.structSize = sizeof(status);
   check(frothGetViewStatus(context_, view_, &status), "frothGetViewStatus");
   EXPECT_EQ(status.indexViolations, 0u);
+  EXPECT_EQ(isIncomplete, (status.bits & FROTH_VIEW_MAY_LACK_CELLS) != 0);
   return status;
 }
 
