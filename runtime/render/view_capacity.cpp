@@ -5,10 +5,10 @@
 namespace froth {
 namespace {
 
-// Beside the cells, what an image usually takes.
+// Nearly twice what views of miku_plush and tankard_rough take from 330 x 247 to 1319 x 989 pixels.
 constexpr uint64_t kLeastPairs = uint64_t{1} << 14;
-constexpr uint64_t kPairsPerCell = 4;
-constexpr uint64_t kPairsPerTile = 32;
+constexpr uint64_t kPairsPerCell = 2;
+constexpr uint64_t kPairsPerTile = 64;
 constexpr uint64_t kMostPairs = uint64_t{1} << 30;
 // What a view keeps of any budget.
 constexpr uint32_t kFewestCells = 1u << 10;

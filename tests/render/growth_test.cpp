@@ -274,19 +274,6 @@ TEST(Capacity, NeverExceedsWhatTheAssetCanWant) {
   EXPECT_EQ(capacity.pairs, before.pairs) << "within the head room nothing grows";
 }
 
-TEST(Extremes, CellsBeyondTheSpaceAreReportedAndTheNextFrameIsWhole) {
-  Foam foam = makeRandomFoam(18000, 1, 1, 6);
-  for (float& radius : foam.radii) radius *= 0.1f;
-  const View view = lookAt({0, 0, 0}, {0, 0, 3}, 32, 32, 0.9);
-  Stage stage(bakeForTest(foam), {view.width, view.height});
-  const Frame first = stage.draw(Method::kRaster, view);
-  EXPECT_EQ(first.status.bits, uint32_t{FROTH_VIEW_CELL_OVERFLOW});
-  const Frame second = stage.draw(Method::kRaster, view);
-  EXPECT_EQ(second.status.bits, 0u);
-  EXPECT_EQ(second.status.visibleCells, first.status.visibleCells);
-  EXPECT_GE(psnr(stage.draw(Method::kWalk, view).colour, second.colour), 60);
-}
-
 TEST(Extremes, AViewThatSeesNoCellIsEmpty) {
   const AssetContents contents = bakeForTest(makeRandomFoam(50, 2, 1, 3));
   const uint32_t guides = contents.chunks[0].cellCount - contents.chunks[0].liveCount;

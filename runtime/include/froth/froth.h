@@ -147,7 +147,7 @@ typedef struct FrothViewInfo {
   uint32_t keepsHits; /* 1: its cameras may use id and motion; costs 12 bytes per pixel of maxExtent */
   uint32_t eyeCount;  /* 1 or 2; 0: 1. Two eyes are drawn one after the other and use the same memory */
   /* visible cells of an instance that have room from the first frame on; no more is taken than the asset has cells.
-   * 0: 1048576. Later frames of larger assets grow the room by what earlier ones wanted. About 170 bytes per cell, 24
+   * 0: 1048576. Later frames of larger assets grow the room by what earlier ones wanted. About 150 bytes per cell, 24
    * per detail site, 16 per plane between cells */
   uint32_t reserveCells;
   FrothView startLike; /* begins with what the newest complete frame of this view wanted; {0, 0}: of none */
@@ -171,8 +171,8 @@ typedef enum FrothViewBit {
   FROTH_VIEW_INSTANCE_LIMIT = 32, /* more READY instances than a view shows; those with the highest index are missing */
   FROTH_VIEW_ENTRY_LIMIT = 64,    /* FrothRenderInfo::maxEntries cut lists of tiles; their farthest cells are missing */
   /* returned by the call that records the frame: the view has less room than an asset has cells (reserveCells, or the
-   * budget), and no complete frame has shown that it suffices. OVERFLOW bits tell later whether something was missing
-   */
+   * budget) and no complete frame has shown that it suffices, or the budget refused what the newest one wanted.
+   * OVERFLOW bits tell later whether something was missing */
   FROTH_VIEW_MAY_LACK_CELLS = 128,
   FROTH_VIEW_BIT_MAX = 0x7fffffff
 } FrothViewBit;
