@@ -11,13 +11,12 @@ namespace froth {
 namespace {
 
 constexpr uint32_t kMantissaBits = 23;
+constexpr int kExponentBias = 127;
 
 double signOf(double value) { return value < 0 ? -1.0 : 1.0; }
 
 // Folds the lower half of the octahedron's square over its diagonals, or back.
 glm::dvec2 foldSquare(double y, double z) { return {(1 - std::abs(z)) * signOf(y), (1 - std::abs(y)) * signOf(z)}; }
-
-constexpr int kExponentBias = 127;
 
 }  // namespace
 

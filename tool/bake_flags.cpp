@@ -16,7 +16,7 @@ namespace {
 // A lattice step: 0 or a power of two.
 CLI::Validator stepUpTo(float most) {
   const auto check = [most](const std::string& text) -> std::string {
-    const std::string range = numberBetween(0, most)(const_cast<std::string&>(text));
+    std::string range = numberBetween(0, most)(const_cast<std::string&>(text));
     if (!range.empty()) return range;
     int exponent = 0;
     const float step = std::stof(text);

@@ -39,7 +39,7 @@ class AssetReader {
   // Decodes and checks all sections of one chunk (up to the last layer): hashes, sizes, index ranges, finite numbers,
   // positive radii. Needs no other chunk.
   Result<CodedChunk> readCodedChunk(uint32_t chunk) const;
-  Result<ChunkContents> readChunk(uint32_t chunk) const;
+  Result<ChunkContents> readChunk(uint32_t chunk) const;  // its contents, for those who need no lattice indices
 
  private:
   AssetReader();

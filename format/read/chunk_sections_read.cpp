@@ -196,6 +196,7 @@ class ChunkReader {
     Elements elements;
     if (Status status = load(SectionType::kOrientations, elements); !status) return status;
     chunk_.orientations.resize(elements.size() / 2);
+    codes_.normals.reserve(elements.size() / 2);
     const uint32_t most = (1u << bits) - 2;
     for (size_t i = 0; i < chunk_.orientations.size(); ++i) {
       const std::array<uint32_t, 2> indices{elements[2 * i], elements[2 * i + 1]};
@@ -252,6 +253,7 @@ class ChunkReader {
     Elements elements;
     if (Status status = load(SectionType::kDetailSites, elements); !status) return status;
     chunk_.detailSites.resize(elements.size() / 2);
+    codes_.detailSites.reserve(elements.size());
     int64_t u = 0;
     for (size_t i = 0; i < chunk_.detailSites.size(); ++i) {
       if (i % asset_.detailCount == 0) u = 0;

@@ -28,7 +28,7 @@ struct ViewCapacity {
 
 ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b);
 
-// What a frame wanted of the guessed capacities.
+// What a frame wanted of the capacities for visible cells.
 struct ViewDemand {
   uint64_t cells = 0, planes = 0, pairs = 0;
 };
@@ -72,7 +72,7 @@ bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity);
 // before there is one. Pairs are not known before.
 bool mayLack(const GpuAsset& asset, const ViewDemand& demand, const ViewCapacity& capacity);
 
-// For a lowered budget: `factor` [0..1] of the guessed capacities, and no less than a few cells and pairs.
+// For a lowered budget: `factor` [0..1] of the capacities for visible cells, and no less than a few cells and pairs.
 ViewCapacity lessened(const ViewCapacity& capacity, double factor);
 
 // Makes room for frames like the one that wanted this. Ahead of time, so that a camera that moves on overflows nothing.

@@ -122,7 +122,7 @@ TEST(RealFoam, MikuPlushIsRefusedAt1MegabyteAndWholeAt100) {
   ASSERT_EQ(frothSetBudget(context, kBudget), FROTH_OK);
   {
     Stage stage(foam.contents, {view.width, view.height}, context);
-    stage.draw(Method::kRaster, view);  // the first frame's space is a guess
+    stage.draw(Method::kRaster, view);  // its pairs have room by a guess
     const Frame whole = stage.draw(Method::kRaster, view);
     EXPECT_EQ(whole.status.bits, 0u);
     ASSERT_EQ(frothGetMemoryReport(context, &report), FROTH_OK);
