@@ -25,14 +25,17 @@ std::string checkSize(const std::string& text) {
 
 }  // namespace
 
-void addRunOptions(CLI::App& program, RunOptions& options) {
-  const auto readSize = [&options](const std::string& text) {
-    std::sscanf(text.c_str(), "%ux%u", &options.extent.width, &options.extent.height);
+CLI::Option* addSizeOption(CLI::App& program, const char* name, VkExtent2D& extent, const char* description) {
+  const auto readSize = [&extent](const std::string& text) {
+    std::sscanf(text.c_str(), "%ux%u", &extent.width, &extent.height);
   };
-  program.add_option_function<std::string>("--size", readSize, "Size of window and frames")
+  return program.add_option_function<std::string>(name, readSize, description)
       ->type_name("WxH")
-      ->default_str("1280x720")
       ->check(CLI::Validator(checkSize, ""));
+}
+
+void addRunOptions(CLI::App& program, RunOptions& options) {
+  addSizeOption(program, "--size", options.extent, "Size of window and frames")->default_str("1280x720");
   program.add_option("--device", options.device, "Index or part of a name");
   program.add_flag("--validate", options.validate, "Validation layers; fail on a message");
   CLI::Option* frames = program.add_option("--frames", options.frames, "End after so many frames");

@@ -10,7 +10,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace froth {
 
@@ -26,7 +27,8 @@ struct RunOptions {
   double minPsnr = 40;            // [dB]
 };
 
-// `options` outlives the program's parsing.
+// What these write into outlives the program's parsing.
+CLI::Option* addSizeOption(CLI::App& program, const char* name, VkExtent2D& extent, const char* description);
 void addRunOptions(CLI::App& program, RunOptions& options);
 
 // Parses, runs, and tells what failed as `name`. Exit codes: 0 well, 1 failed, 2 wrong arguments, 3 bad input.

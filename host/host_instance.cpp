@@ -20,6 +20,17 @@ VKAPI_ATTR VkBool32 VKAPI_CALL logMessage(VkDebugUtilsMessageSeverityFlagBitsEXT
   return VK_FALSE;
 }
 
+VkDebugUtilsMessengerCreateInfoEXT messengerInfoFor(ValidationLog* log) {
+  VkDebugUtilsMessengerCreateInfoEXT info{};
+  info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+  info.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+  info.pfnUserCallback = logMessage;
+  info.pUserData = log;
+  return info;
+}
+
 bool hasValidationLayer() {
   uint32_t count = 0;
   vkEnumerateInstanceLayerProperties(&count, nullptr);
@@ -85,13 +96,7 @@ Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const ch
     return makeError(ErrorKind::kUnsupported,
                      "validation: the layer %s is not installed; install vulkan-validationlayers", kValidationLayer);
   }
-  VkDebugUtilsMessengerCreateInfoEXT messengerInfo{};
-  messengerInfo.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
-  messengerInfo.messageSeverity =
-      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-  messengerInfo.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
-  messengerInfo.pfnUserCallback = logMessage;
-  messengerInfo.pUserData = log;
+  const VkDebugUtilsMessengerCreateInfoEXT messengerInfo = messengerInfoFor(log);
   const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   VkValidationFeaturesEXT validation{};
   validation.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
@@ -122,22 +127,29 @@ Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const ch
                      "without a GPU)",
                      code);
   }
-  if (log) {
-    const auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(result.instance, "vkCreateDebugUtilsMessengerEXT"));
-    createMessenger(result.instance, &messengerInfo, nullptr, &result.messenger);
-  }
+  if (log) result.messenger = createMessenger(result.instance, *log);
   return result;
 }
 
 void destroyHostInstance(HostInstance& instance) {
-  if (instance.messenger) {
-    const auto destroyMessenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(instance.instance, "vkDestroyDebugUtilsMessengerEXT"));
-    destroyMessenger(instance.instance, instance.messenger, nullptr);
-  }
+  if (instance.messenger) destroyMessenger(instance.instance, instance.messenger);
   vkDestroyInstance(instance.instance, nullptr);
   instance = {};
+}
+
+VkDebugUtilsMessengerEXT createMessenger(VkInstance instance, ValidationLog& log) {
+  const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+      vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
+  const VkDebugUtilsMessengerCreateInfoEXT info = messengerInfoFor(&log);
+  VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+  create(instance, &info, nullptr, &messenger);
+  return messenger;
+}
+
+void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger) {
+  const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+      vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
+  destroy(instance, messenger, nullptr);
 }
 
 Result<std::vector<HostDeviceChoice>> enumerateHostDevices(VkInstance instance) {

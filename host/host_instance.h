@@ -33,6 +33,10 @@ struct HostDeviceChoice {
 Result<HostInstance> createHostInstance(ValidationLog* log, std::vector<const char*> extensions);
 void destroyHostInstance(HostInstance& instance);
 
+// For an instance that another makes, with VK_EXT_debug_utils; createHostInstance() makes its own.
+VkDebugUtilsMessengerEXT createMessenger(VkInstance instance, ValidationLog& log);
+void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger);
+
 Result<std::vector<HostDeviceChoice>> enumerateHostDevices(VkInstance instance);
 // `wanted` as HostOptions::device.
 Result<HostDeviceChoice> chooseHostDevice(const std::vector<HostDeviceChoice>& devices, const std::string& wanted);

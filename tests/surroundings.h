@@ -27,7 +27,7 @@ inline std::filesystem::path programPath(const std::filesystem::path& built) {
   return std::filesystem::exists(packed) ? packed : built;
 }
 
-// FROTH_REQUIRE_ALL=1, as scripts/test sets it: what a test needs must be there.
+// FROTH_REQUIRE_ALL=1, as .ci/run sets it: what a test needs must be there.
 inline bool isAllRequired() {
   const char* value = std::getenv("FROTH_REQUIRE_ALL");
   return value && std::strcmp(value, "1") == 0;

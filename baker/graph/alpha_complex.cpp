@@ -4,7 +4,9 @@
 // ball of j: a pair is decided once, from its side with fewer neighbours. The polygons thus cost the sum of
 // min(degree) over the pairs times a row, and one cell with 100,000 neighbours is no trouble.
 //
-// Every step errs to the superset: each half-space is widened by a slack that covers the rounding.
+// Every step errs to the superset: each half-space is widened by a slack that covers the rounding. That alone would
+// let an empty cell keep the one neighbour that its ball all but misses and lose the one that cuts the ball off. So a
+// cell is nothing unless some face comes into its ball with the half-spaces narrowed, too.
 #include <algorithm>
 #include <cmath>
 
@@ -40,37 +42,42 @@ double squaredDistanceToBoundary(std::span<const glm::dvec2> polygon) {
   return smallest;
 }
 
-// Whether the part of plane `face` inside all other half-spaces comes into the unit ball.
+// Whether the part of plane `face` inside all other half-spaces comes into the unit ball. side: 1: widened by their
+// slack; -1: narrowed.
 // The plane cuts the ball in a disc; a square around the disc is clipped, and what is left must come into the
-// disc.
-bool faceMeetsBall(const HalfSpace& face, Scratch& scratch) {
-  const double height = std::abs(face.offset);
-  if (height > 1 + face.slack) return false;
-  const double discRadius = std::sqrt((1 + face.slack - height) * (1 + face.slack + height));
+// disc: around its centre, or with its boundary.
+bool faceMeetsBall(const HalfSpace& face, double side, Scratch& scratch) {
+  const double height = std::abs(face.offset), reachOfBall = 1 + side * face.slack;
+  if (height > reachOfBall) return false;
+  const double discRadius = std::sqrt((reachOfBall - height) * (reachOfBall + height));
   const auto [u, v] = planeAxes(face.normal);
 
   std::vector<glm::dvec2>& polygon = scratch.polygon;
   polygon = {
       {-discRadius, -discRadius}, {discRadius, -discRadius}, {discRadius, discRadius}, {-discRadius, discRadius}};
+  bool holdsCentre = true;
   for (const HalfSpace& other : scratch.halfSpaces) {
     if (&other == &face) continue;
     const glm::dvec2 across(glm::dot(other.normal, u), glm::dot(other.normal, v));
-    const double limit = other.offset - face.offset * glm::dot(other.normal, face.normal) + other.slack + face.slack;
+    const double limit =
+        other.offset - face.offset * glm::dot(other.normal, face.normal) + side * (other.slack + face.slack);
     const double reach = glm::length(across) * discRadius;
+    holdsCentre = holdsCentre && limit >= 0;
     if (limit >= reach) continue;
     if (limit < -reach) return false;
     clipPolygon(polygon, across, limit, scratch.clipped);
     if (polygon.empty()) return false;
   }
-  // A polygon around the disc's centre passes too: it lies within the square, so its boundary comes into the
-  // disc.
-  return squaredDistanceToBoundary(polygon) <= discRadius * discRadius * (1 + kPolygonSlack);
+  return holdsCentre || squaredDistanceToBoundary(polygon) <= discRadius * discRadius * (1 + side * kPolygonSlack);
 }
+
+// What is known of a pair: no face in the ball; one by the widened half-spaces; one by the narrowed, too.
+enum class Face : uint8_t { kNone, kPossible, kSure };
 
 class AlphaComplexBuilder {
  public:
   AlphaComplexBuilder(std::span<const glm::vec3> sites, std::span<const float> radii, const CellGraph& graph)
-      : sites_(sites), radii_(radii), graph_(graph), isKept_(graph.neighbours.size(), 0) {}
+      : sites_(sites), radii_(radii), graph_(graph), faces_(graph.neighbours.size(), Face::kNone) {}
 
   // Decides every pair that the cell owns.
   void decideOwnedPairs(uint32_t cell, Scratch& scratch) {
@@ -84,7 +91,8 @@ class AlphaComplexBuilder {
     }
     for (size_t k = 0; k < scratch.entries.size(); ++k) {
       const uint32_t entry = scratch.entries[k];
-      if (owns(cell, graph_.neighbours[entry])) isKept_[entry] = faceMeetsBall(scratch.halfSpaces[k], scratch);
+      if (!owns(cell, graph_.neighbours[entry]) || !faceMeetsBall(scratch.halfSpaces[k], 1, scratch)) continue;
+      faces_[entry] = faceMeetsBall(scratch.halfSpaces[k], -1, scratch) ? Face::kSure : Face::kPossible;
     }
   }
 
@@ -95,29 +103,35 @@ class AlphaComplexBuilder {
       if (owns(cell, owner)) continue;
       const auto row = graph_.neighbours.begin() + graph_.offsets[owner];
       const auto rowEnd = graph_.neighbours.begin() + graph_.offsets[owner + 1];
-      isKept_[entry] = isKept_[std::lower_bound(row, rowEnd, cell) - graph_.neighbours.begin()];
+      faces_[entry] = faces_[std::lower_bound(row, rowEnd, cell) - graph_.neighbours.begin()];
     }
   }
 
-  // Without a face in its ball, a cell is the whole ball, with all offsets >= 1, or nothing, with its site
+  // Without a sure face in its ball, a cell is the whole ball, with all offsets >= 1, or nothing, with its site
   // beyond some plane, offset < 0. Any threshold between tells them apart, whatever the rounding.
   bool isEmpty(uint32_t cell) const {
     bool isCutOff = false;
     for (uint32_t entry = graph_.offsets[cell]; entry < graph_.offsets[cell + 1]; ++entry) {
-      if (isKept_[entry]) return false;
+      if (faces_[entry] == Face::kSure) return false;
       isCutOff = isCutOff || makeHalfSpace(sites_, radii_, cell, graph_.neighbours[entry]).offset < 0.5;
     }
     return isCutOff;
   }
 
-  CellGraph takeKept() const {
+  // Pairs of empty cells are none: their faces are within the slack of nothing.
+  CellGraph takeKept(const std::vector<uint8_t>& isEmpty) {
+    for (size_t cell = 0; cell + 1 < graph_.offsets.size(); ++cell) {
+      for (uint32_t entry = graph_.offsets[cell]; entry < graph_.offsets[cell + 1]; ++entry) {
+        if (isEmpty[cell] || isEmpty[graph_.neighbours[entry]]) faces_[entry] = Face::kNone;
+      }
+    }
     CellGraph kept;
     kept.offsets.reserve(graph_.offsets.size());
-    kept.neighbours.reserve(std::count(isKept_.begin(), isKept_.end(), uint8_t{1}));
+    kept.neighbours.reserve(faces_.size() - std::count(faces_.begin(), faces_.end(), Face::kNone));
     kept.offsets.push_back(0);
     for (size_t cell = 0; cell + 1 < graph_.offsets.size(); ++cell) {
       for (uint32_t entry = graph_.offsets[cell]; entry < graph_.offsets[cell + 1]; ++entry) {
-        if (isKept_[entry]) kept.neighbours.push_back(graph_.neighbours[entry]);
+        if (faces_[entry] != Face::kNone) kept.neighbours.push_back(graph_.neighbours[entry]);
       }
       kept.offsets.push_back(static_cast<uint32_t>(kept.neighbours.size()));
     }
@@ -134,7 +148,7 @@ class AlphaComplexBuilder {
   std::span<const glm::vec3> sites_;
   std::span<const float> radii_;
   const CellGraph& graph_;
-  std::vector<uint8_t> isKept_;  // per entry of graph_.neighbours
+  std::vector<Face> faces_;  // per entry of graph_.neighbours
 };
 
 }  // namespace
@@ -164,7 +178,7 @@ AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<con
     for (uint32_t cell = range.begin(); cell < range.end(); ++cell) result.isEmpty[cell] = builder.isEmpty(cell);
   });
   if (!report(progress, "alpha-complex", cellCount, cellCount)) return {};
-  result.graph = builder.takeKept();
+  result.graph = builder.takeKept(result.isEmpty);
   return result;
 }
 

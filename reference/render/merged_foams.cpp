@@ -30,13 +30,27 @@ View viewFromFoam(const View& view, const PlacedFoam& foam) {
   return local;
 }
 
+// Rounding of the eye's place in the foam's frame, by what it is apart from the foam: a difference and a rotation in
+// double, whoever does them. Of an eye within that of a site nobody knows from where it sees the site.
+constexpr double kEyeRounding = 0x1p-50;
+
+View withRoundedEye(View local, const ReferenceOptions& options) {
+  if (options.rounding == 0) return local;
+  Rounding rounding(kEyeRounding, options.roundingSeed + 3, UINT32_MAX);
+  const double apart = glm::length(eyeOf(local));
+  for (const size_t entry : {3, 7, 11}) {
+    local.worldFromCamera[entry] = rounding.of(local.worldFromCamera[entry], apart);
+  }
+  return local;
+}
+
 // One foam as a view sees it.
 class FoamInView {
  public:
   FoamInView(const PlacedFoam& placed, const ReferenceRenderer::State& foam, const View& view,
              const ReferenceOptions& options)
       : foam_(foam),
-        view_(viewFromFoam(view, placed)),
+        view_(withRoundedEye(viewFromFoam(view, placed), options)),
         rays_(view_),
         scale_(placed.scale),
         sharpness_(options.detailSharpness),

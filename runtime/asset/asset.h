@@ -1,7 +1,6 @@
 // An asset on its way from a file to the GPU.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -11,30 +10,28 @@
 #include <string>
 #include <vector>
 
-#include "format/read/asset_reader.h"
 #include "froth/froth.h"
+#include "runtime/asset/asset_source.h"
 #include "runtime/asset/chunk_arrays.h"
 #include "runtime/asset/gpu_arena.h"
 #include "runtime/asset/gpu_asset.h"
+#include "runtime/asset/load_limit.h"
+#include "runtime/asset/loaded_chunk.h"
 #include "runtime/device/device.h"
 #include "runtime/device/messages.h"
 #include "runtime/device/upload_ring.h"
+#include "runtime/jobs/job.h"
 #include "runtime/query/query_foam.h"
 
 namespace froth {
 
-// What is decoded in one frothUpdate, of all assets together [bytes of decoded sections]: it ends behind the chunk that
-// exceeds this. A chunk counts as kLeastChunkWork at least.
-inline constexpr uint64_t kWorkPerUpdate = 4u << 20, kLeastChunkWork = 16u << 10;
-
-// Loads chunk by chunk: decode some, give their arrays places, stage them through the ring as it has room, then the
-// next. One thread at a time.
+// Loads chunk by chunk: jobs decode them, load() gives their arrays places in the order of the file, stage() moves them
+// through the ring as it has room. One thread at a time; jobs see nothing of the asset but its reader.
 class Asset {
  public:
-  // `path` empty: the asset is `bytes`, which the caller keeps until loading has ended; if they stay for as long as the
-  // asset, it can be loaded again. Layers behind `lastLayer` are not read. `device` null: decodes and checks, and keeps
-  // nothing.
-  Asset(std::string path, std::span<const uint8_t> bytes, Layer lastLayer, Device* device, bool bytesStay = false);
+  // `device` null: decodes and checks, and keeps nothing.
+  Asset(AssetSource source, Device* device);
+  ~Asset();  // as stop()
 
   // Before the first load(): queryFoam() will be there.
   void keepForQueries() { keepsForQueries_ = true; }
@@ -45,11 +42,13 @@ class Asset {
   // The frame that fills it; 0: none does yet.
   uint64_t entriesSerial = 0;
 
-  // Makes what drawing an asset of this shape needs besides; part of loading it.
-  using Preparation = std::function<Status(const GpuAsset&)>;
-  // Decodes chunks while there is work left, and takes off what they cost. An error ends the asset: one message,
-  // hasFailed().
-  void load(const Preparation& prepare, const Messages& messages, uint64_t& workLeft);
+  // Sees to what drawing an asset of this shape needs besides; empty: it is under way, ask again.
+  using Preparation = std::function<std::optional<Status>(const AssetShape&)>;
+  // Takes what jobs have done and starts others, as the runner and the limit have room. An error ends the asset: one
+  // message, hasFailed().
+  void load(JobRunner& jobs, LoadLimit& limit, const Preparation& prepare, const Messages& messages);
+  // No job begins any more, and none reads the caller's bytes.
+  void stop();
   // Moves at most `limit` bytes of decoded arrays into the ring; returns how many.
   VkDeviceSize stage(UploadRing& ring, VkDeviceSize limit);
 
@@ -62,7 +61,7 @@ class Asset {
   // Null: not kept, or not whole yet. Once there, it outlives the device: it is host memory.
   const QueryFoam* queryFoam() const { return queryFoam_ && queryFoam_->isWhole() ? &*queryFoam_ : nullptr; }
   std::span<const GpuBuffer> buffers() const;  // that hold gpu()'s arrays
-  const std::string& name() const { return name_; }
+  const std::string& name() const { return source_.name; }
   // Counts, bounds, cameras; zero before the manifest is read. The state is the context's to tell.
   FrothAssetStatus describe() const;
   std::span<const FrothStoredCamera> flightPath() const { return flightPath_; }
@@ -81,32 +80,35 @@ class Asset {
     VkDeviceSize offset, size, staged;  // offset: in the target
   };
 
-  Status openReader();
-  Status loadChunk();
-  Status finish(const Preparation& prepare);
-  Status placeChunk(CodedChunk&& coded);
+  Status takeResults(const Preparation& prepare);
+  bool startNext(JobRunner& jobs, LoadLimit& limit);
+  void startOpening(JobRunner& jobs);
+  void startFinishing(JobRunner& jobs);
+  void takeReader(std::shared_ptr<const AssetReader> reader);
+  Status finish();
+  Status placeChunk(LoadedChunk&& loaded);
   Status placeArrays(const ChunkArrays& arrays);
   Status placeEntries();
   VkDeviceSize bytesToCome(VkDeviceSize size) const;
   uint32_t entriesAlong() const;
   void addMemory(const char* name, uint64_t bytes);
-  void growBounds(const ChunkContents& contents);
+  void growBounds(const LoadedChunk& chunk);
   bool isQueryFoamWanted() const { return keepsForQueries_ && !queryFoam(); }
+  bool arePlaced() const { return gpu_.chunks.size() == description_.chunkCount; }
   void fail(FrothResult code, const char* text, const Messages& messages);
   void fail(const Error& error, const Messages& messages);
 
-  bool isFile_;
-  std::string name_;
-  std::span<const uint8_t> bytes_;
-  Layer lastLayer_;
+  AssetSource source_;
   Device* device_;
-  bool bytesStay_;
   bool keepsForQueries_ = false, keepsForWalks_ = false;
 
-  std::optional<AssetReader> reader_;       // while loading
-  std::vector<uint64_t> chunkWork_;         // [chunks] bytes of decoded sections;
-  uint64_t workDone_ = 0, workToCome_ = 0;  // sums of them
-  uint32_t nextChunk_ = 0;
+  Job<std::shared_ptr<const AssetReader>> opening_;
+  std::shared_ptr<const AssetReader> reader_;  // while loading
+  bool isPrepared_ = false;                    // Preparation has ended
+  std::deque<Job<LoadedChunk>> decoding_;      // the chunks behind those that are placed
+  Job<std::shared_ptr<QueryFoam>> finishing_;  // has queryFoam_
+  std::vector<uint64_t> chunkWork_;            // [chunks] bytes of decoded sections;
+  uint64_t workDone_ = 0, workToCome_ = 0;     // sums of them, of chunks that are placed or not
   VkDeviceSize placedBytes_ = 0;
   std::deque<PendingArray> arrays_;  // of the newest chunks; staged from the front
   bool isDecoded_ = false;
@@ -115,7 +117,7 @@ class Asset {
   FrothAssetStatus description_{};
   std::vector<FrothStoredCamera> flightPath_;
   GpuAsset gpu_;
-  std::optional<QueryFoam> queryFoam_;
+  std::shared_ptr<QueryFoam> queryFoam_;
   std::shared_ptr<GpuArena> arena_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,13 @@ struct GpuChunk {
   gpu::CellCode code{};
 };
 
+// What the shaders that draw an asset are specialized on.
+struct AssetShape {
+  uint32_t detailCount = 1, lobeCount = 1;
+  bool hasHeights = false;
+  friend auto operator<=>(const AssetShape&, const AssetShape&) = default;
+};
+
 struct GpuAsset {
   uint32_t detailCount = 0, lobeCount = 0;  // K, M
   uint32_t localBits = 32;
@@ -45,6 +53,8 @@ struct GpuAsset {
   uint32_t walkEntriesAlong = 0;  // WalkInstance::entries (shaders/gpu/walk_layout.h); 0: there are none
   VkDeviceAddress walkEntries = 0;
   std::vector<GpuChunk> chunks;
+
+  AssetShape shape() const { return {detailCount, lobeCount, hasHeights}; }
 };
 
 }  // namespace froth

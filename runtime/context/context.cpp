@@ -8,7 +8,6 @@ namespace froth {
 namespace {
 
 constexpr uint32_t kMaxViewExtent = 16384;
-constexpr uint32_t kLayerCount = 3;
 constexpr uint32_t kReservedCells = 1u << 20;      // FrothViewInfo::reserveCells
 constexpr double kUnitQuaternionTolerance = 1e-3;  // as for a camera's rotation
 
@@ -16,23 +15,26 @@ constexpr double kUnitQuaternionTolerance = 1e-3;  // as for a camera's rotation
 
 // ---- Assets ----
 
-FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
+FrothResult Context::checkSource(const FrothAssetInfo& info, const char* call) const {
   const bool hasBytes = info.data && info.dataSize > 0;
   if ((info.path != nullptr) == hasBytes) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset", "path, data: %s; give a path, or data and dataSize",
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "path, data: %s; give a path, or data and dataSize",
                          hasBytes ? "both are set" : "neither is set");
   }
   if (info.path && !*info.path) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset", "path: empty; give the path of a .froth file");
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "path: empty; give the path of a .froth file");
   }
   if (info.layers > kLayerCount) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, "frothOpenAsset", "layers: %u; at most %u, or 0 for all", info.layers,
-                         kLayerCount);
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "layers: %u; at most %u, or 0 for all", info.layers, kLayerCount);
   }
-  const auto lastLayer = static_cast<Layer>((info.layers == 0 ? kLayerCount : info.layers) - 1);
-  const std::span<const uint8_t> bytes(static_cast<const uint8_t*>(info.data), hasBytes ? info.dataSize : 0);
-  handle = assets_.add(std::make_unique<Asset>(info.path ? info.path : std::string(), bytes, lastLayer,
-                                               isNull_ ? nullptr : &device_, info.bytesStay != 0));
+  return FROTH_OK;
+}
+
+FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
+  if (const FrothResult result = checkSource(info, "frothOpenAsset"); result != FROTH_OK) {
+    return result;
+  }
+  handle = assets_.add(std::make_unique<Asset>(sourceOf(info), isNull_ ? nullptr : &device_));
   if (info.keepForQueries) {
     assets_.find(handle)->keepForQueries();
   }
@@ -94,6 +96,7 @@ FrothResult Context::closeAsset(FrothAsset handle) {
     ring_->forget(asset);
   }
   retired_.reserve(retired_.size() + 1);
+  assets_.find(handle)->stop();
   retire(assets_.remove(handle));
   return FROTH_OK;
 }

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "froth/froth_composite.h"
+#include "froth/froth_precompile.h"
 #include "froth/froth_query.h"
 #include "froth/froth_walk.h"
 #include "runtime/asset/asset.h"
@@ -18,6 +20,7 @@
 #include "runtime/device/handles.h"
 #include "runtime/device/messages.h"
 #include "runtime/device/upload_ring.h"
+#include "runtime/jobs/job.h"
 #include "runtime/query/placement.h"
 #include "runtime/render/pipelines.h"
 #include "runtime/render/view_renderer.h"
@@ -29,6 +32,7 @@ namespace froth {
 class Context {
  public:
   Context() = default;
+  ~Context() { stopJobs(); }
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
@@ -40,6 +44,10 @@ class Context {
 
   void loseDevice();
   FrothResult restoreDevice(const FrothContextInfo& info, const char* call);
+
+  // Any thread, as long as the device's objects stay (runtime/context/context_pipelines.cpp).
+  FrothResult readVariant(const FrothAssetInfo& info, FrothVariant& variant) const;
+  FrothResult precompile(const FrothPrecompileInfo& info);
 
   FrothResult openAsset(const FrothAssetInfo& info, FrothAsset& handle);
   FrothResult describeAsset(FrothAsset handle, FrothAssetStatus& status) const;
@@ -112,9 +120,11 @@ class Context {
     std::vector<std::pair<uint64_t, uint32_t>> bits;  // recorded frames that left something out: serial, FrothViewBit
   };
 
+  FrothResult checkSource(const FrothAssetInfo& info, const char* call) const;
   FrothResult checkInfo(const FrothContextInfo& info, const char* call) const;
   FrothResult checkEngineFormats(const FrothContextInfo& info, const char* call) const;
   Status createDeviceObjects(const FrothContextInfo& info);
+  void stopJobs();
   FrothResult checkDevice(const char* call) const;  // of calls that a lost device cannot serve
   Status createRenderer(View& view);
   void shrinkViews();
@@ -134,18 +144,24 @@ class Context {
   FrothResult checkWalks(const char* call) const;
   // Into walked_; false: some were left out.
   bool gatherWalked();
-  void preparePipelines();
+  std::optional<Status> prepareShape(const AssetShape& shape);
+  void prepareMerging();
+  Status makeMerging();
   // The instances to be drawn, in view.visible; why others are left out, as FrothViewBit.
   void gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& bits) const;
   // Frees `object` once all frames that may use it are complete. retired_ has room for it.
   void retire(std::shared_ptr<void> object);
 
   // What is declared later goes first, and needs what is declared earlier.
+  JobRunner jobs_;
   Device device_;
   bool isNull_ = false;        // no device, for good
   bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
   bool isExcessTold_ = false;  // of this budget
-  std::string mergingError_;   // of prepareMerging, sent already
+  // These two make pipelines: the device stays until they have ended.
+  std::map<AssetShape, Job<Done>> making_;
+  Job<Done> merging_;
+  std::string mergingError_;  // of merging_, sent already
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
   VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED, depthExportFormat_ = VK_FORMAT_UNDEFINED;
@@ -164,6 +180,7 @@ class Context {
   uint64_t serial_ = 0, completedSerial_ = 0;
   std::vector<uint64_t> serialsInFlight_;
   uint64_t uploadBytesLeft_ = 0;           // of this frame
+  uint32_t loadMicroseconds_ = 0;          // FrothFrame's
   std::atomic<uint64_t> drawnSerial_ = 0;  // newest frame in which a view was drawn,
   uint64_t drawnBeforeSerial_ = 0;         // and the newest before this one
 };

@@ -10,6 +10,7 @@ namespace {
 
 constexpr VkDeviceSize kUploadRingBytes = 64u << 20;
 constexpr uint32_t kDefaultFramesInFlight = 2, kMaxFramesInFlight = 8;
+constexpr uint32_t kDefaultMostJobs = 4, kMaxMostJobs = 64;
 
 // Views give up this part of what they can besides the excess, so that a few rounds reach the budget.
 constexpr double kShrinkAhead = 1.0 / 64;
@@ -25,6 +26,9 @@ FrothResult Context::checkInfo(const FrothContextInfo& info, const char* call) c
   if (info.framesInFlight > kMaxFramesInFlight) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "framesInFlight: %u; at most %u", info.framesInFlight,
                          kMaxFramesInFlight);
+  }
+  if (info.mostJobs > kMaxMostJobs) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "mostJobs: %u; at most %u", info.mostJobs, kMaxMostJobs);
   }
   if (!info.allocateMemory != !info.freeMemory) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "allocateMemory, freeMemory: one is null; set both or none");
@@ -67,6 +71,11 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
     return result;
   }
   framesInFlight_ = info.framesInFlight == 0 ? kDefaultFramesInFlight : info.framesInFlight;
+  if (info.runJob) {
+    jobs_ = JobRunner(info.runJob, info.jobUser, info.mostJobs == 0 ? kDefaultMostJobs : info.mostJobs);
+  } else {
+    jobs_ = JobRunner();
+  }
   lensClasses_ = info.lensClasses;
   compositeFormat_ = info.compositeFormat;
   depthExportFormat_ = info.depthExportFormat;
@@ -166,7 +175,16 @@ FrothResult Context::checkDevice(const char* call) const {
   return isLost_ ? messages.fail(FROTH_ERROR_DEVICE, call, "the device is lost; call frothRestoreDevice") : FROTH_OK;
 }
 
+// Jobs that use the device's objects have ended.
+void Context::stopJobs() {
+  merging_.drop(true);
+  for (auto& [shape, job] : making_) job.drop(true);
+  making_.clear();
+  assets_.forEach([](Asset& asset) { asset.stop(); });
+}
+
 void Context::loseDevice() {
+  stopJobs();
   views_.forEach([](View& view) {
     view.renderer.reset();
     view.prepared.clear();

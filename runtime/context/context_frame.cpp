@@ -35,6 +35,7 @@ FrothResult Context::beginFrame(const FrothFrame& frame) {
   drawnBeforeSerial_ = drawnSerial_;
   completedSerial_ = frame.completedSerial;
   uploadBytesLeft_ = frame.uploadBytes == 0 ? UINT64_MAX : frame.uploadBytes;
+  loadMicroseconds_ = frame.loadMicroseconds;
   return FROTH_OK;
 }
 
@@ -57,9 +58,9 @@ FrothResult Context::update(const FrothFrame& frame, FrothFrameStatus& status) {
     takeBack();
     throw;
   }
-  if (device_.loss) {
+  if (const std::optional<Error> loss = device_.loss->error()) {
     takeBack();
-    return messages.fail(*device_.loss, kCall);
+    return messages.fail(*loss, kCall);
   }
   return FROTH_OK;
 }
@@ -70,7 +71,7 @@ void Context::runFrame(FrothFrameStatus& status) {
     ring_->retire(completedSerial_);
   }
   loadAssets();
-  preparePipelines();
+  prepareMerging();
   shrinkViews();
   views_.forEach([&](View& view) { prepareView(view); });
   prepareWalks();
@@ -97,16 +98,21 @@ void Context::retire(std::shared_ptr<void> object) {
 }
 
 void Context::loadAssets() {
-  uint64_t workLeft = kWorkPerUpdate;
-  const auto prepare = [this](const GpuAsset& asset) { return pipelines_ ? pipelines_->prepareFor(asset) : Status(); };
+  LoadLimit limit = jobs_.hasThreads()       ? LoadLimit::none()
+                    : loadMicroseconds_ != 0 ? LoadLimit::ofTime(loadMicroseconds_)
+                                             : LoadLimit::ofWork();
+  const auto prepare = [this](const AssetShape& shape) { return prepareShape(shape); };
   assets_.forEach([&](Asset& asset) {
     retired_.reserve(retired_.size() + 1);
-    asset.load(prepare, messages, workLeft);
+    asset.load(jobs_, limit, prepare, messages);
     if (asset.hasFailed() && ring_) {
       ring_->forget(&asset);
       retire(asset.releaseBuffers());
     }
   });
+  // Their room is for other jobs, whether an asset still waits for them or not: whoever does finds the pipelines, or
+  // asks for them again.
+  std::erase_if(making_, [](const auto& made) { return made.second.hasEnded(); });
 }
 
 void Context::prepareView(View& view) {
@@ -126,7 +132,7 @@ void Context::prepareView(View& view) {
   });
   view.visible.reserve(gpu::kMostInstances);
   const Status status = view.renderer->prepare(completedSerial_, view.prepared);
-  if (status || device_.loss) {  // of the loss frothUpdate tells
+  if (status || device_.loss->isTold()) {  // of the loss frothUpdate tells
     view.preparationError.clear();
     return;
   }
@@ -197,20 +203,6 @@ FrothResult Context::checkHits(const View& view, const FrothRenderInfo& info, co
   return view.keepsHits ? FROTH_OK
                         : messages.fail(FROTH_ERROR_UNSUPPORTED, call,
                                         "id, motion: the view was not made for them; set FrothViewInfo::keepsHits");
-}
-
-// Before a view draws two instances.
-void Context::preparePipelines() {
-  uint32_t count = 0;
-  instances_.forEach([&](const Instance&) { ++count; });
-  if (count < 2 || !pipelines_) {
-    return;
-  }
-  const Status status = pipelines_->prepareMerging();
-  if (!status && mergingError_ != status.error().message) {  // once, not in every frame
-    mergingError_ = status.error().message;
-    messages.fail(status.error(), "several instances");
-  }
 }
 
 void Context::gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& bits) const {

@@ -30,23 +30,21 @@ FrothResult Context::describeWalkLayout(VkDescriptorSetLayout& layout) const {
   return result;
 }
 
-// Space for all that can be walked now; what does not fit is left out of sets, and rays meet one instance at a time
-// where the pipelines for more cannot be made.
+// Space for all that can be walked now; what does not fit is left out of sets.
 void Context::prepareWalks() {
   if (!walks_) {
     return;
   }
-  uint32_t instanceCount = 0, chunkCount = 0;
+  uint32_t chunkCount = 0;
   instances_.forEach([&](const Instance& instance) {
     const Asset& asset = *assets_.find(instance.asset);
     if (asset.isDecoded() && asset.gpu().walkEntries != 0) {
-      ++instanceCount;
       chunkCount += kTablesToSeed * static_cast<uint32_t>(asset.gpu().chunks.size());
     }
   });
   walked_.reserve(FROTH_WALK_MOST_INSTANCES);
-  const Status status = walks_->prepare(completedSerial_, instanceCount, chunkCount);
-  if (status || device_.loss) {  // of the loss frothUpdate tells
+  const Status status = walks_->prepare(completedSerial_, chunkCount);
+  if (status || device_.loss->isTold()) {  // of the loss frothUpdate tells
     walkError_.clear();
   } else if (walkError_ != status.error().message) {  // once, not in every frame
     walkError_ = status.error().message;

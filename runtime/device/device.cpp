@@ -267,9 +267,9 @@ Error Device::explain(VkResult result, const char* format, ...) {
   va_end(args);
   switch (result) {
     case VK_ERROR_DEVICE_LOST:
-      loss = makeError(ErrorKind::kDevice,
-                       "%s gives VK_ERROR_DEVICE_LOST; call frothDeviceLost, then frothRestoreDevice", text);
-      return *loss;
+      loss->tell(makeError(ErrorKind::kDevice,
+                           "%s gives VK_ERROR_DEVICE_LOST; call frothDeviceLost, then frothRestoreDevice", text));
+      return *loss->error();
     case VK_ERROR_OUT_OF_HOST_MEMORY:
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_ERROR_TOO_MANY_OBJECTS:

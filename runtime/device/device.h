@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 
@@ -79,7 +81,25 @@ struct MemoryCallbacks {
   void* user = nullptr;
 };
 
-// Owns nothing of the caller's. One thread at a time.
+// By which call the device was found lost, first. Any thread.
+class DeviceLoss {
+ public:
+  void tell(const Error& error) {
+    const std::lock_guard lock(mutex_);
+    if (!error_) error_ = error;
+  }
+  std::optional<Error> error() const {
+    const std::lock_guard lock(mutex_);
+    return error_;
+  }
+  bool isTold() const { return error().has_value(); }
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<Error> error_;
+};
+
+// Owns nothing of the caller's. One thread at a time, but for createShaderModule and explain: any.
 class Device {
  public:
   static Result<Device> create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
@@ -118,7 +138,7 @@ class Device {
   uint64_t budgetRefusals = 0;       // allocations that did not fit it
   MemoryLedger ledger;
   MemoryCallbacks callbacks;
-  std::optional<Error> loss;  // the call that found the device lost
+  std::shared_ptr<DeviceLoss> loss = std::make_shared<DeviceLoss>();
 
  private:
   Status checkBudget(VkDeviceSize size, const MemoryWish& wish);

@@ -1,6 +1,7 @@
 #include "runtime/query/query_foam.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "format/checks.h"
 #include "shaders/foam/cell.h"
@@ -41,29 +42,32 @@ std::vector<QueryDetail> joinDetails(const ChunkContents& contents) {
 
 }  // namespace
 
-QueryFoam::QueryFoam(const AssetContents& manifest)
-    : hasWalkGraph_(manifest.hasWalkGraph),
-      detailCount_(manifest.detailCount),
-      localBits_(manifest.localBits),
-      detailSharpness_(manifest.detailSharpness) {}
-
-void QueryFoam::addChunk(const ChunkContents& contents) {
-  if (!hasWalkGraph_) return;
-  QueryChunk& chunk = chunks_.emplace_back();
+QueryChunk makeQueryChunk(const ChunkContents& contents) {
+  QueryChunk chunk;
   chunk.origin = {contents.origin[0], contents.origin[1], contents.origin[2]};
   chunk.cellCount = contents.cellCount;
   chunk.liveCount = contents.liveCount;
-  chunk.siteRadius.reserve(contents.sites.size());
-  for (size_t i = 0; i < contents.sites.size(); ++i) {
-    chunk.siteRadius.push_back(glm::vec4(contents.sites[i], contents.radii[i]));
-  }
+  chunk.siteRadius = joinSitesAndRadii(contents);
   chunk.neighbourOffsets = contents.neighbourOffsets;
   chunk.neighbours = packElements(sortRows(contents));
   chunk.ghostRefs = contents.ghostRefs;
   chunk.densities = contents.densities;
   chunk.orientations = contents.orientations;
   chunk.details = joinDetails(contents);
-  growBounds(chunk);
+  return chunk;
+}
+
+QueryFoam::QueryFoam(const AssetContents& manifest)
+    : hasWalkGraph_(manifest.hasWalkGraph),
+      detailCount_(manifest.detailCount),
+      localBits_(manifest.localBits),
+      detailSharpness_(manifest.detailSharpness) {}
+
+void QueryFoam::addChunk(QueryChunk&& made, const LiveBounds& bounds) {
+  if (!hasWalkGraph_) return;
+  const QueryChunk& chunk = chunks_.emplace_back(std::move(made));
+  bounds_.low = glm::min(bounds_.low, bounds.low);
+  bounds_.high = glm::max(bounds_.high, bounds.high);
   const auto index = static_cast<uint32_t>(chunks_.size() - 1);
   for (uint32_t cell = 0; cell < chunk.cellCount; cell += kCellsPerEntry) {
     samples_.push_back({glm::vec3(chunk.origin + chunk.siteOf(cell)), {index, cell}});
@@ -71,14 +75,6 @@ void QueryFoam::addChunk(const ChunkContents& contents) {
   bytes_ += sizeof(QueryChunk) + bytesOf(chunk.siteRadius) + bytesOf(chunk.neighbourOffsets) +
             bytesOf(chunk.neighbours.words) + bytesOf(chunk.ghostRefs) + bytesOf(chunk.densities) +
             bytesOf(chunk.orientations) + bytesOf(chunk.details);
-}
-
-void QueryFoam::growBounds(const QueryChunk& chunk) {
-  for (uint32_t cell = 0; cell < chunk.liveCount; ++cell) {
-    const glm::dvec3 site = chunk.origin + chunk.siteOf(cell);
-    low_ = glm::min(low_, site - chunk.radiusOf(cell));
-    high_ = glm::max(high_, site + chunk.radiusOf(cell));
-  }
 }
 
 // Bit for bit on a lattice, else rounded to float: as format/read/asset_verify.cpp.

@@ -15,6 +15,7 @@
 
 #include "base/result.h"
 #include "format/asset_contents.h"
+#include "runtime/query/chunk_geometry.h"
 #include "runtime/query/entry_tree.h"
 #include "runtime/query/packed_elements.h"
 
@@ -54,12 +55,15 @@ struct QueryChunk {
   }
 };
 
+// The neighbours' rows in the order of sites.
+QueryChunk makeQueryChunk(const ChunkContents& contents);
+
 class QueryFoam {
  public:
   // Without a walk graph nothing is kept: no query can be answered.
   explicit QueryFoam(const AssetContents& manifest);
 
-  void addChunk(const ChunkContents& contents);  // in the asset's order
+  void addChunk(QueryChunk&& made, const LiveBounds& bounds);  // in the asset's order
   // After the last one: that each ghost is where its cell is, and as large. The name is for messages.
   Status checkGhosts(const std::string& name) const;
   void finish();  // after the last one: now it is whole
@@ -69,7 +73,7 @@ class QueryFoam {
   uint32_t detailCount() const { return detailCount_; }
   double detailSharpness() const { return detailSharpness_; }
   bool hasCells() const { return entries_.bytes() > 0; }
-  bool hasLiveCells() const { return low_.x <= high_.x; }
+  bool hasLiveCells() const { return bounds_.low.x <= bounds_.high.x; }
   uint64_t bytes() const { return bytes_; }
 
   const QueryChunk& chunk(uint32_t index) const { return chunks_[index]; }
@@ -83,19 +87,17 @@ class QueryFoam {
   double powerOf(CellAddress cell, const glm::dvec3& point) const;
 
   // Box of the balls of live cells.
-  const glm::dvec3& low() const { return low_; }
-  const glm::dvec3& high() const { return high_; }
+  const glm::dvec3& low() const { return bounds_.low; }
+  const glm::dvec3& high() const { return bounds_.high; }
 
  private:
-  void growBounds(const QueryChunk& chunk);
-
   bool hasWalkGraph_, isWhole_ = false;
   uint32_t detailCount_, localBits_;
   double detailSharpness_;
   std::vector<QueryChunk> chunks_;
   std::vector<EntryTree::Sample> samples_;  // until finish()
   EntryTree entries_;
-  glm::dvec3 low_{HUGE_VAL}, high_{-HUGE_VAL};
+  LiveBounds bounds_;
   uint64_t bytes_ = 0;
 };
 

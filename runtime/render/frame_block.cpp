@@ -38,7 +38,7 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
       static_cast<uint32_t>(std::min(uint64_t{capacity.cells}, capacity.details / asset.detailCount));
   block.planeCapacity = static_cast<uint32_t>(capacity.planes);
   block.pairCapacity = capacity.pairs;
-  block.sortRounds = sortRoundsOf(capacity.cells);
+  block.sortRounds = buffers.sortRounds();
   block.groupSums = buffers[ViewBuffer::kGroupSums].address;
   block.visibility = buffers[ViewBuffer::kVisibility].address;
   block.visibleCells = buffers[ViewBuffer::kVisibleCells].address;
@@ -55,7 +55,7 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
   block.tileCells = buffers[endsInSwap ? ViewBuffer::kPairCellsSwap : ViewBuffer::kPairCells].address;
   block.tileLists = buffers[ViewBuffer::kTileLists].address;
   const VkDeviceAddress tallies = buffers[ViewBuffer::kTallies].address;
-  const TallyLayout layout = layOutTallies(capacity);
+  const TallyLayout layout = buffers.tallies();
   block.superSums = tallies + layout.superSums;
   block.tileLengths = tallies + layout.tileLengths;
   block.tileSums = tallies + layout.tileSums;

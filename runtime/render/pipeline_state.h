@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -14,15 +15,6 @@
 
 namespace froth {
 
-// What the shaders are specialized on.
-struct AssetShape {
-  uint32_t detailCount = 1, lobeCount = 1;
-  bool hasHeights = false;
-  friend auto operator<=>(const AssetShape&, const AssetShape&) = default;
-};
-
-AssetShape shapeOf(const GpuAsset& asset);
-
 using PassPipelines = std::array<VkPipeline, kPassCount>;
 using LensPipelines = std::array<PassPipelines, gpu::kLensClassCount>;  // [gpu::kLensClass...]
 
@@ -32,14 +24,15 @@ struct RenderPipelines::State {
   ShaderOptions options{};
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // the output images
   VkPipelineLayout layout = VK_NULL_HANDLE;          // of all passes: the set, 128 bytes of push constants
-  LensPipelines common{};  // null from kFirstMergedPass on, and for other lenses than options name
-  LensPipelines merged{};  // from there to kFirstShapedPass, once made
-  bool canMerge = false;
+  LensPipelines common{};              // null from kFirstMergedPass on, and for other lenses than options name
+  LensPipelines merged{};              // from there to kFirstShapedPass, once made
+  std::atomic<bool> canMerge = false;  // all of them are there
   std::unique_ptr<ImagePass> writeIds{}, writeMotion{};  // null without ShaderOptions::hasExtendedFormats
   std::unique_ptr<ImagePass> composite{};                // null without ShaderOptions::compositeFormat,
   std::unique_ptr<DepthExport> depthExport{};            // depthExportFormat
   std::map<AssetShape, LensPipelines> byShape{};         // complete; guarded by `mutex`, entries never change or move
   std::mutex mutex{};
+  std::mutex making{};  // held while pipelines are made: nobody makes the same ones
 
   bool hasLensClass(uint32_t lensClass) const;
   // Null if prepareFor was not called for this shape, or the context has not this class of lenses.

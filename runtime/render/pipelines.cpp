@@ -172,8 +172,6 @@ Status createHitPasses(RenderPipelines::State& state) {
 
 }  // namespace
 
-AssetShape shapeOf(const GpuAsset& asset) { return {asset.detailCount, asset.lobeCount, asset.hasHeights}; }
-
 Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device) {
   SetBindings bindings;
   for (const FrameImage& image : boundImages()) bindings.types.push_back(descriptorTypeOf(image));
@@ -224,8 +222,8 @@ Result<std::unique_ptr<RenderPipelines>> RenderPipelines::create(Device& device,
   return pipelines;
 }
 
-Status RenderPipelines::prepareFor(const GpuAsset& asset) {
-  const AssetShape shape = shapeOf(asset);
+Status RenderPipelines::prepareFor(const AssetShape& shape) {
+  const std::lock_guard making(state_->making);
   if (state_->find(shape, gpu::kLensClassPinhole)) return {};
   std::map<AssetShape, LensPipelines> made;  // takes its memory now: what follows cannot lose a pipeline
   LensPipelines& pipelines = made[shape] = state_->common;
@@ -239,7 +237,14 @@ Status RenderPipelines::prepareFor(const GpuAsset& asset) {
   return {};
 }
 
+bool RenderPipelines::hasShape(const AssetShape& shape) const {
+  return state_->find(shape, gpu::kLensClassPinhole) != nullptr;
+}
+
+bool RenderPipelines::canMerge() const { return state_->canMerge; }
+
 Status RenderPipelines::prepareMerging() {
+  const std::lock_guard making(state_->making);
   if (state_->canMerge) return {};
   const Status status = createPasses(*state_, {}, kFirstMergedPass, kFirstShapedPass, state_->merged);
   if (!status) {

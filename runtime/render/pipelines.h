@@ -25,12 +25,14 @@ class RenderPipelines {
   static Result<std::unique_ptr<RenderPipelines>> create(Device& device, VkPipelineCache cache, ShaderOptions options);
   ~RenderPipelines();
 
-  // Makes the pipelines specialized on an asset's shape (K, M, what it holds). Called before the asset becomes
-  // READY; idempotent.
-  Status prepareFor(const GpuAsset& asset);
+  // Makes the pipelines specialized on an asset's shape; if they are there already, returns at once. Any thread.
+  Status prepareFor(const AssetShape& shape);
 
-  // Makes those that draw several instances. Called before a view draws two; idempotent.
+  bool hasShape(const AssetShape& shape) const;
+
+  // The same for those that draw several instances.
   Status prepareMerging();
+  bool canMerge() const;
 
   struct State;
   State& state() { return *state_; }

@@ -14,9 +14,9 @@ SortArrays cellSortOf(const RecordingPart& part) {
           buffers[ViewBuffer::kCellKeysSwap].address,
           buffers[ViewBuffer::kOrderSwap].address,
           counters + offsetof(gpu::Counters, visibleCells),
-          buffers[ViewBuffer::kTallies].address + layOutTallies(buffers.capacity()).cellHistograms,
+          buffers[ViewBuffer::kTallies].address + buffers.tallies().cellHistograms,
           capacity,
-          sortRoundsOf(capacity),
+          buffers.sortRounds(),
           offsetof(gpu::Counters, cellSortDispatch)};
 }
 
@@ -28,9 +28,9 @@ SortArrays pairSortOf(const RecordingPart& part) {
           buffers[ViewBuffer::kPairTilesSwap].address,
           buffers[ViewBuffer::kPairCellsSwap].address,
           counters + offsetof(gpu::Counters, pairsKept),
-          buffers[ViewBuffer::kTallies].address + layOutTallies(buffers.capacity()).pairHistograms,
+          buffers[ViewBuffer::kTallies].address + buffers.tallies().pairHistograms,
           buffers.capacity().pairs,
-          sortRoundsOf(buffers.capacity().cells),
+          buffers.sortRounds(),
           offsetof(gpu::Counters, pairSortDispatch)};
 }
 

@@ -40,7 +40,7 @@ void recordUpload(const Recording& recording, const RecordingPart& part) {
   vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kCounters].buffer, recording.countersOffset(),
                      sizeof(gpu::Counters), 0);
   if (!part.asset) return;
-  const TallyLayout tallies = layOutTallies(space.buffers.capacity());
+  const TallyLayout tallies = space.buffers.tallies();
   const bool isWalk = recording.method == RenderMethod::kWalk;
   const uint64_t first = isWalk ? tallies.superSums : 0;
   const uint64_t end = isWalk ? tallies.tileSums : tallies.end;

@@ -54,7 +54,7 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
     case ViewBuffer::kTileLists:
       return sizeof(gpu::uvec4) * capacity.tiles;
     case ViewBuffer::kTallies:
-      return layOutTallies(capacity).end;
+      return layOutTallies(capacity, fewestSortRounds(capacity)).end;
     case ViewBuffer::kWalkStart:
       return 8 * VkDeviceSize{capacity.walkStarts};
     case ViewBuffer::kRays:
@@ -169,6 +169,12 @@ void ViewBuffers::addMemory(FrothViewStatus& status) const {
   if (capacity_.rays > 0) add("rays", {kRays, kCones});
   if (capacity_.hits > 0) add("hits", {kHits});
   add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies, kTileLists});
+}
+
+uint32_t ViewBuffers::sortRounds() const {
+  const uint32_t rounds = sortRoundsOf(expectedCells_);
+  const bool hasRoom = layOutTallies(capacity_, rounds).end <= (*this)[ViewBuffer::kTallies].size;
+  return hasRoom ? rounds : gpu::kManyKeysRounds;
 }
 
 VkDeviceSize ViewBuffers::recordingStride() const { return strideOf(capacity_); }

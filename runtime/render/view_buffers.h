@@ -66,6 +66,10 @@ class ViewBuffers {
 
   const GpuBuffer& operator[](ViewBuffer id) const { return buffers_[static_cast<uint32_t>(id)]; }
   const ViewCapacity& capacity() const { return capacity_; }
+  // Cells that the next recordings will probably show; any number is right, and one near it is fast.
+  void expectCells(uint64_t cells) { expectedCells_ = cells; }
+  uint32_t sortRounds() const;  // FrameBlock::sortRounds
+  TallyLayout tallies() const { return layOutTallies(capacity_, sortRounds()); }
   VkDeviceSize deviceBytes() const;
   void addMemory(FrothViewStatus& status) const;
   VkDeviceSize recordingStride() const;  // [bytes] from one recording's block to the next, in kFrames and kStaging
@@ -73,6 +77,7 @@ class ViewBuffers {
  private:
   Device& device_;
   ViewCapacity capacity_;
+  uint64_t expectedCells_ = 0;
   std::array<GpuBuffer, kViewBufferCount> buffers_{};
   std::vector<std::pair<uint64_t, GpuBuffer>> retired_;
 };

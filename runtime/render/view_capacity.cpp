@@ -15,6 +15,8 @@ constexpr uint32_t kFewestCells = 1u << 10;
 constexpr uint32_t kFewestPairs = 1u << 12;
 
 constexpr uint32_t kManyCells = 1u << 17;
+// Histograms of single rounds take 32 bytes per cell.
+constexpr uint32_t kMostInSingleRounds = 1u << 20;
 
 // Half more than a frame wanted once it comes within an eighth of the capacity; never more than there can be.
 uint64_t roomFor(uint64_t wanted, uint64_t capacity, uint64_t most) {
@@ -55,19 +57,22 @@ uint32_t tileDigits(uint32_t tiles) {
   return digits;
 }
 
-uint32_t sortRoundsOf(uint32_t cells) { return cells > kManyCells ? gpu::kManyKeysRounds : 1; }
+uint32_t sortRoundsOf(uint64_t cells) { return cells > kManyCells ? gpu::kManyKeysRounds : 1; }
+
+uint32_t fewestSortRounds(const ViewCapacity& capacity) {
+  return capacity.cells > kMostInSingleRounds ? gpu::kManyKeysRounds : 1;
+}
 
 uint64_t histogramBytes(uint32_t keys, uint32_t sortRounds) {
   const uint32_t groups = groupsOver(keys, sortRounds * gpu::kGroupSize);
   return gpu::kSortDigits * sizeof(uint32_t) * (uint64_t{groups} + groupsOver(groups, gpu::kSortGroupsPerSum));
 }
 
-TallyLayout layOutTallies(const ViewCapacity& capacity) {
-  const uint32_t rounds = sortRoundsOf(capacity.cells);
+TallyLayout layOutTallies(const ViewCapacity& capacity, uint32_t sortRounds) {
   TallyLayout layout;
   layout.cellHistograms = 0;
-  layout.pairHistograms = kCellKeyDigits * histogramBytes(capacity.cells, rounds);
-  layout.tileLengths = layout.pairHistograms + tileDigits(capacity.tiles) * histogramBytes(capacity.pairs, rounds);
+  layout.pairHistograms = kCellKeyDigits * histogramBytes(capacity.cells, sortRounds);
+  layout.tileLengths = layout.pairHistograms + tileDigits(capacity.tiles) * histogramBytes(capacity.pairs, sortRounds);
   layout.superSums = layout.tileLengths + sizeof(uint32_t[2]) * (capacity.tiles / 2 + 1);
   layout.tileSums = layout.superSums + sizeof(uint32_t[2]) * groupsOver(capacity.groups, gpu::kGroupSize);
   layout.end = layout.tileSums + sizeof(uint32_t) * groupsOver(capacity.cells, gpu::kCellsPerTileSum);

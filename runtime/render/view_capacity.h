@@ -44,9 +44,11 @@ inline constexpr uint32_t kCellKeyDigits = 4;  // bytes of a cell's sort key
 // Bytes that a radix sort has to look at, of the number of a tile or of the one past the last tile.
 uint32_t tileDigits(uint32_t tiles);
 
-// FrameBlock::sortRounds of a view with room for so many cells: small groups keep a GPU busy with a short list, of a
-// long one each would read the sums of too many others.
-uint32_t sortRoundsOf(uint32_t cells);
+// FrameBlock::sortRounds of a view that shows so many cells: small groups keep a GPU busy with a short list, of a long
+// one each would read the sums of too many others.
+uint32_t sortRoundsOf(uint64_t cells);
+// The fewest that the histograms of so large a view have room for.
+uint32_t fewestSortRounds(const ViewCapacity& capacity);
 
 // Size of the histogram of one digit over a list of up to `keys` (shaders/gpu/histogram.glsl).
 uint64_t histogramBytes(uint32_t keys, uint32_t sortRounds);
@@ -58,7 +60,7 @@ struct TallyLayout {
   uint64_t end;
 };
 
-TallyLayout layOutTallies(const ViewCapacity& capacity);
+TallyLayout layOutTallies(const ViewCapacity& capacity, uint32_t sortRounds);
 
 // Workgroups over the cells of all chunks, each of one chunk (ChunkEntry::firstGroup).
 uint32_t groupsOfCells(const GpuAsset& asset);

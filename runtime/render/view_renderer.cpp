@@ -104,6 +104,7 @@ Status prepareSpace(ViewState& view, InstanceSpace& space, uint64_t completedSer
     coverAsset(*asset, view.reservedCells, wanted);
     coverDemand(*asset, space.demand, wanted);
   }
+  space.buffers.expectCells(space.demand.cells);
   const VkBuffer oldWalkStart = space.buffers[ViewBuffer::kWalkStart].buffer;
   const Status status = growBuffers(view.device, space, asset, wanted);
   const bool isWalkStartKept = space.buffers[ViewBuffer::kWalkStart].buffer == oldWalkStart;
@@ -159,7 +160,7 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
   uint32_t bits = 0;
   for (const RenderInstance& instance : instances) {
     InstanceSpace* space = findSpace(recording.view, instance.handle);
-    const PassPipelines* passes = pipelines.find(shapeOf(*instance.asset), lensClassOf(recording.info.camera));
+    const PassPipelines* passes = pipelines.find(instance.asset->shape(), lensClassOf(recording.info.camera));
     const bool isFirst = recording.view.parts.empty();
     if (!space || !passes || !coversAsset(*instance.asset, space->buffers.capacity()) ||
         !(isFirst || pipelines.canMerge)) {

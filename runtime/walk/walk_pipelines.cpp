@@ -56,7 +56,12 @@ WalkPipelines::~WalkPipelines() {
   vk.vkDestroyDescriptorSetLayout(device_.device, setLayout_, nullptr);
 }
 
-Status WalkPipelines::prepareMerging() { return createPipelines(kCastMerged, kWalkPipelineCount); }
+Status WalkPipelines::prepareMerging() {
+  const std::lock_guard making(making_);
+  const Status status = createPipelines(kCastMerged, kWalkPipelineCount);
+  if (status) canMerge_ = true;
+  return status;
+}
 
 // Those that are missing.
 Status WalkPipelines::createPipelines(uint32_t first, uint32_t last) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
+#include <mutex>
 
 #include "runtime/device/device.h"
 
@@ -31,9 +33,9 @@ class WalkPipelines {
                                                        const WalkOptions& options);
   ~WalkPipelines();
 
-  // Makes those from kCastMerged on. Called before there are two instances; idempotent.
+  // Makes those from kCastMerged on; if they are there already, returns at once. Any thread.
   Status prepareMerging();
-  bool canMerge() const { return pipelines_.back() != VK_NULL_HANDLE; }
+  bool canMerge() const { return canMerge_; }
 
   VkDescriptorSetLayout setLayout() const { return setLayout_; }
   VkPipelineLayout layout() const { return layout_; }
@@ -52,6 +54,8 @@ class WalkPipelines {
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::array<VkPipeline, kWalkPipelineCount> pipelines_{};
+  std::atomic<bool> canMerge_ = false;
+  std::mutex making_;
 };
 
 }  // namespace froth

@@ -141,7 +141,7 @@ Status WalkSets::grow(uint32_t chunkCount) {
   return {};
 }
 
-Status WalkSets::prepare(uint64_t completedSerial, uint32_t instanceCount, uint32_t chunkCount) {
+Status WalkSets::prepare(uint64_t completedSerial, uint32_t chunkCount) {
   for (Slot& slot : slots_) {
     if (slot.serial == 0 || slot.serial > completedSerial) continue;
     readCounters(slot);
@@ -155,7 +155,7 @@ Status WalkSets::prepare(uint64_t completedSerial, uint32_t instanceCount, uint3
   if (!hasSpaceFor(chunkCount)) {
     if (const Status status = grow(std::max(chunkCount, 2 * chunkCapacity_)); !status) return status;
   }
-  return instanceCount < 2 ? Status() : pipelines_->prepareMerging();
+  return {};
 }
 
 void WalkSets::readCounters(const Slot& slot) {

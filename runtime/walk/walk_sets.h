@@ -33,7 +33,10 @@ class WalkSets {
 
   // In frothUpdate: reads counters of complete frames, frees what was replaced, grows tables to so many chunks of all
   // instances together: those of an instance that is not seeded count twice. On an error they are as before.
-  Status prepare(uint64_t completedSerial, uint32_t instanceCount, uint32_t chunkCount);
+  Status prepare(uint64_t completedSerial, uint32_t chunkCount);
+  // Makes what casts rays through several instances at once; until then rays meet one at a time. Any thread.
+  Status prepareMerging() { return pipelines_->prepareMerging(); }
+  bool canMerge() const { return pipelines_->canMerge(); }
   bool hasSpaceFor(uint32_t chunkCount) const { return chunkCount <= chunkCapacity_; }
 
   // info: defaults resolved. Instances: at most FROTH_WALK_MOST_INSTANCES, with space for all their chunks. Once per

@@ -36,6 +36,21 @@ Step stepToSite(Chunk chunk, uint site, float key, float entry, uint neighbours)
   return stepTo(cellOfSite(chunk, site), key, entry, neighbours);
 }
 
+// Whether a ray that leaves a cell towards two sites, at one point but for rounding, goes on in that of the first. The
+// one that comes before has the ray up to their plane; where the eye lies behind that plane it never has it, and no step
+// leads on from there.
+bool goesOnInFirst(Chunk chunk, vec3 direction, vec4 first, vec4 second) {
+  bool isBefore = comesBefore(direction, first.xyz, second.xyz);
+  if (isParallel) return isBefore;
+  bool isFar;
+  if (isBefore) {
+    eyePlaneTo(chunk, first, second, isFar);
+  } else {
+    eyePlaneTo(chunk, second, first, isFar);
+  }
+  return isBefore == isFar;
+}
+
 // The neighbour through whose plane the ray leaves the cell first, by their sites. Returns false: the ray leaves the
 // foam.
 bool findNextSite(inout Step current, vec3 ray) {
@@ -60,7 +75,7 @@ bool findNextSite(inout Step current, vec3 ray) {
     if (!mayStepTo(chunk, other, order, orderAlong(direction, otherSite.xyz), current.key, key)) continue;
     bool isTie = next != kNoCell && nearness <= exitNearness + roundingOfNearness(exitNearness);
     exitNearness = max(nearness, exitNearness);
-    if (isTie && !comesBefore(direction, otherSite.xyz, siteRadiusOf(chunk, next).xyz)) continue;
+    if (isTie && !goesOnInFirst(chunk, direction, otherSite, siteRadiusOf(chunk, next))) continue;
     next = other;
     nextKey = max(key, current.key);
   }

@@ -40,7 +40,7 @@ void use(const AssetReader& reader) {
     if (!coded) return;
     const ChunkContents* chunk = &coded->contents;
     (void)packCells(*chunk, coded->codes, asset);
-    foam.addChunk(*chunk);
+    foam.addChunk(makeQueryChunk(*chunk), findLiveBounds(*chunk));
     for (uint32_t cell = 0; cell < chunk->cellCount && cell < kMostCells; ++cell) {
       points.push_back(glm::dvec3(chunk->origin[0], chunk->origin[1], chunk->origin[2]) +
                        glm::dvec3(chunk->sites[cell]));

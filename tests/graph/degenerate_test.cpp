@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "baker/graph/graph.h"
@@ -53,6 +54,20 @@ TEST(DegenerateSets, LackNoPairOfTheAlphaComplex) {
     const ValidityReport report = checkGraphs(balls.sites, balls.radii, *triangulation, alpha, 3);
     EXPECT_TRUE(report.faults.empty()) << balls.name << ": " << report.faults.front();
   }
+}
+
+// The first ball touches the second from within, where the third has the space: without the plane that cuts it off, its
+// other plane would leave most of it. As found by the random search.
+TEST(DegenerateSets, ABallThatTouchesAnotherFromWithinIsEmpty) {
+  const std::vector<glm::vec3> sites = {
+      {17389516, 32757282, -93339768}, {17639516, 32757282, -93339768}, {17139516, 32257284, -93339768}};
+  const std::vector<float> radii = {250000, 500000, 500000};
+  const Result<RegularTriangulation> triangulation = triangulateRegular(sites, radii);
+  ASSERT_TRUE(triangulation);
+  const AlphaComplex alpha = computeAlphaComplex(sites, radii, *triangulation);
+  EXPECT_THAT(alpha.isEmpty, testing::ElementsAre(1, 0, 0));
+  EXPECT_FALSE(hasPair(alpha.graph, 0, 2));
+  EXPECT_TRUE(hasPair(alpha.graph, 1, 2));
 }
 
 TEST(DegenerateSets, HaveManyHiddenCellsWhereTheyShould) {

@@ -34,11 +34,12 @@ class Growth : public testing::Test {
                                 sharedHost().device)),
         pipelines_(std::move(*RenderPipelines::create(device_, VK_NULL_HANDLE, {.checkIndices = true}))),
         bytes_(*encodeAsset(bakeForTest(makeRandomFoam(cells, 3, 2, 5)))),
-        asset_("", bytes_, Layer::kViewDependence, &device_) {
+        asset_({.name = "asset in memory", .isFile = false, .bytes = bytes_}, &device_) {
     std::unique_ptr<UploadRing> ring = std::move(*UploadRing::create(device_, 16 << 20));
     while (!asset_.isDecoded()) {
-      uint64_t workLeft = kWorkPerUpdate;
-      asset_.load([&](const GpuAsset& asset) { return pipelines_->prepareFor(asset); }, {}, workLeft);
+      LoadLimit limit = LoadLimit::ofWork();
+      asset_.load(jobs_, limit, [&](const AssetShape& shape) { return std::optional(pipelines_->prepareFor(shape)); },
+                  {});
       EXPECT_FALSE(asset_.hasFailed());
       asset_.stage(*ring, UINT64_MAX);
     }
@@ -77,7 +78,7 @@ class Growth : public testing::Test {
       view_->slots[0] = {};
       const Recording recording = beginRecording(*view_, pipelines_->state(), commandBuffer,
                                                  isRaster ? RenderMethod::kRaster : RenderMethod::kWalk, info, serial);
-      addPart(recording, space(), &instance, *pipelines_->state().find(shapeOf(asset_.gpu()), gpu::kLensClassPinhole));
+      addPart(recording, space(), &instance, *pipelines_->state().find(asset_.gpu().shape(), gpu::kLensClassPinhole));
       startPasses(recording);
       const auto record = isRaster ? recordRasterPasses : recordWalkPasses;
       record(recording);
@@ -144,6 +145,7 @@ class Growth : public testing::Test {
   Device device_;
   std::unique_ptr<RenderPipelines> pipelines_;
   std::vector<uint8_t> bytes_;
+  JobRunner jobs_;
   Asset asset_;
   std::unique_ptr<ViewState> view_;
   HostImage image_;

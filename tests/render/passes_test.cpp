@@ -205,7 +205,7 @@ class Bin : public Passes {
   };
 
   Lists listCells(const GpuAsset& asset, const View& camera) {
-    EXPECT_TRUE(pipelines_->prepareFor(asset));
+    EXPECT_TRUE(pipelines_->prepareFor(asset.shape()));
     const VkExtent2D extent{camera.width, camera.height};
     ViewState view{.device = device_,
                    .spaces = {},
@@ -232,7 +232,7 @@ class Bin : public Passes {
     submit([&](VkCommandBuffer commandBuffer) {
       const Recording recording =
           beginRecording(view, pipelines_->state(), commandBuffer, RenderMethod::kRaster, info, 1);
-      addPart(recording, space, &instance, *pipelines_->state().find(shapeOf(asset), gpu::kLensClassPinhole));
+      addPart(recording, space, &instance, *pipelines_->state().find(asset.shape(), gpu::kLensClassPinhole));
       startPasses(recording);
       recordRasterPasses(recording);
       endRecording(recording);

@@ -12,6 +12,7 @@ namespace froth::test {
 namespace {
 
 constexpr size_t kMostLines = 400;
+constexpr size_t kMostLinesOfMinimal = 149;  // what an engine writes to show a foam fits on a few screens
 
 // What follows the condition of an `if`, `for` or `while` that begins at lines[at], on the line where it ends.
 std::string afterCondition(const std::vector<std::string>& lines, size_t at) {
@@ -48,6 +49,15 @@ TEST(Layout, FilesAreShort) {
     if (count > kMostLines) found += source.path + ": " + std::to_string(count) + " lines\n";
   }
   EXPECT_EQ(found, "");
+}
+
+TEST(Layout, TheSmallestProgramStaysUnder150Lines) {
+  size_t count = 0;
+  for (const Source& source : sourcesUnder("samples/minimal")) {
+    if (source.path == "samples/minimal/main.c") count = source.lines.size();
+  }
+  EXPECT_GT(count, 0);
+  EXPECT_LE(count, kMostLinesOfMinimal);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@
  * Threads:
  *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName.
  *   at once on different views:   frothRecordRaster, frothRecordWalk, frothRecordComposite, frothRecordDepthExport (*).
- *   at once on anything:          frothCastRays, frothLocate, frothOverlapSphere (*).
+ *   at once on anything:          frothCastRays, frothLocate, frothOverlapSphere (*), frothReadVariant,
+ *                                 frothPrecompile.
  *   one at a time per context:    all others.
  *   (*) while no call of the last row runs.
  *
@@ -24,6 +25,8 @@
  *   froth_context.h    results, requirements, contexts, memory; included here
  *   froth_query.h      rays, points and spheres on the CPU
  *   froth_walk.h       rays on the GPU
+ *   froth_precompile.h pipelines ahead of time
+ *   froth_pool.h       threads for jobs
  *   froth_composite.h  blending into the engine's colour and depth images
  */
 #ifndef FROTH_FROTH_H
@@ -109,15 +112,16 @@ FROTH_API FrothResult frothGetAssetStatus(FrothContext* context, FrothAsset asse
  * null. */
 FROTH_API FrothResult frothGetFlightPath(FrothContext* context, FrothAsset asset, uint32_t capacity,
                                          FrothStoredCamera* cameras, uint32_t* count);
-/* Destroy its instances first. Returns at once; the memory is freed when the last frame that uses it is complete. */
+/* Destroy its instances first. Returns at once, but for an asset of `data` whose bytes a job reads: when the job has
+ * ended. The memory is freed when the last frame that uses it is complete. */
 FROTH_API FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset);
 
 /* ---- Instances ---- */
 
 /* An asset placed in the world. Froth reads these fields when a view is drawn. A view shows up to 14 instances. Where
- * instances overlap, their densities add, and each colour counts by its share of the density. The first frothUpdate
- * with a second instance makes pipelines for it. The motion image leads from where an instance is drawn to where it
- * stood in the newest frame before; a new instance has no motion of its own. */
+ * instances overlap, their densities add, and each colour counts by its share of the density. The second
+ * instance is drawn once its pipelines are made (froth_precompile.h). The motion image leads from where an instance is
+ * drawn to where it stood in the newest frame before; a new instance has no motion of its own. */
 typedef struct FrothInstanceInfo {
   uint32_t structSize;
   FrothAsset asset;
@@ -147,7 +151,7 @@ typedef struct FrothViewInfo {
   uint32_t keepsHits; /* 1: its cameras may use id and motion; costs 12 bytes per pixel of maxExtent */
   uint32_t eyeCount;  /* 1 or 2; 0: 1. Two eyes are drawn one after the other and use the same memory */
   /* visible cells of an instance that have room from the first frame on; no more is taken than the asset has cells.
-   * 0: 1048576. Later frames of larger assets grow the room by what earlier ones wanted. About 150 bytes per cell, 24
+   * 0: 1048576. Later frames of larger assets grow the room by what earlier ones wanted. About 175 bytes per cell, 24
    * per detail site, 16 per plane between cells */
   uint32_t reserveCells;
   FrothView startLike; /* begins with what the newest complete frame of this view wanted; {0, 0}: of none */
@@ -220,6 +224,9 @@ typedef struct FrothFrame {
   uint64_t serial;          /* [> 0, growing] of the submission that is now recorded */
   uint64_t completedSerial; /* the newest submission that the GPU has completed */
   uint64_t uploadBytes;     /* at most this many bytes are uploaded in this frame; 0: no limit */
+  /* without FrothContextInfo::runJob: no other chunk is decoded after so long. 0: after 4 MiB of decoded sections, the
+   * same on any machine */
+  uint32_t loadMicroseconds;
 } FrothFrame;
 
 typedef struct FrothFrameStatus {

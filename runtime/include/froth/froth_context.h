@@ -113,6 +113,14 @@ typedef struct FrothDeviceMemory {
 typedef VkResult (*FrothAllocateMemory)(void* user, const FrothMemoryRequest* request, FrothDeviceMemory* memory);
 typedef void (*FrothFreeMemory)(void* user, const FrothDeviceMemory* memory);
 
+/* Work that no frame need wait for: it decodes one chunk of an asset at most, or makes pipelines. It waits for nothing,
+ * so one thread is enough. */
+typedef void (*FrothJob)(void* argument);
+/* Takes a job and returns. The job is called once, with its argument, on any thread: later, also after
+ * frothDestroyContext (it then does nothing), or before this returns. A job that is never called leaks memory. Called
+ * in frothUpdate. froth_pool.h has one. */
+typedef void (*FrothRunJob)(void* user, FrothJob job, void* argument);
+
 typedef struct FrothContextInfo {
   uint32_t structSize;
   uint32_t abiVersion; /* FROTH_ABI_VERSION */
@@ -147,14 +155,19 @@ typedef struct FrothContextInfo {
   /* for tests: colours of detail sites are floats instead of halves between the passes of frothRecordRaster and
    * frothRecordWalk */
   uint32_t floatColours;
+  /* runs what frothUpdate would do itself: null: assets load within frothUpdate (FrothFrame::loadMicroseconds) */
+  FrothRunJob runJob;
+  void* jobUser;
+  uint32_t mostJobs; /* [<= 64] jobs that are given to runJob and not ended; 0: 4 */
 } FrothContextInfo;
 
 /* Makes pipelines and 64 MiB of host-visible staging memory. Call it at start-up, not in a frame. *context is null on
  * an error. */
 FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
 
-/* Frees everything at once. completedSerial: as in FrothFrame; UINT64_MAX after vkDeviceWaitIdle. FROTH_PENDING: later
- * frames were begun and not dropped; nothing is freed. A null pointer gives FROTH_OK. */
+/* Frees everything at once; waits for jobs that have begun. completedSerial: as in FrothFrame; UINT64_MAX after
+ * vkDeviceWaitIdle. FROTH_PENDING: later frames were begun and not dropped; nothing is freed. A null pointer gives
+ * FROTH_OK. */
 FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
 
 /* Changes FrothContextInfo::deviceBudget. New allocations never exceed it. A budget below the bytes held: from the next

@@ -17,7 +17,7 @@ function(build_user source build)
   run(${CMAKE_COMMAND} --build ${build})
 endfunction()
 
-build_user(${SOURCE_DIR}/tests/runtime/install_test ${WORK_DIR}/users)
+build_user(${SOURCE_DIR}/tests/install/users ${WORK_DIR}/users)
 run(${WORK_DIR}/users/user_c)
 run(${WORK_DIR}/users/user_cxx)
 build_user(${SOURCE_DIR}/samples/minimal ${WORK_DIR}/minimal)

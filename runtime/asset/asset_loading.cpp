@@ -1,0 +1,197 @@
+// How an asset comes out of its file: jobs, in which order, and what becomes of their results.
+#include <algorithm>
+#include <iterator>
+#include <new>
+#include <utility>
+
+#include "runtime/asset/asset.h"
+
+namespace froth {
+namespace {
+
+// Decoded and not staged: no job begins beyond it [bytes].
+constexpr uint64_t kMostQueuedBytes = 16u << 20;
+
+FrothStoredCamera toApi(const StoredCamera& camera) {
+  FrothStoredCamera result{};
+  std::copy(camera.worldFromCamera.begin(), camera.worldFromCamera.end(), result.worldFromCamera);
+  result.tanHalfFovY = camera.tanHalfFovY;
+  return result;
+}
+
+FrothAssetStatus describeManifest(const AssetContents& manifest) {
+  FrothAssetStatus description{};
+  for (const ChunkContents& chunk : manifest.chunks) {
+    description.cellCount += chunk.cellCount;
+    description.liveCount += chunk.liveCount;
+  }
+  description.detailCount = manifest.detailCount;
+  description.lobeCount = manifest.lobeCount;
+  description.chunkCount = static_cast<uint32_t>(manifest.chunks.size());
+  description.cellBits = manifest.localBits;
+  description.hasWalkGraph = manifest.hasWalkGraph;
+  description.nearRatio = manifest.nearRatio;
+  description.nearDepth = manifest.nearDepth;
+  description.hasStartView = manifest.hasStartView;
+  description.startView = toApi(manifest.startView);
+  description.flightPathCount = static_cast<uint32_t>(manifest.flightPath.size());
+  return description;
+}
+
+GpuAsset describeShape(const AssetContents& manifest) {
+  GpuAsset asset;
+  asset.detailCount = manifest.detailCount;
+  asset.lobeCount = manifest.lobeCount;
+  asset.localBits = manifest.localBits;
+  asset.hasWalkGraph = manifest.hasWalkGraph;
+  asset.detailSharpness = manifest.detailSharpness;
+  asset.nearRatio = manifest.nearRatio;
+  asset.nearDepth = manifest.nearDepth;
+  return asset;
+}
+
+}  // namespace
+
+void Asset::load(JobRunner& jobs, LoadLimit& limit, const Preparation& prepare, const Messages& messages) {
+  if (hasFailed() || isDecoded_) {
+    return;
+  }
+  try {
+    Status status = takeResults(prepare);
+    while (status && startNext(jobs, limit)) {
+      status = takeResults(prepare);
+    }
+    if (!status) {
+      fail(status.error(), messages);
+    }
+  } catch (const std::bad_alloc&) {
+    fail(FROTH_ERROR_MEMORY, "host memory is exhausted while the asset is loaded", messages);
+  }
+}
+
+void Asset::stop() {
+  const bool waits = !source_.isFile;  // a job holds the file open, but not the caller's bytes
+  opening_.drop(waits);
+  isPrepared_ = false;
+  for (Job<LoadedChunk>& chunk : decoding_) {
+    chunk.drop(waits);
+  }
+  decoding_.clear();
+  finishing_.drop(false);
+  reader_.reset();
+}
+
+Status Asset::takeResults(const Preparation& prepare) {
+  if (opening_.hasEnded()) {
+    Result<std::shared_ptr<const AssetReader>> reader = opening_.take();
+    if (!reader) {
+      return reader.error();
+    }
+    takeReader(std::move(*reader));
+  }
+  if (reader_ && !isPrepared_) {
+    const std::optional<Status> prepared = prepare(gpu_.shape());
+    if (prepared && !*prepared) {
+      return *prepared;
+    }
+    isPrepared_ = prepared.has_value();
+  }
+  while (!decoding_.empty() && decoding_.front().hasEnded()) {
+    Result<LoadedChunk> chunk = decoding_.front().take();
+    decoding_.pop_front();
+    if (!chunk) {
+      return chunk.error();
+    }
+    if (const Status status = placeChunk(std::move(*chunk)); !status) {
+      return status;
+    }
+  }
+  if (finishing_.hasEnded()) {
+    Result<std::shared_ptr<QueryFoam>> foam = finishing_.take();
+    if (!foam) {
+      return foam.error();
+    }
+    queryFoam_ = std::move(*foam);
+  }
+  return reader_ && isPrepared_ && arePlaced() && !isQueryFoamWanted() ? finish() : Status();
+}
+
+// False: there is nothing to be started, or no room for it.
+bool Asset::startNext(JobRunner& jobs, LoadLimit& limit) {
+  if (isDecoded_ || !jobs.hasRoom() || limit.isReached() || queuedBytes() > kMostQueuedBytes) {
+    return false;
+  }
+  if (!reader_) {
+    if (opening_.isUnderWay()) {
+      return false;
+    }
+    limit.count(0);
+    startOpening(jobs);
+    return true;
+  }
+  const auto chunk = static_cast<uint32_t>(gpu_.chunks.size() + decoding_.size());
+  if (chunk < description_.chunkCount) {
+    limit.count(chunkWork_[chunk]);
+    const ChunkUses uses{device_ != nullptr, isQueryFoamWanted() && gpu_.hasWalkGraph};
+    decoding_.emplace_back().start(
+        jobs, [reader = reader_, chunk, name = source_.name, uses] { return loadChunk(*reader, chunk, name, uses); });
+    return true;
+  }
+  if (!arePlaced() || !isQueryFoamWanted() || finishing_.isUnderWay()) {
+    return false;
+  }
+  limit.count(0);
+  startFinishing(jobs);
+  return true;
+}
+
+void Asset::startOpening(JobRunner& jobs) {
+  opening_.start(jobs, [source = source_]() -> Result<std::shared_ptr<const AssetReader>> {
+    Result<AssetReader> reader = openReader(source);
+    if (!reader) {
+      return reader.error();
+    }
+    return std::make_shared<const AssetReader>(std::move(*reader));
+  });
+}
+
+void Asset::startFinishing(JobRunner& jobs) {
+  finishing_.start(jobs, [foam = std::move(queryFoam_), name = source_.name]() -> Result<std::shared_ptr<QueryFoam>> {
+    if (const Status status = foam->checkGhosts(name); !status) {
+      return status.error();
+    }
+    foam->finish();
+    return foam;
+  });
+}
+
+void Asset::takeReader(std::shared_ptr<const AssetReader> reader) {
+  const AssetContents& manifest = reader->manifest();
+  description_ = describeManifest(manifest);
+  gpu_ = describeShape(manifest);
+  if (isQueryFoamWanted()) {
+    queryFoam_ = std::make_shared<QueryFoam>(manifest);
+  }
+  flightPath_.clear();
+  std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_), toApi);
+  chunkWork_.assign(description_.chunkCount, 0);
+  workDone_ = workToCome_ = 0;
+  for (const SectionRecord& section : reader->sections()) {
+    if (section.chunk >= description_.chunkCount) continue;
+    chunkWork_[section.chunk] += section.rawSize;
+    workToCome_ += section.rawSize;
+  }
+  gpu_.hasHeights = shapeOf(*reader, source_.lastLayer).hasHeights;
+  reader_ = std::move(reader);
+}
+
+Status Asset::finish() {
+  reader_.reset();
+  if (const Status status = placeEntries(); !status) {
+    return status;
+  }
+  isDecoded_ = true;
+  return {};
+}
+
+}  // namespace froth

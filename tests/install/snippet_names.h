@@ -1,0 +1,27 @@
+/* The names that the C blocks of README.md and docs/EMBEDDING.md take from the text around them. */
+#include <froth/froth_pool.h>
+#include <froth/froth_query.h>
+#include <froth/froth_walk.h>
+#include <math.h>
+
+extern VkInstance instance;
+extern VkPhysicalDevice gpu;
+extern VkDevice device;
+extern VkPhysicalDeviceFeatures2 features;
+extern VkCommandBuffer cmd, commandBuffer;
+extern VkImage image;
+extern VkImageView imageView;
+extern uint32_t width, height, family;
+extern uint64_t n, done, newestCompleted;
+extern double x, y, z;
+extern float dx, dy, dz, nearest;
+
+extern FrothContext* froth;
+extern FrothContextInfo context_info;
+extern FrothAsset asset;
+extern FrothInstance placed;
+extern FrothView view;
+extern FrothFrameStatus status;
+extern FrothRenderInfo render;
+extern FrothCamera camera;
+extern FrothStoredCamera stored;
