@@ -53,7 +53,7 @@ void main() {
   FrothWalk walk = frothBeginWalk(loadRay(index));
   vec4 part = gather(walk, FROTH_INFINITY, kind == kRadiance, kind == kClosest);
   FrothHit hit = walk.hit;
-  push.hits.v[index] = HitRecord(vec4(linearPremultiplied(part.rgb, part.a), exp(walk.logTransmittance)),
+  push.hits.v[index] = HitRecord(vec4(part.rgb, exp(walk.logTransmittance)),
                                  vec4(hit.normal, hit.distance), uvec4(hit.instance, hit.chunk, hit.cell, hit.userId),
                                  uvec4(hit.status, walk.cells, 0u, 0u));
 }

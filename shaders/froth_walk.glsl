@@ -14,7 +14,7 @@
 #ifndef FROTH_WALK_GLSL
 #define FROTH_WALK_GLSL
 
-#define FROTH_WALK_ABI 3u
+#define FROTH_WALK_ABI 4u
 
 // FrothHit::status
 #define FROTH_WALK_DONE 0u
@@ -71,9 +71,9 @@ struct FrothWalk {
   Stream streams[FROTH_WALK_STREAMS];
 };
 
-// An interval of the ray with the same cells all along: their densities add, their colours mix by them.
+// An interval of the ray with the same cells all along: their densities add, colours and exposures mix by them.
 struct Interval {
-  float tNear, tFar, density;
+  float tNear, tFar, density, exposure;
   vec3 colour;
   uint densest;  // stream
 };
@@ -191,7 +191,7 @@ bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval int
     if (!isInstanceNext) break;
     startNextStream(walk, work);
   }
-  interval = Interval(begin, min(end, walk.nextEntry - walk.tStart), 0.0, vec3(0.0), 0u);
+  interval = Interval(begin, min(end, walk.nextEntry - walk.tStart), 0.0, 0.0, vec3(0.0), 0u);
   if (!(begin < end)) return false;
   float most = 0.0;
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
@@ -204,10 +204,12 @@ bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval int
     interval.tFar = min(interval.tFar, walk.streams[i].tFar);
     interval.density += density;
     interval.colour += density * walk.streams[i].colour;
+    if (isSeen) interval.exposure += density * walkSet.block.instances.v[walk.streams[i].instance].exposure;
     if (density > most) interval.densest = i;
     most = max(most, density);
   }
   interval.colour /= interval.density;
+  interval.exposure /= interval.density;
   return true;
 }
 
@@ -230,18 +232,24 @@ void countWork(WalkWork work) {
   countWalkWork(kRayWorkShaded, work.shaded);
 }
 
-// On to tEnd, or to where the walk ends: premultiplied display-coded colour of this part (isSeen), and its opacity.
+// On to tEnd, or to where the walk ends: premultiplied linear colour of this part (isSeen), and its opacity. The part's
+// exposure is the mean of what the instances contribute to it.
 vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   float logCutoff = walkSet.block.logCutoff, logQuantile = walkSet.block.logQuantile;
   float logBefore = walk.logTransmittance;
   float logPassed = 0.0;  // of this part alone: beyond the floats, both its ends are at -infinity
   float end = min(tEnd, walk.ray.tMax) - walk.tStart;
   vec3 colour = vec3(0.0);
+  float exposures = 0.0;
   WalkWork work = WalkWork(0u, 0u, 0u, 0u, 0u);
   Interval interval;
   while (walk.logTransmittance >= logCutoff && findInterval(walk, end, isSeen, interval, work)) {
     float opticalDepth = interval.density * (interval.tFar - interval.tNear);
-    if (isSeen) colour += exp(logPassed) * opacity(opticalDepth) * interval.colour;
+    if (isSeen) {
+      float shown = exp(logPassed) * opacity(opticalDepth);
+      colour += shown * interval.colour;
+      exposures += shown * interval.exposure;
+    }
     logPassed -= opticalDepth;
     float logAfter = logBefore + logPassed;
     bool isHit = walk.logTransmittance >= logQuantile && logAfter < logQuantile;
@@ -252,15 +260,15 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   }
   walk.cells += work.cells;
   countWork(work);
-  return vec4(colour, coverageOf(logPassed));
+  float coverage = coverageOf(logPassed);
+  float exposure = coverage > 0.0 ? exposures / coverage : 1.0;
+  return vec4(exposure * linearPremultiplied(colour, coverage), coverage);
 }
 
-// Premultiplied linear colour of the ray's part from where the walk stands to tEnd, and 1 - T of this part. Each part
-// is decoded by itself: over a part in front of it, it blends as colour += T * part, T *= 1 - part.w.
-vec4 frothRadianceSegment(inout FrothWalk walk, float tEnd) {
-  vec4 part = gather(walk, tEnd, true, false);
-  return vec4(linearPremultiplied(part.rgb, part.a), part.a);
-}
+// Premultiplied linear colour of the ray's part from where the walk stands to tEnd, times FrothInstanceInfo::exposure,
+// and 1 - T of this part. Each part is decoded by itself: over a part in front of it, it blends as colour += T * part,
+// T *= 1 - part.w.
+vec4 frothRadianceSegment(inout FrothWalk walk, float tEnd) { return gather(walk, tEnd, true, false); }
 
 // Premultiplied linear colour and 1 - T over [tMin, tMax]; ends below the cut-off.
 vec4 frothRadiance(FrothRay ray, out FrothHit hit) {

@@ -132,7 +132,7 @@ Result<RayFrame> GpuRenderer::castRays(const View& view, const RayOptions& optio
     const FrothGpuHit& hit = (*hits)[i];
     putHit(rays[i].pixel, hit.transmittance, hit.distance, frame.images);
     std::memcpy(&frame.images.colour.values[3 * rays[i].pixel], hit.colour, sizeof(hit.colour));
-    frame.hitStepLimit = frame.hitStepLimit || hit.status == FROTH_WALK_STATUS_STEP_LIMIT;
+    frame.hitStepLimit = frame.hitStepLimit || hit.status == FROTH_WALK_STEP_LIMIT;
   }
   markMissingDistances(frame.images.distance);
   return frame;

@@ -22,6 +22,12 @@ FrothResult checkImage(const Messages& messages, const char* call, const char* n
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s.format: VkFormat %d; must be %s", name, image.format,
                          formatNames);
   }
+  if (image.stageIn == 0 || (image.stageOut == 0 && image.accessOut != 0)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "%s.%s: 0; name the stages of its %s use, or VK_PIPELINE_STAGE_2_TOP_OF_PIPE_BIT where a "
+                         "fence has waited for it",
+                         name, image.stageIn == 0 ? "stageIn" : "stageOut", image.stageIn == 0 ? "last" : "next");
+  }
   if (image.layoutOut == VK_IMAGE_LAYOUT_UNDEFINED || image.layoutOut == VK_IMAGE_LAYOUT_PREINITIALIZED) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s.layoutOut: VkImageLayout %d; name the layout of its next use",
                          name, image.layoutOut);

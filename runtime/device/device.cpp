@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 namespace froth {
@@ -47,6 +48,19 @@ std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& m
 
 unsigned long long asPrinted(VkDeviceSize bytes) { return bytes; }
 
+// Of all objects that Device::create makes.
+struct ObjectTypeName {
+  VkObjectType type;
+  const char* name;
+};
+constexpr ObjectTypeName kObjectTypeNames[] = {{VK_OBJECT_TYPE_DESCRIPTOR_POOL, "DescriptorPool"},
+                                               {VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, "DescriptorSetLayout"},
+                                               {VK_OBJECT_TYPE_IMAGE, "Image"},
+                                               {VK_OBJECT_TYPE_IMAGE_VIEW, "ImageView"},
+                                               {VK_OBJECT_TYPE_PIPELINE_LAYOUT, "PipelineLayout"},
+                                               {VK_OBJECT_TYPE_QUERY_POOL, "QueryPool"},
+                                               {VK_OBJECT_TYPE_SHADER_MODULE, "ShaderModule"}};
+
 // Destroyed unless it is taken.
 struct NewBuffer {
   ~NewBuffer() { device.destroyBuffer(buffer); }
@@ -87,6 +101,9 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
   result.table.vkCmdEndDebugUtilsLabelEXT =
       reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(getDeviceProcAddr(device, "vkCmdEndDebugUtilsLabelEXT"));
 
+  result.table.vkSetDebugUtilsObjectNameEXT =
+      reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(getDeviceProcAddr(device, "vkSetDebugUtilsObjectNameEXT"));
+
   VkPhysicalDeviceMaintenance4Properties bufferLimits{};
   bufferLimits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES;
   VkPhysicalDeviceMaintenance3Properties limits{};
@@ -125,6 +142,7 @@ Result<GpuBuffer> Device::createBuffer(MemoryUse use, BufferKind kind, VkDeviceS
       result != VK_SUCCESS) {
     return explain(result, "%s: vkCreateBuffer of %llu bytes", purpose, asPrinted(size));
   }
+  nameObject(VK_OBJECT_TYPE_BUFFER, made.buffer.buffer, purpose);
   const VkMemoryAllocateFlags flags = traits.hasAddress ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
   if (const Status status =
           bindMemory(made.buffer, {use, traits.required, traits.preferred, flags, purpose, mayExceedBudget});
@@ -226,7 +244,11 @@ VkResult Device::allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemor
   allocation.allocationSize = request.requirements.size;
   allocation.memoryTypeIndex = request.memoryTypeIndex;
   VkResult result = table.vkAllocateMemory(device, &allocation, nullptr, &place.memory);
-  if (result == VK_SUCCESS && request.isMapped) {
+  if (result != VK_SUCCESS) {
+    return result;
+  }
+  nameObject(VK_OBJECT_TYPE_DEVICE_MEMORY, place.memory, request.purpose);
+  if (request.isMapped) {
     result = table.vkMapMemory(device, place.memory, 0, VK_WHOLE_SIZE, 0, &place.mapped);
     if (result != VK_SUCCESS) {
       table.vkFreeMemory(device, place.memory, nullptr);
@@ -253,10 +275,27 @@ Result<VkShaderModule> Device::createShaderModule(const char* name, std::span<co
   info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   info.codeSize = spirv.size_bytes();
   info.pCode = spirv.data();
-  VkShaderModule shaderModule = VK_NULL_HANDLE;
-  const VkResult result = table.vkCreateShaderModule(device, &info, nullptr, &shaderModule);
-  if (result != VK_SUCCESS) return explain(result, "%s: vkCreateShaderModule", name);
-  return shaderModule;
+  return create(VK_OBJECT_TYPE_SHADER_MODULE, name, table.vkCreateShaderModule, info);
+}
+
+Error Device::explainCreation(VkResult result, VkObjectType type, const char* name) {
+  const auto entry = std::find_if(std::begin(kObjectTypeNames), std::end(kObjectTypeNames),
+                                  [&](const ObjectTypeName& known) { return known.type == type; });
+  return explain(result, "%s: vkCreate%s", name, entry->name);
+}
+
+void Device::nameHandle(VkObjectType type, uint64_t handle, const char* name) const {
+  if (!table.vkSetDebugUtilsObjectNameEXT) {
+    return;
+  }
+  char text[128];
+  std::snprintf(text, sizeof(text), "froth: %s", name);
+  VkDebugUtilsObjectNameInfoEXT info{};
+  info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
+  info.objectType = type;
+  info.objectHandle = handle;
+  info.pObjectName = text;
+  table.vkSetDebugUtilsObjectNameEXT(device, &info);  // without a name an object is as good
 }
 
 Error Device::explain(VkResult result, const char* format, ...) {

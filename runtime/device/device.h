@@ -40,6 +40,7 @@ struct DeviceTable {
   // Null where the instance has no VK_EXT_debug_utils.
   PFN_vkCmdBeginDebugUtilsLabelEXT vkCmdBeginDebugUtilsLabelEXT = nullptr;
   PFN_vkCmdEndDebugUtilsLabelEXT vkCmdEndDebugUtilsLabelEXT = nullptr;
+  PFN_vkSetDebugUtilsObjectNameEXT vkSetDebugUtilsObjectNameEXT = nullptr;
 
   // What is recorded in between bears this name in captures and messages of the validation layers.
   void beginLabel(VkCommandBuffer commandBuffer, const char* name) const;
@@ -99,7 +100,7 @@ class DeviceLoss {
   std::optional<Error> error_;
 };
 
-// Owns nothing of the caller's. One thread at a time, but for createShaderModule and explain: any.
+// Owns nothing of the caller's. One thread at a time; any: create, createShaderModule, nameObject, explain.
 class Device {
  public:
   static Result<Device> create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
@@ -110,8 +111,27 @@ class Device {
                                  bool mayExceedBudget = false);
   void destroyBuffer(GpuBuffer& buffer);  // the GPU must be done with it; resets it to empty
 
-  // `name` is for messages.
+  // Makes an object by vkCreate... and names it; an error says for what the call was made.
+  template <class Handle, class Info>
+  Result<Handle> create(VkObjectType type, const char* name,
+                        VkResult(VKAPI_PTR* call)(VkDevice, const Info*, const VkAllocationCallbacks*, Handle*),
+                        const Info& info) {
+    Handle handle = VK_NULL_HANDLE;
+    if (const VkResult result = call(device, &info, nullptr, &handle); result != VK_SUCCESS) {
+      return explainCreation(result, type, name);
+    }
+    nameObject(type, handle, name);
+    return handle;
+  }
+
   Result<VkShaderModule> createShaderModule(const char* name, std::span<const uint32_t> spirv);
+
+  // "froth: " and the name, in captures, crash dumps and messages of the validation layers. Any thread, for an object
+  // that no other uses.
+  template <class Handle>
+  void nameObject(VkObjectType type, Handle handle, const char* name) const {
+    nameHandle(type, (uint64_t)handle, name);  // a pointer, or, on 32 bits, a number
+  }
 
   // `used` of the required bytes will hold something.
   Result<MemoryBlock> allocate(const VkMemoryRequirements& requirements, VkDeviceSize used, const MemoryWish& wish);
@@ -141,6 +161,8 @@ class Device {
   std::shared_ptr<DeviceLoss> loss = std::make_shared<DeviceLoss>();
 
  private:
+  Error explainCreation(VkResult result, VkObjectType type, const char* name);
+  void nameHandle(VkObjectType type, uint64_t handle, const char* name) const;
   Status checkBudget(VkDeviceSize size, const MemoryWish& wish);
   VkResult allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place);
   Status bindMemory(GpuBuffer& buffer, const MemoryWish& wish);

@@ -59,8 +59,8 @@ Result<std::unique_ptr<ImagePass>> createCompositePass(Device& device, VkPipelin
                            {"composite", codeOf(format), compositeBindings(), sizeof(gpu::CompositeConstants)});
 }
 
-void recordComposite(const DeviceTable& vk, VkCommandBuffer commandBuffer, const ImagePass& pass, const ImageSets& sets,
-                     uint32_t set, const FrothCompositeInfo& info, const VkRect2D& region) {
+void recordComposite(const DeviceTable& vk, VkCommandBuffer commandBuffer, const ImagePass& pass,
+                     const DescriptorSets& sets, uint32_t set, const FrothCompositeInfo& info, const VkRect2D& region) {
   const gpu::CompositeConstants constants{static_cast<uint32_t>(region.offset.x),
                                           static_cast<uint32_t>(region.offset.y), region.extent.width,
                                           region.extent.height, info.shadowFactor.image != nullptr};

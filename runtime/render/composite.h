@@ -14,7 +14,7 @@ bool canComposite(VkFormat format);
 Result<std::unique_ptr<ImagePass>> createCompositePass(Device& device, VkPipelineCache cache, VkFormat format);
 
 // info has been checked. region: what was drawn. set: one of compositeBindings(), free for this frame.
-void recordComposite(const DeviceTable& vk, VkCommandBuffer commandBuffer, const ImagePass& pass, const ImageSets& sets,
-                     uint32_t set, const FrothCompositeInfo& info, const VkRect2D& region);
+void recordComposite(const DeviceTable& vk, VkCommandBuffer commandBuffer, const ImagePass& pass,
+                     const DescriptorSets& sets, uint32_t set, const FrothCompositeInfo& info, const VkRect2D& region);
 
 }  // namespace froth

@@ -129,6 +129,7 @@ Status DepthExport::createPipeline(VkPipelineCache cache, VkFormat format) {
     vk.vkDestroyShaderModule(device_.device, shaderModule, nullptr);
   }
   if (result != VK_SUCCESS) return device_.explain(result, "export_depth: vkCreateGraphicsPipelines");
+  device_.nameObject(VK_OBJECT_TYPE_PIPELINE, pipeline_, "export_depth");
   return {};
 }
 

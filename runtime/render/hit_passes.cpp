@@ -56,10 +56,11 @@ void writeHits(const Recording& recording, uint32_t part, const RenderInstance* 
 void recordHitPasses(const Recording& recording) {
   const FrothRenderInfo& info = recording.info;
   if (!wantsHits(info)) return;
-  recording.wait();
-  if (info.id.image) recordHitPass(recording, *recording.pipelines.writeIds, info.id, 0);
-  if (info.motion.image) recordHitPass(recording, *recording.pipelines.writeMotion, info.motion, 1);
-  recording.mark("hits");
+  recording.run("hits", [&] {
+    recording.wait();
+    if (info.id.image) recordHitPass(recording, *recording.pipelines.writeIds, info.id, 0);
+    if (info.motion.image) recordHitPass(recording, *recording.pipelines.writeMotion, info.motion, 1);
+  });
 }
 
 }  // namespace froth

@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "runtime/device/pipeline_objects.h"
 
@@ -33,25 +32,6 @@ class ImagePass {
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
-};
-
-// Sets for passes whose bindings are alike.
-class ImageSets {
- public:
-  static Result<std::unique_ptr<ImageSets>> create(Device& device, const SetBindings& bindings, uint32_t count);
-  ~ImageSets();
-
-  // Points a set [index < count] to images, one per binding. What used it before must be complete.
-  VkDescriptorSet update(uint32_t index, std::span<const VkDescriptorImageInfo> images) const;
-
- private:
-  explicit ImageSets(Device& device) : device_(device) {}
-
-  Device& device_;
-  SetBindings bindings_;
-  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
-  VkDescriptorPool pool_ = VK_NULL_HANDLE;
-  std::vector<VkDescriptorSet> sets_;
 };
 
 }  // namespace froth

@@ -6,6 +6,8 @@
 namespace froth {
 namespace {
 
+constexpr const char* kName = "output images of a view";
+
 const ImageUse& useOf(const FrameImage& image) {
   return image.role == ImageRole::kRead ? kImageSampled : kImageWritten;
 }
@@ -41,8 +43,10 @@ Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint3
   Status status = images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, images->half4_);
   if (status) status = images->createPlaceholder(VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, images->float1_);
   if (status) status = images->createPlaceholder(VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT, images->input_);
-  if (status) status = images->createSets(recordings);
   if (!status) return status.error();
+  Result<std::unique_ptr<DescriptorSets>> sets = DescriptorSets::create(device, kName, outputBindings(), recordings);
+  if (!sets) return sets.error();
+  images->sets_ = std::move(*sets);
   return images;
 }
 
@@ -53,8 +57,6 @@ OutputImages::~OutputImages() {
     vk.vkDestroyImage(device_.device, placeholder->image, nullptr);
     device_.release(placeholder->memory);
   }
-  vk.vkDestroyDescriptorPool(device_.device, pool_, nullptr);
-  vk.vkDestroyDescriptorSetLayout(device_.device, layout_, nullptr);
 }
 
 Status OutputImages::createPlaceholder(VkFormat format, VkImageUsageFlags usage, Placeholder& placeholder) {
@@ -68,18 +70,19 @@ Status OutputImages::createPlaceholder(VkFormat format, VkImageUsageFlags usage,
   info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = usage;
-  VkResult result = vk.vkCreateImage(device_.device, &info, nullptr, &placeholder.image);
-  if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkCreateImage");
+  const Result<VkImage> image = device_.create(VK_OBJECT_TYPE_IMAGE, kName, vk.vkCreateImage, info);
+  if (!image) return image.error();
+  placeholder.image = *image;
 
   VkMemoryRequirements requirements{};
   vk.vkGetImageMemoryRequirements(device_.device, placeholder.image, &requirements);
   const Result<MemoryBlock> memory = device_.allocate(
-      requirements, requirements.size,
-      {MemoryUse::kViews, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, "output images of a view", false});
+      requirements, requirements.size, {MemoryUse::kViews, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, kName, false});
   if (!memory) return memory.error();
   placeholder.memory = *memory;
-  result = vk.vkBindImageMemory(device_.device, placeholder.image, memory->place.memory, memory->place.offset);
-  if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkBindImageMemory");
+  const VkResult result =
+      vk.vkBindImageMemory(device_.device, placeholder.image, memory->place.memory, memory->place.offset);
+  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkBindImageMemory", kName);
 
   VkImageViewCreateInfo viewInfo{};
   viewInfo.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
@@ -87,36 +90,9 @@ Status OutputImages::createPlaceholder(VkFormat format, VkImageUsageFlags usage,
   viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
   viewInfo.format = format;
   viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  result = vk.vkCreateImageView(device_.device, &viewInfo, nullptr, &placeholder.view);
-  if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkCreateImageView");
-  return {};
-}
-
-Status OutputImages::createSets(uint32_t recordings) {
-  const DeviceTable& vk = device_.table;
-  const Result<VkDescriptorSetLayout> layout = createOutputSetLayout(device_);
-  if (!layout) return layout.error();
-  layout_ = *layout;
-  const VkDescriptorPoolSize sizes[] = {
-      {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, gpu::kBindingRayMap * recordings},
-      {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, (gpu::kBindingCount - gpu::kBindingRayMap) * recordings}};
-  VkDescriptorPoolCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-  info.maxSets = recordings;
-  info.poolSizeCount = 2;
-  info.pPoolSizes = sizes;
-  VkResult result = vk.vkCreateDescriptorPool(device_.device, &info, nullptr, &pool_);
-  if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkCreateDescriptorPool");
-
-  const std::vector<VkDescriptorSetLayout> layouts(recordings, layout_);
-  VkDescriptorSetAllocateInfo allocation{};
-  allocation.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-  allocation.descriptorPool = pool_;
-  allocation.descriptorSetCount = recordings;
-  allocation.pSetLayouts = layouts.data();
-  sets_.resize(recordings);
-  result = vk.vkAllocateDescriptorSets(device_.device, &allocation, sets_.data());
-  if (result != VK_SUCCESS) return device_.explain(result, "output images of a view: vkAllocateDescriptorSets");
+  const Result<VkImageView> view = device_.create(VK_OBJECT_TYPE_IMAGE_VIEW, kName, vk.vkCreateImageView, viewInfo);
+  if (!view) return view.error();
+  placeholder.view = *view;
   return {};
 }
 
@@ -129,14 +105,14 @@ VkDescriptorSet OutputImages::update(uint32_t recording, const FrothRenderInfo& 
     images[i] = given.image ? VkDescriptorImageInfo{VK_NULL_HANDLE, given.view, useOf(image).layout}
                             : VkDescriptorImageInfo{VK_NULL_HANDLE, placeholderOf(image).view, VK_IMAGE_LAYOUT_GENERAL};
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-    writes[i].dstSet = sets_[recording];
+    writes[i].dstSet = (*sets_)[recording];
     writes[i].dstBinding = i;
     writes[i].descriptorCount = 1;
     writes[i].descriptorType = descriptorTypeOf(image);
     writes[i].pImageInfo = &images[i];
   }
   device_.table.vkUpdateDescriptorSets(device_.device, gpu::kBindingCount, writes.data(), 0, nullptr);
-  return sets_[recording];
+  return (*sets_)[recording];
 }
 
 void OutputImages::enter(VkCommandBuffer commandBuffer, const FrothRenderInfo& info) const {

@@ -4,10 +4,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "froth/froth.h"
-#include "runtime/device/device.h"
+#include "runtime/device/pipeline_objects.h"
 #include "runtime/render/frame_images.h"
 
 namespace froth {
@@ -38,12 +37,9 @@ class OutputImages {
 
   explicit OutputImages(Device& device) : device_(device) {}
   Status createPlaceholder(VkFormat format, VkImageUsageFlags usage, Placeholder& placeholder);
-  Status createSets(uint32_t recordings);
 
   Device& device_;
-  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
-  VkDescriptorPool pool_ = VK_NULL_HANDLE;
-  std::vector<VkDescriptorSet> sets_;
+  std::unique_ptr<DescriptorSets> sets_;
   const Placeholder& placeholderOf(const FrameImage& image) const;
 
   Placeholder half4_, float1_;  // R16G16B16A16_SFLOAT (colour, normal), R32_SFLOAT (distance, depth)

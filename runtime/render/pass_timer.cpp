@@ -19,10 +19,10 @@ Result<std::unique_ptr<PassTimer>> PassTimer::create(Device& device, uint32_t re
   info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
   info.queryType = VK_QUERY_TYPE_TIMESTAMP;
   info.queryCount = recordings * kQueries;
-  if (const VkResult result = device.table.vkCreateQueryPool(device.device, &info, nullptr, &timer->pool_);
-      result != VK_SUCCESS) {
-    return device.explain(result, "vkCreateQueryPool of %u timestamps", info.queryCount);
-  }
+  const Result<VkQueryPool> pool =
+      device.create(VK_OBJECT_TYPE_QUERY_POOL, "timestamps of a view", device.table.vkCreateQueryPool, info);
+  if (!pool) return pool.error();
+  timer->pool_ = *pool;
   timer->names_.resize(recordings);
   for (auto& names : timer->names_) names.reserve(kMaxPasses);
   return timer;

@@ -39,7 +39,7 @@ struct RenderPipelines::State {
   const PassPipelines* find(const AssetShape& shape, uint32_t lensClass);
 };
 
-// The caller's images (gpu::kBinding...). Identical layouts are compatible, so views make their own.
-Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device);
+// The caller's images (gpu::kBinding...).
+SetBindings outputBindings();
 
 }  // namespace froth

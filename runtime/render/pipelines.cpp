@@ -140,18 +140,14 @@ void destroyPasses(RenderPipelines::State& state, uint32_t first, uint32_t last,
 }
 
 Status createLayout(RenderPipelines::State& state) {
-  const Result<VkDescriptorSetLayout> setLayout = createOutputSetLayout(state.device);
+  constexpr const char* kName = "passes of a view";
+  const Result<VkDescriptorSetLayout> setLayout = createSetLayout(state.device, kName, outputBindings());
   if (!setLayout) return setLayout.error();
   state.setLayout = *setLayout;
-  const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, kPushConstantBytes};
-  VkPipelineLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-  info.setLayoutCount = 1;
-  info.pSetLayouts = &state.setLayout;
-  info.pushConstantRangeCount = 1;
-  info.pPushConstantRanges = &range;
-  const VkResult result = state.device.table.vkCreatePipelineLayout(state.device.device, &info, nullptr, &state.layout);
-  if (result != VK_SUCCESS) return state.device.explain(result, "vkCreatePipelineLayout");
+  const Result<VkPipelineLayout> layout =
+      createPipelineLayout(state.device, kName, state.setLayout, kPushConstantBytes);
+  if (!layout) return layout.error();
+  state.layout = *layout;
   return {};
 }
 
@@ -172,10 +168,10 @@ Status createHitPasses(RenderPipelines::State& state) {
 
 }  // namespace
 
-Result<VkDescriptorSetLayout> createOutputSetLayout(Device& device) {
+SetBindings outputBindings() {
   SetBindings bindings;
   for (const FrameImage& image : boundImages()) bindings.types.push_back(descriptorTypeOf(image));
-  return createSetLayout(device, "output images", bindings);
+  return bindings;
 }
 
 bool RenderPipelines::State::hasLensClass(uint32_t lensClass) const {

@@ -86,14 +86,10 @@ void recordTiles(const Recording& recording) {
 }  // namespace
 
 void recordRasterPasses(const Recording& recording) {
-  recordCull(recording);
-  recording.mark("cull");
-  recordCellSort(recording);
-  recording.mark("sort");
-  recordBin(recording);
-  recording.mark("bin");
-  recordTiles(recording);
-  recording.mark("raster");
+  recording.run("cull", [&] { recordCull(recording); });
+  recording.run("sort", [&] { recordCellSort(recording); });
+  recording.run("bin", [&] { recordBin(recording); });
+  recording.run("raster", [&] { recordTiles(recording); });
 }
 
 }  // namespace froth

@@ -51,7 +51,7 @@ void recordUpload(const Recording& recording, const RecordingPart& part) {
   }
 }
 
-void recordRays(const Recording& recording) {
+void recordRayPasses(const Recording& recording) {
   const FrothCamera& camera = recording.info.camera;
   const uint32_t tilesX = tilesAlong(camera.scissor.extent.width), tilesY = tilesAlong(camera.scissor.extent.height);
   const bool isByImage = camera.lens.kind == FROTH_LENS_RAY_MAP;
@@ -63,15 +63,17 @@ void recordRays(const Recording& recording) {
     part.recorder.run(Pass::kWidenCones, groupsOver(tilesX, gpu::kBlockTiles), groupsOver(tilesY, gpu::kBlockTiles));
   }
   recording.wait();
-  recording.mark("aim");
 }
 
 }  // namespace
 
 VkDeviceSize Recording::countersOffset() const { return place * kBlockStride; }
 
-void Recording::mark(const char* pass) const {
-  if (view.timer) view.timer->mark(commandBuffer, number, pass);
+void Recording::begin(const char* name) const { view.device.table.beginLabel(commandBuffer, name); }
+
+void Recording::end(const char* name) const {
+  if (view.timer) view.timer->mark(commandBuffer, number, name);
+  view.device.table.endLabel(commandBuffer);
 }
 
 void Recording::wait() const { view.parts.front().recorder.wait(); }
@@ -148,7 +150,9 @@ const gpu::Counters& readCounters(const InstanceSpace& space, uint32_t number) {
 }
 
 void recordCull(const Recording& recording) {
-  if (lensClassOf(recording.info.camera) == gpu::kLensClassMapped) recordRays(recording);
+  if (lensClassOf(recording.info.camera) == gpu::kLensClassMapped) {
+    recording.run("aim", [&] { recordRayPasses(recording); });
+  }
   for (const Pass pass : {Pass::kCullCells, Pass::kCompactCells}) {
     for (const RecordingPart& part : recording.parts()) {
       part.recorder.runOver(pass, groupsOfCells(*part.asset));

@@ -72,6 +72,23 @@ BufferKind kindOf(ViewBuffer id) {
   return id == ViewBuffer::kReadback ? BufferKind::kReadback : BufferKind::kDevice;
 }
 
+const char* nameOf(ViewBuffer id) {
+  constexpr std::array<const char*, kViewBufferCount> kNames = {"view: frames",          "view: staging",
+                                                                "view: read-back",       "view: counters",
+                                                                "view: group sums",      "view: visibility",
+                                                                "view: visible cells",   "view: cell keys",
+                                                                "view: cell keys, swap", "view: order",
+                                                                "view: order, swap",     "view: records",
+                                                                "view: planes",          "view: details",
+                                                                "view: slot tiles",      "view: tile counts",
+                                                                "view: pair tiles",      "view: pair tiles, swap",
+                                                                "view: pair cells",      "view: pair cells, swap",
+                                                                "view: tallies",         "view: tile lists",
+                                                                "view: walk start",      "view: rays",
+                                                                "view: cones",           "view: hits"};
+  return kNames[static_cast<uint32_t>(id)];
+}
+
 MemoryUse useOf(ViewBuffer id) { return kindOf(id) == BufferKind::kDevice ? MemoryUse::kViews : MemoryUse::kViewsHost; }
 
 }  // namespace
@@ -88,7 +105,7 @@ Status ViewBuffers::grow(const ViewCapacity& wanted, uint64_t lastSerial) {
   for (uint32_t i = 0; i < kViewBufferCount; ++i) {
     const auto id = static_cast<ViewBuffer>(i);
     if (buffers_[i].size >= sizeOf(id, grown)) continue;
-    Result<GpuBuffer> buffer = device_.createBuffer(useOf(id), kindOf(id), sizeOf(id, grown), "transients of a view");
+    Result<GpuBuffer> buffer = device_.createBuffer(useOf(id), kindOf(id), sizeOf(id, grown), nameOf(id));
     if (!buffer) {
       for (GpuBuffer& made : larger) device_.destroyBuffer(made);
       return buffer.error();
@@ -118,8 +135,7 @@ Status ViewBuffers::trim(uint64_t lastSerial, uint64_t completedSerial) {
     const auto id = static_cast<ViewBuffer>(i);
     const VkDeviceSize size = sizeOf(id, capacity_);
     if (buffers_[i].size <= size) continue;
-    Result<GpuBuffer> smaller =
-        device_.createBuffer(useOf(id), kindOf(id), size, "transients of a view, for a lowered budget", true);
+    Result<GpuBuffer> smaller = device_.createBuffer(useOf(id), kindOf(id), size, nameOf(id), true);
     if (!smaller) return smaller.error();
     retired_.emplace_back(lastSerial, std::exchange(buffers_[i], *smaller));
     freeRetired(completedSerial);

@@ -175,8 +175,9 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
   return bits;
 }
 
-Status createSets(Device& device, const SetBindings& bindings, uint32_t count, std::unique_ptr<ImageSets>& sets) {
-  Result<std::unique_ptr<ImageSets>> made = ImageSets::create(device, bindings, count);
+Status createSets(Device& device, const char* name, const SetBindings& bindings, uint32_t count,
+                  std::unique_ptr<DescriptorSets>& sets) {
+  Result<std::unique_ptr<DescriptorSets>> made = DescriptorSets::create(device, name, bindings, count);
   if (!made) return made.error();
   sets = std::move(*made);
   return {};
@@ -192,14 +193,15 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   Result<std::unique_ptr<OutputImages>> images = OutputImages::create(device, recordings);
   if (!images) return images.error();
   std::unique_ptr<PassTimer> timer;
-  std::unique_ptr<ImageSets> hitSets, compositeSets, exportSets;
+  std::unique_ptr<DescriptorSets> hitSets, compositeSets, exportSets;
   Status sets;
-  if (options.keepsHits) sets = createSets(device, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, 2 * recordings, hitSets);
+  if (options.keepsHits)
+    sets = createSets(device, "hits of a view", {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, 2 * recordings, hitSets);
   if (sets && options.composites) {
-    sets = createSets(device, compositeBindings(), kMostEyes * options.framesInFlight, compositeSets);
+    sets = createSets(device, "composite", compositeBindings(), kMostEyes * options.framesInFlight, compositeSets);
   }
   if (sets && options.exportsDepth) {
-    sets = createSets(device, DepthExport::bindings(), kMostEyes * options.framesInFlight, exportSets);
+    sets = createSets(device, "export_depth", DepthExport::bindings(), kMostEyes * options.framesInFlight, exportSets);
   }
   if (!sets) return sets.error();
   if (options.measurePasses) {
@@ -294,8 +296,7 @@ uint32_t ViewRenderer::record(RenderMethod method, VkCommandBuffer commandBuffer
   if (isClear) addPart(recording, *view.spaces.front(), nullptr, pipelines.state().common[gpu::kLensClassPinhole]);
   startPasses(recording);
   if (isClear) {
-    recordPixels(recording, isWideColour(info) ? Pass::kClear32 : Pass::kClear16);
-    recording.mark("clear");
+    recording.run("clear", [&] { recordPixels(recording, isWideColour(info) ? Pass::kClear32 : Pass::kClear16); });
   } else if (method == RenderMethod::kRaster) {
     recordRasterPasses(recording);
   } else {

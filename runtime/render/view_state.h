@@ -58,9 +58,9 @@ struct ViewState {
   Device& device;
   std::vector<std::unique_ptr<InstanceSpace>> spaces;  // the first stays
   std::unique_ptr<OutputImages> images;
-  std::unique_ptr<ImageSets> hitSets{};  // two per recording; null: the view keeps no hits
+  std::unique_ptr<DescriptorSets> hitSets{};  // two per recording; null: the view keeps no hits
   // one per frame in flight; null: the context does not do that
-  std::unique_ptr<ImageSets> compositeSets{}, exportSets{};
+  std::unique_ptr<DescriptorSets> compositeSets{}, exportSets{};
   std::unique_ptr<PassTimer> timer;    // null: not measured
   std::vector<FrameSlot> slots;        // [frames in flight]
   ViewCapacity leastCapacity{};        // of every space
@@ -83,8 +83,18 @@ struct Recording {
 
   std::span<const RecordingPart> parts() const { return view.parts; }
   VkDeviceSize countersOffset() const;  // in kCounters
-  void mark(const char* pass) const;    // the passes since the last mark are timed under this name
-  void wait() const;                    // later passes see what earlier ones wrote
+  // Passes that are timed, and stand in captures, under this name.
+  template <class Passes>
+  void run(const char* name, const Passes& passes) const {
+    begin(name);
+    passes();
+    end(name);
+  }
+  void wait() const;  // later passes see what earlier ones wrote
+
+ private:
+  void begin(const char* name) const;
+  void end(const char* name) const;
 };
 
 // Enters the images.

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <span>
 
-#include "runtime/device/pipeline_objects.h"
 #include "shaders/gpu/walk_layout.h"
 #include "spirv/cast_rays.h"
 #include "spirv/cast_rays_merged.h"
@@ -72,12 +71,14 @@ Status WalkPipelines::createPipelines(uint32_t first, uint32_t last) {
   return {};
 }
 
+SetBindings WalkPipelines::bindings() {
+  static_assert(gpu::kBindingWalk == 0 && gpu::kBindingWalkCounters == 1);
+  return {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, VK_SHADER_STAGE_ALL};
+}
+
 Status WalkPipelines::createLayouts() {
   constexpr const char* kName = "walk sets";
-  static_assert(gpu::kBindingWalk == 0 && gpu::kBindingWalkCounters == 1);
-  const SetBindings bindings{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-                             VK_SHADER_STAGE_ALL};
-  const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device_, kName, bindings);
+  const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device_, kName, bindings());
   if (!setLayout) return setLayout.error();
   setLayout_ = *setLayout;
   const Result<VkPipelineLayout> layout = createPipelineLayout(device_, kName, setLayout_, kPushConstantBytes);

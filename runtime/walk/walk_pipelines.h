@@ -6,7 +6,7 @@
 #include <memory>
 #include <mutex>
 
-#include "runtime/device/device.h"
+#include "runtime/device/pipeline_objects.h"
 
 namespace froth {
 
@@ -37,6 +37,7 @@ class WalkPipelines {
   Status prepareMerging();
   bool canMerge() const { return canMerge_; }
 
+  static SetBindings bindings();
   VkDescriptorSetLayout setLayout() const { return setLayout_; }
   VkPipelineLayout layout() const { return layout_; }
   VkPipeline operator[](uint32_t pipeline) const { return pipelines_[pipeline]; }

@@ -53,6 +53,7 @@ gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye
   entry.detailCount = asset.detailCount;
   entry.lobeCount = asset.lobeCount;
   entry.hasHeights = asset.hasHeights;
+  entry.exposure = placement.exposure;
   entry.entriesAlong = asset.walkEntriesAlong;
   entry.entries = asset.walkEntries;
   return entry;
@@ -73,7 +74,11 @@ Result<std::unique_ptr<WalkSets>> WalkSets::create(Device& device, VkPipelineCac
   Result<std::unique_ptr<WalkPipelines>> pipelines = WalkPipelines::create(device, cache, options);
   if (!pipelines) return pipelines.error();
   sets->pipelines_ = std::move(*pipelines);
-  if (const Status status = sets->createSets(); !status) return status.error();
+  Result<std::unique_ptr<DescriptorSets>> descriptorSets =
+      DescriptorSets::create(device, "walk sets", WalkPipelines::bindings(), framesInFlight);
+  if (!descriptorSets) return descriptorSets.error();
+  for (uint32_t slot = 0; slot < framesInFlight; ++slot) sets->slots_[slot].set = (**descriptorSets)[slot];
+  sets->sets_ = std::move(*descriptorSets);
   // In host memory: they are read every frame, and written only by rays that fail, or for tuning.
   const Result<GpuBuffer> counters = device.createBuffer(MemoryUse::kWalksHost, BufferKind::kReadback,
                                                          framesInFlight * kCountersStride, "counters of walk sets");
@@ -86,31 +91,6 @@ Result<std::unique_ptr<WalkSets>> WalkSets::create(Device& device, VkPipelineCac
 WalkSets::~WalkSets() {
   for (GpuBuffer* buffer : {&tables_, &staging_, &counters_}) device_.destroyBuffer(*buffer);
   for (auto& [serial, buffer] : retired_) device_.destroyBuffer(buffer);
-  device_.table.vkDestroyDescriptorPool(device_.device, pool_, nullptr);
-}
-
-Status WalkSets::createSets() {
-  const auto count = static_cast<uint32_t>(slots_.size());
-  const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
-                                        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}};
-  VkDescriptorPoolCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-  info.maxSets = count;
-  info.poolSizeCount = 2;
-  info.pPoolSizes = sizes;
-  VkResult result = device_.table.vkCreateDescriptorPool(device_.device, &info, nullptr, &pool_);
-  if (result != VK_SUCCESS) return device_.explain(result, "walk sets: vkCreateDescriptorPool");
-  const std::vector<VkDescriptorSetLayout> layouts(count, layout());
-  std::vector<VkDescriptorSet> sets(count);
-  VkDescriptorSetAllocateInfo allocation{};
-  allocation.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-  allocation.descriptorPool = pool_;
-  allocation.descriptorSetCount = count;
-  allocation.pSetLayouts = layouts.data();
-  result = device_.table.vkAllocateDescriptorSets(device_.device, &allocation, sets.data());
-  if (result != VK_SUCCESS) return device_.explain(result, "walk sets: vkAllocateDescriptorSets");
-  for (uint32_t i = 0; i < count; ++i) slots_[i].set = sets[i];
-  return {};
 }
 
 // ---- Memory ----

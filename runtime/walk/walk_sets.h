@@ -58,7 +58,6 @@ class WalkSets {
   };
 
   WalkSets(Device& device, bool countsWork, uint32_t framesInFlight);
-  Status createSets();
   Status grow(uint32_t chunkCount);
   void readCounters(const Slot& slot);
   VkDeviceSize stride() const;
@@ -73,7 +72,7 @@ class WalkSets {
   Device& device_;
   bool countsWork_;
   std::unique_ptr<WalkPipelines> pipelines_;
-  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  std::unique_ptr<DescriptorSets> sets_;
   std::vector<Slot> slots_;  // [frames in flight]
   GpuBuffer tables_, staging_, counters_;
   uint32_t chunkCapacity_ = 0;

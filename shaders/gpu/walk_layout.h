@@ -54,6 +54,8 @@ struct WalkInstance {
   uint lobeCount, hasHeights;
   uint entriesAlong;  // edge of the grid of entries
   uint maxNeighbours;
+  float exposure;
+  uint padding0, padding1, padding2;
   FROTH_ADDRESS(ChunkArray) chunks;  // [chunkCount]
   // [entriesAlong^3] over the box, x first: chunk, local index of the cell at its middle, 64 bits of parts
   // (gpu/walk_entries.glsl)
@@ -74,8 +76,8 @@ struct WalkBlock {
 
 #if defined(__cplusplus)
 static_assert(sizeof(WalkCounters) == 64 && offsetof(WalkCounters, work) == 16);
-static_assert(sizeof(WalkInstance) == 144 && offsetof(WalkInstance, scale) == 80 &&
-              offsetof(WalkInstance, chunks) == 128);
+static_assert(sizeof(WalkInstance) == 160 && offsetof(WalkInstance, scale) == 80 &&
+              offsetof(WalkInstance, chunks) == 144);
 static_assert(sizeof(WalkBlock) == 32 && offsetof(WalkBlock, instances) == 24);
 }  // namespace froth::gpu
 #endif

@@ -65,6 +65,7 @@ TEST_P(VulkanFault, InAnyCallGivesItsStatusAndOneMessageAndTheEngineGoesOn) {
   ASSERT_TRUE(runScenario(well, FROTH_OK));
   ASSERT_TRUE(well.messages.empty());
   ASSERT_TRUE(VulkanFaults::live.empty()) << VulkanFaults::live.begin()->second;
+  ASSERT_TRUE(VulkanFaults::unnamed.empty()) << VulkanFaults::unnamed.front();
   EXPECT_NE(well.raster, std::vector<float>(well.raster.size()));
   const size_t calls = VulkanFaults::calls;
   EXPECT_GT(calls, 100u);

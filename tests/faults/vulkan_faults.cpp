@@ -1,6 +1,7 @@
 #include "tests/faults/vulkan_faults.h"
 
 #include <cstring>
+#include <set>
 #include <string_view>
 #include <tuple>
 
@@ -13,6 +14,7 @@ size_t VulkanFaults::calls = 0;
 std::string VulkanFaults::struck;
 std::map<void*, std::string> VulkanFaults::live;
 std::vector<std::string> VulkanFaults::misuse;
+std::vector<std::string> VulkanFaults::unnamed;
 
 namespace {
 
@@ -47,8 +49,24 @@ void* takenBy(Args... args) {
   return nullptr;
 }
 
+std::set<void*> named;
+
+VKAPI_ATTR VkResult VKAPI_CALL nameObject(VkDevice, const VkDebugUtilsObjectNameInfoEXT* info) {
+  const HostFaults::Pause pause;
+  const bool isOurs = std::string_view(info->pObjectName).starts_with("froth: ");
+  if (isOurs) named.insert(reinterpret_cast<void*>(info->objectHandle));
+  return VK_SUCCESS;
+}
+
 void noteDestruction(const char* name, void* handle) {
-  if (handle && VulkanFaults::live.erase(handle) == 0) VulkanFaults::misuse.emplace_back(name);
+  if (!handle) return;
+  const auto made = VulkanFaults::live.find(handle);
+  if (made == VulkanFaults::live.end()) {
+    VulkanFaults::misuse.emplace_back(name);
+    return;
+  }
+  if (named.erase(handle) == 0) VulkanFaults::unnamed.push_back(made->second);
+  VulkanFaults::live.erase(made);
 }
 
 // One function of the driver, between it and the runtime. Its own allocations never fail.
@@ -126,8 +144,7 @@ VKAPI_ATTR void VKAPI_CALL destroyPipeline(VkDevice, VkPipeline pipeline, const 
   const HostFaults::Pause pause;
   if (!pipeline) return;
   int& count = uses[pipeline];
-  if (count == 0) VulkanFaults::misuse.emplace_back("vkDestroyPipeline");
-  if (--count == 0) VulkanFaults::live.erase(pipeline);
+  if (count == 0 || --count == 0) noteDestruction("vkDestroyPipeline", pipeline);
 }
 
 PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
@@ -141,6 +158,7 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* nam
   if (is("vkCreateShaderModule")) return reinterpret_cast<PFN_vkVoidFunction>(createShaderModule);
   if (is("vkCreateComputePipelines")) return reinterpret_cast<PFN_vkVoidFunction>(createComputePipelines);
   if (is("vkDestroyPipeline")) return reinterpret_cast<PFN_vkVoidFunction>(destroyPipeline);
+  if (is("vkSetDebugUtilsObjectNameEXT")) return reinterpret_cast<PFN_vkVoidFunction>(nameObject);
 #define FROTH_HOOK(function) \
   if (is(#function)) return reinterpret_cast<PFN_vkVoidFunction>(Hook<Tag_##function, PFN_##function>::call);
   FROTH_DEVICE_FUNCTIONS(FROTH_HOOK)

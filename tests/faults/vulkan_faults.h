@@ -26,6 +26,7 @@ struct VulkanFaults {
   static std::string struck;                 // the call that was made to fail; empty: none
   static std::map<void*, std::string> live;  // objects and memory that are not destroyed, and the calls that made them
   static std::vector<std::string> misuse;    // destroyed twice, or never made
+  static std::vector<std::string> unnamed;   // destroyed, and never named for captures: the calls that made them
 };
 
 }  // namespace froth::test

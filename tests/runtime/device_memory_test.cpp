@@ -173,7 +173,7 @@ TEST_F(DeviceMemory, ThatTheCallerRefusesIsAnErrorOfMemoryWithText) {
   viewInfo.maxExtent = {16, 16};
   FrothView view{};
   EXPECT_EQ(frothCreateView(context_, &viewInfo, &view), FROTH_ERROR_MEMORY);
-  EXPECT_THAT(lastText(), HasSubstr("transients of a view"));
+  EXPECT_THAT(lastText(), HasSubstr("view: frames: FrothContextInfo::allocateMemory"));
   EXPECT_EQ(memory.live.size(), 1u) << "what was made before the refusal is given back";
   memory.most = 1;
   const FrothAsset asset = openBytes(encodeSample());

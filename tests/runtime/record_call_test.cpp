@@ -20,6 +20,7 @@ class RecordCall : public RuntimeTest {
     info_.nearRatio = info_.nearDepth = FROTH_NEAR_DEFAULT;
     info_.colour.image = reinterpret_cast<VkImage>(1);
     info_.colour.view = reinterpret_cast<VkImageView>(1);
+    info_.colour.stageIn = VK_PIPELINE_STAGE_2_COPY_BIT;
     info_.colour.format = VK_FORMAT_R16G16B16A16_SFLOAT;
     info_.colour.extent = {64, 64};
     info_.colour.layoutOut = VK_IMAGE_LAYOUT_GENERAL;
@@ -211,6 +212,16 @@ TEST_F(RecordCall, RefusesImagesOfOtherFormats) {
 TEST_F(RecordCall, RefusesALayoutToLeaveTheImageInThatIsNone) {
   info_.colour.layoutOut = VK_IMAGE_LAYOUT_UNDEFINED;
   expectResult(FROTH_ERROR_ARGUMENT, "colour.layoutOut");
+}
+
+TEST_F(RecordCall, RefusesStagesThatOrderNothing) {
+  info_.colour.stageIn = 0;
+  expectResult(FROTH_ERROR_ARGUMENT, "colour.stageIn: 0; name the stages of its last use");
+  info_.colour.stageIn = VK_PIPELINE_STAGE_2_TOP_OF_PIPE_BIT;
+  expectResult(FROTH_OK, "");
+  info_.colour.stageOut = 0;
+  info_.colour.accessOut = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+  expectResult(FROTH_ERROR_ARGUMENT, "colour.stageOut: 0; name the stages of its next use");
 }
 
 TEST_F(RecordCall, RefusesLimitsOutOfTheirRange) {

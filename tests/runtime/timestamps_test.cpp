@@ -1,4 +1,4 @@
-// Timestamps of queue families that count in fewer bits than 64, or not at all.
+// Passes in timestamps, of queue families that count in fewer bits than 64 or not at all, and in captures.
 #include "runtime_fixture.h"
 
 namespace froth {
@@ -23,7 +23,18 @@ VKAPI_ATTR VkResult VKAPI_CALL getStamps(VkDevice, VkQueryPool, uint32_t, uint32
   return VK_SUCCESS;
 }
 
+std::vector<std::string> labels;  // begun, each with a space per label that it lies in
+size_t openLabels = 0;
+
+VKAPI_ATTR void VKAPI_CALL beginLabel(VkCommandBuffer, const VkDebugUtilsLabelEXT* label) {
+  labels.push_back(std::string(openLabels++, ' ') + label->pLabelName);
+}
+
+VKAPI_ATTR void VKAPI_CALL endLabel(VkCommandBuffer) { --openLabels; }
+
 PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
+  if (std::strcmp(name, "vkCmdBeginDebugUtilsLabelEXT") == 0) return reinterpret_cast<PFN_vkVoidFunction>(beginLabel);
+  if (std::strcmp(name, "vkCmdEndDebugUtilsLabelEXT") == 0) return reinterpret_cast<PFN_vkVoidFunction>(endLabel);
   if (std::strcmp(name, "vkGetQueryPoolResults") == 0) return reinterpret_cast<PFN_vkVoidFunction>(getStamps);
   return vkGetDeviceProcAddr(device, name);
 }
@@ -41,6 +52,7 @@ class Timestamps : public RuntimeGpuTest {
   // The status of a view that measures its passes, after a frame.
   FrothViewStatus measure(uint32_t bits) {
     plantedBits = bits;
+    labels.clear();
     FrothContextInfo info = host_->contextInfo();
     info.getInstanceProcAddr = getInstanceProcAddr;
     createContext(info);
@@ -74,6 +86,14 @@ TEST_F(Timestamps, OfACounterThatWrapsAreItsDifferences) {
     EXPECT_DOUBLE_EQ(status.passes[i].milliseconds, kTicks * double{properties.limits.timestampPeriod} * 1e-6)
         << status.passes[i].name;
   }
+}
+
+TEST_F(Timestamps, HaveTheNamesThatCapturesShow) {
+  const FrothViewStatus status = measure(36);
+  std::vector<std::string> expected = {"froth raster"};
+  for (uint32_t i = 0; i < status.passCount; ++i) expected.push_back(std::string(" ") + status.passes[i].name);
+  EXPECT_EQ(labels, expected);
+  EXPECT_EQ(openLabels, 0u);
 }
 
 TEST_F(Timestamps, OfAFamilyThatTakesNoneAreLeftOutWithAWarning) {

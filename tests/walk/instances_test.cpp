@@ -109,6 +109,17 @@ TEST_F(GpuInstances, ThatCrossAreThePictureOfTheRaster) {
   EXPECT_GE(psnr(rays, stage_.rasterize(view)), 60);
 }
 
+TEST_F(GpuInstances, ThatCrossAreAsBrightAsTheRasterShowsThem) {
+  FrothInstanceInfo dim = placeAt({0, 0, 0}), bright = placeAt({0.3, -0.2, 0.5}, 0.8f, {0, 0.6f, 0, 0.8f});
+  dim.exposure = 0.3f;
+  bright.exposure = 1.7f;
+  stage_.place(asset_, dim);
+  stage_.place(asset_, bright);
+  const View view = lookAt({0.2, 0.3, -1}, {0, 0, 3}, 64, 48, 0.4);
+  const Image rays = imageOf(stage_.cast(cameraRays(view), FROTH_RAY_RADIANCE, walkInfo(eyeOf(view))), view);
+  EXPECT_GE(psnr(rays, stage_.rasterize(view)), 60);
+}
+
 // What a dropped frame would have filled is filled again.
 TEST_F(GpuInstances, AreMetAfterTheFirstFrameThatSawThemWasDropped) {
   stage_.place(asset_);
@@ -131,7 +142,7 @@ TEST_F(GpuInstances, AreMetAfterTheFirstFrameThatSawThemWasDropped) {
 TEST_F(GpuInstances, BeyondWhatARayCanBeInAtOnceAreToldOf) {
   for (int i = 0; i < 5; ++i) stage_.place(asset_, placeAt({0.01 * i, 0, 0}));
   const auto hits = stage_.cast({gpuRay({0, 0, 0}, {0, 0, 1})}, FROTH_RAY_TRANSMITTANCE, info_);
-  EXPECT_EQ(hits[0].status, uint32_t{FROTH_WALK_STATUS_STREAM_LIMIT});
+  EXPECT_EQ(hits[0].status, uint32_t{FROTH_WALK_STREAM_LIMIT});
 }
 
 TEST_F(GpuInstances, AreMetByRaysThatShareABitOfTheirMask) {
@@ -171,7 +182,7 @@ TEST_F(GpuInstances, EndARayAtTheLimitOfStepsWithAStatus) {
   uint32_t limited = 0;
   for (const FrothGpuHit& hit : hits) {
     EXPECT_LE(hit.steps, 3u);
-    limited += hit.status == FROTH_WALK_STATUS_STEP_LIMIT;
+    limited += hit.status == FROTH_WALK_STEP_LIMIT;
   }
   EXPECT_GT(limited, 100u);
   EXPECT_EQ(stage_.status().stepLimits, limited);
@@ -189,7 +200,7 @@ TEST_F(GpuInstances, EndARayAtTheLimitOfNeighboursWithAStatus) {
   uint32_t limited = 0;
   for (const FrothGpuHit& hit : hits) {
     EXPECT_LE(hit.steps, 1u);
-    limited += hit.status == FROTH_WALK_STATUS_STEP_LIMIT;
+    limited += hit.status == FROTH_WALK_STEP_LIMIT;
   }
   EXPECT_GT(limited, 100u);
   const FrothWalkStatus cut = stage_.status();

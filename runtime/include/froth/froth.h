@@ -252,7 +252,9 @@ FROTH_API FrothResult frothRecordUpload(FrothContext* context, VkCommandBuffer c
 FROTH_API FrothResult frothDropFrame(FrothContext* context, uint64_t serial);
 
 /* An image of the caller. image = null: not wanted; costs nothing. Froth transitions the image from its entry state,
- * and to its exit state. It remembers nothing between calls. layoutIn = UNDEFINED discards the contents. */
+ * and to its exit state. It remembers nothing between calls. layoutIn = UNDEFINED discards the contents. stageIn is not
+ * 0: even an image whose contents are discarded may still be read by the frame before. stageOut may be 0 with accessOut
+ * 0, where a semaphore follows that waits for all stages. */
 typedef struct FrothImage {
   VkImage image;
   VkImageView view; /* 2D, one level, identity swizzle. Usage STORAGE; for an input SAMPLED */

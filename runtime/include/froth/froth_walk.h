@@ -20,7 +20,7 @@ extern "C" {
 
 /* Version of the set's layout and of the include's structures. The include holds the same number. A shader that was
  * compiled with another number meets nothing and returns FROTH_WALK_VERSION. */
-#define FROTH_WALK_ABI 3u
+#define FROTH_WALK_ABI 4u
 
 /* In one set. */
 #define FROTH_WALK_MOST_INSTANCES 64u
@@ -59,27 +59,27 @@ typedef struct FrothGpuRay {
 } FrothGpuRay;
 
 typedef struct FrothGpuHit {
-  float colour[3];     /* FROTH_RAY_RADIANCE: premultiplied, linear, without FrothInstanceInfo::exposure */
+  float colour[3];     /* FROTH_RAY_RADIANCE: premultiplied, linear, times FrothInstanceInfo::exposure */
   float transmittance; /* along the ray; if the ray ended early, up to its end */
   float normal[3];     /* of the face of the cell that stops the ray, in world axes, unit; 0: no cell stops it */
   float distance;      /* to where transmittance falls below the quantile [world units]; +inf: never */
   uint32_t instance;   /* index in the set; 0xffffffff, as chunk and cell: none */
   uint32_t chunk, cell;
   uint32_t userId; /* FrothInstanceInfo::userId of the instance */
-  uint32_t status; /* FrothWalkBit */
+  uint32_t status; /* FrothWalkEnd */
   uint32_t steps;  /* cells walked through */
   uint32_t padding[2];
 } FrothGpuHit;
 
-/* FrothHit::status, FrothGpuHit::status. */
-typedef enum FrothWalkBit {
-  FROTH_WALK_STATUS_DONE = 0,
+/* FrothHit::status, FrothGpuHit::status: one of these. */
+typedef enum FrothWalkEnd {
+  FROTH_WALK_DONE = 0,
   /* FrothWalkInfo::maxSteps or maxNeighbours ended it; what lies beyond is missing */
-  FROTH_WALK_STATUS_STEP_LIMIT = 1,
-  FROTH_WALK_STATUS_STREAM_LIMIT = 2, /* an instance was left out: more than FROTH_WALK_STREAMS (4) overlap at once */
-  FROTH_WALK_STATUS_VERSION = 3,      /* shader and library do not match */
-  FROTH_WALK_STATUS_MAX = 0x7fffffff
-} FrothWalkBit;
+  FROTH_WALK_STEP_LIMIT = 1,
+  FROTH_WALK_STREAM_LIMIT = 2, /* an instance was left out: more than FROTH_WALK_STREAMS (4) overlap at once */
+  FROTH_WALK_VERSION = 3,      /* shader and library do not match */
+  FROTH_WALK_END_MAX = 0x7fffffff
+} FrothWalkEnd;
 
 typedef enum FrothRayKind {
   FROTH_RAY_TRANSMITTANCE = 0, /* transmittance along the whole ray, and where it is stopped */
