@@ -213,6 +213,7 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   if (like && like->renderer && view->renderer) {
     view->renderer->startLike(*like->renderer);
   }
+  prepareView(*view);  // room for what is there is made here, and not in the next frame
   handle = views_.add(std::move(view));
   return FROTH_OK;
 }

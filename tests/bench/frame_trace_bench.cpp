@@ -1,13 +1,14 @@
 // What frames cost a game while things change: 600 of them, 60 a second, in which two assets open, a second instance
 // appears, the view is made anew for another size, the budget falls and rises. Prints the longest call on the frame's
-// thread, by name, the longest frame on the GPU, and how many frames were not what the same frame shows once all is
-// settled, and did not say so.
+// thread, by name, the ten longest of all, the longest frame on the GPU, and how many frames were not what the same
+// frame shows once all is settled, and did not say so.
 //   froth_bench_frame_trace FIRST.froth SECOND.froth [threads; 0: none, load within frothUpdate]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <string>
 #include <thread>
@@ -38,9 +39,17 @@ void require(bool isWell, const char* what) {
   std::exit(1);
 }
 
+constexpr size_t kListed = 10;
+
 struct Longest {
   double milliseconds = 0;
   uint32_t frame = 0;
+};
+
+struct Call {
+  double milliseconds;
+  uint32_t frame;
+  const char* name;
 };
 
 class Trace {
@@ -174,6 +183,7 @@ class Trace {
   }
 
   std::map<std::string, Longest> calls;
+  std::vector<Call> allCalls;
   Longest gpu;
   uint32_t frame = 0;
 
@@ -186,6 +196,7 @@ class Trace {
     require(result >= 0, name);
     Longest& longest = calls[name];
     if (taken.count() > longest.milliseconds) longest = {taken.count(), frame};
+    allCalls.push_back({taken.count(), frame, name});
   }
 
   Host& host_;
@@ -243,6 +254,11 @@ int main(int argc, char** argv) {
   std::printf("%s, %u threads\n", (*host)->info.name.c_str(), threads);
   for (const auto& [name, longest] : trace.calls) {
     std::printf("  %-22s longest %8.3f ms, in frame %u\n", name.c_str(), longest.milliseconds, longest.frame);
+  }
+  std::ranges::sort(trace.allCalls, std::greater(), &Call::milliseconds);
+  for (size_t i = 0; i < std::min(kListed, trace.allCalls.size()); ++i) {
+    const Call& call = trace.allCalls[i];
+    std::printf("  %8.3f ms in frame %3u: %s\n", call.milliseconds, call.frame, call.name);
   }
   std::printf("  GPU                    longest %8.3f ms, in frame %u\n", trace.gpu.milliseconds, trace.gpu.frame);
   std::printf("  %u frames INCOMPLETE; %u said to be whole were drawn again, %u of them differ by more than 1/255%s\n",

@@ -106,6 +106,23 @@ TEST_F(OtherViews, WithLessRoomSayAtOnceThatCellsMayBeMissing) {
   destroy(view);
 }
 
+TEST_F(OtherViews, HaveTheirRoomBeforeTheirFirstFrame) {
+  const auto heldBytes = [&] {
+    FrothMemoryReport report{};
+    report.structSize = sizeof(report);
+    EXPECT_EQ(frothGetMemoryReport(context_, &report), FROTH_OK);
+    return report.deviceBytes;
+  };
+  stage_->draw(Method::kRaster, viewOfAll());
+  const uint64_t without = heldBytes();
+  const FrothView view = createView(0);
+  const uint64_t with = heldBytes();
+  EXPECT_GT(with, without + 175 * kCells);
+  EXPECT_EQ(draw(view).bits, 0u);
+  EXPECT_EQ(heldBytes(), with);
+  destroy(view);
+}
+
 TEST_F(OtherViews, StartWithWhatAnOlderOneWanted) {
   const FrothView old = createView(1000);
   draw(old);

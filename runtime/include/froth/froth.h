@@ -157,6 +157,7 @@ typedef struct FrothViewInfo {
   FrothView startLike; /* begins with what the newest complete frame of this view wanted; {0, 0}: of none */
 } FrothViewInfo;
 
+/* Makes room for the READY instances too, so that the view's first frame allocates nothing. */
 FROTH_API FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view);
 /* Returns at once; the memory is freed when the last frame that uses it is complete. */
 FROTH_API FrothResult frothDestroyView(FrothContext* context, FrothView view);
@@ -167,8 +168,8 @@ typedef enum FrothViewBit {
   FROTH_VIEW_PAIR_OVERFLOW = 1, /* more (tile, cell) pairs than space; the farthest cells are missing */
   FROTH_VIEW_STEP_LIMIT = 2,    /* FrothRenderInfo::maxSteps or maxNeighbours ended walks */
   FROTH_VIEW_NO_WALK_GRAPH = 4, /* an asset was baked without a walk graph */
-  /* an instance was left out: its asset is OPENING or FAILED; or it, or the view, was created after frothUpdate; or the
-   * view's buffers did not fit the budget (a message says so) */
+  /* an instance was left out: its asset is OPENING or FAILED; or it was created after frothUpdate; or the view's
+   * buffers did not fit the budget (a message says so) */
   FROTH_VIEW_NOT_READY = 8,
   /* more visible cells, or planes of them, than space; the last cells of the asset are missing */
   FROTH_VIEW_CELL_OVERFLOW = 16,
