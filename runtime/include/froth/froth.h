@@ -94,7 +94,7 @@ typedef struct FrothAssetStatus {
   uint32_t cellBits;
   uint32_t hasWalkGraph;
   float nearRatio, nearDepth;       /* the asset's defaults; FROTH_NEAR_DEFAULT */
-  float boundsMin[3], boundsMax[3]; /* box of the balls of live cells [scene units] */
+  float boundsMin[3], boundsMax[3]; /* of the balls of live cells, whole when READY [scene units] */
   uint64_t deviceBytes;             /* resident on the GPU */
   uint32_t hasStartView;
   FrothStoredCamera startView;
@@ -342,7 +342,7 @@ typedef struct FrothRenderInfo {
   float quantile;        /* transmittance that defines `distance` and `depth`; 0: one half */
   uint32_t maxSteps;     /* cells of one walk; 0: 65536 */
   uint32_t mask;         /* shows instances whose mask shares a bit with it; 0: all */
-  uint32_t displayCoded; /* 1: colour stays display-coded (for files); 0: linear */
+  uint32_t displayCoded; /* 1: colour stays display-coded (files, user interfaces); 0: linear */
   /* linear colour is the light that this curve turns into the capture, times exposure. White is 255/256, so light is at
    * most 255 */
   FrothToneCurve toneCurve;
