@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <string>
@@ -130,7 +131,7 @@ class Context {
   void shrinkViews();
   FrothAssetState stateOf(const Asset& asset) const;
   // Instances that queries see; why others were left out, as FrothQueryBit.
-  std::vector<PlacedFoam> gatherFoams(uint32_t& bits) const;
+  std::pmr::vector<PlacedFoam> gatherFoams(uint32_t& bits, std::pmr::memory_resource* memory) const;
   FrothResult readPlacement(const FrothInstanceInfo& info, const char* call, Instance& instance) const;
   FrothResult beginFrame(const FrothFrame& frame);
   void runFrame(FrothFrameStatus& status);

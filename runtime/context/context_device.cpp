@@ -8,7 +8,7 @@
 namespace froth {
 namespace {
 
-constexpr VkDeviceSize kUploadRingBytes = 64u << 20;
+constexpr VkDeviceSize kStagingBytes = 64u << 20, kLeastStagingBytes = 64u << 10;
 constexpr uint32_t kDefaultFramesInFlight = 2, kMaxFramesInFlight = 8;
 constexpr uint32_t kDefaultMostJobs = 4, kMaxMostJobs = 64;
 
@@ -29,6 +29,12 @@ FrothResult Context::checkInfo(const FrothContextInfo& info, const char* call) c
   }
   if (info.mostJobs > kMaxMostJobs) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "mostJobs: %u; at most %u", info.mostJobs, kMaxMostJobs);
+  }
+  if (info.stagingBytes != 0 && info.stagingBytes < kLeastStagingBytes) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "stagingBytes: %llu; at least %llu, or 0 for %llu",
+                         static_cast<unsigned long long>(info.stagingBytes),
+                         static_cast<unsigned long long>(kLeastStagingBytes),
+                         static_cast<unsigned long long>(kStagingBytes));
   }
   if (!info.allocateMemory != !info.freeMemory) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "allocateMemory, freeMemory: one is null; set both or none");
@@ -96,7 +102,8 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
   device_.budget = info.deviceBudget;
   device_.timestampBits = timestampBitsOf(info);
   device_.callbacks = {info.allocateMemory, info.freeMemory, info.memoryUser};
-  Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(device_, kUploadRingBytes);
+  Result<std::unique_ptr<UploadRing>> ring =
+      UploadRing::create(device_, info.stagingBytes == 0 ? kStagingBytes : info.stagingBytes);
   if (!ring) {
     return ring.error();
   }

@@ -1,7 +1,9 @@
 // The calls of queries: numbers checked, defaults resolved, instances gathered.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory_resource>
 
 #include "runtime/context/context.h"
 #include "runtime/context/walk_limits.h"
@@ -13,6 +15,12 @@ namespace {
 
 constexpr float kDefaultCutoff = 1e-3f, kDefaultQuantile = 0.5f, kDefaultOpacity = 0.5f;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// What one query gathers, on its stack: a dozen instances or some hundred cells. What is more is on the heap.
+struct Scratch {
+  std::array<std::byte, 16384> bytes;
+  std::pmr::monotonic_buffer_resource memory{bytes.data(), bytes.size()};
+};
 
 bool isFinite(const double (&vector)[3]) {
   return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
@@ -47,8 +55,11 @@ PlacedFoam place(const QueryFoam& foam, FrothInstance handle, const RenderInstan
 
 }  // namespace
 
-std::vector<PlacedFoam> Context::gatherFoams(uint32_t& bits) const {
-  std::vector<PlacedFoam> foams;
+std::pmr::vector<PlacedFoam> Context::gatherFoams(uint32_t& bits, std::pmr::memory_resource* memory) const {
+  size_t count = 0;
+  instances_.forEach([&](const Instance&) { ++count; });
+  std::pmr::vector<PlacedFoam> foams(memory);
+  foams.reserve(count);
   instances_.forEachNamed([&](FrothInstance handle, const Instance& instance) {
     const Asset& asset = *assets_.find(instance.asset);
     if (!asset.keepsForQueries()) return;
@@ -80,10 +91,11 @@ FrothResult Context::castRays(FrothCastInfo info, std::span<const FrothRay> rays
     }
   }
   uint32_t bits = 0;
-  const std::vector<PlacedFoam> foams = gatherFoams(bits);
+  Scratch scratch;
+  const std::pmr::vector<PlacedFoam> foams = gatherFoams(bits, &scratch.memory);
   const double logCutoff = info.cutoff > 0 ? std::log(double{info.cutoff}) : -kInfinity;
   const WalkLimits limits{info.maxSteps, info.maxNeighbours};
-  RayCaster caster(foams, {std::log(double{info.quantile}), logCutoff, limits, info.closestOnly != 0});
+  RayCaster caster(foams, {std::log(double{info.quantile}), logCutoff, limits, info.closestOnly != 0}, &scratch.memory);
   uint32_t allBits = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
     hits[i] = caster.cast(rays[i]);
@@ -137,8 +149,9 @@ FrothResult Context::overlapSphere(FrothSphere sphere, FrothContact& contact) co
   const glm::dvec3 centre = toVector(sphere.centre);
   const double opticalDepth = -std::log1p(-double{sphere.opacity});
   double reach = sphere.radius;
-  for (const PlacedFoam& placed : gatherFoams(contact.bits)) {
-    SphereOverlap overlap(*placed.foam, placed.assetFromWorld(centre), opticalDepth);
+  Scratch scratch;
+  for (const PlacedFoam& placed : gatherFoams(contact.bits, &scratch.memory)) {
+    SphereOverlap overlap(*placed.foam, placed.assetFromWorld(centre), opticalDepth, &scratch.memory);
     const auto found = overlap.findNearest(std::max(reach, 0.0) / placed.scale);
     if (!found || found->distance * placed.scale > reach) continue;
     reach = found->distance * placed.scale;

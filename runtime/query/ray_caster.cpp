@@ -33,8 +33,8 @@ glm::dvec3 unitVector(const glm::dvec3& vector) {
 
 }  // namespace
 
-RayCaster::RayCaster(std::span<const PlacedFoam> foams, const CastSettings& settings)
-    : foams_(foams), settings_(settings) {
+RayCaster::RayCaster(std::span<const PlacedFoam> foams, const CastSettings& settings, std::pmr::memory_resource* memory)
+    : foams_(foams), settings_(settings), streams_(memory) {
   streams_.reserve(foams.size());
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,8 @@ struct CastSettings {
 // Casts one ray after the other; one thread at a time.
 class RayCaster {
  public:
-  // `foams` outlive it, and can be walked.
-  RayCaster(std::span<const PlacedFoam> foams, const CastSettings& settings);
+  // `foams` and `memory` outlive it; the foams can be walked.
+  RayCaster(std::span<const PlacedFoam> foams, const CastSettings& settings, std::pmr::memory_resource* memory);
 
   // The ray's numbers have been checked.
   FrothRayHit cast(const FrothRay& ray);
@@ -50,7 +51,7 @@ class RayCaster {
 
   std::span<const PlacedFoam> foams_;
   CastSettings settings_;
-  std::vector<Stream> streams_;
+  std::pmr::vector<Stream> streams_;
 };
 
 }  // namespace froth

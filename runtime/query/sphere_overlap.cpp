@@ -8,7 +8,7 @@ namespace froth {
 
 bool SphereOverlap::CellSet::insert(CellAddress cell) {
   if (2 * count_ >= places_.size()) {
-    std::vector<uint64_t> old(std::max<size_t>(128, 2 * places_.size()), 0);
+    std::pmr::vector<uint64_t> old(std::max<size_t>(128, 2 * places_.size()), 0, places_.get_allocator());
     old.swap(places_);
     count_ = 0;
     for (const uint64_t key : old) {

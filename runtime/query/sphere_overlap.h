@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
 #include <vector>
 
@@ -23,8 +24,14 @@ struct SolidContact {
 class SphereOverlap {
  public:
   // opticalDepth: least one, across its whole ball, of a cell that counts as solid (froth.h, FrothSphere::opacity).
-  SphereOverlap(const QueryFoam& foam, const glm::dvec3& centre, double opticalDepth)
-      : foam_(foam), centre_(centre), opticalDepth_(opticalDepth) {}
+  // `memory` outlives it.
+  SphereOverlap(const QueryFoam& foam, const glm::dvec3& centre, double opticalDepth, std::pmr::memory_resource* memory)
+      : foam_(foam),
+        centre_(centre),
+        opticalDepth_(opticalDepth),
+        candidates_(memory),
+        known_(memory),
+        halfSpaces_(memory) {}
 
   // The nearest contact that is at most `reach` away.
   std::optional<SolidContact> findNearest(double reach);
@@ -37,10 +44,11 @@ class SphereOverlap {
   // Cells that were candidates already.
   class CellSet {
    public:
+    explicit CellSet(std::pmr::memory_resource* memory) : places_(memory) {}
     bool insert(CellAddress cell);  // false: it was there
 
    private:
-    std::vector<uint64_t> places_;  // open addressing; 0: free
+    std::pmr::vector<uint64_t> places_;  // open addressing; 0: free
     size_t count_ = 0;
   };
 
@@ -54,9 +62,9 @@ class SphereOverlap {
   double opticalDepth_;
   double reach_ = 0;
   std::optional<SolidContact> nearest_;
-  std::vector<Candidate> candidates_;  // a heap, nearest first
+  std::pmr::vector<Candidate> candidates_;  // a heap, nearest first
   CellSet known_;
-  std::vector<HalfSpace> halfSpaces_;  // of the visited cell, in its frame [radii]
+  std::pmr::vector<HalfSpace> halfSpaces_;  // of the visited cell, in its frame [radii]
 };
 
 }  // namespace froth

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "froth/froth_query.h"
 #include "froth/froth_walk.h"
 #include "tests/faults/host_faults.h"
 #include "tests/faults/vulkan_faults.h"
@@ -143,6 +144,24 @@ FrothResult Engine::drawFrame() {
   raster = *host_->readImage(rasterImage_);
   walk = *host_->readImage(walkImage_);
   return result;
+}
+
+FrothResult Engine::query() {
+  auto cast = makeStruct<FrothCastInfo>();
+  FrothRay ray{};
+  ray.origin[2] = 1e6 - 1;
+  ray.direction[2] = 1;
+  FrothRayHit hit;
+  FrothResult result = call(frothCastRays, context_, &cast, &ray, &hit, 1);
+  if (result != FROTH_OK) return result;
+  auto location = makeStruct<FrothLocation>();
+  result = call(frothLocate, context_, instance_, ray.origin, &location);
+  if (result != FROTH_OK) return result;
+  auto sphere = makeStruct<FrothSphere>();
+  sphere.centre[2] = 1e6;
+  sphere.radius = 1;
+  auto contact = makeStruct<FrothContact>();
+  return call(frothOverlapSphere, context_, &sphere, &contact);
 }
 
 bool Engine::isAssetReady() {

@@ -21,6 +21,7 @@ class Engine {
   FrothResult start();        // makes the context
   FrothResult makeObjects();  // those that are missing
   FrothResult drawFrame();
+  FrothResult query();  // a ray, a point, a sphere
   FrothResult stop();
 
   // What the engine does about an error; false: the contract knows no way on.

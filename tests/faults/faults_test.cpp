@@ -125,6 +125,28 @@ void exhaustHostMemory(Host* host) {
   EXPECT_GT(number, 100u);
 }
 
+// Once all is loaded.
+TEST(HostAllocations, AreNotMadeByFramesAndQueries) {
+  Result<std::unique_ptr<Host>> host = Host::create({});
+  ASSERT_TRUE(host) << host.error().message;
+  VulkanFaults::arm(SIZE_MAX, VK_SUCCESS);
+  const std::vector<uint8_t> bytes = encodeSample(2);
+  {
+    Engine engine(host->get(), bytes);
+    ASSERT_EQ(engine.start(), FROTH_OK);
+    ASSERT_EQ(engine.makeObjects(), FROTH_OK);
+    for (int frame = 0; frame < kMostFrames && !engine.isAssetReady(); ++frame) ASSERT_GE(engine.drawFrame(), 0);
+    for (int frame = 0; frame < kFrames; ++frame) ASSERT_EQ(engine.drawFrame(), FROTH_OK);
+    HostFaults::arm(SIZE_MAX);
+    EXPECT_EQ(engine.drawFrame(), FROTH_OK);
+    EXPECT_EQ(HostFaults::count(), 0u);
+    EXPECT_EQ(engine.query(), FROTH_OK);
+    EXPECT_EQ(HostFaults::count(), 0u);
+    EXPECT_EQ(engine.stop(), FROTH_OK);
+  }
+  VulkanFaults::clear((*host)->device);
+}
+
 TEST(HostFault, InAnyAllocationOfANullContextGivesMemoryAndTheEngineGoesOn) { exhaustHostMemory(nullptr); }
 
 TEST(HostFault, InAnyAllocationOnADeviceGivesMemoryAndTheEngineGoesOn) {

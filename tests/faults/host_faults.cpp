@@ -46,6 +46,8 @@ void HostFaults::arm(size_t number) {
   struck = false;
 }
 
+size_t HostFaults::count() { return allocations; }
+
 bool HostFaults::hasStruck() { return struck; }
 long HostFaults::liveCount() { return live; }
 HostFaults::Zone::Zone() { ++zones; }

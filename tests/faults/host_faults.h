@@ -10,6 +10,7 @@ struct HostFaults {
   // The allocation with this number (from 0) within zones throws std::bad_alloc. SIZE_MAX: none.
   static void arm(size_t number);
   static bool hasStruck();  // since arm()
+  static size_t count();    // allocations within zones, since arm()
   static long liveCount();  // allocations made in zones and not freed
 
   // Around a call of the runtime.

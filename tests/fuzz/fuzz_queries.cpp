@@ -27,7 +27,8 @@ void ask(const QueryFoam& foam, const glm::dvec3& point) {
     FoamWalk walk(foam, ray, {1000, 1u << 20});
     for (FoamSegment segment; walk.next(segment);) expect(segment.tNear < segment.tFar && segment.density >= 0);
   }
-  const std::optional<SolidContact> contact = SphereOverlap(foam, point, 0.7).findNearest(1e6);
+  const std::optional<SolidContact> contact =
+      SphereOverlap(foam, point, 0.7, std::pmr::get_default_resource()).findNearest(1e6);
   expect(!contact || std::isfinite(contact->distance));
 }
 

@@ -119,6 +119,27 @@ TEST_F(Upload, InPiecesWithADroppedFrameAmongThemGivesTheContents) {
   expectContentsOnGpu(asset, makeSampleAsset(options));
 }
 
+TEST_F(Upload, ThroughALittleStagingMemoryGivesTheContents) {
+  FrothContextInfo info = host_->contextInfo();
+  info.stagingBytes = 65535;
+  FrothContext* refused = nullptr;
+  info.onMessage = logMessage;
+  info.messageUser = &messages_;
+  EXPECT_EQ(frothCreateContext(&info, &refused), FROTH_ERROR_ARGUMENT);
+  EXPECT_THAT(lastText(), HasSubstr("stagingBytes: 65535; at least 65536"));
+  info.stagingBytes = 65536;
+  createContext(info);
+  auto report = makeStruct<FrothMemoryReport>();
+  ASSERT_EQ(frothGetMemoryReport(context_, &report), FROTH_OK);
+  EXPECT_EQ(report.categories[static_cast<uint32_t>(MemoryUse::kUploadsHost)].granted, 65536u);
+  const SampleOptions options{.chunkCount = 200, .cellsPerChunk = 12, .localBits = 16, .detailCount = 3};
+  const FrothAsset asset = openBytes(encodeSample(options));
+  int frames = 0;
+  for (; statusOf(asset).state == FROTH_ASSET_OPENING && frames < 200; ++frames) runFrame();
+  EXPECT_GT(frames, 2);
+  expectContentsOnGpu(asset, makeSampleAsset(options));
+}
+
 TEST_F(Upload, DroppedAtTheEndTakesTheAssetBackToOpening) {
   createContext(host_->contextInfo());
   const FrothAsset asset = openBytes(encodeSample());

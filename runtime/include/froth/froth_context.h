@@ -159,9 +159,12 @@ typedef struct FrothContextInfo {
   FrothRunJob runJob;
   void* jobUser;
   uint32_t mostJobs; /* [<= 64] jobs that are given to runJob and not ended; 0: 4 */
+  /* [>= 65536 bytes] of host-visible memory through which assets are uploaded. The frames in flight share it, so a
+   * frame uploads this part of it at most, whatever its uploadBytes. 0: 64 MiB */
+  uint64_t stagingBytes;
 } FrothContextInfo;
 
-/* Makes pipelines and 64 MiB of host-visible staging memory. Call it at start-up, not in a frame. *context is null on
+/* Makes pipelines and the staging memory. Call it at start-up, not in a frame. *context is null on
  * an error. */
 FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
 
