@@ -114,7 +114,11 @@ Status ViewBuffers::grow(const ViewCapacity& wanted, uint64_t lastSerial) {
   }
   for (uint32_t i = 0; i < kViewBufferCount; ++i) {
     if (larger[i].size == 0) continue;
-    if (buffers_[i].size != 0) retired_.emplace_back(lastSerial, buffers_[i]);
+    if (buffers_[i].size != 0 && lastSerial != 0) {
+      retired_.emplace_back(lastSerial, buffers_[i]);
+    } else {
+      device_.destroyBuffer(buffers_[i]);
+    }
     buffers_[i] = larger[i];
   }
   capacity_ = grown;

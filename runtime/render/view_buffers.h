@@ -53,7 +53,7 @@ class ViewBuffers {
   explicit ViewBuffers(Device& device) : device_(device) {}
   ~ViewBuffers();  // the GPU must be done with them
 
-  // Makes every buffer large enough. `lastSerial`: the newest frame that may use what is replaced. On failure
+  // Makes every buffer large enough. `lastSerial`: the newest frame that may use what is replaced; 0: none. On failure
   // the old buffers and the old capacity stay.
   Status grow(const ViewCapacity& wanted, uint64_t lastSerial);
   void freeRetired(uint64_t completedSerial);

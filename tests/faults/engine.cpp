@@ -95,6 +95,7 @@ FrothRenderInfo Engine::renderInfo(const HostImage& image) const {
     info.colour.format = VK_FORMAT_R32G32B32A32_SFLOAT;
     info.colour.extent = kExtent;
     info.colour.layoutOut = VK_IMAGE_LAYOUT_GENERAL;
+    info.colour.stageIn = VK_PIPELINE_STAGE_2_COPY_BIT;
   }
   return info;
 }

@@ -194,6 +194,7 @@ inline FrothImage fakeImage(VkFormat format) {
   image.format = format;
   image.extent = {16, 16};
   image.layoutIn = image.layoutOut = VK_IMAGE_LAYOUT_GENERAL;
+  image.stageIn = VK_PIPELINE_STAGE_2_COPY_BIT;
   return image;
 }
 
