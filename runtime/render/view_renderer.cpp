@@ -195,8 +195,9 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   std::unique_ptr<PassTimer> timer;
   std::unique_ptr<DescriptorSets> hitSets, compositeSets, exportSets;
   Status sets;
-  if (options.keepsHits)
+  if (options.keepsHits) {
     sets = createSets(device, "hits of a view", {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, 2 * recordings, hitSets);
+  }
   if (sets && options.composites) {
     sets = createSets(device, "composite", compositeBindings(), kMostEyes * options.framesInFlight, compositeSets);
   }

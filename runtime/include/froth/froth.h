@@ -159,7 +159,7 @@ typedef struct FrothViewInfo {
 
 /* Makes room for the READY instances too, so that the view's first frame allocates nothing. */
 FROTH_API FrothResult frothCreateView(FrothContext* context, const FrothViewInfo* info, FrothView* view);
-/* Returns at once; the memory is freed when the last frame that uses it is complete. */
+/* At once; the memory is freed when the last frame that uses it is complete. */
 FROTH_API FrothResult frothDestroyView(FrothContext* context, FrothView view);
 
 /* Limits that a frame reached. The image is valid and incomplete. OVERFLOW bits: the next frothUpdate grows the buffer.
@@ -254,8 +254,7 @@ FROTH_API FrothResult frothDropFrame(FrothContext* context, uint64_t serial);
 
 /* An image of the caller. image = null: not wanted; costs nothing. Froth transitions the image from its entry state,
  * and to its exit state. It remembers nothing between calls. layoutIn = UNDEFINED discards the contents. stageIn is not
- * 0: even an image whose contents are discarded may still be read by the frame before. stageOut may be 0 with accessOut
- * 0, where a semaphore follows that waits for all stages. */
+ * 0: a frame before may still read what is discarded. stageOut may be 0 with accessOut 0, before a semaphore. */
 typedef struct FrothImage {
   VkImage image;
   VkImageView view; /* 2D, one level, identity swizzle. Usage STORAGE; for an input SAMPLED */
@@ -391,8 +390,7 @@ typedef struct FrothRenderInfo {
 FROTH_API FrothResult frothRecordRaster(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
                                         const FrothRenderInfo* info);
 
-/* Draws the same image by walking each pixel's ray from cell to cell through the regular triangulation. The same rules
- * hold. */
+/* Draws the same image, walking each pixel's ray from cell to cell of the regular triangulation. Rules: as above. */
 FROTH_API FrothResult frothRecordWalk(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
                                       const FrothRenderInfo* info);
 
