@@ -1,1 +1,2 @@
 // What the precompiled headers of the tests are made with.
+int main() {}
