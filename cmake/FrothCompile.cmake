@@ -19,11 +19,3 @@ function(froth_target_defaults target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
 endfunction()
-
-# froth_precompile(target PRIVATE <header> ... | REUSE_FROM target): parses large headers once for all sources. Not with a compiler launcher:
-# ccache keeps nothing that was compiled so. Sources include what they use all the same.
-function(froth_precompile target)
-  if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    target_precompile_headers(${target} ${ARGN})
-  endif()
-endfunction()

@@ -1,2 +1,0 @@
-// What the precompiled headers of the tests are made with.
-int main() {}
