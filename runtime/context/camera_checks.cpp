@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "runtime/context/image_checks.h"
 #include "runtime/render/camera_rays.h"
 
 namespace froth {
@@ -160,7 +161,13 @@ void resolveLens(FrothCamera& camera) {
 FrothResult checkCamera(const Messages& messages, const char* call, const FrothCamera& camera) {
   const VkViewport& viewport = camera.viewport;
   const float viewportValues[] = {viewport.x, viewport.y, viewport.width, viewport.height};
-  FrothResult result = checkFinite<double>(messages, call, "eye", camera.eye);
+  FrothResult result = checkExtension(messages, call, "camera", camera.extension);
+  if (result == FROTH_OK) {
+    result = checkExtension(messages, call, "camera.lens", camera.lens.extension);
+  }
+  if (result == FROTH_OK) {
+    result = checkFinite<double>(messages, call, "eye", camera.eye);
+  }
   const auto check = [&](const char* field, std::span<const float> values) {
     result = result == FROTH_OK ? checkFinite(messages, call, field, values) : result;
   };

@@ -12,6 +12,9 @@ FrothResult checkImage(const Messages& messages, const char* call, const char* n
   if (!image.view) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "%s.view: null; give a 2D view of the image", name);
   }
+  if (const FrothResult result = checkExtension(messages, call, name, image.extension); result != FROTH_OK) {
+    return result;
+  }
   if (image.samples > VK_SAMPLE_COUNT_1_BIT) {
     return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
                          "%s.samples: %d; one sample per pixel is needed; resolve the image first, depth with "
@@ -41,6 +44,15 @@ FrothResult checkImage(const Messages& messages, const char* call, const char* n
                          static_cast<unsigned long long>(bottom));
   }
   return FROTH_OK;
+}
+
+FrothResult checkExtension(const Messages& messages, const char* call, const char* owner,
+                           const FrothExtension* extension) {
+  if (!extension) return FROTH_OK;
+  return messages.fail(FROTH_ERROR_VERSION, call,
+                       "%s.extension: of kind %u, which this library does not know; leave it null, or link the library "
+                       "that the header belongs to",
+                       owner, extension->kind);
 }
 
 }  // namespace froth

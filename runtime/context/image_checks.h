@@ -1,4 +1,4 @@
-// Checks an image of the caller's.
+// Checks an image of the caller's, and that no struct has extensions.
 #pragma once
 
 #include <span>
@@ -12,5 +12,9 @@ namespace froth {
 // is drawn. `call` names the entry point, `name` the field in messages.
 FrothResult checkImage(const Messages& messages, const char* call, const char* name, const FrothImage& image,
                        std::span<const VkFormat> formats, const char* formatNames, const VkRect2D& drawn);
+
+// FROTH_OK for null: this version knows no kind. `owner` names the struct in messages.
+FrothResult checkExtension(const Messages& messages, const char* call, const char* owner,
+                           const FrothExtension* extension);
 
 }  // namespace froth

@@ -224,6 +224,19 @@ TEST_F(RecordCall, RefusesStagesThatOrderNothing) {
   expectResult(FROTH_ERROR_ARGUMENT, "colour.stageOut: 0; name the stages of its next use");
 }
 
+TEST_F(RecordCall, RefusesExtensionsOfLaterVersions) {
+  const FrothExtension later{7, nullptr};
+  const FrothRenderInfo good = info_;
+  info_.camera.extension = &later;
+  expectResult(FROTH_ERROR_VERSION, "camera.extension: of kind 7, which this library does not know");
+  info_ = good;
+  info_.camera.lens.extension = &later;
+  expectResult(FROTH_ERROR_VERSION, "camera.lens.extension: of kind 7");
+  info_ = good;
+  info_.colour.extension = &later;
+  expectResult(FROTH_ERROR_VERSION, "colour.extension: of kind 7");
+}
+
 TEST_F(RecordCall, RefusesLimitsOutOfTheirRange) {
   const FrothRenderInfo good = info_;
   info_.cutoff = 1;
