@@ -23,9 +23,11 @@ FrothResult Context::checkSource(const FrothAssetInfo& info, const char* call) c
                          "path, data, reader: %s; give a path, or data and dataSize, or a reader",
                          sources == 0 ? "none is set" : "more than one is set");
   }
-  if (info.reader && (!info.reader->read || info.reader->size == 0)) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "reader: read %s, size %llu; give both",
-                         info.reader->read ? "is set" : "is null", static_cast<unsigned long long>(info.reader->size));
+  if (info.reader && !info.reader->read) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "reader.read: null; give the function that reads");
+  }
+  if (info.reader && info.reader->size == 0) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "reader.size: 0; give the bytes of the whole asset");
   }
   if (info.path && !*info.path) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "path: empty; give the path of a .froth file");
