@@ -7,13 +7,17 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "format/asset_contents.h"
 #include "format/chunk_codes.h"
+#include "format/read/byte_source.h"
 #include "format/section.h"
 
 namespace froth {
+
+struct AssetHead;
 
 // An opened asset: header and manifest are read and checked, sections are decoded on demand.
 // Thread safety: readChunk() and readCodedChunk() may run on several threads at once.
@@ -25,6 +29,8 @@ class AssetReader {
   // `bytes` must outlive the reader; `name` stands for the file in messages.
   static Result<AssetReader> openBytes(std::span<const uint8_t> bytes, std::string name,
                                        Layer last = Layer::kViewDependence);
+  // Of an AssetOpener. Without `source` the caller brings the bytes of each chunk.
+  explicit AssetReader(AssetHead head, std::shared_ptr<const ByteSource> source = nullptr);
 
   AssetReader(AssetReader&&) noexcept;
   AssetReader& operator=(AssetReader&&) noexcept;
@@ -36,13 +42,16 @@ class AssetReader {
   Box liveBounds(uint32_t chunk) const;
   // Stored sizes, for `froth info`: one record per section.
   std::span<const SectionRecord> sections() const;
+  // Where the sections of a chunk lie (up to the last layer), ascending; sections that touch are one range.
+  std::vector<ByteRange> rangesOf(uint32_t chunk) const;
   // Decodes and checks all sections of one chunk (up to the last layer): hashes, sizes, index ranges, finite numbers,
-  // positive radii. Needs no other chunk.
-  Result<CodedChunk> readCodedChunk(uint32_t chunk) const;
+  // positive radii. Needs no other chunk. `bytes` holds rangesOf(chunk); it is source() where there is one.
+  Result<CodedChunk> readCodedChunk(uint32_t chunk, const ByteSource& bytes) const;
+  Result<CodedChunk> readCodedChunk(uint32_t chunk) const { return readCodedChunk(chunk, *source()); }
   Result<ChunkContents> readChunk(uint32_t chunk) const;  // its contents, for those who need no lattice indices
+  const std::shared_ptr<const ByteSource>& source() const;
 
  private:
-  AssetReader();
   struct State;
   std::unique_ptr<State> state_;
 };

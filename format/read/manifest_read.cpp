@@ -293,7 +293,7 @@ const SectionRecord* Manifest::findSection(uint32_t chunk, SectionType type) con
   return found != sections.end() && found->chunk == key.chunk && found->type == key.type ? &*found : nullptr;
 }
 
-Result<Manifest> parseManifest(const std::vector<uint8_t>& bytes, uint64_t manifestEnd, uint64_t fileSize,
+Result<Manifest> parseManifest(std::span<const uint8_t> bytes, uint64_t manifestEnd, uint64_t fileSize,
                                const std::string& file) {
   flatbuffers::Verifier::Options limits;
   limits.max_depth = kMaxDepth;

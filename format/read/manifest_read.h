@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,9 @@ struct Manifest {
 };
 
 // Checks everything that can be known without reading a section: FlatBuffers structure, ranges, and for every
-// section place, size against the counts and the limit of expansion. `bytes` is at most kMaxManifestSize and
-// ends in the file at `manifestEnd`; no section may begin before that.
-Result<Manifest> parseManifest(const std::vector<uint8_t>& bytes, uint64_t manifestEnd, uint64_t fileSize,
+// section place, size against the counts and the limit of expansion. `bytes` is aligned to 8, at most kMaxManifestSize
+// and ends in the file at `manifestEnd`; no section may begin before that.
+Result<Manifest> parseManifest(std::span<const uint8_t> bytes, uint64_t manifestEnd, uint64_t fileSize,
                                const std::string& file);
 
 }  // namespace froth

@@ -29,20 +29,20 @@ inline FrothResult failNull(const FrothContext& context, const char* call, const
   return context.messages.fail(FROTH_ERROR_ARGUMENT, call, "%s: null", parameter);
 }
 
-// Reads a caller's struct, with a message where that fails.
+// Reads a caller's struct, with a message where that fails. `within`: the field and the dot that lead to the struct.
 template <class T>
-FrothResult readInput(const Messages& messages, const char* call, const T* given, T& known) {
+FrothResult readInput(const Messages& messages, const char* call, const T* given, T& known, const char* within = "") {
   if (!given) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "info: null");
   }
   const FrothResult result = readStruct(*given, known);
   if (result == FROTH_ERROR_ARGUMENT) {
-    return messages.fail(result, call, "structSize: %u; set it to sizeof the struct", given->structSize);
+    return messages.fail(result, call, "%sstructSize: %u; set it to sizeof the struct", within, given->structSize);
   }
   if (result == FROTH_ERROR_VERSION) {
-    return messages.fail(result, call,
-                         "structSize: %u, this library knows %zu, and fields beyond are not zero; use a newer library",
-                         given->structSize, sizeof(T));
+    return messages.fail(
+        result, call, "%sstructSize: %u, this library knows %zu, and fields beyond are not zero; use a newer library",
+        within, given->structSize, sizeof(T));
   }
   return result;
 }

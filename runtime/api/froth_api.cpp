@@ -1,5 +1,5 @@
 // The C entry points: null pointers, struct sizes, exceptions; everything else is the context's.
-#include "froth/froth.h"
+#include "froth/froth_reader.h"
 
 #include <cstddef>
 #include <memory>
@@ -110,7 +110,7 @@ FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** cont
 }
 
 FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial) {
-  if (context && !context->isDone(completedSerial)) {
+  if (context && (!context->isDone(completedSerial) || !context->endReads())) {
     return FROTH_PENDING;
   }
   delete context;
@@ -148,7 +148,20 @@ FrothResult frothRestoreDevice(FrothContext* context, const FrothContextInfo* in
 }
 
 FrothResult frothOpenAsset(FrothContext* context, const FrothAssetInfo* info, FrothAsset* asset) {
-  return make(context, __func__, info, "asset", asset, &Context::openAsset);
+  return guard(context, __func__, [&](const char* call) {
+    if (!asset) {
+      return failNull(*context, call, "asset");
+    }
+    *asset = {};
+    FrothAssetInfo known;
+    FrothReader reader;
+    FrothResult result = readInput(context->messages, call, info, known);
+    if (result == FROTH_OK && known.reader) {
+      result = readInput(context->messages, call, known.reader, reader, "reader.");
+      known.reader = &reader;
+    }
+    return result == FROTH_OK ? context->openAsset(known, *asset) : result;
+  });
 }
 
 FrothResult frothGetAssetStatus(FrothContext* context, FrothAsset asset, FrothAssetStatus* status) {

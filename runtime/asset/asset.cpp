@@ -49,7 +49,7 @@ void Asset::restart(const Messages& messages) {
   gpu_ = {};
   entriesSerial = 0;
   arena_ = device_ ? std::make_shared<GpuArena>(*device_) : nullptr;
-  if (!source_.isFile && !source_.bytesStay) {
+  if (source_.kind == SourceKind::kMemory && !source_.bytesStay) {
     fail(FROTH_ERROR_STATE,
          "its bytes are not there any more to load it again; set FrothAssetInfo::bytesStay, or close and open it",
          messages);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "format/read/asset_opener.h"
 #include "froth/froth.h"
 #include "runtime/asset/asset_source.h"
 #include "runtime/asset/chunk_arrays.h"
@@ -22,11 +23,13 @@
 #include "runtime/device/upload_ring.h"
 #include "runtime/jobs/job.h"
 #include "runtime/query/query_foam.h"
+#include "runtime/reads/range_fetch.h"
 
 namespace froth {
 
-// Loads chunk by chunk: jobs decode them, load() gives their arrays places in the order of the file, stage() moves them
-// through the ring as it has room. One thread at a time; jobs see nothing of the asset but its reader.
+// Loads chunk by chunk: their bytes come through a reader of the caller if the asset has one, jobs decode them, load()
+// gives their arrays places in the order of the file, stage() moves them through the ring as it has room. One thread at
+// a time; jobs see nothing of the asset but its AssetReader and bytes.
 class Asset {
  public:
   // `device` null: decodes and checks, and keeps nothing.
@@ -44,10 +47,10 @@ class Asset {
 
   // Sees to what drawing an asset of this shape needs besides; empty: it is under way, ask again.
   using Preparation = std::function<std::optional<Status>(const AssetShape&)>;
-  // Takes what jobs have done and starts others, as the runner and the limit have room. An error ends the asset: one
-  // message, hasFailed().
-  void load(JobRunner& jobs, LoadLimit& limit, const Preparation& prepare, const Messages& messages);
-  // No job begins any more, and none reads the caller's bytes.
+  // Takes what jobs have done and starts others, and reads, as runner, table and limit have room. An error ends the
+  // asset: one message, hasFailed().
+  void load(JobRunner& jobs, ReadTable& reads, LoadLimit& limit, const Preparation& prepare, const Messages& messages);
+  // No job begins any more, and none reads the caller's bytes. Reads are cancelled.
   void stop();
   // Moves at most `limit` bytes of decoded arrays into the ring; returns how many.
   VkDeviceSize stage(UploadRing& ring, VkDeviceSize limit);
@@ -81,8 +84,10 @@ class Asset {
   };
 
   Status takeResults(const Preparation& prepare);
-  bool startNext(JobRunner& jobs, LoadLimit& limit);
-  void startOpening(JobRunner& jobs);
+  bool startNext(JobRunner& jobs, ReadTable& reads, LoadLimit& limit);
+  bool startReading(ReadTable& reads, const LoadLimit& limit);
+  bool startOpening(JobRunner& jobs, LoadLimit& limit);
+  bool startDecoding(uint32_t chunk, JobRunner& jobs, LoadLimit& limit);
   void startFinishing(JobRunner& jobs);
   void takeReader(std::shared_ptr<const AssetReader> reader);
   Status finish();
@@ -102,13 +107,16 @@ class Asset {
   Device* device_;
   bool keepsForQueries_ = false, keepsForWalks_ = false;
 
-  Job<std::shared_ptr<const AssetReader>> opening_;
-  std::shared_ptr<const AssetReader> reader_;  // while loading
-  bool isPrepared_ = false;                    // Preparation has ended
-  std::deque<Job<LoadedChunk>> decoding_;      // the chunks behind those that are placed
-  Job<std::shared_ptr<QueryFoam>> finishing_;  // has queryFoam_
-  std::vector<uint64_t> chunkWork_;            // [chunks] bytes of decoded sections;
-  uint64_t workDone_ = 0, workToCome_ = 0;     // sums of them, of chunks that are placed or not
+  std::shared_ptr<AssetOpener> opener_;  // with a reader of the caller: of opening_, while that is under way
+  RangeFetch headFetch_;                 // what opener_ wants
+  Job<std::shared_ptr<const AssetReader>> opening_;  // gives null if opener_ wants more
+  std::shared_ptr<const AssetReader> reader_;        // while loading
+  bool isPrepared_ = false;                          // Preparation has ended
+  std::deque<RangeFetch> fetches_;                   // the chunks behind those that are being decoded
+  std::deque<Job<LoadedChunk>> decoding_;            // the chunks behind those that are placed
+  Job<std::shared_ptr<QueryFoam>> finishing_;        // has queryFoam_
+  std::vector<uint64_t> chunkWork_;                  // [chunks] bytes of decoded sections;
+  uint64_t workDone_ = 0, workToCome_ = 0;           // sums of them, of chunks that are placed or not
   VkDeviceSize placedBytes_ = 0;
   std::deque<PendingArray> arrays_;  // of the newest chunks; staged from the front
   bool isDecoded_ = false;

@@ -1,4 +1,4 @@
-// How an asset comes out of its file: jobs, in which order, and what becomes of their results.
+// How an asset comes out of its file: reads and jobs, in which order, and what becomes of their results.
 #include <algorithm>
 #include <iterator>
 #include <new>
@@ -50,15 +50,29 @@ GpuAsset describeShape(const AssetContents& manifest) {
   return asset;
 }
 
+// Null: the opener wants more.
+Result<std::shared_ptr<const AssetReader>> takeHead(AssetOpener& opener, const ByteSource& bytes) {
+  std::vector<uint8_t> storage;
+  const Result<std::span<const uint8_t>> wanted = bytes.view(*opener.wanted(), storage);
+  if (!wanted) {
+    return wanted.error();
+  }
+  if (const Status status = opener.take(*wanted); !status) {
+    return status.error();
+  }
+  return opener.wanted() ? nullptr : std::make_shared<const AssetReader>(opener.finish());
+}
+
 }  // namespace
 
-void Asset::load(JobRunner& jobs, LoadLimit& limit, const Preparation& prepare, const Messages& messages) {
+void Asset::load(JobRunner& jobs, ReadTable& reads, LoadLimit& limit, const Preparation& prepare,
+                 const Messages& messages) {
   if (hasFailed() || isDecoded_) {
     return;
   }
   try {
     Status status = takeResults(prepare);
-    while (status && startNext(jobs, limit)) {
+    while (status && startNext(jobs, reads, limit)) {
       status = takeResults(prepare);
     }
     if (!status) {
@@ -70,8 +84,11 @@ void Asset::load(JobRunner& jobs, LoadLimit& limit, const Preparation& prepare, 
 }
 
 void Asset::stop() {
-  const bool waits = !source_.isFile;  // a job holds the file open, but not the caller's bytes
+  const bool waits = source_.kind == SourceKind::kMemory;  // a job holds a file open, and bytes that were read for it
+  headFetch_.drop();
+  fetches_.clear();
   opening_.drop(waits);
+  opener_.reset();
   isPrepared_ = false;
   for (Job<LoadedChunk>& chunk : decoding_) {
     chunk.drop(waits);
@@ -87,7 +104,9 @@ Status Asset::takeResults(const Preparation& prepare) {
     if (!reader) {
       return reader.error();
     }
-    takeReader(std::move(*reader));
+    if (*reader) {
+      takeReader(std::move(*reader));
+    }
   }
   if (reader_ && !isPrepared_) {
     const std::optional<Status> prepared = prepare(gpu_.shape());
@@ -117,25 +136,22 @@ Status Asset::takeResults(const Preparation& prepare) {
 }
 
 // False: there is nothing to be started, or no room for it.
-bool Asset::startNext(JobRunner& jobs, LoadLimit& limit) {
-  if (isDecoded_ || !jobs.hasRoom() || limit.isReached() || queuedBytes() > kMostQueuedBytes) {
+bool Asset::startNext(JobRunner& jobs, ReadTable& reads, LoadLimit& limit) {
+  if (isDecoded_) {
+    return false;
+  }
+  if (source_.kind == SourceKind::kReader && startReading(reads, limit)) {
+    return true;
+  }
+  if (!jobs.hasRoom() || limit.isReached() || queuedBytes() > kMostQueuedBytes) {
     return false;
   }
   if (!reader_) {
-    if (opening_.isUnderWay()) {
-      return false;
-    }
-    limit.count(0);
-    startOpening(jobs);
-    return true;
+    return startOpening(jobs, limit);
   }
   const auto chunk = static_cast<uint32_t>(gpu_.chunks.size() + decoding_.size());
   if (chunk < description_.chunkCount) {
-    limit.count(chunkWork_[chunk]);
-    const ChunkUses uses{device_ != nullptr, isQueryFoamWanted() && gpu_.hasWalkGraph};
-    decoding_.emplace_back().start(
-        jobs, [reader = reader_, chunk, name = source_.name, uses] { return loadChunk(*reader, chunk, name, uses); });
-    return true;
+    return startDecoding(chunk, jobs, limit);
   }
   if (!arePlaced() || !isQueryFoamWanted() || finishing_.isUnderWay()) {
     return false;
@@ -145,7 +161,47 @@ bool Asset::startNext(JobRunner& jobs, LoadLimit& limit) {
   return true;
 }
 
-void Asset::startOpening(JobRunner& jobs) {
+// Reads ahead of the jobs as far as there is room. A reader that answers at once takes the frame's time: when that is
+// over, only what decoding waits for is read.
+bool Asset::startReading(ReadTable& reads, const LoadLimit& limit) {
+  if (!reader_) {
+    if (opening_.isUnderWay() || headFetch_.isUnderWay()) {
+      return false;
+    }
+    if (!opener_) {
+      opener_ = std::make_shared<AssetOpener>(source_.name, source_.reader.size, source_.lastLayer);
+    }
+    const std::span<const ByteRange> wanted(&*opener_->wanted(), 1);
+    if (!reads.hasRoom(wanted)) {
+      return false;
+    }
+    headFetch_.start(reads, source_.reader, wanted);
+    return true;
+  }
+  const auto chunk = static_cast<uint32_t>(gpu_.chunks.size() + decoding_.size() + fetches_.size());
+  if (chunk >= description_.chunkCount || (limit.isLate() && !fetches_.empty())) {
+    return false;
+  }
+  const std::vector<ByteRange> ranges = reader_->rangesOf(chunk);
+  if (!reads.hasRoom(ranges)) {
+    return false;
+  }
+  fetches_.emplace_back().start(reads, source_.reader, ranges);
+  return true;
+}
+
+bool Asset::startOpening(JobRunner& jobs, LoadLimit& limit) {
+  const bool isRead = source_.kind == SourceKind::kReader;
+  if (opening_.isUnderWay() || (isRead && !headFetch_.hasEnded())) {
+    return false;
+  }
+  limit.count(0);
+  if (isRead) {
+    opening_.start(jobs, [opener = opener_, bytes = headFetch_.take(source_.name)] {
+      return bytes ? takeHead(*opener, **bytes) : bytes.error();
+    });
+    return true;
+  }
   opening_.start(jobs, [source = source_]() -> Result<std::shared_ptr<const AssetReader>> {
     Result<AssetReader> reader = openReader(source);
     if (!reader) {
@@ -153,6 +209,25 @@ void Asset::startOpening(JobRunner& jobs) {
     }
     return std::make_shared<const AssetReader>(std::move(*reader));
   });
+  return true;
+}
+
+bool Asset::startDecoding(uint32_t chunk, JobRunner& jobs, LoadLimit& limit) {
+  using Bytes = Result<std::shared_ptr<const ByteSource>>;
+  Bytes bytes = reader_->source();
+  if (source_.kind == SourceKind::kReader) {
+    if (fetches_.empty() || !fetches_.front().hasEnded()) {
+      return false;
+    }
+    bytes = fetches_.front().take(source_.name);
+    fetches_.pop_front();
+  }
+  limit.count(chunkWork_[chunk]);
+  const ChunkUses uses{device_ != nullptr, isQueryFoamWanted() && gpu_.hasWalkGraph};
+  decoding_.emplace_back().start(jobs, [reader = reader_, bytes, chunk, name = source_.name, uses] {
+    return bytes ? loadChunk(*reader, **bytes, chunk, name, uses) : bytes.error();
+  });
+  return true;
 }
 
 void Asset::startFinishing(JobRunner& jobs) {
@@ -183,6 +258,7 @@ void Asset::takeReader(std::shared_ptr<const AssetReader> reader) {
   }
   gpu_.hasHeights = shapeOf(*reader, source_.lastLayer).hasHeights;
   reader_ = std::move(reader);
+  opener_.reset();
 }
 
 Status Asset::finish() {

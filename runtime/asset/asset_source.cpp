@@ -6,9 +6,15 @@ namespace froth {
 
 AssetSource sourceOf(const FrothAssetInfo& info) {
   AssetSource source;
-  source.isFile = info.path != nullptr;
-  source.name = source.isFile ? info.path : "asset in memory";
-  if (!source.isFile) {
+  if (info.path) {
+    source.name = info.path;
+  } else if (info.reader) {
+    source.kind = SourceKind::kReader;
+    source.name = info.reader->name ? info.reader->name : "asset of a reader";
+    source.reader = *info.reader;
+  } else {
+    source.kind = SourceKind::kMemory;
+    source.name = "asset in memory";
     source.bytes = {static_cast<const uint8_t*>(info.data), info.dataSize};
   }
   source.bytesStay = info.bytesStay != 0;
@@ -17,8 +23,8 @@ AssetSource sourceOf(const FrothAssetInfo& info) {
 }
 
 Result<AssetReader> openReader(const AssetSource& source) {
-  return source.isFile ? AssetReader::open(source.name, source.lastLayer)
-                       : AssetReader::openBytes(source.bytes, source.name, source.lastLayer);
+  return source.kind == SourceKind::kFile ? AssetReader::open(source.name, source.lastLayer)
+                                          : AssetReader::openBytes(source.bytes, source.name, source.lastLayer);
 }
 
 AssetShape shapeOf(const AssetReader& reader, Layer lastLayer) {

@@ -30,10 +30,8 @@ class LoadLimit {
     workLeft_ -= std::min(workLeft_, std::max(work, kLeastWork));
   }
   // One job begins in any update.
-  bool isReached() const {
-    const bool isLate = end_ != Clock::time_point::max() && Clock::now() >= end_;
-    return hasBegun_ && (workLeft_ == 0 || isLate);
-  }
+  bool isReached() const { return hasBegun_ && (workLeft_ == 0 || isLate()); }
+  bool isLate() const { return end_ != Clock::time_point::max() && Clock::now() >= end_; }  // never without a time
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -37,8 +37,9 @@ Status packArrays(CodedChunk&& coded, const AssetContents& manifest, LoadedChunk
 
 }  // namespace
 
-Result<LoadedChunk> loadChunk(const AssetReader& reader, uint32_t chunk, const std::string& name, ChunkUses uses) {
-  Result<CodedChunk> coded = reader.readCodedChunk(chunk);
+Result<LoadedChunk> loadChunk(const AssetReader& reader, const ByteSource& bytes, uint32_t chunk,
+                              const std::string& name, ChunkUses uses) {
+  Result<CodedChunk> coded = reader.readCodedChunk(chunk, bytes);
   if (!coded) {
     return coded.error();
   }

@@ -24,7 +24,8 @@ struct ChunkUses {
   bool drawing = false, queries = false;
 };
 
-// Any thread. `name` is the asset's, for messages.
-Result<LoadedChunk> loadChunk(const AssetReader& reader, uint32_t chunk, const std::string& name, ChunkUses uses);
+// Any thread. `bytes`: as for AssetReader::readCodedChunk. `name` is the asset's, for messages.
+Result<LoadedChunk> loadChunk(const AssetReader& reader, const ByteSource& bytes, uint32_t chunk,
+                              const std::string& name, ChunkUses uses);
 
 }  // namespace froth

@@ -17,9 +17,17 @@ constexpr double kUnitQuaternionTolerance = 1e-3;  // as for a camera's rotation
 
 FrothResult Context::checkSource(const FrothAssetInfo& info, const char* call) const {
   const bool hasBytes = info.data && info.dataSize > 0;
-  if ((info.path != nullptr) == hasBytes) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "path, data: %s; give a path, or data and dataSize",
-                         hasBytes ? "both are set" : "neither is set");
+  const int sources = (info.path ? 1 : 0) + (hasBytes ? 1 : 0) + (info.reader ? 1 : 0);
+  if (sources != 1) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "path, data, reader: %s; give a path, or data and dataSize, or a reader",
+                         sources == 0 ? "none is set" : "more than one is set");
+  }
+  if (info.reader && !info.reader->read) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "reader.read: null; give the function that reads");
+  }
+  if (info.reader && info.reader->size == 0) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "reader.size: 0; give the bytes of the whole asset");
   }
   if (info.path && !*info.path) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "path: empty; give the path of a .froth file");
@@ -99,6 +107,19 @@ FrothResult Context::closeAsset(FrothAsset handle) {
   assets_.find(handle)->stop();
   retire(assets_.remove(handle));
   return FROTH_OK;
+}
+
+FrothResult Context::completeRead(uint64_t request, FrothResult result) {
+  const auto number = static_cast<unsigned long long>(request);
+  if (result > 0) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothCompleteRead",
+                         "result: %s (%d) answers nothing; give FROTH_OK or an error, when request %llu is done",
+                         frothResultName(result), result, number);
+  }
+  return reads_.complete(request, result)
+             ? FROTH_OK
+             : messages.fail(FROTH_ERROR_HANDLE, "frothCompleteRead",
+                             "request %llu: it is answered already, or was never made; answer each once", number);
 }
 
 // ---- Instances ----

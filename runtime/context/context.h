@@ -23,6 +23,7 @@
 #include "runtime/device/upload_ring.h"
 #include "runtime/jobs/job.h"
 #include "runtime/query/placement.h"
+#include "runtime/reads/read_table.h"
 #include "runtime/render/pipelines.h"
 #include "runtime/render/view_renderer.h"
 #include "runtime/walk/walk_sets.h"
@@ -54,6 +55,11 @@ class Context {
   FrothResult describeAsset(FrothAsset handle, FrothAssetStatus& status) const;
   FrothResult copyFlightPath(FrothAsset handle, uint32_t capacity, FrothStoredCamera* cameras, uint32_t& count) const;
   FrothResult closeAsset(FrothAsset handle);
+
+  // Any thread.
+  FrothResult completeRead(uint64_t request, FrothResult result);
+  // Cancels reads. True: none is unanswered, so that no answer will come to a context that is gone.
+  bool endReads() { return reads_.cancelAll(); }
 
   FrothResult createInstance(const FrothInstanceInfo& info, FrothInstance& handle);
   FrothResult setInstance(FrothInstance handle, const FrothInstanceInfo& info);
@@ -154,6 +160,7 @@ class Context {
   void retire(std::shared_ptr<void> object);
 
   // What is declared later goes first, and needs what is declared earlier.
+  ReadTable reads_;
   JobRunner jobs_;
   Device device_;
   bool isNull_ = false;        // no device, for good

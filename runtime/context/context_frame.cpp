@@ -104,7 +104,7 @@ void Context::loadAssets() {
   const auto prepare = [this](const AssetShape& shape) { return prepareShape(shape); };
   assets_.forEach([&](Asset& asset) {
     retired_.reserve(retired_.size() + 1);
-    asset.load(jobs_, limit, prepare, messages);
+    asset.load(jobs_, reads_, limit, prepare, messages);
     if (asset.hasFailed() && ring_) {
       ring_->forget(&asset);
       retire(asset.releaseBuffers());

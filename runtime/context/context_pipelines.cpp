@@ -22,6 +22,10 @@ std::optional<AssetShape> toShape(const FrothVariant& variant) {
 }  // namespace
 
 FrothResult Context::readVariant(const FrothAssetInfo& info, FrothVariant& variant) const {
+  if (info.reader) {
+    return messages.fail(FROTH_ERROR_UNSUPPORTED, "frothReadVariant",
+                         "reader: its answers may come later; give path or data, or store the variant with the asset");
+  }
   if (const FrothResult result = checkSource(info, "frothReadVariant"); result != FROTH_OK) {
     return result;
   }

@@ -1,6 +1,7 @@
 /* The names that the C blocks of README.md and docs/EMBEDDING.md take from the text around them. */
 #include <froth/froth_pool.h>
 #include <froth/froth_query.h>
+#include <froth/froth_reader.h>
 #include <froth/froth_walk.h>
 #include <math.h>
 
@@ -15,6 +16,10 @@ extern uint32_t width, height, family;
 extern uint64_t n, done, newestCompleted;
 extern double x, y, z;
 extern float dx, dy, dz, nearest;
+
+extern void* pack;
+extern uint64_t sceneSize, request;
+extern void readScene(void* user, uint64_t number, uint64_t offset, uint64_t size, void* destination);
 
 extern FrothContext* froth;
 extern FrothContextInfo context_info;

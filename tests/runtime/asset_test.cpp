@@ -152,12 +152,12 @@ TEST_F(AssetOfNullContext, NeedsAPathOrBytesAndNotBoth) {
   auto info = makeStruct<FrothAssetInfo>();
   FrothAsset asset{};
   EXPECT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_ERROR_ARGUMENT);
-  EXPECT_THAT(lastText(), HasSubstr("neither is set"));
+  EXPECT_THAT(lastText(), HasSubstr("none is set"));
   info.path = "x";
   info.data = bytes.data();
   info.dataSize = bytes.size();
   EXPECT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_ERROR_ARGUMENT);
-  EXPECT_THAT(lastText(), HasSubstr("both are set"));
+  EXPECT_THAT(lastText(), HasSubstr("more than one is set"));
   info.path = nullptr;
   info.dataSize = 0;
   EXPECT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_ERROR_ARGUMENT);

@@ -2,8 +2,11 @@
 // still be right.
 #include <array>
 #include <atomic>
+#include <deque>
+#include <mutex>
 #include <thread>
 
+#include "froth/froth_reader.h"
 #include "runtime_fixture.h"
 
 namespace froth {
@@ -139,6 +142,79 @@ TEST_F(Threads, OwnContextsOfOneDeviceShareNothing) {
     });
   }
   for (std::thread& thread : threads) thread.join();
+}
+
+// Answers reads on a thread of its own.
+class ReadingThread {
+ public:
+  ReadingThread(FrothContext* context, const std::vector<uint8_t>& bytes)
+      : context_(context), bytes_(bytes), thread_([this] { run(); }) {}
+  ~ReadingThread() {
+    isEnding_ = true;
+    thread_.join();
+  }
+
+  FrothReader reader() {
+    auto reader = makeStruct<FrothReader>();
+    reader.user = this;
+    reader.size = bytes_.size();
+    reader.read = [](void* user, uint64_t request, uint64_t offset, uint64_t size, void* destination) {
+      ReadingThread& self = *static_cast<ReadingThread*>(user);
+      const std::lock_guard lock(self.mutex_);
+      self.asked_.push_back({request, offset, size, destination});
+    };
+    reader.cancel = [](void*, uint64_t) {};
+    return reader;
+  }
+
+ private:
+  struct Request {
+    uint64_t number, offset, size;
+    void* destination;
+  };
+
+  void run() {
+    while (!isEnding_) {
+      Request request{};
+      {
+        const std::lock_guard lock(mutex_);
+        if (asked_.empty()) continue;
+        request = asked_.front();
+        asked_.pop_front();
+      }
+      std::memcpy(request.destination, bytes_.data() + request.offset, request.size);
+      EXPECT_EQ(frothCompleteRead(context_, request.number, FROTH_OK), FROTH_OK);
+    }
+  }
+
+  FrothContext* context_;
+  const std::vector<uint8_t>& bytes_;
+  std::mutex mutex_;
+  std::deque<Request> asked_;
+  std::atomic<bool> isEnding_ = false;
+  std::thread thread_;
+};
+
+TEST_F(Threads, AnswerReadsWhileFramesGoOnAndAssetsAndContextsEnd) {
+  const std::vector<uint8_t> bytes = encodeSample({.chunkCount = 5, .cellsPerChunk = 20, .localBits = 8});
+  for (int round = 0; round < 20; ++round) {
+    createContext();
+    ReadingThread thread(context_, bytes);
+    const FrothReader reader = thread.reader();
+    auto info = makeStruct<FrothAssetInfo>();
+    info.reader = &reader;
+    FrothAsset loaded{}, closed{}, left{};
+    for (FrothAsset* asset : {&loaded, &closed}) ASSERT_EQ(frothOpenAsset(context_, &info, asset), FROTH_OK);
+    uint64_t serial = 0;
+    ASSERT_EQ(update(++serial), FROTH_OK);
+    ASSERT_EQ(frothCloseAsset(context_, closed), FROTH_OK);
+    while (statusOf(loaded).state == FROTH_ASSET_OPENING) ASSERT_EQ(update(++serial), FROTH_OK);
+    EXPECT_EQ(statusOf(loaded).state, FROTH_ASSET_READY) << lastText();
+    ASSERT_EQ(frothOpenAsset(context_, &info, &left), FROTH_OK);
+    ASSERT_EQ(update(++serial), FROTH_OK);
+    while (frothDestroyContext(context_, UINT64_MAX) == FROTH_PENDING) std::this_thread::yield();
+    context_ = nullptr;
+  }
 }
 
 }  // namespace

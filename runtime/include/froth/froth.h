@@ -15,7 +15,7 @@
  *   Zero is the default of every field. Booleans are uint32_t.
  *
  * Threads:
- *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName.
+ *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName, frothCompleteRead.
  *   at once on different views:   frothRecordRaster, frothRecordWalk, frothRecordComposite, frothRecordDepthExport (*).
  *   at once on anything:          frothCastRays, frothLocate, frothOverlapSphere (*), frothReadVariant,
  *                                 frothPrecompile.
@@ -25,6 +25,7 @@
  * Other headers:
  *   froth_context.h    results, requirements, contexts, memory; included here
  *   froth_camera.h     images, lenses, cameras; included here
+ *   froth_reader.h     assets from the engine's own file system
  *   froth_query.h      rays, points and spheres on the CPU
  *   froth_walk.h       rays on the GPU
  *   froth_precompile.h pipelines ahead of time
@@ -71,14 +72,14 @@ typedef enum FrothAssetState {
 
 typedef struct FrothAssetInfo {
   uint32_t structSize;
-  const char* path; /* a .froth file; the string is copied. Null: load from `data` */
+  const char* path; /* a .froth file; the string is copied. Give this, or data and dataSize, or reader */
   const void* data; /* bytes of an asset; valid until the asset is READY, FAILED or closed; longer with bytesStay */
   uint64_t dataSize;
-  /* number of layers to load. 1: one colour per cell; 2: detail without view dependence; 3 or 0: all. Any number gives
-   * a complete scene */
+  /* layers to load. 1: one colour per cell; 2: detail without view dependence; 3 or 0: all. Any gives a whole scene */
   uint32_t layers;
   uint32_t bytesStay; /* 1: `data` stays valid until the asset is closed; frothRestoreDevice can then load it again */
   uint32_t keepForQueries; /* 1: keeps in host memory what frothCastRays, frothLocate and frothOverlapSphere need */
+  const struct FrothReader* reader; /* copied; froth_reader.h */
 } FrothAssetInfo;
 
 typedef struct FrothStoredCamera {
@@ -111,12 +112,11 @@ typedef struct FrothAssetStatus {
  * bad file makes it FAILED and sends one message; frames go on. */
 FROTH_API FrothResult frothOpenAsset(FrothContext* context, const FrothAssetInfo* info, FrothAsset* asset);
 FROTH_API FrothResult frothGetAssetStatus(FrothContext* context, FrothAsset asset, FrothAssetStatus* status);
-/* Copies at most `capacity` key frames. *count receives the number that the asset has. capacity 0: cameras may be
- * null. */
+/* Copies at most `capacity` key frames. *count: the number that the asset has. capacity 0: cameras may be null. */
 FROTH_API FrothResult frothGetFlightPath(FrothContext* context, FrothAsset asset, uint32_t capacity,
                                          FrothStoredCamera* cameras, uint32_t* count);
 /* Destroy its instances first. Returns at once, but for an asset of `data` whose bytes a job reads: when the job has
- * ended. The memory is freed when the last frame that uses it is complete. */
+ * ended. Memory is freed when the last frame that uses it is complete, and the last read answered. */
 FROTH_API FrothResult frothCloseAsset(FrothContext* context, FrothAsset asset);
 
 /* ---- Instances ---- */

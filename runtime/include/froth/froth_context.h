@@ -169,8 +169,8 @@ typedef struct FrothContextInfo {
 FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
 
 /* Frees everything at once; waits for jobs that have begun. completedSerial: as in FrothFrame; UINT64_MAX after
- * vkDeviceWaitIdle. FROTH_PENDING: later frames were begun and not dropped; nothing is freed. A null pointer gives
- * FROTH_OK. */
+ * vkDeviceWaitIdle. FROTH_PENDING, and nothing is freed: later frames were begun and not dropped; or, when none were,
+ * reads are not answered (froth_reader.h), and now are cancelled. A null pointer gives FROTH_OK. */
 FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
 
 /* Changes FrothContextInfo::deviceBudget. New allocations never exceed it. A budget below the bytes held: from the next
@@ -208,8 +208,8 @@ FROTH_API FrothResult frothDeviceLost(FrothContext* context);
 
 /* Continues with a new device. All fields of `info` count, as for frothCreateContext. Frames that were in flight are
  * forgotten; serials go on growing. All assets, FAILED ones too, load again in the following frames: from their path,
- * or from their bytes with FrothAssetInfo::bytesStay. An asset of bytes without bytesStay becomes FAILED. On an error
- * the device stays lost; call it again. */
+ * through their reader, or from their bytes with FrothAssetInfo::bytesStay. An asset of bytes without bytesStay becomes
+ * FAILED. On an error the device stays lost; call it again. */
 FROTH_API FrothResult frothRestoreDevice(FrothContext* context, const FrothContextInfo* info);
 
 #ifdef __cplusplus
