@@ -251,8 +251,10 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   ViewBuffers& buffers = view.spaces.front()->buffers;
   ViewCapacity whole = first;
   if (options.firstAsset) coverAsset(*options.firstAsset, view.reservedCells, whole);
-  if (buffers.grow(whole, 0)) return renderer;
-  if (const Status status = buffers.grow(first, 0); !status) return status.error();
+  const uint64_t budgetRefusals = device.budgetRefusals;
+  Status status = buffers.grow(whole, 0);
+  if (!status && device.budgetRefusals != budgetRefusals) status = buffers.grow(first, 0);
+  if (!status) return status.error();
   return renderer;
 }
 
