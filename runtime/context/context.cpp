@@ -249,6 +249,11 @@ Status Context::createRenderer(View& view) {
         FROTH_ERROR_FEATURE, "view",
         "measurePasses: the context's queue family has 0 timestampValidBits; FrothViewStatus::passes stays empty");
   }
+  const GpuAsset* firstAsset = nullptr;
+  instances_.forEach([&](const Instance& instance) {
+    const Asset* asset = assets_.find(instance.asset);
+    if (!firstAsset && asset->isDecoded()) firstAsset = &asset->gpu();
+  });
   Result<std::unique_ptr<ViewRenderer>> renderer =
       ViewRenderer::create(device_, {.maxExtent = view.maxExtent,
                                      .lensClasses = view.lensClasses,
@@ -257,7 +262,8 @@ Status Context::createRenderer(View& view) {
                                      .keepsHits = view.keepsHits && hasExtendedFormats_,
                                      .composites = compositeFormat_ != VK_FORMAT_UNDEFINED,
                                      .exportsDepth = depthExportFormat_ != VK_FORMAT_UNDEFINED,
-                                     .reservedCells = view.reservedCells});
+                                     .reservedCells = view.reservedCells,
+                                     .firstAsset = firstAsset});
   if (!renderer) {
     return renderer.error();
   }

@@ -4,34 +4,9 @@
 #include <cstdarg>
 #include <cstdio>
 #include <iterator>
-#include <utility>
 
 namespace froth {
 namespace {
-
-struct KindTraits {
-  VkBufferUsageFlags usage;
-  VkMemoryPropertyFlags required;
-  VkMemoryPropertyFlags preferred;
-  bool hasAddress;
-};
-
-KindTraits traitsOf(BufferKind kind) {
-  constexpr VkMemoryPropertyFlags kVisible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-  constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  switch (kind) {
-    case BufferKind::kStaging:
-      return {VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kVisible, 0, false};
-    case BufferKind::kReadback:
-      return {kStorage, kVisible, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, true};
-    case BufferKind::kDevice:
-      break;
-  }
-  return {kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, 0,
-          VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true};
-}
 
 std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowedTypes,
                                        const MemoryWish& wish) {
@@ -46,8 +21,6 @@ std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& m
   return std::nullopt;
 }
 
-unsigned long long asPrinted(VkDeviceSize bytes) { return bytes; }
-
 // Of all objects that Device::create makes.
 struct ObjectTypeName {
   VkObjectType type;
@@ -60,15 +33,6 @@ constexpr ObjectTypeName kObjectTypeNames[] = {{VK_OBJECT_TYPE_DESCRIPTOR_POOL, 
                                                {VK_OBJECT_TYPE_PIPELINE_LAYOUT, "PipelineLayout"},
                                                {VK_OBJECT_TYPE_QUERY_POOL, "QueryPool"},
                                                {VK_OBJECT_TYPE_SHADER_MODULE, "ShaderModule"}};
-
-// Destroyed unless it is taken.
-struct NewBuffer {
-  ~NewBuffer() { device.destroyBuffer(buffer); }
-  GpuBuffer take() { return std::exchange(buffer, {}); }
-
-  Device& device;
-  GpuBuffer buffer;
-};
 
 }  // namespace
 
@@ -119,68 +83,6 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
   getMemoryProperties(physicalDevice, &result.memory);
   return result;
 }
-
-Result<GpuBuffer> Device::createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose,
-                                       bool mayExceedBudget) {
-  if (size > largestBuffer()) {
-    return makeError(ErrorKind::kMemory,
-                     "%s: %llu bytes, but a buffer of this device has at most %llu (maxMemoryAllocationSize %llu, "
-                     "maxBufferSize %llu); "
-                     "use a smaller view, or an asset of smaller chunks",
-                     purpose, asPrinted(size), asPrinted(largestBuffer()), asPrinted(maxAllocationSize),
-                     asPrinted(maxBufferSize));
-  }
-  const KindTraits traits = traitsOf(kind);
-  VkBufferCreateInfo bufferInfo{};
-  bufferInfo.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-  bufferInfo.size = size;
-  bufferInfo.usage = traits.usage;
-  NewBuffer made{*this, {}};
-  made.buffer.kind = kind;
-  made.buffer.size = size;
-  if (const VkResult result = table.vkCreateBuffer(device, &bufferInfo, nullptr, &made.buffer.buffer);
-      result != VK_SUCCESS) {
-    return explain(result, "%s: vkCreateBuffer of %llu bytes", purpose, asPrinted(size));
-  }
-  nameObject(VK_OBJECT_TYPE_BUFFER, made.buffer.buffer, purpose);
-  const VkMemoryAllocateFlags flags = traits.hasAddress ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
-  if (const Status status =
-          bindMemory(made.buffer, {use, traits.required, traits.preferred, flags, purpose, mayExceedBudget});
-      !status) {
-    return status.error();
-  }
-  return made.take();
-}
-
-Status Device::bindMemory(GpuBuffer& buffer, const MemoryWish& wish) {
-  VkMemoryRequirements requirements{};
-  table.vkGetBufferMemoryRequirements(device, buffer.buffer, &requirements);
-  const Result<MemoryBlock> block = allocate(requirements, buffer.size, wish);
-  if (!block) {
-    return block.error();
-  }
-  buffer.memory = *block;
-  buffer.mapped = block->place.mapped;
-  if (const VkResult result = table.vkBindBufferMemory(device, buffer.buffer, block->place.memory, block->place.offset);
-      result != VK_SUCCESS) {
-    return explain(result, "%s: vkBindBufferMemory of %llu bytes", wish.purpose, asPrinted(requirements.size));
-  }
-  if (wish.flags & VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT) {
-    VkBufferDeviceAddressInfo addressInfo{};
-    addressInfo.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
-    addressInfo.buffer = buffer.buffer;
-    buffer.address = table.vkGetBufferDeviceAddress(device, &addressInfo);
-  }
-  return {};
-}
-
-void Device::destroyBuffer(GpuBuffer& buffer) {
-  table.vkDestroyBuffer(device, buffer.buffer, nullptr);
-  release(buffer.memory);
-  buffer = {};
-}
-
-// ---- Memory ----
 
 VkDeviceSize Device::roomBytes() const {
   return budget == 0 ? UINT64_MAX : budget - std::min(budget, ledger.deviceBytes());

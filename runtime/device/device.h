@@ -59,11 +59,18 @@ enum class BufferKind {
 
 struct GpuBuffer {
   VkBuffer buffer = VK_NULL_HANDLE;
-  MemoryBlock memory;
+  MemoryBlock memory;  // none where a later buffer of the same allocation has it
   VkDeviceSize size = 0;
+  VkDeviceSize offset = 0;      // in its allocation
   VkDeviceAddress address = 0;  // 0 for kStaging
   void* mapped = nullptr;       // null for kDevice
   BufferKind kind = BufferKind::kDevice;
+};
+
+// One of several buffers that are made together.
+struct BufferWish {
+  VkDeviceSize size;  // 0: none is made
+  const char* name;
 };
 
 // What an allocation is for and what memory it wants.
@@ -107,8 +114,12 @@ class Device {
                                VkPhysicalDevice physicalDevice, VkDevice device);
 
   // Fails with a message that names `purpose`, the size and the budget. size > 0.
-  Result<GpuBuffer> createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose,
-                                 bool mayExceedBudget = false);
+  Result<GpuBuffer> createBuffer(MemoryUse use, BufferKind kind, VkDeviceSize size, const char* purpose);
+  // Buffers that live and die together share an allocation, or as few as maxAllocationSize allows. Destroy them in
+  // their order: the last of an allocation has its memory. made: [wishes.size()] empty. On failure nothing is made; the
+  // message names `purpose`, or the buffer that cannot be.
+  Status createBuffers(MemoryUse use, BufferKind kind, const char* purpose, std::span<const BufferWish> wishes,
+                       std::span<GpuBuffer> made, bool mayExceedBudget = false);
   void destroyBuffer(GpuBuffer& buffer);  // the GPU must be done with it; resets it to empty
 
   // Makes an object by vkCreate... and names it; an error says for what the call was made.
@@ -165,7 +176,9 @@ class Device {
   void nameHandle(VkObjectType type, uint64_t handle, const char* name) const;
   Status checkBudget(VkDeviceSize size, const MemoryWish& wish);
   VkResult allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place);
-  Status bindMemory(GpuBuffer& buffer, const MemoryWish& wish);
+  Status createHandle(const BufferWish& wish, GpuBuffer& buffer);
+  Result<size_t> shareMemory(std::span<GpuBuffer> buffers, const MemoryWish& wish);
+  Status bindMemory(const MemoryBlock& block, GpuBuffer& buffer, const MemoryWish& wish);
 };
 
 }  // namespace froth

@@ -11,6 +11,12 @@ constexpr const char* kUseNames[kMemoryUseCount] = {"assets",        "views", "v
 
 }  // namespace
 
+VkDeviceSize append(const VkMemoryRequirements& own, VkMemoryRequirements& all) {
+  const VkDeviceSize offset = (all.size + own.alignment - 1) / own.alignment * own.alignment;
+  all = {offset + own.size, std::max(all.alignment, own.alignment), all.memoryTypeBits & own.memoryTypeBits};
+  return offset;
+}
+
 void MemoryLedger::add(const MemoryBlock& block) {
   Entry& entry = entries_[static_cast<uint32_t>(block.use)];
   entry.granted += block.granted;

@@ -15,7 +15,14 @@ inline bool isHostUse(MemoryUse use) {
   return use == MemoryUse::kViewsHost || use == MemoryUse::kUploadsHost || use == MemoryUse::kWalksHost;
 }
 
-// The memory of one buffer or image.
+// For %llu.
+inline unsigned long long asPrinted(VkDeviceSize bytes) { return bytes; }
+
+// What several buffers, or several images, ask of an allocation that they share.
+inline constexpr VkMemoryRequirements kNoRequirements{0, 1, UINT32_MAX};
+VkDeviceSize append(const VkMemoryRequirements& own, VkMemoryRequirements& all);  // returns its offset
+
+// One allocation, for buffers or images.
 struct MemoryBlock {
   FrothDeviceMemory place{};  // memory null: none
   VkDeviceSize granted = 0;   // [bytes] what the budget is charged

@@ -40,10 +40,7 @@ const OutputImages::Placeholder& OutputImages::placeholderOf(const FrameImage& i
 
 Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint32_t recordings) {
   std::unique_ptr<OutputImages> images(new OutputImages(device));
-  Status status = images->createPlaceholder(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, images->half4_);
-  if (status) status = images->createPlaceholder(VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, images->float1_);
-  if (status) status = images->createPlaceholder(VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT, images->input_);
-  if (!status) return status.error();
+  if (const Status status = images->createPlaceholders(); !status) return status.error();
   Result<std::unique_ptr<DescriptorSets>> sets = DescriptorSets::create(device, kName, outputBindings(), recordings);
   if (!sets) return sets.error();
   images->sets_ = std::move(*sets);
@@ -52,45 +49,60 @@ Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint3
 
 OutputImages::~OutputImages() {
   const DeviceTable& vk = device_.table;
-  for (Placeholder* placeholder : {&half4_, &float1_, &input_}) {
+  for (Placeholder* placeholder : placeholders()) {
     vk.vkDestroyImageView(device_.device, placeholder->view, nullptr);
     vk.vkDestroyImage(device_.device, placeholder->image, nullptr);
-    device_.release(placeholder->memory);
   }
+  device_.release(memory_);
 }
 
-Status OutputImages::createPlaceholder(VkFormat format, VkImageUsageFlags usage, Placeholder& placeholder) {
+Status OutputImages::createPlaceholders() {
+  VkMemoryRequirements all = kNoRequirements;
+  for (Placeholder* placeholder : placeholders()) {
+    if (const Status status = createImage(*placeholder, all); !status) return status;
+  }
+  const Result<MemoryBlock> memory =
+      device_.allocate(all, all.size, {MemoryUse::kViews, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, kName, false});
+  if (!memory) return memory.error();
+  memory_ = *memory;
+  for (Placeholder* placeholder : placeholders()) {
+    if (const Status status = bindImage(*placeholder); !status) return status;
+  }
+  return {};
+}
+
+Status OutputImages::createImage(Placeholder& placeholder, VkMemoryRequirements& all) {
   const DeviceTable& vk = device_.table;
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.imageType = VK_IMAGE_TYPE_2D;
-  info.format = format;
+  info.format = placeholder.format;
   info.extent = {1, 1, 1};
   info.mipLevels = 1;
   info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
-  info.usage = usage;
+  info.usage = placeholder.usage;
   const Result<VkImage> image = device_.create(VK_OBJECT_TYPE_IMAGE, kName, vk.vkCreateImage, info);
   if (!image) return image.error();
   placeholder.image = *image;
+  VkMemoryRequirements own{};
+  vk.vkGetImageMemoryRequirements(device_.device, placeholder.image, &own);
+  placeholder.offset = append(own, all);
+  return {};
+}
 
-  VkMemoryRequirements requirements{};
-  vk.vkGetImageMemoryRequirements(device_.device, placeholder.image, &requirements);
-  const Result<MemoryBlock> memory = device_.allocate(
-      requirements, requirements.size, {MemoryUse::kViews, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, kName, false});
-  if (!memory) return memory.error();
-  placeholder.memory = *memory;
-  const VkResult result =
-      vk.vkBindImageMemory(device_.device, placeholder.image, memory->place.memory, memory->place.offset);
+Status OutputImages::bindImage(Placeholder& placeholder) {
+  const DeviceTable& vk = device_.table;
+  const VkResult result = vk.vkBindImageMemory(device_.device, placeholder.image, memory_.place.memory,
+                                               memory_.place.offset + placeholder.offset);
   if (result != VK_SUCCESS) return device_.explain(result, "%s: vkBindImageMemory", kName);
-
-  VkImageViewCreateInfo viewInfo{};
-  viewInfo.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-  viewInfo.image = placeholder.image;
-  viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
-  viewInfo.format = format;
-  viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  const Result<VkImageView> view = device_.create(VK_OBJECT_TYPE_IMAGE_VIEW, kName, vk.vkCreateImageView, viewInfo);
+  VkImageViewCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+  info.image = placeholder.image;
+  info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  info.format = placeholder.format;
+  info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  const Result<VkImageView> view = device_.create(VK_OBJECT_TYPE_IMAGE_VIEW, kName, vk.vkCreateImageView, info);
   if (!view) return view.error();
   placeholder.view = *view;
   return {};

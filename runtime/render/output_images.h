@@ -2,6 +2,7 @@
 // barriers.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -30,20 +31,26 @@ class OutputImages {
  private:
   // One texel in layout GENERAL that stands where a pipeline needs a valid descriptor; neither written nor read.
   struct Placeholder {
+    VkFormat format;
+    VkImageUsageFlags usage;
     VkImage image = VK_NULL_HANDLE;
-    MemoryBlock memory;
     VkImageView view = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;  // in their memory
   };
 
   explicit OutputImages(Device& device) : device_(device) {}
-  Status createPlaceholder(VkFormat format, VkImageUsageFlags usage, Placeholder& placeholder);
+  std::array<Placeholder*, 3> placeholders() { return {&half4_, &float1_, &input_}; }
+  const Placeholder& placeholderOf(const FrameImage& image) const;
+  Status createPlaceholders();
+  Status createImage(Placeholder& placeholder, VkMemoryRequirements& all);
+  Status bindImage(Placeholder& placeholder);
 
   Device& device_;
   std::unique_ptr<DescriptorSets> sets_;
-  const Placeholder& placeholderOf(const FrameImage& image) const;
-
-  Placeholder half4_, float1_;  // R16G16B16A16_SFLOAT (colour, normal), R32_SFLOAT (distance, depth)
-  Placeholder input_;           // R32_SFLOAT: what is read is never one that is written
+  Placeholder half4_{VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT};  // colour, normal
+  Placeholder float1_{VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT};          // distance, depth
+  Placeholder input_{VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT};  // what is read is never one that is written
+  MemoryBlock memory_;                                                   // of all three
 };
 
 }  // namespace froth

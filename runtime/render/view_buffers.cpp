@@ -1,7 +1,10 @@
 #include "runtime/render/view_buffers.h"
 
+#include <algorithm>
 #include <cstring>
+#include <functional>
 #include <initializer_list>
+#include <span>
 #include <utility>
 
 #include "shaders/gpu/layout.h"
@@ -72,24 +75,68 @@ BufferKind kindOf(ViewBuffer id) {
   return id == ViewBuffer::kReadback ? BufferKind::kReadback : BufferKind::kDevice;
 }
 
-const char* nameOf(ViewBuffer id) {
-  constexpr std::array<const char*, kViewBufferCount> kNames = {"view: frames",          "view: staging",
-                                                                "view: read-back",       "view: counters",
-                                                                "view: group sums",      "view: visibility",
-                                                                "view: visible cells",   "view: cell keys",
-                                                                "view: cell keys, swap", "view: order",
-                                                                "view: order, swap",     "view: records",
-                                                                "view: planes",          "view: details",
-                                                                "view: slot tiles",      "view: tile counts",
-                                                                "view: pair tiles",      "view: pair tiles, swap",
-                                                                "view: pair cells",      "view: pair cells, swap",
-                                                                "view: tallies",         "view: tile lists",
-                                                                "view: walk start",      "view: rays",
-                                                                "view: cones",           "view: hits"};
-  return kNames[static_cast<uint32_t>(id)];
+constexpr std::array<const char*, kViewBufferCount> kNames = {"view: frames",
+                                                              "view: counters",
+                                                              "view: group sums",
+                                                              "view: visibility",
+                                                              "view: tile lists",
+                                                              "view: walk start",
+                                                              "view: rays",
+                                                              "view: cones",
+                                                              "view: hits",
+                                                              "view: tallies",
+                                                              "view: visible cells",
+                                                              "view: cell keys",
+                                                              "view: cell keys, swap",
+                                                              "view: order",
+                                                              "view: order, swap",
+                                                              "view: slot tiles",
+                                                              "view: tile counts",
+                                                              "view: records",
+                                                              "view: details",
+                                                              "view: planes",
+                                                              "view: pair tiles",
+                                                              "view: pair tiles, swap",
+                                                              "view: pair cells",
+                                                              "view: pair cells, swap",
+                                                              "view: staging",
+                                                              "view: read-back"};
+
+struct Group {
+  const char* name;
+  ViewBuffer first, last;
+};
+constexpr Group kGroups[] = {{"view: frames", ViewBuffer::kFrames, ViewBuffer::kWalkStart},
+                             {"view: pixels", ViewBuffer::kRays, ViewBuffer::kHits},
+                             {"view: tallies", ViewBuffer::kTallies, ViewBuffer::kTallies},
+                             {"view: visible cells", ViewBuffer::kVisibleCells, ViewBuffer::kDetails},
+                             {"view: planes", ViewBuffer::kPlanes, ViewBuffer::kPlanes},
+                             {"view: pairs", ViewBuffer::kPairTiles, ViewBuffer::kPairCellsSwap},
+                             {"view: staging", ViewBuffer::kStaging, ViewBuffer::kStaging},
+                             {"view: read-back", ViewBuffer::kReadback, ViewBuffer::kReadback}};
+
+// Whether a buffer of the group is of such a size, seen beside what the capacity asks for.
+template <class Compare>
+bool hasAny(const Group& group, std::span<const GpuBuffer> buffers, const ViewCapacity& capacity, Compare compare) {
+  for (auto i = static_cast<uint32_t>(group.first); i <= static_cast<uint32_t>(group.last); ++i) {
+    if (compare(buffers[i].size, sizeOf(static_cast<ViewBuffer>(i), capacity))) return true;
+  }
+  return false;
 }
 
-MemoryUse useOf(ViewBuffer id) { return kindOf(id) == BufferKind::kDevice ? MemoryUse::kViews : MemoryUse::kViewsHost; }
+// The group's own of `made`.
+Status makeGroup(Device& device, const Group& group, const ViewCapacity& capacity, std::span<GpuBuffer> made,
+                 bool mayExceedBudget = false) {
+  const auto first = static_cast<uint32_t>(group.first), count = static_cast<uint32_t>(group.last) - first + 1;
+  std::array<BufferWish, kViewBufferCount> wishes;
+  for (uint32_t i = 0; i < count; ++i) {
+    wishes[i] = {sizeOf(static_cast<ViewBuffer>(first + i), capacity), kNames[first + i]};
+  }
+  const BufferKind kind = kindOf(group.first);
+  const MemoryUse use = kind == BufferKind::kDevice ? MemoryUse::kViews : MemoryUse::kViewsHost;
+  return device.createBuffers(use, kind, group.name, std::span(wishes).first(count), made.subspan(first, count),
+                              mayExceedBudget);
+}
 
 }  // namespace
 
@@ -101,28 +148,30 @@ ViewBuffers::~ViewBuffers() {
 Status ViewBuffers::grow(const ViewCapacity& wanted, uint64_t lastSerial) {
   const ViewCapacity grown = largest(capacity_, wanted);
   retired_.reserve(retired_.size() + kViewBufferCount);
-  std::array<GpuBuffer, kViewBufferCount> larger{};
-  for (uint32_t i = 0; i < kViewBufferCount; ++i) {
-    const auto id = static_cast<ViewBuffer>(i);
-    if (buffers_[i].size >= sizeOf(id, grown)) continue;
-    Result<GpuBuffer> buffer = device_.createBuffer(useOf(id), kindOf(id), sizeOf(id, grown), nameOf(id));
-    if (!buffer) {
+  Buffers larger{};
+  for (const Group& group : kGroups) {
+    if (!hasAny(group, buffers_, grown, std::less())) continue;
+    if (const Status status = makeGroup(device_, group, grown, larger); !status) {
       for (GpuBuffer& made : larger) device_.destroyBuffer(made);
-      return buffer.error();
+      return status;
     }
-    larger[i] = *buffer;
   }
+  replaceBy(larger, lastSerial);
+  capacity_ = grown;
+  return {};
+}
+
+// Takes over the groups that were made. retired_ has room for what they replace.
+void ViewBuffers::replaceBy(const Buffers& made, uint64_t lastSerial) {
   for (uint32_t i = 0; i < kViewBufferCount; ++i) {
-    if (larger[i].size == 0) continue;
+    if (made[i].size == 0) continue;
     if (buffers_[i].size != 0 && lastSerial != 0) {
       retired_.emplace_back(lastSerial, buffers_[i]);
     } else {
       device_.destroyBuffer(buffers_[i]);
     }
-    buffers_[i] = larger[i];
+    buffers_[i] = made[i];
   }
-  capacity_ = grown;
-  return {};
 }
 
 void ViewBuffers::freeRetired(uint64_t completedSerial) {
@@ -134,25 +183,22 @@ void ViewBuffers::freeRetired(uint64_t completedSerial) {
 }
 
 Status ViewBuffers::trim(uint64_t lastSerial, uint64_t completedSerial) {
-  retired_.reserve(1);
-  for (uint32_t i = 0; i < kViewBufferCount && retired_.empty(); ++i) {
-    const auto id = static_cast<ViewBuffer>(i);
-    const VkDeviceSize size = sizeOf(id, capacity_);
-    if (buffers_[i].size <= size) continue;
-    Result<GpuBuffer> smaller = device_.createBuffer(useOf(id), kindOf(id), size, nameOf(id), true);
-    if (!smaller) return smaller.error();
-    retired_.emplace_back(lastSerial, std::exchange(buffers_[i], *smaller));
+  retired_.reserve(kViewBufferCount);
+  for (const Group& group : kGroups) {
+    if (!retired_.empty()) break;
+    if (!hasAny(group, buffers_, capacity_, std::greater())) continue;
+    Buffers smaller{};
+    if (const Status status = makeGroup(device_, group, capacity_, smaller, true); !status) return status;
+    replaceBy(smaller, lastSerial);
     freeRetired(completedSerial);
   }
   return {};
 }
 
 bool ViewBuffers::isTrimmed() const {
-  if (!retired_.empty()) return false;
-  for (uint32_t i = 0; i < kViewBufferCount; ++i) {
-    if (buffers_[i].size > sizeOf(static_cast<ViewBuffer>(i), capacity_)) return false;
-  }
-  return true;
+  return retired_.empty() && std::ranges::none_of(kGroups, [&](const Group& group) {
+           return hasAny(group, buffers_, capacity_, std::greater());
+         });
 }
 
 VkDeviceSize bytesOf(const ViewCapacity& capacity) {

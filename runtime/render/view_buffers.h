@@ -1,5 +1,5 @@
-// The transient buffers of one view. They grow and shrink in prepare() only; what is replaced is kept until no
-// frame uses it.
+// The transient buffers that one view has for an instance. They grow and shrink in prepare() only; what is replaced is
+// kept until no frame uses it.
 #pragma once
 
 #include <array>
@@ -13,34 +13,42 @@
 
 namespace froth {
 
-// What each holds is said in shaders/gpu/layout.h, at FrameBlock.
+// What each holds is said in shaders/gpu/layout.h, at FrameBlock. Those of a group grow together, and share an
+// allocation: each costs drivers time, and devices allow few. A group with nothing to hold has none.
 enum class ViewBuffer : uint32_t {
-  kFrames,    // blocks and chunk tables of the recordings of a frame, on the device
-  kStaging,   // the same for all frames in flight, written by the CPU
-  kReadback,  // Counters of all frames in flight
+  // of the extent and the asset
+  kFrames,  // blocks and chunk tables of the recordings of a frame, on the device
   kCounters,
   kGroupSums,
   kVisibility,
+  kTileLists,
+  kWalkStart,
+  // of pixels
+  kRays,  // these two are empty where no lens is mapped
+  kCones,
+  kHits,  // empty where the view does not keep them
+  // of cells, pairs and tiles
+  kTallies,  // TallyLayout
+  // of visible cells
   kVisibleCells,
   kCellKeys,
   kCellKeysSwap,
   kOrder,
   kOrderSwap,
-  kRecords,
-  kPlanes,
-  kDetails,
   kSlotTiles,
   kTileCounts,
+  kRecords,
+  kDetails,
+  // of their planes
+  kPlanes,
+  // of pairs
   kPairTiles,
   kPairTilesSwap,
   kPairCells,
   kPairCellsSwap,
-  kTallies,  // TallyLayout
-  kTileLists,
-  kWalkStart,
-  kRays,  // these two are empty where no lens is mapped
-  kCones,
-  kHits,  // empty where the view does not keep them
+  // on the host; apart, for frames in flight are read back while the asset changes
+  kStaging,   // as kFrames, for all frames in flight, written by the CPU
+  kReadback,  // Counters of all frames in flight
 };
 inline constexpr uint32_t kViewBufferCount = 26;
 inline constexpr uint32_t kRecordingsPerFrame = 4;  // a raster and a walk of two eyes
@@ -53,13 +61,13 @@ class ViewBuffers {
   explicit ViewBuffers(Device& device) : device_(device) {}
   ~ViewBuffers();  // the GPU must be done with them
 
-  // Makes every buffer large enough. `lastSerial`: the newest frame that may use what is replaced; 0: none. On failure
-  // the old buffers and the old capacity stay.
+  // Makes every buffer large enough; replaces the groups that are not. `lastSerial`: the newest frame that may use what
+  // is replaced; 0: none. On failure the old buffers and the old capacity stay.
   Status grow(const ViewCapacity& wanted, uint64_t lastSerial);
   void freeRetired(uint64_t completedSerial);
 
-  // For a lowered budget. The next recordings use no more than `lessened`; trim() then replaces the buffers that
-  // are larger, one by one: the next when the one before is freed, so that little more is held meanwhile.
+  // For a lowered budget. The next recordings use no more than `lessened`; trim() then replaces the groups that are
+  // larger, one by one: the next when the one before is freed, so that little more is held meanwhile.
   void lessen(const ViewCapacity& lessened) { capacity_ = lessened; }
   Status trim(uint64_t lastSerial, uint64_t completedSerial);
   bool isTrimmed() const;  // no buffer is larger than the capacity, or waits to be freed
@@ -75,10 +83,13 @@ class ViewBuffers {
   VkDeviceSize recordingStride() const;  // [bytes] from one recording's block to the next, in kFrames and kStaging
 
  private:
+  using Buffers = std::array<GpuBuffer, kViewBufferCount>;
+  void replaceBy(const Buffers& made, uint64_t lastSerial);
+
   Device& device_;
   ViewCapacity capacity_;
   uint64_t expectedCells_ = 0;
-  std::array<GpuBuffer, kViewBufferCount> buffers_{};
+  Buffers buffers_{};
   std::vector<std::pair<uint64_t, GpuBuffer>> retired_;
 };
 

@@ -77,7 +77,19 @@ void growToLess(InstanceSpace& space, const ViewCapacity& wanted) {
   }
 }
 
-Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, const ViewCapacity& wanted) {
+// What is wanted, by parts: each needs room beside what it replaces only. Whether that was all.
+bool growInParts(InstanceSpace& space, const ViewCapacity& wanted, uint64_t completedSerial) {
+  bool isAll = true;
+  for (const ViewCapacity& part : {ViewCapacity{.cells = wanted.cells, .details = wanted.details},
+                                   ViewCapacity{.planes = wanted.planes}, ViewCapacity{.pairs = wanted.pairs}}) {
+    isAll = space.buffers.grow(part, space.lastSerial) && isAll;
+    space.buffers.freeRetired(completedSerial);
+  }
+  return isAll;
+}
+
+Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, const ViewCapacity& wanted,
+                   uint64_t completedSerial) {
   if (wanted == space.buffers.capacity()) return {};
   const VkDeviceSize heldBytes = device.ledger.deviceBytes();
   const VkDeviceSize budget = device.budget;
@@ -89,7 +101,11 @@ Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, 
   const uint64_t budgetRefusals = device.budgetRefusals;
   const Status status = space.buffers.grow(wanted, space.lastSerial);
   if (device.budgetRefusals == budgetRefusals) return status;
-  if (asset && !coversAsset(*asset, space.buffers.capacity())) growToLess(space, wanted);
+  if (asset && !coversAsset(*asset, space.buffers.capacity())) {
+    growToLess(space, wanted);
+  } else if (growInParts(space, wanted, completedSerial)) {
+    return {};
+  }
   space.refusal = {asset, budget, device.ledger.deviceBytes(), status.error()};
   return status;
 }
@@ -106,7 +122,7 @@ Status prepareSpace(ViewState& view, InstanceSpace& space, uint64_t completedSer
   }
   space.buffers.expectCells(space.demand.cells);
   const VkBuffer oldWalkStart = space.buffers[ViewBuffer::kWalkStart].buffer;
-  const Status status = growBuffers(view.device, space, asset, wanted);
+  const Status status = growBuffers(view.device, space, asset, wanted, completedSerial);
   const bool isWalkStartKept = space.buffers[ViewBuffer::kWalkStart].buffer == oldWalkStart;
   if (!isWalkStartKept || space.walkAsset != asset) space.walkAsset = nullptr;
   return status;
@@ -232,7 +248,13 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   view.spaces.push_back(std::make_unique<InstanceSpace>(device, recordings));
   ViewCapacity first = capacity;  // the hits of all instances are there
   if (options.keepsHits) first.hits = pixels;
-  if (const Status status = view.spaces.front()->buffers.grow(first, 0); !status) return status.error();
+  ViewBuffers& buffers = view.spaces.front()->buffers;
+  ViewCapacity whole = first;
+  if (options.firstAsset) coverAsset(*options.firstAsset, view.reservedCells, whole);
+  const uint64_t budgetRefusals = device.budgetRefusals;
+  Status status = buffers.grow(whole, 0);
+  if (!status && device.budgetRefusals != budgetRefusals) status = buffers.grow(first, 0);
+  if (!status) return status.error();
   return renderer;
 }
 

@@ -39,7 +39,8 @@ struct ViewOptions {
   bool measurePasses = false;
   bool keepsHits = false;  // for id and motion
   bool composites = false, exportsDepth = false;
-  uint32_t reservedCells = 0;  // room from the first frame on, for each instance; no more than its asset has
+  uint32_t reservedCells = 0;            // room from the first frame on, for each instance; no more than its asset has
+  const GpuAsset* firstAsset = nullptr;  // of the first instance: room for it is made at once, if the budget has it
 };
 
 class ViewRenderer {

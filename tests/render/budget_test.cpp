@@ -74,6 +74,28 @@ TEST_F(Budget, LoweredLiveIsObeyedWithinFramesAndRaisedBringsTheImageBack) {
   EXPECT_LE(report().devicePeak, 2 * before.deviceBytes);
 }
 
+// Beside what a view holds there is room for any part of what it wants, not for all of it at once.
+TEST_F(Budget, RaisedALittleLetsAViewGrowPartByPart) {
+  const View view = lookAt({0, 0, 0}, {0, 0, 3}, 32, 32, 0.9);
+  Stage stage(makeAssetOfManyCells(), {view.width, view.height}, context_);
+  stage.draw(Method::kRaster, view);
+  const Frame whole = stage.draw(Method::kRaster, view);
+  const FrothMemoryReport before = report();
+  const uint64_t viewBytes = before.categories[1].granted;
+  ASSERT_EQ(frothSetBudget(context_, before.deviceBytes - viewBytes / 2), FROTH_OK);
+  EXPECT_NE(stage.draw(Method::kRaster, view).status.bits & kOverflow, 0u);
+  ASSERT_LT(report().deviceBytes, before.deviceBytes - viewBytes / 2);
+
+  const uint64_t budget = before.deviceBytes + viewBytes * 3 / 10;
+  ASSERT_LT(budget, report().deviceBytes + viewBytes) << "not all at once";
+  ASSERT_EQ(frothSetBudget(context_, budget), FROTH_OK);
+  for (int frame = 0; frame < 3; ++frame) stage.draw(Method::kRaster, view);
+  const Frame raised = stage.draw(Method::kRaster, view);
+  EXPECT_EQ(raised.status.bits, 0u);
+  EXPECT_EQ(raised.colour.values, whole.colour.values);
+  EXPECT_LE(report().devicePeak, budget);
+}
+
 TEST_F(Budget, ThatCannotBeObeyedKeepsWhatIsPinnedAndTellsTheExcess) {
   const View view = lookAt({0, 0, 0}, {0, 0, 3}, 32, 32, 0.9);
   Stage stage(makeAssetOfManyCells(), {view.width, view.height}, context_);

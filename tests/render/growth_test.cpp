@@ -1,4 +1,5 @@
 // Views with too little space draw valid frames and grow to what they want; the smallest and the longest images.
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -232,6 +233,34 @@ TEST_F(Growth, KeepsAheadOfACameraThatMovesOnAndFollowsOneThatJumps) {
     ASSERT_FALSE(lostFrames.empty()) << "the first frame had no space";
     EXPECT_EQ(lostFrames.front(), 0);
     EXPECT_LE(lostFrames.size(), 2u) << "only the first frame and the jump may lose something";
+  }
+}
+
+TEST_F(Growth, OfOneKindOfRoomLeavesTheBuffersOfOthersAlone) {
+  startWith(wholeCapacity());
+  const auto handles = [&] {
+    std::array<VkBuffer, kViewBufferCount> all;
+    for (uint32_t i = 0; i < kViewBufferCount; ++i) all[i] = space().buffers[static_cast<ViewBuffer>(i)].buffer;
+    return all;
+  };
+  using enum ViewBuffer;
+  const ViewCapacity whole = wholeCapacity();
+  const struct {
+    ViewCapacity wanted;
+    ViewBuffer first, last;  // of what grows, besides kTallies
+  } cases[] = {{{.planes = 2 * whole.planes}, kPlanes, kPlanes},
+               {{.pairs = 2 * whole.pairs}, kPairTiles, kPairCellsSwap},
+               {{.cells = 2 * whole.cells, .details = 2 * whole.details}, kVisibleCells, kDetails},
+               {{.groups = 2 * whole.groups}, kFrames, kWalkStart}};
+  for (const auto& [wanted, first, last] : cases) {
+    const auto before = handles();
+    growTo(wanted);
+    const auto after = handles();
+    for (uint32_t i = 0; i < kViewBufferCount; ++i) {
+      const auto id = static_cast<ViewBuffer>(i);
+      if (id == kTallies || before[i] == VK_NULL_HANDLE) continue;
+      EXPECT_EQ(after[i] != before[i], first <= id && id <= last) << "buffer " << i;
+    }
   }
 }
 

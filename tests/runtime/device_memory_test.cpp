@@ -167,7 +167,7 @@ TEST_F(DeviceMemory, ThatTheCallerRefusesIsAnErrorOfMemoryWithText) {
   info.messageUser = &messages_;
   EXPECT_EQ(frothCreateContext(&info, &context_), FROTH_ERROR_MEMORY);
   EXPECT_THAT(lastText(), HasSubstr("upload ring: FrothContextInfo::allocateMemory of 67108864 bytes"));
-  memory.most = 4;  // the upload ring and the placeholders of a view
+  memory.most = 2;  // the upload ring and the placeholders of a view
   createContext(info);
   auto viewInfo = makeStruct<FrothViewInfo>();
   viewInfo.maxExtent = {16, 16};
@@ -186,6 +186,43 @@ TEST_F(DeviceMemory, ThatTheCallerRefusesIsAnErrorOfMemoryWithText) {
   ASSERT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
   context_ = nullptr;
   EXPECT_TRUE(memory.live.empty());
+}
+
+// Each allocation costs drivers a fraction of a millisecond, in frothCreateView and in frothUpdate.
+TEST_F(DeviceMemory, OfAViewIsFiveAllocationsPerInstanceAndOneMore) {
+  createContext(host_->contextInfo());
+  const FrothAsset asset = openBytes(encodeSample());
+  runFrame();
+  createInstance(asset);
+  createInstance(asset);
+  const FrothView view = createView({32, 32});
+  const FrothMemoryReport now = report();
+  EXPECT_STREQ(now.categories[1].name, "views");
+  EXPECT_EQ(now.categories[1].count, 1u + 2 * 5);
+  EXPECT_STREQ(now.categories[2].name, "views, host");
+  EXPECT_EQ(now.categories[2].count, 2u * 2);
+  auto info = makeStruct<FrothViewInfo>();
+  info.maxExtent = {32, 32};
+  info.keepsHits = 1;
+  FrothView withHits{};
+  ASSERT_EQ(frothCreateView(context_, &info, &withHits), FROTH_OK);
+  EXPECT_EQ(report().categories[1].count - now.categories[1].count, 1u + 2 * 5 + 1);
+  EXPECT_EQ(frothDestroyView(context_, view), FROTH_OK);
+}
+
+TEST_F(DeviceMemory, OfAViewIsMadeOnceAndInItsSizeByTheCallThatMakesIt) {
+  CallersMemory memory{.device = host_->device};
+  createContext(infoWith(memory));
+  createInstance(openBytes(encodeSample()));
+  runFrame();
+  const uintptr_t before = memory.count;
+  createView({32, 32});
+  EXPECT_EQ(memory.count - before, 1u + 5 + 2);
+  runFrame();
+  runFrame();
+  EXPECT_EQ(memory.count - before, 1u + 5 + 2) << "frames allocate nothing";
+  ASSERT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
+  context_ = nullptr;
 }
 
 TEST_F(DeviceMemory, IsNotTouchedByAWindowThatIsResizedOrMinimized) {

@@ -55,7 +55,7 @@ def lines_of(cursor):
         yield from (f"enum {cursor.spelling}: {c.spelling} = {c.enum_value}" for c in cursor.get_children())
     elif cursor.kind == CursorKind.TYPEDEF_DECL and not cursor.underlying_typedef_type.spelling.startswith(("struct ", "enum ")):
         yield f"typedef {cursor.spelling} = {cursor.underlying_typedef_type.spelling}"
-    elif cursor.kind == CursorKind.MACRO_DEFINITION and cursor.spelling.startswith("FROTH_"):
+    elif cursor.kind == CursorKind.MACRO_DEFINITION and cursor.spelling.startswith("FROTH_") and cursor.spelling != "FROTH_ABI_VERSION":
         yield from number_lines(cursor)
 
 
