@@ -1,5 +1,7 @@
 #include "tests/faults/engine.h"
 
+#include <cstring>
+
 #include <gtest/gtest.h>
 
 #include "froth/froth_query.h"
@@ -51,6 +53,18 @@ FrothContextInfo Engine::contextInfo() {
   return info;
 }
 
+FrothReader Engine::reader() {
+  auto reader = makeStruct<FrothReader>();
+  reader.user = this;
+  reader.size = bytes_.size();
+  reader.read = [](void* user, uint64_t request, uint64_t offset, uint64_t size, void* destination) {
+    const Engine& engine = *static_cast<Engine*>(user);
+    std::memcpy(destination, engine.bytes_.data() + offset, size);
+    EXPECT_EQ(frothCompleteRead(engine.context_, request, FROTH_OK), FROTH_OK);
+  };
+  return reader;
+}
+
 FrothResult Engine::start() {
   const FrothContextInfo info = contextInfo();
   return call(frothCreateContext, &info, &context_);
@@ -60,9 +74,14 @@ FrothResult Engine::makeObjects() {
   FrothResult result = FROTH_OK;
   if (asset_.generation == 0) {
     auto info = makeStruct<FrothAssetInfo>();
-    info.data = bytes_.data();
-    info.dataSize = bytes_.size();
-    info.bytesStay = 1;
+    const FrothReader fromReader = reader();
+    if (source_ == Source::kReader) {
+      info.reader = &fromReader;
+    } else {
+      info.data = bytes_.data();
+      info.dataSize = bytes_.size();
+      info.bytesStay = 1;
+    }
     info.keepForQueries = 1;
     result = call(frothOpenAsset, context_, &info, &asset_);
   }

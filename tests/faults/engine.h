@@ -5,15 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "froth/froth.h"
+#include "froth/froth_reader.h"
 #include "host/host.h"
 
 namespace froth::test {
 
 class Engine {
  public:
+  // How the asset's bytes come: from memory, or through a reader that answers at once.
+  enum class Source { kMemory, kReader };
+
   // host null: without a device.
-  Engine(Host* host, const std::vector<uint8_t>& assetBytes) : host_(host), bytes_(assetBytes) {}
+  Engine(Host* host, const std::vector<uint8_t>& assetBytes, Source source = Source::kMemory)
+      : host_(host), bytes_(assetBytes), source_(source) {}
   ~Engine();
 
   // Each gives what the call returned that failed first; then the rest of it was not done, and it can be
@@ -40,11 +44,13 @@ class Engine {
 
  private:
   FrothContextInfo contextInfo();
+  FrothReader reader();
   FrothResult recordFrame(VkCommandBuffer commands);
   FrothRenderInfo renderInfo(const HostImage& image) const;
 
   Host* host_;
   const std::vector<uint8_t>& bytes_;
+  Source source_;
   HostImage rasterImage_, walkImage_;
   FrothContext* context_ = nullptr;
   FrothAsset asset_{};

@@ -99,9 +99,9 @@ INSTANTIATE_TEST_SUITE_P(Of, VulkanFault,
                          });
 
 // Each allocation of operator new fails once.
-void exhaustHostMemory(Host* host) {
+void exhaustHostMemory(Host* host, Engine::Source source = Engine::Source::kMemory) {
   const std::vector<uint8_t> bytes = encodeSample(host ? 1 : 2);
-  Engine well(host, bytes);
+  Engine well(host, bytes, source);
   HostFaults::arm(SIZE_MAX);
   ASSERT_TRUE(runScenario(well, FROTH_OK));
   const long liveBefore = HostFaults::liveCount();
@@ -109,7 +109,7 @@ void exhaustHostMemory(Host* host) {
   for (bool hasStruck = true; hasStruck; ++number) {
     SCOPED_TRACE("allocation " + std::to_string(number));
     {
-      Engine engine(host, bytes);
+      Engine engine(host, bytes, source);
       HostFaults::arm(number);
       ASSERT_TRUE(runScenario(engine, FROTH_ERROR_MEMORY));
       hasStruck = HostFaults::hasStruck();
@@ -148,6 +148,10 @@ TEST(HostAllocations, AreNotMadeByFramesAndQueries) {
 }
 
 TEST(HostFault, InAnyAllocationOfANullContextGivesMemoryAndTheEngineGoesOn) { exhaustHostMemory(nullptr); }
+
+TEST(HostFault, InAnyAllocationBesideAReaderGivesMemoryAndTheEngineGoesOn) {
+  exhaustHostMemory(nullptr, Engine::Source::kReader);
+}
 
 TEST(HostFault, InAnyAllocationOnADeviceGivesMemoryAndTheEngineGoesOn) {
   Result<std::unique_ptr<Host>> host = Host::create({});

@@ -186,7 +186,11 @@ TEST_F(Reader, IsCheckedWhenTheAssetIsOpened) {
   info.path = "x";
   EXPECT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_ERROR_ARGUMENT);
   EXPECT_THAT(lastText(), HasSubstr("more than one is set"));
+  info.structSize = offsetof(FrothAssetInfo, reader);  // an older header
   info.path = nullptr;
+  EXPECT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_ERROR_ARGUMENT);
+  EXPECT_THAT(lastText(), HasSubstr("none is set"));
+  info = infoOf(reader);
   reader.size = 0;
   EXPECT_EQ(frothOpenAsset(context_, &info, &asset), FROTH_ERROR_ARGUMENT);
   EXPECT_THAT(lastText(), HasSubstr("reader.size: 0"));

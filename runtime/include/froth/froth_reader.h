@@ -11,7 +11,8 @@
  * the device is lost: then the asset loads again.
  *
  * Bounds: of all assets together at most 32 ranges and 16 MiB are asked for and not decoded yet; a chunk or head beyond
- * that is read alone. A read that is cancelled and not answered counts, too.
+ * that is read alone. A read that is cancelled and not answered counts, too: a reader that never answers keeps others
+ * waiting.
  *
  * Bytes from a reader are trusted no more than those of a file. */
 #ifndef FROTH_FROTH_READER_H
