@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "runtime/context/context.h"
+#include "runtime/context/info_checks.h"
 
 namespace froth {
 namespace {
@@ -22,7 +23,7 @@ std::optional<AssetShape> toShape(const FrothVariant& variant) {
 }  // namespace
 
 FrothResult Context::readVariant(const FrothAssetInfo& info, FrothVariant& variant) const {
-  if (const FrothResult result = checkSource(info, "frothReadVariant"); result != FROTH_OK) {
+  if (const FrothResult result = checkSource(messages, "frothReadVariant", info); result != FROTH_OK) {
     return result;
   }
   const AssetSource source = sourceOf(info);

@@ -14,7 +14,7 @@
  * are uint32_t.
  *
  * Threads:
- *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName.
+ *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName, frothEstimateMemory.
  *   at once on different views:   frothRecordRaster, frothRecordWalk, frothRecordComposite, frothRecordDepthExport (*).
  *   at once on anything:          frothCastRays, frothLocate, frothOverlapSphere (*), frothReadVariant,
  *                                 frothPrecompile.
@@ -25,7 +25,7 @@
  *   froth_context.h    results, requirements, contexts, memory; included here
  *   froth_query.h      rays, points and spheres on the CPU
  *   froth_walk.h       rays on the GPU
- *   froth_precompile.h pipelines ahead of time
+ *   froth_precompile.h pipelines ahead of time;  froth_estimate.h  memory ahead of time
  *   froth_pool.h       threads for jobs
  *   froth_composite.h  blending into the engine's colour and depth images
  */
