@@ -1,17 +1,10 @@
 #include "runtime/asset/asset.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
 namespace froth {
-namespace {
-
-// Of the table of entries for rays.
-constexpr uint32_t kCellsPerEntry = 4, kMostEntriesAlong = 32;
-
-}  // namespace
 
 Asset::Asset(AssetSource source, Device* device) : source_(std::move(source)), device_(device) {
   if (device) {
@@ -60,11 +53,7 @@ Status Asset::placeChunk(LoadedChunk&& loaded) {
   workDone_ += chunkWork_[gpu_.chunks.size()];
   workToCome_ -= chunkWork_[gpu_.chunks.size()];
   growBounds(loaded);
-  const GpuChunk& chunk = gpu_.chunks.emplace_back(loaded.gpu);
-  gpu_.liveCount += chunk.liveCount;
-  gpu_.cellCount += chunk.cellCount;
-  gpu_.alphaTotal += chunk.alphaTotal;
-  gpu_.neighbourTotal += chunk.neighbourCount;
+  gpu_.add(loaded.gpu);
   if (loaded.query) {
     queryFoam_->addChunk(std::move(*loaded.query), loaded.bounds);
   }
@@ -97,13 +86,11 @@ Status Asset::placeArrays(const ChunkArrays& arrays) {
   return {};
 }
 
-// So many that from the nearest it is a few steps to any cell. 0: none.
+// 0: none.
 uint32_t Asset::entriesAlong() const {
-  if (!keepsForWalks_ || !device_ || !gpu_.hasWalkGraph || description_.liveCount == 0) {
-    return 0;
-  }
-  const double along = std::cbrt(static_cast<double>(description_.cellCount) / kCellsPerEntry);
-  return std::clamp(static_cast<uint32_t>(along), 1u, kMostEntriesAlong);
+  return keepsForWalks_ && device_ && gpu_.hasWalkGraph && description_.liveCount > 0
+             ? walkEntriesAlong(description_.cellCount)
+             : 0;
 }
 
 Status Asset::placeEntries() {

@@ -55,6 +55,16 @@ struct GpuAsset {
   std::vector<GpuChunk> chunks;
 
   AssetShape shape() const { return {detailCount, lobeCount, hasHeights}; }
+  void add(const GpuChunk& chunk) {
+    liveCount += chunk.liveCount;
+    cellCount += chunk.cellCount;
+    alphaTotal += chunk.alphaTotal;
+    neighbourTotal += chunk.neighbourCount;
+    chunks.push_back(chunk);
+  }
 };
+
+// Along each axis of the table of entries for rays.
+uint32_t walkEntriesAlong(uint32_t cellCount);
 
 }  // namespace froth

@@ -4,42 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/context/info_checks.h"
+
 namespace froth {
 namespace {
 
-constexpr uint32_t kMaxViewExtent = 16384;
-constexpr uint32_t kReservedCells = 1u << 20;      // FrothViewInfo::reserveCells
 constexpr double kUnitQuaternionTolerance = 1e-3;  // as for a camera's rotation
 
 }  // namespace
 
 // ---- Assets ----
 
-FrothResult Context::checkSource(const FrothAssetInfo& info, const char* call) const {
-  const bool hasBytes = info.data && info.dataSize > 0;
-  const int sources = (info.path ? 1 : 0) + (hasBytes ? 1 : 0) + (info.reader ? 1 : 0);
-  if (sources != 1) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                         "path, data, reader: %s; give a path, or data and dataSize, or a reader",
-                         sources == 0 ? "none is set" : "more than one is set");
-  }
-  if (info.reader && !info.reader->read) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "reader.read: null; give the function that reads");
-  }
-  if (info.reader && info.reader->size == 0) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "reader.size: 0; give the bytes of the whole asset");
-  }
-  if (info.path && !*info.path) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "path: empty; give the path of a .froth file");
-  }
-  if (info.layers > kLayerCount) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "layers: %u; at most %u, or 0 for all", info.layers, kLayerCount);
-  }
-  return FROTH_OK;
-}
-
 FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
-  if (const FrothResult result = checkSource(info, "frothOpenAsset"); result != FROTH_OK) {
+  if (const FrothResult result = checkSource(messages, "frothOpenAsset", info); result != FROTH_OK) {
     return result;
   }
   handle = assets_.add(std::make_unique<Asset>(sourceOf(info), isNull_ ? nullptr : &device_));
@@ -203,10 +180,8 @@ FrothResult Context::destroyInstance(FrothInstance handle) {
 // ---- Views ----
 
 FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
-  const VkExtent2D extent = info.maxExtent;
-  if (extent.width == 0 || extent.height == 0 || extent.width > kMaxViewExtent || extent.height > kMaxViewExtent) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "maxExtent: %u x %u; must be 1 to %u each",
-                         extent.width, extent.height, kMaxViewExtent);
+  if (const FrothResult result = checkExtent(messages, "frothCreateView", info.maxExtent); result != FROTH_OK) {
+    return result;
   }
   if ((info.lensClasses & ~lensClasses_) != 0) {
     return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView",
@@ -217,7 +192,7 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
     return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "eyeCount: %u; at most %u", info.eyeCount, kMostEyes);
   }
   auto view = std::make_unique<View>();
-  view->maxExtent = extent;
+  view->maxExtent = info.maxExtent;
   view->eyeCount = info.eyeCount == 0 ? 1 : info.eyeCount;
   view->lensClasses = info.lensClasses;
   view->measurePasses = info.measurePasses != 0;

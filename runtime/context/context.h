@@ -127,7 +127,6 @@ class Context {
     std::vector<std::pair<uint64_t, uint32_t>> bits;  // recorded frames that left something out: serial, FrothViewBit
   };
 
-  FrothResult checkSource(const FrothAssetInfo& info, const char* call) const;
   FrothResult checkInfo(const FrothContextInfo& info, const char* call) const;
   FrothResult checkEngineFormats(const FrothContextInfo& info, const char* call) const;
   Status createDeviceObjects(const FrothContextInfo& info);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "runtime/context/context.h"
+#include "runtime/context/info_checks.h"
 #include "runtime/device/requirements.h"
 #include "runtime/render/composite.h"
 
@@ -9,7 +10,6 @@ namespace froth {
 namespace {
 
 constexpr VkDeviceSize kStagingBytes = 64u << 20, kLeastStagingBytes = 64u << 10;
-constexpr uint32_t kDefaultFramesInFlight = 2, kMaxFramesInFlight = 8;
 constexpr uint32_t kDefaultMostJobs = 4, kMaxMostJobs = 64;
 
 // Views give up this part of what they can besides the excess, so that a few rounds reach the budget.
@@ -23,9 +23,8 @@ FrothResult Context::checkInfo(const FrothContextInfo& info, const char* call) c
                          "abiVersion: 0x%08x, this library is 0x%08x; compile with the header of this library",
                          info.abiVersion, FROTH_ABI_VERSION);
   }
-  if (info.framesInFlight > kMaxFramesInFlight) {
-    return messages.fail(FROTH_ERROR_ARGUMENT, call, "framesInFlight: %u; at most %u", info.framesInFlight,
-                         kMaxFramesInFlight);
+  if (const FrothResult result = checkFramesInFlight(messages, call, info.framesInFlight); result != FROTH_OK) {
+    return result;
   }
   if (info.mostJobs > kMaxMostJobs) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "mostJobs: %u; at most %u", info.mostJobs, kMaxMostJobs);

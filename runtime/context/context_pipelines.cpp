@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "runtime/context/context.h"
+#include "runtime/context/info_checks.h"
 
 namespace froth {
 namespace {
@@ -22,11 +23,7 @@ std::optional<AssetShape> toShape(const FrothVariant& variant) {
 }  // namespace
 
 FrothResult Context::readVariant(const FrothAssetInfo& info, FrothVariant& variant) const {
-  if (info.reader) {
-    return messages.fail(FROTH_ERROR_UNSUPPORTED, "frothReadVariant",
-                         "reader: its answers may come later; give path or data, or store the variant with the asset");
-  }
-  if (const FrothResult result = checkSource(info, "frothReadVariant"); result != FROTH_OK) {
+  if (const FrothResult result = checkSourceAtHand(messages, "frothReadVariant", info); result != FROTH_OK) {
     return result;
   }
   const AssetSource source = sourceOf(info);

@@ -210,6 +210,10 @@ VkDeviceSize bytesOf(const ViewCapacity& capacity) {
   return bytes;
 }
 
+VkDeviceSize hostBytesOf(const ViewCapacity& capacity) {
+  return sizeOf(ViewBuffer::kStaging, capacity) + sizeOf(ViewBuffer::kReadback, capacity);
+}
+
 VkDeviceSize ViewBuffers::deviceBytes() const {
   VkDeviceSize bytes = 0;
   for (const GpuBuffer& buffer : buffers_) bytes += buffer.kind == BufferKind::kDevice ? buffer.size : 0;

@@ -93,7 +93,8 @@ class ViewBuffers {
   std::vector<std::pair<uint64_t, GpuBuffer>> retired_;
 };
 
-// [bytes] Device memory of buffers that are as large as the capacity.
+// [bytes] Device memory, and host memory, of buffers that are as large as the capacity.
 VkDeviceSize bytesOf(const ViewCapacity& capacity);
+VkDeviceSize hostBytesOf(const ViewCapacity& capacity);
 
 }  // namespace froth

@@ -201,6 +201,22 @@ Status createSets(Device& device, const char* name, const SetBindings& bindings,
 
 }  // namespace
 
+ViewCapacity leastCapacity(const ViewOptions& options) {
+  const VkExtent2D extent = options.maxExtent;
+  ViewCapacity capacity;
+  capacity.frames = options.framesInFlight;
+  capacity.tiles = tilesAlong(extent.width) * tilesAlong(extent.height);
+  if (options.lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
+  if (options.lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = uint64_t{extent.width} * extent.height;
+  return capacity;
+}
+
+ViewCapacity firstCapacity(const ViewOptions& options) {
+  ViewCapacity capacity = leastCapacity(options);
+  if (options.keepsHits) capacity.hits = uint64_t{options.maxExtent.width} * options.maxExtent.height;
+  return capacity;
+}
+
 ViewRenderer::ViewRenderer() = default;
 ViewRenderer::~ViewRenderer() = default;
 
@@ -236,19 +252,12 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
                                        .timer = std::move(timer),
                                        .slots = std::vector<FrameSlot>(options.framesInFlight)});
   ViewState& view = *renderer->state_;
-  ViewCapacity& capacity = view.leastCapacity;
-  const VkExtent2D extent = options.maxExtent;
-  const uint64_t pixels = uint64_t{extent.width} * extent.height;
+  view.leastCapacity = leastCapacity(options);
   view.reservedCells = options.reservedCells;
-  capacity.frames = options.framesInFlight;
-  capacity.tiles = tilesAlong(extent.width) * tilesAlong(extent.height);
-  if (options.lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
-  if (options.lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = pixels;
   view.parts.reserve(gpu::kMostInstances);
   view.spaces.push_back(std::make_unique<InstanceSpace>(device, recordings));
-  ViewCapacity first = capacity;  // the hits of all instances are there
-  if (options.keepsHits) first.hits = pixels;
   ViewBuffers& buffers = view.spaces.front()->buffers;
+  const ViewCapacity first = firstCapacity(options);
   ViewCapacity whole = first;
   if (options.firstAsset) coverAsset(*options.firstAsset, view.reservedCells, whole);
   const uint64_t budgetRefusals = device.budgetRefusals;

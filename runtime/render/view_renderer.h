@@ -9,6 +9,7 @@
 #include "froth/froth_composite.h"
 #include "runtime/asset/gpu_asset.h"
 #include "runtime/device/device.h"
+#include "runtime/render/view_capacity.h"
 
 namespace froth {
 
@@ -42,6 +43,11 @@ struct ViewOptions {
   uint32_t reservedCells = 0;            // room from the first frame on, for each instance; no more than its asset has
   const GpuAsset* firstAsset = nullptr;  // of the first instance: room for it is made at once, if the budget has it
 };
+
+// What a view has room for, for each instance, before an asset is known.
+ViewCapacity leastCapacity(const ViewOptions& options);
+// The same for the first instance, which has the hits of all.
+ViewCapacity firstCapacity(const ViewOptions& options);
 
 class ViewRenderer {
  public:

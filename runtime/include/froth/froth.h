@@ -15,7 +15,8 @@
  *   Zero is the default of every field. Booleans are uint32_t.
  *
  * Threads:
- *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName, frothCompleteRead.
+ *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName, frothCompleteRead,
+ *                                 frothEstimateMemory.
  *   at once on different views:   frothRecordRaster, frothRecordWalk, frothRecordComposite, frothRecordDepthExport (*).
  *   at once on anything:          frothCastRays, frothLocate, frothOverlapSphere (*), frothReadVariant,
  *                                 frothPrecompile.
@@ -29,6 +30,7 @@
  *   froth_query.h      rays, points and spheres on the CPU
  *   froth_walk.h       rays on the GPU
  *   froth_precompile.h pipelines ahead of time
+ *   froth_estimate.h   memory ahead of time
  *   froth_pool.h       threads for jobs
  *   froth_composite.h  blending into the engine's colour and depth images
  */

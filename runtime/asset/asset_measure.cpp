@@ -1,0 +1,49 @@
+#include "runtime/asset/asset_measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "runtime/asset/loaded_chunk.h"
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kCellsPerEntry = 4, kMostEntriesAlong = 32;
+
+}  // namespace
+
+// So many that from the nearest it is a few steps to any cell.
+uint32_t walkEntriesAlong(uint32_t cellCount) {
+  const double along = std::cbrt(static_cast<double>(cellCount) / kCellsPerEntry);
+  return std::clamp(static_cast<uint32_t>(along), 1u, kMostEntriesAlong);
+}
+
+Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQueries, bool keepsForWalks) {
+  const Result<AssetReader> reader = openReader(source);
+  if (!reader) return reader.error();
+  const AssetContents& manifest = reader->manifest();
+  AssetMeasure measure;
+  measure.gpu.detailCount = manifest.detailCount;
+  QueryFoam foam(manifest);
+  const ChunkUses uses{.drawing = true, .queries = keepsForQueries && manifest.hasWalkGraph};
+  for (uint32_t chunk = 0; chunk < manifest.chunks.size(); ++chunk) {
+    Result<LoadedChunk> loaded = loadChunk(*reader, chunk, source.name, uses);
+    if (!loaded) return loaded.error();
+    measure.gpu.add(loaded->gpu);
+    for (const ChunkArray& array : loaded->arrays.arrays) measure.deviceBytes += array.size;
+    if (loaded->query) foam.addChunk(std::move(*loaded->query), loaded->bounds);
+  }
+  if (keepsForQueries) {
+    if (const Status status = foam.checkGhosts(source.name); !status) return status.error();
+    foam.finish();
+    measure.hostBytes = foam.bytes();
+  }
+  if (keepsForWalks && manifest.hasWalkGraph && measure.gpu.liveCount > 0) {
+    const uint64_t along = walkEntriesAlong(measure.gpu.cellCount);
+    measure.deviceBytes += sizeof(gpu::uvec4) * along * along * along;
+  }
+  return measure;
+}
+
+}  // namespace froth
