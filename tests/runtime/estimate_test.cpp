@@ -1,5 +1,6 @@
 // froth_estimate.h: what is told ahead of time is what assets and views then take.
 #include "froth/froth_estimate.h"
+#include "froth/froth_reader.h"
 
 #include "runtime_fixture.h"
 
@@ -158,6 +159,9 @@ TEST_F(EstimateCall, RefusesWhatOtherCallsRefuse) {
   asset_.layers = 0;
   asset_.dataSize /= 2;
   expectRefused(FROTH_ERROR_FILE, "asset in memory");
+  const auto reader = makeStruct<FrothReader>();
+  asset_.reader = &reader;
+  expectRefused(FROTH_ERROR_UNSUPPORTED, "reader: its answers may come later");
   info_.asset = nullptr;
   expectRefused(FROTH_ERROR_ARGUMENT, "asset: null");
 }
