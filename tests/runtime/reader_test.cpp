@@ -61,7 +61,7 @@ TEST_F(Reader, MayAnswerChunksInAnyOrder) {
   EXPECT_EQ(stateOf(asset), FROTH_ASSET_READY) << lastText();
 }
 
-TEST_F(Reader, IsAskedForNoByteTwiceAndForTheWantedLayersAlone) {
+TEST_F(Reader, IsAskedOnceForChunksAndForTheWantedLayersAlone) {
   Result<AssetReader> file = AssetReader::openBytes(large_, "large");
   ASSERT_TRUE(file);
   for (const uint32_t layers : {1u, 2u, 3u}) {
