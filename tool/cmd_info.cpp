@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <span>
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "baker/input/foam_input.h"
 #include "foam/checkpoint/checkpoint.h"
 #include "format/read/asset_reader.h"
+#include "froth/froth_estimate.h"
 #include "measure/figures.h"
 #include "tool/commands.h"
 #include "tool/options.h"
@@ -23,7 +25,49 @@ uint64_t fileSize(const std::filesystem::path& path) {
   return error ? 0 : size;
 }
 
-Status describeAsset(const std::filesystem::path& path, const FiguresOutput& output) {
+template <class T>
+T makeStruct() {
+  T value{};
+  value.structSize = sizeof(T);
+  return value;
+}
+
+// What the runtime will hold of the asset, and of a view with one instance of it.
+Result<FrothMemoryEstimate> estimateMemory(const std::filesystem::path& path, VkExtent2D extent) {
+  auto asset = makeStruct<FrothAssetInfo>();
+  asset.path = path.c_str();
+  auto view = makeStruct<FrothViewInfo>();
+  view.maxExtent = extent;
+  auto info = makeStruct<FrothEstimateInfo>();
+  info.asset = &asset;
+  info.view = &view;
+  std::string message;
+  info.messageUser = &message;
+  info.onMessage = [](void* user, FrothSeverity, FrothResult, const char*, const char* text) {
+    *static_cast<std::string*>(user) = text;
+  };
+  auto estimate = makeStruct<FrothMemoryEstimate>();
+  if (frothEstimateMemory(&info, &estimate) == FROTH_OK) return estimate;
+  return makeError(ErrorKind::kBadInput, "%s", message.c_str());
+}
+
+Status describeMemory(const std::filesystem::path& path, const FiguresOutput& output, nlohmann::ordered_json& figures) {
+  constexpr VkExtent2D kExtent = {1920, 1080};
+  const Result<FrothMemoryEstimate> memory = estimateMemory(path, kExtent);
+  if (!memory) return memory.error();
+  const uint64_t viewBytes = memory->viewBytes + memory->viewInstanceBytes;
+  if (output.wantsTable()) {
+    fmt::print("GPU memory        {} bytes of the asset, {} of a view of {} x {} pixels\n", memory->assetBytes,
+               viewBytes, kExtent.width, kExtent.height);
+  }
+  figures["memory"] = {{"assetBytes", memory->assetBytes},
+                       {"viewExtent", {kExtent.width, kExtent.height}},
+                       {"viewBytes", viewBytes},
+                       {"viewHostBytes", memory->viewInstanceHostBytes}};
+  return {};
+}
+
+Status describeAsset(const std::filesystem::path& path, bool wantsMemory, const FiguresOutput& output) {
   const Result<AssetReader> reader = AssetReader::open(path);
   if (!reader) return asBadInput(reader.error());
   const AssetContents& manifest = reader->manifest();
@@ -35,7 +79,8 @@ Status describeAsset(const std::filesystem::path& path, const FiguresOutput& out
   nlohmann::ordered_json figures{{"file", path.string()}, {"kind", "asset"}, {"bytes", fileSize(path)}};
   figures.update(statisticsAsJson(manifest));
   figures["sections"] = sectionsAsJson(*reader);
-  return output.write(figures);
+  const Status status = wantsMemory ? describeMemory(path, output, figures) : Status();
+  return status ? output.write(figures) : status;
 }
 
 struct Range {
@@ -82,11 +127,13 @@ void addInfoCommand(CLI::App& program, Tool& tool) {
   CLI::App* command = program.add_subcommand("info", "Describe a checkpoint or an asset");
   auto path = std::make_shared<std::filesystem::path>();
   auto output = std::make_shared<FiguresOutput>();
+  auto wantsMemory = std::make_shared<bool>(false);
   command->add_option("INPUT", *path, "A checkpoint or a .froth file")->required();
+  command->add_flag("--memory", *wantsMemory, "Of an asset: what it and a view take at run time; decodes all of it");
   addFiguresOption(*command, *output);
-  command->callback([&tool, path, output] {
-    tool.action = [&tool, path, output] {
-      if (isAssetPath(*path)) return describeAsset(*path, *output);
+  command->callback([&tool, path, wantsMemory, output] {
+    tool.action = [&tool, path, wantsMemory, output] {
+      if (isAssetPath(*path)) return describeAsset(*path, *wantsMemory, *output);
       return describeCheckpoint(*path, *output, tool.progress.callback());
     };
   });

@@ -28,7 +28,7 @@ Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQuerie
   QueryFoam foam(manifest);
   const ChunkUses uses{.drawing = true, .queries = keepsForQueries && manifest.hasWalkGraph};
   for (uint32_t chunk = 0; chunk < manifest.chunks.size(); ++chunk) {
-    Result<LoadedChunk> loaded = loadChunk(*reader, chunk, source.name, uses);
+    Result<LoadedChunk> loaded = loadChunk(*reader, *reader->source(), chunk, source.name, uses);
     if (!loaded) return loaded.error();
     measure.gpu.add(loaded->gpu);
     for (const ChunkArray& array : loaded->arrays.arrays) measure.deviceBytes += array.size;

@@ -153,6 +153,19 @@ TEST_F(BakeCommand, AKnobChangesItsLatticeAndNothingElse) {
   EXPECT_EQ(info["errors"]["densities"]["max"], 0);
 }
 
+TEST_F(BakeCommand, InfoTellsTheMemoryOfTheAssetAndOfAView) {
+  makeRandomFoam("60");
+  bake("b.froth", {});
+  EXPECT_FALSE(frothJson({"info", "b.froth"}).contains("memory"));
+  const nlohmann::json memory = frothJson({"info", "b.froth", "--memory"})["memory"];
+  EXPECT_GT(memory["assetBytes"], 60 * 16);  // sites and radii alone
+  EXPECT_EQ(memory["viewExtent"], (std::vector<int>{1920, 1080}));
+  EXPECT_GT(memory["viewBytes"], 60 * 175);
+  const std::string line = std::to_string(memory["assetBytes"].get<uint64_t>()) + " bytes of the asset, " +
+                           std::to_string(memory["viewBytes"].get<uint64_t>()) + " of a view of 1920 x 1080 pixels\n";
+  EXPECT_NE(frothWell({"info", "b.froth", "--memory"}).find(line), std::string::npos);
+}
+
 TEST_F(BakeCommand, BytesAreTheSameOnAnyNumberOfThreads) {
   makeRandomFoam("400");
   for (const std::string preset : {"exact", "default"}) {
