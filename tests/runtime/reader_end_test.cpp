@@ -82,6 +82,31 @@ TEST_F(Reader, WithoutCancelEnds) {
   EXPECT_EQ(messages_[0].object, "asset of a reader");
 }
 
+// The job that opens the head has ended, and no frame has taken its result.
+TEST_F(Reader, IsAskedAgainWhenALossMeetsTheHead) {
+  ASSERT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
+  HeldJobs jobs;
+  FrothContextInfo info = nullContextInfo();
+  info.runJob = HeldJobs::hold;
+  info.jobUser = &jobs;
+  createContext(info);
+  const FrothAsset asset = open(large_);
+  runFrame();
+  archive_.answerAll();
+  runFrame();
+  ASSERT_EQ(jobs.held.size(), 1u);
+  jobs.runFirst();
+  ASSERT_EQ(frothDeviceLost(context_), FROTH_OK);
+  ASSERT_EQ(frothRestoreDevice(context_, &info), FROTH_OK);
+  for (int frame = 0; frame < 100 && statusOf(asset).state == FROTH_ASSET_OPENING; ++frame) {
+    runFrame();
+    archive_.answerAll();
+    jobs.runAll();
+  }
+  EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY) << lastText();
+  EXPECT_EQ(archive_.asked[1].offset, 0u);
+}
+
 // With a device, jobs and pictures.
 class ReaderOnDevice : public Jobs {
  protected:
