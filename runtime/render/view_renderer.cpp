@@ -38,15 +38,19 @@ void addCounters(const gpu::Counters& counters, FrothViewStatus& status) {
 }
 
 void readRecording(ViewState& view, uint32_t number) {
-  uint32_t visibleCells = 0;  // of all parts
+  uint32_t visibleCells = 0, shownCells = 0;  // of all parts
   for (const auto& space : view.spaces) {
     if (space->serials[number] != view.status.serial) continue;
     const gpu::Counters& counters = readCounters(*space, number);
     addCounters(counters, view.status);
     visibleCells += counters.cellsWanted;
+    shownCells += counters.visibleCells;
     space->demand = largest(space->demand, demandOf(counters));
   }
-  view.status.visibleCells = std::max(view.status.visibleCells, visibleCells);
+  if (visibleCells > view.status.visibleCells) {
+    view.status.visibleCells = visibleCells;
+    view.status.shownCells = shownCells;
+  }
   if (view.timer) view.timer->read(number, view.status);
 }
 
