@@ -116,6 +116,11 @@ Status prepareSpace(ViewState& view, InstanceSpace& space, uint64_t completedSer
   return status;
 }
 
+Error nameInstance(const RenderInstance& instance, const Error& error) {
+  return makeError(error.kind, "instance {%u, %u}, userId %u: %s", instance.handle.index, instance.handle.generation,
+                   instance.userId, error.message.c_str());
+}
+
 InstanceSpace* findSpace(const ViewState& view, FrothInstance instance) {
   for (const auto& space : view.spaces) {
     if (space->isTaken && isSame(space->instance, instance)) return space.get();
@@ -262,13 +267,14 @@ Status ViewRenderer::prepare(uint64_t completedSerial, std::span<const RenderIns
 
   giveUpSpaces(view, completedSerial, instances);
   Status result;
-  const auto prepareFor = [&](InstanceSpace& space, const GpuAsset* asset) {
-    const Status status = prepareSpace(view, space, completedSerial, asset);
-    if (result && !status) result = status;
-  };
-  for (const RenderInstance& instance : instances) prepareFor(takeSpace(view, instance.handle), instance.asset);
+  for (const RenderInstance& instance : instances) {
+    const Status status = prepareSpace(view, takeSpace(view, instance.handle), completedSerial, instance.asset);
+    if (result && !status) result = nameInstance(instance, status.error());
+  }
   for (const auto& space : view.spaces) {
-    if (!space->isTaken) prepareFor(*space, nullptr);
+    if (space->isTaken) continue;
+    const Status status = prepareSpace(view, *space, completedSerial, nullptr);
+    if (result && !status) result = status;
   }
   describeMemory(view);
   return result;

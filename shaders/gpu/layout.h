@@ -97,10 +97,10 @@ FROTH_CONST kFlagDisplayCoded = 8;
 FROTH_CONST kFlagDepth = 32;
 FROTH_CONST kFlagSceneDepth = 64;
 FROTH_CONST kFlagHits = 128;
-FROTH_CONST kFlagShortTiles = 256;  // all tiles are drawn as short ones,
-FROTH_CONST kFlagLongTiles = 512;   // or as long ones (FrothRenderInfo::tileForm)
+FROTH_CONST kFlagShortTiles = 256;   // all tiles are drawn as short ones,
+FROTH_CONST kFlagLongTiles = 512;    // or as long ones (FrothRenderInfo::tileForm)
 FROTH_CONST kFlagCountSizes = 1024;  // there may be no room for all cells in view: the largest stay
-FROTH_CONST kToneCurveShift = 16;   // above it: foam/tone.h
+FROTH_CONST kToneCurveShift = 16;    // above it: foam/tone.h
 // list cells that guide walks too, and the planes of all neighbours; else a raster: sort the cells, shade only those
 // that own a (tile, cell) pair
 FROTH_CONST kFlagWalk = 16;
