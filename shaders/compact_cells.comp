@@ -1,6 +1,7 @@
 // Lists the visible cells in the order of the asset, and plans the passes over them: same grid as cull_cells.comp,
-// whose bits and sums it reads. Cells that find no space are no longer visible: all from the first one on for whom
-// there is no slot or no planes. A walk does without planes that find no space.
+// whose bits and sums it reads. Where even the cells of one size key find no space, or a driver rounds sizes apart, all
+// from the first one on for whom there is no slot or no planes are no longer visible. A walk does without planes that
+// find no space.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/asset.glsl"
@@ -101,8 +102,8 @@ void main() {
   if (thread != 0) return;
   uvec2 sum = saturatingAdd(before, ownSum);
   if (isLast) {
-    COUNTERS.cellsWanted = sum.x;
-    COUNTERS.planesWanted = sum.y;
+    COUNTERS.cellsWanted = sum.x + COUNTERS.droppedCells;
+    COUNTERS.planesWanted = saturatingAdd(sum.y, COUNTERS.droppedPlanes);
   }
   if (haveSpace(sum) ? isLast : haveSpace(before)) planVisible(min(sum.x, lostSlot));
 }

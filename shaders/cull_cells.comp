@@ -1,9 +1,12 @@
 // Which live cells this view can see: near tests, then the solid ball against all rays of the view. For a walk the
 // cells that only guide it are listed too. A thread per cell; a bit per cell and, per workgroup and per kGroupSize
 // of these, the count of visible cells and of their planes.
+//
+// With kFlagCountSizes it also counts the cells by their size on screen. If choose_cells.comp then finds no room for
+// all, it runs once more and leaves out those below the least size that has room.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gpu/asset.glsl"
+#include "gpu/cell_sizes.glsl"
 #include "gpu/pixels.glsl"
 #include "foam/cell.h"
 
@@ -12,14 +15,27 @@ layout(local_size_x = kGroupSize) in;
 shared uint maskWords[kMaskWords];
 shared uint planes;
 
-bool isVisible(Chunk chunk, uint cell) {
+// solid: the ball that is seen; of cells that only guide walks one without a radius.
+bool isInView(Chunk chunk, uint cell, out Ball solid) {
+  solid = Ball(vec3(0.0), 0.0);
   if (cell >= chunk.liveCount) return cell < chunk.cellCount && isWalk();
   Ball ball = ballOfSite(chunk, cell);
   // One load: lavapipe of Mesa 22.3 mixes up the components where a vector and one of its parts are loaded apart.
   vec4 forward = FRAME.forward;
   if (isNearCell(ball.centre, ball.radius, forward.xyz, FRAME.nearRatio, forward.w)) return false;
-  Ball solid = solidBall(ball, solidBallBytes(chunk.index, cell));
+  solid = solidBall(ball, solidBallBytes(chunk.index, cell));
   return pixelsMeetBall(solid.centre, solid.radius, uvec2(0), max(FRAME.regionWidth, FRAME.regionHeight));
+}
+
+// Of a cell in view: whether it stays. All do until choose_cells.comp has chosen.
+bool hasRoom(Chunk chunk, uint cell, Ball solid) {
+  if ((FRAME.flags & kFlagCountSizes) == 0) return true;
+  uint key = sizeKey(chunk, cell, solid);
+  if (COUNTERS.leastKey != 0) return key >= COUNTERS.leastKey;
+  atomicAdd(FRAME.sizeCounts.v[key].x, 1u);
+  // A walk needs no planes, but shows the cells that a raster shows.
+  if (cell < chunk.liveCount) atomicAdd(FRAME.sizeCounts.v[key].y, alphaCountOf(chunk, cell));
+  return true;
 }
 
 void main() {
@@ -33,7 +49,8 @@ void main() {
   if (thread == 0) planes = 0;
   barrier();
 
-  if (isVisible(chunk, local)) {
+  Ball solid;
+  if (isInView(chunk, local, solid) && hasRoom(chunk, local, solid)) {
     atomicOr(maskWords[thread / 32], 1u << (thread % 32));
     atomicAdd(planes, planeCountOf(chunk, local));
   }

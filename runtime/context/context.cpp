@@ -209,8 +209,15 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   if (like && like->renderer && view->renderer) {
     view->renderer->startLike(*like->renderer);
   }
-  prepareView(*view);  // room for what is there is made here, and not in the next frame
+  View& added = *view;
   handle = views_.add(std::move(view));
+  try {
+    prepareView(handle, added);  // room for what is there is made here, and not in the next frame
+  } catch (...) {
+    views_.remove(handle);
+    handle = {};
+    throw;
+  }
   return FROTH_OK;
 }
 

@@ -141,7 +141,7 @@ class Context {
   FrothResult beginFrame(const FrothFrame& frame);
   void runFrame(FrothFrameStatus& status);
   void loadAssets();
-  void prepareView(View& view);
+  void prepareView(FrothView handle, View& view);
   // The view, if this eye of it was drawn in this frame and the call was not made yet; else null, and a message.
   View* findDrawn(FrothView handle, uint32_t eye, const char* call, uint64_t Eye::*newestCall, FrothResult& result);
   FrothResult checkEye(const View& view, uint32_t eye, const char* call) const;

@@ -73,7 +73,7 @@ void Context::runFrame(FrothFrameStatus& status) {
   loadAssets();
   prepareMerging();
   shrinkViews();
-  views_.forEach([&](View& view) { prepareView(view); });
+  views_.forEachNamed([&](FrothView handle, View& view) { prepareView(handle, view); });
   prepareWalks();
 
   assets_.forEach([&](const Asset& asset) {
@@ -115,18 +115,18 @@ void Context::loadAssets() {
   std::erase_if(making_, [](const auto& made) { return made.second.hasEnded(); });
 }
 
-void Context::prepareView(View& view) {
+void Context::prepareView(FrothView handle, View& view) {
   if (!view.renderer) {
     return;
   }
   std::erase_if(view.bits, [&](const auto& recorded) { return recorded.first < view.renderer->status().serial; });
   view.bits.reserve(view.bits.size() + 2 * kMostEyes);  // a raster and a walk of each
   view.prepared.clear();
-  instances_.forEachNamed([&](FrothInstance handle, const Instance& instance) {
+  instances_.forEachNamed([&](FrothInstance name, const Instance& instance) {
     const Asset* asset = assets_.find(instance.asset);
     if (asset->isDecoded() && view.prepared.size() < gpu::kMostInstances) {
       view.prepared.push_back(instance.placement);
-      view.prepared.back().handle = handle;
+      view.prepared.back().handle = name;
       view.prepared.back().asset = &asset->gpu();
     }
   });
@@ -139,7 +139,8 @@ void Context::prepareView(View& view) {
   // The view keeps the buffers it had: it goes on drawing what they hold.
   if (view.preparationError != status.error().message) {  // once, not in every frame
     view.preparationError = status.error().message;
-    messages.fail(status.error(), "view");
+    messages.fail(resultOf(status.error()), "view", "view {%u, %u}, %s", handle.index, handle.generation,
+                  view.preparationError.c_str());
   }
 }
 

@@ -57,6 +57,7 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
   const VkDeviceAddress tallies = buffers[ViewBuffer::kTallies].address;
   const TallyLayout layout = buffers.tallies();
   block.superSums = tallies + layout.superSums;
+  block.sizeCounts = tallies + layout.sizeCounts;
   block.tileLengths = tallies + layout.tileLengths;
   block.tileSums = tallies + layout.tileSums;
   block.cellHistogram = tallies + layout.cellHistograms;
@@ -133,6 +134,7 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   fillCamera(info, rays, instance, block);
   fillTransients(buffers, asset, region, block);
   fillChunks(asset, rays.eye, chunks);
+  block.flags |= holdsAllCells(asset, buffers.capacity()) ? 0 : gpu::kFlagCountSizes;
   block.scale = instance.scale;
   block.exposure = instance.exposure;
   block.logCutoff = info.cutoff > 0 ? std::log(info.cutoff) : -std::numeric_limits<float>::infinity();

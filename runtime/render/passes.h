@@ -13,6 +13,7 @@ namespace froth {
 // Made with the context.
 #define FROTH_COMMON_PASSES(ONE, COLOURS, FORMS)    \
   ONE(CullCells, cull_cells, kEachLens)             \
+  ONE(ChooseCells, choose_cells, kAnyLens)          \
   ONE(SortScatter, sort_scatter, kAnyLens)          \
   ONE(SortScatterMany, sort_scatter_many, kAnyLens) \
   ONE(CountTiles, count_tiles, kEachLens)           \

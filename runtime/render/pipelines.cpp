@@ -9,6 +9,7 @@
 #include "shaders/gpu/layout.h"
 #include "spirv/aim_rays.h"
 #include "spirv/aim_rays_by_image.h"
+#include "spirv/choose_cells.h"
 #include "spirv/clear_rgba16f.h"
 #include "spirv/clear_rgba32f.h"
 #include "spirv/compact_cells.h"

@@ -51,6 +51,23 @@ void recordUpload(const Recording& recording, const RecordingPart& part) {
   }
 }
 
+// Of instances whose cells may not all have room.
+void recordChoice(const Recording& recording) {
+  const auto forShort = [&](const auto& record) {
+    bool isAny = false;
+    for (const RecordingPart& part : recording.parts()) {
+      if (holdsAllCells(*part.asset, part.space.buffers.capacity())) continue;
+      record(part.recorder);
+      isAny = true;
+    }
+    if (isAny) recording.wait();
+  };
+  forShort([](const PassRecorder& recorder) { recorder.run(Pass::kChooseCells, 1); });
+  forShort([](const PassRecorder& recorder) {
+    recorder.runIndirect(Pass::kCullCells, offsetof(gpu::Counters, dropDispatch));
+  });
+}
+
 void recordRayPasses(const Recording& recording) {
   const FrothCamera& camera = recording.info.camera;
   const uint32_t tilesX = tilesAlong(camera.scissor.extent.width), tilesY = tilesAlong(camera.scissor.extent.height);
@@ -153,12 +170,13 @@ void recordCull(const Recording& recording) {
   if (lensClassOf(recording.info.camera) == gpu::kLensClassMapped) {
     recording.run("aim", [&] { recordRayPasses(recording); });
   }
-  for (const Pass pass : {Pass::kCullCells, Pass::kCompactCells}) {
-    for (const RecordingPart& part : recording.parts()) {
-      part.recorder.runOver(pass, groupsOfCells(*part.asset));
-    }
+  const auto runOverCells = [&](Pass pass) {
+    for (const RecordingPart& part : recording.parts()) part.recorder.runOver(pass, groupsOfCells(*part.asset));
     recording.wait();
-  }
+  };
+  runOverCells(Pass::kCullCells);
+  recordChoice(recording);
+  runOverCells(Pass::kCompactCells);
 }
 
 void recordExpand(const Recording& recording) {

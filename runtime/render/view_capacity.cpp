@@ -45,10 +45,7 @@ ViewDemand largest(const ViewDemand& a, const ViewDemand& b) {
 }
 
 ViewDemand demandOf(const gpu::Counters& counters) {
-  // Pairs of cells that had no space were not counted: as many each as the others have.
-  const uint64_t share = counters.visibleCells > 0 ? counters.pairs / counters.visibleCells + 1 : kPairsPerCell;
-  const uint64_t lostCells = counters.cellsWanted - counters.visibleCells;
-  return {counters.cellsWanted, counters.planesWanted, counters.pairs + share * lostCells};
+  return {counters.cellsWanted, counters.planesWanted, uint64_t{counters.pairs} + counters.droppedPairs};
 }
 
 uint32_t tileDigits(uint32_t tiles) {
@@ -74,7 +71,8 @@ TallyLayout layOutTallies(const ViewCapacity& capacity, uint32_t sortRounds) {
   layout.pairHistograms = kCellKeyDigits * histogramBytes(capacity.cells, sortRounds);
   layout.tileLengths = layout.pairHistograms + tileDigits(capacity.tiles) * histogramBytes(capacity.pairs, sortRounds);
   layout.superSums = layout.tileLengths + sizeof(uint32_t[2]) * (capacity.tiles / 2 + 1);
-  layout.tileSums = layout.superSums + sizeof(uint32_t[2]) * groupsOver(capacity.groups, gpu::kGroupSize);
+  layout.sizeCounts = layout.superSums + sizeof(uint32_t[2]) * groupsOver(capacity.groups, gpu::kGroupSize);
+  layout.tileSums = layout.sizeCounts + sizeof(uint32_t[2]) * gpu::kSizeKeys;
   layout.end = layout.tileSums + sizeof(uint32_t) * groupsOver(capacity.cells, gpu::kCellsPerTileSum);
   return layout;
 }
@@ -102,6 +100,11 @@ void coverAsset(const GpuAsset& asset, uint32_t mostCells, ViewCapacity& capacit
 
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
   return asset.chunks.size() <= capacity.chunks && groupsOfCells(asset) <= capacity.groups;
+}
+
+bool holdsAllCells(const GpuAsset& asset, const ViewCapacity& capacity) {
+  const uint64_t details = uint64_t{asset.cellCount} * asset.detailCount;
+  return capacity.cells >= asset.cellCount && capacity.planes >= asset.alphaTotal && capacity.details >= details;
 }
 
 bool mayLack(const GpuAsset& asset, const ViewDemand& demand, const ViewCapacity& capacity) {

@@ -53,10 +53,11 @@ uint32_t fewestSortRounds(const ViewCapacity& capacity);
 // Size of the histogram of one digit over a list of up to `keys` (shaders/gpu/histogram.glsl).
 uint64_t histogramBytes(uint32_t keys, uint32_t sortRounds);
 
-// [bytes] Where in ViewBuffer::kTallies lies what every recording clears: of a walk only the superSums.
+// [bytes] Where in ViewBuffer::kTallies lies what every recording clears: of a walk only the
+// superSums and sizeCounts.
 struct TallyLayout {
   uint64_t cellHistograms, pairHistograms;  // one per digit
-  uint64_t tileLengths, superSums, tileSums;
+  uint64_t tileLengths, superSums, sizeCounts, tileSums;
   uint64_t end;
 };
 
@@ -69,6 +70,9 @@ uint32_t groupsOfCells(const GpuAsset& asset);
 void coverAsset(const GpuAsset& asset, uint32_t mostCells, ViewCapacity& capacity);
 // Whether the asset can be recorded.
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity);
+
+// Whether all cells of the asset have room, should all be visible.
+bool holdsAllCells(const GpuAsset& asset, const ViewCapacity& capacity);
 
 // Whether a frame may have to leave cells out, for all that is known: `demand` is of the newest complete frame, all 0
 // before there is one. Pairs are not known before.

@@ -38,15 +38,19 @@ void addCounters(const gpu::Counters& counters, FrothViewStatus& status) {
 }
 
 void readRecording(ViewState& view, uint32_t number) {
-  uint32_t visibleCells = 0;  // of all parts
+  uint32_t visibleCells = 0, shownCells = 0;  // of all parts
   for (const auto& space : view.spaces) {
     if (space->serials[number] != view.status.serial) continue;
     const gpu::Counters& counters = readCounters(*space, number);
     addCounters(counters, view.status);
     visibleCells += counters.cellsWanted;
+    shownCells += counters.visibleCells;
     space->demand = largest(space->demand, demandOf(counters));
   }
-  view.status.visibleCells = std::max(view.status.visibleCells, visibleCells);
+  if (visibleCells > view.status.visibleCells) {
+    view.status.visibleCells = visibleCells;
+    view.status.shownCells = shownCells;
+  }
   if (view.timer) view.timer->read(number, view.status);
 }
 
@@ -126,6 +130,11 @@ Status prepareSpace(ViewState& view, InstanceSpace& space, uint64_t completedSer
   const bool isWalkStartKept = space.buffers[ViewBuffer::kWalkStart].buffer == oldWalkStart;
   if (!isWalkStartKept || space.walkAsset != asset) space.walkAsset = nullptr;
   return status;
+}
+
+Error nameInstance(const RenderInstance& instance, const Error& error) {
+  return makeError(error.kind, "instance {%u, %u}, userId %u: %s", instance.handle.index, instance.handle.generation,
+                   instance.userId, error.message.c_str());
 }
 
 InstanceSpace* findSpace(const ViewState& view, FrothInstance instance) {
@@ -289,13 +298,14 @@ Status ViewRenderer::prepare(uint64_t completedSerial, std::span<const RenderIns
 
   giveUpSpaces(view, completedSerial, instances);
   Status result;
-  const auto prepareFor = [&](InstanceSpace& space, const GpuAsset* asset) {
-    const Status status = prepareSpace(view, space, completedSerial, asset);
-    if (result && !status) result = status;
-  };
-  for (const RenderInstance& instance : instances) prepareFor(takeSpace(view, instance.handle), instance.asset);
+  for (const RenderInstance& instance : instances) {
+    const Status status = prepareSpace(view, takeSpace(view, instance.handle), completedSerial, instance.asset);
+    if (result && !status) result = nameInstance(instance, status.error());
+  }
   for (const auto& space : view.spaces) {
-    if (!space->isTaken) prepareFor(*space, nullptr);
+    if (space->isTaken) continue;
+    const Status status = prepareSpace(view, *space, completedSerial, nullptr);
+    if (result && !status) result = status;
   }
   describeMemory(view);
   return result;

@@ -53,6 +53,12 @@ FROTH_CONST kRasterLanes = 8;          // threads that expand one visible cell: 
 FROTH_CONST kWalkLanes = 32;           // or all of them, hundreds where a cell fills a room
 FROTH_CONST kWholeBall = 0x40202020u;  // ChunkContents::solidBalls: the cell's own ball
 
+// FrameBlock::sizeCounts: keys of cells in view (gpu/cell_sizes.glsl). Four classes of sizes an octave; cells of one
+// class are told apart by what neighbours do not share.
+FROTH_CONST kSizeClasses = 64;
+FROTH_CONST kKeysPerSize = 32;
+FROTH_CONST kSizeKeys = 2048;
+
 // SortConstants::step: what a pass of the radix sort does with a key besides moving it.
 FROTH_CONST kSortCountNextDigit = 0;
 FROTH_CONST kSortTakeTileCounts = 1;  // last digit of cells
@@ -91,9 +97,10 @@ FROTH_CONST kFlagDisplayCoded = 8;
 FROTH_CONST kFlagDepth = 32;
 FROTH_CONST kFlagSceneDepth = 64;
 FROTH_CONST kFlagHits = 128;
-FROTH_CONST kFlagShortTiles = 256;  // all tiles are drawn as short ones,
-FROTH_CONST kFlagLongTiles = 512;   // or as long ones (FrothRenderInfo::tileForm)
-FROTH_CONST kToneCurveShift = 16;   // above it: foam/tone.h
+FROTH_CONST kFlagShortTiles = 256;   // all tiles are drawn as short ones,
+FROTH_CONST kFlagLongTiles = 512;    // or as long ones (FrothRenderInfo::tileForm)
+FROTH_CONST kFlagCountSizes = 1024;  // there may be no room for all cells in view: the largest stay
+FROTH_CONST kToneCurveShift = 16;    // above it: foam/tone.h
 // list cells that guide walks too, and the planes of all neighbours; else a raster: sort the cells, shade only those
 // that own a (tile, cell) pair
 FROTH_CONST kFlagWalk = 16;
@@ -168,7 +175,7 @@ FROTH_CONST kWorkKinds = 8;
 struct Counters {
   uint cellsWanted;   // visible cells
   uint planesWanted;  // of the visible cells; saturates
-  uint visibleCells;  // of the wanted ones the first, as far as there was space for them and their planes
+  uint visibleCells;  // of the wanted ones the largest, as far as there was space for them and their planes
   uint pairs;         // (tile, cell) pairs of those; saturates
   uint pairsKept;     // of these, those that had space
   uint stepLimit;     // walks that maxSteps or maxNeighbours ended
@@ -176,7 +183,11 @@ struct Counters {
   uint longTiles;     // the first ones of FrameBlock::tileLists
   uint longestList;   // entries of a tile, those beyond maxEntries included
   uint isCut;         // 1: it is longer than maxEntries
+  // choose_cells.comp: the least size key of cells that stay; 0: all stay
+  uint leastKey;
+  uint droppedCells, droppedPlanes, droppedPairs;  // of cells below it; pairs by a guess
   uint padding[2];
+  uvec4 dropDispatch;         // of cull_cells.comp, once more; none if all stay
   uvec4 expandDispatch;       // kRasterLanes or kWalkLanes threads per visible cell
   uvec4 detailDispatch;       // a thread per detail site of a visible cell
   uvec4 cellSortDispatch;     // a workgroup per sortRounds * kGroupSize visible cells
@@ -228,6 +239,7 @@ struct FrameBlock {
   FROTH_ADDRESS(ChunkArray) chunks;           // [chunkCount]
   FROTH_ADDRESS(UintPairArray) groupSums;     // [groupCount] visible cells, their planes
   FROTH_ADDRESS(UintPairArray) superSums;     // [a kGroupSize-th of that] sums of kGroupSize groupSums
+  FROTH_ADDRESS(UintPairArray) sizeCounts;    // [kSizeKeys] with kFlagCountSizes: cells in view, their planes
   FROTH_ADDRESS(UintPairArray) visibility;    // [groupCount * kMaskWords] 32 bits, slot of the first bit
   FROTH_ADDRESS(UintQuadArray) visibleCells;  // [slot] chunk, local index, first plane, planes
   // [slot] order-preserving bits of the power of the eye, or along parallel rays
@@ -323,9 +335,10 @@ static_assert(sizeof(ChunkEntry) == 208 && offsetof(ChunkEntry, siteRadius) == 3
 static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 144 && sizeof(CellCode) == 64);
 static_assert(sizeof(DetailRecord) == 24 && offsetof(DetailRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
-static_assert(offsetof(Counters, expandDispatch) == 48 && offsetof(Counters, work) == 160 && sizeof(Counters) == 224);
+static_assert(kSizeClasses * kKeysPerSize == kSizeKeys && kSizeKeys % kGroupSize == 0);
+static_assert(offsetof(Counters, dropDispatch) == 64 && offsetof(Counters, work) == 192 && sizeof(Counters) == 256);
 static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 248);
-static_assert(offsetof(FrameBlock, counters) == 328 && sizeof(FrameBlock) == 536);
+static_assert(offsetof(FrameBlock, counters) == 328 && sizeof(FrameBlock) == 544);
 static_assert(sizeof(FrameBlock) <= kHitBlockOffset && sizeof(HitInstance) == 64);
 static_assert(offsetof(HitBlock, pixels) == 208 && offsetof(HitBlock, hasPrevious) == 256 && sizeof(HitBlock) == 280);
 static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);

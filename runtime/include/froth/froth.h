@@ -176,8 +176,7 @@ typedef enum FrothViewBit {
   /* an instance was left out: its asset is OPENING or FAILED; or it was created after frothUpdate; or the view's
    * buffers did not fit the budget (a message says so) */
   FROTH_VIEW_NOT_READY = 8,
-  /* more visible cells, or planes of them, than space; the last cells of the asset are missing */
-  FROTH_VIEW_CELL_OVERFLOW = 16,
+  FROTH_VIEW_CELL_OVERFLOW = 16,  /* more visible cells, or planes, than space; the smallest on screen are missing */
   FROTH_VIEW_INSTANCE_LIMIT = 32, /* more READY instances than a view shows; those with the highest index are missing */
   FROTH_VIEW_ENTRY_LIMIT = 64,    /* FrothRenderInfo::maxEntries cut lists of tiles; their farthest cells are missing */
   /* returned by the call that records the frame: the view has less room than an asset has cells (reserveCells, or the
@@ -219,6 +218,7 @@ typedef struct FrothViewStatus {
   uint32_t memoryCount;
   FrothMemory memory[16]; /* [memoryCount] deviceBytes by purpose */
   uint32_t longestList;   /* raster: entries of the longest list of a tile, as if maxEntries were unlimited */
+  uint32_t shownCells;    /* of visibleCells those that had space */
 } FrothViewStatus;
 
 FROTH_API FrothResult frothGetViewStatus(FrothContext* context, FrothView view, FrothViewStatus* status);
