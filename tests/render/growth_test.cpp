@@ -34,12 +34,12 @@ class Growth : public testing::Test {
                                 sharedHost().device)),
         pipelines_(std::move(*RenderPipelines::create(device_, VK_NULL_HANDLE, {.checkIndices = true}))),
         bytes_(*encodeAsset(bakeForTest(makeRandomFoam(cells, 3, 2, 5)))),
-        asset_({.name = "asset in memory", .isFile = false, .bytes = bytes_}, &device_) {
+        asset_({.kind = SourceKind::kMemory, .name = "asset in memory", .bytes = bytes_}, &device_) {
     std::unique_ptr<UploadRing> ring = std::move(*UploadRing::create(device_, 16 << 20));
     while (!asset_.isDecoded()) {
       LoadLimit limit = LoadLimit::ofWork();
-      asset_.load(jobs_, limit, [&](const AssetShape& shape) { return std::optional(pipelines_->prepareFor(shape)); },
-                  {});
+      asset_.load(jobs_, reads_, limit,
+                  [&](const AssetShape& shape) { return std::optional(pipelines_->prepareFor(shape)); }, {});
       EXPECT_FALSE(asset_.hasFailed());
       asset_.stage(*ring, UINT64_MAX);
     }
@@ -145,6 +145,7 @@ class Growth : public testing::Test {
   Device device_;
   std::unique_ptr<RenderPipelines> pipelines_;
   std::vector<uint8_t> bytes_;
+  ReadTable reads_;  // before asset_, which drops its reads
   JobRunner jobs_;
   Asset asset_;
   std::unique_ptr<ViewState> view_;
