@@ -146,6 +146,7 @@ class Growth : public testing::Test {
   Device device_;
   std::unique_ptr<RenderPipelines> pipelines_;
   std::vector<uint8_t> bytes_;
+  ReadTable reads_;  // before asset_, which drops its reads
   JobRunner jobs_;
   ReadTable reads_;
   Asset asset_;
