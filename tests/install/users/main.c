@@ -1,4 +1,5 @@
 /* A C11 program without a device: asks, creates, opens a file that does not exist, and gets a message. */
+#include <froth/froth_estimate.h>
 #include <froth/froth_query.h>
 #include <froth/froth_walk.h>
 #include <stdio.h>
