@@ -25,10 +25,10 @@ std::set<std::string> expectOrdered(RecordingEngine& engine, const FrameForm& fo
 
 TEST(Barriers, StandBetweenAllUsesOfMemoryByEveryShader) {
   std::set<std::string> missing = CommandStream::namesOfShaders();
-  const auto see = [&](uint32_t instances, VkFormat composite, const FrameForm& form) {
+  const auto see = [&](uint32_t instances, VkFormat composite, const FrameForm& form, uint32_t reserveCells = 0) {
     SCOPED_TRACE(testing::Message() << "camera " << static_cast<int>(form.camera) << ", " << instances << " instances"
                                     << (form.isFull ? ", all images" : "") << (form.isEmpty ? ", out of sight" : ""));
-    RecordingEngine engine(instances, composite);
+    RecordingEngine engine(instances, composite, reserveCells);
     for (const std::string& shader : expectOrdered(engine, form)) missing.erase(shader);
   };
   constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT, kFloat = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -37,6 +37,7 @@ TEST(Barriers, StandBetweenAllUsesOfMemoryByEveryShader) {
     see(1, kHalf, {.camera = camera});
     see(2, kHalf, {.camera = camera, .isFull = true});
   }
+  see(2, kHalf, {.isFull = true}, 1);
   see(2, kFloat, {.colour = kFloat, .isFull = true});
   see(1, VK_FORMAT_B10G11R11_UFLOAT_PACK32, {.colour = kFloat});
   see(1, kHalf, {.colour = kHalf, .isEmpty = true});

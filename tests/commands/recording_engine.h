@@ -26,8 +26,8 @@ class RecordingEngine {
  public:
   static constexpr VkExtent2D kExtent{72, 40};
 
-  // Opens an asset and places it so many times.
-  RecordingEngine(uint32_t instanceCount, VkFormat compositeFormat);
+  // Opens an asset and places it so many times. reserveCells: FrothViewInfo's; 1: the view may lack cells.
+  RecordingEngine(uint32_t instanceCount, VkFormat compositeFormat, uint32_t reserveCells = 0);
   ~RecordingEngine();
 
   // Raster and walk by both eyes, composite, depth export, rays.

@@ -148,7 +148,6 @@ class Growth : public testing::Test {
   std::vector<uint8_t> bytes_;
   ReadTable reads_;  // before asset_, which drops its reads
   JobRunner jobs_;
-  ReadTable reads_;
   Asset asset_;
   std::unique_ptr<ViewState> view_;
   HostImage image_;

@@ -96,10 +96,8 @@ TEST_P(ShortageThrough, ALensLeavesOutTheSmallestCells) {
   EXPECT_EQ(std::count(seen.begin(), seen.end(), true), raster.status.shownCells);
   float largestMissing = 0, smallestSeen = 2;
   for (uint32_t cell = 0; cell < foam_.cellCount; ++cell) {
-    if (seen[cell])
-      smallestSeen = std::min(smallestSeen, radii_[cell]);
-    else
-      largestMissing = std::max(largestMissing, radii_[cell]);
+    if (seen[cell]) smallestSeen = std::min(smallestSeen, radii_[cell]);
+    if (!seen[cell]) largestMissing = std::max(largestMissing, radii_[cell]);
   }
   // A class is a quarter of an octave; 3 % for the steps of the balls' bytes.
   EXPECT_LT(largestMissing, 1.03 * std::exp2(0.25) * smallestSeen);
@@ -129,7 +127,7 @@ TEST_F(Shortage, TakesTheSameCellsFromRasterAndWalkAndAlwaysTheSame) {
   std::printf("[   PSNR   ] half of the room: %.1f dB, raster-walk %.1f dB\n", psnr(raster.colour, whole.colour),
               psnr(raster.colour, walk.colour));
   EXPECT_GE(psnr(raster.colour, walk.colour), 60);
-  EXPECT_GE(psnr(raster.colour, whole.colour), 20);
+  EXPECT_GE(psnr(raster.colour, whole.colour), 22) << "cells dropped in the order of the asset leave 17 to 19";
   for (int frame = 0; frame < 4; ++frame) {
     EXPECT_EQ(stage->draw(Method::kRaster, view).colour.values, raster.colour.values);
     EXPECT_EQ(stage->draw(Method::kWalk, view).colour.values, walk.colour.values);
@@ -157,7 +155,7 @@ TEST_F(Shortage, TakesTheSmallestOfEachInstance) {
   const Frame raster = left->draw(Method::kRaster, view), walk = left->draw(Method::kWalk, view);
   std::printf("[   PSNR   ] half of the room: %.1f dB, raster-walk %.1f dB\n", psnr(raster.colour, whole.colour),
               psnr(raster.colour, walk.colour));
-  EXPECT_GE(psnr(raster.colour, whole.colour), 20);
+  EXPECT_GE(psnr(raster.colour, whole.colour), 22) << "cells dropped in the order of the asset leave 17 to 19";
   EXPECT_GE(psnr(raster.colour, walk.colour), 60);
   const auto names = [](const std::string& text) {
     return text.starts_with("view {") && text.find("instance {") != std::string::npos &&
