@@ -140,6 +140,8 @@ class Context {
   FrothResult readPlacement(const FrothInstanceInfo& info, const char* call, Instance& instance) const;
   FrothResult beginFrame(const FrothFrame& frame);
   void runFrame(FrothFrameStatus& status);
+  void takeMemory();
+  void orderMemory();
   void loadAssets();
   void prepareView(FrothView handle, View& view);
   // The view, if this eye of it was drawn in this frame and the call was not made yet; else null, and a message.
@@ -165,9 +167,11 @@ class Context {
   bool isNull_ = false;        // no device, for good
   bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
   bool isExcessTold_ = false;  // of this budget
-  // These two make pipelines: the device stays until they have ended.
+  // These use the device, which stays until they have ended. The first two make pipelines, the third runs a MemoryBatch
+  // beside what FrothContextInfo::mostJobs allows.
   std::map<AssetShape, Job<Done>> making_;
   Job<Done> merging_;
+  Job<Done> memoryJob_;
   std::string mergingError_;  // of merging_, sent already
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits

@@ -101,6 +101,9 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
   device_.budget = info.deviceBudget;
   device_.timestampBits = timestampBitsOf(info);
   device_.callbacks = {info.allocateMemory, info.freeMemory, info.memoryUser};
+  if (jobs_.hasThreads()) {
+    device_.orders = std::make_shared<MemoryOrders>();
+  }
   Result<std::unique_ptr<UploadRing>> ring =
       UploadRing::create(device_, info.stagingBytes == 0 ? kStagingBytes : info.stagingBytes);
   if (!ring) {
@@ -151,7 +154,7 @@ void Context::describeMemory(FrothMemoryReport& report) const {
 // What goes anyway goes first; then all views give up the same part of what they can.
 void Context::shrinkViews() {
   const VkDeviceSize excess = device_.excessBytes();
-  bool isUnderWay = !retired_.empty();
+  bool isUnderWay = !retired_.empty() || (device_.orders && device_.orders->isGivingBack());
   VkDeviceSize shrinkable = 0;
   views_.forEach([&](const View& view) {
     isUnderWay = isUnderWay || (view.renderer && view.renderer->isShrinking());
@@ -187,6 +190,8 @@ void Context::stopJobs() {
   for (auto& [shape, job] : making_) job.drop(true);
   making_.clear();
   assets_.forEach([](Asset& asset) { asset.stop(); });
+  memoryJob_.drop(true);
+  device_.finishOrders();
 }
 
 void Context::loseDevice() {
