@@ -15,17 +15,28 @@
 namespace froth::test {
 namespace {
 
+// Of SPIR-V.
+constexpr size_t kHeaderWords = 5;
+constexpr uint32_t kOpSource = 3, kOpName = 5, kOpMemberName = 6, kOpDecorate = 71, kNoContraction = 42;
+
 // Without OpSource, OpName and OpMemberName: validation layers of before 2024 do not know Slang's number, and Mesa 22.3
 // takes structures of two names for two types where a value is copied from one to the other.
 std::vector<uint32_t> withoutNames(std::span<const uint32_t> spirv) {
-  constexpr size_t kHeaderWords = 5;
   std::vector<uint32_t> words(spirv.begin(), spirv.begin() + kHeaderWords);
   for (size_t at = kHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
     const uint32_t operation = spirv[at] & 0xffff;
-    if (operation == 3 || operation == 5 || operation == 6) continue;
+    if (operation == kOpSource || operation == kOpName || operation == kOpMemberName) continue;
     words.insert(words.end(), spirv.begin() + at, spirv.begin() + at + (spirv[at] >> 16));
   }
   return words;
+}
+
+size_t countPrecise(std::span<const uint32_t> spirv) {
+  size_t count = 0;
+  for (size_t at = kHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
+    count += (spirv[at] & 0xffff) == kOpDecorate && spirv[at + 2] == kNoContraction;
+  }
+  return count;
 }
 
 class SlangShader : public EngineShader {
@@ -51,6 +62,9 @@ class SlangShader : public EngineShader {
            isNear(answer.third, expected.third) && std::equal(answer.fourth, answer.fourth + 4, expected.fourth);
   }
 };
+
+// What is precise in GLSL must be so in Slang, where no image shows whether a driver may simplify it.
+TEST(SlangCompiler, MarksAllThatIsPrecise) { EXPECT_GE(countPrecise(calls_slang_spirv), countPrecise(calls_comp_spirv)); }
 
 // On lavapipe bit for bit. Elsewhere rounding may decide a tie, as between two devices.
 TEST_F(SlangShader, AnswersAsTheOneInGlslDoes) {
