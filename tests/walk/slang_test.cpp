@@ -19,8 +19,8 @@ namespace {
 constexpr size_t kHeaderWords = 5;
 constexpr uint32_t kOpSource = 3, kOpName = 5, kOpMemberName = 6, kOpDecorate = 71, kNoContraction = 42;
 
-// Without OpSource, OpName and OpMemberName: validation layers of before 2024 do not know Slang's number, and Mesa 22.3
-// takes structures of two names for two types where a value is copied from one to the other.
+// Without OpSource, OpName and OpMemberName: Debian 12's validation layers do not know Slang's number, and its
+// Mesa 22.3 takes structures of two names for two types where a value is copied from one to the other.
 std::vector<uint32_t> withoutNames(std::span<const uint32_t> spirv) {
   std::vector<uint32_t> words(spirv.begin(), spirv.begin() + kHeaderWords);
   for (size_t at = kHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
@@ -64,7 +64,9 @@ class SlangShader : public EngineShader {
 };
 
 // What is precise in GLSL must be so in Slang, where no image shows whether a driver may simplify it.
-TEST(SlangCompiler, MarksAllThatIsPrecise) { EXPECT_GE(countPrecise(calls_slang_spirv), countPrecise(calls_comp_spirv)); }
+TEST(SlangCompiler, MarksAllThatIsPrecise) {
+  EXPECT_GE(countPrecise(calls_slang_spirv), countPrecise(calls_comp_spirv));
+}
 
 // On lavapipe bit for bit. Elsewhere rounding may decide a tie, as between two devices.
 TEST_F(SlangShader, AnswersAsTheOneInGlslDoes) {
