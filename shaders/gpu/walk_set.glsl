@@ -1,5 +1,5 @@
 // The descriptor set of rays in an engine's shader, and the instance at hand: what gpu/frame.glsl is to the passes of a
-// view.
+// view. FROTH_SLANG: for froth_walk.slang (bundle/bundle_shader.cpp).
 #ifndef FROTH_GPU_WALK_SET_GLSL
 #define FROTH_GPU_WALK_SET_GLSL
 #if !defined(FROTH_SLANG)
