@@ -1,4 +1,4 @@
-/* Froth, rays on the GPU: in the caller's shaders (froth_walk.glsl), or cast by Froth from a buffer.
+/* Froth, rays on the GPU: in the caller's shaders (froth_walk.glsl, froth_walk.slang), or cast by Froth from a buffer.
  *
  * For shadows, mirrors, probes, picking. Needs FrothContextInfo::walkShaders. Near tests (FrothRenderInfo::nearRatio)
  * do not apply:
