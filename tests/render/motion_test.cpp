@@ -106,8 +106,9 @@ TEST(Motion, OfAStillSceneIsZero) {
 }
 
 TEST(Motion, IsZeroWithoutAFrameBefore) {
-  for (const float value : stage().draw(Method::kRaster, lensView(LensKind::kPinhole)).motion.values)
+  for (const float value : stage().draw(Method::kRaster, lensView(LensKind::kPinhole)).motion.values) {
     ASSERT_EQ(value, 0);
+  }
 }
 
 TEST(Motion, IsScaledAndFollowsTheViewport) {

@@ -240,8 +240,9 @@ Frame Stage::draw(Method method, const FrothRenderInfo& info, VkExtent2D extent,
   if (wanted.id.image) frame.id = idsOf(readBack(host, *id));
   if (wanted.motion.image) frame.motion = channelsOf(readBack(host, *motion), 2, 0, 2, extent);
   if (wanted.reactive.image) frame.reactive = channelsOf(readBack(host, *reactive), 1, 0, 1, extent);
-  for (HostImage* image : {&*colour, &*distance, &*normal, &*depth, &*id, &*motion, &*reactive})
+  for (HostImage* image : {&*colour, &*distance, &*normal, &*depth, &*id, &*motion, &*reactive}) {
     host.destroyImage(*image);
+  }
   expectSilence(host);
   return frame;
 }

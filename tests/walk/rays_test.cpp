@@ -177,8 +177,9 @@ TEST_F(HitDistances, GrowWithTheInstance) {
 }
 
 TEST_F(HitDistances, AreTheSameOfAllKindsAndInfiniteOfAMiss) {
-  for (const FrothRayKind kind : {FROTH_RAY_TRANSMITTANCE, FROTH_RAY_RADIANCE})
+  for (const FrothRayKind kind : {FROTH_RAY_TRANSMITTANCE, FROTH_RAY_RADIANCE}) {
     expectDistances(cast(rays_, kind), 1, 0);
+  }
   const std::vector<FrothGpuRay> away = {gpuRay({0, 0, 0}, {0, 0, -1}), gpuRay({0, 5, 3}, {1, 0, 0})};
   for (const FrothRayKind kind : {FROTH_RAY_TRANSMITTANCE, FROTH_RAY_CLOSEST, FROTH_RAY_RADIANCE}) {
     for (const float distance : cast(away, kind)) EXPECT_EQ(distance, kInfinity);
