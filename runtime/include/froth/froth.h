@@ -16,7 +16,7 @@
  *
  * Threads:
  *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName, frothCompleteRead,
- *                                 frothEstimateMemory.
+ *                                 frothEstimateMemory, frothStepQuality.
  *   at once on different views:   frothRecordRaster, frothRecordWalk, frothRecordComposite, frothRecordDepthExport (*).
  *   at once on anything:          frothCastRays, frothLocate, frothOverlapSphere (*), frothReadVariant,
  *                                 frothPrecompile.
@@ -31,6 +31,7 @@
  *   froth_walk.h       rays on the GPU
  *   froth_precompile.h pipelines ahead of time
  *   froth_estimate.h   memory ahead of time
+ *   froth_quality.h    scale and cut-off by a target of milliseconds
  *   froth_pool.h       threads for jobs
  *   froth_composite.h  blending into the engine's colour and depth images
  */
