@@ -46,8 +46,8 @@ struct FrothRay {
 };
 
 struct FrothHit {
-  // where transmittance falls below FrothWalkInfo::quantile; FROTH_INFINITY: never, and what follows is 0 or
-  // FROTH_NONE
+  // from the origin, whatever tMin, to where transmittance falls below FrothWalkInfo::quantile; FROTH_INFINITY: never,
+  // and what follows is 0 or FROTH_NONE
   float distance;
   vec3 normal;     // of the face of the cell that is met there; unit
   uint instance;   // of the walk set; where several overlap the densest

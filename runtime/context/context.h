@@ -116,7 +116,7 @@ class Context {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
     uint32_t reservedCells = 0;
-    bool measurePasses = false, keepsHits = false;
+    bool measurePasses = false, keepsHits = false, keepsReactive = false;
     std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
     // in the newest frothUpdate: those it has buffers for, if they fit the budget
     std::vector<RenderInstance> prepared;
@@ -177,6 +177,7 @@ class Context {
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
   VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED, depthExportFormat_ = VK_FORMAT_UNDEFINED;
   bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats
+  bool hasReactiveImages_ = false;
   bool hasWalkShaders_ = false;
   std::string walkError_;                       // of the newest frothUpdate that could not make space; sent already
   std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost

@@ -85,6 +85,7 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
   compositeFormat_ = info.compositeFormat;
   depthExportFormat_ = info.depthExportFormat;
   hasExtendedFormats_ = info.enabledFeatures && info.enabledFeatures->features.shaderStorageImageExtendedFormats;
+  hasReactiveImages_ = info.reactiveImages != 0;
   hasWalkShaders_ = info.walkShaders != 0;
   isNull_ = !info.device;
   device_.budget = info.deviceBudget;
@@ -117,6 +118,7 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
                                .floatColours = info.floatColours != 0,
                                .lensClasses = lensClasses_,
                                .hasExtendedFormats = hasExtendedFormats_,
+                               .keepsQuarters = hasReactiveImages_,
                                .compositeFormat = compositeFormat_,
                                .depthExportFormat = depthExportFormat_});
   if (!pipelines) {

@@ -233,15 +233,20 @@ FrothResult Context::dropFrame(uint64_t serial) {
   return FROTH_OK;
 }
 
-// What id and motion need of the device and the view.
+// What the images of hits need of the device and the view.
 FrothResult Context::checkHits(const View& view, const FrothRenderInfo& info, const char* call) const {
   if (!wantsHits(info)) {
     return FROTH_OK;
   }
   if (!isNull_ && !hasExtendedFormats_) {
-    return messages.fail(FROTH_ERROR_FEATURE, call,
-                         "id, motion: the device was made without shaderStorageImageExtendedFormats; enable it where "
-                         "frothGetRequirements says that it is present");
+    return messages.fail(
+        FROTH_ERROR_FEATURE, call,
+        "id, motion, reactive: the device was made without shaderStorageImageExtendedFormats; enable it where "
+        "frothGetRequirements says that it is present");
+  }
+  if (info.reactive.image && !view.keepsReactive) {
+    return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
+                         "reactive: the view was not made for it; set FrothViewInfo::keepsReactive");
   }
   return view.keepsHits ? FROTH_OK
                         : messages.fail(FROTH_ERROR_UNSUPPORTED, call,

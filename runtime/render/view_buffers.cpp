@@ -66,6 +66,8 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
       return capacity.rays > 0 ? 16 * (gpu::kSubTilesPerTile + 2) * VkDeviceSize{capacity.tiles} : 0;
     case ViewBuffer::kHits:
       return gpu::kHitWords * sizeof(uint32_t) * capacity.hits;
+    case ViewBuffer::kQuarters:
+      return sizeof(gpu::uvec4) * capacity.quarters;
   }
   return 0;
 }
@@ -84,6 +86,7 @@ constexpr std::array<const char*, kViewBufferCount> kNames = {"view: frames",
                                                               "view: rays",
                                                               "view: cones",
                                                               "view: hits",
+                                                              "view: quarters",
                                                               "view: tallies",
                                                               "view: visible cells",
                                                               "view: cell keys",
@@ -107,7 +110,7 @@ struct Group {
   ViewBuffer first, last;
 };
 constexpr Group kGroups[] = {{"view: frames", ViewBuffer::kFrames, ViewBuffer::kWalkStart},
-                             {"view: pixels", ViewBuffer::kRays, ViewBuffer::kHits},
+                             {"view: pixels", ViewBuffer::kRays, ViewBuffer::kQuarters},
                              {"view: tallies", ViewBuffer::kTallies, ViewBuffer::kTallies},
                              {"view: visible cells", ViewBuffer::kVisibleCells, ViewBuffer::kDetails},
                              {"view: planes", ViewBuffer::kPlanes, ViewBuffer::kPlanes},
@@ -244,7 +247,7 @@ void ViewBuffers::addMemory(FrothViewStatus& status) const {
   add("planes", {kPlanes});
   add("detail sites", {kDetails});
   if (capacity_.rays > 0) add("rays", {kRays, kCones});
-  if (capacity_.hits > 0) add("hits", {kHits});
+  if (capacity_.hits > 0) add("hits", {kHits, kQuarters});
   add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies, kTileLists});
 }
 

@@ -26,7 +26,8 @@ enum class ViewBuffer : uint32_t {
   // of pixels
   kRays,  // these two are empty where no lens is mapped
   kCones,
-  kHits,  // empty where the view does not keep them
+  kHits,  // empty where the view does not keep them, as is
+  kQuarters,
   // of cells, pairs and tiles
   kTallies,  // TallyLayout
   // of visible cells
@@ -50,7 +51,7 @@ enum class ViewBuffer : uint32_t {
   kStaging,   // as kFrames, for all frames in flight, written by the CPU
   kReadback,  // Counters of all frames in flight
 };
-inline constexpr uint32_t kViewBufferCount = 26;
+inline constexpr uint32_t kViewBufferCount = 27;
 inline constexpr uint32_t kRecordingsPerFrame = 4;  // a raster and a walk of two eyes
 
 // [bytes] The space of a FrameBlock with its HitBlock, and of Counters. The chunk table follows its block.

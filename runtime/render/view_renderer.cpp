@@ -229,7 +229,9 @@ ViewCapacity leastCapacity(const ViewOptions& options) {
 
 ViewCapacity firstCapacity(const ViewOptions& options) {
   ViewCapacity capacity = leastCapacity(options);
-  if (options.keepsHits) capacity.hits = uint64_t{options.maxExtent.width} * options.maxExtent.height;
+  const uint64_t pixels = uint64_t{options.maxExtent.width} * options.maxExtent.height;
+  if (options.keepsHits) capacity.hits = pixels;
+  if (options.keepsReactive) capacity.quarters = pixels;
   return capacity;
 }
 
@@ -244,7 +246,7 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   std::unique_ptr<DescriptorSets> hitSets, compositeSets, exportSets;
   Status sets;
   if (options.keepsHits) {
-    sets = createSets(device, "hits of a view", {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, 2 * recordings, hitSets);
+    sets = createSets(device, "hits of a view", {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, kHitImages * recordings, hitSets);
   }
   if (sets && options.composites) {
     sets = createSets(device, "composite", compositeBindings(), kMostEyes * options.framesInFlight, compositeSets);

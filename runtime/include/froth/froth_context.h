@@ -164,6 +164,9 @@ typedef struct FrothContextInfo {
   /* [>= 65536 bytes] of host-visible memory through which assets are uploaded. The frames in flight share it, so a
    * frame uploads this part of it at most, whatever its uploadBytes. 0: 64 MiB */
   uint64_t stagingBytes;
+  /* 1: pipelines are made so that full frames can write FrothRenderInfo::reactive. Those frames are slower, whether
+   * they have that image or not; frames of colour and distance alone are the same */
+  uint32_t reactiveImages;
 } FrothContextInfo;
 
 /* Makes pipelines and the staging memory. Call it at start-up, not in a frame. *context is null on
