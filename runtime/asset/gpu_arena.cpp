@@ -29,7 +29,7 @@ Result<GpuArena::Place> GpuArena::allocate(VkDeviceSize size, VkDeviceSize more,
   if (const VkDeviceSize room = roomLeft(); size > room) {
     blocks_.reserve(blocks_.size() + 1);  // so that what is made has its place
     const VkDeviceSize blockSize = chooseBlockSize(size, more);
-    const Result<GpuBuffer> block = device_.createBuffer(MemoryUse::kAssets, BufferKind::kDevice, blockSize, purpose);
+    const Result<GpuBuffer> block = device_.createBuffer(MemoryUse::kAssets, BufferKind::kUploaded, blockSize, purpose);
     if (!block) return block.error();
     blocks_.push_back(*block);
     heldBytes_ += block->memory.granted;

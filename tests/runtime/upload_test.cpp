@@ -272,14 +272,15 @@ TEST_F(Upload, TakesNothingIntoAFullRingBeforeAFrameIsComplete) {
   ASSERT_TRUE(ring && target);
   const std::vector<uint8_t> bytes(4096);
   EXPECT_EQ((*ring)->stage(this, target->buffer, 0, bytes.data(), 4096), 1000u);
-  EXPECT_TRUE((*ring)->isStaged(this));
+  EXPECT_FALSE((*ring)->isWithin(this, UINT64_MAX - 1)) << "not yet recorded";
   (*ring)->retire(UINT64_MAX - 1);
   EXPECT_EQ((*ring)->stage(this, target->buffer, 1000, bytes.data(), 1), 0u) << "staged, not yet recorded";
   ASSERT_TRUE(host_->submit([&](VkCommandBuffer commands, uint64_t) {
     EXPECT_EQ((*ring)->record(commands, 7, UINT64_MAX), 1000u);
     return Status();
   }));
-  EXPECT_FALSE((*ring)->isStaged(this));
+  EXPECT_FALSE((*ring)->isWithin(this, 6));
+  EXPECT_TRUE((*ring)->isWithin(this, 7));
   (*ring)->retire(6);
   EXPECT_EQ((*ring)->stage(this, target->buffer, 1000, bytes.data(), 1), 0u) << "recorded, not yet complete";
   (*ring)->retire(7);
