@@ -166,7 +166,7 @@ class AsyncCompute : public RuntimeGpuTest {
 };
 
 TEST_F(AsyncCompute, DrawsAFrameWhileGraphicsUsesTheFrameBefore) {
-  const std::vector<uint8_t> bytes = encodeSample({.chunkCount = 2, .cellsPerChunk = 12});
+  const std::vector<uint8_t> bytes = encodeSample({.chunkCount = 2, .cellsPerChunk = 12, .localBits = 16});
   const std::vector<std::vector<float>> expected = drawOneByOne(bytes);
   ASSERT_NE(expected[0], expected[1]);
   createContext(contextInfo());
