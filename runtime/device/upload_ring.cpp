@@ -99,7 +99,6 @@ void UploadRing::drop(uint64_t serial) {
   for (Copy& copy : copies_) {
     if (copy.serial == serial) {
       copy.serial = copy.owner ? kStaged : kForgotten;
-      copy.targets.reset();
     }
   }
 }

@@ -2,6 +2,7 @@
 // own on the one queue.
 #include <optional>
 
+#include "one_cell_chunks.h"
 #include "runtime_fixture.h"
 #include "timeline_queue.h"
 
@@ -118,7 +119,7 @@ class UploadQueue : public RuntimeGpuTest {
 
   std::optional<TimelineQueue> uploads_, frames_;
   HostImage image_;
-  uint64_t serial_ = 0;
+  uint64_t serial_ = 10;  // of the newest frame: no number of an upload
 };
 
 TEST_F(UploadQueue, DrawsTheImagesOfOneQueueBitForBit) {
@@ -169,6 +170,7 @@ TEST_F(UploadQueue, RecordsADroppedUploadAgainAndKeepsThatOfADroppedFrame) {
   const FrothAsset asset = openBytes(bytes);
   createInstance(asset);
   const FrothView view = createView({48, 48});
+  serial_ = 0;
   uploads_->submit({}, [](VkCommandBuffer) {});  // so that frame 2 has upload 2
   const uint64_t all = beginFrame(0, 300).uploadBytesQueued;
   uploads_->record([this](VkCommandBuffer commands) { recordUpload(commands); });
@@ -237,13 +239,31 @@ TEST_F(UploadQueue, OfAClosedAssetKeepsItsMemoryUntilItIsCompleteOrDropped) {
   }
 }
 
+TEST_F(UploadQueue, OfAnAssetThatFailsKeepsItsMemoryUntilItIsComplete) {
+  createContext(contextInfo());
+  std::vector<uint8_t> bytes = *encodeAsset(makeOneCellChunks(300));  // more chunks than one frame decodes
+  bytes.back() ^= 1;
+  const FrothAsset asset = openBytes(bytes);
+  EXPECT_GT(beginFrame(0).deviceBytes, 0u);
+  ASSERT_EQ(statusOf(asset).state, FROTH_ASSET_OPENING);
+  submitUploads();
+  submitEmptyFrame();
+  EXPECT_GT(beginFrame(0).deviceBytes, 0u);
+  ASSERT_EQ(statusOf(asset).state, FROTH_ASSET_FAILED);
+  submitEmptyFrame();
+  EXPECT_GT(beginFrame(0).deviceBytes, 0u) << "no frame uses it, but the upload does";
+  submitEmptyFrame();
+  ASSERT_TRUE(uploads_->waitForAll());
+  EXPECT_EQ(beginFrame(1).deviceBytes, 0u);
+}
+
 TEST_F(UploadQueue, UnderWayAtTheEndIsPending) {
   createContext(contextInfo());
   openBytes(encodeSample());
   beginFrame(0);
   submitUploads();
   submitEmptyFrame();
-  EXPECT_EQ(frothDestroyContext(context_, serial_), FROTH_PENDING);
+  ASSERT_EQ(frothDestroyContext(context_, serial_), FROTH_PENDING);
   ASSERT_TRUE(uploads_->waitForAll());
   beginFrame(1);
   submitEmptyFrame();

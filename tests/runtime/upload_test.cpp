@@ -1,4 +1,6 @@
 // What arrives on the GPU, seen from the inside: the arrays of a loaded asset are those of its file.
+#include <utility>
+
 #include "runtime/asset/cell_packer.h"
 #include "runtime/context/context.h"
 #include "runtime/query/packed_elements.h"
@@ -286,6 +288,34 @@ TEST_F(Upload, TakesNothingIntoAFullRingBeforeAFrameIsComplete) {
   (*ring)->retire(7);
   EXPECT_EQ((*ring)->stage(this, target->buffer, 1000, bytes.data(), 4096), 1000u);
   gpu.destroyBuffer(*target);
+}
+
+TEST_F(Upload, KeepsForgottenTargetsAsLongAsTheirOwnCopies) {
+  Device gpu = device();
+  Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(gpu, 1000);
+  Result<GpuBuffer> buffer = gpu.createBuffer(MemoryUse::kAssets, BufferKind::kDevice, 4096, "target");
+  ASSERT_TRUE(ring && buffer);
+  const int first = 0, second = 0;  // owners
+  const std::vector<uint8_t> bytes(100);
+  ASSERT_TRUE(host_->submit([&](VkCommandBuffer commands, uint64_t) {
+    (*ring)->stage(&first, buffer->buffer, 0, bytes.data(), 100);
+    (*ring)->record(commands, 5, UINT64_MAX);
+    (*ring)->stage(&second, buffer->buffer, 100, bytes.data(), 100);
+    (*ring)->record(commands, 6, UINT64_MAX);
+    return Status();
+  }));
+  EXPECT_EQ((*ring)->newestInFlight(), 6u);
+  auto targets = std::make_shared<int>();
+  (*ring)->forget(&second, targets);
+  const std::weak_ptr<int> kept = std::exchange(targets, nullptr);
+  (*ring)->drop(5);  // its copy stands before the other, and waits
+  (*ring)->retire(5);
+  EXPECT_FALSE(kept.expired());
+  (*ring)->retire(6);
+  EXPECT_TRUE(kept.expired());
+  EXPECT_EQ((*ring)->newestInFlight(), 0u);
+  EXPECT_FALSE((*ring)->isWithin(&first, 6));
+  gpu.destroyBuffer(*buffer);
 }
 
 TEST_F(Upload, BufferLargerThanTheDeviceAllowsIsRefusedWithNumbers) {
