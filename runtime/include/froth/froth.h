@@ -235,7 +235,7 @@ typedef struct FrothFrame {
   uint32_t loadMicroseconds;
   /* With FrothContextInfo::hasUploadQueue; else both 0. */
   /* [> 0] of the submission that this frame's frothRecordUpload is recorded for; above that of each submission of
-   * uploads before. A number that is not submitted, as nothing is to be uploaded or it was dropped, may come again */
+   * uploads before. The number of a submission that is not made, or was dropped, may come again */
   uint64_t uploadSerial;
   /* [< uploadSerial] the newest submission of uploads that the GPU has completed. Assets become READY, and staging
    * memory becomes free, by this number alone */
