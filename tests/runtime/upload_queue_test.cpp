@@ -1,5 +1,6 @@
 // Uploads on a queue of their own. Where the device has no family for them, as lavapipe, they are submissions of their
 // own on the one queue.
+#include <array>
 #include <optional>
 
 #include "one_cell_chunks.h"
@@ -91,27 +92,32 @@ class UploadQueue : public RuntimeGpuTest {
     return *read;
   }
 
-  // Of an asset that stands alone, by a context of one queue.
-  std::vector<float> drawOnOneQueue(const std::vector<uint8_t>& bytes, decltype(frothRecordRaster)* method) {
+  // Of an asset that stands alone, by a context of one queue: by raster and by walk.
+  std::array<std::vector<float>, 2> drawOnOneQueue(const std::vector<uint8_t>& bytes) {
     createContext(host_->contextInfo());
     createInstance(openBytes(bytes));
     const FrothView view = createView({48, 48});
     runFrame();
-    runFrame(0, [&](VkCommandBuffer commands) { EXPECT_EQ(record(commands, view, method), FROTH_OK) << lastText(); });
+    std::array<std::vector<float>, 2> drawn;
+    for (const bool isWalk : {false, true}) {
+      const auto method = isWalk ? frothRecordWalk : frothRecordRaster;
+      runFrame(0, [&](VkCommandBuffer commands) { EXPECT_EQ(record(commands, view, method), FROTH_OK) << lastText(); });
+      drawn[isWalk] = texels();
+    }
     EXPECT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
     context_ = nullptr;
-    return texels();
+    return drawn;
   }
 
   // Uploads in pieces, draws in every frame; returns the number of frames until the asset is READY.
-  int drawUntilReady(FrothAsset asset, FrothView view, uint64_t uploadBytes, decltype(frothRecordRaster)* method) {
+  int drawUntilReady(FrothAsset asset, FrothView view, uint64_t uploadBytes = 0) {
     int frames = 0;
     while (statusOf(asset).state == FROTH_ASSET_OPENING && frames < 500) {
       ++frames;
       const FrothFrameStatus status = beginFrame(uploads_->completedValue(), uploadBytes);
       if (status.uploadBytesQueued > 0) submitUploads();
       const bool isReady = statusOf(asset).state == FROTH_ASSET_READY;
-      EXPECT_EQ(submitFrame(status, view, method), isReady ? FROTH_OK : FROTH_INCOMPLETE) << lastText();
+      EXPECT_EQ(submitFrame(status, view), isReady ? FROTH_OK : FROTH_INCOMPLETE) << lastText();
     }
     EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_READY);
     return frames;
@@ -125,17 +131,16 @@ class UploadQueue : public RuntimeGpuTest {
 TEST_F(UploadQueue, DrawsTheImagesOfOneQueueBitForBit) {
   const std::vector<uint8_t> bytes =
       encodeSample({.chunkCount = 3, .cellsPerChunk = 12, .localBits = 16, .detailCount = 3});
-  for (const auto method : {frothRecordRaster, frothRecordWalk}) {
-    const std::vector<float> expected = drawOnOneQueue(bytes, method);
-    EXPECT_NE(expected, std::vector<float>(expected.size()));
-    createContext(contextInfo());
-    const FrothAsset asset = openBytes(bytes);
-    createInstance(asset);
-    EXPECT_GT(drawUntilReady(asset, createView({48, 48}), 611, method), 10);
-    EXPECT_EQ(texels(), expected);
-    EXPECT_EQ(frothDestroyContext(context_, UINT64_MAX), FROTH_OK);
-    context_ = nullptr;
-  }
+  const auto [raster, walk] = drawOnOneQueue(bytes);
+  EXPECT_NE(raster, std::vector<float>(raster.size()));
+  createContext(contextInfo());
+  const FrothAsset asset = openBytes(bytes);
+  createInstance(asset);
+  const FrothView view = createView({48, 48});
+  EXPECT_GT(drawUntilReady(asset, view, 611), 10);
+  EXPECT_EQ(texels(), raster);
+  EXPECT_EQ(submitFrame(beginFrame(uploads_->completedValue()), view, frothRecordWalk), FROTH_OK);
+  EXPECT_EQ(texels(), walk);
 }
 
 TEST_F(UploadQueue, MakesAnAssetReadyByTheUploadsThatAreToldToBeComplete) {
@@ -165,7 +170,7 @@ TEST_F(UploadQueue, MakesAnAssetReadyByTheUploadsThatAreToldToBeComplete) {
 
 TEST_F(UploadQueue, RecordsADroppedUploadAgainAndKeepsThatOfADroppedFrame) {
   const std::vector<uint8_t> bytes = encodeSample();
-  const std::vector<float> expected = drawOnOneQueue(bytes, frothRecordRaster);
+  const std::vector<float> expected = drawOnOneQueue(bytes)[0];
   createContext(contextInfo());
   const FrothAsset asset = openBytes(bytes);
   createInstance(asset);
@@ -183,7 +188,7 @@ TEST_F(UploadQueue, RecordsADroppedUploadAgainAndKeepsThatOfADroppedFrame) {
   ASSERT_EQ(frothDropFrame(context_, serial_), FROTH_OK);
   EXPECT_EQ(beginFrame(0, 300).uploadBytesQueued, all - 300) << "the upload was submitted";
   submitEmptyFrame();
-  drawUntilReady(asset, view, 0, frothRecordRaster);
+  drawUntilReady(asset, view);
   EXPECT_EQ(texels(), expected);
 }
 
@@ -293,7 +298,7 @@ TEST_F(UploadQueue, UnderWayInALostDeviceIsForgotten) {
   info.messageUser = &messages_;
   ASSERT_EQ(frothRestoreDevice(context_, &info), FROTH_OK) << lastText();
   EXPECT_EQ(statusOf(asset).state, FROTH_ASSET_OPENING);
-  drawUntilReady(asset, view, 0, frothRecordRaster);
+  drawUntilReady(asset, view);
   EXPECT_NE(texels(), std::vector<float>(size_t{4} * 48 * 48));
 }
 
@@ -304,7 +309,7 @@ TEST_F(UploadQueue, HeldBackDelaysNoFrame) {
   const FrothAsset first = openBytes(encodeSample());
   createInstance(first);
   const FrothView view = createView({48, 48});
-  drawUntilReady(first, view, 0, frothRecordRaster);
+  drawUntilReady(first, view);
   const std::vector<float> expected = texels();
 
   TimelineQueue gate(*host_, host_->uploadQueue);  // nothing is submitted to it
