@@ -1,21 +1,24 @@
 #include "host/host.h"
 
+#include <set>
+
 #include "host/host_instance.h"
 #include "host/host_state.h"
 
 namespace froth {
 namespace {
 
-uint32_t findQueueFamily(VkPhysicalDevice physicalDevice, VkQueueFlags wanted) {
+// The first family that can do what is wanted and nothing that is not; else `otherwise`.
+uint32_t findQueueFamily(VkPhysicalDevice physicalDevice, VkQueueFlags wanted, VkQueueFlags unwanted,
+                         uint32_t otherwise) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, families.data());
-  uint32_t family = 0;  // a suitable device has one
-  while (family + 1 < count && (families[family].queueFlags & wanted) != wanted) {
-    ++family;
+  for (uint32_t family = 0; family < count; ++family) {
+    if ((families[family].queueFlags & (wanted | unwanted)) == wanted) return family;
   }
-  return family;
+  return otherwise;
 }
 
 Status failed(const char* call, VkResult code) {
@@ -70,6 +73,17 @@ Result<std::unique_ptr<Host>> Host::create(const HostOptions& options) {
   return host;
 }
 
+void Host::chooseFamilies(const HostOptions& options) {
+  const VkQueueFlags graphics = options.useGraphics ? VK_QUEUE_GRAPHICS_BIT : 0;
+  queueFamily = findQueueFamily(physicalDevice, VK_QUEUE_COMPUTE_BIT | graphics, 0, 0);
+  computeQueue.family = uploadQueue.family = queueFamily;
+  if (options.useOtherQueues) {
+    computeQueue.family = findQueueFamily(physicalDevice, VK_QUEUE_COMPUTE_BIT, VK_QUEUE_GRAPHICS_BIT, queueFamily);
+    uploadQueue.family = findQueueFamily(physicalDevice, VK_QUEUE_TRANSFER_BIT,
+                                         VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT, queueFamily);
+  }
+}
+
 Status Host::createDevice(const HostOptions& options) {
   State& state = *state_;
   state.features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
@@ -91,26 +105,35 @@ Status Host::createDevice(const HostOptions& options) {
   state.features13.dynamicRendering = offered13.dynamicRendering;
 
   state.usesGraphics = options.useGraphics;
-  const VkQueueFlags graphics = options.useGraphics ? VK_QUEUE_GRAPHICS_BIT : 0;
-  queueFamily = findQueueFamily(physicalDevice, VK_QUEUE_COMPUTE_BIT | graphics);
+  state.features12.timelineSemaphore = options.useOtherQueues;  // every device has them
+  chooseFamilies(options);
   const float priority = 1.0f;
-  VkDeviceQueueCreateInfo queueInfo{};
-  queueInfo.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-  queueInfo.queueFamilyIndex = queueFamily;
-  queueInfo.queueCount = 1;
-  queueInfo.pQueuePriorities = &priority;
+  std::vector<VkDeviceQueueCreateInfo> queueInfos;
+  for (const uint32_t family : std::set<uint32_t>{queueFamily, computeQueue.family, uploadQueue.family}) {
+    VkDeviceQueueCreateInfo& queueInfo = queueInfos.emplace_back();
+    queueInfo.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queueInfo.queueFamilyIndex = family;
+    queueInfo.queueCount = 1;
+    queueInfo.pQueuePriorities = &priority;
+  }
   VkDeviceCreateInfo deviceInfo{};
   deviceInfo.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   deviceInfo.pNext = &state.features;
-  deviceInfo.queueCreateInfoCount = 1;
-  deviceInfo.pQueueCreateInfos = &queueInfo;
+  deviceInfo.queueCreateInfoCount = static_cast<uint32_t>(queueInfos.size());
+  deviceInfo.pQueueCreateInfos = queueInfos.data();
   deviceInfo.enabledExtensionCount = static_cast<uint32_t>(options.deviceExtensions.size());
   deviceInfo.ppEnabledExtensionNames = options.deviceExtensions.data();
   if (const VkResult code = vkCreateDevice(physicalDevice, &deviceInfo, nullptr, &device); code != VK_SUCCESS) {
     return failed("vkCreateDevice", code);
   }
   vkGetDeviceQueue(device, queueFamily, 0, &queue);
+  vkGetDeviceQueue(device, computeQueue.family, 0, &computeQueue.queue);
+  vkGetDeviceQueue(device, uploadQueue.family, 0, &uploadQueue.queue);
+  return createCommands();
+}
 
+Status Host::createCommands() {
+  State& state = *state_;
   VkCommandPoolCreateInfo poolInfo{};
   poolInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
   poolInfo.queueFamilyIndex = queueFamily;

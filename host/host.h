@@ -1,4 +1,4 @@
-// A stand-in for an engine: instance, device, one queue, images, submission, read-back; no window.
+// A stand-in for an engine: instance, device, queues, images, submission, read-back; no window.
 // Used by the samples, by `froth render` and `froth bench`, and by the GPU tests. Links the Vulkan loader.
 #pragma once
 
@@ -29,12 +29,18 @@ void recordMemoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 fromSta
                          VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess);
 
 struct HostOptions {
-  std::string device;          // index or part of a name; empty: first suitable, GPUs before CPUs
-  bool useValidation = false;  // core and synchronization validation; fails if the layer is not installed
-  bool useGraphics = false;    // dynamic rendering into images; a queue family with graphics
+  std::string device;           // index or part of a name; empty: first suitable, GPUs before CPUs
+  bool useValidation = false;   // core and synchronization validation; fails if the layer is not installed
+  bool useGraphics = false;     // dynamic rendering into images; a queue family with graphics
+  bool useOtherQueues = false;  // Host::computeQueue and uploadQueue of families of their own; timeline semaphores
   // What a window needs, if the caller makes one; names live as long as the call.
   std::vector<const char*> instanceExtensions = {};
   std::vector<const char*> deviceExtensions = {};
+};
+
+struct HostQueue {
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t family = 0;
 };
 
 struct HostImage {
@@ -90,11 +96,16 @@ class Host {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   uint32_t queueFamily = 0;
+  // With HostOptions::useOtherQueues of a family with compute and without graphics, and of one that copies and can do
+  // neither; where the device lacks such a family, and else, `queue`.
+  HostQueue computeQueue, uploadQueue;
   HostDeviceInfo info;
 
  private:
   Host();
+  void chooseFamilies(const HostOptions& options);
   Status createDevice(const HostOptions& options);
+  Status createCommands();
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -241,6 +241,10 @@ FrothResult frothDropFrame(FrothContext* context, uint64_t serial) {
   return guard(context, __func__, [&](const char*) { return context->dropFrame(serial); });
 }
 
+FrothResult frothDropUpload(FrothContext* context, uint64_t uploadSerial) {
+  return guard(context, __func__, [&](const char*) { return context->dropUpload(uploadSerial); });
+}
+
 FrothResult frothRecordRaster(FrothContext* context, FrothView view, VkCommandBuffer commandBuffer,
                               const FrothRenderInfo* info) {
   return render(context, RenderMethod::kRaster, "frothRecordRaster", view, commandBuffer, info);

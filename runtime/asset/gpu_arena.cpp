@@ -29,7 +29,7 @@ Result<GpuArena::Place> GpuArena::allocate(VkDeviceSize size, VkDeviceSize more,
   if (const VkDeviceSize room = roomLeft(); size > room) {
     blocks_.reserve(blocks_.size() + 1);  // so that what is made has its place
     const VkDeviceSize blockSize = orderedSize_ != 0 ? orderedSize_ : chooseBlockSize(size, more);
-    const Result<GpuBuffer> block = device_.createBuffer(MemoryUse::kAssets, BufferKind::kDevice, blockSize, purpose);
+    const Result<GpuBuffer> block = device_.createBuffer(MemoryUse::kAssets, BufferKind::kUploaded, blockSize, purpose);
     orderedSize_ = block || !isOrdered(block.error()) ? 0 : blockSize;
     if (!block) return block.error();
     blocks_.push_back(*block);

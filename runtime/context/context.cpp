@@ -29,12 +29,14 @@ FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
   return FROTH_OK;
 }
 
-// READY: all copies stand in frames that are recorded and not dropped.
+// READY: this frame can draw it, for all copies stand in frames that are recorded and not dropped; or are complete, if
+// they are submitted on their own.
 FrothAssetState Context::stateOf(const Asset& asset) const {
   if (asset.hasFailed()) {
     return FROTH_ASSET_FAILED;
   }
-  const bool isUploaded = asset.queuedBytes() == 0 && !(ring_ && ring_->isStaged(&asset));
+  const uint64_t readable = hasUploadQueue_ ? completedUploadSerial_ : uploadSerial_;
+  const bool isUploaded = asset.queuedBytes() == 0 && (!ring_ || ring_->isWithin(&asset, readable));
   return asset.isDecoded() && isUploaded && !isLost_ ? FROTH_ASSET_READY : FROTH_ASSET_OPENING;
 }
 
@@ -77,12 +79,13 @@ FrothResult Context::closeAsset(FrothAsset handle) {
     return messages.fail(FROTH_ERROR_STATE, asset->name().c_str(), "%u instances still use it; destroy them first",
                          users);
   }
-  if (ring_) {
-    ring_->forget(asset);
-  }
   retired_.reserve(retired_.size() + 1);
   assets_.find(handle)->stop();
-  retire(assets_.remove(handle));
+  std::shared_ptr<Asset> closed = assets_.remove(handle);
+  if (ring_) {
+    ring_->forget(closed.get(), closed);
+  }
+  retire(std::move(closed));
   return FROTH_OK;
 }
 

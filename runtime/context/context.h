@@ -72,6 +72,7 @@ class Context {
   FrothResult update(const FrothFrame& frame, FrothFrameStatus& status);
   FrothResult recordUpload(VkCommandBuffer commandBuffer);
   FrothResult dropFrame(uint64_t serial);
+  FrothResult dropUpload(uint64_t uploadSerial);
   FrothResult render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer, FrothRenderInfo info);
 
   FrothResult composite(FrothView handle, VkCommandBuffer commandBuffer, const FrothCompositeInfo& info);
@@ -138,6 +139,7 @@ class Context {
   // Instances that queries see; why others were left out, as FrothQueryBit.
   std::pmr::vector<PlacedFoam> gatherFoams(uint32_t& bits, std::pmr::memory_resource* memory) const;
   FrothResult readPlacement(const FrothInstanceInfo& info, const char* call, Instance& instance) const;
+  FrothResult checkUploadSerials(const FrothFrame& frame) const;
   FrothResult beginFrame(const FrothFrame& frame);
   void runFrame(FrothFrameStatus& status);
   void takeMemory();
@@ -191,6 +193,9 @@ class Context {
 
   uint64_t serial_ = 0, completedSerial_ = 0;
   std::vector<uint64_t> serialsInFlight_;
+  // Of the submissions that hold uploads: those of frames, or, with FrothContextInfo::hasUploadQueue, others.
+  bool hasUploadQueue_ = false;
+  uint64_t uploadSerial_ = 0, completedUploadSerial_ = 0;
   uint64_t uploadBytesLeft_ = 0;           // of this frame
   uint32_t loadMicroseconds_ = 0;          // FrothFrame's
   std::atomic<uint64_t> drawnSerial_ = 0;  // newest frame in which a view was drawn,

@@ -35,6 +35,11 @@ FrothResult Context::checkInfo(const FrothContextInfo& info, const char* call) c
                          static_cast<unsigned long long>(kLeastStagingBytes),
                          static_cast<unsigned long long>(kStagingBytes));
   }
+  if (!info.hasUploadQueue && info.uploadQueueFamily != 0) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "uploadQueueFamily: %u, and hasUploadQueue is 0; set it to 1, or leave both 0",
+                         info.uploadQueueFamily);
+  }
   if (!info.allocateMemory != !info.freeMemory) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "allocateMemory, freeMemory: one is null; set both or none");
   }
@@ -87,6 +92,8 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
   hasExtendedFormats_ = info.enabledFeatures && info.enabledFeatures->features.shaderStorageImageExtendedFormats;
   hasReactiveImages_ = info.reactiveImages != 0;
   hasWalkShaders_ = info.walkShaders != 0;
+  hasUploadQueue_ = info.hasUploadQueue != 0;
+  uploadSerial_ = completedUploadSerial_ = 0;
   isNull_ = !info.device;
   device_.budget = info.deviceBudget;
   const Status status = isNull_ ? Status() : createDeviceObjects(info);
@@ -100,7 +107,11 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
   }
   device_ = *device;
   device_.budget = info.deviceBudget;
-  device_.timestampBits = timestampBitsOf(info);
+  device_.queueFamily = info.queueFamily;
+  device_.uploadFamily = info.hasUploadQueue ? info.uploadQueueFamily : info.queueFamily;
+  const VkQueueFamilyProperties family = queueFamilyOf(info);
+  device_.timestampBits = family.timestampValidBits;
+  device_.hasGraphics = (family.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
   device_.callbacks = {info.allocateMemory, info.freeMemory, info.memoryUser};
   if (jobs_.hasThreads()) {
     device_.orders = std::make_shared<MemoryOrders>();

@@ -23,6 +23,33 @@ struct OpenOrders {
 
 }  // namespace
 
+FrothResult Context::checkUploadSerials(const FrothFrame& frame) const {
+  constexpr const char* kCall = "frothUpdate";
+  const auto serial = static_cast<unsigned long long>(frame.uploadSerial);
+  const auto completed = static_cast<unsigned long long>(frame.completedUploadSerial);
+  if (!hasUploadQueue_) {
+    return serial == 0 && completed == 0
+               ? FROTH_OK
+               : messages.fail(FROTH_ERROR_ARGUMENT, kCall,
+                               "uploadSerial: %llu, completedUploadSerial: %llu; uploads of this context stand in its "
+                               "frames; leave both 0, or set FrothContextInfo::hasUploadQueue",
+                               serial, completed);
+  }
+  const uint64_t newest = ring_ ? ring_->newestInFlight() : 0;
+  if (frame.uploadSerial <= newest) {
+    return messages.fail(FROTH_ERROR_STATE, kCall,
+                         "uploadSerial: %llu, and uploads were recorded for %llu; must be above it, and above 0",
+                         serial, static_cast<unsigned long long>(newest));
+  }
+  if (frame.completedUploadSerial >= frame.uploadSerial || frame.completedUploadSerial < completedUploadSerial_) {
+    return messages.fail(FROTH_ERROR_STATE, kCall,
+                         "completedUploadSerial: %llu, with uploadSerial %llu, after %llu; must be below uploadSerial "
+                         "and never shrink",
+                         completed, serial, static_cast<unsigned long long>(completedUploadSerial_));
+  }
+  return FROTH_OK;
+}
+
 FrothResult Context::beginFrame(const FrothFrame& frame) {
   constexpr const char* kCall = "frothUpdate";
   if (frame.serial <= serial_) {
@@ -36,6 +63,9 @@ FrothResult Context::beginFrame(const FrothFrame& frame) {
                          static_cast<unsigned long long>(frame.serial),
                          static_cast<unsigned long long>(completedSerial_));
   }
+  if (const FrothResult result = checkUploadSerials(frame); result != FROTH_OK) {
+    return result;
+  }
   std::erase_if(serialsInFlight_, [&](uint64_t serial) { return serial <= frame.completedSerial; });
   if (serialsInFlight_.size() >= framesInFlight_) {
     return messages.fail(FROTH_ERROR_STATE, kCall,
@@ -48,6 +78,8 @@ FrothResult Context::beginFrame(const FrothFrame& frame) {
   serial_ = frame.serial;
   drawnBeforeSerial_ = drawnSerial_;
   completedSerial_ = frame.completedSerial;
+  uploadSerial_ = hasUploadQueue_ ? frame.uploadSerial : frame.serial;
+  completedUploadSerial_ = hasUploadQueue_ ? frame.completedUploadSerial : frame.completedSerial;
   uploadBytesLeft_ = frame.uploadBytes == 0 ? UINT64_MAX : frame.uploadBytes;
   loadMicroseconds_ = frame.loadMicroseconds;
   return FROTH_OK;
@@ -58,13 +90,14 @@ FrothResult Context::update(const FrothFrame& frame, FrothFrameStatus& status) {
   if (const FrothResult result = checkDevice(kCall); result != FROTH_OK) {
     return result;
   }
-  const uint64_t previousSerial = serial_;
+  const uint64_t previousSerial = serial_, previousUploadSerial = uploadSerial_;
   if (const FrothResult result = beginFrame(frame); result != FROTH_OK) {
     return result;
   }
   const auto takeBack = [&] {  // the frame has not begun
     serialsInFlight_.pop_back();
     serial_ = previousSerial;
+    uploadSerial_ = previousUploadSerial;
   };
   try {
     runFrame(status);
@@ -85,7 +118,7 @@ void Context::runFrame(FrothFrameStatus& status) {
     takeMemory();
     std::erase_if(retired_, [&](const auto& retired) { return retired.first <= completedSerial_; });
     if (ring_) {
-      ring_->retire(completedSerial_);
+      ring_->retire(completedUploadSerial_);
     }
     loadAssets();
     prepareMerging();
@@ -103,6 +136,7 @@ void Context::runFrame(FrothFrameStatus& status) {
   status.deviceBytes = device_.ledger.deviceBytes();
   status.hostBytes = device_.ledger.hostBytes();
   status.excessBytes = device_.excessBytes();
+  status.waitUploadSerial = hasUploadQueue_ ? completedUploadSerial_ : 0;
 }
 
 // What the last job of memory has done.
@@ -129,6 +163,10 @@ void Context::orderMemory() {
 }
 
 bool Context::isDone(uint64_t completedSerial) const {
+  const bool isAllDone = completedSerial == UINT64_MAX;
+  if (hasUploadQueue_ && !isAllDone && ring_ && ring_->newestInFlight() != 0) {
+    return false;
+  }
   return std::all_of(serialsInFlight_.begin(), serialsInFlight_.end(),
                      [&](uint64_t serial) { return serial <= completedSerial; });
 }
@@ -148,8 +186,9 @@ void Context::loadAssets() {
     retired_.reserve(retired_.size() + 1);
     asset.load(jobs_, reads_, limit, prepare, messages);
     if (asset.hasFailed() && ring_) {
-      ring_->forget(&asset);
-      retire(asset.releaseBuffers());
+      const std::shared_ptr<GpuArena> targets = asset.releaseBuffers();
+      ring_->forget(&asset, targets);
+      retire(targets);
     }
   });
   // Their room is for other jobs, whether an asset still waits for them or not: whoever does finds the pipelines, or
@@ -199,10 +238,10 @@ FrothResult Context::recordUpload(VkCommandBuffer commandBuffer) {
   const uint64_t waiting = std::min(ring_->stagedBytes(), uploadBytesLeft_);
   uint64_t room = uploadBytesLeft_ - waiting;
   assets_.forEach([&](Asset& asset) { room -= asset.stage(*ring_, room); });
-  const uint64_t recorded = ring_->record(commandBuffer, serial_, uploadBytesLeft_);
+  const uint64_t recorded = ring_->record(commandBuffer, uploadSerial_, uploadBytesLeft_);
   uploadBytesLeft_ -= recorded;
-  if (recorded == 0) {
-    return FROTH_OK;
+  if (recorded == 0 || hasUploadQueue_) {
+    return FROTH_OK;  // the semaphore of such uploads orders them before the frames that wait for it
   }
   device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
@@ -216,7 +255,7 @@ FrothResult Context::dropFrame(uint64_t serial) {
                          static_cast<unsigned long long>(serial));
   }
   serialsInFlight_.erase(found);
-  if (ring_) {
+  if (ring_ && !hasUploadQueue_) {
     ring_->drop(serial);
   }
   views_.forEach([&](View& view) {
@@ -230,6 +269,26 @@ FrothResult Context::dropFrame(uint64_t serial) {
   assets_.forEach([&](Asset& asset) {
     if (asset.entriesSerial == serial) asset.entriesSerial = 0;
   });
+  return FROTH_OK;
+}
+
+FrothResult Context::dropUpload(uint64_t uploadSerial) {
+  constexpr const char* kCall = "frothDropUpload";
+  if (!hasUploadQueue_) {
+    return messages.fail(FROTH_ERROR_STATE, kCall,
+                         "uploads of this context stand in its frames; call frothDropFrame for the frame");
+  }
+  if (uploadSerial <= completedUploadSerial_ || uploadSerial > uploadSerial_) {
+    return messages.fail(
+        FROTH_ERROR_STATE, kCall,
+        "uploadSerial: %llu; only what lies above the last completedUploadSerial, %llu, and was begun, "
+        "up to %llu, can be dropped",
+        static_cast<unsigned long long>(uploadSerial), static_cast<unsigned long long>(completedUploadSerial_),
+        static_cast<unsigned long long>(uploadSerial_));
+  }
+  if (ring_) {
+    ring_->drop(uploadSerial);
+  }
   return FROTH_OK;
 }
 

@@ -88,7 +88,8 @@ FrothResult Context::recordWalkSet(VkCommandBuffer commandBuffer, FrothWalkInfo 
   if (info.quantile == 0) info.quantile = kDefaultQuantile;
   resolveWalkLimits(info.maxSteps, info.maxNeighbours);
   if (info.stages == 0) {
-    info.stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    info.stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    if (device_.hasGraphics) info.stages |= VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
   }
   if (!(info.quantile > 0 && info.quantile < 1) || !(info.cutoff < 1)) {
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "quantile: %g, cutoff: %g; must lie between 0 and 1, below 1",

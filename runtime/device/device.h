@@ -54,6 +54,7 @@ struct DeviceTable {
 
 enum class BufferKind {
   kDevice,    // storage, indirect, transfer source and target; reached by address
+  kUploaded,  // the same, and written on the queue of uploads
   kStaging,   // host-visible, mapped, transfer source
   kReadback,  // host-visible, mapped, cached where offered; storage and transfer target
 };
@@ -64,7 +65,7 @@ struct GpuBuffer {
   VkDeviceSize size = 0;
   VkDeviceSize offset = 0;      // in its allocation
   VkDeviceAddress address = 0;  // 0 for kStaging
-  void* mapped = nullptr;       // null for kDevice
+  void* mapped = nullptr;       // null for kDevice, kUploaded
   BufferKind kind = BufferKind::kDevice;
 };
 
@@ -177,8 +178,11 @@ class Device {
   VkDevice device = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
-  // valid ones, of the queue family that frames are submitted to; 0: it takes no timestamps
+  // to which frames, and to which uploads are submitted; may be one
+  uint32_t queueFamily = 0, uploadFamily = 0;
+  // valid ones, of queueFamily; 0: it takes no timestamps
   uint32_t timestampBits = 0;
+  bool hasGraphics = false;                               // queueFamily
   VkDeviceSize maxAllocationSize = 0, maxBufferSize = 0;  // that the device promises to accept
   VkDeviceSize largestBuffer() const { return std::min(maxAllocationSize, maxBufferSize); }
   VkDeviceSize budget = 0;           // [bytes] 0: no limit

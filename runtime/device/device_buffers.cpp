@@ -22,6 +22,7 @@ KindTraits traitsOf(BufferKind kind) {
     case BufferKind::kReadback:
       return {kStorage, kVisible, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, true};
     case BufferKind::kDevice:
+    case BufferKind::kUploaded:
       break;
   }
   return {kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, 0,
@@ -82,6 +83,12 @@ Status Device::createHandle(const BufferWish& wish, GpuBuffer& buffer) {
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = wish.size;
   info.usage = traitsOf(buffer.kind).usage;
+  const uint32_t families[] = {queueFamily, uploadFamily};
+  if (buffer.kind == BufferKind::kUploaded && queueFamily != uploadFamily) {
+    info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+    info.queueFamilyIndexCount = 2;
+    info.pQueueFamilyIndices = families;
+  }
   if (const VkResult result = table.vkCreateBuffer(device, &info, nullptr, &buffer.buffer); result != VK_SUCCESS) {
     return explain(result, "%s: vkCreateBuffer of %llu bytes", wish.name, asPrinted(wish.size));
   }

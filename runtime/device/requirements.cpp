@@ -100,13 +100,37 @@ void queryOffer(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instan
   getFeatures(physicalDevice, &offer.features);
 }
 
-bool hasCompute(const Offer& offer) {
-  for (const VkQueueFamilyProperties& family : offer.queueFamilies) {
-    if (family.queueFlags & VK_QUEUE_COMPUTE_BIT) {
-      return true;
-    }
+// Families that can do one of these, as "0, 2".
+std::string listFamilies(const Offer& offer, VkQueueFlags anyOf) {
+  std::string list;
+  for (size_t family = 0; family < offer.queueFamilies.size(); ++family) {
+    if (offer.queueFamilies[family].queueFlags & anyOf) list += (list.empty() ? "" : ", ") + std::to_string(family);
   }
-  return false;
+  return list;
+}
+
+bool canFamily(const Offer& offer, uint32_t family, VkQueueFlags anyOf) {
+  return family < offer.queueFamilies.size() && (offer.queueFamilies[family].queueFlags & anyOf) != 0;
+}
+
+FrothResult checkFamilies(const FrothContextInfo& info, const Messages& messages, const char* call) {
+  Offer offer;
+  linkFeatures(offer);
+  queryOffer(info.getInstanceProcAddr, info.instance, info.physicalDevice, offer);
+  if (!canFamily(offer, info.queueFamily, VK_QUEUE_COMPUTE_BIT)) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call,
+                         "queueFamily: %u; those with VK_QUEUE_COMPUTE_BIT are %s; name the one that frames are "
+                         "submitted to",
+                         info.queueFamily, listFamilies(offer, VK_QUEUE_COMPUTE_BIT).c_str());
+  }
+  constexpr VkQueueFlags kCopies = VK_QUEUE_TRANSFER_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT;
+  if (info.hasUploadQueue && !canFamily(offer, info.uploadQueueFamily, kCopies)) {
+    return messages.fail(
+        FROTH_ERROR_ARGUMENT, call,
+        "uploadQueueFamily: %u; those that can copy are %s; name the one that uploads are submitted to",
+        info.uploadQueueFamily, listFamilies(offer, kCopies).c_str());
+  }
+  return FROTH_OK;
 }
 
 void addItem(FrothRequirements& requirements, const char* name, const char* loss, bool isPresent, bool isFeature) {
@@ -126,7 +150,8 @@ FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAdd
   requirements.structSize = sizeof(requirements);
   requirements.apiVersion = kApiVersion;
   addItem(requirements, "Vulkan 1.3", nullptr, offer.properties.apiVersion >= kApiVersion, false);
-  addItem(requirements, "a queue family with VK_QUEUE_COMPUTE_BIT", nullptr, hasCompute(offer), false);
+  addItem(requirements, "a queue family with VK_QUEUE_COMPUTE_BIT", nullptr,
+          !listFamilies(offer, VK_QUEUE_COMPUTE_BIT).empty(), false);
   for (const RequiredFeature& feature : kRequiredFeatures) {
     addItem(requirements, feature.name, nullptr, isEnabled(offer.features, feature), true);
   }
@@ -187,30 +212,14 @@ FrothResult checkContextDevice(const FrothContextInfo& info, const Messages& mes
                          "before vkCreateDevice",
                          missing.c_str());
   }
-
-  Offer offer;
-  linkFeatures(offer);
-  queryOffer(info.getInstanceProcAddr, info.instance, info.physicalDevice, offer);
-  std::string valid;
-  for (size_t family = 0; family < offer.queueFamilies.size(); ++family) {
-    if (offer.queueFamilies[family].queueFlags & VK_QUEUE_COMPUTE_BIT) {
-      if (family == info.queueFamily) {
-        return FROTH_OK;
-      }
-      valid += (valid.empty() ? "" : ", ") + std::to_string(family);
-    }
-  }
-  return messages.fail(FROTH_ERROR_ARGUMENT, call,
-                       "queueFamily: %u; those with VK_QUEUE_COMPUTE_BIT are %s; name the one that frames are "
-                       "submitted to",
-                       info.queueFamily, valid.c_str());
+  return checkFamilies(info, messages, call);
 }
 
-uint32_t timestampBitsOf(const FrothContextInfo& info) {
+VkQueueFamilyProperties queueFamilyOf(const FrothContextInfo& info) {
   Offer offer;
   linkFeatures(offer);
   queryOffer(info.getInstanceProcAddr, info.instance, info.physicalDevice, offer);
-  return offer.queueFamilies[info.queueFamily].timestampValidBits;
+  return offer.queueFamilies[info.queueFamily];
 }
 
 FrothResult checkDepthExportDevice(const FrothContextInfo& info, const Messages& messages, const char* call) {

@@ -14,13 +14,12 @@ FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAdd
 // place; null: none.
 const char* requireFeatures(VkPhysicalDeviceFeatures2& features);
 
-// Repeats the query for a context and looks whether its features were enabled and its queue family can
-// compute. The message names everything that is missing.
+// Repeats the query for a context and looks whether its features were enabled, its queue family can compute, and that
+// of uploads can copy. The message names everything that is missing.
 FrothResult checkContextDevice(const FrothContextInfo& info, const Messages& messages, const char* call);
 
-// VkQueueFamilyProperties::timestampValidBits of the context's queue family. Of a device that passed
-// checkContextDevice.
-uint32_t timestampBitsOf(const FrothContextInfo& info);
+// Of FrothContextInfo::queueFamily, of a device that passed checkContextDevice.
+VkQueueFamilyProperties queueFamilyOf(const FrothContextInfo& info);
 
 // What frothRecordDepthExport needs besides, of a device that passed checkContextDevice.
 // FrothContextInfo::depthExportFormat is set.

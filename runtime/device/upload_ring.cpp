@@ -61,9 +61,17 @@ void UploadRing::splitCopy(size_t index, VkDeviceSize size) {
   copies_[index].region.size = size;
 }
 
-bool UploadRing::isStaged(const void* owner) const {
-  return std::any_of(copies_.begin(), copies_.end(),
-                     [&](const Copy& copy) { return copy.owner == owner && copy.serial == kStaged; });
+bool UploadRing::isWithin(const void* owner, uint64_t serial) const {
+  return std::none_of(copies_.begin(), copies_.end(),
+                      [&](const Copy& copy) { return copy.owner == owner && copy.serial > serial; });
+}
+
+uint64_t UploadRing::newestInFlight() const {
+  uint64_t newest = 0;
+  for (const Copy& copy : copies_) {
+    if (copy.serial != kStaged && copy.serial > completedSerial_) newest = std::max(newest, copy.serial);
+  }
+  return newest;
 }
 
 VkDeviceSize UploadRing::stagedBytes() const {
@@ -75,7 +83,11 @@ VkDeviceSize UploadRing::stagedBytes() const {
 }
 
 void UploadRing::retire(uint64_t completedSerial) {
+  completedSerial_ = completedSerial;
   const auto isPending = [&](const Copy& copy) { return copy.serial > completedSerial; };
+  for (Copy& copy : copies_) {
+    if (!isPending(copy)) copy.targets.reset();  // also of those that have to wait for others to leave the ring
+  }
   const auto firstPending = std::find_if(copies_.begin(), copies_.end(), isPending);
   for (auto copy = copies_.begin(); copy != firstPending; ++copy) {
     used_ -= copy->region.size;
@@ -91,11 +103,14 @@ void UploadRing::drop(uint64_t serial) {
   }
 }
 
-void UploadRing::forget(const void* owner) {
+void UploadRing::forget(const void* owner, const std::shared_ptr<void>& targets) {
   for (Copy& copy : copies_) {
-    if (copy.owner == owner) {
-      copy.owner = nullptr;
-      copy.serial = copy.serial == kStaged ? kForgotten : copy.serial;
+    if (copy.owner != owner) continue;
+    copy.owner = nullptr;
+    if (copy.serial == kStaged) {
+      copy.serial = kForgotten;
+    } else if (copy.serial > completedSerial_) {
+      copy.targets = targets;
     }
   }
 }

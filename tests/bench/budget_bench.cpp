@@ -102,7 +102,7 @@ void BudgetBench::frame() {
   info.nearDepth = static_cast<float>(view_.nearDepth.value_or(0));
   if (isReady_) info.colour = host_->describe(image_);
   const Status submitted = host_->submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
-    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0};
+    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
     auto status = makeStruct<FrothFrameStatus>();
     check(frothUpdate(context_, &frame, &status), "frothUpdate");
     check(frothRecordUpload(context_, commands), "frothRecordUpload");

@@ -9,11 +9,12 @@ extern VkInstance instance;
 extern VkPhysicalDevice gpu;
 extern VkDevice device;
 extern VkPhysicalDeviceFeatures2 features;
-extern VkCommandBuffer cmd, commandBuffer;
-extern VkImage image;
+extern VkCommandBuffer cmd, commandBuffer, uploadCmd, graphicsCmd;
+extern VkSemaphore uploadSemaphore;
+extern VkImage image, imageBefore;
 extern VkImageView imageView;
-extern uint32_t width, height, family;
-extern uint64_t n, done, newestCompleted;
+extern uint32_t width, height, family, graphicsFamily;
+extern uint64_t n, done, newestCompleted, uploads, completedUploads;
 extern double x, y, z;
 extern float dx, dy, dz, nearest;
 

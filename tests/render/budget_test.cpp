@@ -110,7 +110,7 @@ TEST_F(Budget, ThatCannotBeObeyedKeepsWhatIsPinnedAndTellsTheExcess) {
   FrothFrameStatus status{};
   status.structSize = sizeof(status);
   ASSERT_TRUE(sharedHost().submit([&](VkCommandBuffer, uint64_t serial) {
-    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0};
+    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
     EXPECT_EQ(frothUpdate(context_, &frame, &status), FROTH_OK);
     return Status();
   }));
@@ -137,7 +137,7 @@ TEST_F(Budget, LoweredWithFramesInFlightNeverHoldsMuchMoreAndNeverLeavesTheViewO
   const auto drawFrame = [&] {
     ASSERT_TRUE(sharedHost().submit([&](VkCommandBuffer commands, uint64_t serial) {
       completed = std::max(completed, serial - kFramesInFlight);  // as if the GPU lagged behind
-      const FrothFrame frame{sizeof(FrothFrame), serial, completed, 0, 0};
+      const FrothFrame frame{sizeof(FrothFrame), serial, completed, 0, 0, 0, 0};
       EXPECT_EQ(frothUpdate(context_, &frame, &status), FROTH_OK);
       EXPECT_GE(frothRecordRaster(context_, stage.view(), commands, &info), FROTH_OK);
       return Status();

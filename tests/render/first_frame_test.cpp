@@ -73,7 +73,7 @@ class OtherViews : public testing::Test {
     info.colour = sharedHost().describe(image_);
     for (const bool isDrawn : {true, false}) {
       EXPECT_TRUE(sharedHost().submit([&](VkCommandBuffer commands, uint64_t serial) {
-        const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0};
+        const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
         EXPECT_EQ(frothUpdate(context_, &frame, nullptr), FROTH_OK);
         if (isDrawn) drawn.result = frothRecordRaster(context_, view, commands, &info);
         return Status();
@@ -115,7 +115,7 @@ TEST_F(OtherViews, HaveTheirRoomBeforeTheirFirstFrame) {
   };
   const auto begin = [&] {
     EXPECT_TRUE(sharedHost().submit([&](VkCommandBuffer, uint64_t serial) {
-      const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0};
+      const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
       EXPECT_EQ(frothUpdate(context_, &frame, nullptr), FROTH_OK);
       return Status();
     }));

@@ -104,7 +104,7 @@ TEST(RealFoam, MikuPlushIsRefusedAt1MegabyteAndWholeAt100) {
     FrothAsset asset{};
     ASSERT_EQ(frothOpenAsset(context, &assetInfo, &asset), FROTH_OK);
     ASSERT_TRUE(sharedHost().submit([&](VkCommandBuffer, uint64_t serial) {
-      const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0};
+      const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
       EXPECT_EQ(frothUpdate(context, &frame, nullptr), FROTH_OK);
       return Status();
     }));

@@ -184,7 +184,7 @@ FrothViewStatus Stage::submit(const std::vector<std::pair<Method, FrothRenderInf
                               const std::function<void(VkCommandBuffer)>& afterDraws) {
   bool isIncomplete = false;
   const auto record = [&](VkCommandBuffer commandBuffer, uint64_t serial, bool isDrawn) -> Status {
-    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0};
+    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
     check(frothUpdate(context_, &frame, nullptr), "frothUpdate");
     check(frothRecordUpload(context_, commandBuffer), "frothRecordUpload");
     if (isDrawn && afterUpdate) afterUpdate();

@@ -245,7 +245,7 @@ uint64_t deviceBytesOf(FrothContext* context) {
   FrothFrameStatus status{};
   status.structSize = sizeof(status);
   const Status submitted = sharedHost().submit([&](VkCommandBuffer, uint64_t serial) {
-    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0};
+    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
     EXPECT_EQ(frothUpdate(context, &frame, &status), FROTH_OK);
     return Status();
   });

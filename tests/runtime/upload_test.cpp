@@ -1,4 +1,6 @@
 // What arrives on the GPU, seen from the inside: the arrays of a loaded asset are those of its file.
+#include <utility>
+
 #include "runtime/asset/cell_packer.h"
 #include "runtime/context/context.h"
 #include "runtime/query/packed_elements.h"
@@ -272,19 +274,48 @@ TEST_F(Upload, TakesNothingIntoAFullRingBeforeAFrameIsComplete) {
   ASSERT_TRUE(ring && target);
   const std::vector<uint8_t> bytes(4096);
   EXPECT_EQ((*ring)->stage(this, target->buffer, 0, bytes.data(), 4096), 1000u);
-  EXPECT_TRUE((*ring)->isStaged(this));
+  EXPECT_FALSE((*ring)->isWithin(this, UINT64_MAX - 1)) << "not yet recorded";
   (*ring)->retire(UINT64_MAX - 1);
   EXPECT_EQ((*ring)->stage(this, target->buffer, 1000, bytes.data(), 1), 0u) << "staged, not yet recorded";
   ASSERT_TRUE(host_->submit([&](VkCommandBuffer commands, uint64_t) {
     EXPECT_EQ((*ring)->record(commands, 7, UINT64_MAX), 1000u);
     return Status();
   }));
-  EXPECT_FALSE((*ring)->isStaged(this));
+  EXPECT_FALSE((*ring)->isWithin(this, 6));
+  EXPECT_TRUE((*ring)->isWithin(this, 7));
   (*ring)->retire(6);
   EXPECT_EQ((*ring)->stage(this, target->buffer, 1000, bytes.data(), 1), 0u) << "recorded, not yet complete";
   (*ring)->retire(7);
   EXPECT_EQ((*ring)->stage(this, target->buffer, 1000, bytes.data(), 4096), 1000u);
   gpu.destroyBuffer(*target);
+}
+
+TEST_F(Upload, KeepsForgottenTargetsAsLongAsTheirOwnCopies) {
+  Device gpu = device();
+  Result<std::unique_ptr<UploadRing>> ring = UploadRing::create(gpu, 1000);
+  Result<GpuBuffer> buffer = gpu.createBuffer(MemoryUse::kAssets, BufferKind::kDevice, 4096, "target");
+  ASSERT_TRUE(ring && buffer);
+  const int first = 0, second = 0;  // owners
+  const std::vector<uint8_t> bytes(100);
+  ASSERT_TRUE(host_->submit([&](VkCommandBuffer commands, uint64_t) {
+    (*ring)->stage(&first, buffer->buffer, 0, bytes.data(), 100);
+    (*ring)->record(commands, 5, UINT64_MAX);
+    (*ring)->stage(&second, buffer->buffer, 100, bytes.data(), 100);
+    (*ring)->record(commands, 6, UINT64_MAX);
+    return Status();
+  }));
+  EXPECT_EQ((*ring)->newestInFlight(), 6u);
+  auto targets = std::make_shared<int>();
+  (*ring)->forget(&second, targets);
+  const std::weak_ptr<int> kept = std::exchange(targets, nullptr);
+  (*ring)->drop(5);  // its copy stands before the other, and waits
+  (*ring)->retire(5);
+  EXPECT_FALSE(kept.expired());
+  (*ring)->retire(6);
+  EXPECT_TRUE(kept.expired());
+  EXPECT_EQ((*ring)->newestInFlight(), 0u);
+  EXPECT_FALSE((*ring)->isWithin(&first, 6));
+  gpu.destroyBuffer(*buffer);
 }
 
 TEST_F(Upload, BufferLargerThanTheDeviceAllowsIsRefusedWithNumbers) {

@@ -126,7 +126,7 @@ TEST_F(GpuInstances, AreMetAfterTheFirstFrameThatSawThemWasDropped) {
   const FrothWalkInfo info = walkInfo();
   uint64_t dropped = 0;
   const Status submitted = sharedHost().submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
-    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0};
+    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
     EXPECT_EQ(frothUpdate(stage_.context(), &frame, nullptr), FROTH_OK);
     VkDescriptorSet set = VK_NULL_HANDLE;
     EXPECT_EQ(frothRecordWalkSet(stage_.context(), commands, &info, &set), FROTH_OK);

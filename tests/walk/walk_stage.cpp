@@ -130,7 +130,7 @@ void WalkStage::move(FrothInstance instance, FrothAsset asset, FrothInstanceInfo
 void WalkStage::frame(const FrothWalkInfo& info, const std::function<void(VkCommandBuffer, VkDescriptorSet)>& record,
                       FrothResult expected) {
   const Status submitted = sharedHost().submit([&](VkCommandBuffer commandBuffer, uint64_t serial) -> Status {
-    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0};
+    const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
     check(frothUpdate(context_, &frame, nullptr), "frothUpdate");
     check(frothRecordUpload(context_, commandBuffer), "frothRecordUpload");
     VkDescriptorSet set = VK_NULL_HANDLE;

@@ -64,8 +64,8 @@ typedef struct FrothMemory {
 
 /* ---- Assets ---- */
 
-/* OPENING: loading. READY: all uploads are recorded; the same frame can draw it. FAILED: see
- * FrothAssetStatus::error. */
+/* OPENING: loading. READY: all uploads are recorded; the same frame can draw it. With FrothContextInfo::hasUploadQueue:
+ * all uploads are complete, as completedUploadSerial tells. FAILED: see FrothAssetStatus::error. */
 typedef enum FrothAssetState {
   FROTH_ASSET_OPENING = 0,
   FROTH_ASSET_READY = 1,
@@ -236,6 +236,13 @@ typedef struct FrothFrame {
   /* without FrothContextInfo::runJob: no other chunk is decoded after so long. 0: after 4 MiB of decoded sections, the
    * same on any machine */
   uint32_t loadMicroseconds;
+  /* With FrothContextInfo::hasUploadQueue; else both 0. */
+  /* [> 0] of the submission that this frame's frothRecordUpload is recorded for; above that of each submission of
+   * uploads before. The number of a submission that is not made, or was dropped, may come again */
+  uint64_t uploadSerial;
+  /* [< uploadSerial] the newest submission of uploads that the GPU has completed. Assets become READY, and staging
+   * memory becomes free, by this number alone */
+  uint64_t completedUploadSerial;
 } FrothFrame;
 
 typedef struct FrothFrameStatus {
@@ -245,6 +252,10 @@ typedef struct FrothFrameStatus {
   uint64_t deviceBytes; /* all device memory held by the context */
   uint64_t hostBytes;   /* staging and read-back */
   uint64_t excessBytes; /* the part of deviceBytes that exceeds a lowered budget */
+  /* with FrothContextInfo::hasUploadQueue: the submission of uploads for whose semaphore this frame's submission waits,
+   * at COMPUTE_SHADER and where shaders of the caller walk (froth_walk.h). It is complete: the wait takes no time, and
+   * makes visible what was uploaded. 0: wait for nothing */
+  uint64_t waitUploadSerial;
 } FrothFrameStatus;
 
 /* Begins a frame, which the caller submits or drops. CPU only: frees what complete frames used, loads assets, grows
@@ -253,12 +264,18 @@ typedef struct FrothFrameStatus {
  * frothDeviceLost. */
 FROTH_API FrothResult frothUpdate(FrothContext* context, const FrothFrame* frame, FrothFrameStatus* status);
 
-/* Records this frame's uploads. Call it outside a render pass. */
+/* Records this frame's uploads. Call it outside a render pass. With FrothContextInfo::hasUploadQueue it records copies
+ * and nothing else, into a command buffer for that queue; no frame reads what they write before they are complete. */
 FROTH_API FrothResult frothRecordUpload(FrothContext* context, VkCommandBuffer commandBuffer);
 
 /* Call it for a recorded frame that will never be submitted. Its uploads are queued again; assets that need them are
- * OPENING until then. Frames recorded after it read what it would have uploaded: drop them too. */
+ * OPENING until then. Frames recorded after it read what it would have uploaded: drop them too. With
+ * FrothContextInfo::hasUploadQueue it leaves uploads alone. */
 FROTH_API FrothResult frothDropFrame(FrothContext* context, uint64_t serial);
+
+/* With FrothContextInfo::hasUploadQueue: call it for uploads that were recorded and will never be submitted. They are
+ * queued again. No frame reads them before they are complete, so no other has to be dropped. */
+FROTH_API FrothResult frothDropUpload(FrothContext* context, uint64_t uploadSerial);
 
 /* The tone curve at the end of the engine's frame: from scene-linear x to linear light of the display. Per channel,
  * except the last. */

@@ -167,6 +167,12 @@ typedef struct FrothContextInfo {
   /* 1: pipelines are made so that full frames can write FrothRenderInfo::reactive. Those frames are slower, whether
    * they have that image or not; frames of colour and distance alone are the same */
   uint32_t reactiveImages;
+  /* 1: uploads are submissions of their own, with serials of their own (FrothFrame::uploadSerial), to a queue of
+   * uploadQueueFamily. 0: uploads stand in the frames */
+  uint32_t hasUploadQueue;
+  /* any family with TRANSFER, COMPUTE or GRAPHICS; may be queueFamily. What uploads write is shared by the two families
+   * (VK_SHARING_MODE_CONCURRENT): it needs no ownership transfer */
+  uint32_t uploadQueueFamily;
 } FrothContextInfo;
 
 /* Makes pipelines and the staging memory. Call it at start-up, not in a frame. *context is null on
@@ -174,8 +180,9 @@ typedef struct FrothContextInfo {
 FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothContext** context);
 
 /* Frees everything at once; waits for jobs that have begun. completedSerial: as in FrothFrame; UINT64_MAX after
- * vkDeviceWaitIdle. FROTH_PENDING, and nothing is freed: later frames were begun and not dropped; or, when none were,
- * reads are not answered (froth_reader.h), and now are cancelled. A null pointer gives FROTH_OK. */
+ * vkDeviceWaitIdle. FROTH_PENDING, and nothing is freed: later frames were begun and not dropped; or, below UINT64_MAX,
+ * uploads were recorded beyond the last completedUploadSerial; or, when none were, reads are not answered
+ * (froth_reader.h), and now are cancelled. A null pointer gives FROTH_OK. */
 FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
 
 /* Changes FrothContextInfo::deviceBudget. New allocations never exceed it. A budget below the bytes held: from the next

@@ -31,7 +31,7 @@ typedef struct FrothWalkInfo {
   float cutoff;      /* [< 1] a ray ends when its transmittance falls below this; 0: 1e-3; negative: never */
   float quantile;    /* [0 < q < 1] transmittance at which a ray counts as stopped; 0: one half */
   uint32_t maxSteps; /* cells of one ray in one instance; 0: 65536 */
-  VkPipelineStageFlags2 stages; /* shader stages that read the set; 0: compute and fragment */
+  VkPipelineStageFlags2 stages; /* shader stages that read the set; 0: compute, and fragment if the family has it */
   /* neighbours that one ray tests in one instance, without those of its last cell; 0: 1048576 */
   uint32_t maxNeighbours;
 } FrothWalkInfo;
