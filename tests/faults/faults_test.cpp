@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Of, VulkanFault,
                                                                               : "DeviceMemory";
                          });
 
-// Each allocation of operator new fails once.
+// Each allocation fails once.
 void exhaustHostMemory(Host* host, Engine::Source source = Engine::Source::kMemory) {
   const std::vector<uint8_t> bytes = encodeSample(host ? 1 : 2);
   Engine well(host, bytes, source);
@@ -142,6 +142,7 @@ TEST(HostAllocations, AreNotMadeByFramesAndQueries) {
     EXPECT_EQ(HostFaults::count(), 0u);
     EXPECT_EQ(engine.query(), FROTH_OK);
     EXPECT_EQ(HostFaults::count(), 0u);
+    EXPECT_EQ(HostFaults::foreignCount(), 0u);
     EXPECT_EQ(engine.stop(), FROTH_OK);
   }
   VulkanFaults::clear((*host)->device);
