@@ -86,6 +86,7 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
   depthExportFormat_ = info.depthExportFormat;
   hasExtendedFormats_ = info.enabledFeatures && info.enabledFeatures->features.shaderStorageImageExtendedFormats;
   hasWalkShaders_ = info.walkShaders != 0;
+  hasBreadcrumbs_ = info.breadcrumbs != 0;
   isNull_ = !info.device;
   device_.budget = info.deviceBudget;
   const Status status = isNull_ ? Status() : createDeviceObjects(info);
@@ -192,6 +193,7 @@ void Context::stopJobs() {
 void Context::loseDevice() {
   stopJobs();
   views_.forEach([](View& view) {
+    if (view.breadcrumbs) view.breadcrumbs->keep();
     view.renderer.reset();
     view.prepared.clear();
     view.preparationError.clear();

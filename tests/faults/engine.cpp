@@ -50,6 +50,7 @@ FrothContextInfo Engine::contextInfo() {
   };
   info.messageUser = this;
   info.walkShaders = 1;
+  info.breadcrumbs = 1;
   return info;
 }
 

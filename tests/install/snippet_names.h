@@ -1,10 +1,12 @@
 /* The names that the C blocks of README.md and docs/EMBEDDING.md take from the text around them. */
+#include <froth/froth_breadcrumbs.h>
 #include <froth/froth_host.h>
 #include <froth/froth_pool.h>
 #include <froth/froth_query.h>
 #include <froth/froth_reader.h>
 #include <froth/froth_walk.h>
 #include <math.h>
+#include <stdio.h>
 
 extern VkInstance instance;
 extern VkPhysicalDevice gpu;

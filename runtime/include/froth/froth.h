@@ -35,6 +35,7 @@
  *   froth_pool.h       threads for jobs
  *   froth_host.h       the engine's allocator for host memory
  *   froth_composite.h  blending into the engine's colour and depth images
+ *   froth_breadcrumbs.h which pass the GPU hung in
  */
 #ifndef FROTH_FROTH_H
 #define FROTH_FROTH_H

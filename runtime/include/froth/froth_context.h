@@ -162,6 +162,8 @@ typedef struct FrothContextInfo {
   /* [>= 65536 bytes] of host-visible memory through which assets are uploaded. The frames in flight share it, so a
    * frame uploads this part of it at most, whatever its uploadBytes. 0: 64 MiB */
   uint64_t stagingBytes;
+  uint32_t
+      breadcrumbs; /* 1: the GPU tells which passes it begins and finishes: froth_breadcrumbs.h; frames are slower */
 } FrothContextInfo;
 
 /* Makes pipelines and the staging memory. Call it at start-up, not in a frame. *context is null on
