@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "format/write/asset_writer.h"
+#include "froth/froth_host.h"
 #include "tests/faults/engine.h"
 #include "tests/faults/host_faults.h"
 #include "tests/faults/vulkan_faults.h"
@@ -123,6 +124,13 @@ void exhaustHostMemory(Host* host, Engine::Source source = Engine::Source::kMemo
   }
   HostFaults::arm(SIZE_MAX);
   EXPECT_GT(number, 100u);
+}
+
+TEST(HostAllocators, AreForARuntimeWithAHeapOfItsOwn) {
+  EXPECT_EQ(HostFaults::isAllocator(), FROTH_HAS_OWN_HEAP != 0);
+  if (!HostFaults::isAllocator()) {
+    EXPECT_EQ(frothSetHostAllocator(nullptr), FROTH_ERROR_UNSUPPORTED);
+  }
 }
 
 // Once all is loaded.
