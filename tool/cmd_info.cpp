@@ -11,6 +11,7 @@
 #include "foam/checkpoint/checkpoint.h"
 #include "format/read/asset_reader.h"
 #include "froth/froth_estimate.h"
+#include "host/make_struct.h"
 #include "measure/figures.h"
 #include "tool/commands.h"
 #include "tool/options.h"
@@ -23,13 +24,6 @@ uint64_t fileSize(const std::filesystem::path& path) {
   std::error_code error;
   const uintmax_t size = std::filesystem::file_size(path, error);
   return error ? 0 : size;
-}
-
-template <class T>
-T makeStruct() {
-  T value{};
-  value.structSize = sizeof(T);
-  return value;
 }
 
 // What the runtime will hold of the asset, and of a view with one instance of it.

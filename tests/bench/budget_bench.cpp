@@ -3,7 +3,6 @@
 // Draws one view with all the memory that it wants, finds the least with which nothing is missing, and then gives the
 // view parts of that. For each: its memory, the cells shown, and the PSNR against the whole picture.
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,8 +11,10 @@
 
 #include "froth/froth.h"
 #include "host/host.h"
+#include "host/make_struct.h"
 #include "measure/gpu/gpu_camera.h"
 #include "reference/image/metrics.h"
+#include "tests/bench/bench_calls.h"
 
 namespace froth {
 namespace {
@@ -26,23 +27,6 @@ struct Options {
   uint32_t view = 0, width = 330, height = 247;
   bool walks = false;
 };
-
-template <class T>
-T makeStruct() {
-  T value{};
-  value.structSize = sizeof(T);
-  return value;
-}
-
-void check(FrothResult result, const char* call) {
-  if (result < 0) throw std::runtime_error(fmt::format("{}: {}", call, frothResultName(result)));
-}
-
-template <class T>
-T take(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().message);
-  return std::move(*result);
-}
 
 class BudgetBench {
  public:
@@ -106,7 +90,7 @@ void BudgetBench::waitForAsset() {
   do {
     frame();
     check(frothGetAssetStatus(context_, asset_, &status), "frothGetAssetStatus");
-    if (status.state == FROTH_ASSET_FAILED) throw std::runtime_error(options_.asset + ": FAILED");
+    require(status.state != FROTH_ASSET_FAILED, options_.asset + ": FAILED");
   } while (status.state == FROTH_ASSET_OPENING);
 }
 
@@ -128,7 +112,7 @@ void BudgetBench::frame() {
     heldBytes_ = status.deviceBytes;
     return {};
   });
-  if (!submitted) throw std::runtime_error(submitted.error().message);
+  check(submitted);
 }
 
 BudgetBench::Drawn BudgetBench::draw(uint64_t viewBytes) {

@@ -16,6 +16,8 @@
 
 #include "froth/froth_pool.h"
 #include "host/host.h"
+#include "host/make_struct.h"
+#include "tests/bench/bench_calls.h"
 
 using namespace froth;
 
@@ -25,19 +27,6 @@ constexpr uint32_t kFrames = 600;
 constexpr VkExtent2D kSmall{960, 540}, kLarge{1280, 720};
 constexpr std::chrono::microseconds kPeriod(16667);
 constexpr double kSeen = 1.0 / 255;
-
-template <class T>
-T makeStruct() {
-  T value{};
-  value.structSize = sizeof(T);
-  return value;
-}
-
-void require(bool isWell, const char* what) {
-  if (isWell) return;
-  std::fprintf(stderr, "froth_bench_frame_trace: %s\n", what);
-  std::exit(1);
-}
 
 constexpr size_t kListed = 10;
 

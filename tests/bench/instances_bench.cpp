@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,21 +14,12 @@
 #include "base/percentiles.h"
 #include "froth/froth_query.h"
 #include "host/host.h"
+#include "host/make_struct.h"
+#include "tests/bench/bench_calls.h"
+
+using namespace froth;
 
 namespace {
-
-template <class T>
-T makeStruct() {
-  T value{};
-  value.structSize = sizeof(T);
-  return value;
-}
-
-void require(bool isGood, const char* what) {
-  if (isGood) return;
-  std::fprintf(stderr, "failed: %s\n", what);
-  std::exit(1);
-}
 
 void printMessage(void*, FrothSeverity, FrothResult, const char* object, const char* text) {
   std::fprintf(stderr, "%s: %s\n", object, text);
@@ -54,7 +44,7 @@ FrothCamera cameraOf(const FrothStoredCamera& stored, VkExtent2D extent) {
 
 class Bench {
  public:
-  Bench(const char* path, VkExtent2D extent) : host_(std::move(*froth::Host::create({}))), extent_(extent) {
+  Bench(const char* path, VkExtent2D extent) : host_(std::move(*Host::create({}))), extent_(extent) {
     FrothContextInfo contextInfo = host_->contextInfo();
     contextInfo.onMessage = printMessage;
     require(frothCreateContext(&contextInfo, &context_) == FROTH_OK, "frothCreateContext");
@@ -118,7 +108,7 @@ class Bench {
     frame.serial = host_->nextSerial();
     frame.completedSerial = frame.serial - 1;
     require(frothUpdate(context_, &frame, nullptr) == FROTH_OK, "frothUpdate");
-    const froth::Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) -> froth::Status {
+    const Status status = host_->submit([&](VkCommandBuffer commands, uint64_t) -> Status {
       require(frothRecordUpload(context_, commands) == FROTH_OK, "frothRecordUpload");
       if (info) {
         require((isRaster ? frothRecordRaster : frothRecordWalk)(context_, view_, commands, info) == FROTH_OK, "draw");
@@ -148,18 +138,18 @@ class Bench {
       times["total"].push_back(total);
     }
     std::printf("%-12s %-6s %8u cells ", name, isRaster ? "raster" : "walk", status.visibleCells);
-    for (const auto& [pass, values] : times) std::printf(" %s %.4f", pass.c_str(), froth::percentilesOf(values).median);
+    for (const auto& [pass, values] : times) std::printf(" %s %.4f", pass.c_str(), percentilesOf(values).median);
     std::printf("  bits %u\n", status.bits);
   }
 
-  std::unique_ptr<froth::Host> host_;
+  std::unique_ptr<Host> host_;
   VkExtent2D extent_;
   FrothContext* context_ = nullptr;
   FrothAsset asset_{};
   FrothAssetStatus status_ = makeStruct<FrothAssetStatus>();
   FrothRayHit middle_{};
   FrothView view_{};
-  froth::HostImage image_;
+  HostImage image_;
 };
 
 }  // namespace

@@ -10,18 +10,14 @@
 #include <vector>
 
 #include "froth/froth_query.h"
+#include "host/make_struct.h"
+
+using froth::makeStruct;
 
 namespace {
 
 constexpr size_t kQueries = 1 << 14;
 constexpr uint32_t kBatch = 64;
-
-template <class T>
-T makeStruct() {
-  T value{};
-  value.structSize = sizeof(T);
-  return value;
-}
 
 struct World {
   FrothContext* context = nullptr;

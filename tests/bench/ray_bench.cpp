@@ -12,8 +12,10 @@
 
 #include "froth/froth_walk.h"
 #include "host/host.h"
+#include "host/make_struct.h"
 #include "reference/camera/camera.h"
 #include "runtime/device/device.h"
+#include "tests/bench/bench_calls.h"
 
 namespace froth {
 namespace {
@@ -23,23 +25,6 @@ struct Options {
   uint32_t view = 0, width = 1920, height = 1080, frames = 20, layers = 0;
   float cutoff = 0;
 };
-
-template <class T>
-T makeStruct() {
-  T value{};
-  value.structSize = sizeof(T);
-  return value;
-}
-
-void check(FrothResult result, const char* call) {
-  if (result != FROTH_OK) throw std::runtime_error(fmt::format("{}: {}", call, frothResultName(result)));
-}
-
-template <class T>
-T take(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().message);
-  return std::move(*result);
-}
 
 class RayBench {
  public:
@@ -120,7 +105,7 @@ void RayBench::frame(FrothContext* context, Record record) {
     record(commands);
     return {};
   });
-  if (!submitted) throw std::runtime_error(submitted.error().message);
+  check(submitted);
 }
 
 void RayBench::open(FrothContext* context) {
@@ -172,7 +157,8 @@ double RayBench::cast(FrothContext* context, uint32_t count, FrothRayKind kind) 
     device_.table.recordMemoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 0);
-    check(frothRecordRays(context, commands, rays_.address, hits_.address, count, kind), "frothRecordRays");
+    require(frothRecordRays(context, commands, rays_.address, hits_.address, count, kind) == FROTH_OK,
+            "frothRecordRays");
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 1);
     device_.table.recordMemoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COPY_BIT,

@@ -1,4 +1,5 @@
 #include "tests/commands/recording_engine.h"
+#include "host/make_struct.h"
 
 #include <cstdlib>
 
@@ -26,13 +27,6 @@ Host& sharedHost() {
     return std::move(*created);
   }();
   return *host;
-}
-
-template <class T>
-T makeStruct() {
-  T value{};
-  value.structSize = sizeof(T);
-  return value;
 }
 
 void check(FrothResult result, const char* call) {

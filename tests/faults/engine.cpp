@@ -1,4 +1,5 @@
 #include "tests/faults/engine.h"
+#include "host/make_struct.h"
 
 #include <cstring>
 
@@ -19,13 +20,6 @@ template <class Function, class... Args>
 auto call(Function function, Args... args) {
   const HostFaults::Zone zone;
   return function(args...);
-}
-
-template <class T>
-T makeStruct() {
-  T value{};
-  value.structSize = sizeof(T);
-  return value;
 }
 
 }  // namespace

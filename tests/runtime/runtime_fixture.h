@@ -16,16 +16,10 @@
 #include "format/write/asset_writer.h"
 #include "froth/froth_query.h"
 #include "host/host.h"
+#include "host/make_struct.h"
 #include "tests/format/sample_asset.h"
 
 namespace froth {
-
-template <class T>
-T makeStruct() {
-  T value{};
-  value.structSize = sizeof(T);
-  return value;
-}
 
 struct LoggedMessage {
   FrothSeverity severity;
