@@ -60,6 +60,13 @@ void Breadcrumbs::dropFrame(uint64_t serial) {
   for (Crumb& crumb : crumbs_) {
     if (crumb.pass.serial == serial) crumb = {};
   }
+  // What is empty is used first, so that frames which are dropped one after the other displace none in flight.
+  const auto count = static_cast<uint32_t>(crumbs_.size());
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t previous = (next_ + count - 1) % count;
+    if (crumbs_[previous].number != 0) return;
+    next_ = previous;
+  }
 }
 
 void Breadcrumbs::keep() {

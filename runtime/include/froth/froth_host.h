@@ -2,8 +2,8 @@
  *
  * One for the process: it is the one thing that Froth keeps beside its contexts. The shared library has an operator new
  * of its own, with its own copy of the C++ library inside, so all that its code takes comes from here: contexts,
- * assets, decoders, also on the threads of jobs. docs/EMBEDDING.md lists what does not: it is the driver's, and a few
- * bytes of the C++ library. */
+ * assets, decoders, also on the threads of jobs. docs/EMBEDDING.md lists what does not: it is the driver's, and what
+ * the C++ library needs for exceptions. */
 #ifndef FROTH_FROTH_HOST_H
 #define FROTH_FROTH_HOST_H
 
