@@ -1,17 +1,30 @@
+#define ZSTD_STATIC_LINKING_ONLY  // ZSTD_customMem; shared libraries of zstd export what takes it, too
 #include "format/read/frame_read.h"
 
 #include <algorithm>
 #include <array>
+#include <new>
+
+#include <zstd_errors.h>
 
 #include "format/section_codec.h"
 
 namespace froth {
+namespace {
+
+// So that zstd's memory comes from where all other does. It is C, which no exception may cross.
+constexpr ZSTD_customMem kMemory{[](void*, size_t size) { return operator new(size, std::nothrow); },
+                                 [](void*, void* block) { operator delete(block); }, nullptr};
+
+}  // namespace
 
 FrameReader::FrameReader(std::span<const uint8_t> stored, const std::string& place)
-    : context_(ZSTD_createDCtx(), ZSTD_freeDCtx), input_{stored.data(), stored.size(), 0}, place_(place) {}
+    : context_(ZSTD_createDCtx_advanced(kMemory), ZSTD_freeDCtx),
+      input_{stored.data(), stored.size(), 0},
+      place_(place) {}
 
 Status FrameReader::start(uint64_t contentSize) {
-  if (!context_) return makeError(ErrorKind::kIo, "%s: no memory for zstd", place_.c_str());
+  if (!context_) throw std::bad_alloc();
   ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, kMaxWindowLog);
   atEnd_ = false;
   const uint8_t* next = static_cast<const uint8_t*>(input_.src) + input_.pos;
@@ -72,6 +85,7 @@ Status FrameReader::finish() const {
 
 Status FrameReader::advance(ZSTD_outBuffer& output) {
   const size_t result = ZSTD_decompressStream(context_.get(), &output, &input_);
+  if (ZSTD_getErrorCode(result) == ZSTD_error_memory_allocation) throw std::bad_alloc();
   if (ZSTD_isError(result)) {
     return makeError(ErrorKind::kBadInput, "%s: zstd: %s; %s", place_.c_str(), ZSTD_getErrorName(result),
                      kSectionRemedy);

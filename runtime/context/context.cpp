@@ -240,6 +240,14 @@ Status Context::createRenderer(View& view) {
         FROTH_ERROR_FEATURE, "view",
         "measurePasses: the context's queue family has 0 timestampValidBits; FrothViewStatus::passes stays empty");
   }
+  view.breadcrumbs.reset();
+  if (hasBreadcrumbs_) {
+    Result<std::unique_ptr<Breadcrumbs>> breadcrumbs = Breadcrumbs::create(device_, framesInFlight_);
+    if (!breadcrumbs) {
+      return breadcrumbs.error();
+    }
+    view.breadcrumbs = std::move(*breadcrumbs);
+  }
   const GpuAsset* firstAsset = nullptr;
   instances_.forEach([&](const Instance& instance) {
     const Asset* asset = assets_.find(instance.asset);
@@ -254,6 +262,7 @@ Status Context::createRenderer(View& view) {
                                      .keepsReactive = view.keepsReactive && hasExtendedFormats_,
                                      .composites = compositeFormat_ != VK_FORMAT_UNDEFINED,
                                      .exportsDepth = depthExportFormat_ != VK_FORMAT_UNDEFINED,
+                                     .breadcrumbs = view.breadcrumbs.get(),
                                      .reservedCells = view.reservedCells,
                                      .firstAsset = firstAsset});
   if (!renderer) {
@@ -273,6 +282,22 @@ FrothResult Context::describeView(FrothView handle, FrothViewStatus& status) con
   for (const auto& [serial, bits] : view->bits) {
     status.bits |= serial == status.serial ? bits : 0;
   }
+  return FROTH_OK;
+}
+
+FrothResult Context::listBreadcrumbs(uint32_t capacity, FrothBreadcrumb* breadcrumbs, uint32_t& count) const {
+  constexpr const char* kCall = "frothGetBreadcrumbs";
+  if (!hasBreadcrumbs_) {
+    return messages.fail(FROTH_ERROR_UNSUPPORTED, kCall,
+                         "the context was not made for them; set FrothContextInfo::breadcrumbs");
+  }
+  if (capacity > 0 && !breadcrumbs) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "breadcrumbs: null, with capacity %u", capacity);
+  }
+  count = 0;
+  views_.forEachNamed([&](FrothView handle, const View& view) {
+    if (view.breadcrumbs) view.breadcrumbs->list(handle, capacity, breadcrumbs, count);
+  });
   return FROTH_OK;
 }
 

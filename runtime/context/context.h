@@ -24,6 +24,7 @@
 #include "runtime/jobs/job.h"
 #include "runtime/query/placement.h"
 #include "runtime/reads/read_table.h"
+#include "runtime/render/breadcrumbs.h"
 #include "runtime/render/pipelines.h"
 #include "runtime/render/view_renderer.h"
 #include "runtime/walk/walk_sets.h"
@@ -67,6 +68,7 @@ class Context {
 
   FrothResult createView(const FrothViewInfo& info, FrothView& handle);
   FrothResult describeView(FrothView handle, FrothViewStatus& status) const;
+  FrothResult listBreadcrumbs(uint32_t capacity, FrothBreadcrumb* breadcrumbs, uint32_t& count) const;
   FrothResult destroyView(FrothView handle);
 
   FrothResult update(const FrothFrame& frame, FrothFrameStatus& status);
@@ -118,7 +120,8 @@ class Context {
     uint32_t lensClasses = 0;  // FrothLensClass bits
     uint32_t reservedCells = 0;
     bool measurePasses = false, keepsHits = false, keepsReactive = false;
-    std::unique_ptr<ViewRenderer> renderer;  // null: null context, or the device is lost
+    std::unique_ptr<Breadcrumbs> breadcrumbs;  // null: null context, or none are wanted
+    std::unique_ptr<ViewRenderer> renderer;    // null: null context, or the device is lost
     // in the newest frothUpdate: those it has buffers for, if they fit the budget
     std::vector<RenderInstance> prepared;
     std::vector<RenderInstance> visible;  // of the record call under way; has room for all
@@ -181,6 +184,7 @@ class Context {
   bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats
   bool hasReactiveImages_ = false;
   bool hasWalkShaders_ = false;
+  bool hasBreadcrumbs_ = false;
   std::string walkError_;                       // of the newest frothUpdate that could not make space; sent already
   std::unique_ptr<UploadRing> ring_;            // null: null context, or the device is lost
   std::unique_ptr<RenderPipelines> pipelines_;  // the same

@@ -94,6 +94,7 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
   hasWalkShaders_ = info.walkShaders != 0;
   hasUploadQueue_ = info.hasUploadQueue != 0;
   uploadSerial_ = completedUploadSerial_ = 0;
+  hasBreadcrumbs_ = info.breadcrumbs != 0;
   isNull_ = !info.device;
   device_.budget = info.deviceBudget;
   const Status status = isNull_ ? Status() : createDeviceObjects(info);
@@ -210,6 +211,7 @@ void Context::stopJobs() {
 void Context::loseDevice() {
   stopJobs();
   views_.forEach([](View& view) {
+    if (view.breadcrumbs) view.breadcrumbs->keep();
     view.renderer.reset();
     view.prepared.clear();
     view.preparationError.clear();

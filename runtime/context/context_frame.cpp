@@ -352,7 +352,7 @@ FrothResult Context::checkEye(const View& view, uint32_t eye, const char* call) 
 
 FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuffer commandBuffer,
                             FrothRenderInfo info) {
-  const char* call = method == RenderMethod::kRaster ? "frothRecordRaster" : "frothRecordWalk";
+  const char* call = callOf(method);
   View* view = views_.find(handle);
   if (!view) {
     return messages.fail(FROTH_ERROR_HANDLE, call, "view {%u, %u}: destroyed or never created", handle.index,

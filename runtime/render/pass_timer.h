@@ -13,6 +13,8 @@ namespace froth {
 
 class PassTimer {
  public:
+  static constexpr uint32_t kMaxPasses = 7;  // of a recording
+
   // recordings: how many can be in flight. The device has timestampBits.
   static Result<std::unique_ptr<PassTimer>> create(Device& device, uint32_t recordings);
   ~PassTimer();
@@ -26,7 +28,6 @@ class PassTimer {
   void read(uint32_t recording, FrothViewStatus& status) const;
 
  private:
-  static constexpr uint32_t kMaxPasses = 7;
   static constexpr uint32_t kQueries = kMaxPasses + 1;
 
   explicit PassTimer(Device& device) : device_(device) {}

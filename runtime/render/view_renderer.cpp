@@ -268,6 +268,7 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
                                        .compositeSets = std::move(compositeSets),
                                        .exportSets = std::move(exportSets),
                                        .timer = std::move(timer),
+                                       .breadcrumbs = options.breadcrumbs,
                                        .slots = std::vector<FrameSlot>(options.framesInFlight)});
   ViewState& view = *renderer->state_;
   view.leastCapacity = leastCapacity(options);
@@ -359,21 +360,27 @@ uint32_t ViewRenderer::record(RenderMethod method, VkCommandBuffer commandBuffer
 
 void ViewRenderer::composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info,
                              const VkRect2D& region) {
-  recordComposite(state_->device.table, commandBuffer, *pipelines.state().composite, *state_->compositeSets,
-                  kMostEyes * state_->slot + info.eye, info, region);
+  recordPass(state_->breadcrumbs, commandBuffer, {"frothRecordComposite", "composite", info.eye, state_->lastSerial},
+             [&] {
+               recordComposite(state_->device.table, commandBuffer, *pipelines.state().composite,
+                               *state_->compositeSets, kMostEyes * state_->slot + info.eye, info, region);
+             });
 }
 
 void ViewRenderer::exportDepth(VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
                                const FrothDepthExportInfo& info, const VkRect2D& region, bool isReversed) {
   const VkDescriptorImageInfo image{VK_NULL_HANDLE, info.depth.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   const VkDescriptorSet set = state_->exportSets->update(kMostEyes * state_->slot + info.eye, {&image, 1});
-  pipelines.state().depthExport->record(commandBuffer, set, info, region, isReversed);
+  recordPass(state_->breadcrumbs, commandBuffer,
+             {"frothRecordDepthExport", "export_depth", info.eye, state_->lastSerial},
+             [&] { pipelines.state().depthExport->record(commandBuffer, set, info, region, isReversed); });
 }
 
 void ViewRenderer::dropFrame(uint64_t serial) {
   for (FrameSlot& slot : state_->slots) {
     if (slot.serial == serial) slot = {};
   }
+  if (state_->breadcrumbs) state_->breadcrumbs->dropFrame(serial);
   // it may be that frame that would have found the start
   for (const auto& space : state_->spaces) space->walkAsset = nullptr;
 }

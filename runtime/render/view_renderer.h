@@ -13,11 +13,15 @@
 
 namespace froth {
 
+class Breadcrumbs;      // breadcrumbs.h
 struct ViewState;       // view_state.h
 class RenderPipelines;  // runtime/render/pipelines.h: layouts and pipelines, made once per context and per
                         // asset shape
 
 enum class RenderMethod { kRaster, kWalk };
+constexpr const char* callOf(RenderMethod method) {
+  return method == RenderMethod::kRaster ? "frothRecordRaster" : "frothRecordWalk";
+}
 inline constexpr uint32_t kMostEyes = 2;
 
 // One instance as the passes see it.
@@ -41,6 +45,7 @@ struct ViewOptions {
   bool keepsHits = false;      // for id and motion
   bool keepsReactive = false;  // for reactive, with hits
   bool composites = false, exportsDepth = false;
+  Breadcrumbs* breadcrumbs = nullptr;    // they stay longer than the renderer; null: none are wanted
   uint32_t reservedCells = 0;            // room from the first frame on, for each instance; no more than its asset has
   const GpuAsset* firstAsset = nullptr;  // of the first instance: room for it is made at once, if the budget has it
 };

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/render/breadcrumbs.h"
 #include "runtime/render/frame_block.h"
 #include "runtime/render/image_pass.h"
 #include "runtime/render/output_images.h"
@@ -62,6 +63,7 @@ struct ViewState {
   // one per frame in flight; null: the context does not do that
   std::unique_ptr<DescriptorSets> compositeSets{}, exportSets{};
   std::unique_ptr<PassTimer> timer;    // null: not measured
+  Breadcrumbs* breadcrumbs = nullptr;  // the context's; null: none are wanted
   std::vector<FrameSlot> slots;        // [frames in flight]
   ViewCapacity leastCapacity{};        // of every space
   uint32_t reservedCells = 0;          // of an instance, at most: coverAsset
@@ -83,11 +85,11 @@ struct Recording {
 
   std::span<const RecordingPart> parts() const { return view.parts; }
   VkDeviceSize countersOffset() const;  // in kCounters
-  // Passes that are timed, and stand in captures, under this name.
+  // Passes that are timed, and stand in captures and breadcrumbs, under this name.
   template <class Passes>
   void run(const char* name, const Passes& passes) const {
     begin(name);
-    passes();
+    recordPass(view.breadcrumbs, commandBuffer, {callOf(method), name, info.eye, view.lastSerial}, passes);
     end(name);
   }
   void wait() const;  // later passes see what earlier ones wrote

@@ -44,6 +44,7 @@ FrothContextInfo Engine::contextInfo() {
   };
   info.messageUser = this;
   info.walkShaders = 1;
+  info.breadcrumbs = 1;
   return info;
 }
 

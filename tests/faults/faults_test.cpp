@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "format/write/asset_writer.h"
+#include "froth/froth_host.h"
 #include "tests/faults/engine.h"
 #include "tests/faults/host_faults.h"
 #include "tests/faults/vulkan_faults.h"
@@ -98,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Of, VulkanFault,
                                                                               : "DeviceMemory";
                          });
 
-// Each allocation of operator new fails once.
+// Each allocation fails once.
 void exhaustHostMemory(Host* host, Engine::Source source = Engine::Source::kMemory) {
   const std::vector<uint8_t> bytes = encodeSample(host ? 1 : 2);
   Engine well(host, bytes, source);
@@ -125,6 +126,13 @@ void exhaustHostMemory(Host* host, Engine::Source source = Engine::Source::kMemo
   EXPECT_GT(number, 100u);
 }
 
+TEST(HostAllocators, AreForARuntimeWithAHeapOfItsOwn) {
+  EXPECT_EQ(HostFaults::isAllocator(), FROTH_HAS_OWN_HEAP != 0);
+  if (!HostFaults::isAllocator()) {
+    EXPECT_EQ(frothSetHostAllocator(nullptr), FROTH_ERROR_UNSUPPORTED);
+  }
+}
+
 // Once all is loaded.
 TEST(HostAllocations, AreNotMadeByFramesAndQueries) {
   Result<std::unique_ptr<Host>> host = Host::create({});
@@ -142,6 +150,7 @@ TEST(HostAllocations, AreNotMadeByFramesAndQueries) {
     EXPECT_EQ(HostFaults::count(), 0u);
     EXPECT_EQ(engine.query(), FROTH_OK);
     EXPECT_EQ(HostFaults::count(), 0u);
+    EXPECT_EQ(HostFaults::foreignCount(), 0u);
     EXPECT_EQ(engine.stop(), FROTH_OK);
   }
   VulkanFaults::clear((*host)->device);

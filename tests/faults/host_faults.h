@@ -1,4 +1,5 @@
-// operator new of the whole program, which fails when it is told to, and counts what the runtime allocates.
+// The host memory of the runtime, which fails when it is told to, and is counted. The shared runtime gets it through
+// frothSetHostAllocator. Others use operator new of the whole program, which is this one too.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +8,18 @@ namespace froth::test {
 
 // Of the calling thread.
 struct HostFaults {
-  // The allocation with this number (from 0) within zones throws std::bad_alloc. SIZE_MAX: none.
+  static bool isAllocator();  // the runtime took it by frothSetHostAllocator
+  static void install();      // again, after another
+
+  // The allocation with this number (from 0) within zones fails. SIZE_MAX: none.
   static void arm(size_t number);
-  static bool hasStruck();  // since arm()
-  static size_t count();    // allocations within zones, since arm()
-  static long liveCount();  // allocations made in zones and not freed
+  static bool hasStruck();        // since arm()
+  static size_t count();          // allocations within zones, since arm()
+  static size_t foreignCount();   // of malloc within zones that do not serve the runtime's allocator, since arm()
+  static long liveCount();        // allocations made in zones and not freed
+  static size_t mismatchCount();  // blocks that came back with another size or alignment
+
+  static void noteMalloc();  // of malloc_hooks.cpp
 
   // Around a call of the runtime.
   struct Zone {

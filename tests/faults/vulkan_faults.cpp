@@ -95,11 +95,16 @@ struct Hook<Tag, Return(VKAPI_PTR*)(Args...)> {
   }
 };
 
+// All that frames call.
+#define FROTH_HOOKED_FUNCTIONS(X) \
+  FROTH_DEVICE_FUNCTIONS(X)       \
+  X(vkCmdBeginDebugUtilsLabelEXT) X(vkCmdEndDebugUtilsLabelEXT)
+
 #define FROTH_TAG(name)                         \
   struct Tag_##name {                           \
     static constexpr const char* kName = #name; \
   };
-FROTH_DEVICE_FUNCTIONS(FROTH_TAG)
+FROTH_HOOKED_FUNCTIONS(FROTH_TAG)
 #undef FROTH_TAG
 
 // ---- Pipelines: compiled once per shader and constants ----
@@ -153,7 +158,7 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* nam
   const auto is = [&](const char* other) { return std::strcmp(name, other) == 0; };
 #define FROTH_HOOK(function) \
   if (is(#function)) Hook<Tag_##function, PFN_##function>::real = reinterpret_cast<PFN_##function>(real);
-  FROTH_DEVICE_FUNCTIONS(FROTH_HOOK)
+  FROTH_HOOKED_FUNCTIONS(FROTH_HOOK)
 #undef FROTH_HOOK
   if (is("vkCreateShaderModule")) return reinterpret_cast<PFN_vkVoidFunction>(createShaderModule);
   if (is("vkCreateComputePipelines")) return reinterpret_cast<PFN_vkVoidFunction>(createComputePipelines);
@@ -161,7 +166,7 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* nam
   if (is("vkSetDebugUtilsObjectNameEXT")) return reinterpret_cast<PFN_vkVoidFunction>(nameObject);
 #define FROTH_HOOK(function) \
   if (is(#function)) return reinterpret_cast<PFN_vkVoidFunction>(Hook<Tag_##function, PFN_##function>::call);
-  FROTH_DEVICE_FUNCTIONS(FROTH_HOOK)
+  FROTH_HOOKED_FUNCTIONS(FROTH_HOOK)
 #undef FROTH_HOOK
   return real;
 }

@@ -1,9 +1,12 @@
 /* The names that the C blocks of README.md and docs/EMBEDDING.md take from the text around them. */
+#include <froth/froth_breadcrumbs.h>
+#include <froth/froth_host.h>
 #include <froth/froth_pool.h>
 #include <froth/froth_query.h>
 #include <froth/froth_reader.h>
 #include <froth/froth_walk.h>
 #include <math.h>
+#include <stdio.h>
 
 extern VkInstance instance;
 extern VkPhysicalDevice gpu;
@@ -21,6 +24,10 @@ extern float dx, dy, dz, nearest;
 extern void* pack;
 extern uint64_t sceneSize, request;
 extern void readScene(void* user, uint64_t number, uint64_t offset, uint64_t size, void* destination);
+
+extern void* heap;
+extern void* allocateHost(void* user, size_t size, size_t alignment);
+extern void releaseHost(void* user, void* pointer, size_t size, size_t alignment);
 
 extern FrothContext* froth;
 extern FrothContextInfo context_info;

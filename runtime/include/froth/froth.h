@@ -2,7 +2,8 @@
  *
  * Needs:  Vulkan 1.3 with bufferDeviceAddress and synchronization2, a queue family with COMPUTE.
  * Does:   records compute work into the caller's command buffers; writes the caller's images.
- * Never:  submits, waits for the GPU in a frame call, owns a queue, creates a window, prints, aborts, keeps globals.
+ * Never:  submits, waits for the GPU in a frame call, owns a queue, creates a window, prints, aborts, keeps globals,
+ * but for the allocator of froth_host.h.
  *
  * A frame:  frothUpdate -> frothRecordUpload(cmd) -> frothRecordRaster(cmd) or frothRecordWalk(cmd) per view -> the
  * caller submits.
@@ -20,7 +21,7 @@
  *   at once on different views:   frothRecordRaster, frothRecordWalk, frothRecordComposite, frothRecordDepthExport (*).
  *   at once on anything:          frothCastRays, frothLocate, frothOverlapSphere (*), frothReadVariant,
  *                                 frothPrecompile.
- *   one at a time per context:    all others.
+ *   one at a time per context:    all others; while no call runs at all, frothSetHostAllocator.
  *   (*) while no call of the last row runs.
  *
  * Other headers:
@@ -33,7 +34,9 @@
  *   froth_estimate.h   memory ahead of time
  *   froth_quality.h    scale and cut-off by a target of milliseconds
  *   froth_pool.h       threads for jobs
+ *   froth_host.h       the engine's allocator for host memory
  *   froth_composite.h  blending into the engine's colour and depth images
+ *   froth_breadcrumbs.h which pass the GPU hung in
  */
 #ifndef FROTH_FROTH_H
 #define FROTH_FROTH_H

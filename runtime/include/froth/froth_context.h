@@ -173,6 +173,8 @@ typedef struct FrothContextInfo {
   /* any family with TRANSFER, COMPUTE or GRAPHICS; may be queueFamily. What uploads write is shared by the two families
    * (VK_SHARING_MODE_CONCURRENT): it needs no ownership transfer */
   uint32_t uploadQueueFamily;
+  /* 1: the GPU tells which passes it begins and finishes: froth_breadcrumbs.h; frames are slower */
+  uint32_t breadcrumbs;
 } FrothContextInfo;
 
 /* Makes pipelines and the staging memory. Call it at start-up, not in a frame. *context is null on
