@@ -20,7 +20,9 @@ class GpuArena {
     VkDeviceAddress address = 0;  // of the offset
   };
 
-  explicit GpuArena(Device& device) : device_(device) {}
+  enum class Limit { kBudget, kNone };
+
+  explicit GpuArena(Device& device, Limit limit = Limit::kBudget) : device_(device), limit_(limit) {}
   ~GpuArena();  // the GPU must be done with it
   GpuArena(const GpuArena&) = delete;
   GpuArena& operator=(const GpuArena&) = delete;
@@ -37,6 +39,7 @@ class GpuArena {
   VkDeviceSize roomLeft() const { return blocks_.empty() ? 0 : blocks_[open_].size - used_; }
 
   Device& device_;
+  Limit limit_;
   std::vector<GpuBuffer> blocks_;
   size_t open_ = 0;        // the block with room,
   VkDeviceSize used_ = 0;  // and what of it is taken

@@ -77,6 +77,9 @@ FrothResult Context::closeAsset(FrothAsset handle) {
     return messages.fail(FROTH_ERROR_STATE, asset->name().c_str(), "%u instances still use it; destroy them first",
                          users);
   }
+  if (exchange_ && isSame(exchange_->asset, handle)) {
+    abandonExchange();
+  }
   if (ring_) {
     ring_->forget(asset);
   }

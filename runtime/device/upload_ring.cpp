@@ -66,6 +66,11 @@ bool UploadRing::isStaged(const void* owner) const {
                      [&](const Copy& copy) { return copy.owner == owner && copy.serial == kStaged; });
 }
 
+bool UploadRing::isUnderWay(const void* owner, uint64_t completedSerial) const {
+  return std::any_of(copies_.begin(), copies_.end(),
+                     [&](const Copy& copy) { return copy.owner == owner && copy.serial > completedSerial; });
+}
+
 VkDeviceSize UploadRing::stagedBytes() const {
   VkDeviceSize bytes = 0;
   for (const Copy& copy : copies_) {

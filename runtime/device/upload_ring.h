@@ -26,7 +26,9 @@ class UploadRing {
   // Records what is staged, oldest first, up to `limit` bytes; returns the bytes recorded.
   VkDeviceSize record(VkCommandBuffer commandBuffer, uint64_t serial, VkDeviceSize limit);
 
-  bool isStaged(const void* owner) const;           // something of the owner waits to be recorded
+  bool isStaged(const void* owner) const;  // something of the owner waits to be recorded
+  // Something of the owner waits to be recorded, or for the GPU.
+  bool isUnderWay(const void* owner, uint64_t completedSerial) const;
   VkDeviceSize stagedBytes() const;                 // of all owners
   VkDeviceSize usedBytes() const { return used_; }  // staged, or recorded and not complete
 

@@ -12,6 +12,10 @@
 namespace froth {
 namespace {
 
+// Where the budget has room for a part of what a view wants, it takes this part of its cells more at least, found in
+// such steps.
+constexpr double kLeastGrowth = 1.125, kLessGrowth = 1.0 / 16;
+
 void addWork(const gpu::Counters& counters, FrothWork& work) {
   const auto add = [&](uint32_t kind, uint64_t& sum) {
     sum += uint64_t{counters.work[2 * kind + 1]} << 32 | counters.work[2 * kind];
@@ -92,6 +96,17 @@ bool growInParts(InstanceSpace& space, const ViewCapacity& wanted, uint64_t comp
   return isAll;
 }
 
+// The largest part of what the newest complete frame wanted that has room, if it is worth an exchange of buffers.
+void growToDemand(Device& device, InstanceSpace& space, const GpuAsset& asset, uint64_t completedSerial) {
+  const ViewCapacity held = space.buffers.capacity();
+  const ViewCapacity needed = largest(held, neededBy(asset, space.demand, asset.detailCount));
+  const VkDeviceSize most = bytesOf(held) + device.roomBytes();
+  for (double part = 1; part * needed.cells >= kLeastGrowth * held.cells; part -= kLessGrowth) {
+    const ViewCapacity less = largest(held, lessened(needed, part));
+    if (bytesOf(less) <= most && growInParts(space, less, completedSerial)) return;
+  }
+}
+
 Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, const ViewCapacity& wanted,
                    uint64_t completedSerial) {
   if (wanted == space.buffers.capacity()) return {};
@@ -109,6 +124,8 @@ Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, 
     growToLess(space, wanted);
   } else if (growInParts(space, wanted, completedSerial)) {
     return {};
+  } else if (asset) {
+    growToDemand(device, space, *asset, completedSerial);
   }
   space.refusal = {asset, budget, device.ledger.deviceBytes(), status.error()};
   return status;
@@ -309,6 +326,14 @@ Status ViewRenderer::prepare(uint64_t completedSerial, std::span<const RenderIns
   }
   describeMemory(view);
   return result;
+}
+
+VkDeviceSize ViewRenderer::missingBytes(const RenderInstance& instance, uint32_t detailCount) const {
+  const InstanceSpace* space = findSpace(*state_, instance.handle);
+  if (!space) return 0;
+  const ViewCapacity& held = space->buffers.capacity();
+  const ViewCapacity wanted = largest(held, neededBy(*instance.asset, space->demand, detailCount));
+  return wanted == held ? 0 : bytesOf(wanted);
 }
 
 VkDeviceSize ViewRenderer::shrinkableBytes() const {
