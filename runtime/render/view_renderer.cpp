@@ -12,8 +12,7 @@
 namespace froth {
 namespace {
 
-// Where the budget has room for a part of what a view wants, it takes this part of its cells more at least, found in
-// such steps.
+// Where a part of what is wanted has room: by how much it grows at least, and the steps in which it is found.
 constexpr double kLeastGrowth = 1.125, kLessGrowth = 1.0 / 16;
 
 void addWork(const gpu::Counters& counters, FrothWork& work) {
@@ -96,15 +95,17 @@ bool growInParts(InstanceSpace& space, const ViewCapacity& wanted, uint64_t comp
   return isAll;
 }
 
-// The largest part of what the newest complete frame wanted that has room, if it is worth an exchange of buffers.
-void growToDemand(Device& device, InstanceSpace& space, const GpuAsset& asset, uint64_t completedSerial) {
+// What the newest complete frame wanted, or the largest part of it that has room, if it is worth an exchange of
+// buffers. Whether that was all.
+bool growToDemand(Device& device, InstanceSpace& space, const GpuAsset& asset, uint64_t completedSerial) {
   const ViewCapacity held = space.buffers.capacity();
   const ViewCapacity needed = largest(held, neededBy(asset, space.demand, asset.detailCount));
   const VkDeviceSize most = bytesOf(held) + device.roomBytes();
-  for (double part = 1; part * needed.cells >= kLeastGrowth * held.cells; part -= kLessGrowth) {
+  for (double part = 1; part == 1 || part * needed.cells >= kLeastGrowth * held.cells; part -= kLessGrowth) {
     const ViewCapacity less = largest(held, lessened(needed, part));
-    if (bytesOf(less) <= most && growInParts(space, less, completedSerial)) return;
+    if (bytesOf(less) <= most && growInParts(space, less, completedSerial)) return part == 1;
   }
+  return false;
 }
 
 Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, const ViewCapacity& wanted,
@@ -122,10 +123,9 @@ Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, 
   if (device.budgetRefusals == budgetRefusals) return status;
   if (asset && !coversAsset(*asset, space.buffers.capacity())) {
     growToLess(space, wanted);
-  } else if (growInParts(space, wanted, completedSerial)) {
+  } else if ((!asset || growToDemand(device, space, *asset, completedSerial)) &&
+             growInParts(space, wanted, completedSerial)) {
     return {};
-  } else if (asset) {
-    growToDemand(device, space, *asset, completedSerial);
   }
   space.refusal = {asset, budget, device.ledger.deviceBytes(), status.error()};
   return status;

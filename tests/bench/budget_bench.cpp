@@ -1,8 +1,10 @@
 // froth_bench_budget ASSET CAMERAS [options]: how a picture degrades when the device budget falls.
 //
 // Draws one view with all the memory that it wants, finds the least of asset and view with which nothing is missing,
-// and then sets budgets that are parts of that. For each, once it is settled: the layers, the memory, the cells shown,
-// and the PSNR against the whole picture.
+// and then sets budgets that are parts of that, first for an asset whose layers stay, then for one that gives
+// them up. For each, once it is settled: the layers, the memory, the cells shown, and the PSNR against the whole
+// picture.
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -20,16 +22,16 @@
 namespace froth {
 namespace {
 
-constexpr double kParts[] = {1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.25};
-constexpr int kSearchSteps = 8;    // to a 256th of the view's memory
-constexpr int kSettledFrames = 8;  // that hold the same
+constexpr double kParts[] = {1, 0.85, 0.7, 0.55, 0.4, 0.3};
+constexpr int kSearchSteps = 6;    // to a 64th of the view's memory
+constexpr int kSettledFrames = 5;  // that hold the same
 
 double toMebi(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
 struct Options {
   std::string asset, cameras, device;
   uint32_t view = 0, width = 330, height = 247;
-  bool walks = false, keepsLayers = false;
+  bool walks = false;
 };
 
 class BudgetBench {
@@ -52,7 +54,7 @@ class BudgetBench {
   void settle(uint64_t budget);
   Drawn draw(uint64_t budget);  // 0: none
   uint64_t findLeast(const Drawn& whole);
-  void printRow(double part, const Drawn& drawn, const Drawn& whole) const;
+  void printRows(const char* name, uint64_t wanted, const Drawn& whole);
   FrothAssetStatus assetStatus();
 
   Options options_;
@@ -166,12 +168,17 @@ uint64_t BudgetBench::findLeast(const Drawn& whole) {
   return most;
 }
 
-void BudgetBench::printRow(double part, const Drawn& drawn, const Drawn& whole) const {
-  fmt::print("{:5.0f}% {:6.2f} {:6} {:6.2f} {:6.2f} {:7} {:5.1f}%  {:>10}  {:7.2f}\n", 100 * part, toMebi(heldBytes_),
-             drawn.asset.layers, toMebi(drawn.asset.deviceBytes), toMebi(drawn.view.deviceBytes), drawn.view.shownCells,
-             100.0 * drawn.view.shownCells / drawn.view.visibleCells,
-             (drawn.view.bits & FROTH_VIEW_PAIR_OVERFLOW) != 0 ? "yes" : "no",
-             take(compareImages(drawn.colour, whole.colour)).psnr);
+void BudgetBench::printRows(const char* name, uint64_t wanted, const Drawn& whole) {
+  fmt::print("{}\nbudget   held layers  asset   view   cells  share  pairs lost  PSNR dB\n", name);
+  for (const double part : kParts) {
+    const Drawn drawn = draw(static_cast<uint64_t>(part * static_cast<double>(wanted)));
+    fmt::print("{:5.0f}% {:6.2f} {:6} {:6.2f} {:6.2f} {:7} {:5.1f}%  {:>10}  {:7.2f}\n", 100 * part, toMebi(heldBytes_),
+               drawn.asset.layers, toMebi(drawn.asset.deviceBytes), toMebi(drawn.view.deviceBytes),
+               drawn.view.shownCells, 100.0 * drawn.view.shownCells / drawn.view.visibleCells,
+               (drawn.view.bits & FROTH_VIEW_PAIR_OVERFLOW) != 0 ? "yes" : "no",
+               take(compareImages(drawn.colour, whole.colour)).psnr);
+    std::fflush(stdout);
+  }
 }
 
 void BudgetBench::run() {
@@ -181,13 +188,10 @@ void BudgetBench::run() {
   fmt::print("{}, view {}, {}x{}, {}: {} cells in view, {:.2f} MiB held, {:.2f} MiB wanted\n", host_->info.name,
              options_.view, view_.width, view_.height, options_.walks ? "walk" : "raster", whole.view.visibleCells,
              toMebi(whole.asset.deviceBytes + whole.view.deviceBytes), toMebi(wanted));
-  fmt::print("budget   held layers  asset   view   cells  share  pairs lost  PSNR dB\n");
-  if (!options_.keepsLayers) {
-    close();
-    open(false);
-  }
-  for (const double part : kParts)
-    printRow(part, draw(static_cast<uint64_t>(part * static_cast<double>(wanted))), whole);
+  printRows("only cells go", wanted, whole);
+  close();
+  open(false);
+  printRows("layers go, then cells", wanted, whole);
 }
 
 }  // namespace
@@ -202,7 +206,6 @@ int main(int argc, char** argv) {
   app.add_option("--width", options.width);
   app.add_option("--height", options.height);
   app.add_option("--device", options.device, "index or part of a name");
-  app.add_flag("--keep-layers", options.keepsLayers, "only cells go");
   app.add_flag("--walk", options.walks, "walks instead of raster");
   CLI11_PARSE(app, argc, argv);
   try {

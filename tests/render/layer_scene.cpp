@@ -49,7 +49,7 @@ void JobsOnDemand::runAll() {
   }
 }
 
-// Small cells, all in view; most of their bytes are lobes.
+// Small cells, a part of them in view; most of their bytes are lobes.
 const std::vector<uint8_t>& LayerScene::bytes() {
   static const std::vector<uint8_t> encoded = [] {
     Foam foam = makeRandomFoam(4000, 6, 4, 6);
@@ -76,7 +76,7 @@ LayerScene::LayerScene() {
   viewInfo.maxExtent = kExtent;
   check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");
   image_ = *sharedHost().createImage(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent);
-  info_ = infoOf(lookAt({0, 0, 0}, {0, 0, 3}, kExtent.width, kExtent.height, 0.6));
+  info_ = infoOf(lookAt({0, 0, 0}, {0, 0, 3}, kExtent.width, kExtent.height, 0.2));
 }
 
 LayerScene::~LayerScene() {
