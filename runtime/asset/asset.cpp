@@ -173,7 +173,7 @@ FrothAssetStatus Asset::describe() const {
   FrothAssetStatus description = description_;
   description.error = error_;
   description.hostBytes = queryFoam_ ? queryFoam_->bytes() : 0;
-  description.deviceBytes = arena_ ? arena_->heldBytes() : 0;
+  description.deviceBytes = heldBytes();
   if (description.deviceBytes > 0) {
     uint64_t named = 0;
     for (uint32_t i = 0; i < description.memoryCount; ++i) named += description.memory[i].bytes;

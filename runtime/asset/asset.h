@@ -1,6 +1,7 @@
 // An asset on its way from a file to the GPU.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -64,10 +65,29 @@ class Asset {
   // Null: not kept, or not whole yet. Once there, it outlives the device: it is host memory.
   const QueryFoam* queryFoam() const { return queryFoam_ && queryFoam_->isWhole() ? &*queryFoam_ : nullptr; }
   std::span<const GpuBuffer> buffers() const;  // that hold gpu()'s arrays
+  VkDeviceSize heldBytes() const { return arena_ ? arena_->heldBytes() : 0; }
   const std::string& name() const { return source_.name; }
   // Counts, bounds, cameras; zero before the manifest is read. The state is the context's to tell.
   FrothAssetStatus describe() const;
   std::span<const FrothStoredCamera> flightPath() const { return flightPath_; }
+
+  // ---- Layers (asset_layers.cpp). Others come as a successor: an asset of the same source, loaded beside this one.
+
+  // Those that are loaded, of those that the file has; 0 before its head is read.
+  uint32_t layers() const { return layers_; }
+  bool lacksLayers() const { return layers_ < openedLayers_; }  // that it was opened with
+  // Of a successor with the next fewer or more layers that the file has; 0: there is none.
+  uint32_t fewerLayers() const;
+  uint32_t moreLayers() const;
+  // [bytes] of device memory: as measured once such an asset was resident, else by the sizes of its sections.
+  VkDeviceSize bytesWith(uint32_t layers) const;
+  uint32_t detailCountWith(uint32_t layers) const { return figures_[layers - 1].detailCount; }  // once it was resident
+  // It may exceed the budget: who makes it limits it. It shares this one's queryFoam().
+  std::shared_ptr<Asset> makeSuccessor(uint32_t layers) const;
+  // An error: its file is not the one that `old` came from.
+  Status checkSucceeds(const Asset& old) const;
+  // A successor failed: none is made any more.
+  void keepLayers() { keepsLayers_ = true; }
 
   // The device is gone: frees what lay on it, and begins again. Fails an asset whose bytes are not there any more.
   void restart(const Messages& messages);
@@ -81,6 +101,12 @@ class Asset {
     std::shared_ptr<const void> bytes;
     VkBuffer target;
     VkDeviceSize offset, size, staged;  // offset: in the target
+  };
+
+  // What is known of the asset with so many layers.
+  struct LayerFigures {
+    VkDeviceSize bytes = 0;  // of device memory; 0: it was not resident yet
+    uint32_t detailCount = 0;
   };
 
   Status takeResults(const Preparation& prepare);
@@ -99,6 +125,9 @@ class Asset {
   Status placeEntries();
   VkDeviceSize bytesToCome(VkDeviceSize size) const;
   uint32_t entriesAlong() const;
+  void takeSizes(const AssetReader& reader);
+  uint32_t layersHeld(uint32_t most) const;
+  bool canLoadAgain() const;
   void addMemory(const char* name, uint64_t bytes);
   void growBounds(const LoadedChunk& chunk);
   bool isQueryFoamWanted() const { return keepsForQueries_ && !queryFoam(); }
@@ -108,7 +137,10 @@ class Asset {
 
   AssetSource source_;
   Device* device_;
-  bool keepsForQueries_ = false, keepsForWalks_ = false;
+  bool keepsForQueries_ = false, keepsForWalks_ = false, keepsLayers_ = false;
+  uint32_t layers_ = 0, openedLayers_ = 0;
+  std::array<LayerFigures, kLayerCount> figures_{};  // [layers - 1]
+  std::array<uint64_t, kLayerCount> layerWork_{};    // [Layer] bytes of decoded sections
 
   std::shared_ptr<AssetOpener> opener_;  // with a reader of the caller: of opening_, while that is under way
   RangeFetch headFetch_;                 // what opener_ wants

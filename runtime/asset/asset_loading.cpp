@@ -261,16 +261,25 @@ void Asset::takeReader(std::shared_ptr<const AssetReader> reader) {
   }
   flightPath_.clear();
   std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_), toApi);
-  chunkWork_.assign(description_.chunkCount, 0);
-  workDone_ = workToCome_ = 0;
-  for (const SectionRecord& section : reader->sections()) {
-    if (section.chunk >= description_.chunkCount) continue;
-    chunkWork_[section.chunk] += section.rawSize;
-    workToCome_ += section.rawSize;
-  }
+  takeSizes(*reader);
   gpu_.hasHeights = shapeOf(*reader, source_.lastLayer).hasHeights;
   reader_ = std::move(reader);
   opener_.reset();
+}
+
+void Asset::takeSizes(const AssetReader& reader) {
+  chunkWork_.assign(description_.chunkCount, 0);
+  workDone_ = workToCome_ = 0;
+  layerWork_ = {};
+  for (const SectionRecord& section : reader.sections()) {
+    if (section.chunk >= description_.chunkCount) continue;
+    chunkWork_[section.chunk] += section.rawSize;
+    workToCome_ += section.rawSize;
+    if (!sectionName(section.type)) continue;  // of a later version
+    layerWork_[static_cast<size_t>(sectionLayer(static_cast<SectionType>(section.type)))] += section.rawSize;
+  }
+  layers_ = description_.layers = layersHeld(static_cast<uint32_t>(source_.lastLayer) + 1);
+  if (openedLayers_ == 0) openedLayers_ = layers_;
 }
 
 Status Asset::finish() {
@@ -284,6 +293,7 @@ Status Asset::finish() {
     return status;
   }
   isDecoded_ = true;
+  figures_[layers_ - 1] = {heldBytes(), gpu_.detailCount};
   return {};
 }
 

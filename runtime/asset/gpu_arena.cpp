@@ -21,7 +21,8 @@ GpuArena::~GpuArena() {
 VkDeviceSize GpuArena::chooseBlockSize(VkDeviceSize size, VkDeviceSize more) const {
   if (size > kMostAmongOthers) return size;
   const VkDeviceSize wanted = std::max(size + std::min(more, kMostShared), heldBytes_ / kLeastShare);
-  const VkDeviceSize most = std::min({kMostShared, device_.largestBuffer(), device_.roomBytes() / 2});
+  const VkDeviceSize room = limit_ == Limit::kBudget ? device_.roomBytes() / 2 : kMostShared;
+  const VkDeviceSize most = std::min({kMostShared, device_.largestBuffer(), room});
   return std::max(size, std::min(wanted, most));
 }
 
@@ -29,12 +30,15 @@ Result<GpuArena::Place> GpuArena::allocate(VkDeviceSize size, VkDeviceSize more,
   if (const VkDeviceSize room = roomLeft(); size > room) {
     blocks_.reserve(blocks_.size() + 1);  // so that what is made has its place
     const VkDeviceSize blockSize = orderedSize_ != 0 ? orderedSize_ : chooseBlockSize(size, more);
-    const Result<GpuBuffer> block = device_.createBuffer(MemoryUse::kAssets, BufferKind::kUploaded, blockSize, purpose);
-    orderedSize_ = block || !isOrdered(block.error()) ? 0 : blockSize;
-    if (!block) return block.error();
-    blocks_.push_back(*block);
-    heldBytes_ += block->memory.granted;
-    if (blocks_.size() > 1 && blockSize - size < room) return Place{block->buffer, 0, block->address};
+    const BufferWish wish{blockSize, purpose};
+    GpuBuffer block;
+    const Status status = device_.createBuffers(MemoryUse::kAssets, BufferKind::kUploaded, purpose, {&wish, 1},
+                                                {&block, 1}, limit_ == Limit::kNone);
+    orderedSize_ = isOrdered(status) && !isRoomToCome(status) ? blockSize : 0;
+    if (!status) return status.error();
+    blocks_.push_back(block);
+    heldBytes_ += block.memory.granted;
+    if (blocks_.size() > 1 && blockSize - size < room) return Place{block.buffer, 0, block.address};
     open_ = blocks_.size() - 1;
     used_ = 0;
   }

@@ -20,7 +20,9 @@ class GpuArena {
     VkDeviceAddress address = 0;  // of the offset
   };
 
-  explicit GpuArena(Device& device) : device_(device) {}
+  enum class Limit { kBudget, kNone };
+
+  explicit GpuArena(Device& device, Limit limit = Limit::kBudget) : device_(device), limit_(limit) {}
   ~GpuArena();  // the GPU must be done with it
   GpuArena(const GpuArena&) = delete;
   GpuArena& operator=(const GpuArena&) = delete;
@@ -30,13 +32,14 @@ class GpuArena {
   Result<Place> allocate(VkDeviceSize size, VkDeviceSize more, const char* purpose);
 
   std::span<const GpuBuffer> blocks() const { return blocks_; }
-  VkDeviceSize heldBytes() const { return heldBytes_; }  // of VkDeviceMemory
+  VkDeviceSize heldBytes() const { return heldBytes_ + orderedSize_; }  // of VkDeviceMemory
 
  private:
   VkDeviceSize chooseBlockSize(VkDeviceSize size, VkDeviceSize more) const;
   VkDeviceSize roomLeft() const { return blocks_.empty() ? 0 : blocks_[open_].size - used_; }
 
   Device& device_;
+  Limit limit_;
   std::vector<GpuBuffer> blocks_;
   size_t open_ = 0;        // the block with room,
   VkDeviceSize used_ = 0;  // and what of it is taken

@@ -79,6 +79,9 @@ FrothResult Context::closeAsset(FrothAsset handle) {
     return messages.fail(FROTH_ERROR_STATE, asset->name().c_str(), "%u instances still use it; destroy them first",
                          users);
   }
+  if (exchange_ && isSame(exchange_->asset, handle)) {
+    abandonExchange();
+  }
   retired_.reserve(retired_.size() + 1);
   assets_.find(handle)->stop();
   std::shared_ptr<Asset> closed = assets_.remove(handle);

@@ -131,6 +131,13 @@ class Context {
     std::vector<std::pair<uint64_t, uint32_t>> bits;  // recorded frames that left something out: serial, FrothViewBit
   };
 
+  // What takes the place of an asset when it is loaded: the same with fewer or more layers.
+  struct Exchange {
+    FrothAsset asset;
+    std::shared_ptr<Asset> successor;
+    VkDeviceSize budget;  // when it began
+  };
+
   FrothResult checkInfo(const FrothContextInfo& info, const char* call) const;
   FrothResult checkEngineFormats(const FrothContextInfo& info, const char* call) const;
   Status createDeviceObjects(const FrothContextInfo& info);
@@ -138,6 +145,20 @@ class Context {
   FrothResult checkDevice(const char* call) const;  // of calls that a lost device cannot serve
   Status createRenderer(View& view);
   void shrinkViews();
+  VkDeviceSize shrinkableBytes() const;
+  bool isMemoryReturning() const;
+  // Layers of assets (runtime/context/context_layers.cpp).
+  void loadSuccessor(LoadLimit& limit, const Asset::Preparation& prepare);
+  void finishExchange();
+  void abandonExchange();
+  void chooseExchange();
+  bool isExchangeWanted() const;
+  bool isBudgetShort() const;
+  bool hasRoomFor(const Asset& asset, uint32_t layers, VkDeviceSize heldBytes) const;
+  VkDeviceSize missingBytes(const Asset* exchanged = nullptr, uint32_t detailCount = 0) const;
+  std::optional<FrothAsset> findLayersToGive() const;
+  std::optional<FrothAsset> findLayersToTake() const;
+  void tellExcess();
   FrothAssetState stateOf(const Asset& asset) const;
   // Instances that queries see; why others were left out, as FrothQueryBit.
   std::pmr::vector<PlacedFoam> gatherFoams(uint32_t& bits, std::pmr::memory_resource* memory) const;
@@ -191,6 +212,7 @@ class Context {
   std::unique_ptr<WalkSets> walks_;             // the same; also without FrothContextInfo::walkShaders
   std::vector<WalkedInstance> walked_;          // of the record call under way; has room for all
   HandlePool<Asset, FrothAsset> assets_;
+  std::optional<Exchange> exchange_;  // one at a time
   HandlePool<Instance, FrothInstance> instances_;
   HandlePool<View, FrothView> views_;
   std::vector<std::pair<uint64_t, std::shared_ptr<void>>> retired_;  // serial of the last use

@@ -165,30 +165,31 @@ void Context::describeMemory(FrothMemoryReport& report) const {
   }
 }
 
+VkDeviceSize Context::shrinkableBytes() const {
+  VkDeviceSize bytes = 0;
+  views_.forEach([&](const View& view) { bytes += view.renderer ? view.renderer->shrinkableBytes() : 0; });
+  return bytes;
+}
+
+// Frames in flight use something that is gone already, or a job has to free it.
+bool Context::isMemoryReturning() const {
+  bool isReturning = !retired_.empty() || (device_.orders && device_.orders->isGivingBack());
+  views_.forEach(
+      [&](const View& view) { isReturning = isReturning || (view.renderer && view.renderer->isShrinking()); });
+  return isReturning;
+}
+
 // What goes anyway goes first; then all views give up the same part of what they can.
 void Context::shrinkViews() {
   const VkDeviceSize excess = device_.excessBytes();
-  bool isUnderWay = !retired_.empty() || (device_.orders && device_.orders->isGivingBack());
-  VkDeviceSize shrinkable = 0;
-  views_.forEach([&](const View& view) {
-    isUnderWay = isUnderWay || (view.renderer && view.renderer->isShrinking());
-    shrinkable += view.renderer ? view.renderer->shrinkableBytes() : 0;
-  });
-  if (excess == 0 || isUnderWay) {
+  if (excess == 0 || isMemoryReturning()) {
     return;
   }
-  if (shrinkable > 0) {
+  if (const VkDeviceSize shrinkable = shrinkableBytes(); shrinkable > 0) {
     const double given = static_cast<double>(excess) / static_cast<double>(shrinkable) + kShrinkAhead;
     views_.forEach([&](const View& view) {
       if (view.renderer) view.renderer->shrink(std::max(0.0, 1 - given));
     });
-  } else if (!isExcessTold_) {
-    isExcessTold_ = true;
-    messages.warn(FROTH_ERROR_MEMORY, "frothSetBudget",
-                  "%llu bytes are held and the budget is %llu: assets, and the least that views need, do not shrink; "
-                  "close some, or raise it",
-                  static_cast<unsigned long long>(device_.ledger.deviceBytes()),
-                  static_cast<unsigned long long>(device_.budget));
   }
 }
 
@@ -204,6 +205,7 @@ void Context::stopJobs() {
   for (auto& [shape, job] : making_) job.drop(true);
   making_.clear();
   assets_.forEach([](Asset& asset) { asset.stop(); });
+  if (exchange_) exchange_->successor->stop();
   memoryJob_.drop(true);
   device_.finishOrders();
 }
@@ -218,6 +220,7 @@ void Context::loseDevice() {
     view.bits.clear();
   });
   retired_.clear();
+  exchange_.reset();
   assets_.forEach([](Asset& asset) { asset.releaseBuffers(); });
   ring_.reset();
   walks_.reset();

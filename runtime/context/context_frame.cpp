@@ -121,10 +121,12 @@ void Context::runFrame(FrothFrameStatus& status) {
       ring_->retire(completedUploadSerial_);
     }
     loadAssets();
+    finishExchange();
     prepareMerging();
     shrinkViews();
     views_.forEachNamed([&](FrothView handle, View& view) { prepareView(handle, view); });
     prepareWalks();
+    chooseExchange();
   }
   orderMemory();
 
@@ -132,6 +134,7 @@ void Context::runFrame(FrothFrameStatus& status) {
     status.assetsOpening += stateOf(asset) == FROTH_ASSET_OPENING;
     status.uploadBytesQueued += asset.queuedBytes();
   });
+  status.uploadBytesQueued += exchange_ ? exchange_->successor->queuedBytes() : 0;
   status.uploadBytesQueued += ring_ ? ring_->stagedBytes() : 0;
   status.deviceBytes = device_.ledger.deviceBytes();
   status.hostBytes = device_.ledger.hostBytes();
@@ -191,6 +194,7 @@ void Context::loadAssets() {
       retire(targets);
     }
   });
+  loadSuccessor(limit, prepare);
   // Their room is for other jobs, whether an asset still waits for them or not: whoever does finds the pipelines, or
   // asks for them again.
   std::erase_if(making_, [](const auto& made) { return made.second.hasEnded(); });
@@ -238,6 +242,7 @@ FrothResult Context::recordUpload(VkCommandBuffer commandBuffer) {
   const uint64_t waiting = std::min(ring_->stagedBytes(), uploadBytesLeft_);
   uint64_t room = uploadBytesLeft_ - waiting;
   assets_.forEach([&](Asset& asset) { room -= asset.stage(*ring_, room); });
+  if (exchange_) exchange_->successor->stage(*ring_, room);
   const uint64_t recorded = ring_->record(commandBuffer, uploadSerial_, uploadBytesLeft_);
   uploadBytesLeft_ -= recorded;
   if (recorded == 0 || hasUploadQueue_) {
@@ -337,6 +342,7 @@ void Context::gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& b
     RenderInstance& visible = view.visible.emplace_back(instance.placement);
     visible.handle = handle;
     visible.asset = &asset.gpu();
+    if (asset.lacksLayers()) bits |= FROTH_VIEW_FEWER_LAYERS;
     const bool hasMoved = instance.movedAfter == drawnBeforeSerial_ && instance.before;
     visible.previous = hasMoved ? &*instance.before : nullptr;
     resolveNearLimits(info, visible);

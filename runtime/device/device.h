@@ -161,6 +161,7 @@ class Device {
 
   // What a batch of `orders` asks for. Any thread.
   void run(MemoryBatch& batch) const;
+  VkDeviceSize orderedBytes() const { return orders ? orders->deviceBytes() : 0; }
   uint64_t newestOrder() const { return orders ? orders->newest() : 0; }
   void cancelOrdersBehind(uint64_t number) {
     if (orders) orders->cancelBehind(number, ledger);

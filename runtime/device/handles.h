@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace froth {
@@ -33,6 +34,12 @@ class HandlePool {
   T* find(Handle handle) const {  // null: stale or never handed out
     const bool isLive = handle.index < slots_.size() && slots_[handle.index].generation == handle.generation;
     return isLive ? slots_[handle.index].object.get() : nullptr;
+  }
+
+  // The handle must be live, and names the new object from here on. Returns the old one.
+  std::shared_ptr<T> replace(Handle handle, std::shared_ptr<T> object) {
+    std::swap(slots_[handle.index].object, object);
+    return object;
   }
 
   // The handle must be live.

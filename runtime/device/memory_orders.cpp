@@ -66,6 +66,14 @@ void MemoryOrders::cancelBehind(uint64_t number, MemoryLedger& ledger) {
   });
 }
 
+VkDeviceSize MemoryOrders::deviceBytes() const {
+  VkDeviceSize bytes = 0;
+  for (const std::shared_ptr<MemoryOrder>& order : orders_) {
+    bytes += isHostUse(order->block.use) ? 0 : order->block.granted;
+  }
+  return bytes;
+}
+
 void MemoryOrders::close(MemoryLedger& ledger) {
   isOpen_ = false;
   taken_.clear();

@@ -54,6 +54,7 @@ class MemoryOrders {
   bool putBack(const MemoryBlock& block);
   // Takes back those that were added behind `number`, and that no job has.
   uint64_t newest() const { return newest_; }
+  VkDeviceSize deviceBytes() const;  // of all orders that nobody has taken, without host memory
   void cancelBehind(uint64_t number, MemoryLedger& ledger);
 
   // Blocks to be given back; the ledger is charged until that is done. False: there is no room.

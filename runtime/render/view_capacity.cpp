@@ -108,9 +108,22 @@ bool holdsAllCells(const GpuAsset& asset, const ViewCapacity& capacity) {
   return capacity.cells >= asset.cellCount && capacity.planes >= asset.alphaTotal && capacity.details >= details;
 }
 
+ViewCapacity neededBy(const GpuAsset& asset, const ViewDemand& demand, uint32_t detailCount) {
+  const uint64_t cells = std::min(demand.cells, uint64_t{asset.cellCount});
+  ViewCapacity needed;
+  needed.chunks = static_cast<uint32_t>(asset.chunks.size());
+  needed.groups = groupsOfCells(asset);
+  needed.cells = static_cast<uint32_t>(cells);
+  needed.planes = std::min(demand.planes, asset.neighbourTotal);
+  needed.details = cells * detailCount;
+  needed.pairs = static_cast<uint32_t>(std::min(demand.pairs, kMostPairs));
+  return needed;
+}
+
 bool mayLack(const GpuAsset& asset, const ViewDemand& demand, const ViewCapacity& capacity) {
   const bool isKnown = demand.cells > 0;
-  const bool holdsCells = capacity.cells >= asset.cellCount || (isKnown && demand.cells <= capacity.cells);
+  const uint64_t cells = std::min(uint64_t{capacity.cells}, capacity.details / asset.detailCount);
+  const bool holdsCells = cells >= asset.cellCount || (isKnown && demand.cells <= cells);
   const bool holdsPlanes = capacity.planes >= asset.alphaTotal || (isKnown && demand.planes <= capacity.planes);
   return !holdsCells || !holdsPlanes || demand.pairs > capacity.pairs;
 }

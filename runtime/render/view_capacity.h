@@ -75,6 +75,9 @@ bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity);
 // Whether all cells of the asset have room, should all be visible.
 bool holdsAllCells(const GpuAsset& asset, const ViewCapacity& capacity);
 
+// What a frame takes that wants this of the asset, were there so many detail sites per cell.
+ViewCapacity neededBy(const GpuAsset& asset, const ViewDemand& demand, uint32_t detailCount);
+
 // Whether a frame may have to leave cells out, for all that is known: `demand` is of the newest complete frame, all 0
 // before there is one. Pairs are not known before.
 bool mayLack(const GpuAsset& asset, const ViewDemand& demand, const ViewCapacity& capacity);

@@ -12,6 +12,9 @@
 namespace froth {
 namespace {
 
+// Where a part of what is wanted has room: by how much it grows at least, and the steps in which it is found.
+constexpr double kLeastGrowth = 1.125, kLessGrowth = 1.0 / 16;
+
 void addWork(const gpu::Counters& counters, FrothWork& work) {
   const auto add = [&](uint32_t kind, uint64_t& sum) {
     sum += uint64_t{counters.work[2 * kind + 1]} << 32 | counters.work[2 * kind];
@@ -94,6 +97,38 @@ Status growInParts(InstanceSpace& space, const ViewCapacity& wanted, uint64_t co
   return result;
 }
 
+// What the newest complete frame wanted, or the largest part of it that has room, if it is worth an exchange of
+// buffers. Whether that was all.
+Result<bool> growToDemand(Device& device, InstanceSpace& space, const GpuAsset& asset, uint64_t completedSerial) {
+  const ViewCapacity held = space.buffers.capacity();
+  const ViewCapacity needed = largest(held, neededBy(asset, space.demand, asset.detailCount));
+  const VkDeviceSize most = bytesOf(held) + device.roomBytes() + device.orderedBytes();
+  for (double part = 1; part == 1 || part * needed.cells >= kLeastGrowth * held.cells; part -= kLessGrowth) {
+    const ViewCapacity less = largest(held, lessened(needed, part));
+    if (bytesOf(less) > most) continue;
+    const Status status = growInParts(space, less, completedSerial);
+    if (isOrdered(status)) return status.error();
+    if (status) return part == 1;
+  }
+  return false;
+}
+
+// After the budget refused all at once. The refusal is the error, if that is not all either.
+Status growToRoom(Device& device, InstanceSpace& space, const GpuAsset* asset, const ViewCapacity& wanted,
+                  uint64_t completedSerial, const Status& refusal) {
+  if (!space.buffers.areMade() || (asset && !coversAsset(*asset, space.buffers.capacity()))) {
+    const Status status = growToLess(space, wanted);
+    return isOrdered(status) ? status : refusal;
+  }
+  if (asset) {
+    const Result<bool> isAll = growToDemand(device, space, *asset, completedSerial);
+    if (!isAll) return isAll.error();
+    if (!*isAll) return refusal;
+  }
+  const Status status = growInParts(space, wanted, completedSerial);
+  return status || isOrdered(status) ? status : refusal;
+}
+
 Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, const ViewCapacity& wanted,
                    uint64_t completedSerial) {
   if (wanted == space.buffers.capacity()) return {};
@@ -107,11 +142,9 @@ Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, 
   const uint64_t budgetRefusals = device.budgetRefusals;
   const Status status = space.buffers.grow(wanted, space.lastSerial);
   if (device.budgetRefusals == budgetRefusals) return status;
-  const bool covers = space.buffers.areMade() && (!asset || coversAsset(*asset, space.buffers.capacity()));
-  const Status less = covers ? growInParts(space, wanted, completedSerial) : growToLess(space, wanted);
-  if ((covers && less) || isOrdered(less)) return less;
-  space.refusal = {asset, budget, device.ledger.deviceBytes(), status.error()};
-  return status;
+  const Status less = growToRoom(device, space, asset, wanted, completedSerial, status);
+  if (!less && !isOrdered(less)) space.refusal = {asset, budget, device.ledger.deviceBytes(), less.error()};
+  return less;
 }
 
 // asset: null for a space that nobody has.
@@ -318,6 +351,14 @@ Status ViewRenderer::prepare(uint64_t completedSerial, std::span<const RenderIns
   }
   describeMemory(view);
   return result;
+}
+
+VkDeviceSize ViewRenderer::missingBytes(const RenderInstance& instance, uint32_t detailCount) const {
+  const InstanceSpace* space = findSpace(*state_, instance.handle);
+  if (!space) return 0;
+  const ViewCapacity& held = space->buffers.capacity();
+  const ViewCapacity wanted = largest(held, neededBy(*instance.asset, space->demand, detailCount));
+  return wanted == held ? 0 : bytesOf(wanted);
 }
 
 VkDeviceSize ViewRenderer::shrinkableBytes() const {

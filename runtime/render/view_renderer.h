@@ -70,6 +70,10 @@ class ViewRenderer {
   // room for; recording goes on with those instances that they cover.
   Status prepare(uint64_t completedSerial, std::span<const RenderInstance> instances);
 
+  // [bytes] of buffers for what the newest complete frame wanted of the instance, were there so many detail sites per
+  // cell; 0: they are there.
+  VkDeviceSize missingBytes(const RenderInstance& instance, uint32_t detailCount) const;
+
   // For a lowered budget. prepare() does the work, over several frames; until it is done isShrinking().
   VkDeviceSize shrinkableBytes() const;  // [bytes] of device memory that shrink(0) gives back
   void shrink(double factor);            // keeps `factor` [0..1] of them

@@ -1,14 +1,17 @@
 // froth_bench_budget ASSET CAMERAS [options]: how a picture degrades when the device budget falls.
 //
-// Draws one view with all the memory that it wants, finds the least with which nothing is missing, and then gives the
-// view parts of that. For each: its memory, the cells shown, and the PSNR against the whole picture.
-#include <algorithm>
+// Draws one view with all the memory that it wants, finds the least of asset and view with which nothing is missing,
+// and then sets budgets that are parts of that, first for an asset whose layers stay, then for one that gives
+// them up. For each, once it is settled: the layers, the memory, the cells shown, and the PSNR against the whole
+// picture.
+#include <cstdio>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "base/input_file.h"
 #include "froth/froth.h"
 #include "host/host.h"
 #include "host/make_struct.h"
@@ -19,8 +22,11 @@
 namespace froth {
 namespace {
 
-constexpr double kParts[] = {1, 0.75, 0.5, 0.35, 0.25, 0.15};
-constexpr int kSearchSteps = 8;  // to a 256th of the view's memory
+constexpr double kParts[] = {1, 0.85, 0.7, 0.55, 0.4, 0.3};
+constexpr int kSearchSteps = 6;    // to a 64th of the view's memory
+constexpr int kSettledFrames = 5;  // that hold the same
+
+double toMebi(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
 struct Options {
   std::string asset, cameras, device;
@@ -38,13 +44,18 @@ class BudgetBench {
  private:
   struct Drawn {
     Image colour;
-    FrothViewStatus status;
+    FrothViewStatus view;
+    FrothAssetStatus asset;
   };
 
+  void open(bool keepsLayers);
+  void close();
   void frame();
-  // viewBytes: that the view may hold; 0: all it wants.
-  Drawn draw(uint64_t viewBytes);
-  void waitForAsset();
+  void settle(uint64_t budget);
+  Drawn draw(uint64_t budget);  // 0: none
+  uint64_t findLeast(const Drawn& whole);
+  void printRows(const char* name, uint64_t wanted, const Drawn& whole);
+  FrothAssetStatus assetStatus();
 
   Options options_;
   View view_;
@@ -54,8 +65,8 @@ class BudgetBench {
   FrothInstance instance_{};
   FrothView froth_{};
   HostImage image_{};
-  bool isReady_ = false;
-  uint64_t heldBytes_ = 0, otherBytes_ = 0;
+  std::vector<uint8_t> bytes_;
+  uint64_t heldBytes_ = 0;
 };
 
 BudgetBench::BudgetBench(const Options& options) : options_(options) {
@@ -65,19 +76,14 @@ BudgetBench::BudgetBench(const Options& options) : options_(options) {
   FrothContextInfo contextInfo = host_->contextInfo();
   contextInfo.lensClasses = lensClassesOf(view_);
   check(frothCreateContext(&contextInfo, &context_), "frothCreateContext");
-  auto assetInfo = makeStruct<FrothAssetInfo>();
-  assetInfo.path = options.asset.c_str();
-  check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
-  auto instanceInfo = makeStruct<FrothInstanceInfo>();
-  instanceInfo.asset = asset_;
-  check(frothCreateInstance(context_, &instanceInfo, &instance_), "frothCreateInstance");
-  waitForAsset();
+  const InputFile file = take(InputFile::open(options.asset));
+  bytes_.resize(file.size());
+  check(file.readAt(0, bytes_));
   auto viewInfo = makeStruct<FrothViewInfo>();
   viewInfo.maxExtent = {view_.width, view_.height};
   viewInfo.lensClasses = contextInfo.lensClasses;
   check(frothCreateView(context_, &viewInfo, &froth_), "frothCreateView");
   image_ = take(host_->createImage(VK_FORMAT_R32G32B32A32_SFLOAT, viewInfo.maxExtent));
-  isReady_ = true;
 }
 
 BudgetBench::~BudgetBench() {
@@ -85,13 +91,29 @@ BudgetBench::~BudgetBench() {
   host_->destroyImage(image_);
 }
 
-void BudgetBench::waitForAsset() {
+// Bytes that need not stay cannot be loaded once more.
+void BudgetBench::open(bool keepsLayers) {
+  auto assetInfo = makeStruct<FrothAssetInfo>();
+  assetInfo.data = bytes_.data();
+  assetInfo.dataSize = bytes_.size();
+  assetInfo.bytesStay = keepsLayers ? 0 : 1;
+  check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
+  auto instanceInfo = makeStruct<FrothInstanceInfo>();
+  instanceInfo.asset = asset_;
+  check(frothCreateInstance(context_, &instanceInfo, &instance_), "frothCreateInstance");
+  while (assetStatus().state == FROTH_ASSET_OPENING) frame();
+  require(assetStatus().state == FROTH_ASSET_READY, options_.asset + ": FAILED");
+}
+
+void BudgetBench::close() {
+  check(frothDestroyInstance(context_, instance_), "frothDestroyInstance");
+  check(frothCloseAsset(context_, asset_), "frothCloseAsset");
+}
+
+FrothAssetStatus BudgetBench::assetStatus() {
   auto status = makeStruct<FrothAssetStatus>();
-  do {
-    frame();
-    check(frothGetAssetStatus(context_, asset_, &status), "frothGetAssetStatus");
-    require(status.state != FROTH_ASSET_FAILED, options_.asset + ": FAILED");
-  } while (status.state == FROTH_ASSET_OPENING);
+  check(frothGetAssetStatus(context_, asset_, &status), "frothGetAssetStatus");
+  return status;
 }
 
 void BudgetBench::frame() {
@@ -100,13 +122,12 @@ void BudgetBench::frame() {
   info.displayCoded = 1;
   info.nearRatio = static_cast<float>(view_.nearRatio.value_or(0));
   info.nearDepth = static_cast<float>(view_.nearDepth.value_or(0));
-  if (isReady_) info.colour = host_->describe(image_);
+  info.colour = host_->describe(image_);
   const Status submitted = host_->submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
     const FrothFrame frame{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
     auto status = makeStruct<FrothFrameStatus>();
     check(frothUpdate(context_, &frame, &status), "frothUpdate");
     check(frothRecordUpload(context_, commands), "frothRecordUpload");
-    if (!isReady_) return {};
     const auto record = options_.walks ? frothRecordWalk : frothRecordRaster;
     check(record(context_, froth_, commands, &info), "draw");
     heldBytes_ = status.deviceBytes;
@@ -115,41 +136,62 @@ void BudgetBench::frame() {
   check(submitted);
 }
 
-BudgetBench::Drawn BudgetBench::draw(uint64_t viewBytes) {
-  for (const bool isWhole : {true, false}) {
-    check(frothSetBudget(context_, isWhole || viewBytes == 0 ? 0 : otherBytes_ + viewBytes), "frothSetBudget");
-    for (int i = 0; i < 3; ++i) frame();
+void BudgetBench::settle(uint64_t budget) {
+  check(frothSetBudget(context_, budget), "frothSetBudget");
+  for (int settled = 0; settled < kSettledFrames; ++settled) {
+    const uint64_t before = heldBytes_;
+    frame();
+    if (heldBytes_ != before) settled = 0;
   }
-  Drawn drawn{{view_.width, view_.height, 3, {}}, makeStruct<FrothViewStatus>()};
+}
+
+BudgetBench::Drawn BudgetBench::draw(uint64_t budget) {
+  settle(0);
+  if (budget != 0) settle(budget);
+  Drawn drawn{{view_.width, view_.height, 3, {}}, makeStruct<FrothViewStatus>(), assetStatus()};
   const std::vector<float> texels = take(host_->readImage(image_));
   for (size_t i = 0; i < texels.size(); ++i) {
     if (i % 4 != 3) drawn.colour.values.push_back(texels[i]);
   }
-  check(frothGetViewStatus(context_, froth_, &drawn.status), "frothGetViewStatus");
-  otherBytes_ = heldBytes_ - drawn.status.deviceBytes;
+  check(frothGetViewStatus(context_, froth_, &drawn.view), "frothGetViewStatus");
   return drawn;
 }
 
-void BudgetBench::run() {
+// [bytes] of asset and view with which nothing is missing.
+uint64_t BudgetBench::findLeast(const Drawn& whole) {
   constexpr uint32_t kOverflow = FROTH_VIEW_CELL_OVERFLOW | FROTH_VIEW_PAIR_OVERFLOW;
-  const Drawn whole = draw(0);
-  uint64_t least = 0, most = whole.status.deviceBytes;
+  uint64_t least = whole.asset.deviceBytes, most = least + whole.view.deviceBytes;
   for (int i = 0; i < kSearchSteps; ++i) {
     const uint64_t middle = (least + most) / 2;
-    ((draw(middle).status.bits & kOverflow) != 0 ? least : most) = middle;
+    ((draw(middle).view.bits & kOverflow) != 0 ? least : most) = middle;
   }
-  fmt::print("{}, view {}, {}x{}, {}: {} cells in view, {:.2f} MiB held, {:.2f} MiB wanted\n", host_->info.name,
-             options_.view, view_.width, view_.height, options_.walks ? "walk" : "raster", whole.status.visibleCells,
-             static_cast<double>(whole.status.deviceBytes) / (1 << 20), static_cast<double>(most) / (1 << 20));
-  fmt::print("budget   MiB    cells  share  pairs lost  PSNR dB\n");
+  return most;
+}
+
+void BudgetBench::printRows(const char* name, uint64_t wanted, const Drawn& whole) {
+  fmt::print("{}\nbudget   held layers  asset   view   cells  share  pairs lost  PSNR dB\n", name);
   for (const double part : kParts) {
-    const Drawn drawn = draw(static_cast<uint64_t>(part * static_cast<double>(most)));
-    fmt::print("{:5.0f}% {:6.2f} {:7} {:5.1f}%  {:>10}  {:7.2f}\n", 100 * part,
-               static_cast<double>(drawn.status.deviceBytes) / (1 << 20), drawn.status.shownCells,
-               100.0 * drawn.status.shownCells / drawn.status.visibleCells,
-               (drawn.status.bits & FROTH_VIEW_PAIR_OVERFLOW) != 0 ? "yes" : "no",
+    const Drawn drawn = draw(static_cast<uint64_t>(part * static_cast<double>(wanted)));
+    fmt::print("{:5.0f}% {:6.2f} {:6} {:6.2f} {:6.2f} {:7} {:5.1f}%  {:>10}  {:7.2f}\n", 100 * part, toMebi(heldBytes_),
+               drawn.asset.layers, toMebi(drawn.asset.deviceBytes), toMebi(drawn.view.deviceBytes),
+               drawn.view.shownCells, 100.0 * drawn.view.shownCells / drawn.view.visibleCells,
+               (drawn.view.bits & FROTH_VIEW_PAIR_OVERFLOW) != 0 ? "yes" : "no",
                take(compareImages(drawn.colour, whole.colour)).psnr);
+    std::fflush(stdout);
   }
+}
+
+void BudgetBench::run() {
+  open(true);
+  const Drawn whole = draw(0);
+  const uint64_t wanted = findLeast(whole);
+  fmt::print("{}, view {}, {}x{}, {}: {} cells in view, {:.2f} MiB held, {:.2f} MiB wanted\n", host_->info.name,
+             options_.view, view_.width, view_.height, options_.walks ? "walk" : "raster", whole.view.visibleCells,
+             toMebi(whole.asset.deviceBytes + whole.view.deviceBytes), toMebi(wanted));
+  printRows("only cells go", wanted, whole);
+  close();
+  open(false);
+  printRows("layers go, then cells", wanted, whole);
 }
 
 }  // namespace

@@ -112,6 +112,10 @@ typedef struct FrothAssetStatus {
   uint32_t memoryCount;
   FrothMemory memory[16]; /* [memoryCount] deviceBytes by array, summed over chunks */
   uint64_t hostBytes;     /* host memory kept for queries */
+  /* resident, of those that the file has, as FrothAssetInfo::layers counts them; fewer than it was opened with: for the
+   * budget (frothSetBudget). detailCount, lobeCount, deviceBytes and memory are of these. 0: the head is not read yet
+   */
+  uint32_t layers;
 } FrothAssetStatus;
 
 /* Returns at once: FROTH_OK, and the asset is OPENING. The following frothUpdate / frothRecordUpload calls load it. A
@@ -189,6 +193,8 @@ typedef enum FrothViewBit {
    * budget) and no complete frame has shown that it suffices, or the budget refused what the newest one wanted.
    * OVERFLOW bits tell later whether something was missing */
   FROTH_VIEW_MAY_LACK_CELLS = 128,
+  /* returned by the call that records the frame: an asset shows fewer layers than it was opened with, for the budget */
+  FROTH_VIEW_FEWER_LAYERS = 256,
   FROTH_VIEW_BIT_MAX = 0x7fffffff
 } FrothViewBit;
 
@@ -250,7 +256,7 @@ typedef struct FrothFrame {
 
 typedef struct FrothFrameStatus {
   uint32_t structSize;
-  uint32_t assetsOpening; /* 0: nothing is being loaded */
+  uint32_t assetsOpening; /* 0: nothing is being loaded, but layers that the budget exchanges (frothSetBudget) */
   uint64_t uploadBytesQueued;
   uint64_t deviceBytes; /* all device memory held by the context */
   uint64_t hostBytes;   /* staging and read-back */

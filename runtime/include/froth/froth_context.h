@@ -187,10 +187,22 @@ FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothCont
  * (froth_reader.h), and now are cancelled. A null pointer gives FROTH_OK. */
 FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
 
-/* Changes FrothContextInfo::deviceBudget. New allocations never exceed it. A budget below the bytes held: from the next
- * frothUpdate on, views exchange their buffers for smaller ones, one after the other; cells or pairs without space are
- * missing (FROTH_VIEW_CELL_OVERFLOW, FROTH_VIEW_PAIR_OVERFLOW). Assets and the least that a view needs do not shrink;
- * FrothFrameStatus::excessBytes tells by how much they exceed the budget. A higher budget: views grow again. */
+/* Changes FrothContextInfo::deviceBudget. New allocations never exceed it, but for exchanges, below. Where the budget
+ * is short, this goes, in this order: view dependence of all assets, their detail, cells.
+ *
+ * A budget below the bytes held is obeyed within frames: from the next frothUpdate on, views exchange their buffers for
+ * smaller ones, one after the other; cells or pairs without space are missing (FROTH_VIEW_CELL_OVERFLOW,
+ * FROTH_VIEW_PAIR_OVERFLOW). Then, one at a time and for as long as views lack space, assets load once more with fewer
+ * layers (FrothAssetStatus::layers, FROTH_VIEW_FEWER_LAYERS; one warning each) and are exchanged at the edge of a
+ * frame; views then grow again. Until then the smaller asset stands beside the larger one: views make room for it, and
+ * where that is not enough, the budget is exceeded by its bytes at most. An asset of bytes without bytesStay keeps its
+ * layers, as does one that failed to load once more (one warning).
+ *
+ * One colour per cell and the least that a view needs stay; FrothFrameStatus::excessBytes tells by how much they exceed
+ * the budget.
+ *
+ * Where there is room: views grow; once they hold what they want, layers return, one at a time, where the larger asset
+ * fits beside the smaller one. */
 FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
 
 /* Memory of one purpose. */

@@ -8,7 +8,8 @@
  *
  * Ranges: the first 64 KiB, the rest of a longer head, then chunk by chunk the sections of the layers that are loaded,
  * a range for each layer in files of froth bake. What lies behind the head is read once, but for chunks within the
- * first 64 KiB, and after a lost device: then the asset loads again.
+ * first 64 KiB, and after a lost device or where the budget changes its layers (frothSetBudget): then the asset loads
+ * again.
  *
  * Bounds: of all assets together at most 32 ranges and 16 MiB are asked for and not decoded yet; a chunk or head beyond
  * that is read alone. A read that is cancelled and not answered counts, too: a reader that never answers keeps others
