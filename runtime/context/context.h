@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <memory_resource>
@@ -166,6 +167,7 @@ class Context {
   FrothResult checkUploadSerials(const FrothFrame& frame) const;
   FrothResult beginFrame(const FrothFrame& frame);
   void runFrame(FrothFrameStatus& status);
+  void withMemoryJobs(const std::function<void()>& work);
   void takeMemory();
   void orderMemory();
   void loadAssets();

@@ -15,6 +15,17 @@ constexpr uint32_t kDefaultMostJobs = 4, kMaxMostJobs = 64;
 // Views give up this part of what they can besides the excess, so that a few rounds reach the budget.
 constexpr double kShrinkAhead = 1.0 / 64;
 
+// While it lives allocations wait for a job, if the context has any.
+struct OpenOrders {
+  explicit OpenOrders(Device& of) : device(of) {
+    if (device.orders) device.orders->open();
+  }
+  ~OpenOrders() {
+    if (device.orders) device.orders->close(device.ledger);
+  }
+  Device& device;
+};
+
 }  // namespace
 
 FrothResult Context::checkInfo(const FrothContextInfo& info, const char* call) const {
@@ -189,6 +200,40 @@ void Context::shrinkViews() {
     const double given = static_cast<double>(excess) / static_cast<double>(shrinkable) + kShrinkAhead;
     views_.forEach([&](const View& view) {
       if (view.renderer) view.renderer->shrink(std::max(0.0, 1 - given));
+    });
+  }
+}
+
+// ---- Memory by jobs ----
+
+void Context::withMemoryJobs(const std::function<void()>& work) {
+  takeMemory();
+  {
+    const OpenOrders orders(device_);
+    work();
+  }
+  orderMemory();
+}
+
+// What the last job of memory has done.
+void Context::takeMemory() {
+  if (!memoryJob_.hasEnded()) {
+    return;
+  }
+  if (const Result<Done> done = memoryJob_.take(); !done) {
+    messages.fail(done.error(), "frothUpdate");
+  }
+  device_.orders->endBatch(device_.ledger);
+}
+
+void Context::orderMemory() {
+  if (!device_.orders || memoryJob_.isUnderWay()) {
+    return;
+  }
+  if (const std::shared_ptr<MemoryBatch> batch = device_.orders->startBatch()) {
+    memoryJob_.start(jobs_, [device = &device_, batch] {
+      device->run(*batch);
+      return Result<Done>(Done());
     });
   }
 }

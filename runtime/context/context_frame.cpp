@@ -8,20 +8,6 @@
 #include "runtime/render/hit_block.h"
 
 namespace froth {
-namespace {
-
-// While it lives allocations wait for a job, if the context has any.
-struct OpenOrders {
-  explicit OpenOrders(Device& of) : device(of) {
-    if (device.orders) device.orders->open();
-  }
-  ~OpenOrders() {
-    if (device.orders) device.orders->close(device.ledger);
-  }
-  Device& device;
-};
-
-}  // namespace
 
 FrothResult Context::checkUploadSerials(const FrothFrame& frame) const {
   constexpr const char* kCall = "frothUpdate";
@@ -113,9 +99,7 @@ FrothResult Context::update(const FrothFrame& frame, FrothFrameStatus& status) {
 }
 
 void Context::runFrame(FrothFrameStatus& status) {
-  {
-    const OpenOrders orders(device_);
-    takeMemory();
+  withMemoryJobs([&] {
     std::erase_if(retired_, [&](const auto& retired) { return retired.first <= completedSerial_; });
     if (ring_) {
       ring_->retire(completedUploadSerial_);
@@ -127,8 +111,7 @@ void Context::runFrame(FrothFrameStatus& status) {
     views_.forEachNamed([&](FrothView handle, View& view) { prepareView(handle, view); });
     prepareWalks();
     chooseExchange();
-  }
-  orderMemory();
+  });
 
   assets_.forEach([&](const Asset& asset) {
     status.assetsOpening += stateOf(asset) == FROTH_ASSET_OPENING;
@@ -140,29 +123,6 @@ void Context::runFrame(FrothFrameStatus& status) {
   status.hostBytes = device_.ledger.hostBytes();
   status.excessBytes = device_.excessBytes();
   status.waitUploadSerial = hasUploadQueue_ ? completedUploadSerial_ : 0;
-}
-
-// What the last job of memory has done.
-void Context::takeMemory() {
-  if (!memoryJob_.hasEnded()) {
-    return;
-  }
-  if (const Result<Done> done = memoryJob_.take(); !done) {
-    messages.fail(done.error(), "frothUpdate");
-  }
-  device_.orders->endBatch(device_.ledger);
-}
-
-void Context::orderMemory() {
-  if (!device_.orders || memoryJob_.isUnderWay()) {
-    return;
-  }
-  if (const std::shared_ptr<MemoryBatch> batch = device_.orders->startBatch()) {
-    memoryJob_.start(jobs_, [device = &device_, batch] {
-      device->run(*batch);
-      return Result<Done>(Done());
-    });
-  }
 }
 
 bool Context::isDone(uint64_t completedSerial) const {

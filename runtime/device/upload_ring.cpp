@@ -74,11 +74,6 @@ uint64_t UploadRing::newestInFlight() const {
   return newest;
 }
 
-bool UploadRing::isUnderWay(const void* owner, uint64_t completedSerial) const {
-  return std::any_of(copies_.begin(), copies_.end(),
-                     [&](const Copy& copy) { return copy.owner == owner && copy.serial > completedSerial; });
-}
-
 VkDeviceSize UploadRing::stagedBytes() const {
   VkDeviceSize bytes = 0;
   for (const Copy& copy : copies_) {
