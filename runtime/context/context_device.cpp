@@ -141,7 +141,7 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
                                .floatColours = info.floatColours != 0,
                                .lensClasses = lensClasses_,
                                .hasExtendedFormats = hasExtendedFormats_,
-                               .keepsQuarters = hasReactiveImages_,
+                               .keepsQuarters = hasReactiveImages_ && hasExtendedFormats_,
                                .compositeFormat = compositeFormat_,
                                .depthExportFormat = depthExportFormat_});
   if (!pipelines) {

@@ -268,9 +268,10 @@ FrothResult Context::checkHits(const View& view, const FrothRenderInfo& info, co
         "id, motion, reactive: the device was made without shaderStorageImageExtendedFormats; enable it where "
         "frothGetRequirements says that it is present");
   }
-  if (info.reactive.image && !view.keepsReactive) {
+  if (info.reactive.image && !(view.keepsReactive && hasReactiveImages_)) {  // a restored device may lack them
     return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
-                         "reactive: the view was not made for it; set FrothViewInfo::keepsReactive");
+                         "reactive: the view was not made for it; set FrothViewInfo::keepsReactive and "
+                         "FrothContextInfo::reactiveImages");
   }
   return view.keepsHits ? FROTH_OK
                         : messages.fail(FROTH_ERROR_UNSUPPORTED, call,

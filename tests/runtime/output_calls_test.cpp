@@ -85,6 +85,18 @@ TEST_F(OutputCalls, RefuseReactiveOfAnotherFormatOrWithoutAMeaning) {
   expectResult(view, FROTH_ERROR_UNSUPPORTED, "with a ray map");
 }
 
+TEST_F(OutputCalls, RefuseReactiveAfterTheDeviceWasRestoredWithoutIt) {
+  const FrothView view = createHitView(0, 1);
+  info_.reactive = fakeImage(VK_FORMAT_R8_UNORM);
+  expectResult(view, FROTH_OK, "");
+  ASSERT_EQ(frothDeviceLost(context_), FROTH_OK) << lastText();
+  FrothContextInfo info = nullContextInfo();
+  info.onMessage = logMessage;
+  info.messageUser = &messages_;
+  ASSERT_EQ(frothRestoreDevice(context_, &info), FROTH_OK) << lastText();
+  expectResult(view, FROTH_ERROR_UNSUPPORTED, "FrothContextInfo::reactiveImages");
+}
+
 class ReactiveView : public RuntimeTest {};
 
 TEST_F(ReactiveView, IsRefusedInAContextWithoutReactiveImages) {
