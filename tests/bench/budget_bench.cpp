@@ -97,6 +97,7 @@ void BudgetBench::open(bool keepsLayers) {
   assetInfo.data = bytes_.data();
   assetInfo.dataSize = bytes_.size();
   assetInfo.bytesStay = keepsLayers ? 0 : 1;
+  check(frothSetBudget(context_, 0), "frothSetBudget");  // an asset that does not fit is FAILED
   check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
   auto instanceInfo = makeStruct<FrothInstanceInfo>();
   instanceInfo.asset = asset_;

@@ -159,12 +159,18 @@ Shown LayerScene::draw() {
 
 void LayerScene::drop() {
   auto status = sized<FrothFrameStatus>();
-  const Status submitted = sharedHost().submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
-    record(commands, serial, status);
-    check(frothDropFrame(context_, serial), "frothDropFrame");
-    return makeError(ErrorKind::kCancelled, "dropped");
-  });
-  EXPECT_FALSE(submitted);
+  std::vector<uint64_t> serials;
+  ++lag_;  // neither completes
+  for (int frame = 0; frame < 2; ++frame) {
+    const Status submitted = sharedHost().submit([&](VkCommandBuffer commands, uint64_t serial) -> Status {
+      record(commands, serial, status);
+      serials.push_back(serial);
+      return makeError(ErrorKind::kCancelled, "never submitted");
+    });
+    EXPECT_FALSE(submitted);
+  }
+  --lag_;
+  for (const uint64_t serial : serials) check(frothDropFrame(context_, serial), "frothDropFrame");
 }
 
 Shown LayerScene::drawUntilSteady() {

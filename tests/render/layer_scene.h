@@ -64,7 +64,7 @@ class LayerScene : public testing::Test {
 
   // A frame that is complete before the next.
   Shown draw();
-  // A frame that is recorded and never submitted.
+  // Two frames that are recorded and never submitted; told when both are recorded.
   void drop();
   // On the same device, without a budget.
   void restoreDevice();
