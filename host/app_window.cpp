@@ -66,9 +66,10 @@ void AppWindow::recordBlit(VkCommandBuffer commands, const HostImage& picture, V
   const auto height = static_cast<int32_t>(swapchain_->extent().height);
   VkImageBlit region{};
   region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  region.srcOffsets[1] = region.dstOffsets[1] = {width, height, 1};
+  region.srcOffsets[1] = {static_cast<int32_t>(picture.extent.width), static_cast<int32_t>(picture.extent.height), 1};
+  region.dstOffsets[1] = {width, height, 1};
   vkCmdBlitImage(commands, picture.image, VK_IMAGE_LAYOUT_GENERAL, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                 &region, VK_FILTER_NEAREST);
+                 &region, VK_FILTER_LINEAR);
 }
 
 Status AppWindow::drawFrame(WindowClient& client) {

@@ -31,6 +31,8 @@ Result<FormatTraits> traitsOf(VkFormat format) {
       return FormatTraits{1, 4};
     case VK_FORMAT_R16G16_SFLOAT:
       return FormatTraits{2, 4};
+    case VK_FORMAT_R8_UNORM:
+      return FormatTraits{1, 1};
     case VK_FORMAT_R32G32_UINT:
       return FormatTraits{2, 8};
     case VK_FORMAT_D32_SFLOAT:
@@ -43,14 +45,18 @@ Result<FormatTraits> traitsOf(VkFormat format) {
       return makeError(
           ErrorKind::kUnsupported,
           "image: VkFormat %d; the host knows R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT, R32_SFLOAT, "
-          "R16G16_SFLOAT, R32G32_UINT, B10G11R11_UFLOAT_PACK32, D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
+          "R16G16_SFLOAT, R8_UNORM, R32G32_UINT, B10G11R11_UFLOAT_PACK32, D32_SFLOAT, D32_SFLOAT_S8_UINT and D16_UNORM",
           format);
   }
 }
 
-// As the image holds them: halves, and depths of 16 bits, rounded to the nearest; all else as it is.
+// As the image holds them: bytes, halves, and depths of 16 bits, rounded to the nearest; all else as it is.
 std::vector<uint8_t> packTexels(const std::vector<float>& texels, FormatTraits traits) {
   std::vector<uint8_t> bytes(texels.size() / traits.channels * traits.bytesPerTexel);
+  if (traits.bytesPerTexel == 1) {
+    for (size_t i = 0; i < texels.size(); ++i) bytes[i] = static_cast<uint8_t>(std::lround(texels[i] * 255.0f));
+    return bytes;
+  }
   if (traits.bytesPerTexel == traits.channels * sizeof(uint16_t) && !traits.isDepth()) {
     for (size_t i = 0; i < texels.size(); ++i) {
       const uint16_t half = glm::packHalf1x16(texels[i]);
@@ -73,6 +79,11 @@ std::vector<float> widenTexels(const void* texels, size_t byteCount, FormatTrait
   std::vector<float> values(byteCount / traits.bytesPerTexel * traits.channels);
   if (traits.bytesPerTexel == traits.channels * sizeof(float)) {
     std::memcpy(values.data(), texels, byteCount);
+    return values;
+  }
+  if (traits.bytesPerTexel == 1) {
+    const auto* bytes = static_cast<const uint8_t*>(texels);
+    for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(bytes[i]) / 255.0f;
     return values;
   }
   const auto* codes = static_cast<const uint16_t*>(texels);

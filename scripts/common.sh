@@ -1,4 +1,4 @@
-# What scripts/demo and scripts/test share: packages and builds. Sourced, not run.
+# What scripts/demo, scripts/test and scripts/test-gpu share: packages and builds. Sourced, not run.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -23,6 +23,19 @@ install_packages() {
   echo "Installing: ${missing[*]}"
   "${as_root[@]}" apt-get update -qq
   DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# Slang's compiler, from a Python package that holds it (15 MB): build/slang/slangtorch/bin/slangc, where CMake looks. Needs python3-pip
+# and unzip.
+fetch_slang() {
+  local folder=build/slang package=slangtorch==1.3.22
+  [ "$(cat "$folder/package" 2>/dev/null)" = "$package" ] && return
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  python3 -m pip download --quiet --no-deps --only-binary :all: --dest "$folder" "$package"
+  unzip -q "$folder/slangtorch-*.whl" 'slangtorch/bin/*' -d "$folder"
+  chmod +x "$folder/slangtorch/bin/slangc"
+  echo "$package" >"$folder/package"
 }
 
 # build PRESET [-DNAME=VALUE ...] [TARGET ...]

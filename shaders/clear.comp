@@ -11,4 +11,5 @@ void main() {
   if (!isInRegion(pixel)) return;
   writePixel(pixel, vec3(0.0), 0.0, 1.0, kInfinity, vec3(0.0), FRAME.depthRange.w);
   if (wantsHits()) writeHit(pixel, kInfinity, 0, kNoCell);
+  if (wantsQuarters()) writeQuarters(pixel, vec4(kInfinity), uvec4(0));
 }

@@ -1,11 +1,11 @@
 // Rays through Froth's foams, for compute, fragment and ray generation shaders of an engine:
 //
 //   #define FROTH_WALK_SET 2  // the number of the descriptor set that frothRecordWalkSet gives
-//   #include "froth_walk.glsl"
+//   #include "froth_walk.glsl"  // in Slang: "froth_walk.slang", which is made from this text
 //
-// To be included once, before any declaration (it enables GL_EXT_buffer_reference), in GLSL 4.60 for Vulkan 1.2 or
-// later. All names begin with froth, Froth or FROTH. Places are relative to FrothWalkInfo::eye; directions, lengths:
-// world axes and units.
+// To be included once, before any declaration: in GLSL 4.60 for Vulkan 1.2 or later (it enables
+// GL_EXT_buffer_reference), or in Slang 2026.14 or later, compiled with -fp-mode precise. All names begin with froth,
+// Froth or FROTH. Places are relative to FrothWalkInfo::eye; directions, lengths: world axes and units.
 //
 // May be defined before:
 //   FROTH_WALK_NO_COUNTERS  no binding 1: in stages without atomics (fragmentStoresAndAtomics); frothGetWalkStatus
@@ -46,8 +46,8 @@ struct FrothRay {
 };
 
 struct FrothHit {
-  // where transmittance falls below FrothWalkInfo::quantile; FROTH_INFINITY: never, and what follows is 0 or
-  // FROTH_NONE
+  // from the origin, whatever tMin, to where transmittance falls below FrothWalkInfo::quantile; FROTH_INFINITY: never,
+  // and what follows is 0 or FROTH_NONE
   float distance;
   vec3 normal;     // of the face of the cell that is met there; unit
   uint instance;   // of the walk set; where several overlap the densest

@@ -175,5 +175,8 @@ void main() {
     writePixel(pixel, radiance.colour, coverageOf(radiance.logTransmittance), FRAME.exposure, distance,
                isFull ? inWorld(radiance.normal) : vec3(0.0), depth);
     if (isFull && wantsHits()) writeHit(pixel, distance, FRAME.part, cellCodeOf(radiance.cell));
+    if (keepsQuarters && wantsQuarters()) {
+      writeQuarters(pixel, radiance.quarters * FRAME.scale, uvec4(FRAME.part));
+    }
   }
 }

@@ -46,4 +46,7 @@ void main() {
   writePixel(pixel, radiance.colour, coverageOf(radiance.logTransmittance), FRAME.exposure, distance,
              inWorld(radiance.normal), depth);
   if (isFull && wantsHits()) writeHit(pixel, distance, FRAME.part, cellCodeOf(radiance.cell));
+  if (keepsQuarters && wantsQuarters()) {
+    writeQuarters(pixel, radiance.quarters * FRAME.scale, uvec4(FRAME.part));
+  }
 }

@@ -11,6 +11,12 @@ namespace {
 struct Interval {
   double tNear, tFar, density;
   glm::dvec3 colour, normal;
+  uint32_t foam;
+};
+
+struct MergedRay {
+  RayResult<double> ray;
+  std::array<uint32_t, 4> quarterFoams{};
 };
 
 // A camera in the foam's frame: lengths in it are world units divided by the foam's scale.
@@ -47,9 +53,10 @@ View withRoundedEye(View local, const ReferenceOptions& options) {
 // One foam as a view sees it.
 class FoamInView {
  public:
-  FoamInView(const PlacedFoam& placed, const ReferenceRenderer::State& foam, const View& view,
+  FoamInView(uint32_t number, const PlacedFoam& placed, const ReferenceRenderer::State& foam, const View& view,
              const ReferenceOptions& options)
-      : foam_(foam),
+      : number_(number),
+        foam_(foam),
         view_(withRoundedEye(viewFromFoam(view, placed), options)),
         rays_(view_),
         scale_(placed.scale),
@@ -75,11 +82,12 @@ class FoamInView {
       const auto found = shadeCell(cell, cells_.detailsOf(hit.rank), primary, sharpness_, hit, leastShare_);
       if (!(found.tNear < found.tFar)) continue;
       intervals.push_back({found.tNear * scale_, found.tFar * scale_, cell.density / scale_, found.colour,
-                           worldFromFoam_ * cell.frame.normal});
+                           worldFromFoam_ * cell.frame.normal, number_});
     }
   }
 
  private:
+  const uint32_t number_;
   const ReferenceRenderer::State& foam_;
   const View view_;
   const ViewRays rays_;
@@ -89,25 +97,33 @@ class FoamInView {
 };
 
 // Between two neighbouring ends of intervals everything is constant.
-RayResult<double> mergeIntervals(const std::vector<Interval>& intervals, double cutoff, double logQuantile) {
+MergedRay mergeIntervals(const std::vector<Interval>& intervals, double cutoff, double logQuantile) {
   std::vector<double> ends;
   for (const Interval& interval : intervals) ends.insert(ends.end(), {interval.tNear, interval.tFar});
   std::sort(ends.begin(), ends.end());
-  RayResult<double> ray;
+  MergedRay merged;
+  RayResult<double>& ray = merged.ray;
   for (size_t i = 0; i + 1 < ends.size() && std::exp(ray.logTransmittance) >= cutoff; ++i) {
     const double tNear = ends[i], tFar = ends[i + 1];
-    double density = 0;
+    double density = 0, most = 0;
+    uint32_t densest = 0;
     glm::dvec3 colour(0), normal(0);
     for (const Interval& interval : intervals) {
       if (!(interval.tNear <= tNear && tFar <= interval.tFar)) continue;
       density += interval.density;
       colour += interval.density * interval.colour;
       normal += interval.density * interval.normal;
+      if (interval.density > most) densest = interval.foam;
+      most = std::max(most, interval.density);
     }
     if (!(tNear < tFar && density > 0)) continue;
+    const std::array<double, 4> before = ray.quarters;
     compositeInterval(tNear, tFar, density, colour / density, normal / density, logQuantile, ray);
+    for (size_t q = 0; q < 4; ++q) {
+      if (ray.quarters[q] != before[q]) merged.quarterFoams[q] = densest;
+    }
   }
-  return ray;
+  return merged;
 }
 
 }  // namespace
@@ -121,7 +137,8 @@ Result<RenderedImages> renderMerged(std::span<const PlacedFoam> foams, const Vie
   for (const PlacedFoam& foam : foams) {
     const ReferenceRenderer::State& state = foam.renderer->state();
     if (state.cechPairs.offsets.empty()) return stoppedOnRequest("render");
-    seen.push_back(std::make_unique<FoamInView>(foam, state, view, own));
+    const auto number = static_cast<uint32_t>(seen.size());
+    seen.push_back(std::make_unique<FoamInView>(number, foam, state, view, own));
     own.roundingSeed += kSeedsOfFoam;  // the same cell errs in each instance by itself
   }
   RenderedImages images = emptyImages(view);
@@ -134,7 +151,9 @@ Result<RenderedImages> renderMerged(std::span<const PlacedFoam> foams, const Vie
       if (!ray) continue;
       const double end = endOfRay(options, *ray, x, y);
       for (const auto& foam : seen) foam->addIntervals(x, y, end, intervals);
-      writePixel(mergeIntervals(intervals, options.cutoff, std::log(options.quantile)), x, y, images);
+      const MergedRay merged = mergeIntervals(intervals, options.cutoff, std::log(options.quantile));
+      writePixel(merged.ray, x, y, images);
+      images.quarterFoams[size_t{y} * view.width + x] = merged.quarterFoams;
     }
   });
   if (!done) return done.error();

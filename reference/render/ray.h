@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "shaders/foam/cell.h"
 #include "shaders/foam/clip_face.h"
 #include "shaders/foam/compositing.h"
+#include "shaders/foam/quarters.h"
 
 namespace froth {
 
@@ -33,7 +35,8 @@ struct RayResult {
   glm::vec<3, Real> normal{0};
   Real logTransmittance = 0;
   Real distance = -1;
-  uint32_t rank = UINT32_MAX;  // of the cell at distance, until there of the last one that showed
+  uint32_t rank = UINT32_MAX;                    // of the cell at distance, until there of the last one that showed
+  std::array<Real, 4> quarters{-1, -1, -1, -1};  // foam/quarters.h; -1: not reached
 };
 
 // What a ray sees of one cell: composited with weight T alpha, its details blended at `query` (foam::faceQuery).
@@ -132,6 +135,11 @@ Real compositeInterval(Real tNear, Real tFar, Real density, const glm::vec<3, Re
   const Real logAfter = ray.logTransmittance - opticalDepth;
   if (ray.logTransmittance >= logQuantile && logAfter < logQuantile) {
     ray.distance = foam::quantileDistance(tNear, ray.logTransmittance, logQuantile, density);
+  }
+  for (int i = 0; i < 4; ++i) {
+    const Real logMiddle = std::log(foam::middleOfQuarter<Real>(i));
+    if (!(ray.logTransmittance >= logMiddle && logAfter < logMiddle)) continue;
+    ray.quarters[static_cast<size_t>(i)] = foam::quantileDistance(tNear, ray.logTransmittance, logMiddle, density);
   }
   ray.colour += weight * colour;
   ray.normal += weight * normal;

@@ -2,6 +2,7 @@
 // pairs (no triangulation), every cell sorted by its power, compiled from shaders/foam/ like the shaders.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "base/image/image.h"
@@ -42,7 +43,11 @@ struct RenderedImages {
   Image normal;    // 3 channels, sum of T alpha n, world axes
   // [pixels] the one at distance, until there the last one that was met; UINT32_MAX: none, and of several foams
   std::vector<uint32_t> cells;
-};  // pixels without a ray (shaders/foam/lens.h): 0, 0, -1, 0, none
+  // [pixels] where the quarters of what each shows stand (shaders/foam/quarters.h), as distances; -1: behind the foam.
+  // Of several foams: whose, by the densest there
+  std::vector<std::array<float, 4>> quarters;
+  std::vector<std::array<uint32_t, 4>> quarterFoams;
+};  // pixels without a ray (shaders/foam/lens.h): 0, 0, -1, 0, none, -1, 0
 
 // Renders with all cores; the same input gives the same bits on any number of threads.
 class ReferenceRenderer {

@@ -69,6 +69,8 @@ RenderedImages emptyImages(const View& view) {
   images.distance = {view.width, view.height, 1, std::vector<float>(pixels, -1.0f)};
   images.normal = {view.width, view.height, 3, std::vector<float>(pixels * 3)};
   images.cells.resize(pixels, UINT32_MAX);
+  images.quarters.resize(pixels, {-1, -1, -1, -1});
+  images.quarterFoams.resize(pixels);
   return images;
 }
 

@@ -75,6 +75,8 @@ void writePixel(const RayResult<Real>& ray, uint32_t x, uint32_t y, RenderedImag
   }
   *images.alpha.pixel(x, y) = static_cast<float>(foam::coverageOf(ray.logTransmittance));
   *images.distance.pixel(x, y) = static_cast<float>(ray.distance);
+  const size_t pixel = size_t{y} * images.alpha.width + x;
+  for (size_t i = 0; i < 4; ++i) images.quarters[pixel][i] = static_cast<float>(ray.quarters[i]);
 }
 
 }  // namespace froth

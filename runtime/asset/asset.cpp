@@ -49,41 +49,47 @@ void Asset::restart(const Messages& messages) {
   }
 }
 
-Status Asset::placeChunk(LoadedChunk&& loaded) {
-  workDone_ += chunkWork_[gpu_.chunks.size()];
-  workToCome_ -= chunkWork_[gpu_.chunks.size()];
+// Changes nothing while its memory is ordered.
+Status Asset::placeChunk(LoadedChunk& loaded) {
+  const size_t number = gpu_.chunks.size();
+  GpuArena::Place place;
+  if (loaded.arrays.size > 0) {
+    const std::string purpose = "chunk " + std::to_string(number);
+    const Result<GpuArena::Place> given =
+        arena_->allocate(loaded.arrays.size, bytesToCome(loaded.arrays.size), purpose.c_str());
+    if (!given) {
+      return given.error();
+    }
+    place = *given;
+  }
+  workDone_ += chunkWork_[number];
+  workToCome_ -= chunkWork_[number];
   growBounds(loaded);
   gpu_.add(loaded.gpu);
   if (loaded.query) {
     queryFoam_->addChunk(std::move(*loaded.query), loaded.bounds);
   }
-  return placeArrays(loaded.arrays);
+  placeArrays(loaded.arrays, place);
+  return {};
 }
 
 // What the arena will be asked for behind `size` bytes of the chunk at hand, by what chunks have needed so far.
 VkDeviceSize Asset::bytesToCome(VkDeviceSize size) const {
-  const double share = workDone_ > 0 ? static_cast<double>(workToCome_) / static_cast<double>(workDone_) : 0;
+  const uint64_t atHand = chunkWork_[gpu_.chunks.size()];
+  const auto done = static_cast<double>(workDone_ + atHand), toCome = static_cast<double>(workToCome_ - atHand);
+  const double share = done > 0 ? toCome / done : 0;
   const double chunks = std::min(static_cast<double>(placedBytes_ + size) * share, double{GpuArena::kMostShared});
   const uint64_t along = entriesAlong();
   return static_cast<VkDeviceSize>(chunks) + sizeof(gpu::uvec4) * along * along * along;
 }
 
-Status Asset::placeArrays(const ChunkArrays& arrays) {
-  if (arrays.size == 0) {
-    return {};
-  }
-  const std::string purpose = "chunk " + std::to_string(gpu_.chunks.size() - 1);
-  const Result<GpuArena::Place> place = arena_->allocate(arrays.size, bytesToCome(arrays.size), purpose.c_str());
-  if (!place) {
-    return place.error();
-  }
+void Asset::placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place) {
   placedBytes_ += arrays.size;
   for (const ChunkArray& array : arrays.arrays) {
-    gpu_.chunks.back().*array.address = place->address + array.offset;
-    arrays_.push_back({array.bytes, place->buffer, place->offset + array.offset, array.size, 0});
+    gpu_.chunks.back().*array.address = place.address + array.offset;
+    arrays_.push_back({array.bytes, place.buffer, place.offset + array.offset, array.size, 0});
     addMemory(array.purpose, array.size);
   }
-  return {};
 }
 
 // 0: none.

@@ -91,8 +91,11 @@ class Asset {
   void startFinishing(JobRunner& jobs);
   void takeReader(std::shared_ptr<const AssetReader> reader);
   Status finish();
-  Status placeChunk(LoadedChunk&& loaded);
-  Status placeArrays(const ChunkArrays& arrays);
+  uint32_t firstUndecoded() const {
+    return static_cast<uint32_t>(gpu_.chunks.size() + (unplaced_ ? 1 : 0) + decoding_.size());
+  }
+  Status placeChunk(LoadedChunk& loaded);
+  void placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place);
   Status placeEntries();
   VkDeviceSize bytesToCome(VkDeviceSize size) const;
   uint32_t entriesAlong() const;
@@ -113,12 +116,14 @@ class Asset {
   std::shared_ptr<const AssetReader> reader_;        // while loading
   bool isPrepared_ = false;                          // Preparation has ended
   std::deque<RangeFetch> fetches_;                   // the chunks behind those that are being decoded
-  std::deque<Job<LoadedChunk>> decoding_;            // the chunks behind those that are placed
+  std::optional<LoadedChunk> unplaced_;              // the chunk behind those that are placed: its memory is ordered
+  std::deque<Job<LoadedChunk>> decoding_;            // the chunks behind it
   Job<std::shared_ptr<QueryFoam>> finishing_;        // has queryFoam_
   std::vector<uint64_t> chunkWork_;                  // [chunks] bytes of decoded sections;
   uint64_t workDone_ = 0, workToCome_ = 0;           // sums of them, of chunks that are placed or not
   VkDeviceSize placedBytes_ = 0;
   std::deque<PendingArray> arrays_;  // of the newest chunks; staged from the front
+  bool waitsForMemory_ = false;      // it is ordered; ask again in the next load()
   bool isDecoded_ = false;
   FrothResult error_ = FROTH_OK;
 

@@ -70,6 +70,7 @@ void Asset::load(JobRunner& jobs, ReadTable& reads, LoadLimit& limit, const Prep
   if (hasFailed() || isDecoded_) {
     return;
   }
+  waitsForMemory_ = false;
   try {
     Status status = takeResults(prepare);
     while (status && startNext(jobs, reads, limit)) {
@@ -94,6 +95,7 @@ void Asset::stop() {
     chunk.drop(waits);
   }
   decoding_.clear();
+  unplaced_.reset();
   finishing_.drop(false);
   reader_.reset();
 }
@@ -115,13 +117,22 @@ Status Asset::takeResults(const Preparation& prepare) {
     }
     isPrepared_ = prepared.has_value();
   }
-  while (!decoding_.empty() && decoding_.front().hasEnded()) {
-    Result<LoadedChunk> chunk = decoding_.front().take();
-    decoding_.pop_front();
-    if (!chunk) {
-      return chunk.error();
+  while (!waitsForMemory_ && (unplaced_ || (!decoding_.empty() && decoding_.front().hasEnded()))) {
+    if (!unplaced_) {
+      Result<LoadedChunk> chunk = decoding_.front().take();
+      decoding_.pop_front();
+      if (!chunk) {
+        return chunk.error();
+      }
+      unplaced_ = std::move(*chunk);
     }
-    if (const Status status = placeChunk(std::move(*chunk)); !status) {
+    const Status status = placeChunk(*unplaced_);
+    waitsForMemory_ = isOrdered(status);
+    if (waitsForMemory_) {
+      break;
+    }
+    unplaced_.reset();
+    if (!status) {
       return status;
     }
   }
@@ -132,7 +143,8 @@ Status Asset::takeResults(const Preparation& prepare) {
     }
     queryFoam_ = std::move(*foam);
   }
-  return reader_ && isPrepared_ && arePlaced() && !isQueryFoamWanted() ? finish() : Status();
+  const bool isWhole = reader_ && isPrepared_ && arePlaced() && !isQueryFoamWanted();
+  return isWhole && !waitsForMemory_ ? finish() : Status();
 }
 
 // False: there is nothing to be started, or no room for it.
@@ -149,7 +161,7 @@ bool Asset::startNext(JobRunner& jobs, ReadTable& reads, LoadLimit& limit) {
   if (!reader_) {
     return startOpening(jobs, limit);
   }
-  const auto chunk = static_cast<uint32_t>(gpu_.chunks.size() + decoding_.size());
+  const auto chunk = firstUndecoded();
   if (chunk < description_.chunkCount) {
     return startDecoding(chunk, jobs, limit);
   }
@@ -178,7 +190,7 @@ bool Asset::startReading(ReadTable& reads, const LoadLimit& limit) {
     headFetch_.start(reads, source_.reader, wanted);
     return true;
   }
-  const auto chunk = static_cast<uint32_t>(gpu_.chunks.size() + decoding_.size() + fetches_.size());
+  const auto chunk = firstUndecoded() + static_cast<uint32_t>(fetches_.size());
   if (chunk >= description_.chunkCount || (limit.isLate() && !fetches_.empty())) {
     return false;
   }
@@ -262,8 +274,13 @@ void Asset::takeReader(std::shared_ptr<const AssetReader> reader) {
 }
 
 Status Asset::finish() {
+  const Status status = placeEntries();
+  waitsForMemory_ = isOrdered(status);
+  if (waitsForMemory_) {
+    return {};
+  }
   reader_.reset();
-  if (const Status status = placeEntries(); !status) {
+  if (!status) {
     return status;
   }
   isDecoded_ = true;

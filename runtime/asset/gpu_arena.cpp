@@ -28,8 +28,9 @@ VkDeviceSize GpuArena::chooseBlockSize(VkDeviceSize size, VkDeviceSize more) con
 Result<GpuArena::Place> GpuArena::allocate(VkDeviceSize size, VkDeviceSize more, const char* purpose) {
   if (const VkDeviceSize room = roomLeft(); size > room) {
     blocks_.reserve(blocks_.size() + 1);  // so that what is made has its place
-    const VkDeviceSize blockSize = chooseBlockSize(size, more);
+    const VkDeviceSize blockSize = orderedSize_ != 0 ? orderedSize_ : chooseBlockSize(size, more);
     const Result<GpuBuffer> block = device_.createBuffer(MemoryUse::kAssets, BufferKind::kDevice, blockSize, purpose);
+    orderedSize_ = block || !isOrdered(block.error()) ? 0 : blockSize;
     if (!block) return block.error();
     blocks_.push_back(*block);
     heldBytes_ += block->memory.granted;

@@ -26,7 +26,7 @@ class GpuArena {
   GpuArena& operator=(const GpuArena&) = delete;
 
   // size > 0. `more`: how many bytes will be asked for later, about. Bytes a, a, a, ... of n places take O(log n)
-  // blocks besides those of kMostShared. An error names `purpose`.
+  // blocks besides those of kMostShared. An error names `purpose`, or isOrdered(): then ask for the same again.
   Result<Place> allocate(VkDeviceSize size, VkDeviceSize more, const char* purpose);
 
   std::span<const GpuBuffer> blocks() const { return blocks_; }
@@ -41,6 +41,7 @@ class GpuArena {
   size_t open_ = 0;        // the block with room,
   VkDeviceSize used_ = 0;  // and what of it is taken
   VkDeviceSize heldBytes_ = 0;
+  VkDeviceSize orderedSize_ = 0;  // of the block that a job makes; 0: none
 };
 
 }  // namespace froth

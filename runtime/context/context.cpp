@@ -188,6 +188,11 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
                          "lensClasses: %#x, but the context was made for %#x; raise FrothContextInfo::lensClasses",
                          info.lensClasses, lensClasses_);
   }
+  if (info.keepsReactive && !hasReactiveImages_) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView",
+                         "keepsReactive: %u, but the context was made without; set FrothContextInfo::reactiveImages",
+                         info.keepsReactive);
+  }
   if (info.eyeCount > kMostEyes) {
     return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "eyeCount: %u; at most %u", info.eyeCount, kMostEyes);
   }
@@ -196,7 +201,8 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   view->eyeCount = info.eyeCount == 0 ? 1 : info.eyeCount;
   view->lensClasses = info.lensClasses;
   view->measurePasses = info.measurePasses != 0;
-  view->keepsHits = info.keepsHits != 0;
+  view->keepsReactive = info.keepsReactive != 0;
+  view->keepsHits = info.keepsHits != 0 || view->keepsReactive;
   view->reservedCells = info.reserveCells == 0 ? kReservedCells : info.reserveCells;
   const View* like = views_.find(info.startLike);
   if (!like && info.startLike.generation != 0) {
@@ -250,6 +256,7 @@ Status Context::createRenderer(View& view) {
                                      .framesInFlight = framesInFlight_,
                                      .measurePasses = view.measurePasses && canMeasure,
                                      .keepsHits = view.keepsHits && hasExtendedFormats_,
+                                     .keepsReactive = view.keepsReactive && hasExtendedFormats_,
                                      .composites = compositeFormat_ != VK_FORMAT_UNDEFINED,
                                      .exportsDepth = depthExportFormat_ != VK_FORMAT_UNDEFINED,
                                      .breadcrumbs = view.breadcrumbs.get(),

@@ -118,7 +118,7 @@ class Context {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
     uint32_t reservedCells = 0;
-    bool measurePasses = false, keepsHits = false;
+    bool measurePasses = false, keepsHits = false, keepsReactive = false;
     std::unique_ptr<Breadcrumbs> breadcrumbs;  // null: null context, or none are wanted
     std::unique_ptr<ViewRenderer> renderer;    // null: null context, or the device is lost
     // in the newest frothUpdate: those it has buffers for, if they fit the budget
@@ -143,6 +143,8 @@ class Context {
   FrothResult readPlacement(const FrothInstanceInfo& info, const char* call, Instance& instance) const;
   FrothResult beginFrame(const FrothFrame& frame);
   void runFrame(FrothFrameStatus& status);
+  void takeMemory();
+  void orderMemory();
   void loadAssets();
   void prepareView(FrothView handle, View& view);
   // The view, if this eye of it was drawn in this frame and the call was not made yet; else null, and a message.
@@ -168,14 +170,17 @@ class Context {
   bool isNull_ = false;        // no device, for good
   bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
   bool isExcessTold_ = false;  // of this budget
-  // These two make pipelines: the device stays until they have ended.
+  // These use the device, which stays until they have ended. The first two make pipelines, the third runs a MemoryBatch
+  // beside what FrothContextInfo::mostJobs allows.
   std::map<AssetShape, Job<Done>> making_;
   Job<Done> merging_;
+  Job<Done> memoryJob_;
   std::string mergingError_;  // of merging_, sent already
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
   VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED, depthExportFormat_ = VK_FORMAT_UNDEFINED;
   bool hasExtendedFormats_ = false;  // shaderStorageImageExtendedFormats
+  bool hasReactiveImages_ = false;
   bool hasWalkShaders_ = false;
   bool hasBreadcrumbs_ = false;
   std::string walkError_;                       // of the newest frothUpdate that could not make space; sent already

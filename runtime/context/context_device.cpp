@@ -85,6 +85,7 @@ FrothResult Context::create(const FrothContextInfo& info, const char* call) {
   compositeFormat_ = info.compositeFormat;
   depthExportFormat_ = info.depthExportFormat;
   hasExtendedFormats_ = info.enabledFeatures && info.enabledFeatures->features.shaderStorageImageExtendedFormats;
+  hasReactiveImages_ = info.reactiveImages != 0;
   hasWalkShaders_ = info.walkShaders != 0;
   hasBreadcrumbs_ = info.breadcrumbs != 0;
   isNull_ = !info.device;
@@ -102,6 +103,9 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
   device_.budget = info.deviceBudget;
   device_.timestampBits = timestampBitsOf(info);
   device_.callbacks = {info.allocateMemory, info.freeMemory, info.memoryUser};
+  if (jobs_.hasThreads()) {
+    device_.orders = std::make_shared<MemoryOrders>();
+  }
   Result<std::unique_ptr<UploadRing>> ring =
       UploadRing::create(device_, info.stagingBytes == 0 ? kStagingBytes : info.stagingBytes);
   if (!ring) {
@@ -115,6 +119,7 @@ Status Context::createDeviceObjects(const FrothContextInfo& info) {
                                .floatColours = info.floatColours != 0,
                                .lensClasses = lensClasses_,
                                .hasExtendedFormats = hasExtendedFormats_,
+                               .keepsQuarters = hasReactiveImages_,
                                .compositeFormat = compositeFormat_,
                                .depthExportFormat = depthExportFormat_});
   if (!pipelines) {
@@ -152,7 +157,7 @@ void Context::describeMemory(FrothMemoryReport& report) const {
 // What goes anyway goes first; then all views give up the same part of what they can.
 void Context::shrinkViews() {
   const VkDeviceSize excess = device_.excessBytes();
-  bool isUnderWay = !retired_.empty();
+  bool isUnderWay = !retired_.empty() || (device_.orders && device_.orders->isGivingBack());
   VkDeviceSize shrinkable = 0;
   views_.forEach([&](const View& view) {
     isUnderWay = isUnderWay || (view.renderer && view.renderer->isShrinking());
@@ -188,6 +193,8 @@ void Context::stopJobs() {
   for (auto& [shape, job] : making_) job.drop(true);
   making_.clear();
   assets_.forEach([](Asset& asset) { asset.stop(); });
+  memoryJob_.drop(true);
+  device_.finishOrders();
 }
 
 void Context::loseDevice() {

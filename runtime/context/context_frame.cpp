@@ -8,6 +8,20 @@
 #include "runtime/render/hit_block.h"
 
 namespace froth {
+namespace {
+
+// While it lives allocations wait for a job, if the context has any.
+struct OpenOrders {
+  explicit OpenOrders(Device& of) : device(of) {
+    if (device.orders) device.orders->open();
+  }
+  ~OpenOrders() {
+    if (device.orders) device.orders->close(device.ledger);
+  }
+  Device& device;
+};
+
+}  // namespace
 
 FrothResult Context::beginFrame(const FrothFrame& frame) {
   constexpr const char* kCall = "frothUpdate";
@@ -66,15 +80,20 @@ FrothResult Context::update(const FrothFrame& frame, FrothFrameStatus& status) {
 }
 
 void Context::runFrame(FrothFrameStatus& status) {
-  std::erase_if(retired_, [&](const auto& retired) { return retired.first <= completedSerial_; });
-  if (ring_) {
-    ring_->retire(completedSerial_);
+  {
+    const OpenOrders orders(device_);
+    takeMemory();
+    std::erase_if(retired_, [&](const auto& retired) { return retired.first <= completedSerial_; });
+    if (ring_) {
+      ring_->retire(completedSerial_);
+    }
+    loadAssets();
+    prepareMerging();
+    shrinkViews();
+    views_.forEachNamed([&](FrothView handle, View& view) { prepareView(handle, view); });
+    prepareWalks();
   }
-  loadAssets();
-  prepareMerging();
-  shrinkViews();
-  views_.forEachNamed([&](FrothView handle, View& view) { prepareView(handle, view); });
-  prepareWalks();
+  orderMemory();
 
   assets_.forEach([&](const Asset& asset) {
     status.assetsOpening += stateOf(asset) == FROTH_ASSET_OPENING;
@@ -84,6 +103,29 @@ void Context::runFrame(FrothFrameStatus& status) {
   status.deviceBytes = device_.ledger.deviceBytes();
   status.hostBytes = device_.ledger.hostBytes();
   status.excessBytes = device_.excessBytes();
+}
+
+// What the last job of memory has done.
+void Context::takeMemory() {
+  if (!memoryJob_.hasEnded()) {
+    return;
+  }
+  if (const Result<Done> done = memoryJob_.take(); !done) {
+    messages.fail(done.error(), "frothUpdate");
+  }
+  device_.orders->endBatch(device_.ledger);
+}
+
+void Context::orderMemory() {
+  if (!device_.orders || memoryJob_.isUnderWay()) {
+    return;
+  }
+  if (const std::shared_ptr<MemoryBatch> batch = device_.orders->startBatch()) {
+    memoryJob_.start(jobs_, [device = &device_, batch] {
+      device->run(*batch);
+      return Result<Done>(Done());
+    });
+  }
 }
 
 bool Context::isDone(uint64_t completedSerial) const {
@@ -137,7 +179,7 @@ void Context::prepareView(FrothView handle, View& view) {
     return;
   }
   // The view keeps the buffers it had: it goes on drawing what they hold.
-  if (view.preparationError != status.error().message) {  // once, not in every frame
+  if (!isOrdered(status) && view.preparationError != status.error().message) {  // once, not in every frame
     view.preparationError = status.error().message;
     messages.fail(resultOf(status.error()), "view", "view {%u, %u}, %s", handle.index, handle.generation,
                   view.preparationError.c_str());
@@ -191,15 +233,20 @@ FrothResult Context::dropFrame(uint64_t serial) {
   return FROTH_OK;
 }
 
-// What id and motion need of the device and the view.
+// What the images of hits need of the device and the view.
 FrothResult Context::checkHits(const View& view, const FrothRenderInfo& info, const char* call) const {
   if (!wantsHits(info)) {
     return FROTH_OK;
   }
   if (!isNull_ && !hasExtendedFormats_) {
-    return messages.fail(FROTH_ERROR_FEATURE, call,
-                         "id, motion: the device was made without shaderStorageImageExtendedFormats; enable it where "
-                         "frothGetRequirements says that it is present");
+    return messages.fail(
+        FROTH_ERROR_FEATURE, call,
+        "id, motion, reactive: the device was made without shaderStorageImageExtendedFormats; enable it where "
+        "frothGetRequirements says that it is present");
+  }
+  if (info.reactive.image && !view.keepsReactive) {
+    return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
+                         "reactive: the view was not made for it; set FrothViewInfo::keepsReactive");
   }
   return view.keepsHits ? FROTH_OK
                         : messages.fail(FROTH_ERROR_UNSUPPORTED, call,

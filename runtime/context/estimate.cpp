@@ -13,7 +13,8 @@ ViewOptions optionsOf(const FrothEstimateInfo& info) {
   return {.maxExtent = view.maxExtent,
           .lensClasses = view.lensClasses,
           .framesInFlight = info.framesInFlight == 0 ? kDefaultFramesInFlight : info.framesInFlight,
-          .keepsHits = view.keepsHits != 0,
+          .keepsHits = view.keepsHits != 0 || view.keepsReactive != 0,
+          .keepsReactive = view.keepsReactive != 0,
           .reservedCells = view.reserveCells == 0 ? kReservedCells : view.reserveCells};
 }
 

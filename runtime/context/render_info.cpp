@@ -85,13 +85,14 @@ FrothResult checkDepths(const Messages& messages, const char* call, const FrothR
 
 // The camera of the frame before, with its defaults resolved.
 FrothResult resolveMotion(const Messages& messages, const char* call, FrothRenderInfo& info) {
-  if (!info.motion.image) {
+  if (!wantsMotion(info)) {
     return FROTH_OK;
   }
   FrothCamera& previous = info.previousCamera;
   if (info.camera.lens.kind == FROTH_LENS_RAY_MAP || previous.lens.kind == FROTH_LENS_RAY_MAP) {
-    return messages.fail(FROTH_ERROR_UNSUPPORTED, call,
-                         "motion: with a ray map, from which no formula leads back to a pixel; leave the image out");
+    return messages.fail(
+        FROTH_ERROR_UNSUPPORTED, call,
+        "motion, reactive: with a ray map, from which no formula leads back to a pixel; leave these images out");
   }
   for (float& scale : info.motionScale) {
     if (!std::isfinite(scale)) {

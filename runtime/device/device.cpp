@@ -8,19 +8,6 @@
 namespace froth {
 namespace {
 
-std::optional<uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowedTypes,
-                                       const MemoryWish& wish) {
-  for (const VkMemoryPropertyFlags wanted : {wish.required | wish.preferred, wish.required}) {
-    for (uint32_t type = 0; type < memory.memoryTypeCount; ++type) {
-      const bool isAllowed = (allowedTypes >> type & 1) != 0;
-      if (isAllowed && (memory.memoryTypes[type].propertyFlags & wanted) == wanted) {
-        return type;
-      }
-    }
-  }
-  return std::nullopt;
-}
-
 // Of all objects that Device::create makes.
 struct ObjectTypeName {
   VkObjectType type;
@@ -82,94 +69,6 @@ Result<Device> Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkI
   result.maxBufferSize = bufferLimits.maxBufferSize;
   getMemoryProperties(physicalDevice, &result.memory);
   return result;
-}
-
-VkDeviceSize Device::roomBytes() const {
-  return budget == 0 ? UINT64_MAX : budget - std::min(budget, ledger.deviceBytes());
-}
-
-VkDeviceSize Device::excessBytes() const {
-  const VkDeviceSize held = ledger.deviceBytes();
-  return budget != 0 && held > budget ? held - budget : 0;
-}
-
-Status Device::checkBudget(VkDeviceSize size, const MemoryWish& wish) {
-  const VkDeviceSize held = ledger.deviceBytes(), room = roomBytes();
-  if (isHostUse(wish.use) || wish.mayExceedBudget || size <= room) {
-    return {};
-  }
-  ++budgetRefusals;
-  return makeError(ErrorKind::kMemory,
-                   "%s: %llu bytes do not fit the device budget: %llu of %llu bytes are in use; raise "
-                   "FrothContextInfo::deviceBudget by %llu bytes (frothSetBudget), or close another asset or view",
-                   wish.purpose, asPrinted(size), asPrinted(held), asPrinted(budget), asPrinted(size - room));
-}
-
-Result<MemoryBlock> Device::allocate(const VkMemoryRequirements& requirements, VkDeviceSize used,
-                                     const MemoryWish& wish) {
-  if (const Status status = checkBudget(requirements.size, wish); !status) {
-    return status.error();
-  }
-  const std::optional<uint32_t> type = findMemoryType(memory, requirements.memoryTypeBits, wish);
-  if (!type) {
-    return makeError(ErrorKind::kDevice, "%s: no memory type of this device fits (allowed types 0x%x)", wish.purpose,
-                     requirements.memoryTypeBits);
-  }
-  FrothMemoryRequest request{};
-  request.structSize = sizeof(request);
-  request.requirements = requirements;
-  request.memoryTypeIndex = *type;
-  request.allocateFlags = wish.flags;
-  request.isMapped = isHostUse(wish.use);
-  request.purpose = wish.purpose;
-  MemoryBlock block{.place = {}, .granted = requirements.size, .used = used, .use = wish.use};
-  const VkResult result = callbacks.allocate ? callbacks.allocate(callbacks.user, &request, &block.place)
-                                             : allocateOwn(request, block.place);
-  if (result != VK_SUCCESS) {
-    return explain(result,
-                   "%s: %s of %llu bytes, with %llu bytes in use and %u allocations (the device has at most %u),",
-                   wish.purpose, callbacks.allocate ? "FrothContextInfo::allocateMemory" : "vkAllocateMemory",
-                   asPrinted(requirements.size), asPrinted(ledger.deviceBytes()), ledger.count(),
-                   properties.limits.maxMemoryAllocationCount);
-  }
-  ledger.add(block);
-  return block;
-}
-
-VkResult Device::allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place) {
-  VkMemoryAllocateFlagsInfo flags{};
-  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
-  flags.flags = request.allocateFlags;
-  VkMemoryAllocateInfo allocation{};
-  allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-  allocation.pNext = &flags;
-  allocation.allocationSize = request.requirements.size;
-  allocation.memoryTypeIndex = request.memoryTypeIndex;
-  VkResult result = table.vkAllocateMemory(device, &allocation, nullptr, &place.memory);
-  if (result != VK_SUCCESS) {
-    return result;
-  }
-  nameObject(VK_OBJECT_TYPE_DEVICE_MEMORY, place.memory, request.purpose);
-  if (request.isMapped) {
-    result = table.vkMapMemory(device, place.memory, 0, VK_WHOLE_SIZE, 0, &place.mapped);
-    if (result != VK_SUCCESS) {
-      table.vkFreeMemory(device, place.memory, nullptr);
-    }
-  }
-  return result;
-}
-
-void Device::release(MemoryBlock& block) {
-  if (!block.place.memory) {
-    return;
-  }
-  ledger.remove(block);
-  if (callbacks.free) {
-    callbacks.free(callbacks.user, &block.place);
-  } else {
-    table.vkFreeMemory(device, block.place.memory, nullptr);  // unmaps
-  }
-  block = {};
 }
 
 Result<VkShaderModule> Device::createShaderModule(const char* name, std::span<const uint32_t> spirv) {

@@ -12,6 +12,7 @@
 
 #include "base/result.h"
 #include "runtime/device/device_memory.h"
+#include "runtime/device/memory_orders.h"
 
 namespace froth {
 
@@ -73,6 +74,15 @@ struct BufferWish {
   const char* name;
 };
 
+// The error of an allocation that a job makes: nothing was changed; ask again in the next update. It has no message.
+inline Error makeOrdered() { return {ErrorKind::kMemory, {}}; }
+inline bool isOrdered(const Status& status) { return !status && status.error().message.empty(); }
+// The same, but it is not even ordered: the budget has no room until a job has given back what was freed.
+inline Error makeRoomToCome() { return {ErrorKind::kCancelled, {}}; }
+inline bool isRoomToCome(const Status& status) {
+  return isOrdered(status) && status.error().kind == ErrorKind::kCancelled;
+}
+
 // What an allocation is for and what memory it wants.
 struct MemoryWish {
   MemoryUse use;
@@ -107,7 +117,7 @@ class DeviceLoss {
   std::optional<Error> error_;
 };
 
-// Owns nothing of the caller's. One thread at a time; any: create, createShaderModule, nameObject, explain.
+// Owns nothing of the caller's. One thread at a time; any: create, createShaderModule, nameObject, explain, run.
 class Device {
  public:
   static Result<Device> create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
@@ -144,9 +154,17 @@ class Device {
     nameHandle(type, (uint64_t)handle, name);  // a pointer, or, on 32 bits, a number
   }
 
-  // `used` of the required bytes will hold something.
+  // `used` of the required bytes will hold something. isOrdered(): not yet.
   Result<MemoryBlock> allocate(const VkMemoryRequirements& requirements, VkDeviceSize used, const MemoryWish& wish);
   void release(MemoryBlock& block);  // resets it to empty
+
+  // What a batch of `orders` asks for. Any thread.
+  void run(MemoryBatch& batch) const;
+  uint64_t newestOrder() const { return orders ? orders->newest() : 0; }
+  void cancelOrdersBehind(uint64_t number) {
+    if (orders) orders->cancelBehind(number, ledger);
+  }
+  void finishOrders();  // no job has a batch any more; from now on memory is taken and given back at once
 
   // The error of a Vulkan call that gave `result`; the text says which call, for what. Remembers a lost device.
 #if defined(__GNUC__)
@@ -169,13 +187,19 @@ class Device {
   uint64_t budgetRefusals = 0;       // allocations that did not fit it
   MemoryLedger ledger;
   MemoryCallbacks callbacks;
+  std::shared_ptr<MemoryOrders> orders;  // null: memory is always taken and given back at once
   std::shared_ptr<DeviceLoss> loss = std::make_shared<DeviceLoss>();
 
  private:
   Error explainCreation(VkResult result, VkObjectType type, const char* name);
   void nameHandle(VkObjectType type, uint64_t handle, const char* name) const;
   Status checkBudget(VkDeviceSize size, const MemoryWish& wish);
-  VkResult allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place);
+  void giveBackNow(const std::vector<MemoryBlock>& blocks);
+  Result<MemoryBlock> takeOrdered(const MemoryOrder& order);
+  Error explainAllocation(VkResult result, const MemoryBlock& block, const char* purpose);
+  VkResult takeMemory(const FrothMemoryRequest& request, FrothDeviceMemory& place) const;
+  VkResult allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place) const;
+  void giveBack(const FrothDeviceMemory& place) const;
   Status createHandle(const BufferWish& wish, GpuBuffer& buffer);
   Result<size_t> shareMemory(std::span<GpuBuffer> buffers, const MemoryWish& wish);
   Status bindMemory(const MemoryBlock& block, GpuBuffer& buffer, const MemoryWish& wish);

@@ -137,7 +137,7 @@ FrothRequirements queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAdd
           limits.maxComputeWorkGroupInvocations >= gpu::kGroupSize, false);
   addItem(requirements, "timestampComputeAndGraphics", "the times of passes (FrothViewStatus::passes)",
           limits.timestampComputeAndGraphics, false);
-  addItem(requirements, "shaderStorageImageExtendedFormats", "the images id and motion (FrothRenderInfo)",
+  addItem(requirements, "shaderStorageImageExtendedFormats", "the images id, motion and reactive (FrothRenderInfo)",
           offer.features.features.shaderStorageImageExtendedFormats, true);
   addItem(requirements, kDynamicRendering.name, "frothRecordDepthExport", isEnabled(offer.features, kDynamicRendering),
           true);

@@ -8,6 +8,7 @@ namespace {
 constexpr VkFormat kColourFormats[] = {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT};
 constexpr VkFormat kHalf4[] = {VK_FORMAT_R16G16B16A16_SFLOAT};
 constexpr VkFormat kHalf2[] = {VK_FORMAT_R16G16_SFLOAT};
+constexpr VkFormat kByte1[] = {VK_FORMAT_R8_UNORM};
 constexpr VkFormat kFloat1[] = {VK_FORMAT_R32_SFLOAT};
 constexpr VkFormat kFloat4[] = {VK_FORMAT_R32G32B32A32_SFLOAT};
 constexpr VkFormat kUint2[] = {VK_FORMAT_R32G32_UINT};
@@ -36,6 +37,8 @@ const std::array<FrameImage, kFrameImageCount> kFrameImages = {{
     {"id", [](Info info) -> const FrothImage& { return info.id; }, ImageRole::kOfHits, 0, true, kUint2, "R32G32_UINT"},
     {"motion", [](Info info) -> const FrothImage& { return info.motion; }, ImageRole::kOfHits, 0, true, kHalf2,
      "R16G16_SFLOAT"},
+    {"reactive", [](Info info) -> const FrothImage& { return info.reactive; }, ImageRole::kOfHits, gpu::kFlagQuarters,
+     true, kByte1, "R8_UNORM"},
 }};
 
 static_assert(gpu::kBindingColour == 0 && gpu::kBindingDistance == 1 && gpu::kBindingNormal == 2 &&

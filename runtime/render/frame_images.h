@@ -27,7 +27,7 @@ struct FrameImage {
   const char* formatNames;  // for messages
 };
 
-inline constexpr uint32_t kFrameImageCount = 8;
+inline constexpr uint32_t kFrameImageCount = 9;
 
 // Those of the descriptor set come first, each at its gpu::kBinding...
 extern const std::array<FrameImage, kFrameImageCount> kFrameImages;
@@ -48,6 +48,9 @@ bool isFullFrame(const FrothRenderInfo& info);
 
 // Whether a frame asks for images that are made from hits.
 inline bool wantsHits(const FrothRenderInfo& info) { return hasRole(info, ImageRole::kOfHits); }
+
+// Whether it asks for the movement since the frame before.
+inline bool wantsMotion(const FrothRenderInfo& info) { return info.motion.image || info.reactive.image; }
 
 // Whether the passes that write rgba32f are meant; else rgba16f, also where no colour is wanted.
 inline bool isWideColour(const FrothRenderInfo& info) {

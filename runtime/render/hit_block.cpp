@@ -102,7 +102,7 @@ void fillHitBlock(const FrothRenderInfo& info, gpu::HitBlock& block) {
   block.regionWidth = region.extent.width;
   block.regionHeight = region.extent.height;
   block.hasPrevious = hasPrevious(info);
-  if (!info.motion.image || !hasPrevious(info)) return;
+  if (!wantsMotion(info) || !hasPrevious(info)) return;
   fillWorldRays(camera, block);
   fillPreviousLens(info.previousCamera, block);
   const Affine toPreviousEye{glm::dmat3(1), eyeOf(camera) - eyeOf(info.previousCamera)};

@@ -15,12 +15,16 @@ static_assert(kHitInstancesOffset + gpu::kMostInstances * sizeof(gpu::HitInstanc
 // Of all instances of the view.
 VkDeviceAddress addressOfHits(const ViewState& view) { return view.spaces.front()->buffers[ViewBuffer::kHits].address; }
 
-// Writes `image` with a workgroup per kSubTileSize x kSubTileSize pixels. set: of the recording's two.
+VkDeviceAddress addressOfQuarters(const ViewState& view) {
+  return view.spaces.front()->buffers[ViewBuffer::kQuarters].address;
+}
+
+// Writes `image` with a workgroup per kSubTileSize x kSubTileSize pixels. set: of the recording's kHitImages.
 void recordHitPass(const Recording& recording, const ImagePass& pass, const FrothImage& image, uint32_t set) {
   const VkDescriptorImageInfo target{VK_NULL_HANDLE, image.view, VK_IMAGE_LAYOUT_GENERAL};
   const VkDeviceAddress block = recording.parts().front().recorder.frame + gpu::kHitBlockOffset;
   const VkExtent2D& extent = recording.info.camera.scissor.extent;
-  pass.bind(recording.commandBuffer, recording.view.hitSets->update(2 * recording.number + set, {&target, 1}),
+  pass.bind(recording.commandBuffer, recording.view.hitSets->update(kHitImages * recording.number + set, {&target, 1}),
             std::as_bytes(std::span(&block, 1)));
   recording.view.device.table.vkCmdDispatch(recording.commandBuffer, groupsOver(extent.width, gpu::kSubTileSize),
                                             groupsOver(extent.height, gpu::kSubTileSize), 1);
@@ -32,6 +36,7 @@ void describeHits(const Recording& recording, uint32_t part, gpu::FrameBlock& bl
   if (!wantsHits(recording.info)) return;
   block.flags |= gpu::kFlagHits;
   block.hits = addressOfHits(recording.view);
+  block.quarters = addressOfQuarters(recording.view);
   block.part = part;
 }
 
@@ -45,6 +50,7 @@ void writeHits(const Recording& recording, uint32_t part, const RenderInstance* 
     gpu::HitBlock hits{};
     fillHitBlock(recording.info, hits);
     hits.hits = addressOfHits(recording.view);
+    hits.quarters = addressOfQuarters(recording.view);
     hits.instances = first.recorder.frame + kHitInstancesOffset;
     std::memcpy(staged + gpu::kHitBlockOffset, &hits, sizeof(hits));
   }
@@ -60,6 +66,7 @@ void recordHitPasses(const Recording& recording) {
     recording.wait();
     if (info.id.image) recordHitPass(recording, *recording.pipelines.writeIds, info.id, 0);
     if (info.motion.image) recordHitPass(recording, *recording.pipelines.writeMotion, info.motion, 1);
+    if (info.reactive.image) recordHitPass(recording, *recording.pipelines.writeReactive, info.reactive, 2);
   });
 }
 

@@ -1,9 +1,12 @@
-// The images that are made from hits: id and motion, each by a small pass after those of raster, walk or clear.
+// The images that are made from hits: id, motion and reactive, each by a small pass after those of raster, walk or
+// clear.
 #pragma once
 
 #include "runtime/render/view_state.h"
 
 namespace froth {
+
+inline constexpr uint32_t kHitImages = 3;
 
 // Fills what `part` of a recording that wants hits needs besides, of its FrameBlock.
 void describeHits(const Recording& recording, uint32_t part, gpu::FrameBlock& block);

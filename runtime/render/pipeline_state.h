@@ -28,6 +28,7 @@ struct RenderPipelines::State {
   LensPipelines merged{};              // from there to kFirstShapedPass, once made
   std::atomic<bool> canMerge = false;  // all of them are there
   std::unique_ptr<ImagePass> writeIds{}, writeMotion{};  // null without ShaderOptions::hasExtendedFormats
+  std::unique_ptr<ImagePass> writeReactive{};            // the same, and without keepsQuarters
   std::unique_ptr<ImagePass> composite{};                // null without ShaderOptions::compositeFormat,
   std::unique_ptr<DepthExport> depthExport{};            // depthExportFormat
   std::map<AssetShape, LensPipelines> byShape{};         // complete; guarded by `mutex`, entries never change or move

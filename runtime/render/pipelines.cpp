@@ -36,6 +36,7 @@
 #include "spirv/widen_cones.h"
 #include "spirv/write_ids.h"
 #include "spirv/write_motion.h"
+#include "spirv/write_reactive.h"
 
 namespace froth {
 namespace {
@@ -78,9 +79,10 @@ struct Specialization {
   VkBool32 isFull;
   uint32_t lensClass;
   VkBool32 floatColours;
+  VkBool32 keepsQuarters;
 };
 
-constexpr std::array<VkSpecializationMapEntry, 8> kSpecializationEntries = {{
+constexpr std::array<VkSpecializationMapEntry, 9> kSpecializationEntries = {{
     {gpu::kConstantCheckIndices, offsetof(Specialization, checkIndices), sizeof(VkBool32)},
     {gpu::kConstantDetailCount, offsetof(Specialization, detailCount), sizeof(uint32_t)},
     {gpu::kConstantLobeCount, offsetof(Specialization, lobeCount), sizeof(uint32_t)},
@@ -89,6 +91,7 @@ constexpr std::array<VkSpecializationMapEntry, 8> kSpecializationEntries = {{
     {gpu::kConstantIsFull, offsetof(Specialization, isFull), sizeof(VkBool32)},
     {gpu::kConstantLensClass, offsetof(Specialization, lensClass), sizeof(uint32_t)},
     {gpu::kConstantFloatColours, offsetof(Specialization, floatColours), sizeof(VkBool32)},
+    {gpu::kConstantKeepsQuarters, offsetof(Specialization, keepsQuarters), sizeof(VkBool32)},
 }};
 
 Result<VkPipeline> createPipeline(RenderPipelines::State& state, const PassCode& code, const Specialization& values) {
@@ -112,7 +115,8 @@ Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint
                         .countWork = state.options.countWork,
                         .isFull = false,
                         .lensClass = gpu::kLensClassPinhole,
-                        .floatColours = state.options.floatColours};
+                        .floatColours = state.options.floatColours,
+                        .keepsQuarters = false};
   for (values.lensClass = 0; values.lensClass < gpu::kLensClassCount; ++values.lensClass) {
     if (!state.hasLensClass(values.lensClass)) continue;
     for (uint32_t pass = first; pass < last; ++pass) {
@@ -122,6 +126,7 @@ Status createPasses(RenderPipelines::State& state, const AssetShape& shape, uint
         continue;
       }
       values.isFull = kPassCodes[pass].isFull;
+      values.keepsQuarters = values.isFull && state.options.keepsQuarters;
       Result<VkPipeline> pipeline = createPipeline(state, kPassCodes[pass], values);
       if (!pipeline) return pipeline.error();
       made = *pipeline;
@@ -163,8 +168,10 @@ Status createHitPasses(RenderPipelines::State& state) {
     pass = std::move(*made);
     return {};
   };
-  const Status status = create("write_ids", write_ids_spirv, state.writeIds);
-  return status ? create("write_motion", write_motion_spirv, state.writeMotion) : status;
+  Status status = create("write_ids", write_ids_spirv, state.writeIds);
+  if (status) status = create("write_motion", write_motion_spirv, state.writeMotion);
+  if (!status || !state.options.keepsQuarters) return status;
+  return create("write_reactive", write_reactive_spirv, state.writeReactive);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct ShaderOptions {
   bool floatColours = false;                         // keep colours of detail sites as floats
   uint32_t lensClasses = 0;                          // FrothLensClass: what cameras they are made for besides pinholes
   bool hasExtendedFormats = false;                   // the device has shaderStorageImageExtendedFormats
+  bool keepsQuarters = false;                        // full frames can have what reactive is made from
   VkFormat compositeFormat = VK_FORMAT_UNDEFINED;    // of the engine's colour; UNDEFINED: no pass for it
   VkFormat depthExportFormat = VK_FORMAT_UNDEFINED;  // of its depth attachment
 };

@@ -66,6 +66,8 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
       return capacity.rays > 0 ? 16 * (gpu::kSubTilesPerTile + 2) * VkDeviceSize{capacity.tiles} : 0;
     case ViewBuffer::kHits:
       return gpu::kHitWords * sizeof(uint32_t) * capacity.hits;
+    case ViewBuffer::kQuarters:
+      return sizeof(gpu::uvec4) * capacity.quarters;
   }
   return 0;
 }
@@ -84,6 +86,7 @@ constexpr std::array<const char*, kViewBufferCount> kNames = {"view: frames",
                                                               "view: rays",
                                                               "view: cones",
                                                               "view: hits",
+                                                              "view: quarters",
                                                               "view: tallies",
                                                               "view: visible cells",
                                                               "view: cell keys",
@@ -107,7 +110,7 @@ struct Group {
   ViewBuffer first, last;
 };
 constexpr Group kGroups[] = {{"view: frames", ViewBuffer::kFrames, ViewBuffer::kWalkStart},
-                             {"view: pixels", ViewBuffer::kRays, ViewBuffer::kHits},
+                             {"view: pixels", ViewBuffer::kRays, ViewBuffer::kQuarters},
                              {"view: tallies", ViewBuffer::kTallies, ViewBuffer::kTallies},
                              {"view: visible cells", ViewBuffer::kVisibleCells, ViewBuffer::kDetails},
                              {"view: planes", ViewBuffer::kPlanes, ViewBuffer::kPlanes},
@@ -148,13 +151,20 @@ ViewBuffers::~ViewBuffers() {
 Status ViewBuffers::grow(const ViewCapacity& wanted, uint64_t lastSerial) {
   const ViewCapacity grown = largest(capacity_, wanted);
   retired_.reserve(retired_.size() + kViewBufferCount);
+  const uint64_t newestOrder = device_.newestOrder();
+  const auto isUnderWay = [](const Status& made) { return isOrdered(made) && !isRoomToCome(made); };
   Buffers larger{};
+  Status status;
   for (const Group& group : kGroups) {
     if (!hasAny(group, buffers_, grown, std::less())) continue;
-    if (const Status status = makeGroup(device_, group, grown, larger); !status) {
-      for (GpuBuffer& made : larger) device_.destroyBuffer(made);
-      return status;
-    }
+    const Status made = makeGroup(device_, group, grown, larger);
+    if (!made) status = made;
+    if (!made && !isUnderWay(made)) break;  // what the others ordered would only take room
+  }
+  if (!status) {
+    if (!isUnderWay(status)) device_.cancelOrdersBehind(newestOrder);
+    for (GpuBuffer& made : larger) device_.destroyBuffer(made);
+    return status;
   }
   replaceBy(larger, lastSerial);
   capacity_ = grown;
@@ -237,7 +247,7 @@ void ViewBuffers::addMemory(FrothViewStatus& status) const {
   add("planes", {kPlanes});
   add("detail sites", {kDetails});
   if (capacity_.rays > 0) add("rays", {kRays, kCones});
-  if (capacity_.hits > 0) add("hits", {kHits});
+  if (capacity_.hits > 0) add("hits", {kHits, kQuarters});
   add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies, kTileLists});
 }
 

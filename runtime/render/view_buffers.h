@@ -26,7 +26,8 @@ enum class ViewBuffer : uint32_t {
   // of pixels
   kRays,  // these two are empty where no lens is mapped
   kCones,
-  kHits,  // empty where the view does not keep them
+  kHits,  // empty where the view does not keep them, as is
+  kQuarters,
   // of cells, pairs and tiles
   kTallies,  // TallyLayout
   // of visible cells
@@ -50,7 +51,7 @@ enum class ViewBuffer : uint32_t {
   kStaging,   // as kFrames, for all frames in flight, written by the CPU
   kReadback,  // Counters of all frames in flight
 };
-inline constexpr uint32_t kViewBufferCount = 26;
+inline constexpr uint32_t kViewBufferCount = 27;
 inline constexpr uint32_t kRecordingsPerFrame = 4;  // a raster and a walk of two eyes
 
 // [bytes] The space of a FrameBlock with its HitBlock, and of Counters. The chunk table follows its block.
@@ -62,7 +63,7 @@ class ViewBuffers {
   ~ViewBuffers();  // the GPU must be done with them
 
   // Makes every buffer large enough; replaces the groups that are not. `lastSerial`: the newest frame that may use what
-  // is replaced; 0: none. On failure the old buffers and the old capacity stay.
+  // is replaced; 0: none. On failure, and while memory is ordered, the old buffers and the old capacity stay.
   Status grow(const ViewCapacity& wanted, uint64_t lastSerial);
   void freeRetired(uint64_t completedSerial);
 
@@ -73,6 +74,7 @@ class ViewBuffers {
   bool isTrimmed() const;  // no buffer is larger than the capacity, or waits to be freed
 
   const GpuBuffer& operator[](ViewBuffer id) const { return buffers_[static_cast<uint32_t>(id)]; }
+  bool areMade() const { return buffers_[0].size != 0; }  // not before the first grow() that succeeds
   const ViewCapacity& capacity() const { return capacity_; }
   // Cells that the next recordings will probably show; any number is right, and one near it is fast.
   void expectCells(uint64_t cells) { expectedCells_ = cells; }

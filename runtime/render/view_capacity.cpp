@@ -33,6 +33,7 @@ ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b) {
           .tiles = std::max(a.tiles, b.tiles),
           .rays = std::max(a.rays, b.rays),
           .hits = std::max(a.hits, b.hits),
+          .quarters = std::max(a.quarters, b.quarters),
           .walkStarts = std::max(a.walkStarts, b.walkStarts),
           .cells = std::max(a.cells, b.cells),
           .planes = std::max(a.planes, b.planes),

@@ -73,23 +73,25 @@ void readBack(ViewState& view, uint64_t completedSerial) {
 }
 
 // The largest part of what is wanted that the budget has room for, by halves.
-void growToLess(InstanceSpace& space, const ViewCapacity& wanted) {
+Status growToLess(InstanceSpace& space, const ViewCapacity& wanted) {
   const ViewCapacity least = lessened(wanted, 0);
   for (double factor = 0.5;; factor *= 0.5) {
     const ViewCapacity less = lessened(wanted, factor);
-    if (space.buffers.grow(less, space.lastSerial) || less == least) return;
+    const Status status = space.buffers.grow(less, space.lastSerial);
+    if (status || isOrdered(status) || less == least) return status;
   }
 }
 
-// What is wanted, by parts: each needs room beside what it replaces only. Whether that was all.
-bool growInParts(InstanceSpace& space, const ViewCapacity& wanted, uint64_t completedSerial) {
-  bool isAll = true;
+// What is wanted, by parts: each needs room beside what it replaces only.
+Status growInParts(InstanceSpace& space, const ViewCapacity& wanted, uint64_t completedSerial) {
+  Status result;
   for (const ViewCapacity& part : {ViewCapacity{.cells = wanted.cells, .details = wanted.details},
                                    ViewCapacity{.planes = wanted.planes}, ViewCapacity{.pairs = wanted.pairs}}) {
-    isAll = space.buffers.grow(part, space.lastSerial) && isAll;
+    const Status status = space.buffers.grow(part, space.lastSerial);
+    if (!status && !isOrdered(result)) result = status;
     space.buffers.freeRetired(completedSerial);
   }
-  return isAll;
+  return result;
 }
 
 Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, const ViewCapacity& wanted,
@@ -105,11 +107,9 @@ Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, 
   const uint64_t budgetRefusals = device.budgetRefusals;
   const Status status = space.buffers.grow(wanted, space.lastSerial);
   if (device.budgetRefusals == budgetRefusals) return status;
-  if (asset && !coversAsset(*asset, space.buffers.capacity())) {
-    growToLess(space, wanted);
-  } else if (growInParts(space, wanted, completedSerial)) {
-    return {};
-  }
+  const bool covers = space.buffers.areMade() && (!asset || coversAsset(*asset, space.buffers.capacity()));
+  const Status less = covers ? growInParts(space, wanted, completedSerial) : growToLess(space, wanted);
+  if ((covers && less) || isOrdered(less)) return less;
   space.refusal = {asset, budget, device.ledger.deviceBytes(), status.error()};
   return status;
 }
@@ -132,7 +132,14 @@ Status prepareSpace(ViewState& view, InstanceSpace& space, uint64_t completedSer
   return status;
 }
 
-Error nameInstance(const RenderInstance& instance, const Error& error) {
+// The first error counts, but for what is only ordered.
+void keepFirst(const Status& status, Status& result) {
+  if (result || (isOrdered(result) && !status)) result = status;
+}
+
+Status nameInstance(const RenderInstance& instance, const Status& status) {
+  if (status || isOrdered(status)) return status;
+  const Error& error = status.error();
   return makeError(error.kind, "instance {%u, %u}, userId %u: %s", instance.handle.index, instance.handle.generation,
                    instance.userId, error.message.c_str());
 }
@@ -187,7 +194,7 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
     InstanceSpace* space = findSpace(recording.view, instance.handle);
     const PassPipelines* passes = pipelines.find(instance.asset->shape(), lensClassOf(recording.info.camera));
     const bool isFirst = recording.view.parts.empty();
-    if (!space || !passes || !coversAsset(*instance.asset, space->buffers.capacity()) ||
+    if (!space || !passes || !space->buffers.areMade() || !coversAsset(*instance.asset, space->buffers.capacity()) ||
         !(isFirst || pipelines.canMerge)) {
       bits |= FROTH_VIEW_NOT_READY;
     } else if (recording.method == RenderMethod::kWalk && !instance.asset->hasWalkGraph) {
@@ -222,7 +229,9 @@ ViewCapacity leastCapacity(const ViewOptions& options) {
 
 ViewCapacity firstCapacity(const ViewOptions& options) {
   ViewCapacity capacity = leastCapacity(options);
-  if (options.keepsHits) capacity.hits = uint64_t{options.maxExtent.width} * options.maxExtent.height;
+  const uint64_t pixels = uint64_t{options.maxExtent.width} * options.maxExtent.height;
+  if (options.keepsHits) capacity.hits = pixels;
+  if (options.keepsReactive) capacity.quarters = pixels;
   return capacity;
 }
 
@@ -237,7 +246,7 @@ Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const
   std::unique_ptr<DescriptorSets> hitSets, compositeSets, exportSets;
   Status sets;
   if (options.keepsHits) {
-    sets = createSets(device, "hits of a view", {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, 2 * recordings, hitSets);
+    sets = createSets(device, "hits of a view", {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}}, kHitImages * recordings, hitSets);
   }
   if (sets && options.composites) {
     sets = createSets(device, "composite", compositeBindings(), kMostEyes * options.framesInFlight, compositeSets);
@@ -301,12 +310,11 @@ Status ViewRenderer::prepare(uint64_t completedSerial, std::span<const RenderIns
   Status result;
   for (const RenderInstance& instance : instances) {
     const Status status = prepareSpace(view, takeSpace(view, instance.handle), completedSerial, instance.asset);
-    if (result && !status) result = nameInstance(instance, status.error());
+    keepFirst(nameInstance(instance, status), result);
   }
   for (const auto& space : view.spaces) {
     if (space->isTaken) continue;
-    const Status status = prepareSpace(view, *space, completedSerial, nullptr);
-    if (result && !status) result = status;
+    keepFirst(prepareSpace(view, *space, completedSerial, nullptr), result);
   }
   describeMemory(view);
   return result;

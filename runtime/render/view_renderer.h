@@ -42,7 +42,8 @@ struct ViewOptions {
   uint32_t lensClasses = 0;  // FrothLensClass bits of its cameras
   uint32_t framesInFlight = 1;
   bool measurePasses = false;
-  bool keepsHits = false;  // for id and motion
+  bool keepsHits = false;      // for id and motion
+  bool keepsReactive = false;  // for reactive, with hits
   bool composites = false, exportsDepth = false;
   Breadcrumbs* breadcrumbs = nullptr;    // they stay longer than the renderer; null: none are wanted
   uint32_t reservedCells = 0;            // room from the first frame on, for each instance; no more than its asset has

@@ -59,7 +59,7 @@ struct ViewState {
   Device& device;
   std::vector<std::unique_ptr<InstanceSpace>> spaces;  // the first stays
   std::unique_ptr<OutputImages> images;
-  std::unique_ptr<DescriptorSets> hitSets{};  // two per recording; null: the view keeps no hits
+  std::unique_ptr<DescriptorSets> hitSets{};  // kHitImages per recording; null: the view keeps no hits
   // one per frame in flight; null: the context does not do that
   std::unique_ptr<DescriptorSets> compositeSets{}, exportSets{};
   std::unique_ptr<PassTimer> timer;    // null: not measured

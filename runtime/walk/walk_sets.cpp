@@ -107,12 +107,12 @@ Status WalkSets::grow(uint32_t chunkCount) {
   retired_.reserve(retired_.size() + 2);  // so that what is replaced has its place
   Result<GpuBuffer> tables = device_.createBuffer(MemoryUse::kWalks, BufferKind::kDevice, size, "walk sets");
   Result<GpuBuffer> staging =
-      tables ? device_.createBuffer(MemoryUse::kWalksHost, BufferKind::kStaging, size, "staging of walk sets")
-             : Result<GpuBuffer>(tables.error());
-  if (!staging) {
+      device_.createBuffer(MemoryUse::kWalksHost, BufferKind::kStaging, size, "staging of walk sets");
+  if (!tables || !staging) {
     if (tables) device_.destroyBuffer(*tables);
+    if (staging) device_.destroyBuffer(*staging);
     chunkCapacity_ = oldCapacity;
-    return staging.error();
+    return tables ? staging.error() : tables.error();
   }
   if (tables_.buffer) retired_.emplace_back(recordedSerial_, tables_);
   if (staging_.buffer) retired_.emplace_back(recordedSerial_, staging_);

@@ -15,6 +15,9 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::IsMember({"raster", "walk", "difference"}));
   program.add_flag("--counters", options.isCounting, "Window: count what the rays cost; slower");
+  program
+      .add_option("--target-ms", options.targetMilliseconds, "Window: draw less where frames take longer on the GPU")
+      ->check(CLI::PositiveNumber);
   froth::addRunOptions(program, options);
   return froth::runProgram("froth_flythrough", program, argc, argv, [&] {
     if (picture == "walk") options.picture = froth::Picture::kWalk;

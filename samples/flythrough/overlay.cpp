@@ -42,6 +42,7 @@ void Overlay::layOut(const OverlayContent& content, VkExtent2D extent) {
   ImGui::SetNextWindowPos(ImVec2(12, 12), ImGuiCond_FirstUseEver);
   ImGui::Begin("Froth", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::Text("%s, %s, %.1f frames/s", content.picture, content.camera, ImGui::GetIO().Framerate);
+  if (content.scale < 1) ImGui::Text("drawn at %.2f of width and height", double{content.scale});
   if (content.asset.state == FROTH_ASSET_OPENING) {
     ImGui::Text("loading, %.1f MiB to go", static_cast<double>(content.frame.uploadBytesQueued) / kMebi);
   }

@@ -1,5 +1,7 @@
 #include "samples/flythrough/painter.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "host/vulkan_check.h"
@@ -48,16 +50,29 @@ Status Painter::setExtent(Scene& scene, VkExtent2D extent) {
   Result<std::unique_ptr<ComputePass>> difference = ComputePass::create(host_, kDifferenceShader, images);
   if (!difference) return difference.error();
   difference_ = std::move(*difference);
+  shown_ = first_;
   return scene.setExtent(extent);
+}
+
+void Painter::setQuality(const FrothQuality& quality) {
+  scale_ = quality.scale;
+  cutoff_ = quality.cutoff;
 }
 
 Status Painter::record(VkCommandBuffer commands, Scene& scene, Picture picture, const Pose& pose,
                        VkPipelineStageFlags2 readStage) {
+  shown_ = first_;
   if (picture == Picture::kDifference) return recordDifference(commands, scene, pose, readStage);
-  FrothImage target = host_.describe(first_);
+  const auto partOf = [&](uint32_t length) {
+    return static_cast<uint32_t>(std::lround(scale_ * static_cast<float>(length)));
+  };
+  shown_.extent = {std::max(partOf(first_.extent.width), 1u), std::max(partOf(first_.extent.height), 1u)};
+  FrothImage target = host_.describe(shown_);
   target.stageOut = readStage;
   target.accessOut = VK_ACCESS_2_TRANSFER_READ_BIT;
-  return scene.draw(commands, picture == Picture::kWalk ? Method::kWalk : Method::kRaster, renderInfo(pose, target));
+  FrothRenderInfo info = renderInfo(pose, target);
+  info.cutoff = cutoff_;
+  return scene.draw(commands, picture == Picture::kWalk ? Method::kWalk : Method::kRaster, info);
 }
 
 Status Painter::recordDifference(VkCommandBuffer commands, Scene& scene, const Pose& pose,

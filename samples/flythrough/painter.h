@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "froth/froth_quality.h"
 #include "host/compute_pass.h"
 #include "host/scene.h"
 
@@ -24,10 +25,14 @@ class Painter {
   // (Re)makes the images, and the scene's view to fit; the device is done with every frame.
   Status setExtent(Scene& scene, VkExtent2D extent);
 
+  // What raster and walk draw from now on: the upper left part of the images, to this cut-off.
+  void setQuality(const FrothQuality& quality);
+
   // Leaves result() in layout GENERAL for transfer reads at `readStage`.
   Status record(VkCommandBuffer commands, Scene& scene, Picture picture, const Pose& pose,
                 VkPipelineStageFlags2 readStage);
-  const HostImage& result() const { return first_; }  // linear premultiplied colour, RGBA16F
+  // Linear premultiplied colour, RGBA16F; its extent is that of the part that was drawn.
+  const HostImage& result() const { return shown_; }
 
  private:
   void destroyImages();
@@ -35,6 +40,8 @@ class Painter {
 
   Host& host_;
   HostImage first_, second_;  // the second holds the walk while the two are compared
+  HostImage shown_;           // of first_
+  float scale_ = 1, cutoff_ = 0;
   std::unique_ptr<ComputePass> difference_;
 };
 

@@ -27,7 +27,7 @@ class Flythrough : public WindowClient {
   Status create();
   Status run() { return window_->run(*this, options_.frames); }
 
-  Status resize(VkExtent2D extent) override { return painter_->setExtent(*scene_, extent); }
+  Status resize(VkExtent2D extent) override;
   void handleInput(double seconds) override;
   void layOut() override;
   Status record(VkCommandBuffer commands, const FrameRing& frames) override;
@@ -37,6 +37,7 @@ class Flythrough : public WindowClient {
   Status startFlight();
   void steer(double seconds);
   Pose currentPose() const;
+  Status holdTime(uint64_t serial);
 
   // Destroyed from the last to the first.
   const FlythroughOptions& options_;
@@ -50,6 +51,7 @@ class Flythrough : public WindowClient {
   std::optional<FlyCamera> flight_;
   double pathSeconds_ = 0;
   Picture shown_;
+  FrothQuality quality_{};
   bool isOnPath_ = true, isOverlayShown_ = true;
   Status screenshot_;
 };
@@ -76,6 +78,30 @@ Status Flythrough::create() {
   scene_ = std::move(*scene);
   painter_ = std::make_unique<Painter>(window_->host());
   return {};
+}
+
+Status Flythrough::resize(VkExtent2D extent) {
+  quality_ = {};
+  return painter_->setExtent(*scene_, extent);
+}
+
+// Draws less where frames take longer than --target-ms.
+Status Flythrough::holdTime(uint64_t serial) {
+  if (options_.targetMilliseconds == 0) return {};
+  FrothQualityInfo info{};
+  info.structSize = sizeof(info);
+  info.targetMilliseconds = options_.targetMilliseconds;
+  FrothQualityTimes times{};
+  times.structSize = sizeof(times);
+  times.serial = serial;
+  const Result<FrothViewStatus> view = scene_->viewStatus();
+  if (!view) return view.error();
+  times.measuredSerial = view->serial;
+  for (uint32_t i = 0; i < view->passCount; ++i) times.milliseconds += view->passes[i].milliseconds;
+  quality_.structSize = sizeof(quality_);
+  Status stepped = scene_->check(frothStepQuality(&info, &times, &quality_), "frothStepQuality");
+  if (stepped) painter_->setQuality(quality_);
+  return stepped;
 }
 
 Status Flythrough::startFlight() {
@@ -129,6 +155,7 @@ void Flythrough::layOut() {
   if (!isOverlayShown_) return;
   OverlayContent content;
   content.picture = nameOf(shown_);
+  content.scale = options_.targetMilliseconds > 0 ? quality_.scale : 1;
   content.camera = isOnPath_ ? "path" : "free flight";
   content.asset = scene_->assetStatus();
   content.frame = scene_->frameStatus();
@@ -143,6 +170,7 @@ Status Flythrough::record(VkCommandBuffer commands, const FrameRing& frames) {
   if (!path_ && scene_->isReady()) {
     if (Status started = startFlight(); !started) return started;
   }
+  if (Status held = holdTime(frames.nextSerial()); !held) return held;
   return painter_->record(commands, *scene_, shown_, currentPose(), VK_PIPELINE_STAGE_2_BLIT_BIT);
 }
 

@@ -9,6 +9,7 @@ layout(constant_id = kConstantCheckIndices) const bool checkIndices = false;
 layout(constant_id = kConstantIsFull) const bool isFull = true;
 layout(constant_id = kConstantLensClass) const uint lensClass = kLensClassPinhole;
 layout(constant_id = kConstantFloatColours) const bool floatColours = false;
+layout(constant_id = kConstantKeepsQuarters) const bool keepsQuarters = false;
 
 #if defined(FROTH_SORT)
 layout(push_constant) uniform Push {

@@ -1,4 +1,4 @@
-// Leaves where the ray of a pixel was stopped for the passes over hits (write_ids.comp, write_motion.comp).
+// Leaves where the ray of a pixel was stopped for the passes over hits (write_ids.comp and so on).
 #ifndef FROTH_GPU_HITS_GLSL
 #define FROTH_GPU_HITS_GLSL
 #include "gpu/frame.glsl"
@@ -17,6 +17,13 @@ void writeHit(uvec2 pixel, float distance, uint part, uint cellCode) {
   FRAME.hits.v[place + 1] = part;
   FRAME.hits.v[place + 2] = cellCode;
 }
+
+// Places in world units; parts: of their instances.
+void writeQuarters(uvec2 pixel, vec4 places, uvec4 parts) {
+  FRAME.quarters.v[pixel.y * FRAME.regionWidth + pixel.x] = (floatBitsToUint(places) & ~kQuarterPartMask) | parts;
+}
+
+bool wantsQuarters() { return (FRAME.flags & kFlagQuarters) != 0; }
 
 bool wantsHits() { return (FRAME.flags & kFlagHits) != 0; }
 

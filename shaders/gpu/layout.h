@@ -72,7 +72,8 @@ FROTH_CONST kConstantHasHeights = 3;
 FROTH_CONST kConstantCountWork = 4;
 FROTH_CONST kConstantIsFull = 5;  // the frame wants more than colour and distance, or has a scene's depth
 FROTH_CONST kConstantLensClass = 6;
-FROTH_CONST kConstantFloatColours = 7;  // DetailRecord::colour
+FROTH_CONST kConstantFloatColours = 7;   // DetailRecord::colour
+FROTH_CONST kConstantKeepsQuarters = 8;  // full frames can have FrameBlock::quarters
 
 // How the passes of a pipeline see: kConstantLensClass.
 FROTH_CONST kLensClassPinhole = 0;
@@ -97,6 +98,7 @@ FROTH_CONST kFlagDisplayCoded = 8;
 FROTH_CONST kFlagDepth = 32;
 FROTH_CONST kFlagSceneDepth = 64;
 FROTH_CONST kFlagHits = 128;
+FROTH_CONST kFlagQuarters = 2048;
 FROTH_CONST kFlagShortTiles = 256;   // all tiles are drawn as short ones,
 FROTH_CONST kFlagLongTiles = 512;    // or as long ones (FrothRenderInfo::tileForm)
 FROTH_CONST kFlagCountSizes = 1024;  // there may be no room for all cells in view: the largest stay
@@ -262,17 +264,22 @@ struct FrameBlock {
   // [1] chunk, local index of the cell that holds the eye; orthographic: [tile] of that where its middle ray starts;
   // kept over frames
   FROTH_ADDRESS(UintPairArray) walkStart;
-  FROTH_ADDRESS(FloatQuadArray) rays;   // [row of the region, column] xyz: unit direction; 0: none
-  FROTH_ADDRESS(FloatQuadArray) cones;  // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]
-  FROTH_ADDRESS(UintArray) hits;        // [row of the region, column] kHitWords each, with kFlagHits
-  uint part;                            // which instance of the recording it is
-  uint zero;                            // 0, which compilers do not know
+  FROTH_ADDRESS(FloatQuadArray) rays;     // [row of the region, column] xyz: unit direction; 0: none
+  FROTH_ADDRESS(FloatQuadArray) cones;    // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]
+  FROTH_ADDRESS(UintArray) hits;          // [row of the region, column] kHitWords each, with kFlagHits
+  uint part;                              // which instance of the recording it is
+  uint zero;                              // 0, which compilers do not know
+  FROTH_ADDRESS(UintQuadArray) quarters;  // [row of the region, column] with kFlagQuarters
 };
 
 // A hit: where a pixel's ray was stopped, by bits of a float [world units] (+inf: nowhere), the instance (an index of
 // HitBlock::instances), and the code of the cell there, or of the last one that the ray met: chunk << localBits | cell,
 // or kNoCell.
 FROTH_CONST kHitWords = 3;
+
+// The quarters of a pixel (foam/quarters.h), a word each: bits of the distance as in a hit, of which the lowest are the
+// instance.
+FROTH_CONST kQuarterPartMask = 15;
 
 // Lies at this offset in the space of a FrameBlock.
 FROTH_CONST kHitBlockOffset = 640;
@@ -304,6 +311,7 @@ struct HitBlock {
   uint padding;
   FROTH_ADDRESS(UintArray) hits;
   FROTH_ADDRESS(HitInstanceArray) instances;
+  FROTH_ADDRESS(UintQuadArray) quarters;
 };
 
 // Push constants of composite.comp. [pixels]
@@ -338,9 +346,10 @@ static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64
 static_assert(kSizeClasses * kKeysPerSize == kSizeKeys && kSizeKeys % kGroupSize == 0);
 static_assert(offsetof(Counters, dropDispatch) == 64 && offsetof(Counters, work) == 192 && sizeof(Counters) == 256);
 static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 248);
-static_assert(offsetof(FrameBlock, counters) == 328 && sizeof(FrameBlock) == 544);
+static_assert(offsetof(FrameBlock, counters) == 328 && sizeof(FrameBlock) == 552);
 static_assert(sizeof(FrameBlock) <= kHitBlockOffset && sizeof(HitInstance) == 64);
-static_assert(offsetof(HitBlock, pixels) == 208 && offsetof(HitBlock, hasPrevious) == 256 && sizeof(HitBlock) == 280);
+static_assert(offsetof(HitBlock, pixels) == 208 && offsetof(HitBlock, hasPrevious) == 256 && sizeof(HitBlock) == 288);
+static_assert(kMostInstances <= kQuarterPartMask + 1);
 static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);
 static_assert(sizeof(PassConstants) + sizeof(PartConstants) <= 128, "what every device has");
 

@@ -11,6 +11,7 @@
 #include "foam/cell.h"
 #include "foam/clip_face.h"
 #include "foam/compositing.h"
+#include "foam/quarters.h"
 
 #if defined(FROTH_MERGED)
 #define detailCount FRAME.detailCount
@@ -28,6 +29,7 @@ struct Radiance {
   vec3 normal;
   float distance;  // kInfinity until transmittance falls below the quantile
   uint cell;       // slot of the one in which that happened, until then of the last one that was met; kNoCell: none
+  vec4 quarters;   // with keepsQuarters: foam/quarters.h; kInfinity: not reached
 };
 
 // What a ray asks of the frame over and over, to be held in registers.
@@ -49,7 +51,7 @@ struct Segment {
 
 bool isEmpty(Segment segment) { return !(segment.tFar > segment.tNear); }
 
-Radiance emptyRadiance() { return Radiance(vec3(0.0), 0.0, vec3(0.0), kInfinity, kNoCell); }
+Radiance emptyRadiance() { return Radiance(vec3(0.0), 0.0, vec3(0.0), kInfinity, kNoCell, vec4(kInfinity)); }
 
 bool isSaturated(Shading shading, Radiance radiance) { return radiance.logTransmittance < shading.logCutoff; }
 
@@ -136,6 +138,14 @@ void clipByFace(Shading shading, FaceView view, uint firstDetail, inout Segment 
   }
 }
 
+// Those below whose middle transmittance falls in an interval from tNear on; before, after: logarithms of it.
+void placeQuarters(float tNear, float density, float before, float after, inout vec4 quarters) {
+  for (int i = 0; i < 4; ++i) {
+    float middle = log(middleOfQuarter(i));
+    if (before >= middle && after < middle) quarters[i] = quantileDistance(tNear, before, middle, density);
+  }
+}
+
 // Adds an interval of constant density and colour. `normal`: unit.
 void composite(Shading shading, Segment segment, float density, vec3 colour, vec3 normal, inout Radiance radiance) {
   float opticalDepth = density * (segment.tFar - segment.tNear);
@@ -146,6 +156,7 @@ void composite(Shading shading, Segment segment, float density, vec3 colour, vec
   if (radiance.logTransmittance >= shading.logQuantile && after < shading.logQuantile) {
     radiance.distance = quantileDistance(segment.tNear, radiance.logTransmittance, shading.logQuantile, density);
   }
+  if (keepsQuarters) placeQuarters(segment.tNear, density, radiance.logTransmittance, after, radiance.quarters);
   radiance.logTransmittance = after;
 }
 

@@ -118,6 +118,7 @@ Interval findInterval(float passed) {
 struct Merged {
   Radiance radiance;  // with the code of its cell
   uint part;          // whose that is
+  uvec4 quarterParts;  // whose Radiance::quarters are
   float exposure;
 };
 
@@ -127,6 +128,7 @@ Merged mergeStreams(uvec2 pixel) {
   Radiance radiance = emptyRadiance();
   float exposures = 0.0;
   uint part = 0;
+  uvec4 quarterParts = uvec4(0);
   selectPart(0);  // its limits are those of all
   Shading limits = loadShading();
   float passed = 0.0;
@@ -144,13 +146,17 @@ Merged mergeStreams(uvec2 pixel) {
       }
       float opticalDepth = interval.density * (interval.segment.tFar - interval.segment.tNear);
       float shown = exp(radiance.logTransmittance) * opacity(opticalDepth);
+      vec4 quarters = radiance.quarters;
       composite(limits, interval.segment, interval.density, interval.colour, interval.normal, radiance);
+      if (keepsQuarters) {
+        quarterParts = mix(quarterParts, uvec4(interval.part), notEqual(quarters, radiance.quarters));
+      }
       exposures += interval.exposure * shown;
     }
     passed = interval.segment.tFar;
   }
   float coverage = coverageOf(radiance.logTransmittance);
-  return Merged(radiance, part, coverage > 0.0 ? exposures / coverage : 1.0);
+  return Merged(radiance, part, quarterParts, coverage > 0.0 ? exposures / coverage : 1.0);
 }
 
 void findRayEnd(uvec2 pixel) {
@@ -165,6 +171,7 @@ void writeMerged(uvec2 pixel, Merged merged) {
   writePixel(pixel, radiance.colour, coverageOf(radiance.logTransmittance), merged.exposure, radiance.distance,
              radiance.normal, depth);
   if (isFull && wantsHits()) writeHit(pixel, radiance.distance, merged.part, radiance.cell);
+  if (keepsQuarters && wantsQuarters()) writeQuarters(pixel, radiance.quarters, merged.quarterParts);
 }
 
 #endif

@@ -1,17 +1,40 @@
 // The descriptor set of rays in an engine's shader, and the instance at hand: what gpu/frame.glsl is to the passes of a
-// view.
+// view. FROTH_SLANG: for froth_walk.slang (bundle/bundle_shader.cpp).
 #ifndef FROTH_GPU_WALK_SET_GLSL
 #define FROTH_GPU_WALK_SET_GLSL
+#if !defined(FROTH_SLANG)
 #extension GL_EXT_buffer_reference : require
+#endif
 #include "gpu/walk_layout.h"
 
+#if defined(FROTH_SLANG)
+struct WalkSet {
+  WalkBlock block;
+};
+[[vk::binding(kBindingWalk, FROTH_WALK_SET)]] ConstantBuffer<WalkSet> walkSet;
+#if !defined(FROTH_WALK_NO_COUNTERS)
+struct WalkCountersSet {
+  WalkCounters v;
+};
+[[vk::binding(kBindingWalkCounters, FROTH_WALK_SET)]] RWStructuredBuffer<WalkCountersSet> walkCountersSet;
+#define walkCounters walkCountersSet[0]
+
+uint atomicAdd(__ref uint sum, uint amount) {
+  uint before;
+  InterlockedAdd(sum, amount, before);
+  return before;
+}
+#endif
+static uint instanceAtHand;
+#else
 layout(set = FROTH_WALK_SET, binding = kBindingWalk, std140) uniform WalkSet { WalkBlock block; } walkSet;
 #if !defined(FROTH_WALK_NO_COUNTERS)
 layout(set = FROTH_WALK_SET, binding = kBindingWalkCounters, std430)
     buffer WalkCountersSet { WalkCounters v; } walkCounters;
 #endif
-
 uint instanceAtHand;
+#endif
+
 #define FRAME walkSet.block.instances.v[instanceAtHand]
 #define kInfinity uintBitsToFloat(0x7f800000u)
 

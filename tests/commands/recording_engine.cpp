@@ -54,7 +54,7 @@ void aim(FrothCamera& camera, CameraKind kind) {
 }
 
 std::vector<FrothImage*> outputsOf(FrothRenderInfo& info) {
-  return {&info.colour, &info.distance, &info.normal, &info.depth, &info.id, &info.motion};
+  return {&info.colour, &info.distance, &info.normal, &info.depth, &info.id, &info.motion, &info.reactive};
 }
 
 }  // namespace
@@ -68,6 +68,7 @@ RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeForma
   };
   info.lensClasses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC;
   info.walkShaders = 1;
+  info.reactiveImages = 1;
   info.compositeFormat = compositeFormat;
   info.depthExportFormat = kDepthFormat;
   check(frothCreateContext(&info, &context_), "frothCreateContext");
@@ -84,7 +85,7 @@ RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeForma
     placement.mask = 1;
     check(frothCreateInstance(context_, &placement, &instance), "frothCreateInstance");
   }
-  const FrothViewInfo view{sizeof(FrothViewInfo), kExtent, 1, info.lensClasses, 1, 2, reserveCells, {}};
+  const FrothViewInfo view{sizeof(FrothViewInfo), kExtent, 1, info.lensClasses, 1, 2, reserveCells, {}, 1};
   check(frothCreateView(context_, &view, &view_), "frothCreateView");
 }
 
@@ -142,6 +143,7 @@ FrothRenderInfo RecordingEngine::renderInfo(const FrameForm& form, uint32_t eye)
   info.sceneDepth = input(VK_FORMAT_R32_SFLOAT);
   if (form.camera == CameraKind::kRayMap) return info;
   info.motion = output(VK_FORMAT_R16G16_SFLOAT);
+  info.reactive = output(VK_FORMAT_R8_UNORM);
   aim(info.previousCamera, form.camera);
   return info;
 }

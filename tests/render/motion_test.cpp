@@ -3,18 +3,16 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <glm/gtc/quaternion.hpp>
 
 #include "reference/camera/view_rays.h"
+#include "tests/render/motion_forms.h"
 #include "tests/render/random_foam.h"
-#include "tests/render/render_harness.h"
 
 namespace froth::test {
 namespace {
 
-constexpr uint32_t kWidth = 120, kHeight = 90;
+constexpr uint32_t kWidth = kMotionWidth, kHeight = kMotionHeight;
 constexpr uint32_t kLenses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC;
-constexpr double kPi = 3.14159265358979323846;
 
 FrothContext* context() {
   static FrothContext* const made = createCheckedContext(kLenses);
@@ -26,80 +24,6 @@ Stage& stage() {
       new Stage(bakeForTest(makeRandomFoam(400, 4, 2, 57)), {kWidth, kHeight}, context(), 0, kLenses, true);
   return *made;
 }
-
-struct Pose {
-  glm::dvec3 position{0};
-  glm::dquat rotation{1, 0, 0, 0};
-  double scale = 1;
-};
-
-FrothInstanceInfo infoOf(const Pose& pose) {
-  const glm::dquat& q = pose.rotation;
-  return placementOf(pose.position, glm::dvec4(q.x, q.y, q.z, q.w), static_cast<float>(pose.scale));
-}
-
-glm::dvec3 toWorld(const Pose& pose, const glm::dvec3& point) {
-  return pose.position + pose.rotation * (pose.scale * point);
-}
-
-glm::dvec3 toAsset(const Pose& pose, const glm::dvec3& point) {
-  return glm::inverse(pose.rotation) * (point - pose.position) / pose.scale;
-}
-
-View viewOf(LensKind kind, const glm::dvec3& eye = {0.6, -0.5, 0.3}, const glm::dvec3& target = {0.05, 0.1, 3}) {
-  View view = lookAt(eye, target, kWidth, kHeight, 0.5);
-  view.lens.kind = kind;
-  view.fx = view.fy = kind == LensKind::kPinhole ? 85 : kind == LensKind::kOrthographic ? 32 : 60;
-  if (kind == LensKind::kKannalaBrandt) view.lens.distortion = {-0.021, 0.0088, -0.0056, 0.0008};
-  if (kind == LensKind::kRadialTangential) view.lens.distortion = {-0.2, 0.05, -0.0011, 0.0023};
-  if (kind == LensKind::kEquirectangular) {
-    view.fx = kWidth / (2 * kPi);
-    view.fy = kHeight / kPi;
-  }
-  return view;
-}
-
-// Where a view shows a point, or what lies in a direction; the models as they were published.
-glm::dvec2 pixelOf(const View& view, const glm::dvec3& place, bool isDirection) {
-  const glm::dvec3 world = isDirection ? place : place - eyeOf(view);
-  glm::dvec3 v;
-  for (int row = 0; row < 3; ++row) {
-    const auto& m = view.worldFromCamera;
-    v[row] = m[row] * world.x + m[4 + row] * world.y + m[8 + row] * world.z;
-  }
-  const double r = std::hypot(v.x, v.y), theta = std::atan2(r, v.z);
-  const std::vector<double>& k = view.lens.distortion;
-  glm::dvec2 point(v.x, v.y);
-  switch (view.lens.kind) {
-    case LensKind::kFisheye:
-      point *= theta / r;
-      break;
-    case LensKind::kKannalaBrandt:
-      point *= (theta + k[0] * std::pow(theta, 3) + k[1] * std::pow(theta, 5) + k[2] * std::pow(theta, 7) +
-                k[3] * std::pow(theta, 9)) /
-               r;
-      break;
-    case LensKind::kRadialTangential: {
-      const double x = v.x / v.z, y = v.y / v.z, r2 = x * x + y * y, radial = 1 + k[0] * r2 + k[1] * r2 * r2;
-      point = {x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x),
-               y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
-      break;
-    }
-    case LensKind::kEquirectangular:
-      point = {std::atan2(v.x, v.z), std::atan2(v.y, std::hypot(v.x, v.z))};
-      break;
-    case LensKind::kOrthographic:
-      break;
-    default:
-      point /= v.z;
-  }
-  return {view.cx + view.fx * point.x, view.cy + view.fy * point.y};
-}
-
-struct Moved {
-  View now, before;
-  Pose poseNow{}, poseBefore{};
-};
 
 // Pixels whose point the foam gives, and all others.
 void expectMotion(const Moved& moved, const Frame& frame, const glm::dvec2& scale = {1, 1}) {
@@ -136,25 +60,16 @@ void expectMotion(const Moved& moved, const Frame& frame, const glm::dvec2& scal
   EXPECT_GT(most, 1.0) << "nothing moves";
 }
 
-FrothRenderInfo infoOf(const Moved& moved) {
-  FrothRenderInfo info = test::infoOf(moved.now);
-  info.previousCamera = test::infoOf(moved.before).camera;
-  return info;
-}
-
-constexpr LensKind kKinds[] = {LensKind::kPinhole,       LensKind::kOrthographic,     LensKind::kFisheye,
-                               LensKind::kKannalaBrandt, LensKind::kRadialTangential, LensKind::kEquirectangular};
-
 // The instance stands where it was drawn last.
 void putAtRest() {
   stage().place({});
-  stage().draw(Method::kRaster, viewOf(LensKind::kPinhole));
+  stage().draw(Method::kRaster, lensView(LensKind::kPinhole));
 }
 
 TEST(Motion, OfACameraIsThatOfTheClosedForms) {
   putAtRest();
-  for (const LensKind kind : kKinds) {
-    const Moved moved{viewOf(kind), viewOf(kind, {0.5, -0.45, 0.38}, {0.15, 0.05, 3})};
+  for (const LensKind kind : kMotionLenses) {
+    const Moved moved{lensView(kind), lensView(kind, {0.5, -0.45, 0.38}, {0.15, 0.05, 3})};
     for (const Method method : {Method::kRaster, Method::kWalk}) {
       expectMotion(moved, stage().draw(method, infoOf(moved), {kWidth, kHeight}));
     }
@@ -164,7 +79,7 @@ TEST(Motion, OfACameraIsThatOfTheClosedForms) {
 TEST(Motion, IsThatOfTheUnjitteredImages) {
   putAtRest();
   for (const LensKind kind : {LensKind::kPinhole, LensKind::kOrthographic, LensKind::kFisheye}) {
-    Moved moved{viewOf(kind), viewOf(kind, {0.5, -0.45, 0.38})};
+    Moved moved{lensView(kind), lensView(kind, {0.5, -0.45, 0.38})};
     FrothRenderInfo info = infoOf(moved);
     info.camera.jitter[0] = 0.375f;
     info.camera.jitter[1] = -0.25f;
@@ -180,8 +95,8 @@ TEST(Motion, IsThatOfTheUnjitteredImages) {
 
 TEST(Motion, OfAStillSceneIsZero) {
   putAtRest();
-  for (const LensKind kind : kKinds) {
-    const View view = viewOf(kind);
+  for (const LensKind kind : kMotionLenses) {
+    const View view = lensView(kind);
     FrothRenderInfo info = infoOf({view, view});
     info.camera.jitter[0] = 0.25f;
     for (const float value : stage().draw(Method::kRaster, info, {kWidth, kHeight}).motion.values) {
@@ -191,12 +106,14 @@ TEST(Motion, OfAStillSceneIsZero) {
 }
 
 TEST(Motion, IsZeroWithoutAFrameBefore) {
-  for (const float value : stage().draw(Method::kRaster, viewOf(LensKind::kPinhole)).motion.values) ASSERT_EQ(value, 0);
+  for (const float value : stage().draw(Method::kRaster, lensView(LensKind::kPinhole)).motion.values) {
+    ASSERT_EQ(value, 0);
+  }
 }
 
 TEST(Motion, IsScaledAndFollowsTheViewport) {
   putAtRest();
-  const Moved moved{viewOf(LensKind::kPinhole), viewOf(LensKind::kPinhole, {0.5, -0.45, 0.38})};
+  const Moved moved{lensView(LensKind::kPinhole), lensView(LensKind::kPinhole, {0.5, -0.45, 0.38})};
   FrothRenderInfo info = infoOf(moved);
   info.motionScale[0] = -1.0f / kWidth;
   info.motionScale[1] = 2;
@@ -216,11 +133,9 @@ Frame drawMoved(const Moved& moved, Method method, FrothInstanceInfo now) {
   return stage().draw(method, infoOf(moved), {kWidth, kHeight});
 }
 
-const Pose kTurned{{0.1, -0.05, 0.2}, glm::normalize(glm::dquat(0.98, 0.1, -0.05, 0.12)), 1.0625};
-
 TEST(Motion, OfAnInstanceIsAddedToThatOfTheCamera) {
   for (const LensKind kind : {LensKind::kPinhole, LensKind::kOrthographic, LensKind::kFisheye}) {
-    const Moved moved{viewOf(kind), viewOf(kind, {0.5, -0.45, 0.38}), kTurned, {}};
+    const Moved moved{lensView(kind), lensView(kind, {0.5, -0.45, 0.38}), kTurned, {}};
     for (const Method method : {Method::kRaster, Method::kWalk}) {
       expectMotion(moved, drawMoved(moved, method, infoOf(kTurned)));
     }
@@ -232,7 +147,7 @@ TEST(Motion, OfAnInstanceIsAddedToThatOfTheCamera) {
 TEST(Motion, OfSeveralInstancesIsThatOfEach) {
   Stage other(bakeForTest(makeRandomFoam(250, 2, 0, 7)), {kWidth, kHeight}, context(), 0, kLenses, true);
   const Pose otherNow{{0.7, 0.2, 0.3}, {1, 0, 0, 0}, 0.8}, otherBefore{{0.8, 0.15, 0.3}, {1, 0, 0, 0}, 0.8};
-  const View view = viewOf(LensKind::kPinhole), before = viewOf(LensKind::kPinhole, {0.5, -0.45, 0.38});
+  const View view = lensView(LensKind::kPinhole), before = lensView(LensKind::kPinhole, {0.5, -0.45, 0.38});
   const ViewRays rays(view);
   for (const Method method : {Method::kRaster, Method::kWalk}) {
     stage().place({});
@@ -271,8 +186,8 @@ TEST(Motion, OfSeveralInstancesIsThatOfEach) {
 TEST(Motion, IsAsExactFarFromTheOrigin) {
   const glm::dvec3 away(1e6, -2e6, 5e5);
   const auto shifted = [&](const glm::dvec3& place) { return place + away; };
-  Moved moved{viewOf(LensKind::kPinhole, shifted({0.6, -0.5, 0.3}), shifted({0.05, 0.1, 3})),
-              viewOf(LensKind::kPinhole, shifted({0.5, -0.45, 0.38}), shifted({0.05, 0.1, 3})),
+  Moved moved{lensView(LensKind::kPinhole, shifted({0.6, -0.5, 0.3}), shifted({0.05, 0.1, 3})),
+              lensView(LensKind::kPinhole, shifted({0.5, -0.45, 0.38}), shifted({0.05, 0.1, 3})),
               kTurned,
               {}};
   moved.poseNow.position += away;
@@ -282,7 +197,7 @@ TEST(Motion, IsAsExactFarFromTheOrigin) {
 }
 
 TEST(Motion, OfAnInstanceThatJumpedIsThatOfTheCameraAlone) {
-  Moved moved{viewOf(LensKind::kPinhole), viewOf(LensKind::kPinhole, {0.5, -0.45, 0.38}), kTurned, {}};
+  Moved moved{lensView(LensKind::kPinhole), lensView(LensKind::kPinhole, {0.5, -0.45, 0.38}), kTurned, {}};
   FrothInstanceInfo jumped = infoOf(kTurned);
   jumped.hasJumped = 1;
   const Frame frame = drawMoved(moved, Method::kRaster, jumped);
@@ -292,7 +207,7 @@ TEST(Motion, OfAnInstanceThatJumpedIsThatOfTheCameraAlone) {
 }
 
 TEST(Motion, OfAnInstanceEndsWhereItStays) {
-  Moved moved{viewOf(LensKind::kPinhole), viewOf(LensKind::kPinhole, {0.5, -0.45, 0.38}), kTurned, {}};
+  Moved moved{lensView(LensKind::kPinhole), lensView(LensKind::kPinhole, {0.5, -0.45, 0.38}), kTurned, {}};
   drawMoved(moved, Method::kRaster, infoOf(kTurned));
   moved.poseBefore = moved.poseNow;
   expectMotion(moved, stage().draw(Method::kRaster, infoOf(moved), {kWidth, kHeight}));
@@ -301,7 +216,7 @@ TEST(Motion, OfAnInstanceEndsWhereItStays) {
 
 // frothSetInstance may come before or after frothUpdate, and several times.
 TEST(Motion, LeadsToWhereTheInstanceWasDrawnLastInAnyOrderOfCalls) {
-  const Moved moved{viewOf(LensKind::kPinhole), viewOf(LensKind::kPinhole, {0.5, -0.45, 0.38}), kTurned, {}};
+  const Moved moved{lensView(LensKind::kPinhole), lensView(LensKind::kPinhole, {0.5, -0.45, 0.38}), kTurned, {}};
   stage().place({});
   stage().draw(Method::kRaster, moved.before);
   const Frame inOrder = drawMoved(moved, Method::kRaster, infoOf(kTurned));
@@ -319,9 +234,9 @@ TEST(Motion, LeadsToWhereTheInstanceWasDrawnLastInAnyOrderOfCalls) {
 
 TEST(Motion, OfWhatLayBehindTheCameraLeadsOffTheImage) {
   putAtRest();
-  View turned = viewOf(LensKind::kPinhole, {0.6, -0.5, 0.3}, {1.15, -1.1, -2.4});
+  View turned = lensView(LensKind::kPinhole, {0.6, -0.5, 0.3}, {1.15, -1.1, -2.4});
   for (const float value :
-       stage().draw(Method::kRaster, infoOf({viewOf(LensKind::kPinhole), turned}), {kWidth, kHeight}).motion.values) {
+       stage().draw(Method::kRaster, infoOf({lensView(LensKind::kPinhole), turned}), {kWidth, kHeight}).motion.values) {
     ASSERT_EQ(value, 32768);
   }
 }

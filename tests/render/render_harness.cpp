@@ -129,8 +129,8 @@ FrothContext* lensContext() {
 }
 
 Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context, uint32_t layers,
-             uint32_t lensClasses, bool keepsHits, uint32_t eyeCount, bool keepForQueries)
-    : context_(context), keepsHits_(keepsHits) {
+             uint32_t lensClasses, bool keepsHits, uint32_t eyeCount, bool keepForQueries, bool keepsReactive)
+    : context_(context), keepsHits_(keepsHits), keepsReactive_(keepsReactive) {
   enter(context_);
   Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
   EXPECT_TRUE(bytes) << bytes.error().message;
@@ -142,7 +142,8 @@ Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* 
   assetInfo.layers = layers;
   assetInfo.keepForQueries = keepForQueries;
   check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
-  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses, keepsHits, eyeCount, 0, {}};
+  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses, keepsHits, eyeCount, 0, {},
+                               keepsReactive};
   check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");
   place({});
 
@@ -219,9 +220,11 @@ Frame Stage::draw(Method method, const FrothRenderInfo& info, VkExtent2D extent,
   Result<HostImage> depth = host.createImage(VK_FORMAT_R32_SFLOAT, extent);
   Result<HostImage> id = host.createImage(VK_FORMAT_R32G32_UINT, extent);
   Result<HostImage> motion = host.createImage(VK_FORMAT_R16G16_SFLOAT, extent);
+  Result<HostImage> reactive = host.createImage(VK_FORMAT_R8_UNORM, extent);
   FrothRenderInfo wanted = info;
   if (keepsHits_) wanted.id = host.describe(*id);
   if (keepsHits_ && info.camera.lens.kind != FROTH_LENS_RAY_MAP) wanted.motion = host.describe(*motion);
+  if (keepsReactive_) wanted.reactive = host.describe(*reactive);
   wanted.depth = host.describe(*depth);
   wanted.colour = host.describe(*colour);
   wanted.distance = host.describe(*distance);
@@ -236,7 +239,10 @@ Frame Stage::draw(Method method, const FrothRenderInfo& info, VkExtent2D extent,
   frame.depth = channelsOf(readBack(host, *depth), 1, 0, 1, extent);
   if (wanted.id.image) frame.id = idsOf(readBack(host, *id));
   if (wanted.motion.image) frame.motion = channelsOf(readBack(host, *motion), 2, 0, 2, extent);
-  for (HostImage* image : {&*colour, &*distance, &*normal, &*depth, &*id, &*motion}) host.destroyImage(*image);
+  if (wanted.reactive.image) frame.reactive = channelsOf(readBack(host, *reactive), 1, 0, 1, extent);
+  for (HostImage* image : {&*colour, &*distance, &*normal, &*depth, &*id, &*motion, &*reactive}) {
+    host.destroyImage(*image);
+  }
   expectSilence(host);
   return frame;
 }

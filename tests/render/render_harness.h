@@ -30,6 +30,7 @@ struct Frame {
   Image depth;                              // 1 channel, device depth
   std::vector<std::array<uint32_t, 2>> id;  // of a view that keeps hits; else empty, as what follows
   Image motion;                             // 2 channels
+  Image reactive;                           // 1 channel
   FrothViewStatus status{};
 };
 
@@ -56,7 +57,7 @@ class Stage {
  public:
   Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* context = sharedContext(),
         uint32_t layers = 0, uint32_t lensClasses = 0, bool keepsHits = false, uint32_t eyeCount = 0,
-        bool keepForQueries = true);
+        bool keepForQueries = true, bool keepsReactive = false);
   ~Stage();
 
   void place(const FrothInstanceInfo& placement);  // `asset` is filled in
@@ -85,7 +86,7 @@ class Stage {
   FrothAsset asset_{};
   FrothInstance instance_{};
   FrothView view_{};
-  bool keepsHits_;
+  bool keepsHits_, keepsReactive_;
 };
 
 FrothInstanceInfo placementOf(const glm::dvec3& position, const glm::vec4& rotation, float scale);

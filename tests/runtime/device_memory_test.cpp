@@ -1,76 +1,16 @@
 // Where device memory comes from, and the report of it.
-#include <map>
-
+#include "callers_memory.h"
 #include "one_cell_chunks.h"
-#include "runtime_fixture.h"
 
 namespace froth {
 namespace {
 
 using ::testing::HasSubstr;
 
-// A caller's allocator: hands out parts of memory at an offset, as one that allocates in blocks does.
-struct CallersMemory {
-  static constexpr VkDeviceSize kOffset = 1 << 16;  // a multiple of every alignment that a buffer asks for
-
-  static VkResult allocate(void* user, const FrothMemoryRequest* request, FrothDeviceMemory* memory) {
-    auto* self = static_cast<CallersMemory*>(user);
-    if (self->live.size() >= self->most) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    const VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr, request->allocateFlags,
-                                          0};
-    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags,
-                                    request->requirements.size + kOffset, request->memoryTypeIndex};
-    const VkResult result = vkAllocateMemory(self->device, &info, nullptr, &memory->memory);
-    EXPECT_EQ(result, VK_SUCCESS);
-    EXPECT_EQ(kOffset % request->requirements.alignment, 0u);
-    memory->offset = kOffset;
-    if (request->isMapped) {
-      EXPECT_EQ(vkMapMemory(self->device, memory->memory, kOffset, VK_WHOLE_SIZE, 0, &memory->mapped), VK_SUCCESS);
-    }
-    memory->handle = reinterpret_cast<void*>(++self->count);
-    self->live[memory->handle] = request->requirements.size;
-    return VK_SUCCESS;
-  }
-
-  static void free(void* user, const FrothDeviceMemory* memory) {
-    auto* self = static_cast<CallersMemory*>(user);
-    EXPECT_EQ(self->live.erase(memory->handle), 1u) << "freed twice, or never given";
-    vkFreeMemory(self->device, memory->memory, nullptr);
-  }
-
-  VkDeviceSize bytes() const {
-    VkDeviceSize sum = 0;
-    for (const auto& [handle, size] : live) sum += size;
-    return sum;
-  }
-
-  VkDevice device;
-  size_t most = SIZE_MAX;
-  std::map<void*, VkDeviceSize> live{};
-  uintptr_t count = 0;
-};
-
 class DeviceMemory : public RuntimeGpuTest {
  protected:
-  FrothContextInfo infoWith(CallersMemory& memory) {
-    FrothContextInfo info = host_->contextInfo();
-    info.allocateMemory = CallersMemory::allocate;
-    info.freeMemory = CallersMemory::free;
-    info.memoryUser = &memory;
-    return info;
-  }
-
-  FrothMemoryReport report() {
-    auto report = makeStruct<FrothMemoryReport>();
-    EXPECT_EQ(frothGetMemoryReport(context_, &report), FROTH_OK) << lastText();
-    return report;
-  }
-
-  static VkDeviceSize grantedIn(const FrothMemoryReport& report) {
-    VkDeviceSize granted = 0;
-    for (uint32_t i = 0; i < report.categoryCount; ++i) granted += report.categories[i].granted;
-    return granted;
-  }
+  FrothContextInfo infoWith(CallersMemory& memory) { return memory.with(host_->contextInfo()); }
+  FrothMemoryReport report() { return reportOf(context_); }
 
   void draw(VkCommandBuffer commands, FrothView view, const HostImage& image) {
     auto info = makeStruct<FrothRenderInfo>();

@@ -13,7 +13,7 @@ struct EstimateCase {
   const char* name;
   SampleOptions sample;
   uint32_t layers = 0, keepForQueries = 0, walkShaders = 0, framesInFlight = 0, instances = 1;
-  uint32_t lensClasses = 0, keepsHits = 0, reserveCells = 0;
+  uint32_t lensClasses = 0, keepsHits = 0, keepsReactive = 0, reserveCells = 0;
   VkExtent2D extent = {64, 48};
 };
 
@@ -30,6 +30,7 @@ class Estimate : public RuntimeGpuTest, public testing::WithParamInterface<Estim
     info.walkShaders = given.walkShaders;
     info.framesInFlight = given.framesInFlight;
     info.lensClasses = given.lensClasses;
+    info.reactiveImages = given.keepsReactive;
     createContext(info);
     ASSERT_EQ(frothOpenAsset(context_, &assetInfo_, &asset_), FROTH_OK);
     for (int frame = 0; frame < 20 && statusOf(asset_).state == FROTH_ASSET_OPENING; ++frame) runFrame();
@@ -52,6 +53,7 @@ TEST_P(Estimate, IsWhatTheAssetAndTheViewTake) {
   viewInfo.maxExtent = given.extent;
   viewInfo.lensClasses = given.lensClasses;
   viewInfo.keepsHits = given.keepsHits;
+  viewInfo.keepsReactive = given.keepsReactive;
   viewInfo.reserveCells = given.reserveCells;
   auto info = makeStruct<FrothEstimateInfo>();
   info.asset = &assetInfo_;
@@ -106,7 +108,8 @@ INSTANTIATE_TEST_SUITE_P(
                                  .walkShaders = 1,
                                  .instances = 2,
                                  .lensClasses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC,
-                                 .keepsHits = 1}),
+                                 .keepsHits = 1},
+                    EstimateCase{.name = "Reactive", .sample = {}, .instances = 2, .keepsReactive = 1}),
     [](const auto& test) { return std::string(test.param.name); });
 
 class EstimateCall : public RuntimeTest {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <deque>
+#include <string_view>
 
 #include "froth/froth_precompile.h"
 #include "runtime_fixture.h"
@@ -37,9 +38,13 @@ struct HeldJobs {
   }
 };
 
-// Which threads make pipelines. The table of a context is filled through the loader function that it is given.
+// Which threads make pipelines, take memory and give it back. The table of a context is filled through the loader
+// function that it is given.
 inline std::atomic<int> pipelinesMadeHere = 0, pipelinesMadeElsewhere = 0;
-inline thread_local bool isFrameThread = false;
+inline std::atomic<int> memoryCallsInUpdate = 0, memoryCallsElsewhere = 0;
+inline thread_local bool isFrameThread = false, isInUpdate = false;
+inline PFN_vkAllocateMemory allocateMemoryBelow = nullptr;
+inline PFN_vkFreeMemory freeMemoryBelow = nullptr;
 inline PFN_vkCreateComputePipelines createPipelinesBelow = nullptr;
 inline PFN_vkGetDeviceProcAddr deviceFunctionBelow = nullptr;
 
@@ -50,11 +55,32 @@ inline VKAPI_ATTR VkResult VKAPI_CALL countPipelines(VkDevice device, VkPipeline
   return createPipelinesBelow(device, cache, count, infos, allocator, pipelines);
 }
 
+inline VKAPI_ATTR VkResult VKAPI_CALL countAllocation(VkDevice device, const VkMemoryAllocateInfo* info,
+                                                      const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
+  ++(isInUpdate ? memoryCallsInUpdate : memoryCallsElsewhere);
+  return allocateMemoryBelow(device, info, allocator, memory);
+}
+
+inline VKAPI_ATTR void VKAPI_CALL countFree(VkDevice device, VkDeviceMemory memory,
+                                            const VkAllocationCallbacks* allocator) {
+  ++(isInUpdate ? memoryCallsInUpdate : memoryCallsElsewhere);
+  freeMemoryBelow(device, memory, allocator);
+}
+
+// `counting` in place of the device's own, which `below` keeps.
+template <class Function>
+PFN_vkVoidFunction interpose(PFN_vkVoidFunction own, Function counting, Function& below) {
+  below = reinterpret_cast<Function>(own);
+  return reinterpret_cast<PFN_vkVoidFunction>(counting);
+}
+
 inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceFunction(VkDevice device, const char* name) {
-  const PFN_vkVoidFunction function = deviceFunctionBelow(device, name);
-  if (std::string(name) != "vkCreateComputePipelines") return function;
-  createPipelinesBelow = reinterpret_cast<PFN_vkCreateComputePipelines>(function);
-  return reinterpret_cast<PFN_vkVoidFunction>(countPipelines);
+  const PFN_vkVoidFunction own = deviceFunctionBelow(device, name);
+  const std::string_view called = name;
+  if (called == "vkCreateComputePipelines") return interpose(own, &countPipelines, createPipelinesBelow);
+  if (called == "vkAllocateMemory") return interpose(own, &countAllocation, allocateMemoryBelow);
+  if (called == "vkFreeMemory") return interpose(own, &countFree, freeMemoryBelow);
+  return own;
 }
 
 inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceFunction(VkInstance instance, const char* name) {
@@ -79,6 +105,7 @@ class Jobs : public RuntimeGpuTest {
     info.jobUser = user;
     createContext(info);
     pipelinesMadeHere = pipelinesMadeElsewhere = 0;
+    memoryCallsInUpdate = memoryCallsElsewhere = 0;
   }
 
   // Of all READY instances.
@@ -96,7 +123,9 @@ class Jobs : public RuntimeGpuTest {
     info.camera.eye[2] = 1e6 - 1;  // where the sample lies
     info.colour = host_->describe(image);
     EXPECT_TRUE(host_->submit([&](VkCommandBuffer commands, uint64_t serial) {
+      isInUpdate = true;
       EXPECT_EQ(update(serial), FROTH_OK) << lastText();
+      isInUpdate = false;
       EXPECT_EQ(frothRecordUpload(context_, commands), FROTH_OK);
       result = frothRecordRaster(context_, view, commands, &info);
       return Status();

@@ -1,4 +1,4 @@
-// What record calls refuse of the images id and motion, and of colours.
+// What record calls refuse of the images id, motion and reactive, and of colours.
 #include <cmath>
 
 #include "runtime_fixture.h"
@@ -17,12 +17,17 @@ FrothRenderInfo makeInfo() {
 
 class OutputCalls : public RuntimeTest {
  protected:
-  void SetUp() override { createContext(); }
+  void SetUp() override {
+    FrothContextInfo info = nullContextInfo();
+    info.reactiveImages = 1;
+    createContext(info);
+  }
 
-  FrothView createHitView(uint32_t keepsHits) {
+  FrothView createHitView(uint32_t keepsHits, uint32_t keepsReactive = 0) {
     auto info = makeStruct<FrothViewInfo>();
     info.maxExtent = {16, 16};
     info.keepsHits = keepsHits;
+    info.keepsReactive = keepsReactive;
     FrothView view{};
     EXPECT_EQ(frothCreateView(context_, &info, &view), FROTH_OK) << lastText();
     return view;
@@ -54,6 +59,42 @@ TEST_F(OutputCalls, RefuseIdAndMotionOfOtherFormats) {
   expectResult(view, FROTH_ERROR_ARGUMENT, "id.format: VkFormat 97; must be R32G32_UINT");
   info_.id = {};
   expectResult(view, FROTH_ERROR_ARGUMENT, "motion.format: VkFormat 97; must be R16G16_SFLOAT");
+}
+
+TEST_F(OutputCalls, RefuseReactiveOfAViewThatKeepsHitsAlone) {
+  info_.reactive = fakeImage(VK_FORMAT_R8_UNORM);
+  expectResult(createHitView(1), FROTH_ERROR_UNSUPPORTED, "set FrothViewInfo::keepsReactive");
+  expectResult(createHitView(0, 1), FROTH_OK, "");
+}
+
+TEST_F(OutputCalls, TakeIdAndMotionOfAViewThatKeepsReactive) {
+  info_.id = fakeImage(VK_FORMAT_R32G32_UINT);
+  info_.motion = fakeImage(VK_FORMAT_R16G16_SFLOAT);
+  expectResult(createHitView(0, 1), FROTH_OK, "");
+}
+
+TEST_F(OutputCalls, RefuseReactiveOfAnotherFormatOrWithoutAMeaning) {
+  const FrothView view = createHitView(0, 1);
+  info_.reactive = info_.colour;
+  expectResult(view, FROTH_ERROR_ARGUMENT, "reactive.format: VkFormat 97; must be R8_UNORM");
+  info_.reactive = fakeImage(VK_FORMAT_R8_UNORM);
+  info_.previousCamera = info_.camera;
+  info_.previousCamera.viewFromWorld[0] = 2;
+  expectResult(view, FROTH_ERROR_ARGUMENT, "viewFromWorld: not a rotation");
+  info_.previousCamera.lens.kind = FROTH_LENS_RAY_MAP;
+  expectResult(view, FROTH_ERROR_UNSUPPORTED, "with a ray map");
+}
+
+class ReactiveView : public RuntimeTest {};
+
+TEST_F(ReactiveView, IsRefusedInAContextWithoutReactiveImages) {
+  createContext();
+  auto info = makeStruct<FrothViewInfo>();
+  info.maxExtent = {16, 16};
+  info.keepsReactive = 1;
+  FrothView view{};
+  EXPECT_EQ(frothCreateView(context_, &info, &view), FROTH_ERROR_ARGUMENT);
+  EXPECT_THAT(lastText(), HasSubstr("set FrothContextInfo::reactiveImages"));
 }
 
 TEST_F(OutputCalls, RefuseMotionThatHasNoMeaning) {

@@ -26,7 +26,7 @@ TEST(Requirements, AreListedInGeneralWithoutADevice) {
     EXPECT_FALSE(item->isPresent) << name;
   }
   EXPECT_THAT(findItem(requirements, "timestampComputeAndGraphics")->loss, HasSubstr("times"));
-  EXPECT_THAT(findItem(requirements, "shaderStorageImageExtendedFormats")->loss, HasSubstr("id and motion"));
+  EXPECT_THAT(findItem(requirements, "shaderStorageImageExtendedFormats")->loss, HasSubstr("id, motion and reactive"));
   EXPECT_THAT(findItem(requirements, "dynamicRendering")->loss, HasSubstr("frothRecordDepthExport"));
 }
 

@@ -107,5 +107,84 @@ TEST_F(GpuRays, ThroughASyntheticFoamAgreeWithTheQueries) {
   expectAgreement(bakeScene(synthesize("gallery", 5000), "default", 500), 10000);
 }
 
+// What denoisers take for hit distances.
+class HitDistances : public testing::Test {
+ protected:
+  HitDistances() {
+    asset_ = stage_.open(bakeScene(makeRandomFoam(200, 4, 2, 3), "exact", 64));  // in [-1, 1]^3 + (0, 0, 3)
+    instance_ = stage_.place(asset_);
+    rays_ = randomRays({-1, -1, 2}, {1, 1, 4}, 1000, 5);
+    for (FrothGpuRay& ray : rays_) ray.tMax = 0;
+  }
+
+  std::vector<float> cast(const std::vector<FrothGpuRay>& rays, FrothRayKind kind = FROTH_RAY_CLOSEST) {
+    std::vector<float> distances;
+    for (const FrothGpuHit& hit : stage_.cast(rays, kind)) distances.push_back(hit.distance);
+    return distances;
+  }
+
+  // All but a few: where a face is grazed, the last place of a float decides.
+  void expectDistances(const std::vector<float>& found, double factor, double shift) {
+    const std::vector<float> base = cast(rays_);
+    size_t stopped = 0, differing = 0;
+    for (size_t i = 0; i < base.size(); ++i) {
+      const double expected = factor * base[i] + shift;
+      stopped += std::isfinite(base[i]);
+      differing += std::isfinite(found[i]) != std::isfinite(base[i]) ||
+                   (std::isfinite(found[i]) && !(std::abs(found[i] - expected) <= 1e-4 * expected));
+    }
+    EXPECT_GT(stopped, base.size() / 4);
+    EXPECT_LT(stopped, base.size());
+    EXPECT_LE(differing, base.size() / 200);
+  }
+
+  WalkStage stage_;
+  FrothAsset asset_{};
+  FrothInstance instance_{};
+  std::vector<FrothGpuRay> rays_;
+};
+
+TEST_F(HitDistances, AreInWorldUnitsWhateverTheLengthOfTheDirection) {
+  std::vector<FrothGpuRay> longer = rays_;
+  for (FrothGpuRay& ray : longer) {
+    for (float& part : ray.direction) part *= 5;
+  }
+  expectDistances(cast(longer), 1, 0);
+}
+
+// A mirror's ray is the part of the mirrored camera's that begins at the mirror.
+TEST_F(HitDistances, CountFromTheOriginAndNotFromWhereTheRayBegins) {
+  constexpr float kBack = 0.75f;
+  std::vector<FrothGpuRay> earlier = rays_;
+  for (FrothGpuRay& ray : earlier) {
+    for (int axis = 0; axis < 3; ++axis) ray.origin[axis] -= kBack * ray.direction[axis];
+    ray.tMin = kBack;
+  }
+  expectDistances(cast(earlier), 1, kBack);
+}
+
+TEST_F(HitDistances, GrowWithTheInstance) {
+  FrothInstanceInfo placement{};
+  placement.scale = 2;
+  stage_.move(instance_, asset_, placement);
+  std::vector<FrothGpuRay> larger = rays_;
+  for (FrothGpuRay& ray : larger) {
+    for (float& part : ray.origin) part *= 2;
+  }
+  const std::vector<float> found = cast(larger);
+  stage_.move(instance_, asset_, {});
+  expectDistances(found, 2, 0);
+}
+
+TEST_F(HitDistances, AreTheSameOfAllKindsAndInfiniteOfAMiss) {
+  for (const FrothRayKind kind : {FROTH_RAY_TRANSMITTANCE, FROTH_RAY_RADIANCE}) {
+    expectDistances(cast(rays_, kind), 1, 0);
+  }
+  const std::vector<FrothGpuRay> away = {gpuRay({0, 0, 0}, {0, 0, -1}), gpuRay({0, 5, 3}, {1, 0, 0})};
+  for (const FrothRayKind kind : {FROTH_RAY_TRANSMITTANCE, FROTH_RAY_CLOSEST, FROTH_RAY_RADIANCE}) {
+    for (const float distance : cast(away, kind)) EXPECT_EQ(distance, kInfinity);
+  }
+}
+
 }  // namespace
 }  // namespace froth::test

@@ -17,7 +17,7 @@
  *
  * Threads:
  *   on any thread, at any time:   frothGetRequirements, frothRequireFeatures, frothResultName, frothCompleteRead,
- *                                 frothEstimateMemory.
+ *                                 frothEstimateMemory, frothStepQuality.
  *   at once on different views:   frothRecordRaster, frothRecordWalk, frothRecordComposite, frothRecordDepthExport (*).
  *   at once on anything:          frothCastRays, frothLocate, frothOverlapSphere (*), frothReadVariant,
  *                                 frothPrecompile.
@@ -32,6 +32,7 @@
  *   froth_walk.h       rays on the GPU
  *   froth_precompile.h pipelines ahead of time
  *   froth_estimate.h   memory ahead of time
+ *   froth_quality.h    scale and cut-off by a target of milliseconds
  *   froth_pool.h       threads for jobs
  *   froth_host.h       the engine's allocator for host memory
  *   froth_composite.h  blending into the engine's colour and depth images
@@ -163,6 +164,8 @@ typedef struct FrothViewInfo {
    * per detail site, 16 per plane between cells */
   uint32_t reserveCells;
   FrothView startLike; /* begins with what the newest complete frame of this view wanted; {0, 0}: of none */
+  /* 1: its cameras may use reactive too, and it keeps hits; 16 bytes more per pixel. The context has reactiveImages */
+  uint32_t keepsReactive;
 } FrothViewInfo;
 
 /* Makes room for the READY instances too, so that the view's first frame allocates nothing. */
@@ -334,6 +337,13 @@ typedef struct FrothRenderInfo {
   uint32_t maxNeighbours; /* neighbours that one walk tests, without those of its last cell; 0: 1048576 */
 
   FrothTileForm tileForm; /* for tests of frothRecordRaster; changes no image */
+
+  /* R8_UNORM, for temporal upscalers: how much of the pixel moved otherwise than `motion` says, 0 to 1. The pixel is
+   * taken as four quarters, which stand where T falls below 7/8, 5/8, 3/8 and 1/8; one that the ray does not reach is
+   * the background of `motion`. Each counts a quarter, times the distance between its own motion and that of the
+   * pixel, up to 1 pixel. No previousCamera: 1. Needs what id and motion need, FrothViewInfo::keepsReactive, and no ray
+   * map. */
+  FrothImage reactive;
 } FrothRenderInfo;
 
 /* Draws what a camera sees, by sorted rasterization. Call it outside a render pass, once per view, eye and frame. On

@@ -109,12 +109,14 @@ typedef struct FrothDeviceMemory {
 } FrothDeviceMemory;
 
 /* Fills *memory, which is zero on entry. Returns VK_SUCCESS or the failure. Froth calls it in frothCreateContext,
- * frothCreateView, frothUpdate and frothRestoreDevice, never in a record call. It must not call Froth. */
+ * frothCreateView, frothUpdate and frothRestoreDevice, never in a record call; with FrothContextInfo::runJob not in
+ * frothUpdate but in a job, perhaps at once with the others. It must not call Froth. The same holds for
+ * FrothFreeMemory. */
 typedef VkResult (*FrothAllocateMemory)(void* user, const FrothMemoryRequest* request, FrothDeviceMemory* memory);
 typedef void (*FrothFreeMemory)(void* user, const FrothDeviceMemory* memory);
 
-/* Work that no frame need wait for: it decodes one chunk of an asset at most, or makes pipelines. It waits for nothing,
- * so one thread is enough. */
+/* Work that no frame need wait for: it decodes one chunk of an asset at most, or makes pipelines, or takes and frees
+ * device memory. It waits for nothing, so one thread is enough. */
 typedef void (*FrothJob)(void* argument);
 /* Takes a job and returns. The job is called once, with its argument, on any thread: later, also after
  * frothDestroyContext (it then does nothing), or before this returns. A job that is never called leaks memory. Called
@@ -158,12 +160,15 @@ typedef struct FrothContextInfo {
   /* runs what frothUpdate would do itself: null: assets load within frothUpdate (FrothFrame::loadMicroseconds) */
   FrothRunJob runJob;
   void* jobUser;
-  uint32_t mostJobs; /* [<= 64] jobs that are given to runJob and not ended; 0: 4 */
+  uint32_t mostJobs; /* [<= 64] jobs that are given to runJob and not ended, beside one of memory; 0: 4 */
   /* [>= 65536 bytes] of host-visible memory through which assets are uploaded. The frames in flight share it, so a
    * frame uploads this part of it at most, whatever its uploadBytes. 0: 64 MiB */
   uint64_t stagingBytes;
-  uint32_t
-      breadcrumbs; /* 1: the GPU tells which passes it begins and finishes: froth_breadcrumbs.h; frames are slower */
+  /* 1: pipelines are made so that full frames can write FrothRenderInfo::reactive. Those frames are slower, whether
+   * they have that image or not; frames of colour and distance alone are the same */
+  uint32_t reactiveImages;
+  /* 1: the GPU tells which passes it begins and finishes (froth_breadcrumbs.h); frames are slower */
+  uint32_t breadcrumbs;
 } FrothContextInfo;
 
 /* Makes pipelines and the staging memory. Call it at start-up, not in a frame. *context is null on

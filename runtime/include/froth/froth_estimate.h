@@ -15,7 +15,7 @@ extern "C" {
 typedef struct FrothEstimateInfo {
   uint32_t structSize;
   const FrothAssetInfo* asset; /* path or data, layers and keepForQueries count; no reader */
-  /* maxExtent, lensClasses, keepsHits and reserveCells count. Null: no view; its bytes are then 0 */
+  /* maxExtent, lensClasses, keepsHits, keepsReactive and reserveCells count. Null: no view; its bytes are then 0 */
   const FrothViewInfo* view;
   uint32_t walkShaders;           /* FrothContextInfo's */
   uint32_t framesInFlight;        /* [1..8] FrothContextInfo's; 0: 2 */

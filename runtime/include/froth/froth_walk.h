@@ -1,4 +1,4 @@
-/* Froth, rays on the GPU: in the caller's shaders (froth_walk.glsl), or cast by Froth from a buffer.
+/* Froth, rays on the GPU: in the caller's shaders (froth_walk.glsl, froth_walk.slang), or cast by Froth from a buffer.
  *
  * For shadows, mirrors, probes, picking. Needs FrothContextInfo::walkShaders. Near tests (FrothRenderInfo::nearRatio)
  * do not apply:
@@ -62,8 +62,10 @@ typedef struct FrothGpuHit {
   float colour[3];     /* FROTH_RAY_RADIANCE: premultiplied, linear, times FrothInstanceInfo::exposure */
   float transmittance; /* along the ray; if the ray ended early, up to its end */
   float normal[3];     /* of the face of the cell that stops the ray, in world axes, unit; 0: no cell stops it */
-  float distance;      /* to where transmittance falls below the quantile [world units]; +inf: never */
-  uint32_t instance;   /* index in the set; 0xffffffff, as chunk and cell: none */
+  /* from the ray's origin, whatever its tMin, to where transmittance falls below the quantile [world units, whatever
+   * the length of `direction`]; +inf: never. The hit distance of denoisers (docs/EMBEDDING.md "Denoisers") */
+  float distance;
+  uint32_t instance; /* index in the set; 0xffffffff, as chunk and cell: none */
   uint32_t chunk, cell;
   uint32_t userId; /* FrothInstanceInfo::userId of the instance */
   uint32_t status; /* FrothWalkEnd */
