@@ -7,7 +7,7 @@
 
 namespace froth {
 
-// Without those at the end of which the file has nothing.
+// So many at most, and none at the end of which the file has nothing.
 uint32_t Asset::layersHeld(uint32_t most) const {
   while (most > 1 && layerWork_[most - 1] == 0) --most;
   return most;

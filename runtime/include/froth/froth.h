@@ -83,7 +83,8 @@ typedef struct FrothAssetInfo {
   uint64_t dataSize;
   /* layers to load. 1: one colour per cell; 2: detail without view dependence; 3 or 0: all. Any gives a whole scene */
   uint32_t layers;
-  uint32_t bytesStay; /* 1: `data` stays valid until the asset is closed; frothRestoreDevice can then load it again */
+  /* 1: `data` stays valid until the asset is closed; frothRestoreDevice and frothSetBudget can then load it again */
+  uint32_t bytesStay;
   uint32_t keepForQueries; /* 1: keeps in host memory what frothCastRays, frothLocate and frothOverlapSphere need */
   const struct FrothReader* reader; /* copied; froth_reader.h */
 } FrothAssetInfo;
