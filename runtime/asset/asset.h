@@ -86,7 +86,7 @@ class Asset {
   std::shared_ptr<Asset> makeSuccessor(uint32_t layers) const;
   // An error: its file is not the one that `old` came from.
   Status checkSucceeds(const Asset& old) const;
-  // A successor failed: none is made any more.
+  // No successor is made, or none any more, for one failed.
   void keepLayers() { keepsLayers_ = true; }
 
   // The device is gone: frees what lay on it, and begins again. Fails an asset whose bytes are not there any more.

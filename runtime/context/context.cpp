@@ -23,6 +23,9 @@ FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
   if (info.keepForQueries) {
     assets_.find(handle)->keepForQueries();
   }
+  if (!info.layersMayGo) {
+    assets_.find(handle)->keepLayers();
+  }
   if (hasWalkShaders_) {
     assets_.find(handle)->keepForWalks();
   }

@@ -191,11 +191,10 @@ void Context::tellExcess() {
     return;
   }
   isExcessTold_ = true;
-  messages.warn(
-      FROTH_ERROR_MEMORY, "frothSetBudget",
-      "%llu bytes are held and the budget is %llu: one colour per cell of each asset (all layers, where their "
-      "bytes cannot be read again), and the least that views need, do not shrink; close some, or raise it",
-      asPrinted(device_.ledger.deviceBytes()), asPrinted(device_.budget));
+  messages.warn(FROTH_ERROR_MEMORY, "frothSetBudget",
+                "%llu bytes are held and the budget is %llu: assets, but for layers that may go "
+                "(FrothAssetInfo::layersMayGo), and the least that views need, do not shrink; close some, or raise it",
+                asPrinted(device_.ledger.deviceBytes()), asPrinted(device_.budget));
 }
 
 }  // namespace froth

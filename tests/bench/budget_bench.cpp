@@ -91,12 +91,12 @@ BudgetBench::~BudgetBench() {
   host_->destroyImage(image_);
 }
 
-// Bytes that need not stay cannot be loaded once more.
 void BudgetBench::open(bool keepsLayers) {
   auto assetInfo = makeStruct<FrothAssetInfo>();
   assetInfo.data = bytes_.data();
   assetInfo.dataSize = bytes_.size();
-  assetInfo.bytesStay = keepsLayers ? 0 : 1;
+  assetInfo.bytesStay = 1;
+  assetInfo.layersMayGo = keepsLayers ? 0 : 1;
   check(frothSetBudget(context_, 0), "frothSetBudget");  // an asset that does not fit is FAILED
   check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
   auto instanceInfo = makeStruct<FrothInstanceInfo>();

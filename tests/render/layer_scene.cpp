@@ -108,6 +108,7 @@ FrothAsset LayerScene::open(uint32_t layers) {
 }
 
 FrothAsset LayerScene::open(FrothAssetInfo info) {
+  info.layersMayGo = 1;
   FrothAsset asset{};
   check(frothOpenAsset(context_, &info, &asset), "frothOpenAsset");
   auto instanceInfo = sized<FrothInstanceInfo>();

@@ -87,6 +87,9 @@ typedef struct FrothAssetInfo {
   uint32_t bytesStay;
   uint32_t keepForQueries; /* 1: keeps in host memory what frothCastRays, frothLocate and frothOverlapSphere need */
   const struct FrothReader* reader; /* copied; froth_reader.h */
+  /* 1: where the budget is short, layers of this asset go before cells of views do, and return where there is room
+   * (frothSetBudget) */
+  uint32_t layersMayGo;
 } FrothAssetInfo;
 
 typedef struct FrothStoredCamera {

@@ -188,12 +188,13 @@ FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothCont
 FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
 
 /* Changes FrothContextInfo::deviceBudget. New allocations never exceed it, but for exchanges, below. Where the budget
- * is short, this goes, in this order: view dependence of all assets, their detail, cells.
+ * is short, cells go; before them view dependence, then detail, of the assets that allow it
+ * (FrothAssetInfo::layersMayGo).
  *
  * A budget below the bytes held is obeyed within frames: from the next frothUpdate on, views exchange their buffers for
  * smaller ones, one after the other; cells or pairs without space are missing (FROTH_VIEW_CELL_OVERFLOW,
- * FROTH_VIEW_PAIR_OVERFLOW). Then, one at a time and for as long as views lack space, assets load once more with fewer
- * layers (FrothAssetStatus::layers, FROTH_VIEW_FEWER_LAYERS; one warning each) and are exchanged at the edge of a
+ * FROTH_VIEW_PAIR_OVERFLOW). Then, one at a time and for as long as views lack space, such assets load once more with
+ * fewer layers (FrothAssetStatus::layers, FROTH_VIEW_FEWER_LAYERS; one warning each) and are exchanged at the edge of a
  * frame; views then grow again. Until then the smaller asset stands beside the larger one: views make room for it, and
  * where that is not enough, the budget is exceeded by its bytes at most. An asset of bytes without bytesStay keeps its
  * layers, as does one that failed to load once more (one warning).
