@@ -2,6 +2,7 @@
 #include <froth/froth_breadcrumbs.h>
 #include <froth/froth_host.h>
 #include <froth/froth_pool.h>
+#include <froth/froth_quality.h>
 #include <froth/froth_query.h>
 #include <froth/froth_reader.h>
 #include <froth/froth_walk.h>
