@@ -237,7 +237,10 @@ TEST_F(ImageBounds, OfRaysHoldDistancesAsTheyAre) {
 }
 
 TEST(SameBits, TellZerosAndNaNsApart) {
-  RenderedImages a{{1, 1, 1, {0.0f}}, {1, 1, 1, {std::numeric_limits<float>::quiet_NaN()}}, {}, {}, {}}, b = a;
+  RenderedImages a;
+  a.colour = {1, 1, 1, {0.0f}};
+  a.alpha = {1, 1, 1, {std::numeric_limits<float>::quiet_NaN()}};
+  RenderedImages b = a;
   EXPECT_TRUE(hasSameBits(a, b)) << "NaN is equal to itself";
   b.colour.values[0] = -0.0f;
   EXPECT_FALSE(hasSameBits(a, b));
