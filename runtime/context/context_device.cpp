@@ -9,7 +9,7 @@
 namespace froth {
 namespace {
 
-constexpr VkDeviceSize kStagingBytes = 64u << 20, kLeastStagingBytes = 64u << 10;
+constexpr VkDeviceSize kStagingBytes = 16u << 20, kLeastStagingBytes = 64u << 10;
 constexpr uint32_t kDefaultMostJobs = 4, kMaxMostJobs = 64;
 
 // Views give up this part of what they can besides the excess, so that a few rounds reach the budget.

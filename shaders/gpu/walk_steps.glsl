@@ -38,16 +38,15 @@ Step stepToSite(Chunk chunk, uint site, float key, float entry, uint neighbours)
 
 // Whether a ray that leaves a cell towards two sites, at one point but for rounding, goes on in that of the first. The
 // one that comes before has the ray up to their plane; where the eye lies behind that plane it never has it, and no step
-// leads on from there.
+// leads on from there. Only the side of the eye is asked for: eyePlaneTo() would cost all walks 5 % in registers.
 bool goesOnInFirst(Chunk chunk, vec3 direction, vec4 first, vec4 second) {
   bool isBefore = comesBefore(direction, first.xyz, second.xyz);
   if (isParallel) return isBefore;
-  bool isFar;
-  if (isBefore) {
-    eyePlaneTo(chunk, first, second, isFar);
-  } else {
-    eyePlaneTo(chunk, second, first, isFar);
-  }
+  vec4 before = isBefore ? first : second, behind = isBefore ? second : first;
+  vec3 centre = ballOf(chunk, before).centre;
+  vec3 toBehind = fromSiteToSite(before.xyz, behind.xyz);
+  float offset = radicalOffset(toBehind, before.w, behind.w);
+  bool isFar = exitClearance(centre, toBehind, offset, radicalClearance(centre, toBehind, offset)) >= 0.0;
   return isBefore == isFar;
 }
 

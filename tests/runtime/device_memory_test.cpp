@@ -255,7 +255,7 @@ TEST_F(DeviceMemory, IsReportedByPurpose) {
   ASSERT_EQ(empty.categoryCount, 6u);
   EXPECT_EQ(empty.deviceBytes, 0u);
   EXPECT_STREQ(empty.categories[3].name, "uploads, host");
-  EXPECT_EQ(empty.categories[3].granted, 64u << 20);
+  EXPECT_EQ(empty.categories[3].granted, 16u << 20);
   EXPECT_EQ(empty.categories[3].used, 0u);
   const FrothAsset asset = openBytes(encodeSample());
   createView({32, 32});

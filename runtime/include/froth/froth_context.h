@@ -162,7 +162,7 @@ typedef struct FrothContextInfo {
   void* jobUser;
   uint32_t mostJobs; /* [<= 64] jobs that are given to runJob and not ended, beside one of memory; 0: 4 */
   /* [>= 65536 bytes] of host-visible memory through which assets are uploaded. The frames in flight share it, so a
-   * frame uploads this part of it at most, whatever its uploadBytes. 0: 64 MiB */
+   * frame uploads this part of it at most, whatever its uploadBytes. 0: 16 MiB */
   uint64_t stagingBytes;
   /* 1: pipelines are made so that full frames can write FrothRenderInfo::reactive. Those frames are slower, whether
    * they have that image or not; frames of colour and distance alone are the same */
