@@ -106,7 +106,7 @@ TEST_F(DeviceMemory, ThatTheCallerRefusesIsAnErrorOfMemoryWithText) {
   info.onMessage = logMessage;
   info.messageUser = &messages_;
   EXPECT_EQ(frothCreateContext(&info, &context_), FROTH_ERROR_MEMORY);
-  EXPECT_THAT(lastText(), HasSubstr("upload ring: FrothContextInfo::allocateMemory of 67108864 bytes"));
+  EXPECT_THAT(lastText(), HasSubstr("upload ring: FrothContextInfo::allocateMemory of 16777216 bytes"));
   memory.most = 2;  // the upload ring and the placeholders of a view
   createContext(info);
   auto viewInfo = makeStruct<FrothViewInfo>();

@@ -2,7 +2,7 @@
 #define VK_NO_PROTOTYPES
 #include <froth/froth_query.h>
 
-#include <cstdio>
+#include <iostream>
 
 int main() {
   VkPhysicalDeviceVulkan13Features features13{};
@@ -29,5 +29,5 @@ int main() {
   if (frothDestroyView(context, view) != FROTH_OK) return 4;
   if (frothDestroyView(context, view) != FROTH_ERROR_HANDLE) return 5;
   frothDestroyContext(context, UINT64_MAX);
-  std::puts("well");
+  std::cout << "well\n";
 }
