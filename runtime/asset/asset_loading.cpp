@@ -127,7 +127,7 @@ Status Asset::takeResults(const Preparation& prepare) {
       unplaced_ = std::move(*chunk);
     }
     const Status status = placeChunk(*unplaced_);
-    waitsForMemory_ = isOrdered(status);
+    waitsForMemory_ = isPending(status);
     if (waitsForMemory_) {
       break;
     }
@@ -284,7 +284,7 @@ void Asset::takeSizes(const AssetReader& reader) {
 
 Status Asset::finish() {
   const Status status = placeEntries();
-  waitsForMemory_ = isOrdered(status);
+  waitsForMemory_ = isPending(status);
   if (waitsForMemory_) {
     return {};
   }

@@ -34,7 +34,7 @@ Result<GpuArena::Place> GpuArena::allocate(VkDeviceSize size, VkDeviceSize more,
     GpuBuffer block;
     const Status status = device_.createBuffers(MemoryUse::kAssets, BufferKind::kUploaded, purpose, {&wish, 1},
                                                 {&block, 1}, limit_ == Limit::kNone);
-    orderedSize_ = isOrdered(status) && !isRoomToCome(status) ? blockSize : 0;
+    orderedSize_ = isOrdered(status) ? blockSize : 0;
     if (!status) return status.error();
     blocks_.push_back(block);
     heldBytes_ += block.memory.granted;

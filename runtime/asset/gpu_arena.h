@@ -28,7 +28,7 @@ class GpuArena {
   GpuArena& operator=(const GpuArena&) = delete;
 
   // size > 0. `more`: how many bytes will be asked for later, about. Bytes a, a, a, ... of n places take O(log n)
-  // blocks besides those of kMostShared. An error names `purpose`, or isOrdered(): then ask for the same again.
+  // blocks besides those of kMostShared. An error names `purpose`, or isPending(): then ask for the same again.
   Result<Place> allocate(VkDeviceSize size, VkDeviceSize more, const char* purpose);
 
   std::span<const GpuBuffer> blocks() const { return blocks_; }

@@ -182,7 +182,7 @@ void Context::prepareView(FrothView handle, View& view) {
     return;
   }
   // The view keeps the buffers it had: it goes on drawing what they hold.
-  if (!isOrdered(status) && view.preparationError != status.error().message) {  // once, not in every frame
+  if (!isPending(status) && view.preparationError != status.error().message) {  // once, not in every frame
     view.preparationError = status.error().message;
     messages.fail(resultOf(status.error()), "view", "view {%u, %u}, %s", handle.index, handle.generation,
                   view.preparationError.c_str());

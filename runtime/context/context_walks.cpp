@@ -46,7 +46,7 @@ void Context::prepareWalks() {
   const Status status = walks_->prepare(completedSerial_, chunkCount);
   if (status || device_.loss->isTold()) {  // of the loss frothUpdate tells
     walkError_.clear();
-  } else if (!isOrdered(status) && walkError_ != status.error().message) {  // once, not in every frame
+  } else if (!isPending(status) && walkError_ != status.error().message) {  // once, not in every frame
     walkError_ = status.error().message;
     messages.fail(status.error(), "walk set");
   }

@@ -75,14 +75,12 @@ struct BufferWish {
   const char* name;
 };
 
-// The error of an allocation that a job makes: nothing was changed; ask again in the next update. It has no message.
+// An error without a message: memory is to come, nothing was changed; ask again in the next update. It is ordered, and
+// a job makes it; or the budget has no room for the order until a job has given back what was freed.
 inline Error makeOrdered() { return {ErrorKind::kMemory, {}}; }
-inline bool isOrdered(const Status& status) { return !status && status.error().message.empty(); }
-// The same, but it is not even ordered: the budget has no room until a job has given back what was freed.
 inline Error makeRoomToCome() { return {ErrorKind::kCancelled, {}}; }
-inline bool isRoomToCome(const Status& status) {
-  return isOrdered(status) && status.error().kind == ErrorKind::kCancelled;
-}
+inline bool isPending(const Status& status) { return !status && status.error().message.empty(); }
+inline bool isOrdered(const Status& status) { return isPending(status) && status.error().kind == ErrorKind::kMemory; }
 
 // What an allocation is for and what memory it wants.
 struct MemoryWish {
@@ -155,7 +153,7 @@ class Device {
     nameHandle(type, (uint64_t)handle, name);  // a pointer, or, on 32 bits, a number
   }
 
-  // `used` of the required bytes will hold something. isOrdered(): not yet.
+  // `used` of the required bytes will hold something. isPending(): not yet.
   Result<MemoryBlock> allocate(const VkMemoryRequirements& requirements, VkDeviceSize used, const MemoryWish& wish);
   void release(MemoryBlock& block);  // resets it to empty
 
@@ -200,7 +198,7 @@ class Device {
   void nameHandle(VkObjectType type, uint64_t handle, const char* name) const;
   Status checkBudget(VkDeviceSize size, const MemoryWish& wish);
   void giveBackNow(const std::vector<MemoryBlock>& blocks);
-  Result<MemoryBlock> takeOrdered(const MemoryOrder& order);
+  Result<MemoryBlock> takeOrdered(MemoryOrder& order);
   Error explainAllocation(VkResult result, const MemoryBlock& block, const char* purpose);
   VkResult takeMemory(const FrothMemoryRequest& request, FrothDeviceMemory& place) const;
   VkResult allocateOwn(const FrothMemoryRequest& request, FrothDeviceMemory& place) const;

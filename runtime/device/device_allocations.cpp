@@ -84,19 +84,16 @@ Result<MemoryBlock> Device::allocate(const VkMemoryRequirements& requirements, V
   return block;
 }
 
-Result<MemoryBlock> Device::takeOrdered(const MemoryOrder& order) {
+Result<MemoryBlock> Device::takeOrdered(MemoryOrder& order) {
   if (order.state != MemoryOrder::State::kDone) {
     return makeOrdered();
   }
-  const MemoryBlock block = order.block;
+  order.use = MemoryOrder::Use::kTaken;
   if (order.result == VK_SUCCESS) {
-    orders->remove(order);
-    return block;
+    return order.block;
   }
-  ledger.remove(block);
-  Error error = explainAllocation(order.result, block, order.purpose.c_str());
-  orders->remove(order);
-  return error;
+  ledger.remove(order.block);
+  return explainAllocation(order.result, order.block, order.purpose.c_str());
 }
 
 Error Device::explainAllocation(VkResult result, const MemoryBlock& block, const char* purpose) {

@@ -22,11 +22,10 @@ MemoryOrders::MemoryOrders() { kept_.reserve(kMostKept); }
 
 std::shared_ptr<MemoryOrder> MemoryOrders::find(const FrothMemoryRequest& request, MemoryUse use) const {
   for (const std::shared_ptr<MemoryOrder>& order : orders_) {
-    const bool isTaken = order->isAsked && !order->isPutBack;
-    if (isTaken || order->block.use != use || order->purpose != request.purpose) continue;
+    const bool isFree = order->use == MemoryOrder::Use::kUnasked || order->use == MemoryOrder::Use::kPutBack;
+    if (!isFree || order->block.use != use || order->purpose != request.purpose) continue;
     if (!isSameRequest(order->request, request)) continue;
-    order->isAsked = true;
-    order->isPutBack = false;
+    order->use = MemoryOrder::Use::kAsked;
     return order;
   }
   return nullptr;
@@ -40,21 +39,13 @@ void MemoryOrders::add(const FrothMemoryRequest& request, const MemoryBlock& blo
   ++newest_;
 }
 
-void MemoryOrders::remove(const MemoryOrder& order) {
-  const auto found = std::ranges::find(orders_, &order, [](const auto& other) { return other.get(); });
-  taken_.push_back(std::move(*found));
-  orders_.erase(found);
-}
-
 bool MemoryOrders::putBack(const MemoryBlock& block) {
-  const auto found = std::ranges::find_if(taken_, [&](const std::shared_ptr<MemoryOrder>& order) {
+  const auto found = std::ranges::find_if(orders_, [&](const std::shared_ptr<MemoryOrder>& order) {
     const FrothDeviceMemory &a = order->block.place, &b = block.place;
-    return a.memory == b.memory && a.offset == b.offset;
+    return order->use == MemoryOrder::Use::kTaken && a.memory == b.memory && a.offset == b.offset;
   });
-  if (found == taken_.end()) return false;
-  (*found)->isPutBack = true;
-  orders_.push_back(std::move(*found));
-  taken_.erase(found);
+  if (found == orders_.end()) return false;
+  (*found)->use = MemoryOrder::Use::kPutBack;
   return true;
 }
 
@@ -69,17 +60,18 @@ void MemoryOrders::cancelBehind(uint64_t number, MemoryLedger& ledger) {
 VkDeviceSize MemoryOrders::deviceBytes() const {
   VkDeviceSize bytes = 0;
   for (const std::shared_ptr<MemoryOrder>& order : orders_) {
-    bytes += isHostUse(order->block.use) ? 0 : order->block.granted;
+    const bool isCounted = order->use != MemoryOrder::Use::kTaken && !isHostUse(order->block.use);
+    bytes += isCounted ? order->block.granted : 0;
   }
   return bytes;
 }
 
 void MemoryOrders::close(MemoryLedger& ledger) {
   isOpen_ = false;
-  taken_.clear();
   std::erase_if(orders_, [&](const std::shared_ptr<MemoryOrder>& order) {
-    order->isPutBack = false;
-    if (std::exchange(order->isAsked, false) || order->state == MemoryOrder::State::kUnderWay) return false;
+    const MemoryOrder::Use use = std::exchange(order->use, MemoryOrder::Use::kUnasked);
+    if (use == MemoryOrder::Use::kTaken) return true;
+    if (use != MemoryOrder::Use::kUnasked || order->state == MemoryOrder::State::kUnderWay) return false;
     if (order->state == MemoryOrder::State::kDone && order->result == VK_SUCCESS) return keep(order->block);
     ledger.remove(order->block);
     return true;
@@ -107,7 +99,8 @@ std::vector<MemoryBlock> MemoryOrders::takeKept(MemoryLedger& ledger) {
 
 std::shared_ptr<MemoryBatch> MemoryOrders::startBatch() {
   const auto isWaiting = [](const auto& order) { return order->state == MemoryOrder::State::kWaiting; };
-  if (batch_ || (kept_.empty() && std::ranges::none_of(orders_, isWaiting))) return nullptr;
+  if (batch_) return batch_;  // host memory was exhausted before its job began
+  if (kept_.empty() && std::ranges::none_of(orders_, isWaiting)) return nullptr;
   auto batch = std::make_shared<MemoryBatch>();
   batch->unused = kept_;
   std::ranges::copy_if(orders_, std::back_inserter(batch->orders), isWaiting);

@@ -16,6 +16,7 @@ namespace froth {
 // An allocation that a job makes. The ledger is charged with it from the beginning.
 struct MemoryOrder {
   enum class State { kWaiting, kUnderWay, kDone };
+  enum class Use { kUnasked, kAsked, kTaken, kPutBack };  // put back: another may ask for it
 
   FrothMemoryRequest request;  // its `purpose` is that of this order
   std::string purpose;
@@ -23,8 +24,7 @@ struct MemoryOrder {
   VkResult result = VK_NOT_READY;
   uint64_t number;
   State state = State::kWaiting;
-  bool isAsked = true;     // in this update
-  bool isPutBack = false;  // and then not needed: another may ask for it
+  Use use = Use::kAsked;  // in this update
 };
 
 // What one job does: gives back, then takes.
@@ -49,8 +49,7 @@ class MemoryOrders {
   // An order like this one that was not asked for since open(); null: there is none.
   std::shared_ptr<MemoryOrder> find(const FrothMemoryRequest& request, MemoryUse use) const;
   void add(const FrothMemoryRequest& request, const MemoryBlock& block);
-  void remove(const MemoryOrder& order);
-  // Makes a block that was taken from an order since open() one that can be asked for again. False: it was not.
+  // Makes a block of an order that was taken since open() one that can be asked for again. False: it is of none.
   bool putBack(const MemoryBlock& block);
   // Takes back those that were added behind `number`, and that no job has.
   uint64_t newest() const { return newest_; }
@@ -62,7 +61,7 @@ class MemoryOrders {
   // Those that no job is giving back at this moment. Removes from the ledger what is given back meanwhile, but them.
   std::vector<MemoryBlock> takeKept(MemoryLedger& ledger);
 
-  // Null: there is nothing to be done, or a batch is under way.
+  // No job is under way. Null: there is nothing to be done.
   std::shared_ptr<MemoryBatch> startBatch();
   void endBatch(MemoryLedger& ledger);
   bool isGivingBack() const { return !kept_.empty() || (batch_ && !batch_->unused.empty()); }
@@ -74,7 +73,6 @@ class MemoryOrders {
   bool isOpen_ = false, isFinished_ = false;
   uint64_t newest_ = 0;
   std::vector<std::shared_ptr<MemoryOrder>> orders_;
-  std::vector<std::shared_ptr<MemoryOrder>> taken_;  // since open()
   std::vector<MemoryBlock> kept_;
   std::shared_ptr<MemoryBatch> batch_;
 };

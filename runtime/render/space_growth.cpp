@@ -14,7 +14,7 @@ Status growToLess(InstanceSpace& space, const ViewCapacity& wanted) {
   for (double factor = 0.5;; factor *= 0.5) {
     const ViewCapacity less = lessened(wanted, factor);
     const Status status = space.buffers.grow(less, space.lastSerial);
-    if (status || isOrdered(status) || less == least) return status;
+    if (status || isPending(status) || less == least) return status;
   }
 }
 
@@ -24,7 +24,7 @@ Status growInParts(InstanceSpace& space, const ViewCapacity& wanted, uint64_t co
   for (const ViewCapacity& part : {ViewCapacity{.cells = wanted.cells, .details = wanted.details},
                                    ViewCapacity{.planes = wanted.planes}, ViewCapacity{.pairs = wanted.pairs}}) {
     const Status status = space.buffers.grow(part, space.lastSerial);
-    if (!status && !isOrdered(result)) result = status;
+    if (!status && !isPending(result)) result = status;
     space.buffers.freeRetired(completedSerial);
   }
   return result;
@@ -40,7 +40,7 @@ Result<bool> growToDemand(Device& device, InstanceSpace& space, const GpuAsset& 
     const ViewCapacity less = largest(held, lessened(needed, part));
     if (bytesOf(less) > most) continue;
     const Status status = growInParts(space, less, completedSerial);
-    if (isOrdered(status)) return status.error();
+    if (isPending(status)) return status.error();
     if (status) return part == 1;
   }
   return false;
@@ -51,7 +51,7 @@ Status growToRoom(Device& device, InstanceSpace& space, const GpuAsset* asset, c
                   uint64_t completedSerial, const Status& refusal) {
   if (!space.buffers.areMade() || (asset && !coversAsset(*asset, space.buffers.capacity()))) {
     const Status status = growToLess(space, wanted);
-    return isOrdered(status) ? status : refusal;
+    return isPending(status) ? status : refusal;
   }
   if (asset) {
     const Result<bool> isAll = growToDemand(device, space, *asset, completedSerial);
@@ -59,7 +59,7 @@ Status growToRoom(Device& device, InstanceSpace& space, const GpuAsset* asset, c
     if (!*isAll) return refusal;
   }
   const Status status = growInParts(space, wanted, completedSerial);
-  return status || isOrdered(status) ? status : refusal;
+  return status || isPending(status) ? status : refusal;
 }
 
 Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, const ViewCapacity& wanted,
@@ -76,7 +76,7 @@ Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, 
   const Status status = space.buffers.grow(wanted, space.lastSerial);
   if (device.budgetRefusals == budgetRefusals) return status;
   const Status less = growToRoom(device, space, asset, wanted, completedSerial, status);
-  if (!less && !isOrdered(less)) space.refusal = {asset, budget, device.ledger.deviceBytes(), less.error()};
+  if (!less && !isPending(less)) space.refusal = {asset, budget, device.ledger.deviceBytes(), less.error()};
   return less;
 }
 

@@ -152,17 +152,16 @@ Status ViewBuffers::grow(const ViewCapacity& wanted, uint64_t lastSerial) {
   const ViewCapacity grown = largest(capacity_, wanted);
   retired_.reserve(retired_.size() + kViewBufferCount);
   const uint64_t newestOrder = device_.newestOrder();
-  const auto isUnderWay = [](const Status& made) { return isOrdered(made) && !isRoomToCome(made); };
   Buffers larger{};
   Status status;
   for (const Group& group : kGroups) {
     if (!hasAny(group, buffers_, grown, std::less())) continue;
     const Status made = makeGroup(device_, group, grown, larger);
     if (!made) status = made;
-    if (!made && !isUnderWay(made)) break;  // what the others ordered would only take room
+    if (!made && !isOrdered(made)) break;  // what the others ordered would only take room
   }
   if (!status) {
-    if (!isUnderWay(status)) device_.cancelOrdersBehind(newestOrder);
+    if (!isOrdered(status)) device_.cancelOrdersBehind(newestOrder);
     for (GpuBuffer& made : larger) device_.destroyBuffer(made);
     return status;
   }

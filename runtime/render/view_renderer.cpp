@@ -75,11 +75,11 @@ void readBack(ViewState& view, uint64_t completedSerial) {
 
 // The first error counts, but for what is only ordered.
 void keepFirst(const Status& status, Status& result) {
-  if (result || (isOrdered(result) && !status)) result = status;
+  if (result || (isPending(result) && !status)) result = status;
 }
 
 Status nameInstance(const RenderInstance& instance, const Status& status) {
-  if (status || isOrdered(status)) return status;
+  if (status || isPending(status)) return status;
   const Error& error = status.error();
   return makeError(error.kind, "instance {%u, %u}, userId %u: %s", instance.handle.index, instance.handle.generation,
                    instance.userId, error.message.c_str());

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "format/write/asset_writer.h"
+#include "host/make_struct.h"
 #include "tests/faults/engine.h"
 #include "tests/faults/host_faults.h"
 #include "tests/faults/vulkan_faults.h"
@@ -22,8 +23,7 @@ FrothHostAllocator allocatorOf(void* (*allocate)(void*, size_t, size_t), void* u
 }
 
 FrothResult createNullContext(FrothContext** context) {
-  FrothContextInfo info{};
-  info.structSize = sizeof(info);
+  auto info = makeStruct<FrothContextInfo>();
   info.abiVersion = FROTH_ABI_VERSION;
   const HostFaults::Zone zone;
   return frothCreateContext(&info, context);

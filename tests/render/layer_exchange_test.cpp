@@ -8,6 +8,7 @@
 #include "format/write/asset_writer.h"
 #include "froth/froth_query.h"
 #include "froth/froth_reader.h"
+#include "host/make_struct.h"
 #include "tests/render/layer_scene.h"
 #include "tests/render/random_foam.h"
 
@@ -163,8 +164,7 @@ TEST_F(LayerExchange, RefusesAnotherSceneInTheFile) {
 }
 
 TEST_F(LayerExchange, IsNotForBytesThatMayBeGone) {
-  FrothAssetInfo info{};
-  info.structSize = sizeof(info);
+  auto info = makeStruct<FrothAssetInfo>();
   info.data = bytes().data();
   info.dataSize = bytes().size();
   const FrothAsset kept = open(info);
@@ -188,8 +188,7 @@ TEST_F(LayerExchange, AsksAReaderAgain) {
     FrothContext* context;
     int reads = 0;
   } pack{context_};
-  FrothReader reader{};
-  reader.structSize = sizeof(reader);
+  auto reader = makeStruct<FrothReader>();
   reader.user = &pack;
   reader.size = bytes().size();
   reader.read = [](void* user, uint64_t request, uint64_t offset, uint64_t size, void* destination) {
@@ -198,8 +197,7 @@ TEST_F(LayerExchange, AsksAReaderAgain) {
     std::memcpy(destination, bytes().data() + offset, size);
     check(frothCompleteRead(asked.context, request, FROTH_OK), "frothCompleteRead");
   };
-  FrothAssetInfo info{};
-  info.structSize = sizeof(info);
+  auto info = makeStruct<FrothAssetInfo>();
   info.reader = &reader;
   const FrothAsset asset = open(info);
   drawUntilSteady();
@@ -216,8 +214,7 @@ TEST_F(LayerExchange, LeavesQueriesAsTheyAre) {
   const auto ask = [&] {
     FrothRay ray{};
     ray.direction[2] = 1;
-    FrothCastInfo cast{};
-    cast.structSize = sizeof(cast);
+    auto cast = makeStruct<FrothCastInfo>();
     FrothRayHit hit{};
     check(frothCastRays(context_, &cast, &ray, &hit, 1), "frothCastRays");
     return hit;

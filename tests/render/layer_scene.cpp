@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "format/write/asset_writer.h"
+#include "host/make_struct.h"
 #include "tests/render/random_foam.h"
 
 namespace froth::test {
@@ -24,13 +25,6 @@ FrothContextInfo contextInfo(LayerEngine& engine) {
   info.runJob = JobsOnDemand::take;
   info.jobUser = &engine.jobs;
   return info;
-}
-
-template <class Struct>
-Struct sized() {
-  Struct made{};
-  made.structSize = sizeof(made);
-  return made;
 }
 
 }  // namespace
@@ -72,7 +66,7 @@ LayerScene::LayerScene() {
     const FrothContextInfo info = contextInfo(engine());
     check(frothCreateContext(&info, &context_), "frothCreateContext");
   }
-  auto viewInfo = sized<FrothViewInfo>();
+  auto viewInfo = makeStruct<FrothViewInfo>();
   viewInfo.maxExtent = kExtent;
   check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");
   image_ = *sharedHost().createImage(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent);
@@ -99,7 +93,7 @@ LayerScene::~LayerScene() {
 }
 
 FrothAsset LayerScene::open(uint32_t layers) {
-  auto info = sized<FrothAssetInfo>();
+  auto info = makeStruct<FrothAssetInfo>();
   const std::string file = path();
   info.path = file.c_str();
   info.layers = layers;
@@ -111,7 +105,7 @@ FrothAsset LayerScene::open(FrothAssetInfo info) {
   info.layersMayGo = 1;
   FrothAsset asset{};
   check(frothOpenAsset(context_, &info, &asset), "frothOpenAsset");
-  auto instanceInfo = sized<FrothInstanceInfo>();
+  auto instanceInfo = makeStruct<FrothInstanceInfo>();
   instanceInfo.asset = asset;
   FrothInstance instance{};
   check(frothCreateInstance(context_, &instanceInfo, &instance), "frothCreateInstance");
@@ -136,7 +130,7 @@ void LayerScene::restoreDevice() {
 }
 
 FrothResult LayerScene::record(VkCommandBuffer commands, uint64_t serial, FrothFrameStatus& status) {
-  auto frame = sized<FrothFrame>();
+  auto frame = makeStruct<FrothFrame>();
   frame.serial = serial;
   frame.completedSerial = completedSerial_ = std::max(completedSerial_, serial - lag_);
   check(frothUpdate(context_, &frame, &status), "frothUpdate");
@@ -149,7 +143,7 @@ FrothResult LayerScene::record(VkCommandBuffer commands, uint64_t serial, FrothF
 }
 
 Shown LayerScene::draw() {
-  Shown shown{FROTH_OK, {}, sized<FrothFrameStatus>()};
+  Shown shown{FROTH_OK, {}, makeStruct<FrothFrameStatus>()};
   EXPECT_TRUE(sharedHost().submit([&](VkCommandBuffer commands, uint64_t serial) {
     shown.result = record(commands, serial, shown.frame);
     return Status();
@@ -159,7 +153,7 @@ Shown LayerScene::draw() {
 }
 
 void LayerScene::drop() {
-  auto status = sized<FrothFrameStatus>();
+  auto status = makeStruct<FrothFrameStatus>();
   std::vector<uint64_t> serials;
   ++lag_;  // neither completes
   for (int frame = 0; frame < 2; ++frame) {
@@ -197,20 +191,20 @@ Shown LayerScene::drawUntilLayers(FrothAsset asset, uint32_t layers) {
 }
 
 FrothAssetStatus LayerScene::statusOf(FrothAsset asset) {
-  auto status = sized<FrothAssetStatus>();
+  auto status = makeStruct<FrothAssetStatus>();
   check(frothGetAssetStatus(context_, asset, &status), "frothGetAssetStatus");
   return status;
 }
 
 FrothViewStatus LayerScene::viewStatus() {
-  auto status = sized<FrothViewStatus>();
+  auto status = makeStruct<FrothViewStatus>();
   check(frothGetViewStatus(context_, view_, &status), "frothGetViewStatus");
   EXPECT_EQ(status.indexViolations, 0u);
   return status;
 }
 
 FrothMemoryReport LayerScene::report() {
-  auto report = sized<FrothMemoryReport>();
+  auto report = makeStruct<FrothMemoryReport>();
   check(frothGetMemoryReport(context_, &report), "frothGetMemoryReport");
   return report;
 }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "format/write/asset_writer.h"
+#include "host/make_struct.h"
 #include "tests/render/layer_scene.h"
 #include "tests/render/random_foam.h"
 
@@ -101,8 +102,7 @@ TEST_F(Layers, ExceedTheBudgetByTheSmallerAssetAtMostAndThenRest) {
 TEST_F(Layers, AreThoseOfTheFile) {
   Foam foam = makeRandomFoam(300, 3, 0, 6);
   const std::vector<uint8_t> bytes = *encodeAsset(bakeForTest(foam));
-  FrothAssetInfo info{};
-  info.structSize = sizeof(info);
+  auto info = makeStruct<FrothAssetInfo>();
   info.data = bytes.data();
   info.dataSize = bytes.size();
   info.bytesStay = 1;
