@@ -33,7 +33,12 @@ struct ChunkContents {
 
   std::vector<glm::vec3> sites;    // [cellCount + ghostCount] [scene units]
   std::vector<float> radii;        // [cellCount + ghostCount] [scene units, > 0]
-  std::vector<CellRef> ghostRefs;  // [ghostCount] where each ghost lives, ascending
+  std::vector<CellRef> ghostRefs;  // [ghostCount] where each ghost lives, ascending; with levels its border number
+
+  // With levels: the cells that other chunks know as ghosts, and which border each is (docs/STREAMING.md). Chunks of
+  // several levels may hold the same border: one of them is drawn.
+  std::vector<uint32_t> borderCells;    // [borders] local, ascending
+  std::vector<uint32_t> borderNumbers;  // [borders] < AssetContents::borderCount
 
   // Graph, compressed rows. Row i is neighbours[neighbourOffsets[i] .. neighbourOffsets[i + 1]), indices into sites.
   // A live cell's row starts with its alphaCounts[i] true alpha-complex neighbours, nearest radical plane first
@@ -112,6 +117,27 @@ struct AttributeError {
 // The first layers of an asset are a complete, coarser scene: K = 1 and no lobes; K detail sites and no lobes; all.
 enum class Layer : uint8_t { kGeometry = 0, kDetails = 1, kViewDependence = 2 };
 
+inline constexpr uint32_t kNoGroup = 0xffffffff;
+
+// Levels of detail (docs/STREAMING.md). A group is cells of one level that become coarser together: the chunks that
+// are `in` it are drawn, or those `madeBy` it.
+struct LevelGroup {
+  // A ball around the balls of its live cells, of both forms, and around the balls of the groups that lie finer below.
+  std::array<double, 3> centre{};  // [scene units]
+  double radius = 0;               // [scene units]
+  // Size of a pixel from which on the coarse form stands for the fine one [scene units]; less than that of each group
+  // that its coarse chunks are in.
+  double error = 0;
+  uint32_t level = 0;  // of the fine form
+};
+
+// Where a chunk stands in the levels.
+struct ChunkLevel {
+  uint32_t level = 0;          // 0: the finest
+  uint32_t madeBy = kNoGroup;  // kNoGroup: level 0
+  uint32_t in = kNoGroup;      // kNoGroup: nothing is coarser; the chunk belongs to the floor
+};
+
 struct AssetContents {
   uint32_t detailCount = 0;  // K [1..32]
   uint32_t lobeCount = 0;    // M, most lobes of a detail site [0..32]; 0: no view dependence
@@ -136,6 +162,11 @@ struct AssetContents {
   std::vector<StoredCamera> flightPath;  // may be empty
 
   std::vector<ChunkContents> chunks;  // >= 1
+
+  // Levels of detail; all empty: the chunks are the scene.
+  std::vector<ChunkLevel> levels;  // [chunks] the floor first, level 0 last
+  std::vector<LevelGroup> groups;
+  uint32_t borderCount = 0;  // cells that chunks share, over all levels
 };
 
 }  // namespace froth
