@@ -1,10 +1,8 @@
 // What is drawn of an asset with levels of detail: any cut is the power diagram of its cells, for rasters and walks.
-#include <random>
-
 #include <gtest/gtest.h>
 
 #include "runtime/context/context.h"
-#include "tests/levels/level_scene.h"
+#include "tests/levels/level_cuts.h"
 #include "tests/render/render_harness.h"
 
 namespace froth::test {
@@ -14,87 +12,75 @@ constexpr uint32_t kWidth = 128, kHeight = 96;
 constexpr VkExtent2D kExtent = {kWidth, kHeight};
 constexpr int kMostFrames = 100;  // until a cut is drawn
 
+// From outside, and from between the cells.
 std::vector<View> views() {
-  return {lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, kWidth, kHeight, 0.6),
-          lookAt({0.3, 0.2, 2.6}, {0, -0.1, 3.4}, kWidth, kHeight, 0.9)};
+  return {lookAt({0.2, 0.3, -5}, {0, 0, 0}, kWidth, kHeight, 0.4),
+          lookAt({0.3, 0.2, -0.4}, {0, -0.1, 0.4}, kWidth, kHeight, 0.9)};
 }
 
 class LevelStage : public Stage {
  public:
   explicit LevelStage(bool keepsHits = false)
-      : Stage(levelScene().levels, kExtent, sharedContext(), 0, 0, keepsHits, 0, false) {}
+      : Stage(levelSample(), kExtent, sharedContext(), 0, 0, keepsHits, 0, false) {}
 
-  void want(const std::vector<uint32_t>& cut) { context()->setCut(asset(), cut); }
   bool isDrawn(const std::vector<uint32_t>& cut) const {
     return std::ranges::equal(cut, context()->findAsset(asset())->drawnChunks());
   }
-  void show(const std::vector<uint32_t>& cut) {
-    want(cut);
+  void waitFor(const std::vector<uint32_t>& cut) {
     for (int frame = 0; frame < kMostFrames && !isDrawn(cut); ++frame) submit({});
     ASSERT_TRUE(isDrawn(cut));
+  }
+  void show(const std::vector<uint32_t>& cut) {
+    context()->setCut(asset(), cut);
+    waitFor(cut);
   }
 };
 
 std::vector<std::vector<uint32_t>> cutsToShow() {
-  const LevelScene& scene = levelScene();
-  return {scene.floor(), scene.cut(0), scene.cut(15), scene.cut(5), scene.cut(8), scene.cut(7)};
+  std::vector<std::vector<uint32_t>> cuts = {floorCut(), finestCut()};
+  std::mt19937 random(7);
+  for (int i = 0; i < 6; ++i) cuts.push_back(randomCut(random));
+  return cuts;
 }
 
 TEST(Cuts, BeginWithLevelZeroWhereTheBudgetHasRoom) {
   LevelStage stage;
-  const std::vector<uint32_t> finest = levelScene().cut(15);
-  for (int frame = 0; frame < kMostFrames && !stage.isDrawn(finest); ++frame) stage.submit({});
-  EXPECT_TRUE(stage.isDrawn(finest));
-  const FrothAssetStatus status = stage.assetStatus();
-  EXPECT_EQ(status.cellCount, levelScene().whole[0].chunks[0].cellCount);
-  EXPECT_EQ(status.chunkCount, 13u);
-}
-
-TEST(Cuts, OfAnyLevelsAreTheRasterOfOneChunkBitForBit) {
-  std::vector<Frame> found, expected;
-  {
-    LevelStage stage;
-    for (const std::vector<uint32_t>& cut : cutsToShow()) {
-      stage.show(cut);
-      for (const View& view : views()) found.push_back(stage.draw(Method::kRaster, view));
-    }
-  }
-  for (const std::vector<uint32_t>& cut : cutsToShow()) {
-    Stage stage(levelScene().mixed(cut), kExtent);
-    for (const View& view : views()) expected.push_back(stage.draw(Method::kRaster, view));
-  }
-  for (size_t i = 0; i < found.size(); ++i) {
-    EXPECT_EQ(found[i].colour.values, expected[i].colour.values) << i;
-    EXPECT_EQ(found[i].distance.values, expected[i].distance.values) << i;
-  }
-  EXPECT_LT(psnr(found[0].colour, found[2].colour), 30) << "levels look alike";
+  stage.waitFor(finestCut());
+  uint32_t cells = 0;
+  for (const uint32_t chunk : finestCut()) cells += levelSample().chunks[chunk].cellCount;
+  EXPECT_EQ(stage.assetStatus().cellCount, cells);
+  EXPECT_EQ(stage.assetStatus().chunkCount, levelSample().chunks.size());
 }
 
 TEST(Cuts, ByWalkAreThoseByRasterAndTheReference) {
   LevelStage stage;
+  std::vector<Image> images;
   for (const std::vector<uint32_t>& cut : cutsToShow()) {
     stage.show(cut);
-    const Result<Foam> foam = foamFromAsset(levelScene().mixed(cut));
+    const Result<Foam> foam = foamFromAsset(contentsOf(cut));
     ASSERT_TRUE(foam) << foam.error().message;
     for (const View& view : views()) {
       const Frame raster = stage.draw(Method::kRaster, view), walk = stage.draw(Method::kWalk, view);
-      EXPECT_EQ(walk.status.bits, 0u);
+      EXPECT_EQ(walk.status.bits, 0u) << "a walk did not end";
       EXPECT_GE(psnr(walk.colour, raster.colour), 60);
       EXPECT_LE(overTwoSteps(walk.colour, raster.colour), 1e-4);
       const RenderedImages reference = renderReference(*foam, view, 1e-3);
-      EXPECT_GE(psnr(walk.colour, reference.colour), 60);
-      EXPECT_LE(overTwoSteps(walk.colour, reference.colour), 1e-4);
+      for (const Frame* frame : {&raster, &walk}) {
+        EXPECT_GE(psnr(frame->colour, reference.colour), 60);
+        EXPECT_LE(overTwoSteps(frame->colour, reference.colour), 1e-4);
+      }
+      images.push_back(raster.colour);
     }
   }
+  EXPECT_LT(psnr(images[0], images[2]), 30) << "floor and level 0 look alike";
 }
 
 TEST(Cuts, NameCellsByTheChunkInTheFile) {
   LevelStage stage(true);
-  const LevelScene& scene = levelScene();
   const uint32_t bits = stage.assetStatus().cellBits;
   for (const std::vector<uint32_t>& cut : cutsToShow()) {
     stage.show(cut);
-    const Result<Foam> foam = foamFromAsset(scene.mixed(cut));
+    const Result<Foam> foam = foamFromAsset(contentsOf(cut));
     ASSERT_TRUE(foam);
     const RenderedImages reference = renderReference(*foam, views()[0], 1e-3);
     for (const Method method : {Method::kRaster, Method::kWalk}) {
@@ -104,8 +90,9 @@ TEST(Cuts, NameCellsByTheChunkInTheFile) {
         const uint32_t code = frame.id[i][1];
         if (code == UINT32_MAX || reference.cells[i] == UINT32_MAX) continue;
         const uint32_t chunk = code >> bits, local = code & ((1u << bits) - 1);
-        ASSERT_TRUE(std::ranges::count(cut, chunk) == 1 && local < scene.cells[chunk].size()) << chunk << ", " << local;
-        differing += foam->radii[reference.cells[i]] != scene.levels.chunks[chunk].radii[local];
+        ASSERT_TRUE(std::ranges::binary_search(cut, chunk)) << chunk;
+        ASSERT_LT(local, levelSample().chunks[chunk].liveCount) << chunk;
+        differing += foam->radii[reference.cells[i]] != levelSample().chunks[chunk].radii[local];
         ++met;
       }
       EXPECT_GT(met, frame.id.size() / 10);
@@ -118,9 +105,9 @@ TEST(Cuts, NameCellsByTheChunkInTheFile) {
 TEST(Cuts, AreToldToWalksAgainAfterADroppedFrame) {
   LevelStage stage;
   const View view = views()[1];
-  stage.show(levelScene().cut(0));
+  stage.show(floorCut());
   stage.draw(Method::kWalk, view);
-  stage.show(levelScene().cut(6));
+  stage.show(finestCut());
   Result<HostImage> image = sharedHost().createImage(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent);
   FrothRenderInfo info = infoOf(view);
   info.colour = sharedHost().describe(*image);

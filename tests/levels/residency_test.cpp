@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/context/context.h"
-#include "tests/levels/level_scene.h"
+#include "tests/levels/level_cuts.h"
 #include "tests/render/render_harness.h"
 
 namespace froth::test {
@@ -17,7 +17,7 @@ constexpr uint64_t kInFlight = 2;
 class Flight {
  public:
   Flight()
-      : stage_(levelScene().levels, kExtent, context(), 0, 0, false, 0, false),
+      : stage_(levelSample(), kExtent, context(), 0, 0, false, 0, false),
         image_(*sharedHost().createImage(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent)) {}
   ~Flight() { sharedHost().destroyImage(image_); }
 
@@ -33,7 +33,7 @@ class Flight {
   }
 
   void frame(bool isWalk) {
-    FrothRenderInfo info = infoOf(lookAt({0.3, 0.2, 2.6}, {0, -0.1, 3.4}, kExtent.width, kExtent.height, 0.9));
+    FrothRenderInfo info = infoOf(lookAt({0.3, 0.2, -0.4}, {0, -0.1, 0.4}, kExtent.width, kExtent.height, 0.9));
     info.colour = sharedHost().describe(image_);
     const Status submitted = sharedHost().submit([&](VkCommandBuffer commandBuffer, uint64_t serial) -> Status {
       const FrothFrame frame{sizeof(FrothFrame), serial, serial - kInFlight, 0, 0, 0, 0};
@@ -53,7 +53,7 @@ class Flight {
   const Asset& asset() const { return *context()->findAsset(stage_.asset()); }
   bool isDrawn(const std::vector<uint32_t>& cut) const { return std::ranges::equal(cut, asset().drawnChunks()); }
   bool isIdle() const {  // nothing comes or goes
-    for (uint32_t chunk = 0; chunk < levelScene().levels.chunks.size(); ++chunk) {
+    for (uint32_t chunk = 0; chunk < levelSample().chunks.size(); ++chunk) {
       const ChunkState state = asset().chunkState(chunk);
       if (state != ChunkState::kAbsent && state != ChunkState::kResident) return false;
     }
@@ -77,16 +77,17 @@ class Flight {
 
 TEST(Residency, OfAnEvictedChunkEndsOnceItsFramesAreComplete) {
   Flight flight;
-  flight.settle(levelScene().cut(15));
+  flight.settle(finestCut());
   const uint64_t fine = flight.status().deviceBytes;
-  flight.settle(levelScene().floor());
+  flight.settle(floorCut());
   const FrothAssetStatus floor = flight.status();
-  for (uint32_t chunk = 1; chunk < levelScene().levels.chunks.size(); ++chunk) {
+  for (uint32_t chunk = 0; chunk < levelSample().chunks.size(); ++chunk) {
+    if (std::ranges::binary_search(floorCut(), chunk)) continue;
     EXPECT_EQ(flight.asset().chunkState(chunk), ChunkState::kAbsent) << chunk;
   }
-  flight.settle(levelScene().cut(15));
+  flight.settle(finestCut());
   EXPECT_EQ(flight.status().deviceBytes, fine);
-  flight.settle(levelScene().floor());
+  flight.settle(floorCut());
   EXPECT_EQ(flight.status().deviceBytes, floor.deviceBytes);
   for (uint32_t i = 0; i < floor.memoryCount; ++i) {
     EXPECT_EQ(flight.status().memory[i].bytes, floor.memory[i].bytes) << floor.memory[i].name;
@@ -95,22 +96,22 @@ TEST(Residency, OfAnEvictedChunkEndsOnceItsFramesAreComplete) {
 
 TEST(Residency, ChangesAThousandTimesAndLeavesNothing) {
   Flight flight;
-  flight.settle(levelScene().floor());
+  flight.settle(floorCut());
   const uint64_t before = flight.status().deviceBytes;
   std::mt19937 random(5);
   uint32_t drawn = 0;
-  std::vector<uint32_t> cut = levelScene().floor();
+  std::vector<uint32_t> cut = floorCut();
   for (int change = 0; change < 1000; ++change) {
     if (flight.isDrawn(cut) || random() % 8 == 0) {  // some change their mind underway
       drawn += flight.isDrawn(cut);
-      cut = random() % 8 == 0 ? levelScene().floor() : levelScene().cut(random() % 16);
+      cut = random() % 8 == 0 ? floorCut() : randomCut(random);
       flight.want(cut);
     }
     flight.frame(random() % 2 == 0);
     if (testing::Test::HasFailure()) break;
   }
   EXPECT_GT(drawn, 100u);
-  flight.settle(levelScene().floor());
+  flight.settle(floorCut());
   EXPECT_EQ(flight.status().deviceBytes, before);
 }
 
