@@ -5,6 +5,11 @@
 #include "runtime/asset/asset.h"
 
 namespace froth {
+namespace {
+
+glm::dvec3 toVector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
 
 // Without levels all chunks are to be read; with them the floor, and nothing is exchanged for other layers.
 void Asset::takeLevels(const AssetReader& reader) {
@@ -26,9 +31,10 @@ void Asset::takeLevels(const AssetReader& reader) {
   LoadedChunk whole;
   for (uint32_t chunk = 0; chunk < chunkCount; ++chunk) {
     if (manifest.chunks[chunk].liveCount == 0) continue;
+    const glm::dvec3 origin = toVector(manifest.chunks[chunk].origin);
     const Box box = reader.liveBounds(chunk);
-    whole.bounds.low = glm::min(whole.bounds.low, glm::dvec3(box.min[0], box.min[1], box.min[2]));
-    whole.bounds.high = glm::max(whole.bounds.high, glm::dvec3(box.max[0], box.max[1], box.max[2]));
+    whole.bounds.low = glm::min(whole.bounds.low, origin + toVector(box.min));
+    whole.bounds.high = glm::max(whole.bounds.high, origin + toVector(box.max));
     whole.gpu.liveCount += manifest.chunks[chunk].liveCount;
   }
   growBounds(whole);
