@@ -20,11 +20,14 @@ class LevelRays : public EngineShader {
   void show(const std::vector<uint32_t>& cut) {
     Context& context = *stage_.context();
     const auto isDrawn = [&] { return std::ranges::equal(cut, context.findAsset(levels_)->drawnChunks()); };
+    const uint64_t seededBefore = context.findAsset(levels_)->entriesSerial;
+    const bool isOther = !isDrawn();
     context.setCut(levels_, cut);
     for (int frame = 0; frame < kMostFrames && !isDrawn(); ++frame) {
       stage_.frame(walkInfo(), [](VkCommandBuffer, VkDescriptorSet) {});
     }
     ASSERT_TRUE(isDrawn());
+    EXPECT_EQ(context.findAsset(levels_)->entriesSerial > seededBefore, isOther) << "entries are those of the cut";
   }
 
   static std::vector<std::vector<uint32_t>> cuts() {
