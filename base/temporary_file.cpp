@@ -158,9 +158,9 @@ Status TemporaryFile::append(std::span<const uint8_t> bytes) {
 }
 
 // Within the kernel as far as it can, else through a buffer.
-Status TemporaryFile::appendFile(const TemporaryFile& source) {
-  off_t offset = 0;
-  const auto left = [&] { return source.size_ - static_cast<uint64_t>(offset); };
+Status TemporaryFile::appendPart(const TemporaryFile& source, uint64_t begin, uint64_t size) {
+  off_t offset = static_cast<off_t>(begin);
+  const auto left = [&] { return begin + size - static_cast<uint64_t>(offset); };
   while (left() > 0) {
     const ssize_t done = ::copy_file_range(source.descriptor_, &offset, descriptor_, nullptr, left(), 0);
     if (done <= 0) break;

@@ -30,8 +30,8 @@ class TemporaryFile {
 
   Status append(std::span<const uint8_t> bytes);
   uint64_t size() const { return size_; }  // [bytes]
-  // Appends all of another one.
-  Status appendFile(const TemporaryFile& source);
+  // Appends a part of another one, [bytes].
+  Status appendPart(const TemporaryFile& source, uint64_t begin, uint64_t size);
   // Takes the name away: the file lives until it is closed, and no killed run leaves it behind.
   void removeName();
   // Syncs and renames over the target.

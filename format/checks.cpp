@@ -7,6 +7,7 @@
 #include "base/float_span.h"
 #include "base/text.h"
 #include "format/lattice.h"
+#include "format/level_checks.h"
 #include "format/limits.h"
 
 namespace froth {
@@ -351,17 +352,22 @@ Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex>
   for (uint32_t i = 0; i < chunks.size(); ++i) {
     if (Status status = checkChunkIndex(asset, chunks[i], chunkPlace(file, i)); !status) return status;
   }
-  return {};
+  return checkLevels(asset, chunks, file);
 }
 
 Status checkChunk(const AssetContents& asset, const ChunkContents& chunk, const std::string& place) {
   if (Status status = checkArrays(asset, chunk, place); !status) return status;
   if (Status status = checkCells(chunk, place); !status) return status;
+  if (Status status = checkBorders(chunk, place); !status) return status;
   return checkRows(chunk, place);
 }
 
-Status checkGhostRefs(const AssetContents& asset, std::span<const ChunkIndex> chunks, uint32_t index,
-                      std::span<const CellRef> ghosts, const std::string& place) {
+Status checkReferences(const AssetContents& asset, std::span<const ChunkIndex> chunks, uint32_t index,
+                       std::span<const CellRef> ghosts, std::span<const uint32_t> borders, const std::string& place) {
+  if (!asset.levels.empty()) {
+    Status status = checkBorderRange(asset, ghosts, sectionPlace(place, SectionType::kGhostRefs));
+    return status ? checkBorderRange(asset, borders, sectionPlace(place, SectionType::kBorderNumbers)) : status;
+  }
   for (const CellRef ghost : ghosts) {
     const uint32_t other = chunkOf(ghost, asset.localBits), local = localOf(ghost, asset.localBits);
     const bool isOther = other < chunks.size() && other != index;

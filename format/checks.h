@@ -17,8 +17,8 @@ namespace froth {
 Status checkParameters(const AssetContents& asset, const std::string& file);
 Status checkCodebookSize(const AssetContents& asset, uint64_t size, const std::string& file);
 
-// Number of chunks; counts, origin and bounds of each. `asset` has passed checkParameters; its chunks are not
-// looked at.
+// Number of chunks; counts, origin and bounds of each; levels and groups. `asset` has passed checkParameters; its
+// chunks are not looked at.
 Status checkChunkIndices(const AssetContents& asset, std::span<const ChunkIndex> chunks, const std::string& file);
 Status checkChunkIndex(const AssetContents& asset, const ChunkIndex& chunk, const std::string& place);
 
@@ -27,9 +27,10 @@ Status checkChunkIndex(const AssetContents& asset, const ChunkIndex& chunk, cons
 // in messages.
 Status checkChunk(const AssetContents& asset, const ChunkContents& chunk, const std::string& place);
 
-// Ghosts live in another chunk, in a cell that exists.
-Status checkGhostRefs(const AssetContents& asset, std::span<const ChunkIndex> chunks, uint32_t index,
-                      std::span<const CellRef> ghosts, const std::string& place);
+// Ghosts live in another chunk, in a cell that exists; with levels, their borders and the chunk's own exist. It is
+// enough to give the highest reference into each chunk, and the highest border.
+Status checkReferences(const AssetContents& asset, std::span<const ChunkIndex> chunks, uint32_t index,
+                       std::span<const CellRef> ghosts, std::span<const uint32_t> borders, const std::string& place);
 
 // Normalised in float, a quaternion's length carries some 4 roundings of half of FLT_EPSILON and each component one or
 // two of its own, so |q|^2 is off by at most about 2 * (4 + 2) of them; twice that is allowed. A longer one would scale

@@ -18,7 +18,8 @@ static_assert(std::endian::native == std::endian::little, "the format's integers
 
 // The first byte is no text, and a transfer that rewrites line ends breaks the seventh or eighth.
 inline constexpr std::array<uint8_t, 8> kFileMagic = {0x89, 'F', 'R', 'O', 'T', 'H', '\r', '\n'};
-inline constexpr uint16_t kVersionMajor = 2;  // another major version is refused
+inline constexpr uint16_t kVersionMajor = 3;  // a newer one is refused
+inline constexpr uint16_t kOldestMajor = 2;   // an older one is refused
 inline constexpr uint16_t kVersionMinor = 0;  // a newer minor version only adds what may be ignored
 inline constexpr char kColourSpace[] = "sRGB";
 

@@ -27,6 +27,7 @@ uint64_t ofPairBits(Counts counts, uint64_t) { return (counts.pairs + 7) / 8; }
 uint64_t ofLive(Counts counts, uint64_t) { return counts.live; }
 uint64_t ofDetails(Counts counts, uint64_t detailCount) { return counts.live * detailCount; }
 uint64_t ofLobes(Counts counts, uint64_t) { return counts.lobes; }
+uint64_t ofBorders(Counts counts, uint64_t) { return counts.borders; }
 uint64_t none(Counts, uint64_t) { return 0; }
 
 // Whether numbers lie on a lattice; else they are floats.
@@ -85,6 +86,8 @@ constexpr std::array kSections = {
     SectionInfo{SectionType::kCellColours, "cell_colours", Layer::kGeometry, ofLive, 3, 3, ElementKind::kByte, always, optional},
     SectionInfo{SectionType::kCellHeights, "cell_heights", Layer::kGeometry, ofLive, 1, 1, ElementKind::kSigned, ifHeights, optional},
     SectionInfo{SectionType::kSolidBalls, "solid_balls", Layer::kGeometry, ofLive, 4, 4, ElementKind::kByte, always, optional},
+    SectionInfo{SectionType::kBorderCells, "border_cells", Layer::kGeometry, ofBorders, 1, 1, ElementKind::kUint32, always, required},
+    SectionInfo{SectionType::kBorderNumbers, "border_numbers", Layer::kGeometry, ofBorders, 1, 1, ElementKind::kUint32, always, required},
     SectionInfo{SectionType::kDetailSites, "detail_sites", Layer::kDetails, ofDetails, 2, 2, ElementKind::kSigned, ifDetails, optional},
     SectionInfo{SectionType::kDetailHeights, "detail_heights", Layer::kDetails, ofDetails, 1, 1, ElementKind::kSigned, ifHeights, optional},
     SectionInfo{SectionType::kColourScales, "colour_scales", Layer::kDetails, ofLive, 1, 1, ElementKind::kByte, always, ofColourLattices},

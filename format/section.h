@@ -27,6 +27,8 @@ enum class SectionType : uint32_t {
   kCellColours = 10,    // [L × 3]
   kCellHeights = 11,    // [L]
   kSolidBalls = 12,     // [L × 4]
+  kBorderCells = 13,    // [B]
+  kBorderNumbers = 14,  // [B]
 
   kDetailSites = 32,    // [L × K × 2]
   kDetailHeights = 33,  // [L × K]
@@ -72,7 +74,7 @@ struct SectionRecord {
 
 // Sizes that the manifest tells before a section is read.
 struct ChunkCounts {
-  uint64_t cells = 0, live = 0, ghosts = 0, pairs = 0, lobes = 0;
+  uint64_t cells = 0, live = 0, ghosts = 0, pairs = 0, lobes = 0, borders = 0;
 };
 
 // What the manifest tells of a chunk.

@@ -67,11 +67,13 @@ Status describeAsset(const std::filesystem::path& path, bool wantsMemory, const 
   const AssetContents& manifest = reader->manifest();
   if (output.wantsTable()) {
     printStatistics(manifest);
+    printLevels(*reader);
     printSections(*reader);
     fmt::print("file              {} bytes\n", fileSize(path));
   }
   nlohmann::ordered_json figures{{"file", path.string()}, {"kind", "asset"}, {"bytes", fileSize(path)}};
   figures.update(statisticsAsJson(manifest));
+  figures["levels"] = levelsAsJson(*reader);
   figures["sections"] = sectionsAsJson(*reader);
   const Status status = wantsMemory ? describeMemory(path, output, figures) : Status();
   return status ? output.write(figures) : status;

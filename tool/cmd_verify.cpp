@@ -5,7 +5,9 @@
 
 #include "baker/input/foam_input.h"
 #include "baker/verify/cost_estimate.h"
+#include "baker/verify/level_scene.h"
 #include "baker/verify/scene_check.h"
+#include "format/levels.h"
 #include "format/read/asset_reader.h"
 #include "measure/figures.h"
 #include "tool/commands.h"
@@ -22,6 +24,14 @@ void printReport(const std::filesystem::path& path, const ValidityReport& found,
              cost.rays, cost.eyes);
   fmt::print("graph             longest row {}; squared degrees of a chunk up to {}\n", cost.longestRow,
              cost.squaredDegrees);
+}
+
+void printLevelChecks(const AssetContents& contents) {
+  if (contents.levels.empty()) return;
+  fmt::print(
+      "levels            {}, each a whole foam; {} groups, both forms of each with the same neighbours outside\n",
+      countLevels(contents.levels), contents.groups.size());
+  fmt::print("borders           {}, each the same ball wherever it stands\n", contents.borderCount);
 }
 
 nlohmann::ordered_json asJson(const std::filesystem::path& path, const ValidityReport& found,
@@ -43,9 +53,17 @@ Status runVerify(const std::filesystem::path& path, const FiguresOutput& output,
   if (!contents) return asBadInput(contents.error());
   const Result<ValidityReport> found = checkScene(*contents, progress);
   if (!found) return makeError(found.error().kind, "%s: %s", path.c_str(), found.error().message.c_str());
-  const CostEstimate cost = estimateCost(*contents);
-  if (output.wantsTable()) printReport(path, *found, cost);
-  return output.write(asJson(path, *found, cost));
+  const bool hasLevels = !contents->levels.empty();
+  const CostEstimate cost = hasLevels ? estimateCost(sceneOfLevel(*contents, 0)) : estimateCost(*contents);
+  if (output.wantsTable()) {
+    printReport(path, *found, cost);
+    printLevelChecks(*contents);
+  }
+  nlohmann::ordered_json figures = asJson(path, *found, cost);
+  figures["checks"]["levels"] = hasLevels ? countLevels(contents->levels) : 0;
+  figures["checks"]["groups"] = contents->groups.size();
+  figures["checks"]["borders"] = contents->borderCount;
+  return output.write(figures);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "format/levels.h"
 
 namespace froth {
 namespace {
@@ -16,7 +17,9 @@ struct CellCounts {
 
 CellCounts countCells(const AssetContents& contents) {
   CellCounts counts;
-  for (const ChunkContents& chunk : contents.chunks) {
+  for (size_t i = 0; i < contents.chunks.size(); ++i) {
+    if (!contents.levels.empty() && !isInLevel(contents.levels[i], 0)) continue;
+    const ChunkContents& chunk = contents.chunks[i];
     counts.cells += chunk.cellCount;
     counts.live += chunk.liveCount;
     counts.ghosts += chunk.ghostCount;

@@ -6,6 +6,7 @@
 
 #include "baker/bake/bake.h"
 #include "format/chunk_lobes.h"
+#include "format/levels.h"
 
 namespace froth {
 namespace {
@@ -80,7 +81,9 @@ void FoamAssembler::appendLobes(const ChunkContents& chunk, size_t bareDetails) 
 
 Result<Foam> foamFromAsset(const AssetContents& contents) {
   uint64_t cellCount = 0;
+  const auto isWanted = [&](size_t index) { return contents.levels.empty() || isInLevel(contents.levels[index], 0); };
   for (size_t index = 0; index < contents.chunks.size(); ++index) {
+    if (!isWanted(index)) continue;
     if (Status status = checkChunk(contents, index); !status) return status.error();
     cellCount += contents.chunks[index].cellCount;
   }
@@ -92,7 +95,9 @@ Result<Foam> foamFromAsset(const AssetContents& contents) {
   FoamAssembler assembler(contents.detailCount, contents.lobeCount,
                           anyChunk([](const ChunkContents& chunk) { return !chunk.baseColours.empty(); }),
                           anyChunk([](const ChunkContents& chunk) { return !chunk.lobeCounts.empty(); }));
-  for (const ChunkContents& chunk : contents.chunks) assembler.append(chunk);
+  for (size_t index = 0; index < contents.chunks.size(); ++index) {
+    if (isWanted(index)) assembler.append(contents.chunks[index]);
+  }
   return assembler.take();
 }
 

@@ -11,9 +11,9 @@
 
 namespace froth {
 
-// `contents` holds all its chunks and has passed verifyAsset. Fails with kBadInput and the first thing that is wrong,
-// with kUnsupported if the scene cannot be sampled, and with kCancelled. On all cores, the same result on any number of
-// them.
+// `contents` holds all its chunks and has passed verifyAsset. With levels, each of them is checked as a scene of its
+// own. Fails with kBadInput and the first thing that is wrong, with kUnsupported if the scene cannot be sampled, and
+// with kCancelled. On all cores, the same result on any number of them.
 Result<ValidityReport> checkScene(const AssetContents& contents, const Progress& progress = {});
 
 }  // namespace froth

@@ -25,10 +25,10 @@ Status checkHeader(const FileHeader& header, const AssetHead& head) {
   if (!hashMatches({reinterpret_cast<const uint8_t*>(&header), offsetof(FileHeader, headerHash)}, header.headerHash)) {
     return makeError(ErrorKind::kBadInput, "%s: header: hash does not match; %s", name, kNoAsset);
   }
-  if (header.versionMajor != kVersionMajor) {
-    return makeError(ErrorKind::kUnsupported, "%s: format version %u.%u, this program reads %u; %s", name,
-                     header.versionMajor, header.versionMinor, kVersionMajor,
-                     header.versionMajor < kVersionMajor ? "bake the scene again" : "update this program");
+  if (header.versionMajor < kOldestMajor || header.versionMajor > kVersionMajor) {
+    return makeError(ErrorKind::kUnsupported, "%s: format version %u.%u, this program reads %u and %u; %s", name,
+                     header.versionMajor, header.versionMinor, kOldestMajor, kVersionMajor,
+                     header.versionMajor < kOldestMajor ? "bake the scene again" : "update this program");
   }
   if (header.reserved0 != 0 || header.reserved1 != 0) {
     return makeError(ErrorKind::kUnsupported, "%s: header: reserved bytes are not zero; update this program", name);

@@ -116,7 +116,9 @@ Result<CodedChunk> AssetReader::readCodedChunk(uint32_t chunk, const ByteSource&
   if (!coded) return coded;
   const ChunkContents& contents = coded->contents;
   if (Status status = checkChunk(head.contents, contents, place); !status) return status.error();
-  if (Status status = checkGhostRefs(head.contents, head.manifest.chunks, chunk, contents.ghostRefs, place); !status) {
+  if (Status status = checkReferences(head.contents, head.manifest.chunks, chunk, contents.ghostRefs,
+                                      contents.borderNumbers, place);
+      !status) {
     return status.error();
   }
   return coded;

@@ -60,7 +60,8 @@ class AssetReader {
 Result<AssetContents> readAsset(const std::filesystem::path& path, Layer last = Layer::kViewDependence);
 
 // What `froth verify` does beyond reading: every section decodes, the graph is symmetric (also across chunks) and
-// without loops or double entries, alpha rows are prefixes in nearest-first order.
+// without loops or double entries, alpha rows are prefixes in nearest-first order. With levels each level is such an
+// asset, borders are the same balls wherever they stand, and both forms of a group have the same neighbours outside.
 Status verifyAsset(const std::filesystem::path& path);
 
 }  // namespace froth

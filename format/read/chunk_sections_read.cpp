@@ -174,6 +174,8 @@ class ChunkReader {
     if (Status status = loadSites(SectionType::kSites, 0); !status) return status;
     if (Status status = loadSites(SectionType::kGhostSites, chunk_.cellCount); !status) return status;
     if (Status status = loadAsIs(SectionType::kGhostRefs, chunk_.ghostRefs); !status) return status;
+    if (Status status = loadAsIs(SectionType::kBorderCells, chunk_.borderCells); !status) return status;
+    if (Status status = loadAsIs(SectionType::kBorderNumbers, chunk_.borderNumbers); !status) return status;
     return loadMantissas(SectionType::kRadii, chunk_.radii, asset_.quantization.radiusBits);
   }
 

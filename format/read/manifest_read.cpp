@@ -70,9 +70,15 @@ EyeRegion unpack(const fb::EyeRegion& eyes) {
   return result;
 }
 
+ChunkLevel unpack(const fb::ChunkLevel& chunk) { return {chunk.level(), chunk.made_by(), chunk.in_group()}; }
+
+LevelGroup unpack(const fb::Group& group) {
+  return {unpack(group.centre()), group.radius(), group.error(), group.level()};
+}
+
 ChunkIndex unpack(const fb::Chunk& c) {
   return {unpack(c.origin()),
-          {c.cell_count(), c.live_count(), c.ghost_count(), c.pair_count(), c.lobe_count()},
+          {c.cell_count(), c.live_count(), c.ghost_count(), c.pair_count(), c.lobe_count(), 0},
           unpack(c.live_bounds())};
 }
 
@@ -93,6 +99,7 @@ bool isAligned(const flatbuffers::Vector<const Struct*>* vector) {
 // FlatBuffers' own verifier looks at the alignment of a vector's length only.
 bool areStructsAligned(const fb::Manifest& manifest) {
   return isAligned(manifest.flight_path()) && isAligned(manifest.chunks()) && isAligned(manifest.sections()) &&
+         isAligned(manifest.levels()) && isAligned(manifest.groups()) &&
          (!manifest.eyes() || isAligned(manifest.eyes()->boxes()));
 }
 
@@ -138,8 +145,33 @@ AssetContents unpackParameters(const fb::Manifest& manifest) {
   return contents;
 }
 
+// Of all chunks, which are there.
+Status unpackLevels(const fb::Manifest& packed, const std::string& file, Manifest& manifest) {
+  const size_t count = packed.levels() ? packed.levels()->size() : 0;
+  if (count > 0 && count != manifest.chunks.size()) {
+    return makeError(ErrorKind::kBadInput, "%s: levels of %zu chunks, there are %zu; %s", file.c_str(), count,
+                     manifest.chunks.size(), kRemedy);
+  }
+  manifest.contents.borderCount = packed.border_count();
+  for (size_t i = 0; i < count; ++i) {
+    const fb::ChunkLevel& level = *packed.levels()->Get(static_cast<flatbuffers::uoffset_t>(i));
+    manifest.contents.levels.push_back(unpack(level));
+    manifest.chunks[i].counts.borders = level.border_count();
+  }
+  if (!packed.groups()) return {};
+  for (const fb::Group* group : *packed.groups()) {
+    if (group->reserved0() != 0) {
+      return makeError(ErrorKind::kUnsupported, "%s: group %zu: reserved bits are set; %s", file.c_str(),
+                       manifest.contents.groups.size(), kTooNew);
+    }
+    manifest.contents.groups.push_back(unpack(*group));
+  }
+  return {};
+}
+
 Status unpackChunks(const fb::Manifest& packed, const std::string& file, Manifest& manifest) {
   for (const fb::Chunk* chunk : *packed.chunks()) manifest.chunks.push_back(unpack(*chunk));
+  if (Status status = unpackLevels(packed, file, manifest); !status) return status;
   if (Status status = checkChunkIndices(manifest.contents, manifest.chunks, file); !status) return status;
   for (const ChunkIndex& chunk : manifest.chunks) {
     ChunkContents contents;

@@ -1,8 +1,8 @@
 // Where sections lie in a file, and the bytes before them. Part of froth_format_write.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/result.h"
@@ -11,30 +11,40 @@
 
 namespace froth {
 
-// Sections follow each other in streams, and streams in the file: what is shared, then layer after layer of
-// all chunks.
-inline constexpr size_t kStreamCount = 4;
-size_t streamOf(const SectionRecord& record);
-
+// Sections are stored as they are appended, chunk after chunk. Their order in the file is decided in the end: what is
+// shared, then layer after layer of all chunks; with levels layer after layer of the floor, then chunk after chunk.
 class AssetLayout {
  public:
-  void addChunk(const ChunkIndex& chunk) { chunks_.push_back(chunk); }
-  // Behind the sections of its stream so far.
-  void addSection(const SectionRecord& record);
+  void addShared(const SectionRecord& record) { add(record, shared_); }
+  // Chunks are known by the order in which they are appended.
+  void addChunk(const ChunkIndex& chunk, std::span<const SectionRecord> records);
 
-  const std::vector<ChunkIndex>& chunks() const { return chunks_; }
-
-  struct Head {
-    std::vector<uint8_t> bytes;  // header and manifest
+  struct Part {
+    uint64_t offset = 0, size = 0;  // [bytes] of what was appended
+  };
+  struct Plan {
+    std::vector<uint8_t> head;  // header and manifest
+    std::vector<Part> parts;    // in the order of the file
     uint64_t fileSize = 0;
   };
-  // `contents`: its chunks are not looked at.
-  Head buildHead(const AssetContents& contents) const;
+  // `contents`: its chunks are not looked at. order[i] is the appended chunk that is chunk i.
+  Plan plan(const AssetContents& contents, std::span<const uint32_t> order) const;
+  std::vector<ChunkIndex> chunks(std::span<const uint32_t> order) const;
+
+  size_t chunkCount() const { return chunks_.size(); }
 
  private:
-  std::vector<ChunkIndex> chunks_;
-  std::array<std::vector<SectionRecord>, kStreamCount> streams_;  // offsets from the start of the stream
-  std::array<uint64_t, kStreamCount> sizes_{};
+  struct Chunk {
+    ChunkIndex index;
+    std::vector<SectionRecord> records;
+  };
+
+  void add(const SectionRecord& record, std::vector<SectionRecord>& records);
+  std::vector<SectionRecord> recordsInOrder(std::span<const ChunkLevel> levels, std::span<const uint32_t> order) const;
+
+  std::vector<SectionRecord> shared_;  // offsets from the start of what was appended
+  std::vector<Chunk> chunks_;
+  uint64_t size_ = 0;
 };
 
 }  // namespace froth

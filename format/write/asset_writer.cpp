@@ -1,6 +1,8 @@
 #include "format/write/asset_writer.h"
 
-#include <array>
+#include <algorithm>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "base/temporary_file.h"
@@ -71,7 +73,7 @@ class AssetEncoder {
         SectionType::kAxisCodebook, sizeof(float), 0, {first, first + header_.axisCodebook.size() * sizeof(glm::vec3)}};
     Result<StoredSection> section = encodeRaw(std::move(raw), kSharedChunk, {}, header_.quantization);
     if (!section) return section.error();
-    layout_.addSection(section->record);
+    layout_.addShared(section->record);
     return std::move(section->stored);
   }
 
@@ -86,6 +88,8 @@ class AssetEncoder {
     encoded.index.liveBounds = liveBoundsOf(chunk);
     if (Status status = checkChunkIndex(header_, encoded.index, place); !status) return status.error();
     encoded.ghostRefs = highestRefs(chunk.ghostRefs, header_.localBits);
+    const auto border = std::max_element(chunk.borderNumbers.begin(), chunk.borderNumbers.end());
+    if (border != chunk.borderNumbers.end()) encoded.highestBorder = {*border};
     for (RawSection& section : raw->sections) {
       if (isStopped && isStopped()) return makeError(ErrorKind::kCancelled, "encoding stopped on request");
       Result<StoredSection> stored = encodeRaw(std::move(section), 0, raw->counts, header_.quantization);
@@ -95,32 +99,43 @@ class AssetEncoder {
     return encoded;
   }
 
-  // Its place in the file; the bytes go where `sink` puts those of their stream.
+  // Its bytes go to `sink`, section after section.
   template <class Sink>
   Status add(EncodedChunk& chunk, Sink sink) {
-    const uint32_t index = static_cast<uint32_t>(layout_.chunks().size());
-    layout_.addChunk(chunk.index);
-    ghostRefs_.push_back(std::move(chunk.ghostRefs));
+    std::vector<SectionRecord> records;
+    for (const StoredSection& section : chunk.sections) records.push_back(section.record);
+    layout_.addChunk(chunk.index, records);
+    references_.push_back({std::move(chunk.ghostRefs), std::move(chunk.highestBorder)});
     for (StoredSection& section : chunk.sections) {
-      section.record.chunk = index;
-      layout_.addSection(section.record);
-      if (Status status = sink(streamOf(section.record), std::move(section.stored)); !status) return status;
+      if (Status status = sink(std::move(section.stored)); !status) return status;
     }
     return {};
   }
 
-  // Once all chunks are there. `header`: the one from the start, with what became known since.
-  Result<AssetLayout::Head> finish(const AssetContents& header) const {
+  // Once all chunks are there. `header`: the one from the start, with what became known since. `order`: as in
+  // AssetStreamWriter::finish.
+  Result<AssetLayout::Plan> finish(const AssetContents& header, std::span<const uint32_t> order) const {
+    std::vector<uint32_t> places(layout_.chunkCount());
+    std::iota(places.begin(), places.end(), 0u);
+    if (!order.empty()) {
+      if (!std::is_permutation(order.begin(), order.end(), places.begin(), places.end())) {
+        return makeError(ErrorKind::kUsage, "%s: the order of %zu chunks does not name each of the %zu once", kContents,
+                         order.size(), places.size());
+      }
+      places.assign(order.begin(), order.end());
+    }
+    const std::vector<ChunkIndex> chunks = layout_.chunks(places);
     if (Status status = checkParameters(header, kContents); !status) return status.error();
-    if (Status status = checkChunkIndices(header, layout_.chunks(), kContents); !status) return status.error();
-    for (uint32_t index = 0; index < ghostRefs_.size(); ++index) {
+    if (Status status = checkChunkIndices(header, chunks, kContents); !status) return status.error();
+    for (uint32_t index = 0; index < places.size(); ++index) {
+      const References& chunk = references_[places[index]];
       if (Status status =
-              checkGhostRefs(header, layout_.chunks(), index, ghostRefs_[index], chunkPlace(kContents, index));
+              checkReferences(header, chunks, index, chunk.ghosts, chunk.highestBorder, chunkPlace(kContents, index));
           !status) {
         return status.error();
       }
     }
-    return layout_.buildHead(header);
+    return layout_.plan(header, places);
   }
 
  private:
@@ -129,10 +144,15 @@ class AssetEncoder {
     header_.chunks.clear();
   }
 
+  struct References {
+    std::vector<CellRef> ghosts;          // the highest into each chunk
+    std::vector<uint32_t> highestBorder;  // or none
+  };
+
   AssetContents header_;
   AxisSearch axes_;
   AssetLayout layout_;
-  std::vector<std::vector<CellRef>> ghostRefs_;  // [chunks]
+  std::vector<References> references_;  // [chunks] as appended
 };
 
 }  // namespace
@@ -143,7 +163,7 @@ struct AssetStreamWriter::State {
 
   std::filesystem::path path;
   AssetEncoder encoder;
-  std::vector<TemporaryFile> streams;  // [kStreamCount]
+  std::optional<TemporaryFile> sections;  // as appended
 };
 
 AssetStreamWriter::AssetStreamWriter() = default;
@@ -158,15 +178,13 @@ Result<AssetStreamWriter> AssetStreamWriter::create(const std::filesystem::path&
   if (!encoder) return encoder.error();
   AssetStreamWriter writer;
   writer.state_ = std::make_unique<State>(path, std::move(*encoder));
-  for (size_t stream = 0; stream < kStreamCount; ++stream) {
-    Result<TemporaryFile> file = TemporaryFile::create(path);
-    if (!file) return file.error();
-    file->removeName();
-    writer.state_->streams.push_back(std::move(*file));
-  }
+  Result<TemporaryFile> file = TemporaryFile::create(path);
+  if (!file) return file.error();
+  file->removeName();
+  writer.state_->sections = std::move(*file);
   const Result<std::vector<uint8_t>> codebook = writer.state_->encoder.encodeCodebook();
   if (!codebook) return codebook.error();
-  if (Status status = writer.state_->streams[0].append(*codebook); !status) return status.error();
+  if (Status status = writer.state_->sections->append(*codebook); !status) return status.error();
   return writer;
 }
 
@@ -176,45 +194,44 @@ Result<EncodedChunk> AssetStreamWriter::encodeChunk(const ChunkContents& chunk,
 }
 
 Status AssetStreamWriter::append(EncodedChunk&& chunk) {
-  return state_->encoder.add(
-      chunk, [&](size_t stream, std::vector<uint8_t> bytes) { return state_->streams[stream].append(bytes); });
+  return state_->encoder.add(chunk, [&](std::vector<uint8_t> bytes) { return state_->sections->append(bytes); });
 }
 
-Result<uint64_t> AssetStreamWriter::finish(const AssetContents& header) {
-  Result<AssetLayout::Head> head = state_->encoder.finish(header);
-  if (!head) return head.error();
+Result<uint64_t> AssetStreamWriter::finish(const AssetContents& header, std::span<const uint32_t> order) {
+  Result<AssetLayout::Plan> plan = state_->encoder.finish(header, order);
+  if (!plan) return plan.error();
   Result<TemporaryFile> file = TemporaryFile::create(state_->path);
   if (!file) return file.error();
-  if (Status status = file->append(head->bytes); !status) return status.error();
-  for (const TemporaryFile& stream : state_->streams) {
-    if (Status status = file->appendFile(stream); !status) return status.error();
+  if (Status status = file->append(plan->head); !status) return status.error();
+  for (const AssetLayout::Part& part : plan->parts) {
+    if (Status status = file->appendPart(*state_->sections, part.offset, part.size); !status) return status.error();
   }
   if (Status status = file->replaceTarget(); !status) return status.error();
-  return head->fileSize;
+  return plan->fileSize;
 }
 
 Result<std::vector<uint8_t>> encodeAsset(const AssetContents& contents) {
   Result<AssetEncoder> encoder = AssetEncoder::create(contents);
   if (!encoder) return encoder.error();
-  std::array<std::vector<uint8_t>, kStreamCount> streams;
-  Result<std::vector<uint8_t>> codebook = encoder->encodeCodebook();
-  if (!codebook) return codebook.error();
-  streams[0] = std::move(*codebook);
+  Result<std::vector<uint8_t>> sections = encoder->encodeCodebook();
+  if (!sections) return sections.error();
   for (uint32_t index = 0; index < contents.chunks.size(); ++index) {
     Result<EncodedChunk> chunk = encoder->encode(contents.chunks[index], chunkPlace(kContents, index), {});
     if (!chunk) return chunk.error();
-    const Status added = encoder->add(*chunk, [&](size_t stream, std::vector<uint8_t> bytes) {
-      streams[stream].insert(streams[stream].end(), bytes.begin(), bytes.end());
+    const Status added = encoder->add(*chunk, [&](const std::vector<uint8_t>& bytes) {
+      sections->insert(sections->end(), bytes.begin(), bytes.end());
       return Status();
     });
     if (!added) return added.error();
   }
-  Result<AssetLayout::Head> head = encoder->finish(contents);
-  if (!head) return head.error();
-  for (const std::vector<uint8_t>& stream : streams) {
-    head->bytes.insert(head->bytes.end(), stream.begin(), stream.end());
+  Result<AssetLayout::Plan> plan = encoder->finish(contents, {});
+  if (!plan) return plan.error();
+  std::vector<uint8_t> bytes = std::move(plan->head);
+  for (const AssetLayout::Part& part : plan->parts) {
+    const auto begin = sections->begin() + static_cast<ptrdiff_t>(part.offset);
+    bytes.insert(bytes.end(), begin, begin + static_cast<ptrdiff_t>(part.size));
   }
-  return std::move(head->bytes);
+  return bytes;
 }
 
 Status writeAsset(const std::filesystem::path& path, const AssetContents& contents) {

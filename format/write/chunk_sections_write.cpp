@@ -49,7 +49,8 @@ class ChunkPacker {
       : asset_(asset), axes_(axes), chunk_(chunk), place_(place) {}
 
   Result<RawChunk> pack() {
-    raw_.counts = {chunk_.cellCount, chunk_.liveCount, chunk_.ghostCount, 0, chunk_.lobeAxes.size()};
+    raw_.counts = {chunk_.cellCount,       chunk_.liveCount,         chunk_.ghostCount, 0,
+                   chunk_.lobeAxes.size(), chunk_.borderCells.size()};
     for (auto step : {&ChunkPacker::addSites, &ChunkPacker::addGraph, &ChunkPacker::addCells, &ChunkPacker::addDetails,
                       &ChunkPacker::addLobes}) {
       if (Status status = (this->*step)(); !status) return status.error();
@@ -211,6 +212,13 @@ class ChunkPacker {
     }
     add(SectionType::kCellColours, 1, std::move(elements));
     addSolidBalls();
+    if (Status status = addCellHeights(); !status) return status;
+    add(SectionType::kBorderCells, sizeof(uint32_t), bytesOf(std::span(chunk_.borderCells)));
+    add(SectionType::kBorderNumbers, sizeof(uint32_t), bytesOf(std::span(chunk_.borderNumbers)));
+    return {};
+  }
+
+  Status addCellHeights() {
     return addHeights(
         SectionType::kCellHeights, chunk_.cellHeights, [&](size_t) { return asset_.quantization.heightStep; },
         [](size_t) { return 0; });

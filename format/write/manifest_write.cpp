@@ -25,6 +25,10 @@ fb::Section pack(const SectionRecord& record) {
                      0, record.base, 0, record.offset, record.storedSize, record.rawSize, record.hash);
 }
 
+fb::Group pack(const LevelGroup& group) {
+  return fb::Group(pack(group.centre), group.radius, group.error, group.level, 0);
+}
+
 template <class Packed, class Source>
 flatbuffers::Offset<flatbuffers::Vector<const Packed*>> packAll(flatbuffers::FlatBufferBuilder& builder,
                                                                 const Source& source) {
@@ -58,6 +62,19 @@ flatbuffers::Offset<fb::EyeRegion> packEyes(flatbuffers::FlatBufferBuilder& buil
                              eyes.meanPsnr);
 }
 
+// None without levels.
+flatbuffers::Offset<flatbuffers::Vector<const fb::ChunkLevel*>> packLevels(flatbuffers::FlatBufferBuilder& builder,
+                                                                           const std::vector<ChunkLevel>& levels,
+                                                                           std::span<const ChunkIndex> chunks) {
+  if (levels.empty()) return 0;
+  std::vector<fb::ChunkLevel> packed;
+  for (size_t i = 0; i < levels.size(); ++i) {
+    packed.emplace_back(levels[i].level, levels[i].madeBy, levels[i].in,
+                        static_cast<uint32_t>(chunks[i].counts.borders));
+  }
+  return builder.CreateVectorOfStructs(packed);
+}
+
 }  // namespace
 
 std::vector<uint8_t> buildManifest(const AssetContents& contents, std::span<const ChunkIndex> chunkIndices,
@@ -73,6 +90,8 @@ std::vector<uint8_t> buildManifest(const AssetContents& contents, std::span<cons
   const auto chunks = packAll<fb::Chunk>(builder, chunkIndices);
   const auto records = packAll<fb::Section>(builder, sections);
   const auto eyes = packEyes(builder, contents.eyes);
+  const auto levels = packLevels(builder, contents.levels, chunkIndices);
+  const auto groups = contents.groups.empty() ? 0 : packAll<fb::Group>(builder, contents.groups);
   const fb::Camera startView = pack(contents.startView);
 
   fb::ManifestBuilder manifest(builder);
@@ -96,6 +115,9 @@ std::vector<uint8_t> buildManifest(const AssetContents& contents, std::span<cons
   manifest.add_chunks(chunks);
   manifest.add_sections(records);
   if (!eyes.IsNull()) manifest.add_eyes(eyes);
+  if (!levels.IsNull()) manifest.add_levels(levels);
+  if (!groups.IsNull()) manifest.add_groups(groups);
+  manifest.add_border_count(contents.borderCount);
   fb::FinishManifestBuffer(builder, manifest.Finish());
   return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
 }

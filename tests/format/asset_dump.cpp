@@ -16,6 +16,8 @@ class Dump {
     write("sites", chunk.sites);
     write("radii", chunk.radii);
     write("ghostRefs", chunk.ghostRefs);
+    write("borderCells", chunk.borderCells);
+    write("borderNumbers", chunk.borderNumbers);
     write("neighbourOffsets", chunk.neighbourOffsets);
     write("neighbours", chunk.neighbours);
     write("alphaCounts", chunk.alphaCounts);

@@ -69,6 +69,8 @@ inline void expectSameArrays(const ChunkContents& a, const ChunkContents& b) {
   EXPECT_TRUE(haveSameBits(a.sites, b.sites));
   EXPECT_TRUE(haveSameBits(a.radii, b.radii));
   EXPECT_TRUE(haveSameBits(a.ghostRefs, b.ghostRefs));
+  EXPECT_TRUE(haveSameBits(a.borderCells, b.borderCells));
+  EXPECT_TRUE(haveSameBits(a.borderNumbers, b.borderNumbers));
   EXPECT_TRUE(haveSameBits(a.neighbourOffsets, b.neighbourOffsets));
   EXPECT_TRUE(haveSameBits(a.neighbours, b.neighbours));
   EXPECT_TRUE(haveSameBits(a.alphaCounts, b.alphaCounts));
@@ -87,8 +89,26 @@ inline void expectSameArrays(const ChunkContents& a, const ChunkContents& b) {
   EXPECT_TRUE(haveSameBits(a.lobeColours, b.lobeColours));
 }
 
+inline void expectSameLevels(const AssetContents& a, const AssetContents& b) {
+  EXPECT_EQ(a.borderCount, b.borderCount);
+  ASSERT_EQ(a.levels.size(), b.levels.size());
+  for (size_t i = 0; i < a.levels.size(); ++i) {
+    EXPECT_EQ(a.levels[i].level, b.levels[i].level) << "chunk " << i;
+    EXPECT_EQ(a.levels[i].madeBy, b.levels[i].madeBy) << "chunk " << i;
+    EXPECT_EQ(a.levels[i].in, b.levels[i].in) << "chunk " << i;
+  }
+  ASSERT_EQ(a.groups.size(), b.groups.size());
+  for (size_t i = 0; i < a.groups.size(); ++i) {
+    EXPECT_EQ(a.groups[i].centre, b.groups[i].centre) << "group " << i;
+    EXPECT_EQ(a.groups[i].radius, b.groups[i].radius) << "group " << i;
+    EXPECT_EQ(a.groups[i].error, b.groups[i].error) << "group " << i;
+    EXPECT_EQ(a.groups[i].level, b.groups[i].level) << "group " << i;
+  }
+}
+
 inline void expectSameAsset(const AssetContents& a, const AssetContents& b) {
   expectSameParameters(a, b);
+  expectSameLevels(a, b);
   ASSERT_EQ(a.chunks.size(), b.chunks.size());
   for (size_t i = 0; i < a.chunks.size(); ++i) {
     SCOPED_TRACE("chunk " + std::to_string(i));

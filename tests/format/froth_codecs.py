@@ -51,8 +51,10 @@ class Table:
         size = struct.unpack_from("<I", self.buffer, target)[0]
         return bytes(self.buffer[target + 4 : target + 4 + size]).decode()
 
-    def structs(self, field, dtype):
+    def structs(self, field, dtype, is_optional=False):
         target = self.target(field)
+        if target is None and is_optional:
+            return np.zeros(0, dtype)
         need(target is not None, f"manifest field {field} is missing")
         count = struct.unpack_from("<I", self.buffer, target)[0]
         return np.frombuffer(self.buffer, dtype, count, target + 4)
@@ -64,7 +66,10 @@ SECTION = np.dtype([("type", "<u4"), ("chunk", "<u4"), ("flags", "<u2"), ("codec
                     ("reserved0", "<u2"), ("base", "<u4"), ("reserved1", "<u4"), ("offset", "<u8"), ("stored", "<u8"),
                     ("raw", "<u8"), ("hash", "<u8")])
 BOX = np.dtype([("low", "<f8", 3), ("high", "<f8", 3)])
+CHUNK_LEVEL = np.dtype([("level", "<u4"), ("made_by", "<u4"), ("in", "<u4"), ("borders", "<u4")])
+GROUP = np.dtype([("centre", "<f8", 3), ("radius", "<f8"), ("error", "<f8"), ("level", "<u4"), ("reserved", "<u4")])
 assert CHUNK.itemsize == 112 and SECTION.itemsize == 56 and BOX.itemsize == 48
+assert CHUNK_LEVEL.itemsize == 16 and GROUP.itemsize == 48
 
 
 # ---- Codecs

@@ -8,10 +8,11 @@ import numpy as np
 import xxhash
 
 from froth_codecs import (
-    BOX, CHUNK, decode, join_green, MAX_INDEX, need, on_lattice, quaternions, SECTION, signed, sums_within, Table,
+    BOX, CHUNK, CHUNK_LEVEL, decode, GROUP, join_green, MAX_INDEX, need, on_lattice, quaternions, SECTION, signed, sums_within, Table,
     truncated_floats)
 
 SHARED = 0xFFFFFFFF  # the chunk of shared sections
+NO_GROUP = 0xFFFFFFFF
 MOST = 2.0**50  # of every float but densities and orientations
 
 
@@ -103,7 +104,7 @@ class Asset:
         magic, major, _, zero, size, begin, length, manifest_hash, zero2, header_hash = struct.unpack_from(
             "<8sHHIQQQQQQ", data)
         need(magic == b"\x89FROTH\r\n" and xxhash.xxh3_64_intdigest(data[:56]) == header_hash, "no asset, or damaged")
-        need(major == 2 and zero == 0 and zero2 == 0 and begin == 64 and size == len(data), "header is not of version 2")
+        need(major in (2, 3) and zero == 0 and zero2 == 0 and begin == 64 and size == len(data), "header is not of version 2 or 3")
         manifest = data[begin : begin + length]
         need(xxhash.xxh3_64_intdigest(manifest) == manifest_hash and manifest[4:8] == b"FRTH", "manifest is damaged")
         root = Table(manifest, struct.unpack_from("<I", manifest)[0])
@@ -126,12 +127,60 @@ class Asset:
         self.chunks = root.structs(17, CHUNK)
         for chunk in self.chunks:
             need(within(chunk["origin"], MOST) and within(chunk["low"], 2 * MOST) and within(chunk["high"], 2 * MOST), "chunk")
+        self.read_levels(root)
         self.sections = {}
         for record in root.structs(18, SECTION):
             need(record["flags"] >> 8 == 0 and record["reserved0"] == 0 and record["reserved1"] == 0, "reserved bits")
             key = int(record["chunk"]), int(record["type"])
             need(key not in self.sections, f"section {key} twice")
             self.sections[key] = record
+
+    def read_levels(self, root):
+        """The structs of levels and groups, or empty arrays, checked against each other."""
+        self.levels = root.structs(20, CHUNK_LEVEL, is_optional=True)
+        self.groups = root.structs(21, GROUP, is_optional=True)
+        self.border_count = root.scalar(22, "I", 0)
+        need((len(self.levels) == 0) == (len(self.groups) == 0), "levels and groups: both or neither")
+        levels, groups = self.levels, self.groups
+        need(self.border_count <= int(levels["borders"].astype(np.uint64).sum()), "more borders than the chunks hold")
+        if len(levels) == 0:
+            return
+        need(len(levels) == len(self.chunks) and np.all(levels["borders"] <= self.chunks["cells"]), "levels of chunks")
+        need(within(groups["centre"], MOST) and within(groups["radius"], 4 * MOST) and within(groups["error"], 4 * MOST)
+             and np.all(groups["radius"] >= 0) and np.all(groups["error"] >= 0) and not groups["reserved"].any(), "groups")
+        is_made, is_in = levels["made_by"] != NO_GROUP, levels["in"] != NO_GROUP
+        need(np.array_equal(is_made, levels["level"] > 0), "made_by none and level 0 do not agree")
+        for given, name, step in ((is_made, "made_by", 1), (is_in, "in", 0)):
+            numbers = levels[name][given]
+            need(np.all(numbers < len(groups)), f"{name} beyond the groups")
+            need(np.array_equal(groups["level"][numbers] + step, levels["level"][given]), f"{name}: level of the group")
+            need(len(np.unique(numbers)) == len(groups), f"{name}: a group without such chunks")
+        both = is_made & is_in
+        below, above = groups[levels["made_by"][both]], groups[levels["in"][both]]
+        need(np.all(below["error"] < above["error"]), "errors do not grow")
+        reach = np.sqrt(square(below["centre"] - above["centre"])) + below["radius"]
+        size = above["radius"] + np.abs(above["centre"]).max(axis=1, initial=0)
+        need(np.all(reach <= above["radius"] + 2.0**-40 * size), "a ball sticks out")
+        floor = int((~is_in).sum())
+        need(not is_in[:floor].any(), "the floor is not first")
+        for part in (levels["level"][:floor], levels["level"][floor:]):
+            need(np.all(part[1:] <= part[:-1]), "levels rise")
+
+    def read_borders(self, index, out):
+        count = int(self.levels["borders"][index]) if len(self.levels) else 0
+        cells, _ = self.elements(index, 13, count, 1)
+        numbers, _ = self.elements(index, 14, count, 1)
+        need((cells is None) == (count == 0) and (numbers is None) == (count == 0), "borders without their sections")
+        refs = out["ghostRefs"]
+        if len(self.levels) and refs is not None:
+            need(np.all(refs < self.border_count), "a ghost beyond the borders")
+        if count == 0:
+            return
+        out["borderCells"], out["borderNumbers"] = cells.ravel(), numbers.ravel()
+        ascending = out["borderCells"].astype(np.int64)
+        need(np.all(ascending[1:] > ascending[:-1]) and ascending[-1] < self.chunks["cells"][index], "border cells")
+        need(len(np.unique(numbers)) == count and np.all(numbers < self.border_count), "border numbers")
+        need(refs is None or not np.isin(refs, numbers).any(), "a ghost is a border of its own chunk")
 
     def read_eyes(self, root):
         """The boxes [count x 2 x 3] and the radius of the region of eyes, or None."""
@@ -197,6 +246,7 @@ class Asset:
         out["radii"] = self.mantissas(index, 3, n + ghosts, self.radius_bits)
         refs, _ = self.elements(index, 4, ghosts, 1)
         out["ghostRefs"] = None if refs is None else refs.ravel()
+        self.read_borders(index, out)
         out.update(self.read_graph(index, out["sites"], out["radii"]))
         if live:
             out["densities"] = self.mantissas(index, 8, live, self.density_bits)

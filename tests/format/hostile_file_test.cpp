@@ -101,10 +101,10 @@ TEST(HostileFile, IsRefusedWithoutItsMagic) {
 
 TEST(HostileFile, OfAnotherMajorVersionIsRefusedWithWhatToDo) {
   const std::vector<uint8_t> bytes = encodeOrFail(smallAsset());
-  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.versionMajor = 3; })),
-              HasSubstr("format version 3.0, this program reads 2; update this program"));
+  EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.versionMajor = 4; })),
+              HasSubstr("format version 4.0, this program reads 2 and 3; update this program"));
   EXPECT_THAT(errorOf(withHeader(bytes, [](FileHeader& header) { header.versionMajor = 1; })),
-              HasSubstr("format version 1.0, this program reads 2; bake the scene again"));
+              HasSubstr("format version 1.0, this program reads 2 and 3; bake the scene again"));
 }
 
 TEST(HostileFile, OfANewerMinorVersionIsRead) {

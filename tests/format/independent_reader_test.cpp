@@ -10,6 +10,7 @@
 #include "asset_dump.h"
 #include "format/read/asset_reader.h"
 #include "format/write/asset_writer.h"
+#include "level_sample.h"
 #include "sample_asset.h"
 #include "tests/surroundings.h"
 
@@ -43,9 +44,11 @@ class IndependentReader : public testing::Test {
     }
   }
 
-  void expectSame(const SampleOptions& options) {
+  void expectSame(const SampleOptions& options) { expectSame(makeSampleAsset(options)); }
+
+  void expectSame(const AssetContents& contents) {
     const std::filesystem::path asset = folder_ / "sample.froth";
-    const Status written = writeAsset(asset, makeSampleAsset(options));
+    const Status written = writeAsset(asset, contents);
     ASSERT_TRUE(written) << written.error().message;
     expectSame(asset);
   }
@@ -80,8 +83,11 @@ TEST_F(IndependentReader, AgreesOnExactChunksWithoutWalkGraph) {
   expectSame(SampleOptions{.chunkCount = 2, .cellsPerChunk = 30, .localBits = 6, .hasWalkGraph = false});
 }
 
-TEST_F(IndependentReader, AgreesOnTheGoldenFile) {
+TEST_F(IndependentReader, AgreesOnLevels) { expectSame(makeLevelSample()); }
+
+TEST_F(IndependentReader, AgreesOnTheGoldenFiles) {
   expectSame(test::sourceFolder() / "tests/format/golden/version_2_0.froth");
+  expectSame(test::sourceFolder() / "tests/format/golden/version_3_0.froth");
 }
 
 TEST_F(IndependentReader, AgreesOnBakedAssets) {

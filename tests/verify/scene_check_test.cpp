@@ -8,6 +8,7 @@
 
 #include "baker/bake/bake.h"
 #include "tests/bake/random_foam.h"
+#include "tests/format/level_sample.h"
 
 namespace froth {
 namespace {
@@ -87,6 +88,18 @@ TEST(SceneCheck, RefusesToSampleSitesThatAreNoFloats) {
   const Result<ValidityReport> found = checkScene(contents);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().kind, ErrorKind::kUnsupported);
+}
+
+// Radii of level 1 that do not fit to its graph.
+TEST(SceneCheck, LooksAtEachLevel) {
+  AssetContents contents = makeLevelSample();
+  EXPECT_EQ(errorOf(contents), "no error");
+  for (size_t i = 0; i < contents.chunks.size(); ++i) {
+    ChunkContents& chunk = contents.chunks[i];
+    if (contents.levels[i].level != 1) continue;
+    for (float& radius : chunk.radii) radius *= 1 + 0.2f * static_cast<float>(&radius - chunk.radii.data()) / 100;
+  }
+  EXPECT_THAT(errorOf(contents), HasSubstr("level 1: graphs: "));
 }
 
 }  // namespace
