@@ -22,7 +22,8 @@ std::vector<bool> refineGroups(const AssetContents& asset, const Wants& wants) {
   std::vector<bool> isRefined(asset.groups.size(), false);
   std::vector<uint32_t> order(asset.groups.size());
   for (uint32_t group = 0; group < order.size(); ++group) order[group] = group;
-  std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return asset.groups[a].level > asset.groups[b].level; });
+  std::ranges::stable_sort(order,
+                           [&](uint32_t a, uint32_t b) { return asset.groups[a].level > asset.groups[b].level; });
   for (const uint32_t group : order) {
     const auto stays = [&](const ChunkLevel& chunk) {
       return chunk.madeBy == group && chunk.in != kNoGroup && !isRefined[chunk.in];
@@ -60,6 +61,9 @@ inline std::vector<uint32_t> randomCut(std::mt19937& random) {
 inline AssetContents contentsOf(const std::vector<uint32_t>& cut) {
   AssetContents contents = levelSample();
   contents.chunks.clear();
+  contents.levels.clear();
+  contents.groups.clear();
+  contents.borderCount = 0;
   for (const uint32_t chunk : cut) contents.chunks.push_back(levelSample().chunks[chunk]);
   return contents;
 }
