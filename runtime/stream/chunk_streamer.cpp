@@ -82,7 +82,7 @@ void ChunkStreamer::unplaceAsset(uint32_t number) {
   Asset& asset = assets_[number];
   if (!asset.isPlaced) return;
   floorBytes_ -= asset.graph->floorBytes();
-  asset.isPlaced = false;
+  asset.isPlaced = asset.isDirect = false;
   for (const uint32_t chunk : asset.graph->floor()) residency_.setPinned({number, chunk}, false, frame_ + 1);
 }
 

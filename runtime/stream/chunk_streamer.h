@@ -14,8 +14,9 @@
 //
 // Why the wanted cut is reached: it leaves room for the coarse form of any one group. While `refined` lies inside
 // `wanted`, it and the fine form of the next group fit, and all else may be evicted. While it does not and there is no
-// room, groups that are not wanted are given up for the finest resident form in the wanted cut (shedding). Beyond that
-// a failed chunk above the finest level may ask for room of several groups at once; then the picture may stay coarser.
+// room, groups that are not wanted are given up for the finest resident form in the wanted cut (mustShed_). A chunk
+// above the finest level that failed for good can ask for room of several groups at once; if that is not there, the
+// floor is drawn until the wanted cut is in (isDirect): together they always fit.
 //
 // Calls are for one thread at a time. After addAsset no call allocates.
 #pragma once
@@ -98,6 +99,7 @@ class ChunkStreamer {
   struct Asset {
     std::unique_ptr<const LevelGraph> graph;  // null: the number is free
     bool isPlaced = false, isShown = false, isSettled = false, isLeaving = false;
+    bool isDirect = false;  // until it is settled
     uint32_t failedChunks = 0, failedFloorChunks = 0;
     GroupSet refined, next;
   };

@@ -29,7 +29,7 @@ void ChunkStreamer::updateCut(uint32_t number) {
     asset.isShown = true;
     for (const uint32_t chunk : asset.graph->floor()) showOrHide(number, chunk);
   }
-  refine(number, !mustShed_);
+  refine(number, !mustShed_ && !asset.isDirect);
   showChanges(number);
 }
 
@@ -53,6 +53,7 @@ void ChunkStreamer::refine(uint32_t number, bool keepsUnwanted) {
     for (const uint32_t group : asset.refined.members()) asset.next.add(group);
   }
   shrinkToWhole(*asset.graph, isResident, asset.next, scratch_);
+  if (asset.isDirect && asset.next.members().size() < wanted.members().size()) asset.next.clear();
   if (!keepsUnwanted) return;
   for (const uint32_t group : asset.next.members()) {
     if (!wanted.contains(group)) asset.next.drop(group);
@@ -97,6 +98,7 @@ void ChunkStreamer::listNeeds() {
     const GroupSet& wanted = demands_[number].wanted;
     asset.isSettled = asset.isShown && asset.refined.members().size() == wanted.members().size() &&
                       std::ranges::all_of(wanted.members(), [&](uint32_t g) { return asset.refined.contains(g); });
+    if (asset.isSettled) asset.isDirect = false;
     if (!asset.isPlaced || asset.isShown) continue;
     for (const uint32_t chunk : asset.graph->floor()) addNeed({number, chunk}, NeedKind::kFloor);
   }
@@ -110,10 +112,9 @@ void ChunkStreamer::needGroup(GroupId id) {
   const LevelGraph& graph = *asset.graph;
   const bool isRefined = asset.refined.contains(id.group);
   for (const uint32_t chunk : graph.fineOf(id.group)) {
-    if (!isRefined) {
-      addNeed({id.asset, chunk}, NeedKind::kFiner);
-    } else if (isDrawnIn(demands_[id.asset].wanted, graph.chunk(chunk)) &&
-               !isDrawnIn(asset.refined, graph.chunk(chunk))) {
+    const bool isWanted = isDrawnIn(demands_[id.asset].wanted, graph.chunk(chunk));
+    if (!isRefined && (isWanted || !asset.isDirect)) addNeed({id.asset, chunk}, NeedKind::kFiner);
+    if (isRefined && isWanted && !isDrawnIn(asset.refined, graph.chunk(chunk))) {
       addNeed({id.asset, chunk}, NeedKind::kCoarser);
     }
   }
@@ -206,18 +207,25 @@ void ChunkStreamer::evict(ChunkId id) {
   ++evictions_;
 }
 
-// Nothing is on its way, nothing can be evicted, and yet the first blocked need has no room. Chunks that are needed
-// less go, and if there are none, groups that are drawn and not wanted.
+// Nothing is on its way, nothing can be evicted, and yet the first blocked need has no room. Gives up, for the next
+// update, what is dispensable: chunks that are needed less; if there are none, drawn groups that are not wanted; if
+// there are none, all steps on the way to the wanted cut.
 void ChunkStreamer::resolveStandstill(size_t firstBlocked, uint64_t bytes) {
   if (shortageFor(bytes) == 0) return;
   bool hasEvicted = false;
   for (size_t i = ordered_.size(); i-- > firstBlocked + 1 && shortageFor(bytes) > 0;) {
-    const ChunkId id = ordered_[i].id;
-    if (residency_.state(id) != ChunkState::kResident || residency_.isDrawn(id)) continue;
+    const auto [id, kind] = ordered_[i];
+    if (kind == NeedKind::kFloor || residency_.state(id) != ChunkState::kResident) continue;
     evict(id);
     hasEvicted = true;
   }
-  mustShed_ = !hasEvicted;
+  if (hasEvicted) return;
+  for (uint32_t number = 0; number < assets_.size(); ++number) {
+    const auto isWanted = [&](uint32_t group) { return demands_[number].wanted.contains(group); };
+    mustShed_ = mustShed_ || !std::ranges::all_of(assets_[number].refined.members(), isWanted);
+  }
+  if (mustShed_) return;
+  for (Asset& asset : assets_) asset.isDirect = asset.isShown && !asset.isSettled;
 }
 
 }  // namespace froth

@@ -23,12 +23,12 @@ struct World {
   explicit World(uint64_t seed) : random(seed) {
     const uint32_t count = pick(1, 3);
     for (uint32_t i = 0; i < count; ++i) {
-      dags.push_back(makeLevelDag(seed * 8 + i, {pick(1, 60), pick(1, 4), pick(3, 6)}));
+      dags.push_back(makeLevelDag(seed * 8 + i, {pick(0, 20) == 0 ? 250 : pick(1, 60), pick(1, 4), pick(3, 6)}));
       graphs.push_back(dags.back().graph());
       lastEyes.push_back(eyesOf(i));
       floorBytes += graphs.back().floorBytes();
       for (const uint64_t bytes : dags.back().bytes) allBytes += bytes;
-      if (pick(0, 3) == 0) breakOne(i);
+      if (pick(0, 1) == 0) breakOne(i);
     }
     lastBudget = budget();
   }
@@ -39,7 +39,7 @@ struct World {
     for (uint32_t i = pick(0, 2); i-- > 0;) eyes.push_back(makeEye(random(), dags[asset]));
     return eyes;
   }
-  uint64_t budget() { return floorBytes + (allBytes - floorBytes) * pick(0, 16) / 16; }
+  uint64_t budget() { return floorBytes + (allBytes - floorBytes) * pick(0, 40) / 40; }
   void breakOne(uint32_t asset) {
     const uint32_t chunk = pick(0, graphs[asset].chunkCount() - 1);
     if (graphs[asset].chunk(chunk).in != kNoGroup) broken.push_back({asset, chunk});
