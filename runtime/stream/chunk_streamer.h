@@ -18,7 +18,7 @@
 // above the finest level that failed for good can ask for room of several groups at once; if that is not there, the
 // floor is drawn until the wanted cut is in (isDirect): together they always fit.
 //
-// Calls are for one thread at a time. After addAsset no call allocates.
+// Calls are for one thread at a time. No update allocates.
 #pragma once
 
 #include <cstdint>

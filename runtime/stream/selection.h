@@ -46,7 +46,7 @@ struct GroupId {
 // group first. Time: that of a heap of the wanted groups and those next to them, whatever else the assets hold.
 class Selection {
  public:
-  // Room for as many groups over all assets. No other call allocates.
+  // Room for as many groups over all assets, so that select() does not allocate.
   void reserve(size_t groupCount);
 
   // bytes, cells: what groups may cost. Assets without a graph are left alone.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <iostream>
 
 #include "tests/stream/level_dag.h"
 #include "tests/stream/simulated_owner.h"
@@ -96,6 +97,7 @@ void leave(World& world, SimulatedOwner& owner) {
 struct Flown {
   std::vector<ChunkId> drawn;
   uint64_t digest = 0;
+  uint32_t frames = 0;
 };
 
 Flown flyWhole(uint64_t seed) {
@@ -103,20 +105,21 @@ Flown flyWhole(uint64_t seed) {
   SimulatedOwner owner = makeOwner(world, {.seed = seed, .mostDelay = world.pick(0, 6), .failureShare = 0.1});
   fly(world, owner);
   comeToRest(world, owner);
-  const Flown flown{owner.drawnChunks(), owner.digest()};
+  Flown flown{owner.drawnChunks(), owner.digest()};
   leave(world, owner);
   EXPECT_EQ(owner.violation(), "") << "seed " << seed;
+  flown.frames = owner.frames();
   return flown;
 }
 
-// FROTH_STREAM_SEEDS: flights of the long tests; 120 if it is not set, some 100,000 frames.
+// FROTH_STREAM_SEEDS: flights of the long test; 1,200 if it is not set, more than a million frames.
 uint64_t seedCount() {
   const char* text = std::getenv("FROTH_STREAM_SEEDS");
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : 120;
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : 1200;
 }
 
 TEST(Flight, ShowsACutOfResidentChunksWithinTheBudgetAndEndsWhereAFreshStartEnds) {
-  size_t drawn = 0;
+  uint64_t drawn = 0, frames = 0;
   for (uint64_t seed = 1; seed <= seedCount() && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Flown flown = flyWhole(seed);
@@ -125,8 +128,10 @@ TEST(Flight, ShowsACutOfResidentChunksWithinTheBudgetAndEndsWhereAFreshStartEnds
     comeToRest(world, fresh);
     EXPECT_EQ(flown.drawn, fresh.drawnChunks());
     drawn += flown.drawn.size();
+    frames += flown.frames;
   }
   EXPECT_GT(drawn, 10 * seedCount());
+  std::cout << frames << " frames\n";
 }
 
 TEST(Flight, IsTheSameEachTime) {

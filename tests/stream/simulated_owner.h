@@ -2,11 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "runtime/stream/chunk_streamer.h"
+
+namespace froth {
+
+inline void PrintTo(ChunkId id, std::ostream* out) { *out << id.asset << '.' << id.chunk; }  // for GoogleTest
+
+}  // namespace froth
 
 namespace froth::test {
 
@@ -16,6 +23,7 @@ struct OwnerOptions {
   double failureShare = 0.1;  // of the steps before a chunk is resident; such failures pass
   uint32_t readsInFlight = 8;
   StreamOptions stream{4, 3};
+  bool checksCuts = true;  // in each frame; takes time for each chunk
 };
 
 // A streamer and its owner. Assets must stay as long as this.
@@ -31,6 +39,8 @@ class SimulatedOwner {
   // Until all is settled; the number of frames, or mostFrames.
   uint32_t settle(uint32_t mostFrames);
 
+  uint32_t frames() const { return frame_; }
+  double updateSeconds() const { return updateSeconds_; }  // of the last frame, processor time
   uint64_t heldBytes() const { return heldBytes_; }
   std::vector<ChunkId> drawnChunks() const;
   uint64_t digest() const { return digest_; }                  // of all actions so far
@@ -67,6 +77,7 @@ class SimulatedOwner {
   std::vector<Task> tasks_;
   uint32_t frame_ = 0;
   uint64_t budget_ = 0, heldBytes_ = 0, digest_ = 0;
+  double updateSeconds_ = 0;
   std::string violation_;
 };
 
