@@ -55,7 +55,7 @@ uint expandPlanes(Chunk chunk, uvec4 cell, vec4 siteRadius) {
 void main() {
   uint slot = (linearGroup() * kGroupSize + gl_LocalInvocationIndex) / lanesPerCell();
   bool isCell = slot < COUNTERS.visibleCells;
-  uvec4 cell = isCell ? FRAME.visibleCells.v[slot] : uvec4(0);
+  uvec4 cell = isCell ? FRAME.visibleCells.v[slot] : uvec4(firstCell(), 0, 0);
   if (gl_LocalInvocationIndex == 0) mostPlanes = 0;
   barrier();
   atomicMax(mostPlanes, cell.w);

@@ -14,7 +14,7 @@
 #ifndef FROTH_WALK_GLSL
 #define FROTH_WALK_GLSL
 
-#define FROTH_WALK_ABI 4u
+#define FROTH_WALK_ABI 5u
 
 // FrothHit::status
 #define FROTH_WALK_DONE 0u
@@ -218,9 +218,10 @@ void describeHit(inout FrothWalk walk, Interval interval, float logQuantile) {
   walk.hit.distance =
       walk.tStart + quantileDistance(interval.tNear, walk.logTransmittance, logQuantile, interval.density);
   walk.hit.instance = met.instance;
-  walk.hit.chunk = met.metCell.x;
-  walk.hit.cell = met.metCell.y;
-  walk.hit.normal = normalOf(met.instance, met.metCell);
+  walk.hit.normal = normalOf(met.instance, met.metCell);  // the instance is at hand
+  uvec2 name = namedCell(met.metCell);
+  walk.hit.chunk = name.x;
+  walk.hit.cell = name.y;
   walk.hit.userId = FRAME.userId;
 }
 
@@ -301,7 +302,7 @@ bool frothLocate(uint instance, vec3 point, uvec2 first, out uvec2 cell) {
   if (!isVersionKnown() || instance >= walkSet.block.instanceCount) return false;
   instanceAtHand = instance;
   uint steps, neighbours = 0;
-  cell = locateFrom(assetFromWorld(point) / FRAME.scale, first, steps, neighbours);
+  cell = namedCell(locateFrom(assetFromWorld(point) / FRAME.scale, cellOfName(first), steps, neighbours));
   return neighbours < FRAME.maxNeighbours;
 }
 

@@ -43,11 +43,10 @@ void findMostFall(Chunk chunk, uint cell, vec3 point) {
   }
 }
 
-// The last frame's cell; another asset may have fewer.
+// The last frame's cell; another asset, or other chunks that are drawn, may have fewer.
 uvec2 startCell(uint place) {
   uvec2 cell = FRAME.walkStart.v[place];
-  bool isThere = cell.x < FRAME.chunkCount && cell.y < FRAME.chunks.v[cell.x].cellCount;
-  return isThere ? cell : uvec2(0);
+  return isCell(cell) ? cell : firstCell();
 }
 
 // Relative to the eye.

@@ -1,4 +1,4 @@
-// Marks the parts of the grid that the balls of a new asset's live cells meet. A row of workgroups per chunk: as many
+// Marks the parts of the grid that the balls of the live cells meet that are drawn. A row of workgroups per chunk: as many
 // as the mean chunk has cells for; in a larger chunk each thread takes several.
 #version 460
 #extension GL_GOOGLE_include_directive : require

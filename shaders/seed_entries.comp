@@ -1,5 +1,5 @@
-// The entries of a new asset: for each box of the grid the cell that holds its middle, and no marked part. A thread per
-// entry.
+// The entries of a new asset, or of other chunks that are drawn of it: for each box of the grid the cell that holds its
+// middle, and no marked part. A thread per entry.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -22,5 +22,6 @@ void main() {
   vec4 low = FRAME.boxLow, size = FRAME.boxSize;
   vec3 middle = low.xyz + (vec3(entry) + 0.5) / float(along) * size.xyz;
   uint neighbours = 0;
-  FRAME.entries.v[index] = uvec4(cellHolding(middle, uvec2(0), neighbours), 0u, 0u);
+  uvec2 first = hasLevels() ? FRAME.entries.v[index].xy : firstCell();  // of the chunks before, or no cell
+  FRAME.entries.v[index] = uvec4(cellHolding(middle, isCell(first) ? first : firstCell(), neighbours), 0u, 0u);
 }

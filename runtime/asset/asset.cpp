@@ -40,6 +40,7 @@ void Asset::restart(const Messages& messages) {
   description_ = {};
   flightPath_.clear();
   gpu_ = {};
+  slots_ = {};
   entriesSerial = 0;
   arena_ = device_ ? std::make_shared<GpuArena>(*device_) : nullptr;
   if (source_.kind == SourceKind::kMemory && !source_.bytesStay) {
@@ -51,12 +52,12 @@ void Asset::restart(const Messages& messages) {
 
 // Changes nothing while its memory is ordered.
 Status Asset::placeChunk(LoadedChunk& loaded) {
-  const size_t number = gpu_.chunks.size();
+  const uint32_t number = loaded.gpu.number;
   GpuArena::Place place;
   if (loaded.arrays.size > 0) {
     const std::string purpose = "chunk " + std::to_string(number);
     const Result<GpuArena::Place> given =
-        arena_->allocate(loaded.arrays.size, bytesToCome(loaded.arrays.size), purpose.c_str());
+        arena_->allocate(loaded.arrays.size, bytesToCome(number, loaded.arrays.size), purpose.c_str());
     if (!given) {
       return given.error();
     }
@@ -64,18 +65,26 @@ Status Asset::placeChunk(LoadedChunk& loaded) {
   }
   workDone_ += chunkWork_[number];
   workToCome_ -= chunkWork_[number];
+  if (hasLevels()) {
+    ChunkSlot& slot = slots_.add(loaded.gpu);
+    slot.place = place;
+    slot.size = loaded.arrays.size;
+    for (const ChunkArray& array : loaded.arrays.arrays) slot.parts.emplace_back(array.purpose, array.size);
+    placeArrays(loaded.arrays, place, slot.gpu, isDecoded_ ? static_cast<const void*>(&slot) : this);
+    return {};
+  }
   growBounds(loaded);
   gpu_.add(loaded.gpu);
   if (loaded.query) {
     queryFoam_->addChunk(std::move(*loaded.query), loaded.bounds);
   }
-  placeArrays(loaded.arrays, place);
+  placeArrays(loaded.arrays, place, gpu_.chunks.back(), this);
   return {};
 }
 
 // What the arena will be asked for behind `size` bytes of the chunk at hand, by what chunks have needed so far.
-VkDeviceSize Asset::bytesToCome(VkDeviceSize size) const {
-  const uint64_t atHand = chunkWork_[gpu_.chunks.size()];
+VkDeviceSize Asset::bytesToCome(uint32_t chunk, VkDeviceSize size) const {
+  const uint64_t atHand = chunkWork_[chunk];
   const auto done = static_cast<double>(workDone_ + atHand), toCome = static_cast<double>(workToCome_ - atHand);
   const double share = done > 0 ? toCome / done : 0;
   const double chunks = std::min(static_cast<double>(placedBytes_ + size) * share, double{GpuArena::kMostShared});
@@ -83,11 +92,11 @@ VkDeviceSize Asset::bytesToCome(VkDeviceSize size) const {
   return static_cast<VkDeviceSize>(chunks) + sizeof(gpu::uvec4) * along * along * along;
 }
 
-void Asset::placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place) {
+void Asset::placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place, GpuChunk& chunk, const void* owner) {
   placedBytes_ += arrays.size;
   for (const ChunkArray& array : arrays.arrays) {
-    gpu_.chunks.back().*array.address = place.address + array.offset;
-    arrays_.push_back({array.bytes, place.buffer, place.offset + array.offset, array.size, 0});
+    chunk.*array.address = place.address + array.offset;
+    arrays_.push_back({owner, array.bytes, place.buffer, place.offset + array.offset, array.size, 0});
     addMemory(array.purpose, array.size);
   }
 }
@@ -126,6 +135,13 @@ void Asset::addMemory(const char* name, uint64_t bytes) {
   found->bytes += bytes;
 }
 
+void Asset::removeMemory(const char* name, uint64_t bytes) {
+  FrothMemory* const end = description_.memory + description_.memoryCount;
+  std::find_if(description_.memory, end, [&](const FrothMemory& part) {
+    return std::string_view(part.name) == name;
+  })->bytes -= bytes;
+}
+
 void Asset::growBounds(const LoadedChunk& chunk) {
   if (chunk.gpu.liveCount == 0) {
     return;
@@ -147,7 +163,7 @@ VkDeviceSize Asset::stage(UploadRing& ring, VkDeviceSize limit) {
   while (!arrays_.empty()) {
     PendingArray& array = arrays_.front();
     const VkDeviceSize wanted = std::min(array.size - array.staged, limit - staged);
-    const VkDeviceSize taken = ring.stage(this, array.target, array.offset + array.staged,
+    const VkDeviceSize taken = ring.stage(array.owner, array.target, array.offset + array.staged,
                                           static_cast<const char*>(array.bytes.get()) + array.staged, wanted);
     array.staged += taken;
     staged += taken;

@@ -15,6 +15,7 @@
 #include "froth/froth.h"
 #include "runtime/asset/asset_source.h"
 #include "runtime/asset/chunk_arrays.h"
+#include "runtime/asset/chunk_slots.h"
 #include "runtime/asset/gpu_arena.h"
 #include "runtime/asset/gpu_asset.h"
 #include "runtime/asset/load_limit.h"
@@ -29,8 +30,8 @@
 namespace froth {
 
 // Loads chunk by chunk: their bytes come through a reader of the caller if the asset has one, jobs decode them, load()
-// gives their arrays places in the order of the file, stage() moves them through the ring as it has room. One thread at
-// a time; jobs see nothing of the asset but its AssetReader and bytes.
+// gives their arrays places in the order in which they are wanted, stage() moves them through the ring as it has room.
+// One thread at a time; jobs see nothing of the asset but its AssetReader and bytes.
 class Asset {
  public:
   // `device` null: decodes and checks, and keeps nothing.
@@ -56,8 +57,9 @@ class Asset {
   // Moves at most `limit` bytes of decoded arrays into the ring; returns how many.
   VkDeviceSize stage(UploadRing& ring, VkDeviceSize limit);
 
-  // Everything is decoded and has its place on the GPU: views can prepare for gpu().
+  // Everything, or with levels the floor, is decoded and has its place on the GPU: views can prepare for gpu().
   bool isDecoded() const { return isDecoded_; }
+  bool isStaged() const { return arrays_.empty() || arrays_.front().owner != this; }  // and all of that is in the ring
   bool hasFailed() const { return error_ != FROTH_OK; }
   uint64_t queuedBytes() const;  // decoded, not staged
 
@@ -89,6 +91,34 @@ class Asset {
   // No successor is made, or none any more, for one failed.
   void keepLayers() { keepsLayers_ = true; }
 
+  // ---- Levels of detail (asset_levels.cpp). The floor is loaded first, is drawn then, and stays. Other chunks come
+  // and go as they are told: who tells counts bytes and decides (runtime/context/context_levels.cpp).
+
+  bool hasLevels() const { return gpu_.hasLevels(); }
+  // With levels, once isDecoded(): counts, levels and groups, without what is in chunks.
+  const AssetContents& manifest() const { return reader_->manifest(); }
+  ChunkState chunkState(uint32_t chunk) const { return slots_.stateOf(chunk); }
+  std::span<const uint32_t> drawnChunks() const { return slots_.drawn(); }
+  // [bytes] of device memory, without what blocks leave unused: an estimate before it was resident.
+  VkDeviceSize chunkBytes(uint32_t chunk) const;
+  // One that is absent or failed: one fetch, one job, one place. A failure is a warning.
+  void readChunk(uint32_t chunk);
+  // One that is resident, not drawn, not planned and not of the floor: its memory returns once no frame uses it.
+  void evictChunk(uint32_t chunk);
+  // A cut, to be drawn once all of it is resident and takePlan() says so.
+  void planChunks(std::vector<uint32_t> chunks) { slots_.plan(std::move(chunks)); }
+  // In each frame: which copies are complete, which memory returns. True: the plan can be taken, and gpu() tells what
+  // views need for it.
+  bool updateChunks(uint64_t completedSerial, uint64_t completedUploadSerial, const UploadRing* ring);
+  void takePlan(uint64_t serial);
+  // What walks of the frame `serial` need before them (runtime/render/border_pass.h).
+  ChunkSlots::Publication publishBorders(uint64_t serial) { return slots_.publish(serial); }
+
+  // The frame will not be submitted.
+  void dropFrame(uint64_t serial);
+  // Its copies that are not recorded will never be. `targets` stays until the others are complete.
+  void forgetCopies(UploadRing& ring, const std::shared_ptr<void>& targets);
+
   // The device is gone: frees what lay on it, and begins again. Fails an asset whose bytes are not there any more.
   void restart(const Messages& messages);
 
@@ -98,6 +128,7 @@ class Asset {
  private:
   // A decoded array on its way to its buffer; owned until it is staged.
   struct PendingArray {
+    const void* owner;  // in the ring: the asset, or the slot of a chunk that came later
     std::shared_ptr<const void> bytes;
     VkBuffer target;
     VkDeviceSize offset, size, staged;  // offset: in the target
@@ -109,29 +140,37 @@ class Asset {
     uint32_t detailCount = 0;
   };
 
-  Status takeResults(const Preparation& prepare);
+  struct Decoding {
+    uint32_t chunk;
+    Job<LoadedChunk> job;
+  };
+
+  Status takeResults(const Preparation& prepare, const Messages& messages);
+  Status takeChunks(const Messages& messages);
+  Status refuseChunk(uint32_t chunk, const Error& error, const Messages& messages);
   bool startNext(JobRunner& jobs, ReadTable& reads, LoadLimit& limit);
   bool startReading(ReadTable& reads, const LoadLimit& limit);
   bool startOpening(JobRunner& jobs, LoadLimit& limit);
-  bool startDecoding(uint32_t chunk, JobRunner& jobs, LoadLimit& limit);
+  bool startDecoding(JobRunner& jobs, LoadLimit& limit);
   void startFinishing(JobRunner& jobs);
   void takeReader(std::shared_ptr<const AssetReader> reader);
   Status finish();
-  uint32_t firstUndecoded() const {
-    return static_cast<uint32_t>(gpu_.chunks.size() + (unplaced_ ? 1 : 0) + decoding_.size());
-  }
+  void takeLevels(const AssetReader& reader);
+  bool isLoading() const { return !toRead_.empty() || !decoding_.empty() || unplaced_; }
   Status placeChunk(LoadedChunk& loaded);
-  void placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place);
+  void placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place, GpuChunk& chunk, const void* owner);
   Status placeEntries();
-  VkDeviceSize bytesToCome(VkDeviceSize size) const;
+  Status placeBorders();
+  void removeChunk(uint32_t chunk);
+  VkDeviceSize bytesToCome(uint32_t chunk, VkDeviceSize size) const;
   uint32_t entriesAlong() const;
   void takeSizes(const AssetReader& reader);
   uint32_t layersHeld(uint32_t most) const;
   bool canLoadAgain() const;
   void addMemory(const char* name, uint64_t bytes);
+  void removeMemory(const char* name, uint64_t bytes);
   void growBounds(const LoadedChunk& chunk);
-  bool isQueryFoamWanted() const { return keepsForQueries_ && !queryFoam(); }
-  bool arePlaced() const { return gpu_.chunks.size() == description_.chunkCount; }
+  bool isQueryFoamWanted() const { return keepsForQueries_ && !hasLevels() && !queryFoam(); }
   void fail(FrothResult code, const char* text, const Messages& messages);
   void fail(const Error& error, const Messages& messages);
 
@@ -147,9 +186,10 @@ class Asset {
   Job<std::shared_ptr<const AssetReader>> opening_;  // gives null if opener_ wants more
   std::shared_ptr<const AssetReader> reader_;        // while loading
   bool isPrepared_ = false;                          // Preparation has ended
-  std::deque<RangeFetch> fetches_;                   // the chunks behind those that are being decoded
-  std::optional<LoadedChunk> unplaced_;              // the chunk behind those that are placed: its memory is ordered
-  std::deque<Job<LoadedChunk>> decoding_;            // the chunks behind it
+  std::deque<uint32_t> toRead_;                      // chunks that no job decodes yet, in their order
+  std::deque<RangeFetch> fetches_;                   // of the first of them
+  std::optional<LoadedChunk> unplaced_;              // the chunk before all those: its memory is ordered
+  std::deque<Decoding> decoding_;                    // the chunks between
   Job<std::shared_ptr<QueryFoam>> finishing_;        // has queryFoam_
   std::vector<uint64_t> chunkWork_;                  // [chunks] bytes of decoded sections;
   uint64_t workDone_ = 0, workToCome_ = 0;           // sums of them, of chunks that are placed or not
@@ -162,6 +202,8 @@ class Asset {
   FrothAssetStatus description_{};
   std::vector<FrothStoredCamera> flightPath_;
   GpuAsset gpu_;
+  ChunkSlots slots_;         // with levels
+  uint32_t floorCount_ = 0;  // the first chunks of the file
   std::shared_ptr<QueryFoam> queryFoam_;
   std::shared_ptr<GpuArena> arena_;
 };

@@ -21,9 +21,10 @@ FrothStoredCamera toApi(const StoredCamera& camera) {
 
 FrothAssetStatus describeManifest(const AssetContents& manifest) {
   FrothAssetStatus description{};
-  for (const ChunkContents& chunk : manifest.chunks) {
-    description.cellCount += chunk.cellCount;
-    description.liveCount += chunk.liveCount;
+  for (size_t i = 0; i < manifest.chunks.size(); ++i) {
+    if (!manifest.levels.empty() && manifest.levels[i].level > 0) continue;
+    description.cellCount += manifest.chunks[i].cellCount;
+    description.liveCount += manifest.chunks[i].liveCount;
   }
   description.detailCount = manifest.detailCount;
   description.lobeCount = manifest.lobeCount;
@@ -67,14 +68,14 @@ Result<std::shared_ptr<const AssetReader>> takeHead(AssetOpener& opener, const B
 
 void Asset::load(JobRunner& jobs, ReadTable& reads, LoadLimit& limit, const Preparation& prepare,
                  const Messages& messages) {
-  if (hasFailed() || isDecoded_) {
+  if (hasFailed() || (isDecoded_ && !isLoading())) {
     return;
   }
   waitsForMemory_ = false;
   try {
-    Status status = takeResults(prepare);
+    Status status = takeResults(prepare, messages);
     while (status && startNext(jobs, reads, limit)) {
-      status = takeResults(prepare);
+      status = takeResults(prepare, messages);
     }
     if (!status) {
       fail(status.error(), messages);
@@ -91,16 +92,17 @@ void Asset::stop() {
   opening_.drop(waits);
   opener_.reset();
   isPrepared_ = false;
-  for (Job<LoadedChunk>& chunk : decoding_) {
-    chunk.drop(waits);
+  for (Decoding& decoding : decoding_) {
+    decoding.job.drop(waits);
   }
   decoding_.clear();
+  toRead_.clear();
   unplaced_.reset();
   finishing_.drop(false);
   reader_.reset();
 }
 
-Status Asset::takeResults(const Preparation& prepare) {
+Status Asset::takeResults(const Preparation& prepare, const Messages& messages) {
   if (opening_.hasEnded()) {
     Result<std::shared_ptr<const AssetReader>> reader = opening_.take();
     if (!reader) {
@@ -117,24 +119,8 @@ Status Asset::takeResults(const Preparation& prepare) {
     }
     isPrepared_ = prepared.has_value();
   }
-  while (!waitsForMemory_ && (unplaced_ || (!decoding_.empty() && decoding_.front().hasEnded()))) {
-    if (!unplaced_) {
-      Result<LoadedChunk> chunk = decoding_.front().take();
-      decoding_.pop_front();
-      if (!chunk) {
-        return chunk.error();
-      }
-      unplaced_ = std::move(*chunk);
-    }
-    const Status status = placeChunk(*unplaced_);
-    waitsForMemory_ = isPending(status);
-    if (waitsForMemory_) {
-      break;
-    }
-    unplaced_.reset();
-    if (!status) {
-      return status;
-    }
+  if (const Status status = takeChunks(messages); !status) {
+    return status;
   }
   if (finishing_.hasEnded()) {
     Result<std::shared_ptr<QueryFoam>> foam = finishing_.take();
@@ -143,13 +129,38 @@ Status Asset::takeResults(const Preparation& prepare) {
     }
     queryFoam_ = std::move(*foam);
   }
-  const bool isWhole = reader_ && isPrepared_ && arePlaced() && !isQueryFoamWanted();
-  return isWhole && !waitsForMemory_ ? finish() : Status();
+  const bool isWhole = reader_ && isPrepared_ && !isLoading() && !isQueryFoamWanted();
+  return isWhole && !isDecoded_ && !waitsForMemory_ ? finish() : Status();
+}
+
+Status Asset::takeChunks(const Messages& messages) {
+  while (!waitsForMemory_ && (unplaced_ || (!decoding_.empty() && decoding_.front().job.hasEnded()))) {
+    if (!unplaced_) {
+      const uint32_t number = decoding_.front().chunk;
+      Result<LoadedChunk> chunk = decoding_.front().job.take();
+      decoding_.pop_front();
+      if (!chunk) {
+        if (const Status status = refuseChunk(number, chunk.error(), messages); !status) return status;
+        continue;
+      }
+      unplaced_ = std::move(*chunk);
+    }
+    const Status status = placeChunk(*unplaced_);
+    waitsForMemory_ = isPending(status);
+    if (waitsForMemory_) {
+      break;
+    }
+    const uint32_t number = unplaced_->gpu.number;
+    unplaced_.reset();
+    if (status) continue;
+    if (const Status refused = refuseChunk(number, status.error(), messages); !refused) return refused;
+  }
+  return {};
 }
 
 // False: there is nothing to be started, or no room for it.
 bool Asset::startNext(JobRunner& jobs, ReadTable& reads, LoadLimit& limit) {
-  if (isDecoded_) {
+  if (isDecoded_ && !isLoading()) {
     return false;
   }
   if (source_.kind == SourceKind::kReader && startReading(reads, limit)) {
@@ -161,11 +172,10 @@ bool Asset::startNext(JobRunner& jobs, ReadTable& reads, LoadLimit& limit) {
   if (!reader_) {
     return startOpening(jobs, limit);
   }
-  const auto chunk = firstUndecoded();
-  if (chunk < description_.chunkCount) {
-    return startDecoding(chunk, jobs, limit);
+  if (!toRead_.empty()) {
+    return startDecoding(jobs, limit);
   }
-  if (!arePlaced() || !isQueryFoamWanted() || finishing_.isUnderWay()) {
+  if (isLoading() || !isQueryFoamWanted() || finishing_.isUnderWay()) {
     return false;
   }
   limit.count(0);
@@ -190,10 +200,10 @@ bool Asset::startReading(ReadTable& reads, const LoadLimit& limit) {
     headFetch_.start(reads, source_.reader, wanted);
     return true;
   }
-  const auto chunk = firstUndecoded() + static_cast<uint32_t>(fetches_.size());
-  if (chunk >= description_.chunkCount || (limit.isLate() && !fetches_.empty())) {
+  if (fetches_.size() >= toRead_.size() || (limit.isLate() && !fetches_.empty())) {
     return false;
   }
+  const uint32_t chunk = toRead_[fetches_.size()];
   const std::vector<ByteRange> ranges = reader_->rangesOf(chunk);
   if (!reads.hasRoom(ranges)) {
     return false;
@@ -224,7 +234,7 @@ bool Asset::startOpening(JobRunner& jobs, LoadLimit& limit) {
   return true;
 }
 
-bool Asset::startDecoding(uint32_t chunk, JobRunner& jobs, LoadLimit& limit) {
+bool Asset::startDecoding(JobRunner& jobs, LoadLimit& limit) {
   using Bytes = Result<std::shared_ptr<const ByteSource>>;
   Bytes bytes = reader_->source();
   if (source_.kind == SourceKind::kReader) {
@@ -234,9 +244,13 @@ bool Asset::startDecoding(uint32_t chunk, JobRunner& jobs, LoadLimit& limit) {
     bytes = fetches_.front().take(source_.name);
     fetches_.pop_front();
   }
+  const uint32_t chunk = toRead_.front();
+  toRead_.pop_front();
   limit.count(chunkWork_[chunk]);
   const ChunkUses uses{device_ != nullptr, isQueryFoamWanted() && gpu_.hasWalkGraph};
-  decoding_.emplace_back().start(jobs, [reader = reader_, bytes, chunk, name = source_.name, uses] {
+  Decoding& decoding = decoding_.emplace_back();
+  decoding.chunk = chunk;
+  decoding.job.start(jobs, [reader = reader_, bytes, chunk, name = source_.name, uses] {
     return bytes ? loadChunk(*reader, **bytes, chunk, name, uses) : bytes.error();
   });
   return true;
@@ -262,6 +276,7 @@ void Asset::takeReader(std::shared_ptr<const AssetReader> reader) {
   flightPath_.clear();
   std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_), toApi);
   takeSizes(*reader);
+  takeLevels(*reader);
   gpu_.hasHeights = shapeOf(*reader, source_.lastLayer).hasHeights;
   reader_ = std::move(reader);
   opener_.reset();
@@ -283,14 +298,23 @@ void Asset::takeSizes(const AssetReader& reader) {
 }
 
 Status Asset::finish() {
-  const Status status = placeEntries();
+  Status status = placeBorders();
+  if (status) {
+    status = placeEntries();
+  }
   waitsForMemory_ = isPending(status);
   if (waitsForMemory_) {
     return {};
   }
-  reader_.reset();
+  if (!hasLevels() || !status) {
+    reader_.reset();
+  }
   if (!status) {
     return status;
+  }
+  if (hasLevels()) {
+    slots_.measurePlan(gpu_);
+    slots_.takePlan(0, gpu_);  // no frame draws it before its copies are recorded
   }
   isDecoded_ = true;
   figures_[layers_ - 1] = {heldBytes(), gpu_.detailCount};

@@ -19,6 +19,7 @@ uint32_t walkEntriesAlong(uint32_t cellCount) {
   return std::clamp(static_cast<uint32_t>(along), 1u, kMostEntriesAlong);
 }
 
+// With levels: the floor, and level 0.
 Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQueries, bool keepsForWalks) {
   const Result<AssetReader> reader = openReader(source);
   if (!reader) return reader.error();
@@ -26,8 +27,11 @@ Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQuerie
   AssetMeasure measure;
   measure.gpu.detailCount = manifest.detailCount;
   QueryFoam foam(manifest);
+  const bool hasLevels = !manifest.levels.empty();
+  keepsForQueries = keepsForQueries && !hasLevels;
   const ChunkUses uses{.drawing = true, .queries = keepsForQueries && manifest.hasWalkGraph};
   for (uint32_t chunk = 0; chunk < manifest.chunks.size(); ++chunk) {
+    if (hasLevels && manifest.levels[chunk].level > 0 && manifest.levels[chunk].in != kNoGroup) continue;
     Result<LoadedChunk> loaded = loadChunk(*reader, *reader->source(), chunk, source.name, uses);
     if (!loaded) return loaded.error();
     measure.gpu.add(loaded->gpu);

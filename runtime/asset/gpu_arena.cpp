@@ -1,6 +1,7 @@
 #include "runtime/asset/gpu_arena.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace froth {
 namespace {
@@ -10,6 +11,10 @@ namespace {
 constexpr VkDeviceSize kLeastShare = 16;
 // [bytes] What is larger has a block of its own: a few of these in a shared one would leave much of it empty.
 constexpr VkDeviceSize kMostAmongOthers = GpuArena::kMostShared / 4;
+
+VkDeviceSize aligned(VkDeviceSize size) {
+  return (size + GpuArena::kAlignment - 1) / GpuArena::kAlignment * GpuArena::kAlignment;
+}
 
 }  // namespace
 
@@ -27,25 +32,68 @@ VkDeviceSize GpuArena::chooseBlockSize(VkDeviceSize size, VkDeviceSize more) con
 }
 
 Result<GpuArena::Place> GpuArena::allocate(VkDeviceSize size, VkDeviceSize more, const char* purpose) {
-  if (const VkDeviceSize room = roomLeft(); size > room) {
-    blocks_.reserve(blocks_.size() + 1);  // so that what is made has its place
-    const VkDeviceSize blockSize = orderedSize_ != 0 ? orderedSize_ : chooseBlockSize(size, more);
-    const BufferWish wish{blockSize, purpose};
-    GpuBuffer block;
-    const Status status = device_.createBuffers(MemoryUse::kAssets, BufferKind::kUploaded, purpose, {&wish, 1},
-                                                {&block, 1}, limit_ == Limit::kNone);
-    orderedSize_ = isOrdered(status) ? blockSize : 0;
-    if (!status) return status.error();
-    blocks_.push_back(block);
-    heldBytes_ += block.memory.granted;
-    if (blocks_.size() > 1 && blockSize - size < room) return Place{block.buffer, 0, block.address};
-    open_ = blocks_.size() - 1;
-    used_ = 0;
+  Place place;
+  if (takeGap(size, place)) {
+    orderedSize_ = 0;  // a place was given back meanwhile: nobody asks for the block any more
+    return place;
   }
-  const GpuBuffer& block = blocks_[open_];
-  const Place place{block.buffer, used_, block.address + used_};
-  used_ = std::min(block.size, used_ + (size + kAlignment - 1) / kAlignment * kAlignment);
+  if (const Status status = addBlock(size, more, purpose); !status) return status.error();
+  takeGap(size, place);
   return place;
+}
+
+Status GpuArena::addBlock(VkDeviceSize size, VkDeviceSize more, const char* purpose) {
+  blocks_.reserve(blocks_.size() + 1);  // so that what is made has its place
+  gaps_.reserve(gaps_.size() + 1);
+  const VkDeviceSize blockSize = orderedSize_ != 0 ? orderedSize_ : chooseBlockSize(size, more);
+  Gaps whole{{0, blockSize}};
+  const BufferWish wish{blockSize, purpose};
+  GpuBuffer block;
+  const Status status = device_.createBuffers(MemoryUse::kAssets, BufferKind::kUploaded, purpose, {&wish, 1},
+                                              {&block, 1}, limit_ == Limit::kNone);
+  orderedSize_ = isOrdered(status) ? blockSize : 0;
+  if (!status) return status;
+  blocks_.push_back(block);
+  gaps_.push_back(std::move(whole));
+  heldBytes_ += block.memory.granted;
+  return {};
+}
+
+// False: no gap is large enough.
+bool GpuArena::takeGap(VkDeviceSize size, Place& place) {
+  for (size_t i = 0; i < blocks_.size(); ++i) {
+    const auto gap = std::find_if(gaps_[i].begin(), gaps_[i].end(), [&](const Gap& g) { return g.size >= size; });
+    if (gap == gaps_[i].end()) continue;
+    place = {blocks_[i].buffer, gap->offset, blocks_[i].address + gap->offset};
+    const VkDeviceSize taken = std::min(gap->size, aligned(size));
+    gap->offset += taken;
+    gap->size -= taken;
+    if (gap->size == 0) gaps_[i].erase(gap);
+    return true;
+  }
+  return false;
+}
+
+void GpuArena::free(const Place& place, VkDeviceSize size) {
+  const auto isIt = [&](const GpuBuffer& block) { return block.buffer == place.buffer; };
+  const auto block = std::find_if(blocks_.begin(), blocks_.end(), isIt);
+  const auto gaps = gaps_.begin() + (block - blocks_.begin());
+  const Gap freed{place.offset, std::min(aligned(size), block->size - place.offset)};
+  const auto isBehind = [&](const Gap& gap) { return gap.offset > freed.offset; };
+  auto gap = gaps->insert(std::find_if(gaps->begin(), gaps->end(), isBehind), freed);
+  const auto joinNext = [&](Gaps::iterator first) {
+    const auto next = first + 1;
+    if (next == gaps->end() || first->offset + first->size != next->offset) return;
+    first->size += next->size;
+    gaps->erase(next);
+  };
+  joinNext(gap);
+  if (gap != gaps->begin()) joinNext(gap - 1);
+  if (gaps->front().size < block->size) return;
+  heldBytes_ -= block->memory.granted;
+  device_.destroyBuffer(*block);
+  blocks_.erase(block);
+  gaps_.erase(gaps);
 }
 
 }  // namespace froth

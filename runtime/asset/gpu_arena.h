@@ -8,7 +8,8 @@
 
 namespace froth {
 
-// Gives places one behind the other and frees all of them together. One thread at a time.
+// Gives places in blocks, the first that fits, and takes them back one by one; a block without any is freed. One thread
+// at a time.
 class GpuArena {
  public:
   static constexpr VkDeviceSize kAlignment = 16;          // of the largest type that shaders load
@@ -30,19 +31,27 @@ class GpuArena {
   // size > 0. `more`: how many bytes will be asked for later, about. Bytes a, a, a, ... of n places take O(log n)
   // blocks besides those of kMostShared. An error names `purpose`, or isPending(): then ask for the same again.
   Result<Place> allocate(VkDeviceSize size, VkDeviceSize more, const char* purpose);
+  // size: as it was asked for. The GPU must be done with the place.
+  void free(const Place& place, VkDeviceSize size);
 
   std::span<const GpuBuffer> blocks() const { return blocks_; }
   VkDeviceSize heldBytes() const { return heldBytes_ + orderedSize_; }  // of VkDeviceMemory
 
  private:
+  // Of a block; not taken.
+  struct Gap {
+    VkDeviceSize offset, size;
+  };
+  using Gaps = std::vector<Gap>;  // ascending; no two touch
+
   VkDeviceSize chooseBlockSize(VkDeviceSize size, VkDeviceSize more) const;
-  VkDeviceSize roomLeft() const { return blocks_.empty() ? 0 : blocks_[open_].size - used_; }
+  Status addBlock(VkDeviceSize size, VkDeviceSize more, const char* purpose);
+  bool takeGap(VkDeviceSize size, Place& place);
 
   Device& device_;
   Limit limit_;
   std::vector<GpuBuffer> blocks_;
-  size_t open_ = 0;        // the block with room,
-  VkDeviceSize used_ = 0;  // and what of it is taken
+  std::vector<Gaps> gaps_;  // [blocks_]
   VkDeviceSize heldBytes_ = 0;
   VkDeviceSize orderedSize_ = 0;  // of the block that a job makes; 0: none
 };

@@ -22,7 +22,7 @@ struct GpuChunk {
   VkDeviceAddress siteRadius = 0;        // vec4 [siteCount]: site relative to origin, radius
   VkDeviceAddress neighbourOffsets = 0;  // uint [cellCount + 1]
   VkDeviceAddress neighbours = 0;        // uint of 32 >> neighbourShift bits [neighbourCount] sites
-  VkDeviceAddress ghostRefs = 0;         // CellRef [siteCount - cellCount]
+  VkDeviceAddress ghostRefs = 0;         // CellRef, or with levels border numbers [siteCount - cellCount]
   VkDeviceAddress alphaCounts = 0;       // uint of 32 >> alphaShift bits [liveCount]
   VkDeviceAddress cellStarts = 0;        // uint [liveCount] first byte of a live cell in cellWords
   VkDeviceAddress cellWords = 0;         // uint [cellWordCount] PackedCells (runtime/asset/cell_packer.h)
@@ -30,6 +30,11 @@ struct GpuChunk {
   uint32_t neighbourShift = 0, alphaShift = 0;
   uint32_t cellWordCount = 0;
   gpu::CellCode code{};
+  uint32_t number = 0;  // in the file
+  // With levels, as in ChunkContents.
+  uint32_t borderCount = 0;
+  VkDeviceAddress borderCells = 0;    // uint [borderCount]
+  VkDeviceAddress borderNumbers = 0;  // uint [borderCount]
 };
 
 // What the shaders that draw an asset are specialized on.
@@ -49,18 +54,35 @@ struct GpuAsset {
   uint32_t cellCount = 0;                           // over all chunks
   uint64_t alphaTotal = 0;                          // over all chunks
   uint64_t neighbourTotal = 0;                      // over all chunks
-  std::array<double, 3> boundsLow{}, boundsHigh{};  // of the balls of live cells
+  std::array<double, 3> boundsLow{}, boundsHigh{};  // of the balls of live cells, with levels of all
   uint32_t walkEntriesAlong = 0;  // WalkInstance::entries (shaders/gpu/walk_layout.h); 0: there are none
   VkDeviceAddress walkEntries = 0;
+  // With levels by slot: a chunk keeps its slot as long as it is resident, and slots of chunks that are not drawn are
+  // empty. Else in the order of the file.
   std::vector<GpuChunk> chunks;
 
+  // Levels of detail.
+  uint32_t fileChunkCount = 0;  // 0: there are none
+  uint32_t borderCount = 0;     // AssetContents::borderCount
+  VkBuffer borderBuffer = VK_NULL_HANDLE;
+  VkDeviceSize borderOffset = 0;  // in the buffer
+  VkDeviceAddress borders = 0;    // FrameBlock::borders
+  uint32_t firstSlot = 0;         // that is drawn and has cells
+  // Of the chunks that are to be drawn next: views make room for them before.
+  uint32_t nextChunkCount = 0, nextGroupCount = 0;
+
+  bool hasLevels() const { return fileChunkCount != 0; }
+  VkDeviceSize borderBytes() const { return sizeof(uint32_t) * (VkDeviceSize{borderCount} + fileChunkCount); }
   AssetShape shape() const { return {detailCount, lobeCount, hasHeights}; }
   void add(const GpuChunk& chunk) {
+    count(chunk);
+    chunks.push_back(chunk);
+  }
+  void count(const GpuChunk& chunk) {
     liveCount += chunk.liveCount;
     cellCount += chunk.cellCount;
     alphaTotal += chunk.alphaTotal;
     neighbourTotal += chunk.neighbourCount;
-    chunks.push_back(chunk);
   }
 };
 

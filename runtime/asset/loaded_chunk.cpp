@@ -32,6 +32,8 @@ Status packArrays(CodedChunk&& coded, const AssetContents& manifest, LoadedChunk
   arrays.add(std::move(cells->starts), "cell starts", &GpuChunk::cellStarts);
   arrays.add(std::move(cells->words), "cells", &GpuChunk::cellWords);
   arrays.add(std::move(contents.solidBalls), "solid balls", &GpuChunk::solidBalls);
+  arrays.add(std::move(contents.borderCells), "borders", &GpuChunk::borderCells);
+  arrays.add(std::move(contents.borderNumbers), "borders", &GpuChunk::borderNumbers);
   return {};
 }
 
@@ -51,6 +53,8 @@ Result<LoadedChunk> loadChunk(const AssetReader& reader, const ByteSource& bytes
   loaded.bounds = findLiveBounds(contents);
   GpuChunk& gpu = loaded.gpu;
   gpu.origin = contents.origin;
+  gpu.number = chunk;
+  gpu.borderCount = static_cast<uint32_t>(contents.borderCells.size());
   gpu.cellCount = contents.cellCount;
   gpu.liveCount = contents.liveCount;
   gpu.siteCount = contents.cellCount + contents.ghostCount;

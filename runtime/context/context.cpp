@@ -39,7 +39,7 @@ FrothAssetState Context::stateOf(const Asset& asset) const {
     return FROTH_ASSET_FAILED;
   }
   const uint64_t readable = hasUploadQueue_ ? completedUploadSerial_ : uploadSerial_;
-  const bool isUploaded = asset.queuedBytes() == 0 && (!ring_ || ring_->isWithin(&asset, readable));
+  const bool isUploaded = asset.isStaged() && (!ring_ || ring_->isWithin(&asset, readable));
   return asset.isDecoded() && isUploaded && !isLost_ ? FROTH_ASSET_READY : FROTH_ASSET_OPENING;
 }
 
@@ -86,10 +86,11 @@ FrothResult Context::closeAsset(FrothAsset handle) {
     abandonExchange();
   }
   retired_.reserve(retired_.size() + 1);
+  std::erase_if(cuts_, [&](const auto& cut) { return isSame(cut.first, handle); });
   assets_.find(handle)->stop();
   std::shared_ptr<Asset> closed = assets_.remove(handle);
   if (ring_) {
-    ring_->forget(closed.get(), closed);
+    closed->forgetCopies(*ring_, closed);
   }
   retire(std::move(closed));
   return FROTH_OK;

@@ -93,6 +93,9 @@ class Context {
                          FrothRayKind kind);
   FrothResult describeWalks(FrothWalkStatus& status) const;
 
+  // Which chunks of an asset with levels are to be read and drawn: a cut, ascending. Not in the public headers.
+  void setCut(FrothAsset handle, std::vector<uint32_t> chunks);
+
   const Asset* findAsset(FrothAsset handle) const { return assets_.find(handle); }  // null: stale
 
   Messages messages;
@@ -160,6 +163,12 @@ class Context {
   std::optional<FrothAsset> findLayersToGive() const;
   std::optional<FrothAsset> findLayersToTake() const;
   void tellExcess();
+  // Levels of detail (runtime/context/context_levels.cpp).
+  void updateLevels();
+  std::vector<uint32_t>& wantedCut(FrothAsset handle, const Asset& asset);
+  bool isRoomMadeFor(const Asset& asset) const;
+  void publishBorders(VkCommandBuffer commandBuffer);
+  uint32_t walkedChunks() const;
   FrothAssetState stateOf(const Asset& asset) const;
   // Instances that queries see; why others were left out, as FrothQueryBit.
   std::pmr::vector<PlacedFoam> gatherFoams(uint32_t& bits, std::pmr::memory_resource* memory) const;
@@ -214,7 +223,8 @@ class Context {
   std::unique_ptr<WalkSets> walks_;             // the same; also without FrothContextInfo::walkShaders
   std::vector<WalkedInstance> walked_;          // of the record call under way; has room for all
   HandlePool<Asset, FrothAsset> assets_;
-  std::optional<Exchange> exchange_;  // one at a time
+  std::optional<Exchange> exchange_;                                // one at a time
+  std::vector<std::pair<FrothAsset, std::vector<uint32_t>>> cuts_;  // wanted, of assets with levels
   HandlePool<Instance, FrothInstance> instances_;
   HandlePool<View, FrothView> views_;
   std::vector<std::pair<uint64_t, std::shared_ptr<void>>> retired_;  // serial of the last use

@@ -150,11 +150,12 @@ void Context::loadAssets() {
     asset.load(jobs_, reads_, limit, prepare, messages);
     if (asset.hasFailed() && ring_) {
       const std::shared_ptr<GpuArena> targets = asset.releaseBuffers();
-      ring_->forget(&asset, targets);
+      asset.forgetCopies(*ring_, targets);
       retire(targets);
     }
   });
   loadSuccessor(limit, prepare);
+  updateLevels();
   // Their room is for other jobs, whether an asset still waits for them or not: whoever does finds the pipelines, or
   // asks for them again.
   std::erase_if(making_, [](const auto& made) { return made.second.hasEnded(); });
@@ -231,9 +232,7 @@ FrothResult Context::dropFrame(uint64_t serial) {
   if (walks_) {
     walks_->dropFrame(serial);
   }
-  assets_.forEach([&](Asset& asset) {
-    if (asset.entriesSerial == serial) asset.entriesSerial = 0;
-  });
+  assets_.forEach([&](Asset& asset) { asset.dropFrame(serial); });
   return FROTH_OK;
 }
 
@@ -358,6 +357,9 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   }
   renderedSerial = serial_;
   drawnSerial_ = serial_;
+  if (method == RenderMethod::kWalk) {
+    publishBorders(commandBuffer);
+  }
   bits |= view->renderer->record(method, commandBuffer, *pipelines_, view->visible, info, serial_);
   if (bits != 0) {
     view->bits.emplace_back(serial_, bits);

@@ -4,6 +4,7 @@
 #include "runtime/context/context.h"
 #include "runtime/context/info_checks.h"
 #include "runtime/context/walk_limits.h"
+#include "runtime/render/view_capacity.h"
 
 namespace froth {
 namespace {
@@ -29,20 +30,25 @@ FrothResult Context::describeWalkLayout(VkDescriptorSetLayout& layout) const {
   return result;
 }
 
-// Space for all that can be walked now; what does not fit is left out of sets.
-void Context::prepareWalks() {
-  if (!walks_) {
-    return;
-  }
+// Of all that can be walked now or next.
+uint32_t Context::walkedChunks() const {
   uint32_t chunkCount = 0;
   instances_.forEach([&](const Instance& instance) {
     const Asset& asset = *assets_.find(instance.asset);
     if (asset.isDecoded() && asset.gpu().walkEntries != 0) {
-      chunkCount += kTablesToSeed * static_cast<uint32_t>(asset.gpu().chunks.size());
+      chunkCount += kTablesToSeed * tableChunks(asset.gpu());
     }
   });
+  return chunkCount;
+}
+
+// Space for all that can be walked; what does not fit is left out of sets.
+void Context::prepareWalks() {
+  if (!walks_) {
+    return;
+  }
   walked_.reserve(FROTH_WALK_MOST_INSTANCES);
-  const Status status = walks_->prepare(completedSerial_, chunkCount);
+  const Status status = walks_->prepare(completedSerial_, walkedChunks());
   if (status || device_.loss->isTold()) {  // of the loss frothUpdate tells
     walkError_.clear();
   } else if (!isPending(status) && walkError_ != status.error().message) {  // once, not in every frame
@@ -105,6 +111,7 @@ FrothResult Context::recordWalkSet(VkCommandBuffer commandBuffer, FrothWalkInfo 
   if (!commandBuffer) {
     return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "commandBuffer: null");
   }
+  publishBorders(commandBuffer);
   const bool isWhole = gatherWalked();
   set = walks_->record(commandBuffer, info, walked_, serial_);
   assets_.forEach([&](Asset& asset) {

@@ -98,6 +98,7 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
     entry.alphaShift = chunk.alphaShift;
     entry.cellWordCount = chunk.cellWordCount;
     entry.firstGroup = group;
+    entry.number = chunk.number;
     entry.code = chunk.code;
     group += groupsOver(chunk.cellCount, gpu::kGroupSize);
   }
@@ -149,6 +150,10 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   block.blocksY = groupsOver(block.tilesY, gpu::kBlockTiles);
   block.chunkCount = static_cast<uint32_t>(asset.chunks.size());
   block.groupCount = groupsOfCells(asset);
+  block.borders = asset.borders;
+  block.borderCount = asset.borderCount;
+  block.fileChunkCount = asset.fileChunkCount;
+  block.firstSlot = asset.firstSlot;
   block.counters = place.counters;
   block.chunks = place.block + kBlockStride;
 }

@@ -24,6 +24,7 @@ namespace froth {
   ONE(AimRays, aim_rays, kMapped)                   \
   ONE(AimRaysByImage, aim_rays_by_image, kMapped)   \
   ONE(WidenCones, widen_cones, kMapped)             \
+  ONE(PublishBorders, publish_borders, kAnyLens)    \
   COLOURS(Clear, clear, kAnyLens)
 
 // Made where a view draws several instances.

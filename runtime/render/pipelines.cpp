@@ -19,6 +19,7 @@
 #include "spirv/expand_cells.h"
 #include "spirv/locate.h"
 #include "spirv/order_tiles.h"
+#include "spirv/publish_borders.h"
 #include "spirv/raster_long_tiles_rgba16f.h"
 #include "spirv/raster_long_tiles_rgba32f.h"
 #include "spirv/raster_merged_rgba16f.h"

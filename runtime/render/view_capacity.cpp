@@ -84,13 +84,16 @@ uint32_t groupsOfCells(const GpuAsset& asset) {
   return groups;
 }
 
+uint32_t tableChunks(const GpuAsset& asset) {
+  return std::max(static_cast<uint32_t>(asset.chunks.size()), asset.nextChunkCount);
+}
+
 void coverAsset(const GpuAsset& asset, uint32_t mostCells, ViewCapacity& capacity) {
-  const auto chunks = static_cast<uint32_t>(asset.chunks.size());
   const uint64_t cells = std::min(asset.cellCount, mostCells);
   const uint64_t meanPlanes = asset.alphaTotal / std::max(asset.liveCount, 1u) + 1;
   ViewCapacity needed;
-  needed.chunks = chunks;
-  needed.groups = groupsOfCells(asset);
+  needed.chunks = tableChunks(asset);
+  needed.groups = std::max(groupsOfCells(asset), asset.nextGroupCount);
   needed.cells = static_cast<uint32_t>(cells);
   needed.planes = std::min(asset.alphaTotal, cells * meanPlanes);
   needed.details = cells * asset.detailCount;
@@ -103,6 +106,10 @@ bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
   return asset.chunks.size() <= capacity.chunks && groupsOfCells(asset) <= capacity.groups;
 }
 
+bool coversNext(const GpuAsset& asset, const ViewCapacity& capacity) {
+  return asset.nextChunkCount <= capacity.chunks && asset.nextGroupCount <= capacity.groups;
+}
+
 bool holdsAllCells(const GpuAsset& asset, const ViewCapacity& capacity) {
   const uint64_t details = uint64_t{asset.cellCount} * asset.detailCount;
   return capacity.cells >= asset.cellCount && capacity.planes >= asset.alphaTotal && capacity.details >= details;
@@ -111,8 +118,8 @@ bool holdsAllCells(const GpuAsset& asset, const ViewCapacity& capacity) {
 ViewCapacity neededBy(const GpuAsset& asset, const ViewDemand& demand, uint32_t detailCount) {
   const uint64_t cells = std::min(demand.cells, uint64_t{asset.cellCount});
   ViewCapacity needed;
-  needed.chunks = static_cast<uint32_t>(asset.chunks.size());
-  needed.groups = groupsOfCells(asset);
+  needed.chunks = tableChunks(asset);
+  needed.groups = std::max(groupsOfCells(asset), asset.nextGroupCount);
   needed.cells = static_cast<uint32_t>(cells);
   needed.planes = std::min(demand.planes, asset.neighbourTotal);
   needed.details = cells * detailCount;

@@ -67,10 +67,15 @@ TallyLayout layOutTallies(const ViewCapacity& capacity, uint32_t sortRounds);
 // Workgroups over the cells of all chunks, each of one chunk (ChunkEntry::firstGroup).
 uint32_t groupsOfCells(const GpuAsset& asset);
 
+// Of its table, now and next.
+uint32_t tableChunks(const GpuAsset& asset);
+
 // Adds what an asset needs, for all of its cells or, if it has more, `mostCells` of them to be visible.
 void coverAsset(const GpuAsset& asset, uint32_t mostCells, ViewCapacity& capacity);
 // Whether the asset can be recorded.
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity);
+// The same with the chunks that it has next.
+bool coversNext(const GpuAsset& asset, const ViewCapacity& capacity);
 
 // Whether all cells of the asset have room, should all be visible.
 bool holdsAllCells(const GpuAsset& asset, const ViewCapacity& capacity);

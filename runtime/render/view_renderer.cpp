@@ -261,6 +261,12 @@ Status ViewRenderer::prepare(uint64_t completedSerial, std::span<const RenderIns
   return result;
 }
 
+bool ViewRenderer::coversNext(const RenderInstance& instance) const {
+  const InstanceSpace* space = findSpace(*state_, instance.handle);
+  return !space || !coversAsset(*instance.asset, space->buffers.capacity()) ||
+         froth::coversNext(*instance.asset, space->buffers.capacity());
+}
+
 VkDeviceSize ViewRenderer::missingBytes(const RenderInstance& instance, uint32_t detailCount) const {
   const InstanceSpace* space = findSpace(*state_, instance.handle);
   if (!space) return 0;

@@ -70,6 +70,9 @@ class ViewRenderer {
   // room for; recording goes on with those instances that they cover.
   Status prepare(uint64_t completedSerial, std::span<const RenderInstance> instances);
 
+  // Whether an instance that can be drawn still can with the next chunks of its asset.
+  bool coversNext(const RenderInstance& instance) const;
+
   // [bytes] of buffers for what the newest complete frame wanted of the instance, were there so many detail sites per
   // cell; 0: they are there.
   VkDeviceSize missingBytes(const RenderInstance& instance, uint32_t detailCount) const;

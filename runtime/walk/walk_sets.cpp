@@ -52,6 +52,10 @@ gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye
   entry.exposure = placement.exposure;
   entry.entriesAlong = asset.walkEntriesAlong;
   entry.entries = asset.walkEntries;
+  entry.borders = asset.borders;
+  entry.borderCount = asset.borderCount;
+  entry.fileChunkCount = asset.fileChunkCount;
+  entry.firstSlot = asset.firstSlot;
   return entry;
 }
 
@@ -232,7 +236,8 @@ VkDescriptorSet WalkSets::record(VkCommandBuffer commandBuffer, const FrothWalkI
   return free->set;
 }
 
-// Of assets that are seen for the first time: the cells of all, then the marks of all.
+// Of assets that are seen for the first time, or with other chunks than before: the cells of all, then the marks of
+// all. Frames before may still read the entries of the chunks before.
 void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
                            VkPipelineStageFlags2 stages) const {
   const auto isNew = [&](const WalkedInstance& instance) {
@@ -240,6 +245,8 @@ void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const Walked
     return !instance.isSeeded && &*std::find_if(instances.begin(), instances.end(), isSame) == &instance;
   };
   if (std::none_of(instances.begin(), instances.end(), isNew)) return;
+  device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE,
+                                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_NONE);
   for (const uint32_t pipeline : {kSeedEntries, kMarkEntries}) {
     bind(commandBuffer, pipeline);
     for (uint32_t i = 0; i < instances.size(); ++i) {

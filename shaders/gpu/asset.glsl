@@ -1,5 +1,8 @@
 // The asset's cells. A cell is addressed as uvec2(chunk, local index). A chunk is complete in itself: the neighbours of
 // its cells are sites of the same chunk, its own cells first and ghosts of cells of other chunks behind them.
+//
+// With levels of detail a chunk is addressed by the slot in which it lies, and outside of shaders by its number in the
+// file. Ghosts name a border, and a table has the cell that is drawn there.
 #ifndef FROTH_GPU_ASSET_GLSL
 #define FROTH_GPU_ASSET_GLSL
 #if defined(FROTH_WALK)
@@ -120,11 +123,36 @@ uint planeCountOf(Chunk chunk, uint cell) {
 
 bool isGhost(Chunk chunk, uint site) { return site >= chunk.cellCount; }
 
-// Where a ghost lives.
+bool hasLevels() { return FRAME.fileChunkCount != 0; }
+
+// Whether it is a cell of a chunk that is drawn.
+bool isCell(uvec2 cell) { return cell.x < FRAME.chunkCount && cell.y < FRAME.chunks.v[cell.x].cellCount; }
+
+// Where a search begins that knows nothing better.
+uvec2 firstCell() { return uvec2(FRAME.firstSlot, 0); }
+
+// What a cell is called outside.
+uvec2 namedCell(uvec2 cell) { return hasLevels() ? uvec2(FRAME.chunks.v[cell.x].number, cell.y) : cell; }
+
+// The cell of a name, which may be any number; no cell if its chunk is not drawn.
+uvec2 cellOfName(uvec2 name) {
+  if (!hasLevels()) return name;
+  if (name.x >= FRAME.fileChunkCount) return uvec2(kNoCell);
+  uint slot = FRAME.borders.v[FRAME.borderCount + name.x];
+  bool isDrawn = slot < FRAME.chunkCount && FRAME.chunks.v[slot].number == name.x;
+  return isDrawn ? uvec2(slot, name.y) : uvec2(kNoCell);
+}
+
+// Where a ghost lives. The reader has checked references; a border has its cell only as far as the levels of the file
+// are what they should be.
 uvec2 cellOfGhost(Chunk chunk, uint site) {
   uint ghost = checked(site - chunk.cellCount, chunk.siteCount - chunk.cellCount);
   uint ref = FRAME.chunks.v[chunk.index].ghostRefs.v[ghost];
-  return uvec2(ref >> FRAME.localBits, ref & ((1u << FRAME.localBits) - 1));
+  if (hasLevels()) ref = FRAME.borders.v[checked(ref, FRAME.borderCount)];
+  uvec2 cell = uvec2(ref >> FRAME.localBits, ref & ((1u << FRAME.localBits) - 1));
+  if (!hasLevels() || isCell(cell)) return cell;
+  checked(cell.x, 0);  // a violation
+  return uvec2(chunk.index, 0);
 }
 
 // The cell that a site of the chunk is, or for which it stands as a ghost.

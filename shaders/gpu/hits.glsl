@@ -1,12 +1,12 @@
 // Leaves where the ray of a pixel was stopped for the passes over hits (write_ids.comp and so on).
 #ifndef FROTH_GPU_HITS_GLSL
 #define FROTH_GPU_HITS_GLSL
-#include "gpu/frame.glsl"
+#include "gpu/asset.glsl"
 
 // Of the cell in a slot of the list of visible cells; kNoCell stays.
 uint cellCodeOf(uint slot) {
   if (slot == kNoCell) return kNoCell;
-  uvec4 cell = FRAME.visibleCells.v[checked(slot, FRAME.visibleCapacity)];
+  uvec2 cell = namedCell(FRAME.visibleCells.v[checked(slot, FRAME.visibleCapacity)].xy);
   return FRAME.localBits < 32 ? cell.x << FRAME.localBits | cell.y : cell.y;
 }
 

@@ -120,7 +120,8 @@ struct CellCode {
   uint ownAxisBits;           // of the number of axes that a cell writes out beside the table
 };
 
-// One chunk of the asset, seen from this frame's eye. The arrays: GpuChunk (runtime/asset/gpu_asset.h).
+// One chunk of the asset, seen from this frame's eye. The arrays: GpuChunk (runtime/asset/gpu_asset.h). With levels, a
+// slot: that of a chunk which is not drawn is all zero.
 struct ChunkEntry {
   vec4 offsetHigh;  // xyz: chunk origin minus eye in the asset's axes; the high and
   vec4 offsetLow;   //      the low part of a double [scene units of the asset]
@@ -139,7 +140,8 @@ struct ChunkEntry {
   uint cellWordCount;
   uint hasSolidBalls;
   uint firstGroup;  // of the workgroups over its cells, in a grid of kGroupSize cells each over those of all chunks
-  uint padding[3];
+  uint number;      // of the chunk in the file: what its cells are called outside (namedCell() of gpu/asset.glsl)
+  uint padding[2];
   CellCode code;
 };
 
@@ -270,6 +272,12 @@ struct FrameBlock {
   uint part;                              // which instance of the recording it is
   uint zero;                              // 0, which compilers do not know
   FROTH_ADDRESS(UintQuadArray) quarters;  // [row of the region, column] with kFlagQuarters
+  // With levels, and only for walks: where the cells of borders and the chunks of the file are now
+  // (publish_borders.comp)
+  FROTH_ADDRESS(UintArray) borders;  // [borderCount] slot << localBits | local index; [fileChunkCount] slot
+  uint borderCount, fileChunkCount;  // 0: no levels
+  uint firstSlot;                    // that is drawn
+  uint padding;
 };
 
 // A hit: where a pixel's ray was stopped, by bits of a float [world units] (+inf: nowhere), the instance (an index of
@@ -328,6 +336,14 @@ struct SortConstants {
   uint shift, capacity, step, padding;
 };
 
+// Push constants of publish_borders.comp.
+struct BorderConstants {
+  uint64_t borders;                     // FrameBlock::borders
+  uint64_t borderCells, borderNumbers;  // of the chunk (runtime/asset/gpu_asset.h)
+  uint count, firstCode;                // its borders; slot << localBits
+  uint slot, slotPlace;                 // which is written to borders[slotPlace]
+};
+
 // Push constants of all other passes.
 struct PassConstants {
   uint64_t frame;
@@ -346,11 +362,11 @@ static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64
 static_assert(kSizeClasses * kKeysPerSize == kSizeKeys && kSizeKeys % kGroupSize == 0);
 static_assert(offsetof(Counters, dropDispatch) == 64 && offsetof(Counters, work) == 192 && sizeof(Counters) == 256);
 static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 248);
-static_assert(offsetof(FrameBlock, counters) == 328 && sizeof(FrameBlock) == 552);
+static_assert(offsetof(FrameBlock, counters) == 328 && sizeof(FrameBlock) == 576);
 static_assert(sizeof(FrameBlock) <= kHitBlockOffset && sizeof(HitInstance) == 64);
 static_assert(offsetof(HitBlock, pixels) == 208 && offsetof(HitBlock, hasPrevious) == 256 && sizeof(HitBlock) == 288);
 static_assert(kMostInstances <= kQuarterPartMask + 1);
-static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8);
+static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8 && sizeof(BorderConstants) == 40);
 static_assert(sizeof(PassConstants) + sizeof(PartConstants) <= 128, "what every device has");
 
 }  // namespace froth::gpu

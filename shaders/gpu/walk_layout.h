@@ -55,11 +55,13 @@ struct WalkInstance {
   uint entriesAlong;  // edge of the grid of entries
   uint maxNeighbours;
   float exposure;
-  uint padding0, padding1, padding2;
-  FROTH_ADDRESS(ChunkArray) chunks;  // [chunkCount]
-  // [entriesAlong^3] over the box, x first: chunk, local index of the cell at its middle, 64 bits of parts
+  uint borderCount, fileChunkCount, firstSlot;  // as in FrameBlock
+  FROTH_ADDRESS(ChunkArray) chunks;             // [chunkCount]
+  // [entriesAlong^3] over the box, x first: slot, local index of the cell at its middle, 64 bits of parts
   // (gpu/walk_entries.glsl)
   FROTH_ADDRESS(UintQuadArray) entries;
+  FROTH_ADDRESS(UintArray) borders;
+  uint padding0, padding1;
 };
 
 #if !defined(__cplusplus)
@@ -76,7 +78,7 @@ struct WalkBlock {
 
 #if defined(__cplusplus)
 static_assert(sizeof(WalkCounters) == 64 && offsetof(WalkCounters, work) == 16);
-static_assert(sizeof(WalkInstance) == 160 && offsetof(WalkInstance, scale) == 80 &&
+static_assert(sizeof(WalkInstance) == 176 && offsetof(WalkInstance, scale) == 80 &&
               offsetof(WalkInstance, chunks) == 144);
 static_assert(sizeof(WalkBlock) == 32 && offsetof(WalkBlock, instances) == 24);
 }  // namespace froth::gpu

@@ -43,15 +43,13 @@ LocalRay localRay(vec3 origin, vec3 direction) {
   return LocalRay(assetFromWorld(origin) / FRAME.scale, assetFromWorld(direction));
 }
 
-bool isCell(uvec2 cell) { return cell.x < FRAME.chunkCount && cell.y < FRAME.chunks.v[cell.x].cellCount; }
-
 // A cell near a point of the box.
 uvec2 entryCell(vec3 point) { return FRAME.entries.v[entryOfPart(partAt(placeInParts(point)))].xy; }
 
 // The power cell that holds a point; first: where to look, if it is a cell.
 uvec2 locateFrom(vec3 point, uvec2 first, out uint steps, inout uint neighbours) {
   uvec2 cell = isCell(first) ? first : entryCell(point);
-  return descendTo(point, isCell(cell) ? cell : uvec2(0), steps, neighbours);
+  return descendTo(point, isCell(cell) ? cell : firstCell(), steps, neighbours);
 }
 
 // The origin of a chunk as seen from a ray's, in two floats.
@@ -105,10 +103,10 @@ Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, floa
   bool isHinted = hint.x == instance && stream.entry == tNear;  // it lies where the ray begins
   uint steps = 0;
   stream.neighbours = 0;
-  stream.cell = uvec2(0);
+  stream.cell = firstCell();
   if (stream.entry < stream.end) {
-    stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, isHinted ? hint.yz : uvec2(kNoCell), steps,
-                             stream.neighbours);
+    stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, isHinted ? cellOfName(hint.yz) : uvec2(kNoCell),
+                             steps, stream.neighbours);
   }
   work.descents += steps;
   Chunk chunk = loadChunk(stream.cell.x);

@@ -71,6 +71,7 @@ class Stage {
   FrothView view() const { return view_; }
   FrothAssetStatus assetStatus() const;
   FrothInstance instance() const { return instance_; }
+  FrothAsset asset() const { return asset_; }
   FrothContext* context() const { return context_; }
 
   // Several draws in one frame and command buffer. afterUpdate: called between frothUpdate and the first of them;

@@ -20,7 +20,7 @@ extern "C" {
 
 /* Version of the set's layout and of the include's structures. The include holds the same number. A shader that was
  * compiled with another number meets nothing and returns FROTH_WALK_VERSION. */
-#define FROTH_WALK_ABI 4u
+#define FROTH_WALK_ABI 5u
 
 /* In one set. */
 #define FROTH_WALK_MOST_INSTANCES 64u

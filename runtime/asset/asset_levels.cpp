@@ -1,0 +1,119 @@
+// Chunks of an asset with levels of detail: how they come, are drawn, and go.
+#include <algorithm>
+#include <numeric>
+
+#include "runtime/asset/asset.h"
+
+namespace froth {
+
+// Without levels all chunks are to be read; with them the floor, and nothing is exchanged for other layers.
+void Asset::takeLevels(const AssetReader& reader) {
+  const AssetContents& manifest = reader.manifest();
+  const auto chunkCount = static_cast<uint32_t>(manifest.chunks.size());
+  const auto isFloor = [](const ChunkLevel& chunk) { return chunk.in == kNoGroup; };
+  floorCount_ = manifest.levels.empty()
+                    ? chunkCount
+                    : static_cast<uint32_t>(std::count_if(manifest.levels.begin(), manifest.levels.end(), isFloor));
+  toRead_.resize(floorCount_);
+  std::iota(toRead_.begin(), toRead_.end(), 0u);
+  if (manifest.levels.empty()) return;
+  keepLayers();
+  gpu_.fileChunkCount = chunkCount;
+  gpu_.borderCount = manifest.borderCount;
+  slots_.begin(chunkCount);
+  std::vector<uint32_t> floor(toRead_.begin(), toRead_.end());
+  slots_.plan(std::move(floor));
+  LoadedChunk whole;
+  for (uint32_t chunk = 0; chunk < chunkCount; ++chunk) {
+    if (manifest.chunks[chunk].liveCount == 0) continue;
+    const Box box = reader.liveBounds(chunk);
+    whole.bounds.low = glm::min(whole.bounds.low, glm::dvec3(box.min[0], box.min[1], box.min[2]));
+    whole.bounds.high = glm::max(whole.bounds.high, glm::dvec3(box.max[0], box.max[1], box.max[2]));
+    whole.gpu.liveCount += manifest.chunks[chunk].liveCount;
+  }
+  growBounds(whole);
+}
+
+Status Asset::placeBorders() {
+  if (!hasLevels() || !device_ || gpu_.borders != 0) return {};
+  const Result<GpuArena::Place> place = arena_->allocate(gpu_.borderBytes(), 0, "table of borders");
+  if (!place) return place.error();
+  addMemory("table of borders", gpu_.borderBytes());
+  gpu_.borders = place->address;
+  gpu_.borderBuffer = place->buffer;
+  gpu_.borderOffset = place->offset;
+  return {};
+}
+
+VkDeviceSize Asset::chunkBytes(uint32_t chunk) const {
+  if (slots_.hasSlot(chunk)) return slots_.slotOf(chunk).size;
+  const double share = static_cast<double>(chunkWork_[chunk]) / static_cast<double>(std::max<uint64_t>(workDone_, 1));
+  return static_cast<VkDeviceSize>(share * static_cast<double>(placedBytes_));
+}
+
+void Asset::readChunk(uint32_t chunk) {
+  const ChunkState state = slots_.stateOf(chunk);
+  if (state != ChunkState::kAbsent && state != ChunkState::kFailed) return;
+  toRead_.push_back(chunk);
+  slots_.setState(chunk, ChunkState::kComing);
+}
+
+void Asset::evictChunk(uint32_t chunk) {
+  const bool mayGo = chunk >= floorCount_ && !slots_.isDrawn(chunk) && !slots_.isPlanned(chunk);
+  if (mayGo && slots_.stateOf(chunk) == ChunkState::kResident) slots_.setState(chunk, ChunkState::kLeaving);
+}
+
+// Of the floor it is the asset's error.
+Status Asset::refuseChunk(uint32_t chunk, const Error& error, const Messages& messages) {
+  if (!isDecoded_ || (device_ && device_->loss->isTold())) return error;
+  slots_.setState(chunk, ChunkState::kFailed);
+  messages.warn(resultOf(error), source_.name.c_str(), "coarser chunks stand for chunk %u: %s", chunk,
+                error.message.c_str());
+  return {};
+}
+
+bool Asset::updateChunks(uint64_t completedSerial, uint64_t completedUploadSerial, const UploadRing* ring) {
+  const auto isUploaded = [&](const ChunkSlot& slot) {
+    const void* const owner = slot.gpu.number < floorCount_ ? static_cast<const void*>(this) : &slot;
+    const auto isWaiting = [&](const PendingArray& array) { return array.owner == owner; };
+    return std::none_of(arrays_.begin(), arrays_.end(), isWaiting) &&
+           (!ring || ring->isWithin(owner, completedUploadSerial));
+  };
+  slots_.forEachTaken([&](ChunkSlot& slot) {
+    const uint32_t chunk = slot.gpu.number;
+    const ChunkState state = slots_.stateOf(chunk);
+    if (state == ChunkState::kComing && isUploaded(slot)) slots_.setState(chunk, ChunkState::kResident);
+    if (state == ChunkState::kLeaving && slot.lastSerial <= completedSerial) removeChunk(chunk);
+  });
+  if (!slots_.canTakePlan()) return false;
+  slots_.measurePlan(gpu_);
+  return true;
+}
+
+void Asset::removeChunk(uint32_t chunk) {
+  const ChunkSlot& slot = slots_.slotOf(chunk);
+  for (const auto& [name, bytes] : slot.parts) removeMemory(name, bytes);
+  if (slot.size > 0) arena_->free(slot.place, slot.size);
+  placedBytes_ -= slot.size;
+  workDone_ -= chunkWork_[chunk];
+  workToCome_ += chunkWork_[chunk];
+  slots_.remove(chunk);
+}
+
+// Entries of rays are those of the chunks that are drawn.
+void Asset::takePlan(uint64_t serial) {
+  slots_.takePlan(serial, gpu_);
+  entriesSerial = 0;
+}
+
+void Asset::dropFrame(uint64_t serial) {
+  if (entriesSerial == serial) entriesSerial = 0;
+  slots_.dropFrame(serial);
+}
+
+void Asset::forgetCopies(UploadRing& ring, const std::shared_ptr<void>& targets) {
+  ring.forget(this, targets);
+  slots_.forEachTaken([&](const ChunkSlot& slot) { ring.forget(&slot, targets); });
+}
+
+}  // namespace froth

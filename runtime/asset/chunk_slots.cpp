@@ -1,0 +1,98 @@
+#include "runtime/asset/chunk_slots.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace froth {
+namespace {
+
+uint32_t groupsOf(const GpuChunk& chunk) { return (chunk.cellCount + gpu::kGroupSize - 1) / gpu::kGroupSize; }
+
+}  // namespace
+
+void ChunkSlots::begin(uint32_t fileChunkCount) {
+  *this = {};
+  slotOf_.assign(fileChunkCount, kNoSlot);
+  states_.assign(fileChunkCount, ChunkState::kAbsent);
+}
+
+ChunkSlot& ChunkSlots::add(const GpuChunk& chunk) {
+  auto free = std::find_if(slots_.begin(), slots_.end(), [](const ChunkSlot& slot) { return !slot.isTaken; });
+  if (free == slots_.end()) free = slots_.emplace(slots_.end());
+  *free = {};
+  free->gpu = chunk;
+  free->isTaken = true;
+  slotOf_[chunk.number] = static_cast<uint32_t>(free - slots_.begin());
+  states_[chunk.number] = ChunkState::kComing;
+  return *free;
+}
+
+void ChunkSlots::remove(uint32_t chunk) {
+  slots_[slotOf_[chunk]] = {};
+  slotOf_[chunk] = kNoSlot;
+  states_[chunk] = ChunkState::kAbsent;
+}
+
+bool ChunkSlots::isPlanned(uint32_t chunk) const {
+  return std::find(planned_.begin(), planned_.end(), chunk) != planned_.end();
+}
+
+bool ChunkSlots::canTakePlan() const {
+  return !planned_.empty() && std::all_of(planned_.begin(), planned_.end(),
+                                          [&](uint32_t chunk) { return states_[chunk] == ChunkState::kResident; });
+}
+
+void ChunkSlots::measurePlan(GpuAsset& asset) const {
+  asset.nextChunkCount = asset.nextGroupCount = 0;
+  for (const uint32_t chunk : planned_) {
+    asset.nextChunkCount = std::max(asset.nextChunkCount, slotOf_[chunk] + 1);
+    asset.nextGroupCount += groupsOf(slots_[slotOf_[chunk]].gpu);
+  }
+}
+
+void ChunkSlots::takePlan(uint64_t serial, GpuAsset& asset) {
+  for (const uint32_t chunk : drawn_) slotOf(chunk).isDrawn = false;
+  for (const uint32_t chunk : planned_) slotOf(chunk).isDrawn = true;
+  for (const uint32_t chunk : drawn_) {
+    if (isDrawn(chunk)) continue;
+    slotOf(chunk).lastSerial = serial - 1;
+    slotOf(chunk).publishedSerial = 0;
+  }
+  asset.liveCount = asset.cellCount = 0;
+  asset.alphaTotal = asset.neighbourTotal = 0;
+  asset.chunks.assign(asset.nextChunkCount, {});
+  asset.firstSlot = kNoSlot;
+  for (const uint32_t chunk : planned_) {
+    const uint32_t slot = slotOf_[chunk];
+    asset.chunks[slot] = slots_[slot].gpu;
+    asset.count(slots_[slot].gpu);
+    if (slots_[slot].gpu.cellCount > 0) asset.firstSlot = std::min(asset.firstSlot, slot);
+  }
+  if (asset.firstSlot == kNoSlot) asset.firstSlot = 0;
+  asset.nextChunkCount = asset.nextGroupCount = 0;
+  drawn_ = std::exchange(planned_, {});
+  unpublished_.reserve(drawn_.size());
+}
+
+ChunkSlots::Publication ChunkSlots::publish(uint64_t serial) {
+  unpublished_.clear();
+  for (const uint32_t chunk : drawn_) {
+    ChunkSlot& slot = slotOf(chunk);
+    if (slot.publishedSerial != 0) continue;
+    slot.publishedSerial = serial;
+    unpublished_.push_back(slotOf_[chunk]);
+  }
+  const bool isTableNew = tableSerial_ == 0;
+  if (isTableNew) tableSerial_ = serial;
+  return {unpublished_, isTableNew};
+}
+
+void ChunkSlots::dropFrame(uint64_t serial) {
+  const bool isTableLost = tableSerial_ == serial;
+  if (isTableLost) tableSerial_ = 0;
+  forEachTaken([&](ChunkSlot& slot) {
+    if (isTableLost || slot.publishedSerial == serial) slot.publishedSerial = 0;
+  });
+}
+
+}  // namespace froth
