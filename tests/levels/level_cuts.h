@@ -22,7 +22,8 @@ std::vector<bool> refineGroups(const AssetContents& asset, const Wants& wants) {
   std::vector<bool> isRefined(asset.groups.size(), false);
   std::vector<uint32_t> order(asset.groups.size());
   for (uint32_t group = 0; group < order.size(); ++group) order[group] = group;
-  std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return asset.groups[a].level > asset.groups[b].level; });
+  std::ranges::stable_sort(order,
+                           [&](uint32_t a, uint32_t b) { return asset.groups[a].level > asset.groups[b].level; });
   for (const uint32_t group : order) {
     const auto stays = [&](const ChunkLevel& chunk) {
       return chunk.madeBy == group && chunk.in != kNoGroup && !isRefined[chunk.in];

@@ -54,8 +54,8 @@ class Flight {
   bool isDrawn(const std::vector<uint32_t>& cut) const { return std::ranges::equal(cut, asset().drawnChunks()); }
   bool isIdle() const {  // nothing comes or goes
     for (uint32_t chunk = 0; chunk < levelSample().chunks.size(); ++chunk) {
-      const ChunkState state = asset().chunkState(chunk);
-      if (state != ChunkState::kAbsent && state != ChunkState::kResident) return false;
+      const SlotState state = asset().chunkState(chunk);
+      if (state != SlotState::kAbsent && state != SlotState::kResident) return false;
     }
     return true;
   }
@@ -83,7 +83,7 @@ TEST(Residency, OfAnEvictedChunkEndsOnceItsFramesAreComplete) {
   const FrothAssetStatus floor = flight.status();
   for (uint32_t chunk = 0; chunk < levelSample().chunks.size(); ++chunk) {
     if (std::ranges::binary_search(floorCut(), chunk)) continue;
-    EXPECT_EQ(flight.asset().chunkState(chunk), ChunkState::kAbsent) << chunk;
+    EXPECT_EQ(flight.asset().chunkState(chunk), SlotState::kAbsent) << chunk;
   }
   flight.settle(finestCut());
   EXPECT_EQ(flight.status().deviceBytes, fine);
