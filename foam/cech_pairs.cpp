@@ -16,7 +16,7 @@ constexpr uint32_t kBlockSize = 1024;  // rows found by one task
 constexpr size_t kBlocksPerLook = 64;  // at the progress
 // Bounds are lowered by more than their few roundings of 2^-53, so that the tree never decides a pair: the same
 // test does it from both sides, and the graph is symmetric.
-constexpr double kSlack = 0x1p-48;
+constexpr double kGapSlack = 0x1p-48;
 
 // Appends the cells whose balls overlap the ball of `cell`, ascending.
 void findOverlaps(std::span<const glm::vec3> sites, std::span<const float> radii, const SiteTree& tree, uint32_t cell,
@@ -26,7 +26,7 @@ void findOverlaps(std::span<const glm::vec3> sites, std::span<const float> radii
   const auto bound = [&](const SiteTree::Node& node) {
     const glm::dvec3 gap = gapTo(node.box, centre);
     const double reach = radius + node.box.maxRadius;
-    return glm::dot(gap, gap) * (1 - kSlack) - reach * reach;
+    return glm::dot(gap, gap) * (1 - kGapSlack) - reach * reach;
   };
   const size_t first = found.size();
   tree.search(0.0, bound, [&](uint32_t place) {

@@ -28,9 +28,9 @@ constexpr uint32_t kDirectionsWithoutCameras = 48;  // 20 degrees apart: as far 
 // A golden spiral, even in solid angle, about +z.
 std::vector<glm::vec3> spreadHemisphere(uint32_t count) {
   std::vector<glm::vec3> directions(count);
-  constexpr double kGoldenAngle = 2.399963229728653;
+  constexpr double kTurn = 2.399963229728653;
   for (uint32_t i = 0; i < count; ++i) {
-    const double z = 1 - (i + 0.5) / count, s = std::sqrt(1 - z * z), angle = i * kGoldenAngle;
+    const double z = 1 - (i + 0.5) / count, s = std::sqrt(1 - z * z), angle = i * kTurn;
     directions[i] = glm::dvec3(s * std::cos(angle), s * std::sin(angle), z);
   }
   return directions;
@@ -47,14 +47,14 @@ float distanceToNearest(const std::vector<glm::vec3>& eyes, const glm::vec3& eye
 
 // One eye per camera, each in another direction.
 std::vector<glm::vec3> placeEyesAround(const std::vector<glm::vec3>& eyes, float distance, size_t firstDirection) {
-  constexpr uint32_t kDirections = 24;
+  constexpr uint32_t kSideDirections = 24;
   constexpr size_t kStride = 7;  // has no divisor in common with the number of directions: neighbours differ
-  const std::vector<glm::vec3> directions = spreadHemisphere(kDirections);
+  const std::vector<glm::vec3> directions = spreadHemisphere(kSideDirections);
   std::vector<glm::vec3> around(eyes.size());
   for (size_t i = 0; i < eyes.size(); ++i) {
     const float side = i % 2 ? -distance : distance;
-    around[i] =
-        eyes[i] + side * distanceToNearest(eyes, eyes[i]) * directions[(i * kStride + firstDirection) % kDirections];
+    around[i] = eyes[i] +
+                side * distanceToNearest(eyes, eyes[i]) * directions[(i * kStride + firstDirection) % kSideDirections];
   }
   return around;
 }

@@ -12,16 +12,16 @@ namespace {
 
 constexpr int kRounds = 3;
 constexpr uint32_t kSampledCells = 2048;
-constexpr uint32_t kSliceCells = 16;  // coded by one task
-constexpr double kMostWeight = 8;     // of a view, and its inverse the least
+constexpr uint32_t kTaskCells = 16;  // coded by one task
+constexpr double kMostWeight = 8;    // of a view, and its inverse the least
 
 std::vector<double> measureErrors(const Foam& foam, const CellCoder& coder, size_t viewCount) {
   const uint32_t count = std::min(foam.cellCount, kSampledCells);
-  std::vector<std::vector<double>> slices((count + kSliceCells - 1) / kSliceCells);
+  std::vector<std::vector<double>> slices((count + kTaskCells - 1) / kTaskCells);
   tbb::parallel_for(size_t{0}, slices.size(), [&](size_t s) {
     slices[s].resize(viewCount);
-    const auto first = static_cast<uint32_t>(s) * kSliceCells;
-    for (uint32_t i = first; i < std::min(first + kSliceCells, count); ++i) {
+    const auto first = static_cast<uint32_t>(s) * kTaskCells;
+    for (uint32_t i = first; i < std::min(first + kTaskCells, count); ++i) {
       coder.addViewErrors(static_cast<uint32_t>(uint64_t{i} * foam.cellCount / count), slices[s]);
     }
   });

@@ -14,7 +14,7 @@ namespace {
 
 // Rounding of a power, of the size |x - p|^2 + r^2, and of a place on a ray, of the size |x| + t: some
 // roundings of 2^-53 each, thousandfold.
-constexpr double kSlack = 0x1p-43;
+constexpr double kPowerSlack = 0x1p-43;
 // A bounded cell is cut alike if the lengths agree to this, in radii: the planes left out miss the ball by
 // more than their rounding, so lengths differ only where a ray all but grazes a plane.
 constexpr double kLengthSlack = 0x1p-20;
@@ -166,7 +166,7 @@ void DiagramCheck::checkLeast(const glm::dvec3& x, double t, uint32_t cell, cons
     return glm::dot(local, local) + double{radii_[site]} * radii_[site];
   };
   const double apart = glm::length(glm::dvec3(sites_[cell]) - glm::dvec3(sites_[least.site]));
-  const double slack = kSlack * (powerTerms(cell) + powerTerms(least.site) + apart * (glm::length(x) + t));
+  const double slack = kPowerSlack * (powerTerms(cell) + powerTerms(least.site) + apart * (glm::length(x) + t));
   if (power - least.value <= slack) return;
   faults.push_back(fmt::format("{}: at ({}, {}, {}) cell {} has power {}, cell {} has {}", what, x.x, x.y, x.z, cell,
                                power, least.site, least.value));

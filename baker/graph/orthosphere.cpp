@@ -10,7 +10,7 @@ namespace {
 // chain, the moment of a triangle, has 1 + 6 + 2 * 4 + 8. Errors are thus below 2^-48 of the sum of the
 // products' magnitudes, whose own rounding the other half of the factor 2 up to here covers. No product
 // leaves the range of double: at most six factors, each a float's or a sum of a few.
-constexpr double kSlack = 0x1p-47;
+constexpr double kTermSlack = 0x1p-47;
 
 // A vector or a number, and the sum of the magnitudes of the products that it was summed from.
 template <class Value>
@@ -54,9 +54,9 @@ PowerForm::PowerForm(const Ball& first, double scale, double scaleTerms, const g
     : origin_(first.site),
       radius_(first.radius),
       scale_(std::max(scale, 0.0)),  // the exact one is not negative, so this is no farther from it
-      scaleError_(kSlack * (scaleTerms + scale_)),
+      scaleError_(kTermSlack * (scaleTerms + scale_)),
       moment_(moment),
-      momentError_(kSlack * (momentTerms + glm::abs(moment))),
+      momentError_(kTermSlack * (momentTerms + glm::abs(moment))),
       centre_(scale_ > 0
                   ? moment / (2 * scale_)
                   : glm::mix(glm::dvec3(-INFINITY), glm::dvec3(INFINITY), glm::greaterThan(moment, glm::dvec3(0)))) {}

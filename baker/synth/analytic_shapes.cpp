@@ -30,16 +30,16 @@ dmat3 frameAround(const dvec3& z) {
   return {x, glm::cross(z, x), z};
 }
 
-Box::Box(const dvec3& centre, const dvec3& halfExtent, Empty empty, uint32_t faces, const dmat3& axes)
+Cuboid::Cuboid(const dvec3& centre, const dvec3& halfExtent, Empty empty, uint32_t faces, const dmat3& axes)
     : centre_(centre), halfExtent_(halfExtent), side_(empty == Empty::kOutside ? 1 : -1), faces_(faces), axes_(axes) {}
 
-double Box::distance(const dvec3& x) const {
+double Cuboid::distance(const dvec3& x) const {
   const dvec3 beyond = glm::abs((x - centre_) * axes_) - halfExtent_;
   const dvec3 outside = glm::max(beyond, dvec3(0));
   return side_ * (glm::length(outside) + std::min(std::max({beyond.x, beyond.y, beyond.z}), 0.0));
 }
 
-SurfacePoint Box::pointOnFace(const dvec3& local, uint32_t face) const {
+SurfacePoint Cuboid::pointOnFace(const dvec3& local, uint32_t face) const {
   const int axis = static_cast<int>(face / 2);
   const double sign = face % 2 ? 1 : -1;
   SurfacePoint point;
@@ -52,14 +52,14 @@ SurfacePoint Box::pointOnFace(const dvec3& local, uint32_t face) const {
   return point;
 }
 
-SurfacePoint Box::nearest(const dvec3& x) const {
+SurfacePoint Cuboid::nearest(const dvec3& x) const {
   const dvec3 local = (x - centre_) * axes_;
   const dvec3 beyond = glm::abs(local) - halfExtent_;
   const int axis = beyond.x > beyond.y ? (beyond.x > beyond.z ? 0 : 2) : (beyond.y > beyond.z ? 1 : 2);
   return pointOnFace(local, 2 * static_cast<uint32_t>(axis) + (local[axis] > 0 ? 1 : 0));
 }
 
-double Box::intersect(const Ray& ray, double swell) const {
+double Cuboid::intersect(const Ray& ray, double swell) const {
   const dvec3 origin = (ray.origin - centre_) * axes_;
   const dvec3 direction = ray.direction * axes_;
   // Open faces do not swell: what they border on is not there.
@@ -87,7 +87,7 @@ double Box::intersect(const Ray& ray, double swell) const {
   return faces_ >> leaveFace & 1 ? leave : kNoHit;
 }
 
-double Box::boundingRadius() const { return side_ > 0 ? glm::length(halfExtent_) : kNoHit; }
+double Cuboid::boundingRadius() const { return side_ > 0 ? glm::length(halfExtent_) : kNoHit; }
 
 double Sphere::distance(const dvec3& x) const { return glm::length(x - centre_) - radius_; }
 

@@ -24,7 +24,7 @@ struct SurfacePoint {
   glm::dvec3 normal;    // unit, towards the empty side
   glm::dvec3 tangent;   // unit, orthogonal to the normal
   glm::dvec3 local;     // the position in the shape's own frame, from its centre
-  uint32_t face = 0;    // Box: 2 * axis + (1 on its positive side); Cylinder: 0 side, 1 top; others: 0
+  uint32_t face = 0;    // Cuboid: 2 * axis + (1 on its positive side); Cylinder: 0 side, 1 top; others: 0
 };
 
 // A place for a cell. Balls of this radius around all sites of a shape cover its surface.
@@ -55,15 +55,15 @@ class Shape {
 
 // A box with axes of its own. Sites lie in rows parallel to the edges, and both faces of an edge hold
 // mirrored rows, so that their radical planes bisect the edge and it comes out sharp.
-class Box final : public Shape {
+class Cuboid final : public Shape {
  public:
   enum class Empty { kOutside, kInside };
   static constexpr uint32_t kAllFaces = 63;
 
   // `faces`: bit 2 * axis + (1 on the positive side). A face left out gets no sites; if the box is empty
   // inside, rays leave through it.
-  Box(const glm::dvec3& centre, const glm::dvec3& halfExtent, Empty empty = Empty::kOutside, uint32_t faces = kAllFaces,
-      const glm::dmat3& axes = glm::dmat3(1));
+  Cuboid(const glm::dvec3& centre, const glm::dvec3& halfExtent, Empty empty = Empty::kOutside,
+         uint32_t faces = kAllFaces, const glm::dmat3& axes = glm::dmat3(1));
 
   double distance(const glm::dvec3& x) const override;
   SurfacePoint nearest(const glm::dvec3& x) const override;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "baker/synth/golden_angle.h"
 #include "shaders/foam/appearance.h"
 
 namespace froth {
@@ -15,7 +16,6 @@ namespace {
 
 constexpr int kDiscSamples = 96;
 constexpr int kSpreadRounds = 6;
-constexpr double kGoldenAngle = 2.39996322972865332;
 
 // Evenly spread over the unit disc (Vogel 1979).
 std::vector<dvec2> sampleDisc() {

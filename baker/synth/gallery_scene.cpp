@@ -13,7 +13,7 @@ namespace {
 // Faces of boxes, by the side of the axes they look to.
 constexpr uint32_t kBack = 1, kFront = 2, kRight = 4, kLeft = 8, kFoot = 16,
                    kTop = 32;  // -x, +x, -y, +y, -z, +z
-constexpr uint32_t kNoFoot = Box::kAllFaces & ~kFoot;
+constexpr uint32_t kNoFoot = Cuboid::kAllFaces & ~kFoot;
 
 class Builder {
  public:
@@ -22,9 +22,9 @@ class Builder {
   }
 
   void addBox(const dvec3& low, const dvec3& high, Material material, double spacingFactor = 1,
-              bool castsShadows = true, uint32_t faces = Box::kAllFaces) {
-    add(std::make_shared<Box>(0.5 * (low + high), 0.5 * (high - low), Box::Empty::kOutside, faces), std::move(material),
-        spacingFactor, castsShadows);
+              bool castsShadows = true, uint32_t faces = Cuboid::kAllFaces) {
+    add(std::make_shared<Cuboid>(0.5 * (low + high), 0.5 * (high - low), Cuboid::Empty::kOutside, faces),
+        std::move(material), spacingFactor, castsShadows);
   }
 
   // A picture hung on the wall whose normal lies along `axis` (0: x, 1: y), sunk a little into it.
@@ -36,7 +36,7 @@ class Builder {
     dvec3 middle = centre;
     middle[static_cast<int>(axis)] += (atFarEnd ? -1 : 1) * (kHalfDepth - kSunk);
     const uint32_t hidden = 1u << (2 * axis + (atFarEnd ? 1 : 0));
-    add(std::make_shared<Box>(middle, half, Box::Empty::kOutside, Box::kAllFaces & ~hidden),
+    add(std::make_shared<Cuboid>(middle, half, Cuboid::Empty::kOutside, Cuboid::kAllFaces & ~hidden),
         pictureMaterial(painting, halfExtent, axis), 0.62, false);
   }
 
@@ -49,7 +49,8 @@ class Builder {
 void addRoom(Builder& build) {
   const dvec3 half = 0.5 * kRoomSize;
   const auto add = [&](Material material, uint32_t faces, double spacingFactor) {
-    build.add(std::make_shared<Box>(half, half, Box::Empty::kInside, faces), std::move(material), spacingFactor, false);
+    build.add(std::make_shared<Cuboid>(half, half, Cuboid::Empty::kInside, faces), std::move(material), spacingFactor,
+              false);
   };
   add(wallMaterial(), kBack | kFront | kRight | kLeft, 1);
   add(floorMaterial(), kFoot, 0.9);
@@ -81,9 +82,9 @@ void addWindowFrame(Builder& build, double low, double high, double inner, doubl
 void addWindow(Builder& build) {
   const Material white = plainMaterial(dvec3(0.74, 0.72, 0.68));
   const dvec3 low(-kWallDepth, kWindowLow), high(0, kWindowHigh);
-  build.add(
-      std::make_shared<Box>(0.5 * (low + high), 0.5 * (high - low), Box::Empty::kInside, kRight | kLeft | kFoot | kTop),
-      white, 1, false);
+  build.add(std::make_shared<Cuboid>(0.5 * (low + high), 0.5 * (high - low), Cuboid::Empty::kInside,
+                                     kRight | kLeft | kFoot | kTop),
+            white, 1, false);
   addWindowFrame(build, -0.004, 0.036, 0.02, 0.10, white);
   addWindowFrame(build, -kWallDepth - 0.04, -kWallDepth + 0.03, kWindowBar, 0.05, white);
   const double x0 = -kWallDepth - 0.5 * kWindowBar, x1 = x0 + kWindowBar;
@@ -125,8 +126,9 @@ void addCubeFrame(Builder& build, const dvec3& foot, double size, double bar, do
       offset[(axis + 2) % 3] = corner & 2 ? reach : -reach;
       // Uprights fill the corners; the others butt against them.
       half[axis] = axis == 2 ? 0.5 * size : 0.5 * size - bar + 0.003;
-      build.add(std::make_shared<Box>(centre + axes * offset, half, Box::Empty::kOutside, Box::kAllFaces, axes),
-                material);
+      build.add(
+          std::make_shared<Cuboid>(centre + axes * offset, half, Cuboid::Empty::kOutside, Cuboid::kAllFaces, axes),
+          material);
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "baker/synth/analytic_shapes.h"
+#include "baker/synth/golden_angle.h"
 
 namespace froth {
 
@@ -14,7 +15,6 @@ namespace {
 
 // Exact lattices have four sites on a circle everywhere; a little jitter makes them ordinary.
 constexpr double kJitter = 0.05;
-constexpr double kGoldenAngle = 2.39996322972865332;
 
 // Places along an edge of `length`, symmetric, the outermost `margin` away from the ends, or one in the
 // middle of an edge of about two margins.
@@ -45,7 +45,7 @@ void placeOnCap(const dvec3& centre, double radius, const dvec3& axis, double co
 
 }  // namespace
 
-void Box::placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const {
+void Cuboid::placeSites(double spacing, const CounterRandom& random, std::vector<SurfaceSite>& sites) const {
   const dvec3 extent = 2.0 * halfExtent_;
   const double thickness = std::min({extent.x, extent.y, extent.z});
   // All edges share one margin; a thin bar is a whole number of rows thick, and may be sparser along its

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <glm/gtc/quaternion.hpp>
 
+#include "baker/synth/golden_angle.h"
 #include "baker/synth/synth.h"
 #include "foam/foam_arrays.h"
 
@@ -13,8 +14,7 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double kGap = 0.05;                  // of the bounding box
-constexpr double kTurn = 2.39996322972865332;  // golden angle: no two copies are turned alike
+constexpr double kGap = 0.05;  // of the bounding box
 
 struct Bounds {
   dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
@@ -87,7 +87,8 @@ Result<Foam> tileFoam(const Foam& foam, uint32_t count) {
   const auto side = static_cast<uint32_t>(std::ceil(std::cbrt(static_cast<double>(count)) - 1e-9));
   for (uint32_t copy = 1; copy < count; ++copy) {
     const dvec3 place(copy % side, copy / side % side, copy / side / side);
-    placeCopy(tiled, copy, foam.cellCount, 0.5 * (bounds.low + bounds.high), kTurn * copy, pitch * place);
+    // No two copies are turned alike.
+    placeCopy(tiled, copy, foam.cellCount, 0.5 * (bounds.low + bounds.high), kGoldenAngle * copy, pitch * place);
   }
   return tiled;
 }

@@ -14,7 +14,7 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kRays = 512;
+constexpr uint32_t kSampleRays = 512;
 
 // The balls that are drawn, relative to the first chunk's origin; rounding to float moves them, which an estimate
 // bears.
@@ -74,14 +74,14 @@ void countBalls(const AssetContents& contents, CostEstimate& cost) {
   const SiteTree tree(balls.centres, balls.radii, std::move(members));
   const CounterRandom random(1, Purpose::kSite);
   cost.eyes = static_cast<uint32_t>(eyes.size());
-  cost.rays = kRays;
-  for (uint32_t ray = 0; ray < kRays; ++ray) {
+  cost.rays = kSampleRays;
+  for (uint32_t ray = 0; ray < kSampleRays; ++ray) {
     const glm::dvec3& eye = eyes[ray % eyes.size()];
     const glm::dvec3 towards = glm::dvec3(balls.centres[random.bits(ray) % live]) - eye;
     const double distance = glm::length(towards);
     uint32_t count = 0;
     tree.searchBallsOn(eye, distance > 0 ? towards / distance : glm::dvec3(0, 0, 1), [&](uint32_t) { ++count; });
-    cost.meanBalls += static_cast<double>(count) / kRays;
+    cost.meanBalls += static_cast<double>(count) / kSampleRays;
     cost.mostBalls = std::max(cost.mostBalls, count);
   }
 }

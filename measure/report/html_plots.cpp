@@ -16,10 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool holds(const std::vector<std::string>& ids, const std::string& id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
 PlotPoint plotPoint(const ReportPoint& point, double x, double y) {
   PlotPoint drawn{x, y};
   drawn.isRinged = point.settings.empty();

@@ -10,7 +10,7 @@ namespace {
 // the real ones.
 constexpr double kSameDecibels = 0.01;
 
-struct Candidate {
+struct PricedPoint {
   const ReportPoint* point;
   double psnr;  // in whole steps of kSameDecibels
   Interval cost;
@@ -27,7 +27,7 @@ Interval costOf(const ReportPoint& point, Cost cost) {
 bool isTie(const Interval& a, const Interval& b) { return a.p5 <= b.p95 && b.p5 <= a.p95; }
 
 std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, const std::string& renderer, Cost cost) {
-  std::vector<Candidate> candidates;
+  std::vector<PricedPoint> candidates;
   for (const ReportPoint& point : points) {
     const Interval spent = costOf(point, cost);
     if (point.renderer != renderer || std::isnan(point.errors.psnr) || !(spent.median > 0)) continue;
@@ -35,12 +35,12 @@ std::vector<std::string> paretoFront(const std::vector<ReportPoint>& points, con
   }
   // From the least error on, each that is surely cheaper than the last one kept. So no two of the front tie
   // in cost.
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+  std::stable_sort(candidates.begin(), candidates.end(), [](const PricedPoint& a, const PricedPoint& b) {
     return a.psnr != b.psnr ? a.psnr > b.psnr : a.cost.median < b.cost.median;
   });
   std::vector<std::string> front;
-  const Candidate* last = nullptr;
-  for (const Candidate& candidate : candidates) {
+  const PricedPoint* last = nullptr;
+  for (const PricedPoint& candidate : candidates) {
     if (last && !(candidate.cost.p95 < last->cost.p5)) continue;
     front.push_back(candidate.point->id);
     last = &candidate;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "measure/report/report.h"
+#include "measure/report/text.h"
 
 namespace froth {
 namespace {
@@ -39,10 +40,6 @@ std::vector<std::string> passNames(const Report& report) {
     }
   }
   return names;
-}
-
-bool holds(const std::vector<std::string>& ids, const std::string& id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
 void append(std::vector<std::string>& row, const ErrorFigures* errors) {

@@ -20,12 +20,12 @@ constexpr int kColours = 8;
 constexpr const char* kShapes[] = {"M-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0Z", "M-3.5-3.5h7v7h-7Z", "M0-4.5L4.5 3.5H-4.5Z",
                                    "M0-5L5 0L0 5L-5 0Z"};
 
-struct Box {
+struct Area {
   double left = 0, top = 0, right = 0, bottom = 0;
-  bool meets(const Box& other) const {
+  bool meets(const Area& other) const {
     return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
   }
-  bool holds(const Box& other) const {
+  bool holds(const Area& other) const {
     return left <= other.left && other.right <= right && top <= other.top && other.bottom <= bottom;
   }
 };
@@ -222,7 +222,7 @@ class Drawing {
     const double x = x_.pixel(point.x), y = y_.pixel(point.y), width = textWidth(point.label);
     for (bool avoidsBars : {true, false}) {
       for (double distance : {0.0, 10.0, 24.0}) {
-        for (const Box& box : placesAround(x, y, width, kMarker + (point.isRinged ? 6 : 3) + distance)) {
+        for (const Area& box : placesAround(x, y, width, kMarker + (point.isRinged ? 6 : 3) + distance)) {
           if (!isFree(box, avoidsBars)) continue;
           taken_.push_back(box);
           parts_["labels"].push_back({{"label", point.label}, {"x", box.left}, {"y", box.bottom - 3.5}});
@@ -237,13 +237,13 @@ class Drawing {
     }
   }
 
-  static std::vector<Box> placesAround(double x, double y, double width, double away) {
+  static std::vector<Area> placesAround(double x, double y, double width, double away) {
     constexpr double kDirections[][2] = {{1, 0},      {-1, 0},    {0, -1},      {0, 1},
                                          {0.7, -0.7}, {0.7, 0.7}, {-0.7, -0.7}, {-0.7, 0.7}};
     const auto begin = [&](double at, double direction, double size) {
       return at + direction * away - (direction > 0 ? 0 : direction < 0 ? size : size / 2);
     };
-    std::vector<Box> places;
+    std::vector<Area> places;
     for (const auto& [right, down] : kDirections) {
       const double left = begin(x, right, width), top = begin(y, down, kLineHeight);
       places.push_back({left, top, left + width, top + kLineHeight});
@@ -251,18 +251,18 @@ class Drawing {
     return places;
   }
 
-  bool isFree(const Box& box, bool avoidsBars) const {
-    const auto meets = [&](const Box& other) { return other.meets(box); };
+  bool isFree(const Area& box, bool avoidsBars) const {
+    const auto meets = [&](const Area& other) { return other.meets(box); };
     return area_.holds(box) && std::none_of(taken_.begin(), taken_.end(), meets) &&
            !(avoidsBars && std::any_of(bars_.begin(), bars_.end(), meets));
   }
 
   const Plot& plot_;
   Json parts_;
-  Box area_;
+  Area area_;
   Scale x_, y_;
-  std::vector<Box> taken_;  // by markers, steps and labels
-  std::vector<Box> bars_;   // where a label is better not
+  std::vector<Area> taken_;  // by markers, steps and labels
+  std::vector<Area> bars_;   // where a label is better not
 };
 
 }  // namespace

@@ -7,6 +7,10 @@
 
 namespace froth {
 
+bool holds(const std::vector<std::string>& texts, const std::string& text) {
+  return std::find(texts.begin(), texts.end(), text) != texts.end();
+}
+
 std::string shortNumber(double value) {
   if (std::isnan(value)) return "not a number";
   const double size = std::abs(value);

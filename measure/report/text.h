@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace froth {
 
@@ -12,6 +13,8 @@ std::string decibels(double value);
 std::string percent(double share);
 std::string countText(double count);                 // "499 712"
 std::string signedText(double value, int decimals);  // "+1.20", "−0.31", "0.00"
+
+bool holds(const std::vector<std::string>& texts, const std::string& text);
 
 // The unit for figures up to `largest` bytes.
 struct ByteUnit {

@@ -13,26 +13,26 @@
 namespace froth {
 namespace {
 
-using Json = nlohmann::json;
+using ReadJson = nlohmann::json;
 
 constexpr uint32_t kMostChunkCells = 1 << 20;  // as `froth bake` takes
 
 // Values of one JSON object. The first fault is kept; later reads then return zeros.
 class FieldReader {
  public:
-  FieldReader(const Json& object, std::string place, std::optional<Error>& error)
+  FieldReader(const ReadJson& object, std::string place, std::optional<Error>& error)
       : object_(object), place_(std::move(place)), error_(error) {
     if (!object.is_object()) fail("", std::string("found ") + object.type_name() + "; give an object");
   }
 
-  const Json* find(const char* key) const {
+  const ReadJson* find(const char* key) const {
     if (error_ || !object_.is_object()) return nullptr;
     const auto it = object_.find(key);
     return it == object_.end() ? nullptr : &*it;
   }
 
   std::string readText(const char* key) {
-    const Json* value = require(key);
+    const ReadJson* value = require(key);
     if (!value) return {};
     if (value->is_string()) return value->get<std::string>();
     fail(key, std::string("found ") + value->type_name() + "; give a text in quotes");
@@ -40,7 +40,7 @@ class FieldReader {
   }
 
   bool readFlag(const char* key) {
-    const Json* value = require(key);
+    const ReadJson* value = require(key);
     if (!value) return false;
     if (value->is_boolean()) return value->get<bool>();
     fail(key, std::string("found ") + value->type_name() + "; give true or false");
@@ -48,7 +48,7 @@ class FieldReader {
   }
 
   uint32_t readCount(const char* key, uint32_t most) {
-    const Json* value = require(key);
+    const ReadJson* value = require(key);
     if (!value) return 0;
     if (value->is_number_unsigned() && value->get<uint64_t>() <= most) return value->get<uint32_t>();
     fail(key, "give a whole number up to " + std::to_string(most));
@@ -57,19 +57,19 @@ class FieldReader {
 
   template <class Number>
   Number readNumber(const char* key) {
-    const Json* value = require(key);
+    const ReadJson* value = require(key);
     return value ? asNumber<Number>(key, *value) : Number(0);
   }
 
   template <class Vector>
   Vector readVector(const char* key) {
-    const Json* value = require(key);
+    const ReadJson* value = require(key);
     return value ? asVector<Vector>(key, *value, 0, Vector::length()) : Vector(0);
   }
 
   // Numbers [first, first + length of Vector) of an array of `size`.
   template <class Vector>
-  Vector asVector(const char* key, const Json& array, size_t first, size_t size) {
+  Vector asVector(const char* key, const ReadJson& array, size_t first, size_t size) {
     Vector vector(0);
     if (!array.is_array() || array.size() != size) {
       fail(key, "give " + std::to_string(size) + " numbers");
@@ -82,9 +82,9 @@ class FieldReader {
   }
 
   // Never null: an empty one after a fault.
-  const Json& readArray(const char* key) {
-    static const Json kEmpty = Json::array();
-    const Json* value = require(key);
+  const ReadJson& readArray(const char* key) {
+    static const ReadJson kEmpty = ReadJson::array();
+    const ReadJson* value = require(key);
     if (!value) return kEmpty;
     if (value->is_array()) return *value;
     fail(key, std::string("found ") + value->type_name() + "; give an array");
@@ -92,8 +92,8 @@ class FieldReader {
   }
 
   // The same, for a field that may be absent.
-  const Json& readOptionalArray(const char* key) {
-    static const Json kEmpty = Json::array();
+  const ReadJson& readOptionalArray(const char* key) {
+    static const ReadJson kEmpty = ReadJson::array();
     return find(key) ? readArray(key) : kEmpty;
   }
 
@@ -105,21 +105,21 @@ class FieldReader {
   }
 
  private:
-  const Json* require(const char* key) {
-    const Json* value = find(key);
+  const ReadJson* require(const char* key) {
+    const ReadJson* value = find(key);
     if (!value) fail(key, "found nothing; add it (measure/stability/case_file.h lists the fields)");
     return value;
   }
 
   template <class Number>
-  Number asNumber(const char* key, const Json& value) {
+  Number asNumber(const char* key, const ReadJson& value) {
     const auto number = value.is_number() ? static_cast<Number>(value.get<double>()) : Number(NAN);
     if (std::isfinite(number)) return number;
     fail(key, "give finite numbers");
     return 0;
   }
 
-  const Json& object_;
+  const ReadJson& object_;
   const std::string place_;
   std::optional<Error>& error_;
 };
@@ -129,8 +129,8 @@ void readDetail(FieldReader fields, Foam& foam) {
   foam.detailSites.push_back(fields.readVector<glm::vec2>("place"));
   foam.detailHeights.push_back(fields.readNumber<float>("height"));
   if (fields.find("base")) foam.baseColours.push_back(fields.readVector<glm::vec3>("base"));
-  const Json& lobes = fields.readArray("lobes");
-  for (const Json& lobe : lobes) {
+  const ReadJson& lobes = fields.readArray("lobes");
+  for (const ReadJson& lobe : lobes) {
     foam.lobeAxes.push_back(fields.asVector<glm::vec3>("lobes", lobe, 0, 6));
     foam.lobeColours.push_back(fields.asVector<glm::vec3>("lobes", lobe, 3, 6));
   }
@@ -138,13 +138,13 @@ void readDetail(FieldReader fields, Foam& foam) {
   foam.lobeOffsets.push_back(foam.lobeAxes.size());
 }
 
-void readCell(const Json& cell, const std::string& place, std::optional<Error>& error, Foam& foam) {
+void readCell(const ReadJson& cell, const std::string& place, std::optional<Error>& error, Foam& foam) {
   FieldReader fields(cell, place, error);
   foam.sites.push_back(fields.readVector<glm::vec3>("site"));
   foam.radii.push_back(fields.readNumber<float>("radius"));
   foam.densities.push_back(fields.readNumber<float>("density"));
   foam.orientations.push_back(fields.readVector<glm::vec4>("orientation"));
-  const Json& details = fields.readArray("details");
+  const ReadJson& details = fields.readArray("details");
   if (foam.cellCount++ == 0) foam.detailCount = static_cast<uint32_t>(std::min<size_t>(details.size(), UINT32_MAX));
   if (details.size() != foam.detailCount) fields.fail("details", "give as many in every cell");
   for (size_t k = 0; k < details.size() && !error; ++k) {
@@ -154,7 +154,7 @@ void readCell(const Json& cell, const std::string& place, std::optional<Error>& 
 
 void readKnown(FieldReader& root, const std::string& file, std::optional<Error>& error,
                std::vector<KnownFault>& known) {
-  const Json& faults = root.readArray("known");
+  const ReadJson& faults = root.readArray("known");
   for (size_t i = 0; i < faults.size() && !error; ++i) {
     FieldReader fields(faults[i], file + ": known fault " + std::to_string(i), error);
     KnownFault fault{fields.readText("preset"), fields.readText("renderer"), fields.readText("kind"), 0, {}};
@@ -183,7 +183,7 @@ CasePlace readPlace(FieldReader fields) {
 
 // Whatever is not the foam and its views; absent: the default.
 void readParts(FieldReader& root, const std::string& file, std::optional<Error>& error, StiffCase& found) {
-  const Json& places = root.readOptionalArray("places");
+  const ReadJson& places = root.readOptionalArray("places");
   if (places.size() > kMostPlaces) {
     root.fail("places", "found " + std::to_string(places.size()) + "; give at most " + std::to_string(kMostPlaces));
   }
@@ -196,7 +196,7 @@ void readParts(FieldReader& root, const std::string& file, std::optional<Error>&
   if (found.layers == 0) root.fail("layers", "found 0; give at least 1");
 }
 
-Image readEnds(FieldReader& root, const Json& rows, size_t index, const View& view) {
+Image readEnds(FieldReader& root, const ReadJson& rows, size_t index, const View& view) {
   const std::string place = "view " + std::to_string(index);
   Image image{view.width, view.height, 1, {}};
   if (!rows.is_array() || rows.size() != view.height) {
@@ -207,7 +207,7 @@ Image readEnds(FieldReader& root, const Json& rows, size_t index, const View& vi
     if (!rows[y].is_array() || rows[y].size() != view.width) {
       root.fail("ends", where + ": give " + std::to_string(view.width) + " numbers");
     }
-    for (const Json& end : rows[y]) {
+    for (const ReadJson& end : rows[y]) {
       const bool isNever = end.is_string() && end.get_ref<const std::string&>() == kNeverInCaseFile;
       const float value = end.is_number() ? static_cast<float>(end.get<double>()) : NAN;
       if (!isNever && !std::isfinite(value)) root.fail("ends", where + ": give finite numbers, or \"never\"");
@@ -218,7 +218,7 @@ Image readEnds(FieldReader& root, const Json& rows, size_t index, const View& vi
 }
 
 void readAllEnds(FieldReader& root, StiffCase& found) {
-  const Json& images = root.readOptionalArray("ends");
+  const ReadJson& images = root.readOptionalArray("ends");
   if (!images.empty() && images.size() != found.views.size()) {
     root.fail("ends", "found " + std::to_string(images.size()) + " images; give one for each of the " +
                           std::to_string(found.views.size()) + " views");
@@ -231,7 +231,7 @@ void readAllEnds(FieldReader& root, StiffCase& found) {
 void readFoam(FieldReader& root, const std::string& file, std::optional<Error>& error, Foam& foam) {
   foam.lobeCount = root.readCount("most_lobes", 32);
   foam.lobeOffsets = {0};
-  const Json& cells = root.readArray("cells");
+  const ReadJson& cells = root.readArray("cells");
   for (size_t i = 0; i < cells.size() && !error; ++i) {
     readCell(cells[i], file + ": cell " + std::to_string(i), error, foam);
   }
@@ -245,7 +245,7 @@ void readFoam(FieldReader& root, const std::string& file, std::optional<Error>& 
 }  // namespace
 
 Result<StiffCase> parseCase(std::span<const uint8_t> bytes, const std::string& file) {
-  const Result<Json> json = parseJson(bytes, file, "write the stiff case again");
+  const Result<ReadJson> json = parseJson(bytes, file, "write the stiff case again");
   if (!json) return json.error();
   std::optional<Error> error;
   FieldReader root(*json, file, error);

@@ -13,7 +13,7 @@ namespace froth {
 namespace {
 
 constexpr const char* kTables = "";
-constexpr const char* kForms = "published forms, ";
+constexpr const char* kFormsSection = "published forms, ";
 constexpr const char* kFigure = "published_forms.svg";
 
 std::string numberText(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
@@ -145,18 +145,18 @@ Status checkMarkdown(const std::filesystem::path& path) {
   if (error) {
     return makeError(ErrorKind::kIo, "%s: cannot be made: %s", imagesBeside(path).c_str(), error.message().c_str());
   }
-  const Result<std::string> text = readMarked(path, {kTables, kForms});
+  const Result<std::string> text = readMarked(path, {kTables, kFormsSection});
   if (!text) return text.error();
   return {};
 }
 
 Status writeMarkdown(const std::filesystem::path& path, const std::vector<JudgedCase>& cases,
                      const HostDeviceInfo& device) {
-  Result<std::string> text = readMarked(path, {kTables, kForms});
+  Result<std::string> text = readMarked(path, {kTables, kFormsSection});
   if (!text) return text.error();
   const std::vector<PublishedForm> forms = comparePublishedForms();
   replaceMarked(*text, kTables, tables(cases, device));
-  replaceMarked(*text, kForms, publishedForms(forms));
+  replaceMarked(*text, kFormsSection, publishedForms(forms));
   const auto write = [](const std::filesystem::path& file, const std::string& bytes) {
     return writeFileAtomically(file, {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
   };

@@ -97,7 +97,7 @@ class Asset {
   bool hasLevels() const { return gpu_.hasLevels(); }
   // With levels, once isDecoded(): counts, levels and groups, without what is in chunks.
   const AssetContents& manifest() const { return reader_->manifest(); }
-  ChunkState chunkState(uint32_t chunk) const { return slots_.stateOf(chunk); }
+  SlotState chunkState(uint32_t chunk) const { return slots_.stateOf(chunk); }
   std::span<const uint32_t> drawnChunks() const { return slots_.drawn(); }
   // [bytes] of device memory, without what blocks leave unused: an estimate before it was resident.
   VkDeviceSize chunkBytes(uint32_t chunk) const;

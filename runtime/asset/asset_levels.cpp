@@ -58,21 +58,21 @@ VkDeviceSize Asset::chunkBytes(uint32_t chunk) const {
 }
 
 void Asset::readChunk(uint32_t chunk) {
-  const ChunkState state = slots_.stateOf(chunk);
-  if (state != ChunkState::kAbsent && state != ChunkState::kFailed) return;
+  const SlotState state = slots_.stateOf(chunk);
+  if (state != SlotState::kAbsent && state != SlotState::kFailed) return;
   toRead_.push_back(chunk);
-  slots_.setState(chunk, ChunkState::kComing);
+  slots_.setState(chunk, SlotState::kComing);
 }
 
 void Asset::evictChunk(uint32_t chunk) {
   const bool mayGo = chunk >= floorCount_ && !slots_.isDrawn(chunk) && !slots_.isPlanned(chunk);
-  if (mayGo && slots_.stateOf(chunk) == ChunkState::kResident) slots_.setState(chunk, ChunkState::kLeaving);
+  if (mayGo && slots_.stateOf(chunk) == SlotState::kResident) slots_.setState(chunk, SlotState::kLeaving);
 }
 
 // Of the floor it is the asset's error.
 Status Asset::refuseChunk(uint32_t chunk, const Error& error, const Messages& messages) {
   if (!isDecoded_ || (device_ && device_->loss->isTold())) return error;
-  slots_.setState(chunk, ChunkState::kFailed);
+  slots_.setState(chunk, SlotState::kFailed);
   messages.warn(resultOf(error), source_.name.c_str(), "coarser chunks stand for chunk %u: %s", chunk,
                 error.message.c_str());
   return {};
@@ -87,9 +87,9 @@ bool Asset::updateChunks(uint64_t completedSerial, uint64_t completedUploadSeria
   };
   slots_.forEachTaken([&](ChunkSlot& slot) {
     const uint32_t chunk = slot.gpu.number;
-    const ChunkState state = slots_.stateOf(chunk);
-    if (state == ChunkState::kComing && isUploaded(slot)) slots_.setState(chunk, ChunkState::kResident);
-    if (state == ChunkState::kLeaving && slot.lastSerial <= completedSerial) removeChunk(chunk);
+    const SlotState state = slots_.stateOf(chunk);
+    if (state == SlotState::kComing && isUploaded(slot)) slots_.setState(chunk, SlotState::kResident);
+    if (state == SlotState::kLeaving && slot.lastSerial <= completedSerial) removeChunk(chunk);
   });
   if (!slots_.canTakePlan()) return false;
   slots_.measurePlan(gpu_);

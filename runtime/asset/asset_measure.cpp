@@ -9,13 +9,13 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kCellsPerEntry = 4, kMostEntriesAlong = 32;
+constexpr uint32_t kCellsPerWalkEntry = 4, kMostEntriesAlong = 32;
 
 }  // namespace
 
 // So many that from the nearest it is a few steps to any cell.
 uint32_t walkEntriesAlong(uint32_t cellCount) {
-  const double along = std::cbrt(static_cast<double>(cellCount) / kCellsPerEntry);
+  const double along = std::cbrt(static_cast<double>(cellCount) / kCellsPerWalkEntry);
   return std::clamp(static_cast<uint32_t>(along), 1u, kMostEntriesAlong);
 }
 

@@ -13,7 +13,7 @@ uint32_t groupsOf(const GpuChunk& chunk) { return (chunk.cellCount + gpu::kGroup
 void ChunkSlots::begin(uint32_t fileChunkCount) {
   *this = {};
   slotOf_.assign(fileChunkCount, kNoSlot);
-  states_.assign(fileChunkCount, ChunkState::kAbsent);
+  states_.assign(fileChunkCount, SlotState::kAbsent);
 }
 
 ChunkSlot& ChunkSlots::add(const GpuChunk& chunk) {
@@ -23,14 +23,14 @@ ChunkSlot& ChunkSlots::add(const GpuChunk& chunk) {
   free->gpu = chunk;
   free->isTaken = true;
   slotOf_[chunk.number] = static_cast<uint32_t>(free - slots_.begin());
-  states_[chunk.number] = ChunkState::kComing;
+  states_[chunk.number] = SlotState::kComing;
   return *free;
 }
 
 void ChunkSlots::remove(uint32_t chunk) {
   slots_[slotOf_[chunk]] = {};
   slotOf_[chunk] = kNoSlot;
-  states_[chunk] = ChunkState::kAbsent;
+  states_[chunk] = SlotState::kAbsent;
 }
 
 bool ChunkSlots::isPlanned(uint32_t chunk) const {
@@ -39,7 +39,7 @@ bool ChunkSlots::isPlanned(uint32_t chunk) const {
 
 bool ChunkSlots::canTakePlan() const {
   return !planned_.empty() && std::all_of(planned_.begin(), planned_.end(),
-                                          [&](uint32_t chunk) { return states_[chunk] == ChunkState::kResident; });
+                                          [&](uint32_t chunk) { return states_[chunk] == SlotState::kResident; });
 }
 
 void ChunkSlots::measurePlan(GpuAsset& asset) const {

@@ -12,7 +12,8 @@
 
 namespace froth {
 
-enum class ChunkState : uint8_t {
+// What a slot has of a chunk; runtime/stream tells apart more.
+enum class SlotState : uint8_t {
   kAbsent,
   kComing,    // read, decoded or uploaded
   kResident,  // may be drawn
@@ -38,8 +39,8 @@ class ChunkSlots {
 
   void begin(uint32_t fileChunkCount);
 
-  ChunkState stateOf(uint32_t chunk) const { return states_[chunk]; }
-  void setState(uint32_t chunk, ChunkState state) { states_[chunk] = state; }
+  SlotState stateOf(uint32_t chunk) const { return states_[chunk]; }
+  void setState(uint32_t chunk, SlotState state) { states_[chunk] = state; }
   bool isDrawn(uint32_t chunk) const { return hasSlot(chunk) && slots_[slotOf_[chunk]].isDrawn; }
   bool hasSlot(uint32_t chunk) const { return slotOf_[chunk] != kNoSlot; }
   ChunkSlot& slotOf(uint32_t chunk) { return slots_[slotOf_[chunk]]; }
@@ -75,9 +76,9 @@ class ChunkSlots {
   }
 
  private:
-  std::deque<ChunkSlot> slots_;     // which stay where they are
-  std::vector<uint32_t> slotOf_;    // [chunk of the file]
-  std::vector<ChunkState> states_;  // [chunk of the file]
+  std::deque<ChunkSlot> slots_;    // which stay where they are
+  std::vector<uint32_t> slotOf_;   // [chunk of the file]
+  std::vector<SlotState> states_;  // [chunk of the file]
   std::vector<uint32_t> drawn_, planned_, unpublished_;
   uint64_t tableSerial_ = 0;  // frame that filled the table of borders; 0: none
 };

@@ -23,9 +23,9 @@ std::vector<uint32_t> chunksOfLevelZero(const AssetContents& manifest) {
 void followCut(Asset& asset, const std::vector<uint32_t>& cut) {
   bool isResident = true;
   for (const uint32_t chunk : cut) {
-    const ChunkState state = asset.chunkState(chunk);
-    if (state == ChunkState::kAbsent) asset.readChunk(chunk);
-    isResident = isResident && state == ChunkState::kResident;
+    const SlotState state = asset.chunkState(chunk);
+    if (state == SlotState::kAbsent) asset.readChunk(chunk);
+    isResident = isResident && state == SlotState::kResident;
   }
   if (!isResident) return;
   if (!std::ranges::equal(cut, asset.drawnChunks())) {
@@ -49,7 +49,7 @@ std::vector<uint32_t>& Context::wantedCut(FrothAsset handle, const Asset& asset)
   std::vector<uint32_t> cut = chunksOfLevelZero(asset.manifest());
   VkDeviceSize wanted = 0;
   for (const uint32_t chunk : cut) {
-    if (asset.chunkState(chunk) == ChunkState::kAbsent) wanted += asset.chunkBytes(chunk);
+    if (asset.chunkState(chunk) == SlotState::kAbsent) wanted += asset.chunkBytes(chunk);
   }
   const std::span<const uint32_t> floor = asset.drawnChunks();
   if (wanted + wanted / kSparePart > device_.roomBytes()) cut.assign(floor.begin(), floor.end());

@@ -6,6 +6,7 @@
 #include <memory_resource>
 
 #include "runtime/context/context.h"
+#include "runtime/context/info_checks.h"
 #include "runtime/context/walk_limits.h"
 #include "runtime/query/ray_caster.h"
 #include "runtime/query/sphere_overlap.h"
@@ -13,8 +14,7 @@
 namespace froth {
 namespace {
 
-constexpr float kDefaultCutoff = 1e-3f, kDefaultQuantile = 0.5f, kDefaultOpacity = 0.5f;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr float kDefaultOpacity = 0.5f;
 
 // What one query gathers, on its stack: a dozen instances or some hundred cells. What is more is on the heap.
 struct Scratch {
@@ -93,7 +93,7 @@ FrothResult Context::castRays(FrothCastInfo info, std::span<const FrothRay> rays
   uint32_t bits = 0;
   Scratch scratch;
   const std::pmr::vector<PlacedFoam> foams = gatherFoams(bits, &scratch.memory);
-  const double logCutoff = info.cutoff > 0 ? std::log(double{info.cutoff}) : -kInfinity;
+  const double logCutoff = info.cutoff > 0 ? std::log(double{info.cutoff}) : -std::numeric_limits<double>::infinity();
   const WalkLimits limits{info.maxSteps, info.maxNeighbours};
   RayCaster caster(foams, {std::log(double{info.quantile}), logCutoff, limits, info.closestOnly != 0}, &scratch.memory);
   uint32_t allBits = 0;

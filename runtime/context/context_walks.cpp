@@ -2,13 +2,12 @@
 #include <cmath>
 
 #include "runtime/context/context.h"
+#include "runtime/context/info_checks.h"
 #include "runtime/context/walk_limits.h"
 #include "runtime/render/view_capacity.h"
 
 namespace froth {
 namespace {
-
-constexpr float kDefaultCutoff = 1e-3f, kDefaultQuantile = 0.5f;
 
 // Tables of chunks that an instance needs in a frame which seeds its asset (walk_sets.cpp).
 constexpr uint32_t kTablesToSeed = 2;

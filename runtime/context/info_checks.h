@@ -8,6 +8,7 @@ namespace froth {
 
 inline constexpr uint32_t kDefaultFramesInFlight = 2;
 inline constexpr uint32_t kReservedCells = 1u << 20;  // FrothViewInfo::reserveCells
+inline constexpr float kDefaultCutoff = 1e-3f, kDefaultQuantile = 0.5f;
 
 FrothResult checkSource(const Messages& messages, const char* call, const FrothAssetInfo& info);
 // The same, for calls that return when they have read it: not a reader.

@@ -6,11 +6,13 @@
 #include <compare>
 #include <iterator>
 
+#include "runtime/context/info_checks.h"
+
 namespace froth {
 namespace {
 
 constexpr float kDefaultLeastShare = 0.5f;  // of mostScale
-constexpr float kDefaultCutoff = 1e-3f, kDefaultReducedCutoff = 1e-2f;
+constexpr float kDefaultReducedCutoff = 1e-2f;
 
 // Of the target. What raised the scale never lowers it again, as far as times go with up to the power 1.5 of the area:
 // a frame that took t < kRaiseBelow takes less than 1 when it grows, min(kMostGrowth, kAim / t)^1.5 t < 0.93, also with

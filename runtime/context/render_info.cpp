@@ -6,6 +6,7 @@
 
 #include "runtime/context/camera_checks.h"
 #include "runtime/context/image_checks.h"
+#include "runtime/context/info_checks.h"
 #include "runtime/context/walk_limits.h"
 #include "runtime/render/device_depth.h"
 #include "runtime/render/frame_images.h"
@@ -13,7 +14,6 @@
 namespace froth {
 namespace {
 
-constexpr float kDefaultCutoff = 1e-3f;
 constexpr float kDefaultDepthQuantile = 0.5f;
 constexpr uint32_t kDefaultMaxEntries = 16384;
 

@@ -13,14 +13,14 @@ namespace {
 
 constexpr uint32_t kDefaultThreads = 2, kMostThreads = 64;
 
-struct WaitingJob {
-  FrothJob job;
-  void* argument;
-};
-
 }  // namespace
 
 struct FrothJobPool {
+  struct WaitingJob {
+    FrothJob job;
+    void* argument;
+  };
+
   FrothJobPool() = default;
   FrothJobPool(const FrothJobPool&) = delete;
   FrothJobPool& operator=(const FrothJobPool&) = delete;

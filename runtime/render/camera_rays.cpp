@@ -69,10 +69,6 @@ void aimParallel(const FrothCamera& camera, const glm::dmat3& assetFromView, dou
   rays.forward = glm::normalize(glm::cross(rays.stepX, rays.stepY));
 }
 
-gpu::vec4 toFloats(const glm::dvec3& v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
-
 // The column and row of the region at which the rays' sum is shortest.
 glm::dvec2 middlePixel(const CameraRays& rays) {
   const double xx = glm::dot(rays.stepX, rays.stepX), xy = glm::dot(rays.stepX, rays.stepY),

@@ -10,6 +10,10 @@
 
 namespace froth {
 
+inline gpu::vec4 toFloats(const glm::dvec3& v, double w = 0) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
 // gpu::kLensClass...: how the passes see through this camera.
 uint32_t lensClassOf(const FrothCamera& camera);
 // The direction of an orthographic camera's rays in the view's axes; unit.

@@ -18,10 +18,6 @@ double depthGrowth(const FrothCamera& camera) {
   return glm::dot(glm::dvec3(z), axis) * w.w - z.w * glm::dot(glm::dvec3(w), axis);
 }
 
-gpu::vec4 toFloats(const glm::dvec3& v, double last) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(last)};
-}
-
 }  // namespace
 
 bool isDepthReversed(const FrothCamera& camera) {

@@ -16,10 +16,6 @@ static_assert(int{FROTH_TONE_REINHARD} == foam::kToneReinhard &&
               int{FROTH_TONE_ACES_NARKOWICZ} == foam::kToneAcesNarkowicz &&
               int{FROTH_TONE_KHRONOS_NEUTRAL} == foam::kToneKhronosNeutral);
 
-gpu::vec4 toFloats(const glm::dvec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
-
 void fillCamera(const FrothRenderInfo& info, const CameraRays& rays, const RenderInstance& instance,
                 gpu::FrameBlock& block) {
   fillRays(info.camera, rays, block);

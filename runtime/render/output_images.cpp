@@ -6,7 +6,7 @@
 namespace froth {
 namespace {
 
-constexpr const char* kName = "output images of a view";
+constexpr const char* kOutputImages = "output images of a view";
 
 const ImageUse& useOf(const FrameImage& image) {
   return image.role == ImageRole::kRead ? kImageSampled : kImageWritten;
@@ -41,7 +41,8 @@ const OutputImages::Placeholder& OutputImages::placeholderOf(const FrameImage& i
 Result<std::unique_ptr<OutputImages>> OutputImages::create(Device& device, uint32_t recordings) {
   std::unique_ptr<OutputImages> images(new OutputImages(device));
   if (const Status status = images->createPlaceholders(); !status) return status.error();
-  Result<std::unique_ptr<DescriptorSets>> sets = DescriptorSets::create(device, kName, outputBindings(), recordings);
+  Result<std::unique_ptr<DescriptorSets>> sets =
+      DescriptorSets::create(device, kOutputImages, outputBindings(), recordings);
   if (!sets) return sets.error();
   images->sets_ = std::move(*sets);
   return images;
@@ -61,8 +62,8 @@ Status OutputImages::createPlaceholders() {
   for (Placeholder* placeholder : placeholders()) {
     if (const Status status = createImage(*placeholder, all); !status) return status;
   }
-  const Result<MemoryBlock> memory =
-      device_.allocate(all, all.size, {MemoryUse::kViews, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, kName, false});
+  const Result<MemoryBlock> memory = device_.allocate(
+      all, all.size, {MemoryUse::kViews, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, kOutputImages, false});
   if (!memory) return memory.error();
   memory_ = *memory;
   for (Placeholder* placeholder : placeholders()) {
@@ -82,7 +83,7 @@ Status OutputImages::createImage(Placeholder& placeholder, VkMemoryRequirements&
   info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = placeholder.usage;
-  const Result<VkImage> image = device_.create(VK_OBJECT_TYPE_IMAGE, kName, vk.vkCreateImage, info);
+  const Result<VkImage> image = device_.create(VK_OBJECT_TYPE_IMAGE, kOutputImages, vk.vkCreateImage, info);
   if (!image) return image.error();
   placeholder.image = *image;
   VkMemoryRequirements own{};
@@ -95,14 +96,14 @@ Status OutputImages::bindImage(Placeholder& placeholder) {
   const DeviceTable& vk = device_.table;
   const VkResult result = vk.vkBindImageMemory(device_.device, placeholder.image, memory_.place.memory,
                                                memory_.place.offset + placeholder.offset);
-  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkBindImageMemory", kName);
+  if (result != VK_SUCCESS) return device_.explain(result, "%s: vkBindImageMemory", kOutputImages);
   VkImageViewCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
   info.image = placeholder.image;
   info.viewType = VK_IMAGE_VIEW_TYPE_2D;
   info.format = placeholder.format;
   info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  const Result<VkImageView> view = device_.create(VK_OBJECT_TYPE_IMAGE_VIEW, kName, vk.vkCreateImageView, info);
+  const Result<VkImageView> view = device_.create(VK_OBJECT_TYPE_IMAGE_VIEW, kOutputImages, vk.vkCreateImageView, info);
   if (!view) return view.error();
   placeholder.view = *view;
   return {};

@@ -13,17 +13,17 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kPushConstantBytes = std::max(sizeof(CastConstants), sizeof(SeedConstants));
+constexpr uint32_t kWalkConstantBytes = std::max(sizeof(CastConstants), sizeof(SeedConstants));
 
 // constant_id 0, 1 of cast_rays.comp.
-struct Specialization {
+struct CastSpecialization {
   VkBool32 checkIndices;
   uint32_t kind;
 };
 
-constexpr std::array<VkSpecializationMapEntry, 2> kSpecializationEntries = {{
-    {0, offsetof(Specialization, checkIndices), sizeof(VkBool32)},
-    {1, offsetof(Specialization, kind), sizeof(uint32_t)},
+constexpr std::array<VkSpecializationMapEntry, 2> kCastSpecialization = {{
+    {0, offsetof(CastSpecialization, checkIndices), sizeof(VkBool32)},
+    {1, offsetof(CastSpecialization, kind), sizeof(uint32_t)},
 }};
 
 struct ShaderCode {
@@ -81,17 +81,17 @@ Status WalkPipelines::createLayouts() {
   const Result<VkDescriptorSetLayout> setLayout = createSetLayout(device_, kName, bindings());
   if (!setLayout) return setLayout.error();
   setLayout_ = *setLayout;
-  const Result<VkPipelineLayout> layout = createPipelineLayout(device_, kName, setLayout_, kPushConstantBytes);
+  const Result<VkPipelineLayout> layout = createPipelineLayout(device_, kName, setLayout_, kWalkConstantBytes);
   if (!layout) return layout.error();
   layout_ = *layout;
   return {};
 }
 
 Status WalkPipelines::createPipeline(uint32_t index) {
-  const Specialization values{options_.checkIndices, index % kCastMerged};
+  const CastSpecialization values{options_.checkIndices, index % kCastMerged};
   VkSpecializationInfo specialization{};
-  specialization.mapEntryCount = static_cast<uint32_t>(kSpecializationEntries.size());
-  specialization.pMapEntries = kSpecializationEntries.data();
+  specialization.mapEntryCount = static_cast<uint32_t>(kCastSpecialization.size());
+  specialization.pMapEntries = kCastSpecialization.data();
   specialization.dataSize = sizeof(values);
   specialization.pData = &values;
   const ShaderCode shader = codeOf(index);

@@ -23,10 +23,6 @@ constexpr VkDeviceSize kCountersStride = kAlignment;
 constexpr uint32_t kFirstSeed = FROTH_WALK_MOST_INSTANCES;
 static_assert(kChunksOffset % 16 == 0 && sizeof(gpu::WalkCounters) <= kCountersStride);
 
-gpu::vec4 toFloats(const glm::dvec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
-
 glm::dvec3 toVector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye, const FrothWalkInfo& info) {

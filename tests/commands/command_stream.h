@@ -59,6 +59,7 @@ class CommandStream {
   // For the functions that stand in for the driver's.
   Buffer& at(VkBuffer buffer) { return buffers_[buffer]; }
   void map(VkDeviceMemory memory, uint8_t* bytes) { mapped_[memory] = bytes; }
+  void unmap(VkDeviceMemory memory) { mapped_.erase(memory); }
   void bind(VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset);
   void copy(VkBuffer from, VkBuffer to, const VkBufferCopy& region);
   void write(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size, const std::string& by);

@@ -77,6 +77,12 @@ VkResult VKAPI_CALL mapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSi
   return result;
 }
 
+// The driver may give the same handle to memory that is not mapped.
+void VKAPI_CALL freeMemory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks* allocator) {
+  if (currentStream) currentStream->unmap(memory);
+  FROTH_REAL(vkFreeMemory)(device, memory, allocator);
+}
+
 VkResult VKAPI_CALL createImageView(VkDevice device, const VkImageViewCreateInfo* info,
                                     const VkAllocationCallbacks* allocator, VkImageView* view) {
   const VkResult result = FROTH_REAL(vkCreateImageView)(device, info, allocator, view);
@@ -174,26 +180,37 @@ void VKAPI_CALL draw(VkCommandBuffer, uint32_t, uint32_t, uint32_t, uint32_t) { 
 // A command without a stand-in is none of the driver's either: the context would not be made.
 PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
   const std::map<std::string_view, PFN_vkVoidFunction> standIns = {
-#define FROTH_STAND_IN(name, function) {#name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_##name>(function))},
-      FROTH_STAND_IN(vkCreateBuffer, createBuffer) FROTH_STAND_IN(vkDestroyBuffer, destroyBuffer) FROTH_STAND_IN(
-          vkBindBufferMemory, bindBufferMemory) FROTH_STAND_IN(vkGetBufferDeviceAddress, getBufferDeviceAddress)
-          FROTH_STAND_IN(vkMapMemory, mapMemory) FROTH_STAND_IN(vkCreateImageView, createImageView) FROTH_STAND_IN(
-              vkUpdateDescriptorSets, updateDescriptorSets) FROTH_STAND_IN(vkCreateShaderModule, createShaderModule)
-              FROTH_STAND_IN(vkDestroyShaderModule, destroyShaderModule) FROTH_STAND_IN(vkCreateComputePipelines,
-                                                                                        createComputePipelines)
-                  FROTH_STAND_IN(vkCreateGraphicsPipelines, createGraphicsPipelines) FROTH_STAND_IN(
-                      vkDestroyPipeline, destroyPipeline) FROTH_STAND_IN(vkCmdBindPipeline, bindPipeline)
-                      FROTH_STAND_IN(vkCmdBindDescriptorSets, bindDescriptorSets) FROTH_STAND_IN(
-                          vkCmdPushConstants, pushConstants) FROTH_STAND_IN(vkCmdDispatch, dispatch)
-                          FROTH_STAND_IN(vkCmdDispatchIndirect, dispatchIndirect) FROTH_STAND_IN(
-                              vkCmdPipelineBarrier2, pipelineBarrier) FROTH_STAND_IN(vkCmdCopyBuffer, copyBuffer)
-                              FROTH_STAND_IN(vkCmdFillBuffer, fillBuffer) FROTH_STAND_IN(
-                                  vkCmdUpdateBuffer, updateBuffer) FROTH_STAND_IN(vkCmdResetQueryPool, resetQueryPool)
-                                  FROTH_STAND_IN(vkCmdWriteTimestamp2, writeTimestamp)
-                                      FROTH_STAND_IN(vkCmdBeginRendering, beginRendering) FROTH_STAND_IN(
-                                          vkCmdEndRendering, endRendering) FROTH_STAND_IN(vkCmdSetViewport, setViewport)
-                                          FROTH_STAND_IN(vkCmdSetScissor, setScissor) FROTH_STAND_IN(
-                                              vkCmdSetDepthCompareOp, setDepthCompareOp) FROTH_STAND_IN(vkCmdDraw, draw)
+#define FROTH_STAND_IN(name, function) {#name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_##name>(function))}
+      FROTH_STAND_IN(vkCreateBuffer, createBuffer),
+      FROTH_STAND_IN(vkDestroyBuffer, destroyBuffer),
+      FROTH_STAND_IN(vkBindBufferMemory, bindBufferMemory),
+      FROTH_STAND_IN(vkGetBufferDeviceAddress, getBufferDeviceAddress),
+      FROTH_STAND_IN(vkMapMemory, mapMemory),
+      FROTH_STAND_IN(vkFreeMemory, freeMemory),
+      FROTH_STAND_IN(vkCreateImageView, createImageView),
+      FROTH_STAND_IN(vkUpdateDescriptorSets, updateDescriptorSets),
+      FROTH_STAND_IN(vkCreateShaderModule, createShaderModule),
+      FROTH_STAND_IN(vkDestroyShaderModule, destroyShaderModule),
+      FROTH_STAND_IN(vkCreateComputePipelines, createComputePipelines),
+      FROTH_STAND_IN(vkCreateGraphicsPipelines, createGraphicsPipelines),
+      FROTH_STAND_IN(vkDestroyPipeline, destroyPipeline),
+      FROTH_STAND_IN(vkCmdBindPipeline, bindPipeline),
+      FROTH_STAND_IN(vkCmdBindDescriptorSets, bindDescriptorSets),
+      FROTH_STAND_IN(vkCmdPushConstants, pushConstants),
+      FROTH_STAND_IN(vkCmdDispatch, dispatch),
+      FROTH_STAND_IN(vkCmdDispatchIndirect, dispatchIndirect),
+      FROTH_STAND_IN(vkCmdPipelineBarrier2, pipelineBarrier),
+      FROTH_STAND_IN(vkCmdCopyBuffer, copyBuffer),
+      FROTH_STAND_IN(vkCmdFillBuffer, fillBuffer),
+      FROTH_STAND_IN(vkCmdUpdateBuffer, updateBuffer),
+      FROTH_STAND_IN(vkCmdResetQueryPool, resetQueryPool),
+      FROTH_STAND_IN(vkCmdWriteTimestamp2, writeTimestamp),
+      FROTH_STAND_IN(vkCmdBeginRendering, beginRendering),
+      FROTH_STAND_IN(vkCmdEndRendering, endRendering),
+      FROTH_STAND_IN(vkCmdSetViewport, setViewport),
+      FROTH_STAND_IN(vkCmdSetScissor, setScissor),
+      FROTH_STAND_IN(vkCmdSetDepthCompareOp, setDepthCompareOp),
+      FROTH_STAND_IN(vkCmdDraw, draw),
 #undef FROTH_STAND_IN
   };
   const auto found = standIns.find(name);

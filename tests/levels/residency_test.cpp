@@ -62,8 +62,8 @@ class Flight {
   bool isDrawn(const std::vector<uint32_t>& cut) const { return std::ranges::equal(cut, asset().drawnChunks()); }
   bool isIdle() const {  // nothing comes or goes
     for (uint32_t chunk = 0; chunk < levelSample().chunks.size(); ++chunk) {
-      const ChunkState state = asset().chunkState(chunk);
-      if (state != ChunkState::kAbsent && state != ChunkState::kResident) return false;
+      const SlotState state = asset().chunkState(chunk);
+      if (state != SlotState::kAbsent && state != SlotState::kResident) return false;
     }
     return true;
   }
@@ -99,7 +99,7 @@ TEST(Residency, OfAnEvictedChunkEndsOnceItsFramesAreComplete) {
   const FrothAssetStatus floor = flight.status();
   for (uint32_t chunk = 0; chunk < levelSample().chunks.size(); ++chunk) {
     if (std::ranges::binary_search(floorCut(), chunk)) continue;
-    EXPECT_EQ(flight.asset().chunkState(chunk), ChunkState::kAbsent) << chunk;
+    EXPECT_EQ(flight.asset().chunkState(chunk), SlotState::kAbsent) << chunk;
   }
   flight.settle(finestCut());
   EXPECT_EQ(flight.status().deviceBytes, fine);
@@ -116,11 +116,11 @@ TEST(Residency, LastsWhileAFrameInFlightMayDrawTheChunk) {
   const uint32_t leaving = finestCut().back();
   flight.want(floorCut());
   for (int frame = 0; frame < 100 && !flight.isDrawn(floorCut()); ++frame) flight.frame(false);
-  ASSERT_EQ(flight.asset().chunkState(leaving), ChunkState::kLeaving);
+  ASSERT_EQ(flight.asset().chunkState(leaving), SlotState::kLeaving);
   flight.frame(false);  // of the two frames in flight one is the last with the chunk
-  EXPECT_EQ(flight.asset().chunkState(leaving), ChunkState::kLeaving);
+  EXPECT_EQ(flight.asset().chunkState(leaving), SlotState::kLeaving);
   flight.frame(false);
-  EXPECT_EQ(flight.asset().chunkState(leaving), ChunkState::kAbsent);
+  EXPECT_EQ(flight.asset().chunkState(leaving), SlotState::kAbsent);
 }
 
 TEST(Residency, IsThatOfTheFloorWhereTheBudgetHasNoRoomForLevelZero) {
@@ -152,8 +152,8 @@ TEST(Residency, IsThatOfTheFloorWhereTheBudgetHasNoRoomForLevelZero) {
     ASSERT_TRUE(submitted) << submitted.error().message;
   }
   EXPECT_TRUE(std::ranges::equal(floorCut(), context->findAsset(asset)->drawnChunks()));
-  EXPECT_EQ(context->findAsset(asset)->chunkState(floorCut().front()), ChunkState::kResident);
-  EXPECT_EQ(context->findAsset(asset)->chunkState(finestCut().back()), ChunkState::kAbsent);
+  EXPECT_EQ(context->findAsset(asset)->chunkState(floorCut().front()), SlotState::kResident);
+  EXPECT_EQ(context->findAsset(asset)->chunkState(finestCut().back()), SlotState::kAbsent);
   check(frothDestroyContext(context, UINT64_MAX), "frothDestroyContext");
 }
 

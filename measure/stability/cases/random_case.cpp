@@ -150,7 +150,7 @@ void drawLobes(Dice& dice, Foam& foam) {
 }
 
 // Few, as a GPU compiles its shaders for each: detail sites of a cell, lobes of a detail site.
-constexpr std::array<uint32_t, 2> kShapes[] = {{1, 1}, {4, 2}, {4, 2}, {8, 8}};
+constexpr std::array<uint32_t, 2> kFoamShapes[] = {{1, 1}, {4, 2}, {4, 2}, {8, 8}};
 
 // One number of one array far outside of what the others are, where its square is a float yet.
 void spoil(Dice& dice, Foam& foam) {
@@ -165,7 +165,7 @@ void spoil(Dice& dice, Foam& foam) {
 Foam drawFoam(Dice& dice, double unit) {
   Foam foam;
   foam.cellCount = static_cast<uint32_t>(dice.logUniform(2, 41));
-  const auto [details, lobes] = dice.pick(kShapes);
+  const auto [details, lobes] = dice.pick(kFoamShapes);
   foam.detailCount = details;
   foam.lobeCount = lobes;
   drawSites(dice, foam, unit);
@@ -288,23 +288,23 @@ void drawPlaces(Dice& dice, double unit, StiffCase& drawn) {
   for (size_t i = 1; i < drawn.places.size(); ++i) drawn.places[i] = drawPlace(dice, arrangement, pivot, unit);
 }
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 
 // Where a ray enters or leaves one of the balls; never where it misses that.
 double drawEndOnBall(Dice& dice, const Foam& foam, const View& view, const std::optional<ViewRay>& ray) {
   const uint32_t cell = dice.below(foam.cellCount);
   const bool isEntry = dice.chance(0.5);
   double tNear = 0, tFar = 0;
-  if (!ray) return kNever;
+  if (!ray) return kNoEnd;
   const glm::dvec3 centre = glm::dvec3(foam.sites[cell]) - (eyeOf(view) + ray->offset);
-  if (!foam::intersectBall(centre, double{foam.radii[cell]}, ray->direction, tNear, tFar)) return kNever;
+  if (!foam::intersectBall(centre, double{foam.radii[cell]}, ray->direction, tNear, tFar)) return kNoEnd;
   return isEntry ? tNear : tFar;
 }
 
 // About `size`, or at, behind and beyond everything.
 double drawAnyEnd(Dice& dice, double size) {
   const double share = dice.uniform(0, 1), end = size * dice.logUniform(0.1, 3);
-  return share < 0.1 ? 0 : share < 0.2 ? -end : share < 0.35 ? kNever : end;
+  return share < 0.1 ? 0 : share < 0.2 ? -end : share < 0.35 ? kNoEnd : end;
 }
 
 enum class Ends { kSmooth, kAny, kOnBalls, kOne };

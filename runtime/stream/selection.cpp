@@ -1,0 +1,71 @@
+#include "runtime/stream/selection.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace froth {
+
+double keyOf(const LevelGraph::Group& group, std::span<const StreamEye> eyes) {
+  constexpr double kLeastPixel = 1e-100;  // keeps keys finite, so that errors order the groups that an eye is inside of
+  double key = 0;
+  for (const StreamEye& eye : eyes) {
+    const double distance = std::max(0.0, glm::length(group.centre - eye.position) - group.radius - eye.radius);
+    const double pixel = std::max({eye.pixelSize, eye.pixelAngle * distance, kLeastPixel});
+    key = std::max(key, group.error * eye.detail / pixel);
+  }
+  return key;
+}
+
+bool Selection::Offer::operator<(const Offer& other) const {
+  if (key != other.key) return key < other.key;
+  return id.asset != other.id.asset ? id.asset > other.id.asset : id.group > other.id.group;
+}
+
+void Selection::reserve(size_t groupCount) {
+  heap_.reserve(groupCount);
+  bought_.reserve(groupCount);
+}
+
+void Selection::select(std::span<AssetDemand> assets, uint64_t bytes, uint64_t cells) {
+  heap_.clear();
+  bought_.clear();
+  for (uint32_t a = 0; a < assets.size(); ++a) {
+    if (assets[a].graph == nullptr) continue;
+    assets[a].wanted.clear();
+    for (const uint32_t group : assets[a].graph->lowest()) {
+      offer(assets[a], {a, group}, std::numeric_limits<double>::infinity());
+    }
+  }
+  while (!heap_.empty()) {
+    const Offer best = heap_.front();
+    AssetDemand& asset = assets[best.id.asset];
+    const LevelGraph::Group& group = asset.graph->group(best.id.group);
+    if (group.bytePrice > bytes || group.cellPrice > cells) return;
+    bytes -= group.bytePrice;
+    cells -= group.cellPrice;
+    std::pop_heap(heap_.begin(), heap_.end());
+    heap_.pop_back();
+    asset.wanted.add(best.id.group);
+    bought_.push_back(best.id);
+    offerFiner(asset, best);
+  }
+}
+
+// mostKey: of the groups that are coarser. Rounding may lift a key above it.
+void Selection::offer(const AssetDemand& asset, GroupId id, double mostKey) {
+  const double key = std::min(keyOf(asset.graph->group(id.group), asset.eyes), mostKey);
+  if (!(key >= 1)) return;
+  heap_.push_back({key, id});
+  std::push_heap(heap_.begin(), heap_.end());
+}
+
+// A group is on offer as soon as all that are coarser are bought; the last of them has the least key.
+void Selection::offerFiner(const AssetDemand& asset, const Offer& bought) {
+  for (const uint32_t finer : asset.graph->finerThan(bought.id.group)) {
+    const bool isReady = std::ranges::all_of(asset.graph->coarserThan(finer),
+                                             [&](uint32_t group) { return asset.wanted.contains(group); });
+    if (isReady) offer(asset, {bought.id.asset, finer}, bought.key);
+  }
+}
+
+}  // namespace froth

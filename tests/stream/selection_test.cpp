@@ -1,0 +1,158 @@
+// The selection against its definition, by brute force.
+#include "runtime/stream/selection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/stream/level_dag.h"
+
+namespace froth::test {
+namespace {
+
+constexpr uint64_t kUnlimited = UINT64_MAX;
+
+struct Scene {
+  std::vector<LevelDag> dags;
+  std::vector<LevelGraph> graphs;
+  std::vector<AssetDemand> demands;
+
+  Scene(uint64_t seed, size_t count) {
+    for (size_t i = 0; i < count; ++i) dags.push_back(makeLevelDag(seed * 10 + i, {20, 2, 4}));
+    for (const LevelDag& dag : dags) graphs.push_back(dag.graph());
+    for (size_t i = 0; i < count; ++i) {
+      AssetDemand demand{&graphs[i], {makeEye(seed * 100 + i, dags[i]), makeEye(seed * 200 + i, dags[i])}, {}};
+      demand.wanted = GroupSet(graphs[i].groupCount());
+      demands.push_back(demand);
+    }
+  }
+  std::vector<GroupId> select(uint64_t bytes, uint64_t cells) {
+    Selection selection;
+    selection.select(demands, bytes, cells);
+    return {selection.bought().begin(), selection.bought().end()};
+  }
+};
+
+// All groups sorted by key, the coarser first where keys are equal.
+std::vector<GroupId> sortedByKey(const Scene& scene) {
+  struct Entry {
+    double key;
+    uint32_t level;
+    GroupId id;
+  };
+  std::vector<Entry> entries;
+  for (uint32_t a = 0; a < scene.graphs.size(); ++a) {
+    for (uint32_t g = 0; g < scene.graphs[a].groupCount(); ++g) {
+      entries.push_back(
+          {keyOf(scene.graphs[a].group(g), scene.demands[a].eyes), scene.dags[a].groups[g].level, {a, g}});
+    }
+  }
+  std::ranges::sort(entries,
+                    [](const Entry& x, const Entry& y) { return x.key != y.key ? x.key > y.key : x.level > y.level; });
+  std::vector<GroupId> order;
+  for (const Entry& entry : entries) {
+    if (entry.key >= 1) order.push_back(entry.id);
+  }
+  return order;
+}
+
+// Bytes or cells of what a cut draws, beyond the floor in the case of bytes: it stays resident.
+uint64_t weigh(const LevelGraph& graph, const GroupSet& cut, bool isBytes) {
+  uint64_t sum = 0;
+  for (uint32_t i = 0; i < graph.chunkCount(); ++i) {
+    const LevelGraph::Chunk& chunk = graph.chunk(i);
+    if (!isDrawnIn(cut, chunk) || (isBytes && chunk.in == kNoGroup)) continue;
+    sum += isBytes ? chunk.bytes : chunk.cells;
+  }
+  return sum;
+}
+
+TEST(Selection, BuysGroupsInTheOrderOfTheirKeysUntilOneIsNotAffordable) {
+  for (uint64_t seed = 1; seed <= 200; ++seed) {
+    Scene scene(seed, 3);
+    const std::vector<GroupId> order = sortedByKey(scene);
+    for (const uint64_t bytes : {uint64_t{0}, uint64_t{500}, uint64_t{1500}, uint64_t{3000}, kUnlimited}) {
+      for (const uint64_t cells : {uint64_t{60}, uint64_t{150}, kUnlimited}) {
+        size_t affordable = 0;
+        for (uint64_t usedBytes = 0, usedCells = 0; affordable < order.size(); ++affordable) {
+          const auto& group = scene.graphs[order[affordable].asset].group(order[affordable].group);
+          usedBytes += group.bytePrice;
+          usedCells += group.cellPrice;
+          if (usedBytes > bytes || usedCells > cells) break;
+        }
+        const std::vector<GroupId> bought = scene.select(bytes, cells);
+        ASSERT_EQ(bought.size(), affordable) << "seed " << seed << ", bytes " << bytes << ", cells " << cells;
+        for (size_t i = 0; i < bought.size(); ++i) {
+          EXPECT_EQ(bought[i].asset, order[i].asset);
+          EXPECT_EQ(bought[i].group, order[i].group);
+        }
+      }
+    }
+  }
+}
+
+TEST(Selection, IsACutWithinTheBudgetWhateverIsGiven) {
+  size_t refined = 0;
+  for (uint64_t seed = 1; seed <= 200; ++seed) {
+    Scene scene(seed, 2);
+    for (const uint64_t limit : {uint64_t{100}, uint64_t{400}, uint64_t{1000}}) {
+      refined += scene.select(limit, limit / 2).size();
+      uint64_t bytes = 0, cells = 0;
+      for (const AssetDemand& demand : scene.demands) {
+        bytes += weigh(*demand.graph, demand.wanted, true);
+        cells += weigh(*demand.graph, demand.wanted, false) - demand.graph->floorCells();
+        for (const uint32_t group : demand.wanted.members()) {
+          for (const uint32_t coarser : demand.graph->coarserThan(group)) EXPECT_TRUE(demand.wanted.contains(coarser));
+        }
+      }
+      EXPECT_LE(bytes, limit);
+      EXPECT_LE(static_cast<int64_t>(cells), static_cast<int64_t>(limit / 2));
+    }
+  }
+  EXPECT_GT(refined, 500);
+}
+
+TEST(Selection, WantsTheFloorWithoutEyesAndAllWhereAnEyeIsInside) {
+  Scene scene(1, 1);
+  scene.demands[0].eyes.clear();
+  EXPECT_TRUE(scene.select(kUnlimited, kUnlimited).empty());
+  scene.demands[0].eyes = {{{3, 3, 0}, 100, 1e-3, 0, 1}};
+  EXPECT_EQ(scene.select(kUnlimited, kUnlimited).size(), scene.graphs[0].groupCount());
+  scene.demands[0].eyes[0].detail = 0;
+  EXPECT_TRUE(scene.select(kUnlimited, kUnlimited).empty());
+}
+
+// A pixel at distance 10 from an eye, at distance 3 from the ball's nearest point for the eye that may move by 2.
+TEST(Selection, MeasuresTheErrorByThePixelAtTheNearestPointOfTheBall) {
+  LevelGraph::Group group;
+  group.centre = {0, 0, 10};
+  group.radius = 5;
+  group.error = 0.6;
+  const StreamEye still{{0, 0, 0}, 0, 0.01, 0, 1}, wandering{{0, 0, 0}, 2, 0.01, 0, 1}, flat{{0, 0, 0}, 0, 0, 0.3, 1};
+  const StreamEye detailed{{0, 0, 0}, 0, 0.01, 0, 2}, nearBound{{0, 0, 6}, 0, 0.01, 0.002, 1};
+  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{still}), 0.6 / 0.05);
+  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{wandering}), 0.6 / 0.03);
+  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{flat}), 0.6 / 0.3);
+  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{detailed}), 2 * 0.6 / 0.05);
+  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{nearBound}), 0.6 / 0.002);
+  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{flat, wandering, still}), 0.6 / 0.03);
+}
+
+TEST(Selection, TakesAKeyThatRoundingLiftsAboveThatOfACoarserGroupAsEqual) {
+  LevelDag dag = makeLevelDag(1, {20, 2, 4});
+  for (LevelGroup& group : dag.groups) group.error = 2 - 0.1 * group.level;  // as no reader lets through
+  const LevelGraph graph = dag.graph();
+  AssetDemand demand{&graph, {{{0, 0, 0}, 0, 0, 1, 1}}, GroupSet(graph.groupCount())};
+  Selection selection;
+  selection.select({&demand, 1}, kUnlimited, kUnlimited);
+  EXPECT_EQ(selection.bought().size(), graph.groupCount());
+  for (size_t i = 0; i < selection.bought().size(); ++i) {
+    for (const uint32_t coarser : graph.coarserThan(selection.bought()[i].group)) {
+      const auto members = demand.wanted.members();
+      EXPECT_LT(std::ranges::find(members, coarser) - members.begin(), static_cast<std::ptrdiff_t>(i));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace froth::test
