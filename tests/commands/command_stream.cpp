@@ -19,7 +19,7 @@ std::string describe(const std::string& shader, const Location& location) {
 
 CommandStream* currentStream = nullptr;  // for the stand-ins
 
-CommandStream::CommandStream() : hazards(writeDifferentPixels) { currentStream = this; }
+CommandStream::CommandStream() : hazards(writeDifferentPlaces) { currentStream = this; }
 CommandStream::~CommandStream() { currentStream = nullptr; }
 
 Range CommandStream::rangeOf(VkImage image) {

@@ -28,9 +28,10 @@ bool happens(const std::string& shader, const Location& location, const std::arr
   return !isNextHistogram || constants.step == gpu::kSortCountNextDigit;
 }
 
-bool writeDifferentPixels(const Use& earlier, const Use& later, const Range&) {
+bool writeDifferentPlaces(const Use& earlier, const Use& later, const Range&) {
+  const auto publishes = [](const Use& use) { return use.isWrite && use.by.starts_with("publish_borders"); };
   const auto draws = [](const Use& use) { return use.isWrite && !use.isAtomic && use.by.starts_with("raster_"); };
-  return draws(earlier) && draws(later);
+  return (draws(earlier) && draws(later)) || (publishes(earlier) && publishes(later));
 }
 
 }  // namespace froth::test

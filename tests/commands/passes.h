@@ -14,7 +14,8 @@ namespace froth::test {
 // False: with these push constants the shader does not get there.
 bool happens(const std::string& shader, const Location& location, const std::array<uint8_t, 128>& push);
 
-// The passes that draw one image share its pixels, and those of FrameBlock::hits, among themselves.
-bool writeDifferentPixels(const Use& earlier, const Use& later, const Range& range);
+// The passes that draw one image share its pixels, and those of FrameBlock::hits, among themselves; of the chunks that
+// are drawn at a time, each holds other borders.
+bool writeDifferentPlaces(const Use& earlier, const Use& later, const Range& range);
 
 }  // namespace froth::test

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "format/write/asset_writer.h"
+#include "tests/format/level_sample.h"
 #include "tests/format/sample_asset.h"
 
 namespace froth::test {
@@ -59,7 +60,8 @@ std::vector<FrothImage*> outputsOf(FrothRenderInfo& info) {
 
 }  // namespace
 
-RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeFormat, uint32_t reserveCells)
+RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeFormat, uint32_t reserveCells,
+                                 bool hasLevels)
     : compositeFormat_(compositeFormat) {
   FrothContextInfo info = sharedHost().contextInfo();
   info.getInstanceProcAddr = CommandStream::getInstanceProcAddr;
@@ -72,7 +74,7 @@ RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeForma
   info.compositeFormat = compositeFormat;
   info.depthExportFormat = kDepthFormat;
   check(frothCreateContext(&info, &context_), "frothCreateContext");
-  bytes_ = *encodeAsset(makeSampleAsset({.chunkCount = 2, .localBits = 16}));
+  bytes_ = *encodeAsset(hasLevels ? makeLevelSample() : makeSampleAsset({.chunkCount = 2, .localBits = 16}));
   auto asset = makeStruct<FrothAssetInfo>();
   asset.data = bytes_.data();
   asset.dataSize = bytes_.size();

@@ -26,8 +26,9 @@ class RecordingEngine {
  public:
   static constexpr VkExtent2D kExtent{72, 40};
 
-  // Opens an asset and places it so many times. reserveCells: FrothViewInfo's; 1: the view may lack cells.
-  RecordingEngine(uint32_t instanceCount, VkFormat compositeFormat, uint32_t reserveCells = 0);
+  // Opens an asset and places it so many times. reserveCells: FrothViewInfo's; 1: the view may lack cells. hasLevels:
+  // one whose chunks come and are drawn in the first frames.
+  RecordingEngine(uint32_t instanceCount, VkFormat compositeFormat, uint32_t reserveCells = 0, bool hasLevels = false);
   ~RecordingEngine();
 
   // Raster and walk by both eyes, composite, depth export, rays.
