@@ -89,6 +89,7 @@ VkDeviceSize Asset::bytesToCome(uint32_t chunk, VkDeviceSize size) const {
   const double share = done > 0 ? toCome / done : 0;
   const double chunks = std::min(static_cast<double>(placedBytes_ + size) * share, double{GpuArena::kMostShared});
   const uint64_t along = entriesAlong();
+  if (hasLevels() && isDecoded_) return std::min(static_cast<VkDeviceSize>(chunks), GpuArena::kMoreWherePlacesGo);
   return static_cast<VkDeviceSize>(chunks) + sizeof(gpu::uvec4) * along * along * along;
 }
 

@@ -59,19 +59,28 @@ Status GpuArena::addBlock(VkDeviceSize size, VkDeviceSize more, const char* purp
   return {};
 }
 
-// False: no gap is large enough.
+// The smallest gap that fits, the first of such: where places of many sizes come and go, that leaves least unused
+// (GpuArena.GivesPlacesThatDoNotOverlapAndTakesThemBack tells how much). False: there is none.
 bool GpuArena::takeGap(VkDeviceSize size, Place& place) {
+  size_t block = blocks_.size(), index = 0;
+  VkDeviceSize least = UINT64_MAX;
   for (size_t i = 0; i < blocks_.size(); ++i) {
-    const auto gap = std::find_if(gaps_[i].begin(), gaps_[i].end(), [&](const Gap& g) { return g.size >= size; });
-    if (gap == gaps_[i].end()) continue;
-    place = {blocks_[i].buffer, gap->offset, blocks_[i].address + gap->offset};
-    const VkDeviceSize taken = std::min(gap->size, aligned(size));
-    gap->offset += taken;
-    gap->size -= taken;
-    if (gap->size == 0) gaps_[i].erase(gap);
-    return true;
+    for (size_t k = 0; k < gaps_[i].size(); ++k) {
+      const VkDeviceSize found = gaps_[i][k].size;
+      if (found < size || found >= least) continue;
+      least = found;
+      block = i;
+      index = k;
+    }
   }
-  return false;
+  if (block == blocks_.size()) return false;
+  Gap& gap = gaps_[block][index];
+  place = {blocks_[block].buffer, gap.offset, blocks_[block].address + gap.offset};
+  const VkDeviceSize taken = std::min(gap.size, aligned(size));
+  gap.offset += taken;
+  gap.size -= taken;
+  if (gap.size == 0) gaps_[block].erase(gaps_[block].begin() + static_cast<std::ptrdiff_t>(index));
+  return true;
 }
 
 void GpuArena::free(const Place& place, VkDeviceSize size) {

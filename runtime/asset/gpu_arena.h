@@ -8,12 +8,14 @@
 
 namespace froth {
 
-// Gives places in blocks, the first that fits, and takes them back one by one; a block without any is freed. One thread
+// Gives places in the smallest gaps of blocks and takes them back one by one; a block without any is freed. One thread
 // at a time.
 class GpuArena {
  public:
   static constexpr VkDeviceSize kAlignment = 16;          // of the largest type that shaders load
   static constexpr VkDeviceSize kMostShared = 32u << 20;  // [bytes] of a block for more than one place
+  // [bytes] `more` where places come and go: of smaller blocks more become empty
+  static constexpr VkDeviceSize kMoreWherePlacesGo = 16u << 20;
 
   struct Place {
     VkBuffer buffer = VK_NULL_HANDLE;
