@@ -9,7 +9,7 @@
 namespace froth {
 namespace {
 
-constexpr uint64_t kSampleSeed = 1;  // of the samples
+constexpr uint64_t kSeed = 1;  // of the samples
 
 Status checkSolidBalls(const AssetContents& contents) {
   for (size_t index = 0; index < contents.chunks.size(); ++index) {
@@ -34,7 +34,7 @@ Result<ValidityReport> checkScene(const AssetContents& contents, const Progress&
   found.cells = scene->sites.size();
   found.walkPairs = scene->triangulation.graph.neighbours.size() / 2;
   found.alphaPairs = scene->alpha.graph.neighbours.size() / 2;
-  if (!sampleDiagram(scene->sites, scene->radii, scene->triangulation, scene->alpha, kSampleSeed, progress, found)) {
+  if (!sampleDiagram(scene->sites, scene->radii, scene->triangulation, scene->alpha, kSeed, progress, found)) {
     return stoppedOnRequest("verify");
   }
   if (!found.faults.empty()) {
