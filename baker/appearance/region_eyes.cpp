@@ -11,7 +11,7 @@ namespace {
 constexpr double kLeastOpenness = 0.05;  // relative to the mean: what no view shows is coded too
 constexpr uint32_t kLeastEyes = 48;      // of a cell: few cameras may have a large region around them
 constexpr uint64_t kSampledDetails = 16384;
-constexpr uint64_t kSeed = 1;
+constexpr uint64_t kEyeSeed = 1;
 
 // How large a face of this radius looks along `fromEye`, up to a factor; 0 from behind.
 double facing(const glm::vec3& fromEye, float distance, const glm::vec3& normal, float radius) {
@@ -56,7 +56,7 @@ std::vector<RegionEyes::Sight> RegionEyes::sightsOf(uint64_t detail, const glm::
   const uint64_t cell = detail / foam_.detailCount, viewCount = visibility_.eyes.size();
   const double faced = sumFacing(cell, position, frame);
   const double openness = std::max(faced > 0 ? shown / faced : 0, leastOpenness_);
-  const CounterRandom direction(kSeed, Purpose::kEye), distance(kSeed, Purpose::kRadius);
+  const CounterRandom direction(kEyeSeed, Purpose::kEye), distance(kEyeSeed, Purpose::kRadius);
   std::vector<Sight> sights;
   for (uint32_t number = 0; number < eyeCount_; ++number) {
     const uint64_t index = cell * eyeCount_ + number, view = number * viewCount / eyeCount_;

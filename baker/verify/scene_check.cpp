@@ -11,7 +11,7 @@
 namespace froth {
 namespace {
 
-constexpr uint64_t kSampleSeed = 1;  // of the samples
+constexpr uint64_t kSeed = 1;  // of the samples
 
 Status checkSolidBalls(const AssetContents& contents) {
   for (size_t index = 0; index < contents.chunks.size(); ++index) {
@@ -32,7 +32,7 @@ Status checkDiagram(const AssetContents& contents, const Progress& progress, Val
   const Result<SceneGraph> scene = joinChunks(contents, progress);
   if (!scene) return scene.error();
   ValidityReport sampled;
-  if (!sampleDiagram(scene->sites, scene->radii, scene->triangulation, scene->alpha, kSampleSeed, progress, sampled)) {
+  if (!sampleDiagram(scene->sites, scene->radii, scene->triangulation, scene->alpha, kSeed, progress, sampled)) {
     return stoppedOnRequest("verify");
   }
   if (!sampled.faults.empty()) {
