@@ -18,17 +18,33 @@ using testing::IsEmpty;
 constexpr uint32_t kReads = 100;  // room for all
 constexpr StreamOptions kOptions{.keepFrames = 4, .retryFrames = 3};
 
-// Chunk 0 is the floor, made by group 1 of chunks 1 and 2, which are made by group 0 of chunks 3 to 6. 100 bytes each.
+// Chunk 0 is the floor, made by group 1 of chunks 1 and 2, which are made by group 0 of chunks 3 to 6. 100 bytes each,
+// if nothing else is said of the finest.
 //
 //        0            floor
 //       1 2           in group 1
 //     3 4 5 6         in group 0
-LevelGraph makeLadder() {
+LevelGraph makeLadder(uint64_t finestBytes = 100) {
   const std::vector<ChunkLevel> levels{{2, 1, kNoGroup}, {1, 0, 1},        {1, 0, 1},       {0, kNoGroup, 0},
                                        {0, kNoGroup, 0}, {0, kNoGroup, 0}, {0, kNoGroup, 0}};
   const std::vector<LevelGroup> groups{{{0, 0, 0}, 1, 0.1, 0}, {{0, 0, 0}, 1, 1, 1}};
-  const std::vector<uint64_t> bytes(7, 100);
+  std::vector<uint64_t> bytes(7, 100);
+  for (size_t chunk = 3; chunk < 7; ++chunk) bytes[chunk] = finestBytes;
   const std::vector<uint32_t> cells(7, 10);
+  return LevelGraph({levels, groups, bytes, cells});
+}
+
+// Two of them in one asset, of chunks 0 to 6 and 7 to 13, which lie 100 apart.
+LevelGraph makeTwoLadders() {
+  std::vector<ChunkLevel> levels;
+  for (const uint32_t first : {0u, 2u}) {
+    levels.insert(levels.end(), {{2, first + 1, kNoGroup}, {1, first, first + 1}, {1, first, first + 1}});
+    levels.insert(levels.end(), 4, {0, kNoGroup, first});
+  }
+  const std::vector<LevelGroup> groups{
+      {{0, 0, 0}, 1, 0.1, 0}, {{0, 0, 0}, 1, 1, 1}, {{100, 0, 0}, 1, 0.1, 0}, {{100, 0, 0}, 1, 1, 1}};
+  const std::vector<uint64_t> bytes(14, 100);
+  const std::vector<uint32_t> cells(14, 10);
   return LevelGraph({levels, groups, bytes, cells});
 }
 
@@ -54,7 +70,7 @@ class Ladder : public testing::Test {
     return reads;
   }
   void bring(std::vector<uint32_t> chunks) {
-    for (const uint32_t chunk : chunks) streamer.advance({asset, chunk}, ChunkState::kResident);
+    for (const uint32_t chunk : chunks) streamer.advance({asset, chunk}, StreamState::kResident);
   }
   // Brings what is asked for until nothing is.
   void settle() {
@@ -68,7 +84,7 @@ class Ladder : public testing::Test {
     }
     return chunks;
   }
-  ChunkState state(uint32_t chunk) const { return streamer.state({asset, chunk}); }
+  StreamState state(uint32_t chunk) const { return streamer.state({asset, chunk}); }
 
   ChunkStreamer streamer;
   uint32_t asset = 0;
@@ -131,11 +147,11 @@ TEST_F(Ladder, KeepsWhatIsNotWantedUntilItsRoomIsNeeded) {
   update();
   EXPECT_EQ(streamer.statistics().excessBytes, 200);
   EXPECT_THAT(evictions, ElementsAre(1, 2));  // drawn last before the others
-  EXPECT_EQ(state(1), ChunkState::kEvicting);
+  EXPECT_EQ(state(1), StreamState::kEvicting);
   update();
   EXPECT_THAT(evictions, IsEmpty());
   streamer.completeEviction({asset, 1});
-  EXPECT_EQ(state(1), ChunkState::kAbsent);
+  EXPECT_EQ(state(1), StreamState::kAbsent);
   EXPECT_EQ(streamer.statistics().usedBytes, 600);
 }
 
@@ -188,7 +204,7 @@ TEST_F(Ladder, TriesAFailedChunkAgainLaterAndLaterAndThenStaysCoarser) {
   std::vector<uint32_t> waits;
   for (uint32_t attempt = 0; attempt < ChunkStreamer::kMostRetries; ++attempt) {
     streamer.fail({asset, 3}, true);
-    EXPECT_EQ(state(3), ChunkState::kRetry);
+    EXPECT_EQ(state(3), StreamState::kRetry);
     uint32_t frames = 1;
     for (; frames < 1000 && update().empty(); ++frames) EXPECT_FALSE(streamer.isSettled());
     waits.push_back(frames);
@@ -196,13 +212,13 @@ TEST_F(Ladder, TriesAFailedChunkAgainLaterAndLaterAndThenStaysCoarser) {
   EXPECT_THAT(waits, ElementsAre(3, 12, 48));
   EXPECT_GE(streamer.statistics().oldestRequest, 60);
   streamer.fail({asset, 3}, true);
-  EXPECT_EQ(state(3), ChunkState::kFailed);
+  EXPECT_EQ(state(3), StreamState::kFailed);
   EXPECT_THAT(update(), IsEmpty());
   EXPECT_THAT(drawn(), ElementsAre(1, 2));
   EXPECT_TRUE(streamer.isSettled());
   EXPECT_EQ(streamer.statistics().retries, 3);
   EXPECT_EQ(streamer.statistics().failures, 1);
-  EXPECT_EQ(streamer.statistics().states[static_cast<size_t>(ChunkState::kFailed)].chunks, 1);
+  EXPECT_EQ(streamer.statistics().states[static_cast<size_t>(StreamState::kFailed)].chunks, 1);
 }
 
 TEST_F(Ladder, StepsOverAFailedChunkBetweenFloorAndFinest) {
@@ -245,7 +261,7 @@ TEST_F(Ladder, LetsTheFloorGoWhenNoInstanceIsLeft) {
   settle();
   streamer.unplaceAsset(asset);
   EXPECT_THAT(streamer.update(kReads).hidden, ElementsAre(ChunkId{asset, 0}));
-  EXPECT_EQ(state(0), ChunkState::kResident);
+  EXPECT_EQ(state(0), StreamState::kResident);
   EXPECT_TRUE(streamer.setBudget(0));
   for (uint32_t frame = 0; frame < kOptions.keepFrames; ++frame) update();
   EXPECT_THAT(evictions, ElementsAre(0));
@@ -278,6 +294,59 @@ TEST_F(Ladder, EvictsAllOfARemovedAssetAndGivesItsNumberAnew) {
   EXPECT_EQ(streamer.addAsset(makeLadder()), asset);
 }
 
+// Begins with the floor and the finest chunks of a ladder, drawn, while those between are absent. Afterwards these are
+// wanted.
+void drawFinestAndWantMiddle(ChunkStreamer& streamer, uint32_t asset) {
+  streamer.setEyes(asset, {&kNear, 1});
+  streamer.update(kReads);
+  for (const uint32_t chunk : {0, 3, 4, 5, 6}) streamer.advance({asset, chunk}, StreamState::kResident);
+  for (const uint32_t chunk : {1, 2}) streamer.fail({asset, chunk}, true);
+  streamer.update(kReads);
+  EXPECT_TRUE(streamer.isSettled());
+  streamer.setEyes(asset, {&kMiddle, 1});
+}
+
+TEST(ChunkStreamer, DoesNotGiveUpAFloorThatIsHalfThere) {
+  const std::vector<uint64_t> bytes{100, 100};
+  const std::vector<uint32_t> cells{1, 1};
+  ChunkStreamer streamer(kOptions);
+  EXPECT_TRUE(streamer.setBudget(10'000));
+  const uint32_t ladder = streamer.addAsset(makeLadder(150)),
+                 flat = streamer.addAsset(LevelGraph({{}, {}, bytes, cells}));
+  EXPECT_TRUE(streamer.placeAsset(ladder));
+  drawFinestAndWantMiddle(streamer, ladder);
+  EXPECT_TRUE(streamer.placeAsset(flat));
+  EXPECT_EQ(streamer.update(kReads).reads.size(), 2);
+  streamer.fail({flat, 0}, true);
+  streamer.advance({flat, 1}, StreamState::kResident);
+  EXPECT_TRUE(streamer.setBudget(800));  // which are used
+  for (uint32_t frame = 0; frame < kOptions.retryFrames + 2; ++frame)
+    EXPECT_THAT(streamer.update(kReads).evictions, IsEmpty());
+  EXPECT_EQ(streamer.state({flat, 1}), StreamState::kResident);
+  EXPECT_TRUE(streamer.isDrawn({ladder, 0}));  // it gave up its finest form instead
+}
+
+TEST(ChunkStreamer, GivesUpOnlyWhatIsNotWanted) {
+  ChunkStreamer streamer(kOptions);
+  EXPECT_TRUE(streamer.setBudget(10'000));
+  const uint32_t asset = streamer.addAsset(makeTwoLadders());
+  EXPECT_TRUE(streamer.placeAsset(asset));
+  StreamEye eye{{0, 0, 0}, 200, 0.005, 0.05, 1};  // anywhere near: wants all
+  streamer.setEyes(asset, {&eye, 1});
+  streamer.update(kReads);
+  for (const uint32_t chunk : {0, 3, 4, 5, 6, 7, 10, 11, 12, 13})
+    streamer.advance({asset, chunk}, StreamState::kResident);
+  for (const uint32_t chunk : {1, 2, 8, 9}) streamer.fail({asset, chunk}, true);
+  streamer.update(kReads);
+  EXPECT_TRUE(streamer.isSettled());
+  eye.radius = 0;  // wants the middle of the second ladder
+  streamer.setEyes(asset, {&eye, 1});
+  EXPECT_TRUE(streamer.setBudget(1000));  // which are used
+  for (uint32_t frame = 0; frame < kOptions.retryFrames + 2; ++frame) streamer.update(kReads);
+  EXPECT_TRUE(streamer.isDrawn({asset, 7}));
+  for (const uint32_t chunk : {3, 4, 5, 6}) EXPECT_TRUE(streamer.isDrawn({asset, chunk}));
+}
+
 TEST(ChunkStreamer, DrawsAnAssetWithoutLevelsWhenAllOfItIsThere) {
   const std::vector<uint64_t> bytes{10, 20};
   const std::vector<uint32_t> cells{1, 2};
@@ -286,9 +355,9 @@ TEST(ChunkStreamer, DrawsAnAssetWithoutLevelsWhenAllOfItIsThere) {
   const uint32_t asset = streamer.addAsset(LevelGraph({{}, {}, bytes, cells}));
   EXPECT_TRUE(streamer.placeAsset(asset));
   EXPECT_EQ(streamer.update(kReads).reads.size(), 2);
-  streamer.advance({asset, 0}, ChunkState::kResident);
+  streamer.advance({asset, 0}, StreamState::kResident);
   EXPECT_THAT(streamer.update(kReads).shown, IsEmpty());
-  streamer.advance({asset, 1}, ChunkState::kResident);
+  streamer.advance({asset, 1}, StreamState::kResident);
   EXPECT_EQ(streamer.update(kReads).shown.size(), 2);
   EXPECT_TRUE(streamer.isSettled());
 }
@@ -308,7 +377,7 @@ TEST(ChunkStreamer, AllocatesNothingInAnUpdate) {
     forgetAllocations();
     const StreamActions& answer = streamer.update(8);
     for (const ChunkId id : answer.reads) toDo.push_back(id);
-    for (const ChunkId id : answer.reads) streamer.advance(id, ChunkState::kResident);
+    for (const ChunkId id : answer.reads) streamer.advance(id, StreamState::kResident);
     for (const ChunkId id : answer.evictions) streamer.completeEviction(id);
     allocated += allocatedBytes();
     actions += toDo.size();
