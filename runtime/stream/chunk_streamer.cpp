@@ -95,7 +95,7 @@ void ChunkStreamer::setEyes(uint32_t asset, std::span<const StreamEye> eyes) {
   demands_[asset].eyes.assign(eyes.begin(), eyes.end());
 }
 
-void ChunkStreamer::advance(ChunkId id, StreamState to) { residency_.advance(id, to, frame_ + 1); }
+void ChunkStreamer::advance(ChunkId id, ChunkState to) { residency_.advance(id, to, frame_ + 1); }
 
 void ChunkStreamer::fail(ChunkId id, bool mayPass) {
   const uint32_t attempts = residency_.failedAttempts(id);
@@ -154,8 +154,8 @@ void ChunkStreamer::selectGroups() {
   selection_.select(demands_, budget_ - std::min(budget_, taken), cellBudget_ - std::min(cellBudget_, cells));
   for (uint32_t number = 0; number < assets_.size(); ++number) {
     if (demands_[number].graph == nullptr || assets_[number].failedChunks == 0) continue;
-    const std::span<const StreamState> states = residency_.states(number);
-    const auto mayCome = [&](uint32_t chunk) { return states[chunk] != StreamState::kFailed; };
+    const std::span<const ChunkState> states = residency_.states(number);
+    const auto mayCome = [&](uint32_t chunk) { return states[chunk] != ChunkState::kFailed; };
     shrinkToWhole(*assets_[number].graph, mayCome, demands_[number].wanted, scratch_);
   }
 }
@@ -166,7 +166,7 @@ bool ChunkStreamer::isSettled() const {
 
 StreamStatistics ChunkStreamer::statistics() const {
   StreamStatistics statistics;
-  for (size_t i = 0; i < kStreamStates; ++i) statistics.states[i] = residency_.totals(static_cast<StreamState>(i));
+  for (size_t i = 0; i < kChunkStates; ++i) statistics.states[i] = residency_.totals(static_cast<ChunkState>(i));
   statistics.usedBytes = residency_.usedBytes();
   statistics.excessBytes = statistics.usedBytes - std::min(statistics.usedBytes, budget_);
   statistics.oldestRequest = oldestRequest_;

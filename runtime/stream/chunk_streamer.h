@@ -46,7 +46,7 @@ struct StreamActions {
 };
 
 struct StreamStatistics {
-  StateTotals states[kStreamStates]{};
+  StateTotals states[kChunkStates]{};
   uint64_t usedBytes = 0;
   uint64_t excessBytes = 0;                           // above the budget, since it was lowered
   uint32_t oldestRequest = 0;                         // for how long a needed chunk has been waited for [frames]
@@ -78,9 +78,9 @@ class ChunkStreamer {
   void setEyes(uint32_t asset, std::span<const StreamEye> eyes);
 
   // The owner's reports, in any order between updates. After an eviction was asked for, only that it is complete.
-  void advance(ChunkId id, StreamState to);  // DECODING, READY, UPLOADING or RESIDENT; states may be left out
-  void fail(ChunkId id, bool mayPass);       // a chunk on its way, of which the owner holds nothing any more
-  void completeEviction(ChunkId id);         // the owner holds nothing of it any more
+  void advance(ChunkId id, ChunkState to);  // DECODING, READY, UPLOADING or RESIDENT; states may be left out
+  void fail(ChunkId id, bool mayPass);      // a chunk on its way, of which the owner holds nothing any more
+  void completeEviction(ChunkId id);        // the owner holds nothing of it any more
 
   // readRoom: most reads to begin now.
   const StreamActions& update(uint32_t readRoom);
@@ -92,7 +92,7 @@ class ChunkStreamer {
   bool isDrawn(ChunkId id) const { return residency_.isDrawn(id); }
   const GroupSet& refined(uint32_t asset) const { return assets_[asset].refined; }
   const GroupSet& wanted(uint32_t asset) const { return demands_[asset].wanted; }
-  StreamState state(ChunkId id) const { return residency_.state(id); }
+  ChunkState state(ChunkId id) const { return residency_.state(id); }
   StreamStatistics statistics() const;
 
  private:

@@ -8,7 +8,7 @@ namespace froth {
 
 bool ChunkStreamer::isFloorResident(uint32_t number) const {
   return std::ranges::all_of(assets_[number].graph->floor(), [&](uint32_t chunk) {
-    return residency_.state({number, chunk}) == StreamState::kResident;
+    return residency_.state({number, chunk}) == ChunkState::kResident;
   });
 }
 
@@ -36,7 +36,7 @@ void ChunkStreamer::updateCut(uint32_t number) {
 void ChunkStreamer::evictAllOf(uint32_t number) {
   for (uint32_t chunk = 0; chunk < assets_[number].graph->chunkCount(); ++chunk) {
     const ChunkId id{number, chunk};
-    if (residency_.holdsBytes(id) && residency_.state(id) != StreamState::kEvicting) evict(id);
+    if (residency_.holdsBytes(id) && residency_.state(id) != ChunkState::kEvicting) evict(id);
   }
 }
 
@@ -44,8 +44,8 @@ void ChunkStreamer::evictAllOf(uint32_t number) {
 void ChunkStreamer::refine(uint32_t number, bool keepsUnwanted) {
   Asset& asset = assets_[number];
   const GroupSet& wanted = demands_[number].wanted;
-  const std::span<const StreamState> states = residency_.states(number);
-  const auto isResident = [&](uint32_t chunk) { return states[chunk] == StreamState::kResident; };
+  const std::span<const ChunkState> states = residency_.states(number);
+  const auto isResident = [&](uint32_t chunk) { return states[chunk] == ChunkState::kResident; };
 
   asset.next.clear();
   for (const uint32_t group : wanted.members()) asset.next.add(group);
@@ -125,16 +125,16 @@ void ChunkStreamer::needGroup(GroupId id) {
 }
 
 void ChunkStreamer::addNeed(ChunkId id, NeedKind kind) {
-  const StreamState state = residency_.state(id);
-  if (state == StreamState::kFailed) return;
+  const ChunkState state = residency_.state(id);
+  if (state == ChunkState::kFailed) return;
   const uint32_t age = residency_.noteNeed(id, frame_);
-  if (state != StreamState::kResident) oldestRequest_ = std::max(oldestRequest_, age);
+  if (state != ChunkState::kResident) oldestRequest_ = std::max(oldestRequest_, age);
   needs_.push_back({id, kind});
 }
 
 bool ChunkStreamer::isToRead(ChunkId id) const {
-  const StreamState state = residency_.state(id);
-  return state == StreamState::kAbsent || (state == StreamState::kRetry && residency_.isDue(id, frame_));
+  const ChunkState state = residency_.state(id);
+  return state == ChunkState::kAbsent || (state == ChunkState::kRetry && residency_.isDue(id, frame_));
 }
 
 // Floors come first, then chunks by how much their group is wanted. Where not all of them fit, coarser chunks come
@@ -168,7 +168,7 @@ void ChunkStreamer::readAndMakeRoom(uint32_t readRoom) {
     ++reads;
     const uint64_t bytes = residency_.bytesOf(id);
     if (firstBlocked == ordered_.size() && used + bytes <= budget_) {
-      if (residency_.state(id) == StreamState::kRetry) ++retries_;
+      if (residency_.state(id) == ChunkState::kRetry) ++retries_;
       residency_.beginRead(id, frame_);
       actions_.reads.push_back(id);
       used += bytes;
@@ -179,14 +179,14 @@ void ChunkStreamer::readAndMakeRoom(uint32_t readRoom) {
   }
   const bool waitsForAge = evictSpare(blockedBytes);
   const bool isChanging =
-      waitsForAge || residency_.totals(StreamState::kEvicting).chunks > 0 || residency_.chunksOnTheWay() > 0;
+      waitsForAge || residency_.totals(ChunkState::kEvicting).chunks > 0 || residency_.chunksOnTheWay() > 0;
   if (isChanging) return;
   resolveStandstill(firstBlocked, firstBlocked < ordered_.size() ? residency_.bytesOf(ordered_[firstBlocked].id) : 0);
 }
 
 // What must yet be evicted before so many bytes more fit.
 uint64_t ChunkStreamer::shortageFor(uint64_t bytes) const {
-  const uint64_t wanted = residency_.usedBytes() - residency_.totals(StreamState::kEvicting).bytes + bytes;
+  const uint64_t wanted = residency_.usedBytes() - residency_.totals(ChunkState::kEvicting).bytes + bytes;
   return wanted - std::min(wanted, budget_);
 }
 
@@ -215,7 +215,7 @@ void ChunkStreamer::resolveStandstill(size_t firstBlocked, uint64_t bytes) {
   bool hasEvicted = false;
   for (size_t i = ordered_.size(); i-- > firstBlocked + 1 && shortageFor(bytes) > 0;) {
     const auto [id, kind] = ordered_[i];
-    if (kind == NeedKind::kFloor || residency_.state(id) != StreamState::kResident) continue;
+    if (kind == NeedKind::kFloor || residency_.state(id) != ChunkState::kResident) continue;
     evict(id);
     hasEvicted = true;
   }

@@ -4,8 +4,8 @@ namespace froth {
 
 namespace {
 
-bool isOnTheWay(StreamState state) { return state >= StreamState::kReading && state <= StreamState::kUploading; }
-bool takesBytes(StreamState state) { return state >= StreamState::kReading && state <= StreamState::kEvicting; }
+bool isOnTheWay(ChunkState state) { return state >= ChunkState::kReading && state <= ChunkState::kUploading; }
+bool takesBytes(ChunkState state) { return state >= ChunkState::kReading && state <= ChunkState::kEvicting; }
 
 }  // namespace
 
@@ -17,7 +17,7 @@ void Residency::addAsset(uint32_t asset, const LevelGraph& graph) {
     assetBytes_.emplace_back();
   }
   graphs_[asset] = &graph;
-  states_[asset].assign(graph.chunkCount(), StreamState::kAbsent);
+  states_[asset].assign(graph.chunkCount(), ChunkState::kAbsent);
   records_[asset].assign(graph.chunkCount(), {});
   for (uint32_t i = 0; i < graph.chunkCount(); ++i) {
     ++totals_[0].chunks;
@@ -38,9 +38,9 @@ void Residency::removeAsset(uint32_t asset) {
 
 bool Residency::holdsBytes(ChunkId id) const { return takesBytes(state(id)); }
 
-void Residency::advance(ChunkId id, StreamState to, uint32_t frame) {
+void Residency::advance(ChunkId id, ChunkState to, uint32_t frame) {
   setState(id, to);
-  if (to != StreamState::kResident) return;
+  if (to != ChunkState::kResident) return;
   record(id).failedAttempts = 0;
   if (isSpare(id)) {
     unlink(id);
@@ -49,27 +49,27 @@ void Residency::advance(ChunkId id, StreamState to, uint32_t frame) {
 }
 
 void Residency::beginRead(ChunkId id, uint32_t frame) {
-  setState(id, StreamState::kReading);
+  setState(id, ChunkState::kReading);
   if (isSpare(id)) link(id, frame);
 }
 
 void Residency::evict(ChunkId id) {
   unlink(id);
-  setState(id, StreamState::kEvicting);
+  setState(id, ChunkState::kEvicting);
 }
 
-void Residency::completeEviction(ChunkId id) { setState(id, StreamState::kAbsent); }
+void Residency::completeEviction(ChunkId id) { setState(id, ChunkState::kAbsent); }
 
 void Residency::retryLater(ChunkId id, uint32_t dueFrame) {
   if (isSpare(id)) unlink(id);
-  setState(id, StreamState::kRetry);
+  setState(id, ChunkState::kRetry);
   ++record(id).failedAttempts;
   record(id).dueFrame = dueFrame;
 }
 
 void Residency::failForGood(ChunkId id) {
   if (isSpare(id)) unlink(id);
-  setState(id, StreamState::kFailed);
+  setState(id, ChunkState::kFailed);
 }
 
 bool Residency::isDue(ChunkId id, uint32_t frame) const {
@@ -97,22 +97,22 @@ uint32_t Residency::noteNeed(ChunkId id, uint32_t frame) {
 
 uint64_t Residency::usedBytes() const {
   uint64_t bytes = 0;
-  for (size_t i = 0; i < kStreamStates; ++i) {
-    if (takesBytes(static_cast<StreamState>(i))) bytes += totals_[i].bytes;
+  for (size_t i = 0; i < kChunkStates; ++i) {
+    if (takesBytes(static_cast<ChunkState>(i))) bytes += totals_[i].bytes;
   }
   return bytes;
 }
 
 uint64_t Residency::chunksOnTheWay() const {
   uint64_t chunks = 0;
-  for (size_t i = 0; i < kStreamStates; ++i) {
-    if (isOnTheWay(static_cast<StreamState>(i))) chunks += totals_[i].chunks;
+  for (size_t i = 0; i < kChunkStates; ++i) {
+    if (isOnTheWay(static_cast<ChunkState>(i))) chunks += totals_[i].chunks;
   }
   return chunks;
 }
 
-void Residency::setState(ChunkId id, StreamState to) {
-  StreamState& state = states_[id.asset][id.chunk];
+void Residency::setState(ChunkId id, ChunkState to) {
+  ChunkState& state = states_[id.asset][id.chunk];
   const uint64_t bytes = bytesOf(id);
   StateTotals& before = totals_[static_cast<size_t>(state)];
   StateTotals& after = totals_[static_cast<size_t>(to)];
@@ -127,7 +127,7 @@ void Residency::setState(ChunkId id, StreamState to) {
 
 bool Residency::isSpare(ChunkId id) const {
   const Record& of = record(id);
-  return !of.isDrawn && !of.isPinned && (isOnTheWay(state(id)) || state(id) == StreamState::kResident);
+  return !of.isDrawn && !of.isPinned && (isOnTheWay(state(id)) || state(id) == ChunkState::kResident);
 }
 
 void Residency::link(ChunkId id, uint32_t frame) {

@@ -18,7 +18,7 @@
 
 namespace froth {
 
-enum class StreamState : uint8_t {
+enum class ChunkState : uint8_t {
   kAbsent,
   kReading,
   kDecoding,
@@ -29,7 +29,7 @@ enum class StreamState : uint8_t {
   kRetry,     // failed; is read again after some frames
   kFailed,    // for good
 };
-inline constexpr size_t kStreamStates = 9;
+inline constexpr size_t kChunkStates = 9;
 
 struct ChunkId {
   uint32_t asset = 0, chunk = 0;
@@ -51,14 +51,14 @@ class Residency {
   void addAsset(uint32_t asset, const LevelGraph& graph);  // asset: the next number, or one that was removed
   void removeAsset(uint32_t asset);                        // it holds no bytes
 
-  StreamState state(ChunkId id) const { return states_[id.asset][id.chunk]; }
-  std::span<const StreamState> states(uint32_t asset) const { return states_[asset]; }
+  ChunkState state(ChunkId id) const { return states_[id.asset][id.chunk]; }
+  std::span<const ChunkState> states(uint32_t asset) const { return states_[asset]; }
   bool holdsBytes(ChunkId id) const;
   uint64_t bytesOf(ChunkId id) const { return graphs_[id.asset]->chunk(id.chunk).bytes; }
   bool isDrawn(ChunkId id) const { return record(id).isDrawn; }
 
   // Of a chunk on its way: kReading < `to` <= kResident, and not back.
-  void advance(ChunkId id, StreamState to, uint32_t frame);
+  void advance(ChunkId id, ChunkState to, uint32_t frame);
   void beginRead(ChunkId id, uint32_t frame);  // ABSENT or RETRY
   void evict(ChunkId id);                      // a spare one
   void completeEviction(ChunkId id);           // EVICTING
@@ -79,7 +79,7 @@ class Residency {
   ChunkId nextSpare(ChunkId id) const { return record(id).next; }
   uint32_t spareSince(ChunkId id) const { return record(id).spareFrame; }
 
-  const StateTotals& totals(StreamState state) const { return totals_[static_cast<size_t>(state)]; }
+  const StateTotals& totals(ChunkState state) const { return totals_[static_cast<size_t>(state)]; }
   uint64_t usedBytes() const;       // of all states that hold bytes
   uint64_t chunksOnTheWay() const;  // READING to UPLOADING
   uint64_t bytesOfAsset(uint32_t asset) const { return assetBytes_[asset]; }
@@ -96,16 +96,16 @@ class Residency {
   };
   Record& record(ChunkId id) { return records_[id.asset][id.chunk]; }
   const Record& record(ChunkId id) const { return records_[id.asset][id.chunk]; }
-  void setState(ChunkId id, StreamState to);
+  void setState(ChunkId id, ChunkState to);
   bool isSpare(ChunkId id) const;
   void link(ChunkId id, uint32_t frame);  // as the last one
   void unlink(ChunkId id);
 
-  std::vector<const LevelGraph*> graphs_;         // [assets]
-  std::vector<std::vector<StreamState>> states_;  // [assets][chunks]
-  std::vector<std::vector<Record>> records_;      // [assets][chunks]
-  std::vector<uint64_t> assetBytes_;              // [assets]
-  std::array<StateTotals, kStreamStates> totals_{};
+  std::vector<const LevelGraph*> graphs_;        // [assets]
+  std::vector<std::vector<ChunkState>> states_;  // [assets][chunks]
+  std::vector<std::vector<Record>> records_;     // [assets][chunks]
+  std::vector<uint64_t> assetBytes_;             // [assets]
+  std::array<StateTotals, kChunkStates> totals_{};
   ChunkId first_ = kNone, last_ = kNone;
 };
 

@@ -58,7 +58,7 @@ void flyOver(benchmark::State& state) {
   const StreamStatistics statistics = owner.streamer.statistics();
   state.counters["known"] = graph.chunkCount();
   state.counters["resident"] =
-      static_cast<double>(statistics.states[static_cast<size_t>(StreamState::kResident)].chunks);
+      static_cast<double>(statistics.states[static_cast<size_t>(ChunkState::kResident)].chunks);
   state.counters["wanted"] = static_cast<double>(owner.streamer.wanted(asset).members().size());
   state.counters["longest_us"] = longest * 1e6;
 }

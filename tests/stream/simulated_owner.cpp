@@ -39,7 +39,7 @@ void SimulatedOwner::runFrame() {
   ++frame_;
   finishTasks();
   const auto inFlight = static_cast<uint32_t>(
-      std::ranges::count_if(tasks_, [](const Task& task) { return task.reached != StreamState::kAbsent; }));
+      std::ranges::count_if(tasks_, [](const Task& task) { return task.reached != ChunkState::kAbsent; }));
   const double begin = threadSeconds();
   const StreamActions& actions = streamer.update(options_.readsInFlight - std::min(options_.readsInFlight, inFlight));
   updateSeconds_ = threadSeconds() - begin;
@@ -86,7 +86,7 @@ void SimulatedOwner::finishTasks() {
 bool SimulatedOwner::finish(const Task& task) {
   Task& next = tasks_[static_cast<size_t>(&task - tasks_.data())];
   Chunk& of = chunk(task.id);
-  if (task.reached == StreamState::kAbsent) {
+  if (task.reached == ChunkState::kAbsent) {
     of.isEvicting = of.isHeld = false;
     heldBytes_ -= of.bytes;
     streamer.completeEviction(task.id);
@@ -95,7 +95,7 @@ bool SimulatedOwner::finish(const Task& task) {
   // What is not broken comes at the last attempt, or the settled set would depend on chance.
   const bool fails = std::uniform_real_distribution<double>()(random_) < options_.failureShare / 4 &&
                      of.failures < ChunkStreamer::kMostRetries;
-  if (fails || (of.isBroken && task.reached == StreamState::kReady)) {
+  if (fails || (of.isBroken && task.reached == ChunkState::kReady)) {
     of.isHeld = false;
     heldBytes_ -= of.bytes;
     ++of.failures;
@@ -103,13 +103,13 @@ bool SimulatedOwner::finish(const Task& task) {
     return false;
   }
   streamer.advance(task.id, task.reached);
-  if (task.reached == StreamState::kResident) {
+  if (task.reached == ChunkState::kResident) {
     of.isResident = true;
     of.failures = 0;
     of.sinceFrame = frame_;
     return false;
   }
-  next.reached = static_cast<StreamState>(static_cast<uint8_t>(task.reached) + 1);
+  next.reached = static_cast<ChunkState>(static_cast<uint8_t>(task.reached) + 1);
   next.dueFrame = frame_ + delay();
   return true;
 }
@@ -138,7 +138,7 @@ void SimulatedOwner::take(const StreamActions& actions) {
     of.isResident = false;
     of.isEvicting = true;
     std::erase_if(tasks_, [&](const Task& task) { return task.id == id; });
-    tasks_.push_back({id, StreamState::kAbsent, frame_ + 1 + delay()});
+    tasks_.push_back({id, ChunkState::kAbsent, frame_ + 1 + delay()});
     note(id, 3);
   }
   for (const ChunkId id : actions.reads) {
@@ -147,7 +147,7 @@ void SimulatedOwner::take(const StreamActions& actions) {
     of.isHeld = true;
     of.sinceFrame = frame_;
     heldBytes_ += of.bytes;
-    tasks_.push_back({id, StreamState::kDecoding, frame_ + 1 + delay()});
+    tasks_.push_back({id, ChunkState::kDecoding, frame_ + 1 + delay()});
     note(id, 4);
   }
 }

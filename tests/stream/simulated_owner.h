@@ -57,7 +57,7 @@ class SimulatedOwner {
   };
   struct Task {
     ChunkId id;
-    StreamState reached;  // when it is due
+    ChunkState reached;  // when it is due
     uint32_t dueFrame = 0;
   };
 
