@@ -1,7 +1,6 @@
 #include "runtime/stream/selection.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace froth {
 
@@ -33,7 +32,7 @@ void Selection::select(std::span<AssetDemand> assets, uint64_t bytes, uint64_t c
     if (assets[a].graph == nullptr) continue;
     assets[a].wanted.clear();
     for (const uint32_t group : assets[a].graph->lowest()) {
-      offer(assets[a], {a, group}, std::numeric_limits<double>::infinity());
+      offer(assets[a], {a, group});
     }
   }
   while (!heap_.empty()) {
@@ -47,24 +46,24 @@ void Selection::select(std::span<AssetDemand> assets, uint64_t bytes, uint64_t c
     heap_.pop_back();
     asset.wanted.add(best.id.group);
     bought_.push_back(best.id);
-    offerFiner(asset, best);
+    offerFiner(asset, best.id);
   }
 }
 
-// mostKey: of the groups that are coarser. Rounding may lift a key above it.
-void Selection::offer(const AssetDemand& asset, GroupId id, double mostKey) {
-  const double key = std::min(keyOf(asset.graph->group(id.group), asset.eyes), mostKey);
+void Selection::offer(const AssetDemand& asset, GroupId id) {
+  const double key = keyOf(asset.graph->group(id.group), asset.eyes);
   if (!(key >= 1)) return;
   heap_.push_back({key, id});
   std::push_heap(heap_.begin(), heap_.end());
 }
 
-// A group is on offer as soon as all that are coarser are bought; the last of them has the least key.
-void Selection::offerFiner(const AssetDemand& asset, const Offer& bought) {
-  for (const uint32_t finer : asset.graph->finerThan(bought.id.group)) {
+// A group is on offer as soon as all that are coarser are bought, so what is bought is a cut even where rounding lifts
+// its key above theirs.
+void Selection::offerFiner(const AssetDemand& asset, GroupId bought) {
+  for (const uint32_t finer : asset.graph->finerThan(bought.group)) {
     const bool isReady = std::ranges::all_of(asset.graph->coarserThan(finer),
                                              [&](uint32_t group) { return asset.wanted.contains(group); });
-    if (isReady) offer(asset, {bought.id.asset, finer}, bought.key);
+    if (isReady) offer(asset, {bought.asset, finer});
   }
 }
 

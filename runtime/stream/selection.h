@@ -59,8 +59,8 @@ class Selection {
     GroupId id;
     bool operator<(const Offer& other) const;
   };
-  void offer(const AssetDemand& asset, GroupId id, double mostKey);
-  void offerFiner(const AssetDemand& asset, const Offer& bought);
+  void offer(const AssetDemand& asset, GroupId id);
+  void offerFiner(const AssetDemand& asset, GroupId bought);
 
   std::vector<Offer> heap_;
   std::vector<GroupId> bought_;

@@ -18,17 +18,33 @@ using testing::IsEmpty;
 constexpr uint32_t kReads = 100;  // room for all
 constexpr StreamOptions kOptions{.keepFrames = 4, .retryFrames = 3};
 
-// Chunk 0 is the floor, made by group 1 of chunks 1 and 2, which are made by group 0 of chunks 3 to 6. 100 bytes each.
+// Chunk 0 is the floor, made by group 1 of chunks 1 and 2, which are made by group 0 of chunks 3 to 6. 100 bytes each,
+// if nothing else is said of the finest.
 //
 //        0            floor
 //       1 2           in group 1
 //     3 4 5 6         in group 0
-LevelGraph makeLadder() {
+LevelGraph makeLadder(uint64_t finestBytes = 100) {
   const std::vector<ChunkLevel> levels{{2, 1, kNoGroup}, {1, 0, 1},        {1, 0, 1},       {0, kNoGroup, 0},
                                        {0, kNoGroup, 0}, {0, kNoGroup, 0}, {0, kNoGroup, 0}};
   const std::vector<LevelGroup> groups{{{0, 0, 0}, 1, 0.1, 0}, {{0, 0, 0}, 1, 1, 1}};
-  const std::vector<uint64_t> bytes(7, 100);
+  std::vector<uint64_t> bytes(7, 100);
+  for (size_t chunk = 3; chunk < 7; ++chunk) bytes[chunk] = finestBytes;
   const std::vector<uint32_t> cells(7, 10);
+  return LevelGraph({levels, groups, bytes, cells});
+}
+
+// Two of them in one asset, of chunks 0 to 6 and 7 to 13, which lie 100 apart.
+LevelGraph makeTwoLadders() {
+  std::vector<ChunkLevel> levels;
+  for (const uint32_t first : {0u, 2u}) {
+    levels.insert(levels.end(), {{2, first + 1, kNoGroup}, {1, first, first + 1}, {1, first, first + 1}});
+    levels.insert(levels.end(), 4, {0, kNoGroup, first});
+  }
+  const std::vector<LevelGroup> groups{
+      {{0, 0, 0}, 1, 0.1, 0}, {{0, 0, 0}, 1, 1, 1}, {{100, 0, 0}, 1, 0.1, 0}, {{100, 0, 0}, 1, 1, 1}};
+  const std::vector<uint64_t> bytes(14, 100);
+  const std::vector<uint32_t> cells(14, 10);
   return LevelGraph({levels, groups, bytes, cells});
 }
 
@@ -276,6 +292,56 @@ TEST_F(Ladder, EvictsAllOfARemovedAssetAndGivesItsNumberAnew) {
   update();
   EXPECT_FALSE(streamer.hasAsset(asset));
   EXPECT_EQ(streamer.addAsset(makeLadder()), asset);
+}
+
+// The second chunk of a floor is there; the first has failed once and then finds no room. Finer chunks of the ladder
+// hold it, and the coarser ones that are wanted instead have failed too, a frame later.
+TEST(ChunkStreamer, DoesNotGiveUpAFloorThatIsHalfThere) {
+  const std::vector<uint64_t> bytes{100, 100};
+  const std::vector<uint32_t> cells{1, 1};
+  ChunkStreamer streamer(kOptions);
+  EXPECT_TRUE(streamer.setBudget(10'000));
+  const uint32_t flat = streamer.addAsset(LevelGraph({{}, {}, bytes, cells}));
+  EXPECT_TRUE(streamer.placeAsset(flat));
+  streamer.update(kReads);
+  streamer.fail({flat, 0}, true);
+  streamer.advance({flat, 1}, ChunkState::kResident);
+
+  const uint32_t ladder = streamer.addAsset(makeLadder(150));
+  EXPECT_TRUE(streamer.placeAsset(ladder));
+  streamer.setEyes(ladder, {&kNear, 1});
+  streamer.update(kReads);
+  for (const uint32_t chunk : {0, 3, 4, 5, 6}) streamer.advance({ladder, chunk}, ChunkState::kResident);
+  for (const uint32_t chunk : {1, 2}) streamer.fail({ladder, chunk}, true);
+  streamer.update(kReads);
+  EXPECT_TRUE(streamer.isSettled(ladder));
+
+  streamer.setEyes(ladder, {&kMiddle, 1});
+  EXPECT_TRUE(streamer.setBudget(800));  // which are used
+  EXPECT_THAT(streamer.update(kReads).evictions, IsEmpty());
+  EXPECT_THAT(streamer.update(kReads).shown, ElementsAre(ChunkId{ladder, 0}));  // instead of the finest chunks
+}
+
+TEST(ChunkStreamer, GivesUpOnlyWhatIsNotWanted) {
+  ChunkStreamer streamer(kOptions);
+  EXPECT_TRUE(streamer.setBudget(10'000));
+  const uint32_t asset = streamer.addAsset(makeTwoLadders());
+  EXPECT_TRUE(streamer.placeAsset(asset));
+  StreamEye eye{{0, 0, 0}, 200, 0.005, 0.05, 1};  // anywhere near: wants all
+  streamer.setEyes(asset, {&eye, 1});
+  streamer.update(kReads);
+  for (const uint32_t chunk : {0, 3, 4, 5, 6, 7, 10, 11, 12, 13}) {
+    streamer.advance({asset, chunk}, ChunkState::kResident);
+  }
+  for (const uint32_t chunk : {1, 2, 8, 9}) streamer.fail({asset, chunk}, true);
+  streamer.update(kReads);
+  EXPECT_TRUE(streamer.isSettled());
+  eye.radius = 0;  // wants the middle of the second ladder
+  streamer.setEyes(asset, {&eye, 1});
+  EXPECT_TRUE(streamer.setBudget(1000));  // which are used
+  for (uint32_t frame = 0; frame < kOptions.retryFrames + 2; ++frame) streamer.update(kReads);
+  EXPECT_TRUE(streamer.isDrawn({asset, 7}));
+  for (const uint32_t chunk : {3, 4, 5, 6}) EXPECT_TRUE(streamer.isDrawn({asset, chunk}));
 }
 
 TEST(ChunkStreamer, DrawsAnAssetWithoutLevelsWhenAllOfItIsThere) {

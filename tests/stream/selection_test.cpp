@@ -138,7 +138,7 @@ TEST(Selection, MeasuresTheErrorByThePixelAtTheNearestPointOfTheBall) {
   EXPECT_DOUBLE_EQ(keyOf(group, std::vector{flat, wandering, still}), 0.6 / 0.03);
 }
 
-TEST(Selection, TakesAKeyThatRoundingLiftsAboveThatOfACoarserGroupAsEqual) {
+TEST(Selection, IsACutEvenWhereKeysOfFinerGroupsAreGreater) {
   LevelDag dag = makeLevelDag(1, {20, 2, 4});
   for (LevelGroup& group : dag.groups) group.error = 2 - 0.1 * group.level;  // as no reader lets through
   const LevelGraph graph = dag.graph();
