@@ -101,8 +101,9 @@ class Bake {
   ChunkPlan plan_;
   Levels levels_;  // none: empty
   ColourSource colours_;
-  StoredCounts stored_;
-  std::optional<FoamAssembler> baked_;  // for measuring
+  StoredCounts stored_;                    // of level 0
+  uint64_t doneLive_ = 0, liveCount_ = 0;  // live cells of chunks: finished ones, all
+  std::optional<FoamAssembler> baked_;     // for measuring
 };
 
 Status Bake::run() {
@@ -292,7 +293,7 @@ Result<ChunkContents> Bake::makeChunk(uint32_t index, AttributeErrors& errors) {
       hasLevels() ? std::move(levels_.rows[index]) : gatherRows(triangulation_.graph, alpha_.graph, planned.cells);
   ChunkContents chunk = makeChunkGeometry(cells_, planned, rows, plan_.refs,
                                           {options_.walkGraph, hasLevels(), contents_.quantization.positionStep});
-  const StageProgress stage{progress_, "colours", stored_.live, foam_.cellCount};
+  const StageProgress stage{progress_, "colours", doneLive_, liveCount_};
   if (!colours_.fill(sources, faces, stage, chunk, errors)) return stoppedOnRequest("bake");
   fillFaces(faces, cells_, live, contents_.quantization, chunk, errors);
   chunk.solidBalls = makeSolidBalls(chunk, contents_.detailCount);
@@ -307,6 +308,7 @@ void Bake::keepCounts(const ChunkContents& chunk) {
   counts.cellCount = chunk.cellCount;
   counts.liveCount = chunk.liveCount;
   counts.ghostCount = chunk.ghostCount;
+  doneLive_ += chunk.liveCount;
 }
 
 void Bake::countStored(const ChunkContents& chunk) {
@@ -320,6 +322,7 @@ Status Bake::makeChunks() {
   if (options_.measure && isLossy(options_)) {
     baked_.emplace(contents_.detailCount, contents_.lobeCount, true, colours_.isCompressed());
   }
+  for (const PlannedChunk& chunk : plan_.chunks) liveCount_ += chunk.liveCount;
   AttributeErrors errors, errorsOfOthers;
   const size_t batchSize = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
   std::vector<ChunkContents> batch;
