@@ -79,8 +79,10 @@ void FoamAssembler::appendLobes(const ChunkContents& chunk, size_t bareDetails) 
 }
 
 Result<Foam> foamFromAsset(const AssetContents& contents) {
+  const auto isShown = [&](size_t index) { return contents.levels.empty() || contents.levels[index].level == 0; };
   uint64_t cellCount = 0;
   for (size_t index = 0; index < contents.chunks.size(); ++index) {
+    if (!isShown(index)) continue;
     if (Status status = checkChunk(contents, index); !status) return status.error();
     cellCount += contents.chunks[index].cellCount;
   }
@@ -92,7 +94,9 @@ Result<Foam> foamFromAsset(const AssetContents& contents) {
   FoamAssembler assembler(contents.detailCount, contents.lobeCount,
                           anyChunk([](const ChunkContents& chunk) { return !chunk.baseColours.empty(); }),
                           anyChunk([](const ChunkContents& chunk) { return !chunk.lobeCounts.empty(); }));
-  for (const ChunkContents& chunk : contents.chunks) assembler.append(chunk);
+  for (size_t index = 0; index < contents.chunks.size(); ++index) {
+    if (isShown(index)) assembler.append(contents.chunks[index]);
+  }
   return assembler.take();
 }
 

@@ -96,8 +96,9 @@ Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const 
 // The same into memory.
 Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const Progress& progress = {});
 
-// The foam that an asset shows: sites in world coordinates (rounded to float if the origin is not 0); cells in asset
-// order; cells that are not live get density 0 and grey details, so that any renderer of foams draws the asset.
+// The foam that an asset shows, of levels the finest: sites in world coordinates (rounded to float if the origin is not
+// 0); cells in asset order; cells that are not live get density 0 and grey details, so that any renderer of foams draws
+// the asset.
 Result<Foam> foamFromAsset(const AssetContents& contents);
 
 }  // namespace froth

@@ -9,9 +9,8 @@
 namespace froth {
 namespace {
 
-constexpr size_t kGroupChunks = 4;
-constexpr size_t kMostChunks = 6;     // of a group that takes in one that found no other
-constexpr uint64_t kApartWeight = 4;  // of pairs of neighbours across chunks that different groups made
+constexpr double kFull = 0.85, kOverfull = 1.5;  // live cells of a group, of those it should have
+constexpr uint64_t kApartWeight = 4;             // of pairs of neighbours across chunks that different groups made
 constexpr uint32_t kNone = 0xffffffff;
 
 struct Edge {
@@ -45,14 +44,19 @@ Adjacency countPairs(std::span<const LevelChunk> chunks, std::span<const uint32_
 
 class Grouping {
  public:
-  explicit Grouping(const Adjacency& adjacency) : adjacency_(adjacency), groupOf_(adjacency.size(), kNone) {}
+  // `live`: of each chunk.
+  Grouping(const Adjacency& adjacency, std::span<const uint32_t> live, uint64_t groupLive)
+      : adjacency_(adjacency),
+        live_(live),
+        groupLive_(static_cast<double>(groupLive)),
+        groupOf_(adjacency.size(), kNone) {}
 
   std::vector<std::vector<uint32_t>> run() {
     while (const std::optional<uint32_t> seed = chooseSeed()) {
       const auto group = static_cast<uint32_t>(groups_.size());
       groups_.emplace_back();
       add(*seed, group);
-      while (groups_[group].size() < kGroupChunks) {
+      while (liveOf(group) < kFull * groupLive_) {
         const std::optional<uint32_t> next = chooseNext(group);
         if (!next) break;
         add(*next, group);
@@ -66,6 +70,12 @@ class Grouping {
   void add(uint32_t chunk, uint32_t group) {
     groupOf_[chunk] = group;
     groups_[group].push_back(chunk);
+  }
+
+  double liveOf(uint32_t group) const {
+    double sum = 0;
+    for (const uint32_t chunk : groups_[group]) sum += live_[chunk];
+    return sum;
   }
 
   uint64_t weightTo(uint32_t chunk, uint32_t group) const {
@@ -108,7 +118,7 @@ class Grouping {
     uint64_t most = 0;
     for (const Edge& edge : adjacency_[chunk]) {
       const uint32_t group = groupOf_[edge.chunk];
-      if (groups_[group].size() >= kMostChunks) continue;
+      if (group == last || liveOf(group) + live_[chunk] > kOverfull * groupLive_) continue;
       const uint64_t weight = weightTo(chunk, group);
       if (weight > most || (weight == most && group < best)) best = group, most = weight;
     }
@@ -118,6 +128,8 @@ class Grouping {
   }
 
   const Adjacency& adjacency_;
+  std::span<const uint32_t> live_;
+  const double groupLive_;
   std::vector<uint32_t> groupOf_;  // [listed] kNone: none yet
   std::vector<std::vector<uint32_t>> groups_;
 };
@@ -125,9 +137,11 @@ class Grouping {
 }  // namespace
 
 std::vector<std::vector<uint32_t>> groupChunks(std::span<const LevelChunk> chunks, std::span<const uint32_t> listed,
-                                               uint32_t cellCount) {
+                                               uint32_t cellCount, uint64_t groupLive) {
   const Adjacency adjacency = countPairs(chunks, listed, cellCount);
-  std::vector<std::vector<uint32_t>> groups = Grouping(adjacency).run();
+  std::vector<uint32_t> live;
+  for (const uint32_t chunk : listed) live.push_back(chunks[chunk].planned.liveCount);
+  std::vector<std::vector<uint32_t>> groups = Grouping(adjacency, live, groupLive).run();
   for (std::vector<uint32_t>& group : groups) {
     for (uint32_t& chunk : group) chunk = listed[chunk];
     std::sort(group.begin(), group.end());

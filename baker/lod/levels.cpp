@@ -21,6 +21,7 @@
 namespace froth {
 namespace {
 
+constexpr uint32_t kGroupChunks = 4;  // full ones, of a group
 constexpr double kFloorShare = 0.02;  // of level 0's live cells: small enough to be the floor
 // An error grows at least by this factor from a group to those coarser, so that it does as a float too.
 constexpr double kErrorStep = 1 + 0x1p-20;
@@ -93,8 +94,9 @@ bool LevelMaker::forEachStep(std::vector<Step>& steps, const std::function<void(
 }
 
 Status LevelMaker::makeLevel() {
+  const uint64_t groupLive = uint64_t{kGroupChunks} * input_.chunkCells;
   std::vector<Step> steps;
-  for (std::vector<uint32_t>& group : groupChunks(chunks_, front_, cells_.count())) {
+  for (std::vector<uint32_t>& group : groupChunks(chunks_, front_, cells_.count(), groupLive)) {
     steps.emplace_back().group = std::move(group);
   }
   const LevelSource source{input_.foam, levels_.merged, cells_, contributions_, input_.lattices, input_.seed};

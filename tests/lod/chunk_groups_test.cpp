@@ -13,6 +13,7 @@ std::vector<LevelChunk> makeRowOfChunks(uint32_t count) {
   std::vector<LevelChunk> chunks(count);
   for (uint32_t index = 0; index < count; ++index) {
     LevelChunk& chunk = chunks[index];
+    chunk.planned.liveCount = 10;
     chunk.rows = {{{0}, {}}, {{0}, {}}};
     for (uint32_t k = 0; k < 10; ++k) {
       chunk.planned.cells.push_back(10 * index + k);
@@ -27,7 +28,7 @@ std::vector<LevelChunk> makeRowOfChunks(uint32_t count) {
 std::vector<std::vector<uint32_t>> groupAll(const std::vector<LevelChunk>& chunks) {
   std::vector<uint32_t> all(chunks.size());
   std::iota(all.begin(), all.end(), 0u);
-  return groupChunks(chunks, all, static_cast<uint32_t>(10 * chunks.size()));
+  return groupChunks(chunks, all, static_cast<uint32_t>(10 * chunks.size()), 40);
 }
 
 using Groups = std::vector<std::vector<uint32_t>>;
@@ -40,7 +41,14 @@ TEST(ChunkGroups, AChunkLeftOverJoinsItsNeighbours) {
   EXPECT_EQ(groupAll(makeRowOfChunks(9)), (Groups{{0, 1, 2, 3}, {4, 5, 6, 7, 8}}));
 }
 
-// Two columns of four chunks; each column was made by a group of its own.
+TEST(ChunkGroups, HaveMoreChunksWhereThoseAreSmall) {
+  std::vector<LevelChunk> chunks = makeRowOfChunks(10);
+  for (LevelChunk& chunk : chunks) chunk.planned.liveCount = 7;
+  EXPECT_EQ(groupAll(chunks), (Groups{{0, 1, 2, 3, 4}, {5, 6, 7, 8, 9}}));
+}
+
+// Two columns of four chunks; each column was made by a group of its own, and has twice as many pairs of neighbours in
+// it as it has with the other one.
 //   0 - 4
 //   |   |
 //   1 - 5
@@ -49,6 +57,7 @@ TEST(ChunkGroups, MixChunksOfDifferentMakers) {
   std::vector<LevelChunk> chunks(8);
   for (uint32_t index = 0; index < 8; ++index) {
     LevelChunk& chunk = chunks[index];
+    chunk.planned.liveCount = 10;
     chunk.place.madeBy = index / 4;
     const uint32_t row = index % 4;
     std::vector<uint32_t> others{index ^ 4};
@@ -57,7 +66,10 @@ TEST(ChunkGroups, MixChunksOfDifferentMakers) {
     chunk.rows = {{{0}, {}}, {{0}, {}}};
     for (uint32_t k = 0; k < 10; ++k) {
       chunk.planned.cells.push_back(10 * index + k);
-      for (const uint32_t other : others) chunk.rows.walk.neighbours.push_back(10 * other + k);
+      for (const uint32_t other : others) {
+        const uint32_t pairs = other == (index ^ 4) ? 1 : 2;
+        chunk.rows.walk.neighbours.insert(chunk.rows.walk.neighbours.end(), pairs, 10 * other + k);
+      }
       chunk.rows.walk.offsets.push_back(static_cast<uint32_t>(chunk.rows.walk.neighbours.size()));
     }
   }

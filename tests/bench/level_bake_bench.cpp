@@ -1,4 +1,4 @@
-// froth_bench_levels MODEL [options]: what levels of detail cost a bake, and what they are made of.
+// froth_bench_level_bake MODEL [options]: what levels of detail cost a bake, and what they are made of.
 //
 // For each level: chunks, live and other cells, ghosts, encoded bytes; what made the next one of it: groups, the share
 // of locked cells, merges, merges undone. Then the stages of the bake.
@@ -21,7 +21,7 @@ namespace froth {
 namespace {
 
 struct Options {
-  std::string model, cameras, preset = "default", scratch = "froth_bench_levels.froth";
+  std::string model, cameras, preset = "default", scratch = "froth_bench_level_bake.froth";
   uint32_t chunkCells = 8192;
   bool noSteiner = false;
 };
