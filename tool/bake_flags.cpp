@@ -13,6 +13,9 @@
 namespace froth {
 namespace {
 
+// Small enough to choose from, large enough that most of a group of four lies away from its border.
+constexpr uint32_t kLevelChunkCells = 8192;
+
 // A lattice step: 0 or a power of two.
 CLI::Validator stepUpTo(float most) {
   const auto check = [most](const std::string& text) -> std::string {
@@ -93,6 +96,7 @@ void BakeFlags::addTo(CLI::App& command) {
       ->check(numberBetween(0, kMaxNumber));
   command.add_flag("--no-walk", noWalk_, "No graph for walks: the asset can only be rasterized");
   command.add_flag("--no-steiner", noSteiner_, "No cells in empty space, which shorten walks");
+  command.add_flag("--lod,!--no-lod", options_.levels, "Levels of detail, for scenes larger than memory");
   command.add_flag("--no-measure", noMeasure_, "No PSNR on sample views");
   command
       .add_option_function<std::string>(
@@ -107,8 +111,8 @@ void BakeFlags::addTo(CLI::App& command) {
       .add_option("--memory-limit", options_.memoryLimit,
                   "Of the triangulation beside the input [bytes, or with KB, MB, GB]; works in pieces; 0: none")
       ->transform(CLI::AsSizeValue(false));
-  command.add_option("--chunk-cells", options_.chunkCells, "Most live cells of a chunk [1..1048576]")
-      ->capture_default_str()
+  command
+      .add_option("--chunk-cells", chunkCells_, "Most live cells of a chunk [1..1048576]; default: 16384, --lod 8192")
       ->check(countBetween(1, 1 << 20));
   command.add_option("--seed", options_.seed, "Of Steiner cells, codebook and checks")
       ->capture_default_str()
@@ -123,6 +127,8 @@ Result<BakeOptions> BakeFlags::options() const {
   BakeOptions options = options_;
   options.knobs = *knobs;
   for (const auto& change : changes_) change(options.knobs);
+  if (options.levels) options.chunkCells = kLevelChunkCells;
+  if (chunkCells_ > 0) options.chunkCells = chunkCells_;
   options.walkGraph = !noWalk_;
   options.steiner = !noSteiner_;
   options.measure = !noMeasure_;

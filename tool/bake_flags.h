@@ -29,6 +29,7 @@ class BakeFlags {
 
   BakeOptions options_;
   uint32_t threads_ = 0;
+  uint32_t chunkCells_ = 0;  // 0: not given
   bool noWalk_ = false, noSteiner_ = false, noMeasure_ = false;
   std::vector<std::function<void(BakeKnobs&)>> changes_;  // by the flags that were given
 };

@@ -84,6 +84,32 @@ void printChecks(const BakeResult& baked) {
              baked.validity.raysChecked);
 }
 
+double shareOf(uint64_t part, uint64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+void printLevels(const std::vector<LevelReport>& levels) {
+  for (size_t level = 0; level < levels.size(); ++level) {
+    const LevelReport& made = levels[level];
+    fmt::print("level {:<11} {} live cells in {} groups, {} get coarser: {:.1f} % locked, {} merges, {} undone\n",
+               level, made.live, made.groups + made.failed, made.groups, 100 * shareOf(made.locked, made.live),
+               made.merges, made.undone);
+  }
+}
+
+nlohmann::ordered_json levelsAsJson(const std::vector<LevelReport>& levels) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const LevelReport& made : levels) {
+    list.push_back({{"live", made.live},
+                    {"locked", made.locked},
+                    {"groups", made.groups},
+                    {"failedGroups", made.failed},
+                    {"merges", made.merges},
+                    {"undoneMerges", made.undone}});
+  }
+  return list;
+}
+
 nlohmann::ordered_json leftOutAsJson(const std::vector<LeftOut>& leftOut) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const LeftOut& entry : leftOut) list.push_back({{"what", entry.what}, {"savedBytes", entry.savedBytes}});
@@ -105,6 +131,7 @@ Result<nlohmann::ordered_json> reportBake(const BakeJob& job, const BakeResult& 
     printStages(baked.stages);
     printStatistics(baked.contents);
     printChecks(baked);
+    printLevels(baked.levels);
     printLeftOut(baked.leftOut);
     printSections(*written);
     fmt::print("{}: {} bytes\n", job.output.string(), bytes);
@@ -116,6 +143,7 @@ Result<nlohmann::ordered_json> reportBake(const BakeJob& job, const BakeResult& 
                                 {"statistics", statisticsAsJson(baked.contents)},
                                 {"walkLength", {{"without", baked.walkLengthBefore}, {"with", baked.walkLengthAfter}}},
                                 {"checks", checksAsJson(baked)},
+                                {"levels", levelsAsJson(baked.levels)},
                                 {"leftOut", leftOutAsJson(baked.leftOut)},
                                 {"sections", sectionsAsJson(*written)}};
 }

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "baker/input/foam_input.h"
+#include "baker/lod/cut.h"
 #include "baker/verify/cost_estimate.h"
-#include "baker/verify/level_scene.h"
 #include "baker/verify/scene_check.h"
 #include "format/levels.h"
 #include "format/read/asset_reader.h"
@@ -29,9 +29,18 @@ void printReport(const std::filesystem::path& path, const ValidityReport& found,
 void printLevelChecks(const AssetContents& contents) {
   if (contents.levels.empty()) return;
   fmt::print(
-      "levels            {}, each a whole foam; {} groups, both forms of each with the same neighbours outside\n",
+      "levels            {}, {} groups: both forms of each with the same neighbours outside; the finest scene, the "
+      "floor and a "
+      "mixture are whole foams\n",
       countLevels(contents.levels), contents.groups.size());
   fmt::print("borders           {}, each the same ball wherever it stands\n", contents.borderCount);
+}
+
+// Of level 0.
+Result<CostEstimate> estimateFinest(const AssetContents& contents) {
+  const Result<AssetContents> finest = contentsOfCut(contents, std::vector<uint8_t>(contents.groups.size(), 1));
+  if (!finest) return finest.error();
+  return estimateCost(*finest);
 }
 
 nlohmann::ordered_json asJson(const std::filesystem::path& path, const ValidityReport& found,
@@ -54,12 +63,13 @@ Status runVerify(const std::filesystem::path& path, const FiguresOutput& output,
   const Result<ValidityReport> found = checkScene(*contents, progress);
   if (!found) return makeError(found.error().kind, "%s: %s", path.c_str(), found.error().message.c_str());
   const bool hasLevels = !contents->levels.empty();
-  const CostEstimate cost = hasLevels ? estimateCost(sceneOfLevel(*contents, 0)) : estimateCost(*contents);
+  const Result<CostEstimate> cost = hasLevels ? estimateFinest(*contents) : estimateCost(*contents);
+  if (!cost) return cost.error();
   if (output.wantsTable()) {
-    printReport(path, *found, cost);
+    printReport(path, *found, *cost);
     printLevelChecks(*contents);
   }
-  nlohmann::ordered_json figures = asJson(path, *found, cost);
+  nlohmann::ordered_json figures = asJson(path, *found, *cost);
   figures["checks"]["levels"] = hasLevels ? countLevels(contents->levels) : 0;
   figures["checks"]["groups"] = contents->groups.size();
   figures["checks"]["borders"] = contents->borderCount;

@@ -78,6 +78,13 @@ Result<AppearanceCoder> AppearanceCoder::create(const Foam& foam, const Visibili
   return coder;
 }
 
+AppearanceCoder AppearanceCoder::forFoam(const Foam& foam) const {
+  AppearanceCoder coder = *this;
+  coder.foam_ = &foam;
+  coder.model_ = std::make_shared<const Model>(Model{Observer(foam, nullptr, -1), model_->codebook});
+  return coder;
+}
+
 const std::vector<glm::vec3>& AppearanceCoder::codebook() const { return model_->codebook.entries(); }
 
 CellAppearance AppearanceCoder::compress(std::span<const uint32_t> cells) const {

@@ -53,6 +53,10 @@ class AppearanceCoder {
   static Result<AppearanceCoder> create(const Foam& foam, const Visibility* visibility,
                                         const AppearanceOptions& options, const Progress& progress = {});
 
+  // The same for another foam, of which it keeps a reference: its directions are the hemisphere before each face, its
+  // axes those of the same codebook.
+  AppearanceCoder forFoam(const Foam& foam) const;
+
   const std::vector<glm::vec3>& codebook() const;
   // Thread-safe. Each cell's result depends on that cell (and the codebook) alone, so the order and grouping
   // of calls do not matter. Values lie on the lattices of the options and of the codebook.

@@ -80,10 +80,10 @@ void FoamAssembler::appendLobes(const ChunkContents& chunk, size_t bareDetails) 
 }
 
 Result<Foam> foamFromAsset(const AssetContents& contents) {
+  const auto isShown = [&](size_t index) { return contents.levels.empty() || contents.levels[index].level == 0; };
   uint64_t cellCount = 0;
-  const auto isWanted = [&](size_t index) { return contents.levels.empty() || isInLevel(contents.levels[index], 0); };
   for (size_t index = 0; index < contents.chunks.size(); ++index) {
-    if (!isWanted(index)) continue;
+    if (!isShown(index)) continue;
     if (Status status = checkChunk(contents, index); !status) return status.error();
     cellCount += contents.chunks[index].cellCount;
   }
@@ -96,7 +96,7 @@ Result<Foam> foamFromAsset(const AssetContents& contents) {
                           anyChunk([](const ChunkContents& chunk) { return !chunk.baseColours.empty(); }),
                           anyChunk([](const ChunkContents& chunk) { return !chunk.lobeCounts.empty(); }));
   for (size_t index = 0; index < contents.chunks.size(); ++index) {
-    if (isWanted(index)) assembler.append(contents.chunks[index]);
+    if (isShown(index)) assembler.append(contents.chunks[index]);
   }
   return assembler.take();
 }

@@ -13,17 +13,20 @@
 #include "baker/bake/check_foam.h"
 #include "baker/bake/chunk_attributes.h"
 #include "baker/bake/chunk_geometry.h"
-#include "baker/bake/chunk_plan.h"
 #include "baker/bake/colour_source.h"
 #include "baker/bake/cull_unseen.h"
 #include "baker/bake/eye_region.h"
+#include "baker/bake/lattices.h"
 #include "baker/bake/left_out.h"
-#include "baker/bake/mark_cells.h"
 #include "baker/bake/sample_views.h"
-#include "baker/bake/snap_cells.h"
 #include "baker/bake/solid_balls.h"
 #include "baker/bake/sort_details.h"
 #include "baker/bake/stage_recorder.h"
+#include "baker/cells/chunk_plan.h"
+#include "baker/cells/mark_cells.h"
+#include "baker/cells/snap_cells.h"
+#include "baker/lod/gather_cells.h"
+#include "baker/lod/levels.h"
 #include "baker/steiner/steiner.h"
 
 namespace froth {
@@ -69,13 +72,18 @@ class Bake {
   Status triangulate();
   Status mark();
   Status check();
+  Status makeCoarser();
   Status prepareColours();
   void fillHeader();
   Status makeChunks();
   Status measure();
 
   Result<ChunkContents> makeChunk(uint32_t index, AttributeErrors& errors);
+  bool hasLevels() const { return !levels_.groups.empty(); }
+  // Level 0 is the foam; statistics and measures know nothing of the others.
+  bool isLevel0(uint32_t chunk) const { return !hasLevels() || levels_.places[chunk].level == 0; }
   void keepCounts(const ChunkContents& chunk);
+  void countStored(const ChunkContents& chunk);
 
   const Foam& foam_;
   const BakeOptions& options_;
@@ -91,9 +99,11 @@ class Bake {
   RegularTriangulation triangulation_;
   AlphaComplex alpha_;
   ChunkPlan plan_;
+  Levels levels_;  // none: empty
   ColourSource colours_;
-  StoredCounts stored_;
-  std::optional<FoamAssembler> baked_;  // for measuring
+  StoredCounts stored_;                    // of level 0
+  uint64_t doneLive_ = 0, liveCount_ = 0;  // live cells of chunks: finished ones, all
+  std::optional<FoamAssembler> baked_;     // for measuring
 };
 
 Status Bake::run() {
@@ -113,13 +123,15 @@ Status Bake::run() {
   if (Status status = mark(); !status) return status;
   // 6. The graphs against brute force.
   if (Status status = check(); !status) return status;
-  // 7. How colours will be stored; a codebook is shared, so it goes first.
+  // 7. Coarser levels, group by group.
+  if (Status status = makeCoarser(); !status) return status;
+  // 8. How colours will be stored; a codebook is shared, so it goes first.
   if (Status status = prepareColours(); !status) return status;
   fillHeader();
   if (Status status = sink_.begin(contents_); !status) return status;
-  // 8. Chunk after chunk into the sink: memory holds a few of them.
+  // 9. Chunk after chunk into the sink: memory holds a few of them.
   if (Status status = makeChunks(); !status) return status;
-  // 9. What the asset looks like beside the input.
+  // 10. What the asset looks like beside the input.
   return measure();
 }
 
@@ -170,6 +182,7 @@ Status Bake::placeSteiner() {
   if (!added) return added.error();
   cells_.sites.insert(cells_.sites.end(), added->sites.begin(), added->sites.end());
   cells_.radii.insert(cells_.radii.end(), added->radii.begin(), added->radii.end());
+  cells_.densities.resize(cells_.sites.size(), 0);
   cells_.sources.resize(cells_.sites.size(), kNoSource);
   result_.walkLengthBefore = added->walkLengthBefore;
   result_.walkLengthAfter = added->walkLengthAfter;
@@ -212,9 +225,42 @@ Status Bake::check() {
                    result_.validity.faults.front().c_str());
 }
 
+// How much each cell of the input shows in all views.
+std::vector<double> sumWeights(const Foam& foam, const Visibility& visibility) {
+  std::vector<double> sums(foam.cellCount, 0);
+  for (size_t detail = 0; detail + 1 < visibility.offsets.size(); ++detail) {
+    for (uint64_t entry = visibility.offsets[detail]; entry < visibility.offsets[detail + 1]; ++entry) {
+      sums[detail / foam.detailCount] += visibility.weights[entry];
+    }
+  }
+  return sums;
+}
+
+Status Bake::makeCoarser() {
+  if (!options_.levels) return {};
+  const LevelInput input{foam_,
+                         triangulation_.graph,
+                         alpha_.graph,
+                         plan_,
+                         contents_.quantization,
+                         options_.chunkCells,
+                         visibility_ ? sumWeights(foam_, *visibility_) : std::vector<double>{},
+                         options_.seed};
+  Result<Levels> levels = makeLevels(input, cells_, progress_);
+  if (!levels) return levels.error();
+  levels_ = std::move(*levels);
+  recorder_.finish("levels", levels_.merged.cellCount);
+  if (!hasLevels()) return {};
+  plan_ = std::move(levels_.plan);
+  triangulation_ = {};  // the levels have rows of their own
+  alpha_ = {};
+  result_.levels = levels_.reports;
+  return {};
+}
+
 Status Bake::prepareColours() {
   Result<ColourSource> colours =
-      ColourSource::create(foam_, visibility_ ? &*visibility_ : nullptr, options_, progress_);
+      ColourSource::create(foam_, levels_.merged, visibility_ ? &*visibility_ : nullptr, options_, progress_);
   if (!colours) return colours.error();
   colours_ = std::move(*colours);
   recorder_.finish("codebook", colours_.codebook().size());
@@ -231,6 +277,9 @@ void Bake::fillHeader() {
   contents_.preset = options_.preset;
   contents_.source = options_.source;
   contents_.axisCodebook = colours_.codebook();
+  contents_.levels = levels_.places;
+  contents_.groups = levels_.groups;
+  contents_.borderCount = levels_.borderCount;
   if (options_.cameras) storeCameras(*options_.cameras, contents_);
 }
 
@@ -239,12 +288,14 @@ Result<ChunkContents> Bake::makeChunk(uint32_t index, AttributeErrors& errors) {
   const std::span<const uint32_t> live(planned.cells.data(), planned.liveCount);
   std::vector<uint32_t> sources;
   for (const uint32_t cell : live) sources.push_back(cells_.sources[cell]);
-  ChunkContents chunk =
-      makeChunkGeometry(cells_, plan_, index, {triangulation_.graph, alpha_.graph, options_.walkGraph},
-                        contents_.quantization.positionStep);
-  const StageProgress stage{progress_, "colours", stored_.live, foam_.cellCount};
-  if (!colours_.fill(sources, stage, chunk, errors)) return stoppedOnRequest("bake");
-  fillFaces(foam_, cells_, live, contents_.quantization, chunk, errors);
+  const Foam faces = gatherCells(foam_, levels_.merged, sources);
+  const CellRows rows =
+      hasLevels() ? std::move(levels_.rows[index]) : gatherRows(triangulation_.graph, alpha_.graph, planned.cells);
+  ChunkContents chunk = makeChunkGeometry(cells_, planned, rows, plan_.refs,
+                                          {options_.walkGraph, hasLevels(), contents_.quantization.positionStep});
+  const StageProgress stage{progress_, "colours", doneLive_, liveCount_};
+  if (!colours_.fill(sources, faces, stage, chunk, errors)) return stoppedOnRequest("bake");
+  fillFaces(faces, cells_, live, contents_.quantization, chunk, errors);
   chunk.solidBalls = makeSolidBalls(chunk, contents_.detailCount);
   if (contents_.quantization.detailSiteStep > 0) sortDetails(contents_.detailCount, chunk);
   return chunk;
@@ -257,6 +308,10 @@ void Bake::keepCounts(const ChunkContents& chunk) {
   counts.cellCount = chunk.cellCount;
   counts.liveCount = chunk.liveCount;
   counts.ghostCount = chunk.ghostCount;
+  doneLive_ += chunk.liveCount;
+}
+
+void Bake::countStored(const ChunkContents& chunk) {
   stored_.cells += chunk.cellCount;
   stored_.live += chunk.liveCount;
   stored_.detailHeights += chunk.detailHeights.size();
@@ -267,15 +322,21 @@ Status Bake::makeChunks() {
   if (options_.measure && isLossy(options_)) {
     baked_.emplace(contents_.detailCount, contents_.lobeCount, true, colours_.isCompressed());
   }
-  AttributeErrors errors;
+  for (const PlannedChunk& chunk : plan_.chunks) liveCount_ += chunk.liveCount;
+  AttributeErrors errors, errorsOfOthers;
   const size_t batchSize = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
   std::vector<ChunkContents> batch;
   for (uint32_t index = 0; index < plan_.chunks.size(); ++index) {
-    Result<ChunkContents> chunk = makeChunk(index, errors);
+    Result<ChunkContents> chunk = makeChunk(index, isLevel0(index) ? errors : errorsOfOthers);
     if (!chunk) return chunk.error();
     keepCounts(*chunk);
-    if (baked_) baked_->append(*chunk);
-    for (const uint32_t cell : plan_.chunks[index].cells) result_.sourceCells.push_back(cells_.sources[cell]);
+    if (isLevel0(index)) {
+      countStored(*chunk);
+      if (baked_) baked_->append(*chunk);
+    }
+    for (const uint32_t cell : plan_.chunks[index].cells) {
+      result_.sourceCells.push_back(cells_.sources[cell] < foam_.cellCount ? cells_.sources[cell] : kNoSource);
+    }
     batch.push_back(std::move(*chunk));
     if (batch.size() < batchSize && index + 1 < plan_.chunks.size()) continue;
     if (Status status = sink_.append(std::exchange(batch, {})); !status) return status;

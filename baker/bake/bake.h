@@ -1,5 +1,5 @@
 // From a foam to an asset: snap to lattices -> Steiner cells -> triangulate -> mark -> alpha-complex -> chunk ->
-// encode.
+// coarser levels -> encode.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "baker/appearance/appearance.h"
+#include "baker/cells/cells.h"
 #include "baker/graph/graph.h"
+#include "baker/lod/level_report.h"
 #include "base/progress.h"
 #include "base/result.h"
 #include "foam/foam.h"
@@ -47,7 +49,8 @@ struct BakeOptions {
   bool walkGraph = true;
   bool steiner = true;          // ignored without walk graph
   float cullUnseen = 0;         // drops live cells whose largest T alpha in all cameras is not above this; 0: none
-  uint32_t chunkCells = 16384;  // most live cells of a chunk
+  uint32_t chunkCells = 16384;  // most live cells of a chunk; half of that is good for levels
+  bool levels = false;          // levels of detail (docs/STREAMING.md); they need the walk graph
   uint64_t memoryLimit = 0;     // of the triangulation, beside the input [bytes]; 0: none. Else in pieces
   uint64_t seed = 1;
   bool measure = true;                 // PSNR of a lossy asset on sample views
@@ -73,13 +76,13 @@ struct BakeResult {
   AssetContents contents;  // `chunks` hold origins and counts; with their arrays only if they were asked for
   std::vector<StageReport> stages;
   std::vector<LeftOut> leftOut;
+  std::vector<LevelReport> levels;  // from level 0 on; none: a bake without levels, or nothing gets coarser
   ValidityReport validity;
   // mean steps per ray without and with Steiner cells; 0: none placed
   double walkLengthBefore = 0, walkLengthAfter = 0;
-  // [cells in the asset, chunk after chunk] index in the input foam; kNoSource: Steiner
+  // [cells in the asset, chunk after chunk] index in the input foam; kNoSource: Steiner or merged
   std::vector<uint32_t> sourceCells;
 };
-inline constexpr uint32_t kNoSource = 0xffffffff;
 
 // Takes what a bake makes: first the header (all but chunks, statistics and errors), then the chunks in order.
 struct ChunkSink {
@@ -93,8 +96,9 @@ Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const 
 // The same into memory.
 Result<BakeResult> bakeFoam(const Foam& foam, const BakeOptions& options, const Progress& progress = {});
 
-// The foam that an asset shows: sites in world coordinates (rounded to float if the origin is not 0); cells in asset
-// order; cells that are not live get density 0 and grey details, so that any renderer of foams draws the asset.
+// The foam that an asset shows, of levels the finest: sites in world coordinates (rounded to float if the origin is not
+// 0); cells in asset order; cells that are not live get density 0 and grey details, so that any renderer of foams draws
+// the asset.
 Result<Foam> foamFromAsset(const AssetContents& contents);
 
 }  // namespace froth

@@ -140,6 +140,9 @@ Status checkOptions(const BakeOptions& options) {
                      double{options.nearRatio}, double{options.nearDepth});
   }
   if (options.chunkCells == 0) return makeError(ErrorKind::kUsage, "chunk cells: found 0; give at least 1");
+  if (options.levels && !options.walkGraph) {
+    return makeError(ErrorKind::kUsage, "levels of detail are made from the walk graph; bake with it");
+  }
   return checkEyes(options);
 }
 

@@ -5,25 +5,12 @@
 
 #include <tbb/parallel_for.h>
 
-#include "baker/bake/snap_cells.h"
+#include "baker/cells/snap_cells.h"
 #include "foam/detail_colour.h"
 #include "format/lattice.h"
 
 namespace froth {
 namespace {
-
-// The values of the listed cells, `perCell` each; none if there are none.
-template <class T>
-std::vector<T> gather(const std::vector<T>& values, std::span<const uint32_t> cells, size_t perCell) {
-  std::vector<T> gathered;
-  if (values.empty()) return gathered;
-  gathered.reserve(cells.size() * perCell);
-  for (const uint32_t cell : cells) {
-    const auto first = values.begin() + static_cast<ptrdiff_t>(cell * perCell);
-    gathered.insert(gathered.end(), first, first + static_cast<ptrdiff_t>(perCell));
-  }
-  return gathered;
-}
 
 double relativeError(float stored, float input) { return input > 0 ? stored / double{input} - 1 : stored; }
 
@@ -59,60 +46,49 @@ bool hasVaryingLobes(const Foam& foam, uint64_t detail) {
   return false;
 }
 
-void fillLobes(const Foam& foam, std::span<const uint32_t> sources, ChunkContents& chunk) {
-  for (const uint32_t cell : sources) {
-    const uint64_t first = lobesOf(foam, uint64_t{cell} * foam.detailCount).first;
-    uint64_t last = first;
-    for (uint32_t k = 0; k < foam.detailCount; ++k) {
-      const LobeRange lobes = lobesOf(foam, uint64_t{cell} * foam.detailCount + k);
-      if (!foam.lobeOffsets.empty()) chunk.lobeCounts.push_back(static_cast<uint8_t>(lobes.count));
-      last = lobes.first + lobes.count;
-    }
-    chunk.lobeAxes.insert(chunk.lobeAxes.end(), foam.lobeAxes.begin() + first, foam.lobeAxes.begin() + last);
-    chunk.lobeColours.insert(chunk.lobeColours.end(), foam.lobeColours.begin() + first,
-                             foam.lobeColours.begin() + last);
+void countLobes(const Foam& faces, ChunkContents& chunk) {
+  for (size_t detail = 0; detail + 1 < faces.lobeOffsets.size(); ++detail) {
+    chunk.lobeCounts.push_back(static_cast<uint8_t>(lobesOf(faces, detail).count));
   }
 }
 
 // The one colour of each detail site, as its base.
-void fillPlainColours(const Foam& foam, std::span<const uint32_t> sources, ChunkContents& chunk) {
-  for (const uint32_t cell : sources) {
-    for (uint32_t k = 0; k < foam.detailCount; ++k) {
-      const uint64_t detail = uint64_t{cell} * foam.detailCount + k;
-      const LobeRange lobes = lobesOf(foam, detail);
-      glm::vec3 base = foam.baseColours.empty() ? glm::vec3(0) : foam.baseColours[detail];
-      if (lobes.count > 0) base += foam.lobeColours[lobes.first];
-      chunk.baseColours.push_back(base);
-    }
+void fillPlainColours(const Foam& faces, ChunkContents& chunk) {
+  const uint64_t details = uint64_t{faces.cellCount} * faces.detailCount;
+  for (uint64_t detail = 0; detail < details; ++detail) {
+    const LobeRange lobes = lobesOf(faces, detail);
+    glm::vec3 base = faces.baseColours.empty() ? glm::vec3(0) : faces.baseColours[detail];
+    if (lobes.count > 0) base += faces.lobeColours[lobes.first];
+    chunk.baseColours.push_back(base);
   }
 }
 
 }  // namespace
 
-void fillFaces(const Foam& foam, const BakeCells& cells, std::span<const uint32_t> live, const Quantization& lattices,
+void fillFaces(const Foam& faces, const BakeCells& cells, std::span<const uint32_t> live, const Quantization& lattices,
                ChunkContents& chunk, AttributeErrors& errors) {
-  const uint32_t details = foam.detailCount;
+  const uint32_t details = faces.detailCount;
   bool isFlat = true;
   for (size_t i = 0; i < live.size(); ++i) {
-    const uint32_t cell = live[i], source = cells.sources[cell];
+    const uint32_t cell = live[i];
     const float detailUnit = unitOf(lattices.detailSiteStep, chunk.detailScales, i);
     const float heightUnit = unitOf(lattices.heightStep, chunk.detailScales, i);
-    errors.sites.add(glm::distance(glm::dvec3(cells.sites[cell]), glm::dvec3(foam.sites[source])));
-    errors.radii.add(relativeError(cells.radii[cell], foam.radii[source]));
-    errors.densities.add(relativeError(cells.densities[cell], foam.densities[source]));
-    const SnappedFace face = snapFace(foam.orientations[source], lattices);
+    errors.sites.add(glm::distance(glm::dvec3(cells.sites[cell]), glm::dvec3(faces.sites[i])));
+    errors.radii.add(relativeError(cells.radii[cell], faces.radii[i]));
+    errors.densities.add(relativeError(cells.densities[cell], faces.densities[i]));
+    const SnappedFace face = snapFace(faces.orientations[i], lattices);
     errors.normals.add(angleBetween(face.from.normal, face.to.normal));
     chunk.densities.push_back(cells.densities[cell]);
     chunk.orientations.push_back(face.orientation);
 
     double heightSum = 0;
-    for (size_t k = size_t{source} * details; k < (size_t{source} + 1) * details; ++k) {
-      const glm::dvec2 place(foam.detailSites[k]), snapped(snapDetailSite(face, foam.detailSites[k], detailUnit));
+    for (size_t k = i * details; k < (i + 1) * details; ++k) {
+      const glm::dvec2 place(faces.detailSites[k]), snapped(snapDetailSite(face, faces.detailSites[k], detailUnit));
       errors.detailSites.add(glm::distance(place.x * face.from.tangent + place.y * face.from.bitangent,
                                            snapped.x * face.to.tangent + snapped.y * face.to.bitangent));
       chunk.detailSites.emplace_back(snapped);
-      const float height = snapToStep(foam.detailHeights[k], heightUnit);
-      errors.detailHeights.add(double{height} - foam.detailHeights[k]);
+      const float height = snapToStep(faces.detailHeights[k], heightUnit);
+      errors.detailHeights.add(double{height} - faces.detailHeights[k]);
       chunk.detailHeights.push_back(height);
       isFlat = isFlat && height == 0;
       heightSum += height;
@@ -122,12 +98,14 @@ void fillFaces(const Foam& foam, const BakeCells& cells, std::span<const uint32_
   if (isFlat) chunk.detailHeights = chunk.cellHeights = {};
 }
 
-void fillColours(const Foam& foam, std::span<const uint32_t> sources, bool keepsLobes, ChunkContents& chunk) {
-  chunk.cellColours.resize(sources.size());
-  tbb::parallel_for(size_t{0}, sources.size(), [&](size_t i) { chunk.cellColours[i] = meanColour(foam, sources[i]); });
-  if (!keepsLobes) return fillPlainColours(foam, sources, chunk);
-  chunk.baseColours = gather(foam.baseColours, sources, foam.detailCount);
-  fillLobes(foam, sources, chunk);
+void fillColours(const Foam& faces, bool keepsLobes, ChunkContents& chunk) {
+  chunk.cellColours.resize(faces.cellCount);
+  tbb::parallel_for(0u, faces.cellCount, [&](uint32_t cell) { chunk.cellColours[cell] = meanColour(faces, cell); });
+  if (!keepsLobes) return fillPlainColours(faces, chunk);
+  chunk.baseColours = faces.baseColours;
+  countLobes(faces, chunk);
+  chunk.lobeAxes = faces.lobeAxes;
+  chunk.lobeColours = faces.lobeColours;
 }
 
 bool isViewDependent(const Foam& foam) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "format/graph_rows.h"
 #include "format/quantization.h"
@@ -12,34 +14,44 @@ namespace {
 
 class ChunkGeometry {
  public:
-  ChunkGeometry(const BakeCells& cells, const ChunkPlan& plan, uint32_t index, const SceneGraphs& graphs)
-      : cells_(cells), plan_(plan), index_(index), graphs_(graphs), own_(plan.chunks[index].cells) {
+  ChunkGeometry(const BakeCells& cells, const PlannedChunk& planned, const CellRows& rows,
+                std::span<const CellRef> refs, const ChunkGeometryOptions& options)
+      : cells_(cells), rows_(rows), refs_(refs), options_(options), own_(planned.cells) {
     chunk_.cellCount = static_cast<uint32_t>(own_.size());
-    chunk_.liveCount = plan.chunks[index].liveCount;
+    chunk_.liveCount = planned.liveCount;
+    for (uint32_t local = 0; local < chunk_.cellCount; ++local) places_.emplace_back(own_[local], local);
+    std::sort(places_.begin(), places_.end());
   }
 
-  ChunkContents fill(double positionStep) {
+  ChunkContents fill() {
     findGhosts();
-    chooseOrigin(positionStep);
+    chooseOrigin();
     for (const uint32_t cell : own_) addSite(cell);
-    for (const CellRef ref : chunk_.ghostRefs) addSite(plan_.chunks[plan_.chunkOf(ref)].cells[plan_.localOf(ref)]);
+    for (const Ghost& ghost : ghosts_) addSite(ghost.cell);
+    if (options_.hasLevels) fillBorders();
     fillRows();
     return std::move(chunk_);
   }
 
  private:
+  struct Ghost {
+    CellRef ref;
+    uint32_t cell;
+    auto operator<=>(const Ghost&) const = default;
+  };
+
   // Visits the neighbours in a cell's row, the alpha-complex first; visit(neighbour, isAlpha). Without a walk graph
   // only live cells have rows.
   template <class Visit>
   void visitRow(uint32_t local, Visit&& visit) const {
-    const std::span<const uint32_t> alpha = neighboursOf(graphs_.alpha, own_[local]);
+    const std::span<const uint32_t> alpha = neighboursOf(rows_.alpha, local);
     auto next = alpha.end();
     if (local < chunk_.liveCount) {
       for (const uint32_t neighbour : alpha) visit(neighbour, true);
       next = alpha.begin();
     }
-    if (!graphs_.hasWalkGraph) return;
-    for (const uint32_t neighbour : neighboursOf(graphs_.walk, own_[local])) {
+    if (!options_.hasWalkGraph) return;
+    for (const uint32_t neighbour : neighboursOf(rows_.walk, local)) {
       if (next != alpha.end() && *next == neighbour) {
         ++next;  // both rows ascend
       } else {
@@ -48,21 +60,29 @@ class ChunkGeometry {
     }
   }
 
+  // The local index of a cell of this chunk.
+  std::optional<uint32_t> placeOf(uint32_t cell) const {
+    const auto place = std::lower_bound(places_.begin(), places_.end(), std::pair(cell, 0u));
+    if (place == places_.end() || place->first != cell) return std::nullopt;
+    return place->second;
+  }
+
   void findGhosts() {
-    std::vector<CellRef>& refs = chunk_.ghostRefs;
     for (uint32_t local = 0; local < chunk_.cellCount; ++local) {
       visitRow(local, [&](uint32_t neighbour, bool) {
-        if (plan_.chunkOf(plan_.refs[neighbour]) != index_) refs.push_back(plan_.refs[neighbour]);
+        if (!placeOf(neighbour)) ghosts_.push_back({refs_[neighbour], neighbour});
       });
     }
-    std::sort(refs.begin(), refs.end());
-    refs.erase(std::unique(refs.begin(), refs.end()), refs.end());
-    chunk_.ghostCount = static_cast<uint32_t>(refs.size());
+    std::sort(ghosts_.begin(), ghosts_.end());
+    ghosts_.erase(std::unique(ghosts_.begin(), ghosts_.end()), ghosts_.end());
+    for (const Ghost& ghost : ghosts_) chunk_.ghostRefs.push_back(ghost.ref);
+    chunk_.ghostCount = static_cast<uint32_t>(ghosts_.size());
   }
 
   // The middle of the live cells: the others do not move it, so an image is the same with and without Steiner cells.
-  void chooseOrigin(double positionStep) {
-    if (positionStep == 0) return;
+  void chooseOrigin() {
+    const double step = options_.positionStep;
+    if (step == 0) return;
     const uint32_t count = chunk_.liveCount > 0 ? chunk_.liveCount : chunk_.cellCount;
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (uint32_t local = 0; local < count; ++local) {
@@ -70,7 +90,7 @@ class ChunkGeometry {
       low = glm::min(low, site);
       high = glm::max(high, site);
     }
-    for (int axis = 0; axis < 3; ++axis) chunk_.origin[axis] = snapToStep(0.5 * (low[axis] + high[axis]), positionStep);
+    for (int axis = 0; axis < 3; ++axis) chunk_.origin[axis] = snapToStep(0.5 * (low[axis] + high[axis]), step);
   }
 
   void addSite(uint32_t cell) {
@@ -79,12 +99,19 @@ class ChunkGeometry {
     chunk_.radii.push_back(cells_.radii[cell]);
   }
 
+  void fillBorders() {
+    for (uint32_t local = 0; local < chunk_.cellCount; ++local) {
+      if (refs_[own_[local]] == kNoRef) continue;
+      chunk_.borderCells.push_back(local);
+      chunk_.borderNumbers.push_back(refs_[own_[local]]);
+    }
+  }
+
   // Of a neighbour, in the chunk's sites.
   uint32_t indexOf(uint32_t cell) const {
-    const CellRef ref = plan_.refs[cell];
-    if (plan_.chunkOf(ref) == index_) return plan_.localOf(ref);
-    const auto ghost = std::lower_bound(chunk_.ghostRefs.begin(), chunk_.ghostRefs.end(), ref);
-    return chunk_.cellCount + static_cast<uint32_t>(ghost - chunk_.ghostRefs.begin());
+    if (const std::optional<uint32_t> place = placeOf(cell)) return *place;
+    const auto ghost = std::lower_bound(ghosts_.begin(), ghosts_.end(), Ghost{refs_[cell], cell});
+    return chunk_.cellCount + static_cast<uint32_t>(ghost - ghosts_.begin());
   }
 
   void fillRows() {
@@ -103,18 +130,20 @@ class ChunkGeometry {
   }
 
   const BakeCells& cells_;
-  const ChunkPlan& plan_;
-  const uint32_t index_;
-  const SceneGraphs& graphs_;
+  const CellRows& rows_;
+  std::span<const CellRef> refs_;
+  const ChunkGeometryOptions& options_;
   const std::vector<uint32_t>& own_;
+  std::vector<std::pair<uint32_t, uint32_t>> places_;  // cell of the scene, local index; ascending
+  std::vector<Ghost> ghosts_;                          // ascending
   ChunkContents chunk_;
 };
 
 }  // namespace
 
-ChunkContents makeChunkGeometry(const BakeCells& cells, const ChunkPlan& plan, uint32_t index,
-                                const SceneGraphs& graphs, double positionStep) {
-  return ChunkGeometry(cells, plan, index, graphs).fill(positionStep);
+ChunkContents makeChunkGeometry(const BakeCells& cells, const PlannedChunk& planned, const CellRows& rows,
+                                std::span<const CellRef> refs, const ChunkGeometryOptions& options) {
+  return ChunkGeometry(cells, planned, rows, refs, options).fill();
 }
 
 }  // namespace froth

@@ -1,22 +1,22 @@
 // Fills the geometry of a chunk: sites and radii of own cells and ghosts, and the graph. Internal to baker/bake.
 #pragma once
 
-#include "baker/bake/cells.h"
-#include "baker/bake/chunk_plan.h"
-#include "foam/cell_graph.h"
+#include <span>
+
+#include "baker/cells/cells.h"
+#include "baker/cells/chunk_plan.h"
 #include "format/asset_contents.h"
 
 namespace froth {
 
-// What all chunks are made from.
-struct SceneGraphs {
-  const CellGraph& walk;   // the regular triangulation
-  const CellGraph& alpha;  // part of it
-  bool hasWalkGraph;
+// Fills cellCount .. alphaCounts. `rows`: of the chunk's cells. `refs`: ChunkPlan::refs. Without a walk graph rows have
+// the alpha-complex of live cells alone. With levels it fills the borders too. positionStep 0: world coordinates.
+struct ChunkGeometryOptions {
+  bool hasWalkGraph = true;
+  bool hasLevels = false;
+  double positionStep = 0;
 };
-
-// Fills cellCount .. alphaCounts. positionStep 0: world coordinates.
-ChunkContents makeChunkGeometry(const BakeCells& cells, const ChunkPlan& plan, uint32_t index,
-                                const SceneGraphs& graphs, double positionStep);
+ChunkContents makeChunkGeometry(const BakeCells& cells, const PlannedChunk& planned, const CellRows& rows,
+                                std::span<const CellRef> refs, const ChunkGeometryOptions& options);
 
 }  // namespace froth

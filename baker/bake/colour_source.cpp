@@ -5,7 +5,7 @@
 
 #include "baker/bake/chunk_attributes.h"
 #include "baker/bake/eye_region.h"
-#include "baker/bake/snap_cells.h"
+#include "baker/bake/lattices.h"
 
 namespace froth {
 namespace {
@@ -28,12 +28,30 @@ void appendAppearance(const CellAppearance& cells, ChunkContents& chunk, Attribu
   errors.colours.add(cells.squaredError, cells.maxError, cells.weight);
 }
 
+// Cells that follow each other in a chunk, all of the input or all merged.
+struct Slice {
+  std::vector<uint32_t> cells;  // in the foam that has them
+  bool isMerged = false;
+};
+
+std::vector<Slice> sliceRuns(std::span<const uint32_t> sources, uint32_t inputCount) {
+  std::vector<Slice> slices;
+  for (const uint32_t source : sources) {
+    const bool isMerged = source >= inputCount;
+    if (slices.empty() || slices.back().isMerged != isMerged || slices.back().cells.size() == kSliceCells) {
+      slices.push_back({{}, isMerged});
+    }
+    slices.back().cells.push_back(isMerged ? source - inputCount : source);
+  }
+  return slices;
+}
+
 }  // namespace
 
-Result<ColourSource> ColourSource::create(const Foam& foam, const Visibility* visibility, const BakeOptions& options,
-                                          const Progress& progress) {
+Result<ColourSource> ColourSource::create(const Foam& foam, const Foam& merged, const Visibility* visibility,
+                                          const BakeOptions& options, const Progress& progress) {
   ColourSource source;
-  source.foam_ = &foam;
+  source.inputCount_ = foam.cellCount;
   if (!options.knobs.compressColours) {
     source.lobeCount_ = isViewDependent(foam) ? foam.lobeCount : 0;
     return source;
@@ -47,20 +65,22 @@ Result<ColourSource> ColourSource::create(const Foam& foam, const Visibility* vi
   Result<AppearanceCoder> coder = AppearanceCoder::create(foam, visibility, appearance, progress);
   if (!coder) return coder.error();
   source.coder_ = std::move(*coder);
+  if (merged.cellCount > 0) source.mergedCoder_ = source.coder_->forFoam(merged);
   source.lobeCount_ = std::min(foam.lobeCount, appearance.lobeLimit);
   return source;
 }
 
-bool ColourSource::fill(std::span<const uint32_t> sources, const StageProgress& stage, ChunkContents& chunk,
-                        AttributeErrors& errors) const {
+bool ColourSource::fill(std::span<const uint32_t> sources, const Foam& faces, const StageProgress& stage,
+                        ChunkContents& chunk, AttributeErrors& errors) const {
   if (!coder_) {
-    fillColours(*foam_, sources, lobeCount_ > 0, chunk);
+    fillColours(faces, lobeCount_ > 0, chunk);
     return report(stage.progress, stage.stage, stage.done, stage.total);
   }
-  std::vector<CellAppearance> slices((sources.size() + kSliceCells - 1) / kSliceCells);
+  const std::vector<Slice> runs = sliceRuns(sources, inputCount_);
+  std::vector<CellAppearance> slices(runs.size());
   const auto compressSlice = [&](uint32_t slice) {
-    const size_t first = size_t{slice} * kSliceCells;
-    slices[slice] = coder_->compress(sources.subspan(first, std::min<size_t>(kSliceCells, sources.size() - first)));
+    const Slice& run = runs[slice];
+    slices[slice] = (run.isMerged ? mergedCoder_ : coder_)->compress(run.cells);
   };
   if (!forEachSlice(static_cast<uint32_t>(slices.size()), kSliceCells, stage, compressSlice)) return false;
   for (const CellAppearance& cells : slices) appendAppearance(cells, chunk, errors);

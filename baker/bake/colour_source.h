@@ -8,7 +8,7 @@
 #include "baker/appearance/appearance.h"
 #include "baker/bake/attribute_errors.h"
 #include "baker/bake/bake.h"
-#include "baker/bake/slices.h"
+#include "baker/cells/slices.h"
 #include "foam/foam.h"
 #include "format/asset_contents.h"
 
@@ -16,9 +16,9 @@ namespace froth {
 
 class ColourSource {
  public:
-  // Keeps references to foam and visibility (null: all directions are alike).
-  static Result<ColourSource> create(const Foam& foam, const Visibility* visibility, const BakeOptions& options,
-                                     const Progress& progress);
+  // Keeps references to foam, visibility (null: all directions are alike) and the merged cells of levels.
+  static Result<ColourSource> create(const Foam& foam, const Foam& merged, const Visibility* visibility,
+                                     const BakeOptions& options, const Progress& progress);
 
   // Most lobes of a detail site; 0: nothing looks different from different sides.
   uint32_t lobeCount() const { return lobeCount_; }
@@ -26,15 +26,15 @@ class ColourSource {
   // Detail sites have base colours, and lobes of their own number.
   bool isCompressed() const { return coder_.has_value(); }
 
-  // Fills the colours and detail scales of a chunk with the live cells `sources`, indices of the input. False: asked
-  // to stop.
-  bool fill(std::span<const uint32_t> sources, const StageProgress& stage, ChunkContents& chunk,
+  // Fills the colours and detail scales of a chunk with the live cells `sources` (BakeCells); `faces` holds the same
+  // cells. False: asked to stop.
+  bool fill(std::span<const uint32_t> sources, const Foam& faces, const StageProgress& stage, ChunkContents& chunk,
             AttributeErrors& errors) const;
 
  private:
-  const Foam* foam_ = nullptr;
+  uint32_t inputCount_ = 0;
   uint32_t lobeCount_ = 0;
-  std::optional<AppearanceCoder> coder_;
+  std::optional<AppearanceCoder> coder_, mergedCoder_;
 };
 
 }  // namespace froth

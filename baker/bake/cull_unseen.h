@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "baker/bake/cells.h"
+#include "baker/cells/cells.h"
 #include "base/progress.h"
 
 namespace froth {

@@ -76,8 +76,13 @@ enum class Face : uint8_t { kNone, kPossible, kSure };
 
 class AlphaComplexBuilder {
  public:
-  AlphaComplexBuilder(std::span<const glm::vec3> sites, std::span<const float> radii, const CellGraph& graph)
-      : sites_(sites), radii_(radii), graph_(graph), faces_(graph.neighbours.size(), Face::kNone) {}
+  AlphaComplexBuilder(std::span<const glm::vec3> sites, std::span<const float> radii, const CellGraph& graph,
+                      uint32_t completeCells)
+      : sites_(sites),
+        radii_(radii),
+        graph_(graph),
+        completeCells_(completeCells),
+        faces_(graph.neighbours.size(), Face::kNone) {}
 
   // Decides every pair that the cell owns.
   void decideOwnedPairs(uint32_t cell, Scratch& scratch) {
@@ -110,6 +115,7 @@ class AlphaComplexBuilder {
   // Without a sure face in its ball, a cell is the whole ball, with all offsets >= 1, or nothing, with its site
   // beyond some plane, offset < 0. Any threshold between tells them apart, whatever the rounding.
   bool isEmpty(uint32_t cell) const {
+    if (cell >= completeCells_) return false;
     bool isCutOff = false;
     for (uint32_t entry = graph_.offsets[cell]; entry < graph_.offsets[cell + 1]; ++entry) {
       if (faces_[entry] == Face::kSure) return false;
@@ -141,23 +147,27 @@ class AlphaComplexBuilder {
  private:
   uint32_t degree(uint32_t cell) const { return graph_.offsets[cell + 1] - graph_.offsets[cell]; }
   bool owns(uint32_t cell, uint32_t neighbour) const {
+    if (cell >= completeCells_) return false;
     const uint32_t own = degree(cell), other = degree(neighbour);
+    if (neighbour >= completeCells_) return true;
     return own < other || (own == other && cell < neighbour);
   }
 
   std::span<const glm::vec3> sites_;
   std::span<const float> radii_;
   const CellGraph& graph_;
+  const uint32_t completeCells_;
   std::vector<Face> faces_;  // per entry of graph_.neighbours
 };
 
 }  // namespace
 
 AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<const float> radii,
-                                 const RegularTriangulation& triangulation, const Progress& progress) {
+                                 const RegularTriangulation& triangulation, const Progress& progress,
+                                 uint32_t completeCells) {
   using Range = tbb::blocked_range<uint32_t>;
   const uint32_t cellCount = static_cast<uint32_t>(sites.size());
-  AlphaComplexBuilder builder(sites, radii, triangulation.graph);
+  AlphaComplexBuilder builder(sites, radii, triangulation.graph, completeCells);
 
   const uint32_t slab = cellCount / kProgressSlabs + 1;
   for (uint32_t first = 0; first < cellCount; first += slab) {

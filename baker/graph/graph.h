@@ -35,8 +35,11 @@ struct AlphaComplex {
 
 // One polygon per pair, clipped in double; all cores, the same result on any number of them. When `progress`
 // asks to stop the result is empty (no offsets): whoever stopped it drops it.
+// Of a part of a scene only cells [0, completeCells) have all their neighbours: pairs of the others are left out, and
+// none of them is empty.
 AlphaComplex computeAlphaComplex(std::span<const glm::vec3> sites, std::span<const float> radii,
-                                 const RegularTriangulation& triangulation, const Progress& progress = {});
+                                 const RegularTriangulation& triangulation, const Progress& progress = {},
+                                 uint32_t completeCells = UINT32_MAX);
 
 // How a scene is cut into regions.
 struct RegionPlan {

@@ -1,10 +1,13 @@
 #include "baker/verify/scene_check.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "baker/bake/solid_balls.h"
 #include "baker/graph/diagram_check.h"
-#include "baker/verify/level_scene.h"
+#include "baker/lod/cut.h"
 #include "baker/verify/scene_graph.h"
 #include "format/levels.h"
 
@@ -27,39 +30,48 @@ Status checkSolidBalls(const AssetContents& contents) {
   return {};
 }
 
-// Adds what was sampled of the graphs to `found`.
+// Adds samples of the diagram of an asset without levels to what was found.
 Status checkDiagram(const AssetContents& contents, const Progress& progress, ValidityReport& found) {
   const Result<SceneGraph> scene = joinChunks(contents, progress);
   if (!scene) return scene.error();
-  ValidityReport sampled;
-  if (!sampleDiagram(scene->sites, scene->radii, scene->triangulation, scene->alpha, kSeed, progress, sampled)) {
-    return stoppedOnRequest("verify");
-  }
-  if (!sampled.faults.empty()) {
-    return makeError(ErrorKind::kBadInput, "graphs: %s; bake the scene again", sampled.faults.front().c_str());
-  }
   found.cells += scene->sites.size();
   found.walkPairs += scene->triangulation.graph.neighbours.size() / 2;
   found.alphaPairs += scene->alpha.graph.neighbours.size() / 2;
-  found.pointsChecked += sampled.pointsChecked;
-  found.raysChecked += sampled.raysChecked;
-  return {};
+  if (!sampleDiagram(scene->sites, scene->radii, scene->triangulation, scene->alpha, kSeed, progress, found)) {
+    return stoppedOnRequest("verify");
+  }
+  if (found.faults.empty()) return {};
+  return makeError(ErrorKind::kBadInput, "graphs: %s; bake the scene again", found.faults.front().c_str());
+}
+
+// The finest level, the floor, and halfway: the coarser half of the groups refined.
+Status checkLevels(const AssetContents& contents, const Progress& progress, ValidityReport& found) {
+  const size_t groups = contents.groups.size();
+  std::vector<uint8_t> isRefined(groups, 1);
+  const auto check = [&]() -> Status {
+    const Result<AssetContents> cut = contentsOfCut(contents, isRefined);
+    if (!cut) return cut.error();
+    return checkDiagram(*cut, progress, found);
+  };
+  if (Status status = check(); !status) return status;
+  std::vector<double> errors;
+  for (const LevelGroup& group : contents.groups) errors.push_back(group.error);
+  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(groups / 2), errors.end());
+  const double median = errors[groups / 2];
+  for (size_t group = 0; group < groups; ++group) isRefined[group] = contents.groups[group].error >= median;
+  if (Status status = check(); !status) return status;
+  std::fill(isRefined.begin(), isRefined.end(), uint8_t{0});
+  return check();
 }
 
 }  // namespace
 
 Result<ValidityReport> checkScene(const AssetContents& contents, const Progress& progress) {
   ValidityReport found;
-  if (contents.levels.empty()) {
-    if (Status status = checkDiagram(contents, progress, found); !status) return status.error();
-  }
-  for (uint32_t level = 0; !contents.levels.empty() && level < countLevels(contents.levels); ++level) {
-    const Status status = checkDiagram(sceneOfLevel(contents, level), progress, found);
-    if (!status) {
-      return makeError(status.error().kind, "level %u: %s", level, status.error().message.c_str());
-    }
-  }
-  if (Status status = checkSolidBalls(contents); !status) return status.error();
+  Status status =
+      contents.levels.empty() ? checkDiagram(contents, progress, found) : checkLevels(contents, progress, found);
+  if (!status) return status.error();
+  if (status = checkSolidBalls(contents); !status) return status.error();
   return found;
 }
 

@@ -1,5 +1,6 @@
 // What `froth verify` does beyond format/read/asset_reader.h's verifyAsset: whether graph, alpha-complex and solid
-// balls are those of the cells. The graphs are sampled as in a bake, each solid ball is bounded again.
+// balls are those of the cells. The graphs are sampled as in a bake, each solid ball is bounded again. Of levels of
+// detail the finest cells are sampled, the coarsest, and a mixture.
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "baker/bake/snap_cells.h"
+#include "baker/bake/lattices.h"
 #include "measure/sweep/config.h"
 
 namespace froth {

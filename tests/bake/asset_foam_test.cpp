@@ -35,6 +35,22 @@ TEST(FoamFromAsset, GivesTheLiveCellsBackAndEmptiesTheOthers) {
   }
 }
 
+TEST(FoamFromAsset, IsTheFinestLevel) {
+  const Foam foam = makeRandomFoam(900, 1, 1, 2);
+  BakeOptions options;
+  options.chunkCells = 100;
+  options.steiner = false;
+  const Result<BakeResult> plain = bakeFoam(foam, options);
+  options.levels = true;
+  const Result<BakeResult> baked = bakeFoam(foam, options);
+  ASSERT_TRUE(plain && baked);
+  ASSERT_FALSE(baked->contents.levels.empty());
+  const Result<Foam> shown = foamFromAsset(baked->contents), expected = foamFromAsset(plain->contents);
+  ASSERT_TRUE(shown && expected);
+  EXPECT_EQ(shown->sites, expected->sites);
+  EXPECT_EQ(shown->densities, expected->densities);
+}
+
 // Dropped, emptied and reordered cells leave no trace: the reference, which finds its neighbours on its own,
 // draws the baked foam as it draws the input.
 TEST(FoamFromAsset, ShowsTheImageOfTheInput) {

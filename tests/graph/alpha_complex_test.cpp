@@ -37,6 +37,41 @@ TEST(AlphaComplex, HoldsEveryFaceThatIsMetInsideTheBalls) {
   }
 }
 
+// A part of a scene: some cells, then all their neighbours.
+TEST(AlphaComplex, OfCellsWithAllTheirNeighboursIsThatOfTheWhole) {
+  for (const BallSet& balls : {BallSetMaker(3).foamLike(600), BallSetMaker(4).stiff(400)}) {
+    const Graphs whole = makeGraphs(balls);
+    std::vector<uint32_t> cells, placeOf(balls.size(), UINT32_MAX);
+    const auto add = [&](uint32_t cell) {
+      if (placeOf[cell] != UINT32_MAX) return;
+      placeOf[cell] = static_cast<uint32_t>(cells.size());
+      cells.push_back(cell);
+    };
+    for (uint32_t cell = 0; cell < balls.size(); ++cell) {
+      if (balls.sites[cell].x < 5 && !whole.triangulation.isHidden[cell]) add(cell);
+    }
+    const auto complete = static_cast<uint32_t>(cells.size());
+    for (uint32_t k = 0; k < complete; ++k) {
+      for (const uint32_t neighbour : neighboursOf(whole.triangulation.graph, cells[k])) add(neighbour);
+    }
+    ASSERT_LT(complete, cells.size());
+    BallSet part;
+    for (const uint32_t cell : cells) part.add(balls.sites[cell], balls.radii[cell]);
+    const Result<RegularTriangulation> triangulation = triangulateRegular(part.sites, part.radii);
+    ASSERT_TRUE(triangulation);
+    const AlphaComplex alpha = computeAlphaComplex(part.sites, part.radii, *triangulation, {}, complete);
+    for (uint32_t k = 0; k < complete; ++k) {
+      EXPECT_EQ(alpha.isEmpty[k], whole.alpha.isEmpty[cells[k]]);
+      std::vector<uint32_t> row;
+      for (const uint32_t neighbour : neighboursOf(alpha.graph, k)) row.push_back(cells[neighbour]);
+      std::ranges::sort(row);
+      // a neighbour in the ring may be empty in the whole, where it has no pairs
+      std::erase_if(row, [&](uint32_t cell) { return whole.alpha.isEmpty[cell] != 0; });
+      EXPECT_TRUE(std::ranges::equal(row, neighboursOf(whole.alpha.graph, cells[k]))) << balls.name << " " << cells[k];
+    }
+  }
+}
+
 TEST(AlphaComplex, HoldsAPairExactlyIfItsFaceComesIntoTheBall) {
   uint32_t inside = 0, outside = 0;
   for (uint64_t seed = 1; seed <= 12; ++seed) {

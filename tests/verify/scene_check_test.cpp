@@ -82,6 +82,42 @@ TEST(SceneCheck, RefusesASolidBallThatIsTooSmallOrElsewhere) {
   }
 }
 
+AssetContents bakeLevels() {
+  BakeOptions options;
+  options.knobs = *presetKnobs("default");
+  options.chunkCells = 150;
+  options.measure = false;
+  options.levels = true;
+  Result<BakeResult> baked = bakeFoam(makeRandomFoam(2000, 1, 1, 9), options);
+  EXPECT_TRUE(baked) << baked.error().message;
+  EXPECT_GE(baked->levels.size(), 2u);
+  return std::move(baked->contents);
+}
+
+TEST(SceneCheck, FindsNothingWrongWithLevels) { EXPECT_EQ(errorOf(bakeLevels()), "no error"); }
+
+TEST(SceneCheck, RefusesAFloorThatIsNoPowerDiagram) {
+  AssetContents contents = bakeLevels();
+  ASSERT_GT(contents.levels[0].level, 0u);
+  ChunkContents& chunk = contents.chunks[0];
+  for (uint32_t cell = 0; cell < chunk.cellCount; cell += 2) {
+    chunk.neighbours[chunk.neighbourOffsets[cell]] = chunk.neighbours[chunk.neighbourOffsets[cell + 1] - 1];
+  }
+  EXPECT_THAT(errorOf(contents), HasSubstr("graphs: "));
+}
+
+TEST(SceneCheck, RefusesBordersThatNameOtherCells) {
+  const AssetContents valid = bakeLevels();
+  ASSERT_GE(valid.chunks.back().borderNumbers.size(), 2u);
+  AssetContents swapped = valid;
+  std::swap(swapped.chunks.back().borderNumbers[0], swapped.chunks.back().borderNumbers[1]);
+  EXPECT_THAT(errorOf(swapped), HasSubstr("is another cell where it is drawn"));
+  AssetContents missing = valid;
+  missing.chunks.back().borderNumbers.pop_back();
+  missing.chunks.back().borderCells.pop_back();
+  EXPECT_THAT(errorOf(missing), HasSubstr("is not drawn"));
+}
+
 TEST(SceneCheck, RefusesToSampleSitesThatAreNoFloats) {
   AssetContents contents = bake("exact", 50);
   contents.chunks[1].origin[0] += 1e9;

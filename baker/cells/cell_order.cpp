@@ -1,4 +1,4 @@
-#include "baker/bake/cell_order.h"
+#include "baker/cells/cell_order.h"
 
 #include <algorithm>
 #include <numeric>

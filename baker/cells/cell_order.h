@@ -1,10 +1,10 @@
-// The order of cells inside a chunk. Internal to baker/bake.
+// The order of cells inside a chunk. Internal to the baker.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
-#include "baker/bake/cells.h"
+#include "baker/cells/cells.h"
 
 namespace froth {
 

@@ -1,18 +1,11 @@
 // Snaps a foam to the lattices of its asset, before anything is built on its numbers.
 #pragma once
 
-#include "baker/bake/bake.h"
-#include "baker/bake/cells.h"
+#include "baker/cells/cells.h"
 #include "foam/foam.h"
 #include "format/quantization.h"
 
 namespace froth {
-
-// 2^-bits; 0 bits: 0.
-float stepOfBits(uint32_t bits);
-
-// The lattices that the knobs ask for, fitted to the foam's extent.
-Quantization makeLattices(const Foam& foam, const BakeKnobs& knobs);
 
 // All cells of the foam.
 BakeCells snapCells(const Foam& foam, const Quantization& lattices);

@@ -1,4 +1,4 @@
-// Parallel loops that report between their parts, so that a stop request never waits long. Internal to baker/bake.
+// Parallel loops that report between their parts, so that a stop request never waits long. Internal to the baker.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The cells of a bake, between its steps. Internal to baker/bake.
+// The cells of a bake, between its steps. Internal to the baker.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,19 @@
 
 namespace froth {
 
-// What is triangulated: cells of the input, in its order and on the asset's lattices, then Steiner cells.
+inline constexpr uint32_t kNoSource = 0xffffffff;
+
+// Cells of the input, in its order and on the asset's lattices; then Steiner cells; then the merged cells of levels.
 struct BakeCells {
-  std::vector<glm::vec3> sites;   // [cells] world coordinates [scene units]
-  std::vector<float> radii;       // [cells] [scene units, > 0]
-  std::vector<float> densities;   // [input cells] [1 / scene unit]
-  std::vector<uint32_t> sources;  // [cells] index in the input foam; kNoSource: Steiner
+  std::vector<glm::vec3> sites;  // [cells] world coordinates [scene units]
+  std::vector<float> radii;      // [cells] [scene units, > 0]
+  std::vector<float> densities;  // [cells] [1 / scene unit]; Steiner: 0
+  // [cells] index in the input foam, and behind its cells in the foam of merged cells; kNoSource: Steiner
+  std::vector<uint32_t> sources;
   std::vector<uint8_t> isUnseen;  // [input cells] 1: no camera sees it, so it only cuts its neighbours
 
   uint32_t count() const { return static_cast<uint32_t>(sites.size()); }
-  uint32_t inputCount() const { return static_cast<uint32_t>(densities.size()); }
+  uint32_t inputCount() const { return static_cast<uint32_t>(isUnseen.size()); }
 };
 
 // States from kHidden on have no place in the asset.

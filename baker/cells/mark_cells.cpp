@@ -1,4 +1,4 @@
-#include "baker/bake/mark_cells.h"
+#include "baker/cells/mark_cells.h"
 
 #include <algorithm>
 
@@ -10,22 +10,23 @@ namespace {
 // cross 128 of them before a 16-bit channel, of half-step 2^-17, can change.
 constexpr double kDeadOpticalDepth = 0x1p-24;
 
-CellState stateOf(const BakeCells& cells, uint32_t cell, const RegularTriangulation& triangulation,
-                  const AlphaComplex& alpha) {
-  if (triangulation.isHidden[cell]) return CellState::kHidden;
-  if (cell >= cells.inputCount()) return CellState::kSteiner;
-  if (alpha.isEmpty[cell]) return CellState::kEmpty;
-  if (cells.isUnseen[cell]) return CellState::kUnseen;
+}  // namespace
+
+CellState stateOf(const BakeCells& cells, uint32_t cell, bool isHidden, bool isEmpty) {
+  if (isHidden) return CellState::kHidden;
+  if (cells.sources[cell] == kNoSource) return CellState::kSteiner;
+  if (isEmpty) return CellState::kEmpty;
+  if (cell < cells.inputCount() && cells.isUnseen[cell]) return CellState::kUnseen;
   if (2.0 * cells.radii[cell] * cells.densities[cell] < kDeadOpticalDepth) return CellState::kDead;
   return CellState::kLive;
 }
 
-}  // namespace
-
 std::vector<CellState> markCells(const BakeCells& cells, const RegularTriangulation& triangulation,
                                  const AlphaComplex& alpha, bool hasWalkGraph) {
   std::vector<CellState> states(cells.count());
-  for (uint32_t cell = 0; cell < cells.count(); ++cell) states[cell] = stateOf(cells, cell, triangulation, alpha);
+  for (uint32_t cell = 0; cell < cells.count(); ++cell) {
+    states[cell] = stateOf(cells, cell, triangulation.isHidden[cell], alpha.isEmpty[cell]);
+  }
   if (hasWalkGraph) return states;
 
   std::vector<uint8_t> isNeeded(cells.count(), 0);

@@ -1,0 +1,251 @@
+#include "baker/lod/levels.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <tbb/task_arena.h>
+
+#include "baker/cells/mark_cells.h"
+#include "baker/cells/slices.h"
+#include "baker/cells/snap_cells.h"
+#include "baker/lod/border_numbers.h"
+#include "baker/lod/chunk_groups.h"
+#include "baker/lod/coarse_form.h"
+#include "baker/lod/fine_form.h"
+#include "baker/lod/group_balls.h"
+#include "foam/append_cells.h"
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kGroupChunks = 4;  // full ones, of a group
+constexpr double kFloorShare = 0.02;  // of level 0's live cells: small enough to be the floor
+// An error grows at least by this factor from a group to those coarser, so that it does as a float too.
+constexpr double kErrorStep = 1 + 0x1p-20;
+
+class LevelMaker {
+ public:
+  LevelMaker(const LevelInput& input, BakeCells& cells, const Progress& progress)
+      : input_(input), cells_(cells), progress_(progress), contributions_(input.contributions) {}
+
+  Result<Levels> run();
+
+ private:
+  // A group on its way to the next level.
+  struct Step {
+    std::vector<uint32_t> group;  // chunks
+    std::vector<uint32_t> ring;
+    std::optional<Result<CoarseForm>> form;
+    uint32_t firstMerged = 0;  // cell of the scene
+    std::vector<LevelChunk> made;
+    Status status;
+  };
+
+  void takeLevel0();
+  bool isFloor() const;
+  Status makeLevel();
+  bool forEachStep(std::vector<Step>& steps, const std::function<void(Step&)>& work);
+  Status addMergedCells(std::vector<Step>& steps);
+  void splitForm(Step& step) const;
+  void addGroup(Step& step);
+  Levels collect();
+
+  const LevelInput& input_;
+  BakeCells& cells_;
+  const Progress& progress_;
+  std::vector<double> contributions_;  // [input cells, merged cells] or empty
+
+  std::vector<LevelChunk> chunks_;
+  std::vector<uint32_t> front_;  // chunks that may get coarser
+  uint32_t level_ = 0;           // of the front
+  Levels levels_;
+};
+
+void LevelMaker::takeLevel0() {
+  for (const PlannedChunk& planned : input_.plan.chunks) {
+    front_.push_back(static_cast<uint32_t>(chunks_.size()));
+    chunks_.push_back({planned, gatherRows(input_.walk, input_.alpha, planned.cells), {}});
+  }
+}
+
+uint64_t countLive(const std::vector<LevelChunk>& chunks, const std::vector<uint32_t>& listed) {
+  uint64_t live = 0;
+  for (const uint32_t chunk : listed) live += chunks[chunk].planned.liveCount;
+  return live;
+}
+
+bool LevelMaker::isFloor() const {
+  uint64_t finest = 0;
+  for (const PlannedChunk& chunk : input_.plan.chunks) finest += chunk.liveCount;
+  const double enough = std::max<double>(kFloorShare * static_cast<double>(finest), input_.chunkCells);
+  return front_.size() <= 1 || static_cast<double>(countLive(chunks_, front_)) <= enough;
+}
+
+// False: asked to stop.
+bool LevelMaker::forEachStep(std::vector<Step>& steps, const std::function<void(Step&)>& work) {
+  const StageProgress stage{progress_, "levels", 0, steps.size()};
+  return forEachSlice(static_cast<uint32_t>(steps.size()), 1, stage, [&](uint32_t index) {
+    // A thread that waits inside a group begins no other: memory holds as many groups as there are threads.
+    tbb::this_task_arena::isolate([&] { work(steps[index]); });
+  });
+}
+
+Status LevelMaker::makeLevel() {
+  const uint64_t groupLive = uint64_t{kGroupChunks} * input_.chunkCells;
+  std::vector<Step> steps;
+  for (std::vector<uint32_t>& group : groupChunks(chunks_, front_, cells_.count(), groupLive)) {
+    steps.emplace_back().group = std::move(group);
+  }
+  const LevelSource source{input_.foam, levels_.merged, cells_, contributions_, input_.lattices, input_.seed};
+  const auto makeForm = [&](Step& step) {
+    FineForm fine = makeFineForm(chunks_, step.group);
+    step.form = makeCoarseForm(source, fine);
+    step.ring = std::move(fine.ring);
+  };
+  if (!forEachStep(steps, makeForm)) return stoppedOnRequest("bake");
+  if (Status status = addMergedCells(steps); !status) return status;
+  if (!forEachStep(steps, [&](Step& step) { splitForm(step); })) return stoppedOnRequest("bake");
+  front_.clear();
+  for (Step& step : steps) {
+    if (!step.status) return step.status;
+    if ((*step.form)->isWorthwhile) addGroup(step);
+  }
+  ++level_;
+  return {};
+}
+
+// In the order of groups, so that each cell's number is the same on any number of threads.
+Status LevelMaker::addMergedCells(std::vector<Step>& steps) {
+  LevelReport& report = levels_.reports.emplace_back();
+  for (Step& step : steps) {
+    if (!*step.form) return step.form->error();
+    CoarseForm& form = **step.form;
+    report.live += form.liveCount;
+    report.locked += form.lockedLive;
+    report.undone += form.undone;
+    report.rounds += form.rounds;
+    ++(form.isWorthwhile ? report.groups : report.failed);
+    if (!form.isWorthwhile) continue;
+    report.merges += form.merged.cellCount;
+    step.firstMerged = cells_.count();
+    const BakeCells snapped = snapCells(form.merged, input_.lattices);
+    cells_.sites.insert(cells_.sites.end(), snapped.sites.begin(), snapped.sites.end());
+    cells_.radii.insert(cells_.radii.end(), snapped.radii.begin(), snapped.radii.end());
+    cells_.densities.insert(cells_.densities.end(), snapped.densities.begin(), snapped.densities.end());
+    const uint32_t firstSource = input_.foam.cellCount + levels_.merged.cellCount;
+    for (const uint32_t row : snapped.sources) cells_.sources.push_back(firstSource + row);
+    appendCells(form.merged, snapped.sources, levels_.merged);
+    contributions_.insert(contributions_.end(), form.contributions.begin(), form.contributions.end());
+    form.merged = {};
+  }
+  return {};
+}
+
+// The coarse form becomes chunks, and its rows name cells of the scene.
+void LevelMaker::splitForm(Step& step) const {
+  CoarseForm& form = **step.form;
+  if (!form.isWorthwhile) return;
+  const auto ownCount = static_cast<uint32_t>(form.isEmpty.size()), keptCount = static_cast<uint32_t>(form.kept.size());
+  const auto cellOf = [&](uint32_t local) {
+    if (local >= ownCount) return step.ring[local - ownCount];
+    return local < keptCount ? form.kept[local] : step.firstMerged + (local - keptCount);
+  };
+  for (CellGraph* graph : {&form.rows.walk, &form.rows.alpha}) {
+    for (uint32_t& neighbour : graph->neighbours) neighbour = cellOf(neighbour);
+    for (uint32_t local = 0; local < ownCount; ++local) {
+      const auto begin = graph->neighbours.begin();
+      std::sort(begin + graph->offsets[local], begin + graph->offsets[local + 1]);
+    }
+  }
+  std::vector<uint32_t> live, others;
+  std::vector<std::pair<uint32_t, uint32_t>> places;
+  for (uint32_t local = 0; local < ownCount; ++local) {
+    const uint32_t cell = cellOf(local);
+    places.emplace_back(cell, local);
+    (stateOf(cells_, cell, false, form.isEmpty[local]) == CellState::kLive ? live : others).push_back(cell);
+  }
+  std::sort(places.begin(), places.end());
+  Result<std::vector<PlannedChunk>> chunks =
+      splitIntoChunks(cells_, std::move(live), std::move(others), input_.chunkCells, input_.lattices.positionStep, {});
+  if (!chunks) {
+    step.status = chunks.error();
+    return;
+  }
+  for (PlannedChunk& planned : *chunks) {
+    std::vector<uint32_t> locals;
+    for (const uint32_t cell : planned.cells) {
+      locals.push_back(std::lower_bound(places.begin(), places.end(), std::pair(cell, 0u))->second);
+    }
+    CellRows rows = gatherRows(form.rows.walk, form.rows.alpha, locals);
+    step.made.push_back({std::move(planned), std::move(rows), {}});
+  }
+}
+
+// Its error and its ball hold those of the groups that made its chunks.
+void LevelMaker::addGroup(Step& step) {
+  const auto number = static_cast<uint32_t>(levels_.groups.size());
+  std::vector<GroupBall> balls;
+  double error = (*step.form)->error;
+  for (const uint32_t index : step.group) {
+    LevelChunk& chunk = chunks_[index];
+    chunk.place.in = number;
+    addLiveBalls(cells_, chunk.planned, balls);
+    if (chunk.place.madeBy == kNoGroup) continue;
+    const LevelGroup& finer = levels_.groups[chunk.place.madeBy];
+    balls.push_back({{finer.centre[0], finer.centre[1], finer.centre[2]}, finer.radius});
+    error = std::max(error, finer.error * kErrorStep);
+  }
+  for (LevelChunk& chunk : step.made) {
+    chunk.place = {level_ + 1, number, kNoGroup};
+    addLiveBalls(cells_, chunk.planned, balls);
+    front_.push_back(static_cast<uint32_t>(chunks_.size()));
+    chunks_.push_back(std::move(chunk));
+  }
+  const GroupBall bound = boundBalls(balls);
+  // An error of 0 could not grow.
+  error = std::max(error, bound.radius * 0x1p-40);
+  levels_.groups.push_back({{bound.centre.x, bound.centre.y, bound.centre.z}, bound.radius, error, level_});
+}
+
+Levels LevelMaker::collect() {
+  if (levels_.groups.empty()) return {};
+  const auto rank = [&](uint32_t chunk) {
+    const ChunkLevel& place = chunks_[chunk].place;
+    return std::pair(place.in != kNoGroup, -int64_t{place.level});
+  };
+  std::vector<uint32_t> order(chunks_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
+  for (const uint32_t index : order) {
+    LevelChunk& chunk = chunks_[index];
+    levels_.plan.chunks.push_back(std::move(chunk.planned));
+    levels_.rows.push_back(std::move(chunk.rows));
+    levels_.places.push_back(chunk.place);
+  }
+  levels_.plan.refs = numberBorders(levels_.plan.chunks, levels_.rows, cells_.count(), levels_.borderCount);
+  return std::move(levels_);
+}
+
+Result<Levels> LevelMaker::run() {
+  takeLevel0();
+  while (!isFloor()) {
+    if (Status status = makeLevel(); !status) return status.error();
+  }
+  Levels levels = collect();
+  if (levels.groups.empty()) return levels;
+  const Result<uint32_t> localBits = chooseLocalBits(levels.plan.chunks);
+  if (!localBits) return localBits.error();
+  levels.plan.localBits = *localBits;
+  return levels;
+}
+
+}  // namespace
+
+Result<Levels> makeLevels(const LevelInput& input, BakeCells& cells, const Progress& progress) {
+  return LevelMaker(input, cells, progress).run();
+}
+
+}  // namespace froth

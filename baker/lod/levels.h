@@ -1,0 +1,42 @@
+// Levels of detail: a foam becomes coarser group by group (docs/STREAMING.md).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "baker/cells/cells.h"
+#include "baker/cells/chunk_plan.h"
+#include "baker/lod/level_report.h"
+#include "base/progress.h"
+#include "base/result.h"
+#include "foam/foam.h"
+#include "format/asset_contents.h"
+
+namespace froth {
+
+struct LevelInput {
+  const Foam& foam;
+  const CellGraph& walk;   // the regular triangulation
+  const CellGraph& alpha;  // part of it
+  const ChunkPlan& plan;   // of level 0
+  const Quantization& lattices;
+  uint32_t chunkCells;                // most live cells of a chunk
+  std::vector<double> contributions;  // [input cells] how much each shows; empty: all alike
+  uint64_t seed;
+};
+
+struct Levels {
+  // Chunks of all levels, the floor first, level 0 last.
+  ChunkPlan plan;
+  std::vector<CellRows> rows;      // [chunks]
+  std::vector<ChunkLevel> places;  // [chunks]
+  uint32_t borderCount = 0;
+  std::vector<LevelGroup> groups;  // none: nothing gets coarser, and all else is empty
+  Foam merged;                     // BakeCells::sources continue into it
+  std::vector<LevelReport> reports;
+};
+
+// Merged cells go behind `cells`. The same input gives the same levels on any number of threads.
+Result<Levels> makeLevels(const LevelInput& input, BakeCells& cells, const Progress& progress);
+
+}  // namespace froth

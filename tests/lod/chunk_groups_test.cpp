@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <set>
+
+#include "baker/lod/chunk_groups.h"
+
+namespace froth {
+namespace {
+
+// A row of chunks of ten cells each; each has ten pairs of neighbours with the next one.
+std::vector<LevelChunk> makeRowOfChunks(uint32_t count) {
+  std::vector<LevelChunk> chunks(count);
+  for (uint32_t index = 0; index < count; ++index) {
+    LevelChunk& chunk = chunks[index];
+    chunk.planned.liveCount = 10;
+    chunk.rows = {{{0}, {}}, {{0}, {}}};
+    for (uint32_t k = 0; k < 10; ++k) {
+      chunk.planned.cells.push_back(10 * index + k);
+      if (index > 0) chunk.rows.walk.neighbours.push_back(10 * (index - 1) + k);
+      if (index + 1 < count) chunk.rows.walk.neighbours.push_back(10 * (index + 1) + k);
+      chunk.rows.walk.offsets.push_back(static_cast<uint32_t>(chunk.rows.walk.neighbours.size()));
+    }
+  }
+  return chunks;
+}
+
+std::vector<std::vector<uint32_t>> groupAll(const std::vector<LevelChunk>& chunks) {
+  std::vector<uint32_t> all(chunks.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return groupChunks(chunks, all, static_cast<uint32_t>(10 * chunks.size()), 40);
+}
+
+using Groups = std::vector<std::vector<uint32_t>>;
+
+TEST(ChunkGroups, AreNeighboursAndCoverAllChunksOnce) {
+  EXPECT_EQ(groupAll(makeRowOfChunks(8)), (Groups{{0, 1, 2, 3}, {4, 5, 6, 7}}));
+}
+
+TEST(ChunkGroups, AChunkLeftOverJoinsItsNeighbours) {
+  EXPECT_EQ(groupAll(makeRowOfChunks(9)), (Groups{{0, 1, 2, 3}, {4, 5, 6, 7, 8}}));
+}
+
+TEST(ChunkGroups, HaveMoreChunksWhereThoseAreSmall) {
+  std::vector<LevelChunk> chunks = makeRowOfChunks(10);
+  for (LevelChunk& chunk : chunks) chunk.planned.liveCount = 7;
+  EXPECT_EQ(groupAll(chunks), (Groups{{0, 1, 2, 3, 4}, {5, 6, 7, 8, 9}}));
+}
+
+// Two columns of four chunks; each column was made by a group of its own, and has twice as many pairs of neighbours in
+// it as it has with the other one.
+//   0 - 4
+//   |   |
+//   1 - 5
+//   ...
+TEST(ChunkGroups, MixChunksOfDifferentMakers) {
+  std::vector<LevelChunk> chunks(8);
+  for (uint32_t index = 0; index < 8; ++index) {
+    LevelChunk& chunk = chunks[index];
+    chunk.planned.liveCount = 10;
+    chunk.place.madeBy = index / 4;
+    const uint32_t row = index % 4;
+    std::vector<uint32_t> others{index ^ 4};
+    if (row > 0) others.push_back(index - 1);
+    if (row < 3) others.push_back(index + 1);
+    chunk.rows = {{{0}, {}}, {{0}, {}}};
+    for (uint32_t k = 0; k < 10; ++k) {
+      chunk.planned.cells.push_back(10 * index + k);
+      for (const uint32_t other : others) {
+        const uint32_t pairs = other == (index ^ 4) ? 1 : 2;
+        chunk.rows.walk.neighbours.insert(chunk.rows.walk.neighbours.end(), pairs, 10 * other + k);
+      }
+      chunk.rows.walk.offsets.push_back(static_cast<uint32_t>(chunk.rows.walk.neighbours.size()));
+    }
+  }
+  for (const std::vector<uint32_t>& group : groupAll(chunks)) {
+    std::set<uint32_t> makers;
+    for (const uint32_t chunk : group) makers.insert(chunks[chunk].place.madeBy);
+    EXPECT_EQ(makers.size(), 2u);
+  }
+}
+
+}  // namespace
+}  // namespace froth
