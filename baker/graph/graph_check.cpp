@@ -121,10 +121,10 @@ bool sampleDiagram(std::span<const glm::vec3> sites, std::span<const float> radi
   const DiagramCheck diagram(sites, radii, triangulation, alpha, seed);
   const auto checkPoint = [&](uint32_t k, Faults& faults) { diagram.checkPoint(k, faults); };
   if (!checkAll(kPoints, progress, validity.faults, checkPoint)) return false;
-  validity.pointsChecked = kPoints;
+  validity.pointsChecked += kPoints;
   const auto checkRay = [&](uint32_t k, Faults& faults) { diagram.checkRay(k, faults); };
   if (!checkAll(kRays, progress, validity.faults, checkRay)) return false;
-  validity.raysChecked = kRays;
+  validity.raysChecked += kRays;
   return true;
 }
 
