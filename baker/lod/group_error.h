@@ -1,0 +1,29 @@
+// From which size of a pixel on a coarse form of a group stands for its fine form.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "foam/foam.h"
+
+namespace froth {
+
+// How far two forms are apart in images of one resolution.
+struct ErrorAtSize {
+  double pixel = 0;  // [scene units]
+  double worst = 0;  // mean squared difference in the worst direction
+};
+
+// Both forms alone, along parallel rays from 14 directions that the seed turns, over black and over white; each pixel
+// is the mean of its rays. The difference counts over what either form covers, so empty space around does not dilute
+// it. From the smallest pixel, one ray, to the largest. All cores; the same result on any number of them.
+std::vector<ErrorAtSize> measureErrorCurve(const Foam& fine, const Foam& coarse, uint64_t seed);
+
+// The PSNR that the forms keep in the worst direction, by docs/notes/levels.md.
+inline constexpr double kGroupPsnr = 38;  // [dB]
+
+// Size of a pixel [scene units] from which on `coarse` stands for `fine`: the worst direction has kGroupPsnr. Between
+// the sizes of the curve, and outside of them, by powers; 0 where both forms look the same.
+double measureGroupError(const Foam& fine, const Foam& coarse, uint64_t seed);
+
+}  // namespace froth
