@@ -56,12 +56,13 @@ Squares differencesAlong(const ParallelRaster& fine, const ParallelRaster& coars
 
 }  // namespace
 
-std::vector<ErrorAtSize> measureErrorCurve(const Foam& fine, const Foam& coarse, uint64_t seed) {
+std::vector<ErrorAtSize> measureErrorCurve(const Foam& fine, const Foam& coarse, uint64_t seed,
+                                           std::span<const glm::vec3> eyes) {
   const FoamBall bound = boundVisibleCells(fine);
   if (bound.radius == 0) return {};
-  const std::vector<RayGrid> grids = gridsAround(static_cast<float>(bound.radius), kDirections, kRays, seed);
+  const std::vector<RayGrid> grids = makeGrids(bound, eyes, kDirections, kRays, seed);
   const ParallelRaster first(fine, bound.centre), second(coarse, bound.centre);
-  std::array<Squares, kDirections> found;
+  std::vector<Squares> found(grids.size());
   tbb::parallel_for(size_t{0}, grids.size(), [&](size_t i) { found[i] = differencesAlong(first, second, grids[i]); });
   std::vector<ErrorAtSize> curve;
   for (size_t i = 0; i < kRaysPerPixel.size(); ++i) {
@@ -72,8 +73,8 @@ std::vector<ErrorAtSize> measureErrorCurve(const Foam& fine, const Foam& coarse,
   return curve;
 }
 
-double measureGroupError(const Foam& fine, const Foam& coarse, uint64_t seed) {
-  const std::vector<ErrorAtSize> curve = measureErrorCurve(fine, coarse, seed);
+double measureGroupError(const Foam& fine, const Foam& coarse, uint64_t seed, std::span<const glm::vec3> eyes) {
+  const std::vector<ErrorAtSize> curve = measureErrorCurve(fine, coarse, seed, eyes);
   const double allowed = std::pow(10.0, -kGroupPsnr / 10);
   size_t after = curve.size();
   while (after > 0 && curve[after - 1].worst <= allowed) --after;

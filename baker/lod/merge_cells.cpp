@@ -22,7 +22,7 @@ namespace {
 
 // Where colours are fitted: directions over the hemisphere before a face, and eyes before it. Fewer than lobes leave
 // colours undetermined from elsewhere.
-constexpr size_t kDirections = 8, kMostEyes = 8;
+constexpr size_t kDirections = 12, kMostEyes = 12;
 constexpr double kMostChange = 2;  // of a density, beyond those of both cells
 // A cell that no view shows still counts this part of its partner: two of those have a mean, too.
 constexpr double kLeastContribution = 1e-3;

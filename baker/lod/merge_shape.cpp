@@ -116,8 +116,10 @@ MergedShape mergeShape(const Foam& cells, const MergeParts& parts, bool keepsPla
   MergedShape shape;
   shape.frame = meanFrame(cells, parts);
   glm::dvec3 centre = fitCentre(points, size);
-  if (keepsPlain)
-    centre += (meanFace(parts, shape.frame.normal) - glm::dot(shape.frame.normal, mean + centre)) * shape.frame.normal;
+  if (keepsPlain) {
+    const glm::dvec3 normal = shape.frame.normal;
+    centre += (meanFace(parts, normal) - glm::dot(normal, mean + centre)) * normal;
+  }
   shape.site = mean + centre;
   shape.radius = fitRadius(points, centre, kMostGrowth * size);
   for (const MergePart& part : parts) {

@@ -58,25 +58,29 @@ std::vector<glm::dvec3> directionsAround(uint32_t count) {
   return directions;
 }
 
-}  // namespace
-
-std::vector<RayGrid> gridsAround(float radius, uint32_t count, uint32_t size, uint64_t seed) {
+// Turns all of space by the seed.
+glm::dmat3 drawRotation(uint64_t seed) {
   const CounterRandom random(seed, Purpose::kDirection);
   const glm::dvec3 axis = random.direction(0);
-  const glm::dvec3 side =
-      glm::normalize(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+  const glm::dvec3 up = std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 side = glm::normalize(glm::cross(axis, up));
   const double turn = random.uniform(2, 0, glm::two_pi<double>());
   const glm::dvec3 first = std::cos(turn) * side + std::sin(turn) * glm::cross(axis, side);
-  const glm::dmat3 rotation(first, glm::cross(axis, first), axis);
-  std::vector<RayGrid> grids;
-  for (const glm::dvec3& direction : directionsAround(count)) {
-    const glm::dvec3 forward = rotation * direction;
-    const glm::dvec3 up = std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
-    grids.push_back({right, glm::cross(forward, right), forward, size, 2 * radius / static_cast<float>(size)});
-  }
-  return grids;
+  return glm::dmat3(first, glm::cross(axis, first), axis);
 }
+
+RayGrid gridAlong(const glm::dvec3& forward, const FoamBall& ball, uint32_t size, double start) {
+  const glm::dvec3 up = std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
+  return {right,
+          glm::cross(forward, right),
+          forward,
+          size,
+          static_cast<float>(2 * ball.radius / size),
+          static_cast<float>(start)};
+}
+
+}  // namespace
 
 FoamBall boundVisibleCells(const Foam& foam) {
   glm::dvec3 low(INFINITY), high(-INFINITY);
@@ -97,6 +101,23 @@ FoamBall boundVisibleCells(const Foam& foam) {
   return ball;
 }
 
+std::vector<RayGrid> makeGrids(const FoamBall& ball, std::span<const glm::vec3> eyes, uint32_t count, uint32_t size,
+                               uint64_t seed) {
+  std::vector<RayGrid> grids;
+  const size_t chosen = std::min<size_t>(count, eyes.size());
+  for (size_t i = 0; i < chosen; ++i) {
+    const glm::dvec3 toCentre = ball.centre - glm::dvec3(eyes[i * eyes.size() / chosen]);
+    const double distance = glm::length(toCentre);
+    if (distance > 0) grids.push_back(gridAlong(toCentre / distance, ball, size, -distance));
+  }
+  if (!grids.empty()) return grids;
+  const glm::dmat3 rotation = drawRotation(seed);
+  for (const glm::dvec3& direction : directionsAround(count)) {
+    grids.push_back(gridAlong(rotation * direction, ball, size, -2 * ball.radius));
+  }
+  return grids;
+}
+
 ParallelRaster::ParallelRaster(const Foam& foam, const glm::dvec3& centre) : foam_(foam) {
   const Foam geometry = copyGeometry(foam);
   ReferenceOptions options;
@@ -106,9 +127,6 @@ ParallelRaster::ParallelRaster(const Foam& foam, const glm::dvec3& centre) : foa
   sources_.resize(cells_.cells.size());
   for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
     if (cells_.rankOf[cell] != ViewCells<float>::kNotDrawn) sources_[cells_.rankOf[cell]] = cell;
-  }
-  for (const ViewCell<float>& cell : cells_.cells) {
-    reach_ = std::max(reach_, glm::length(cell.centre) + cell.radius);
   }
 }
 

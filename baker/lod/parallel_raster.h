@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -20,11 +21,8 @@ struct RayGrid {
   glm::vec3 right{1, 0, 0}, down{0, 1, 0}, forward{0, 0, 1};  // unit, orthogonal; rays go along `forward`
   uint32_t size = 0;                                          // rays per side
   float spacing = 0;                                          // [scene units]
+  float start = 0;                                            // of the rays along `forward` [scene units]
 };
-
-// `count` grids from all sides, turned by the seed: corners and faces of a cube, then a Fibonacci lattice.
-// They hold a ball of that radius around the centre.
-std::vector<RayGrid> gridsAround(float radius, uint32_t count, uint32_t size, uint64_t seed);
 
 // A ball around the balls of the foam's cells that show: the middle of their box, and the least radius from there.
 struct FoamBall {
@@ -32,6 +30,11 @@ struct FoamBall {
   double radius = 0;     // [scene units]; 0: none shows
 };
 FoamBall boundVisibleCells(const Foam& foam);
+
+// `count` grids that hold the ball, centred on it: along the directions from eyes, spread over them, with rays that
+// start beside their eye; without eyes from all sides, turned by the seed, with rays that start outside.
+std::vector<RayGrid> makeGrids(const FoamBall& ball, std::span<const glm::vec3> eyes, uint32_t count, uint32_t size,
+                               uint64_t seed);
 
 // What one grid of rays shows.
 struct ParallelImage {
@@ -63,7 +66,6 @@ class ParallelRaster {
   const Foam& foam_;
   ViewCells<float> cells_;         // positions relative to the centre; colours are those of no direction
   std::vector<uint32_t> sources_;  // [rank] the foam's cell
-  float reach_ = 0;                // rays start so far before the centre
 };
 
 template <class Visit>
@@ -90,7 +92,7 @@ ParallelImage ParallelRaster::draw(const RayGrid& grid, const Visit& visit) cons
         float& logTransmittance = image.logTransmittances[ray];
         if (logTransmittance < kLogCutoff) continue;
         const glm::vec3 offset = ((float(column) - half) * grid.spacing) * grid.right +
-                                 ((float(row) - half) * grid.spacing) * grid.down - reach_ * grid.forward;
+                                 ((float(row) - half) * grid.spacing) * grid.down + grid.start * grid.forward;
         const PrimaryRay<float> primary{offset, grid.forward};
         BallHit<float> hit{rank, 0, 0};
         if (!foam::intersectBall(cell.centre - offset, cell.radius, grid.forward, hit.tNear, hit.tFar)) continue;

@@ -1,7 +1,7 @@
 // froth_bench_levels FOAM CAMERAS: what a level of detail costs in likeness, and how long its parts take on one core.
 //
-// Merges cells without locks in rounds until --cells are left, and compares with the foam: in every fourth view at the
-// sizes of
+// Merges cells without locks, in --groups alone, until --part of them is left, and compares with the foam: in every
+// fourth view at the sizes of
 // --widths, point-sampled, or each pixel the mean of --rays^2 rays; other views measure what cells contribute.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -23,6 +23,7 @@
 #include "baker/lod/merge_cells.h"
 #include "base/image/mean_square.h"
 #include "foam/foam_arrays.h"
+#include "foam/pick_foam.h"
 #include "reference/camera/view_rays.h"
 #include "reference/render/reference.h"
 
@@ -34,7 +35,8 @@ constexpr uint32_t kRoundPart = 4;
 
 struct Options {
   std::string foam, cameras;
-  uint32_t cells = 20'000, threads = 2, rays = 2;
+  double part = 0.5;  // of the cells that are left
+  uint32_t groups = 1, threads = 2, rays = 2;
   std::vector<uint32_t> widths{660, 330, 165, 82};
 };
 
@@ -112,27 +114,73 @@ class LevelsBench {
       contributions = valueOf(measureContributions(input_.foam, others_, {input_.nearRatio, input_.nearDepth, 80'000}));
     });
     fmt::print("contributions of {} views: {:.2f} s\n", others_.size(), measured);
-    Foam coarse = input_.foam;
-    std::vector<double> shown = contributions;
-    std::vector<glm::vec3> eyes;
-    for (const View& view : others_) eyes.emplace_back(eyeOf(view));
-    while (coarse.cellCount > options_.cells) {
+    for (const View& view : others_) eyes_.emplace_back(eyeOf(view));
+    std::vector<uint32_t> cells(input_.foam.cellCount);
+    std::iota(cells.begin(), cells.end(), 0u);
+    Foam coarse;
+    for (const std::vector<uint32_t>& group : split(cells, options_.groups)) {
+      const Foam fine = pick(group);
+      std::vector<double> shown;
+      for (const uint32_t cell : group) shown.push_back(contributions[cell]);
+      const Foam made = mergeRounds(fine, std::move(shown));
+      measureError(fine, made);
+      append(made, coarse);
+    }
+    compare(coarse);
+  }
+
+ private:
+  // Halves by the median along the longest side.
+  std::vector<std::vector<uint32_t>> split(std::vector<uint32_t> cells, uint32_t groups) const {
+    if (groups <= 1) return {std::move(cells)};
+    const std::vector<glm::vec3>& sites = input_.foam.sites;
+    glm::vec3 low(INFINITY), high(-INFINITY);
+    for (const uint32_t cell : cells) low = glm::min(low, sites[cell]), high = glm::max(high, sites[cell]);
+    const glm::vec3 size = high - low;
+    const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+    std::sort(cells.begin(), cells.end(), [&](uint32_t a, uint32_t b) { return sites[a][axis] < sites[b][axis]; });
+    const auto middle = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
+    std::vector<std::vector<uint32_t>> parts = split({cells.begin(), middle}, groups / 2);
+    for (std::vector<uint32_t>& part : split({middle, cells.end()}, groups / 2)) parts.push_back(std::move(part));
+    return parts;
+  }
+
+  Foam pick(const std::vector<uint32_t>& cells) const {
+    std::vector<uint64_t> details;
+    for (const uint32_t cell : cells) {
+      for (uint32_t k = 0; k < input_.foam.detailCount; ++k) {
+        details.push_back(uint64_t{cell} * input_.foam.detailCount + k);
+      }
+    }
+    return pickFoam(input_.foam, {cells, details, input_.foam.detailCount, input_.foam.lobeCount});
+  }
+
+  static void append(const Foam& part, Foam& foam) {
+    foam.cellCount += part.cellCount;
+    foam.detailCount = part.detailCount;
+    foam.lobeCount = part.lobeCount;
+    visitArrays([&](const FoamArray&, auto values) {
+      (foam.*values).insert((foam.*values).end(), (part.*values).begin(), (part.*values).end());
+    });
+  }
+
+  Foam mergeRounds(Foam coarse, std::vector<double> shown) const {
+    const auto left = static_cast<uint32_t>(options_.part * coarse.cellCount);
+    while (coarse.cellCount > left) {
       std::vector<CellPair> pairs;
       Foam merged;
       const std::vector<uint8_t> isLocked(coarse.cellCount, 0);
-      const size_t most = std::min<size_t>(coarse.cellCount - options_.cells, coarse.cellCount / kRoundPart);
-      const double chosen = secondsOf([&] { pairs = choosePairs(coarse, isLocked, shown, most, eyes); });
-      const double joined = secondsOf([&] { merged = mergePairs(coarse, pairs, shown, eyes); });
+      const size_t most = std::min<size_t>(coarse.cellCount - left, coarse.cellCount / kRoundPart);
+      const double chosen = secondsOf([&] { pairs = choosePairs(coarse, isLocked, shown, most, eyes_); });
+      const double joined = secondsOf([&] { merged = mergePairs(coarse, pairs, shown, eyes_); });
       fmt::print("{} cells: {} pairs chosen in {:.2f} s, merged in {:.2f} s\n", coarse.cellCount, pairs.size(), chosen,
                  joined);
       if (pairs.empty()) break;
       coarse = replacePairs(coarse, pairs, merged, shown);
     }
-    compare(coarse);
-    measureError(coarse);
+    return coarse;
   }
 
- private:
   void compare(const Foam& coarse) const {
     const ReferenceRenderer after(coarse);
     for (const uint32_t width : options_.widths) {
@@ -162,14 +210,14 @@ class LevelsBench {
                                reduce(valueOf(after.render(sized, reference)).colour, rays)));
   }
 
-  void measureError(const Foam& coarse) const {
+  void measureError(const Foam& fine, const Foam& coarse) const {
     std::vector<ErrorAtSize> curve;
-    const double seconds = secondsOf([&] { curve = measureErrorCurve(input_.foam, coarse, 1); });
-    fmt::print("error of the whole as a group, {:.2f} s:\n", seconds);
+    const double seconds = secondsOf([&] { curve = measureErrorCurve(fine, coarse, 1, eyes_); });
+    fmt::print("error of {} cells, {:.2f} s:\n", fine.cellCount, seconds);
     for (const ErrorAtSize& point : curve) {
       fmt::print("  pixel of {:.4f}: worst {:.2f} dB\n", point.pixel, decibels(point.worst));
     }
-    fmt::print("  error {:.4f}\n", measureGroupError(input_.foam, coarse, 1));
+    fmt::print("  error {:.4f}\n", measureGroupError(fine, coarse, 1, eyes_));
   }
 
   const Options& options_;
@@ -177,6 +225,7 @@ class LevelsBench {
   const CameraSet cameras_;
   const ReferenceRenderer fine_;
   std::vector<View> tests_, others_;
+  std::vector<glm::vec3> eyes_;
 };
 
 }  // namespace
@@ -187,7 +236,8 @@ int main(int argc, char** argv) {
   CLI::App program("What a level of detail costs in likeness");
   program.add_option("FOAM", options.foam)->required();
   program.add_option("CAMERAS", options.cameras)->required();
-  program.add_option("--cells", options.cells);
+  program.add_option("--part", options.part);
+  program.add_option("--groups", options.groups, "a power of two");
   program.add_option("--widths", options.widths);
   program.add_option("--rays", options.rays);
   program.add_option("--threads", options.threads);

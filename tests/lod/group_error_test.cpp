@@ -53,6 +53,31 @@ TEST(GroupError, LargerPixelsHideFineDifferences) {
   for (size_t i = 1; i < curve.size(); ++i) EXPECT_LT(curve[i - 1].pixel, curve[i].pixel);
 }
 
+// Cells in two layers; those in front are the same, and what differs is behind them.
+TEST(GroupError, CountsWhatIsSeenFromTheEyesAlone) {
+  std::vector<PlainCell> cells;
+  for (int layer = 0; layer < 2; ++layer) {
+    for (int i = 0; i < 49; ++i) {
+      cells.push_back({.site = {float(i % 7), float(i / 7), 3.0f * float(layer)}, .density = 100});
+    }
+  }
+  const Foam foam = foamOf(cells);
+  Foam changed = foam;
+  for (size_t cell = 49; cell < 98; ++cell) changed.lobeColours[cell] += 0.3f;
+  const std::vector<glm::vec3> before{{3, 3, -40}}, behind{{3, 3, 43}};
+  EXPECT_LT(measureErrorCurve(foam, changed, 1, before).front().worst, 1e-3);
+  EXPECT_GT(measureErrorCurve(foam, changed, 1, behind).front().worst, 0.05);
+}
+
+// An eye between both layers sees only the one before it, where it is first; the other lies behind it.
+TEST(GroupError, RaysStartBesideTheirEye) {
+  const Foam foam = foamOf({{.site = {0, 0, -3}, .density = 100}, {.site = {0, 0, 3}, .density = 100}});
+  Foam changed = foam;
+  changed.lobeColours[0] += 0.3f;
+  const std::vector<glm::vec3> between{{0, 0, -1.5f}};
+  EXPECT_EQ(measureGroupError(foam, changed, 1, between), 0);
+}
+
 TEST(GroupError, TheSameOnAnyNumberOfThreads) {
   const Foam foam = randomFoam(300, 2, 2, 8), dimmed = withDimmedColours(foam, 0.9f);
   const double onAll = measureGroupError(foam, dimmed, 2);

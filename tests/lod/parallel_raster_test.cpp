@@ -32,7 +32,7 @@ TEST(ParallelRaster, ShowsWhatTheReferenceShows) {
   const ParallelRaster raster(foam, bound.centre);
   ReferenceOptions options = plainOptions(Precision::kFloat);
   options.cutoff = 1e-3;
-  for (const RayGrid& grid : gridsAround(static_cast<float>(bound.radius), 14, 48, 7)) {
+  for (const RayGrid& grid : makeGrids(bound, {}, 14, 48, 7)) {
     const ParallelImage image = raster.draw(grid);
     const RenderedImages expected = renderFoam(foam, viewOf(grid, bound), options);
     double covered = 0;
@@ -51,7 +51,7 @@ TEST(ParallelRaster, ShowsWhatTheReferenceShows) {
 TEST(ParallelRaster, WeightsOfCellsAddUpToTheCoverage) {
   const Foam foam = randomFoam(100, 2, 1, 6);
   const FoamBall bound = boundVisibleCells(foam);
-  const RayGrid grid = gridsAround(static_cast<float>(bound.radius), 1, 32, 1)[0];
+  const RayGrid grid = makeGrids(bound, {}, 1, 32, 1)[0];
   std::vector<float> sums(size_t{grid.size} * grid.size, 0.0f);
   const ParallelImage image =
       ParallelRaster(foam, bound.centre).draw(grid, [&](uint32_t ray, uint32_t, float weight, const float* shares) {
