@@ -1,4 +1,4 @@
-// froth_bench_levels FOAM CAMERAS: what a level of detail costs in likeness, and how long its parts take on one core.
+// froth_bench_levels FOAM CAMERAS: what a level of detail costs in likeness, and the CPU time of its parts.
 //
 // Merges cells without locks, in --groups alone, until --part of them is left, and compares with the foam: in every
 // fourth view at the sizes of
@@ -8,9 +8,9 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -46,10 +46,11 @@ T valueOf(Result<T> result) {
   return std::move(*result);
 }
 
+// CPU time of all threads.
 double secondsOf(const auto& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 // The cells that are in no pair, then the merged ones; contributions alike.

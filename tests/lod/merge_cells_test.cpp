@@ -46,13 +46,14 @@ TEST(MergeCells, TwoHalvesOfACellAreThatCell) {
                         .orientation = kFaceTowardsPlusZ,
                         .height = 0};
   PlainCell left = whole, right = whole;
-  left.site.x -= 0.1f;
-  right.site.x += 0.1f;
+  left.site.x -= 0.3f;
+  right.site.x += 0.3f;
   const std::vector<CellPair> pair{{0, 1}};
-  const Foam merged = mergePairs(foamOf({left, right}), pair, {}), expected = foamOf({whole});
+  const std::vector<double> contributions{1000, 1};  // weigh colours, and leave the shape
+  const Foam merged = mergePairs(foamOf({left, right}), pair, contributions), expected = foamOf({whole});
   ASSERT_EQ(merged.cellCount, 1u);
-  EXPECT_NEAR(glm::distance(merged.sites[0], whole.site), 0, 0.05);
-  EXPECT_NEAR(merged.radii[0], 2, 0.06);
+  EXPECT_NEAR(glm::distance(merged.sites[0], whole.site), 0, 0.1);
+  EXPECT_NEAR(merged.radii[0], 2, 0.15);
   EXPECT_NEAR(merged.densities[0], 0.7, 0.05);
   EXPECT_NEAR(faceFrame<float>(merged.orientations[0]).normal.z, 1, 1e-5);
   EXPECT_EQ(merged.detailHeights[0], 0);  // plain faces stay plain
