@@ -244,8 +244,7 @@ Status Bake::makeCoarser() {
                          plan_,
                          contents_.quantization,
                          options_.chunkCells,
-                         visibility_ ? sumWeights(foam_, *visibility_) : std::vector<double>{},
-                         options_.seed};
+                         visibility_ ? sumWeights(foam_, *visibility_) : std::vector<double>{}};
   Result<Levels> levels = makeLevels(input, cells_, progress_);
   if (!levels) return levels.error();
   levels_ = std::move(*levels);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFull = 0.85, kOverfull = 1.5;  // live cells of a group, of those it should have
 constexpr uint64_t kApartWeight = 4;             // of pairs of neighbours across chunks that different groups made
-constexpr uint32_t kNone = 0xffffffff;
+constexpr uint32_t kNoGroupYet = 0xffffffff;
 
 struct Edge {
   uint32_t chunk;  // place in the list
@@ -20,7 +20,7 @@ struct Edge {
 using Adjacency = std::vector<std::vector<Edge>>;  // [listed]
 
 Adjacency countPairs(std::span<const LevelChunk> chunks, std::span<const uint32_t> listed, uint32_t cellCount) {
-  std::vector<uint32_t> listedOf(cellCount, kNone);
+  std::vector<uint32_t> listedOf(cellCount, kNoGroupYet);
   for (uint32_t place = 0; place < listed.size(); ++place) {
     for (const uint32_t cell : chunks[listed[place]].planned.cells) listedOf[cell] = place;
   }
@@ -28,7 +28,7 @@ Adjacency countPairs(std::span<const LevelChunk> chunks, std::span<const uint32_
   tbb::parallel_for(size_t{0}, listed.size(), [&](size_t place) {
     std::vector<uint32_t> others;
     for (const uint32_t cell : chunks[listed[place]].rows.walk.neighbours) {
-      if (listedOf[cell] != kNone && listedOf[cell] != place) others.push_back(listedOf[cell]);
+      if (listedOf[cell] != kNoGroupYet && listedOf[cell] != place) others.push_back(listedOf[cell]);
     }
     std::sort(others.begin(), others.end());
     const uint32_t maker = chunks[listed[place]].place.madeBy;
@@ -49,7 +49,7 @@ class Grouping {
       : adjacency_(adjacency),
         live_(live),
         groupLive_(static_cast<double>(groupLive)),
-        groupOf_(adjacency.size(), kNone) {}
+        groupOf_(adjacency.size(), kNoGroupYet) {}
 
   std::vector<std::vector<uint32_t>> run() {
     while (const std::optional<uint32_t> seed = chooseSeed()) {
@@ -89,8 +89,8 @@ class Grouping {
     std::optional<uint32_t> best;
     uint64_t least = 0;
     for (uint32_t chunk = 0; chunk < adjacency_.size(); ++chunk) {
-      if (groupOf_[chunk] != kNone) continue;
-      const uint64_t weight = weightTo(chunk, kNone);
+      if (groupOf_[chunk] != kNoGroupYet) continue;
+      const uint64_t weight = weightTo(chunk, kNoGroupYet);
       if (!best || weight < least) best = chunk, least = weight;
     }
     return best;
@@ -102,9 +102,9 @@ class Grouping {
     double most = 0;
     for (const uint32_t member : groups_[group]) {
       for (const Edge& edge : adjacency_[member]) {
-        if (groupOf_[edge.chunk] != kNone) continue;
+        if (groupOf_[edge.chunk] != kNoGroupYet) continue;
         const auto inside = static_cast<double>(weightTo(edge.chunk, group));
-        const double share = inside / (inside + static_cast<double>(weightTo(edge.chunk, kNone)));
+        const double share = inside / (inside + static_cast<double>(weightTo(edge.chunk, kNoGroupYet)));
         if (share > most || (share == most && edge.chunk < *best)) best = edge.chunk, most = share;
       }
     }
@@ -130,7 +130,7 @@ class Grouping {
   const Adjacency& adjacency_;
   std::span<const uint32_t> live_;
   const double groupLive_;
-  std::vector<uint32_t> groupOf_;  // [listed] kNone: none yet
+  std::vector<uint32_t> groupOf_;  // [listed] kNoGroupYet: none yet
   std::vector<std::vector<uint32_t>> groups_;
 };
 

@@ -7,8 +7,8 @@
 #include "baker/cells/snap_cells.h"
 #include "baker/graph/graph.h"
 #include "baker/lod/choose_pairs.h"
+#include "baker/lod/form_distance.h"
 #include "baker/lod/gather_cells.h"
-#include "baker/lod/group_error.h"
 #include "baker/lod/merge_cells.h"
 #include "foam/append_cells.h"
 #include "foam/site_tree.h"
@@ -18,7 +18,7 @@ namespace {
 
 // A group with more live cells left than this share of them is not worth its bytes.
 constexpr double kWorthwhileShare = 0.85;
-constexpr uint32_t kNone = 0xffffffff;
+constexpr uint32_t kNoPair = 0xffffffff;
 
 class Coarsening {
  public:
@@ -60,7 +60,7 @@ class Coarsening {
   Foam merged_;                     // [pairs_]
   BakeCells mergedCells_;           // the same on the lattices
   std::vector<uint8_t> isUndone_;   // [pairs_]
-  std::vector<uint32_t> pairOf_;    // [fine cells] kNone: merges with no other
+  std::vector<uint32_t> pairOf_;    // [fine cells] kNoPair: merges with no other
   std::vector<uint8_t> isDropped_;  // [fine cells]
 
   // Of the triangulation: kept cells of the fine form, merged cells, the ring.
@@ -102,7 +102,7 @@ void Coarsening::merge() {
   merged_ = mergePairs(faces_, pairs_, contributions_);
   mergedCells_ = snapCells(merged_, source_.lattices);
   isUndone_.assign(pairs_.size(), 0);
-  pairOf_.assign(fine_.count(), kNone);
+  pairOf_.assign(fine_.count(), kNoPair);
   for (uint32_t k = 0; k < pairs_.size(); ++k) {
     pairOf_[faced_[pairs_[k].first]] = pairOf_[faced_[pairs_[k].second]] = k;
   }
@@ -149,7 +149,7 @@ void Coarsening::listCells() {
     radii_.push_back(source_.cells.radii[cell]);
   };
   for (uint32_t i = 0; i < fine_.count(); ++i) {
-    if (isDropped_[i] || (pairOf_[i] != kNone && !isUndone_[pairOf_[i]])) continue;
+    if (isDropped_[i] || (pairOf_[i] != kNoPair && !isUndone_[pairOf_[i]])) continue;
     kept_.push_back(i);
     addCell(fine_.cells[i]);
   }
@@ -251,12 +251,12 @@ void Coarsening::measure() {
   std::vector<uint32_t> unmerged;
   for (uint32_t k = 0; k < faced_.size(); ++k) {
     const uint32_t i = faced_[k];
-    if (!isDropped_[i] && (pairOf_[i] == kNone || isUndone_[pairOf_[i]])) unmerged.push_back(k);
+    if (!isDropped_[i] && (pairOf_[i] == kNoPair || isUndone_[pairOf_[i]])) unmerged.push_back(k);
   }
   Foam coarse;
   appendCells(faces_, unmerged, coarse);
   appendCells(merged_, standing_, coarse);
-  form_.error = measureGroupError(faces_, coarse, source_.seed);
+  form_.error = measureFormDistance(faces_, coarse);
 }
 
 Result<CoarseForm> Coarsening::run() {

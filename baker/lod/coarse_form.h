@@ -20,7 +20,6 @@ struct LevelSource {
   const BakeCells& cells;
   const std::vector<double>& contributions;  // [input cells, merged cells] how much each shows; empty: all alike
   const Quantization& lattices;
-  uint64_t seed;
 };
 
 struct CoarseForm {

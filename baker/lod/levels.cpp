@@ -99,7 +99,7 @@ Status LevelMaker::makeLevel() {
   for (std::vector<uint32_t>& group : groupChunks(chunks_, front_, cells_.count(), groupLive)) {
     steps.emplace_back().group = std::move(group);
   }
-  const LevelSource source{input_.foam, levels_.merged, cells_, contributions_, input_.lattices, input_.seed};
+  const LevelSource source{input_.foam, levels_.merged, cells_, contributions_, input_.lattices};
   const auto makeForm = [&](Step& step) {
     FineForm fine = makeFineForm(chunks_, step.group);
     step.form = makeCoarseForm(source, fine);

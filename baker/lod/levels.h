@@ -22,7 +22,6 @@ struct LevelInput {
   const Quantization& lattices;
   uint32_t chunkCells;                // most live cells of a chunk
   std::vector<double> contributions;  // [input cells] how much each shows; empty: all alike
-  uint64_t seed;
 };
 
 struct Levels {

@@ -9,7 +9,7 @@ namespace froth {
 namespace {
 
 // What blocks may leave unused of what is estimated.
-constexpr VkDeviceSize kSparePart = 16;
+constexpr VkDeviceSize kSpareOfChunks = 16;
 
 std::vector<uint32_t> chunksOfLevelZero(const AssetContents& manifest) {
   std::vector<uint32_t> chunks;
@@ -52,7 +52,7 @@ std::vector<uint32_t>& Context::wantedCut(FrothAsset handle, const Asset& asset)
     if (asset.chunkState(chunk) == SlotState::kAbsent) wanted += asset.chunkBytes(chunk);
   }
   const std::span<const uint32_t> floor = asset.drawnChunks();
-  if (wanted + wanted / kSparePart > device_.roomBytes()) cut.assign(floor.begin(), floor.end());
+  if (wanted + wanted / kSpareOfChunks > device_.roomBytes()) cut.assign(floor.begin(), floor.end());
   return cuts_.emplace_back(handle, std::move(cut)).second;
 }
 

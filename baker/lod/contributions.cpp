@@ -1,0 +1,69 @@
+#include "baker/lod/contributions.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "reference/render/reference_state.h"
+
+namespace froth {
+namespace {
+
+constexpr float kCutoff = 1e-3f;  // of the runtime
+constexpr float kSharpness = 10;
+constexpr float kFixedPoint = 0x1p28f;  // sums are integers: their order does not matter
+
+View reduceView(const View& view, uint32_t pixels) {
+  const double scale = std::min(1.0, std::sqrt(pixels / (double(view.width) * view.height)));
+  const auto reduce = [&](uint32_t size) { return std::max(1u, static_cast<uint32_t>(std::lround(size * scale))); };
+  return resizeView(view, reduce(view.width), reduce(view.height));
+}
+
+}  // namespace
+
+Result<std::vector<double>> measureContributions(const Foam& foam, std::span<const View> views,
+                                                 const ContributionOptions& options, const Progress& progress) {
+  Foam plain = foam;  // colours are not asked for
+  plain.lobeCount = 0;
+  plain.lobeAxes.clear();
+  plain.lobeColours.clear();
+  plain.lobeOffsets.clear();
+  const ReferenceRenderer renderer(plain, progress);
+  const ReferenceRenderer::State& state = renderer.state();
+  if (state.cechPairs.offsets.empty()) return stoppedOnRequest("contributions");
+  const RaySettings<float> settings{kCutoff, -std::numeric_limits<float>::infinity(), kSharpness};
+  std::vector<uint64_t> sums(foam.cellCount, 0);
+  for (size_t v = 0; v < views.size(); ++v) {
+    if (!report(progress, "contributions", v, views.size())) return stoppedOnRequest("contributions");
+    const View view = reduceView(views[v], options.pixelsPerView);
+    ReferenceOptions reference;
+    reference.nearRatio = view.nearRatio.value_or(options.nearRatio);
+    reference.nearDepth = view.nearDepth.value_or(options.nearDepth);
+    const ViewCells<float> cells = prepareViewCells<float>(plain, state.cechPairs, state.visible, view, reference);
+    std::vector<uint64_t> seen(cells.cells.size(), 0);
+    const ViewRays rays(view);
+    const Status drawn = renderRows(view.height, {}, [&](uint32_t y) {
+      std::vector<BallHit<float>> hits;
+      for (uint32_t x = 0; x < view.width; ++x) {
+        const std::optional<ViewRay> exact = rays.ofPixel(x, y);
+        if (!exact) continue;
+        const PrimaryRay<float> primary{exact->offset, exact->direction};
+        gatherHits(state.tree, cells, eyeOf(view) + exact->offset, primary, INFINITY, hits);
+        compositeHits(cells, primary, settings, hits, [&](const RaySegment<float>& segment) {
+          std::atomic_ref<uint64_t>(seen[segment.rank])
+              .fetch_add(static_cast<uint64_t>(kFixedPoint * segment.weight), std::memory_order_relaxed);
+        });
+      }
+    });
+    if (!drawn) return drawn.error();
+    for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
+      if (cells.rankOf[cell] != ViewCells<float>::kNotDrawn) sums[cell] += seen[cells.rankOf[cell]];
+    }
+  }
+  std::vector<double> contributions(foam.cellCount);
+  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) contributions[cell] = double(sums[cell]) / double{kFixedPoint};
+  return contributions;
+}
+
+}  // namespace froth

@@ -1,0 +1,254 @@
+// froth_bench_levels FOAM CAMERAS: what a level of detail costs in likeness, and the CPU time of its parts.
+//
+// Merges cells without locks, in --groups alone, until --part of them is left, and compares with the foam: in every
+// fourth view at the sizes of
+// --widths, point-sampled, or each pixel the mean of --rays^2 rays; other views measure what cells contribute.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "baker/input/foam_input.h"
+#include "baker/lod/choose_pairs.h"
+#include "baker/lod/contributions.h"
+#include "baker/lod/group_error.h"
+#include "baker/lod/merge_cells.h"
+#include "base/image/mean_square.h"
+#include "foam/foam_arrays.h"
+#include "foam/pick_foam.h"
+#include "reference/camera/view_rays.h"
+#include "reference/render/reference.h"
+
+namespace froth {
+namespace {
+
+// Pairs of a round, of its cells: cells that show little merge again, and fewer of the others have to.
+constexpr uint32_t kRoundPart = 4;
+
+struct Options {
+  std::string foam, cameras;
+  double part = 0.5;  // of the cells that are left
+  uint32_t groups = 1, threads = 2, rays = 2;
+  std::vector<uint32_t> widths{660, 330, 165, 82};
+};
+
+template <class T>
+T valueOf(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+// CPU time of all threads.
+double secondsOf(const auto& work) {
+  const std::clock_t start = std::clock();
+  work();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+// The cells that are in no pair, then the merged ones; contributions alike.
+Foam replacePairs(const Foam& foam, std::span<const CellPair> pairs, const Foam& merged,
+                  std::vector<double>& contributions) {
+  std::vector<uint8_t> isMerged(foam.cellCount, 0);
+  std::vector<double> kept;
+  for (const CellPair& pair : pairs) isMerged[pair.first] = isMerged[pair.second] = 1;
+  Foam result = foam;
+  const auto pick = [&](auto& values, const auto& added, size_t perCell) {
+    size_t end = 0;
+    for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
+      if (isMerged[cell]) continue;
+      for (size_t i = 0; i < perCell; ++i) values[end++] = values[cell * perCell + i];
+    }
+    values.resize(end);
+    values.insert(values.end(), added.begin(), added.end());
+  };
+  visitArrays([&](const FoamArray&, auto values) {
+    if ((foam.*values).empty()) return;
+    const size_t perCell = (foam.*values).size() / foam.cellCount;
+    pick(result.*values, merged.*values, perCell);
+  });
+  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
+    if (!isMerged[cell]) kept.push_back(contributions[cell]);
+  }
+  for (const CellPair& pair : pairs) kept.push_back(contributions[pair.first] + contributions[pair.second]);
+  contributions = std::move(kept);
+  result.cellCount = static_cast<uint32_t>(contributions.size());
+  return result;
+}
+
+// Each pixel the mean of factor^2.
+Image reduce(const Image& image, uint32_t factor) {
+  Image small{image.width / factor, image.height / factor, 3, {}};
+  small.values.assign(size_t{small.width} * small.height * 3, 0.0f);
+  for (uint32_t y = 0; y < small.height * factor; ++y) {
+    for (uint32_t x = 0; x < small.width * factor; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        small.pixel(x / factor, y / factor)[c] += image.pixel(x, y)[c] / static_cast<float>(factor * factor);
+      }
+    }
+  }
+  return small;
+}
+
+class LevelsBench {
+ public:
+  explicit LevelsBench(const Options& options)
+      : options_(options),
+        input_(valueOf(loadFoam(options.foam, {}))),
+        cameras_(valueOf(readCameras(options.cameras))),
+        fine_(input_.foam) {
+    for (size_t v = 0; v < cameras_.views.size(); ++v) {
+      (v % 4 == 2 ? tests_ : others_).push_back(cameras_.views[v]);
+    }
+  }
+
+  void run() {
+    std::vector<double> contributions;
+    const double measured = secondsOf([&] {
+      contributions = valueOf(measureContributions(input_.foam, others_, {input_.nearRatio, input_.nearDepth, 80'000}));
+    });
+    fmt::print("contributions of {} views: {:.2f} s\n", others_.size(), measured);
+    for (const View& view : others_) eyes_.emplace_back(eyeOf(view));
+    std::vector<uint32_t> cells(input_.foam.cellCount);
+    std::iota(cells.begin(), cells.end(), 0u);
+    Foam coarse;
+    for (const std::vector<uint32_t>& group : split(cells, options_.groups)) {
+      const Foam fine = pick(group);
+      std::vector<double> shown;
+      for (const uint32_t cell : group) shown.push_back(contributions[cell]);
+      const Foam made = mergeRounds(fine, std::move(shown));
+      measureError(fine, made);
+      append(made, coarse);
+    }
+    compare(coarse);
+  }
+
+ private:
+  // Halves by the median along the longest side.
+  std::vector<std::vector<uint32_t>> split(std::vector<uint32_t> cells, uint32_t groups) const {
+    if (groups <= 1) return {std::move(cells)};
+    const std::vector<glm::vec3>& sites = input_.foam.sites;
+    glm::vec3 low(INFINITY), high(-INFINITY);
+    for (const uint32_t cell : cells) low = glm::min(low, sites[cell]), high = glm::max(high, sites[cell]);
+    const glm::vec3 size = high - low;
+    const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+    std::sort(cells.begin(), cells.end(), [&](uint32_t a, uint32_t b) { return sites[a][axis] < sites[b][axis]; });
+    const auto middle = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
+    std::vector<std::vector<uint32_t>> parts = split({cells.begin(), middle}, groups / 2);
+    for (std::vector<uint32_t>& part : split({middle, cells.end()}, groups / 2)) parts.push_back(std::move(part));
+    return parts;
+  }
+
+  Foam pick(const std::vector<uint32_t>& cells) const {
+    std::vector<uint64_t> details;
+    for (const uint32_t cell : cells) {
+      for (uint32_t k = 0; k < input_.foam.detailCount; ++k) {
+        details.push_back(uint64_t{cell} * input_.foam.detailCount + k);
+      }
+    }
+    return pickFoam(input_.foam, {cells, details, input_.foam.detailCount, input_.foam.lobeCount});
+  }
+
+  static void append(const Foam& part, Foam& foam) {
+    foam.cellCount += part.cellCount;
+    foam.detailCount = part.detailCount;
+    foam.lobeCount = part.lobeCount;
+    visitArrays([&](const FoamArray&, auto values) {
+      (foam.*values).insert((foam.*values).end(), (part.*values).begin(), (part.*values).end());
+    });
+  }
+
+  Foam mergeRounds(Foam coarse, std::vector<double> shown) const {
+    const auto left = static_cast<uint32_t>(options_.part * coarse.cellCount);
+    while (coarse.cellCount > left) {
+      std::vector<CellPair> pairs;
+      Foam merged;
+      const std::vector<uint8_t> isLocked(coarse.cellCount, 0);
+      const size_t most = std::min<size_t>(coarse.cellCount - left, coarse.cellCount / kRoundPart);
+      const double chosen = secondsOf([&] { pairs = choosePairs(coarse, isLocked, shown, most, eyes_); });
+      const double joined = secondsOf([&] { merged = mergePairs(coarse, pairs, shown, eyes_); });
+      fmt::print("{} cells: {} pairs chosen in {:.2f} s, merged in {:.2f} s\n", coarse.cellCount, pairs.size(), chosen,
+                 joined);
+      if (pairs.empty()) break;
+      coarse = replacePairs(coarse, pairs, merged, shown);
+    }
+    return coarse;
+  }
+
+  void compare(const Foam& coarse) const {
+    const ReferenceRenderer after(coarse);
+    for (const uint32_t width : options_.widths) {
+      for (const uint32_t rays : {1u, options_.rays}) {
+        double worst = INFINITY, sum = 0;
+        for (const View& view : tests_) {
+          const double psnr = compareView(after, view, width, rays);
+          worst = std::min(worst, psnr);
+          sum += psnr;
+        }
+        fmt::print("width {:4}, {} rays per pixel: worst {:.2f} dB, mean {:.2f} dB\n", width, rays * rays, worst,
+                   sum / double(tests_.size()));
+        std::fflush(stdout);
+      }
+    }
+  }
+
+  double compareView(const ReferenceRenderer& after, const View& view, uint32_t width, uint32_t rays) const {
+    const auto height = static_cast<uint32_t>(std::lround(double(width) * view.height / view.width));
+    const View sized = resizeView(view, width * rays, height * rays);
+    ReferenceOptions reference;
+    reference.precision = Precision::kFloat;
+    reference.cutoff = 1e-3;
+    reference.nearRatio = view.nearRatio.value_or(double{input_.nearRatio});
+    reference.nearDepth = view.nearDepth.value_or(double{input_.nearDepth});
+    return decibels(meanSquare(reduce(valueOf(fine_.render(sized, reference)).colour, rays),
+                               reduce(valueOf(after.render(sized, reference)).colour, rays)));
+  }
+
+  void measureError(const Foam& fine, const Foam& coarse) const {
+    std::vector<ErrorAtSize> curve;
+    const double seconds = secondsOf([&] { curve = measureErrorCurve(fine, coarse, 1, eyes_); });
+    fmt::print("error of {} cells, {:.2f} s:\n", fine.cellCount, seconds);
+    for (const ErrorAtSize& point : curve) {
+      fmt::print("  pixel of {:.4f}: worst {:.2f} dB\n", point.pixel, decibels(point.worst));
+    }
+    fmt::print("  error {:.4f}\n", measureGroupError(fine, coarse, 1, eyes_));
+  }
+
+  const Options& options_;
+  const FoamInput input_;
+  const CameraSet cameras_;
+  const ReferenceRenderer fine_;
+  std::vector<View> tests_, others_;
+  std::vector<glm::vec3> eyes_;
+};
+
+}  // namespace
+}  // namespace froth
+
+int main(int argc, char** argv) {
+  froth::Options options;
+  CLI::App program("What a level of detail costs in likeness");
+  program.add_option("FOAM", options.foam)->required();
+  program.add_option("CAMERAS", options.cameras)->required();
+  program.add_option("--part", options.part);
+  program.add_option("--groups", options.groups, "a power of two");
+  program.add_option("--widths", options.widths);
+  program.add_option("--rays", options.rays);
+  program.add_option("--threads", options.threads);
+  CLI11_PARSE(program, argc, argv);
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, options.threads);
+  try {
+    froth::LevelsBench(options).run();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
