@@ -131,9 +131,8 @@ class Coarsener {
     for (const auto& [a, b] : merges_) {
       for (const uint32_t end : {a, b}) {
         const auto row = fine_.neighbours(end);
-        if (std::any_of(row.begin(), row.end(), [&](uint32_t j) { return fine_.cells[j].number == number; })) {
-          bad.insert(a);
-        }
+        const auto isIt = [&](uint32_t j) { return fine_.cells[j].number == number; };
+        if (std::any_of(row.begin(), row.end(), isIt)) bad.insert(a);
       }
     }
   }

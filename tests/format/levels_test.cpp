@@ -217,7 +217,7 @@ TEST(VerifyLevels, FindsNothingWrongWithTheSample) {
 
 TEST(VerifyLevels, FindsABorderThatIsNotTheSameBallEverywhere) {
   EXPECT_THAT(verifyAfter([](AssetContents& a) { a.chunks[12].radii[a.chunks[12].borderCells[0]] += 0.5f; }),
-              HasSubstr("or not as large"));
+              AllOf(HasSubstr(": border "), HasSubstr(", is not where cell")));
   EXPECT_THAT(verifyAfter([](AssetContents& a) {
                 ChunkContents& chunk = a.chunks[12];
                 chunk.radii[chunk.cellCount] += 0.5f;
