@@ -35,6 +35,7 @@ void Asset::restart(const Messages& messages) {
   stop();
   placedBytes_ = 0;
   arrays_.clear();
+  refusals_.clear();
   isDecoded_ = false;
   error_ = FROTH_OK;
   description_ = {};

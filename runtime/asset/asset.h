@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -101,9 +102,13 @@ class Asset {
   std::span<const uint32_t> drawnChunks() const { return slots_.drawn(); }
   // [bytes] of device memory, without what blocks leave unused: an estimate before it was resident.
   VkDeviceSize chunkBytes(uint32_t chunk) const;
-  // One that is absent or failed: one fetch, one job, one place. A failure is a warning.
+  // [bytes] beside chunks: the tables of borders and entries.
+  VkDeviceSize tableBytes() const;
+  // One that is absent or failed: one fetch, one job, one place.
   void readChunk(uint32_t chunk);
-  // One that is resident, not drawn, not planned and not of the floor: its memory returns once no frame uses it.
+  Error takeRefusal(uint32_t chunk);  // why it failed
+  // One that is not of the floor. Before its fetch has begun: at once. Resident, not drawn and not planned: its memory
+  // returns once no frame uses it. Else nothing happens: tell it again.
   void evictChunk(uint32_t chunk);
   // A cut, to be drawn once all of it is resident and takePlan() says so.
   void planChunks(std::vector<uint32_t> chunks) { slots_.plan(std::move(chunks)); }
@@ -145,9 +150,9 @@ class Asset {
     Job<LoadedChunk> job;
   };
 
-  Status takeResults(const Preparation& prepare, const Messages& messages);
-  Status takeChunks(const Messages& messages);
-  Status refuseChunk(uint32_t chunk, const Error& error, const Messages& messages);
+  Status takeResults(const Preparation& prepare);
+  Status takeChunks();
+  Status refuseChunk(uint32_t chunk, const Error& error);
   bool startNext(JobRunner& jobs, ReadTable& reads, LoadLimit& limit);
   bool startReading(ReadTable& reads, const LoadLimit& limit);
   bool startOpening(JobRunner& jobs, LoadLimit& limit);
@@ -202,8 +207,9 @@ class Asset {
   FrothAssetStatus description_{};
   std::vector<FrothStoredCamera> flightPath_;
   GpuAsset gpu_;
-  ChunkSlots slots_;         // with levels
-  uint32_t floorCount_ = 0;  // the first chunks of the file
+  ChunkSlots slots_;                    // with levels
+  std::map<uint32_t, Error> refusals_;  // of chunks that failed
+  uint32_t floorCount_ = 0;             // the first chunks of the file
   std::shared_ptr<QueryFoam> queryFoam_;
   std::shared_ptr<GpuArena> arena_;
 };

@@ -1,6 +1,8 @@
 // Chunks of an asset with levels of detail: how they come, are drawn, and go.
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
+#include <utility>
 
 #include "runtime/asset/asset.h"
 
@@ -57,6 +59,11 @@ VkDeviceSize Asset::chunkBytes(uint32_t chunk) const {
   return static_cast<VkDeviceSize>(share * static_cast<double>(placedBytes_));
 }
 
+VkDeviceSize Asset::tableBytes() const {
+  const VkDeviceSize along = gpu_.walkEntriesAlong;
+  return (gpu_.borders != 0 ? gpu_.borderBytes() : 0) + sizeof(gpu::uvec4) * along * along * along;
+}
+
 void Asset::readChunk(uint32_t chunk) {
   const SlotState state = slots_.stateOf(chunk);
   if (state != SlotState::kAbsent && state != SlotState::kFailed) return;
@@ -65,17 +72,28 @@ void Asset::readChunk(uint32_t chunk) {
 }
 
 void Asset::evictChunk(uint32_t chunk) {
+  const auto queued = std::find(toRead_.begin(), toRead_.end(), chunk);
+  if (isDecoded_ && queued - toRead_.begin() >= static_cast<std::ptrdiff_t>(fetches_.size()) &&
+      queued != toRead_.end()) {
+    toRead_.erase(queued);
+    slots_.setState(chunk, SlotState::kAbsent);
+    return;
+  }
   const bool mayGo = chunk >= floorCount_ && !slots_.isDrawn(chunk) && !slots_.isPlanned(chunk);
   if (mayGo && slots_.stateOf(chunk) == SlotState::kResident) slots_.setState(chunk, SlotState::kLeaving);
 }
 
 // Of the floor it is the asset's error.
-Status Asset::refuseChunk(uint32_t chunk, const Error& error, const Messages& messages) {
+Status Asset::refuseChunk(uint32_t chunk, const Error& error) {
   if (!isDecoded_ || (device_ && device_->loss->isTold())) return error;
   slots_.setState(chunk, SlotState::kFailed);
-  messages.warn(resultOf(error), source_.name.c_str(), "coarser chunks stand for chunk %u: %s", chunk,
-                error.message.c_str());
+  refusals_.insert_or_assign(chunk, error);
   return {};
+}
+
+Error Asset::takeRefusal(uint32_t chunk) {
+  const auto refusal = refusals_.extract(chunk);
+  return refusal.empty() ? Error{} : std::move(refusal.mapped());
 }
 
 bool Asset::updateChunks(uint64_t completedSerial, uint64_t completedUploadSerial, const UploadRing* ring) {

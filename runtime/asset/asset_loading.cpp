@@ -73,9 +73,9 @@ void Asset::load(JobRunner& jobs, ReadTable& reads, LoadLimit& limit, const Prep
   }
   waitsForMemory_ = false;
   try {
-    Status status = takeResults(prepare, messages);
+    Status status = takeResults(prepare);
     while (status && startNext(jobs, reads, limit)) {
-      status = takeResults(prepare, messages);
+      status = takeResults(prepare);
     }
     if (!status) {
       fail(status.error(), messages);
@@ -102,7 +102,7 @@ void Asset::stop() {
   reader_.reset();
 }
 
-Status Asset::takeResults(const Preparation& prepare, const Messages& messages) {
+Status Asset::takeResults(const Preparation& prepare) {
   if (opening_.hasEnded()) {
     Result<std::shared_ptr<const AssetReader>> reader = opening_.take();
     if (!reader) {
@@ -119,7 +119,7 @@ Status Asset::takeResults(const Preparation& prepare, const Messages& messages) 
     }
     isPrepared_ = prepared.has_value();
   }
-  if (const Status status = takeChunks(messages); !status) {
+  if (const Status status = takeChunks(); !status) {
     return status;
   }
   if (finishing_.hasEnded()) {
@@ -133,14 +133,14 @@ Status Asset::takeResults(const Preparation& prepare, const Messages& messages) 
   return isWhole && !isDecoded_ && !waitsForMemory_ ? finish() : Status();
 }
 
-Status Asset::takeChunks(const Messages& messages) {
+Status Asset::takeChunks() {
   while (!waitsForMemory_ && (unplaced_ || (!decoding_.empty() && decoding_.front().job.hasEnded()))) {
     if (!unplaced_) {
       const uint32_t number = decoding_.front().chunk;
       Result<LoadedChunk> chunk = decoding_.front().job.take();
       decoding_.pop_front();
       if (!chunk) {
-        if (const Status status = refuseChunk(number, chunk.error(), messages); !status) return status;
+        if (const Status status = refuseChunk(number, chunk.error()); !status) return status;
         continue;
       }
       unplaced_ = std::move(*chunk);
@@ -153,7 +153,7 @@ Status Asset::takeChunks(const Messages& messages) {
     const uint32_t number = unplaced_->gpu.number;
     unplaced_.reset();
     if (status) continue;
-    if (const Status refused = refuseChunk(number, status.error(), messages); !refused) return refused;
+    if (const Status refused = refuseChunk(number, status.error()); !refused) return refused;
   }
   return {};
 }

@@ -87,6 +87,7 @@ FrothResult Context::closeAsset(FrothAsset handle) {
   }
   retired_.reserve(retired_.size() + 1);
   std::erase_if(cuts_, [&](const auto& cut) { return isSame(cut.first, handle); });
+  levels_.remove(handle);
   assets_.find(handle)->stop();
   std::shared_ptr<Asset> closed = assets_.remove(handle);
   if (ring_) {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <memory_resource>
@@ -16,8 +17,11 @@
 #include "froth/froth_composite.h"
 #include "froth/froth_precompile.h"
 #include "froth/froth_query.h"
+#include "froth/froth_stream.h"
 #include "froth/froth_walk.h"
 #include "runtime/asset/asset.h"
+#include "runtime/context/level_streaming.h"
+#include "runtime/context/stream_eyes.h"
 #include "runtime/device/device.h"
 #include "runtime/device/handles.h"
 #include "runtime/device/messages.h"
@@ -93,7 +97,11 @@ class Context {
                          FrothRayKind kind);
   FrothResult describeWalks(FrothWalkStatus& status) const;
 
-  // Which chunks of an asset with levels are to be read and drawn: a cut, ascending. Not in the public headers.
+  FrothResult setStreaming(const FrothStreamInfo& info);
+  FrothResult describeStreaming(FrothStreamStatus& status) const;
+
+  // From now on these chunks of an asset with levels are read and drawn, a cut, ascending, whatever views see. Not in
+  // the public headers.
   void setCut(FrothAsset handle, std::vector<uint32_t> chunks);
 
   const Asset* findAsset(FrothAsset handle) const { return assets_.find(handle); }  // null: stale
@@ -117,6 +125,7 @@ class Context {
   struct Eye {
     uint64_t renderedSerials[2] = {0, 0};               // newest frame per RenderMethod
     DrawnView drawn{};                                  // by the newest of those
+    std::optional<SeenFrom> seenFrom{};                 // the same; none: none yet
     uint64_t compositedSerial = 0, exportedSerial = 0;  // newest frames of frothRecordComposite, frothRecordDepthExport
   };
   struct View {
@@ -165,7 +174,8 @@ class Context {
   void tellExcess();
   // Levels of detail (runtime/context/context_levels.cpp).
   void updateLevels();
-  std::vector<uint32_t>& wantedCut(FrothAsset handle, const Asset& asset);
+  void gatherEyes(FrothAsset handle, const Asset& asset);
+  void limitLevels();
   bool isRoomMadeFor(const Asset& asset) const;
   void publishBorders(VkCommandBuffer commandBuffer);
   uint32_t walkedChunks() const;
@@ -224,7 +234,13 @@ class Context {
   std::vector<WalkedInstance> walked_;          // of the record call under way; has room for all
   HandlePool<Asset, FrothAsset> assets_;
   std::optional<Exchange> exchange_;                                // one at a time
-  std::vector<std::pair<FrothAsset, std::vector<uint32_t>>> cuts_;  // wanted, of assets with levels
+  std::vector<std::pair<FrothAsset, std::vector<uint32_t>>> cuts_;  // of setCut
+  LevelStreaming levels_;                                           // of all other assets with levels
+  std::vector<SeenFrom> streamPoints_;
+  std::vector<StreamEye> streamEyes_;  // of the asset at hand
+  double streamDetail_ = 1;
+  uint64_t streamCells_ = std::numeric_limits<uint64_t>::max();
+  bool isFloorTold_ = false;  // that the budget is too low for floors
   HandlePool<Instance, FrothInstance> instances_;
   HandlePool<View, FrothView> views_;
   std::vector<std::pair<uint64_t, std::shared_ptr<void>>> retired_;  // serial of the last use

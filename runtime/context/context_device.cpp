@@ -266,6 +266,7 @@ void Context::loseDevice() {
   });
   retired_.clear();
   exchange_.reset();
+  levels_.clear();
   assets_.forEach([](Asset& asset) { asset.releaseBuffers(); });
   ring_.reset();
   walks_.reset();

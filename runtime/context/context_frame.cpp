@@ -347,6 +347,7 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
     return result;
   }
   eye.drawn = {info.camera.scissor, info.camera.lens.kind == FROTH_LENS_PROJECTION, isDepthReversed(info.camera)};
+  eye.seenFrom = seenFrom(info);
   uint32_t bits = 0;
   gatherVisible(*view, info, bits);
   if (isNull_) {

@@ -1,6 +1,7 @@
-// Which chunks of assets with levels of detail are resident and drawn: all of level 0 if the budget has room for them
-// when the floor is there, else the floor alone.
+// Chunks of assets with levels of detail, frame by frame: what views and stream points see, the budget, and what
+// LevelStreaming makes of them.
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/context/context.h"
 #include "runtime/render/border_pass.h"
@@ -8,16 +9,8 @@
 namespace froth {
 namespace {
 
-// What blocks may leave unused of what is estimated.
-constexpr VkDeviceSize kSpareOfChunks = 16;
-
-std::vector<uint32_t> chunksOfLevelZero(const AssetContents& manifest) {
-  std::vector<uint32_t> chunks;
-  for (uint32_t chunk = 0; chunk < manifest.levels.size(); ++chunk) {
-    if (manifest.levels[chunk].level == 0) chunks.push_back(chunk);
-  }
-  return chunks;
-}
+// No budget: more than any device has.
+constexpr uint64_t kNoBudget = uint64_t{1} << 62;
 
 // Reads what a cut lacks, draws it when it is whole, and then gives up what is in no use.
 void followCut(Asset& asset, const std::vector<uint32_t>& cut) {
@@ -40,20 +33,10 @@ void followCut(Asset& asset, const std::vector<uint32_t>& cut) {
 }  // namespace
 
 void Context::setCut(FrothAsset handle, std::vector<uint32_t> chunks) {
-  wantedCut(handle, *assets_.find(handle)) = std::move(chunks);
-}
-
-std::vector<uint32_t>& Context::wantedCut(FrothAsset handle, const Asset& asset) {
+  levels_.remove(handle);
   const auto isIts = [&](const auto& cut) { return isSame(cut.first, handle); };
-  if (const auto found = std::ranges::find_if(cuts_, isIts); found != cuts_.end()) return found->second;
-  std::vector<uint32_t> cut = chunksOfLevelZero(asset.manifest());
-  VkDeviceSize wanted = 0;
-  for (const uint32_t chunk : cut) {
-    if (asset.chunkState(chunk) == SlotState::kAbsent) wanted += asset.chunkBytes(chunk);
-  }
-  const std::span<const uint32_t> floor = asset.drawnChunks();
-  if (wanted + wanted / kSpareOfChunks > device_.roomBytes()) cut.assign(floor.begin(), floor.end());
-  return cuts_.emplace_back(handle, std::move(cut)).second;
+  std::erase_if(cuts_, isIts);
+  cuts_.emplace_back(handle, std::move(chunks));
 }
 
 void Context::updateLevels() {
@@ -61,8 +44,62 @@ void Context::updateLevels() {
     if (!asset.hasLevels() || !asset.isDecoded() || asset.hasFailed()) return;
     const bool canTakePlan = asset.updateChunks(completedSerial_, completedUploadSerial_, ring_.get());
     if (canTakePlan && isRoomMadeFor(asset)) asset.takePlan(serial_);
-    followCut(asset, wantedCut(handle, asset));
+    const auto isIts = [&](const auto& cut) { return isSame(cut.first, handle); };
+    if (const auto cut = std::ranges::find_if(cuts_, isIts); cut != cuts_.end()) {
+      followCut(asset, cut->second);
+      return;
+    }
+    if (!levels_.has(handle)) levels_.add(handle, asset);
+    levels_.report(handle, asset, messages);
+    gatherEyes(handle, asset);
+    levels_.setEyes(handle, streamEyes_);
   });
+  if (levels_.isEmpty()) return;
+  limitLevels();
+  levels_.decide([&](FrothAsset handle) -> Asset& { return *assets_.find(handle); });
+}
+
+// Of all instances of an asset, into streamEyes_.
+void Context::gatherEyes(FrothAsset handle, const Asset& asset) {
+  streamEyes_.clear();
+  const auto add = [&](const SeenFrom& from) {
+    instances_.forEach([&](const Instance& instance) {
+      if (!isSame(instance.asset, handle) || (from.mask != 0 && (from.mask & instance.mask) == 0)) return;
+      streamEyes_.push_back(eyeOf(from, instance.placement, asset.gpu()));
+    });
+  };
+  views_.forEach([&](const View& view) {
+    for (const Eye& eye : view.eyes) {
+      if (!eye.seenFrom) continue;
+      SeenFrom from = *eye.seenFrom;
+      from.detail = streamDetail_;
+      add(from);
+    }
+  });
+  for (const SeenFrom& point : streamPoints_) add(point);
+}
+
+// What chunks of streamed assets may take: of the budget what nothing else holds. Blocks of memory leave up to a
+// quarter unused (GpuArena), so that much stays free.
+void Context::limitLevels() {
+  uint64_t budget = kNoBudget;
+  if (device_.budget != 0 && !isNull_) {
+    uint64_t others = device_.ledger.deviceBytes();
+    assets_.forEachNamed([&](FrothAsset handle, const Asset& asset) {
+      if (levels_.has(handle)) others -= std::min<uint64_t>(others, asset.heldBytes() - asset.tableBytes());
+    });
+    budget = (device_.budget - std::min<uint64_t>(device_.budget, others)) / 4 * 3;
+  }
+  levels_.setMostCells(streamCells_);
+  const bool isEnough = levels_.setBudget(budget);
+  if (!isEnough && !isFloorTold_) {
+    messages.warn(
+        FROTH_ERROR_MEMORY, "frothSetBudget",
+        "%llu bytes remain for assets with levels of detail, and their floors take %llu: they show their floors "
+        "alone; raise the budget of %llu, or close assets or views",
+        asPrinted(budget), asPrinted(levels_.floorBytes()), asPrinted(device_.budget));
+  }
+  isFloorTold_ = !isEnough;
 }
 
 // Whether all views and walk sets that have the asset will have it with its next chunks: no frame is to miss it.

@@ -43,9 +43,9 @@ std::vector<std::vector<uint32_t>> cutsToShow() {
   return cuts;
 }
 
-TEST(Cuts, BeginWithLevelZeroWhereTheBudgetHasRoom) {
+TEST(Cuts, AreWhatTheStatusCounts) {
   LevelStage stage;
-  stage.waitFor(finestCut());
+  stage.show(finestCut());
   uint32_t cells = 0;
   for (const uint32_t chunk : finestCut()) cells += levelSample().chunks[chunk].cellCount;
   EXPECT_EQ(stage.assetStatus().cellCount, cells);

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "format/write/asset_writer.h"
 #include "runtime/context/context.h"
 #include "tests/levels/level_cuts.h"
 #include "tests/render/render_harness.h"
@@ -121,40 +120,6 @@ TEST(Residency, LastsWhileAFrameInFlightMayDrawTheChunk) {
   EXPECT_EQ(flight.asset().chunkState(leaving), SlotState::kLeaving);
   flight.frame(false);
   EXPECT_EQ(flight.asset().chunkState(leaving), SlotState::kAbsent);
-}
-
-TEST(Residency, IsThatOfTheFloorWhereTheBudgetHasNoRoomForLevelZero) {
-  FrothContextInfo info = checkedContextInfo(0);
-  {
-    Flight flight;
-    flight.settle(floorCut());
-    const FrothAssetStatus floor = flight.status();
-    info.deviceBudget = 4096;  // of alignment
-    for (uint32_t i = 0; i + 1 < floor.memoryCount; ++i) info.deviceBudget += floor.memory[i].bytes;
-  }
-  FrothContext* context = nullptr;
-  check(frothCreateContext(&info, &context), "frothCreateContext");
-  const Result<std::vector<uint8_t>> bytes = encodeAsset(levelSample());
-  ASSERT_TRUE(bytes) << bytes.error().message;
-  FrothAssetInfo assetInfo{};
-  assetInfo.structSize = sizeof(assetInfo);
-  assetInfo.data = bytes->data();
-  assetInfo.dataSize = bytes->size();
-  FrothAsset asset{};
-  check(frothOpenAsset(context, &assetInfo, &asset), "frothOpenAsset");
-  for (int frame = 0; frame < 20; ++frame) {
-    const Status submitted = sharedHost().submit([&](VkCommandBuffer commandBuffer, uint64_t serial) -> Status {
-      const FrothFrame begun{sizeof(FrothFrame), serial, serial - 1, 0, 0, 0, 0};
-      check(frothUpdate(context, &begun, nullptr), "frothUpdate");
-      check(frothRecordUpload(context, commandBuffer), "frothRecordUpload");
-      return {};
-    });
-    ASSERT_TRUE(submitted) << submitted.error().message;
-  }
-  EXPECT_TRUE(std::ranges::equal(floorCut(), context->findAsset(asset)->drawnChunks()));
-  EXPECT_EQ(context->findAsset(asset)->chunkState(floorCut().front()), SlotState::kResident);
-  EXPECT_EQ(context->findAsset(asset)->chunkState(finestCut().back()), SlotState::kAbsent);
-  check(frothDestroyContext(context, UINT64_MAX), "frothDestroyContext");
 }
 
 TEST(Residency, ChangesAThousandTimesAndLeavesNothing) {

@@ -33,6 +33,7 @@
  *   froth_precompile.h pipelines ahead of time
  *   froth_estimate.h   memory ahead of time
  *   froth_quality.h    scale and cut-off by a target of milliseconds
+ *   froth_stream.h     levels of detail by what views see
  *   froth_pool.h       threads for jobs
  *   froth_host.h       the engine's allocator for host memory
  *   froth_composite.h  blending into the engine's colour and depth images

@@ -1,0 +1,153 @@
+#include "runtime/context/level_streaming.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "runtime/device/handles.h"
+
+namespace froth {
+namespace {
+
+// Chunks on their way. More would be read and decoded in an order that was chosen too early.
+constexpr size_t kMostComing = 8;
+
+// What another attempt may not meet again.
+bool mayPass(const Error& error) { return error.kind != ErrorKind::kBadInput && error.kind != ErrorKind::kUnsupported; }
+
+LevelGraph makeGraph(const Asset& asset) {
+  const AssetContents& manifest = asset.manifest();
+  std::vector<uint64_t> bytes;
+  std::vector<uint32_t> cells;
+  for (uint32_t chunk = 0; chunk < manifest.chunks.size(); ++chunk) {
+    bytes.push_back(asset.chunkBytes(chunk));
+    cells.push_back(manifest.chunks[chunk].liveCount);
+  }
+  return LevelGraph({manifest.levels, manifest.groups, bytes, cells});
+}
+
+void insertSorted(std::vector<uint32_t>& chunks, uint32_t chunk) {
+  chunks.insert(std::lower_bound(chunks.begin(), chunks.end(), chunk), chunk);
+}
+
+}  // namespace
+
+const LevelStreaming::Stream* LevelStreaming::find(FrothAsset handle) const {
+  const auto found =
+      std::ranges::find_if(streams_, [&](const Stream& stream) { return isSame(stream.handle, handle); });
+  return found == streams_.end() ? nullptr : &*found;
+}
+
+LevelStreaming::Stream* LevelStreaming::find(FrothAsset handle) {
+  return const_cast<Stream*>(std::as_const(*this).find(handle));
+}
+
+LevelStreaming::Stream* LevelStreaming::streamOf(uint32_t number) {
+  const auto found = std::ranges::find(streams_, number, &Stream::number);
+  return found == streams_.end() ? nullptr : &*found;
+}
+
+void LevelStreaming::add(FrothAsset handle, const Asset& asset) {
+  LevelGraph graph = makeGraph(asset);
+  const uint64_t floorBytes = graph.floorBytes();
+  const uint32_t number = streamer_.addAsset(std::move(graph));
+  streams_.push_back({.handle = handle, .number = number, .floorBytes = floorBytes});
+  floorBytes_ += floorBytes;
+  setBudget(budget_);
+  [[maybe_unused]] const Status placed = streamer_.placeAsset(number);  // the budget has room for all floors
+}
+
+void LevelStreaming::remove(FrothAsset handle) {
+  const auto found =
+      std::ranges::find_if(streams_, [&](const Stream& stream) { return isSame(stream.handle, handle); });
+  if (found == streams_.end()) return;
+  for (const uint32_t chunk : found->leaving) gone_.push_back({found->number, chunk});
+  floorBytes_ -= found->floorBytes;
+  streamer_.removeAsset(found->number);
+  streams_.erase(found);
+}
+
+void LevelStreaming::report(FrothAsset handle, Asset& asset, const Messages& messages) {
+  Stream& stream = *find(handle);
+  reportComing(stream, asset, messages);
+  std::erase_if(stream.leaving, [&](uint32_t chunk) {
+    asset.evictChunk(chunk);
+    const SlotState state = asset.chunkState(chunk);
+    if (state != SlotState::kAbsent && state != SlotState::kFailed) return false;
+    streamer_.completeEviction({stream.number, chunk});
+    return true;
+  });
+}
+
+void LevelStreaming::reportComing(Stream& stream, Asset& asset, const Messages& messages) {
+  std::erase_if(stream.coming, [&](uint32_t chunk) {
+    const ChunkId id{stream.number, chunk};
+    const SlotState state = asset.chunkState(chunk);
+    if (state == SlotState::kResident) streamer_.advance(id, ChunkState::kResident);
+    if (state == SlotState::kFailed) {
+      const Error error = asset.takeRefusal(chunk);
+      streamer_.fail(id, mayPass(error));
+      if (streamer_.state(id) == ChunkState::kFailed) {
+        messages.warn(resultOf(error), asset.name().c_str(), "other levels stand for chunk %u: %s", chunk,
+                      error.message.c_str());
+      }
+    }
+    return state == SlotState::kResident || state == SlotState::kFailed;
+  });
+}
+
+void LevelStreaming::setEyes(FrothAsset handle, std::span<const StreamEye> eyes) {
+  streamer_.setEyes(find(handle)->number, eyes);
+}
+
+bool LevelStreaming::setBudget(uint64_t bytes) {
+  budget_ = bytes;
+  [[maybe_unused]] const Status set = streamer_.setBudget(std::max(bytes, floorBytes_));
+  return bytes >= floorBytes_;
+}
+
+uint32_t LevelStreaming::readRoom() const {
+  size_t coming = 0;
+  for (const Stream& stream : streams_) coming += stream.coming.size();
+  return static_cast<uint32_t>(kMostComing - std::min(kMostComing, coming));
+}
+
+void LevelStreaming::decide(const FindAsset& assetOf) {
+  for (const ChunkId id : std::exchange(gone_, {})) streamer_.completeEviction(id);
+  const StreamActions& actions = streamer_.update(readRoom());
+  for (const ChunkId id : actions.reads) {
+    Stream& stream = *streamOf(id.asset);
+    assetOf(stream.handle).readChunk(id.chunk);
+    stream.coming.push_back(id.chunk);
+  }
+  for (const ChunkId id : actions.evictions) {
+    Stream* const stream = streamOf(id.asset);
+    if (!stream) {
+      gone_.push_back(id);
+      continue;
+    }
+    std::erase(stream->coming, id.chunk);
+    stream->leaving.push_back(id.chunk);
+  }
+  for (const ChunkId id : actions.hidden) {
+    if (Stream* const stream = streamOf(id.asset)) {
+      std::erase(stream->drawn, id.chunk);
+      stream->isNew = true;
+    }
+  }
+  for (const ChunkId id : actions.shown) {
+    Stream& stream = *streamOf(id.asset);
+    insertSorted(stream.drawn, id.chunk);
+    stream.isNew = true;
+  }
+  for (Stream& stream : streams_) {
+    if (std::exchange(stream.isNew, false) && !stream.drawn.empty()) assetOf(stream.handle).planChunks(stream.drawn);
+  }
+}
+
+uint32_t LevelStreaming::drawnChunks() const {
+  size_t count = 0;
+  for (const Stream& stream : streams_) count += stream.drawn.size();
+  return static_cast<uint32_t>(count);
+}
+
+}  // namespace froth

@@ -1,0 +1,58 @@
+#include "runtime/context/stream_eyes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace froth {
+namespace {
+
+constexpr double kNearestPart = 1e-3;  // of an asset's diagonal
+
+glm::dvec3 toVector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+// By clipFromView: its rows of x and y are in half viewports.
+void takeProjection(const FrothCamera& camera, SeenFrom& seen) {
+  const float* clip = camera.clipFromView;
+  const double along = std::max(std::abs(double{clip[0]}) * camera.viewport.width,
+                                std::abs(double{clip[5]}) * std::abs(camera.viewport.height));
+  const double depth = std::hypot(clip[3], clip[7], clip[11]);  // w by a step along the view's depth
+  (depth > 0 ? seen.pixelAngle : seen.pixelSize) = 2 * (depth > 0 ? depth : std::abs(double{clip[15]})) / along;
+}
+
+}  // namespace
+
+SeenFrom seenFrom(const FrothRenderInfo& info) {
+  const FrothCamera& camera = info.camera;
+  SeenFrom seen;
+  std::copy(std::begin(camera.eye), std::end(camera.eye), seen.position.begin());
+  seen.mask = info.mask;
+  const double focal = std::max(camera.lens.focal[0], camera.lens.focal[1]);
+  if (camera.lens.kind == FROTH_LENS_PROJECTION) {
+    takeProjection(camera, seen);
+  } else if (camera.lens.kind != FROTH_LENS_RAY_MAP && focal > 0) {
+    seen.pixelAngle = 1 / focal;
+  } else {
+    seen.pixelAngle = std::numbers::pi / 2 / camera.viewport.width;
+  }
+  return seen;
+}
+
+StreamEye eyeOf(const SeenFrom& from, const RenderInstance& instance, const GpuAsset& asset) {
+  const std::array<float, 4>& q = instance.rotation;
+  const glm::dquat worldFromAsset(q[3], q[0], q[1], q[2]);
+  const double scale = instance.scale;
+  const double diagonal = glm::length(toVector(asset.boundsHigh) - toVector(asset.boundsLow));
+  StreamEye eye;
+  eye.position = glm::inverse(worldFromAsset) * (toVector(from.position) - toVector(instance.position)) / scale;
+  eye.radius = from.radius / scale;
+  eye.pixelAngle = from.pixelAngle;
+  eye.pixelSize = std::max(from.pixelSize / scale, from.pixelAngle * kNearestPart * diagonal);
+  eye.detail = from.detail;
+  return eye;
+}
+
+}  // namespace froth

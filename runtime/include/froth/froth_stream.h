@@ -1,0 +1,60 @@
+/* Froth, streaming: what is wanted of assets with levels of detail, and how far it is.
+ *
+ * An asset baked with levels is READY when its floor, its coarsest form, is resident; the floor stays until the asset
+ * is closed. Finer chunks come and go by what views see: the newest camera of each view, and stream points. Groups of
+ * cells are refined in the order of how well their error is seen, until an error is smaller than a pixel or the budget
+ * (FrothContextInfo::deviceBudget, frothSetBudget) has no room. So what is wanted depends on views, points and budget
+ * alone; while it comes, what is resident is drawn, and there is never a hole. Assets without levels are not touched.
+ *
+ * Threads: as all calls that take a context (froth.h): one at a time. */
+#ifndef FROTH_FROTH_STREAM_H
+#define FROTH_FROTH_STREAM_H
+
+#include "froth/froth.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A place from where something will be seen soon: the end of a cut scene, a door. It counts as a view does. */
+typedef struct FrothStreamPoint {
+  double position[3]; /* in the world */
+  double radius;      /* [>= 0] the eye may be anywhere this near to the position */
+  float pixelAngle;   /* [radians, > 0] of a pixel: 2 tan(fov / 2) / width */
+  float detail;       /* [>= 0] as FrothStreamInfo::detail; 0: 1 */
+} FrothStreamPoint;
+
+typedef struct FrothStreamInfo {
+  uint32_t structSize;
+  float detail;       /* [>= 0] of views: errors may be 1 / detail pixels large. 0: 1 */
+  uint64_t mostCells; /* live cells that the wanted chunks of all assets have at most, but for floors; 0: no limit */
+  uint32_t pointCount;
+  const FrothStreamPoint* points; /* [pointCount] copied */
+} FrothStreamInfo;
+
+/* From the next frothUpdate on. FROTH_ERROR_ARGUMENT: nothing changes. */
+FROTH_API FrothResult frothSetStreaming(FrothContext* context, const FrothStreamInfo* info);
+
+/* Of all assets with levels, as of the newest frothUpdate. */
+typedef struct FrothStreamStatus {
+  uint32_t structSize;
+  uint32_t isSettled;      /* 1: what is wanted is drawn. A picture at rest does not change any more */
+  uint32_t drawnChunks;    /* by the next recording, once views have room for them */
+  uint32_t residentChunks; /* drawn or kept */
+  uint32_t comingChunks;   /* read, decoded or uploaded */
+  uint32_t failedChunks;   /* for good: other levels stand for them */
+  uint64_t usedBytes;      /* [bytes] of device memory, by estimate before a chunk was resident: of those that are
+                              resident, on the way, or leave */
+  uint64_t budgetBytes;    /* what chunks may take: three quarters of the budget less what else the context holds */
+  uint64_t excessBytes;    /* of usedBytes above budgetBytes, since the budget was lowered */
+  uint32_t oldestRequest;  /* [frames] for so long a chunk that is needed has been waited for */
+  uint32_t floorHits;      /* chunks of floors that are drawn where finer ones are wanted */
+  uint64_t evictions, retries, failures; /* since the context was created, or its device restored */
+} FrothStreamStatus;
+
+FROTH_API FrothResult frothGetStreamStatus(FrothContext* context, FrothStreamStatus* status);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
