@@ -86,7 +86,13 @@ Status Asset::placeChunk(LoadedChunk& loaded) {
 // What the arena will be asked for behind `size` bytes of the chunk at hand, by what chunks have needed so far.
 VkDeviceSize Asset::bytesToCome(uint32_t chunk, VkDeviceSize size) const {
   const uint64_t atHand = chunkWork_[chunk];
-  const auto done = static_cast<double>(workDone_ + atHand), toCome = static_cast<double>(workToCome_ - atHand);
+  uint64_t workToCome = workToCome_ - atHand;
+  if (hasLevels()) {  // nobody knows which of the others will come
+    workToCome = 0;
+    for (const uint32_t queued : toRead_) workToCome += chunkWork_[queued];
+    for (const Decoding& decoding : decoding_) workToCome += chunkWork_[decoding.chunk];
+  }
+  const auto done = static_cast<double>(workDone_ + atHand), toCome = static_cast<double>(workToCome);
   const double share = done > 0 ? toCome / done : 0;
   const double chunks = std::min(static_cast<double>(placedBytes_ + size) * share, double{GpuArena::kMostShared});
   const uint64_t along = entriesAlong();

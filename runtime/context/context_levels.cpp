@@ -79,8 +79,8 @@ void Context::gatherEyes(FrothAsset handle, const Asset& asset) {
   for (const SeenFrom& point : streamPoints_) add(point);
 }
 
-// What chunks of streamed assets may take: of the budget what nothing else holds. Blocks of memory leave up to a
-// quarter unused (GpuArena), so that much stays free.
+// What chunks of streamed assets may take: half of the budget that nothing else holds. Blocks of memory leave up to 29
+// % unused (GpuArena), and views grow with what is drawn.
 void Context::limitLevels() {
   uint64_t budget = kNoBudget;
   if (device_.budget != 0 && !isNull_) {
@@ -88,7 +88,7 @@ void Context::limitLevels() {
     assets_.forEachNamed([&](FrothAsset handle, const Asset& asset) {
       if (levels_.has(handle)) others -= std::min<uint64_t>(others, asset.heldBytes() - asset.tableBytes());
     });
-    budget = (device_.budget - std::min<uint64_t>(device_.budget, others)) / 4 * 3;
+    budget = (device_.budget - std::min<uint64_t>(device_.budget, others)) / 2;
   }
   levels_.setMostCells(streamCells_);
   const bool isEnough = levels_.setBudget(budget);

@@ -50,7 +50,10 @@ void LevelStreaming::add(FrothAsset handle, const Asset& asset) {
   LevelGraph graph = makeGraph(asset);
   const uint64_t floorBytes = graph.floorBytes();
   const uint32_t number = streamer_.addAsset(std::move(graph));
-  streams_.push_back({.handle = handle, .number = number, .floorBytes = floorBytes});
+  Stream& stream = streams_.emplace_back();
+  stream.handle = handle;
+  stream.number = number;
+  stream.floorBytes = floorBytes;
   floorBytes_ += floorBytes;
   setBudget(budget_);
   [[maybe_unused]] const Status placed = streamer_.placeAsset(number);  // the budget has room for all floors
@@ -69,6 +72,7 @@ void LevelStreaming::remove(FrothAsset handle) {
 void LevelStreaming::report(FrothAsset handle, Asset& asset, const Messages& messages) {
   Stream& stream = *find(handle);
   reportComing(stream, asset, messages);
+  stream.isDrawn = std::ranges::equal(stream.drawn, asset.drawnChunks());
   std::erase_if(stream.leaving, [&](uint32_t chunk) {
     asset.evictChunk(chunk);
     const SlotState state = asset.chunkState(chunk);
@@ -140,8 +144,14 @@ void LevelStreaming::decide(const FindAsset& assetOf) {
     stream.isNew = true;
   }
   for (Stream& stream : streams_) {
-    if (std::exchange(stream.isNew, false) && !stream.drawn.empty()) assetOf(stream.handle).planChunks(stream.drawn);
+    if (!std::exchange(stream.isNew, false)) continue;
+    stream.isDrawn = false;
+    if (!stream.drawn.empty()) assetOf(stream.handle).planChunks(stream.drawn);
   }
+}
+
+bool LevelStreaming::isSettled() const {
+  return streamer_.isSettled() && std::ranges::all_of(streams_, &Stream::isDrawn);
 }
 
 uint32_t LevelStreaming::drawnChunks() const {

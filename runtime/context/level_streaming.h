@@ -37,8 +37,8 @@ class LevelStreaming {
   const ChunkStreamer& streamer() const { return streamer_; }
   uint64_t budgetBytes() const { return budget_; }
   uint64_t floorBytes() const { return floorBytes_; }
-  // What is wanted is drawn, of all assets.
-  bool isSettled() const { return streamer_.isSettled(); }
+  // What is wanted is drawn, of all assets; as of the newest report().
+  bool isSettled() const;
   uint32_t drawnChunks() const;
 
  private:
@@ -49,6 +49,7 @@ class LevelStreaming {
     bool isNew = false;                     // `drawn`: not planned yet
     std::vector<uint32_t> coming, leaving;  // chunks that the asset was told to bring and to let go
     std::vector<uint32_t> drawn;            // ascending; what the streamer shows
+    bool isDrawn = false;                   // `drawn`: by the asset too
   };
   const Stream* find(FrothAsset handle) const;
   Stream* find(FrothAsset handle);
