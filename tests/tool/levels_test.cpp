@@ -33,7 +33,8 @@ TEST_F(LevelsCommand, VerifySaysWhatItChecked) {
   EXPECT_EQ(checks["levels"], 3);
   EXPECT_EQ(checks["groups"], 6);
   EXPECT_GT(checks["borders"], 0);
-  EXPECT_NE(frothWell({"verify", asset()}).find("levels            3, each a whole foam; 6 groups"), std::string::npos);
+  EXPECT_NE(frothWell({"verify", asset()}).find("levels            3, 6 groups: both forms of each"),
+            std::string::npos);
 }
 
 TEST_F(LevelsCommand, InfoSaysNothingOfLevelsWhereThereAreNone) {
