@@ -5,16 +5,16 @@
 #include <cmath>
 #include <limits>
 
+#include "baker/lod/detail_sharpness.h"
 #include "reference/render/reference_state.h"
 
 namespace froth {
 namespace {
 
-constexpr float kCutoff = 1e-3f;  // of the runtime
-constexpr float kSharpness = 10;
-constexpr float kFixedPoint = 0x1p28f;  // sums are integers: their order does not matter
+constexpr float kShownCutoff = 1e-3f;        // of the runtime
+constexpr float kShownFixedPoint = 0x1p28f;  // sums are integers: their order does not matter
 
-View reduceView(const View& view, uint32_t pixels) {
+View shrinkView(const View& view, uint32_t pixels) {
   const double scale = std::min(1.0, std::sqrt(pixels / (double(view.width) * view.height)));
   const auto reduce = [&](uint32_t size) { return std::max(1u, static_cast<uint32_t>(std::lround(size * scale))); };
   return resizeView(view, reduce(view.width), reduce(view.height));
@@ -32,11 +32,12 @@ Result<std::vector<double>> measureContributions(const Foam& foam, std::span<con
   const ReferenceRenderer renderer(plain, progress);
   const ReferenceRenderer::State& state = renderer.state();
   if (state.cechPairs.offsets.empty()) return stoppedOnRequest("contributions");
-  const RaySettings<float> settings{kCutoff, -std::numeric_limits<float>::infinity(), kSharpness};
+  const RaySettings<float> settings{kShownCutoff, -std::numeric_limits<float>::infinity(),
+                                    static_cast<float>(kTrainedSharpness)};
   std::vector<uint64_t> sums(foam.cellCount, 0);
   for (size_t v = 0; v < views.size(); ++v) {
     if (!report(progress, "contributions", v, views.size())) return stoppedOnRequest("contributions");
-    const View view = reduceView(views[v], options.pixelsPerView);
+    const View view = shrinkView(views[v], options.pixelsPerView);
     ReferenceOptions reference;
     reference.nearRatio = view.nearRatio.value_or(options.nearRatio);
     reference.nearDepth = view.nearDepth.value_or(options.nearDepth);
@@ -52,7 +53,7 @@ Result<std::vector<double>> measureContributions(const Foam& foam, std::span<con
         gatherHits(state.tree, cells, eyeOf(view) + exact->offset, primary, INFINITY, hits);
         compositeHits(cells, primary, settings, hits, [&](const RaySegment<float>& segment) {
           std::atomic_ref<uint64_t>(seen[segment.rank])
-              .fetch_add(static_cast<uint64_t>(kFixedPoint * segment.weight), std::memory_order_relaxed);
+              .fetch_add(static_cast<uint64_t>(kShownFixedPoint * segment.weight), std::memory_order_relaxed);
         });
       }
     });
@@ -62,7 +63,8 @@ Result<std::vector<double>> measureContributions(const Foam& foam, std::span<con
     }
   }
   std::vector<double> contributions(foam.cellCount);
-  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) contributions[cell] = double(sums[cell]) / double{kFixedPoint};
+  for (uint32_t cell = 0; cell < foam.cellCount; ++cell)
+    contributions[cell] = double(sums[cell]) / double{kShownFixedPoint};
   return contributions;
 }
 

@@ -11,9 +11,9 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kDirections = 14;
-constexpr uint32_t kRays = 96;                                                     // per side
-constexpr std::array<uint32_t, 9> kRaysPerPixel = {1, 2, 3, 4, 6, 8, 12, 16, 24};  // per side; divide kRays
+constexpr uint32_t kErrorDirections = 14;
+constexpr uint32_t kErrorRays = 96;                                                // per side
+constexpr std::array<uint32_t, 9> kRaysPerPixel = {1, 2, 3, 4, 6, 8, 12, 16, 24};  // per side; divide kErrorRays
 
 using Squares = std::array<double, kRaysPerPixel.size()>;
 
@@ -21,14 +21,14 @@ float coverage(const ParallelImage& image, size_t ray) { return -std::expm1(imag
 
 // Mean squared difference of pixels of so many rays per side, over black and over white.
 double differenceAt(const ParallelImage& fine, const ParallelImage& coarse, uint32_t rays, double covered) {
-  const uint32_t size = kRays / rays;
+  const uint32_t size = kErrorRays / rays;
   double sum = 0;
   for (uint32_t y = 0; y < size; ++y) {
     for (uint32_t x = 0; x < size; ++x) {
       glm::dvec3 colour(0);
       double alpha = 0;
       for (uint32_t ray = 0; ray < rays * rays; ++ray) {
-        const size_t place = size_t{y * rays + ray / rays} * kRays + x * rays + ray % rays;
+        const size_t place = size_t{y * rays + ray / rays} * kErrorRays + x * rays + ray % rays;
         colour += glm::dvec3(fine.colours[place]) - glm::dvec3(coarse.colours[place]);
         alpha += double{coverage(fine, place)} - double{coverage(coarse, place)};
       }
@@ -60,7 +60,7 @@ std::vector<ErrorAtSize> measureErrorCurve(const Foam& fine, const Foam& coarse,
                                            std::span<const glm::vec3> eyes) {
   const FoamBall bound = boundVisibleCells(fine);
   if (bound.radius == 0) return {};
-  const std::vector<RayGrid> grids = makeGrids(bound, eyes, kDirections, kRays, seed);
+  const std::vector<RayGrid> grids = makeGrids(bound, eyes, kErrorDirections, kErrorRays, seed);
   const ParallelRaster first(fine, bound.centre), second(coarse, bound.centre);
   std::vector<Squares> found(grids.size());
   tbb::parallel_for(size_t{0}, grids.size(), [&](size_t i) { found[i] = differencesAlong(first, second, grids[i]); });
@@ -68,7 +68,7 @@ std::vector<ErrorAtSize> measureErrorCurve(const Foam& fine, const Foam& coarse,
   for (size_t i = 0; i < kRaysPerPixel.size(); ++i) {
     double worst = 0;
     for (const Squares& squares : found) worst = std::max(worst, squares[i]);
-    curve.push_back({2 * bound.radius * kRaysPerPixel[i] / kRays, worst});
+    curve.push_back({2 * bound.radius * kRaysPerPixel[i] / kErrorRays, worst});
   }
   return curve;
 }

@@ -22,16 +22,16 @@ namespace {
 
 // Where colours are fitted: directions over the hemisphere before a face, and eyes before it. Fewer than lobes leave
 // colours undetermined from elsewhere.
-constexpr size_t kDirections = 12, kMostEyes = 12;
+constexpr size_t kFitDirections = 12, kMostFitEyes = 12;
 constexpr double kMostChange = 2;  // of a density, beyond those of both cells
 // A cell that no view shows still counts this part of its partner: two of those have a mean, too.
-constexpr double kLeastContribution = 1e-3;
+constexpr double kLeastWeight = 1e-3;
 
 // Fibonacci points: directions in which a face is seen, in its frame (t, b, n).
-std::array<glm::dvec3, kDirections> directionsToFace() {
-  std::array<glm::dvec3, kDirections> directions;
-  for (size_t i = 0; i < kDirections; ++i) {
-    const double z = (double(i) + 0.5) / kDirections, angle = double(i) * glm::pi<double>() * (3 - std::sqrt(5.0));
+std::array<glm::dvec3, kFitDirections> directionsToFace() {
+  std::array<glm::dvec3, kFitDirections> directions;
+  for (size_t i = 0; i < kFitDirections; ++i) {
+    const double z = (double(i) + 0.5) / kFitDirections, angle = double(i) * glm::pi<double>() * (3 - std::sqrt(5.0));
     const double radius = std::sqrt(1 - z * z);
     directions[i] = {radius * std::cos(angle), radius * std::sin(angle), -z};
   }
@@ -66,7 +66,7 @@ class PairMerger {
     parts[0] = {pair.first, glm::dvec3(0), contributionOf(pair.first), sampler_.sample(pair.first)};
     parts[1] = {pair.second, glm::dvec3(cells_.sites[pair.second]) - origin, contributionOf(pair.second),
                 sampler_.sample(pair.second)};
-    const double least = std::max(kLeastContribution * std::max(parts[0].weight, parts[1].weight), 1e-12);
+    const double least = std::max(kLeastWeight * std::max(parts[0].weight, parts[1].weight), 1e-12);
     for (MergePart& part : parts) part.weight = std::max(part.weight, least);
     const double sum = parts[0].weight + parts[1].weight;
     for (MergePart& part : parts) part.weight /= sum;
@@ -88,17 +88,17 @@ class PairMerger {
 
   // Directions from which the merged face is seen: from eyes before it, and from all around.
   Observations observe(const MergedShape& shape) const {
-    static const std::array<glm::dvec3, kDirections> inFrame = directionsToFace();
+    static const std::array<glm::dvec3, kFitDirections> inFrame = directionsToFace();
     Observations seen;
     for (const glm::vec3& eye : eyes_) {
       const glm::dvec3 direction = glm::normalize(shape.site - glm::dvec3(eye));
       if (glm::dot(direction, shape.frame.normal) < 0) seen.directions.emplace_back(direction);
     }
     const size_t before = seen.directions.size();
-    for (size_t i = 0; before > kMostEyes && i < kMostEyes; ++i) {
-      seen.directions[i] = seen.directions[i * before / kMostEyes];
+    for (size_t i = 0; before > kMostFitEyes && i < kMostFitEyes; ++i) {
+      seen.directions[i] = seen.directions[i * before / kMostFitEyes];
     }
-    seen.directions.resize(std::min(before, kMostEyes));
+    seen.directions.resize(std::min(before, kMostFitEyes));
     const FaceFrame<double>& frame = shape.frame;
     for (const glm::dvec3& d : inFrame) {
       seen.directions.emplace_back(d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.normal);

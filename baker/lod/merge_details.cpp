@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "baker/lod/detail_sharpness.h"
 #include "baker/lod/ridge_solve.h"
 #include "shaders/foam/appearance.h"
 
 namespace froth {
 namespace {
 
-constexpr double kSharpness = 10;
 constexpr double kLeastShare = 1e-3;  // of a cell: what a detail site counts that no sample of the face shows
 // Towards the mean of a cluster, in units of what a detail site shows: the blend alone leaves sites undetermined that
 // hardly show.
-constexpr double kRidge = 0.5;
+constexpr double kDetailRidge = 0.5;
 constexpr double kHighest = 1;  // of a face over its site [radii]
 
 // A detail site of either cell on the merged face, or the mean of some.
@@ -105,7 +105,7 @@ class DetailMerger {
         const glm::dvec3 place = onFace(part.offset + part.samples.face[i]);
         double sum = 0;
         for (uint32_t k = 0; k < K_; ++k) {
-          sum += shares[k] = foam::detailWeight(glm::dvec3(place.x, place.y, 0), merged.places[k], kSharpness);
+          sum += shares[k] = foam::detailWeight(glm::dvec3(place.x, place.y, 0), merged.places[k], kTrainedSharpness);
         }
         for (uint32_t k = 0; k < K_; ++k) {
           const double share = shares[k] / foam::flooredWeightSum(sum);
@@ -119,7 +119,7 @@ class DetailMerger {
       }
     }
     for (uint32_t k = 0; k < K_; ++k) {
-      const double ridge = kRidge / K_;
+      const double ridge = kDetailRidge / K_;
       matrix[k * K_ + k] += ridge;
       for (const uint32_t j : clusters_[k].members) {
         right[k * columns + j] += ridge * weights_[j] / clusters_[k].weight;

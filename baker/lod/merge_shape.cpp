@@ -11,7 +11,8 @@
 namespace froth {
 namespace {
 
-constexpr double kRidge = 1e-3;   // holds the site near the mean where samples lie in a plane; in units of all weight
+constexpr double kShapeRidge =
+    1e-3;                         // holds the site near the mean where samples lie in a plane; in units of all weight
 constexpr double kCovered = 0.9;  // of the solid parts, at least
 constexpr double kMostGrowth = 1.2;   // of the ball round both balls
 constexpr double kLeastCosine = 0.1;  // below, the normals have no mean
@@ -58,7 +59,7 @@ glm::dvec3 fitCentre(const std::vector<WeightedPoint>& points, double size) {
       for (size_t j = i; j < 4; ++j) matrix[4 * i + j] += point.weight * row[i] * row[j];
     }
   }
-  for (size_t i = 1; i < 4; ++i) matrix[5 * i] += kRidge;
+  for (size_t i = 1; i < 4; ++i) matrix[5 * i] += kShapeRidge;
   if (!solveDefinite(matrix, right, 4, 1)) return glm::dvec3(0);
   return -0.5 * size * glm::dvec3(right[1], right[2], right[3]);
 }

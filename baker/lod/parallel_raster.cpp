@@ -16,7 +16,7 @@ namespace {
 constexpr uint32_t kCubeDirections = 14;
 
 // Without colours: those of a direction are found where a cell is seen first.
-Foam copyGeometry(const Foam& foam) {
+Foam copyBalls(const Foam& foam) {
   Foam geometry;
   geometry.cellCount = foam.cellCount;
   geometry.detailCount = foam.detailCount;
@@ -119,7 +119,7 @@ std::vector<RayGrid> makeGrids(const FoamBall& ball, std::span<const glm::vec3> 
 }
 
 ParallelRaster::ParallelRaster(const Foam& foam, const glm::dvec3& centre) : foam_(foam) {
-  const Foam geometry = copyGeometry(foam);
+  const Foam geometry = copyBalls(foam);
   ReferenceOptions options;
   options.nearRatio = 0;
   cells_ = prepareViewCells<float>(geometry, findCechPairs(geometry.sites, geometry.radii), findVisibleCells(geometry),

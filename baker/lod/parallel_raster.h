@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "baker/lod/detail_sharpness.h"
 #include "foam/cell_graph.h"
 #include "foam/foam.h"
 #include "reference/render/ray.h"
@@ -58,7 +59,6 @@ class ParallelRaster {
  private:
   // A ray ends where less than this is left (log): that of the runtime, 1e-3.
   static constexpr float kLogCutoff = -6.9f;
-  static constexpr float kSharpness = 10;
 
   std::vector<uint32_t> sortAlong(const glm::vec3& forward) const;
   void shade(uint32_t rank, const glm::vec3& forward, ViewDetail<float>* details) const;
@@ -99,8 +99,8 @@ ParallelImage ParallelRaster::draw(const RayGrid& grid, const Visit& visit) cons
         if (!clipByNeighbours(cells_.planesOf(cell), primary, hit)) continue;
         if (!isShaded) shade(rank, grid.forward, details.data());
         isShaded = true;
-        const CellInterval<float> interval =
-            shadeCell(cell, std::span<const ViewDetail<float>>(details), primary, kSharpness, hit);
+        const CellInterval<float> interval = shadeCell(cell, std::span<const ViewDetail<float>>(details), primary,
+                                                       static_cast<float>(kTrainedSharpness), hit);
         if (!(interval.tNear < interval.tFar)) continue;
         const float depth = cell.density * (interval.tFar - interval.tNear);
         const float weight = std::exp(logTransmittance) * foam::opacity(depth);
@@ -108,7 +108,8 @@ ParallelImage ParallelRaster::draw(const RayGrid& grid, const Visit& visit) cons
         logTransmittance -= depth;
         float sum = 0;
         for (uint32_t k = 0; k < K; ++k) {
-          sum += shares[k] = foam::detailWeight(interval.query, details[k].place, kSharpness);
+          sum += shares[k] =
+              foam::detailWeight(interval.query, details[k].place, static_cast<float>(kTrainedSharpness));
         }
         for (float& share : shares) share /= foam::flooredWeightSum(sum);
         visit(ray, sources_[rank], weight, shares.data());

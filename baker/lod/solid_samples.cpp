@@ -5,6 +5,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "baker/lod/detail_sharpness.h"
 #include "shaders/foam/appearance.h"
 #include "shaders/foam/cell.h"
 
@@ -12,7 +13,6 @@ namespace froth {
 namespace {
 
 constexpr size_t kBallPoints = 96, kFacePoints = 32;
-constexpr double kSharpness = 10;
 
 // Shells of equal volume on a spiral; the golden ratio spreads the shells over the spiral.
 std::array<glm::dvec3, kBallPoints> pointsInBall() {
@@ -65,7 +65,7 @@ class CellBody {
     const size_t first = size_t{cell_} * K;
     double sum = 0, height = 0;
     for (uint32_t k = 0; k < K; ++k) {
-      shares[k] = foam::detailWeight(glm::dvec3(place, 0), glm::dvec2(foam_.detailSites[first + k]), kSharpness);
+      shares[k] = foam::detailWeight(glm::dvec3(place, 0), glm::dvec2(foam_.detailSites[first + k]), kTrainedSharpness);
       sum += shares[k];
     }
     sum = foam::flooredWeightSum(sum);

@@ -5,13 +5,9 @@
 #include <utility>
 
 #include "runtime/asset/asset.h"
+#include "runtime/asset/to_vector.h"
 
 namespace froth {
-namespace {
-
-glm::dvec3 toVector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-
-}  // namespace
 
 // Without levels all chunks are to be read; with them the floor, and nothing is exchanged for other layers.
 void Asset::takeLevels(const AssetReader& reader) {

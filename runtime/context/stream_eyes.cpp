@@ -7,12 +7,12 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "runtime/asset/to_vector.h"
+
 namespace froth {
 namespace {
 
 constexpr double kNearestPart = 1e-3;  // of an asset's diagonal
-
-glm::dvec3 toVector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 // By clipFromView: its rows of x and y are in half viewports.
 void takeProjection(const FrothCamera& camera, SeenFrom& seen) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "runtime/asset/to_vector.h"
 #include "runtime/render/camera_rays.h"
 #include "runtime/render/frame_block.h"
 #include "runtime/render/pass_recorder.h"
@@ -22,8 +23,6 @@ constexpr VkDeviceSize kChunksOffset = kInstancesOffset + 2 * FROTH_WALK_MOST_IN
 constexpr VkDeviceSize kCountersStride = kAlignment;
 constexpr uint32_t kFirstSeed = FROTH_WALK_MOST_INSTANCES;
 static_assert(kChunksOffset % 16 == 0 && sizeof(gpu::WalkCounters) <= kCountersStride);
-
-glm::dvec3 toVector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye, const FrothWalkInfo& info) {
   const RenderInstance& placement = instance.placement;
