@@ -63,8 +63,9 @@ Result<std::vector<double>> measureContributions(const Foam& foam, std::span<con
     }
   }
   std::vector<double> contributions(foam.cellCount);
-  for (uint32_t cell = 0; cell < foam.cellCount; ++cell)
+  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
     contributions[cell] = double(sums[cell]) / double{kShownFixedPoint};
+  }
   return contributions;
 }
 
