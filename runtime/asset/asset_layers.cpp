@@ -13,7 +13,10 @@ uint32_t Asset::layersHeld(uint32_t most) const {
   return most;
 }
 
-bool Asset::canLoadAgain() const { return !keepsLayers_ && (source_.kind != SourceKind::kMemory || source_.bytesStay); }
+// With levels of detail memory is freed by levels instead.
+bool Asset::canLoadAgain() const {
+  return !keepsLayers_ && !hasLevels() && (source_.kind != SourceKind::kMemory || source_.bytesStay);
+}
 
 uint32_t Asset::fewerLayers() const { return canLoadAgain() && layers_ > 1 ? layersHeld(layers_ - 1) : 0; }
 
