@@ -13,10 +13,7 @@ uint32_t Asset::layersHeld(uint32_t most) const {
   return most;
 }
 
-// With levels of detail memory is freed by levels instead.
-bool Asset::canLoadAgain() const {
-  return !keepsLayers_ && !hasLevels() && (source_.kind != SourceKind::kMemory || source_.bytesStay);
-}
+bool Asset::canLoadAgain() const { return !keepsLayers_ && (source_.kind != SourceKind::kMemory || source_.bytesStay); }
 
 uint32_t Asset::fewerLayers() const { return canLoadAgain() && layers_ > 1 ? layersHeld(layers_ - 1) : 0; }
 
