@@ -31,8 +31,9 @@ enum class Purpose : uint64_t {
   kAxis,
   kTemperature,
   kColour,
-  kSurface,             // one stream for each surface follows
-  kRounding = 1 << 30,  // last: one stream for each cell follows
+  kSurface,               // one stream for each surface follows
+  kDisk = (1 << 30) - 1,  // one number for each range
+  kRounding = 1 << 30,    // last: one stream for each cell follows
 };
 
 class CounterRandom {

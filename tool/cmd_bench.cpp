@@ -1,4 +1,5 @@
-// froth bench: milliseconds by pass, from GPU timestamps; or, with --counters, what the rays cost.
+// froth bench: milliseconds by pass, from GPU timestamps; with --counters what the rays cost; with --flight what
+// streaming does on the way.
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "measure/gpu/gpu_camera.h"
 #include "measure/gpu/gpu_renderer.h"
 #include "reference/camera/view_selection.h"
+#include "tool/bench_flight.h"
 #include "tool/commands.h"
 #include "tool/options.h"
 
@@ -28,6 +30,7 @@ struct BenchOptions {
   uint32_t layers = kAllLayers;
   std::string device;
   bool isCounting = false;
+  FlightOptions flight;
   FiguresOutput figures;
 };
 
@@ -123,6 +126,15 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
   return options.figures.write(figures);
 }
 
+Status benchFlight(const BenchOptions& options, const Progress& progress) {
+  FlightOptions flight = options.flight;
+  flight.device = options.device;
+  flight.scene.asset = options.input;
+  flight.scene.render.method = findMethod(options.renderer)->method;
+  flight.scene.render.cutoff = options.cutoff;
+  return runFlight(flight, options.views, options.figures, progress);
+}
+
 }  // namespace
 
 void addBenchCommand(CLI::App& program, Tool& tool) {
@@ -145,8 +157,13 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
   addLayersOption(*command, options->layers);
   command->add_option("--device", options->device, "Index or part of a name (`froth devices`)");
   addFiguresOption(*command, options->figures);
-  command->callback(
-      [&tool, options] { tool.action = [&tool, options] { return runBench(*options, tool.progress.callback()); }; });
+  addFlightOptions(*command, options->flight);
+  command->callback([&tool, options] {
+    tool.action = [&tool, options] {
+      return options->flight.frames > 0 ? benchFlight(*options, tool.progress.callback())
+                                        : runBench(*options, tool.progress.callback());
+    };
+  });
 }
 
 }  // namespace froth

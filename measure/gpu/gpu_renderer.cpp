@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/progress_printer.h"
+#include "froth/froth_stream.h"
+#include "host/make_struct.h"
 #include "measure/gpu/gpu_camera.h"
 #include "reference/camera/ray_map.h"
 #include "reference/image/distances.h"
@@ -219,6 +221,14 @@ Status GpuRenderer::State::submitFrame(const std::function<Status(VkCommandBuffe
   });
 }
 
+// Of an asset without levels always.
+Result<bool> GpuRenderer::State::isSettled() const {
+  auto status = makeStruct<FrothStreamStatus>();
+  if (Status asked = check(frothGetStreamStatus(context, &status), "frothGetStreamStatus"); !asked)
+    return asked.error();
+  return status.isSettled != 0;
+}
+
 Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wanted, Method method) {
   FrothRenderInfo info = wanted;
   info.colour = host->describe(colour);
@@ -241,7 +251,13 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
     if (Status asked = check(frothGetViewStatus(context, view, &status), "frothGetViewStatus"); !asked) {
       return asked.error();
     }
-    if ((status.bits & (FROTH_VIEW_CELL_OVERFLOW | FROTH_VIEW_PAIR_OVERFLOW)) == 0) break;
+    const Result<bool> settled = isSettled();
+    if (!settled) return settled.error();
+    if (!*settled) {
+      attempt = -1;  // another cut is drawn next, which may want more room
+    } else if ((status.bits & (FROTH_VIEW_CELL_OVERFLOW | FROTH_VIEW_PAIR_OVERFLOW)) == 0) {
+      break;
+    }
   }
   if (status.bits & FROTH_VIEW_NO_WALK_GRAPH) {
     return makeError(ErrorKind::kUnsupported, "the asset holds no walk graph; use --renderer raster");

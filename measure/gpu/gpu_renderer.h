@@ -67,7 +67,8 @@ class GpuRenderer {
   Status load(const AssetInput& asset, const Progress& progress,
               const std::vector<FrothInstanceInfo>& placements = {{}});
 
-  // All channels in float. Draws again while a limit that grows by itself was hit.
+  // All channels in float. Draws again while a limit that grows by itself was hit, or levels of detail are on their
+  // way.
   Result<GpuFrame> render(const View& view, const GpuRenderOptions& options);
   // Colour and alpha in half floats, by the shaders that a game's frame has; the other images are empty. Draws again as
   // render().

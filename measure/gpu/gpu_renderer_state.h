@@ -31,6 +31,7 @@ struct GpuRenderer::State {
   // Records frothUpdate and the uploads, then what `record` adds, if it is given.
   Status submitFrame(const std::function<Status(VkCommandBuffer)>& record = {});
   Result<FrothViewStatus> drawAndAsk(const FrothRenderInfo& info, Method method);
+  Result<bool> isSettled() const;  // what the view wants of levels is drawn
   Status checkSilence(uint32_t indexViolations);
   Result<RenderedImages> readImages(bool readsNormal);
   // One frame of rays from `eye`; `buffer` holds them, and the hits behind them.

@@ -1,0 +1,173 @@
+#include "measure/flight/flight_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/percentiles.h"
+
+namespace froth {
+namespace {
+
+constexpr double kMebi = 1 << 20;
+
+// PSNR [dB]: of the mean square over all images, and of the worst of them.
+struct Range {
+  double mean = 0, worst = 0;
+};
+
+// Of the frames from the first with the floor on.
+struct Summary {
+  std::optional<uint32_t> firstReady;                               // frame; absent: never
+  uint32_t settled = 0, lacking = 0, aboveBudget = 0, onFloor = 0;  // frames
+  uint32_t longestUnsettled = 0, oldestRequest = 0;                 // [frames]
+  uint64_t mostDeviceBytes = 0, mostChunkBytes = 0, missingPixels = 0;
+  std::vector<double> updates, gpuTimes;  // [ms]
+  Range flown, settledError;
+};
+
+Range rangeOf(const std::vector<ComparedImage>& images, double ComparedImage::*figure) {
+  if (images.empty()) return {};
+  double square = 0;
+  Range range{0, images.front().*figure};
+  for (const ComparedImage& image : images) {
+    square += std::pow(10, -(image.*figure) / 10) / static_cast<double>(images.size());
+    range.worst = std::min(range.worst, image.*figure);
+  }
+  range.mean = -10 * std::log10(square);
+  return range;
+}
+
+Summary summarize(const Flight& flight, const FlightOptions& options) {
+  Summary summary;
+  uint32_t unsettled = 0;
+  for (uint32_t i = 0; i < flight.frames.size(); ++i) {
+    const FlownFrame& frame = flight.frames[i];
+    const uint64_t budget = options.scene.budget;
+    summary.updates.push_back(frame.updateMs);
+    summary.mostDeviceBytes = std::max(summary.mostDeviceBytes, frame.deviceBytes);
+    summary.aboveBudget += budget > 0 && frame.deviceBytes > budget ? 1 : 0;
+    if (!frame.isReady) continue;
+    if (!summary.firstReady) summary.firstReady = i;
+    summary.gpuTimes.push_back(frame.gpuMs);
+    summary.lacking += frame.isWhole ? 0 : 1;
+    summary.settled += frame.stream.isSettled;
+    summary.onFloor += frame.stream.floorHits > 0 ? 1 : 0;
+    summary.oldestRequest = std::max(summary.oldestRequest, frame.stream.oldestRequest);
+    summary.mostChunkBytes = std::max(summary.mostChunkBytes, frame.stream.usedBytes);
+    unsettled = frame.stream.isSettled ? 0 : unsettled + 1;
+    summary.longestUnsettled = std::max(summary.longestUnsettled, unsettled);
+  }
+  for (const ComparedImage& image : flight.images) summary.missingPixels += image.missing;
+  summary.flown = rangeOf(flight.images, &ComparedImage::flown);
+  summary.settledError = rangeOf(flight.images, &ComparedImage::settled);
+  return summary;
+}
+
+nlohmann::ordered_json toJson(const std::vector<double>& times) {
+  if (times.empty()) return nullptr;
+  const Percentiles found = percentilesOf(times);
+  return {{"median", found.median}, {"p95", found.p95}, {"p999", found.p999}, {"worst", found.worst}};
+}
+
+void printTimes(const char* name, const std::vector<double>& times) {
+  if (times.empty()) return;
+  const Percentiles found = percentilesOf(times);
+  fmt::print("{:<24} median {:.3f}, 95 % {:.3f}, 99.9 % {:.3f}, longest {:.3f} ms\n", name, found.median, found.p95,
+             found.p999, found.worst);
+}
+
+nlohmann::ordered_json imagesAsJson(const std::vector<ComparedImage>& images) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const ComparedImage& image : images) {
+    json.push_back({{"frame", image.frame},
+                    {"psnrFlown", image.flown},
+                    {"psnrSettled", image.settled},
+                    {"missingPixels", image.missing}});
+  }
+  return json;
+}
+
+nlohmann::ordered_json diskAsJson(const DiskOptions& disk) {
+  return {{"latencyMs", disk.latency * 1e3},
+          {"bytesPerSecond", disk.bytesPerSecond},
+          {"failOnce", disk.failOnce},
+          {"hasBadRange", disk.hasBadRange}};
+}
+
+}  // namespace
+
+void printFlight(const Flight& flight, const FlightOptions& options) {
+  const Summary summary = summarize(flight, options);
+  const SceneOptions& scene = options.scene;
+  fmt::print("{} frames of {}x{} on {} ({}), {} cells in {} chunks of all levels\n", flight.frames.size(),
+             scene.extent.width, scene.extent.height, flight.deviceName, flight.driverName, flight.asset.cellCount,
+             flight.asset.chunkCount);
+  if (!summary.firstReady) {
+    fmt::print("the floor did not come\n");
+    return;
+  }
+  const auto ready = static_cast<double>(summary.gpuTimes.size());
+  fmt::print("{:<24} frame {}\n", "first with the floor", *summary.firstReady);
+  fmt::print("{:<24} {} of {} since then ({:.1f} %), longest time between {} frames; at rest after {}\n", "settled",
+             summary.settled, ready, 100 * summary.settled / ready, summary.longestUnsettled, flight.framesToSettle);
+  fmt::print("{:<24} {} frames that lack cells, {} pixels of {} images\n", "missing", summary.lacking,
+             summary.missingPixels, flight.images.size());
+  fmt::print("{:<24} {} frames show a chunk of the floor where a finer one is wanted; oldest request {} frames\n",
+             "waiting", summary.onFloor, summary.oldestRequest);
+  fmt::print("{:<24} {} evictions, {} retries, {} failures, {:.1f} MiB read\n", "chunks", flight.atEnd.evictions,
+             flight.atEnd.retries, flight.atEnd.failures, static_cast<double>(flight.bytesRead) / kMebi);
+  fmt::print("{:<24} {:.1f} MiB at most, {:.1f} of them chunks; {} frames above the budget\n", "device memory",
+             static_cast<double>(summary.mostDeviceBytes) / kMebi, static_cast<double>(summary.mostChunkBytes) / kMebi,
+             summary.aboveBudget);
+  printTimes("frothUpdate", summary.updates);
+  printTimes("GPU", summary.gpuTimes);
+  fmt::print("{:<24} flown {:.2f}, worst {:.2f}; at rest {:.2f}, worst {:.2f} dB\n", "PSNR of all images",
+             summary.flown.mean, summary.flown.worst, summary.settledError.mean, summary.settledError.worst);
+}
+
+nlohmann::ordered_json flightAsJson(const Flight& flight, const FlightOptions& options) {
+  const Summary summary = summarize(flight, options);
+  const SceneOptions& scene = options.scene;
+  nlohmann::ordered_json json{
+      {"device", flight.deviceName},
+      {"driver", flight.driverName},
+      {"frames", flight.frames.size()},
+      {"width", scene.extent.width},
+      {"height", scene.extent.height},
+      {"budget", scene.budget},
+      {"detail", scene.detail},
+      {"mostCells", scene.mostCells},
+      {"jumpEvery", options.jumpEvery},
+      {"disk", diskAsJson(scene.disk)},
+      {"cells", flight.asset.cellCount},
+      {"chunks", flight.asset.chunkCount},
+      {"settledFrames", summary.settled},
+      {"readyFrames", summary.gpuTimes.size()},
+      {"longestUnsettled", summary.longestUnsettled},
+      {"framesToSettle", flight.framesToSettle},
+      {"lackingFrames", summary.lacking},
+      {"missingPixels", summary.missingPixels},
+      {"floorFrames", summary.onFloor},
+      {"oldestRequest", summary.oldestRequest},
+      {"evictions", flight.atEnd.evictions},
+      {"retries", flight.atEnd.retries},
+      {"failures", flight.atEnd.failures},
+      {"bytesRead", flight.bytesRead},
+      {"mostDeviceBytes", summary.mostDeviceBytes},
+      {"mostChunkBytes", summary.mostChunkBytes},
+      {"framesAboveBudget", summary.aboveBudget},
+      {"updateMs", toJson(summary.updates)},
+      {"gpuMs", toJson(summary.gpuTimes)},
+      {"psnrFlown", {{"mean", summary.flown.mean}, {"worst", summary.flown.worst}}},
+      {"psnrSettled", {{"mean", summary.settledError.mean}, {"worst", summary.settledError.worst}}},
+      {"images", imagesAsJson(flight.images)}};
+  json["firstReady"] = summary.firstReady ? nlohmann::ordered_json(*summary.firstReady) : nullptr;
+  return json;
+}
+
+}  // namespace froth

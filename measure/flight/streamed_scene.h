@@ -1,0 +1,81 @@
+// One asset with levels on a simulated disk, seen by one view: an engine's loop in which time is counted in frames.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/image/image.h"
+#include "base/result.h"
+#include "froth/froth.h"
+#include "froth/froth_stream.h"
+#include "host/host.h"
+#include "measure/flight/frame_jobs.h"
+#include "measure/flight/simulated_disk.h"
+#include "measure/gpu/gpu_renderer.h"
+
+namespace froth {
+
+struct SceneOptions {
+  std::filesystem::path asset;
+  uint64_t budget = 0;  // [bytes] FrothContextInfo::deviceBudget
+  float detail = 1;     // FrothStreamInfo::detail
+  uint64_t mostCells = 0;
+  double frameSeconds = 1.0 / 60;
+  uint32_t threads = 2;  // of jobs
+  VkExtent2D extent{1920, 1080};
+  DiskOptions disk;
+  GpuRenderOptions render;
+};
+
+struct FlownFrame {
+  double updateMs = 0;   // [ms] frothUpdate, on the clock
+  double gpuMs = 0;      // [ms] sum of passes, once a further frame is drawn; 0: the device tells no times
+  bool isReady = false;  // the floor is there
+  bool isWhole = false;  // nothing was missing, as far as is known when a further frame is drawn
+  FrothStreamStatus stream{};
+  uint64_t deviceBytes = 0;  // of the context
+};
+
+struct FlownImage {
+  Image colour, alpha;
+};
+
+class StreamedScene {
+ public:
+  static Result<std::unique_ptr<StreamedScene>> create(Host& host, const SceneOptions& options);
+  ~StreamedScene();
+
+  // The next frame, of a view of the scene's extent.
+  Status draw(const View& view);
+  // Draws until what is wanted from there is drawn.
+  Status settle(const View& view);
+  const std::vector<FlownFrame>& frames() const { return frames_; }  // all that were drawn
+  Result<FlownImage> readImage();                                    // of the newest frame
+
+  uint64_t bytesRead() const { return disk_.bytesRead(); }
+  FrothAssetStatus assetStatus() const;
+
+ private:
+  StreamedScene(Host& host, SimulatedDisk disk, const SceneOptions& options)
+      : host_(host), disk_(std::move(disk)), options_(options), jobs_(options.threads) {}
+  Status begin();
+  Status check(FrothResult result, const char* call) const;
+  Status record(const View& view, VkCommandBuffer commands, uint64_t serial, FlownFrame& frame);
+  Status completeFrameBefore();
+
+  Host& host_;
+  SimulatedDisk disk_;
+  SceneOptions options_;
+  FrameJobs jobs_;
+  FrothContext* context_ = nullptr;
+  FrothAsset asset_{};
+  FrothView view_{};
+  HostImage image_;
+  std::vector<FlownFrame> frames_;
+  std::string lastMessage_;
+};
+
+}  // namespace froth

@@ -1,0 +1,21 @@
+// froth bench --flight: a flight with streaming, on a disk as slow as wanted.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+
+#include "measure/figures.h"
+#include "measure/flight/flight.h"
+#include "reference/camera/view_selection.h"
+
+namespace froth {
+
+void addFlightOptions(CLI::App& command, FlightOptions& options);
+
+// Along the key frames of the cameras' flight, else through the views.
+Status runFlight(const FlightOptions& options, const ViewOptions& views, const FiguresOutput& output,
+                 const Progress& progress);
+
+}  // namespace froth
