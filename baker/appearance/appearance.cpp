@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "baker/appearance/axis_codebook.h"
 #include "baker/appearance/cell_coder.h"
@@ -78,10 +79,10 @@ Result<AppearanceCoder> AppearanceCoder::create(const Foam& foam, const Visibili
   return coder;
 }
 
-AppearanceCoder AppearanceCoder::forFoam(const Foam& foam) const {
+AppearanceCoder AppearanceCoder::forFoam(const Foam& foam, std::vector<float> weights) const {
   AppearanceCoder coder = *this;
   coder.foam_ = &foam;
-  coder.model_ = std::make_shared<const Model>(Model{Observer(foam, nullptr, -1), model_->codebook});
+  coder.model_ = std::make_shared<const Model>(Model{Observer(foam, std::move(weights)), model_->codebook});
   return coder;
 }
 

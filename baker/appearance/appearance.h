@@ -54,8 +54,9 @@ class AppearanceCoder {
                                         const AppearanceOptions& options, const Progress& progress = {});
 
   // The same for another foam, of which it keeps a reference: its directions are the hemisphere before each face, its
-  // axes those of the same codebook.
-  AppearanceCoder forFoam(const Foam& foam) const;
+  // axes those of the same codebook. `weights`: how much each cell shows [cells], 1 like a typical one; empty: all
+  // alike.
+  AppearanceCoder forFoam(const Foam& foam, std::vector<float> weights) const;
 
   const std::vector<glm::vec3>& codebook() const;
   // Thread-safe. Each cell's result depends on that cell (and the codebook) alone, so the order and grouping

@@ -99,6 +99,10 @@ Observer::Observer(const Foam& foam, const Visibility* visibility, float eyeRadi
   if (sum > 0) typicalWeight_ = sum * shares / static_cast<double>(seen);
 }
 
+Observer::Observer(const Foam& foam, std::vector<float> cellWeights) : Observer(foam, nullptr, -1) {
+  cellWeights_ = std::move(cellWeights);
+}
+
 Observations Observer::observe(uint64_t detail) const {
   const uint64_t cell = detail / foam_.detailCount;
   const FaceFrame<float> frame = faceFrame<float>(foam_.orientations[cell]);
@@ -106,7 +110,7 @@ Observations Observer::observe(uint64_t detail) const {
   const glm::vec3 position = foam_.sites[cell] + place.x * frame.tangent + place.y * frame.bitangent;
   Observations seen;
   if (visibility_) addCameras(detail, position, seen);
-  addHemisphere(frame, seen);
+  addHemisphere(cell, frame, seen);
   if (region_) addRegion(detail, position, frame, seen);
   seen.colours.reserve(seen.size());
   for (const glm::vec3& direction : seen.directions) {
@@ -162,8 +166,9 @@ void Observer::addRegion(uint64_t detail, const glm::vec3& position, const FaceF
   }
 }
 
-void Observer::addHemisphere(const FaceFrame<float>& frame, Observations& seen) const {
-  const float weight = (visibility_ ? kHemisphereShare : 1.0f) * 2 / static_cast<float>(hemisphere_.size());
+void Observer::addHemisphere(uint64_t cell, const FaceFrame<float>& frame, Observations& seen) const {
+  const float cellWeight = cellWeights_.empty() ? 1.0f : std::max(cellWeights_[cell], kHemisphereShare);
+  const float weight = (visibility_ ? kHemisphereShare : cellWeight) * 2 / static_cast<float>(hemisphere_.size());
   uint32_t number = visibility_ ? static_cast<uint32_t>(visibility_->eyes.size()) * (1 + kEyesAround) : 0;
   for (const glm::vec3& d : hemisphere_) {
     seen.eyes.push_back(number++);

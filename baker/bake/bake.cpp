@@ -259,7 +259,7 @@ Status Bake::makeCoarser() {
 
 Status Bake::prepareColours() {
   Result<ColourSource> colours =
-      ColourSource::create(foam_, levels_.merged, visibility_ ? &*visibility_ : nullptr, options_, progress_);
+      ColourSource::create(foam_, levels_, visibility_ ? &*visibility_ : nullptr, options_, progress_);
   if (!colours) return colours.error();
   colours_ = std::move(*colours);
   recorder_.finish("codebook", colours_.codebook().size());

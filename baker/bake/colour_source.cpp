@@ -48,7 +48,7 @@ std::vector<Slice> sliceRuns(std::span<const uint32_t> sources, uint32_t inputCo
 
 }  // namespace
 
-Result<ColourSource> ColourSource::create(const Foam& foam, const Foam& merged, const Visibility* visibility,
+Result<ColourSource> ColourSource::create(const Foam& foam, const Levels& levels, const Visibility* visibility,
                                           const BakeOptions& options, const Progress& progress) {
   ColourSource source;
   source.inputCount_ = foam.cellCount;
@@ -65,7 +65,7 @@ Result<ColourSource> ColourSource::create(const Foam& foam, const Foam& merged, 
   Result<AppearanceCoder> coder = AppearanceCoder::create(foam, visibility, appearance, progress);
   if (!coder) return coder.error();
   source.coder_ = std::move(*coder);
-  if (merged.cellCount > 0) source.mergedCoder_ = source.coder_->forFoam(merged);
+  if (levels.merged.cellCount > 0) source.mergedCoder_ = source.coder_->forFoam(levels.merged, levels.mergedWeights);
   source.lobeCount_ = std::min(foam.lobeCount, appearance.lobeLimit);
   return source;
 }

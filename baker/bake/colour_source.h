@@ -9,6 +9,7 @@
 #include "baker/bake/attribute_errors.h"
 #include "baker/bake/bake.h"
 #include "baker/cells/slices.h"
+#include "baker/lod/levels.h"
 #include "foam/foam.h"
 #include "format/asset_contents.h"
 
@@ -17,7 +18,7 @@ namespace froth {
 class ColourSource {
  public:
   // Keeps references to foam, visibility (null: all directions are alike) and the merged cells of levels.
-  static Result<ColourSource> create(const Foam& foam, const Foam& merged, const Visibility* visibility,
+  static Result<ColourSource> create(const Foam& foam, const Levels& levels, const Visibility* visibility,
                                      const BakeOptions& options, const Progress& progress);
 
   // Most lobes of a detail site; 0: nothing looks different from different sides.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <tbb/task_arena.h>
@@ -49,6 +50,7 @@ class LevelMaker {
   Status makeLevel();
   bool forEachStep(std::vector<Step>& steps, const std::function<void(Step&)>& work);
   Status addMergedCells(std::vector<Step>& steps);
+  void weighMergedCells(size_t count);
   void splitForm(Step& step) const;
   void addGroup(Step& step);
   Levels collect();
@@ -141,7 +143,17 @@ Status LevelMaker::addMergedCells(std::vector<Step>& steps) {
     contributions_.insert(contributions_.end(), form.contributions.begin(), form.contributions.end());
     form.merged = {};
   }
+  weighMergedCells(report.merges);
   return {};
+}
+
+// The newest `count` of them, which are a level's.
+void LevelMaker::weighMergedCells(size_t count) {
+  const auto newest = std::span(contributions_).last(contributions_.empty() ? 0 : count);
+  const double sum = std::accumulate(newest.begin(), newest.end(), 0.0);
+  for (const double contribution : newest) {
+    levels_.mergedWeights.push_back(sum > 0 ? static_cast<float>(contribution * static_cast<double>(count) / sum) : 1);
+  }
 }
 
 // The coarse form becomes chunks, and its rows name cells of the scene.

@@ -32,6 +32,9 @@ struct Levels {
   uint32_t borderCount = 0;
   std::vector<LevelGroup> groups;  // none: nothing gets coarser, and all else is empty
   Foam merged;                     // BakeCells::sources continue into it
+  // [merged cells] how much each shows, of its level 1 on average: a level is seen from where its cells look as large
+  // as those of level 0 do to the cameras. Empty: all alike
+  std::vector<float> mergedWeights;
   std::vector<LevelReport> reports;
 };
 

@@ -222,5 +222,20 @@ TEST(Appearance, CellsThatNoCameraSeesKeepTheirColour) {
   EXPECT_LT(glm::distance(coded.baseColours[1] + 0.5f, glm::vec3(0.75f, 0.25f, 0.5f)), 0.2f);
 }
 
+// Merged cells of levels of detail.
+TEST(Appearance, CellsOfAnotherFoamThatShowLittleKeepFewLobes) {
+  const Foam foam = randomFoam(80, 3, 4, 1), other = randomFoam(60, 3, 4, 2);
+  const Result<AppearanceCoder> coder = AppearanceCoder::create(foam, nullptr, typicalOptions());
+  ASSERT_TRUE(coder);
+  std::vector<uint32_t> cells(other.cellCount);
+  std::iota(cells.begin(), cells.end(), 0u);
+  const auto lobesWith = [&](std::vector<float> weights) {
+    return coder->forFoam(other, std::move(weights)).compress(cells).lobeColours.size();
+  };
+  const size_t all = lobesWith({});
+  EXPECT_EQ(lobesWith(std::vector<float>(other.cellCount, 1)), all);
+  EXPECT_LT(lobesWith(std::vector<float>(other.cellCount, 0.05f)), all);
+}
+
 }  // namespace
 }  // namespace froth
