@@ -57,7 +57,8 @@ class FlythroughLevels : public ToolTest {
   }
 
   ProgramRun fly(const std::vector<std::string>& more, const std::string& asset = "gallery.froth") const {
-    std::vector<std::string> arguments{asset, "--headless", "--size", "96x64", "-o", "frames", "--json", "flight.json"};
+    std::vector<std::string> arguments{asset, "--headless", "-o", "frames", "--json", "flight.json"};
+    if (std::ranges::find(more, "--size") == more.end()) arguments.insert(arguments.end(), {"--size", "96x64"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runProgram(FROTH_FLYTHROUGH, arguments, folder_);
   }
@@ -99,6 +100,7 @@ TEST_F(FlythroughLevels, ShowsOfEachPixelTheLevelOfADrawnChunk) {
   size_t mixtures = 0;
   const nlohmann::json told = frames();
   ASSERT_EQ(told.size(), 12u);
+  ASSERT_LE(told[0]["drawnByLevel"].size(), kLevelColours.size()) << "more levels than colours";
   for (size_t frame = 0; frame < told.size(); ++frame) {
     const std::set<size_t> seen = levelsInPicture(frame);
     EXPECT_FALSE(seen.empty()) << frame;
