@@ -106,8 +106,9 @@ Status Painter::record(VkCommandBuffer commands, Scene& scene, Picture picture, 
                        VkPipelineStageFlags2 readStage) {
   shown_ = first_;
   const bool isByPass = scene.isReady() && (picture == Picture::kDifference || picture == Picture::kLevels);
-  if (!isByPass)
+  if (!isByPass) {
     return recordPart(commands, scene, picture == Picture::kWalk ? Method::kWalk : Method::kRaster, pose, readStage);
+  }
   Status recorded =
       picture == Picture::kLevels ? recordLevels(commands, scene, pose) : recordDifference(commands, scene, pose);
   if (!recorded) return recorded;

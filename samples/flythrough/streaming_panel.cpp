@@ -87,8 +87,10 @@ bool layOutSettings(const std::vector<FrothChunk>& chunks, StreamSettings& setti
     settings.budget = budget < mostBudget ? static_cast<uint64_t>(std::llround(double{budget} * kMebi)) : 0;
     isChanged = true;
   }
+  ImGui::BeginDisabled(settings.isFrozen);  // it says what is wanted
   isChanged |= ImGui::SliderFloat("detail", &settings.detail, kLeastDetail, kMostDetail, "%.2f",
                                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  ImGui::EndDisabled();
   isChanged |= ImGui::Checkbox("freeze what is wanted", &settings.isFrozen);
   return isChanged;
 }

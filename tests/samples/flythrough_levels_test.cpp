@@ -40,24 +40,28 @@ std::optional<size_t> levelOf(const float* coded) {
 // The gallery, baked once.
 class FlythroughLevels : public ToolTest {
  protected:
-  static void SetUpTestSuite() { asset_ = new std::string(); }
-  static void TearDownTestSuite() { delete asset_; }
+  static void TearDownTestSuite() {
+    asset_.clear();
+    cameras_.clear();
+  }
 
   void SetUp() override {
     if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");
-    if (asset_->empty()) {
+    if (asset_.empty()) {
       frothWell({"synth", "gallery", "--cells", "20000", "-o", "gallery.pt"});
-      frothWell({"bake", "gallery.pt", "--lod", "--chunk-cells", "1024", "--no-measure", "--cameras",
-                 "gallery.cameras.json", "-o", "gallery.froth"});
-      *asset_ = readBytes(folder_ / "gallery.froth");
+      frothWell({"bake", "gallery.pt", "--lod", "--chunk-cells", "1024", "--no-measure", "-o", "gallery.froth"});
+      asset_ = readBytes(folder_ / "gallery.froth");
+      cameras_ = readBytes(folder_ / "gallery.cameras.json");
     }
-    writeBytes(folder_ / "gallery.froth", *asset_);
+    writeBytes(folder_ / "gallery.froth", asset_);
+    writeBytes(folder_ / "cameras.json", cameras_);
   }
 
   ProgramRun fly(const std::vector<std::string>& more, const std::string& asset = "gallery.froth") const {
-    std::vector<std::string> arguments{asset, "--headless", "-o", "frames", "--json", "flight.json"};
+    std::vector<std::string> arguments{asset, "--cameras", "cameras.json", "--headless",
+                                       "-o",  "frames",    "--json",       "flight.json"};
     if (std::ranges::find(more, "--size") == more.end()) arguments.insert(arguments.end(), {"--size", "96x64"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runProgram(FROTH_FLYTHROUGH, arguments, folder_);
@@ -89,7 +93,7 @@ class FlythroughLevels : public ToolTest {
   }
 
  private:
-  static inline std::string* asset_ = nullptr;  // its bytes; empty: not baked yet
+  static inline std::string asset_, cameras_;  // bytes of their files; empty: not baked yet
 };
 
 TEST_F(FlythroughLevels, ShowsOfEachPixelTheLevelOfADrawnChunk) {
@@ -140,9 +144,10 @@ TEST_F(FlythroughLevels, SettlesWithinATightBudget) {
 TEST_F(FlythroughLevels, HasAWindowWithPanels) {
   const XServer server;
   if (!server.isRunning()) FROTH_SKIP() << "no Xvfb";
-  const ProgramRun run = runProgram(
-      FROTH_FLYTHROUGH, {"gallery.froth", "--frames", "12", "--size", "320x240", "--renderer", "levels", "--validate"},
-      folder_);
+  const ProgramRun run = runProgram(FROTH_FLYTHROUGH,
+                                    {"gallery.froth", "--cameras", "cameras.json", "--frames", "12", "--size",
+                                     "320x240", "--renderer", "levels", "--validate"},
+                                    folder_);
   EXPECT_EQ(run.exitCode, 0) << run.err;
 }
 
