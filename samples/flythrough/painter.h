@@ -22,8 +22,8 @@ class Painter {
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
 
-  // (Re)makes the images, and the scene's view to fit; the device is done with every frame. For kLevels the scene is
-  // ready.
+  // (Re)makes the images, and the scene's view to fit; the device is done with every frame. For kLevels it
+  // is called once more when the scene is ready.
   Status setExtent(Scene& scene, VkExtent2D extent);
 
   // What raster and walk draw from now on: the upper left part of the images, to this cut-off.
