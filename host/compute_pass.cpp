@@ -20,6 +20,10 @@ PassResource uniformBuffer(VkBuffer buffer) {
   return {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED, buffer};
 }
 
+PassResource storageBuffer(VkBuffer buffer) {
+  return {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED, buffer};
+}
+
 Result<std::unique_ptr<ComputePass>> ComputePass::create(const Host& host, std::span<const uint32_t> spirv,
                                                          std::span<const PassResource> resources,
                                                          VkDescriptorSetLayout secondLayout) {

@@ -19,6 +19,7 @@ struct PassResource {
 PassResource storageImage(const HostImage& image);  // in GENERAL
 PassResource sampledImage(const HostImage& image);  // in SHADER_READ_ONLY_OPTIMAL; read by texelFetch alone
 PassResource uniformBuffer(VkBuffer buffer);
+PassResource storageBuffer(VkBuffer buffer);
 
 class ComputePass {
  public:

@@ -1,5 +1,6 @@
 #include "host/scene.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace froth {
@@ -41,7 +42,7 @@ Scene::~Scene() {
   if (context_) frothDestroyContext(context_, UINT64_MAX);
 }
 
-Status Scene::setExtent(VkExtent2D extent) {
+Status Scene::setExtent(VkExtent2D extent, bool keepsHits) {
   if (extent_.width > 0) {
     if (Status gone = check(frothDestroyView(context_, view_), "frothDestroyView"); !gone) return gone;
     extent_ = {};
@@ -50,6 +51,7 @@ Status Scene::setExtent(VkExtent2D extent) {
   info.structSize = sizeof(info);
   info.maxExtent = extent;
   info.measurePasses = 1;
+  info.keepsHits = keepsHits ? 1 : 0;
   if (Status made = check(frothCreateView(context_, &info, &view_), "frothCreateView"); !made) return made;
   extent_ = extent;
   return {};
@@ -69,7 +71,32 @@ Status Scene::beginFrame(VkCommandBuffer commands, uint64_t serial, uint64_t com
     return asked;
   }
   if (asset_.state == FROTH_ASSET_FAILED) return check(asset_.error, "frothOpenAsset");
+  return isReady() && levelCount_ == 0 ? countLevels() : Status();
+}
+
+Status Scene::countLevels() {
+  const Result<std::vector<FrothChunk>> found = chunks();
+  if (!found) return found.error();
+  for (const FrothChunk& chunk : *found) levelCount_ = std::max(levelCount_, chunk.level + 1);
   return {};
+}
+
+Result<std::vector<FrothChunk>> Scene::chunks() const {
+  std::vector<FrothChunk> chunks(asset_.chunkCount);
+  uint32_t count = 0;
+  const FrothResult copied = frothGetChunks(context_, assetHandle_, asset_.chunkCount, chunks.data(), &count);
+  if (Status got = check(copied, "frothGetChunks"); !got) return got.error();
+  chunks.resize(std::min<size_t>(chunks.size(), count));
+  return chunks;
+}
+
+Result<FrothStreamStatus> Scene::streamStatus() const {
+  FrothStreamStatus status{};
+  status.structSize = sizeof(status);
+  if (Status asked = check(frothGetStreamStatus(context_, &status), "frothGetStreamStatus"); !asked) {
+    return asked.error();
+  }
+  return status;
 }
 
 Status Scene::draw(VkCommandBuffer commands, Method method, FrothRenderInfo info) {
@@ -136,8 +163,8 @@ Status submitWholeFrame(Host& host, Scene& scene, const RecordFrame& record) {
     if (!status) return status.error();
     if ((status->bits & (FROTH_VIEW_CELL_OVERFLOW | FROTH_VIEW_PAIR_OVERFLOW)) == 0) return {};
   }
-  return makeError(ErrorKind::kUnsupported, "a frame still overflows after %d attempts; use a smaller --size",
-                   kMaxAttempts);
+  return makeError(ErrorKind::kUnsupported,
+                   "a frame still overflows after %d attempts; use a smaller --size or a larger budget", kMaxAttempts);
 }
 
 }  // namespace froth

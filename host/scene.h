@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "froth/froth_stream.h"
 #include "host/camera_path.h"
 #include "host/host.h"
 #include "host/method.h"
@@ -20,8 +21,9 @@ class Scene {
                                                bool isQueried = false);
   ~Scene();  // the device is done with every frame
 
-  // (Re)makes the view for images of this size; the device is done with every frame.
-  Status setExtent(VkExtent2D extent);
+  // (Re)makes the view for images of this size, and with keepsHits for those of FrothViewInfo::keepsHits too; the
+  // device is done with every frame.
+  Status setExtent(VkExtent2D extent, bool keepsHits = false);
 
   // The start of each frame: loads what there is to load, grows what was too small, records the uploads.
   Status beginFrame(VkCommandBuffer commands, uint64_t serial, uint64_t completedSerial);
@@ -32,6 +34,11 @@ class Scene {
   const FrothAssetStatus& assetStatus() const { return asset_; }
   const FrothFrameStatus& frameStatus() const { return frame_; }
   Result<FrothViewStatus> viewStatus() const;  // of the newest complete frame
+
+  // Levels of detail of the asset; 1: it has none. 0 before it is ready.
+  uint32_t levelCount() const { return levelCount_; }
+  Result<std::vector<FrothChunk>> chunks() const;
+  Result<FrothStreamStatus> streamStatus() const;
 
   // The path to fly: the given keys, else those stored in the asset, else an orbit. Only when ready.
   Result<CameraPath> path(std::vector<Pose> keys) const;
@@ -44,6 +51,7 @@ class Scene {
 
  private:
   Scene() = default;
+  Status countLevels();
 
   FrothContext* context_ = nullptr;
   FrothAsset assetHandle_{};
@@ -52,6 +60,7 @@ class Scene {
   VkExtent2D extent_{};
   FrothAssetStatus asset_{};
   FrothFrameStatus frame_{};
+  uint32_t levelCount_ = 0;
   std::string lastMessage_;
 };
 

@@ -20,3 +20,10 @@ FrothResult frothGetStreamStatus(FrothContext* context, FrothStreamStatus* statu
     return result == FROTH_OK ? writeOutput(context->messages, call, known, status) : result;
   });
 }
+
+FrothResult frothGetChunks(FrothContext* context, FrothAsset asset, uint32_t capacity, FrothChunk* chunks,
+                           uint32_t* count) {
+  return guard(context, __func__, [&](const char* call) {
+    return count ? context->copyChunks(asset, capacity, chunks, *count) : failNull(*context, call, "count");
+  });
+}

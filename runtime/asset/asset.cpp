@@ -40,6 +40,7 @@ void Asset::restart(const Messages& messages) {
   error_ = FROTH_OK;
   description_ = {};
   flightPath_.clear();
+  chunks_.clear();
   gpu_ = {};
   slots_ = {};
   entriesSerial = 0;
@@ -64,6 +65,7 @@ Status Asset::placeChunk(LoadedChunk& loaded) {
     }
     place = *given;
   }
+  chunks_[number].deviceBytes = loaded.arrays.size;
   workDone_ += chunkWork_[number];
   workToCome_ -= chunkWork_[number];
   if (hasLevels()) {

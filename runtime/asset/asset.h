@@ -14,6 +14,7 @@
 
 #include "format/read/asset_opener.h"
 #include "froth/froth.h"
+#include "froth/froth_stream.h"
 #include "runtime/asset/asset_source.h"
 #include "runtime/asset/chunk_arrays.h"
 #include "runtime/asset/chunk_slots.h"
@@ -73,6 +74,10 @@ class Asset {
   // Counts, bounds, cameras; zero before the manifest is read. The state is the context's to tell.
   FrothAssetStatus describe() const;
   std::span<const FrothStoredCamera> flightPath() const { return flightPath_; }
+  // Of the file, with all levels; 0 before its head is read (asset_chunks.cpp).
+  uint32_t chunkCount() const { return static_cast<uint32_t>(chunks_.size()); }
+  // `state`: of the asset.
+  FrothChunk describeChunk(uint32_t chunk, FrothAssetState state) const;
 
   // ---- Layers (asset_layers.cpp). Others come as a successor: an asset of the same source, loaded beside this one.
 
@@ -161,6 +166,7 @@ class Asset {
   void takeReader(std::shared_ptr<const AssetReader> reader);
   Status finish();
   void takeLevels(const AssetReader& reader);
+  void describeChunks(const AssetReader& reader);
   bool isLoading() const { return !toRead_.empty() || !decoding_.empty() || unplaced_; }
   Status placeChunk(LoadedChunk& loaded);
   void placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place, GpuChunk& chunk, const void* owner);
@@ -206,6 +212,7 @@ class Asset {
 
   FrothAssetStatus description_{};
   std::vector<FrothStoredCamera> flightPath_;
+  std::vector<FrothChunk> chunks_;  // without their state; deviceBytes 0: it was not placed yet
   GpuAsset gpu_;
   ChunkSlots slots_;                    // with levels
   std::map<uint32_t, Error> refusals_;  // of chunks that failed

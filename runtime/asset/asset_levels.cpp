@@ -50,7 +50,7 @@ Status Asset::placeBorders() {
 }
 
 VkDeviceSize Asset::chunkBytes(uint32_t chunk) const {
-  if (slots_.hasSlot(chunk)) return slots_.slotOf(chunk).size;
+  if (chunks_[chunk].deviceBytes > 0) return chunks_[chunk].deviceBytes;
   const double share = static_cast<double>(chunkWork_[chunk]) / static_cast<double>(std::max<uint64_t>(workDone_, 1));
   return static_cast<VkDeviceSize>(share * static_cast<double>(placedBytes_));
 }

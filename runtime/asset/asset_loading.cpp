@@ -277,6 +277,7 @@ void Asset::takeReader(std::shared_ptr<const AssetReader> reader) {
   std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_), toApi);
   takeSizes(*reader);
   takeLevels(*reader);
+  describeChunks(*reader);
   gpu_.hasHeights = shapeOf(*reader, source_.lastLayer).hasHeights;
   reader_ = std::move(reader);
   opener_.reset();

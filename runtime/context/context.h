@@ -99,6 +99,7 @@ class Context {
 
   FrothResult setStreaming(const FrothStreamInfo& info);
   FrothResult describeStreaming(FrothStreamStatus& status) const;
+  FrothResult copyChunks(FrothAsset handle, uint32_t capacity, FrothChunk* chunks, uint32_t& count) const;
 
   // From now on these chunks of an asset with levels are read and drawn, a cut, ascending, whatever views see. Not in
   // the public headers.
@@ -240,7 +241,8 @@ class Context {
   std::vector<StreamEye> streamEyes_;  // of the asset at hand
   double streamDetail_ = 1;
   uint64_t streamCells_ = std::numeric_limits<uint64_t>::max();
-  bool isFloorTold_ = false;  // that the budget is too low for floors
+  bool areEyesFrozen_ = false;  // levels_ keeps those that it has
+  bool isFloorTold_ = false;    // that the budget is too low for floors
   HandlePool<Instance, FrothInstance> instances_;
   HandlePool<View, FrothView> views_;
   std::vector<std::pair<uint64_t, std::shared_ptr<void>>> retired_;  // serial of the last use

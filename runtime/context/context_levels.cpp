@@ -51,6 +51,7 @@ void Context::updateLevels() {
     }
     if (!levels_.has(handle)) levels_.add(handle, asset);
     levels_.report(handle, asset, messages);
+    if (areEyesFrozen_) return;
     gatherEyes(handle, asset);
     levels_.setEyes(handle, streamEyes_);
   });

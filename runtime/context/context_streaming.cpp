@@ -1,4 +1,5 @@
 // The calls of streaming: numbers checked, and what LevelStreaming tells.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,6 +53,7 @@ FrothResult Context::setStreaming(const FrothStreamInfo& info) {
   streamPoints_ = std::move(points);
   streamDetail_ = info.detail == 0 ? 1 : info.detail;
   streamCells_ = info.mostCells == 0 ? std::numeric_limits<uint64_t>::max() : info.mostCells;
+  areEyesFrozen_ = info.isFrozen != 0;
   return FROTH_OK;
 }
 
@@ -73,6 +75,24 @@ FrothResult Context::describeStreaming(FrothStreamStatus& status) const {
   status.evictions = figures.evictions;
   status.retries = figures.retries;
   status.failures = figures.failures;
+  return FROTH_OK;
+}
+
+FrothResult Context::copyChunks(FrothAsset handle, uint32_t capacity, FrothChunk* chunks, uint32_t& count) const {
+  constexpr const char* kCall = "frothGetChunks";
+  const Asset* asset = assets_.find(handle);
+  if (!asset) {
+    return messages.fail(FROTH_ERROR_HANDLE, kCall, "asset {%u, %u}: closed or never opened", handle.index,
+                         handle.generation);
+  }
+  if (capacity > 0 && !chunks) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, kCall, "chunks: null, with capacity %u", capacity);
+  }
+  const FrothAssetState state = stateOf(*asset);
+  count = asset->chunkCount();
+  for (uint32_t chunk = 0; chunk < std::min(capacity, count); ++chunk) {
+    chunks[chunk] = asset->describeChunk(chunk, state);
+  }
   return FROTH_OK;
 }
 

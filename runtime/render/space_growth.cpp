@@ -53,6 +53,11 @@ Status growToRoom(Device& device, InstanceSpace& space, const GpuAsset* asset, c
     const Status status = growToLess(space, wanted);
     return isPending(status) ? status : refusal;
   }
+  if (asset && !coversNext(*asset, space.buffers.capacity())) {  // chunks wait for so much before they are drawn
+    const Status status = space.buffers.grow({.chunks = wanted.chunks, .groups = wanted.groups}, space.lastSerial);
+    if (isPending(status)) return status;
+    space.buffers.freeRetired(completedSerial);
+  }
   if (asset) {
     const Result<bool> isAll = growToDemand(device, space, *asset, completedSerial);
     if (!isAll) return isAll.error();
@@ -68,7 +73,9 @@ Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, 
   const VkDeviceSize heldBytes = device.ledger.deviceBytes();
   const VkDeviceSize budget = device.budget;
   const auto& refusal = space.refusal;
-  if (refusal && refusal->asset == asset && refusal->budget == budget && heldBytes >= refusal->deviceBytes) {
+  const bool coversPlan = !asset || coversNext(*asset, space.buffers.capacity());
+  if (refusal && coversPlan && refusal->asset == asset && refusal->budget == budget &&
+      heldBytes >= refusal->deviceBytes) {
     return refusal->error;
   }
   space.refusal.reset();

@@ -11,17 +11,30 @@ int main(int argc, char** argv) {
   CLI::App program{"Flies through a .froth asset."};
   program.add_option("ASSET", options.asset, "A .froth file")->required();
   program.add_option("--cameras", options.cameras, "Key frames (cameras.json) instead of the asset's own path");
-  program.add_option("--renderer", picture, "raster, walk, or the difference of the two")
+  program
+      .add_option("--renderer", picture,
+                  "raster, walk, the difference of the two, or the levels of detail that the raster shows")
       ->capture_default_str()
-      ->check(CLI::IsMember({"raster", "walk", "difference"}));
+      ->check(CLI::IsMember({"raster", "walk", "difference", "levels"}));
   program.add_flag("--counters", options.isCounting, "Window: count what the rays cost; slower");
   program
       .add_option("--target-ms", options.targetMilliseconds, "Window: draw less where frames take longer on the GPU")
       ->check(CLI::PositiveNumber);
+  program.add_option("--budget", options.streaming.budget, "Of device memory [bytes, or with KB, MB, GB]; 0: no limit")
+      ->transform(CLI::AsSizeValue(false));
+  program.add_option("--detail", options.streaming.detail, "Levels of detail: errors may be 1 / DETAIL pixels large")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   froth::addRunOptions(program, options);
+  CLI::Option* headless = program.get_option("--headless");
+  program
+      .add_flag("--settled", options.isSettled, "Headless: each frame waits until the levels that it wants are drawn")
+      ->needs(headless);
+  program.add_option("--json", options.json, "Headless: file for what streaming did, frame by frame")->needs(headless);
   return froth::runProgram("froth_flythrough", program, argc, argv, [&] {
     if (picture == "walk") options.picture = froth::Picture::kWalk;
     if (picture == "difference") options.picture = froth::Picture::kDifference;
+    if (picture == "levels") options.picture = froth::Picture::kLevels;
     return options.isHeadless ? froth::flyHeadless(options) : froth::flyInWindow(options);
   });
 }

@@ -6,6 +6,7 @@
 
 #include "host/command_line.h"
 #include "samples/flythrough/painter.h"
+#include "samples/flythrough/streaming.h"
 
 namespace froth {
 
@@ -13,6 +14,9 @@ struct FlythroughOptions : RunOptions {
   std::string asset;
   std::filesystem::path cameras;  // empty: what the asset has stored
   Picture picture = Picture::kRaster;
+  StreamSettings streaming;
+  bool isSettled = false;        // headless: frames wait until what is wanted is drawn
+  std::filesystem::path json;    // headless; empty: none
   bool isCounting = false;       // the overlay shows what rays cost; slower
   float targetMilliseconds = 0;  // of a window's frames on the GPU; 0: none
 };

@@ -59,8 +59,8 @@ void Overlay::layOut(const OverlayContent& content, VkExtent2D extent) {
   layOutParts("view", content.view.deviceBytes, {content.view.memory, content.view.memoryCount});
   layOutWarnings(content.view);
   ImGui::Separator();
+  ImGui::Text("1 raster  2 walk  3 difference x 32%s", content.hasLevels ? "  4 levels" : "");
   ImGui::TextUnformatted(
-      "1 raster  2 walk  3 difference x 32\n"
       "W A S D Q E fly, drag to look, wheel: speed\n"
       "P path or free flight  C screenshot\n"
       "H hide this  Esc quit");

@@ -7,12 +7,13 @@
 namespace froth {
 
 struct OverlayContent {
-  const char* picture = "";  // "raster", "walk", "difference"
+  const char* picture = "";  // nameOf(Picture)
   const char* camera = "";   // "path", "free flight"
   float scale = 1;           // of the picture's width and height: --target-ms
   FrothAssetStatus asset{};
   FrothFrameStatus frame{};
   FrothViewStatus view{};
+  bool hasLevels = false;
 };
 
 class Overlay {

@@ -13,6 +13,7 @@
 #include "host/flight_input.h"
 #include "samples/flythrough/cameras_json.h"
 #include "samples/flythrough/overlay.h"
+#include "samples/flythrough/streaming_panel.h"
 
 namespace froth {
 namespace {
@@ -21,7 +22,8 @@ constexpr double kSecondsPerKey = 2.0;  // of the path camera
 
 class Flythrough : public WindowClient {
  public:
-  explicit Flythrough(const FlythroughOptions& options) : options_(options), shown_(options.picture) {}
+  explicit Flythrough(const FlythroughOptions& options)
+      : options_(options), shown_(options.picture), streaming_(options.streaming) {}
   ~Flythrough() override;
 
   Status create();
@@ -35,9 +37,12 @@ class Flythrough : public WindowClient {
 
  private:
   Status startFlight();
+  void choosePicture();
   void steer(double seconds);
   Pose currentPose() const;
   Status holdTime(uint64_t serial);
+  void layOutLevels();
+  bool hasLevels() const { return scene_->levelCount() > 1; }
 
   // Destroyed from the last to the first.
   const FlythroughOptions& options_;
@@ -52,6 +57,8 @@ class Flythrough : public WindowClient {
   double pathSeconds_ = 0;
   Picture shown_;
   FrothQuality quality_{};
+  StreamSettings streaming_;
+  bool isStreamingNew_ = true;  // not applied yet
   bool isOnPath_ = true, isOverlayShown_ = true;
   Status screenshot_;
 };
@@ -113,7 +120,9 @@ Status Flythrough::startFlight() {
   const glm::dvec3 most(asset.boundsMax[0], asset.boundsMax[1], asset.boundsMax[2]);
   constexpr double kSpeed = 0.1;  // scene diagonals per second
   flight_.emplace(path_->at(0), path_->up(), kSpeed * glm::length(most - least));
-  return {};
+  if (!hasLevels()) return {};
+  vkDeviceWaitIdle(window_->host().device);
+  return resize(window_->extent());  // now it is known that the view is to keep hits
 }
 
 Pose Flythrough::currentPose() const {
@@ -125,11 +134,18 @@ Pose Flythrough::currentPose() const {
   return path_->at(share <= 1 ? share : 2 - share);
 }
 
-void Flythrough::handleInput(double seconds) {
-  if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) window_->close();
+void Flythrough::choosePicture() {
   if (ImGui::IsKeyPressed(GLFW_KEY_1, false)) shown_ = Picture::kRaster;
   if (ImGui::IsKeyPressed(GLFW_KEY_2, false)) shown_ = Picture::kWalk;
   if (ImGui::IsKeyPressed(GLFW_KEY_3, false)) shown_ = Picture::kDifference;
+  if (ImGui::IsKeyPressed(GLFW_KEY_4, false) && hasLevels()) shown_ = Picture::kLevels;
+}
+
+void Flythrough::handleInput(double seconds) {
+  if (path_ && isOnPath_) pathSeconds_ += seconds;
+  if (ImGui::GetIO().WantTextInput) return;  // a number of the panel
+  choosePicture();
+  if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) window_->close();
   if (ImGui::IsKeyPressed(GLFW_KEY_H, false)) isOverlayShown_ = !isOverlayShown_;
   if (ImGui::IsKeyPressed(GLFW_KEY_C, false)) screenshot_ = window_->saveScreenshot(*this, options_.output);
   if (!path_) return;
@@ -137,7 +153,6 @@ void Flythrough::handleInput(double seconds) {
     flight_->jumpTo(currentPose());
     isOnPath_ = !isOnPath_;
   }
-  if (isOnPath_) pathSeconds_ += seconds;
   steer(seconds);
 }
 
@@ -160,11 +175,22 @@ void Flythrough::layOut() {
   content.asset = scene_->assetStatus();
   content.frame = scene_->frameStatus();
   if (const Result<FrothViewStatus> view = scene_->viewStatus()) content.view = *view;
+  content.hasLevels = hasLevels();
   overlay_.layOut(content, window_->extent());
+  if (hasLevels()) layOutLevels();
+}
+
+void Flythrough::layOutLevels() {
+  const Result<StreamFigures> figures = readFigures(*scene_);
+  if (!figures) return;
+  isStreamingNew_ |= layOutStreaming(*figures, {currentPose(), path_->up()}, streaming_);
 }
 
 Status Flythrough::record(VkCommandBuffer commands, const FrameRing& frames) {
   if (!screenshot_) return screenshot_;
+  if (std::exchange(isStreamingNew_, false)) {
+    if (Status applied = applySettings(*scene_, streaming_); !applied) return applied;
+  }
   Status recorded = scene_->beginFrame(commands, frames.nextSerial(), frames.completedSerial());
   if (!recorded) return recorded;
   if (!path_ && scene_->isReady()) {

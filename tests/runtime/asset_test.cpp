@@ -1,4 +1,5 @@
 #include "format/container.h"
+#include "froth/froth_stream.h"
 #include "one_cell_chunks.h"
 #include "runtime_fixture.h"
 
@@ -83,6 +84,40 @@ TEST_F(AssetOfNullContext, GivesItsFlightPathUpToTheCallersCapacity) {
   EXPECT_EQ(frothGetFlightPath(context_, asset, 3, cameras, &count), FROTH_OK);
   EXPECT_EQ(cameras[1].tanHalfFovY, 0.75);
   EXPECT_EQ(frothGetFlightPath(context_, asset, 1, nullptr, &count), FROTH_ERROR_ARGUMENT);
+}
+
+TEST_F(AssetOfNullContext, GivesItsChunksUpToTheCallersCapacity) {
+  const FrothAsset asset = openBytes(encodeSample({.chunkCount = 3, .localBits = 16}));
+  uint32_t count = 7;
+  EXPECT_EQ(frothGetChunks(context_, asset, 0, nullptr, &count), FROTH_OK);
+  EXPECT_EQ(count, 0u) << "its head is not read yet";
+  ASSERT_EQ(update(1), FROTH_OK);
+  FrothChunk chunks[4] = {};
+  chunks[2].level = 99;
+  EXPECT_EQ(frothGetChunks(context_, asset, 2, chunks, &count), FROTH_OK);
+  EXPECT_EQ(count, 3u);
+  EXPECT_EQ(chunks[1].state, FROTH_CHUNK_DRAWN);
+  EXPECT_GT(chunks[1].liveCount, 0u);
+  EXPECT_EQ(chunks[2].level, 99u);
+  EXPECT_EQ(frothGetChunks(context_, asset, 4, chunks, &count), FROTH_OK);
+  EXPECT_EQ(chunks[2].level, 0u);
+  EXPECT_EQ(frothGetChunks(context_, asset, 1, nullptr, &count), FROTH_ERROR_ARGUMENT);
+  EXPECT_EQ(lastText(), "chunks: null, with capacity 1");
+  EXPECT_EQ(frothGetChunks(context_, asset, 1, chunks, nullptr), FROTH_ERROR_ARGUMENT);
+  EXPECT_EQ(lastText(), "count: null");
+}
+
+TEST_F(AssetOfNullContext, OfABadChunkHasOnlyFailedChunks) {
+  std::vector<uint8_t> bytes = encodeSample({.chunkCount = 3, .localBits = 16});
+  bytes.back() ^= 1;
+  const FrothAsset asset = openBytes(bytes);
+  ASSERT_EQ(update(1), FROTH_OK);
+  ASSERT_EQ(statusOf(asset).state, FROTH_ASSET_FAILED);
+  FrothChunk chunks[3] = {};
+  uint32_t count = 0;
+  EXPECT_EQ(frothGetChunks(context_, asset, 3, chunks, &count), FROTH_OK);
+  ASSERT_EQ(count, 3u);
+  for (const FrothChunk& chunk : chunks) EXPECT_EQ(chunk.state, FROTH_CHUNK_FAILED);
 }
 
 TEST_F(AssetOfNullContext, OfAFewSmallChunksDecodesAllInOneFrame) {

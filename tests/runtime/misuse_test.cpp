@@ -1,6 +1,7 @@
 // Every call with every struct of a wrong size, and with every handle stale.
 #include <cstdlib>
 
+#include "froth/froth_stream.h"
 #include "froth/froth_walk.h"
 #include "runtime_fixture.h"
 
@@ -161,6 +162,7 @@ TEST_F(Misuse, OfStaleHandlesInEveryCallIsAnErrorThatNamesThem) {
   const std::pair<FrothResult, const char*> results[] = {
       {frothGetAssetStatus(context_, asset_, &assetStatus), "frothGetAssetStatus"},
       {frothGetFlightPath(context_, asset_, 0, nullptr, &count), "frothGetFlightPath"},
+      {frothGetChunks(context_, asset_, 0, nullptr, &count), "frothGetChunks"},
       {frothCloseAsset(context_, asset_), "frothCloseAsset"},
       {frothCreateInstance(context_, &instanceInfo, &made), "frothCreateInstance"},
       {frothSetInstance(context_, instance_, &instanceInfo), "frothSetInstance"},

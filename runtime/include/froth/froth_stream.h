@@ -1,4 +1,4 @@
-/* Froth, streaming: what is wanted of assets with levels of detail, and how far it is.
+/* Froth, streaming: what is wanted of assets with levels of detail, how far it is, and which chunks are drawn.
  *
  * An asset baked with levels is READY when its floor, its coarsest form, is resident; the floor stays until the asset
  * is closed. Finer chunks come and go by what views see: the newest camera of each view, and stream points. Groups of
@@ -30,6 +30,9 @@ typedef struct FrothStreamInfo {
   uint64_t mostCells; /* live cells that the wanted chunks of all assets have at most, but for floors; 0: no limit */
   uint32_t pointCount;
   const FrothStreamPoint* points; /* [pointCount] copied */
+  /* 1: each asset wants what views and points wanted of it, by their detail, in the newest frothUpdate before; so one
+   * can look at its chunks from elsewhere. Budget and mostCells go on counting. An asset that is new wants its floor */
+  uint32_t isFrozen;
 } FrothStreamInfo;
 
 /* From the next frothUpdate on. FROTH_ERROR_ARGUMENT: nothing changes. */
@@ -53,6 +56,35 @@ typedef struct FrothStreamStatus {
 } FrothStreamStatus;
 
 FROTH_API FrothResult frothGetStreamStatus(FrothContext* context, FrothStreamStatus* status);
+
+typedef enum FrothChunkState {
+  FROTH_CHUNK_ABSENT = 0,
+  FROTH_CHUNK_COMING = 1,   /* waits for its read, is read, decoded or uploaded */
+  FROTH_CHUNK_RESIDENT = 2, /* on the device and not drawn; also while frames in flight may still draw it */
+  FROTH_CHUNK_DRAWN = 3,    /* by all views that show the asset, from this frame on */
+  FROTH_CHUNK_FAILED = 4,   /* to be brought; may be tried again (FrothStreamStatus::failedChunks: for good) */
+  FROTH_CHUNK_STATE_MAX = 0x7fffffff
+} FrothChunkState;
+
+/* A chunk of an asset. It suits pixels whose size is between `error` and `coarserError`: with smaller ones its own
+ * error is seen, with larger ones a coarser chunk does. */
+typedef struct FrothChunk {
+  double centre[3];      /* of a ball around the balls of its live cells [asset units] */
+  double radius;         /* [asset units] 0: it has no live cells */
+  double error;          /* of the group that made it [asset units]; 0: level 0 */
+  double coarserError;   /* of the group that it is in [asset units]; +inf: it belongs to the floor */
+  uint64_t deviceBytes;  /* that it takes while it is resident; an estimate before it was */
+  uint32_t level;        /* 0: the finest */
+  uint32_t liveCount;    /* cells that can be seen */
+  FrothChunkState state; /* as of the newest frothUpdate */
+} FrothChunk;
+
+/* Copies at most `capacity` chunks, in the order of the file: chunks[i] has the cells with code >> cellBits == i
+ * (FrothAssetStatus::cellBits). *count: the number that the file has, of all levels; 0: its head is not read yet.
+ * capacity 0: chunks may be null. An asset without levels has chunks of level 0, which are all drawn once it is READY.
+ * For tools and debug views: it looks at each chunk. */
+FROTH_API FrothResult frothGetChunks(FrothContext* context, FrothAsset asset, uint32_t capacity, FrothChunk* chunks,
+                                     uint32_t* count);
 
 #ifdef __cplusplus
 }
