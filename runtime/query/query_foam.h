@@ -89,8 +89,8 @@ class QueryFoam {
   // ---- With levels (level_cut.cpp): a chunk has the number that it has in the file
 
   void setChunk(uint32_t number, QueryChunk&& made);
-  void removeChunk(uint32_t number);                               // one that is not shown
-  QueryCut makeCut(std::span<const uint32_t> ascending) const;     // of chunks that are there
+  void removeChunk(uint32_t number);                            // one that is not shown
+  QueryCut makeCut(std::span<const uint32_t> ascending) const;  // of chunks that are there
   // From now on these chunks answer. The work grows with the borders of those that come and go.
   void show(QueryCut&& cut);
 
