@@ -19,6 +19,7 @@ void Asset::fail(FrothResult code, const char* text, const Messages& messages) {
   stop();
   arrays_.clear();
   queryFoam_.reset();
+  levelFoam_.reset();
 }
 
 void Asset::fail(const Error& error, const Messages& messages) {
@@ -43,6 +44,7 @@ void Asset::restart(const Messages& messages) {
   chunks_.clear();
   gpu_ = {};
   slots_ = {};
+  levelFoam_.reset();
   entriesSerial = 0;
   arena_ = device_ ? std::make_shared<GpuArena>(*device_) : nullptr;
   if (source_.kind == SourceKind::kMemory && !source_.bytesStay) {
@@ -74,6 +76,7 @@ Status Asset::placeChunk(LoadedChunk& loaded) {
     slot.size = loaded.arrays.size;
     for (const ChunkArray& array : loaded.arrays.arrays) slot.parts.emplace_back(array.purpose, array.size);
     placeArrays(loaded.arrays, place, slot.gpu, isDecoded_ ? static_cast<const void*>(&slot) : this);
+    if (loaded.query) levelFoam_->setChunk(number, std::move(*loaded.query));
     return {};
   }
   growBounds(loaded);
@@ -199,6 +202,7 @@ FrothAssetStatus Asset::describe() const {
   FrothAssetStatus description = description_;
   description.error = error_;
   description.hostBytes = queryFoam_ ? queryFoam_->bytes() : 0;
+  if (levelFoam_ != queryFoam_ && levelFoam_) description.hostBytes += levelFoam_->bytes();
   description.deviceBytes = heldBytes();
   if (description.deviceBytes > 0) {
     uint64_t named = 0;

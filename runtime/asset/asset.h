@@ -172,6 +172,7 @@ class Asset {
   void placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place, GpuChunk& chunk, const void* owner);
   Status placeEntries();
   Status placeBorders();
+  void drawPlan(uint64_t serial);
   void removeChunk(uint32_t chunk);
   VkDeviceSize bytesToCome(uint32_t chunk, VkDeviceSize size) const;
   uint32_t entriesAlong() const;
@@ -182,6 +183,7 @@ class Asset {
   void removeMemory(const char* name, uint64_t bytes);
   void growBounds(const LoadedChunk& chunk);
   bool isQueryFoamWanted() const { return keepsForQueries_ && !hasLevels() && !queryFoam(); }
+  bool isQueryChunkWanted() const { return gpu_.hasWalkGraph && (isQueryFoamWanted() || levelFoam_); }
   void fail(FrothResult code, const char* text, const Messages& messages);
   void fail(const Error& error, const Messages& messages);
 
@@ -218,6 +220,9 @@ class Asset {
   std::map<uint32_t, Error> refusals_;  // of chunks that failed
   uint32_t floorCount_ = 0;             // the first chunks of the file
   std::shared_ptr<QueryFoam> queryFoam_;
+  // With levels: has the resident chunks. queryFoam_ once the floor is decoded; after a lost device the old one answers
+  // until then.
+  std::shared_ptr<QueryFoam> levelFoam_;
   std::shared_ptr<GpuArena> arena_;
 };
 

@@ -36,6 +36,7 @@ void Asset::takeLevels(const AssetReader& reader) {
     whole.gpu.liveCount += manifest.chunks[chunk].liveCount;
   }
   growBounds(whole);
+  if (keepsForQueries_) levelFoam_ = std::make_shared<QueryFoam>(manifest, whole.bounds);
 }
 
 Status Asset::placeBorders() {
@@ -118,12 +119,23 @@ void Asset::removeChunk(uint32_t chunk) {
   workDone_ -= chunkWork_[chunk];
   workToCome_ += chunkWork_[chunk];
   slots_.remove(chunk);
+  if (levelFoam_) levelFoam_->removeChunk(chunk);
 }
 
 // Entries of rays are those of the chunks that are drawn.
 void Asset::takePlan(uint64_t serial) {
-  slots_.takePlan(serial, gpu_);
+  drawPlan(serial);
   entriesSerial = 0;
+}
+
+// For queries too. Without memory all stays as it is.
+void Asset::drawPlan(uint64_t serial) {
+  QueryCut cut;
+  if (levelFoam_) cut = levelFoam_->makeCut(slots_.planned());
+  slots_.takePlan(serial, gpu_);
+  if (!levelFoam_) return;
+  levelFoam_->show(std::move(cut));
+  queryFoam_ = levelFoam_;
 }
 
 void Asset::dropFrame(uint64_t serial) {

@@ -247,7 +247,7 @@ bool Asset::startDecoding(JobRunner& jobs, LoadLimit& limit) {
   const uint32_t chunk = toRead_.front();
   toRead_.pop_front();
   limit.count(chunkWork_[chunk]);
-  const ChunkUses uses{device_ != nullptr, isQueryFoamWanted() && gpu_.hasWalkGraph};
+  const ChunkUses uses{device_ != nullptr, isQueryChunkWanted()};
   Decoding& decoding = decoding_.emplace_back();
   decoding.chunk = chunk;
   decoding.job.start(jobs, [reader = reader_, bytes, chunk, name = source_.name, uses] {
@@ -270,14 +270,14 @@ void Asset::takeReader(std::shared_ptr<const AssetReader> reader) {
   const AssetContents& manifest = reader->manifest();
   description_ = describeManifest(manifest);
   gpu_ = describeShape(manifest);
-  if (isQueryFoamWanted()) {
-    queryFoam_ = std::make_shared<QueryFoam>(manifest);
-  }
   flightPath_.clear();
   std::transform(manifest.flightPath.begin(), manifest.flightPath.end(), std::back_inserter(flightPath_), toApi);
   takeSizes(*reader);
   takeLevels(*reader);
   describeChunks(*reader);
+  if (isQueryFoamWanted()) {
+    queryFoam_ = std::make_shared<QueryFoam>(manifest);
+  }
   gpu_.hasHeights = shapeOf(*reader, source_.lastLayer).hasHeights;
   reader_ = std::move(reader);
   opener_.reset();
@@ -315,7 +315,7 @@ Status Asset::finish() {
   }
   if (hasLevels()) {
     slots_.measurePlan(gpu_);
-    slots_.takePlan(0, gpu_);  // no frame draws it before its copies are recorded
+    drawPlan(0);  // no frame draws it before its copies are recorded
   }
   isDecoded_ = true;
   figures_[layers_ - 1] = {heldBytes(), gpu_.detailCount};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "runtime/asset/loaded_chunk.h"
 
@@ -28,7 +29,7 @@ Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQuerie
   measure.gpu.detailCount = manifest.detailCount;
   QueryFoam foam(manifest);
   const bool hasLevels = !manifest.levels.empty();
-  keepsForQueries = keepsForQueries && !hasLevels;
+  std::vector<uint32_t> finest;
   const ChunkUses uses{.drawing = true, .queries = keepsForQueries && manifest.hasWalkGraph};
   for (uint32_t chunk = 0; chunk < manifest.chunks.size(); ++chunk) {
     if (hasLevels && manifest.levels[chunk].level > 0 && manifest.levels[chunk].in != kNoGroup) continue;
@@ -36,11 +37,18 @@ Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQuerie
     if (!loaded) return loaded.error();
     measure.gpu.add(loaded->gpu);
     for (const ChunkArray& array : loaded->arrays.arrays) measure.deviceBytes += array.size;
-    if (loaded->query) foam.addChunk(std::move(*loaded->query), loaded->bounds);
+    if (hasLevels && manifest.levels[chunk].level == 0) finest.push_back(chunk);
+    if (!loaded->query) continue;
+    if (hasLevels) {
+      foam.setChunk(chunk, std::move(*loaded->query));
+    } else {
+      foam.addChunk(std::move(*loaded->query), loaded->bounds);
+    }
   }
+  const Status status = keepsForQueries && !hasLevels ? foam.checkGhosts(source.name) : Status();
+  if (!status) return status.error();
   if (keepsForQueries) {
-    if (const Status status = foam.checkGhosts(source.name); !status) return status.error();
-    foam.finish();
+    hasLevels ? foam.show(foam.makeCut(finest)) : foam.finish();
     measure.hostBytes = foam.bytes();
   }
   if (keepsForWalks && manifest.hasWalkGraph && measure.gpu.liveCount > 0) {

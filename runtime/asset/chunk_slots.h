@@ -52,6 +52,7 @@ class ChunkSlots {
 
   // What is to be drawn next; it replaces an earlier plan. [not empty]
   void plan(std::vector<uint32_t> chunks) { planned_ = std::move(chunks); }
+  std::span<const uint32_t> planned() const { return planned_; }
   bool isPlanned(uint32_t chunk) const;
   bool canTakePlan() const;                 // there is one, and all of it is resident
   void measurePlan(GpuAsset& asset) const;  // one that can be taken: what views need for it

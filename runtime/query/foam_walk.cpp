@@ -90,7 +90,7 @@ void FoamWalk::stepThrough(const Exit& exit) {
   if (exit.site == kNoSite) return;  // to infinity
   key_ = exit.key;
   const uint32_t from = current_.chunk;
-  current_ = foam_->cellOfSite(from, exit.site);
+  current_ = foam_->cellOfSite(current_, exit.site);
   if (current_.chunk == from) return;
   chunk_ = &foam_->chunk(current_.chunk);
   localOrigin_ = ray_.origin - chunk_->origin;

@@ -51,17 +51,33 @@ QueryChunk makeQueryChunk(const ChunkContents& contents) {
   chunk.neighbourOffsets = contents.neighbourOffsets;
   chunk.neighbours = packElements(sortRows(contents));
   chunk.ghostRefs = contents.ghostRefs;
+  chunk.borders.reserve(contents.borderCells.size());
+  for (size_t i = 0; i < contents.borderCells.size(); ++i) {
+    chunk.borders.push_back({contents.borderCells[i], contents.borderNumbers[i]});
+  }
   chunk.densities = contents.densities;
   chunk.orientations = contents.orientations;
   chunk.details = joinDetails(contents);
   return chunk;
 }
 
-QueryFoam::QueryFoam(const AssetContents& manifest)
+uint64_t QueryChunk::arrayBytes() const {
+  return bytesOf(siteRadius) + bytesOf(neighbourOffsets) + bytesOf(neighbours.words) + bytesOf(ghostRefs) +
+         bytesOf(borders) + bytesOf(densities) + bytesOf(orientations) + bytesOf(details);
+}
+
+QueryFoam::QueryFoam(const AssetContents& manifest, const LiveBounds& bounds)
     : hasWalkGraph_(manifest.hasWalkGraph),
+      hasLevels_(!manifest.levels.empty()),
       detailCount_(manifest.detailCount),
       localBits_(manifest.localBits),
-      detailSharpness_(manifest.detailSharpness) {}
+      detailSharpness_(manifest.detailSharpness),
+      bounds_(bounds) {
+  if (!hasLevels_ || !hasWalkGraph_) return;
+  chunks_.resize(manifest.chunks.size());
+  borders_.assign(manifest.borderCount, kNowhere);
+  bytes_ = chunks_.size() * sizeof(QueryChunk) + bytesOf(borders_);
+}
 
 void QueryFoam::addChunk(QueryChunk&& made, const LiveBounds& bounds) {
   if (!hasWalkGraph_) return;
@@ -72,9 +88,7 @@ void QueryFoam::addChunk(QueryChunk&& made, const LiveBounds& bounds) {
   for (uint32_t cell = 0; cell < chunk.cellCount; cell += kCellsPerEntry) {
     samples_.push_back({glm::vec3(chunk.origin + chunk.siteOf(cell)), {index, cell}});
   }
-  bytes_ += sizeof(QueryChunk) + bytesOf(chunk.siteRadius) + bytesOf(chunk.neighbourOffsets) +
-            bytesOf(chunk.neighbours.words) + bytesOf(chunk.ghostRefs) + bytesOf(chunk.densities) +
-            bytesOf(chunk.orientations) + bytesOf(chunk.details);
+  bytes_ += sizeof(QueryChunk) + chunk.arrayBytes();
 }
 
 // Bit for bit on a lattice, else rounded to float: as format/read/asset_verify.cpp.
@@ -82,7 +96,7 @@ Status QueryFoam::checkGhosts(const std::string& name) const {
   for (uint32_t index = 0; index < chunks_.size(); ++index) {
     const QueryChunk& chunk = chunks_[index];
     for (uint32_t ghost = 0; ghost < chunk.ghostRefs.size(); ++ghost) {
-      const CellAddress cell = cellOfSite(index, chunk.cellCount + ghost);
+      const CellAddress cell = cellOfSite({index, 0}, chunk.cellCount + ghost);
       const QueryChunk& other = chunks_[cell.chunk];
       const glm::vec4 copy = chunk.siteRadius[chunk.cellCount + ghost], original = other.siteRadius[cell.cell];
       const glm::vec3 expected(other.origin - chunk.origin + glm::dvec3(original));
@@ -110,10 +124,14 @@ double QueryFoam::meanHeightOf(const QueryChunk& chunk, uint32_t cell) const {
   return sum / detailCount_;
 }
 
-CellAddress QueryFoam::cellOfSite(uint32_t chunk, uint32_t site) const {
-  const uint32_t cellCount = chunks_[chunk].cellCount;
-  if (site < cellCount) return {chunk, site};
-  const CellRef ref = chunks_[chunk].ghostRefs[site - cellCount];
+CellAddress QueryFoam::cellOfSite(CellAddress from, uint32_t site) const {
+  const QueryChunk& chunk = chunks_[from.chunk];
+  if (site < chunk.cellCount) return {from.chunk, site};
+  CellRef ref = chunk.ghostRefs[site - chunk.cellCount];
+  if (hasLevels_) {
+    ref = borders_[ref];
+    if (ref == kNowhere) return from;
+  }
   return {chunkOf(ref, localBits_), localOf(ref, localBits_)};
 }
 
@@ -146,7 +164,7 @@ CellAddress QueryFoam::locate(const glm::dvec3& point) const {
     }
     if (best == current.cell) return current;
     const uint32_t from = current.chunk;
-    current = cellOfSite(from, best);
+    current = cellOfSite(current, best);
     if (current.chunk == from) continue;
     chunk = &chunks_[current.chunk];
     local = point - chunk->origin;

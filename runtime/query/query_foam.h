@@ -2,11 +2,13 @@
 // colours.
 //
 // Sites keep the floats of the reader, relative to their chunk; all that is computed with them is double. Thread
-// safety: built by one thread, then read by any number.
+// safety: built by one thread, then read by any number. With levels of detail that one thread changes it between
+// queries.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,11 @@ struct QueryDetail {
   float height;
 };
 
+// A cell that other chunks know as a ghost.
+struct QueryBorder {
+  uint32_t cell, number;
+};
+
 // ChunkContents has the meaning of what has the same name.
 struct QueryChunk {
   glm::dvec3 origin{0};
@@ -36,10 +43,12 @@ struct QueryChunk {
   // rows ascending: sites lie along a curve, so that a row reads memory forwards
   PackedElements neighbours;
   std::vector<CellRef> ghostRefs;
+  std::vector<QueryBorder> borders;     // with levels
   std::vector<float> densities;         // [liveCount]
   std::vector<glm::vec4> orientations;  // [liveCount]
   std::vector<QueryDetail> details;     // [liveCount * K]; empty: the chunk has no heights
 
+  uint64_t arrayBytes() const;
   glm::dvec3 siteOf(uint32_t site) const { return glm::dvec3(siteRadius[site]); }
   double radiusOf(uint32_t site) const { return siteRadius[site].w; }
   double densityOf(uint32_t cell) const { return cell < liveCount ? densities[cell] : 0.0f; }
@@ -58,29 +67,49 @@ struct QueryChunk {
 // The neighbours' rows in the order of sites.
 QueryChunk makeQueryChunk(const ChunkContents& contents);
 
+// Chunks of an asset with levels that are drawn together, and where searches among their cells begin.
+struct QueryCut {
+  std::vector<uint32_t> chunks;  // ascending
+  EntryTree entries;
+};
+
 class QueryFoam {
  public:
-  // Without a walk graph nothing is kept: no query can be answered.
-  explicit QueryFoam(const AssetContents& manifest);
+  // Without a walk graph nothing is kept: no query can be answered. With levels, `bounds` holds the balls of the live
+  // cells of all of them.
+  explicit QueryFoam(const AssetContents& manifest, const LiveBounds& bounds = {});
+
+  // ---- Without levels of detail
 
   void addChunk(QueryChunk&& made, const LiveBounds& bounds);  // in the asset's order
   // After the last one: that each ghost is where its cell is, and as large. The name is for messages.
   Status checkGhosts(const std::string& name) const;
   void finish();  // after the last one: now it is whole
-  bool isWhole() const { return isWhole_; }
 
+  // ---- With levels (level_cut.cpp): a chunk has the number that it has in the file
+
+  void setChunk(uint32_t number, QueryChunk&& made);
+  void removeChunk(uint32_t number);                            // one that is not shown
+  QueryCut makeCut(std::span<const uint32_t> ascending) const;  // of chunks that are there
+  // From now on these chunks answer. The work grows with the borders of those that come and go.
+  void show(QueryCut&& cut);
+
+  // ----
+
+  bool isWhole() const { return isWhole_; }  // it can be asked
   bool hasWalkGraph() const { return hasWalkGraph_; }
   uint32_t detailCount() const { return detailCount_; }
   double detailSharpness() const { return detailSharpness_; }
   bool hasCells() const { return entries_.bytes() > 0; }
-  bool hasLiveCells() const { return bounds_.low.x <= bounds_.high.x; }
+  bool hasLiveCells() const { return hasCells() && bounds_.low.x <= bounds_.high.x; }
   uint64_t bytes() const { return bytes_; }
 
   const QueryChunk& chunk(uint32_t index) const { return chunks_[index]; }
   // Of the detail sites of a live cell [radii].
   double meanHeightOf(const QueryChunk& chunk, uint32_t cell) const;
-  // The cell that a site of a chunk is, or for which it stands as a ghost.
-  CellAddress cellOfSite(uint32_t chunk, uint32_t site) const;
+  // The cell that a site of the chunk of `from` is, or for which it stands as a ghost. `from` itself, if with levels
+  // nothing that is shown has the ghost's cell: the file lies.
+  CellAddress cellOfSite(CellAddress from, uint32_t site) const;
 
   // The power cell that holds a point of the asset. There must be cells and a walk graph.
   CellAddress locate(const glm::dvec3& point) const;
@@ -91,12 +120,19 @@ class QueryFoam {
   const glm::dvec3& high() const { return bounds_.high; }
 
  private:
-  bool hasWalkGraph_, isWhole_ = false;
+  static constexpr CellRef kNowhere = UINT32_MAX;
+
+  void tellBorders(uint32_t chunk);
+  void forgetBorders(uint32_t chunk);
+
+  bool hasWalkGraph_, hasLevels_, isWhole_ = false;
   uint32_t detailCount_, localBits_;
   double detailSharpness_;
   std::vector<QueryChunk> chunks_;
   std::vector<EntryTree::Sample> samples_;  // until finish()
   EntryTree entries_;
+  std::vector<uint32_t> shown_;   // with levels: chunks of the cut, ascending
+  std::vector<CellRef> borders_;  // [border number] the shown cell that it is, or kNowhere
   LiveBounds bounds_;
   uint64_t bytes_ = 0;
 };

@@ -71,7 +71,7 @@ void SphereOverlap::visit(CellAddress cell) {
   for (uint32_t i = begin; i < end; ++i) {
     const HalfSpace& plane = halfSpaces_[i - begin];
     const double distance = radius * plane.offset - glm::dot(plane.normal, local);
-    if (distance <= reach_) push(std::max(distance, 0.0), foam_.cellOfSite(cell.chunk, chunk.neighbourAt(i)));
+    if (distance <= reach_) push(std::max(distance, 0.0), foam_.cellOfSite(cell, chunk.neighbourAt(i)));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <span>
 
+#include "format/levels.h"
 #include "format/read/asset_reader.h"
 #include "runtime/asset/cell_packer.h"
 #include "runtime/query/foam_walk.h"
@@ -41,15 +42,32 @@ void use(const AssetReader& reader) {
     if (!coded) return;
     const ChunkContents* chunk = &coded->contents;
     (void)packCells(*chunk, coded->codes, asset);
-    foam.addChunk(makeQueryChunk(*chunk), findLiveBounds(*chunk));
+    if (asset.levels.empty()) {
+      foam.addChunk(makeQueryChunk(*chunk), findLiveBounds(*chunk));
+    } else if (asset.hasWalkGraph) {
+      foam.setChunk(index, makeQueryChunk(*chunk));
+    }
     for (uint32_t cell = 0; cell < chunk->cellCount && cell < kMostCells; ++cell) {
       points.push_back(glm::dvec3(chunk->origin[0], chunk->origin[1], chunk->origin[2]) +
                        glm::dvec3(chunk->sites[cell]));
     }
   }
-  foam.finish();
-  if (!foam.hasWalkGraph() || !foam.hasCells()) return;
-  for (const glm::dvec3& point : points) ask(foam, point);
+  const auto askAll = [&] {
+    if (!foam.hasWalkGraph() || !foam.hasCells()) return;
+    for (const glm::dvec3& point : points) ask(foam, point);
+  };
+  if (asset.levels.empty()) {
+    foam.finish();
+    askAll();
+  }
+  for (uint32_t level = countLevels(asset.levels); level-- > 0 && !asset.levels.empty();) {
+    std::vector<uint32_t> cut;
+    for (uint32_t index = 0; index < asset.chunks.size(); ++index) {
+      if (isInLevel(asset.levels[index], level)) cut.push_back(index);
+    }
+    foam.show(foam.makeCut(cut));
+    askAll();
+  }
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
  *
  * For gameplay and servers. A query answers on the calling thread and waits for nothing. It needs no GPU and no frame;
  * a null context is enough. Queries see the instances whose asset was opened with keepForQueries and has been READY
- * once, where they are placed now. A lost device changes nothing. Positions are in the world, in double. Near tests
- * (FrothRenderInfo::nearRatio) do not apply:
+ * once, where they are placed now; of levels of detail the cells that are drawn since the last frothUpdate. A lost
+ * device changes nothing. Positions are in the world, in double. Near tests (FrothRenderInfo::nearRatio) do not apply:
  * they belong to cameras.
  *
  * On an error (a null pointer, a number out of its range) nothing is written; the message comes on the calling
