@@ -297,9 +297,10 @@ FrothResult Context::restoreDevice(const FrothContextInfo& info, const char* cal
     return result;
   }
   isLost_ = false;
-  if (!isNull_) {
-    assets_.forEach([&](Asset& asset) { asset.restart(messages); });
-  }
+  // Without a device only the chunks that were on their way are gone.
+  assets_.forEach([&](Asset& asset) {
+    if (!isNull_ || asset.hasLevels()) asset.restart(messages);
+  });
   return FROTH_OK;
 }
 
