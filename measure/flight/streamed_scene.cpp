@@ -9,6 +9,8 @@
 namespace froth {
 namespace {
 
+// Jobs that a frame at 60 Hz has time for: a chunk takes some milliseconds.
+constexpr uint32_t kJobsPerThread = 4;
 // What a view wants is known after its first frame; its buffers grow within some frames more.
 constexpr uint32_t kRestFrames = 16;
 // A chunk that cannot be read is tried for the last time 630 frames after the first.
@@ -43,6 +45,7 @@ Status StreamedScene::begin() {
     if (severity != FROTH_SEVERITY_ERROR) return;
     static_cast<StreamedScene*>(user)->lastMessage_ = std::string(object) + ": " + text;
   };
+  info.mostJobs = kJobsPerThread * options_.threads;
   jobs_.giveTo(info);
   if (Status made = check(frothCreateContext(&info, &context_), "frothCreateContext"); !made) return made;
   disk_.answerTo(context_);
