@@ -224,8 +224,8 @@ Status GpuRenderer::State::submitFrame(const std::function<Status(VkCommandBuffe
 // Of an asset without levels always.
 Result<bool> GpuRenderer::State::isSettled() const {
   auto status = makeStruct<FrothStreamStatus>();
-  if (Status asked = check(frothGetStreamStatus(context, &status), "frothGetStreamStatus"); !asked)
-    return asked.error();
+  const Status asked = check(frothGetStreamStatus(context, &status), "frothGetStreamStatus");
+  if (!asked) return asked.error();
   return status.isSettled != 0;
 }
 
