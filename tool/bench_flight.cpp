@@ -1,6 +1,5 @@
 #include "tool/bench_flight.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "measure/flight/flight_figures.h"

@@ -11,6 +11,8 @@ namespace froth {
 
 namespace {
 
+constexpr uint64_t kFailureSeed = 1;
+
 // [bytes] from the start of the file; chunks of the floor come first.
 Result<uint64_t> findFloorEnd(const std::filesystem::path& path) {
   const Result<AssetReader> reader = AssetReader::open(path);
@@ -56,7 +58,7 @@ void SimulatedDisk::ask(uint64_t number, uint64_t offset, uint64_t size, void* d
 bool SimulatedDisk::fails(uint64_t offset) {
   if (offset < floorEnd_) return false;
   if (offset == badOffset_) return true;
-  const CounterRandom random(options_.seed, Purpose::kDisk);
+  const CounterRandom random(kFailureSeed, Purpose::kDisk);
   return random.uniform(offset) < options_.failOnce && failed_.insert(offset).second;
 }
 

@@ -18,7 +18,6 @@ struct DiskOptions {
   double bytesPerSecond = 0;  // of all requests, one after the other; 0: at once
   double failOnce = 0;        // [0..1] share of the ranges behind the floor whose first read fails
   bool hasBadRange = false;   // the first of these ranges that is asked for fails for ever
-  uint64_t seed = 1;
 };
 
 // One thread at a time. It lives until its context is destroyed, and does not move.

@@ -5,6 +5,7 @@
 
 #include "base/progress_printer.h"
 #include "host/make_struct.h"
+#include "measure/gpu/texels.h"
 
 namespace froth {
 namespace {
@@ -45,7 +46,7 @@ Status StreamedScene::begin() {
     if (severity != FROTH_SEVERITY_ERROR) return;
     static_cast<StreamedScene*>(user)->lastMessage_ = std::string(object) + ": " + text;
   };
-  info.mostJobs = kJobsPerThread * options_.threads;
+  info.mostJobs = kJobsPerThread * kJobThreads;
   jobs_.giveTo(info);
   if (Status made = check(frothCreateContext(&info, &context_), "frothCreateContext"); !made) return made;
   disk_.answerTo(context_);
@@ -143,12 +144,7 @@ Result<FlownImage> StreamedScene::readImage() {
   const Result<std::vector<float>> texels = host_.readImage(image_);
   if (!texels) return texels.error();
   const VkExtent2D extent = options_.extent;
-  FlownImage image{{extent.width, extent.height, 3, {}}, {extent.width, extent.height, 1, {}}};
-  for (size_t i = 0; i < texels->size(); i += 4) {
-    image.colour.values.insert(image.colour.values.end(), {(*texels)[i], (*texels)[i + 1], (*texels)[i + 2]});
-    image.alpha.values.push_back((*texels)[i + 3]);
-  }
-  return image;
+  return FlownImage{imageFromTexels(*texels, 4, 0, 3, extent), imageFromTexels(*texels, 4, 3, 1, extent)};
 }
 
 }  // namespace froth

@@ -18,13 +18,14 @@
 
 namespace froth {
 
+constexpr uint32_t kJobThreads = 2;
+
 struct SceneOptions {
   std::filesystem::path asset;
   uint64_t budget = 0;  // [bytes] FrothContextInfo::deviceBudget
   float detail = 1;     // FrothStreamInfo::detail
   uint64_t mostCells = 0;
   double frameSeconds = 1.0 / 60;
-  uint32_t threads = 2;  // of jobs
   VkExtent2D extent{1920, 1080};
   DiskOptions disk;
   GpuRenderOptions render;
@@ -60,7 +61,7 @@ class StreamedScene {
 
  private:
   StreamedScene(Host& host, SimulatedDisk disk, const SceneOptions& options)
-      : host_(host), disk_(std::move(disk)), options_(options), jobs_(options.threads) {}
+      : host_(host), disk_(std::move(disk)), options_(options), jobs_(kJobThreads) {}
   Status begin();
   Status check(FrothResult result, const char* call) const;
   Status record(const View& view, VkCommandBuffer commands, uint64_t serial, FlownFrame& frame);

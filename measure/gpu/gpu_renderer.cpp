@@ -9,6 +9,7 @@
 #include "froth/froth_stream.h"
 #include "host/make_struct.h"
 #include "measure/gpu/gpu_camera.h"
+#include "measure/gpu/texels.h"
 #include "reference/camera/ray_map.h"
 #include "reference/image/distances.h"
 
@@ -23,19 +24,6 @@ ErrorKind errorKindOf(FrothResult result) {
 }
 
 VkExtent2D extentOf(const View& view) { return {view.width, view.height}; }
-
-Image imageFromTexels(const std::vector<float>& texels, uint32_t stride, uint32_t first, uint32_t channels,
-                      VkExtent2D extent) {
-  Image image{extent.width, extent.height, channels, {}};
-  const size_t count = size_t{extent.width} * extent.height;
-  image.values.reserve(count * channels);
-  for (size_t pixel = 0; pixel < count; ++pixel) {
-    for (uint32_t channel = 0; channel < channels; ++channel) {
-      image.values.push_back(texels[pixel * stride + first + channel]);
-    }
-  }
-  return image;
-}
 
 }  // namespace
 

@@ -175,21 +175,13 @@ TEST_F(CutQueries, AnswerAsAPlainFoamOfTheDrawnCellsDoes) {
 struct Mixture {
   explicit Mixture(const std::vector<uint32_t>& drawn) : cut(drawn), foam(*foamFromAsset(contentsOf(drawn))) {}
 
-  double powerOf(size_t number, const glm::dvec3& point) const {
-    const glm::dvec3 difference = point - glm::dvec3(foam.sites[number]);
-    return glm::dot(difference, difference) - double{foam.radii[number]} * double{foam.radii[number]};
-  }
-  double leastPower(const glm::dvec3& point) const {
-    double least = kInfinity;
-    for (size_t number = 0; number < foam.cellCount; ++number) least = std::min(least, powerOf(number, point));
-    return least;
-  }
+  double leastPower(const glm::dvec3& point) const { return test::leastPower(foam, point); }
   // By a name of the file; infinite: it is not drawn.
   double powerOf(uint32_t chunk, uint32_t cell, const glm::dvec3& point) const {
     if (!std::ranges::binary_search(cut, chunk)) return kInfinity;
     size_t number = cell;
     for (const uint32_t before : cut) number += before < chunk ? levelSample().chunks[before].cellCount : 0;
-    return powerOf(number, point);
+    return powerOfCell(foam, number, point);
   }
 
   const std::vector<uint32_t> cut;

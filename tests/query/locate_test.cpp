@@ -13,17 +13,6 @@ class Locate : public QueryTest {
     asset_ = openReady(contents_);
   }
 
-  double powerOf(size_t cell, const glm::dvec3& point) const {
-    const glm::dvec3 difference = point - glm::dvec3(foam_.sites[cell]);
-    return glm::dot(difference, difference) - double{foam_.radii[cell]} * double{foam_.radii[cell]};
-  }
-
-  double leastPower(const glm::dvec3& point) const {
-    double least = kInfinity;
-    for (size_t cell = 0; cell < foam_.cellCount; ++cell) least = std::min(least, powerOf(cell, point));
-    return least;
-  }
-
   // The foam has the cells of chunk after chunk.
   size_t numberOf(uint32_t chunk, uint32_t cell) const {
     size_t number = cell;
@@ -33,9 +22,9 @@ class Locate : public QueryTest {
 
   void expectLeast(FrothInstance instance, const glm::dvec3& point, double tolerance) {
     const FrothLocation location = locate(instance, point);
-    const double least = leastPower(point);
+    const double least = leastPower(foam_, point);
     EXPECT_NEAR(location.power, least, tolerance);
-    EXPECT_NEAR(powerOf(numberOf(location.chunk, location.cell), point), least, tolerance);
+    EXPECT_NEAR(powerOfCell(foam_, numberOf(location.chunk, location.cell), point), least, tolerance);
     EXPECT_EQ(location.isLive != 0, location.cell < contents_.chunks[location.chunk].liveCount);
   }
 

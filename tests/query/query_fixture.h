@@ -1,6 +1,7 @@
 // What the tests of queries share: assets on a null context, random rays.
 #pragma once
 
+#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "baker/bake/bake.h"
 #include "baker/synth/synth.h"
+#include "foam/foam.h"
 #include "format/write/asset_writer.h"
 #include "tests/runtime/runtime_fixture.h"
 
@@ -61,6 +63,18 @@ inline Foam synthesize(const std::string& name, uint32_t cells) {
   Result<Foam> foam = synthesizeFoam({.name = name, .cellCount = cells});
   EXPECT_TRUE(foam) << foam.error().message;
   return *foam;
+}
+
+// By brute force over all cells of a foam.
+inline double powerOfCell(const Foam& foam, size_t cell, const glm::dvec3& point) {
+  const glm::dvec3 difference = point - glm::dvec3(foam.sites[cell]);
+  return glm::dot(difference, difference) - double{foam.radii[cell]} * double{foam.radii[cell]};
+}
+
+inline double leastPower(const Foam& foam, const glm::dvec3& point) {
+  double least = kInfinity;
+  for (size_t cell = 0; cell < foam.cellCount; ++cell) least = std::min(least, powerOfCell(foam, cell, point));
+  return least;
 }
 
 class QueryTest : public RuntimeTest {
