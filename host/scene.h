@@ -9,15 +9,16 @@
 #include "froth/froth_stream.h"
 #include "host/camera_path.h"
 #include "host/host.h"
+#include "host/http_reader.h"
 #include "host/method.h"
 
 namespace froth {
 
 class Scene {
  public:
-  // Starts to open the asset; `context` comes with the engine's device, without callbacks.
+  // Starts to open the asset, a file or a URL; `context` comes with the engine's device, without callbacks.
   // isQueried: CPU queries answer.
-  static Result<std::unique_ptr<Scene>> create(FrothContextInfo context, const std::string& assetPath,
+  static Result<std::unique_ptr<Scene>> create(FrothContextInfo context, const std::string& asset,
                                                bool isQueried = false);
   ~Scene();  // the device is done with every frame
 
@@ -51,9 +52,11 @@ class Scene {
 
  private:
   Scene() = default;
+  Status open(const std::string& asset, bool isQueried);
   Status countLevels();
 
   FrothContext* context_ = nullptr;
+  std::unique_ptr<HttpReader> http_;  // of a URL
   FrothAsset assetHandle_{};
   FrothInstance instance_{};
   FrothView view_{};
