@@ -1,5 +1,5 @@
 // froth bench: milliseconds by pass, from GPU timestamps; with --counters what the rays cost; with --flight what
-// streaming does on the way.
+// streaming does on the way; with --open how long a first image takes.
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -14,6 +14,7 @@
 #include "measure/gpu/gpu_renderer.h"
 #include "reference/camera/view_selection.h"
 #include "tool/bench_flight.h"
+#include "tool/bench_open.h"
 #include "tool/commands.h"
 #include "tool/options.h"
 
@@ -31,6 +32,7 @@ struct BenchOptions {
   std::string device;
   bool isCounting = false;
   FlightOptions flight;
+  OpeningOptions opening;
   FiguresOutput figures;
 };
 
@@ -135,6 +137,21 @@ Status benchFlight(const BenchOptions& options, const Progress& progress) {
   return runFlight(flight, options.views, options.figures, progress);
 }
 
+Status benchOpen(const BenchOptions& options, const Progress& progress) {
+  OpeningOptions opening = options.opening;
+  opening.asset = options.input.string();
+  opening.device = options.device;
+  opening.render.method = findMethod(options.renderer)->method;
+  opening.render.cutoff = options.cutoff;
+  return runOpen(opening, options.views, options.figures, progress);
+}
+
+Status runWanted(const BenchOptions& options, const Progress& progress) {
+  if (options.flight.frames > 0) return benchFlight(options, progress);
+  if (options.opening.runs > 0) return benchOpen(options, progress);
+  return runBench(options, progress);
+}
+
 }  // namespace
 
 void addBenchCommand(CLI::App& program, Tool& tool) {
@@ -158,12 +175,9 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
   command->add_option("--device", options->device, "Index or part of a name (`froth devices`)");
   addFiguresOption(*command, options->figures);
   addFlightOptions(*command, options->flight);
-  command->callback([&tool, options] {
-    tool.action = [&tool, options] {
-      return options->flight.frames > 0 ? benchFlight(*options, tool.progress.callback())
-                                        : runBench(*options, tool.progress.callback());
-    };
-  });
+  addOpenOptions(*command, options->opening);
+  command->callback(
+      [&tool, options] { tool.action = [&tool, options] { return runWanted(*options, tool.progress.callback()); }; });
 }
 
 }  // namespace froth
