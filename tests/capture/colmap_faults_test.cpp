@@ -47,8 +47,7 @@ TEST(ColmapFaults, BinariesCutAtEachLengthAreRefused) {
 }
 
 TEST(ColmapFaults, CountsBeyondTheFileTakeNoMemory) {
-  const auto spoil = [](std::string& bytes, size_t offset) {
-    const uint64_t count = uint64_t{1} << 60;
+  const auto spoil = [](std::string& bytes, size_t offset, uint64_t count = uint64_t{1} << 60) {
     std::memcpy(&bytes[offset], &count, sizeof count);
   };
   const test::ModelBytes whole = test::binaryModel({});
@@ -59,6 +58,11 @@ TEST(ColmapFaults, CountsBeyondTheFileTakeNoMemory) {
     const Result<Capture> capture = parseModel(spoilt);
     ASSERT_FALSE(capture);
     EXPECT_THAT(capture.error().message, HasSubstr("header: field 'count': found 1152921504606846976"));
+    // As many as there are bytes: none is that small.
+    spoil(spoilt.*file, 0, (whole.*file).size() - 8);
+    const Result<Capture> dense = parseModel(spoilt);
+    ASSERT_FALSE(dense);
+    EXPECT_THAT(dense.error().message, HasSubstr("header: field 'count'"));
   }
   test::ModelBytes observations = whole;
   spoil(observations.images, 8 + 4 + 32 + 24 + 4 + 8);  // behind the first image's name
