@@ -15,13 +15,19 @@ namespace {
 constexpr uint32_t kPointStride = 4;  // of the sites of the gallery's foam
 constexpr uint32_t kSamples = 4;      // per pixel
 
+// On a grid of eyes around that of one of the gallery's views.
 std::vector<CapturedView> galleryViews(uint32_t width, uint32_t height) {
-  const CameraSet cameras = galleryCameras();
-  std::vector<View> views = cameras.views;
-  views.insert(views.end(), cameras.flight.begin(), cameras.flight.end());
+  const View middle = resizeView(galleryCameras().views[1], width, height);
   std::vector<CapturedView> captured;
-  for (const View& view : views) captured.push_back({resizeView(view, width, height), {}, {}, {}, {}});
-  std::ranges::sort(captured, {}, [](const CapturedView& view) { return view.view.name; });
+  for (int i = 0; i < 24; ++i) {
+    View view = middle;
+    view.name = std::string("view_") + char('a' + i);
+    const double right = 0.25 * (i % 6 - 2.5), down = 0.2 * (i / 6 - 1.5);
+    for (size_t row = 0; row < 12; row += 4) {
+      view.worldFromCamera[row + 3] += right * view.worldFromCamera[row] + down * view.worldFromCamera[row + 1];
+    }
+    captured.push_back({view, {}, {}, {}, {}});
+  }
   return captured;
 }
 

@@ -10,7 +10,7 @@ struct GalleryCapture {
   TrainingSet set;
 };
 
-// The gallery's test views and views around its flight, ray traced; every eighth tests. Fails the test when that fails.
+// Views from around one of the gallery's, ray traced; every eighth tests. Fails the test when that fails.
 GalleryCapture makeGalleryCapture(uint32_t width, uint32_t height);
 
 }  // namespace froth::test

@@ -132,6 +132,10 @@ Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, c
                                const MakeExecutor& makeExecutor, const Progress& progress) {
   TrainOptions options = given;
   if (options.schedule.startCells == 0) options.schedule.startCells = std::max(options.schedule.mostCells / 4, 1u);
+  if (options.schedule.startCells > options.schedule.mostCells) {
+    return makeError(ErrorKind::kUsage, "training: begins with %u cells, but may have %u; give fewer to begin with",
+                     options.schedule.startCells, options.schedule.mostCells);
+  }
   const Result<PhotoSplit> split = splitPhotos(capture.views, options.testPeriod);
   if (!split) return split.error();
   const std::string settings = settingsText(options, set);

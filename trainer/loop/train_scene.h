@@ -23,12 +23,12 @@ struct TrainOptions {
   uint32_t detailCount = 8;  // K [1..32]
   uint32_t lobeCount = 8;    // M [1..32]
   uint64_t seed = 1;
-  uint32_t testPeriod = 8;   // every so many-th photo tests; 0: none, unless the capture says
+  uint32_t testPeriod = 8;  // every so many-th photo tests; 0: none, unless the capture says
   PhotoOptions photos;
-  double nearRatio = 4;             // docs/FOAM.md "Near cells"; cells so near to a camera are not seen by it
-  std::filesystem::path state;      // where the state is saved; empty: nowhere
-  uint32_t saveEvery = 1000;        // [steps, >= 1]
-  bool isResumed = false;           // go on from `state`
+  double nearRatio = 4;         // docs/FOAM.md "Near cells"; cells so near to a camera are not seen by it
+  std::filesystem::path state;  // where the state is saved; empty: nowhere
+  uint32_t saveEvery = 1000;    // [steps, >= 1]
+  bool isResumed = false;       // go on from `state`
 };
 
 // What training works on.
@@ -39,10 +39,10 @@ struct TrainingSet {
 };
 
 struct TrainResult {
-  Foam foam;                       // in the scene's units
-  std::vector<double> testPsnrs;   // by TrainingSet::testing
-  uint64_t droppedCount = 0;       // contributions that were no finite numbers
-  uint32_t firstStep = 0;          // > 0: a run that went on
+  Foam foam;                      // in the scene's units
+  std::vector<double> testPsnrs;  // by TrainingSet::testing
+  uint64_t droppedCount = 0;      // contributions that were no finite numbers
+  uint32_t firstStep = 0;         // > 0: a run that went on
 };
 
 // Makes the executor of a run: the CPU's, or a GPU's.
