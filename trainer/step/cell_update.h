@@ -112,7 +112,7 @@ FROTH_HD void updateDetail(const TrainedFoam<Real>& foam, const AdamStep<Real>& 
   const ParameterPart<Real> places = partOf(foam, Parameter::kDetailSites, seen.cell, 2 * k);
   sums.site += moved;
   sums.radius += glm::dot(place, inFrame) + heights.values[k] * detailSums.height;
-  sums.torque += glm::cross(seen.radius * place, inFrame);
+  sums.torque += glm::cross(inFrame, seen.radius * place);
   bad += !updatePart(heights, k, seen.radius * detailSums.height, adam, Parameter::kDetailHeights);
   bad += !updatePart(places, 0, detailSums.place.x + seen.radius * inFrame.x, adam, Parameter::kDetailSites);
   bad += !updatePart(places, 1, detailSums.place.y + seen.radius * inFrame.y, adam, Parameter::kDetailSites);
@@ -167,6 +167,17 @@ FROTH_HD void updateBall(const TrainedFoam<Real>& foam, const AdamStep<Real>& ad
   for (int c = 0; c < 3; ++c) bad += !updatePart(point, c, gradient[c], adam, Parameter::kPoints);
   const Real slope = foam::softplusSlope(radius.values[0]);
   bad += !updatePart(radius, 0, gradient.w * slope, adam, Parameter::kRadii);
+}
+
+// The means that densification goes by: of contributions over the steps that see the cell, of errors over all steps.
+template <class Real>
+FROTH_HD void updateMeans(const TrainedFoam<Real>& foam, const SeenCells<Real>& seen, const GradientSums<Real>& sums,
+                          uint32_t cell) {
+  const Real fresh = Real(0.01);
+  const uint32_t rank = seen.rankOf[cell];
+  const bool isSeen = rank != SeenCells<Real>::kNotSeen;
+  foam.errors[cell] += fresh * ((isSeen ? sums.cells[rank].error : Real(0)) - foam.errors[cell]);
+  if (isSeen) foam.contributions[cell] += fresh * (sums.cells[rank].contribution - foam.contributions[cell]);
 }
 
 }  // namespace froth

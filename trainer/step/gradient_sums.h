@@ -28,6 +28,25 @@ struct DetailSums {
 };
 
 template <class Real>
+FROTH_HD CellSums<Real>& operator+=(CellSums<Real>& sums, const CellSums<Real>& more) {
+  sums.site += more.site;
+  sums.radius += more.radius;
+  sums.torque += more.torque;
+  sums.density += more.density;
+  sums.contribution += more.contribution;
+  sums.error += more.error;
+  return sums;
+}
+
+template <class Real>
+FROTH_HD DetailSums<Real>& operator+=(DetailSums<Real>& sums, const DetailSums<Real>& more) {
+  sums.place += more.place;
+  sums.height += more.height;
+  sums.colour += more.colour;
+  return sums;
+}
+
+template <class Real>
 struct GradientSums {
   CellSums<Real>* cells;
   DetailSums<Real>* details;

@@ -28,7 +28,7 @@ template <class Real>
 struct SegmentGradient {
   CellSums<Real> cell;
   uint32_t planes[2] = {kBoundedByBall, kBoundedByBall};  // whose pairs get `pairs`; others: none
-  glm::vec<4, Real> pairs[2];
+  glm::vec<4, Real> pairs[2] = {glm::vec<4, Real>(0), glm::vec<4, Real>(0)};
 };
 
 // Where the point of a query moves: gradients by it, in the face frame.

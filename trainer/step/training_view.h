@@ -1,6 +1,7 @@
 // A camera as steps see it, in the normalised scene.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include <glm/glm.hpp>
@@ -30,7 +31,7 @@ FROTH_HD glm::vec<3, Real> directionOfPixel(const TrainingView<Real>& view, uint
   }
   const glm::vec<3, Real> direction((Real(x) + Real(0.5) - view.cx) / view.fx,
                                     (Real(y) + Real(0.5) - view.cy) / view.fy, Real(1));
-  return view.worldFromCamera * (direction / sqrt(glm::dot(direction, direction)));
+  return view.worldFromCamera * (direction / std::sqrt(glm::dot(direction, direction)));
 }
 
 }  // namespace froth
