@@ -32,13 +32,16 @@ enum class Purpose : uint64_t {
   kTemperature,
   kColour,
   kSurface,               // one stream for each surface follows
+  kStart = 1 << 28,       // one stream for each parameter of a cell follows
+  kPhotoOrder = 1 << 29,  // one stream for each epoch follows
+  kSplit = 3 << 28,       // two streams for each step of training follow
   kDisk = (1 << 30) - 1,  // one number for each range
   kRounding = 1 << 30,    // last: one stream for each cell follows
 };
 
 class CounterRandom {
  public:
-  // `stream` tells several streams of one purpose apart; only the last two have them.
+  // `stream` tells several streams of one purpose apart; only those that say so have them.
   CounterRandom(uint64_t seed, Purpose purpose, uint64_t stream = 0)
       : key_(mixBits(mixBits(seed + kGolden) + (static_cast<uint64_t>(purpose) + stream) * kGolden)) {}
 

@@ -9,7 +9,7 @@ namespace froth {
 namespace {
 
 Result<std::vector<Pose>> keyPoses(const std::filesystem::path& cameras) {
-  const Result<CameraSet> set = readCameras(cameras);
+  const Result<CameraSet> set = readViews(cameras);
   if (!set) return set.error();
   std::vector<Pose> keys;
   for (const View& view : set->flight.empty() ? set->views : set->flight) {

@@ -16,6 +16,7 @@
 #include "foam/checkpoint/checkpoint.h"
 #include "format/read/asset_reader.h"
 #include "measure/figures.h"
+#include "reference/capture/view_selection.h"
 #include "tool/bake_flags.h"
 #include "tool/bake_jobs.h"
 #include "tool/commands.h"
@@ -154,7 +155,7 @@ Result<nlohmann::ordered_json> runJob(const BakeJob& job, BakeOptions bake, cons
   StageClock clock;
   Result<CameraSet> cameras = CameraSet{};
   if (!job.cameras.empty()) {
-    cameras = readCameras(job.cameras);
+    cameras = readViews(job.cameras);
     if (!cameras) return cameras.error();
     bake.cameras = &*cameras;
   }
@@ -226,7 +227,8 @@ void addBakeCommand(CLI::App& program, Tool& tool) {
       ->required();
   options->flags.addTo(*command);
   command->add_option("--cameras", options->given.cameras,
-                      "Views that weigh errors, start view and flight path to store (cameras.json)");
+                      "Views that weigh errors, start view and flight path to store: cameras.json, a COLMAP folder or "
+                      "transforms.json");
   command->add_flag("--force", options->isForced, "Replace a write-protected file; it stays so");
   addFiguresOption(*command, options->figures);
   command->callback([&tool, options] { tool.action = [&tool, options] { return runBake(*options, tool); }; });

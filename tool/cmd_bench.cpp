@@ -12,7 +12,7 @@
 #include "measure/figures.h"
 #include "measure/gpu/gpu_camera.h"
 #include "measure/gpu/gpu_renderer.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 #include "tool/bench_flight.h"
 #include "tool/bench_open.h"
 #include "tool/commands.h"
@@ -158,7 +158,7 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
   CLI::App* command = program.add_subcommand("bench", "Measure GPU time by pass over the views");
   auto options = std::make_shared<BenchOptions>();
   command->add_option("INPUT", options->input, "A .froth file or a checkpoint")->required();
-  command->add_option("--cameras", options->views.cameras, "The views (cameras.json)")->required();
+  command->add_option("--cameras", options->views.cameras, kCamerasHelp)->required();
   addViewOptions(*command, options->views);
   command->add_option("--renderer", options->renderer, "How")
       ->capture_default_str()

@@ -11,7 +11,7 @@
 #include "measure/figures.h"
 #include "measure/gpu/gpu_camera.h"
 #include "measure/gpu/gpu_renderer.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 #include "reference/render/reference.h"
 #include "shaders/foam/colour.h"
 #include "tool/commands.h"
@@ -199,7 +199,7 @@ void addRenderCommand(CLI::App& program, Tool& tool) {
   auto options = std::make_shared<RenderCommandOptions>();
   command->add_option("INPUT", options->input, "A checkpoint or a .froth file")->required();
   command->add_option("-o,--output", options->output, "With --view an image (.pfm, .png), else a folder")->required();
-  command->add_option("--cameras", options->views.cameras, "The views (cameras.json)")->required();
+  command->add_option("--cameras", options->views.cameras, kCamerasHelp)->required();
   addViewOptions(*command, options->views);
   command->add_option("--renderer", options->renderer, "reference (CPU), raster or walk (Vulkan)")
       ->required()

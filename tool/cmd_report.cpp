@@ -18,7 +18,7 @@
 #include "measure/sweep/features.h"
 #include "measure/sweep/search.h"
 #include "measure/sweep/slopes.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 #include "tool/commands.h"
 #include "tool/options.h"
 
@@ -58,14 +58,15 @@ Result<std::string> hashFile(const std::filesystem::path& path) {
 }
 
 // What the figures of an interrupted report depend on.
-Result<std::string> signatureOf(const ReportOptions& options, const std::vector<SelectedView>& views,
-                                const SweepRenderer& renderer) {
-  const Result<std::string> input = hashFile(options.input), cameras = hashFile(options.views.cameras);
+Result<std::string> signatureOf(const ReportOptions& options, const CameraSet& cameras,
+                                const std::vector<SelectedView>& views, const SweepRenderer& renderer) {
+  const Result<std::string> input = hashFile(options.input);
+  const Result<std::string> text = camerasText(cameras, options.views.cameras.string());
   if (!input) return input.error();
-  if (!cameras) return cameras.error();
-  std::string signature =
-      fmt::format("version {} device '{}' driver '{}' input {} cameras {} photos '{}' views", kVersion,
-                  renderer.device(), renderer.driver(), *input, *cameras, options.photos.string());
+  if (!text) return text.error();
+  std::string signature = fmt::format("version {} device '{}' driver '{}' input {} cameras {:016x} photos '{}' views",
+                                      kVersion, renderer.device(), renderer.driver(), *input,
+                                      XXH3_64bits(text->data(), text->size()), options.photos.string());
   for (const SelectedView& view : views) {
     signature += fmt::format(" {}:{}x{}", view.index, view.view.width, view.view.height);
   }
@@ -191,7 +192,7 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
   const Result<std::vector<SelectedView>> all = selectViews(options.views);
   if (!all) return all.error();
   const std::vector<SelectedView> views = spreadViews(*all, options.viewCount);
-  const Result<CameraSet> cameras = readCameras(options.views.cameras);
+  const Result<CameraSet> cameras = readViews(options.views.cameras);
   if (!cameras) return cameras.error();
   const Result<std::filesystem::path> work = makeWorkFolder(options);
   if (!work) return work.error();
@@ -204,7 +205,7 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
   device.lensClasses = lensClassesOf(views);
   Result<std::unique_ptr<SweepRenderer>> renderer = createRenderer(options, device);
   if (!renderer) return renderer.error();
-  const Result<std::string> signature = signatureOf(options, views, **renderer);
+  const Result<std::string> signature = signatureOf(options, *cameras, views, **renderer);
   if (!signature) return signature.error();
   Result<ReportLog> log = ReportLog::open(*work / "points.jsonl", *signature, options.resumes);
   if (!log) return log.error();
@@ -269,7 +270,7 @@ void addReportCommand(CLI::App& program, Tool& tool) {
   CLI::App* command = program.add_subcommand("report", "Error against run time and bytes of a scene: html, json, csv");
   auto options = std::make_shared<ReportOptions>();
   command->add_option("INPUT", options->input, "A checkpoint; or a .froth file, as it is")->required();
-  command->add_option("--cameras", options->views.cameras, "The views (cameras.json)")->required();
+  command->add_option("--cameras", options->views.cameras, kCamerasHelp)->required();
   command->add_option("-o,--output", options->output, "The folder to write")->required();
   command->add_option("--size", options->views.size, "Size of the images instead of the views' own")->type_name("WxH");
   command->add_option("--views", options->viewCount, "How many views are measured, spread over the file; 0: all")

@@ -15,6 +15,7 @@
 #include "measure/stability/runs.h"
 #include "measure/stability/search.h"
 #include "measure/stability/table.h"
+#include "reference/capture/view_selection.h"
 #include "tool/commands.h"
 #include "tool/options.h"
 
@@ -37,7 +38,7 @@ constexpr size_t kInputViews = 2;
 Result<std::vector<StiffCase>> casesOfInput(const StabilityOptions& options, const Progress& progress) {
   const Result<FoamInput> input = loadFoam(options.input, progress);
   if (!input) return input.error();
-  Result<CameraSet> cameras = readCameras(options.cameras);
+  Result<CameraSet> cameras = readViews(options.cameras);
   if (!cameras) return cameras.error();
   std::vector<View>& views = cameras->views;
   views.resize(std::min(views.size(), kInputViews));
@@ -165,7 +166,7 @@ void addStabilityCommand(CLI::App& program, Tool& tool) {
   CLI::Option* input =
       command->add_option("INPUT", options->input, "A checkpoint or asset, whose transformations are run too");
   CLI::Option* cameras =
-      command->add_option("--cameras", options->cameras, "cameras.json of INPUT; its first two views are taken");
+      command->add_option("--cameras", options->cameras, "Views of INPUT, as bake takes them; the first two are taken");
   input->needs(cameras);
   cameras->needs(input);
   CLI::Option* only = command->add_option("--only", options->only, "Only cases whose name fits the pattern: 'sites/*'");

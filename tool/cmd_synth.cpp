@@ -13,7 +13,7 @@
 #include "base/text.h"
 #include "foam/checkpoint/checkpoint.h"
 #include "format/write/asset_writer.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 #include "tool/commands.h"
 #include "tool/options.h"
 #include "tool/view_output.h"

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "measure/figures.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 
 namespace froth {
 
@@ -24,6 +24,9 @@ CLI::Option* addDurationOption(CLI::App& command, const std::string& name, doubl
 
 // The names of the runtime's renderers, behind `others`.
 std::vector<std::string> methodNames(std::vector<std::string> others = {});
+
+// Of an option whose value readViews() reads.
+inline constexpr const char* kCamerasHelp = "The views: cameras.json, a COLMAP folder or transforms.json";
 
 void addViewOptions(CLI::App& command, ViewOptions& options);     // --view, --size
 void addLayersOption(CLI::App& command, uint32_t& layers);        // --layers

@@ -6,7 +6,7 @@
 
 #include "base/image/image.h"
 #include "base/result.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 
 namespace froth {
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/image/image.h"
+#include "base/image/rgba_image.h"
 #include "base/result.h"
 
 namespace froth {
@@ -24,6 +25,13 @@ Status checkImageSize(const std::string& file, uint64_t width, uint64_t height, 
 Result<Image> decodePfm(std::span<const uint8_t> bytes, const std::string& file);
 Result<Image> decodePng(std::span<const uint8_t> bytes, const std::string& file);
 Result<Image> decodeJpeg(std::span<const uint8_t> bytes, const std::string& file);
+
+Result<RgbaImage> decodeRgbaPng(std::span<const uint8_t> bytes, const std::string& file);
+Result<RgbaImage> decodeRgbaJpeg(std::span<const uint8_t> bytes, const std::string& file);
+
+// Of the header alone.
+Result<ImageSize> pngSize(std::span<const uint8_t> bytes, const std::string& file);
+Result<ImageSize> jpegSize(std::span<const uint8_t> bytes, const std::string& file);
 
 std::vector<uint8_t> encodePfm(const Image& image);
 Result<std::vector<uint8_t>> encodePng(const Image& image, const std::string& file);

@@ -37,6 +37,7 @@ class JpegDecoder {
     height = jpeg_.image_height;
     jpeg_.out_color_space = jpeg_.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
     channels = jpeg_.num_components == 1 ? 1 : 3;
+    isFourInks = jpeg_.num_components == 4;
     return true;
   }
 
@@ -55,6 +56,7 @@ class JpegDecoder {
   const char* message() const { return handler_.message; }
 
   uint32_t width = 0, height = 0, channels = 0;
+  bool isFourInks = false;  // CMYK or YCCK, which libjpeg does not convert to RGB
 
  private:
   struct Handler {
@@ -73,23 +75,52 @@ class JpegDecoder {
   jpeg_decompress_struct jpeg_{};
 };
 
+Error refuse(const JpegDecoder& decoder, const std::string& file) {
+  return makeError(ErrorKind::kBadInput, "%s: JPEG: %s; get the whole file again", file.c_str(), decoder.message());
+}
+
+// The decoder's rows: height * width * channels bytes.
+Result<std::vector<uint8_t>> decodeRows(JpegDecoder& decoder, std::span<const uint8_t> bytes, const std::string& file) {
+  if (!decoder.readHeader(bytes)) return refuse(decoder, file);
+  if (Status status = checkImageSize(file, decoder.width, decoder.height, kMaxPixelsPerByte, bytes.size()); !status) {
+    return status.error();
+  }
+  if (decoder.isFourInks) {
+    return makeError(ErrorKind::kBadInput, "%s: JPEG: found CMYK colours; convert it to RGB", file.c_str());
+  }
+  std::vector<uint8_t> pixels(size_t{decoder.width} * decoder.height * decoder.channels);
+  if (!decoder.readRows(pixels.data())) return refuse(decoder, file);
+  return pixels;
+}
+
 }  // namespace
 
 Result<Image> decodeJpeg(std::span<const uint8_t> bytes, const std::string& file) {
   JpegDecoder decoder;
-  const auto refuse = [&] {
-    return makeError(ErrorKind::kBadInput, "%s: JPEG: %s; get the whole file again", file.c_str(), decoder.message());
-  };
-  if (!decoder.readHeader(bytes)) return refuse();
-  if (Status status = checkImageSize(file, decoder.width, decoder.height, kMaxPixelsPerByte, bytes.size()); !status) {
-    return status.error();
-  }
-  std::vector<uint8_t> pixels(size_t{decoder.width} * decoder.height * decoder.channels);
-  if (!decoder.readRows(pixels.data())) return refuse();
-
-  Image image{decoder.width, decoder.height, decoder.channels, std::vector<float>(pixels.size())};
-  for (size_t i = 0; i < pixels.size(); ++i) image.values[i] = static_cast<float>(pixels[i]) / 255.0f;
+  const Result<std::vector<uint8_t>> pixels = decodeRows(decoder, bytes, file);
+  if (!pixels) return pixels.error();
+  Image image{decoder.width, decoder.height, decoder.channels, std::vector<float>(pixels->size())};
+  for (size_t i = 0; i < pixels->size(); ++i) image.values[i] = static_cast<float>((*pixels)[i]) / 255.0f;
   return image;
+}
+
+Result<RgbaImage> decodeRgbaJpeg(std::span<const uint8_t> bytes, const std::string& file) {
+  JpegDecoder decoder;
+  const Result<std::vector<uint8_t>> pixels = decodeRows(decoder, bytes, file);
+  if (!pixels) return pixels.error();
+  RgbaImage image{decoder.width, decoder.height, false, {}};
+  image.values.resize(size_t{image.width} * image.height * 4, 255);
+  const bool isGrey = decoder.channels == 1;
+  for (size_t i = 0; i < size_t{image.width} * image.height; ++i) {
+    for (size_t c = 0; c < 3; ++c) image.values[4 * i + c] = (*pixels)[isGrey ? i : 3 * i + c];
+  }
+  return image;
+}
+
+Result<ImageSize> jpegSize(std::span<const uint8_t> bytes, const std::string& file) {
+  JpegDecoder decoder;
+  if (!decoder.readHeader(bytes)) return refuse(decoder, file);
+  return ImageSize{decoder.width, decoder.height};
 }
 
 }  // namespace froth

@@ -84,22 +84,42 @@ float readValue(const uint8_t* row, size_t index, uint32_t bytesPerValue) {
   return static_cast<float>(value) / 65535.0f;
 }
 
-}  // namespace
+// The same as 0..255, rounded.
+uint8_t readByte(const uint8_t* row, size_t index, uint32_t bytesPerValue) {
+  if (bytesPerValue == 1) return row[index];
+  uint16_t value;
+  std::memcpy(&value, row + 2 * index, 2);
+  return static_cast<uint8_t>((value + 128) / 257);
+}
 
-Result<Image> decodePng(std::span<const uint8_t> bytes, const std::string& file) {
-  PngDecoder decoder(bytes);
-  const auto refuse = [&] {
-    return makeError(ErrorKind::kBadInput, "%s: PNG: %s; get the whole file again", file.c_str(), decoder.message);
-  };
-  if (!decoder.readHeader()) return refuse();
+Error refuse(const PngDecoder& decoder, const std::string& file) {
+  return makeError(ErrorKind::kBadInput, "%s: PNG: %s; get the whole file again", file.c_str(), decoder.message);
+}
+
+struct PngRows {
+  std::vector<uint8_t> pixels;
+  std::vector<png_bytep> rows;  // in `pixels`
+};
+
+Result<PngRows> decodeRows(PngDecoder& decoder, std::span<const uint8_t> bytes, const std::string& file) {
+  if (!decoder.readHeader()) return refuse(decoder, file);
   const double maxPixelsPerByte = kMaxInflation * 8 / decoder.bitsPerPixel;
   if (Status status = checkImageSize(file, decoder.width, decoder.height, maxPixelsPerByte, bytes.size()); !status) {
     return status.error();
   }
-  std::vector<uint8_t> pixels(decoder.rowBytes * decoder.height);
-  std::vector<png_bytep> rows(decoder.height);
-  for (uint32_t y = 0; y < decoder.height; ++y) rows[y] = &pixels[y * decoder.rowBytes];
-  if (!decoder.readRows(rows.data())) return refuse();
+  PngRows decoded{std::vector<uint8_t>(decoder.rowBytes * decoder.height), std::vector<png_bytep>(decoder.height)};
+  for (uint32_t y = 0; y < decoder.height; ++y) decoded.rows[y] = &decoded.pixels[y * decoder.rowBytes];
+  if (!decoder.readRows(decoded.rows.data())) return refuse(decoder, file);
+  return decoded;
+}
+
+}  // namespace
+
+Result<Image> decodePng(std::span<const uint8_t> bytes, const std::string& file) {
+  PngDecoder decoder(bytes);
+  const Result<PngRows> decoded = decodeRows(decoder, bytes, file);
+  if (!decoded) return decoded.error();
+  const std::vector<png_bytep>& rows = decoded->rows;
 
   const bool hasAlpha = decoder.channels % 2 == 0;
   Image image{decoder.width, decoder.height, decoder.channels - hasAlpha, {}};
@@ -115,6 +135,33 @@ Result<Image> decodePng(std::span<const uint8_t> bytes, const std::string& file)
     }
   }
   return image;
+}
+
+Result<RgbaImage> decodeRgbaPng(std::span<const uint8_t> bytes, const std::string& file) {
+  PngDecoder decoder(bytes);
+  const Result<PngRows> decoded = decodeRows(decoder, bytes, file);
+  if (!decoded) return decoded.error();
+  const bool hasAlpha = decoder.channels % 2 == 0;
+  const uint32_t colours = decoder.channels - hasAlpha;
+  RgbaImage image{decoder.width, decoder.height, hasAlpha, {}};
+  image.values.reserve(size_t{image.width} * image.height * 4);
+  for (uint32_t y = 0; y < image.height; ++y) {
+    const uint8_t* row = decoded->rows[y];
+    for (uint32_t x = 0; x < image.width; ++x) {
+      const size_t first = size_t{x} * decoder.channels;
+      for (uint32_t c = 0; c < 3; ++c) {
+        image.values.push_back(readByte(row, first + (colours == 1 ? 0 : c), decoder.bytesPerValue));
+      }
+      image.values.push_back(hasAlpha ? readByte(row, first + colours, decoder.bytesPerValue) : uint8_t{255});
+    }
+  }
+  return image;
+}
+
+Result<ImageSize> pngSize(std::span<const uint8_t> bytes, const std::string& file) {
+  PngDecoder decoder(bytes);
+  if (!decoder.readHeader()) return refuse(decoder, file);
+  return ImageSize{decoder.width, decoder.height};
 }
 
 Result<std::vector<uint8_t>> encodePng(const Image& image, const std::string& file) {

@@ -4,19 +4,18 @@
 #include <initializer_list>
 #include <limits>
 
+#include "shaders/foam/activations.h"
+
 namespace froth {
 namespace {
 
 constexpr double kBeta = 100;
-constexpr double kLinearFrom = 20;  // beyond it torch returns x itself
+constexpr double kLinearFrom = 20;  // as of foam::softplus
 constexpr float kRawOfZero = -2;  // exp(-200) / 100 is far below the smallest float, in double and in float arithmetic
 
 }  // namespace
 
-double softplus(double raw) {
-  const double scaled = kBeta * raw;
-  return scaled > kLinearFrom ? raw : std::log1p(std::exp(scaled)) / kBeta;
-}
+double softplus(double raw) { return foam::softplus(raw); }
 
 float inverseSoftplus(float activated) {
   if (activated == 0) {

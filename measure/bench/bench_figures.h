@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "froth/froth.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 
 namespace froth {
 

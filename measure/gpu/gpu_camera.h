@@ -4,7 +4,7 @@
 #include "base/image/image.h"
 #include "froth/froth.h"
 #include "reference/camera/camera.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 
 namespace froth {
 

@@ -10,7 +10,7 @@
 #include "baker/input/foam_input.h"
 #include "base/image/image.h"
 #include "measure/report/report.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 #include "reference/image/flip.h"
 #include "reference/render/reference.h"
 

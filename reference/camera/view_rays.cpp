@@ -3,17 +3,9 @@
 #include <algorithm>
 
 #include "reference/camera/ray_map.h"
-#include "shaders/foam/lens.h"
 
 namespace froth {
 namespace {
-
-static_assert(static_cast<int>(LensKind::kFisheye) == foam::kLensFisheye &&
-              static_cast<int>(LensKind::kKannalaBrandt) == foam::kLensKannalaBrandt &&
-              static_cast<int>(LensKind::kRadialTangential) == foam::kLensRadialTangential &&
-              static_cast<int>(LensKind::kEquirectangular) == foam::kLensEquirectangular &&
-              static_cast<int>(LensKind::kOrthographic) == foam::kLensOrthographic &&
-              static_cast<int>(LensKind::kRayMap) == foam::kLensRayMap);
 
 // The direction of the pixel that holds the point, or 0.
 glm::dvec3 mappedDirection(const RayMap& map, double x, double y) {
@@ -24,13 +16,7 @@ glm::dvec3 mappedDirection(const RayMap& map, double x, double y) {
 
 }  // namespace
 
-ViewRays::ViewRays(const View& view) : view_(view) {
-  const std::vector<double>& distortion = view.lens.distortion;
-  for (size_t i = 0; i < distortion.size(); ++i) {
-    (i < 4 ? first_ : second_)[static_cast<int>(i % 4)] = distortion[i];
-  }
-  range_ = foam::lensRange(static_cast<int>(view.lens.kind), first_, second_);
-}
+ViewRays::ViewRays(const View& view) : view_(view), lens_(view.lens) {}
 
 std::optional<ViewRay> ViewRays::at(double x, double y) const {
   const glm::dvec2 point((x - view_.cx) / view_.fx, (y - view_.cy) / view_.fy);
@@ -38,7 +24,7 @@ std::optional<ViewRay> ViewRays::at(double x, double y) const {
   if (view_.lens.kind == LensKind::kRayMap) {
     direction = mappedDirection(*view_.lens.rays, x, y);
     if (direction == glm::dvec3(0)) return std::nullopt;
-  } else if (!foam::lensRay(static_cast<int>(view_.lens.kind), point, first_, second_, range_, direction)) {
+  } else if (!foam::lensRay(lens_.kind, point, lens_.first, lens_.second, lens_.range, direction)) {
     return std::nullopt;
   }
   const bool isOrthographic = view_.lens.kind == LensKind::kOrthographic;

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "reference/camera/camera.h"
+#include "reference/camera/lens_numbers.h"
 
 namespace froth {
 
@@ -39,8 +40,7 @@ class ViewRays {
   glm::dvec3 toWorld(const glm::dvec3& vector) const;
 
   const View& view_;
-  glm::dvec4 first_{0}, second_{0};  // coefficients as shaders/foam/lens.h takes them
-  double range_;
+  LensNumbers lens_;
 };
 
 }  // namespace froth

@@ -54,8 +54,10 @@ const std::map<std::string, std::vector<std::string>> kRooms{
     {"foam", {"base", "shaders/foam"}},
     {"reference", {"base", "foam", "shaders/foam"}},
     {"baker", {"base", "format", "foam", "reference", "shaders/foam"}},
+    {"trainer", {"base", "foam", "reference", "shaders/foam"}},
     {"measure", {"base", "format", "foam", "reference", "baker", "host", "runtime/include", "shaders/foam"}},
-    {"tool", {"base", "format", "foam", "reference", "baker", "host", "measure", "runtime/include", "shaders/foam"}},
+    {"tool",
+     {"base", "format", "foam", "reference", "trainer", "baker", "host", "measure", "runtime/include", "shaders/foam"}},
     {"samples", {"base", "host", "runtime/include", "shaders/froth_walk.glsl"}},
 };
 

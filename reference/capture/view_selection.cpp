@@ -1,9 +1,13 @@
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 
 #include <charconv>
 #include <system_error>
 
 #include <fmt/format.h>
+
+#include "base/atomic_file.h"
+#include "base/json_input.h"
+#include "reference/capture/capture.h"
 
 namespace froth {
 namespace {
@@ -25,7 +29,30 @@ std::optional<Size> parseSize(const std::string& text) {
   return size;
 }
 
+// Whether a file is a transforms.json: it has frames where cameras.json has views.
+Result<bool> hasFrames(const std::filesystem::path& path) {
+  const Result<std::vector<uint8_t>> bytes = readFile(path, kMostJsonBytes);
+  if (!bytes) return bytes.error();
+  const Result<nlohmann::json> root = parseJson(*bytes, path.string(), "give cameras.json or transforms.json");
+  if (!root) return root.error();
+  return root->is_object() && root->contains("frames") && !root->contains("views");
+}
+
 }  // namespace
+
+Result<CameraSet> readViews(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) {
+    const Result<bool> isTransforms = hasFrames(path);
+    if (!isTransforms) return isTransforms.error();
+    if (!*isTransforms) return readCameras(path);
+  }
+  Result<Capture> capture = readCapture(path);
+  if (!capture) return capture.error();
+  CameraSet cameras;
+  for (CapturedView& view : capture->views) cameras.views.push_back(std::move(view.view));
+  return cameras;
+}
 
 std::string checkSize(const std::string& text) {
   if (parseSize(text)) return {};
@@ -33,7 +60,7 @@ std::string checkSize(const std::string& text) {
 }
 
 Result<std::vector<SelectedView>> selectViews(const ViewOptions& options) {
-  Result<CameraSet> cameras = readCameras(options.cameras);
+  Result<CameraSet> cameras = readViews(options.cameras);
   if (!cameras) return cameras.error();
   const std::string file = options.cameras.string();
   if (cameras->views.empty()) {

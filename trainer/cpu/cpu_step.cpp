@@ -1,0 +1,276 @@
+#include "trainer/cpu/cpu_step.h"
+
+#include <algorithm>
+#include <atomic>
+#include <tuple>
+
+#include <tbb/parallel_for.h>
+
+#include "trainer/step/cell_update.h"
+#include "trainer/step/tiles.h"
+
+namespace froth {
+
+template <class Real>
+SeenCells<Real> CpuStep<Real>::seen() {
+  return {static_cast<uint32_t>(cells_.size()), cells_.data(), planes_.data(), details_.data(), rankOf_.data()};
+}
+
+template <class Real>
+PixelArrays<Real> CpuStep<Real>::pixels() {
+  return {rendered_.data(), logTransmittances_.data(), ends_.data(), gradients_.data(), wanted_.data()};
+}
+
+template <class Real>
+void CpuStep<Real>::activate(float leastSkin) {
+  const TrainedFoam<Real> foam = viewStorage(foam_);
+  tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) { foam.balls[cell] = ballOf(foam, cell); });
+  pairs_.follow(foam_.balls, leastSkin);
+}
+
+template <class Real>
+const std::vector<glm::vec<4, Real>>& CpuStep<Real>::render(const TrainingView<Real>& view,
+                                                            const RaySettings<Real>& settings,
+                                                            const AdamStep<Real>& adam) {
+  view_ = view;
+  settings_ = settings;
+  cull(adam);
+  prepare();
+  bin();
+  const size_t pixelCount = size_t{view.width} * view.height;
+  rendered_.resize(pixelCount);
+  logTransmittances_.resize(pixelCount);
+  ends_.resize(pixelCount);
+  tbb::parallel_for(0u, tilesAlong(view.height), [&](uint32_t tileY) { renderRow(tileY); });
+  return rendered_;
+}
+
+// Near tests, and the tiles that see each ball; then front to back, equals by index.
+template <class Real>
+void CpuStep<Real>::cull(const AdamStep<Real>& adam) {
+  const TrainedFoam<Real> foam = viewStorage(foam_);
+  const uint32_t tilesX = tilesAlong(view_.width), tilesY = tilesAlong(view_.height);
+  std::vector<glm::vec<4, Real>> cones(size_t{tilesX} * tilesY);
+  tbb::parallel_for(size_t{0}, cones.size(), [&](size_t tile) {
+    const auto index = static_cast<uint32_t>(tile);
+    cones[tile] = coneOfTile(view_, index % tilesX, index / tilesX);
+  });
+  candidates_.resize(foam.shape.cellCount);
+  tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
+    Candidate& candidate = candidates_[cell];
+    const glm::vec<4, Real> ball = foam.balls[cell];
+    const glm::vec<3, Real> centre = glm::vec<3, Real>(ball) - view_.eye;
+    candidate.cell = cell;
+    candidate.power = foam::powerOfOrigin(centre, ball.w);
+    candidate.tiles.clear();
+    if (!std::isfinite(candidate.power) || !(ball.w > 0)) return;
+    if (foam::isNearCell(centre, ball.w, view_.worldFromCamera[2], view_.nearRatio, view_.nearDepth)) return;
+    const TileRange range = tilesOfBall(view_, centre, ball.w);
+    const Real radius = foam::guardedRadius(centre, ball.w);
+    for (uint32_t tile = range.beginY * tilesX; tile < range.endY * tilesX; ++tile) {
+      if (tile % tilesX < range.beginX || tile % tilesX >= range.endX) continue;
+      if (foam::coneMeetsBall(cones[tile], centre, radius)) candidate.tiles.push_back(tile);
+    }
+    if (!candidate.tiles.empty()) catchUpCell(foam, adam, cell);
+  });
+  std::erase_if(candidates_, [](const Candidate& candidate) { return candidate.tiles.empty(); });
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.power, a.cell) < std::tie(b.power, b.cell);
+  });
+}
+
+template <class Real>
+void CpuStep<Real>::prepare() {
+  const TrainedFoam<Real> foam = viewStorage(foam_);
+  const NeighbourRows rows = pairs_.rows();
+  cells_.resize(candidates_.size());
+  details_.resize(cells_.size() * foam.shape.detailCount);
+  rankOf_.assign(foam.shape.cellCount, SeenCells<Real>::kNotSeen);
+  uint32_t planeCount = 0;
+  for (uint32_t rank = 0; rank < cells_.size(); ++rank) {
+    const uint32_t cell = candidates_[rank].cell;
+    rankOf_[cell] = rank;
+    cells_[rank].planesBegin = planeCount;
+    planeCount += rows.offsets[cell + 1] - rows.offsets[cell];
+    cells_[rank].planesEnd = planeCount;
+  }
+  planes_.resize(planeCount);
+  tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
+    const uint32_t cell = candidates_[rank].cell;
+    SeenCell<Real>& prepared = cells_[rank];
+    prepareCell(foam, view_, cell, prepared);
+    for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
+      planes_[prepared.planesBegin + e - rows.offsets[cell]] = preparePlane(foam, view_, cell, rows.neighbours[e]);
+    }
+    for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
+      details_[rank * foam.shape.detailCount + k] = prepareDetail(foam, prepared, k);
+    }
+  });
+}
+
+// Cells go in by rank, so every list is front to back.
+template <class Real>
+void CpuStep<Real>::bin() {
+  const uint32_t tilesX = tilesAlong(view_.width);
+  rows_.resize(tilesAlong(view_.height));
+  for (TileRow<Real>& row : rows_) {
+    row.ranks.clear();
+    row.planesBegin.assign(1, 0);
+    row.tiles.resize(tilesX);
+    row.tilePlaces.resize(tilesX);
+    for (auto& tile : row.tiles) tile.clear();
+    for (auto& tile : row.tilePlaces) tile.clear();
+  }
+  rowPlaces_.clear();
+  rowPlacesBegin_.assign(1, 0);
+  for (uint32_t rank = 0; rank < cells_.size(); ++rank) {
+    uint32_t lastRow = UINT32_MAX;
+    for (const uint32_t tile : candidates_[rank].tiles) {
+      const uint32_t tileY = tile / tilesX;
+      TileRow<Real>& row = rows_[tileY];
+      if (tileY != lastRow) {
+        rowPlaces_.push_back({tileY, static_cast<uint32_t>(row.ranks.size())});
+        row.ranks.push_back(rank);
+        row.planesBegin.push_back(row.planesBegin.back() + cells_[rank].planesEnd - cells_[rank].planesBegin);
+        lastRow = tileY;
+      }
+      row.tiles[tile % tilesX].push_back(rank);
+      row.tilePlaces[tile % tilesX].push_back(rowPlaces_.back().place);
+    }
+    rowPlacesBegin_.push_back(rowPlaces_.size());
+  }
+}
+
+template <class Real>
+void CpuStep<Real>::renderRow(uint32_t tileY) {
+  const SeenCells<Real> cells = seen();
+  for (uint32_t y = tileY * kTileSize; y < std::min((tileY + 1) * kTileSize, view_.height); ++y) {
+    for (uint32_t x = 0; x < view_.width; ++x) {
+      const size_t pixel = size_t{y} * view_.width + x;
+      const std::vector<uint32_t>& ranks = rows_[tileY].tiles[x / kTileSize];
+      const glm::vec<3, Real> direction = directionOfPixel(view_, x, y);
+      const bool hasRay = direction != glm::vec<3, Real>(0);
+      const glm::vec<4, Real> shown =
+          renderPixel(cells, foam_.shape.detailCount, ranks.data(), hasRay ? static_cast<uint32_t>(ranks.size()) : 0,
+                      direction, settings_, ends_[pixel]);
+      logTransmittances_[pixel] = shown.w;
+      rendered_[pixel] = {shown.x, shown.y, shown.z, std::exp(shown.w)};
+    }
+  }
+}
+
+template <class Real>
+void CpuStep<Real>::differentiate(const std::vector<glm::vec<4, Real>>& gradients,
+                                  const std::vector<glm::vec<4, Real>>& wanted) {
+  gradients_ = gradients;
+  wanted_ = wanted;
+  tbb::parallel_for(0u, static_cast<uint32_t>(rows_.size()), [&](uint32_t tileY) { differentiateRow(tileY); });
+  reduce();
+  for (const TileRow<Real>& row : rows_) droppedCount_ += row.droppedCount;
+}
+
+// Adds what one ray met in one cell to the sums of its row.
+template <class Real>
+static void addSegment(const SegmentGradient<Real>& gradient, const SeenCell<Real>& cell, uint32_t place,
+                       TileRow<Real>& row) {
+  row.cells[place] += gradient.cell;
+  for (int end = 0; end < 2; ++end) {
+    if (gradient.planes[end] >= kBoundedByEye) continue;
+    row.pairs[row.planesBegin[place] + gradient.planes[end] - cell.planesBegin] += gradient.pairs[end];
+  }
+}
+
+template <class Real>
+static void differentiatePixel(const SeenCells<Real>& seen, uint32_t detailCount, const glm::vec<3, Real>& direction,
+                               const RaySettings<Real>& settings, const std::vector<uint32_t>& ranks,
+                               const std::vector<uint32_t>& places, uint32_t end, PixelAdjoint<Real> adjoint,
+                               TileRow<Real>& row) {
+  while (end-- > 0) {
+    const SeenCell<Real>& cell = seen.cells[ranks[end]];
+    const SeenDetail<Real>* details = seen.details + size_t{ranks[end]} * detailCount;
+    Segment<Real> segment;
+    if (!meetCell(cell, seen.planes, details, detailCount, direction, settings.sharpness, segment)) continue;
+    Real weight;
+    const SegmentSeeds<Real> seeds = seedSegment(cell, segment, settings, adjoint, weight);
+    const glm::vec<3, Real> miss = glm::abs(segment.colour - glm::vec<3, Real>(adjoint.wanted));
+    CellSums<Real>& sums = row.cells[places[end]];
+    sums.contribution += weight * settings.perPixel;
+    sums.error += weight * adjoint.wanted.w * (miss.x + miss.y + miss.z) * settings.perPixel;
+    SegmentGradient<Real> gradient;
+    PlainSink<Real> sink{row.details.data() + size_t{places[end]} * detailCount};
+    if (differentiateSegment(cell, seen.planes, details, detailCount, direction, settings.sharpness, segment, seeds,
+                             gradient, sink)) {
+      addSegment(gradient, cell, places[end], row);
+    } else {
+      ++row.droppedCount;
+    }
+  }
+}
+
+template <class Real>
+void CpuStep<Real>::differentiateRow(uint32_t tileY) {
+  TileRow<Real>& row = rows_[tileY];
+  row.cells.assign(row.ranks.size(), {});
+  row.details.assign(row.ranks.size() * foam_.shape.detailCount, {});
+  row.pairs.assign(row.planesBegin.back(), glm::vec<4, Real>(0));
+  row.droppedCount = 0;
+  for (uint32_t y = tileY * kTileSize; y < std::min((tileY + 1) * kTileSize, view_.height); ++y) {
+    for (uint32_t x = 0; x < view_.width; ++x) {
+      const size_t pixel = size_t{y} * view_.width + x;
+      differentiatePixel(seen(), foam_.shape.detailCount, directionOfPixel(view_, x, y), settings_,
+                         row.tiles[x / kTileSize], row.tilePlaces[x / kTileSize], ends_[pixel],
+                         beginAdjoint(pixels(), pixel), row);
+    }
+  }
+}
+
+// The sums of all rows, by rank.
+template <class Real>
+void CpuStep<Real>::reduce() {
+  const uint32_t detailCount = foam_.shape.detailCount;
+  cellSums_.assign(cells_.size(), {});
+  detailSums_.assign(details_.size(), {});
+  pairSums_.assign(planes_.size(), glm::vec<4, Real>(0));
+  tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
+    for (size_t i = rowPlacesBegin_[rank]; i < rowPlacesBegin_[rank + 1]; ++i) {
+      const TileRow<Real>& row = rows_[rowPlaces_[i].row];
+      const uint32_t place = rowPlaces_[i].place;
+      cellSums_[rank] += row.cells[place];
+      for (uint32_t k = 0; k < detailCount; ++k) {
+        detailSums_[rank * detailCount + k] += row.details[size_t{place} * detailCount + k];
+      }
+      for (uint32_t e = row.planesBegin[place]; e < row.planesBegin[place + 1]; ++e) {
+        pairSums_[cells_[rank].planesBegin + e - row.planesBegin[place]] += row.pairs[e];
+      }
+    }
+  });
+}
+
+template <class Real>
+void CpuStep<Real>::update(const AdamStep<Real>& adam, Real overlapWeight) {
+  const TrainedFoam<Real> foam = viewStorage(foam_);
+  std::atomic<uint64_t> bad = 0;
+  tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
+    uint32_t badHere = 0;
+    for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
+      const size_t detail = rank * foam.shape.detailCount + k;
+      updateDetail(foam, adam, cells_[rank], details_[detail], k, detailSums_[detail], cellSums_[rank], badHere);
+    }
+    updateSeenCell(foam, adam, cells_[rank], cellSums_[rank], badHere);
+    bad += badHere;
+  });
+  const SeenCells<Real> cells = seen();
+  const GradientSums<Real> sums{cellSums_.data(), detailSums_.data(), pairSums_.data(), nullptr};
+  tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
+    uint32_t badHere = 0;
+    updateBall(foam, adam, cell, gatherBall(foam, pairs_.rows(), cells, sums, overlapWeight, cell), badHere);
+    updateMeans(foam, cells, sums, cell);
+    bad += badHere;
+  });
+  droppedCount_ += bad;
+}
+
+template class CpuStep<float>;
+template class CpuStep<double>;
+
+}  // namespace froth

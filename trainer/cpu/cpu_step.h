@@ -1,0 +1,95 @@
+// A step of training on the CPU, over TBB: the readable truth of what trainer/cuda does. The same input gives the same
+// bits on any number of threads: each row of tiles has sums of its own, and they are added in the order of rows.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "trainer/cpu/foam_storage.h"
+#include "trainer/cpu/skin_pairs.h"
+#include "trainer/step/adam.h"
+#include "trainer/step/gradient_sums.h"
+#include "trainer/step/pixel_passes.h"
+#include "trainer/step/pixels.h"
+#include "trainer/step/seen_cells.h"
+#include "trainer/step/training_view.h"
+
+namespace froth {
+
+// A row of tiles: what its rays meet, and what they add up. Cells of the row are numbered by their place in `ranks`.
+template <class Real>
+struct TileRow {
+  std::vector<uint32_t> ranks;                    // ascending
+  std::vector<uint32_t> planesBegin;              // [ranks + 1] of the cell's pairs in `pairs`
+  std::vector<std::vector<uint32_t>> tiles;       // [tiles] the ranks that each can see
+  std::vector<std::vector<uint32_t>> tilePlaces;  // [tiles] the same cells, by their place
+  std::vector<CellSums<Real>> cells;
+  std::vector<DetailSums<Real>> details;
+  std::vector<glm::vec<4, Real>> pairs;
+  uint32_t droppedCount = 0;
+};
+
+template <class Real>
+class CpuStep {
+ public:
+  explicit CpuStep(FoamStorage<Real>& foam) : foam_(foam) {}  // keeps a reference
+
+  // The calls of a step, in this order. `leastSkin`: SkinPairs.
+  void activate(float leastSkin);
+  // What the view shows; colour over black and transmittance by pixel. The waiting parameters of what is seen are
+  // brought to the step before adam.step.
+  const std::vector<glm::vec<4, Real>>& render(const TrainingView<Real>& view, const RaySettings<Real>& settings,
+                                               const AdamStep<Real>& adam);
+  // gradients: [pixels] of the loss, by what render() returned. wanted: what PixelArrays says.
+  void differentiate(const std::vector<glm::vec<4, Real>>& gradients, const std::vector<glm::vec<4, Real>>& wanted);
+  // overlapWeight: lambda of L_connect.
+  void update(const AdamStep<Real>& adam, Real overlapWeight);
+
+  // After cells changed places: before the next activate().
+  void forgetPairs() { pairs_.forget(); }
+
+  SeenCells<Real> seen();                                  // what the last render() prepared
+  uint64_t droppedCount() const { return droppedCount_; }  // contributions that were no finite numbers, of all steps
+  const CellGraph& pairs() const { return pairs_.graph(); }
+
+ private:
+  struct Candidate {
+    Real power = 0;  // of the eye
+    uint32_t cell = 0;
+    std::vector<uint32_t> tiles;  // ascending; none: the view does not see the cell
+  };
+  void cull(const AdamStep<Real>& adam);
+  void prepare();
+  void bin();
+  void renderRow(uint32_t tileY);
+  void differentiateRow(uint32_t tileY);
+  void reduce();
+  PixelArrays<Real> pixels();
+
+  FoamStorage<Real>& foam_;
+  SkinPairs pairs_;
+  TrainingView<Real> view_;
+  RaySettings<Real> settings_;
+  uint64_t droppedCount_ = 0;
+
+  std::vector<Candidate> candidates_;  // by rank
+  std::vector<SeenCell<Real>> cells_;
+  std::vector<SeenPlane<Real>> planes_;
+  std::vector<SeenDetail<Real>> details_;
+  std::vector<uint32_t> rankOf_;
+  std::vector<TileRow<Real>> rows_;
+  struct RowPlace {
+    uint32_t row, place;
+  };
+  std::vector<RowPlace> rowPlaces_;     // of all ranks
+  std::vector<size_t> rowPlacesBegin_;  // [ranks + 1]
+
+  std::vector<glm::vec<4, Real>> rendered_, gradients_, wanted_;
+  std::vector<Real> logTransmittances_;
+  std::vector<uint32_t> ends_;
+  std::vector<CellSums<Real>> cellSums_;
+  std::vector<DetailSums<Real>> detailSums_;
+  std::vector<glm::vec<4, Real>> pairSums_;
+};
+
+}  // namespace froth

@@ -1,0 +1,47 @@
+// Where the first cells of a foam go, and what is known of them there.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "trainer/photos/photos.h"
+#include "trainer/start/scene_frame.h"
+
+namespace froth {
+
+struct StartCell {
+  glm::dvec3 position{0};        // normalised
+  glm::dvec3 towards{0};         // to whom sees it, of any length; 0: not known
+  glm::dvec3 colour{0.5};        // display-coded
+  double mostRadius = HUGE_VAL;  // of 5 % of the height of an image that shows it
+};
+
+// What a start begins from.
+struct StartScene {
+  const Capture& capture;
+  SceneFrame frame;
+  std::span<const uint32_t> training;  // indices of views
+  std::span<const Photo> photos;       // of those; empty: random cells are grey, and not cut by masks
+  uint64_t seed = 0;
+};
+
+// One cell for each point, but for those that coincide with another, lie outliers' far away or that only other views
+// observed; each beginning of the list is spread over the scene (spread_points.h).
+std::vector<StartCell> cellsOfPoints(const StartScene& scene);
+
+// Points that a random mixture is of.
+constexpr uint32_t kMixed = 6;
+
+// `count` random convex mixtures of a point and its nearest. `points` has at least kMixed.
+std::vector<StartCell> mixCells(const std::vector<StartCell>& points, uint32_t count, uint64_t seed);
+
+// `count` random pixels of training views at log-uniform depths. Where photos have alpha, of pixels that show the
+// object, at depths that most other views show as object too, so in the visual hull; some tries that find none stay
+// outside.
+std::vector<StartCell> cellsInFrusta(const StartScene& scene, uint32_t count);
+
+}  // namespace froth

@@ -1,0 +1,116 @@
+// One ray and one cell of a view: where the ray gains opacity in it, and the colour there (docs/FOAM.md "What one ray
+// meets in one cell"). The backward pass computes a segment again and takes its branches from it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "shaders/foam/appearance.h"
+#include "shaders/foam/cell.h"
+#include "shaders/foam/clip_face.h"
+#include "trainer/step/seen_cells.h"
+
+namespace froth {
+
+// The surface that bounds a segment is the radical plane at this place of SeenCells::planes, or one of these.
+inline constexpr uint32_t kBoundedByBall = UINT32_MAX, kBoundedByEye = UINT32_MAX - 1;
+
+template <class Real>
+struct Segment {
+  Real ballOrPlaneNear, ballOrPlaneFar;  // the interval that ball and planes leave
+  uint32_t nearSurface, farSurface;      // of that interval
+  Real facing;                           // normal . direction
+  Real heightPlace;                      // where the height is asked for
+  Real height, heightWeights;            // the blend there, its sum of weights
+  Real face;                             // where the displaced face is met
+  Real near, far;                        // what ball, planes and face leave
+  glm::vec<3, Real> colour;              // at `near`
+  Real colourWeights;
+};
+
+// A point of the ray in the face frame: (tangent, bitangent, normal) [radii].
+template <class Real>
+FROTH_HD glm::vec<3, Real> pointInFrame(const SeenCell<Real>& cell, const glm::vec<3, Real>& direction, Real t) {
+  return foam::inFaceFrame(t * direction - cell.centre, cell.tangent, glm::cross(cell.normal, cell.tangent),
+                           cell.normal, 1 / cell.radius);
+}
+
+// Cuts the ray by ball and planes. Along a ray that starts at the eye a plane is met at t = 1 / (plane . direction)
+// (foam::eyePlane), so the loop has no division.
+template <class Real>
+FROTH_HD bool clipByBallAndPlanes(const SeenCell<Real>& cell, const SeenPlane<Real>* planes,
+                                  const glm::vec<3, Real>& direction, Segment<Real>& segment) {
+  Real ballNear, ballFar;
+  if (!foam::intersectBall(cell.centre, cell.radius, direction, ballNear, ballFar)) return false;
+  const Real ballInverseNear = ballNear > 0 ? 1 / ballNear : Real(1e30);
+  Real inverseNear = ballInverseNear, inverseFar = 1 / ballFar;
+  segment.nearSurface = ballNear > 0 ? kBoundedByBall : kBoundedByEye;
+  segment.farSurface = kBoundedByBall;
+  for (uint32_t i = cell.planesBegin; i < cell.planesEnd; ++i) {
+    const Real inverse = glm::dot(planes[i].plane, direction);
+    if (planes[i].clearance > 0) {
+      if (inverse > inverseFar) {
+        inverseFar = inverse;
+        segment.farSurface = i;
+      }
+    } else if (inverse < inverseNear) {
+      inverseNear = inverse;
+      segment.nearSurface = i;
+    }
+  }
+  if (!(inverseNear > inverseFar)) return false;
+  segment.ballOrPlaneNear = segment.nearSurface >= kBoundedByEye ? ballNear : 1 / inverseNear;
+  segment.ballOrPlaneFar = segment.farSurface == kBoundedByBall ? ballFar : 1 / inverseFar;
+  return segment.ballOrPlaneNear < segment.ballOrPlaneFar;
+}
+
+template <class Real>
+FROTH_HD void blendHeight(const SeenDetail<Real>* details, uint32_t detailCount, const glm::vec<3, Real>& point,
+                          Real sharpness, Segment<Real>& segment) {
+  const glm::vec<3, Real> query = foam::faceQuery(point);
+  Real sum = 0, weights = 0;
+  for (uint32_t k = 0; k < detailCount; ++k) {
+    const Real weight = foam::detailWeight(query, details[k].place, sharpness);
+    sum += weight * details[k].height;
+    weights += weight;
+  }
+  segment.height = sum / foam::flooredWeightSum(weights);
+  segment.heightWeights = weights;
+}
+
+template <class Real>
+FROTH_HD void blendColour(const SeenDetail<Real>* details, uint32_t detailCount, const glm::vec<3, Real>& point,
+                          Real sharpness, Segment<Real>& segment) {
+  const glm::vec<3, Real> query = foam::faceQuery(point);
+  glm::vec<3, Real> sum(0);
+  Real weights = 0;
+  for (uint32_t k = 0; k < detailCount; ++k) {
+    const Real weight = foam::detailWeight(query, details[k].place, sharpness);
+    sum += weight * details[k].colour;
+    weights += weight;
+  }
+  segment.colour = sum / foam::flooredWeightSum(weights);
+  segment.colourWeights = weights;
+}
+
+// False: the ray gains no opacity in the cell, or its numbers are no finite ones. `details`: those of the cell.
+template <class Real>
+FROTH_HD bool meetCell(const SeenCell<Real>& cell, const SeenPlane<Real>* planes, const SeenDetail<Real>* details,
+                       uint32_t detailCount, const glm::vec<3, Real>& direction, Real sharpness,
+                       Segment<Real>& segment) {
+  if (!clipByBallAndPlanes(cell, planes, direction, segment)) return false;
+  segment.facing = glm::dot(cell.normal, direction);
+  segment.heightPlace = foam::placeOfHeight(cell.centre, cell.normal, segment.facing, segment.ballOrPlaneNear);
+  blendHeight(details, detailCount, pointInFrame(cell, direction, segment.heightPlace), sharpness, segment);
+  segment.face = foam::intersectFace(cell.centre, cell.normal, segment.facing, segment.height);
+  segment.near = segment.ballOrPlaneNear;
+  segment.far = segment.ballOrPlaneFar;
+  foam::clipByFace(cell.centre, cell.normal, segment.facing, segment.height, segment.near, segment.far);
+  if (!(segment.near < segment.far)) return false;
+  blendColour(details, detailCount, pointInFrame(cell, direction, segment.near), sharpness, segment);
+  return std::isfinite(segment.colour.x + segment.colour.y + segment.colour.z + cell.density * segment.far);
+}
+
+}  // namespace froth
