@@ -21,6 +21,9 @@ constexpr double kWorthwhileShare = 0.85;
 constexpr uint32_t kNoCluster = 0xffffffff;
 constexpr uint32_t kRoundPart = 4;         // pairs of a round of merges, at most, of the live cells of the fine form
 constexpr uint32_t kLeastRoundPart = 256;  // a round with fewer is the last
+// Merges of all rounds, at most, of the live cells that are not locked: three become one. With more the middle of a small
+// group is much coarser than its borders.
+constexpr double kMostMerged = 2.0 / 3;
 
 class Coarsening {
  public:
@@ -109,10 +112,11 @@ void Coarsening::gatherFaces() {
 // In rounds: cells that show little merge again, and fewer of the others have to.
 void Coarsening::merge() {
   MergedFoam round = beginRound();
-  for (size_t left = form_.liveCount / 2; left > 0;) {
-    const size_t most = std::min<size_t>(left, form_.liveCount / kRoundPart);
+  const auto most = static_cast<size_t>(kMostMerged * (form_.liveCount - form_.lockedLive));
+  for (size_t left = std::min<size_t>(form_.liveCount / 2, most); left > 0;) {
+    const size_t ofRound = std::min<size_t>(left, form_.liveCount / kRoundPart);
     const std::vector<CellPair> pairs =
-        choosePairs(round.cells, round.isLocked, round.contributions, most, source_.eyes);
+        choosePairs(round.cells, round.isLocked, round.contributions, ofRound, source_.eyes);
     if (pairs.size() < form_.liveCount / kLeastRoundPart + 1) break;
     round = mergeRound(round, pairs);
     left -= pairs.size();

@@ -2,7 +2,7 @@
 //
 // For each detail and view: the groups that are refined when the view is drawn at its own size (docs/STREAMING.md), the
 // cells of that cut, and its PSNR against level 0, by the float reference at about --pixels. Views are those of the
-// flight path; --views takes the test views.
+// flight path; --views takes the test views. --levels: the same of whole levels.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -27,6 +27,7 @@ namespace {
 struct Options {
   std::string asset, cameras;
   std::vector<double> details{0.25, 0.5, 1, 2, 4};
+  std::vector<uint32_t> levels;
   uint32_t pixels = 20'000, every = 1;
   bool testViews = false;
 };
@@ -50,25 +51,34 @@ class CutsBench {
 
   void run() const {
     for (const double detail : options_.details) {
-      double sum = 0, worst = 0, cells = 0;
-      std::string each;
-      for (size_t v = 0; v < views_.size(); ++v) {
-        const AssetContents cut = take(contentsOfCut(contents_, refinedAt(views_[v], detail)));
-        for (const ChunkContents& chunk : cut.chunks) cells += chunk.liveCount;
-        const Foam foam = take(foamFromAsset(cut));
-        const double square = meanSquare(finest_[v], draw(ReferenceRenderer(foam), views_[v]));
-        sum += square;
-        worst = std::max(worst, square);
-        each += fmt::format(" {:.1f}", decibels(square));
-      }
-      const auto count = static_cast<double>(views_.size());
-      fmt::print("detail {:6.3f}: {:9.0f} cells, all {:6.2f} dB, worst {:6.2f} dB; each{}\n", detail, cells / count,
-                 decibels(sum / count), decibels(worst), each);
-      std::fflush(stdout);
+      compare(fmt::format("detail {}", detail), [&](const View& view) { return refinedAt(view, detail); });
+    }
+    for (const uint32_t level : options_.levels) {
+      std::vector<uint8_t> isRefined;
+      for (const LevelGroup& group : contents_.groups) isRefined.push_back(group.level >= level);
+      compare(fmt::format("level {}", level), [&](const View&) { return isRefined; });
     }
   }
 
  private:
+  void compare(const std::string& name, const auto& refinedIn) const {
+    double sum = 0, worst = 0, cells = 0;
+    std::string each;
+    for (size_t v = 0; v < views_.size(); ++v) {
+      const AssetContents cut = take(contentsOfCut(contents_, refinedIn(views_[v])));
+      for (const ChunkContents& chunk : cut.chunks) cells += chunk.liveCount;
+      const Foam foam = take(foamFromAsset(cut));
+      const double square = meanSquare(finest_[v], draw(ReferenceRenderer(foam), views_[v]));
+      sum += square;
+      worst = std::max(worst, square);
+      each += fmt::format(" {:.1f}", decibels(square));
+    }
+    const auto count = static_cast<double>(views_.size());
+    fmt::print("{}: {:.0f} cells, all {:.2f} dB, worst {:.2f} dB; each{}\n", name, cells / count, decibels(sum / count),
+               decibels(worst), each);
+    std::fflush(stdout);
+  }
+
   std::vector<uint8_t> refinedAt(const View& view, double detail) const {
     std::vector<uint8_t> isRefined;
     for (const LevelGroup& group : contents_.groups) {
@@ -104,6 +114,7 @@ int main(int argc, char** argv) {
   program.add_option("ASSET", options.asset)->required();
   program.add_option("CAMERAS", options.cameras)->required();
   program.add_option("--details", options.details);
+  program.add_option("--levels", options.levels, "whole levels");
   program.add_option("--pixels", options.pixels, "of an image, about");
   program.add_option("--every", options.every, "Take every so many views");
   program.add_flag("--views", options.testViews, "The test views instead of the flight path");
