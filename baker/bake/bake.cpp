@@ -66,6 +66,7 @@ class Bake {
   BakeResult take() { return std::move(result_); }
 
  private:
+  std::vector<View> knownViews() const;
   Status lookThroughCameras();
   Status snap();
   Status placeSteiner();
@@ -135,16 +136,22 @@ Status Bake::run() {
   return measure();
 }
 
+// From where the scene will be seen, as far as the options say.
+std::vector<View> Bake::knownViews() const {
+  std::vector<View> views;
+  if (options_.cameras) views = options_.cameras->views;
+  if (options_.eyes.box) {
+    const std::vector<View> drawn = drawViews(makeEyeRegion(options_), options_.cameras, kViewsOfBox, options_.seed);
+    views.insert(views.end(), drawn.begin(), drawn.end());
+  }
+  return views;
+}
+
 Status Bake::lookThroughCameras() {
   if (isLossy(options_)) contents_.eyes = makeEyeRegion(options_);
   const bool isNeeded = options_.knobs.compressColours || options_.cullUnseen > 0;
   if (!isNeeded) return {};
-  std::vector<View> views;
-  if (options_.cameras) views = options_.cameras->views;
-  if (options_.eyes.box) {
-    const std::vector<View> drawn = drawViews(contents_.eyes, options_.cameras, kViewsOfBox, options_.seed);
-    views.insert(views.end(), drawn.begin(), drawn.end());
-  }
+  const std::vector<View> views = knownViews();
   if (views.empty()) return {};
   VisibilityOptions visibility;
   visibility.nearRatio = options_.nearRatio;
@@ -238,13 +245,18 @@ std::vector<double> sumWeights(const Foam& foam, const Visibility& visibility) {
 
 Status Bake::makeCoarser() {
   if (!options_.levels) return {};
+  std::vector<View> views = knownViews();
+  if (views.empty()) views = viewsAround(foam_);
   const LevelInput input{foam_,
                          triangulation_.graph,
                          alpha_.graph,
                          plan_,
                          contents_.quantization,
                          options_.chunkCells,
-                         visibility_ ? sumWeights(foam_, *visibility_) : std::vector<double>{}};
+                         visibility_ ? sumWeights(foam_, *visibility_) : std::vector<double>{},
+                         std::move(views),
+                         options_.nearRatio,
+                         options_.nearDepth};
   Result<Levels> levels = makeLevels(input, cells_, progress_);
   if (!levels) return levels.error();
   levels_ = std::move(*levels);

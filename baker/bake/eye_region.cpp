@@ -52,6 +52,26 @@ void place(View& view, const glm::dvec3& eye) {
   for (int row = 0; row < 3; ++row) view.worldFromCamera[4 * row + 3] = eye[row];
 }
 
+// Looks at `target` from `eye`.
+View lookAt(const glm::dvec3& eye, const glm::dvec3& target) {
+  const glm::dvec3 forward = glm::normalize(target - eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.31, 0.22, 1)));
+  const glm::dvec3 down = glm::cross(forward, right);
+  View view;
+  view.width = 160;
+  view.height = 120;
+  view.fx = view.fy = 120;
+  view.cx = 80;
+  view.cy = 60;
+  for (int row = 0; row < 3; ++row) {
+    view.worldFromCamera[4 * row] = right[row];
+    view.worldFromCamera[4 * row + 1] = down[row];
+    view.worldFromCamera[4 * row + 2] = forward[row];
+    view.worldFromCamera[4 * row + 3] = eye[row];
+  }
+  return view;
+}
+
 }  // namespace
 
 Status checkEyes(const BakeOptions& options) {
@@ -101,6 +121,22 @@ std::vector<View> drawViews(const EyeRegion& region, const CameraSet* cameras, u
     if (camera) views.back().nearDepth = camera->nearDepth;
     if (camera) views.back().nearRatio = camera->nearRatio;
     place(views.back(), eye);
+  }
+  return views;
+}
+
+std::vector<View> viewsAround(const Foam& foam) {
+  glm::dvec3 low(foam.sites[0]), high(low);
+  for (uint32_t i = 0; i < foam.cellCount; ++i) {
+    low = glm::min(low, glm::dvec3(foam.sites[i]) - double{foam.radii[i]});
+    high = glm::max(high, glm::dvec3(foam.sites[i]) + double{foam.radii[i]});
+  }
+  const glm::dvec3 centre = 0.5 * (low + high);
+  const double distance = 1.2 * glm::length(high - low);
+  std::vector<View> views;
+  for (const glm::dvec3& corner :
+       {glm::dvec3(1, 1, 1), glm::dvec3(1, -1, -1), glm::dvec3(-1, 1, -1), glm::dvec3(-1, -1, 1)}) {
+    views.push_back(lookAt(centre + distance / std::sqrt(3.0) * corner, centre));
   }
   return views;
 }

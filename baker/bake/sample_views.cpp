@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "baker/bake/eye_region.h"
+#include "baker/lod/shrink_view.h"
 #include "base/image/mean_square.h"
 #include "reference/render/reference.h"
 
@@ -17,55 +18,12 @@ constexpr uint32_t kDrawnViews = 8;
 constexpr uint64_t kOtherViews = uint64_t{1} << 63;  // of a seed: other views than those that weighed errors
 constexpr double kSamplePixels = 160 * 120;
 
-View reduceView(const View& view) {
-  const double scale = std::min(1.0, std::sqrt(kSamplePixels / (double{1} * view.width * view.height)));
-  const auto shrink = [scale](uint32_t size) { return std::max(1u, static_cast<uint32_t>(std::lround(size * scale))); };
-  return resizeView(view, shrink(view.width), shrink(view.height));
-}
-
-// Looks at `target` from `eye`.
-View lookAt(const glm::dvec3& eye, const glm::dvec3& target) {
-  const glm::dvec3 forward = glm::normalize(target - eye);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.31, 0.22, 1)));
-  const glm::dvec3 down = glm::cross(forward, right);
-  View view;
-  view.width = 160;
-  view.height = 120;
-  view.fx = view.fy = 120;
-  view.cx = 80;
-  view.cy = 60;
-  for (int row = 0; row < 3; ++row) {
-    view.worldFromCamera[4 * row] = right[row];
-    view.worldFromCamera[4 * row + 1] = down[row];
-    view.worldFromCamera[4 * row + 2] = forward[row];
-    view.worldFromCamera[4 * row + 3] = eye[row];
-  }
-  return view;
-}
-
-// From the four corners of a tetrahedron, far enough to see all of the foam.
-std::vector<View> viewsAround(const Foam& foam) {
-  glm::dvec3 low(foam.sites[0]), high(low);
-  for (uint32_t i = 0; i < foam.cellCount; ++i) {
-    low = glm::min(low, glm::dvec3(foam.sites[i]) - double{foam.radii[i]});
-    high = glm::max(high, glm::dvec3(foam.sites[i]) + double{foam.radii[i]});
-  }
-  const glm::dvec3 centre = 0.5 * (low + high);
-  const double distance = 1.2 * glm::length(high - low);
-  std::vector<View> views;
-  for (const glm::dvec3& corner :
-       {glm::dvec3(1, 1, 1), glm::dvec3(1, -1, -1), glm::dvec3(-1, 1, -1), glm::dvec3(-1, -1, 1)}) {
-    views.push_back(lookAt(centre + distance / std::sqrt(3.0) * corner, centre));
-  }
-  return views;
-}
-
 std::vector<View> chooseViews(const Foam& foam, const BakeOptions& options) {
   if (!options.cameras || options.cameras->views.empty()) return viewsAround(foam);
   const std::vector<View>& all = options.cameras->views;
   const size_t count = std::min(kSampleViews, all.size());
   std::vector<View> views;
-  for (size_t k = 0; k < count; ++k) views.push_back(reduceView(all[k * all.size() / count]));
+  for (size_t k = 0; k < count; ++k) views.push_back(shrinkView(all[k * all.size() / count], kSamplePixels));
   return views;
 }
 
@@ -113,7 +71,7 @@ Result<SampledPsnr> measurePsnr(const Foam& input, const Foam& baked, const EyeR
   SampledPsnr psnr{.given = psnrOf(meanOf(*given))};
   if (!hasChosenEyes(options)) return psnr;
   std::vector<View> views = drawViews(eyes, options.cameras, kDrawnViews, options.seed ^ kOtherViews);
-  for (View& view : views) view = reduceView(view);
+  for (View& view : views) view = shrinkView(view, kSamplePixels);
   const Result<std::vector<double>> drawn = comparison.measure(views);
   if (!drawn) return drawn.error();
   psnr.drawn = psnrOf(meanOf(*drawn));

@@ -18,7 +18,12 @@ namespace {
 
 // A group with more live cells left than this share of them is not worth its bytes.
 constexpr double kWorthwhileShare = 0.85;
-constexpr uint32_t kNoPair = 0xffffffff;
+constexpr uint32_t kNoCluster = 0xffffffff;
+constexpr uint32_t kRoundPart = 4;         // pairs of a round of merges, at most, of the live cells of the fine form
+constexpr uint32_t kLeastRoundPart = 256;  // a round with fewer is the last
+// Merges of all rounds, at most, of the live cells that are not locked: three become one. With more the middle of a small
+// group is much coarser than its borders.
+constexpr double kMostMerged = 2.0 / 3;
 
 class Coarsening {
  public:
@@ -31,6 +36,15 @@ class Coarsening {
   bool cutsLive(uint32_t i) const;
   void gatherFaces();
   void merge();
+  // Between rounds of merges.
+  struct MergedFoam {
+    Foam cells;
+    std::vector<double> contributions;           // [cells] or empty
+    std::vector<uint8_t> isLocked;               // [cells]
+    std::vector<std::vector<uint32_t>> members;  // [cells] of faced_
+  };
+  MergedFoam beginRound() const;
+  MergedFoam mergeRound(MergedFoam& before, std::span<const CellPair> pairs) const;
   void dropOthers();
   void dropSteiner(std::vector<uint32_t>& steiner);
   void listCells();
@@ -56,15 +70,15 @@ class Coarsening {
   Foam faces_;                         // on the lattices
   std::vector<double> contributions_;  // [faced_] or empty
 
-  std::vector<CellPair> pairs_;     // of faced_
-  Foam merged_;                     // [pairs_]
-  BakeCells mergedCells_;           // the same on the lattices
-  std::vector<uint8_t> isUndone_;   // [pairs_]
-  std::vector<uint32_t> pairOf_;    // [fine cells] kNoPair: merges with no other
-  std::vector<uint8_t> isDropped_;  // [fine cells]
+  std::vector<std::vector<uint32_t>> clusters_;  // cells that become one, of faced_
+  Foam merged_;                                  // [clusters_]
+  BakeCells mergedCells_;                        // the same on the lattices
+  std::vector<uint8_t> isUndone_;                // [clusters_]
+  std::vector<uint32_t> clusterOf_;              // [fine cells] kNoCluster: merges with no other
+  std::vector<uint8_t> isDropped_;               // [fine cells]
 
   // Of the triangulation: kept cells of the fine form, merged cells, the ring.
-  std::vector<uint32_t> kept_, standing_;  // indices of the fine form; of pairs_
+  std::vector<uint32_t> kept_, standing_;  // indices of the fine form; of clusters_
   std::vector<glm::vec3> sites_;
   std::vector<float> radii_;
   RegularTriangulation triangulation_;
@@ -95,17 +109,65 @@ void Coarsening::gatherFaces() {
   }
 }
 
+// In rounds: cells that show little merge again, and fewer of the others have to.
 void Coarsening::merge() {
-  std::vector<uint8_t> isLocked;
-  for (const uint32_t i : faced_) isLocked.push_back(fine_.isLocked[i] || !fine_.isLive[i]);
-  pairs_ = choosePairs(faces_, isLocked, contributions_, form_.liveCount / 2);
-  merged_ = mergePairs(faces_, pairs_, contributions_);
-  mergedCells_ = snapCells(merged_, source_.lattices);
-  isUndone_.assign(pairs_.size(), 0);
-  pairOf_.assign(fine_.count(), kNoPair);
-  for (uint32_t k = 0; k < pairs_.size(); ++k) {
-    pairOf_[faced_[pairs_[k].first]] = pairOf_[faced_[pairs_[k].second]] = k;
+  MergedFoam round = beginRound();
+  const auto most = static_cast<size_t>(kMostMerged * (form_.liveCount - form_.lockedLive));
+  for (size_t left = std::min<size_t>(form_.liveCount / 2, most); left > 0;) {
+    const size_t ofRound = std::min<size_t>(left, form_.liveCount / kRoundPart);
+    const std::vector<CellPair> pairs =
+        choosePairs(round.cells, round.isLocked, round.contributions, ofRound, source_.eyes);
+    if (pairs.size() < form_.liveCount / kLeastRoundPart + 1) break;
+    round = mergeRound(round, pairs);
+    left -= pairs.size();
   }
+  std::vector<uint32_t> merged;
+  clusterOf_.assign(fine_.count(), kNoCluster);
+  for (uint32_t cell = 0; cell < round.cells.cellCount; ++cell) {
+    if (round.members[cell].size() < 2) continue;
+    for (const uint32_t member : round.members[cell]) clusterOf_[faced_[member]] = static_cast<uint32_t>(merged.size());
+    merged.push_back(cell);
+    clusters_.push_back(std::move(round.members[cell]));
+  }
+  appendCells(round.cells, merged, merged_);
+  mergedCells_ = snapCells(merged_, source_.lattices);
+  isUndone_.assign(clusters_.size(), 0);
+}
+
+Coarsening::MergedFoam Coarsening::beginRound() const {
+  MergedFoam round{faces_, contributions_, {}, {}};
+  for (uint32_t k = 0; k < faced_.size(); ++k) {
+    round.isLocked.push_back(fine_.isLocked[faced_[k]] || !fine_.isLive[faced_[k]]);
+    round.members.push_back({k});
+  }
+  return round;
+}
+
+// Cells in no pair stay, in order; the merged ones come behind them.
+Coarsening::MergedFoam Coarsening::mergeRound(MergedFoam& before, std::span<const CellPair> pairs) const {
+  const Foam merged = mergePairs(before.cells, pairs, before.contributions, source_.eyes);
+  std::vector<uint8_t> isPaired(before.cells.cellCount, 0);
+  for (const CellPair& pair : pairs) isPaired[pair.first] = isPaired[pair.second] = 1;
+  MergedFoam after;
+  std::vector<uint32_t> kept, all(merged.cellCount);
+  for (uint32_t cell = 0; cell < before.cells.cellCount; ++cell) {
+    if (isPaired[cell]) continue;
+    kept.push_back(cell);
+    after.isLocked.push_back(before.isLocked[cell]);
+    after.members.push_back(std::move(before.members[cell]));
+    if (!before.contributions.empty()) after.contributions.push_back(before.contributions[cell]);
+  }
+  for (const CellPair& pair : pairs) {
+    std::vector<uint32_t>& members = after.members.emplace_back(std::move(before.members[pair.first]));
+    members.insert(members.end(), before.members[pair.second].begin(), before.members[pair.second].end());
+    after.isLocked.push_back(0);
+    if (before.contributions.empty()) continue;
+    after.contributions.push_back(before.contributions[pair.first] + before.contributions[pair.second]);
+  }
+  std::iota(all.begin(), all.end(), 0u);
+  appendCells(before.cells, kept, after.cells);
+  appendCells(merged, all, after.cells);
+  return after;
 }
 
 // Cells that are not live and cut no live one leave no trace in an image.
@@ -129,7 +191,7 @@ void Coarsening::dropOthers() {
 void Coarsening::dropSteiner(std::vector<uint32_t>& steiner) {
   const auto radiusOf = [&](uint32_t i) { return source_.cells.radii[fine_.cells[i]]; };
   std::stable_sort(steiner.begin(), steiner.end(), [&](uint32_t a, uint32_t b) { return radiusOf(a) > radiusOf(b); });
-  std::vector<uint32_t> all(pairs_.size());
+  std::vector<uint32_t> all(clusters_.size());
   std::iota(all.begin(), all.end(), 0u);
   const SiteTree tree(mergedCells_.sites, mergedCells_.radii, all);
   for (size_t k = 0; k < steiner.size(); ++k) {
@@ -149,11 +211,11 @@ void Coarsening::listCells() {
     radii_.push_back(source_.cells.radii[cell]);
   };
   for (uint32_t i = 0; i < fine_.count(); ++i) {
-    if (isDropped_[i] || (pairOf_[i] != kNoPair && !isUndone_[pairOf_[i]])) continue;
+    if (isDropped_[i] || (clusterOf_[i] != kNoCluster && !isUndone_[clusterOf_[i]])) continue;
     kept_.push_back(i);
     addCell(fine_.cells[i]);
   }
-  for (uint32_t k = 0; k < pairs_.size(); ++k) {
+  for (uint32_t k = 0; k < clusters_.size(); ++k) {
     if (isUndone_[k]) continue;
     standing_.push_back(k);
     sites_.push_back(mergedCells_.sites[k]);
@@ -251,12 +313,12 @@ void Coarsening::measure() {
   std::vector<uint32_t> unmerged;
   for (uint32_t k = 0; k < faced_.size(); ++k) {
     const uint32_t i = faced_[k];
-    if (!isDropped_[i] && (pairOf_[i] == kNoPair || isUndone_[pairOf_[i]])) unmerged.push_back(k);
+    if (!isDropped_[i] && (clusterOf_[i] == kNoCluster || isUndone_[clusterOf_[i]])) unmerged.push_back(k);
   }
   Foam coarse;
   appendCells(faces_, unmerged, coarse);
   appendCells(merged_, standing_, coarse);
-  form_.error = measureFormDistance(faces_, coarse);
+  form_.distance = measureFormDistance(faces_, coarse);
 }
 
 Result<CoarseForm> Coarsening::run() {
@@ -272,17 +334,19 @@ Result<CoarseForm> Coarsening::run() {
     if (Status status = triangulate(); !status) return status.error();
   } while (undoFaults() || dropHidden());
 
-  form_.isWorthwhile = form_.liveCount - standing_.size() <= kWorthwhileShare * form_.liveCount;
+  size_t liveLeft = form_.liveCount;
+  for (const uint32_t k : standing_) liveLeft -= clusters_[k].size() - 1;
+  form_.isWorthwhile = static_cast<double>(liveLeft) <= kWorthwhileShare * form_.liveCount;
   if (!form_.isWorthwhile) return std::move(form_);
   if (Status status = checkBorder(); !status) return status.error();
   fillRows();
   measure();
   for (const uint32_t i : kept_) form_.kept.push_back(fine_.cells[i]);
   appendCells(merged_, standing_, form_.merged);
+  if (contributions_.empty()) return std::move(form_);
   for (const uint32_t k : standing_) {
-    if (!contributions_.empty()) {
-      form_.contributions.push_back(contributions_[pairs_[k].first] + contributions_[pairs_[k].second]);
-    }
+    double& sum = form_.contributions.emplace_back(0);
+    for (const uint32_t member : clusters_[k]) sum += contributions_[member];
   }
   return std::move(form_);
 }

@@ -19,6 +19,7 @@ struct LevelSource {
   const Foam& merged;  // BakeCells::sources continue into it
   const BakeCells& cells;
   const std::vector<double>& contributions;  // [input cells, merged cells] how much each shows; empty: all alike
+  const std::vector<glm::vec3>& eyes;        // from where the foam is seen; may be empty
   const Quantization& lattices;
 };
 
@@ -29,7 +30,7 @@ struct CoarseForm {
   std::vector<uint8_t> isEmpty;       // [kept and merged cells] no bounded cell
   // Rows of kept, then merged cells; neighbours are these cells by index, and behind them the ring of the fine form.
   CellRows rows;
-  double error = 0;  // [scene units] as measured
+  double distance = 0;  // form_distance.h [scene units]
 
   uint32_t lockedLive = 0, liveCount = 0;  // of the fine form
   uint32_t undone = 0, rounds = 0;         // LevelReport

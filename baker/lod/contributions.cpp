@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "baker/lod/detail_sharpness.h"
+#include "baker/lod/shrink_view.h"
 #include "reference/render/reference_state.h"
 
 namespace froth {
@@ -13,12 +14,6 @@ namespace {
 
 constexpr float kShownCutoff = 1e-3f;        // of the runtime
 constexpr float kShownFixedPoint = 0x1p28f;  // sums are integers: their order does not matter
-
-View shrinkView(const View& view, uint32_t pixels) {
-  const double scale = std::min(1.0, std::sqrt(pixels / (double(view.width) * view.height)));
-  const auto reduce = [&](uint32_t size) { return std::max(1u, static_cast<uint32_t>(std::lround(size * scale))); };
-  return resizeView(view, reduce(view.width), reduce(view.height));
-}
 
 }  // namespace
 

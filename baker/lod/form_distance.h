@@ -5,8 +5,8 @@
 
 namespace froth {
 
-// The RMS distance of the fine cells from the nearest coarse ones [scene units]. Errors of groups are this distance:
-// what images show of them (baker/lod/group_error.h) is no useful threshold yet, see docs/notes/levels.md.
+// The RMS distance of the fine cells from the nearest coarse ones [scene units]: what the error of a group is guessed
+// from where no view sees it (baker/lod/level_errors.h).
 double measureFormDistance(const Foam& fine, const Foam& coarse);
 
 }  // namespace froth

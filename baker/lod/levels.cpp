@@ -16,21 +16,30 @@
 #include "baker/lod/chunk_groups.h"
 #include "baker/lod/coarse_form.h"
 #include "baker/lod/fine_form.h"
+#include "baker/lod/gather_cells.h"
 #include "baker/lod/group_balls.h"
+#include "baker/lod/level_errors.h"
 #include "foam/append_cells.h"
+#include "reference/camera/view_rays.h"
 
 namespace froth {
 namespace {
 
 constexpr uint32_t kGroupChunks = 4;  // full ones, of a group
-constexpr double kFloorShare = 0.02;  // of level 0's live cells: small enough to be the floor
-// An error grows at least by this factor from a group to those coarser, so that it does as a float too.
-constexpr double kErrorStep = 1 + 0x1p-20;
+// Coarser levels are drawn where what merging does shows little; what coding does on top may be as much coarser.
+constexpr double kMergedWeight = 0x1p-3;  // of a merged cell's errors, where one of level 0 that shows as much has 1
+constexpr double kFloorShare = 0.02;      // of level 0's live cells: small enough to be the floor
 
 class LevelMaker {
  public:
   LevelMaker(const LevelInput& input, BakeCells& cells, const Progress& progress)
-      : input_(input), cells_(cells), progress_(progress), contributions_(input.contributions) {}
+      : input_(input),
+        cells_(cells),
+        progress_(progress),
+        contributions_(input.contributions),
+        errors_(input.views, {input.nearRatio, input.nearDepth}) {
+    for (const View& view : input.views) eyes_.emplace_back(eyeOf(view));
+  }
 
   Result<Levels> run();
 
@@ -45,7 +54,7 @@ class LevelMaker {
     Status status;
   };
 
-  void takeLevel0();
+  Status takeLevel0();
   bool isFloor() const;
   Status makeLevel();
   bool forEachStep(std::vector<Step>& steps, const std::function<void(Step&)>& work);
@@ -53,12 +62,15 @@ class LevelMaker {
   void weighMergedCells(size_t count);
   void splitForm(Step& step) const;
   void addGroup(Step& step);
+  Status measureFront(uint32_t firstGroup);
   Levels collect();
 
   const LevelInput& input_;
   BakeCells& cells_;
   const Progress& progress_;
   std::vector<double> contributions_;  // [input cells, merged cells] or empty
+  std::vector<glm::vec3> eyes_;        // of the views
+  LevelErrors errors_;
 
   std::vector<LevelChunk> chunks_;
   std::vector<uint32_t> front_;  // chunks that may get coarser
@@ -66,11 +78,18 @@ class LevelMaker {
   Levels levels_;
 };
 
-void LevelMaker::takeLevel0() {
+Status LevelMaker::takeLevel0() {
+  std::vector<uint32_t> owners(input_.foam.cellCount, kNoOwner);
   for (const PlannedChunk& planned : input_.plan.chunks) {
-    front_.push_back(static_cast<uint32_t>(chunks_.size()));
+    const auto chunk = static_cast<uint32_t>(chunks_.size());
+    for (const uint32_t cell : planned.cells) {
+      if (cells_.sources[cell] != kNoSource) owners[cells_.sources[cell]] = chunk;
+    }
+    front_.push_back(chunk);
     chunks_.push_back({planned, gatherRows(input_.walk, input_.alpha, planned.cells), {}});
   }
+  if (!errors_.isMeasuring() || isFloor()) return {};
+  return errors_.takeFinest(input_.foam, owners, progress_);
 }
 
 uint64_t countLive(const std::vector<LevelChunk>& chunks, const std::vector<uint32_t>& listed) {
@@ -101,7 +120,7 @@ Status LevelMaker::makeLevel() {
   for (std::vector<uint32_t>& group : groupChunks(chunks_, front_, cells_.count(), groupLive)) {
     steps.emplace_back().group = std::move(group);
   }
-  const LevelSource source{input_.foam, levels_.merged, cells_, contributions_, input_.lattices};
+  const LevelSource source{input_.foam, levels_.merged, cells_, contributions_, eyes_, input_.lattices};
   const auto makeForm = [&](Step& step) {
     FineForm fine = makeFineForm(chunks_, step.group);
     step.form = makeCoarseForm(source, fine);
@@ -111,12 +130,13 @@ Status LevelMaker::makeLevel() {
   if (Status status = addMergedCells(steps); !status) return status;
   if (!forEachStep(steps, [&](Step& step) { splitForm(step); })) return stoppedOnRequest("bake");
   front_.clear();
+  const auto firstGroup = static_cast<uint32_t>(levels_.groups.size());
   for (Step& step : steps) {
     if (!step.status) return step.status;
     if ((*step.form)->isWorthwhile) addGroup(step);
   }
   ++level_;
-  return {};
+  return measureFront(firstGroup);
 }
 
 // In the order of groups, so that each cell's number is the same on any number of threads.
@@ -152,7 +172,8 @@ void LevelMaker::weighMergedCells(size_t count) {
   const auto newest = std::span(contributions_).last(contributions_.empty() ? 0 : count);
   const double sum = std::accumulate(newest.begin(), newest.end(), 0.0);
   for (const double contribution : newest) {
-    levels_.mergedWeights.push_back(sum > 0 ? static_cast<float>(contribution * static_cast<double>(count) / sum) : 1);
+    const double share = sum > 0 ? contribution * static_cast<double>(count) / sum : 1;
+    levels_.mergedWeights.push_back(static_cast<float>(kMergedWeight * share));
   }
 }
 
@@ -196,11 +217,10 @@ void LevelMaker::splitForm(Step& step) const {
   }
 }
 
-// Its error and its ball hold those of the groups that made its chunks.
+// Its ball holds those of the groups that made its chunks.
 void LevelMaker::addGroup(Step& step) {
   const auto number = static_cast<uint32_t>(levels_.groups.size());
   std::vector<GroupBall> balls;
-  double error = (*step.form)->error;
   for (const uint32_t index : step.group) {
     LevelChunk& chunk = chunks_[index];
     chunk.place.in = number;
@@ -208,7 +228,6 @@ void LevelMaker::addGroup(Step& step) {
     if (chunk.place.madeBy == kNoGroup) continue;
     const LevelGroup& finer = levels_.groups[chunk.place.madeBy];
     balls.push_back({{finer.centre[0], finer.centre[1], finer.centre[2]}, finer.radius});
-    error = std::max(error, finer.error * kErrorStep);
   }
   for (LevelChunk& chunk : step.made) {
     chunk.place = {level_ + 1, number, kNoGroup};
@@ -217,13 +236,40 @@ void LevelMaker::addGroup(Step& step) {
     chunks_.push_back(std::move(chunk));
   }
   const GroupBall bound = boundBalls(balls);
-  // An error of 0 could not grow.
-  error = std::max(error, bound.radius * 0x1p-40);
-  levels_.groups.push_back({{bound.centre.x, bound.centre.y, bound.centre.z}, bound.radius, error, level_});
+  levels_.groups.push_back(
+      {{bound.centre.x, bound.centre.y, bound.centre.z}, bound.radius, (*step.form)->distance, level_});
+}
+
+// All cells as the newest groups leave them: those of the chunks that are in no group.
+Status LevelMaker::measureFront(uint32_t firstGroup) {
+  const auto groupCount = static_cast<uint32_t>(levels_.groups.size());
+  if (!errors_.isMeasuring() || firstGroup == groupCount) return {};
+  std::vector<uint32_t> shown, sources, owners;
+  std::vector<float> densities;
+  for (uint32_t index = 0; index < chunks_.size(); ++index) {
+    const LevelChunk& chunk = chunks_[index];
+    if (chunk.place.in != kNoGroup) continue;
+    for (uint32_t local = 0; local < chunk.planned.cells.size(); ++local) {
+      const uint32_t cell = chunk.planned.cells[local];
+      if (cells_.sources[cell] == kNoSource) continue;
+      shown.push_back(cell);
+      sources.push_back(cells_.sources[cell]);
+      owners.push_back(index);
+      densities.push_back(local < chunk.planned.liveCount ? cells_.densities[cell] : 0);
+    }
+  }
+  Foam front = gatherCells(input_.foam, levels_.merged, sources);
+  for (size_t k = 0; k < shown.size(); ++k) {
+    front.sites[k] = cells_.sites[shown[k]];
+    front.radii[k] = cells_.radii[shown[k]];
+  }
+  front.densities = std::move(densities);
+  return errors_.addLevel(front, owners, chunks_, firstGroup, groupCount, progress_);
 }
 
 Levels LevelMaker::collect() {
   if (levels_.groups.empty()) return {};
+  errors_.finish(chunks_, levels_.groups);
   const auto rank = [&](uint32_t chunk) {
     const ChunkLevel& place = chunks_[chunk].place;
     return std::pair(place.in != kNoGroup, -int64_t{place.level});
@@ -242,7 +288,7 @@ Levels LevelMaker::collect() {
 }
 
 Result<Levels> LevelMaker::run() {
-  takeLevel0();
+  if (Status status = takeLevel0(); !status) return status.error();
   while (!isFloor()) {
     if (Status status = makeLevel(); !status) return status.error();
   }

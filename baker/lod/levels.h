@@ -11,6 +11,7 @@
 #include "base/result.h"
 #include "foam/foam.h"
 #include "format/asset_contents.h"
+#include "reference/camera/camera.h"
 
 namespace froth {
 
@@ -20,8 +21,10 @@ struct LevelInput {
   const CellGraph& alpha;  // part of it
   const ChunkPlan& plan;   // of level 0
   const Quantization& lattices;
-  uint32_t chunkCells;                // most live cells of a chunk
-  std::vector<double> contributions;  // [input cells] how much each shows; empty: all alike
+  uint32_t chunkCells;                  // most live cells of a chunk
+  std::vector<double> contributions;    // [input cells] how much each shows; empty: all alike
+  std::vector<View> views;              // what errors are measured in; empty: errors are distances between forms
+  double nearRatio = 4, nearDepth = 0;  // where a view does not say
 };
 
 struct Levels {
@@ -32,8 +35,8 @@ struct Levels {
   uint32_t borderCount = 0;
   std::vector<LevelGroup> groups;  // none: nothing gets coarser, and all else is empty
   Foam merged;                     // BakeCells::sources continue into it
-  // [merged cells] how much each shows, of its level 1 on average: a level is seen from where its cells look as large
-  // as those of level 0 do to the cameras. Empty: all alike
+  // [merged cells] what errors of its colours weigh, by how much it shows in its level: that is seen from where its
+  // cells look as large as those of level 0 do to the cameras. Empty: all alike
   std::vector<float> mergedWeights;
   std::vector<LevelReport> reports;
 };

@@ -19,7 +19,6 @@
 #include "baker/input/foam_input.h"
 #include "baker/lod/choose_pairs.h"
 #include "baker/lod/contributions.h"
-#include "baker/lod/group_error.h"
 #include "baker/lod/merge_cells.h"
 #include "base/image/mean_square.h"
 #include "foam/foam_arrays.h"
@@ -124,7 +123,6 @@ class LevelsBench {
       std::vector<double> shown;
       for (const uint32_t cell : group) shown.push_back(contributions[cell]);
       const Foam made = mergeRounds(fine, std::move(shown));
-      measureError(fine, made);
       append(made, coarse);
     }
     compare(coarse);
@@ -209,16 +207,6 @@ class LevelsBench {
     reference.nearDepth = view.nearDepth.value_or(double{input_.nearDepth});
     return decibels(meanSquare(reduce(valueOf(fine_.render(sized, reference)).colour, rays),
                                reduce(valueOf(after.render(sized, reference)).colour, rays)));
-  }
-
-  void measureError(const Foam& fine, const Foam& coarse) const {
-    std::vector<ErrorAtSize> curve;
-    const double seconds = secondsOf([&] { curve = measureErrorCurve(fine, coarse, 1, eyes_); });
-    fmt::print("error of {} cells, {:.2f} s:\n", fine.cellCount, seconds);
-    for (const ErrorAtSize& point : curve) {
-      fmt::print("  pixel of {:.4f}: worst {:.2f} dB\n", point.pixel, decibels(point.worst));
-    }
-    fmt::print("  error {:.4f}\n", measureGroupError(fine, coarse, 1, eyes_));
   }
 
   const Options& options_;

@@ -12,20 +12,6 @@ inline Foam withOneColour(Foam foam, const glm::vec3& colour) {
   return foam;
 }
 
-// Half as bright, or any other part.
-inline Foam withDimmedColours(Foam foam, float factor) {
-  for (glm::vec3& lobe : foam.lobeColours) lobe = (lobe + 0.5f) * factor - 0.5f;
-  return foam;
-}
-
-// The same foam in other units.
-inline Foam scaleFoam(Foam foam, float factor) {
-  for (glm::vec3& site : foam.sites) site *= factor;
-  for (float& radius : foam.radii) radius *= factor;
-  for (float& density : foam.densities) density /= factor;
-  return foam;
-}
-
 // Base colours in the place of lobes.
 inline Foam withBaseColours(Foam foam) {
   foam.lobeCount = 0;
