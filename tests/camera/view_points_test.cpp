@@ -44,7 +44,9 @@ TEST(ViewPoints, PlacesBehindAndBesideAreNotSeen) {
   const ViewPoints points(view);
   EXPECT_TRUE(points.of({9, 6, 7}));  // it looks along x
   EXPECT_FALSE(points.of({1, 6, 7}));
-  EXPECT_FALSE(points.of({6, 16, 7}));
+  for (const glm::dvec3& place : {glm::dvec3(6, 16, 7), {6, -4, 7}, {6, 6, 17}, {6, 6, -3}}) {
+    EXPECT_FALSE(points.of(place));
+  }
   EXPECT_FALSE(points.of({5, 6, 7}));  // in the eye
   EXPECT_FALSE(ViewPoints(viewWith(LensKind::kOrthographic, {})).of({9, 6, 7}));
   // Far off the axis this distortion folds the image over.
