@@ -21,7 +21,7 @@ class CellPlanOf : public ::testing::Test {
     for (uint32_t i = 0; i < kCells; ++i) {
       foam_.balls[i] = ballOfCell(i);
       foam_.contributions[i] = i % 20 == 0 ? 0.0f : 0.01f;
-      foam_.errors[i] = i == 77 ? 1.0f : 1e-3f;
+      foam_.errors[i] = 1e-3f;
       foam_.firstMoments[0][3 * i] = float(i);
       foam_.lastSteps[i] = i;
     }
@@ -56,14 +56,13 @@ TEST_F(CellPlanOf, IsThatOfItsSeed) {
   EXPECT_NE(plan(250, 1).sources, plan(250, 2).sources);
 }
 
-// Weighed by error alone cell 77 has a key 1000 times ahead, but for errors beyond a percentile, which are trimmed.
 TEST_F(CellPlanOf, DrawsParentsByTheirError) {
   for (uint32_t i = 0; i < kCells; ++i) foam_.errors[i] = i < 40 ? 1.0f : 1e-6f;
   const CellPlan made = plan(210);
   std::map<uint32_t, int> copies;
   for (const uint32_t source : made.sources) ++copies[source];
   for (const auto& [source, count] : copies) {
-    if (count == 2) EXPECT_LT(source, 40u);
+    EXPECT_TRUE(count == 1 || source < 40) << source;
   }
 }
 
@@ -76,7 +75,7 @@ TEST_F(CellPlanOf, PartsParentAndChildOnTheFaceAndCopiesTheRest) {
     shiftSums[source] += made.shifts[i];
     EXPECT_EQ(made.shifts[i].x, 0);  // the normal is x
     const bool isSplit = made.shifts[i] != glm::vec3(0);
-    if (isSplit) EXPECT_NEAR(glm::length(made.shifts[i]), 0.05f * 0.5f, 1e-6);
+    EXPECT_NEAR(glm::length(made.shifts[i]), isSplit ? 0.05f * 0.5f : 0, 1e-6);
     EXPECT_EQ(next.values[0][3 * i + 1], foam_.values[0][3 * source + 1] + made.shifts[i].y);
     EXPECT_EQ(next.firstMoments[0][3 * i], float(source));
     EXPECT_EQ(next.lastSteps[i], source);

@@ -19,15 +19,15 @@ double meanOf(const std::vector<double>& values) {
 TEST(Training, OfTheGalleryReaches28DecibelsOnViewsItDoesNotKnow) {
   const test::GalleryCapture gallery = test::makeGalleryCapture(96, 64);
   TrainOptions options;
-  options.schedule.steps = 600;
-  options.schedule.startCells = 2000;
-  options.schedule.mostCells = 3000;
+  options.schedule.steps = 1000;
+  options.schedule.startCells = 3000;
+  options.schedule.mostCells = 4000;
   options.detailCount = 4;
   options.lobeCount = 2;
   const Result<TrainResult> result = trainScene(gallery.capture, gallery.set, options, makeCpuExecutor);
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_GE(meanOf(result->testPsnrs), 28);
-  EXPECT_EQ(result->foam.cellCount, 3000u);
+  EXPECT_EQ(result->foam.cellCount, 4000u);
   EXPECT_EQ(result->droppedCount, 0u);
 }
 

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "foam/pick_foam.h"
-#include "trainer/cpu/cpu_executor.h"
 #include "trainer/cpu/foam_exchange.h"
+#include "trainer/loop/cpu_executor.h"
 #include "trainer/loop/evaluate.h"
 #include "trainer/loop/state_file.h"
 #include "trainer/loop/training_loop.h"
