@@ -16,6 +16,7 @@
 #include "measure/report/report.h"
 #include "measure/sweep/assemble.h"
 #include "measure/sweep/features.h"
+#include "measure/sweep/levels.h"
 #include "measure/sweep/search.h"
 #include "measure/sweep/slopes.h"
 #include "reference/capture/view_selection.h"
@@ -87,8 +88,14 @@ Result<bool> canWalk(const ReportOptions& options, bool hasFoam) {
 }
 
 // Those of --knobs, by their names up to a comma: "cutoff" is the cut-off with all else exact too.
-Result<std::vector<Knob>> chooseKnobs(const ReportOptions& options, bool hasFoam, bool walks) {
-  std::vector<Knob> knobs = drawingKnobs(walks);
+Result<std::vector<Knob>> chooseKnobs(const ReportOptions& options, bool hasFoam, const Bench& bench,
+                                      SweepReferences& references, const Progress& progress) {
+  std::vector<Knob> knobs = drawingKnobs(bench.walks);
+  if (!hasFoam && !options.isCpu) {
+    const Result<std::vector<Knob>> levels = prepareLevels(bench, references, progress);
+    if (!levels) return levels.error();
+    knobs.insert(knobs.end(), levels->begin(), levels->end());
+  }
   if (hasFoam) {
     for (Knob& knob : encodingKnobs()) {
       if (!options.isCpu || knob.method == Method::kRaster) knobs.push_back(std::move(knob));
@@ -209,14 +216,14 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
   if (!signature) return signature.error();
   Result<ReportLog> log = ReportLog::open(*work / "points.jsonl", *signature, options.resumes);
   if (!log) return log.error();
-  const Result<SweepReferences> references = SweepReferences::create(*input, views, options.photos, progress);
+  Result<SweepReferences> references = SweepReferences::create(*input, views, options.photos, progress);
   if (!references) return references.error();
 
   BakeCache bakes(*input, *cameras, *work, hasFoam ? std::filesystem::path() : options.input);
   const Result<bool> walks = canWalk(options, hasFoam);
   if (!walks) return walks.error();
   const Bench bench{bakes, **renderer, *references, views, *log, options.rounds, *walks};
-  const Result<std::vector<Knob>> knobs = chooseKnobs(options, hasFoam, *walks);
+  const Result<std::vector<Knob>> knobs = chooseKnobs(options, hasFoam, bench, *references, progress);
   if (!knobs) return knobs.error();
   PointList points(options.isCpu);
   points.add(defaultConfig(), {}, true);

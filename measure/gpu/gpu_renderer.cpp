@@ -1,5 +1,6 @@
 #include "measure/gpu/gpu_renderer_state.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -119,6 +120,16 @@ Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& pr
   }
 }
 
+Result<std::vector<FrothChunk>> GpuRenderer::State::chunks() const {
+  uint32_t count = 0;
+  Status asked = check(frothGetChunks(context, asset, 0, nullptr, &count), "frothGetChunks");
+  if (!asked) return asked.error();
+  std::vector<FrothChunk> chunks(count);
+  asked = check(frothGetChunks(context, asset, count, chunks.data(), &count), "frothGetChunks");
+  if (!asked) return asked.error();
+  return chunks;
+}
+
 Status GpuRenderer::State::place(const std::vector<FrothInstanceInfo>& placements) {
   for (FrothInstanceInfo info : placements) {
     info.structSize = sizeof(info);
@@ -229,6 +240,7 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
     return check(infoOf(method).record(context, view, commands, &info), infoOf(method).call);
   };
   FrothViewStatus status{};
+  bool wasSettled = !hasLevels;
   for (int attempt = 0; attempt <= kMaxRedraws; ++attempt) {
     if (isStopRequested()) return stoppedError();
     if (Status drawn = submitFrame(record); !drawn) return drawn.error();
@@ -241,7 +253,10 @@ Result<FrothViewStatus> GpuRenderer::State::drawAndAsk(const FrothRenderInfo& wa
     }
     const Result<bool> settled = isSettled();
     if (!settled) return settled.error();
-    if (!*settled) {
+    // What a camera wants is known after its first frame, and may be there before the next one.
+    const bool isOfWanted = *settled && wasSettled;
+    wasSettled = *settled || !hasLevels;
+    if (!isOfWanted) {
       attempt = -1;  // another cut is drawn next, which may want more room
     } else if ((status.bits & (FROTH_VIEW_CELL_OVERFLOW | FROTH_VIEW_PAIR_OVERFLOW)) == 0) {
       break;
@@ -298,6 +313,9 @@ Status GpuRenderer::load(const AssetInput& asset, const Progress& progress,
   state_->lastMessage.clear();
   if (Status closed = state_->closeAsset(); !closed) return closed;
   if (Status opened = state_->openAsset(asset, progress); !opened) return opened;
+  const Result<std::vector<FrothChunk>> chunks = state_->chunks();
+  if (!chunks) return chunks.error();
+  state_->hasLevels = std::ranges::any_of(*chunks, [](const FrothChunk& chunk) { return chunk.level > 0; });
   return state_->place(placements);
 }
 
@@ -326,6 +344,26 @@ Result<FrothViewStatus> GpuRenderer::draw(const View& view, const GpuRenderOptio
   if (Status ready = state_->setRayMap(view); !ready) return ready.error();
   if (Status ready = state_->setSceneDepth(view, options); !ready) return ready.error();
   return state_->drawAndAsk(renderInfoOf(view, options), options.method);
+}
+
+Status GpuRenderer::setStreaming(const GpuStreaming& streaming) {
+  Status set = state_->check(frothSetBudget(state_->context, streaming.budget), "frothSetBudget");
+  if (!set) return set;
+  auto info = makeStruct<FrothStreamInfo>();
+  info.detail = streaming.detail;
+  return state_->check(frothSetStreaming(state_->context, &info), "frothSetStreaming");
+}
+
+Result<DrawnChunks> GpuRenderer::drawnChunks() const {
+  const Result<std::vector<FrothChunk>> chunks = state_->chunks();
+  if (!chunks) return chunks.error();
+  DrawnChunks drawn;
+  for (const FrothChunk& chunk : *chunks) {
+    if (chunk.state != FROTH_CHUNK_DRAWN) continue;
+    drawn.bytes += chunk.deviceBytes;
+    drawn.liveCells += chunk.liveCount;
+  }
+  return drawn;
 }
 
 const HostDeviceInfo& GpuRenderer::device() const { return state_->host->info; }

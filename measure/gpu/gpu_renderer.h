@@ -50,6 +50,17 @@ struct RayOptions {
   const Image* ends = nullptr;  // as GpuRenderOptions::ends
 };
 
+// Levels of detail; without effect on assets that have none.
+struct GpuStreaming {
+  float detail = 1;     // FrothStreamInfo
+  uint64_t budget = 0;  // [bytes] frothSetBudget
+};
+
+struct DrawnChunks {
+  uint64_t bytes = 0;      // of device memory that they take
+  uint64_t liveCells = 0;  // that can be seen
+};
+
 // What the rays of a view's pixels say, each cast by itself and without a cut-off.
 struct RayFrame {
   RenderedImages images;  // colour is linear, empty of queries; alpha is 1 - transmittance; no normal
@@ -80,6 +91,10 @@ class GpuRenderer {
   // view do not apply.
   Result<RayFrame> castRays(const View& view, const RayOptions& options);
   Result<RayFrame> queryRays(const View& view, const RayOptions& options);
+
+  // From the next frame on, of whatever asset; images wait until what they want is drawn.
+  Status setStreaming(const GpuStreaming& streaming);
+  Result<DrawnChunks> drawnChunks() const;  // as of the newest frame
 
   const HostDeviceInfo& device() const;
   FrothAssetStatus assetStatus() const;  // zero without an asset

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "froth/froth_stream.h"
 #include "froth/froth_walk.h"
 #include "measure/gpu/gpu_renderer.h"
 
@@ -20,6 +21,7 @@ struct GpuRenderer::State {
   Status createContext(const GpuDeviceOptions& options);
   Status closeAsset();
   Status openAsset(const AssetInput& input, const Progress& progress);
+  Result<std::vector<FrothChunk>> chunks() const;
   Status place(const std::vector<FrothInstanceInfo>& placements);
   Status setExtent(VkExtent2D wanted, bool wantsAllChannels);
   // Uploads the view's ray map, if it has one.
@@ -46,7 +48,7 @@ struct GpuRenderer::State {
   FrothContext* context = nullptr;
   FrothAsset asset{};
   std::vector<FrothInstance> instances;
-  bool hasAsset = false;
+  bool hasAsset = false, hasLevels = false;
   FrothView view{};
   VkExtent2D extent{};
   HostImage colour, distance, normal, rays, sceneDepth;

@@ -33,6 +33,9 @@ const std::map<std::string, std::string (*)(double)> kFormats{{"psnr", decibels}
                                                               {"p95", shortNumber},
                                                               {"diskBytes", bytesOrNone},
                                                               {"residentBytes", bytesOrNone},
+                                                              {"drawnBytes", bytesOrNone},
+                                                              {"viewBytes", bytesOrNone},
+                                                              {"drawnCells", countText},
                                                               {"bakeSeconds", secondsOrNone},
                                                               {"cells", countText},
                                                               {"distanceError", shortNumber}};

@@ -29,4 +29,7 @@ nlohmann::ordered_json frontPlot(const Report& report, Cost cost, const std::vec
 nlohmann::ordered_json sweepPlots(const Report& report, const Sweep& sweep);  // a list
 nlohmann::ordered_json slopePlot(const Slope& slope);
 
+// What templates/levels.html asks for; null: the asset has no levels.
+nlohmann::ordered_json levelsOf(const Report& report);
+
 }  // namespace froth

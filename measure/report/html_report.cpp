@@ -171,6 +171,7 @@ std::string reportAsHtml(const Report& report) {
   for (size_t i = 0; i < report.sweeps.size(); ++i) completeSweep(report, report.sweeps[i], page["sweeps"][i]);
   for (size_t i = 0; i < report.slopes.size(); ++i) completeSlope(report.slopes[i], page["slopes"][i]);
   for (size_t i = 0; i < report.features.size(); ++i) completeFeature(report.features[i], page["features"][i]);
+  page["levels"] = levelsOf(report);
   for (const ReportImage& image : report.images) {
     page["images"].push_back({{"title", image.title}, {"caption", image.caption}, {"png", encodeBase64(image.png)}});
   }

@@ -53,12 +53,15 @@ struct ReportPoint {
   std::vector<Setting> settings;  // away from the default; empty: the default itself
   ErrorFigures errors;            // against the double reference of the unquantized foam
   std::optional<ErrorFigures> photoErrors;
+  std::optional<ErrorFigures> wholeErrors;  // of an asset with levels of detail: against all of its finest cells
   std::vector<ViewErrors> views;
   Interval total;                 // [ms]
   std::vector<PassTimes> passes;  // empty with --cpu
   uint64_t diskBytes = 0;
   uint64_t residentBytes = 0;  // asset and view on the GPU
-  double bakeSeconds = 0;      // 0: no bake of its own
+  // Most of a view: of the chunks that are drawn, and of the view itself; and cells that can be seen.
+  uint64_t drawnBytes = 0, viewBytes = 0, drawnCells = 0;
+  double bakeSeconds = 0;  // 0: no bake of its own
 };
 
 // A knob, alone, around the default.
@@ -126,6 +129,14 @@ struct Report {
   std::vector<ReportImage> images;  // empty with --no-images
   std::vector<std::string> notes;   // what was not measured, and why
 };
+
+// What is cheapest in bytes of those whose mean error over the views, against all cells, is small enough.
+struct LevelNeed {
+  double psnr = 0;                     // [dB] asked for
+  const ReportPoint* point = nullptr;  // null: none is good enough
+};
+std::vector<const ReportPoint*> levelPoints(const Report& report);  // where `detail` or `budget` alone is turned
+std::vector<LevelNeed> levelNeeds(const Report& report);            // empty: the asset has no levels
 
 // Images left out. Infinity and NaN, which JSON does not know, are the texts "inf", "-inf" and "nan".
 nlohmann::ordered_json reportAsJson(const Report& report);

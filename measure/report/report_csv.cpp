@@ -82,6 +82,11 @@ std::string reportAsCsv(const Report& report) {
                                 "msP95",
                                 "diskBytes",
                                 "residentBytes",
+                                "wholePsnr",
+                                "wholeMaxError",
+                                "drawnBytes",
+                                "viewBytes",
+                                "drawnCells",
                                 "bakeSeconds",
                                 "onTimeFront",
                                 "onBytesFront",
@@ -95,6 +100,9 @@ std::string reportAsCsv(const Report& report) {
     for (double value : {point.total.median, point.total.p5, point.total.p95}) row.push_back(field(value));
     row.push_back(std::to_string(point.diskBytes));
     row.push_back(std::to_string(point.residentBytes));
+    row.push_back(point.wholeErrors ? field(point.wholeErrors->psnr) : "");
+    row.push_back(point.wholeErrors ? field(point.wholeErrors->maxError) : "");
+    for (uint64_t count : {point.drawnBytes, point.viewBytes, point.drawnCells}) row.push_back(std::to_string(count));
     row.push_back(field(point.bakeSeconds));
     row.push_back(holds(report.frontOverTime, point.id) ? "1" : "0");
     row.push_back(holds(report.frontOverBytes, point.id) ? "1" : "0");

@@ -198,11 +198,15 @@ Json pointAsJson(const ReportPoint& point) {
   Json json = {
       {"id", point.id}, {"renderer", point.renderer}, {"settings", settings}, {"errors", errorsAsJson(point.errors)}};
   if (point.photoErrors) json["photoErrors"] = errorsAsJson(*point.photoErrors);
+  if (point.wholeErrors) json["wholeErrors"] = errorsAsJson(*point.wholeErrors);
   json["views"] = views;
   json["total"] = intervalAsJson(point.total);
   json["passes"] = passes;
   json["diskBytes"] = point.diskBytes;
   json["residentBytes"] = point.residentBytes;
+  json["drawnBytes"] = point.drawnBytes;
+  json["viewBytes"] = point.viewBytes;
+  json["drawnCells"] = point.drawnCells;
   json["bakeSeconds"] = figure(point.bakeSeconds);
   return json;
 }
@@ -215,11 +219,15 @@ Result<ReportPoint> pointFromJson(const Json& json) {
   reader.readList("settings", point.settings, readSetting);
   reader.readPart("errors", point.errors, readErrors);
   if (reader.has("photoErrors")) reader.readPart("photoErrors", point.photoErrors.emplace(), readErrors);
+  if (reader.has("wholeErrors")) reader.readPart("wholeErrors", point.wholeErrors.emplace(), readErrors);
   reader.readList("views", point.views, readView);
   reader.readPart("total", point.total, readInterval);
   reader.readList("passes", point.passes, readPass);
   reader.read("diskBytes", point.diskBytes);
   reader.read("residentBytes", point.residentBytes);
+  reader.read("drawnBytes", point.drawnBytes);
+  reader.read("viewBytes", point.viewBytes);
+  reader.read("drawnCells", point.drawnCells);
   reader.read("bakeSeconds", point.bakeSeconds);
   if (!reader.status()) return reader.status().error();
   return point;
@@ -246,6 +254,10 @@ Json reportAsJson(const Report& report) {
   for (const Slope& slope : report.slopes) json["slopes"].push_back(slopeAsJson(slope));
   json["features"] = Json::array();
   for (const FeatureCost& feature : report.features) json["features"].push_back(featureAsJson(feature));
+  json["levelNeeds"] = Json::array();
+  for (const LevelNeed& need : levelNeeds(report)) {
+    json["levelNeeds"].push_back({{"psnr", need.psnr}, {"point", need.point ? Json(need.point->id) : Json(nullptr)}});
+  }
   json["notes"] = report.notes;
   return json;
 }

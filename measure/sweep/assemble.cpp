@@ -97,7 +97,7 @@ void describeRun(const RunDescription& run, const Foam& foam, const Bench& bench
       "draws.",
       "Shading precision: the runtime computes in 32-bit float; it has no setting for less.",
       "Tile size: fixed, lists for 32 x 32 pixels, drawn 8 x 8 at a time; another size needs other shaders.",
-      "Level of detail: the layers; a hierarchy of merged cells does not exist yet."};
+      "Levels of detail are measured of an asset that has them (froth bake --lod): give it as the input."};
   if (!run.hasFoam) {
     report.notes.push_back(
         "The input is an asset: errors are against the foam that it holds, and its encoding is not turned. Give the "

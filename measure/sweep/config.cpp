@@ -16,8 +16,9 @@ std::string encodingKey(const ReportConfig& config) {
 }
 
 std::string configKey(const ReportConfig& config) {
-  return fmt::format("{} | {} c{} l{} m{} s{}", encodingKey(config), infoOf(config.method).name, config.cutoff,
-                     config.layers, config.maxSteps, config.pixelSize);
+  return fmt::format("{} | {} c{} l{} m{} s{} t{} u{}", encodingKey(config), infoOf(config.method).name, config.cutoff,
+                     config.layers, config.maxSteps, config.pixelSize, config.streaming.detail,
+                     config.streaming.budget);
 }
 
 ReportConfig defaultConfig() {

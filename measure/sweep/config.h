@@ -1,7 +1,9 @@
 // A configuration of everything that trades error for time or bytes, and the knobs that turn it.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,7 @@ struct ReportConfig {
   float cutoff = 1e-3f;  // 0: never
   uint32_t layers = 3;
   uint32_t maxSteps = 0;
+  GpuStreaming streaming;
   double pixelSize = 1;  // pixels of the output per pixel drawn, along a side
 };
 
@@ -51,6 +54,10 @@ struct Knob {
 std::vector<Knob> encodingKnobs();
 // Turn how it is drawn; walks: also those of the walk.
 std::vector<Knob> drawingKnobs(bool walks);
+
+// Turn which levels of detail are drawn, of an asset that has them; all of its finest cells take these bytes.
+std::vector<Knob> levelKnobs(uint64_t chunkBytes, uint64_t viewBytes);
+inline constexpr float kAllCells = std::numeric_limits<float>::max();  // GpuStreaming::detail
 
 // The default preset, and the exact asset at full precision.
 ReportConfig defaultConfig();

@@ -17,12 +17,16 @@ struct Draw {
   uint32_t layers = 3;
   GpuRenderOptions options;
   std::vector<View> views;
+  GpuStreaming streaming{};
 };
 
 struct DrawTimes {
   Interval total;                 // [ms] a frame, mean over the views
   std::vector<PassTimes> passes;  // empty on the CPU
   uint64_t residentBytes = 0;     // asset and view; 0 on the CPU
+  // Most of a view; 0 on the CPU.
+  DrawnChunks drawn{};
+  uint64_t viewBytes = 0;
 };
 
 // A round draws at least three cycles over the views, and all rounds at least `frames` frames.

@@ -18,10 +18,18 @@ struct CycleTimes {
   std::vector<double> totals;
   std::vector<std::string> passOrder;
   std::map<std::string, std::vector<double>> passes;
-  uint64_t residentBytes = 0;
+  uint64_t residentBytes = 0, viewBytes = 0;
+  DrawnChunks drawn;
+
+  void add(const FrothAssetStatus& asset, const FrothViewStatus& view, const DrawnChunks& chunks) {
+    residentBytes = std::max(residentBytes, asset.deviceBytes + view.deviceBytes);
+    viewBytes = std::max<uint64_t>(viewBytes, view.deviceBytes);
+    drawn.bytes = std::max(drawn.bytes, chunks.bytes);
+    drawn.liveCells = std::max(drawn.liveCells, chunks.liveCells);
+  }
 
   DrawTimes result() const {
-    DrawTimes times{intervalOf(totals), {}, residentBytes};
+    DrawTimes times{intervalOf(totals), {}, residentBytes, drawn, viewBytes};
     for (const std::string& pass : passOrder) times.passes.push_back({pass, intervalOf(passes.at(pass))});
     return times;
   }
@@ -85,6 +93,7 @@ class GpuSweepRenderer : public SweepRenderer {
 
  private:
   Status load(const Draw& draw, const Progress& progress) {
+    if (Status set = renderer_->setStreaming(draw.streaming); !set) return set;
     if (loaded_ == std::pair(draw.asset, draw.layers)) return {};
     loaded_ = {};
     std::optional<Warmth> warmth;
@@ -153,7 +162,9 @@ class GpuSweepRenderer : public SweepRenderer {
         passes[pass.name] += pass.milliseconds;
         total += pass.milliseconds;
       }
-      cycles.residentBytes = std::max(cycles.residentBytes, renderer_->assetStatus().deviceBytes + status->deviceBytes);
+      const Result<DrawnChunks> drawn = renderer_->drawnChunks();
+      if (!drawn) return drawn.error();
+      cycles.add(renderer_->assetStatus(), *status, *drawn);
     }
     const auto views = static_cast<double>(draw.views.size());
     cycles.totals.push_back(total / views);

@@ -223,4 +223,22 @@ std::vector<Knob> drawingKnobs(bool walks) {
   return knobs;
 }
 
+std::vector<Knob> levelKnobs(uint64_t chunkBytes, uint64_t viewBytes) {
+  constexpr double kMega = 1e6;
+  Knob detail = logarithmic(knobOf("detail", "Levels of detail: errors may be 1 / detail pixels large", "",
+                                   {1.0 / 64, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1, 2, 4},
+                                   [](ReportConfig& c, double v) { c.streaming.detail = static_cast<float>(v); }));
+  detail.values.push_back({"all cells", 8, [](ReportConfig& c) { c.streaming.detail = kAllCells; }});
+  Numbers budgets;  // chunks get half of what else is free (froth_stream.h)
+  for (const double share : {1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0}) {
+    budgets.push_back(
+        std::ceil((static_cast<double>(viewBytes) + 2 * share * static_cast<double>(chunkBytes)) / kMega));
+  }
+  Knob budget = logarithmic(
+      knobOf("budget", "Levels of detail: device memory for all of Froth; what the views want most comes first", "MB",
+             budgets, [](ReportConfig& c, double v) { c.streaming.budget = static_cast<uint64_t>(v * kMega); }));
+  budget.values.push_back({"no limit", 2 * budgets.back(), [](ReportConfig& c) { c.streaming.budget = 0; }});
+  return {detail, budget};
+}
+
 }  // namespace froth

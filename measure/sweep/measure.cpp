@@ -32,6 +32,7 @@ Status keepErrors(const Bench& bench, Result<PointErrors> errors, PlannedPoint& 
   if (!errors) return errors.error();
   planned.point.errors = errors->errors;
   planned.point.photoErrors = errors->photoErrors;
+  planned.point.wholeErrors = errors->wholeErrors;
   planned.point.views = std::move(errors->views);
   planned.hasErrors = true;
   return bench.log.append(planned.point);
@@ -68,6 +69,9 @@ Status measureTimes(const Bench& bench, const std::vector<PlannedPoint*>& points
     point.total = (*times)[i].total;
     point.passes = (*times)[i].passes;
     point.residentBytes = (*times)[i].residentBytes;
+    point.drawnBytes = (*times)[i].drawn.bytes;
+    point.drawnCells = (*times)[i].drawn.liveCells;
+    point.viewBytes = (*times)[i].viewBytes;
     points[i]->hasTimes = true;
     if (Status logged = bench.log.append(point); !logged) return logged;
   }
@@ -84,6 +88,7 @@ Draw drawOf(const Bench& bench, const ReportConfig& config) {
   draw.options.cutoff = config.cutoff;
   draw.options.maxSteps = config.maxSteps;
   draw.options.readsNormal = false;
+  draw.streaming = config.streaming;
   for (const SelectedView& view : bench.views) draw.views.push_back(shrink(view.view, config.pixelSize));
   return draw;
 }

@@ -145,9 +145,18 @@ Result<SweepReferences> SweepReferences::create(const FoamInput& input, const st
   return references;
 }
 
+Status SweepReferences::setWhole(std::vector<RenderedImages> images) {
+  for (RenderedImages& one : images) {
+    Result<ReferenceImage> prepared = prepareReference(std::move(one.colour));
+    if (!prepared) return prepared.error();
+    whole_.push_back(std::move(*prepared));
+  }
+  return {};
+}
+
 Result<PointErrors> SweepReferences::compare(std::vector<RenderedImages> images) const {
   PointErrors point;
-  std::vector<ErrorFigures> figures(images.size()), photoFigures(photos_.size());
+  std::vector<ErrorFigures> figures(images.size()), photoFigures(photos_.size()), wholeFigures(whole_.size());
   point.views.resize(images.size());
   std::vector<Status> statuses(images.size());
   tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
@@ -166,19 +175,24 @@ Result<PointErrors> SweepReferences::compare(std::vector<RenderedImages> images)
     errors->errors.distanceError = medianDistanceError(distance, distances_[i]);
     figures[i] = errors->errors;
     point.views[i] = *errors;
-    if (photos_.empty()) return;
-    const Result<ViewErrors> photo = compareColours(colour, photos_[i]);
-    if (photo) {
-      photoFigures[i] = photo->errors;
-    } else {
-      statuses[i] = photo.error();
-    }
+    const auto compareWith = [&](const std::vector<ReferenceImage>& others, std::vector<ErrorFigures>& found) {
+      if (others.empty()) return;
+      const Result<ViewErrors> compared = compareColours(colour, others[i]);
+      if (compared) {
+        found[i] = compared->errors;
+      } else {
+        statuses[i] = compared.error();
+      }
+    };
+    compareWith(photos_, photoFigures);
+    compareWith(whole_, wholeFigures);
   });
   for (const Status& status : statuses) {
     if (!status) return status.error();
   }
   point.errors = meanOf(figures);
   if (!photos_.empty()) point.photoErrors = meanOf(photoFigures);
+  if (!whole_.empty()) point.wholeErrors = meanOf(wholeFigures);
   return point;
 }
 

@@ -20,6 +20,7 @@ struct PointErrors {
   std::vector<ViewErrors> views;
   ErrorFigures errors;                      // mean over the views
   std::optional<ErrorFigures> photoErrors;  // the same against the photos
+  std::optional<ErrorFigures> wholeErrors;  // and against all cells of an asset with levels of detail
 };
 
 struct ReferenceImage {
@@ -34,6 +35,9 @@ class SweepReferences {
   static Result<SweepReferences> create(const FoamInput& input, const std::vector<SelectedView>& views,
                                         const std::filesystem::path& photos, const Progress& progress);
 
+  // What an asset with levels of detail shows with all of its finest cells.
+  Status setWhole(std::vector<RenderedImages> images);
+
   // One image per view, of its size or smaller: enlarged bilinearly then.
   Result<PointErrors> compare(std::vector<RenderedImages> images) const;
 
@@ -44,6 +48,7 @@ class SweepReferences {
   std::vector<ReferenceImage> exact_;
   std::vector<Image> distances_;
   std::vector<ReferenceImage> photos_;  // empty: none
+  std::vector<ReferenceImage> whole_;   // the same
 };
 
 // Means over views; PSNR of the mean square, maxError the largest.
