@@ -77,7 +77,7 @@ Foam drawnCut(const AssetContents& contents, const View& view, size_t& refined) 
 TEST(LevelErrors, CutsAtDetail1LookAsLevel0) {
   const Foam foam = makeRandomFoam(3000, 2, 2, 5);
   CameraSet cameras;
-  std::vector<View> others;  // that the bake does not see
+  std::vector<View> others;          // that the bake does not see
   const glm::dvec3 middle(5, 5, 5);  // of the foam, which is some 10 wide
   for (const double distance : {12.0, 60.0, 250.0, 1000.0}) {
     for (int k = 0; k < 3; ++k) {
