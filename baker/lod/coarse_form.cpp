@@ -21,8 +21,8 @@ constexpr double kWorthwhileShare = 0.85;
 constexpr uint32_t kNoCluster = 0xffffffff;
 constexpr uint32_t kRoundPart = 4;         // pairs of a round of merges, at most, of the live cells of the fine form
 constexpr uint32_t kLeastRoundPart = 256;  // a round with fewer is the last
-// Merges of all rounds, at most, of the live cells that are not locked: three become one. With more the middle of a small
-// group is much coarser than its borders.
+// Merges of all rounds, at most, of the live cells that are not locked: three become one. With more the middle of a
+// small group is much coarser than its borders.
 constexpr double kMostMerged = 2.0 / 3;
 
 class Coarsening {

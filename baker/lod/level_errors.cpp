@@ -16,6 +16,8 @@ constexpr double kErrorPixels = 20'000;  // of a view
 // view. [dB]; above the 38 and 36 that docs/STREAMING.md states, for views that the bake did not see are worse.
 constexpr double kScaledPsnr = 40, kScaledWorstPsnr = 38;
 constexpr double kScaleStep = 1.0905077326652577;  // an eighth of an octave
+// On top of it: a view that the bake did not see may stand this much nearer to a group, which then must be refined too.
+constexpr double kScaleMargin = 1.25;
 // What a group is taken for at least, of what its distance lets expect: views may miss the most of it.
 constexpr double kUnseenShare = 0.5;
 // An error grows at least by this factor from a group to those coarser, so that it does as a float too.
@@ -162,7 +164,7 @@ void LevelErrors::finish(std::span<const LevelChunk> chunks, std::vector<LevelGr
   if (isMeasuring()) measureGroups(groups);
   growErrors(chunks, groups);
   if (!isMeasuring()) return;
-  const double scale = chooseScale(chunks, groups);
+  const double scale = kScaleMargin * chooseScale(chunks, groups);
   for (LevelGroup& group : groups) group.error *= scale;
 }
 

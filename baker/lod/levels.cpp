@@ -26,9 +26,10 @@ namespace froth {
 namespace {
 
 constexpr uint32_t kGroupChunks = 4;  // full ones, of a group
-// Coarser levels are drawn where what merging does shows little; what coding does on top may be as much coarser.
-constexpr double kMergedWeight = 0x1p-3;  // of a merged cell's errors, where one of level 0 that shows as much has 1
-constexpr double kFloorShare = 0.02;      // of level 0's live cells: small enough to be the floor
+constexpr double kFloorShare = 0.02;  // of level 0's live cells: small enough to be the floor
+// What errors of a merged cell's colours weigh, where those of a cell of level 0 that shows as much have 1. Coarser
+// levels are drawn where merging, which costs 25 to 30 dB, shows little: so does coding that costs less.
+constexpr double kMergedWeight = 0x1p-3;
 
 class LevelMaker {
  public:
@@ -171,8 +172,8 @@ Status LevelMaker::addMergedCells(std::vector<Step>& steps) {
 void LevelMaker::weighMergedCells(size_t count) {
   const auto newest = std::span(contributions_).last(contributions_.empty() ? 0 : count);
   const double sum = std::accumulate(newest.begin(), newest.end(), 0.0);
-  for (const double contribution : newest) {
-    const double share = sum > 0 ? contribution * static_cast<double>(count) / sum : 1;
+  for (size_t k = 0; k < count; ++k) {
+    const double share = sum > 0 ? newest[k] * static_cast<double>(count) / sum : 1;
     levels_.mergedWeights.push_back(static_cast<float>(kMergedWeight * share));
   }
 }

@@ -36,7 +36,7 @@ struct Levels {
   std::vector<LevelGroup> groups;  // none: nothing gets coarser, and all else is empty
   Foam merged;                     // BakeCells::sources continue into it
   // [merged cells] what errors of its colours weigh, by how much it shows in its level: that is seen from where its
-  // cells look as large as those of level 0 do to the cameras. Empty: all alike
+  // cells look as large as those of level 0 do to the cameras
   std::vector<float> mergedWeights;
   std::vector<LevelReport> reports;
 };

@@ -26,7 +26,8 @@ TEST(FrontImage, ShowsWhatTheReferenceShows) {
 
 // The eye looks along +z at a thin cell before an opaque one.
 TEST(FrontImage, APixelBelongsToTheCellThatShowsMost) {
-  const Foam foam = foamOf({{.site = {0, 0, 0}, .density = 0.3f}, {.site = {0, 0, 3}, .density = 1000}});
+  const Foam foam = foamOf({{.site = {0, 0, 0}, .density = 0.3f, .orientation = kFaceTowardsMinusZ},
+                            {.site = {0, 0, 3}, .density = 1000, .orientation = kFaceTowardsMinusZ}});
   const std::vector<uint32_t> owners{7, 9};
   const std::vector<View> views{lookAt({0.01, 0, -6}, {0, 0, 3}, 33, 33, 0.3)};
   const FrontImage image = drawFront(foam, owners, views, {.nearRatio = 0})->front();

@@ -77,12 +77,13 @@ Foam drawnCut(const AssetContents& contents, const View& view, size_t& refined) 
 TEST(LevelErrors, CutsAtDetail1LookAsLevel0) {
   const Foam foam = makeRandomFoam(3000, 2, 2, 5);
   CameraSet cameras;
-  std::vector<View> others;  // that the bake does not see
-  for (const double distance : {6.0, 12.0, 40.0, 100.0}) {
+  std::vector<View> others;          // that the bake does not see
+  const glm::dvec3 middle(5, 5, 5);  // of the foam, which is some 10 wide
+  for (const double distance : {12.0, 60.0, 250.0, 1000.0}) {
     for (int k = 0; k < 3; ++k) {
       const auto viewAt = [&](double angle) {
-        const glm::dvec3 eye(distance * std::cos(angle), distance * std::sin(angle), 0.3 * distance);
-        return lookAt(eye, {0, 0, 0}, 160, 120, 2 / distance);
+        const glm::dvec3 direction(std::cos(angle), std::sin(angle), 0.3);
+        return lookAt(middle + distance * direction, middle, 160, 120, 0.5);
       };
       cameras.views.push_back(viewAt(2.1 * k));
       others.push_back(viewAt(2.1 * k + 0.1));
