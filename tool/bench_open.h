@@ -8,7 +8,7 @@
 
 #include "measure/figures.h"
 #include "measure/opening/opening.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 
 namespace froth {
 

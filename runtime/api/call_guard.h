@@ -3,6 +3,7 @@
 
 #include <new>
 
+#include "froth/froth_reader.h"
 #include "runtime/api/struct_size.h"
 #include "runtime/context/context.h"
 
@@ -43,6 +44,17 @@ FrothResult readInput(const Messages& messages, const char* call, const T* given
     return messages.fail(
         result, call, "%sstructSize: %u, this library knows %zu, and fields beyond are not zero; use a newer library",
         within, given->structSize, sizeof(T));
+  }
+  return result;
+}
+
+// The same for what tells of an asset; `reader` becomes what known.reader points to.
+inline FrothResult readAssetInfo(const Messages& messages, const char* call, const FrothAssetInfo* given,
+                                 FrothAssetInfo& known, FrothReader& reader) {
+  FrothResult result = readInput(messages, call, given, known);
+  if (result == FROTH_OK && known.reader) {
+    result = readInput(messages, call, known.reader, reader, "reader.");
+    known.reader = &reader;
   }
   return result;
 }

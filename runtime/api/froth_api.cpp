@@ -155,11 +155,7 @@ FrothResult frothOpenAsset(FrothContext* context, const FrothAssetInfo* info, Fr
     *asset = {};
     FrothAssetInfo known;
     FrothReader reader;
-    FrothResult result = readInput(context->messages, call, info, known);
-    if (result == FROTH_OK && known.reader) {
-      result = readInput(context->messages, call, known.reader, reader, "reader.");
-      known.reader = &reader;
-    }
+    const FrothResult result = readAssetInfo(context->messages, call, info, known, reader);
     return result == FROTH_OK ? context->openAsset(known, *asset) : result;
   });
 }

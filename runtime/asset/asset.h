@@ -115,6 +115,8 @@ class Asset {
   // One that is not of the floor. Before its fetch has begun: at once. Resident, not drawn and not planned: its memory
   // returns once no frame uses it. Else nothing happens: tell it again.
   void evictChunk(uint32_t chunk);
+  // Of its cuts, for which views may make room ahead: GpuAsset::mostCells.
+  void setMostCells(uint32_t cells) { gpu_.mostCells = cells; }
   // A cut, to be drawn once all of it is resident and takePlan() says so.
   void planChunks(std::vector<uint32_t> chunks) { slots_.plan(std::move(chunks)); }
   // In each frame: which copies are complete, which memory returns. True: the plan can be taken, and gpu() tells what

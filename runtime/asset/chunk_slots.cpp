@@ -43,10 +43,14 @@ bool ChunkSlots::canTakePlan() const {
 }
 
 void ChunkSlots::measurePlan(GpuAsset& asset) const {
-  asset.nextChunkCount = asset.nextGroupCount = 0;
+  asset.next = {};
   for (const uint32_t chunk : planned_) {
-    asset.nextChunkCount = std::max(asset.nextChunkCount, slotOf_[chunk] + 1);
-    asset.nextGroupCount += groupsOf(slots_[slotOf_[chunk]].gpu);
+    const GpuChunk& planned = slots_[slotOf_[chunk]].gpu;
+    asset.next.chunkCount = std::max(asset.next.chunkCount, slotOf_[chunk] + 1);
+    asset.next.groupCount += groupsOf(planned);
+    asset.next.cellCount += planned.cellCount;
+    asset.next.liveCount += planned.liveCount;
+    asset.next.alphaTotal += planned.alphaTotal;
   }
 }
 
@@ -60,7 +64,7 @@ void ChunkSlots::takePlan(uint64_t serial, GpuAsset& asset) {
   }
   asset.liveCount = asset.cellCount = 0;
   asset.alphaTotal = asset.neighbourTotal = 0;
-  asset.chunks.assign(asset.nextChunkCount, {});
+  asset.chunks.assign(asset.next.chunkCount, {});
   asset.firstSlot = kNoSlot;
   for (const uint32_t chunk : planned_) {
     const uint32_t slot = slotOf_[chunk];
@@ -69,7 +73,7 @@ void ChunkSlots::takePlan(uint64_t serial, GpuAsset& asset) {
     if (slots_[slot].gpu.cellCount > 0) asset.firstSlot = std::min(asset.firstSlot, slot);
   }
   if (asset.firstSlot == kNoSlot) asset.firstSlot = 0;
-  asset.nextChunkCount = asset.nextGroupCount = 0;
+  asset.next = {};
   drawn_ = std::exchange(planned_, {});
   unpublished_.reserve(drawn_.size());
 }

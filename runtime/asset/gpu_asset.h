@@ -44,6 +44,14 @@ struct AssetShape {
   friend auto operator<=>(const AssetShape&, const AssetShape&) = default;
 };
 
+// What some chunks of an asset have together.
+struct CutCounts {
+  uint32_t chunkCount = 0;  // of the table, with slots that are empty
+  uint32_t groupCount = 0;  // groupsOfCells (runtime/render/view_capacity.h)
+  uint32_t cellCount = 0, liveCount = 0;
+  uint64_t alphaTotal = 0;
+};
+
 struct GpuAsset {
   uint32_t detailCount = 0, lobeCount = 0;  // K, M
   uint32_t localBits = 32;
@@ -68,8 +76,8 @@ struct GpuAsset {
   VkDeviceSize borderOffset = 0;  // in the buffer
   VkDeviceAddress borders = 0;    // FrameBlock::borders
   uint32_t firstSlot = 0;         // that is drawn and has cells
-  // Of the chunks that are to be drawn next: views make room for them before.
-  uint32_t nextChunkCount = 0, nextGroupCount = 0;
+  CutCounts next;                 // of the chunks that are to be drawn next: views make room for them before
+  uint32_t mostCells = 0;         // that views make room for ahead of the chunks that are to be drawn
 
   bool hasLevels() const { return fileChunkCount != 0; }
   VkDeviceSize borderBytes() const { return sizeof(uint32_t) * (VkDeviceSize{borderCount} + fileChunkCount); }

@@ -19,17 +19,16 @@ FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
   if (const FrothResult result = checkSource(messages, "frothOpenAsset", info); result != FROTH_OK) {
     return result;
   }
-  handle = assets_.add(std::make_unique<Asset>(sourceOf(info), isNull_ ? nullptr : &device_));
-  if (info.keepForQueries) {
-    assets_.find(handle)->keepForQueries();
-  }
-  if (!info.layersMayGo) {
-    assets_.find(handle)->keepLayers();
-  }
-  if (hasWalkShaders_) {
-    assets_.find(handle)->keepForWalks();
-  }
+  handle = assets_.add(makeAsset(info));
   return FROTH_OK;
+}
+
+std::shared_ptr<Asset> Context::makeAsset(const FrothAssetInfo& info) {
+  auto asset = std::make_shared<Asset>(sourceOf(info), isNull_ ? nullptr : &device_);
+  if (info.keepForQueries) asset->keepForQueries();
+  if (!info.layersMayGo) asset->keepLayers();
+  if (hasWalkShaders_) asset->keepForWalks();
+  return asset;
 }
 
 // READY: this frame can draw it, for all copies stand in frames that are recorded and not dropped; or are complete, if
@@ -85,15 +84,10 @@ FrothResult Context::closeAsset(FrothAsset handle) {
   if (exchange_ && isSame(exchange_->asset, handle)) {
     abandonExchange();
   }
-  retired_.reserve(retired_.size() + 1);
+  endReplacement(handle);
   std::erase_if(cuts_, [&](const auto& cut) { return isSame(cut.first, handle); });
   levels_.remove(handle);
-  assets_.find(handle)->stop();
-  std::shared_ptr<Asset> closed = assets_.remove(handle);
-  if (ring_) {
-    closed->forgetCopies(*ring_, closed);
-  }
-  retire(std::move(closed));
+  dropAsset(assets_.remove(handle));
   return FROTH_OK;
 }
 
@@ -225,6 +219,9 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   }
   if (like && like->renderer && view->renderer) {
     view->renderer->startLike(*like->renderer);
+  }
+  for (uint32_t eye = 0; like && eye < std::min(view->eyeCount, like->eyeCount); ++eye) {
+    view->eyes[eye].seenFrom = like->eyes[eye].seenFrom;  // what it wants of levels before it draws
   }
   View& added = *view;
   handle = views_.add(std::move(view));

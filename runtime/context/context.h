@@ -17,6 +17,7 @@
 #include "froth/froth_composite.h"
 #include "froth/froth_precompile.h"
 #include "froth/froth_query.h"
+#include "froth/froth_replace.h"
 #include "froth/froth_stream.h"
 #include "froth/froth_walk.h"
 #include "runtime/asset/asset.h"
@@ -61,6 +62,8 @@ class Context {
   FrothResult describeAsset(FrothAsset handle, FrothAssetStatus& status) const;
   FrothResult copyFlightPath(FrothAsset handle, uint32_t capacity, FrothStoredCamera* cameras, uint32_t& count) const;
   FrothResult closeAsset(FrothAsset handle);
+  FrothResult replaceAsset(FrothAsset handle, const FrothAssetInfo& info);
+  FrothResult describeReplacement(FrothAsset handle, FrothReplacementStatus& status);
 
   // Any thread.
   FrothResult completeRead(uint64_t request, FrothResult result);
@@ -129,6 +132,12 @@ class Context {
     std::optional<SeenFrom> seenFrom{};                 // the same; none: none yet
     uint64_t compositedSerial = 0, exportedSerial = 0;  // newest frames of frothRecordComposite, frothRecordDepthExport
   };
+  // Its text changes with what is held, from frame to frame; so it is known by these.
+  struct ToldError {
+    ErrorKind kind;
+    VkDeviceSize budget;
+    friend bool operator==(const ToldError&, const ToldError&) = default;
+  };
   struct View {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
@@ -138,8 +147,8 @@ class Context {
     std::unique_ptr<ViewRenderer> renderer;    // null: null context, or the device is lost
     // in the newest frothUpdate: those it has buffers for, if they fit the budget
     std::vector<RenderInstance> prepared;
-    std::vector<RenderInstance> visible;  // of the record call under way; has room for all
-    std::string preparationError;         // sent already
+    std::vector<RenderInstance> visible;        // of the record call under way; has room for all
+    std::optional<ToldError> preparationError;  // sent already
     uint32_t eyeCount = 1;
     Eye eyes[kMostEyes];
     std::vector<std::pair<uint64_t, uint32_t>> bits;  // recorded frames that left something out: serial, FrothViewBit
@@ -152,6 +161,13 @@ class Context {
     VkDeviceSize budget;  // when it began
   };
 
+  // What frothReplaceAsset brings.
+  struct Replacement {
+    FrothAsset asset;
+    std::shared_ptr<Asset> successor;  // null: it is done, or has failed
+    FrothResult error;
+  };
+
   FrothResult checkInfo(const FrothContextInfo& info, const char* call) const;
   FrothResult checkEngineFormats(const FrothContextInfo& info, const char* call) const;
   Status createDeviceObjects(const FrothContextInfo& info);
@@ -161,6 +177,13 @@ class Context {
   void shrinkViews();
   VkDeviceSize shrinkableBytes() const;
   bool isMemoryReturning() const;
+  std::shared_ptr<Asset> makeAsset(const FrothAssetInfo& info);  // info has been checked
+  // Hot reload (runtime/context/context_replace.cpp).
+  Replacement* findReplacement(FrothAsset handle);  // null: there was none
+  void endReplacement(FrothAsset handle);
+  void dropAsset(std::shared_ptr<Asset> asset);
+  void loadReplacements(LoadLimit& limit, const Asset::Preparation& prepare);
+  void finishReplacements();
   // Layers of assets (runtime/context/context_layers.cpp).
   void loadSuccessor(LoadLimit& limit, const Asset::Preparation& prepare);
   void finishExchange();
@@ -176,6 +199,12 @@ class Context {
   // Levels of detail (runtime/context/context_levels.cpp).
   void updateLevels();
   void gatherEyes(FrothAsset handle, const Asset& asset);
+  // [bytes]
+  struct ViewShare {
+    uint64_t fixedBytes = 0, heldBytes = 0;
+  };
+  ViewShare priceCells(FrothAsset handle, Asset& asset);
+  uint64_t otherBytes();
   void limitLevels();
   bool isRoomMadeFor(const Asset& asset) const;
   void publishBorders(VkCommandBuffer commandBuffer);
@@ -234,6 +263,7 @@ class Context {
   std::unique_ptr<WalkSets> walks_;             // the same; also without FrothContextInfo::walkShaders
   std::vector<WalkedInstance> walked_;          // of the record call under way; has room for all
   HandlePool<Asset, FrothAsset> assets_;
+  std::vector<Replacement> replacements_;                           // one for an asset
   std::optional<Exchange> exchange_;                                // one at a time
   std::vector<std::pair<FrothAsset, std::vector<uint32_t>>> cuts_;  // of setCut
   LevelStreaming levels_;                                           // of all other assets with levels

@@ -251,6 +251,9 @@ void Context::stopJobs() {
   making_.clear();
   assets_.forEach([](Asset& asset) { asset.stop(); });
   if (exchange_) exchange_->successor->stop();
+  for (const Replacement& replacement : replacements_) {
+    if (replacement.successor) replacement.successor->stop();
+  }
   memoryJob_.drop(true);
   device_.finishOrders();
 }
@@ -261,11 +264,14 @@ void Context::loseDevice() {
     if (view.breadcrumbs) view.breadcrumbs->keep();
     view.renderer.reset();
     view.prepared.clear();
-    view.preparationError.clear();
+    view.preparationError.reset();
     view.bits.clear();
   });
   retired_.clear();
   exchange_.reset();
+  for (Replacement& replacement : replacements_) {
+    if (std::exchange(replacement.successor, nullptr)) replacement.error = FROTH_ERROR_DEVICE;
+  }
   levels_.clear();
   assets_.forEach([](Asset& asset) { asset.releaseBuffers(); });
   ring_.reset();

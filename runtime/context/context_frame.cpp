@@ -106,6 +106,7 @@ void Context::runFrame(FrothFrameStatus& status) {
     }
     loadAssets();
     finishExchange();
+    finishReplacements();
     prepareMerging();
     shrinkViews();
     views_.forEachNamed([&](FrothView handle, View& view) { prepareView(handle, view); });
@@ -118,6 +119,9 @@ void Context::runFrame(FrothFrameStatus& status) {
     status.uploadBytesQueued += asset.queuedBytes();
   });
   status.uploadBytesQueued += exchange_ ? exchange_->successor->queuedBytes() : 0;
+  for (const Replacement& replacement : replacements_) {
+    status.uploadBytesQueued += replacement.successor ? replacement.successor->queuedBytes() : 0;
+  }
   status.uploadBytesQueued += ring_ ? ring_->stagedBytes() : 0;
   status.deviceBytes = device_.ledger.deviceBytes();
   status.hostBytes = device_.ledger.hostBytes();
@@ -155,6 +159,7 @@ void Context::loadAssets() {
     }
   });
   loadSuccessor(limit, prepare);
+  loadReplacements(limit, prepare);
   updateLevels();
   // Their room is for other jobs, whether an asset still waits for them or not: whoever does finds the pipelines, or
   // asks for them again.
@@ -179,15 +184,16 @@ void Context::prepareView(FrothView handle, View& view) {
   view.visible.reserve(gpu::kMostInstances);
   const Status status = view.renderer->prepare(completedSerial_, view.prepared);
   if (status || device_.loss->isTold()) {  // of the loss frothUpdate tells
-    view.preparationError.clear();
+    view.preparationError.reset();
     return;
   }
   // The view keeps the buffers it had: it goes on drawing what they hold.
-  if (!isPending(status) && view.preparationError != status.error().message) {  // once, not in every frame
-    view.preparationError = status.error().message;
-    messages.fail(resultOf(status.error()), "view", "view {%u, %u}, %s", handle.index, handle.generation,
-                  view.preparationError.c_str());
-  }
+  if (isPending(status)) return;
+  const ToldError told{status.error().kind, device_.budget};
+  if (view.preparationError == told) return;  // once, not in every frame
+  view.preparationError = told;
+  messages.fail(resultOf(status.error()), "view", "view {%u, %u}, %s", handle.index, handle.generation,
+                status.error().message.c_str());
 }
 
 FrothResult Context::recordUpload(VkCommandBuffer commandBuffer) {
@@ -203,7 +209,10 @@ FrothResult Context::recordUpload(VkCommandBuffer commandBuffer) {
   const uint64_t waiting = std::min(ring_->stagedBytes(), uploadBytesLeft_);
   uint64_t room = uploadBytesLeft_ - waiting;
   assets_.forEach([&](Asset& asset) { room -= asset.stage(*ring_, room); });
-  if (exchange_) exchange_->successor->stage(*ring_, room);
+  if (exchange_) room -= exchange_->successor->stage(*ring_, room);
+  for (const Replacement& replacement : replacements_) {
+    if (replacement.successor) room -= replacement.successor->stage(*ring_, room);
+  }
   const uint64_t recorded = ring_->record(commandBuffer, uploadSerial_, uploadBytesLeft_);
   uploadBytesLeft_ -= recorded;
   if (recorded == 0 || hasUploadQueue_) {

@@ -9,9 +9,6 @@
 namespace froth {
 namespace {
 
-// No budget: more than any device has.
-constexpr uint64_t kNoBudget = uint64_t{1} << 62;
-
 // Reads what a cut lacks, draws it when it is whole, and then gives up what is in no use.
 void followCut(Asset& asset, const std::vector<uint32_t>& cut) {
   bool isResident = true;
@@ -80,25 +77,64 @@ void Context::gatherEyes(FrothAsset handle, const Asset& asset) {
   for (const SeenFrom& point : streamPoints_) add(point);
 }
 
-// What chunks of streamed assets may take: half of the budget that nothing else holds. Blocks of memory leave up to 29
-// % unused (GpuArena), and views grow with what is drawn.
-void Context::limitLevels() {
-  uint64_t budget = kNoBudget;
-  if (device_.budget != 0 && !isNull_) {
-    uint64_t others = device_.ledger.deviceBytes();
-    assets_.forEachNamed([&](FrothAsset handle, const Asset& asset) {
-      if (levels_.has(handle)) others -= std::min<uint64_t>(others, asset.heldBytes() - asset.tableBytes());
+// What views need for the cells of an asset, told to levels_. Returns what they need of it whatever is drawn, and hold,
+// [bytes].
+Context::ViewShare Context::priceCells(FrothAsset handle, Asset& asset) {
+  ViewShare share;
+  uint64_t bytesPerCell = 0, mostBytes = 0;
+  instances_.forEachNamed([&](FrothInstance name, const Instance& instance) {
+    if (!isSame(instance.asset, handle)) return;
+    views_.forEach([&](const View& view) {
+      if (!view.renderer) return;
+      const CutRoom room = view.renderer->roomForCuts(name, asset.gpu());
+      share.fixedBytes += room.fixedBytes;
+      share.heldBytes += room.heldBytes;
+      bytesPerCell += room.bytesPerCell;
+      mostBytes += room.bytesPerCell * room.mostCells;
     });
-    budget = (device_.budget - std::min<uint64_t>(device_.budget, others)) / 2;
+  });
+  levels_.setViewPrice(handle, bytesPerCell, mostBytes);
+  return share;
+}
+
+// Device memory of all but chunks of streamed assets and what views need for their cells. What is only ordered, or on
+// its way back, does not count: it comes and goes with the cuts.
+uint64_t Context::otherBytes() {
+  uint64_t bytes = device_.ledger.deviceBytes(MemoryUse::kWalks);
+  if (exchange_) bytes += exchange_->successor->heldBytes();
+  for (const Replacement& replacement : replacements_) {
+    bytes += replacement.successor ? replacement.successor->heldBytes() : 0;
   }
+  views_.forEach([&](const View& view) { bytes += view.renderer ? view.renderer->heldBytes() : 0; });
+  assets_.forEachNamed([&](FrothAsset handle, Asset& asset) {
+    if (!levels_.has(handle)) {
+      bytes += asset.heldBytes();
+      return;
+    }
+    const ViewShare share = priceCells(handle, asset);
+    bytes += asset.tableBytes() + share.fixedBytes;
+    bytes -= share.heldBytes;
+  });
+  return bytes;
+}
+
+// What nothing else holds is for chunks of streamed assets and for what views need of them. Without a budget, and on a
+// null device, there is no limit.
+void Context::limitLevels() {
   levels_.setMostCells(streamCells_);
-  const bool isEnough = levels_.setBudget(budget);
+  const uint64_t others = otherBytes();
+  const bool isLimited = device_.budget != 0 && !isNull_;
+  const uint64_t room = device_.budget - std::min<uint64_t>(device_.budget, others);
+  const bool isEnough = levels_.setBudget(isLimited ? shareBudget(room, levels_.needs()) : LevelShares{});
+  assets_.forEachNamed([&](FrothAsset handle, Asset& asset) {
+    if (levels_.has(handle)) asset.setMostCells(levels_.mostCells(handle));
+  });
   if (!isEnough && !isFloorTold_) {
     messages.warn(
         FROTH_ERROR_MEMORY, "frothSetBudget",
-        "%llu bytes remain for assets with levels of detail, and their floors take %llu: they show their floors "
-        "alone; raise the budget of %llu, or close assets or views",
-        asPrinted(budget), asPrinted(levels_.floorBytes()), asPrinted(device_.budget));
+        "%llu bytes remain for assets with levels of detail and what views need of them, and their floors take %llu: "
+        "they show their floors alone; raise the budget of %llu, or close assets or views",
+        asPrinted(room), asPrinted(levels_.floorBytes()), asPrinted(device_.budget));
   }
   isFloorTold_ = !isEnough;
 }

@@ -68,7 +68,7 @@ FrothResult Context::describeStreaming(FrothStreamStatus& status) const {
   status.comingChunks = chunksIn(ChunkState::kReading);
   status.failedChunks = chunksIn(ChunkState::kFailed);
   status.usedBytes = figures.usedBytes;
-  status.budgetBytes = levels_.budgetBytes();
+  status.budgetBytes = levels_.budgetBytes() == UINT64_MAX ? 0 : levels_.budgetBytes();
   status.excessBytes = figures.excessBytes;
   status.oldestRequest = figures.oldestRequest;
   status.floorHits = figures.floorHits;

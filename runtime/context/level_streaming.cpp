@@ -48,13 +48,17 @@ LevelStreaming::Stream* LevelStreaming::streamOf(uint32_t number) {
 
 void LevelStreaming::add(FrothAsset handle, const Asset& asset) {
   LevelGraph graph = makeGraph(asset);
-  const uint64_t floorBytes = graph.floorBytes();
-  const uint32_t number = streamer_.addAsset(std::move(graph));
   Stream& stream = streams_.emplace_back();
   stream.handle = handle;
+  stream.needs = {.floorBytes = graph.floorBytes(),
+                  .changeBytes = graph.mostCoarseBytes(),
+                  .finestBytes = graph.finestBytes(),
+                  .allBytes = graph.allBytes()};
+  stream.floorCells = graph.floorCells();
+  stream.finestCells = graph.finestCells();
+  const uint32_t number = streamer_.addAsset(std::move(graph));
   stream.number = number;
-  stream.floorBytes = floorBytes;
-  floorBytes_ += floorBytes;
+  floorBytes_ += stream.needs.floorBytes;
   setBudget(budget_);
   [[maybe_unused]] const Status placed = streamer_.placeAsset(number);  // the budget has room for all floors
 }
@@ -64,7 +68,7 @@ void LevelStreaming::remove(FrothAsset handle) {
       std::ranges::find_if(streams_, [&](const Stream& stream) { return isSame(stream.handle, handle); });
   if (found == streams_.end()) return;
   for (const uint32_t chunk : found->leaving) gone_.push_back({found->number, chunk});
-  floorBytes_ -= found->floorBytes;
+  floorBytes_ -= found->needs.floorBytes;
   streamer_.removeAsset(found->number);
   streams_.erase(found);
 }
@@ -103,10 +107,32 @@ void LevelStreaming::setEyes(FrothAsset handle, std::span<const StreamEye> eyes)
   streamer_.setEyes(find(handle)->number, eyes);
 }
 
-bool LevelStreaming::setBudget(uint64_t bytes) {
-  budget_ = bytes;
-  [[maybe_unused]] const Status set = streamer_.setBudget(std::max(bytes, floorBytes_));
-  return bytes >= floorBytes_;
+void LevelStreaming::setViewPrice(FrothAsset handle, uint64_t bytesPerCell, uint64_t mostBytes) {
+  Stream& stream = *find(handle);
+  stream.viewBytesPerCell = bytesPerCell;
+  stream.needs.floorViewBytes = stream.floorCells * bytesPerCell;
+  stream.needs.finestViewBytes = stream.finestCells * bytesPerCell;
+  stream.needs.reservedViewBytes = std::min(mostBytes, stream.needs.finestViewBytes);
+  streamer_.setViewPrice(stream.number, bytesPerCell);
+}
+
+LevelNeeds LevelStreaming::needs() const {
+  LevelNeeds all;
+  for (const Stream& stream : streams_) all += stream.needs;
+  return all;
+}
+
+uint32_t LevelStreaming::mostCells(FrothAsset handle) const {
+  const Stream& stream = *find(handle);
+  const uint64_t affordable = budget_.viewBytes / std::max<uint64_t>(stream.viewBytesPerCell, 1);
+  return static_cast<uint32_t>(std::min(stream.finestCells, affordable));
+}
+
+bool LevelStreaming::setBudget(const LevelShares& shares) {
+  budget_ = shares;
+  [[maybe_unused]] const Status set = streamer_.setBudget(std::max(shares.chunkBytes, floorBytes_));
+  streamer_.setViewBudget(shares.viewBytes);
+  return shares.chunkBytes >= floorBytes_;
 }
 
 uint32_t LevelStreaming::readRoom() const {

@@ -38,6 +38,7 @@ class MemoryLedger {
   void restartPeaks();  // at what is held now
 
   VkDeviceSize deviceBytes() const { return deviceBytes_; }
+  VkDeviceSize deviceBytes(MemoryUse use) const { return entries_[static_cast<uint32_t>(use)].granted; }
   VkDeviceSize hostBytes() const { return hostBytes_; }
   uint32_t count() const { return count_; }        // of allocations
   void describe(FrothMemoryReport& report) const;  // all but the budget

@@ -53,7 +53,7 @@ Status growToRoom(Device& device, InstanceSpace& space, const GpuAsset* asset, c
     const Status status = growToLess(space, wanted);
     return isPending(status) ? status : refusal;
   }
-  if (asset && !coversNext(*asset, space.buffers.capacity())) {  // chunks wait for so much before they are drawn
+  if (asset && !coversNextChunks(*asset, space.buffers.capacity())) {  // chunks wait for so much before they are drawn
     const Status status = space.buffers.grow({.chunks = wanted.chunks, .groups = wanted.groups}, space.lastSerial);
     if (isPending(status)) return status;
     space.buffers.freeRetired(completedSerial);
@@ -73,9 +73,9 @@ Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, 
   const VkDeviceSize heldBytes = device.ledger.deviceBytes();
   const VkDeviceSize budget = device.budget;
   const auto& refusal = space.refusal;
-  const bool coversPlan = !asset || coversNext(*asset, space.buffers.capacity());
+  const bool coversPlan = !asset || coversNextChunks(*asset, space.buffers.capacity());
   if (refusal && coversPlan && refusal->asset == asset && refusal->budget == budget &&
-      heldBytes >= refusal->deviceBytes) {
+      heldBytes >= refusal->deviceBytes && largest(wanted, refusal->wanted) == wanted) {
     return refusal->error;
   }
   space.refusal.reset();
@@ -83,7 +83,7 @@ Status growBuffers(Device& device, InstanceSpace& space, const GpuAsset* asset, 
   const Status status = space.buffers.grow(wanted, space.lastSerial);
   if (device.budgetRefusals == budgetRefusals) return status;
   const Status less = growToRoom(device, space, asset, wanted, completedSerial, status);
-  if (!less && !isPending(less)) space.refusal = {asset, budget, device.ledger.deviceBytes(), less.error()};
+  if (!less && !isPending(less)) space.refusal = {asset, wanted, budget, device.ledger.deviceBytes(), less.error()};
   return less;
 }
 
@@ -96,7 +96,7 @@ Status prepareSpace(ViewState& view, InstanceSpace& space, uint64_t completedSer
   const bool isHeldBack = view.device.excessBytes() > 0;  // what views give up now they would take again
   if (asset && !(isHeldBack && coversAsset(*asset, wanted))) {
     coverAsset(*asset, view.reservedCells, wanted);
-    coverDemand(*asset, space.demand, wanted);
+    coverDemand(*asset, demandOfNext(*asset, space.demand), wanted);
   }
   space.buffers.expectCells(space.demand.cells);
   const VkBuffer oldWalkStart = space.buffers[ViewBuffer::kWalkStart].buffer;

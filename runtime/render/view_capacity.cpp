@@ -1,6 +1,9 @@
 #include "runtime/render/view_capacity.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "runtime/render/view_buffers.h"
 
 namespace froth {
 namespace {
@@ -85,29 +88,101 @@ uint32_t groupsOfCells(const GpuAsset& asset) {
 }
 
 uint32_t tableChunks(const GpuAsset& asset) {
-  return std::max(static_cast<uint32_t>(asset.chunks.size()), asset.nextChunkCount);
+  return std::max(static_cast<uint32_t>(asset.chunks.size()), asset.next.chunkCount);
 }
 
-void coverAsset(const GpuAsset& asset, uint32_t mostCells, ViewCapacity& capacity) {
-  const uint64_t cells = std::min(asset.cellCount, mostCells);
-  const uint64_t meanPlanes = asset.alphaTotal / std::max(asset.liveCount, 1u) + 1;
+namespace {
+
+CutCounts countsOf(const GpuAsset& asset) {
+  return {static_cast<uint32_t>(asset.chunks.size()), groupsOfCells(asset), asset.cellCount, asset.liveCount,
+          asset.alphaTotal};
+}
+
+// What `cells` visible cells take of a view.
+ViewCapacity neededFor(uint64_t cells, uint64_t planes, uint32_t detailCount, uint32_t tiles) {
   ViewCapacity needed;
-  needed.chunks = tableChunks(asset);
-  needed.groups = std::max(groupsOfCells(asset), asset.nextGroupCount);
   needed.cells = static_cast<uint32_t>(cells);
-  needed.planes = std::min(asset.alphaTotal, cells * meanPlanes);
-  needed.details = cells * asset.detailCount;
-  needed.pairs = static_cast<uint32_t>(
-      std::clamp(kPairsPerCell * cells + kPairsPerTile * capacity.tiles, kLeastPairs, kMostPairs));
-  capacity = largest(capacity, needed);
+  needed.planes = planes;
+  needed.details = cells * detailCount;
+  needed.pairs =
+      static_cast<uint32_t>(std::clamp(kPairsPerCell * cells + kPairsPerTile * tiles, kLeastPairs, kMostPairs));
+  return needed;
+}
+
+// For all cells of a cut, or `mostCells` of them.
+ViewCapacity neededBy(const CutCounts& counts, uint32_t detailCount, uint32_t mostCells, uint32_t tiles) {
+  const uint64_t cells = std::min(counts.cellCount, mostCells);
+  const uint64_t meanPlanes = counts.alphaTotal / std::max(counts.liveCount, 1u) + 1;
+  ViewCapacity needed = neededFor(cells, std::min(counts.alphaTotal, cells * meanPlanes), detailCount, tiles);
+  needed.chunks = counts.chunkCount;
+  needed.groups = counts.groupCount;
+  return needed;
+}
+
+// Cuts come one after the other, each with more cells: room for half more, as far as the asset may have them, spares
+// most of the exchanges of buffers.
+CutCounts aheadOf(const GpuAsset& asset) {
+  CutCounts ahead = asset.next;
+  const uint64_t most = std::max(ahead.cellCount, asset.mostCells);
+  const uint64_t cells = std::min(uint64_t{ahead.cellCount} + ahead.cellCount / 2, most);
+  const uint64_t meanPlanes = ahead.alphaTotal / std::max(ahead.liveCount, 1u) + 1;
+  ahead.alphaTotal += (cells - ahead.cellCount) * meanPlanes;
+  ahead.cellCount = static_cast<uint32_t>(cells);
+  return ahead;
+}
+
+}  // namespace
+
+void coverAsset(const GpuAsset& asset, uint32_t mostCells, ViewCapacity& capacity) {
+  capacity = largest(capacity, neededBy(countsOf(asset), asset.detailCount, mostCells, capacity.tiles));
+  const ViewCapacity next = neededBy(asset.next, asset.detailCount, mostCells, capacity.tiles);
+  if (largest(next, capacity) == capacity) return;
+  capacity = largest(capacity, neededBy(aheadOf(asset), asset.detailCount, mostCells, capacity.tiles));
 }
 
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity) {
   return asset.chunks.size() <= capacity.chunks && groupsOfCells(asset) <= capacity.groups;
 }
 
-bool coversNext(const GpuAsset& asset, const ViewCapacity& capacity) {
-  return asset.nextChunkCount <= capacity.chunks && asset.nextGroupCount <= capacity.groups;
+bool coversNextChunks(const GpuAsset& asset, const ViewCapacity& capacity) {
+  return asset.next.chunkCount <= capacity.chunks && asset.next.groupCount <= capacity.groups;
+}
+
+bool coversNext(const GpuAsset& asset, uint32_t mostCells, const ViewDemand& demand, const ViewCapacity& capacity) {
+  ViewCapacity needed = neededBy(asset.next, asset.detailCount, mostCells, 0);
+  needed.pairs = static_cast<uint32_t>(std::min(demandOfNext(asset, demand).pairs, kMostPairs));
+  return largest(needed, capacity) == capacity;
+}
+
+// A ball that is s tiles wide has about (s + 1)^2 pairs. The f balls that stand for it in a finer form fill the same
+// solid, so each is s / f^(1/3) tiles wide, and they have f (s / f^(1/3) + 1)^2 pairs.
+ViewDemand demandOfNext(const GpuAsset& asset, const ViewDemand& demand) {
+  if (asset.next.liveCount <= asset.liveCount || demand.cells == 0) return demand;
+  const double growth = asset.next.liveCount / static_cast<double>(std::max(asset.liveCount, 1u));
+  const double width = std::sqrt(static_cast<double>(demand.pairs) / static_cast<double>(demand.cells)) - 1;
+  const double finer = std::max(width, 0.0) / std::cbrt(growth) + 1;
+  ViewDemand next = demand;
+  next.pairs = static_cast<uint64_t>(static_cast<double>(demand.cells) * growth * finer * finer);
+  next.pairs = std::max(next.pairs, demand.pairs);
+  return next;
+}
+
+VkDeviceSize bytesPerCell(uint32_t detailCount) {
+  constexpr uint32_t kCells = 1u << 20;   // so many that what does not go with cells is nothing beside them
+  constexpr uint64_t kPlanesPerCell = 8;  // 7 on average
+  ViewCapacity some = neededFor(kCells, kPlanesPerCell * kCells, detailCount, 1);
+  some.groups = kCells / gpu::kGroupSize;
+  const ViewCapacity replaced{.cells = some.cells, .details = some.details};  // the largest part of growInParts
+  return (bytesOf(some) + bytesOf(replaced)) / kCells;
+}
+
+VkDeviceSize bytesWithoutCells(const GpuAsset& asset, const ViewCapacity& capacity) {
+  ViewCapacity rest = capacity;
+  rest.chunks = std::max(asset.fileChunkCount, 1u);
+  rest.groups = rest.cells = 1;
+  rest.planes = rest.details = 1;
+  rest.pairs = neededFor(0, 0, 0, capacity.tiles).pairs;
+  return bytesOf(rest);
 }
 
 bool holdsAllCells(const GpuAsset& asset, const ViewCapacity& capacity) {
@@ -119,7 +194,7 @@ ViewCapacity neededBy(const GpuAsset& asset, const ViewDemand& demand, uint32_t 
   const uint64_t cells = std::min(demand.cells, uint64_t{asset.cellCount});
   ViewCapacity needed;
   needed.chunks = tableChunks(asset);
-  needed.groups = std::max(groupsOfCells(asset), asset.nextGroupCount);
+  needed.groups = std::max(groupsOfCells(asset), asset.next.groupCount);
   needed.cells = static_cast<uint32_t>(cells);
   needed.planes = std::min(demand.planes, asset.neighbourTotal);
   needed.details = cells * detailCount;

@@ -70,12 +70,23 @@ uint32_t groupsOfCells(const GpuAsset& asset);
 // Of its table, now and next.
 uint32_t tableChunks(const GpuAsset& asset);
 
-// Adds what an asset needs, for all of its cells or, if it has more, `mostCells` of them to be visible.
+// Adds what an asset needs, now and next, for all of its cells or, if it has more, `mostCells` of them to be visible.
 void coverAsset(const GpuAsset& asset, uint32_t mostCells, ViewCapacity& capacity);
 // Whether the asset can be recorded.
 bool coversAsset(const GpuAsset& asset, const ViewCapacity& capacity);
-// The same with the chunks that it has next.
-bool coversNext(const GpuAsset& asset, const ViewCapacity& capacity);
+// The same with the chunks that it has next;
+bool coversNextChunks(const GpuAsset& asset, const ViewCapacity& capacity);
+// and whether those lack nothing then, for all that is known: the room is for all of their cells, or `mostCells`, and
+// for as many pairs as follow from `demand`.
+bool coversNext(const GpuAsset& asset, uint32_t mostCells, const ViewDemand& demand, const ViewCapacity& capacity);
+
+// What the chunks that the asset has next may want, by what those that are drawn want.
+ViewDemand demandOfNext(const GpuAsset& asset, const ViewDemand& demand);
+
+// What a cut costs a view that has room for all of it, for budgets: so much for each of its cells, with what growing
+// holds twice, and the rest. Neither goes with what a frame has wanted.
+VkDeviceSize bytesPerCell(uint32_t detailCount);
+VkDeviceSize bytesWithoutCells(const GpuAsset& asset, const ViewCapacity& capacity);
 
 // Whether all cells of the asset have room, should all be visible.
 bool holdsAllCells(const GpuAsset& asset, const ViewCapacity& capacity);

@@ -263,8 +263,23 @@ Status ViewRenderer::prepare(uint64_t completedSerial, std::span<const RenderIns
 
 bool ViewRenderer::coversNext(const RenderInstance& instance) const {
   const InstanceSpace* space = findSpace(*state_, instance.handle);
-  return !space || !coversAsset(*instance.asset, space->buffers.capacity()) ||
-         froth::coversNext(*instance.asset, space->buffers.capacity());
+  if (!space || !coversAsset(*instance.asset, space->buffers.capacity())) return true;
+  const bool isEnded = (space->refusal && space->buffers.isTrimmed()) || state_->device.excessBytes() > 0;
+  return isEnded ? coversNextChunks(*instance.asset, space->buffers.capacity())
+                 : froth::coversNext(*instance.asset, state_->reservedCells, space->demand, space->buffers.capacity());
+}
+
+CutRoom ViewRenderer::roomForCuts(FrothInstance instance, const GpuAsset& asset) const {
+  const InstanceSpace* space = findSpace(*state_, instance);
+  const ViewCapacity& capacity = space ? space->buffers.capacity() : state_->leastCapacity;
+  return {bytesWithoutCells(asset, capacity), bytesPerCell(asset.detailCount), state_->reservedCells,
+          space ? space->buffers.deviceBytes() : 0};
+}
+
+VkDeviceSize ViewRenderer::heldBytes() const {
+  VkDeviceSize bytes = 0;
+  for (const auto& space : state_->spaces) bytes += space->buffers.deviceBytes();
+  return bytes;
 }
 
 VkDeviceSize ViewRenderer::missingBytes(const RenderInstance& instance, uint32_t detailCount) const {

@@ -55,6 +55,13 @@ ViewCapacity leastCapacity(const ViewOptions& options);
 // The same for the first instance, which has the hits of all.
 ViewCapacity firstCapacity(const ViewOptions& options);
 
+// What an instance with levels of detail takes of a view.
+struct CutRoom {
+  VkDeviceSize fixedBytes = 0, bytesPerCell = 0;  // [bytes] whatever its cut is; for each cell of the cut
+  uint32_t mostCells = 0;                         // so many cells of a cut at most have room ahead of a frame
+  VkDeviceSize heldBytes = 0;                     // [bytes] now
+};
+
 class ViewRenderer {
  public:
   // Allocates transients for the maximum extent; they grow in prepare() only.
@@ -70,8 +77,13 @@ class ViewRenderer {
   // room for; recording goes on with those instances that they cover.
   Status prepare(uint64_t completedSerial, std::span<const RenderInstance> instances);
 
-  // Whether an instance that can be drawn still can with the next chunks of its asset.
+  // Whether an instance that can be drawn still can with the next chunks of its asset, and lacks no cells then, unless
+  // the budget refused the room.
   bool coversNext(const RenderInstance& instance) const;
+
+  // For sharing a budget between views and chunks.
+  CutRoom roomForCuts(FrothInstance instance, const GpuAsset& asset) const;
+  VkDeviceSize heldBytes() const;  // [bytes] of device memory, for all instances
 
   // [bytes] of buffers for what the newest complete frame wanted of the instance, were there so many detail sites per
   // cell; 0: they are there.

@@ -25,10 +25,11 @@ struct FrameSlot {
   uint32_t recordings = 0;
 };
 
-// Growth that the budget refused. It is not tried again in every frame, only for another asset or budget, or once the
-// context holds less.
+// Growth that the budget refused. It is not tried again in every frame, only for another asset or budget, once less is
+// wanted, or once the context holds less.
 struct GrowthRefusal {
   const GpuAsset* asset;
+  ViewCapacity wanted;
   VkDeviceSize budget;
   VkDeviceSize deviceBytes;  // that the context held
   Error error;

@@ -39,6 +39,7 @@ uint32_t ChunkStreamer::addAsset(LevelGraph graph) {
   asset.next = GroupSet(graph.groupCount());
   demands_[number].wanted = GroupSet(graph.groupCount());
   demands_[number].eyes.clear();
+  demands_[number].viewBytesPerCell = 0;
   asset.graph = std::make_unique<const LevelGraph>(std::move(graph));
   residency_.addAsset(number, *asset.graph);
   reserveForAll();
@@ -140,7 +141,7 @@ void ChunkStreamer::forgetLeft() {
 }
 
 void ChunkStreamer::selectGroups() {
-  uint64_t cells = 0, mostCoarseBytes = 0;
+  uint64_t cells = 0, viewBytes = 0, mostCoarseBytes = 0;
   for (uint32_t number = 0; number < assets_.size(); ++number) {
     const Asset& asset = assets_[number];
     const bool takesPart = asset.isPlaced && asset.failedFloorChunks == 0;
@@ -148,10 +149,12 @@ void ChunkStreamer::selectGroups() {
     demands_[number].wanted.clear();
     if (!takesPart) continue;
     cells += asset.graph->floorCells();
+    viewBytes += asset.graph->floorCells() * demands_[number].viewBytesPerCell;
     mostCoarseBytes = std::max(mostCoarseBytes, asset.graph->mostCoarseBytes());
   }
   const uint64_t taken = floorBytes_ + std::max(mostCoarseBytes, budget_ / kTransitShare);
-  selection_.select(demands_, budget_ - std::min(budget_, taken), cellBudget_ - std::min(cellBudget_, cells));
+  const auto left = [](uint64_t budget, uint64_t spent) { return budget - std::min(budget, spent); };
+  selection_.select(demands_, {left(budget_, taken), left(cellBudget_, cells), left(viewBudget_, viewBytes)});
   for (uint32_t number = 0; number < assets_.size(); ++number) {
     if (demands_[number].graph == nullptr || assets_[number].failedChunks == 0) continue;
     const std::span<const ChunkState> states = residency_.states(number);

@@ -64,6 +64,9 @@ class ChunkStreamer {
   Status setBudget(uint64_t bytes);
   // Most live cells of the wanted cuts together. Floors count first and are drawn though they have more.
   void setCellBudget(uint64_t cells) { cellBudget_ = cells; }
+  // What views may need for the cells of the wanted cuts, floors first; and how much that is for a cell of an asset.
+  void setViewBudget(uint64_t bytes) { viewBudget_ = bytes; }
+  void setViewPrice(uint32_t asset, uint64_t bytesPerCell) { demands_[asset].viewBytesPerCell = bytesPerCell; }
 
   uint32_t addAsset(LevelGraph graph);  // its number: the least that is free. Not placed, no eyes
   // The asset has an instance from now on. Refused if the budget does not hold its floor and those of others.
@@ -133,7 +136,7 @@ class ChunkStreamer {
   void resolveStandstill(size_t firstBlocked, uint64_t bytes);
 
   StreamOptions options_;
-  uint64_t budget_ = 0, cellBudget_ = UINT64_MAX;
+  uint64_t budget_ = 0, cellBudget_ = UINT64_MAX, viewBudget_ = UINT64_MAX;
   uint64_t floorBytes_ = 0;  // of placed assets
   uint32_t frame_ = 0;       // of the last update; what is reported between updates belongs to the next
   std::vector<Asset> assets_;

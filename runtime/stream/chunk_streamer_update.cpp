@@ -16,9 +16,9 @@ void ChunkStreamer::updateCut(uint32_t number) {
   Asset& asset = assets_[number];
   if (!asset.isPlaced) {
     if (asset.isShown) {
+      asset.isShown = false;  // so that coarse chunks do not appear in place of what goes
       asset.next.clear();
       showChanges(number);
-      asset.isShown = false;
       for (const uint32_t chunk : asset.graph->floor()) showOrHide(number, chunk);
     }
     if (asset.isLeaving) evictAllOf(number);

@@ -13,6 +13,11 @@ LevelGraph::LevelGraph(const LevelTables& tables) : chunks_(tables.bytes.size())
       floorBytes_ += tables.bytes[i];
       floorCells_ += tables.cells[i];
     }
+    if (level.madeBy == kNoGroup) {
+      finestBytes_ += tables.bytes[i];
+      finestCells_ += tables.cells[i];
+    }
+    allBytes_ += tables.bytes[i];
   }
   for (uint32_t g = 0; g < groupCount(); ++g) {
     const LevelGroup& group = tables.groups[g];

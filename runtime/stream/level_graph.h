@@ -55,6 +55,9 @@ class LevelGraph {
   std::span<const uint32_t> lowest() const { return lowest_; }  // groups that no group is coarser than
   uint64_t floorBytes() const { return floorBytes_; }
   uint64_t floorCells() const { return floorCells_; }
+  uint64_t finestBytes() const { return finestBytes_; }  // of level 0
+  uint64_t finestCells() const { return finestCells_; }
+  uint64_t allBytes() const { return allBytes_; }  // of all levels
   // Most bytes that a group holds besides its price while both of its forms are resident.
   uint64_t mostCoarseBytes() const { return mostCoarseBytes_; }
 
@@ -75,7 +78,7 @@ class LevelGraph {
   std::vector<Group> groups_;
   Rows fine_, coarse_, coarser_, finer_;
   std::vector<uint32_t> floor_, lowest_;
-  uint64_t floorBytes_ = 0, floorCells_ = 0, mostCoarseBytes_ = 0;
+  uint64_t floorBytes_ = 0, floorCells_ = 0, finestBytes_ = 0, finestCells_ = 0, allBytes_ = 0, mostCoarseBytes_ = 0;
 };
 
 }  // namespace froth

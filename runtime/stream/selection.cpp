@@ -25,7 +25,7 @@ void Selection::reserve(size_t groupCount) {
   bought_.reserve(groupCount);
 }
 
-void Selection::select(std::span<AssetDemand> assets, uint64_t bytes, uint64_t cells) {
+void Selection::select(std::span<AssetDemand> assets, CutLimits limits) {
   heap_.clear();
   bought_.clear();
   for (uint32_t a = 0; a < assets.size(); ++a) {
@@ -39,9 +39,11 @@ void Selection::select(std::span<AssetDemand> assets, uint64_t bytes, uint64_t c
     const Offer best = heap_.front();
     AssetDemand& asset = assets[best.id.asset];
     const LevelGraph::Group& group = asset.graph->group(best.id.group);
-    if (group.bytePrice > bytes || group.cellPrice > cells) return;
-    bytes -= group.bytePrice;
-    cells -= group.cellPrice;
+    const uint64_t viewPrice = group.cellPrice * asset.viewBytesPerCell;
+    if (group.bytePrice > limits.bytes || group.cellPrice > limits.cells || viewPrice > limits.viewBytes) return;
+    limits.bytes -= group.bytePrice;
+    limits.cells -= group.cellPrice;
+    limits.viewBytes -= viewPrice;
     std::pop_heap(heap_.begin(), heap_.end());
     heap_.pop_back();
     asset.wanted.add(best.id.group);

@@ -1,4 +1,5 @@
-// Which groups the views want to be refined, within a budget of bytes and cells that all assets share.
+// Which groups the views want to be refined, within a budget of bytes, of chunks and of views, and cells that all
+// assets share.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +35,15 @@ double keyOf(const LevelGraph::Group& group, std::span<const StreamEye> eyes);
 struct AssetDemand {
   const LevelGraph* graph = nullptr;
   std::vector<StreamEye> eyes;
-  GroupSet wanted;  // by descending key
+  GroupSet wanted;                // by descending key
+  uint64_t viewBytesPerCell = 0;  // [bytes] that views need for each live cell that is drawn
+};
+
+// What a cut may cost.
+struct CutLimits {
+  uint64_t bytes = UINT64_MAX;      // of chunks
+  uint64_t cells = UINT64_MAX;      // live
+  uint64_t viewBytes = UINT64_MAX;  // for the cells
 };
 
 struct GroupId {
@@ -49,8 +58,8 @@ class Selection {
   // Room for as many groups over all assets, so that select() does not allocate.
   void reserve(size_t groupCount);
 
-  // bytes, cells: what groups may cost. Assets without a graph are left alone.
-  void select(std::span<AssetDemand> assets, uint64_t bytes, uint64_t cells);
+  // limits: of groups, beside floors. Assets without a graph are left alone.
+  void select(std::span<AssetDemand> assets, CutLimits limits);
   std::span<const GroupId> bought() const { return bought_; }  // of all assets, in order
 
  private:

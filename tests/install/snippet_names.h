@@ -6,6 +6,7 @@
 #include <froth/froth_quality.h>
 #include <froth/froth_query.h>
 #include <froth/froth_reader.h>
+#include <froth/froth_replace.h>
 #include <froth/froth_stream.h>
 #include <froth/froth_walk.h>
 #include <math.h>

@@ -1,4 +1,5 @@
 // A flight on a simulated disk: its figures are those of the disk and the budget, and the same each time.
+#include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -125,6 +126,39 @@ TEST(Flight, OfASlowDiskShowsLater) {
   slow.scene.disk.latency = 0.1;
   const Flight late = flyWell(slow);
   EXPECT_GE(firstReady(late), firstReady(fast) + 6);
+}
+
+// Views make room for a cut before it is drawn, whatever the disk does and wherever the camera goes on.
+TEST(Flight, LacksNoCellsOnceItsFloorIsDrawn) {
+  for (const double latency : {0.0, 0.005, 0.05}) {
+    for (const uint32_t jumpEvery : {0u, 13u}) {
+      FlightOptions late = options();
+      late.imageEvery = late.frames;
+      late.jumpEvery = jumpEvery;
+      late.scene.disk.latency = latency;
+      const Flight flight = flyWell(late);
+      for (uint32_t frame = firstReady(flight) + 1; frame < flight.frames.size(); ++frame) {
+        EXPECT_TRUE(flight.frames[frame].isWhole) << "frame " << frame << ", latency " << latency;
+      }
+    }
+  }
+}
+
+// Chunks and what views need of them come out of one budget; where all of it is too much, less is wanted.
+TEST(Flight, LacksNoCellsAndSettlesInTightBudgets) {
+  uint64_t whole = 0;
+  for (const FlownFrame& frame : flyWell(options()).frames) whole = std::max(whole, frame.deviceBytes);
+  for (const uint64_t sixteenths : {8, 11, 14}) {
+    FlightOptions tight = options();
+    tight.imageEvery = tight.frames;
+    tight.scene.budget = whole * sixteenths / 16;
+    const Flight flight = flyWell(tight);
+    EXPECT_TRUE(flight.atEnd.isSettled);
+    for (uint32_t frame = firstReady(flight) + 1; frame < flight.frames.size(); ++frame) {
+      EXPECT_TRUE(flight.frames[frame].isWhole) << "frame " << frame << ", budget " << sixteenths << " / 16";
+      EXPECT_LE(flight.frames[frame].deviceBytes, tight.scene.budget);
+    }
+  }
 }
 
 TEST(Flight, AtRestHasAllThatIsWanted) {

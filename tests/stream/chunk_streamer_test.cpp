@@ -294,6 +294,17 @@ TEST_F(Ladder, EvictsAllOfARemovedAssetAndGivesItsNumberAnew) {
   EXPECT_EQ(streamer.addAsset(makeLadder()), asset);
 }
 
+// Not even the coarse chunks of the groups that were refined.
+TEST_F(Ladder, ShowsNothingOfARemovedAsset) {
+  look(kNear);
+  for (int i = 0; i < 5; ++i) bring(update());
+  EXPECT_FALSE(streamer.refined(asset).members().empty());
+  streamer.removeAsset(asset);
+  const StreamActions& actions = streamer.update(kReads);
+  EXPECT_TRUE(actions.shown.empty());
+  EXPECT_FALSE(actions.hidden.empty());
+}
+
 // The second chunk of a floor is there; the first has failed once and then finds no room. Finer chunks of the ladder
 // hold it, and the coarser ones that are wanted instead have failed too, a frame later.
 TEST(ChunkStreamer, DoesNotGiveUpAFloorThatIsHalfThere) {

@@ -28,7 +28,7 @@ struct Scene {
   }
   std::vector<GroupId> select(uint64_t bytes, uint64_t cells) {
     Selection selection;
-    selection.select(demands, bytes, cells);
+    selection.select(demands, {bytes, cells});
     return {selection.bought().begin(), selection.bought().end()};
   }
 };
@@ -112,6 +112,25 @@ TEST(Selection, IsACutWithinTheBudgetWhateverIsGiven) {
   EXPECT_GT(refined, 500);
 }
 
+// A budget of views says the same as one of cells, if each cell has the same price; and cells of an asset that more
+// views show cost more.
+TEST(Selection, PaysForCellsByWhatViewsNeed) {
+  size_t cheaper = 0, dearer = 0;
+  for (uint64_t seed = 1; seed <= 100; ++seed) {
+    Scene scene(seed, 2);
+    const size_t byCells = scene.select(kUnlimited, 100).size();
+    for (AssetDemand& demand : scene.demands) demand.viewBytesPerCell = 7;
+    Selection selection;
+    selection.select(scene.demands, {.viewBytes = 7 * 100 + 6});
+    ASSERT_EQ(selection.bought().size(), byCells) << "seed " << seed;
+    cheaper += byCells;
+    scene.demands[1].viewBytesPerCell = 14;
+    selection.select(scene.demands, {.viewBytes = 7 * 100 + 6});
+    dearer += selection.bought().size();
+  }
+  EXPECT_LT(dearer, cheaper);
+}
+
 TEST(Selection, WantsTheFloorWithoutEyesAndAllWhereAnEyeIsInside) {
   Scene scene(1, 1);
   scene.demands[0].eyes.clear();
@@ -144,7 +163,7 @@ TEST(Selection, IsACutEvenWhereKeysOfFinerGroupsAreGreater) {
   const LevelGraph graph = dag.graph();
   AssetDemand demand{&graph, {{{0, 0, 0}, 0, 0, 1, 1}}, GroupSet(graph.groupCount())};
   Selection selection;
-  selection.select({&demand, 1}, kUnlimited, kUnlimited);
+  selection.select({&demand, 1}, {});
   EXPECT_EQ(selection.bought().size(), graph.groupCount());
   for (size_t i = 0; i < selection.bought().size(); ++i) {
     for (const uint32_t coarser : graph.coarserThan(selection.bought()[i].group)) {

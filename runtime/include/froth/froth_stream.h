@@ -48,7 +48,8 @@ typedef struct FrothStreamStatus {
   uint32_t failedChunks;   /* for good: other levels stand for them */
   uint64_t usedBytes;      /* [bytes] of device memory, by estimate before a chunk was resident: of those that are
                               resident, on the way, or leave */
-  uint64_t budgetBytes;    /* what chunks may take: half of the budget that nothing else of the context holds */
+  uint64_t budgetBytes;    /* what chunks may take: their share of the budget that nothing else of the context holds,
+                              the rest is for what views need of their cells. 0: there is no budget */
   uint64_t excessBytes;    /* of usedBytes above budgetBytes, since the budget was lowered */
   uint32_t oldestRequest;  /* [frames] for so long a chunk that is needed has been waited for */
   uint32_t floorHits;      /* chunks of floors that are drawn where finer ones are wanted */
