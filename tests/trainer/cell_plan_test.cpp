@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "tests/reference/scenes.h"
@@ -49,6 +50,14 @@ TEST_F(CellPlanOf, RemovesWhatDoesNotShowAndSplitsUntilThereAreAsManyAsWanted) {
     EXPECT_LE(count, 2);  // without replacement
   }
   EXPECT_EQ(copies.size(), 190u);
+}
+
+TEST_F(CellPlanOf, RemovesATenthAtMostAndAllWithoutNumbers) {
+  std::fill(foam_.contributions.begin(), foam_.contributions.end(), 1e-9f);  // nothing was seen yet
+  EXPECT_EQ(plan(kCells / 2).sources.size(), 180u);
+  foam_.balls[50].x = std::numeric_limits<float>::quiet_NaN();
+  const CellPlan made = plan(kCells / 2);
+  EXPECT_EQ(std::ranges::count(made.sources, 50u), 0);
 }
 
 TEST_F(CellPlanOf, IsThatOfItsSeed) {

@@ -25,14 +25,25 @@ float quantileOf(std::vector<float> values, double share) {
   return values[place];
 }
 
+// Removed are cells that show less than their share, the least first and a tenth of all at most; and any whose numbers
+// are not finite.
 std::vector<uint32_t> findSurvivors(const CellFacts& facts, uint32_t wanted) {
-  const std::vector<float> contributions(facts.contributions.begin(), facts.contributions.end());
-  const float limit = std::min(kLeastShare / static_cast<float>(wanted), quantileOf(contributions, kMostRemoved));
+  const auto cellCount = static_cast<uint32_t>(facts.balls.size());
+  const auto isSound = [&](uint32_t i) {
+    const glm::vec4& ball = facts.balls[i];
+    return std::isfinite(ball.x + ball.y + ball.z + ball.w + facts.contributions[i] + facts.errors[i]);
+  };
+  std::vector<std::pair<float, uint32_t>> least;
+  for (uint32_t i = 0; i < cellCount; ++i) least.emplace_back(isSound(i) ? facts.contributions[i] : -1, i);
+  const auto most = static_cast<size_t>(kMostRemoved * cellCount);
+  std::nth_element(least.begin(), least.begin() + static_cast<ptrdiff_t>(most), least.end());
+  const float limit = kLeastShare / static_cast<float>(wanted);
   std::vector<uint32_t> survivors;
-  for (uint32_t i = 0; i < facts.balls.size(); ++i) {
-    const bool isSound = std::isfinite(facts.balls[i].x + facts.balls[i].y + facts.balls[i].z + facts.balls[i].w);
-    if (isSound && facts.contributions[i] > limit) survivors.push_back(i);
+  for (size_t i = 0; i < least.size(); ++i) {
+    const auto& [contribution, cell] = least[i];
+    if (contribution >= 0 && (i >= most || contribution > limit)) survivors.push_back(cell);
   }
+  std::sort(survivors.begin(), survivors.end());
   return survivors;
 }
 

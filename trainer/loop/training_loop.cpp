@@ -29,8 +29,8 @@ Status densify(StepExecutor& executor, const LoopOptions& options, uint32_t step
   const uint32_t wanted = cellsAfter(options.schedule, step, static_cast<uint32_t>(facts->balls.size()));
   const CellPlan plan = planCells(*facts, wanted, options.seed, step);
   if (plan.sources.empty()) {
-    return makeError(ErrorKind::kBadInput, "training: after %u steps no cell is seen; check poses and near limits",
-                     step + 1);
+    return makeError(ErrorKind::kBadInput,
+                     "training: after %u steps no cell has finite numbers; report the scene that does this", step + 1);
   }
   return executor.rearrange(plan);
 }
