@@ -1,5 +1,6 @@
 // A flight on a simulated disk: its figures are those of the disk and the budget, and the same each time.
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -130,16 +131,14 @@ TEST(Flight, OfASlowDiskShowsLater) {
 
 // Views make room for a cut before it is drawn, whatever the disk does and wherever the camera goes on.
 TEST(Flight, LacksNoCellsOnceItsFloorIsDrawn) {
-  for (const double latency : {0.0, 0.005, 0.05}) {
-    for (const uint32_t jumpEvery : {0u, 13u}) {
-      FlightOptions late = options();
-      late.imageEvery = late.frames;
-      late.jumpEvery = jumpEvery;
-      late.scene.disk.latency = latency;
-      const Flight flight = flyWell(late);
-      for (uint32_t frame = firstReady(flight) + 1; frame < flight.frames.size(); ++frame) {
-        EXPECT_TRUE(flight.frames[frame].isWhole) << "frame " << frame << ", latency " << latency;
-      }
+  for (const auto& [latency, jumpEvery] : {std::pair(0.0, 13u), std::pair(0.005, 0u), std::pair(0.05, 13u)}) {
+    FlightOptions late = options();
+    late.imageEvery = late.frames + 1;
+    late.jumpEvery = jumpEvery;
+    late.scene.disk.latency = latency;
+    const Flight flight = flyWell(late);
+    for (uint32_t frame = firstReady(flight) + 1; frame < flight.frames.size(); ++frame) {
+      EXPECT_TRUE(flight.frames[frame].isWhole) << "frame " << frame << ", latency " << latency;
     }
   }
 }
@@ -150,7 +149,7 @@ TEST(Flight, LacksNoCellsAndSettlesInTightBudgets) {
   for (const FlownFrame& frame : flyWell(options()).frames) whole = std::max(whole, frame.deviceBytes);
   for (const uint64_t sixteenths : {8, 11, 14}) {
     FlightOptions tight = options();
-    tight.imageEvery = tight.frames;
+    tight.imageEvery = tight.frames + 1;
     tight.scene.budget = whole * sixteenths / 16;
     const Flight flight = flyWell(tight);
     EXPECT_TRUE(flight.atEnd.isSettled);
