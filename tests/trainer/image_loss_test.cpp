@@ -156,7 +156,8 @@ TEST(ImageLoss, GradientsAreThoseOfDifferences) {
           moved[i][c] -= 2 * kStep;
           const double difference = (above - lossOf(sample, moved, weight)) / (2 * kStep);
           // Of a loss near 1 differences lose 2^-53 / kStep, and have an error of kStep^2 times third derivatives.
-          ASSERT_NEAR(gradients[i][c], difference, 1e-9 + 1e-6 * std::abs(difference)) << i << ' ' << c << ' ' << weight;
+          ASSERT_NEAR(gradients[i][c], difference, 1e-9 + 1e-6 * std::abs(difference))
+              << i << ' ' << c << ' ' << weight;
         }
       }
     }

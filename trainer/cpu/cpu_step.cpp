@@ -192,10 +192,10 @@ static void differentiatePixel(const SeenCells<Real>& seen, uint32_t detailCount
     if (!meetCell(cell, seen.planes, details, detailCount, direction, settings.sharpness, segment)) continue;
     Real weight;
     const SegmentSeeds<Real> seeds = seedSegment(cell, segment, settings, adjoint, weight);
-    const glm::vec<3, Real> miss = glm::abs(segment.colour - adjoint.wanted);
+    const glm::vec<3, Real> miss = glm::abs(segment.colour - glm::vec<3, Real>(adjoint.wanted));
     CellSums<Real>& sums = row.cells[places[end]];
     sums.contribution += weight * settings.perPixel;
-    sums.error += weight * (miss.x + miss.y + miss.z) * settings.perPixel;
+    sums.error += weight * adjoint.wanted.w * (miss.x + miss.y + miss.z) * settings.perPixel;
     SegmentGradient<Real> gradient;
     PlainSink<Real> sink{row.details.data() + size_t{places[end]} * detailCount};
     if (differentiateSegment(cell, seen.planes, details, detailCount, direction, settings.sharpness, segment, seeds,

@@ -2,8 +2,8 @@
 //
 //   L = 1/N sum over pixels of  sum over channels E[(rgb' - gt')^2]  +  weight (1 - SSIM(rgb', gt'))
 //
-// N is the number of pixels of the photo, also where a mask ignores some: each photographed pixel then counts the same in
-// every view. E[] is the mean over random backgrounds (pixel_loss.h).
+// N is the number of pixels of the photo, also where a mask ignores some: each photographed pixel then counts the same
+// in every view. E[] is the mean over random backgrounds (pixel_loss.h).
 //
 // SSIM is of each channel, with windows that are normalised over the pixels that count: beyond the border and under a
 // mask nothing does. Padding with zeros would put the same black border into both images, and hide what differs there.
@@ -54,8 +54,8 @@ class ImageLoss {
   double compareWindows(const LossTarget& target);
   void spreadGradients(const LossTarget& target, Real scale, int channel, std::span<glm::vec<4, Real>> gradients);
 
-  Plane rendered_, wanted_;        // over grey
-  Plane moments_[kMoments];        // blurred along rows
+  Plane rendered_, wanted_;  // over grey
+  Plane moments_[kMoments];  // blurred along rows
   Plane fields_[kFields], blurred_[kFields];
   std::vector<double> rowSums_;
 };

@@ -41,9 +41,9 @@ FOAM_FN real similarity(real x, real y, real xx, real yy, real xy, FOAM_OUT(real
   real variances = xx - x * x + yy - y * y + c2;
   real scale = real(1) / (meanSquares * variances);
   real value = means * covariance * scale;
-  gradient = real3(real(2) * y * (covariance - means) * scale +
-                       real(2) * x * value * (real(1) / variances - real(1) / meanSquares),
-                   -value / variances, real(2) * means * scale);
+  gradient = real3(
+      real(2) * y * (covariance - means) * scale + real(2) * x * value * (real(1) / variances - real(1) / meanSquares),
+      -value / variances, real(2) * means * scale);
   return value;
 }
 

@@ -63,7 +63,8 @@ std::vector<uint8_t> reduceFlags(const std::vector<uint8_t>& flags, uint32_t wid
       bool isSet = true;
       for (uint32_t row = rows.first; row < rows.end; ++row) {
         const auto begin = flags.begin() + static_cast<ptrdiff_t>(size_t{row} * width);
-        isSet = isSet && std::all_of(begin + columns.first, begin + columns.end, [](uint8_t flag) { return flag != 0; });
+        isSet =
+            isSet && std::all_of(begin + columns.first, begin + columns.end, [](uint8_t flag) { return flag != 0; });
       }
       reduced.push_back(isSet);
     }

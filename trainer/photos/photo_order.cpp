@@ -20,7 +20,8 @@ Result<PhotoSplit> splitPhotos(const std::vector<CapturedView>& views, uint32_t 
     }
   }
   if (split.training.size() >= 2) return split;
-  return makeError(ErrorKind::kBadInput, "%zu of %zu photos are for training, at least 2 are needed; take more photos%s",
+  return makeError(ErrorKind::kBadInput,
+                   "%zu of %zu photos are for training, at least 2 are needed; take more photos%s",
                    split.training.size(), views.size(), isSaid ? "" : ", or hold fewer out with --test-every");
 }
 

@@ -13,10 +13,10 @@ namespace froth {
 enum class AlphaForm { kStraight, kPremultiplied };
 
 struct PhotoOptions {
-  double downscale = 1;                        // [>= 1] sides are divided by it and rounded
-  AlphaForm alpha = AlphaForm::kStraight;      // of PNG files with alpha; the PNG standard says straight
-  bool isMaskAlpha = false;                    // masks cut the object out: what they ignore is background, not unknown
-  uint64_t mostBytes = uint64_t{64} << 30;     // of all photos in memory; they are not read if they take more
+  double downscale = 1;                     // [>= 1] sides are divided by it and rounded
+  AlphaForm alpha = AlphaForm::kStraight;   // of PNG files with alpha; the PNG standard says straight
+  bool isMaskAlpha = false;                 // masks cut the object out: what they ignore is background, not unknown
+  uint64_t mostBytes = uint64_t{64} << 30;  // of all photos in memory; they are not read if they take more
 };
 
 // Display-coded, 4 bytes per pixel: 97 photos of 1319 x 989 take 506 MB.
@@ -27,8 +27,8 @@ struct Photo {
 };
 
 // In the order of the views, read on all threads. Checks that each file is there, is of its camera's size, and fits
-// with its mask; the error is that of the first faulty view in their order. Memory: the photos, and one at full size per
-// thread.
+// with its mask; the error is that of the first faulty view in their order. Memory: the photos, and one at full size
+// per thread.
 Result<std::vector<Photo>> readPhotos(const std::vector<CapturedView>& views, const PhotoOptions& options,
                                       const Progress& progress = {});
 

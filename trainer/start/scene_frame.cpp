@@ -110,9 +110,7 @@ SceneFrame findSceneFrame(const Capture& capture) {
   return distance > 0 ? SceneFrame{centre, kMedianDistance / distance} : frameOfCameras(capture);
 }
 
-glm::dvec3 normalised(const glm::dvec3& place, const SceneFrame& frame) {
-  return (place - frame.centre) * frame.scale;
-}
+glm::dvec3 normalised(const glm::dvec3& place, const SceneFrame& frame) { return (place - frame.centre) * frame.scale; }
 
 View normalised(const View& view, const SceneFrame& frame) {
   View moved = view;

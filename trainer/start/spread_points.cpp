@@ -23,8 +23,8 @@ bool isBefore(const Placed& a, const Placed& b) {
   return std::tie(a.priority, a.index) < std::tie(b.priority, b.index);
 }
 
-// The cubes of `level` bits in a range of one cube of a level less: its point of least priority keeps the coarser level,
-// those of the other cubes get this one.
+// The cubes of `level` bits in a range of one cube of a level less: its point of least priority keeps the coarser
+// level, those of the other cubes get this one.
 void assignLevels(std::vector<Placed>& placed, size_t begin, size_t end, int level) {
   if (level > kGridBits) return;
   const int shift = 3 * (kGridBits - level);
@@ -49,14 +49,12 @@ std::vector<uint32_t> spreadOrder(const std::vector<glm::dvec3>& points, double 
     const glm::uvec3 cube(unit * double(1 << kGridBits));
     placed.push_back({mortonCode({cube.x, cube.y, cube.z}), random.bits(i), i, kGridBits + 1});
   }
-  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-    return a.code != b.code ? a.code < b.code : isBefore(a, b);
-  });
+  std::sort(placed.begin(), placed.end(),
+            [](const Placed& a, const Placed& b) { return a.code != b.code ? a.code < b.code : isBefore(a, b); });
   assignLevels(placed, 0, placed.size(), 0);
   std::erase_if(placed, [](const Placed& point) { return point.level > kGridBits; });
-  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-    return a.level != b.level ? a.level < b.level : isBefore(a, b);
-  });
+  std::sort(placed.begin(), placed.end(),
+            [](const Placed& a, const Placed& b) { return a.level != b.level ? a.level < b.level : isBefore(a, b); });
   std::vector<uint32_t> order;
   order.reserve(placed.size());
   for (const Placed& point : placed) order.push_back(point.index);

@@ -18,7 +18,7 @@ constexpr double kReach = 1000;           // points further out are outliers; ca
 constexpr double kHeightShare = 0.05;     // of an image that a radius covers at most
 constexpr double kNear = 0.4, kFar = 40;  // depths of random cells: a tenth and ten times the median distance
 constexpr uint32_t kTries = 64;           // for a place in the visual hull
-constexpr double kHullShare = 0.9;        // of the views that see a place must show the object there: masks are not exact
+constexpr double kHullShare = 0.9;  // of the views that see a place must show the object there: masks are not exact
 
 // A radius of so many per unit of distance.
 double radiusPerDistance(const View& view) { return kHeightShare * view.height / view.fy; }
@@ -48,7 +48,8 @@ struct Draw {
 Draw drawAt(const CounterRandom& random, uint64_t index, const std::vector<View>& views) {
   const auto uniform = [&](uint64_t which) { return random.uniform(4 * index + which); };
   const auto view = static_cast<uint32_t>(uniform(0) * static_cast<double>(views.size()));
-  return {view, {uniform(1) * views[view].width, uniform(2) * views[view].height},
+  return {view,
+          {uniform(1) * views[view].width, uniform(2) * views[view].height},
           kNear * std::pow(kFar / kNear, uniform(3))};
 }
 

@@ -14,10 +14,10 @@
 namespace froth {
 
 struct StartCell {
-  glm::dvec3 position{0};          // normalised
-  glm::dvec3 towards{0};           // to whom sees it, of any length; 0: not known
-  glm::dvec3 colour{0.5};          // display-coded
-  double mostRadius = HUGE_VAL;    // of 5 % of the height of an image that shows it
+  glm::dvec3 position{0};        // normalised
+  glm::dvec3 towards{0};         // to whom sees it, of any length; 0: not known
+  glm::dvec3 colour{0.5};        // display-coded
+  double mostRadius = HUGE_VAL;  // of 5 % of the height of an image that shows it
 };
 
 // What a start begins from.

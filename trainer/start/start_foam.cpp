@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include <glm/gtc/quaternion.hpp>
 #include <tbb/parallel_for.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "foam/checkpoint/activation.h"
 #include "foam/checkpoint/parameters.h"
@@ -15,12 +15,12 @@
 namespace froth {
 namespace {
 
-constexpr double kPointShare = 0.95;    // of the points: the last ones lie closest to others
-constexpr double kMixFrom = 0.9;        // of the points: as many cells, and mixtures begin
-constexpr uint64_t kMostMixtures = 9;   // for each point
-constexpr uint32_t kNearest = 8;        // distances in a radius
-constexpr double kLeastRadius = 0.0069; // softplus(0)
-constexpr double kTiniest = 1e-6;       // of a cell in front of a lens: still a normal float
+constexpr double kPointShare = 0.95;     // of the points: the last ones lie closest to others
+constexpr double kMixFrom = 0.9;         // of the points: as many cells, and mixtures begin
+constexpr uint64_t kMostMixtures = 9;    // for each point
+constexpr uint32_t kNearest = 8;         // distances in a radius
+constexpr double kLeastRadius = 0.0069;  // softplus(0)
+constexpr double kTiniest = 1e-6;        // of a cell in front of a lens: still a normal float
 constexpr double kRawDensity = 0.1, kSiteSpread = 0.1, kAxisSpread = 2;
 
 // Rows n, t, b with n along `towards`, or at random where that is 0.
@@ -53,7 +53,8 @@ void setRadii(const std::vector<StartCell>& cells, Foam& foam) {
 }
 
 void setAppearance(const std::vector<StartCell>& cells, uint64_t seed, Foam& foam) {
-  const CounterRandom sites = startRandom(seed, StartStream::kDetailSites), axes = startRandom(seed, StartStream::kAxes);
+  const CounterRandom sites = startRandom(seed, StartStream::kDetailSites),
+                      axes = startRandom(seed, StartStream::kAxes);
   const size_t details = size_t{foam.cellCount} * foam.detailCount, lobes = details * foam.lobeCount;
   foam.detailSites.resize(details);
   foam.detailHeights.assign(details, 0.0f);
@@ -82,9 +83,8 @@ Foam foamOf(const std::vector<StartCell>& cells, const StartOptions& options, ui
   foam.densities.assign(cells.size(), static_cast<float>(softplus(kRawDensity)));
   const CounterRandom normals = startRandom(seed, StartStream::kNormal);
   foam.orientations.resize(cells.size());
-  tbb::parallel_for(uint32_t{0}, foam.cellCount, [&](uint32_t i) {
-    foam.orientations[i] = orientationTo(cells[i].towards, normals, i);
-  });
+  tbb::parallel_for(uint32_t{0}, foam.cellCount,
+                    [&](uint32_t i) { foam.orientations[i] = orientationTo(cells[i].towards, normals, i); });
   setRadii(cells, foam);
   setAppearance(cells, seed, foam);
   return foam;
@@ -105,8 +105,7 @@ Result<StartFoam> makeStartFoam(const StartScene& scene, const StartOptions& opt
   StartFoam start;
   start.points = std::min(options.cellCount, static_cast<uint32_t>(kPointShare * static_cast<double>(points.size())));
   const uint32_t rest = options.cellCount - start.points;
-  const bool mixes =
-      points.size() >= kMixed && options.cellCount >= kMixFrom * static_cast<double>(points.size());
+  const bool mixes = points.size() >= kMixed && options.cellCount >= kMixFrom * static_cast<double>(points.size());
   if (mixes) start.mixtures = static_cast<uint32_t>(std::min<uint64_t>(rest, kMostMixtures * points.size()));
   start.random = rest - start.mixtures;
 

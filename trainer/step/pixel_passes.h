@@ -48,7 +48,7 @@ struct PixelAdjoint {
   Real logTransmittance;     // behind the cell that comes next
   Real behind;               // foam::opticalDepthGradient
   glm::vec<3, Real> seed;    // dL/drgb
-  glm::vec<3, Real> wanted;  // what the pixel should show
+  glm::vec<4, Real> wanted;  // PixelArrays::wanted
 };
 
 // The seeds of one segment, and its weight T alpha; moves the adjoint to before the cell.
@@ -72,8 +72,7 @@ template <class Real>
 FROTH_HD PixelAdjoint<Real> beginAdjoint(const PixelArrays<Real>& pixels, size_t pixel) {
   const glm::vec<4, Real> gradient = pixels.gradients[pixel];
   const Real logTransmittance = pixels.logTransmittances[pixel];
-  return {logTransmittance, gradient.w * std::exp(logTransmittance), glm::vec<3, Real>(gradient),
-          glm::vec<3, Real>(pixels.wanted[pixel])};
+  return {logTransmittance, gradient.w * std::exp(logTransmittance), glm::vec<3, Real>(gradient), pixels.wanted[pixel]};
 }
 
 // A sink for one thread that owns the sums it adds to.

@@ -1,0 +1,125 @@
+// The step on the CPU: it shows what the reference renderer shows, on any number of threads, and survives poison.
+#include "trainer/cpu/cpu_step.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/reference/scenes.h"
+#include "trainer/cpu/foam_exchange.h"
+#include "trainer/loop/view_exchange.h"
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kWidth = 61, kHeight = 43;  // no multiples of a tile
+
+std::vector<glm::vec4> gradientsFor(const std::vector<glm::vec4>& shown) {
+  std::vector<glm::vec4> gradients(shown.size());
+  for (size_t i = 0; i < shown.size(); ++i) {
+    gradients[i] = (shown[i] - glm::vec4(0.3f, 0.5f, 0.7f, 0.2f)) / float(shown.size());
+  }
+  return gradients;
+}
+
+// A step with the rate of the first step of training.
+AdamStep<float> firstAdam() {
+  AdamStep<float> adam{};
+  std::fill(std::begin(adam.rates), std::end(adam.rates), 1e-3f);
+  return adam;
+}
+
+void takeStep(CpuStep<float>& step, const TrainingView<float>& view) {
+  RaySettings<float> settings;
+  settings.normalWeight = 1e-4f;
+  settings.perPixel = 1.0f / (kWidth * kHeight);
+  step.activate(1e-3f);
+  const std::vector<glm::vec4> shown = step.render(view, settings, firstAdam());
+  step.differentiate(gradientsFor(shown), std::vector<glm::vec4>(shown.size()));
+  step.update(firstAdam(), 1e-4f);
+}
+
+class CpuStepOf : public ::testing::TestWithParam<glm::dvec3> {};
+
+TEST_P(CpuStepOf, ShowsWhatTheReferenceShows) {
+  const Foam foam = activateFoam(storeFoam<float>(randomFoam(60, 3, 2, 5)));
+  FoamStorage<double> storage = storeFoam<double>(foam);
+  const View view = lookAt(GetParam(), {0.1, 0, 0}, kWidth, kHeight, 0.6);
+  ReferenceOptions options = plainOptions();
+  options.nearRatio = 1.5;
+  options.nearDepth = 0.7;
+  const RenderedImages images = renderFoam(foam, view, options);
+
+  CpuStep<double> step(storage);
+  TrainingView<double> training = trainingView<double>(view);
+  training.nearRatio = options.nearRatio;
+  training.nearDepth = options.nearDepth;
+  RaySettings<double> settings;
+  settings.cutoff = 0;
+  step.activate(0.01f);
+  AdamStep<double> adam{};
+  const std::vector<glm::dvec4>& shown = step.render(training, settings, adam);
+  // Raw radii and densities are floats, so a foam that went through them differs by some 1e-6 of each.
+  constexpr double kTolerance = 2e-5;
+  for (uint32_t y = 0; y < kHeight; ++y) {
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      const glm::dvec4& found = shown[size_t{y} * kWidth + x];
+      for (int c = 0; c < 3; ++c) ASSERT_NEAR(found[c], images.colour.pixel(x, y)[c], kTolerance) << x << " " << y;
+      ASSERT_NEAR(1 - found.w, *images.alpha.pixel(x, y), kTolerance) << x << " " << y;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Eyes, CpuStepOf,
+                         ::testing::Values(glm::dvec3(0.5, 0.4, -3), glm::dvec3(0.3, 0.2, 0.25),
+                                           glm::dvec3(-30, 4, 9)));
+
+TEST(CpuStep, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const TrainingView<float> view = trainingView<float>(lookAt({0.5, 0.4, -3}, {0, 0, 0}, kWidth, kHeight, 0.5));
+  FoamStorage<float> one = storeFoam<float>(randomFoam(300, 3, 2, 6)), many = one;
+  {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    CpuStep<float> step(one);
+    for (int i = 0; i < 3; ++i) takeStep(step, view);
+  }
+  CpuStep<float> step(many);
+  for (int i = 0; i < 3; ++i) takeStep(step, view);
+  for (size_t t = 0; t < kParameterCount; ++t) {
+    EXPECT_EQ(one.values[t], many.values[t]) << kParameterKeys[t];
+    EXPECT_EQ(one.secondMoments[t], many.secondMoments[t]) << kParameterKeys[t];
+  }
+  EXPECT_EQ(one.errors, many.errors);
+}
+
+TEST(CpuStep, DropsAndCountsWhatIsNoFiniteNumber) {
+  const TrainingView<float> view = trainingView<float>(lookAt({0.5, 0.4, -3}, {0, 0, 0}, kWidth, kHeight, 0.5));
+  FoamStorage<float> foam = storeFoam<float>(randomFoam(60, 3, 2, 6));
+  const uint32_t poisoned = 7;
+  foam.values[size_t(Parameter::kOrientations)][4 * poisoned] = std::numeric_limits<float>::quiet_NaN();
+  foam.values[size_t(Parameter::kLobeAxes)][0] = 0;  // |a| = 0, of cell 0
+  foam.values[size_t(Parameter::kLobeAxes)][1] = foam.values[size_t(Parameter::kLobeAxes)][2] = 0;
+  for (int c = 0; c < 3; ++c) {  // cells 1 and 2 coincide
+    foam.values[size_t(Parameter::kPoints)][6 + c] = foam.values[size_t(Parameter::kPoints)][3 + c];
+  }
+  CpuStep<float> step(foam);
+  RaySettings<float> settings;
+  step.activate(1e-3f);
+  std::vector<glm::vec4> gradients = gradientsFor(step.render(view, settings, firstAdam()));
+  for (const glm::vec4& gradient : gradients) ASSERT_TRUE(std::isfinite(glm::dot(gradient, gradient)));
+  gradients[gradients.size() / 2 + kWidth / 2].x = std::numeric_limits<float>::infinity();
+  step.differentiate(gradients, std::vector<glm::vec4>(gradients.size()));
+  step.update(firstAdam(), 1e-4f);
+  EXPECT_GT(step.droppedCount(), 0u);
+  for (size_t t = 0; t < kParameterCount; ++t) {
+    const uint32_t width = widthOf(static_cast<Parameter>(t), foam.shape);
+    for (size_t i = 0; i < foam.values[t].size(); ++i) {
+      if (i / width == poisoned) continue;
+      ASSERT_TRUE(std::isfinite(foam.values[t][i])) << kParameterKeys[t] << " " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace froth

@@ -1,0 +1,104 @@
+#include "trainer/cpu/cpu_executor.h"
+
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "trainer/loop/view_exchange.h"
+#include "trainer/photos/box_filter.h"
+
+namespace froth {
+namespace {
+
+Photo reducePhoto(const Photo& photo, uint32_t halvings) {
+  const double factor = uint64_t{1} << halvings;
+  const View& view = photo.view;
+  const uint32_t width = reducedSide(view.width, factor), height = reducedSide(view.height, factor);
+  Photo reduced;
+  reduced.view = resizeView(view, width, height);
+  reduced.rgba = reducePixels(photo.rgba, view.width, view.height, width, height);
+  if (!photo.counted.empty()) {
+    reduced.counted = reduceFlags(photo.counted, view.width, view.height, width, height);
+  }
+  return reduced;
+}
+
+// Over the mean of backgrounds, grey.
+std::vector<glm::vec4> wantedOf(const Photo& photo) {
+  std::vector<glm::vec4> wanted(photo.rgba.size() / 4);
+  for (size_t i = 0; i < wanted.size(); ++i) {
+    const uint8_t* rgba = &photo.rgba[4 * i];
+    const float grey = 0.5f * (1 - static_cast<float>(rgba[3]) / 255);
+    const bool counts = photo.counted.empty() || photo.counted[i];
+    wanted[i] = glm::vec4(glm::vec3(rgba[0], rgba[1], rgba[2]) / 255.0f + grey, counts ? 1.0f : 0.0f);
+  }
+  return wanted;
+}
+
+}  // namespace
+
+CpuExecutor::CpuExecutor(FoamStorage<float> foam, std::vector<Photo> photos)
+    : foam_(std::move(foam)), photos_(std::move(photos)) {}
+
+const CpuExecutor::PhotoTarget& CpuExecutor::targetOf(const StepPlan& plan) {
+  if (halvings_ != plan.halvings) {
+    halvings_ = plan.halvings;
+    targets_.assign(photos_.size(), {});
+    tbb::parallel_for(size_t{0}, photos_.size(), [&](size_t i) {
+      targets_[i].photo = reducePhoto(photos_[i], halvings_);
+      targets_[i].directions = lensDirections(targets_[i].photo.view);
+      targets_[i].wanted = wantedOf(targets_[i].photo);
+    });
+  }
+  return targets_[plan.photo];
+}
+
+Status CpuExecutor::run(const StepPlan& plan) {
+  const PhotoTarget& target = targetOf(plan);
+  TrainingView<float> view = trainingView<float>(target.photo.view);
+  if (!target.directions.empty()) view.directions = target.directions.data();
+  const size_t pixelCount = target.wanted.size();
+  RaySettings<float> settings;
+  settings.perPixel = 1.0f / static_cast<float>(pixelCount);
+  settings.normalWeight = static_cast<float>(plan.weights.normal) * settings.perPixel;
+
+  step_.activate(plan.leastSkin);
+  const std::vector<glm::vec4>& rendered = step_.render(view, settings, plan.adam);
+  gradients_.resize(pixelCount);
+  const uint8_t* counted = target.photo.counted.empty() ? nullptr : target.photo.counted.data();
+  const LossTarget wanted{view.width, view.height, target.photo.rgba.data(), counted};
+  loss_.evaluate(wanted, rendered, plan.weights.similarity, gradients_);
+  // Sparsity: the mean of 1 - T_N.
+  const float sparsity = static_cast<float>(plan.weights.sparsity) * settings.perPixel;
+  for (size_t i = 0; i < pixelCount; ++i) gradients_[i].w -= sparsity * target.wanted[i].w;
+  step_.differentiate(gradients_, target.wanted);
+  step_.update(plan.adam, static_cast<float>(plan.weights.overlap));
+  return {};
+}
+
+Status CpuExecutor::rearrange(const CellPlan& plan) {
+  foam_ = froth::rearrange(foam_, plan);
+  step_.forgetPairs();
+  return {};
+}
+
+Result<CellFacts> CpuExecutor::facts() {
+  const std::vector<float>& raw = foam_.values[static_cast<size_t>(Parameter::kOrientations)];
+  quaternions_.resize(foam_.shape.cellCount);
+  for (size_t i = 0; i < quaternions_.size(); ++i) {
+    quaternions_[i] = {raw[4 * i], raw[4 * i + 1], raw[4 * i + 2], raw[4 * i + 3]};
+  }
+  return CellFacts{foam_.balls, quaternions_, foam_.contributions, foam_.errors};
+}
+
+Status CpuExecutor::read(FoamStorage<float>& foam) {
+  foam = foam_;
+  return {};
+}
+
+Status CpuExecutor::beginAnew() {
+  step_.forgetPairs();
+  return {};
+}
+
+}  // namespace froth

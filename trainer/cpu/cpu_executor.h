@@ -1,0 +1,45 @@
+// Steps on the CPU.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "trainer/cpu/cpu_step.h"
+#include "trainer/loop/step_executor.h"
+#include "trainer/loss/image_loss.h"
+#include "trainer/photos/photos.h"
+
+namespace froth {
+
+class CpuExecutor : public StepExecutor {
+ public:
+  // `photos` are those that train, with views in the normalised scene; smaller ones are made of them when they are
+  // needed. Both are kept.
+  CpuExecutor(FoamStorage<float> foam, std::vector<Photo> photos);
+
+  Status run(const StepPlan& plan) override;
+  Status rearrange(const CellPlan& plan) override;
+  Result<CellFacts> facts() override;
+  Status read(FoamStorage<float>& foam) override;
+  Status beginAnew() override;
+  Result<uint64_t> droppedCount() override { return step_.droppedCount(); }
+
+ private:
+  struct PhotoTarget {
+    Photo photo;
+    std::vector<float> directions;
+    std::vector<glm::vec4> wanted;  // PixelArrays::wanted
+  };
+  const PhotoTarget& targetOf(const StepPlan& plan);
+
+  FoamStorage<float> foam_;
+  CpuStep<float> step_{foam_};
+  std::vector<Photo> photos_;
+  std::vector<PhotoTarget> targets_;
+  uint32_t halvings_ = UINT32_MAX;  // of targets_
+  ImageLoss<float> loss_;
+  std::vector<glm::vec4> gradients_, quaternions_;
+};
+
+}  // namespace froth

@@ -1,0 +1,129 @@
+#include "trainer/loop/cell_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+#include <glm/gtc/constants.hpp>
+
+#include "base/counter_random.h"
+#include "foam/morton_order.h"
+#include "shaders/foam/activations.h"
+
+namespace froth {
+namespace {
+
+constexpr float kLeastShare = 1.0f / 25;  // of what a cell would show if all showed as much
+constexpr double kMostRemoved = 0.1;      // of all cells at a time
+constexpr double kTrimmedErrors = 0.99;   // errors beyond this share count as that
+constexpr float kPart = 0.05f;            // parent and child move by so many radii
+
+float quantileOf(std::vector<float> values, double share) {
+  const auto place = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + static_cast<ptrdiff_t>(place), values.end());
+  return values[place];
+}
+
+std::vector<uint32_t> findSurvivors(const CellFacts& facts, uint32_t wanted) {
+  const std::vector<float> contributions(facts.contributions.begin(), facts.contributions.end());
+  const float limit = std::min(kLeastShare / static_cast<float>(wanted), quantileOf(contributions, kMostRemoved));
+  std::vector<uint32_t> survivors;
+  for (uint32_t i = 0; i < facts.balls.size(); ++i) {
+    const bool isSound = std::isfinite(facts.balls[i].x + facts.balls[i].y + facts.balls[i].z + facts.balls[i].w);
+    if (isSound && facts.contributions[i] > limit) survivors.push_back(i);
+  }
+  return survivors;
+}
+
+// `count` of the survivors, those with the largest keys ln(u) / weight: drawn by weight, without replacement
+// (Efraimidis & Spirakis 2006).
+std::vector<uint32_t> drawParents(const CellFacts& facts, const std::vector<uint32_t>& survivors, uint32_t count,
+                                  const CounterRandom& random) {
+  std::vector<float> errors;
+  for (const uint32_t cell : survivors) errors.push_back(facts.errors[cell]);
+  const float most = errors.empty() ? 0 : quantileOf(errors, kTrimmedErrors);
+  std::vector<std::pair<double, uint32_t>> keys;
+  for (const uint32_t cell : survivors) {
+    const double weight = std::min(facts.errors[cell], most);
+    if (weight > 0) keys.emplace_back(-std::log1p(-random.uniform(cell)) / weight, cell);
+  }
+  const size_t drawn = std::min<size_t>(count, keys.size());
+  std::nth_element(keys.begin(), keys.begin() + static_cast<ptrdiff_t>(drawn), keys.end());
+  std::vector<uint32_t> parents;
+  for (size_t i = 0; i < drawn; ++i) parents.push_back(keys[i].second);
+  std::sort(parents.begin(), parents.end());
+  return parents;
+}
+
+glm::vec3 stepOnFace(const CellFacts& facts, uint32_t cell, const CounterRandom& random) {
+  glm::vec3 normal, tangent, bitangent;
+  foam::frameOfQuaternion(facts.quaternions[cell], normal, tangent, bitangent);
+  const auto angle = static_cast<float>(random.uniform(cell, 0, glm::two_pi<double>()));
+  return kPart * facts.balls[cell].w * (std::cos(angle) * tangent + std::sin(angle) * bitangent);
+}
+
+CellPlan sortAlongCurve(const CellFacts& facts, const CellPlan& plan) {
+  std::vector<glm::vec3> sites;
+  for (size_t i = 0; i < plan.sources.size(); ++i) {
+    sites.push_back(glm::vec3(facts.balls[plan.sources[i]]) + plan.shifts[i]);
+  }
+  CellPlan sorted;
+  for (const uint32_t place : mortonOrder(sites)) {
+    sorted.sources.push_back(plan.sources[place]);
+    sorted.shifts.push_back(plan.shifts[place]);
+    sorted.meanFactors.push_back(plan.meanFactors[place]);
+  }
+  return sorted;
+}
+
+}  // namespace
+
+CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint32_t step) {
+  const std::vector<uint32_t> survivors = findSurvivors(facts, wanted);
+  CellPlan plan;
+  plan.sources = survivors;
+  plan.shifts.assign(survivors.size(), glm::vec3(0));
+  plan.meanFactors.assign(survivors.size(), 1);
+  const auto count = static_cast<uint32_t>(survivors.size());
+  const CounterRandom choice(seed, Purpose::kSplit, uint64_t{2} * step),
+      way(seed, Purpose::kSplit, uint64_t{2} * step + 1);
+  for (const uint32_t parent : drawParents(facts, survivors, wanted > count ? wanted - count : 0, choice)) {
+    const auto place =
+        static_cast<size_t>(std::lower_bound(survivors.begin(), survivors.end(), parent) - survivors.begin());
+    const glm::vec3 shift = stepOnFace(facts, parent, way);
+    plan.shifts[place] = shift;
+    plan.meanFactors[place] = 0.5f;
+    plan.sources.push_back(parent);
+    plan.shifts.push_back(-shift);
+    plan.meanFactors.push_back(0.5f);
+  }
+  return sortAlongCurve(facts, plan);
+}
+
+FoamStorage<float> rearrange(const FoamStorage<float>& foam, const CellPlan& plan) {
+  FoamStorage<float> next;
+  const FoamShape shape{static_cast<uint32_t>(plan.sources.size()), foam.shape.detailCount, foam.shape.lobeCount};
+  resizeStorage(next, shape);
+  tbb::parallel_for(0u, shape.cellCount, [&](uint32_t cell) {
+    const uint32_t source = plan.sources[cell];
+    for (size_t t = 0; t < kParameterCount; ++t) {
+      const size_t width = widthOf(static_cast<Parameter>(t), shape);
+      const auto copyRow = [&](const std::vector<float>& from, std::vector<float>& to) {
+        std::copy_n(from.begin() + static_cast<ptrdiff_t>(source * width), width,
+                    to.begin() + static_cast<ptrdiff_t>(cell * width));
+      };
+      copyRow(foam.values[t], next.values[t]);
+      copyRow(foam.firstMoments[t], next.firstMoments[t]);
+      copyRow(foam.secondMoments[t], next.secondMoments[t]);
+    }
+    float* site = &next.values[static_cast<size_t>(Parameter::kPoints)][size_t{3} * cell];
+    for (int c = 0; c < 3; ++c) site[c] += plan.shifts[cell][c];
+    next.lastSteps[cell] = foam.lastSteps[source];
+    next.contributions[cell] = plan.meanFactors[cell] * foam.contributions[source];
+    next.errors[cell] = plan.meanFactors[cell] * foam.errors[source];
+  });
+  return next;
+}
+
+}  // namespace froth

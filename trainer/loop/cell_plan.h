@@ -1,0 +1,36 @@
+// Which cells go, which are split, and in what order they then lie (design: training.md 6).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "trainer/cpu/foam_storage.h"
+
+namespace froth {
+
+// What a plan is made of, by cell.
+struct CellFacts {
+  std::span<const glm::vec4> balls;        // site, radius
+  std::span<const glm::vec4> quaternions;  // raw
+  std::span<const float> contributions, errors;
+};
+
+// Cell i of the foam that comes is a copy of cell sources[i], moments and all, moved by shifts[i]. Its means are
+// multiplied by meanFactors[i]. Along a Morton curve, so that cells near each other lie near each other in memory.
+struct CellPlan {
+  std::vector<uint32_t> sources;
+  std::vector<glm::vec3> shifts;
+  std::vector<float> meanFactors;
+};
+
+// Cells that show too little are removed, and parents drawn without replacement by their error until there are
+// `wanted`; a parent and its child part in opposite directions on the face. The same facts, seed and step give the same
+// plan. Fewer than wanted come where there are too few parents.
+CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint32_t step);
+
+FoamStorage<float> rearrange(const FoamStorage<float>& foam, const CellPlan& plan);
+
+}  // namespace froth

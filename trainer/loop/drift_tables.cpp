@@ -1,0 +1,49 @@
+#include "trainer/loop/drift_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace froth {
+namespace {
+
+// After so many steps the rest of the sum is below 1e-11 of it: rho^256.
+constexpr uint32_t kLongestDrift = 256;
+
+// step: from 1.
+double correctionAt(uint32_t step) { return std::sqrt(1 - std::pow(kBeta2, step)) / (1 - std::pow(kBeta1, step)); }
+
+}  // namespace
+
+DriftTables::DriftTables(const Schedule& schedule) : schedule_(schedule) {
+  for (std::vector<double>& table : drifts_) table.assign(size_t{schedule.steps} + 1, 0);
+  for (std::vector<float>& table : rounded_) table.assign(size_t{schedule.steps} + 1, 0);
+}
+
+void DriftTables::advance() {
+  const uint32_t count = ++next_;  // the step's number from 1
+  const double rho = kBeta1 / std::sqrt(kBeta2);
+  for (size_t i = 0; i < kParameterCount; ++i) {
+    double part = rateAt(schedule_, static_cast<Parameter>(i), count - 1) * correctionAt(count);
+    for (uint32_t waited = 1; waited <= std::min(count, kLongestDrift); ++waited) {
+      part *= rho;
+      double& drift = drifts_[i][count - waited];
+      drift += part;
+      rounded_[i][count - waited] = static_cast<float>(drift);
+    }
+  }
+}
+
+AdamStep<float> DriftTables::adamAt(uint32_t step) {
+  while (next_ < step) advance();
+  AdamStep<float> adam;
+  adam.step = step + 1;
+  adam.epsilon = static_cast<float>(1e-15 * std::sqrt(1 - std::pow(kBeta2, adam.step)));
+  for (size_t i = 0; i < kParameterCount; ++i) {
+    const double rate = step < schedule_.steps ? rateAt(schedule_, static_cast<Parameter>(i), step) : 0;
+    adam.rates[i] = static_cast<float>(rate * correctionAt(adam.step));
+    adam.drifts[i] = rounded_[i].data();
+  }
+  return adam;
+}
+
+}  // namespace froth

@@ -1,0 +1,30 @@
+// By how much parameters that wait drift (trainer/step/adam.h): one table per parameter, one entry per step from which
+// a cell may wait.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "trainer/loop/schedule.h"
+#include "trainer/step/adam.h"
+
+namespace froth {
+
+class DriftTables {
+ public:
+  explicit DriftTables(const Schedule& schedule);
+
+  // Adam of a step (0, 1, ...), never of one before the last that was asked for. Points into the tables.
+  AdamStep<float> adamAt(uint32_t step);
+
+ private:
+  void advance();  // by the rates of step `next_`
+
+  Schedule schedule_;
+  uint32_t next_ = 0;
+  std::array<std::vector<double>, kParameterCount> drifts_;
+  std::array<std::vector<float>, kParameterCount> rounded_;
+};
+
+}  // namespace froth

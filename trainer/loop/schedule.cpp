@@ -1,0 +1,79 @@
+#include "trainer/loop/schedule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace froth {
+namespace {
+
+constexpr double kPublishedSteps = 30000;
+
+struct Rate {
+  double first, last;
+  double warmUp = 0;  // of the published steps
+};
+
+Rate rateOf(RatePreset preset, Parameter parameter) {
+  const bool isOutdoor = preset == RatePreset::kOutdoor;
+  switch (parameter) {
+    case Parameter::kPoints:
+      return isOutdoor ? Rate{1e-3, 1e-4} : Rate{1e-3, 5e-5};
+    case Parameter::kDensity:
+      return {1, 1, 1000};
+    case Parameter::kRadii:
+      return isOutdoor ? Rate{1e-4, 1e-5, 1000} : Rate{5e-5, 5e-6, 1000};
+    case Parameter::kOrientations:
+      return {1e-1, 1e-2};
+    case Parameter::kDetailSites:
+      return {1e-2, 1e-3};
+    case Parameter::kLobeAxes:
+      return isOutdoor ? Rate{1e-2, 1e-3} : Rate{5e-2, 5e-3};
+    case Parameter::kLobeColours:
+      return isOutdoor ? Rate{2e-3, 2e-4} : Rate{5e-3, 5e-4};
+    case Parameter::kDetailHeights:
+      return isOutdoor ? Rate{1e-2, 1e-3, 2000} : Rate{5e-3, 5e-4, 2000};
+  }
+  return {};
+}
+
+double progressOf(const Schedule& schedule, uint32_t step) { return double{1} * step / schedule.steps; }
+
+}  // namespace
+
+double rateAt(const Schedule& schedule, Parameter parameter, uint32_t step) {
+  const Rate rate = rateOf(schedule.preset, parameter);
+  const double steps = schedule.steps, warmUp = rate.warmUp / kPublishedSteps * steps;
+  if (step < warmUp) return rate.first * step / warmUp;
+  const double cosine = std::cos(std::numbers::pi * (step - warmUp) / (steps - warmUp));
+  return rate.last + 0.5 * (rate.first - rate.last) * (1 + cosine);
+}
+
+LossWeights weightsAt(const Schedule& schedule, uint32_t step) {
+  const double progress = progressOf(schedule, step);
+  LossWeights weights;
+  weights.normal *= std::pow(0.1, progress);
+  weights.sparsity *= std::pow(1e-3, progress);
+  weights.overlap *= std::pow(1e-3, progress);
+  return weights;
+}
+
+bool isDensifyStep(const Schedule& schedule, uint32_t step) {
+  constexpr uint32_t kPeriod = 100;
+  return step % kPeriod == kPeriod - 1 && progressOf(schedule, step) < 0.95;
+}
+
+uint32_t cellsAfter(const Schedule& schedule, uint32_t step, uint32_t present) {
+  const double first = 1000 / kPublishedSteps, last = 24000 / kPublishedSteps, now = progressOf(schedule, step);
+  if (now < first) return present;
+  const double share = std::min((now - first) / (last - first), 1.0);
+  const double start = schedule.startCells;
+  return static_cast<uint32_t>(std::lround(start * std::pow(schedule.mostCells / start, share)));
+}
+
+uint32_t halvingsAt(const Schedule& schedule, uint32_t step) {
+  const double progress = progressOf(schedule, step);
+  return progress < 0.1 ? 2 : progress < 0.4 ? 1 : 0;
+}
+
+}  // namespace froth

@@ -1,0 +1,36 @@
+// What changes from step to step: rates, weights of losses, how many cells there should be, how large images are.
+// Figures are those of the published recipe, whose 30,000 steps are stretched to as many as are asked for.
+#pragma once
+
+#include <cstdint>
+
+#include "foam/checkpoint/parameters.h"
+
+namespace froth {
+
+enum class RatePreset { kIndoor, kOutdoor };
+
+struct Schedule {
+  uint32_t steps = 12000;      // [>= 1]
+  uint32_t startCells = 0;     // at step 0
+  uint32_t mostCells = 40000;  // from four fifths of the steps on
+  RatePreset preset = RatePreset::kIndoor;
+};
+
+// The learning rate of a parameter at step 0, 1, ...
+double rateAt(const Schedule& schedule, Parameter parameter, uint32_t step);
+
+struct LossWeights {
+  double similarity = 0.2, normal = 0.1, sparsity = 0.1, overlap = 1e-4;
+};
+LossWeights weightsAt(const Schedule& schedule, uint32_t step);
+
+// Steps after which cells are removed and added.
+bool isDensifyStep(const Schedule& schedule, uint32_t step);
+// How many cells there should be after such a step; `present`: how many there are.
+uint32_t cellsAfter(const Schedule& schedule, uint32_t step, uint32_t present);
+
+// How often the sides of images are halved at a step: 2, 1, 0. Early steps learn coarse things, and cost less.
+uint32_t halvingsAt(const Schedule& schedule, uint32_t step);
+
+}  // namespace froth

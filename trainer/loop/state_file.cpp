@@ -1,0 +1,105 @@
+#include "trainer/loop/state_file.h"
+
+#include <cstring>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/input_file.h"
+
+namespace froth {
+namespace {
+
+constexpr uint64_t kMagic = 0x31736d6168746f72;  // "rothams1", little-endian; the last byte is the version
+constexpr uint32_t kMostSettings = 1 << 16;
+
+struct StateHeader {
+  uint64_t magic = kMagic;
+  uint32_t stepsDone = 0, settingsBytes = 0;
+  uint32_t cellCount = 0, detailCount = 0, lobeCount = 0, reserved = 0;
+  uint64_t fileBytes = 0;  // of the whole file
+};
+
+// Calls visit(bytes) for the arrays of a foam in the order of the file. Balls are activated again.
+template <class Visit>
+Status visitArrays(FoamStorage<float>& foam, Visit&& visit) {
+  const auto visitVector = [&](auto& values) {
+    return visit(std::span(reinterpret_cast<uint8_t*>(values.data()), values.size() * sizeof(values[0])));
+  };
+  for (auto* tensors : {&foam.values, &foam.firstMoments, &foam.secondMoments}) {
+    for (std::vector<float>& tensor : *tensors) {
+      if (Status went = visitVector(tensor); !went) return went;
+    }
+  }
+  if (Status went = visitVector(foam.lastSteps); !went) return went;
+  if (Status went = visitVector(foam.contributions); !went) return went;
+  return visitVector(foam.errors);
+}
+
+uint64_t bytesOf(const FoamShape& shape, uint64_t settingsBytes) {
+  uint64_t perCell = 3;  // last step and two means
+  for (size_t i = 0; i < kParameterCount; ++i) perCell += uint64_t{3} * widthOf(static_cast<Parameter>(i), shape);
+  return sizeof(StateHeader) + settingsBytes + perCell * shape.cellCount * sizeof(float);
+}
+
+bool isSound(const StateHeader& header) {
+  return header.magic == kMagic && header.settingsBytes <= kMostSettings && header.cellCount > 0 &&
+         header.detailCount > 0 && header.detailCount <= kMaxDetails && header.lobeCount > 0 &&
+         header.lobeCount <= kMaxLobes &&
+         header.fileBytes == bytesOf({header.cellCount, header.detailCount, header.lobeCount}, header.settingsBytes);
+}
+
+}  // namespace
+
+Status writeState(const std::filesystem::path& path, TrainingState& state) {
+  const FoamShape shape = state.foam.shape;
+  StateHeader header;
+  header.stepsDone = state.stepsDone;
+  header.settingsBytes = static_cast<uint32_t>(state.settings.size());
+  header.cellCount = shape.cellCount;
+  header.detailCount = shape.detailCount;
+  header.lobeCount = shape.lobeCount;
+  header.fileBytes = bytesOf(shape, state.settings.size());
+  return streamFileAtomically(path, [&](const ByteSink& sink) -> Status {
+    const auto asBytes = [](const void* data, size_t size) {
+      return std::span(static_cast<const uint8_t*>(data), size);
+    };
+    if (Status written = sink(asBytes(&header, sizeof(header))); !written) return written;
+    if (Status written = sink(asBytes(state.settings.data(), state.settings.size())); !written) return written;
+    return visitArrays(state.foam, [&](std::span<const uint8_t> bytes) { return sink(bytes); });
+  });
+}
+
+Result<TrainingState> readState(const std::filesystem::path& path) {
+  const Result<InputFile> file = InputFile::open(path);
+  if (!file) return file.error();
+  StateHeader header;
+  if (file->size() < sizeof(header)) {
+    return makeError(ErrorKind::kBadInput, "%s: %llu bytes are no state of training; begin without --resume",
+                     path.c_str(), static_cast<unsigned long long>(file->size()));
+  }
+  const std::span<uint8_t> headerBytes(reinterpret_cast<uint8_t*>(&header), sizeof(header));
+  if (Status read = file->readAt(0, headerBytes); !read) return read.error();
+  if (!isSound(header) || header.fileBytes != file->size()) {
+    return makeError(ErrorKind::kBadInput,
+                     "%s: no state of training of this version, or a part of one (%llu bytes, its header says %llu); "
+                     "begin without --resume",
+                     path.c_str(), static_cast<unsigned long long>(file->size()),
+                     static_cast<unsigned long long>(header.fileBytes));
+  }
+  TrainingState state;
+  state.stepsDone = header.stepsDone;
+  state.settings.resize(header.settingsBytes);
+  resizeStorage(state.foam, {header.cellCount, header.detailCount, header.lobeCount});
+  uint64_t offset = sizeof(header);
+  const auto readInto = [&](std::span<uint8_t> bytes) -> Status {
+    const uint64_t at = offset;
+    offset += bytes.size();
+    return file->readAt(at, bytes);
+  };
+  const std::span<uint8_t> settings(reinterpret_cast<uint8_t*>(state.settings.data()), state.settings.size());
+  if (Status read = readInto(settings); !read) return read.error();
+  if (Status read = visitArrays(state.foam, readInto); !read) return read.error();
+  return state;
+}
+
+}  // namespace froth

@@ -1,0 +1,24 @@
+// What a run needs to go on, bit for bit: state.bin.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "base/result.h"
+#include "trainer/cpu/foam_storage.h"
+
+namespace froth {
+
+struct TrainingState {
+  uint32_t stepsDone = 0;
+  std::string settings;  // text; a run goes on with the same ones alone
+  FoamStorage<float> foam;
+};
+
+// Atomic: a run that is killed while it saves leaves the file before.
+Status writeState(const std::filesystem::path& path, TrainingState& state);
+// Checks sizes before memory. Fails with kBadInput for what is no such file, or a part of one.
+Result<TrainingState> readState(const std::filesystem::path& path);
+
+}  // namespace froth

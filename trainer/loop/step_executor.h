@@ -1,0 +1,43 @@
+// Who executes the steps of training: the CPU (trainer/cpu) or a GPU (trainer/cuda). The loop plans, and looks at cells
+// only when some are to be removed and added, saved or shown.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/result.h"
+#include "trainer/cpu/foam_storage.h"
+#include "trainer/loop/cell_plan.h"
+#include "trainer/loop/schedule.h"
+#include "trainer/step/adam.h"
+
+namespace froth {
+
+struct StepPlan {
+  uint32_t photo = 0;     // index of a training photo
+  uint32_t halvings = 0;  // of its sides
+  AdamStep<float> adam;
+  LossWeights weights;
+  float leastSkin = 0;  // trainer/cpu/skin_pairs.h
+};
+
+// One thread calls.
+class StepExecutor {
+ public:
+  virtual ~StepExecutor() = default;
+
+  // May return before the step is done; a fault of it may come from a later call.
+  virtual Status run(const StepPlan& plan) = 0;
+  // Replaces the cells by those of a plan made from facts().
+  virtual Status rearrange(const CellPlan& plan) = 0;
+  // Of all steps that were run. Valid until the next call.
+  virtual Result<CellFacts> facts() = 0;
+  // All arrays, as the steps left them.
+  virtual Status read(FoamStorage<float>& foam) = 0;
+  // From here on the steps give the same bits as those of an executor that begins with what read() gave.
+  virtual Status beginAnew() = 0;
+  // Contributions dropped because they were no finite numbers.
+  virtual Result<uint64_t> droppedCount() = 0;
+};
+
+}  // namespace froth
