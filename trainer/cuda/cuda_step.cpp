@@ -25,8 +25,9 @@ CudaStep::~CudaStep() {
 }
 
 Status CudaStep::start() {
-  return inTurn([&] { return checkCuda(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "cudaStreamCreate"); },
-                [&] { return counters_.upload({StepCounters{}}, "counters", stream_); });
+  return inTurn(
+      [&] { return checkCuda(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "cudaStreamCreate"); },
+      [&] { return counters_.upload({StepCounters{}}, "counters", stream_); });
 }
 
 void CudaStep::point() {
@@ -45,8 +46,8 @@ void CudaStep::point() {
   arrays_.counters = counters_.data();
   arrays_.sums = {cellSums_.data(), detailSums_.data(), pairSums_.data(), nullptr};
   arrays_.pixels = {rendered_.data(), logTransmittances_.data(), ends_.data(), gradients_.data(), wanted_.data()};
-  uint32_t** const byCell[kArraysByCell] = {&arrays_.powerKeys,   &arrays_.sortedKeys,  &arrays_.cells,
-                                            &arrays_.sortedCells, &arrays_.tileCounts,  &arrays_.planesBegin,
+  uint32_t** const byCell[kArraysByCell] = {&arrays_.powerKeys,   &arrays_.sortedKeys, &arrays_.cells,
+                                            &arrays_.sortedCells, &arrays_.tileCounts, &arrays_.planesBegin,
                                             &arrays_.entriesBegin};
   for (size_t i = 0; i < kArraysByCell; ++i) *byCell[i] = byCell_[i].data();
   uint32_t** const byEntry[kArraysByEntry] = {&arrays_.entryTiles, &arrays_.sortedTiles, &arrays_.entryRanks,
@@ -68,16 +69,14 @@ Status CudaStep::upload(const FoamStorage<float>& foam) {
   }
   for (size_t i = 0; i < kArraysByCell && status; ++i) status = byCell_[i].resize(cells, "numbers of cells");
   if (!status) return status;
-  status = inTurn([&] { return lastSteps_.upload(foam.lastSteps, "last steps", stream_); },
-                  [&] { return contributions_.upload(foam.contributions, "contributions", stream_); },
-                  [&] { return errors_.upload(foam.errors, "errors", stream_); },
-                  [&] { return balls_.resize(cells, "balls"); },  //
-                  [&] { return seenCells_.resize(cells, "seen cells"); },
-                  [&] { return rankOf_.resize(cells, "ranks"); },
-                  [&] { return cellSums_.resize(cells, "sums of cells"); },
-                  [&] { return details_.resize(details, "seen details"); },
-                  [&] { return detailSums_.resize(details, "sums of details"); },
-                  [&] { return reserveEntries(kFirstEntries); });
+  status = inTurn(
+      [&] { return lastSteps_.upload(foam.lastSteps, "last steps", stream_); },
+      [&] { return contributions_.upload(foam.contributions, "contributions", stream_); },
+      [&] { return errors_.upload(foam.errors, "errors", stream_); }, [&] { return balls_.resize(cells, "balls"); },  //
+      [&] { return seenCells_.resize(cells, "seen cells"); }, [&] { return rankOf_.resize(cells, "ranks"); },
+      [&] { return cellSums_.resize(cells, "sums of cells"); },
+      [&] { return details_.resize(details, "seen details"); },
+      [&] { return detailSums_.resize(details, "sums of details"); }, [&] { return reserveEntries(kFirstEntries); });
   arrays_.foam.shape = foam.shape;
   point();
   return status;

@@ -32,8 +32,8 @@ class DeviceArray {
     if (size > capacity_) {
       cudaFree(std::exchange(data_, nullptr));
       capacity_ = size_ = 0;
-      const std::string what = "cudaMalloc of " + std::to_string(size) + " x " + std::to_string(sizeof(T)) +
-                               " bytes for '" + name + "'";
+      const std::string what =
+          "cudaMalloc of " + std::to_string(size) + " x " + std::to_string(sizeof(T)) + " bytes for '" + name + "'";
       if (Status made = checkCuda(cudaMalloc(reinterpret_cast<void**>(&data_), size * sizeof(T)), what.c_str());
           !made) {
         data_ = nullptr;
@@ -54,8 +54,8 @@ class DeviceArray {
   // Waits for the stream.
   Status download(std::vector<T>& values, const char* name, cudaStream_t stream) const {
     values.resize(size_);
-    if (Status copied = checkCuda(
-            cudaMemcpyAsync(values.data(), data_, size_ * sizeof(T), cudaMemcpyDeviceToHost, stream), name);
+    if (Status copied =
+            checkCuda(cudaMemcpyAsync(values.data(), data_, size_ * sizeof(T), cudaMemcpyDeviceToHost, stream), name);
         !copied) {
       return copied;
     }

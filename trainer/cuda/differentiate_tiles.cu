@@ -17,7 +17,7 @@ __device__ void differentiateCell(const SeenCells<float>& seen, const SeenCell<f
                                   SegmentGradient<float>& gradient, GradientColumn& column, uint32_t* droppedCount) {
   float weight;
   const SegmentSeeds<float> seeds = seedSegment(cell, segment, settings, adjoint, weight);
-  const glm::vec3 miss = glm::abs(segment.colour - adjoint.wanted);
+  const glm::vec3 miss = glm::abs(segment.colour - glm::vec3(adjoint.wanted));
   const bool isGood = differentiateSegment(cell, seen.planes, seen.details + size_t{rank} * detailCount, detailCount,
                                            direction, settings.sharpness, segment, seeds, gradient, column);
   if (!isGood) {
@@ -26,7 +26,7 @@ __device__ void differentiateCell(const SeenCells<float>& seen, const SeenCell<f
     atomicAdd(droppedCount, 1u);
   }
   gradient.cell.contribution = weight * settings.perPixel;
-  gradient.cell.error = weight * (miss.x + miss.y + miss.z) * settings.perPixel;
+  gradient.cell.error = weight * adjoint.wanted.w * (miss.x + miss.y + miss.z) * settings.perPixel;
   column.setCell(gradient.cell);
 }
 
@@ -57,9 +57,9 @@ __global__ __launch_bounds__(kThreads) void differentiateTilesKernel(StepArrays 
       const uint32_t rank = __shfl_sync(kAllLanes, rankOfLane, source);
       const SeenCell<float> cell = arrays.seen.cells[rank];
       Segment<float> segment;
-      const bool isHit = first + source < end &&
-                         meetCell(cell, arrays.seen.planes, arrays.seen.details + size_t{rank} * detailCount,
-                                  detailCount, own.direction, settings.sharpness, segment);
+      const bool isHit =
+          first + source < end && meetCell(cell, arrays.seen.planes, arrays.seen.details + size_t{rank} * detailCount,
+                                           detailCount, own.direction, settings.sharpness, segment);
       const uint32_t hits = __ballot_sync(kAllLanes, isHit);
       if (hits == 0) continue;
       SegmentGradient<float> gradient;
@@ -78,19 +78,19 @@ __global__ __launch_bounds__(kThreads) void differentiateTilesKernel(StepArrays 
 
 }  // namespace
 
-Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view,
-                          const RaySettings<float>& settings, cudaStream_t stream) {
+Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view, const RaySettings<float>& settings,
+                          cudaStream_t stream) {
   const uint32_t tileCount = tilesAlong(view.width) * tilesAlong(view.height);
   const size_t bytes = sizeof(float) * kWarpsPerTile * rowCountOf(arrays.foam.shape.detailCount) * kColumns;
-  Status allowed;
-  withDetailCount(arrays.foam.shape.detailCount, [&]<uint32_t kDetails>() {
+  return withDetailCount(arrays.foam.shape.detailCount, [&]<uint32_t kDetails>() -> Status {
     const auto kernel = differentiateTilesKernel<kDetails>;
-    allowed = checkCuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                                             static_cast<int>(bytes)),
-                        "shared memory of differentiateTiles");
-    if (allowed) kernel<<<tileCount, kThreads, bytes, stream>>>(arrays, view, settings);
+    const Status allowed =
+        checkCuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
+                  "shared memory of differentiateTiles");
+    if (!allowed) return allowed;
+    kernel<<<tileCount, kThreads, bytes, stream>>>(arrays, view, settings);
+    return checkLaunch("differentiateTiles");
   });
-  return allowed ? checkLaunch("differentiateTiles") : allowed;
 }
 
 }  // namespace froth

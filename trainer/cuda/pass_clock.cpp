@@ -22,8 +22,8 @@ std::vector<PassTime> PassClock::times(int laps) {
     float milliseconds = 0;
     if (!marks_[i].pass) continue;
     if (cudaEventElapsedTime(&milliseconds, marks_[i - 1].event, marks_[i].event) != cudaSuccess) continue;
-    auto found = std::find_if(times.begin(), times.end(),
-                              [&](const PassTime& time) { return time.name == marks_[i].pass; });
+    auto found =
+        std::find_if(times.begin(), times.end(), [&](const PassTime& time) { return time.name == marks_[i].pass; });
     if (found == times.end()) found = times.insert(times.end(), {marks_[i].pass, 0});
     found->milliseconds += milliseconds / static_cast<float>(laps);
   }

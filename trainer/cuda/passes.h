@@ -26,8 +26,8 @@ Status prepareCells(const StepArrays& arrays, const TrainingView<float>& view, c
 Status binTiles(const StepArrays& arrays, const TrainingView<float>& view, Scratch& scratch, cudaStream_t stream);
 Status renderTiles(const StepArrays& arrays, const TrainingView<float>& view, const RaySettings<float>& settings,
                    cudaStream_t stream);
-Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view,
-                          const RaySettings<float>& settings, cudaStream_t stream);
+Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view, const RaySettings<float>& settings,
+                          cudaStream_t stream);
 Status updateCells(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, cudaStream_t stream);
 
 }  // namespace froth

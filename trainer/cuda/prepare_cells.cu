@@ -27,8 +27,7 @@ __global__ void preparePlanesKernel(StepArrays arrays, TrainingView<float> view)
   const uint32_t cell = arrays.sortedCells[rank], begin = arrays.pairs.offsets[cell];
   const uint32_t count = arrays.pairs.offsets[cell + 1] - begin, planesBegin = arrays.planesBegin[rank];
   for (uint32_t i = globalThread() % kLanesPerRow; i < count; i += kLanesPerRow) {
-    arrays.seen.planes[planesBegin + i] =
-        preparePlane(arrays.foam, view, cell, arrays.pairs.neighbours[begin + i]);
+    arrays.seen.planes[planesBegin + i] = preparePlane(arrays.foam, view, cell, arrays.pairs.neighbours[begin + i]);
     arrays.sums.pairs[planesBegin + i] = glm::vec4(0);
   }
 }

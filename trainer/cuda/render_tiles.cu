@@ -54,10 +54,10 @@ __global__ __launch_bounds__(kTileSize* kTileSize) void renderTilesKernel(StepAr
 Status renderTiles(const StepArrays& arrays, const TrainingView<float>& view, const RaySettings<float>& settings,
                    cudaStream_t stream) {
   const uint32_t tileCount = tilesAlong(view.width) * tilesAlong(view.height);
-  withDetailCount(arrays.foam.shape.detailCount, [&]<uint32_t kDetails>() {
+  return withDetailCount(arrays.foam.shape.detailCount, [&]<uint32_t kDetails>() -> Status {
     renderTilesKernel<kDetails><<<tileCount, kTileSize * kTileSize, 0, stream>>>(arrays, view, settings);
+    return checkLaunch("renderTiles");
   });
-  return checkLaunch("renderTiles");
 }
 
 }  // namespace froth

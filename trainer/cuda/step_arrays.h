@@ -33,8 +33,8 @@ struct StepArrays {
   uint32_t* entriesBegin;  // [cells] by rank, in the list of entries
 
   // The lists of tiles: an entry is a tile and the rank of a cell that it sees.
-  glm::vec4* tileCones;   // [tiles]
-  uint32_t* tilesBegin;   // [tiles + 1] in sortedRanks
+  glm::vec4* tileCones;                                           // [tiles]
+  uint32_t* tilesBegin;                                           // [tiles + 1] in sortedRanks
   uint32_t *entryTiles, *sortedTiles, *entryRanks, *sortedRanks;  // [entryCapacity]
   uint32_t entryCapacity;
 };

@@ -2,6 +2,7 @@
 // goes on with those that its pixels can see.
 #pragma once
 
+#include "base/result.h"
 #include "trainer/cuda/launch.h"
 #include "trainer/step/pixel_passes.h"
 #include "trainer/step/tiles.h"
@@ -37,7 +38,7 @@ struct WarpPixel {
   bool isInside = false;  // of the image, with a ray
   size_t pixel = 0;
   glm::vec3 direction{0};
-  glm::vec4 cone;            // of the warp
+  glm::vec4 cone;               // of the warp
   uint32_t listBegin, listEnd;  // of the tile
 };
 
@@ -56,8 +57,8 @@ __device__ inline WarpPixel pixelOfThread(const StepArrays& arrays, const Traini
 }
 
 // Of 32 entries from `first` on, one per lane: its rank, and which of them (bits) the warp can see.
-__device__ inline uint32_t lookAtEntries(const StepArrays& arrays, const glm::vec4& cone, uint32_t first,
-                                         uint32_t end, uint32_t& rank) {
+__device__ inline uint32_t lookAtEntries(const StepArrays& arrays, const glm::vec4& cone, uint32_t first, uint32_t end,
+                                         uint32_t& rank) {
   const uint32_t entry = first + laneOfWarp();
   bool isSeen = false;
   rank = 0;
@@ -71,12 +72,8 @@ __device__ inline uint32_t lookAtEntries(const StepArrays& arrays, const glm::ve
 
 // With the number of details known to the compiler where it is a common one.
 template <class Launch>
-void withDetailCount(uint32_t detailCount, const Launch& launch) {
-  if (detailCount == 8) {
-    launch.template operator()<8>();
-  } else {
-    launch.template operator()<0>();
-  }
+Status withDetailCount(uint32_t detailCount, const Launch& launch) {
+  return detailCount == 8 ? launch.template operator()<8>() : launch.template operator()<0>();
 }
 
 }  // namespace froth
