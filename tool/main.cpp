@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   program.add_flag_callback(
       "-q,--quiet", [&tool] { tool.progress.setQuiet(); }, "No progress on stderr");
   froth::addSynthCommand(program, tool);
+  froth::addTrainCommand(program, tool);
   froth::addBakeCommand(program, tool);
   froth::addRenderCommand(program, tool);
   froth::addInfoCommand(program, tool);

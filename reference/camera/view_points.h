@@ -16,8 +16,8 @@ class ViewPoints {
   // Keeps a reference to the view. A ray map and an orthographic lens see no point here.
   explicit ViewPoints(const View& view);
 
-  // The point of the image [pixels] that shows a place; none outside of the image, behind a lens that looks forward, and
-  // beyond the range of a distortion.
+  // The point of the image [pixels] that shows a place; none outside of the image, behind a lens that looks forward,
+  // and beyond the range of a distortion.
   std::optional<glm::dvec2> of(const glm::dvec3& place) const;
 
  private:

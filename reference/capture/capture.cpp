@@ -127,6 +127,9 @@ Result<Capture> readSorted(Result<Capture> capture, const fs::path& path) {
 }  // namespace
 
 Result<Capture> readCapture(const fs::path& path) {
+  if (isFile(path) && path.extension() != ".json") {
+    return badInput(path.string(), "found a file that is no transforms.json; give the scene's folder");
+  }
   if (isFile(path)) return readSorted(readTransformsFile(path), path);
   for (const fs::path& model : {path / "sparse" / "0", path / "sparse", path}) {
     if (hasColmapModel(model)) return readColmapScene(model);

@@ -9,8 +9,8 @@ namespace froth {
 Status checkPhotoName(const std::string& name, const std::string& place) {
   const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
   const bool leadsOut = path.is_absolute() || (path.begin() != path.end() && *path.begin() == "..");
-  if (!name.empty() && path.has_filename() && path != "." && !leadsOut && name.find('\0') == std::string::npos)
-    return {};
+  const bool isName = path.has_filename() && path != "." && name.find('\0') == std::string::npos;
+  if (isName && !leadsOut) return {};
   return badInput(place, "found {}; give the name of a file below the folder of the photos",
                   name.empty() ? std::string("nothing") : froth::quoted(name));
 }

@@ -76,8 +76,8 @@ class TextReader {
   }
 
   void fail(const std::string& what) {
-    if (!error_)
-      error_ = badInput(file_.name, "line {}: {}; write it as COLMAP does, or export it again", number_, what);
+    if (error_) return;
+    error_ = badInput(file_.name, "line {}: {}; write it as COLMAP does, or export it again", number_, what);
   }
 
   const std::optional<Error>& error() const { return error_; }

@@ -160,6 +160,10 @@ TEST_F(TransformsTest, FaultsAreNamed) {
   write("transforms.json", "{");
   EXPECT_FALSE(readCapture(folder_));
   fs::remove(folder_ / "transforms.json");
+  write("points.ply", "ply\n");
+  const Result<Capture> points = readCapture(folder_ / "points.ply");
+  ASSERT_FALSE(points);
+  EXPECT_THAT(points.error().message, HasSubstr("no transforms.json; give the scene's folder"));
   const Result<Capture> none = readCapture(folder_);
   ASSERT_FALSE(none);
   EXPECT_THAT(none.error().message, HasSubstr("neither a COLMAP model nor transforms.json"));

@@ -1,5 +1,5 @@
-// Who executes the steps of training: the CPU (trainer/cpu) or a GPU (trainer/cuda). The loop plans, and looks at cells
-// only when some are to be removed and added, saved or shown.
+// Who executes the steps of training: the CPU (cpu_executor.h) or a GPU (trainer/cuda). The loop plans, and looks at
+// cells only when some are to be removed and added, saved or shown.
 #pragma once
 
 #include <cstdint>

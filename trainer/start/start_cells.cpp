@@ -17,8 +17,9 @@ namespace {
 constexpr double kReach = 1000;           // points further out are outliers; cameras see theirs at 4
 constexpr double kHeightShare = 0.05;     // of an image that a radius covers at most
 constexpr double kNear = 0.4, kFar = 40;  // depths of random cells: a tenth and ten times the median distance
-constexpr uint32_t kTries = 64;           // for a place in the visual hull
-constexpr double kHullShare = 0.9;  // of the views that see a place must show the object there: masks are not exact
+constexpr uint32_t kTries = 64;           // for a pixel of the object, and for a depth in the visual hull
+constexpr double kObject = 0.5;           // alpha from which a pixel shows the object
+constexpr double kMissing = 0.1;          // of the views may not show it in the hull: masks are not exact
 
 // A radius of so many per unit of distance.
 double radiusPerDistance(const View& view) { return kHeightShare * view.height / view.fy; }
@@ -38,21 +39,6 @@ std::vector<View> trainingViews(const StartScene& scene) {
   return views;
 }
 
-// Random numbers of one try at a cell.
-struct Draw {
-  uint32_t view;
-  glm::dvec2 pixel;
-  double depth;
-};
-
-Draw drawAt(const CounterRandom& random, uint64_t index, const std::vector<View>& views) {
-  const auto uniform = [&](uint64_t which) { return random.uniform(4 * index + which); };
-  const auto view = static_cast<uint32_t>(uniform(0) * static_cast<double>(views.size()));
-  return {view,
-          {uniform(1) * views[view].width, uniform(2) * views[view].height},
-          kNear * std::pow(kFar / kNear, uniform(3))};
-}
-
 // Premultiplied pixel of a photo; `pixel` in pixels of its view.
 glm::dvec4 pixelOf(const Photo& photo, const glm::dvec2& pixel, const View& view) {
   const auto x = std::min(static_cast<uint32_t>(pixel.x * photo.view.width / view.width), photo.view.width - 1);
@@ -64,7 +50,10 @@ glm::dvec4 pixelOf(const Photo& photo, const glm::dvec2& pixel, const View& view
 class FrustumSampler {
  public:
   explicit FrustumSampler(const StartScene& scene)
-      : scene_(scene), views_(trainingViews(scene)), random_(startRandom(scene.seed, StartStream::kFrustum)) {
+      : scene_(scene),
+        views_(trainingViews(scene)),
+        pixels_(startRandom(scene.seed, StartStream::kPixel)),
+        depths_(startRandom(scene.seed, StartStream::kDepth)) {
     for (const View& view : views_) {
       rays_.emplace_back(view);
       points_.emplace_back(view);
@@ -73,40 +62,58 @@ class FrustumSampler {
 
   StartCell cellAt(uint32_t index) const {
     StartCell cell;
+    const std::optional<Aim> aim = aimAt(index, cell);
+    if (!aim) return cell;
+    const View& view = views_[aim->view];
     for (uint32_t attempt = 0; attempt < kTries; ++attempt) {
-      const Draw draw = drawAt(random_, uint64_t{index} * kTries + attempt, views_);
-      const std::optional<ViewRay> ray = rays_[draw.view].at(draw.pixel.x, draw.pixel.y);
-      if (!ray) continue;
-      const View& view = views_[draw.view];
-      cell = {};
-      cell.position = eyeOf(view) + ray->offset + draw.depth * ray->direction;
-      seeFrom(view, cell);
-      if (scene_.photos.empty()) break;
-      const glm::dvec4 pixel = pixelOf(scene_.photos[draw.view], draw.pixel, view);
-      if (pixel.w < 0.5) continue;
-      cell.colour = glm::dvec3(pixel) / pixel.w;
-      if (isInHull(cell.position)) break;
+      const double share = depths_.uniform(uint64_t{index} * kTries + attempt);
+      cell.position = eyeOf(view) + aim->ray.offset + kNear * std::pow(kFar / kNear, share) * aim->ray.direction;
+      if (scene_.photos.empty() || isInHull(cell.position)) break;
     }
+    seeFrom(view, cell);
     return cell;
   }
 
  private:
-  bool isInHull(const glm::dvec3& place) const {
-    uint32_t seen = 0, shown = 0;
-    for (size_t i = 0; i < views_.size(); ++i) {
-      const std::optional<glm::dvec2> pixel = points_[i].of(place);
-      if (!pixel) continue;
-      ++seen;
-      shown += pixelOf(scene_.photos[i], *pixel, views_[i]).w >= 0.5;
+  struct Aim {
+    uint32_t view;
+    ViewRay ray;
+  };
+
+  // A random pixel that has a ray, and shows the object where there is alpha. None in all tries: an empty photo.
+  std::optional<Aim> aimAt(uint32_t index, StartCell& cell) const {
+    for (uint32_t attempt = 0; attempt < kTries; ++attempt) {
+      const uint64_t first = 3 * (uint64_t{index} * kTries + attempt);
+      const auto view = static_cast<uint32_t>(pixels_.uniform(first) * static_cast<double>(views_.size()));
+      const glm::dvec2 pixel(pixels_.uniform(first + 1) * views_[view].width,
+                             pixels_.uniform(first + 2) * views_[view].height);
+      const std::optional<ViewRay> ray = rays_[view].at(pixel.x, pixel.y);
+      if (!ray) continue;
+      if (scene_.photos.empty()) return Aim{view, *ray};
+      const glm::dvec4 shown = pixelOf(scene_.photos[view], pixel, views_[view]);
+      if (shown.w < kObject) continue;
+      cell.colour = glm::dvec3(shown) / shown.w;
+      return Aim{view, *ray};
     }
-    return shown >= kHullShare * seen;
+    return std::nullopt;
+  }
+
+  // Views that do not frame a place say nothing.
+  bool isInHull(const glm::dvec3& place) const {
+    const double most = kMissing * static_cast<double>(views_.size());
+    uint32_t missing = 0;
+    for (size_t i = 0; i < views_.size() && missing <= most; ++i) {
+      const std::optional<glm::dvec2> pixel = points_[i].of(place);
+      missing += pixel && pixelOf(scene_.photos[i], *pixel, views_[i]).w < kObject;
+    }
+    return missing <= most;
   }
 
   const StartScene& scene_;
   std::vector<View> views_;  // filled before rays_ and points_ refer to it
   std::vector<ViewRays> rays_;
   std::vector<ViewPoints> points_;
-  CounterRandom random_;
+  CounterRandom pixels_, depths_;
 };
 
 }  // namespace

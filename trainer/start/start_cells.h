@@ -39,8 +39,9 @@ constexpr uint32_t kMixed = 6;
 // `count` random convex mixtures of a point and its nearest. `points` has at least kMixed.
 std::vector<StartCell> mixCells(const std::vector<StartCell>& points, uint32_t count, uint64_t seed);
 
-// `count` random pixels of training views at log-uniform depths. Where photos have alpha, cells that most views show
-// before their background are drawn again, some times: what stays lies in the visual hull.
+// `count` random pixels of training views at log-uniform depths. Where photos have alpha, of pixels that show the
+// object, at depths that most other views show as object too, so in the visual hull; some tries that find none stay
+// outside.
 std::vector<StartCell> cellsInFrusta(const StartScene& scene, uint32_t count);
 
 }  // namespace froth

@@ -15,12 +15,11 @@
 namespace froth {
 namespace {
 
-constexpr double kPointShare = 0.95;     // of the points: the last ones lie closest to others
-constexpr double kMixFrom = 0.9;         // of the points: as many cells, and mixtures begin
-constexpr uint64_t kMostMixtures = 9;    // for each point
-constexpr uint32_t kNearest = 8;         // distances in a radius
-constexpr double kLeastRadius = 0.0069;  // softplus(0)
-constexpr double kTiniest = 1e-6;        // of a cell in front of a lens: still a normal float
+constexpr double kPointShare = 0.95;   // of the points: the last ones lie closest to others
+constexpr double kMixFrom = 0.9;       // of the points: as many cells, and mixtures begin
+constexpr uint64_t kMostMixtures = 9;  // for each point
+constexpr uint32_t kNearest = 8;       // distances in a radius
+constexpr double kLeastRadius = 1e-4;  // cells at one place, and before a lens, keep a radius that trains
 constexpr double kRawDensity = 0.1, kSiteSpread = 0.1, kAxisSpread = 2;
 
 // Rows n, t, b with n along `towards`, or at random where that is 0.
@@ -47,8 +46,7 @@ void setRadii(const std::vector<StartCell>& cells, Foam& foam) {
     double sum = 0;
     for (const NearSite& near : nearest) sum += std::sqrt(near.squared);
     const double mean = sum / static_cast<double>(nearest.size());
-    const double radius = std::min(std::max(mean, kLeastRadius), cells[i].mostRadius);
-    foam.radii[i] = static_cast<float>(std::max(radius, kTiniest));
+    foam.radii[i] = static_cast<float>(std::max(std::min(mean, cells[i].mostRadius), kLeastRadius));
   });
 }
 

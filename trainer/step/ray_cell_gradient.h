@@ -116,8 +116,8 @@ FROTH_HD bool isFinite(const SegmentGradient<Real>& gradient) {
   Real sum = cell.radius + cell.density;
   for (int c = 0; c < 3; ++c) sum += cell.site[c] + cell.torque[c];
   for (int end = 0; end < 2; ++end) {
-    if (gradient.planes[end] < kBoundedByEye)
-      sum += gradient.pairs[end].x + gradient.pairs[end].y + gradient.pairs[end].z + gradient.pairs[end].w;
+    const glm::vec<4, Real>& pair = gradient.pairs[end];  // 0 where there is none
+    sum += pair.x + pair.y + pair.z + pair.w;
   }
   return std::isfinite(sum);
 }

@@ -1,4 +1,4 @@
-#include "trainer/cpu/cpu_executor.h"
+#include "trainer/loop/cpu_executor.h"
 
 #include <utility>
 

@@ -1,0 +1,49 @@
+// Parameters that wait drift as dense Adam would have moved them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "trainer/loop/drift_tables.h"
+
+namespace froth {
+namespace {
+
+TEST(Adam, OfParametersThatWaitEqualsDenseAdam) {
+  Schedule schedule;
+  schedule.steps = 1500;
+  std::mt19937_64 random(3);
+  const auto parameter = Parameter::kLobeAxes;
+  const auto index = static_cast<size_t>(parameter);
+  DriftTables drifts(schedule);
+  float value = 0.5f, first = 0, second = 0;                 // waits
+  double denseValue = 0.5, denseFirst = 0, denseSecond = 0;  // does not
+  uint32_t lastStep = 0;
+  for (uint32_t step = 0; step < schedule.steps; ++step) {
+    const AdamStep<float> adam = drifts.adamAt(step);
+    const bool isSeen = random() % 9 == 0 && !(step > 400 && step < 1000);  // among others 600 steps long not
+    const double gradient = isSeen ? 1e-9 * std::normal_distribution<double>(1)(random) : 0.0;
+    const double correction = std::sqrt(1 - std::pow(0.999, step + 1)) / (1 - std::pow(0.9, step + 1));
+    updateValue<double>(denseValue, denseFirst, denseSecond, gradient, rateAt(schedule, parameter, step) * correction,
+                        1e-15 * std::sqrt(1 - std::pow(0.999, step + 1)));
+    if (!isSeen) continue;
+    if (lastStep + 1 < adam.step) catchUp(value, first, second, waitSince(adam, parameter, lastStep));
+    updateValue(value, first, second, static_cast<float>(gradient), adam.rates[index], adam.epsilon);
+    lastStep = adam.step;
+    ASSERT_NEAR(value, denseValue, 2e-5 * (1 + std::abs(denseValue))) << step;
+    ASSERT_NEAR(second, denseSecond, 1e-4 * denseSecond) << step;
+  }
+  EXPECT_GT(std::abs(denseValue - 0.5), 0.1);  // something happened
+}
+
+TEST(Adam, RateOfTheFirstStepObeysTheWarmUp) {
+  const Schedule schedule;
+  EXPECT_EQ(rateAt(schedule, Parameter::kDensity, 0), 0);
+  EXPECT_EQ(rateAt(schedule, Parameter::kRadii, 0), 0);
+  EXPECT_EQ(rateAt(schedule, Parameter::kPoints, 0), 1e-3);
+  EXPECT_NEAR(rateAt(schedule, Parameter::kPoints, schedule.steps), 5e-5, 1e-12);
+  EXPECT_EQ(rateAt(schedule, Parameter::kDensity, schedule.steps / 2), 1);
+}
+
+}  // namespace
+}  // namespace froth

@@ -1,0 +1,100 @@
+// Which cells are removed and split.
+#include "trainer/loop/cell_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tests/reference/scenes.h"
+#include "trainer/cpu/foam_exchange.h"
+#include "trainer/loop/schedule.h"
+
+namespace froth {
+namespace {
+
+class CellPlanOf : public ::testing::Test {
+ protected:
+  static constexpr uint32_t kCells = 200;
+
+  CellPlanOf() : foam_(storeFoam<float>(randomFoam(kCells, 2, 2, 4))), quaternions_(kCells, glm::vec4(1, 0, 0, 0)) {
+    for (uint32_t i = 0; i < kCells; ++i) {
+      foam_.balls[i] = ballOfCell(i);
+      foam_.contributions[i] = i % 20 == 0 ? 0.0f : 0.01f;
+      foam_.errors[i] = 1e-3f;
+      foam_.firstMoments[0][3 * i] = float(i);
+      foam_.lastSteps[i] = i;
+    }
+  }
+
+  glm::vec4 ballOfCell(uint32_t i) const {
+    const std::vector<float>& points = foam_.values[0];
+    return {points[3 * i], points[3 * i + 1], points[3 * i + 2], 0.5f};
+  }
+  CellPlan plan(uint32_t wanted, uint64_t seed = 1) const {
+    return planCells({foam_.balls, quaternions_, foam_.contributions, foam_.errors}, wanted, seed, 99);
+  }
+
+  FoamStorage<float> foam_;
+  std::vector<glm::vec4> quaternions_;
+};
+
+TEST_F(CellPlanOf, RemovesWhatDoesNotShowAndSplitsUntilThereAreAsManyAsWanted) {
+  const CellPlan made = plan(300);
+  EXPECT_EQ(made.sources.size(), 300u);
+  std::map<uint32_t, int> copies;
+  for (const uint32_t source : made.sources) ++copies[source];
+  for (const auto& [source, count] : copies) {
+    EXPECT_NE(source % 20, 0u);
+    EXPECT_LE(count, 2);  // without replacement
+  }
+  EXPECT_EQ(copies.size(), 190u);
+}
+
+TEST_F(CellPlanOf, IsThatOfItsSeed) {
+  EXPECT_EQ(plan(250).sources, plan(250).sources);
+  EXPECT_NE(plan(250, 1).sources, plan(250, 2).sources);
+}
+
+TEST_F(CellPlanOf, DrawsParentsByTheirError) {
+  for (uint32_t i = 0; i < kCells; ++i) foam_.errors[i] = i < 40 ? 1.0f : 1e-6f;
+  const CellPlan made = plan(210);
+  std::map<uint32_t, int> copies;
+  for (const uint32_t source : made.sources) ++copies[source];
+  for (const auto& [source, count] : copies) {
+    EXPECT_TRUE(count == 1 || source < 40) << source;
+  }
+}
+
+TEST_F(CellPlanOf, PartsParentAndChildOnTheFaceAndCopiesTheRest) {
+  const CellPlan made = plan(300);
+  const FoamStorage<float> next = rearrange(foam_, made);
+  std::map<uint32_t, glm::vec3> shiftSums;
+  for (size_t i = 0; i < made.sources.size(); ++i) {
+    const uint32_t source = made.sources[i];
+    shiftSums[source] += made.shifts[i];
+    EXPECT_EQ(made.shifts[i].x, 0);  // the normal is x
+    const bool isSplit = made.shifts[i] != glm::vec3(0);
+    EXPECT_NEAR(glm::length(made.shifts[i]), isSplit ? 0.05f * 0.5f : 0, 1e-6);
+    EXPECT_EQ(next.values[0][3 * i + 1], foam_.values[0][3 * source + 1] + made.shifts[i].y);
+    EXPECT_EQ(next.firstMoments[0][3 * i], float(source));
+    EXPECT_EQ(next.lastSteps[i], source);
+    EXPECT_EQ(next.errors[i], foam_.errors[source] * (isSplit ? 0.5f : 1.0f));
+  }
+  for (const auto& [source, sum] : shiftSums) EXPECT_EQ(sum, glm::vec3(0));
+}
+
+TEST(Schedule, ReachesTheCellsThatAreWanted) {
+  Schedule schedule;
+  schedule.steps = 30000;
+  schedule.startCells = 100000;
+  schedule.mostCells = 500000;
+  EXPECT_EQ(cellsAfter(schedule, 99, 98765), 98765u);
+  EXPECT_EQ(cellsAfter(schedule, 24000, 1), 500000u);
+  EXPECT_EQ(cellsAfter(schedule, 28499, 1), 500000u);
+  EXPECT_TRUE(isDensifyStep(schedule, 28499));
+  EXPECT_FALSE(isDensifyStep(schedule, 28599));
+}
+
+}  // namespace
+}  // namespace froth

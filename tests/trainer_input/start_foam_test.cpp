@@ -1,0 +1,212 @@
+// The first foam, from points and without, from captures that are odd.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <tbb/global_control.h>
+
+#include "base/float_span.h"
+#include "foam/foam_arrays.h"
+#include "reference/camera/view_points.h"
+#include "reference/camera/view_rays.h"
+#include "tests/trainer_input/capture_sample.h"
+#include "trainer/start/nearest_sites.h"
+#include "trainer/start/spread_points.h"
+#include "trainer/start/start_foam.h"
+
+namespace froth {
+namespace {
+
+StartFoam startOf(const Capture& capture, const StartOptions& options, std::span<const Photo> photos = {},
+                  uint64_t seed = 1) {
+  const std::vector<uint32_t> training = test::allViews(capture);
+  const SceneFrame frame = findSceneFrame(capture);
+  Result<StartFoam> start = makeStartFoam({capture, frame, training, photos, seed}, options);
+  if (start) return std::move(*start);
+  ADD_FAILURE() << start.error().message;
+  return {};
+}
+
+// Every number is finite, counts fit, radii are positive, orientations of unit length.
+void expectSound(const Foam& foam, const StartOptions& options) {
+  EXPECT_EQ(foam.cellCount, options.cellCount);
+  const size_t cells = foam.cellCount, details = cells * options.detailCount, lobes = details * options.lobeCount;
+  visitArrays([&](const FoamArray& array, auto values) {
+    if (array.canBeEmpty) return;
+    const size_t count = array.index == FoamIndex::kCell ? cells : array.index == FoamIndex::kLobe ? lobes : details;
+    EXPECT_EQ((foam.*values).size(), count) << array.name;
+    const std::span<const float> numbers = floatsOf(foam.*values);
+    EXPECT_TRUE(std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); })) << array.name;
+  });
+  EXPECT_TRUE(std::all_of(foam.radii.begin(), foam.radii.end(), [](float r) { return r > 0; }));
+  for (const glm::vec4& orientation : foam.orientations) EXPECT_NEAR(glm::length(orientation), 1, 1e-5);
+}
+
+// Share of the cells that some view shows.
+double shareSeen(const Foam& foam, const Capture& capture) {
+  const SceneFrame frame = findSceneFrame(capture);
+  std::vector<View> views;
+  for (const CapturedView& view : capture.views) views.push_back(normalised(view.view, frame));
+  const auto isSeen = [&](const glm::vec3& site) {
+    return std::any_of(views.begin(), views.end(),
+                       [&](const View& view) { return ViewPoints(view).of(glm::dvec3(site)).has_value(); });
+  };
+  return double(std::count_if(foam.sites.begin(), foam.sites.end(), isSeen)) / double(foam.sites.size());
+}
+
+constexpr StartOptions kSmall{500, 2, 3};
+
+TEST(StartFoam, CellsStandOnPointsAndFaceWhoSawThem) {
+  Capture capture = test::orbit(8, {10, 0, 0}, 20);
+  test::addPoints(capture, 2000, {10, 0, 0}, 3);
+  for (CapturedPoint& point : capture.points) {
+    point.firstObserver = 2;  // view 2 alone
+    point.observerCount = 1;
+  }
+  const StartFoam start = startOf(capture, kSmall);
+  expectSound(start.foam, kSmall);
+  EXPECT_EQ(start.points, 500u);
+  const SceneFrame frame = findSceneFrame(capture);
+  const glm::dvec3 eye = normalised(eyeOf(capture.views[2].view), frame);
+  for (uint32_t i = 0; i < 500; ++i) {
+    const glm::dvec3 normal = faceFrame<double>(start.foam.orientations[i]).normal;
+    EXPECT_GT(glm::dot(normal, glm::normalize(eye - glm::dvec3(start.foam.sites[i]))), 0.9999);
+    EXPECT_LE(start.foam.radii[i], 0.0501 * 48 / 60 * glm::distance(eye, glm::dvec3(start.foam.sites[i])));
+  }
+  EXPECT_NEAR(start.foam.lobeColours[0].y, 100 / 255.0 - 0.5, 1e-6);
+  EXPECT_EQ(start.foam.lobeColours[0], start.foam.lobeColours[5]);
+}
+
+TEST(StartFoam, FewPointsAreMixedAndThenTheFrustaAreFilled) {
+  Capture capture = test::orbit(8, {0, 0, 0}, 4);
+  test::addPoints(capture, 20, {0, 0, 0}, 1);
+  const StartFoam start = startOf(capture, kSmall);
+  expectSound(start.foam, kSmall);
+  EXPECT_EQ(start.points, 19u);
+  EXPECT_EQ(start.mixtures, 180u);
+  EXPECT_EQ(start.random, 301u);
+  for (uint32_t i = 0; i < 199; ++i) EXPECT_LT(glm::length(start.foam.sites[i]), 3);
+  EXPECT_EQ(shareSeen(start.foam, capture), 1);
+}
+
+TEST(StartFoam, TheSameSeedGivesTheSameBitsOnAnyNumberOfThreads) {
+  Capture capture = test::orbit(8, {0, 0, 0}, 4);
+  test::addPoints(capture, 40, {0, 0, 0}, 1);
+  const StartFoam many = startOf(capture, kSmall), other = startOf(capture, kSmall, {}, 2);
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 1);
+  const StartFoam one = startOf(capture, kSmall);
+  visitArrays([&](const FoamArray& array, auto values) {
+    EXPECT_EQ(
+        std::memcmp((many.foam.*values).data(), (one.foam.*values).data(), floatsOf(many.foam.*values).size_bytes()), 0)
+        << array.name;
+  });
+  EXPECT_NE(many.foam.sites, other.foam.sites);
+}
+
+TEST(StartFoam, OddCapturesStart) {
+  const Capture around = test::orbit(8, {0, 0, 0}, 4);
+  Capture coincident = around;
+  test::addPoints(coincident, 400, {0, 0, 0}, 0);
+  Capture far = around;
+  test::addPoints(far, 400, {0, 0, 0}, 1);
+  for (uint32_t i = 0; i < 30; ++i) far.points[i].position = glm::dvec3(1e9 * (i + 1), -1e12, 3);
+  Capture turned;
+  for (int i = 0; i < 8; ++i) {
+    turned.views.push_back(test::viewFrom({1, 2, 3}, {1 + std::cos(i * 0.785), 2, 3 + std::sin(i * 0.785)}, "a"));
+  }
+  Capture narrow = around;
+  for (CapturedView& view : narrow.views) view.view.fx = view.view.fy = 6000;
+  Capture twoEyes = test::orbit(2, {0, 0, 0}, 4);
+  test::addPoints(twoEyes, 1, eyeOf(twoEyes.views[0].view), 0);  // in an eye
+  for (const Capture* capture :
+       std::initializer_list<const Capture*>{&around, &coincident, &far, &turned, &narrow, &twoEyes}) {
+    const StartFoam start = startOf(*capture, kSmall);
+    expectSound(start.foam, kSmall);
+    EXPECT_GT(shareSeen(start.foam, *capture), 0.5);
+    for (const glm::vec3& site : start.foam.sites) ASSERT_LT(glm::length(site), 1000);
+    std::vector<glm::vec3> sites = start.foam.sites;
+    std::sort(sites.begin(), sites.end(),
+              [](const glm::vec3& a, const glm::vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+    EXPECT_EQ(std::adjacent_find(sites.begin(), sites.end()), sites.end());  // no two cells share a site
+  }
+  EXPECT_EQ(startOf(far, kSmall).points, uint32_t(0.95 * 370));
+}
+
+TEST(StartFoam, RandomCellsFillTheVisualHull) {
+  const Capture capture = test::orbit(16, {0, 0, 0}, 4);
+  std::vector<Photo> photos;
+  for (const CapturedView& view : capture.views) {
+    Photo photo{view.view, std::vector<uint8_t>(size_t{4} * 64 * 48), {}};
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        const bool isObject = std::hypot(x - 31.5, y - 23.5) < 8;  // a ball of radius 0.53
+        uint8_t* rgba = &photo.rgba[4 * size_t(y * 64 + x)];
+        if (isObject) std::fill_n(rgba, 4, uint8_t{255});
+        if (isObject) rgba[0] = 51;
+      }
+    }
+    photos.push_back(std::move(photo));
+  }
+  const StartFoam start = startOf(capture, kSmall, photos);
+  expectSound(start.foam, kSmall);
+  uint32_t inside = 0;
+  for (const glm::vec3& site : start.foam.sites) inside += glm::length(site) < 0.7f;
+  EXPECT_GT(inside, 400u);  // random depths alone: 69; the hull is a little larger than the ball, and tries end
+  EXPECT_NEAR(start.foam.lobeColours[0].x, 51 / 255.0 - 0.5, 1e-6);
+  EXPECT_NEAR(start.foam.lobeColours[0].y, 0.5, 1e-6);
+}
+
+TEST(StartFoam, BadCountsAreRefused) {
+  const Capture capture = test::orbit(8, {0, 0, 0}, 4);
+  const std::vector<uint32_t> training = test::allViews(capture);
+  for (const StartOptions& options : {StartOptions{0, 8, 8}, StartOptions{10, 0, 8}, StartOptions{10, 8, 33}}) {
+    EXPECT_FALSE(makeStartFoam({capture, {}, training, {}, 1}, options));
+  }
+  EXPECT_FALSE(makeStartFoam({capture, {}, {}, {}, 1}, kSmall));
+}
+
+TEST(SpreadOrder, BeginningsCoverAllAndCoincidentPointsCountOnce) {
+  const CounterRandom random(3, Purpose::kSite);
+  std::vector<glm::dvec3> points;
+  for (uint32_t i = 0; i < 4000; ++i) {  // nine tenths in a corner
+    const double side = i % 10 == 0 ? 8 : 0.5;
+    points.push_back(side * glm::dvec3(random.uniform(3 * i), random.uniform(3 * i + 1), random.uniform(3 * i + 2)));
+  }
+  for (int i = 0; i < 50; ++i) points.push_back(points[7]);
+  points.push_back({2000, 0, 0});
+  const std::vector<uint32_t> order = spreadOrder(points, 1000, 1);
+  EXPECT_EQ(order.size(), 4000u);
+  double farthest = 0;
+  for (uint32_t i = 0; i < 4000; ++i) {
+    double nearest = 1e9;
+    for (uint32_t k = 0; k < 200; ++k) nearest = std::min(nearest, glm::distance(points[i], points[order[k]]));
+    farthest = std::max(farthest, nearest);
+  }
+  EXPECT_LT(farthest, 3.5);  // 64 cubes of side 2 have a point each: less than their diagonal
+}
+
+TEST(NearestSites, AreThoseOfBruteForce) {
+  const CounterRandom random(4, Purpose::kSite);
+  std::vector<glm::vec3> sites;
+  for (uint32_t i = 0; i < 300; ++i) sites.push_back(glm::vec3(random.direction(i)) * (i % 3 == 0 ? 0.01f : 1.0f));
+  sites[5] = sites[6];
+  const std::vector<float> radii(sites.size(), 0.0f);
+  std::vector<uint32_t> members(sites.size());
+  std::iota(members.begin(), members.end(), 0u);
+  const SiteTree tree(sites, radii, members);
+  for (uint32_t i = 0; i < 20; ++i) {
+    const glm::dvec3 place(sites[i]);
+    std::sort(members.begin(), members.end(), [&](uint32_t a, uint32_t b) {
+      const glm::dvec3 u = glm::dvec3(sites[a]) - place, v = glm::dvec3(sites[b]) - place;
+      return std::make_tuple(glm::dot(u, u), a) < std::make_tuple(glm::dot(v, v), b);
+    });
+    const std::vector<NearSite> nearest = findNearestSites(tree, sites, place, 8);
+    ASSERT_EQ(nearest.size(), 8u);
+    for (uint32_t k = 0; k < 8; ++k) EXPECT_EQ(nearest[k].site, members[k]);
+  }
+}
+
+}  // namespace
+}  // namespace froth

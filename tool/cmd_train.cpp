@@ -1,0 +1,106 @@
+// froth train: photos become a foam.
+#include <chrono>
+#include <memory>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "base/output_file.h"
+#include "foam/checkpoint/checkpoint.h"
+#include "reference/capture/capture.h"
+#include "tool/commands.h"
+#include "tool/options.h"
+#include "trainer/loop/train_scene.h"
+
+namespace froth {
+namespace {
+
+struct TrainCommandOptions {
+  std::filesystem::path scene, output;
+  TrainOptions train;
+  bool isPremultiplied = false, isOutdoor = false;
+  FiguresOutput figures;
+};
+
+double meanOf(const std::vector<double>& values) {
+  return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set, const TrainResult& result,
+                      double seconds) {
+  nlohmann::ordered_json tests = nlohmann::ordered_json::array();
+  for (size_t i = 0; i < result.testPsnrs.size(); ++i) {
+    tests.push_back({{"view", set.testNames[i]}, {"psnr", result.testPsnrs[i]}});
+  }
+  if (options.figures.wantsTable()) {
+    fmt::print("{}: {} cells from {} photos, {} steps in {:.1f} s\n", options.output.string(), result.foam.cellCount,
+               set.training.size(), options.train.schedule.steps - result.firstStep, seconds);
+    if (!result.testPsnrs.empty()) {
+      fmt::print("PSNR of {} test photos: {:.2f} dB\n", result.testPsnrs.size(), meanOf(result.testPsnrs));
+    }
+    if (result.droppedCount > 0) {
+      fmt::print("{} contributions to gradients were no finite numbers, and were dropped\n", result.droppedCount);
+    }
+  }
+  return options.figures.write({{"output", options.output.string()},
+                                {"cells", result.foam.cellCount},
+                                {"photos", set.training.size()},
+                                {"firstStep", result.firstStep},
+                                {"steps", options.train.schedule.steps},
+                                {"seconds", seconds},
+                                {"droppedContributions", result.droppedCount},
+                                {"psnr", meanOf(result.testPsnrs)},
+                                {"tests", tests}});
+}
+
+Status runTrain(TrainCommandOptions options, const Progress& progress) {
+  if (Status writable = checkWritable(options.output); !writable) return writable;
+  options.train.state = options.output;
+  options.train.state.replace_extension(".state.bin");
+  options.train.photos.alpha = options.isPremultiplied ? AlphaForm::kPremultiplied : AlphaForm::kStraight;
+  options.train.schedule.preset = options.isOutdoor ? RatePreset::kOutdoor : RatePreset::kIndoor;
+  const Result<Capture> capture = readCapture(options.scene);
+  if (!capture) return capture.error();
+  const Result<TrainingSet> set = prepareTraining(*capture, options.train, progress);
+  if (!set) return set.error();
+  const auto begin = std::chrono::steady_clock::now();
+  const Result<TrainResult> result = trainScene(*capture, *set, options.train, makeCpuExecutor, progress);
+  if (!result) return result.error();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (Status written = exportCheckpoint(options.output, result->foam, progress); !written) return written;
+  return reportTraining(options, *set, *result, seconds);
+}
+
+}  // namespace
+
+void addTrainCommand(CLI::App& program, Tool& tool) {
+  auto options = std::make_shared<TrainCommandOptions>();
+  CLI::App& command = *program.add_subcommand("train", "Photos become a foam (model.pt), which `froth bake` takes");
+  command.add_option("scene", options->scene, "A folder with a COLMAP model or transforms.json")->required();
+  command.add_option("-o,--output", options->output, "The foam; its state, to go on from, stands beside it")
+      ->required();
+  Schedule& schedule = options->train.schedule;
+  command.add_option("--cells", schedule.mostCells, "At most so many cells")->check(countBetween(1, 1u << 30));
+  command.add_option("--start-cells", schedule.startCells, "Cells to begin with; default: a quarter of --cells")
+      ->check(countBetween(1, 1u << 30));
+  command.add_option("--steps", schedule.steps, "Steps, one photo each")->check(countBetween(1, 10000000));
+  command.add_option("--detail-sites", options->train.detailCount, "Per cell")->check(countBetween(1, 32));
+  command.add_option("--lobes", options->train.lobeCount, "Per detail site")->check(countBetween(1, 32));
+  command.add_option("--downscale", options->train.photos.downscale, "Divides the sides of photos")
+      ->check(numberBetween(1, 64));
+  command
+      .add_option("--test-every", options->train.testPeriod, "Each so many-th photo tests and does not train; 0: none")
+      ->check(countBetween(0, 1000000));
+  command.add_option("--seed", options->train.seed, "Of all random choices");
+  command.add_option("--save-every", options->train.saveEvery, "Steps between two saved states")
+      ->check(countBetween(1, 10000000));
+  command.add_flag("--outdoor", options->isOutdoor, "Rates for scenes whose cameras stand far apart");
+  command.add_flag("--premultiplied", options->isPremultiplied, "Alpha of photos is premultiplied");
+  command.add_flag("--mask-as-alpha", options->train.photos.isMaskAlpha, "Masks cut the object out");
+  command.add_flag("--resume", options->train.isResumed, "Goes on from the state that a stopped run left");
+  addFiguresOption(command, options->figures);
+  command.callback(
+      [options, &tool] { tool.action = [options, &tool] { return runTrain(*options, tool.progress.callback()); }; });
+}
+
+}  // namespace froth

@@ -1,0 +1,46 @@
+#include "trainer/loop/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trainer/cpu/cpu_step.h"
+#include "trainer/loop/view_exchange.h"
+
+namespace froth {
+namespace {
+
+constexpr double kMostPsnr = 100;
+
+double psnrOf(const Photo& photo, const std::vector<glm::vec4>& rendered) {
+  double squares = 0;
+  uint64_t values = 0;
+  for (size_t i = 0; i < rendered.size(); ++i) {
+    if (!photo.counted.empty() && !photo.counted[i]) continue;
+    for (int c = 0; c < 3; ++c) {
+      const double shown = std::clamp(double{rendered[i][c]}, 0.0, 1.0);
+      const double error = shown - photo.rgba[4 * i + static_cast<size_t>(c)] / 255.0;
+      squares += error * error;
+      ++values;
+    }
+  }
+  const double mean = values > 0 ? squares / static_cast<double>(values) : 0;
+  return mean > 0 ? std::min(-10 * std::log10(mean), kMostPsnr) : kMostPsnr;
+}
+
+}  // namespace
+
+std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos) {
+  CpuStep<float> step(foam);
+  step.activate(0);
+  AdamStep<float> still{};  // at step 1 nothing waits
+  std::vector<double> psnrs;
+  for (const Photo& photo : photos) {
+    const std::vector<float> directions = lensDirections(photo.view);
+    TrainingView<float> view = trainingView<float>(photo.view);
+    if (!directions.empty()) view.directions = directions.data();
+    psnrs.push_back(psnrOf(photo, step.render(view, RaySettings<float>{}, still)));
+  }
+  return psnrs;
+}
+
+}  // namespace froth

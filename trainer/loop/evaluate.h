@@ -1,0 +1,15 @@
+// How well a foam in training shows photos that it does not know.
+#pragma once
+
+#include <vector>
+
+#include "trainer/cpu/foam_storage.h"
+#include "trainer/photos/photos.h"
+
+namespace froth {
+
+// PSNR of each photo, over black and all channels, colours clamped to 0..1, over the pixels that count. 100 where all
+// are equal.
+std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos);
+
+}  // namespace froth

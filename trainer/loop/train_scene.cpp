@@ -1,0 +1,162 @@
+#include "trainer/loop/train_scene.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "foam/pick_foam.h"
+#include "trainer/cpu/foam_exchange.h"
+#include "trainer/loop/cpu_executor.h"
+#include "trainer/loop/evaluate.h"
+#include "trainer/loop/state_file.h"
+#include "trainer/loop/training_loop.h"
+#include "trainer/photos/photo_order.h"
+#include "trainer/start/start_foam.h"
+
+namespace froth {
+namespace {
+
+constexpr float kFirstContribution = 1e-5f;  // the means begin there (design: training.md 6)
+
+// All that decides on the bits of a run; a state goes on under the same alone.
+std::string settingsText(const TrainOptions& options, const TrainingSet& set) {
+  const Schedule& schedule = options.schedule;
+  const View& view = set.training.front().view;
+  return fmt::format("steps {} cells {} to {} rates {} K {} M {} seed {} photos {} of {} x {} near {}", schedule.steps,
+                     schedule.startCells, schedule.mostCells, static_cast<int>(schedule.preset), options.detailCount,
+                     options.lobeCount, options.seed, set.training.size(), view.width, view.height, options.nearRatio);
+}
+
+Result<FoamStorage<float>> makeStart(const Capture& capture, const TrainingSet& set, const TrainOptions& options,
+                                     std::span<const uint32_t> training) {
+  const StartScene scene{capture, set.frame, training, set.training, options.seed};
+  const Result<StartFoam> start =
+      makeStartFoam(scene, {options.schedule.startCells, options.detailCount, options.lobeCount});
+  if (!start) return start.error();
+  FoamStorage<float> storage = storeFoam<float>(start->foam);
+  std::fill(storage.contributions.begin(), storage.contributions.end(), kFirstContribution);
+  std::fill(storage.errors.begin(), storage.errors.end(), kFirstContribution);
+  return storage;
+}
+
+Result<TrainingState> resumeState(const TrainOptions& options, const std::string& settings) {
+  Result<TrainingState> state = readState(options.state);
+  if (!state || state->settings == settings) return state;
+  return makeError(ErrorKind::kUsage, "%s: of a run with other settings (%s; now %s); give the same, or begin anew",
+                   options.state.c_str(), state->settings.c_str(), settings.c_str());
+}
+
+Status saveState(StepExecutor& executor, const TrainOptions& options, const std::string& settings, uint32_t done) {
+  TrainingState state;
+  state.stepsDone = done;
+  state.settings = settings;
+  if (Status read = executor.read(state.foam); !read) return read;
+  if (Status written = writeState(options.state, state); !written) return written;
+  return executor.beginAnew();
+}
+
+// Runs the steps that are left; saves on the way, and when it is stopped.
+Status runSteps(StepExecutor& executor, const TrainOptions& options, const LoopOptions& loop,
+                const std::string& settings, const Progress& progress) {
+  uint32_t done = loop.firstStep;
+  const auto afterStep = [&](uint32_t steps, DriftTables&) -> Status {
+    done = steps;
+    if (options.state.empty() || steps % options.saveEvery != 0 || steps == options.schedule.steps) return {};
+    return saveState(executor, options, settings, steps);
+  };
+  const Status ran = runLoop(executor, loop, afterStep, progress);
+  const bool wasStopped = !ran && ran.error().kind == ErrorKind::kCancelled;
+  if (options.state.empty() || !(ran || wasStopped)) return ran;
+  if (Status saved = saveState(executor, options, settings, done); !saved) return saved;
+  if (!wasStopped) return ran;
+  return makeError(ErrorKind::kCancelled, "training stopped on request after %u of %u steps; %s goes on with --resume",
+                   done, options.schedule.steps, options.state.c_str());
+}
+
+// A checkpoint has no cells without a radius.
+Foam withoutVanished(const Foam& foam) {
+  std::vector<uint32_t> cells;
+  std::vector<uint64_t> details;
+  for (uint32_t i = 0; i < foam.cellCount; ++i) {
+    if (!(foam.radii[i] >= std::numeric_limits<float>::min())) continue;
+    cells.push_back(i);
+    for (uint32_t k = 0; k < foam.detailCount; ++k) details.push_back(uint64_t{i} * foam.detailCount + k);
+  }
+  return pickFoam(foam, {cells, details, foam.detailCount, foam.lobeCount});
+}
+
+Result<TrainResult> finishTraining(StepExecutor& executor, const TrainingSet& set, const LoopOptions& loop) {
+  FoamStorage<float> foam;
+  if (Status read = executor.read(foam); !read) return read.error();
+  const Result<uint64_t> dropped = executor.droppedCount();
+  if (!dropped) return dropped.error();
+  DriftTables drifts(loop.schedule);
+  catchUpAll(foam, loop.schedule.steps, drifts);
+  TrainResult result;
+  result.testPsnrs = photoPsnrs(foam, set.testing);
+  result.foam = sceneFoam(withoutVanished(activateFoam(foam)), set.frame);
+  result.droppedCount = *dropped;
+  result.firstStep = loop.firstStep;
+  return result;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<StepExecutor>> makeCpuExecutor(FoamStorage<float> foam, std::vector<Photo> photos) {
+  return std::unique_ptr<StepExecutor>(std::make_unique<CpuExecutor>(std::move(foam), std::move(photos)));
+}
+
+Result<TrainingSet> prepareTraining(const Capture& capture, const TrainOptions& options, const Progress& progress) {
+  const Result<PhotoSplit> split = splitPhotos(capture.views, options.testPeriod);
+  if (!split) return split.error();
+  Result<std::vector<Photo>> photos = readPhotos(capture.views, options.photos, progress);
+  if (!photos) return photos.error();
+  TrainingSet set;
+  set.frame = findSceneFrame(capture);
+  for (Photo& photo : *photos) {
+    photo.view = normalised(photo.view, set.frame);
+    if (!photo.view.nearRatio) photo.view.nearRatio = options.nearRatio;
+  }
+  for (const uint32_t i : split->training) set.training.push_back(std::move((*photos)[i]));
+  for (const uint32_t i : split->test) {
+    set.testNames.push_back(capture.views[i].view.name);
+    set.testing.push_back(std::move((*photos)[i]));
+  }
+  return set;
+}
+
+Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, const TrainOptions& given,
+                               const MakeExecutor& makeExecutor, const Progress& progress) {
+  TrainOptions options = given;
+  if (options.schedule.startCells == 0) options.schedule.startCells = std::max(options.schedule.mostCells / 4, 1u);
+  if (options.schedule.startCells > options.schedule.mostCells) {
+    return makeError(ErrorKind::kUsage, "training: begins with %u cells, but may have %u; give fewer to begin with",
+                     options.schedule.startCells, options.schedule.mostCells);
+  }
+  const Result<PhotoSplit> split = splitPhotos(capture.views, options.testPeriod);
+  if (!split) return split.error();
+  const std::string settings = settingsText(options, set);
+  LoopOptions loop;
+  loop.schedule = options.schedule;
+  loop.seed = options.seed;
+  loop.photoCount = static_cast<uint32_t>(set.training.size());
+  Result<FoamStorage<float>> foam = FoamStorage<float>{};
+  if (options.isResumed) {
+    Result<TrainingState> state = resumeState(options, settings);
+    if (!state) return state.error();
+    loop.firstStep = state->stepsDone;
+    foam = std::move(state->foam);
+  } else {
+    foam = makeStart(capture, set, options, split->training);
+    if (!foam) return foam.error();
+  }
+  Result<std::unique_ptr<StepExecutor>> executor = makeExecutor(std::move(*foam), set.training);
+  if (!executor) return executor.error();
+  if (Status ran = runSteps(**executor, options, loop, settings, progress); !ran) return ran.error();
+  return finishTraining(**executor, set, loop);
+}
+
+}  // namespace froth

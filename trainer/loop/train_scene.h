@@ -1,0 +1,59 @@
+// From a capture to a trained foam: all that `froth train` does.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/result.h"
+#include "foam/foam.h"
+#include "trainer/loop/schedule.h"
+#include "trainer/loop/step_executor.h"
+#include "trainer/photos/photos.h"
+#include "trainer/start/scene_frame.h"
+
+namespace froth {
+
+struct TrainOptions {
+  Schedule schedule;         // startCells 0: a quarter of mostCells
+  uint32_t detailCount = 8;  // K [1..32]
+  uint32_t lobeCount = 8;    // M [1..32]
+  uint64_t seed = 1;
+  uint32_t testPeriod = 8;  // every so many-th photo tests; 0: none, unless the capture says
+  PhotoOptions photos;
+  double nearRatio = 4;         // docs/FOAM.md "Near cells"; cells so near to a camera are not seen by it
+  std::filesystem::path state;  // where the state is saved; empty: nowhere
+  uint32_t saveEvery = 1000;    // [steps, >= 1]
+  bool isResumed = false;       // go on from `state`
+};
+
+// What training works on.
+struct TrainingSet {
+  SceneFrame frame;                      // of the normalised scene
+  std::vector<Photo> training, testing;  // views in the normalised scene
+  std::vector<std::string> testNames;
+};
+
+struct TrainResult {
+  Foam foam;                      // in the scene's units
+  std::vector<double> testPsnrs;  // by TrainingSet::testing
+  uint64_t droppedCount = 0;      // contributions that were no finite numbers
+  uint32_t firstStep = 0;         // > 0: a run that went on
+};
+
+// Makes the executor of a run: the CPU's, or a GPU's.
+using MakeExecutor = std::function<Result<std::unique_ptr<StepExecutor>>(FoamStorage<float>, std::vector<Photo>)>;
+Result<std::unique_ptr<StepExecutor>> makeCpuExecutor(FoamStorage<float> foam, std::vector<Photo> photos);
+
+// Reads photos and splits them.
+Result<TrainingSet> prepareTraining(const Capture& capture, const TrainOptions& options, const Progress& progress);
+
+// Trains, saves the state every saveEvery steps and when `progress` asks to stop, and measures the test photos.
+Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, const TrainOptions& options,
+                               const MakeExecutor& makeExecutor, const Progress& progress = {});
+
+}  // namespace froth
