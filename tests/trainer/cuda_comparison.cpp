@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "trainer/cpu/cpu_step.h"
-#include "trainer/cpu/skin_pairs.h"
 
 namespace froth {
 namespace {
@@ -38,9 +37,8 @@ Status runOnGpu(FoamStorage<float>& foam, const StepCase& stepCase, const std::v
   CudaStep step;
   if (Status started = step.start(); !started) return started;
   if (Status given = step.upload(foam); !given) return given;
-  if (Status given = givePairs(step, foam, stepCase.leastSkin); !given) return given;
   for (bool isDone = false; !isDone;) {
-    if (Status ran = step.activate(); !ran) return ran;
+    if (Status ran = step.activate(stepCase.leastSkin); !ran) return ran;
     if (Status ran = step.render(stepCase.view, stepCase.settings, stepCase.adam); !ran) return ran;
     if (Status ran = step.uploadLoss(gradients, wanted); !ran) return ran;
     if (Status ran = step.differentiate(); !ran) return ran;
@@ -68,15 +66,6 @@ std::vector<glm::vec4> plainGradients(uint32_t width, uint32_t height) {
 }
 
 std::vector<glm::vec4> plainWanted(size_t pixelCount) { return std::vector<glm::vec4>(pixelCount, {0.4, 0.5, 0.6, 1}); }
-
-Status givePairs(CudaStep& step, FoamStorage<float>& foam, float leastSkin) {
-  const TrainedFoam<float> view = viewStorage(foam);
-  for (uint32_t cell = 0; cell < foam.shape.cellCount; ++cell) foam.balls[cell] = ballOf(view, cell);
-  SkinPairs pairs;
-  (void)pairs.follow(foam.balls, leastSkin);
-  const uint32_t* reverses = pairs.rows().reverses;
-  return step.setPairs(pairs.graph(), {reverses, reverses + pairs.graph().neighbours.size()});
-}
 
 Result<StepComparison> compareStep(const FoamStorage<float>& foam, const StepCase& stepCase) {
   FoamStorage<float> onCpu = foam, onGpu = foam;

@@ -40,7 +40,4 @@ struct StepComparison {
 // Takes one step from `foam`, whose moments are 0, on both.
 Result<StepComparison> compareStep(const FoamStorage<float>& foam, const StepCase& stepCase);
 
-// Gives the pairs of the balls as they are to a step on the GPU.
-Status givePairs(CudaStep& step, FoamStorage<float>& foam, float leastSkin);
-
 }  // namespace froth

@@ -6,15 +6,11 @@
 #include "tests/reference/scenes.h"
 #include "tests/trainer/cuda_comparison.h"
 #include "trainer/cpu/foam_exchange.h"
+#include "trainer/cuda/cuda_executor.h"
 #include "trainer/loop/view_exchange.h"
 
 namespace froth {
 namespace {
-
-bool hasGpu() {
-  int count = 0;
-  return cudaGetDeviceCount(&count) == cudaSuccess && count > 0;
-}
 
 struct Case {
   const char* name;
@@ -27,7 +23,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 class CudaStepOf : public ::testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    if (!hasGpu()) GTEST_SKIP() << "no GPU";
+    if (!hasCudaDevice()) GTEST_SKIP() << "no GPU";
   }
 };
 

@@ -1,6 +1,8 @@
 #include "trainer/cuda/cuda_step.h"
 
 #include <algorithm>
+#include <type_traits>
+#include <utility>
 
 #include "trainer/step/tiles.h"
 
@@ -41,6 +43,8 @@ void CudaStep::point() {
   foam.balls = balls_.data();
   foam.contributions = contributions_.data();
   foam.errors = errors_.data();
+  arrays_.foundBalls = foundBalls_.data();
+  arrays_.slacks = slacks_.data();
   arrays_.pairs = {offsets_.data(), neighbours_.data(), reverses_.data()};
   arrays_.seen = {0, seenCells_.data(), planes_.data(), details_.data(), rankOf_.data()};
   arrays_.counters = counters_.data();
@@ -67,17 +71,29 @@ Status CudaStep::upload(const FoamStorage<float>& foam) {
                     [&] { return tensors_[i].firstMoments.upload(foam.firstMoments[i], name, stream_); },
                     [&] { return tensors_[i].secondMoments.upload(foam.secondMoments[i], name, stream_); });
   }
+  if (!status) return status;
+  hasPairs_ = false;
+  return inTurn([&] { return lastSteps_.upload(foam.lastSteps, "last steps", stream_); },
+                [&] { return contributions_.upload(foam.contributions, "contributions", stream_); },
+                [&] { return errors_.upload(foam.errors, "errors", stream_); },
+                [&] { return reserveCells(foam.shape); }, [&] { return reserveEntries(kFirstEntries); });
+}
+
+Status CudaStep::reserveCells(const FoamShape& shape) {
+  const size_t cells = shape.cellCount, details = cells * shape.detailCount;
+  Status status;
   for (size_t i = 0; i < kArraysByCell && status; ++i) status = byCell_[i].resize(cells, "numbers of cells");
   if (!status) return status;
   status = inTurn(
-      [&] { return lastSteps_.upload(foam.lastSteps, "last steps", stream_); },
-      [&] { return contributions_.upload(foam.contributions, "contributions", stream_); },
-      [&] { return errors_.upload(foam.errors, "errors", stream_); }, [&] { return balls_.resize(cells, "balls"); },  //
+      [&] { return balls_.resize(cells, "balls"); }, [&] { return foundBalls_.resize(cells, "balls of pairs"); },
+      [&] { return enlargedBalls_.resize(cells, "enlarged balls"); }, [&] { return slacks_.resize(cells, "slacks"); },
+      [&] { return boxes_.resize(size_t{2} * blocksOfCells(cells), "boxes of cells"); },
+      [&] { return offsets_.resize(cells + 1, "offsets of pairs"); },
       [&] { return seenCells_.resize(cells, "seen cells"); }, [&] { return rankOf_.resize(cells, "ranks"); },
       [&] { return cellSums_.resize(cells, "sums of cells"); },
       [&] { return details_.resize(details, "seen details"); },
-      [&] { return detailSums_.resize(details, "sums of details"); }, [&] { return reserveEntries(kFirstEntries); });
-  arrays_.foam.shape = foam.shape;
+      [&] { return detailSums_.resize(details, "sums of details"); });
+  arrays_.foam.shape = shape;
   point();
   return status;
 }
@@ -98,20 +114,87 @@ Status CudaStep::download(FoamStorage<float>& foam) {
                 [&] { return errors_.download(foam.errors, "errors", stream_); });
 }
 
-Status CudaStep::setPairs(const CellGraph& graph, const std::vector<uint32_t>& reverses) {
-  const size_t pairs = graph.neighbours.size();
-  const Status status = inTurn([&] { return offsets_.upload(graph.offsets, "offsets of pairs", stream_); },
-                               [&] { return neighbours_.upload(graph.neighbours, "pairs", stream_); },
-                               [&] { return reverses_.upload(reverses, "reverse pairs", stream_); },
-                               [&] { return planes_.resize(pairs, "seen planes"); },
-                               [&] { return pairSums_.resize(pairs, "sums of pairs"); });
+Status CudaStep::downloadFacts(FoamStorage<float>& foam) {
+  constexpr auto kQuaternions = static_cast<size_t>(Parameter::kOrientations);
+  return inTurn(
+      [&] { return tensors_[kQuaternions].values.download(foam.values[kQuaternions], "orientations", stream_); },
+      [&] { return balls_.download(foam.balls, "balls", stream_); },
+      [&] { return contributions_.download(foam.contributions, "contributions", stream_); },
+      [&] { return errors_.download(foam.errors, "errors", stream_); });
+}
+
+Status CudaStep::downloadPairs(CellGraph& graph, std::vector<uint32_t>& reverses) {
+  return inTurn([&] { return offsets_.download(graph.offsets, "offsets of pairs", stream_); },
+                [&] { return neighbours_.download(graph.neighbours, "pairs", stream_); },
+                [&] { return reverses_.download(reverses, "reverse pairs", stream_); },
+                [&]() -> Status {
+                  graph.neighbours.resize(graph.offsets.back());  // behind them is room
+                  reverses.resize(graph.offsets.back());
+                  return {};
+                });
+}
+
+Status CudaStep::rearrange(const CellPlan& plan) {
+  FoamShape shape = arrays_.foam.shape;
+  shape.cellCount = static_cast<uint32_t>(plan.sources.size());
+  DeviceArray<uint32_t> sources;
+  DeviceArray<glm::vec3> shifts;
+  DeviceArray<float> meanFactors;
+  const auto gather = [&](auto& array, uint32_t width, const char* name) -> Status {
+    std::remove_reference_t<decltype(array)> next;
+    if (Status made = next.resize(size_t{shape.cellCount} * width, name); !made) return made;
+    const Status gathered = gatherRows(array.data(), next.data(), sources.data(), shape.cellCount, width, stream_);
+    std::swap(array, next);
+    return gathered;
+  };
+  Status status =
+      inTurn([&] { return sources.upload(plan.sources, "sources of cells", stream_); },
+             [&] { return shifts.upload(plan.shifts, "shifts of cells", stream_); },
+             [&] { return meanFactors.upload(plan.meanFactors, "factors of means", stream_); },
+             [&] { return gather(lastSteps_, 1, "last steps"); },
+             [&] { return gather(contributions_, 1, "contributions"); }, [&] { return gather(errors_, 1, "errors"); });
+  for (size_t i = 0; i < kParameterCount && status; ++i) {
+    const uint32_t width = widthOf(static_cast<Parameter>(i), shape);
+    const char* name = kParameterKeys[i].data();
+    status = inTurn([&] { return gather(tensors_[i].values, width, name); },
+                    [&] { return gather(tensors_[i].firstMoments, width, name); },
+                    [&] { return gather(tensors_[i].secondMoments, width, name); });
+  }
+  hasPairs_ = false;
+  return inTurn([&] { return status; }, [&] { return reserveCells(shape); },
+                [&] { return applyPlan(arrays_, shifts.data(), meanFactors.data(), stream_); },
+                [&] { return checkCuda(cudaStreamSynchronize(stream_), "rearrangement of cells"); });
+}
+
+Status CudaStep::findPairs(float leastSkin) {
+  PairLists lists{enlargedBalls_.data(), boxes_.data(), offsets_.data(), nullptr, nullptr};
+  if (Status counted = countPairs(arrays_, lists, leastSkin, scratch_, stream_); !counted) return counted;
+  uint32_t pairs = 0;
+  const Status read = inTurn(
+      [&] {
+        return checkCuda(cudaMemcpyAsync(&pairs, offsets_.data() + arrays_.foam.shape.cellCount, sizeof(pairs),
+                                         cudaMemcpyDeviceToHost, stream_),
+                         "number of pairs");
+      },
+      [&] { return checkCuda(cudaStreamSynchronize(stream_), "number of pairs"); });
+  if (!read) return read;
+  // A quarter more than there are, for those of later steps.
+  const size_t room = pairs > neighbours_.size() ? pairs + pairs / 4 : neighbours_.size();
+  const Status reserved = inTurn(
+      [&] { return neighbours_.resize(room, "pairs"); }, [&] { return reverses_.resize(room, "reverse pairs"); },
+      [&] { return planes_.resize(room, "seen planes"); }, [&] { return pairSums_.resize(room, "sums of pairs"); });
   point();
-  return status;
+  if (!reserved) return reserved;
+  lists.neighbours = neighbours_.data();
+  lists.reverses = reverses_.data();
+  hasPairs_ = true;
+  return listPairs(arrays_, lists, stream_);
 }
 
 Status CudaStep::reservePixels(size_t pixels, size_t tiles) {
   const Status status = inTurn([&] { return rendered_.resize(pixels, "rendered"); },
                                [&] { return gradients_.resize(pixels, "gradients of pixels"); },
+                               [&] { return lossFields_.resize(9 * pixels, "fields of the loss"); },
                                [&] { return wanted_.resize(pixels, "wanted pixels"); },
                                [&] { return logTransmittances_.resize(pixels, "transmittances"); },
                                [&] { return ends_.resize(pixels, "ends of rays"); },
@@ -133,7 +216,12 @@ Status CudaStep::mark(Status passed, const char* pass) {
   return passed;
 }
 
-Status CudaStep::activate() { return mark(activateCells(arrays_, stream_), "activate"); }
+Status CudaStep::activate(float leastSkin) {
+  if (Status activated = mark(activateCells(arrays_, hasPairs_, stream_), "activate"); !activated || hasPairs_) {
+    return activated;
+  }
+  return mark(findPairs(leastSkin), "find pairs");
+}
 
 Status CudaStep::render(const TrainingView<float>& view, const RaySettings<float>& settings,
                         const AdamStep<float>& adam) {
@@ -154,6 +242,10 @@ Status CudaStep::uploadLoss(const std::vector<glm::vec4>& gradients, const std::
                 [&] { return wanted_.upload(wanted, "wanted pixels", stream_); });
 }
 
+Status CudaStep::differentiateImage(const ImageTarget& target, const LossTerms& terms) {
+  return mark(differentiateLoss(arrays_.pixels, wanted_.data(), target, terms, lossFields_.data(), stream_), "loss");
+}
+
 Status CudaStep::differentiate() {
   return mark(differentiateTiles(arrays_, view_, settings_, stream_), "differentiate");
 }
@@ -166,7 +258,8 @@ Result<bool> CudaStep::settle() {
   std::vector<StepCounters> counters;
   if (Status read = counters_.download(counters, "counters", stream_); !read) return read.error();
   lastCounters_ = counters[0];
-  if (lastCounters_.tileEntries <= arrays_.entryCapacity) return true;
+  if (lastCounters_.cellsOutOfSkin > 0) hasPairs_ = false;
+  if (lastCounters_.tileEntries <= arrays_.entryCapacity) return hasPairs_;
   // A quarter more than this view needs, for others.
   const Status grown = reserveEntries(lastCounters_.tileEntries + lastCounters_.tileEntries / 4);
   if (!grown) return grown.error();
@@ -181,7 +274,7 @@ size_t CudaStep::byteCount() const {
   for (const auto& array : byEntry_) add(array);
   add(lastSteps_, balls_, contributions_, errors_, offsets_, neighbours_, reverses_, seenCells_, planes_, details_);
   add(rankOf_, cellSums_, detailSums_, pairSums_, tileCones_, tilesBegin_, rendered_, gradients_, wanted_);
-  add(logTransmittances_, ends_);
+  add(logTransmittances_, ends_, lossFields_, foundBalls_, enlargedBalls_, slacks_, boxes_);
   return sum;
 }
 

@@ -15,6 +15,7 @@
 #include "trainer/cuda/pass_clock.h"
 #include "trainer/cuda/passes.h"
 #include "trainer/cuda/step_arrays.h"
+#include "trainer/loop/cell_plan.h"
 
 namespace froth {
 
@@ -29,25 +30,31 @@ class CudaStep {
   Status start();
   Status upload(const FoamStorage<float>& foam);
   Status download(FoamStorage<float>& foam);
-  // reverses: NeighbourRows.
-  Status setPairs(const CellGraph& graph, const std::vector<uint32_t>& reverses);
+  Status rearrange(const CellPlan& plan);
 
   // The calls of a step, in this order. Pointers in `view` and `adam` are to device memory.
-  Status activate();
+  //
+  // Finds the pairs where there are none that hold, which waits for the GPU. leastSkin: trainer/step/skin.h.
+  Status activate(float leastSkin);
   Status render(const TrainingView<float>& view, const RaySettings<float>& settings, const AdamStep<float>& adam);
-  // Before it the loss writes pixels().gradients and pixels().wanted.
+  Status differentiateImage(const ImageTarget& target, const LossTerms& terms);
   Status differentiate();
   Status update(const AdamStep<float>& adam, float overlapWeight);
 
-  // Waits for the GPU. false: the lists of the last step did not fit, so it changed nothing; now they do.
+  // Waits for the GPU. false: the lists of the last step did not fit or its pairs did not hold, so it changed nothing;
+  // taken again it will.
   Result<bool> settle();
 
-  PixelArrays<float> pixels() const { return arrays_.pixels; }
+  // What densification goes by.
+  Status downloadFacts(FoamStorage<float>& foam);
+  Status downloadPairs(CellGraph& graph, std::vector<uint32_t>& reverses);
   Status downloadImage(std::vector<glm::vec4>& rendered) { return rendered_.download(rendered, "rendered", stream_); }
+  // In place of differentiateImage().
   Status uploadLoss(const std::vector<glm::vec4>& gradients, const std::vector<glm::vec4>& wanted);
 
   const StepCounters& counters() const { return lastCounters_; }  // as of settle()
-  size_t byteCount() const;                                       // of GPU memory
+  uint32_t cellCount() const { return arrays_.foam.shape.cellCount; }
+  size_t byteCount() const;  // of GPU memory
   cudaStream_t stream() const { return stream_; }
   void setClock(PassClock* clock) { clock_ = clock; }  // null: none
 
@@ -56,6 +63,9 @@ class CudaStep {
   Status reserveEntries(uint32_t capacity);
   void point();  // arrays_, at what the arrays are now
   Status mark(Status passed, const char* pass);
+
+  Status reserveCells(const FoamShape& shape);
+  Status findPairs(float leastSkin);
 
   static constexpr size_t kArraysByCell = 7, kArraysByEntry = 4;
   struct Tensors {
@@ -66,6 +76,10 @@ class CudaStep {
   DeviceArray<glm::vec4> balls_;
   DeviceArray<float> contributions_, errors_;
   DeviceArray<uint32_t> offsets_, neighbours_, reverses_;
+  DeviceArray<glm::vec4> foundBalls_, enlargedBalls_;
+  DeviceArray<float> slacks_;
+  DeviceArray<glm::vec3> boxes_;
+  bool hasPairs_ = false;
 
   DeviceArray<SeenCell<float>> seenCells_;
   DeviceArray<SeenPlane<float>> planes_;
@@ -78,7 +92,7 @@ class CudaStep {
   DeviceArray<glm::vec4> tileCones_;
   DeviceArray<uint32_t> tilesBegin_, byEntry_[kArraysByEntry];
   DeviceArray<glm::vec4> rendered_, gradients_, wanted_;
-  DeviceArray<float> logTransmittances_;
+  DeviceArray<float> logTransmittances_, lossFields_;
   DeviceArray<uint32_t> ends_;
   DeviceArray<StepCounters> counters_;
   Scratch scratch_;

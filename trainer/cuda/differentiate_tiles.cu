@@ -34,7 +34,7 @@ template <uint32_t kDetails>
 __global__ __launch_bounds__(kThreads) void differentiateTilesKernel(StepArrays arrays, TrainingView<float> view,
                                                                      RaySettings<float> settings) {
   extern __shared__ float sharedRows[];
-  if (hasOverflowed(arrays)) return;
+  if (isVoid(arrays)) return;
   const uint32_t detailCount = kDetails > 0 ? kDetails : arrays.foam.shape.detailCount;
   const uint32_t rowCount = rowCountOf(detailCount);
   float* rows = sharedRows + threadIdx.x / kWarp * rowCount * kColumns;

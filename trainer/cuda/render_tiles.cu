@@ -23,7 +23,7 @@ __device__ void addCell(const SeenCells<float>& seen, uint32_t rank, uint32_t de
 template <uint32_t kDetails>
 __global__ __launch_bounds__(kTileSize* kTileSize) void renderTilesKernel(StepArrays arrays, TrainingView<float> view,
                                                                           RaySettings<float> settings) {
-  if (hasOverflowed(arrays)) return;
+  if (isVoid(arrays)) return;
   const uint32_t detailCount = kDetails > 0 ? kDetails : arrays.foam.shape.detailCount;
   const WarpPixel own = pixelOfThread(arrays, view);
   const float logCutoff = logf(settings.cutoff);

@@ -12,14 +12,17 @@ namespace froth {
 
 // Counted on the GPU; the host reads them late, and never waits for them within a step.
 struct StepCounters {
-  uint32_t seenCells = 0;     // ranks
-  uint32_t tileEntries = 0;   // of all tiles; more than fit: the step changes nothing, and is taken again
-  uint32_t droppedCount = 0;  // contributions that were no finite numbers, of all steps
+  uint32_t seenCells = 0;       // ranks
+  uint32_t tileEntries = 0;     // of all tiles; more than fit: the step changes nothing, and is taken again
+  uint32_t droppedCount = 0;    // contributions that were no finite numbers, of all steps
+  uint32_t cellsOutOfSkin = 0;  // not 0: the pairs may lack some; as with tileEntries
 };
 
 struct StepArrays {
   TrainedFoam<float> foam;
   NeighbourRows pairs;
+  glm::vec4* foundBalls;  // [cells] when the pairs were found
+  float* slacks;          // [cells] by how much they may change since (trainer/step/skin.h)
   SeenCells<float> seen;  // `count` is unused: StepCounters::seenCells
   GradientSums<float> sums;
   PixelArrays<float> pixels;

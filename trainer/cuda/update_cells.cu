@@ -14,7 +14,7 @@ __device__ void countBad(const StepArrays& arrays, uint32_t bad) {
 __global__ void updateDetailsKernel(StepArrays arrays, AdamStep<float> adam) {
   const uint32_t detail = globalThread(), detailCount = arrays.foam.shape.detailCount;
   const uint32_t rank = detail / detailCount;
-  if (rank >= arrays.counters->seenCells || hasOverflowed(arrays)) return;
+  if (rank >= arrays.counters->seenCells || isVoid(arrays)) return;
   CellSums<float> asked;
   uint32_t bad = 0;
   updateDetail(arrays.foam, adam, arrays.seen.cells[rank], arrays.seen.details[detail], detail % detailCount,
@@ -30,7 +30,7 @@ __global__ void updateDetailsKernel(StepArrays arrays, AdamStep<float> adam) {
 
 __global__ void updateSeenCellsKernel(StepArrays arrays, AdamStep<float> adam) {
   const uint32_t rank = globalThread();
-  if (rank >= arrays.counters->seenCells || hasOverflowed(arrays)) return;
+  if (rank >= arrays.counters->seenCells || isVoid(arrays)) return;
   uint32_t bad = 0;
   updateSeenCell(arrays.foam, adam, arrays.seen.cells[rank], arrays.sums.cells[rank], bad);
   countBad(arrays, bad);
@@ -38,7 +38,7 @@ __global__ void updateSeenCellsKernel(StepArrays arrays, AdamStep<float> adam) {
 
 __global__ void updateBallsKernel(StepArrays arrays, AdamStep<float> adam, float overlapWeight) {
   const uint32_t cell = globalThread();
-  if (cell >= arrays.foam.shape.cellCount || hasOverflowed(arrays)) return;
+  if (cell >= arrays.foam.shape.cellCount || isVoid(arrays)) return;
   uint32_t bad = 0;
   updateBall(arrays.foam, adam, cell,
              gatherBall(arrays.foam, arrays.pairs, arrays.seen, arrays.sums, overlapWeight, cell), bad);
