@@ -98,8 +98,9 @@ void WatchedExecutor::print(const StepPlan& plan, uint32_t done) {
       executor_.step().counters().seenCells, executor_.step().counters().tileEntries,
       static_cast<double>(executor_.byteCount()) / 1e6);
   if (clock_) {
-    for (const PassTime& time : clock_->times(kTimedSteps))
+    for (const PassTime& time : clock_->times(kTimedSteps)) {
       fmt::print(", \"{}\": {:.3f}", time.name, time.milliseconds);
+    }
   }
   fmt::print("}}\n");
   std::fflush(stdout);

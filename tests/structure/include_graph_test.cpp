@@ -56,7 +56,8 @@ const std::map<std::string, std::vector<std::string>> kRooms{
     {"baker", {"base", "format", "foam", "reference", "shaders/foam"}},
     {"trainer", {"base", "foam", "reference", "shaders/foam"}},
     {"measure", {"base", "format", "foam", "reference", "baker", "host", "runtime/include", "shaders/foam"}},
-    {"tool", {"base", "format", "foam", "reference", "trainer", "baker", "host", "measure", "runtime/include", "shaders/foam"}},
+    {"tool",
+     {"base", "format", "foam", "reference", "trainer", "baker", "host", "measure", "runtime/include", "shaders/foam"}},
     {"samples", {"base", "host", "runtime/include", "shaders/froth_walk.glsl"}},
 };
 
