@@ -10,6 +10,9 @@
 #include "reference/capture/capture.h"
 #include "tool/commands.h"
 #include "tool/options.h"
+#ifdef FROTH_HAS_CUDA
+#include "trainer/cuda/cuda_executor.h"
+#endif
 #include "trainer/loop/train_scene.h"
 
 namespace froth {
@@ -19,8 +22,18 @@ struct TrainCommandOptions {
   std::filesystem::path scene, output;
   TrainOptions train;
   bool isPremultiplied = false, isOutdoor = false;
+  std::string device;  // cpu, cuda; empty: cuda where there is one
   FiguresOutput figures;
 };
+
+Result<MakeExecutor> chooseExecutor(const std::string& device) {
+#ifdef FROTH_HAS_CUDA
+  if (device == "cuda" || (device.empty() && hasCudaDevice())) return MakeExecutor(CudaExecutor::make);
+#endif
+  if (device != "cuda") return MakeExecutor(makeCpuExecutor);
+  return makeError(ErrorKind::kUsage,
+                   "--device cuda: this froth is built without CUDA; take cpu, or build it with nvcc");
+}
 
 double meanOf(const std::vector<double>& values) {
   return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -59,12 +72,14 @@ Status runTrain(TrainCommandOptions options, const Progress& progress) {
   options.train.state.replace_extension(".state.bin");
   options.train.photos.alpha = options.isPremultiplied ? AlphaForm::kPremultiplied : AlphaForm::kStraight;
   options.train.schedule.preset = options.isOutdoor ? RatePreset::kOutdoor : RatePreset::kIndoor;
+  const Result<MakeExecutor> makeExecutor = chooseExecutor(options.device);
+  if (!makeExecutor) return makeExecutor.error();
   const Result<Capture> capture = readCapture(options.scene);
   if (!capture) return capture.error();
   const Result<TrainingSet> set = prepareTraining(*capture, options.train, progress);
   if (!set) return set.error();
   const auto begin = std::chrono::steady_clock::now();
-  const Result<TrainResult> result = trainScene(*capture, *set, options.train, makeCpuExecutor, progress);
+  const Result<TrainResult> result = trainScene(*capture, *set, options.train, *makeExecutor, progress);
   if (!result) return result.error();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (Status written = exportCheckpoint(options.output, result->foam, progress); !written) return written;
@@ -94,6 +109,8 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
   command.add_option("--seed", options->train.seed, "Of all random choices");
   command.add_option("--save-every", options->train.saveEvery, "Steps between two saved states")
       ->check(countBetween(1, 10000000));
+  command.add_option("--device", options->device, "cpu or cuda; default: cuda where there is a GPU for it")
+      ->check(CLI::IsMember({"cpu", "cuda"}));
   command.add_flag("--outdoor", options->isOutdoor, "Rates for scenes whose cameras stand far apart");
   command.add_flag("--premultiplied", options->isPremultiplied, "Alpha of photos is premultiplied");
   command.add_flag("--mask-as-alpha", options->train.photos.isMaskAlpha, "Masks cut the object out");

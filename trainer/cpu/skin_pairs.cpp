@@ -1,16 +1,14 @@
 #include "trainer/cpu/skin_pairs.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <tbb/parallel_for.h>
 
 #include "foam/cech_pairs.h"
+#include "trainer/step/skin.h"
 
 namespace froth {
 namespace {
-
-constexpr float kSkinOfRadius = 0.05f;
 
 // Where in row `neighbour` stands `cell`: rows are ascending and the graph is symmetric.
 uint32_t placeInRow(const CellGraph& graph, uint32_t neighbour, uint32_t cell) {
@@ -25,8 +23,7 @@ template <class Real>
 bool SkinPairs::follow(const std::vector<glm::vec<4, Real>>& balls, float leastSkin) {
   bool isGood = found_.size() == balls.size();
   for (size_t i = 0; isGood && i < balls.size(); ++i) {
-    const glm::vec<4, Real> change = balls[i] - glm::vec<4, Real>(found_[i]);
-    isGood = glm::length(glm::vec<3, Real>(change)) + std::abs(change.w) <= skins_[i];
+    isGood = isWithinSlack(balls[i], found_[i], slacks_[i]);
   }
   if (isGood) return false;
   found_.assign(balls.begin(), balls.end());
@@ -35,16 +32,14 @@ bool SkinPairs::follow(const std::vector<glm::vec<4, Real>>& balls, float leastS
 }
 
 void SkinPairs::find(float leastSkin) {
-  // A millionth less than what was added, for the rounding of sums.
-  constexpr float kKept = 1 - 1e-6f;
   std::vector<glm::vec3> sites(found_.size());
   std::vector<float> radii(found_.size());
-  skins_.resize(found_.size());
+  slacks_.resize(found_.size());
   for (size_t i = 0; i < found_.size(); ++i) {
-    const float skin = std::max(kSkinOfRadius * found_[i].w, leastSkin);
+    const float skin = skinOf(found_[i].w, leastSkin);
     sites[i] = glm::vec3(found_[i]);
     radii[i] = found_[i].w + skin;
-    skins_[i] = kKept * skin;
+    slacks_[i] = slackOf(skin);
   }
   graph_ = findCechPairs(sites, radii);
   reverses_.resize(graph_.neighbours.size());

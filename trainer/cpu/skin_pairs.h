@@ -30,7 +30,7 @@ class SkinPairs {
   void find(float leastSkin);
 
   std::vector<glm::vec4> found_;  // balls when the pairs were found
-  std::vector<float> skins_;
+  std::vector<float> slacks_;
   CellGraph graph_;
   std::vector<uint32_t> reverses_;
 };

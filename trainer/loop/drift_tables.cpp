@@ -6,9 +6,6 @@
 namespace froth {
 namespace {
 
-// After so many steps the rest of the sum is below 1e-11 of it: rho^256.
-constexpr uint32_t kLongestDrift = 256;
-
 // step: from 1.
 double correctionAt(uint32_t step) { return std::sqrt(1 - std::pow(kBeta2, step)) / (1 - std::pow(kBeta1, step)); }
 

@@ -11,6 +11,9 @@
 
 namespace froth {
 
+// A step changes no entries but the last so many: after them the rest of the sum is below 1e-11 of it, rho^256.
+inline constexpr uint32_t kLongestDrift = 256;
+
 class DriftTables {
  public:
   explicit DriftTables(const Schedule& schedule);

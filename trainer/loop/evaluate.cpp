@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kMostPsnr = 100;
 
+}  // namespace
+
 double psnrOf(const Photo& photo, const std::vector<glm::vec4>& rendered) {
   double squares = 0;
   uint64_t values = 0;
@@ -26,8 +28,6 @@ double psnrOf(const Photo& photo, const std::vector<glm::vec4>& rendered) {
   const double mean = values > 0 ? squares / static_cast<double>(values) : 0;
   return mean > 0 ? std::min(-10 * std::log10(mean), kMostPsnr) : kMostPsnr;
 }
-
-}  // namespace
 
 std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos) {
   CpuStep<float> step(foam);

@@ -8,8 +8,11 @@
 
 namespace froth {
 
-// PSNR of each photo, over black and all channels, colours clamped to 0..1, over the pixels that count. 100 where all
-// are equal.
+// PSNR of a photo, over black and all channels, colours clamped to 0..1, over the pixels that count. 100 where all are
+// equal. rendered: colour over black, transmittance.
+double psnrOf(const Photo& photo, const std::vector<glm::vec4>& rendered);
+
+// The same of each photo.
 std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos);
 
 }  // namespace froth

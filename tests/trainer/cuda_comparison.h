@@ -1,0 +1,43 @@
+// The same step on the CPU and on the GPU, and how far apart they end.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "base/result.h"
+#include "trainer/cuda/cuda_step.h"
+
+namespace froth {
+
+struct StepCase {
+  TrainingView<float> view;
+  RaySettings<float> settings;
+  AdamStep<float> adam;  // with pointers to host memory
+  float overlapWeight = 0, leastSkin = 1e-3f;
+};
+
+// A gradient image with some structure, that depends on the pixel alone: rounding of what is shown leaves it.
+std::vector<glm::vec4> plainGradients(uint32_t width, uint32_t height);
+std::vector<glm::vec4> plainWanted(size_t pixelCount);
+
+// Differences of one array, relative to the root of the mean square of the CPU's.
+struct Difference {
+  double rootMeanSquare = 0;
+  double partFarOff = 0;  // of the entries: farther off than a hundredth of their own size and of the RMS together
+};
+
+struct StepComparison {
+  Difference image;                                   // not relative: values are in 0..1
+  std::array<Difference, kParameterCount> gradients;  // the first moments after one step
+  std::array<Difference, kParameterCount> values;     // by how much the step moved them
+  Difference contributions, errors;
+  uint32_t seenOnCpu = 0, seenOnGpu = 0;
+};
+
+// Takes one step from `foam`, whose moments are 0, on both.
+Result<StepComparison> compareStep(const FoamStorage<float>& foam, const StepCase& stepCase);
+
+}  // namespace froth

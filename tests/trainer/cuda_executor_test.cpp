@@ -1,0 +1,134 @@
+// The executor on a GPU does what the executor on the CPU does. Skipped where there is no GPU.
+#include "trainer/cuda/cuda_executor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/counter_random.h"
+#include "tests/reference/scenes.h"
+#include "trainer/cpu/foam_exchange.h"
+#include "trainer/cpu/skin_pairs.h"
+#include "trainer/loop/cpu_executor.h"
+#include "trainer/loop/drift_tables.h"
+
+namespace froth {
+namespace {
+
+constexpr uint32_t kCells = 2001, kWidth = 211, kHeight = 133;  // no multiples of a warp and of a tile
+
+class CudaExecutorOf : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!hasCudaDevice()) GTEST_SKIP() << "no GPU";
+    foam_ = storeFoam<float>(randomFoam(kCells, 3, 2, 5));
+  }
+
+  // Half transparent here and there; a mask on the right.
+  static Photo makePhoto(const glm::dvec3& eye) {
+    Photo photo;
+    photo.view = lookAt(eye, {0.1, 0, 0}, kWidth, kHeight, 0.6);
+    const CounterRandom random(7, Purpose::kColour);
+    for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+      const double alpha = i % 5 == 0 ? random.uniform(4 * i) : 1;
+      for (uint32_t c = 0; c < 3; ++c) photo.rgba.push_back(uint8_t(255 * alpha * random.uniform(4 * i + 1 + c)));
+      photo.rgba.push_back(uint8_t(255 * alpha));
+      photo.counted.push_back(i % kWidth < kWidth - 20);
+    }
+    return photo;
+  }
+
+  FoamStorage<float> foam_;
+  std::vector<Photo> photos_{makePhoto({0.5, 0.4, -3}), makePhoto({-3, 0.4, 0.3})};
+  Schedule schedule_;
+};
+
+double relativeDifference(const std::vector<float>& expected, const std::vector<float>& found) {
+  double squares = 0, differences = 0;
+  for (size_t i = 0; i < expected.size(); ++i) {
+    squares += double{expected[i]} * expected[i];
+    differences += (double{found[i]} - expected[i]) * (double{found[i]} - expected[i]);
+  }
+  return std::sqrt(differences / std::max(squares, 1e-60));
+}
+
+TEST_F(CudaExecutorOf, FindsThePairsOfTheCpu) {
+  CudaStep step;
+  ASSERT_TRUE(step.start());
+  ASSERT_TRUE(step.upload(foam_));
+  ASSERT_TRUE(step.activate(1e-3f));
+  CellGraph found;
+  std::vector<uint32_t> reverses;
+  ASSERT_TRUE(step.downloadPairs(found, reverses));
+  const TrainedFoam<float> view = viewStorage(foam_);
+  for (uint32_t cell = 0; cell < kCells; ++cell) foam_.balls[cell] = ballOf(view, cell);
+  SkinPairs pairs;
+  ASSERT_TRUE(pairs.follow(foam_.balls, 1e-3f));
+  const CellGraph& expected = pairs.graph();
+  ASSERT_GT(expected.neighbours.size(), 5000u);
+  EXPECT_LE(found.neighbours.size(), expected.neighbours.size() * 1.001);  // some touch within rounding
+  for (uint32_t cell = 0; cell < kCells; ++cell) {
+    const auto begin = found.neighbours.begin() + found.offsets[cell],
+               end = begin + found.offsets[cell + 1] - found.offsets[cell];
+    ASSERT_TRUE(std::is_sorted(begin, end)) << cell;
+    for (uint32_t e = expected.offsets[cell]; e < expected.offsets[cell + 1]; ++e) {
+      ASSERT_TRUE(std::binary_search(begin, end, expected.neighbours[e])) << cell;
+    }
+    for (uint32_t e = found.offsets[cell]; e < found.offsets[cell + 1]; ++e) {
+      ASSERT_EQ(found.neighbours[reverses[e]], cell);
+      ASSERT_GE(reverses[e], found.offsets[found.neighbours[e]]);
+      ASSERT_LT(reverses[e], found.offsets[found.neighbours[e] + 1]);
+    }
+  }
+}
+
+// The first step has the gradients in its moments; the second waits with cells that the first photo does not see.
+TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpu) {
+  CpuExecutor cpu(foam_, photos_);
+  Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
+  ASSERT_TRUE(gpu) << gpu.error().message;
+  DriftTables drifts(schedule_);
+  for (uint32_t step = 0; step < 2; ++step) {
+    const StepPlan plan{step, step, drifts.adamAt(step), weightsAt(schedule_, step), 1e-2f};
+    ASSERT_TRUE(cpu.run(plan));
+    ASSERT_TRUE((*gpu)->run(plan));
+    FoamStorage<float> expected, found;
+    ASSERT_TRUE(cpu.read(expected));
+    ASSERT_TRUE((*gpu)->read(found));
+    for (size_t i = 0; i < kParameterCount; ++i) {
+      EXPECT_LE(relativeDifference(expected.firstMoments[i], found.firstMoments[i]), 0.01)
+          << kParameterKeys[i] << " in step " << step;
+    }
+    EXPECT_EQ(expected.lastSteps, found.lastSteps);
+    EXPECT_LE(relativeDifference(expected.errors, found.errors), 1e-3);
+  }
+  const Result<uint64_t> dropped = (*gpu)->droppedCount();
+  ASSERT_TRUE(dropped);
+  EXPECT_EQ(*dropped, 0u);
+}
+
+TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
+  Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
+  ASSERT_TRUE(gpu) << gpu.error().message;
+  DriftTables drifts(schedule_);
+  ASSERT_TRUE((*gpu)->run({0, 0, drifts.adamAt(0), weightsAt(schedule_, 0), 1e-2f}));
+  FoamStorage<float> before, after;
+  ASSERT_TRUE((*gpu)->read(before));
+  const Result<CellFacts> facts = (*gpu)->facts();
+  ASSERT_TRUE(facts);
+  const CellPlan plan = planCells(*facts, kCells + 500, 3, 99);
+  ASSERT_TRUE((*gpu)->rearrange(plan));
+  ASSERT_TRUE((*gpu)->read(after));
+  const FoamStorage<float> expected = rearrange(before, plan);
+  EXPECT_EQ(after.shape.cellCount, plan.sources.size());
+  EXPECT_EQ(after.values, expected.values);
+  EXPECT_EQ(after.firstMoments, expected.firstMoments);
+  EXPECT_EQ(after.secondMoments, expected.secondMoments);
+  EXPECT_EQ(after.lastSteps, expected.lastSteps);
+  EXPECT_EQ(after.contributions, expected.contributions);
+  EXPECT_EQ(after.errors, expected.errors);
+  EXPECT_TRUE((*gpu)->run({1, 0, drifts.adamAt(1), weightsAt(schedule_, 1), 1e-2f}));
+}
+
+}  // namespace
+}  // namespace froth

@@ -1,0 +1,74 @@
+// The step on a GPU does what the step on the CPU does. Skipped where there is no GPU.
+#include "trainer/cuda/cuda_step.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/reference/scenes.h"
+#include "tests/trainer/cuda_comparison.h"
+#include "trainer/cpu/foam_exchange.h"
+#include "trainer/cuda/cuda_executor.h"
+#include "trainer/loop/view_exchange.h"
+
+namespace froth {
+namespace {
+
+struct Case {
+  const char* name;
+  uint32_t cellCount, detailCount, lobeCount;
+  glm::dvec3 eye;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+class CudaStepOf : public ::testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    if (!hasCudaDevice()) GTEST_SKIP() << "no GPU";
+  }
+};
+
+// No multiples of a tile.
+constexpr uint32_t kWidth = 211, kHeight = 133;
+
+StepCase makeCase(const glm::dvec3& eye) {
+  StepCase stepCase;
+  stepCase.view = trainingView<float>(lookAt(eye, {0.1, 0, 0}, kWidth, kHeight, 0.6));
+  stepCase.view.nearRatio = 1.5f;
+  stepCase.view.nearDepth = 0.1f;
+  stepCase.settings.perPixel = 1.0f / (kWidth * kHeight);
+  stepCase.settings.normalWeight = 0.1f * stepCase.settings.perPixel;
+  stepCase.overlapWeight = 1e-4f;
+  std::fill(std::begin(stepCase.adam.rates), std::end(stepCase.adam.rates), 1e-3f);
+  return stepCase;
+}
+
+// Rays within rounding of the edge between two branches take either, so some gradients differ by a whole ray; all
+// others differ by the rounding of sums.
+constexpr double kImageTolerance = 2e-5, kGradientTolerance = 5e-3, kPartFarOff = 5e-3;
+
+TEST_P(CudaStepOf, EqualsTheCpuUpToRounding) {
+  const Case& c = GetParam();
+  const FoamStorage<float> foam = storeFoam<float>(randomFoam(c.cellCount, c.detailCount, c.lobeCount, 5));
+  const Result<StepComparison> found = compareStep(foam, makeCase(c.eye));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_GT(found->seenOnCpu, c.cellCount / 10);
+  EXPECT_EQ(found->seenOnGpu, found->seenOnCpu);
+  EXPECT_LE(found->image.rootMeanSquare, kImageTolerance);
+  for (size_t i = 0; i < kParameterCount; ++i) {
+    EXPECT_LE(found->gradients[i].rootMeanSquare, kGradientTolerance) << kParameterKeys[i];
+    EXPECT_LE(found->gradients[i].partFarOff, kPartFarOff) << kParameterKeys[i];
+  }
+  EXPECT_LE(found->contributions.rootMeanSquare, kGradientTolerance);
+  EXPECT_LE(found->errors.rootMeanSquare, kGradientTolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(Foams, CudaStepOf,
+                         ::testing::Values(Case{"ThreeOfTwo", 300, 3, 2, {0.5, 0.4, -3}},
+                                           Case{"EightOfEight", 2000, 8, 8, {0.5, 0.4, -3}},
+                                           Case{"EyeInside", 300, 3, 2, {0.3, 0.2, 0.25}},
+                                           Case{"OneOfOne", 300, 1, 1, {-3, 4, 1}},
+                                           Case{"ThirtyTwo", 60, 32, 3, {0.5, 0.4, -3}}),
+                         [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace froth

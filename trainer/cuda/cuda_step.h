@@ -1,0 +1,108 @@
+// A step of training on a GPU: what CpuStep does (trainer/cpu/cpu_step.h), with the same functions of trainer/step/.
+//
+// Calls put work into a stream and return. Nothing is read back within a step: lists have capacities, and a step whose
+// lists do not fit changes nothing. settle() tells afterwards, and makes room. Sums are atomic, so two runs differ by
+// rounding.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "foam/cell_graph.h"
+#include "trainer/cpu/foam_storage.h"
+#include "trainer/cuda/device_array.h"
+#include "trainer/cuda/pass_clock.h"
+#include "trainer/cuda/passes.h"
+#include "trainer/cuda/step_arrays.h"
+#include "trainer/loop/cell_plan.h"
+
+namespace froth {
+
+class CudaStep {
+ public:
+  CudaStep() = default;
+  CudaStep(const CudaStep&) = delete;
+  CudaStep& operator=(const CudaStep&) = delete;
+  ~CudaStep();
+
+  // Before all others. Fails where there is no GPU.
+  Status start();
+  Status upload(const FoamStorage<float>& foam);
+  Status download(FoamStorage<float>& foam);
+  Status rearrange(const CellPlan& plan);
+
+  // The calls of a step, in this order. Pointers in `view` and `adam` are to device memory.
+  //
+  // Finds the pairs where there are none that hold, which waits for the GPU. leastSkin: trainer/step/skin.h.
+  Status activate(float leastSkin);
+  Status render(const TrainingView<float>& view, const RaySettings<float>& settings, const AdamStep<float>& adam);
+  Status differentiateImage(const ImageTarget& target, const LossTerms& terms);
+  Status differentiate();
+  Status update(const AdamStep<float>& adam, float overlapWeight);
+
+  // Waits for the GPU. false: the lists of the last step did not fit or its pairs did not hold, so it changed nothing;
+  // taken again it will.
+  Result<bool> settle();
+
+  // What densification goes by.
+  Status downloadFacts(FoamStorage<float>& foam);
+  Status downloadPairs(CellGraph& graph, std::vector<uint32_t>& reverses);
+  Status downloadImage(std::vector<glm::vec4>& rendered) { return rendered_.download(rendered, "rendered", stream_); }
+  // In place of differentiateImage().
+  Status uploadLoss(const std::vector<glm::vec4>& gradients, const std::vector<glm::vec4>& wanted);
+
+  const StepCounters& counters() const { return lastCounters_; }  // as of settle()
+  uint32_t cellCount() const { return arrays_.foam.shape.cellCount; }
+  size_t byteCount() const;  // of GPU memory
+  cudaStream_t stream() const { return stream_; }
+  void setClock(PassClock* clock) { clock_ = clock; }  // null: none
+
+ private:
+  Status reservePixels(size_t pixelCount, size_t tileCount);
+  Status reserveEntries(uint32_t capacity);
+  void point();  // arrays_, at what the arrays are now
+  Status mark(Status passed, const char* pass);
+
+  Status reserveCells(const FoamShape& shape);
+  Status findPairs(float leastSkin);
+
+  static constexpr size_t kArraysByCell = 7, kArraysByEntry = 4;
+  struct Tensors {
+    DeviceArray<float> values, firstMoments, secondMoments;
+  };
+  std::array<Tensors, kParameterCount> tensors_;
+  DeviceArray<uint32_t> lastSteps_;
+  DeviceArray<glm::vec4> balls_;
+  DeviceArray<float> contributions_, errors_;
+  DeviceArray<uint32_t> offsets_, neighbours_, reverses_;
+  DeviceArray<glm::vec4> foundBalls_, enlargedBalls_;
+  DeviceArray<float> slacks_;
+  DeviceArray<glm::vec3> boxes_;
+  bool hasPairs_ = false;
+
+  DeviceArray<SeenCell<float>> seenCells_;
+  DeviceArray<SeenPlane<float>> planes_;
+  DeviceArray<SeenDetail<float>> details_;
+  DeviceArray<uint32_t> rankOf_;
+  DeviceArray<CellSums<float>> cellSums_;
+  DeviceArray<DetailSums<float>> detailSums_;
+  DeviceArray<glm::vec4> pairSums_;
+  DeviceArray<uint32_t> byCell_[kArraysByCell];
+  DeviceArray<glm::vec4> tileCones_;
+  DeviceArray<uint32_t> tilesBegin_, byEntry_[kArraysByEntry];
+  DeviceArray<glm::vec4> rendered_, gradients_, wanted_;
+  DeviceArray<float> logTransmittances_, lossFields_;
+  DeviceArray<uint32_t> ends_;
+  DeviceArray<StepCounters> counters_;
+  Scratch scratch_;
+
+  StepArrays arrays_{};
+  TrainingView<float> view_;
+  RaySettings<float> settings_;
+  StepCounters lastCounters_;
+  PassClock* clock_ = nullptr;
+  cudaStream_t stream_ = nullptr;
+};
+
+}  // namespace froth

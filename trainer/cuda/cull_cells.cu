@@ -1,0 +1,65 @@
+// Near tests, the tiles that see each ball, and the key that orders what is seen. Bound: 16 bytes read and 16 written
+// per cell, and some 30 flops per ball and tile of its box.
+#include "trainer/cuda/ball_tiles.h"
+#include "trainer/cuda/passes.h"
+
+namespace froth {
+namespace {
+
+__global__ void findConesKernel(StepArrays arrays, TrainingView<float> view) {
+  const uint32_t tile = globalThread(), tilesX = tilesAlong(view.width);
+  if (tile < tilesX * tilesAlong(view.height)) {
+    arrays.tileCones[tile] = coneOfTile(view, tile % tilesX, tile / tilesX);
+  }
+}
+
+// Unsigned numbers in the order of floats that are finite.
+__device__ uint32_t orderedBits(float value) {
+  const uint32_t bits = __float_as_uint(value + 0.0f);  // -0 becomes 0
+  return bits ^ (bits >> 31 ? 0xffffffffu : 0x80000000u);
+}
+
+__global__ void cullCellsKernel(StepArrays arrays, TrainingView<float> view) {
+  const uint32_t cell = globalThread(), tilesX = tilesAlong(view.width);
+  const bool isCell = cell < arrays.foam.shape.cellCount;
+  BallTiles tiles;
+  float power = 0;
+  if (isCell) {
+    const glm::vec4 ball = arrays.foam.balls[cell];
+    const glm::vec3 centre = glm::vec3(ball) - view.eye;
+    power = foam::powerOfOrigin(centre, ball.w);
+    const bool isShown = isfinite(power) && ball.w > 0 &&
+                         !foam::isNearCell(centre, ball.w, view.worldFromCamera[2], view.nearRatio, view.nearDepth);
+    if (isShown) tiles = tilesToTest(view, ball);
+  }
+  uint32_t tileCount = 0;
+  visitTiles(tiles, arrays.tileCones, tilesX, [&](int lane, uint32_t, bool isSeen) {
+    const uint32_t found = __popc(__ballot_sync(kAllLanes, isSeen));
+    if (laneOfWarp() == static_cast<uint32_t>(lane)) tileCount += found;
+  });
+  if (isCell) {
+    arrays.powerKeys[cell] = tileCount > 0 ? orderedBits(power) : kUnseenKey;
+    arrays.cells[cell] = cell;
+    arrays.tileCounts[cell] = tileCount;
+    arrays.seen.rankOf[cell] = SeenCells<float>::kNotSeen;
+  }
+  const uint32_t seen = __popc(__ballot_sync(kAllLanes, tileCount > 0));
+  const uint32_t entries = __reduce_add_sync(kAllLanes, tileCount);
+  if (laneOfWarp() == 0 && seen > 0) {
+    atomicAdd(&arrays.counters->seenCells, seen);
+    atomicAdd(&arrays.counters->tileEntries, entries);
+  }
+}
+
+}  // namespace
+
+Status cullCells(const StepArrays& arrays, const TrainingView<float>& view, cudaStream_t stream) {
+  static_assert(offsetof(StepCounters, droppedCount) == 8, "the counters of one view come first");
+  cudaMemsetAsync(arrays.counters, 0, offsetof(StepCounters, droppedCount), stream);
+  findConesKernel<<<blocksFor(size_t{tilesAlong(view.width)} * tilesAlong(view.height)), kBlock, 0, stream>>>(arrays,
+                                                                                                              view);
+  cullCellsKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays, view);
+  return checkLaunch("cullCells");
+}
+
+}  // namespace froth

@@ -1,0 +1,47 @@
+// What the kernels of a step read and write: pointers to device memory, passed to them by value. CudaStep owns it all.
+#pragma once
+
+#include <cstdint>
+
+#include "trainer/step/gradient_sums.h"
+#include "trainer/step/pixels.h"
+#include "trainer/step/seen_cells.h"
+#include "trainer/step/trained_foam.h"
+
+namespace froth {
+
+// Counted on the GPU; the host reads them late, and never waits for them within a step.
+struct StepCounters {
+  uint32_t seenCells = 0;       // ranks
+  uint32_t tileEntries = 0;     // of all tiles; more than fit: the step changes nothing, and is taken again
+  uint32_t droppedCount = 0;    // contributions that were no finite numbers, of all steps
+  uint32_t cellsOutOfSkin = 0;  // not 0: the pairs may lack some; as with tileEntries
+};
+
+struct StepArrays {
+  TrainedFoam<float> foam;
+  NeighbourRows pairs;
+  glm::vec4* foundBalls;  // [cells] when the pairs were found
+  float* slacks;          // [cells] by how much they may change since (trainer/step/skin.h)
+  SeenCells<float> seen;  // `count` is unused: StepCounters::seenCells
+  GradientSums<float> sums;
+  PixelArrays<float> pixels;
+  StepCounters* counters;
+
+  // By cell, before the sort and after it (then by rank).
+  uint32_t *powerKeys, *sortedKeys;  // of the eye's power; kUnseenKey: not seen
+  uint32_t *cells, *sortedCells;
+  uint32_t* tileCounts;    // [cells] tiles that see the cell
+  uint32_t* planesBegin;   // [cells] by rank, in SeenCells::planes
+  uint32_t* entriesBegin;  // [cells] by rank, in the list of entries
+
+  // The lists of tiles: an entry is a tile and the rank of a cell that it sees.
+  glm::vec4* tileCones;                                           // [tiles]
+  uint32_t* tilesBegin;                                           // [tiles + 1] in sortedRanks
+  uint32_t *entryTiles, *sortedTiles, *entryRanks, *sortedRanks;  // [entryCapacity]
+  uint32_t entryCapacity;
+};
+
+inline constexpr uint32_t kUnseenKey = UINT32_MAX;
+
+}  // namespace froth
