@@ -13,7 +13,8 @@ Status Scene::check(FrothResult result, const char* call) const {
   return makeError(kind, "%s gives %s", call, frothResultName(result));
 }
 
-Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& assetPath, bool isQueried) {
+Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& assetPath,
+                                             const SceneUses& uses) {
   std::unique_ptr<Scene> scene(new Scene());
   info.messageUser = scene.get();
   info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
@@ -25,7 +26,8 @@ Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::s
   FrothAssetInfo assetInfo{};
   assetInfo.structSize = sizeof(assetInfo);
   assetInfo.path = assetPath.c_str();
-  assetInfo.keepForQueries = isQueried ? 1 : 0;
+  assetInfo.keepForQueries = uses.isQueried ? 1 : 0;
+  assetInfo.prepareRays = uses.prepareRays;
   made = scene->check(frothOpenAsset(scene->context_, &assetInfo, &scene->assetHandle_), "frothOpenAsset");
   if (!made) return made.error();
 

@@ -7,18 +7,23 @@
 #include <vector>
 
 #include "froth/froth_stream.h"
+#include "froth/froth_walk.h"
 #include "host/camera_path.h"
 #include "host/host.h"
 #include "host/method.h"
 
 namespace froth {
 
+struct SceneUses {
+  bool isQueried = false;  // CPU queries answer
+  FrothRayPreparation prepareRays = FROTH_PREPARE_NOTHING;
+};
+
 class Scene {
  public:
   // Starts to open the asset; `context` comes with the engine's device, without callbacks.
-  // isQueried: CPU queries answer.
   static Result<std::unique_ptr<Scene>> create(FrothContextInfo context, const std::string& assetPath,
-                                               bool isQueried = false);
+                                               const SceneUses& uses = {});
   ~Scene();  // the device is done with every frame
 
   // (Re)makes the view for images of this size, and with keepsHits for those of FrothViewInfo::keepsHits too; the

@@ -14,7 +14,7 @@
 #ifndef FROTH_WALK_GLSL
 #define FROTH_WALK_GLSL
 
-#define FROTH_WALK_ABI 5u
+#define FROTH_WALK_ABI 6u
 
 // FrothHit::status
 #define FROTH_WALK_DONE 0u

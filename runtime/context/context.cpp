@@ -27,7 +27,7 @@ FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
     assets_.find(handle)->keepLayers();
   }
   if (hasWalkShaders_) {
-    assets_.find(handle)->keepForWalks();
+    assets_.find(handle)->keepForWalks(info.prepareRays);
   }
   return FROTH_OK;
 }

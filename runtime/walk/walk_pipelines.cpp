@@ -8,6 +8,7 @@
 #include "spirv/cast_rays.h"
 #include "spirv/cast_rays_merged.h"
 #include "spirv/mark_entries.h"
+#include "spirv/prepare_cells.h"
 #include "spirv/seed_entries.h"
 
 namespace froth {
@@ -34,6 +35,7 @@ struct ShaderCode {
 ShaderCode codeOf(uint32_t index) {
   if (index == kSeedEntries) return {"seed_entries", seed_entries_spirv};
   if (index == kMarkEntries) return {"mark_entries", mark_entries_spirv};
+  if (index == kPrepareCells) return {"prepare_cells", prepare_cells_spirv};
   if (index < kSeedEntries) return {"cast_rays", cast_rays_spirv};
   return {"cast_rays_merged", cast_rays_merged_spirv};
 }

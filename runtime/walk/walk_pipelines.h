@@ -16,7 +16,8 @@ struct WalkOptions {
 
 // Those that cast rays of a FrothRayKind through one instance at a time begin at 0, through several at once at
 // kCastMerged.
-inline constexpr uint32_t kSeedEntries = 3, kMarkEntries = 4, kCastMerged = 5, kWalkPipelineCount = 8;
+inline constexpr uint32_t kSeedEntries = 3, kMarkEntries = 4, kPrepareCells = 5, kCastMerged = 6,
+                          kWalkPipelineCount = 9;
 
 struct CastConstants {
   VkDeviceAddress rays, hits;

@@ -22,6 +22,8 @@ constexpr VkDeviceSize kInstancesOffset = kAlignment;
 constexpr VkDeviceSize kChunksOffset = kInstancesOffset + 2 * FROTH_WALK_MOST_INSTANCES * sizeof(gpu::WalkInstance);
 constexpr VkDeviceSize kCountersStride = kAlignment;
 constexpr uint32_t kFirstSeed = FROTH_WALK_MOST_INSTANCES;
+static_assert(int{FROTH_PREPARE_VISIBILITY} == gpu::kPreparedVisibility &&
+              int{FROTH_PREPARE_RADIANCE} == gpu::kPreparedRadiance);
 static_assert(kChunksOffset % 16 == 0 && sizeof(gpu::WalkCounters) <= kCountersStride);
 
 gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye, const FrothWalkInfo& info) {
@@ -55,6 +57,7 @@ gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye
   entry.borderCount = asset.borderCount;
   entry.fileChunkCount = asset.fileChunkCount;
   entry.firstSlot = asset.firstSlot;
+  entry.prepared = asset.prepared;
   return entry;
 }
 
@@ -235,8 +238,9 @@ VkDescriptorSet WalkSets::record(VkCommandBuffer commandBuffer, const FrothWalkI
   return free->set;
 }
 
-// Of assets that are seen for the first time, or with other chunks than before: the cells of all, then the marks of
-// all. Frames before may still read the entries of the chunks before.
+// Of assets that are seen for the first time, or with other chunks than before: what they prepare of their
+// cells, then the entries' cells of all, then the marks of all. Frames before may still read those of the chunks
+// before.
 void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
                            VkPipelineStageFlags2 stages) const {
   const auto isNew = [&](const WalkedInstance& instance) {
@@ -246,10 +250,12 @@ void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const Walked
   if (std::none_of(instances.begin(), instances.end(), isNew)) return;
   device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE,
                                     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_NONE);
-  for (const uint32_t pipeline : {kSeedEntries, kMarkEntries}) {
+  for (const uint32_t pipeline : {kPrepareCells, kSeedEntries, kMarkEntries}) {
     bind(commandBuffer, pipeline);
     for (uint32_t i = 0; i < instances.size(); ++i) {
-      if (isNew(instances[i])) recordSeeds(commandBuffer, pipeline, i, *instances[i].placement.asset);
+      const GpuAsset& asset = *instances[i].placement.asset;
+      const bool isWanted = pipeline != kPrepareCells || asset.prepared != gpu::kPreparedNothing;
+      if (isNew(instances[i]) && isWanted) recordSeeds(commandBuffer, pipeline, i, asset);
     }
     device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
@@ -271,8 +277,9 @@ void WalkSets::recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uin
   }
   const auto chunks = static_cast<uint32_t>(asset.chunks.size());
   const uint32_t rows = groupsOver(chunks, gpu::kMostGroupsAlong);
-  vk.vkCmdDispatch(commandBuffer, groupsOver(groupsOver(asset.liveCount, chunks), gpu::kRayGroupSize),
-                   groupsOver(chunks, rows), rows);
+  const uint32_t cells = pipeline == kPrepareCells ? asset.cellCount : asset.liveCount;
+  vk.vkCmdDispatch(commandBuffer, groupsOver(groupsOver(cells, chunks), gpu::kRayGroupSize), groupsOver(chunks, rows),
+                   rows);
 }
 
 void WalkSets::bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const {

@@ -61,7 +61,7 @@ struct WalkInstance {
   // (gpu/walk_entries.glsl)
   FROTH_ADDRESS(UintQuadArray) entries;
   FROTH_ADDRESS(UintArray) borders;
-  uint padding0, padding1;
+  uint prepared, padding;  // kPreparedNothing...
 };
 
 #if !defined(__cplusplus)

@@ -20,7 +20,20 @@ extern "C" {
 
 /* Version of the set's layout and of the include's structures. The include holds the same number. A shader that was
  * compiled with another number meets nothing and returns FROTH_WALK_VERSION. */
-#define FROTH_WALK_ABI 5u
+#define FROTH_WALK_ABI 6u
+
+/* FrothAssetInfo::prepareRays: what is kept in device memory so that rays need not decode cells. Images and hits are
+ * the same with each. Bytes: frothEstimateMemory beforehand, FrothAssetStatus::memory ("cells prepared for rays")
+ * after; docs/PERFORMANCE.md says what they buy. Made on the device by the first frothRecordWalkSet after the asset, or
+ * a cut of its levels, is there. Nothing without FrothContextInfo::walkShaders, or without a walk graph. */
+typedef enum FrothRayPreparation {
+  FROTH_PREPARE_NOTHING = 0,
+  /* planes and faces, and heights if the asset has such: for FROTH_RAY_TRANSMITTANCE and FROTH_RAY_CLOSEST. 16 bytes
+   * per neighbour of a cell, 32 per live cell, with heights 16 per detail site */
+  FROTH_PREPARE_VISIBILITY = 1,
+  FROTH_PREPARE_RADIANCE = 2, /* detail sites too: for FROTH_RAY_RADIANCE. 32 bytes per detail site in all */
+  FROTH_RAY_PREPARATION_MAX = 0x7fffffff
+} FrothRayPreparation;
 
 /* In one set. */
 #define FROTH_WALK_MOST_INSTANCES 64u
