@@ -9,12 +9,13 @@ Status Scene::check(FrothResult result, const char* call) const {
   if (result >= FROTH_OK) return {};  // what is positive is information, such as an asset that is still loading
   const bool isFileFault = result == FROTH_ERROR_FILE || result == FROTH_ERROR_VERSION;
   const ErrorKind kind = isFileFault ? ErrorKind::kBadInput : ErrorKind::kUnsupported;
+  const std::string fault = http_ ? http_->lastFault() : "";
+  if (!fault.empty()) return makeError(kind, "%s: %s", lastMessage_.c_str(), fault.c_str());
   if (!lastMessage_.empty()) return makeError(kind, "%s", lastMessage_.c_str());
   return makeError(kind, "%s gives %s", call, frothResultName(result));
 }
 
-Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& assetPath,
-                                             const SceneUses& uses) {
+Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& asset, const SceneUses& uses) {
   std::unique_ptr<Scene> scene(new Scene());
   info.messageUser = scene.get();
   info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
@@ -23,13 +24,7 @@ Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::s
   Status made = scene->check(frothCreateContext(&info, &scene->context_), "frothCreateContext");
   if (!made) return made.error();
 
-  FrothAssetInfo assetInfo{};
-  assetInfo.structSize = sizeof(assetInfo);
-  assetInfo.path = assetPath.c_str();
-  assetInfo.keepForQueries = uses.isQueried ? 1 : 0;
-  assetInfo.prepareRays = uses.prepareRays;
-  made = scene->check(frothOpenAsset(scene->context_, &assetInfo, &scene->assetHandle_), "frothOpenAsset");
-  if (!made) return made.error();
+  if (Status opened = scene->open(asset, uses); !opened) return opened.error();
 
   // An instance may exist before its asset is ready: it appears once it is.
   FrothInstanceInfo instanceInfo{};
@@ -40,8 +35,28 @@ Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::s
   return scene;
 }
 
+Status Scene::open(const std::string& asset, const SceneUses& uses) {
+  FrothAssetInfo info{};
+  info.structSize = sizeof(info);
+  info.keepForQueries = uses.isQueried ? 1 : 0;
+  info.prepareRays = uses.prepareRays;
+  FrothReader reader{};
+  if (isUrl(asset)) {
+    Result<std::unique_ptr<HttpReader>> http = HttpReader::open(asset, context_);
+    if (!http) return http.error();
+    http_ = std::move(*http);
+    reader = http_->reader();
+    info.reader = &reader;
+  } else {
+    info.path = asset.c_str();
+  }
+  return check(frothOpenAsset(context_, &info, &assetHandle_), "frothOpenAsset");
+}
+
 Scene::~Scene() {
-  if (context_) frothDestroyContext(context_, UINT64_MAX);
+  if (!context_ || frothDestroyContext(context_, UINT64_MAX) != FROTH_PENDING) return;
+  http_.reset();  // answers what is under way
+  frothDestroyContext(context_, UINT64_MAX);
 }
 
 Status Scene::setExtent(VkExtent2D extent, bool keepsHits) {

@@ -10,6 +10,7 @@
 #include "froth/froth_walk.h"
 #include "host/camera_path.h"
 #include "host/host.h"
+#include "host/http_reader.h"
 #include "host/method.h"
 
 namespace froth {
@@ -21,8 +22,8 @@ struct SceneUses {
 
 class Scene {
  public:
-  // Starts to open the asset; `context` comes with the engine's device, without callbacks.
-  static Result<std::unique_ptr<Scene>> create(FrothContextInfo context, const std::string& assetPath,
+  // Starts to open the asset, a file or a URL; `context` comes with the engine's device, without callbacks.
+  static Result<std::unique_ptr<Scene>> create(FrothContextInfo context, const std::string& asset,
                                                const SceneUses& uses = {});
   ~Scene();  // the device is done with every frame
 
@@ -56,9 +57,11 @@ class Scene {
 
  private:
   Scene() = default;
+  Status open(const std::string& asset, const SceneUses& uses);
   Status countLevels();
 
   FrothContext* context_ = nullptr;
+  std::unique_ptr<HttpReader> http_;  // of a URL
   FrothAsset assetHandle_{};
   FrothInstance instance_{};
   FrothView view_{};

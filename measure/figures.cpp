@@ -20,4 +20,12 @@ Status FiguresOutput::write(const nlohmann::ordered_json& figures) const {
   return writeFileAtomically(target, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
+nlohmann::ordered_json percentilesAsJson(const Percentiles& figures) {
+  return {{"median", figures.median},
+          {"p5", figures.p5},
+          {"p95", figures.p95},
+          {"p999", figures.p999},
+          {"worst", figures.worst}};
+}
+
 }  // namespace froth

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/percentiles.h"
 #include "base/result.h"
 
 namespace froth {
@@ -17,5 +18,7 @@ struct FiguresOutput {
   bool wantsTable() const { return target != "-"; }
   Status write(const nlohmann::ordered_json& figures) const;
 };
+
+nlohmann::ordered_json percentilesAsJson(const Percentiles& figures);
 
 }  // namespace froth

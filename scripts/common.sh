@@ -8,7 +8,7 @@ build_packages=(
   build-essential cmake ninja-build pkg-config
   libcgal-dev libtbb-dev libfmt-dev libglm-dev libzstd-dev libdraco-dev libbenchmark-dev libflatbuffers-dev flatbuffers-compiler libxxhash-dev
   libcli11-dev nlohmann-json3-dev libpng-dev libjpeg-dev zlib1g-dev libtinygltf-dev libkainjow-mustache-dev
-  glslang-tools libvulkan-dev libglfw3-dev libimgui-dev mesa-vulkan-drivers
+  glslang-tools libvulkan-dev libglfw3-dev libimgui-dev libcurl4-openssl-dev mesa-vulkan-drivers
 )
 
 # Installs what is missing; silent and without network where nothing is.

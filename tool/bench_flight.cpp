@@ -27,11 +27,12 @@ Result<std::vector<Pose>> keyPoses(const std::filesystem::path& cameras) {
 void addFlightOptions(CLI::App& command, FlightOptions& options) {
   constexpr const char* kGroup = "Flight with streaming";
   const auto needsFlight = [&](CLI::Option* option) { option->needs("--flight")->group(kGroup); };
-  command.add_option("--flight", options.frames, "Fly so many frames along the cameras, and stream levels of detail")
-      ->check(countBetween(2, 10000000))
-      ->excludes("--view")
-      ->excludes("--counters")
-      ->group(kGroup);
+  CLI::Option* const flight =
+      command
+          .add_option("--flight", options.frames, "Fly so many frames along the cameras, and stream levels of detail")
+          ->check(countBetween(2, 10000000))
+          ->group(kGroup);
+  for (const char* other : {"--view", "--counters", "--frames", "--warmup", "--layers"}) flight->excludes(other);
   const auto addBytes = [&](const char* name, uint64_t& bytes, const char* description) {
     return command.add_option(name, bytes, description)->transform(CLI::AsSizeValue(false));
   };

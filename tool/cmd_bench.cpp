@@ -1,5 +1,5 @@
 // froth bench: milliseconds by pass, from GPU timestamps; with --counters what the rays cost; with --flight what
-// streaming does on the way; with --rays what rays from anywhere cost.
+// streaming does on the way; with --open how long a first image takes; with --rays what rays from anywhere cost.
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -17,6 +17,7 @@
 #include "measure/gpu/gpu_renderer.h"
 #include "reference/camera/view_selection.h"
 #include "tool/bench_flight.h"
+#include "tool/bench_open.h"
 #include "tool/commands.h"
 #include "tool/options.h"
 
@@ -39,6 +40,7 @@ struct BenchOptions {
   std::string device;
   bool isCounting = false;
   FlightOptions flight;
+  OpeningOptions opening;
   RayFlags rays;
   FiguresOutput figures;
 };
@@ -184,12 +186,28 @@ void addRayFlags(CLI::App& command, RayFlags& flags) {
   constexpr const char* kGroup = "Rays";
   command.add_flag("--rays", flags.isWanted, "Cast rays from the views and from what they see, instead of drawing")
       ->excludes("--flight")
+      ->excludes("--open")
       ->group(kGroup);
   command.add_option("--prepare", flags.prepared, "What is kept in device memory for rays")
       ->capture_default_str()
       ->check(CLI::IsMember(&kRayPreparations))
       ->needs("--rays")
       ->group(kGroup);
+}
+
+Status benchOpen(const BenchOptions& options, const Progress& progress) {
+  OpeningOptions opening = options.opening;
+  opening.asset = options.input.string();
+  opening.device = options.device;
+  opening.render.method = findMethod(options.renderer)->method;
+  opening.render.cutoff = options.cutoff;
+  return runOpen(opening, options.views, options.figures, progress);
+}
+
+Status runWanted(const BenchOptions& options, const Progress& progress) {
+  if (options.flight.frames > 0) return benchFlight(options, progress);
+  if (options.opening.runs > 0) return benchOpen(options, progress);
+  return runBench(options, progress);
 }
 
 }  // namespace
@@ -215,13 +233,10 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
   command->add_option("--device", options->device, "Index or part of a name (`froth devices`)");
   addFiguresOption(*command, options->figures);
   addFlightOptions(*command, options->flight);
+  addOpenOptions(*command, options->opening);
   addRayFlags(*command, options->rays);
-  command->callback([&tool, options] {
-    tool.action = [&tool, options] {
-      return options->flight.frames > 0 ? benchFlight(*options, tool.progress.callback())
-                                        : runBench(*options, tool.progress.callback());
-    };
-  });
+  command->callback(
+      [&tool, options] { tool.action = [&tool, options] { return runWanted(*options, tool.progress.callback()); }; });
 }
 
 }  // namespace froth

@@ -6,17 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "base/percentiles.h"
+#include "measure/figures.h"
 
 namespace froth {
 namespace {
 
 constexpr double kMebi = 1 << 20;
 constexpr uint32_t kSubTileSize = 8;  // [pixels] of the workgroups that FrothWork speaks of
-
-nlohmann::ordered_json toJson(const Percentiles& times) {
-  return {{"median", times.median}, {"p5", times.p5}, {"p95", times.p95}, {"p999", times.p999}, {"worst", times.worst}};
-}
 
 void printTimes(const std::string& name, const Percentiles& frames, const Percentiles& cycles) {
   fmt::print("{:<12} {:>10.4f} {:>10.4f} {:>10.4f}   {:>10.4f} {:>10.4f} {:>10.4f}\n", name, frames.median, frames.p5,
@@ -107,28 +103,28 @@ void printMeasurement(const Measurement& measurement) {
 nlohmann::ordered_json measurementAsJson(const Measurement& measurement, const std::vector<SelectedView>& views) {
   nlohmann::ordered_json passes = nlohmann::ordered_json::object(), cyclePasses = passes;
   for (const std::string& name : measurement.passOrder) {
-    passes[name] = toJson(percentilesOf(measurement.passTimes.at(name)));
-    cyclePasses[name] = toJson(percentilesOf(measurement.cyclePasses.at(name)));
+    passes[name] = percentilesAsJson(percentilesOf(measurement.passTimes.at(name)));
+    cyclePasses[name] = percentilesAsJson(percentilesOf(measurement.cyclePasses.at(name)));
   }
   nlohmann::ordered_json perView = nlohmann::ordered_json::array();
   for (size_t i = 0; i < views.size(); ++i) {
     const FrothViewStatus& status = measurement.viewStatus[i];
     perView.push_back({{"view", views[i].index},
-                       {"total", toJson(percentilesOf(measurement.viewTotals[i]))},
+                       {"total", percentilesAsJson(percentilesOf(measurement.viewTotals[i]))},
                        {"visibleCells", status.visibleCells},
                        {"pairs", status.pairs},
                        {"longestList", status.longestList},
                        {"stepLimit", (status.bits & FROTH_VIEW_STEP_LIMIT) != 0}});
   }
   const double sum = std::accumulate(measurement.totals.begin(), measurement.totals.end(), 0.0);
-  nlohmann::ordered_json total = toJson(percentilesOf(measurement.totals));
+  nlohmann::ordered_json total = percentilesAsJson(percentilesOf(measurement.totals));
   total["mean"] = sum / static_cast<double>(measurement.totals.size());
   return {{"unit", "ms"},
           {"total", total},
           {"passes", passes},
           {"cycles",
            {{"count", measurement.cycleTotals.size()},
-            {"total", toJson(percentilesOf(measurement.cycleTotals))},
+            {"total", percentilesAsJson(percentilesOf(measurement.cycleTotals))},
             {"passes", cyclePasses}}},
           {"views", perView}};
 }

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "base/percentiles.h"
+#include "measure/figures.h"
 
 namespace froth {
 namespace {
@@ -68,10 +68,9 @@ Summary summarize(const Flight& flight, const FlightOptions& options) {
   return summary;
 }
 
-nlohmann::ordered_json toJson(const std::vector<double>& times) {
+nlohmann::ordered_json timesAsJson(const std::vector<double>& times) {
   if (times.empty()) return nullptr;
-  const Percentiles found = percentilesOf(times);
-  return {{"median", found.median}, {"p95", found.p95}, {"p999", found.p999}, {"worst", found.worst}};
+  return percentilesAsJson(percentilesOf(times));
 }
 
 void printTimes(const char* name, const std::vector<double>& times) {
@@ -161,8 +160,8 @@ nlohmann::ordered_json flightAsJson(const Flight& flight, const FlightOptions& o
       {"mostDeviceBytes", summary.mostDeviceBytes},
       {"mostChunkBytes", summary.mostChunkBytes},
       {"framesAboveBudget", summary.aboveBudget},
-      {"updateMs", toJson(summary.updates)},
-      {"gpuMs", toJson(summary.gpuTimes)},
+      {"updateMs", timesAsJson(summary.updates)},
+      {"gpuMs", timesAsJson(summary.gpuTimes)},
       {"psnrFlown", {{"mean", summary.flown.mean}, {"worst", summary.flown.worst}}},
       {"psnrSettled", {{"mean", summary.settledError.mean}, {"worst", summary.settledError.worst}}},
       {"images", imagesAsJson(flight.images)}};

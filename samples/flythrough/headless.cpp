@@ -23,7 +23,8 @@ Status settle(Host& host, Scene& scene, const RecordFrame& record) {
     const auto progressOf = [](const FrothStreamStatus& s) {
       return std::tuple(s.drawnChunks, s.residentChunks, s.comingChunks, s.usedBytes, s.evictions, s.retries);
     };
-    idle = progressOf(*status) == progressOf(before) ? idle + 1 : 0;
+    const bool isWaiting = status->comingChunks > 0;  // for a disk or a server, whose time is not that of frames
+    idle = !isWaiting && progressOf(*status) == progressOf(before) ? idle + 1 : 0;
     before = *status;
   }
   return makeError(

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
   froth::FlythroughOptions options;
   std::string picture = "raster";
   CLI::App program{"Flies through a .froth asset."};
-  program.add_option("ASSET", options.asset, "A .froth file")->required();
+  program.add_option("ASSET", options.asset, "A .froth file, or its URL on a server that serves ranges")->required();
   program.add_option("--cameras", options.cameras, "Key frames (cameras.json) instead of the asset's own path");
   program
       .add_option("--renderer", picture,

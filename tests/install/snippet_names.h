@@ -1,5 +1,6 @@
 /* The names that the C blocks of README.md and docs/EMBEDDING.md take from the text around them. */
 #include <froth/froth_breadcrumbs.h>
+#include <froth/froth_files.h>
 #include <froth/froth_host.h>
 #include <froth/froth_pool.h>
 #include <froth/froth_quality.h>
@@ -24,6 +25,9 @@ extern double x, y, z;
 extern float dx, dy, dz, nearest;
 
 extern void* pack;
+extern FrothFile* file;
+extern FrothJobPool* ioPool;
+extern uint64_t sceneOffset;
 extern uint64_t sceneSize, request;
 extern void readScene(void* user, uint64_t number, uint64_t offset, uint64_t size, void* destination);
 

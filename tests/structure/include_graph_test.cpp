@@ -60,10 +60,10 @@ const std::map<std::string, std::vector<std::string>> kRooms{
 };
 
 // Each includes only those in front of it.
-const std::vector<std::string> kRuntimeFloors{"runtime/include", "runtime/pool",   "runtime/heap",  "runtime/device",
-                                              "runtime/jobs",    "runtime/reads",  "runtime/query", "runtime/stream",
-                                              "runtime/asset",   "runtime/render", "runtime/walk",  "runtime/context",
-                                              "runtime/api"};
+const std::vector<std::string> kRuntimeFloors{"runtime/include", "runtime/pool",  "runtime/files",  "runtime/heap",
+                                              "runtime/device",  "runtime/jobs",  "runtime/reads",  "runtime/query",
+                                              "runtime/stream",  "runtime/asset", "runtime/render", "runtime/walk",
+                                              "runtime/context", "runtime/api"};
 
 bool isIn(const std::string& path, const std::string& folder) { return startsWith(path, folder + "/"); }
 
