@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
+#define FROTH_WALK_PREPARED FRAME.prepared
 #include "gpu/prepared_cells.glsl"
 
 layout(local_size_x = kRayGroupSize) in;

@@ -107,6 +107,7 @@ void Context::runFrame(FrothFrameStatus& status) {
     loadAssets();
     finishExchange();
     prepareMerging();
+    prepareRayForms();
     shrinkViews();
     views_.forEachNamed([&](FrothView handle, View& view) { prepareView(handle, view); });
     prepareWalks();

@@ -65,6 +65,13 @@ uint64_t sumOf(const gpu::WalkCounters& counters, uint32_t kind) {
   return counters.work[2 * kind] | uint64_t{counters.work[2 * kind + 1]} << 32;
 }
 
+// Of all of them; each form holds what is less.
+uint32_t preparedOf(std::span<const WalkedInstance> instances) {
+  uint32_t prepared = gpu::kPreparedRadiance;
+  for (const WalkedInstance& instance : instances) prepared = std::min(prepared, instance.placement.asset->prepared);
+  return prepared;
+}
+
 }  // namespace
 
 WalkSets::WalkSets(Device& device, bool countsWork, uint32_t framesInFlight)
@@ -175,6 +182,7 @@ void WalkSets::writeTables(uint32_t slot, const FrothWalkInfo& info, std::span<c
   block.logCutoff = info.cutoff > 0 ? std::log(info.cutoff) : -std::numeric_limits<float>::infinity();
   block.logQuantile = std::log(info.quantile);
   block.flags = countsWork_ ? gpu::kWalkCountsWork : 0;
+  block.prepared = preparedOf(instances);
   block.instances = address + kInstancesOffset;
   std::memcpy(staged, &block, sizeof(block));
   VkDeviceSize chunks = kChunksOffset;
@@ -231,6 +239,7 @@ VkDescriptorSet WalkSets::record(VkCommandBuffer commandBuffer, const FrothWalkI
   free->serial = serial;
   recordedSerial_ = serial;
   instanceCount_ = static_cast<uint32_t>(instances.size());
+  prepared_ = std::min(preparedOf(instances), pipelines_->mostPrepared());
   writeTables(current_, info, instances);
   updateSet(current_);
   recordCopies(commandBuffer, current_, info.stages);
@@ -293,7 +302,7 @@ void WalkSets::recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress rays, V
                           FrothRayKind kind) const {
   const DeviceTable& vk = device_.table;
   const bool isMerged = instanceCount_ > 1 && pipelines_->canMerge();
-  bind(commandBuffer, kind + (isMerged ? kCastMerged : 0));
+  bind(commandBuffer, castPipeline({kind, prepared_, isMerged}));
   const CastConstants constants{rays, hits, count, 0};
   vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
                         &constants);

@@ -11,7 +11,7 @@
 #include "gpu/cell_bits.glsl"
 #include "gpu/prepared_planes.glsl"
 
-bool hasColours() { return FRAME.prepared == kPreparedRadiance; }
+bool hasColours() { return FROTH_WALK_PREPARED == kPreparedRadiance; }
 bool hasPlaces() { return hasColours() || (hasPlanes() && FRAME.hasHeights != 0); }
 
 uint faceQuad(Chunk chunk, uint cell) { return chunk.neighbourCount + kFaceQuads * checked(cell, chunk.liveCount); }
@@ -75,31 +75,28 @@ vec3 placeOfDetail(CellCode code, CellHeader header, uvec2 cell, uint detail) {
   return vec3(site.place, site.height);
 }
 
-vec2 placeForColour(CellCode code, CellHeader header, uvec2 cell, uint detail) {
-  if (hasColours()) return placeOfDetail(code, header, cell, detail).xy;
-  return loadDetailSite(code, header, FRAME.detailCount, detail).place;
+// For its colour: takeSeen() gives what of it a prepared site still lacks, as few sites are seen.
+DetailSite loadPlacedDetail(CellCode code, CellHeader header, uvec2 cell, uint detail) {
+  if (!hasColours()) return loadDetailSite(code, header, FRAME.detailCount, detail);
+  Chunk chunk = loadChunk(cell.x);
+  vec4 place = uintBitsToFloat(chunk.prepared.v[placeQuad(chunk, cell.y, detail)]);
+  return DetailSite(place.xy, place.z, vec3(place.w, 0.0, 0.0));
 }
 
-// A detail site and its lobes.
-struct SeenDetail {
-  DetailSite site;
-  Lobes lobes;
-};
-
-SeenDetail loadSeenDetail(CellCode code, CellHeader header, uvec2 cell, uint detail) {
+// The lobes of a detail site that is seen.
+Lobes takeSeen(CellCode code, CellHeader header, uvec2 cell, uint detail, inout DetailSite site) {
   if (hasColours()) {
     Chunk chunk = loadChunk(cell.x);
-    vec4 place = uintBitsToFloat(chunk.prepared.v[placeQuad(chunk, cell.y, detail)]);
     uvec4 colour = chunk.prepared.v[colourQuad(chunk, cell.y, detail)];
-    DetailSite site = DetailSite(place.xy, place.z, vec3(place.w, uintBitsToFloat(colour.xy)));
+    site.base.g = uintBitsToFloat(colour.x);
+    site.base.b = uintBitsToFloat(colour.y);
     BitCursor lobes = header.ownAxes;
     lobes.word = colour.z;
     lobes.bit = colour.w & 31u;
-    return SeenDetail(site, Lobes(lobes, colour.w >> 5));
+    return Lobes(lobes, colour.w >> 5);
   }
-  DetailSite site = loadDetailSite(code, header, FRAME.detailCount, detail);
-  if (FRAME.lobeCount == 0) return SeenDetail(site, noLobes(header));
-  return SeenDetail(site, loadLobes(code, header, FRAME.detailCount, detail));
+  if (FRAME.lobeCount == 0) return noLobes(header);
+  return loadLobes(code, header, FRAME.detailCount, detail);
 }
 
 #endif

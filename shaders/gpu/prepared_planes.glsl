@@ -5,7 +5,7 @@
 #include "gpu/asset.glsl"
 #include "foam/cell.h"
 
-bool hasPlanes() { return FRAME.prepared != kPreparedNothing; }
+bool hasPlanes() { return FROTH_WALK_PREPARED != kPreparedNothing; }
 
 vec4 preparedPlane(Chunk chunk, uint index) {
   return uintBitsToFloat(chunk.prepared.v[checked(index, chunk.neighbourCount)]);
@@ -34,23 +34,19 @@ float clearanceOf(vec4 plane, vec3 centre) { return plane.w + dot(plane.xyz, cen
 uvec2 findExits(Chunk chunk, uvec2 row, vec3 centre, vec3 direction) {
   float reach = sizeOf(centre);
   uint first = row.y;
-  float low = kInfinity, high = kInfinity;  // between which the ray meets the first plane,
-  float nextLow = kInfinity;                // and from where on all others
+  float low = kInfinity, nextLow = kInfinity;  // before which the ray meets not the first plane, and none of the others
   for (uint i = row.x; i < row.y; ++i) {
     vec4 plane = preparedPlane(chunk, i);
     float q = fixedDot(direction, plane.xyz);
-    float clearance = clearanceOf(plane, centre);
-    float rounding = roundingOfClearance(plane, reach);
-    float inverse = 1.0 / q;
-    float otherLow = q > 0.0 ? (clearance - rounding) * inverse : kInfinity;
-    float otherHigh = q > 0.0 ? (clearance + rounding) * inverse : kInfinity;
-    bool isFirst = otherHigh < high;
-    nextLow = min(nextLow, isFirst ? low : otherLow);
-    first = isFirst ? i : first;
-    low = isFirst ? otherLow : low;
-    high = isFirst ? otherHigh : high;
+    float clearance = clearanceOf(plane, centre) - roundingOfClearance(plane, reach);
+    float otherLow = q > 0.0 ? clearance / q : kInfinity;
+    nextLow = min(nextLow, max(low, otherLow));
+    first = otherLow < low ? i : first;
+    low = min(low, otherLow);
   }
-  if (first == row.y) return nextLow < kInfinity ? row : uvec2(row.y, row.y);
+  if (first == row.y) return uvec2(row.y, row.y);
+  vec4 plane = preparedPlane(chunk, first);
+  float high = (clearanceOf(plane, centre) + roundingOfClearance(plane, reach)) / fixedDot(direction, plane.xyz);
   return nextLow > high + kMeetingRounding * abs(high) ? uvec2(first, first + 1) : row;
 }
 
@@ -58,19 +54,17 @@ uvec2 findExits(Chunk chunk, uvec2 row, vec3 centre, vec3 direction) {
 // centre: of the cell, as seen from the point.
 uvec2 findFalls(Chunk chunk, uvec2 row, vec3 centre, float reach) {
   uint lowest = row.y;
-  float low = -kInfinity, high = -kInfinity;  // between which it falls to that one,
-  float nextHigh = -kInfinity;                // and at most to all others
+  float high = -kInfinity, nextHigh = -kInfinity;  // by how much it falls at most to that one, and to the others
   for (uint i = row.x; i < row.y; ++i) {
     vec4 plane = preparedPlane(chunk, i);
-    float fall = -clearanceOf(plane, centre);
-    float rounding = roundingOfClearance(plane, reach);
-    bool isLowest = fall - rounding > low;
-    nextHigh = max(nextHigh, isLowest ? high : fall + rounding);
-    lowest = isLowest ? i : lowest;
-    high = isLowest ? fall + rounding : high;
-    low = isLowest ? fall - rounding : low;
+    float otherHigh = roundingOfClearance(plane, reach) - clearanceOf(plane, centre);
+    nextHigh = max(nextHigh, min(high, otherHigh));
+    lowest = otherHigh > high ? i : lowest;
+    high = max(high, otherHigh);
   }
-  if (max(high, nextHigh) < 0.0) return uvec2(row.y, row.y);
+  if (high < 0.0 || lowest == row.y) return uvec2(row.y, row.y);
+  vec4 plane = preparedPlane(chunk, lowest);
+  float low = -roundingOfClearance(plane, reach) - clearanceOf(plane, centre);
   return low > 0.0 && low > nextHigh ? uvec2(lowest, lowest + 1) : row;
 }
 

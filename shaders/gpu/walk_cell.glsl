@@ -60,19 +60,20 @@ vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, 
   vec3 query = faceQueryAt(met, frame, direction, t);
   float weightSum = 0.0;
   for (uint k = 0; k < detailCount; ++k) {
-    weightSum += detailWeight(query, placeForColour(code, header, met.cell, k), sharpness);
+    weightSum += detailWeight(query, loadPlacedDetail(code, header, met.cell, k).place, sharpness);
   }
   vec3 colour = vec3(0.0);
   float shownSum = 0.0;
   shaded = 0;
   for (uint k = 0; k < detailCount; ++k) {
-    float weight = detailWeight(query, placeForColour(code, header, met.cell, k), sharpness);
+    DetailSite detail = loadPlacedDetail(code, header, met.cell, k);
+    float weight = detailWeight(query, detail.place, sharpness);
     if (!(weight > leastShownShare() * weightSum)) continue;
-    SeenDetail detail = loadSeenDetail(code, header, met.cell, k);
+    Lobes lobes = takeSeen(code, header, met.cell, k, detail);
     vec3 toDetail = met.centre + behind * direction +
-                  met.radius * (frame.tangent * detail.site.place.x + frame.bitangent * detail.site.place.y);
+                  met.radius * (frame.tangent * detail.place.x + frame.bitangent * detail.place.y);
     vec3 seen = directionToDetail(toDetail, frame.normal);
-    colour += weight * detailColour(code, header, detail.lobes, detail.site.base, seen);
+    colour += weight * detailColour(code, header, lobes, detail.base, seen);
     shownSum += weight;
     ++shaded;
   }

@@ -139,7 +139,8 @@ Exit findExitAmong(Chunk chunk, ChunkPlace place, uvec2 row, vec4 siteRadius, ve
     uint other = neighbourAt(chunk, i);
     vec4 otherSite = siteRadiusOf(chunk, other);
     vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
-    float otherQ = fixedDot(direction, toNeighbour);
+    // as findExits() has it
+    float otherQ = hasPlanes() ? fixedDot(direction, toNeighbour) : dot(direction, toNeighbour);
     if (!(otherQ > 0.0)) continue;
     vec3 otherCentre = centreAt(place, otherSite.xyz);
     float otherClearance = sharedClearance(centre, otherCentre, toNeighbour, siteRadius.w, otherSite.w);
@@ -158,12 +159,12 @@ Exit findExitAmong(Chunk chunk, ChunkPlace place, uvec2 row, vec4 siteRadius, ve
   return Exit(site, site == kNoCell ? kInfinity : clearance / q, siteKey);
 }
 
-// Prepared planes only tell which part of the row matters; the sites decide, so that the exit is the same without them.
-Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 direction, float key, bool isPrepared,
+// Prepared planes only tell which part of the row matters; the sites decide, so that a ray goes the same way without them.
+Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 direction, float key,
               inout uint neighbours) {
   uvec2 row = neighbourRow(chunk, cell);
   neighbours += row.y - row.x;
-  uvec2 part = isPrepared ? findExits(chunk, row, centreAt(place, siteRadius.xyz), direction) : row;
+  uvec2 part = hasPlanes() ? findExits(chunk, row, centreAt(place, siteRadius.xyz), direction) : row;
   Exit exit;
   for (;;) {
     exit = findExitAmong(chunk, place, part, siteRadius, direction, key);
@@ -181,13 +182,12 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
   Chunk chunk = loadChunk(stream.cell.x);
   ChunkPlace place = placeFrom(ray.origin, chunk);
   uint maxSteps = FRAME.maxSteps, maxNeighbours = FRAME.maxNeighbours;
-  bool isPrepared = hasPlanes();
   while (stream.entry < stream.end && stream.steps < maxSteps && stream.neighbours < maxNeighbours) {
     ++stream.steps;
     ++work.cells;
     vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);
     uint before = stream.neighbours;
-    Exit exit = findExit(chunk, place, stream.cell.y, siteRadius, ray.direction, stream.key, isPrepared,
+    Exit exit = findExit(chunk, place, stream.cell.y, siteRadius, ray.direction, stream.key,
                          stream.neighbours);
     work.neighbours += stream.neighbours - before;
     met = MetCell(stream.cell, centreAt(place, siteRadius.xyz), siteRadius.w);
