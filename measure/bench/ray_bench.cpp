@@ -80,8 +80,8 @@ class RayBench {
     if (Status done = add("camera, transmittance", rays, FROTH_RAY_TRANSMITTANCE); !done) return done;
     if (Status done = add("camera, closest", rays, FROTH_RAY_CLOSEST, &hits); !done) return done;
     if (Status done = add("camera, radiance", rays, FROTH_RAY_RADIANCE); !done) return done;
-    if (Status done = add("mirrored, radiance", secondRays(rays, hits, nullptr), FROTH_RAY_RADIANCE); !done)
-      return done;
+    const std::vector<FrothGpuRay> mirrored = secondRays(rays, hits, nullptr);
+    if (Status done = add("mirrored, radiance", mirrored, FROTH_RAY_RADIANCE); !done) return done;
     return add("to a light, transmittance", secondRays(rays, hits, kLightDirection), FROTH_RAY_TRANSMITTANCE);
   }
 

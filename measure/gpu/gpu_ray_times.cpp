@@ -52,8 +52,9 @@ Result<RayTimes> GpuRenderer::timeRays(const std::vector<FrothGpuRay>& rays, con
   const size_t raysSize = rays.size() * sizeof(FrothGpuRay), hitsSize = rays.size() * sizeof(FrothGpuHit);
   const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
   const RayTimer timer(*state.host);
-  if (!timer.isMade())
+  if (!timer.isMade()) {
     return makeError(ErrorKind::kUnsupported, "device %s gives no timestamps", device().name.c_str());
+  }
   Result<HostBuffer> buffer = state.host->createBuffer(raysSize + hitsSize, usage);
   if (!buffer) return buffer.error();
   std::memcpy(buffer->mapped, rays.data(), raysSize);

@@ -126,7 +126,7 @@ TEST(PreparedCells, ChangeNoHitBesideInstancesOfWhichLessIsPrepared) {
 }
 
 TEST(PreparedCells, ChangeNoHitInAGalleryWithLobesAndLattices) {
-  expectSameHits(bakeDefault(synthesize("gallery", 2000)), raysThrough({-3, -3, -3}, {3, 3, 3}, 4000));
+  expectSameHits(bakeDefault(synthesize("gallery", 5000)), raysThrough({-3, -3, -3}, {3, 3, 3}, 4000));
 }
 
 }  // namespace
