@@ -26,9 +26,10 @@ PassResource storageBuffer(VkBuffer buffer) {
 
 Result<std::unique_ptr<ComputePass>> ComputePass::create(const Host& host, std::span<const uint32_t> spirv,
                                                          std::span<const PassResource> resources,
-                                                         VkDescriptorSetLayout secondLayout) {
+                                                         VkDescriptorSetLayout secondLayout,
+                                                         std::span<const uint32_t> constants) {
   std::unique_ptr<ComputePass> pass(new ComputePass(host.device));
-  if (Status made = pass->createPipeline(spirv, resources, secondLayout); !made) return made.error();
+  if (Status made = pass->createPipeline(spirv, resources, secondLayout, constants); !made) return made.error();
   if (Status made = pass->createSet(resources); !made) return made.error();
   return pass;
 }
@@ -41,7 +42,7 @@ ComputePass::~ComputePass() {
 }
 
 Status ComputePass::createPipeline(std::span<const uint32_t> spirv, std::span<const PassResource> resources,
-                                   VkDescriptorSetLayout secondLayout) {
+                                   VkDescriptorSetLayout secondLayout, std::span<const uint32_t> constants) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const PassResource& resource : resources) {
     bindings.push_back(
@@ -64,12 +65,19 @@ Status ComputePass::createPipeline(std::span<const uint32_t> spirv, std::span<co
 
   const Result<VkShaderModule> module = createShaderModule(device_, spirv);
   if (!module) return module.error();
+  std::vector<VkSpecializationMapEntry> entries;
+  for (uint32_t id = 0; id < constants.size(); ++id) {
+    entries.push_back({id, static_cast<uint32_t>(id * sizeof(uint32_t)), sizeof(uint32_t)});
+  }
+  const VkSpecializationInfo specialization{static_cast<uint32_t>(entries.size()), entries.data(),
+                                            constants.size_bytes(), constants.data()};
   VkComputePipelineCreateInfo pipelineInfo{};
   pipelineInfo.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   pipelineInfo.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
   pipelineInfo.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
   pipelineInfo.stage.module = *module;
   pipelineInfo.stage.pName = "main";
+  pipelineInfo.stage.pSpecializationInfo = &specialization;
   pipelineInfo.layout = layout_;
   made = checkVulkan(vkCreateComputePipelines(device_, VK_NULL_HANDLE, 1, &pipelineInfo, nullptr, &pipeline_),
                      "vkCreateComputePipelines");

@@ -23,10 +23,11 @@ PassResource storageBuffer(VkBuffer buffer);
 
 class ComputePass {
  public:
-  // Resources, and the layout of a set 1 if there is one, outlive the pass.
+  // Resources, and the layout of a set 1 if there is one, outlive the pass. constants: constant_id 0...
   static Result<std::unique_ptr<ComputePass>> create(const Host& host, std::span<const uint32_t> spirv,
                                                      std::span<const PassResource> resources,
-                                                     VkDescriptorSetLayout secondLayout = VK_NULL_HANDLE);
+                                                     VkDescriptorSetLayout secondLayout = VK_NULL_HANDLE,
+                                                     std::span<const uint32_t> constants = {});
   ~ComputePass();
   ComputePass(const ComputePass&) = delete;
   ComputePass& operator=(const ComputePass&) = delete;
@@ -37,7 +38,7 @@ class ComputePass {
  private:
   explicit ComputePass(VkDevice device) : device_(device) {}
   Status createPipeline(std::span<const uint32_t> spirv, std::span<const PassResource> resources,
-                        VkDescriptorSetLayout secondLayout);
+                        VkDescriptorSetLayout secondLayout, std::span<const uint32_t> constants);
   Status createSet(std::span<const PassResource> resources);
 
   VkDevice device_;

@@ -15,7 +15,7 @@ Status Scene::check(FrothResult result, const char* call) const {
   return makeError(kind, "%s gives %s", call, frothResultName(result));
 }
 
-Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& asset, bool isQueried) {
+Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::string& asset, const SceneUses& uses) {
   std::unique_ptr<Scene> scene(new Scene());
   info.messageUser = scene.get();
   info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char* object, const char* text) {
@@ -24,7 +24,7 @@ Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::s
   Status made = scene->check(frothCreateContext(&info, &scene->context_), "frothCreateContext");
   if (!made) return made.error();
 
-  if (Status opened = scene->open(asset, isQueried); !opened) return opened.error();
+  if (Status opened = scene->open(asset, uses); !opened) return opened.error();
 
   // An instance may exist before its asset is ready: it appears once it is.
   FrothInstanceInfo instanceInfo{};
@@ -35,10 +35,11 @@ Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::s
   return scene;
 }
 
-Status Scene::open(const std::string& asset, bool isQueried) {
+Status Scene::open(const std::string& asset, const SceneUses& uses) {
   FrothAssetInfo info{};
   info.structSize = sizeof(info);
-  info.keepForQueries = isQueried ? 1 : 0;
+  info.keepForQueries = uses.isQueried ? 1 : 0;
+  info.prepareRays = uses.prepareRays;
   FrothReader reader{};
   if (isUrl(asset)) {
     Result<std::unique_ptr<HttpReader>> http = HttpReader::open(asset, context_);

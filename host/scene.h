@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "froth/froth_stream.h"
+#include "froth/froth_walk.h"
 #include "host/camera_path.h"
 #include "host/host.h"
 #include "host/http_reader.h"
@@ -14,12 +15,16 @@
 
 namespace froth {
 
+struct SceneUses {
+  bool isQueried = false;  // CPU queries answer
+  FrothRayPreparation prepareRays = FROTH_PREPARE_NOTHING;
+};
+
 class Scene {
  public:
   // Starts to open the asset, a file or a URL; `context` comes with the engine's device, without callbacks.
-  // isQueried: CPU queries answer.
   static Result<std::unique_ptr<Scene>> create(FrothContextInfo context, const std::string& asset,
-                                               bool isQueried = false);
+                                               const SceneUses& uses = {});
   ~Scene();  // the device is done with every frame
 
   // (Re)makes the view for images of this size, and with keepsHits for those of FrothViewInfo::keepsHits too; the
@@ -52,7 +57,7 @@ class Scene {
 
  private:
   Scene() = default;
-  Status open(const std::string& asset, bool isQueried);
+  Status open(const std::string& asset, const SceneUses& uses);
   Status countLevels();
 
   FrothContext* context_ = nullptr;

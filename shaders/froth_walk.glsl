@@ -11,16 +11,19 @@
 //   FROTH_WALK_NO_COUNTERS  no binding 1: in stages without atomics (fragmentStoresAndAtomics); frothGetWalkStatus
 //                           counts nothing
 //   FROTH_WALK_STREAMS      most instances that a ray may be in at the same time [4]; 1: faster where none overlap
+//   FROTH_WALK_PREPARED     FrothRayPreparation of which all instances of the set are [0]; a constant, or the name of a
+//                           specialization constant. The code that is compiled for it is faster
 #ifndef FROTH_WALK_GLSL
 #define FROTH_WALK_GLSL
 
-#define FROTH_WALK_ABI 5u
+#define FROTH_WALK_ABI 6u
 
 // FrothHit::status
 #define FROTH_WALK_DONE 0u
 #define FROTH_WALK_STEP_LIMIT 1u    // ended by FrothWalkInfo::maxSteps or maxNeighbours: what lies beyond is missing
 #define FROTH_WALK_STREAM_LIMIT 2u  // an instance was left out: more overlap than FROTH_WALK_STREAMS
 #define FROTH_WALK_VERSION 3u       // the set is one of another library; nothing was met
+#define FROTH_WALK_UNPREPARED 4u    // less is prepared of an instance than FROTH_WALK_PREPARED; nothing was met
 
 #define FROTH_INFINITY uintBitsToFloat(0x7f800000u)
 #define FROTH_NONE 0xffffffffu  // no instance, no cell
@@ -84,12 +87,15 @@ FrothRay frothRay(vec3 origin, vec3 direction) {
   return FrothRay(origin, direction, 0.0, FROTH_INFINITY, 0.0, FROTH_NONE, frothNoHint());
 }
 
-bool isVersionKnown() {
-  bool isKnown = walkSet.block.abi == FROTH_WALK_ABI;
+// FROTH_WALK_DONE, or why nothing can be met.
+uint checkSet() {
+  if (walkSet.block.abi != FROTH_WALK_ABI) {
 #if !defined(FROTH_WALK_NO_COUNTERS)
-  if (!isKnown) atomicAdd(walkCounters.v.version, 1u);
+    atomicAdd(walkCounters.v.version, 1u);
 #endif
-  return isKnown;
+    return FROTH_WALK_VERSION;
+  }
+  return walkSet.block.prepared < FROTH_WALK_PREPARED ? FROTH_WALK_UNPREPARED : FROTH_WALK_DONE;
 }
 
 // Where the ray enters the box of an instance, from its origin; false: it does not.
@@ -127,7 +133,7 @@ void findNextInstance(inout FrothWalk walk) {
 FrothWalk frothBeginWalk(FrothRay ray) {
   FrothWalk walk;
   walk.ray = ray;
-  walk.hit = FrothHit(FROTH_INFINITY, vec3(0.0), FROTH_NONE, FROTH_NONE, FROTH_NONE, 0u, FROTH_WALK_DONE);
+  walk.hit = FrothHit(FROTH_INFINITY, vec3(0.0), FROTH_NONE, FROTH_NONE, FROTH_NONE, 0u, checkSet());
   walk.start = ray.origin;
   walk.tStart = 0.0;
   walk.passed = -FROTH_INFINITY;
@@ -137,10 +143,7 @@ FrothWalk frothBeginWalk(FrothRay ray) {
   walk.cells = 0;
   countWalkWork(kRayWorkRays, 1u);
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) walk.streams[i].isAhead = false;
-  if (!isVersionKnown()) {
-    walk.hit.status = FROTH_WALK_VERSION;
-    return walk;
-  }
+  if (walk.hit.status != FROTH_WALK_DONE) return walk;
   findNextInstance(walk);
   if (walk.nextInstance != FROTH_NONE) {
     walk.tStart = walk.nextEntry;
@@ -299,7 +302,7 @@ bool frothClosest(FrothRay ray, out FrothHit hit) {
 // uvec2(FROTH_NONE). false: there is no such instance, or the search ended at FrothWalkInfo::maxNeighbours.
 bool frothLocate(uint instance, vec3 point, uvec2 first, out uvec2 cell) {
   cell = uvec2(FROTH_NONE);
-  if (!isVersionKnown() || instance >= walkSet.block.instanceCount) return false;
+  if (checkSet() != FROTH_WALK_DONE || instance >= walkSet.block.instanceCount) return false;
   instanceAtHand = instance;
   uint steps, neighbours = 0;
   cell = namedCell(locateFrom(assetFromWorld(point) / FRAME.scale, cellOfName(first), steps, neighbours));

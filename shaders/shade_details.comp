@@ -26,7 +26,9 @@ void main() {
   Ball ball = ballOfSite(chunk, cell.y);
   vec3 toDetail = ball.centre + ball.radius * (frame.tangent * detail.place.x + frame.bitangent * detail.place.y);
   vec3 direction = lensClass == kLensClassOrthographic ? FRAME.forward.xyz : directionToDetail(toDetail, frame.normal);
-  vec3 colour = detailColour(code, header, detailCount, lobeCount > 0, k, detail.base, direction);
+  Lobes lobes = noLobes(header);
+  if (lobeCount > 0) lobes = loadLobes(code, header, detailCount, k);
+  vec3 colour = detailColour(code, header, lobes, detail.base, direction);
 
   if (floatColours) {
     FRAME.details.v[index] =

@@ -1,14 +1,17 @@
 // froth bench: milliseconds by pass, from GPU timestamps; with --counters what the rays cost; with --flight what
-// streaming does on the way; with --open how long a first image takes.
+// streaming does on the way; with --open how long a first image takes; with --rays what rays from anywhere cost.
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "baker/input/foam_input.h"
+#include "host/ray_preparation.h"
 #include "measure/bench/bench_figures.h"
+#include "measure/bench/ray_bench.h"
 #include "measure/figures.h"
 #include "measure/gpu/gpu_camera.h"
 #include "measure/gpu/gpu_renderer.h"
@@ -20,6 +23,11 @@
 
 namespace froth {
 namespace {
+
+struct RayFlags {
+  bool isWanted = false;
+  std::string prepared = "nothing";
+};
 
 struct BenchOptions {
   std::filesystem::path input;
@@ -33,6 +41,7 @@ struct BenchOptions {
   bool isCounting = false;
   FlightOptions flight;
   OpeningOptions opening;
+  RayFlags rays;
   FiguresOutput figures;
 };
 
@@ -70,6 +79,37 @@ Result<Measurement> measure(GpuRenderer& renderer, const std::vector<SelectedVie
   return measurement;
 }
 
+Status runRays(GpuRenderer& renderer, const std::vector<SelectedView>& views, const RayBenchOptions& casting,
+               const BenchOptions& options, const Progress& progress) {
+  const Result<std::vector<RayFigures>> figures = benchRays(renderer, views, casting, progress);
+  if (!figures) return figures.error();
+  const FrothAssetStatus status = renderer.assetStatus();
+  const View& view = views.front().view;
+  if (options.figures.wantsTable()) {
+    fmt::print("rays on {} ({}), {} cells, {:.1f} MB, prepared: {}, {}x{}, cut-off {}, {} frames of {} views\n",
+               renderer.device().name, renderer.device().driver, status.cellCount,
+               1e-6 * static_cast<double>(status.deviceBytes), options.rays.prepared, view.width, view.height,
+               options.cutoff, casting.frames, views.size());
+    if (options.isCounting) fmt::print("counting: the times are not those of casting\n");
+    printRays(*figures, options.isCounting);
+  }
+  const nlohmann::ordered_json json{{"input", options.input.string()},
+                                    {"device", renderer.device().name},
+                                    {"driver", renderer.device().driver},
+                                    {"prepared", options.rays.prepared},
+                                    {"cutoff", options.cutoff},
+                                    {"width", view.width},
+                                    {"height", view.height},
+                                    {"views", views.size()},
+                                    {"frames", casting.frames},
+                                    {"isCounting", options.isCounting},
+                                    {"cells", status.cellCount},
+                                    {"assetBytes", status.deviceBytes},
+                                    {"memory", memoryAsJson(status, {})["asset"]},
+                                    {"rays", raysAsJson(*figures, options.isCounting)}};
+  return options.figures.write(json);
+}
+
 Status runBench(const BenchOptions& options, const Progress& progress) {
   if (Status good = checkLayers(options.input, options.layers); !good) return good;
   const Result<std::vector<SelectedView>> views = selectViews(options.views);
@@ -79,6 +119,8 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
   GpuDeviceOptions device;
   device.device = options.device;
   device.measurePasses = true;
+  device.castsRays = options.rays.isWanted;
+  device.prepareRays = kRayPreparations.at(options.rays.prepared);
   device.countWork = options.isCounting;
   device.lensClasses = lensClassesOf(*views);
   Result<std::unique_ptr<GpuRenderer>> created = GpuRenderer::create(device);
@@ -93,6 +135,9 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
   const auto viewCount = static_cast<uint32_t>(views->size());
   const uint32_t cycles = std::max(kLeastCycles, (options.frames + viewCount - 1) / viewCount);
   if (Status warm = warmUp(renderer, *views, render, options.warmupSeconds); !warm) return warm;
+  if (options.rays.isWanted) {
+    return runRays(renderer, *views, {options.cutoff, cycles}, options, progress);
+  }
   const Result<Measurement> measurement = measure(renderer, *views, render, cycles, progress);
   if (!measurement) return measurement.error();
 
@@ -137,6 +182,19 @@ Status benchFlight(const BenchOptions& options, const Progress& progress) {
   return runFlight(flight, options.views, options.figures, progress);
 }
 
+void addRayFlags(CLI::App& command, RayFlags& flags) {
+  constexpr const char* kGroup = "Rays";
+  command.add_flag("--rays", flags.isWanted, "Cast rays from the views and from what they see, instead of drawing")
+      ->excludes("--flight")
+      ->excludes("--open")
+      ->group(kGroup);
+  command.add_option("--prepare", flags.prepared, "What is kept in device memory for rays")
+      ->capture_default_str()
+      ->check(CLI::IsMember(&kRayPreparations))
+      ->needs("--rays")
+      ->group(kGroup);
+}
+
 Status benchOpen(const BenchOptions& options, const Progress& progress) {
   OpeningOptions opening = options.opening;
   opening.asset = options.input.string();
@@ -176,6 +234,7 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
   addFiguresOption(*command, options->figures);
   addFlightOptions(*command, options->flight);
   addOpenOptions(*command, options->opening);
+  addRayFlags(*command, options->rays);
   command->callback(
       [&tool, options] { tool.action = [&tool, options] { return runWanted(*options, tool.progress.callback()); }; });
 }

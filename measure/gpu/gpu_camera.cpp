@@ -53,6 +53,10 @@ void fillProjection(const View& view, const Image* ends, FrothCamera& camera) {
   clip[isOrthographic ? 15 : 11] = 1.0f;
 }
 
+// Far behind parallel rays lies the point that sees all of them along themselves: so far that nothing of a scene shifts
+// it.
+constexpr float kParallelApex = 1e15f;
+
 }  // namespace
 
 std::vector<float> sceneDepthOf(const View& view, const Image& distances) {
@@ -99,6 +103,17 @@ FrothCamera cameraOf(const View& view, const Image* ends) {
     fillProjection(view, ends, camera);
   }
   return camera;
+}
+
+FrothGpuRay gpuRayOf(const View& view, const ViewRay& ray, float end) {
+  FrothGpuRay gpuRay{};
+  gpuRay.tMax = end;
+  for (int axis = 0; axis < 3; ++axis) {
+    gpuRay.origin[axis] = static_cast<float>(ray.offset[axis]);
+    gpuRay.direction[axis] = static_cast<float>(ray.direction[axis]);
+  }
+  if (view.lens.kind == LensKind::kOrthographic) gpuRay.apex = kParallelApex;
+  return gpuRay;
 }
 
 }  // namespace froth

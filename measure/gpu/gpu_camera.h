@@ -3,7 +3,9 @@
 
 #include "base/image/image.h"
 #include "froth/froth.h"
+#include "froth/froth_walk.h"
 #include "reference/camera/camera.h"
+#include "reference/camera/view_rays.h"
 #include "reference/capture/view_selection.h"
 
 namespace froth {
@@ -18,5 +20,8 @@ std::vector<float> sceneDepthOf(const View& view, const Image& distances);
 
 // Everything but the image of a ray map. `ends`: what the scene's depth will hold, if there is one.
 FrothCamera cameraOf(const View& view, const Image* ends = nullptr);
+
+// Relative to the view's eye. `end`: as FrothGpuRay::tMax.
+FrothGpuRay gpuRayOf(const View& view, const ViewRay& ray, float end);
 
 }  // namespace froth

@@ -6,16 +6,13 @@
 
 #include "froth/froth_query.h"
 #include "froth/froth_walk.h"
+#include "measure/gpu/gpu_camera.h"
 #include "measure/gpu/gpu_renderer_state.h"
 #include "reference/camera/view_rays.h"
 #include "reference/image/distances.h"
 
 namespace froth {
 namespace {
-
-// Far behind parallel rays lies the point that sees all of them along themselves: so far that nothing of a scene shifts
-// it.
-constexpr float kParallelApex = 1e15f;
 
 struct PixelRay {
   size_t pixel;
@@ -34,17 +31,6 @@ std::vector<PixelRay> raysOf(const View& view, const Image* ends) {
     }
   }
   return all;
-}
-
-FrothGpuRay gpuRayOf(const View& view, const ViewRay& ray, float end) {
-  FrothGpuRay gpuRay{};
-  gpuRay.tMax = end;
-  for (int axis = 0; axis < 3; ++axis) {
-    gpuRay.origin[axis] = static_cast<float>(ray.offset[axis]);
-    gpuRay.direction[axis] = static_cast<float>(ray.direction[axis]);
-  }
-  if (view.lens.kind == LensKind::kOrthographic) gpuRay.apex = kParallelApex;
-  return gpuRay;
 }
 
 FrothRay queryRayOf(const View& view, const ViewRay& ray, float end) {

@@ -100,6 +100,7 @@ Status GpuRenderer::State::openAsset(const AssetInput& input, const Progress& pr
   info.structSize = sizeof(info);
   info.layers = input.layers;
   info.keepForQueries = options.castsRays ? 1 : 0;
+  info.prepareRays = options.prepareRays;
   if (input.bytes.empty()) {
     info.path = path.c_str();
   } else {

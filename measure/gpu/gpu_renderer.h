@@ -8,6 +8,7 @@
 #include "baker/input/foam_input.h"
 #include "base/result.h"
 #include "froth/froth.h"
+#include "froth/froth_walk.h"
 #include "host/host.h"
 #include "host/method.h"
 #include "reference/camera/camera.h"
@@ -24,7 +25,8 @@ struct GpuDeviceOptions {
   bool countWork = false;    // FrothViewStatus::work; slower
   uint32_t lensClasses = 0;  // FrothLensClass bits of the views that will be drawn (gpu_camera.h)
   bool keepsHits = false;    // views have what ids and motion need
-  bool castsRays = false;    // castRays() and queryRays() may be called
+  bool castsRays = false;    // castRays(), queryRays() and timeRays() may be called
+  FrothRayPreparation prepareRays = FROTH_PREPARE_NOTHING;  // of the assets
 };
 
 struct GpuRenderOptions {
@@ -67,6 +69,21 @@ struct RayFrame {
   bool hitStepLimit = false;
 };
 
+// Rays that are cast again and again.
+struct RayTiming {
+  glm::dvec3 eye{0};  // what the rays are relative to
+  FrothRayKind kind = FROTH_RAY_TRANSMITTANCE;
+  float cutoff = 1e-3f;  // 0: a ray never ends early
+  uint32_t frames = 1;
+  bool readsHits = false;  // RayTimes::hits
+};
+
+struct RayTimes {
+  std::vector<double> milliseconds;  // on the device, by frame
+  FrothWalkStatus status{};          // of the last frame
+  std::vector<FrothGpuHit> hits;
+};
+
 // One thread at a time.
 class GpuRenderer {
  public:
@@ -91,6 +108,7 @@ class GpuRenderer {
   // view do not apply.
   Result<RayFrame> castRays(const View& view, const RayOptions& options);
   Result<RayFrame> queryRays(const View& view, const RayOptions& options);
+  Result<RayTimes> timeRays(const std::vector<FrothGpuRay>& rays, const RayTiming& timing);
 
   // From the next frame on, of whatever asset; images wait until what they want is drawn.
   Status setStreaming(const GpuStreaming& streaming);

@@ -109,7 +109,9 @@ void Asset::placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place,
   placedBytes_ += arrays.size;
   for (const ChunkArray& array : arrays.arrays) {
     chunk.*array.address = place.address + array.offset;
-    arrays_.push_back({owner, array.bytes, place.buffer, place.offset + array.offset, array.size, 0});
+    if (array.bytes) {
+      arrays_.push_back({owner, array.bytes, place.buffer, place.offset + array.offset, array.size, 0});
+    }
     addMemory(array.purpose, array.size);
   }
 }

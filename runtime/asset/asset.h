@@ -44,8 +44,12 @@ class Asset {
   void keepForQueries() { keepsForQueries_ = true; }
   bool keepsForQueries() const { return keepsForQueries_; }
 
-  // Before the first load(): gpu() will have a table of entries for rays, which walk sets fill.
-  void keepForWalks() { keepsForWalks_ = true; }
+  // Before the first load(): gpu() will have a table of entries for rays, and so much of its cells prepared
+  // (kPreparedNothing...). Walk sets fill both.
+  void keepForWalks(uint32_t prepared) {
+    keepsForWalks_ = true;
+    preparedForWalks_ = prepared;
+  }
   // The frame that fills it; 0: none does yet.
   uint64_t entriesSerial = 0;
 
@@ -192,6 +196,7 @@ class Asset {
   AssetSource source_;
   Device* device_;
   bool keepsForQueries_ = false, keepsForWalks_ = false, keepsLayers_ = false;
+  uint32_t preparedForWalks_ = gpu::kPreparedNothing;
   uint32_t layers_ = 0, openedLayers_ = 0;
   std::array<LayerFigures, kLayerCount> figures_{};  // [layers - 1]
   std::array<uint64_t, kLayerCount> layerWork_{};    // [Layer] bytes of decoded sections

@@ -40,6 +40,7 @@ std::shared_ptr<Asset> Asset::makeSuccessor(uint32_t layers) const {
   successor->arena_ = std::make_shared<GpuArena>(*device_, GpuArena::Limit::kNone);
   successor->keepsForQueries_ = keepsForQueries_;
   successor->keepsForWalks_ = keepsForWalks_;
+  successor->preparedForWalks_ = preparedForWalks_;
   successor->queryFoam_ = queryFoam_;
   successor->layers_ = layers;
   successor->openedLayers_ = openedLayers_;

@@ -21,7 +21,8 @@ uint32_t walkEntriesAlong(uint32_t cellCount) {
 }
 
 // With levels: the floor, and level 0.
-Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQueries, bool keepsForWalks) {
+Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQueries, bool keepsForWalks,
+                                  uint32_t prepared) {
   const Result<AssetReader> reader = openReader(source);
   if (!reader) return reader.error();
   const AssetContents& manifest = reader->manifest();
@@ -30,7 +31,10 @@ Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQuerie
   QueryFoam foam(manifest);
   const bool hasLevels = !manifest.levels.empty();
   std::vector<uint32_t> finest;
-  const ChunkUses uses{.drawing = true, .queries = keepsForQueries && manifest.hasWalkGraph};
+  const ChunkUses uses{.drawing = true,
+                       .queries = keepsForQueries && manifest.hasWalkGraph,
+                       .prepared = keepsForWalks && manifest.hasWalkGraph ? prepared : gpu::kPreparedNothing,
+                       .hasHeights = shapeOf(*reader, source.lastLayer).hasHeights};
   for (uint32_t chunk = 0; chunk < manifest.chunks.size(); ++chunk) {
     if (hasLevels && manifest.levels[chunk].level > 0 && manifest.levels[chunk].in != kNoGroup) continue;
     Result<LoadedChunk> loaded = loadChunk(*reader, *reader->source(), chunk, source.name, uses);

@@ -14,7 +14,9 @@ struct AssetMeasure {
   uint64_t hostBytes = 0;    // of QueryFoam
 };
 
-// Decodes and checks the asset chunk by chunk, as loading does, and keeps nothing but what queries would keep.
-Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQueries, bool keepsForWalks);
+// prepared: kPreparedNothing..., with keepsForWalks. Decodes and checks the asset chunk by chunk, as loading does, and
+// keeps nothing but what queries would keep.
+Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQueries, bool keepsForWalks,
+                                  uint32_t prepared);
 
 }  // namespace froth

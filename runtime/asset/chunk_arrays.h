@@ -13,7 +13,7 @@ namespace froth {
 
 struct ChunkArray {
   const char* purpose;                 // static storage
-  std::shared_ptr<const void> bytes;   // owned
+  std::shared_ptr<const void> bytes;   // owned; null: the device fills it
   VkDeviceSize offset, size;           // in the place
   VkDeviceAddress GpuChunk::*address;  // to be told
 };
@@ -25,12 +25,21 @@ struct ChunkArrays {
   // Behind those before; an empty array has no place.
   template <class T>
   void add(std::vector<T>&& values, const char* purpose, VkDeviceAddress GpuChunk::*address) {
-    constexpr VkDeviceSize kAlignment = GpuArena::kAlignment;
-    if (values.empty()) return;
     const auto owner = std::make_shared<const std::vector<T>>(std::move(values));
-    const VkDeviceSize bytes = owner->size() * sizeof(T);
-    arrays.push_back({purpose, std::shared_ptr<const void>(owner, owner->data()), size, bytes, address});
-    size += (bytes + kAlignment - 1) / kAlignment * kAlignment;
+    place({purpose, std::shared_ptr<const void>(owner, owner->data()), size, owner->size() * sizeof(T), address});
+  }
+
+  // One that the device fills.
+  void reserve(VkDeviceSize bytes, const char* purpose, VkDeviceAddress GpuChunk::*address) {
+    place({purpose, nullptr, size, bytes, address});
+  }
+
+ private:
+  void place(ChunkArray&& array) {
+    constexpr VkDeviceSize kAlignment = GpuArena::kAlignment;
+    if (array.size == 0) return;
+    size += (array.size + kAlignment - 1) / kAlignment * kAlignment;
+    arrays.push_back(std::move(array));
   }
 };
 

@@ -27,7 +27,7 @@ std::shared_ptr<Asset> Context::makeAsset(const FrothAssetInfo& info) {
   auto asset = std::make_shared<Asset>(sourceOf(info), isNull_ ? nullptr : &device_);
   if (info.keepForQueries) asset->keepForQueries();
   if (!info.layersMayGo) asset->keepLayers();
-  if (hasWalkShaders_) asset->keepForWalks();
+  if (hasWalkShaders_) asset->keepForWalks(info.prepareRays);
   return asset;
 }
 

@@ -229,8 +229,15 @@ class Context {
   FrothResult checkWalks(const char* call) const;
   // Into walked_; false: some were left out.
   bool gatherWalked();
+  // Pipelines that are made while what there is draws.
+  struct PipelineJob {
+    Job<Done> job;
+    std::string error;  // sent already
+  };
   std::optional<Status> prepareShape(const AssetShape& shape);
+  void takePipelines(PipelineJob& making, const char* object);
   void prepareMerging();
+  void prepareRayForms();
   Status makeMerging();
   // The instances to be drawn, in view.visible; why others are left out, as FrothViewBit.
   void gatherVisible(View& view, const FrothRenderInfo& info, uint32_t& bits) const;
@@ -244,12 +251,11 @@ class Context {
   bool isNull_ = false;        // no device, for good
   bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
   bool isExcessTold_ = false;  // of this budget
-  // These use the device, which stays until they have ended. The first two make pipelines, the third runs a MemoryBatch
-  // beside what FrothContextInfo::mostJobs allows.
+  // These use the device, which stays until they have ended. The last runs a MemoryBatch beside what
+  // FrothContextInfo::mostJobs allows, the others make pipelines.
   std::map<AssetShape, Job<Done>> making_;
-  Job<Done> merging_;
+  PipelineJob merging_, rayForms_;
   Job<Done> memoryJob_;
-  std::string mergingError_;  // of merging_, sent already
   uint32_t framesInFlight_ = 2;
   uint32_t lensClasses_ = 0;  // FrothLensClass bits
   VkFormat compositeFormat_ = VK_FORMAT_UNDEFINED, depthExportFormat_ = VK_FORMAT_UNDEFINED;

@@ -246,7 +246,8 @@ FrothResult Context::checkDevice(const char* call) const {
 
 // Jobs that use the device's objects have ended.
 void Context::stopJobs() {
-  merging_.drop(true);
+  merging_.job.drop(true);
+  rayForms_.job.drop(true);
   for (auto& [shape, job] : making_) job.drop(true);
   making_.clear();
   assets_.forEach([](Asset& asset) { asset.stop(); });

@@ -108,6 +108,7 @@ void Context::runFrame(FrothFrameStatus& status) {
     finishExchange();
     finishReplacements();
     prepareMerging();
+    prepareRayForms();
     shrinkViews();
     views_.forEachNamed([&](FrothView handle, View& view) { prepareView(handle, view); });
     prepareWalks();

@@ -83,22 +83,36 @@ Status Context::makeMerging() {
   return status && walks_ ? walks_->prepareMerging() : status;
 }
 
+void Context::takePipelines(PipelineJob& making, const char* object) {
+  if (!making.job.hasEnded()) return;
+  const Result<Done> done = making.job.take();
+  if (!done && making.error != done.error().message && !device_.loss->isTold()) {  // once, not in every frame
+    making.error = done.error().message;
+    messages.fail(done.error(), object);
+  }
+}
+
 // Where there are two instances.
 void Context::prepareMerging() {
-  if (merging_.hasEnded()) {
-    const Result<Done> done = merging_.take();
-    if (!done && mergingError_ != done.error().message && !device_.loss->isTold()) {  // once, not in every frame
-      mergingError_ = done.error().message;
-      messages.fail(done.error(), "several instances");
-    }
-  }
+  takePipelines(merging_, "several instances");
   uint32_t count = 0;
   instances_.forEach([&](const Instance&) { ++count; });
   const bool canMerge = !pipelines_ || (pipelines_->canMerge() && (!walks_ || walks_->canMerge()));
-  if (count < 2 || canMerge || merging_.isUnderWay() || !jobs_.hasRoom()) {
+  if (count < 2 || canMerge || merging_.job.isUnderWay() || !jobs_.hasRoom()) {
     return;
   }
-  merging_.start(jobs_, [this] { return doneIf(makeMerging()); });
+  merging_.job.start(jobs_, [this] { return doneIf(makeMerging()); });
+}
+
+// Where an asset has cells prepared for rays.
+void Context::prepareRayForms() {
+  takePipelines(rayForms_, "prepared cells");
+  uint32_t prepared = gpu::kPreparedNothing;
+  assets_.forEach([&](const Asset& asset) { prepared = std::max(prepared, asset.gpu().prepared); });
+  if (!walks_ || prepared <= walks_->mostPrepared() || rayForms_.job.isUnderWay() || !jobs_.hasRoom()) {
+    return;
+  }
+  rayForms_.job.start(jobs_, [this, prepared] { return doneIf(walks_->prepareFor(prepared)); });
 }
 
 }  // namespace froth

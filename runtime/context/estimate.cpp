@@ -37,8 +37,8 @@ FrothResult estimateMemory(const Messages& messages, const char* call, const Fro
   if (result != FROTH_OK) {
     return result;
   }
-  const Result<AssetMeasure> asset =
-      measureAsset(sourceOf(*info.asset), info.asset->keepForQueries != 0, info.walkShaders != 0);
+  const Result<AssetMeasure> asset = measureAsset(sourceOf(*info.asset), info.asset->keepForQueries != 0,
+                                                  info.walkShaders != 0, info.asset->prepareRays);
   if (!asset) {
     return messages.fail(asset.error(), call);
   }

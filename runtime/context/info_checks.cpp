@@ -1,5 +1,6 @@
 #include "runtime/context/info_checks.h"
 
+#include "froth/froth_walk.h"
 #include "runtime/asset/asset_source.h"
 
 namespace froth {
@@ -29,6 +30,10 @@ FrothResult checkSource(const Messages& messages, const char* call, const FrothA
   }
   if (info.layers > kLayerCount) {
     return messages.fail(FROTH_ERROR_ARGUMENT, call, "layers: %u; at most %u, or 0 for all", info.layers, kLayerCount);
+  }
+  if (info.prepareRays > FROTH_PREPARE_RADIANCE) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, call, "prepareRays: %u; must be a FrothRayPreparation",
+                         info.prepareRays);
   }
   return FROTH_OK;
 }

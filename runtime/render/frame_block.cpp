@@ -89,6 +89,7 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
     entry.cellStarts = chunk.cellStarts;
     entry.cellWords = chunk.cellWords;
     entry.solidBalls = chunk.solidBalls;
+    entry.prepared = chunk.prepared;
     entry.hasSolidBalls = chunk.solidBalls != 0;
     entry.cellCount = chunk.cellCount;
     entry.liveCount = chunk.liveCount;

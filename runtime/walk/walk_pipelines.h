@@ -5,8 +5,10 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <span>
 
 #include "runtime/device/pipeline_objects.h"
+#include "shaders/gpu/layout.h"
 
 namespace froth {
 
@@ -14,9 +16,18 @@ struct WalkOptions {
   bool checkIndices = false, countsWork = false;
 };
 
-// Those that cast rays of a FrothRayKind through one instance at a time begin at 0, through several at once at
-// kCastMerged.
-inline constexpr uint32_t kSeedEntries = 3, kMarkEntries = 4, kCastMerged = 5, kWalkPipelineCount = 8;
+inline constexpr uint32_t kSeedEntries = 0, kMarkEntries = 1, kPrepareCells = 2, kFirstCast = 3;
+inline constexpr uint32_t kRayKinds = 3, kPreparedForms = gpu::kPreparedRadiance + 1;
+inline constexpr uint32_t kWalkPipelineCount = kFirstCast + 2 * kPreparedForms * kRayKinds;
+
+// What casts rays of a FrothRayKind, with so much of cells prepared (kPreparedNothing...): through one instance at a
+// time, or merged, through several at once.
+struct CastForm {
+  uint32_t kind, prepared;
+  bool isMerged;
+};
+
+uint32_t castPipeline(const CastForm& form);
 
 struct CastConstants {
   VkDeviceAddress rays, hits;
@@ -33,9 +44,11 @@ class WalkPipelines {
                                                        const WalkOptions& options);
   ~WalkPipelines();
 
-  // Makes those from kCastMerged on; if they are there already, returns at once. Any thread.
+  // Makes the merged ones, or those for so much prepared; if they are there already, returns at once. Any thread.
   Status prepareMerging();
+  Status prepareFor(uint32_t prepared);
   bool canMerge() const { return canMerge_; }
+  uint32_t mostPrepared() const { return mostPrepared_; }
 
   static SetBindings bindings();
   VkDescriptorSetLayout setLayout() const { return setLayout_; }
@@ -46,8 +59,8 @@ class WalkPipelines {
   WalkPipelines(Device& device, VkPipelineCache cache, const WalkOptions& options)
       : device_(device), cache_(cache), options_(options) {}
   Status createLayouts();
-  Status createPipelines(uint32_t first, uint32_t last);
-  Status createPipeline(uint32_t index);
+  Status createCasts(bool isMerged, uint32_t prepared);
+  Status createPipeline(uint32_t index, const char* name, std::span<const uint32_t> spirv, const CastForm& form);
 
   Device& device_;
   VkPipelineCache cache_;
@@ -55,7 +68,9 @@ class WalkPipelines {
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::array<VkPipeline, kWalkPipelineCount> pipelines_{};
+  // What both allow is there.
   std::atomic<bool> canMerge_ = false;
+  std::atomic<uint32_t> mostPrepared_ = gpu::kPreparedNothing;
   std::mutex making_;
 };
 

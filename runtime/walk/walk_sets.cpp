@@ -22,6 +22,8 @@ constexpr VkDeviceSize kInstancesOffset = kAlignment;
 constexpr VkDeviceSize kChunksOffset = kInstancesOffset + 2 * FROTH_WALK_MOST_INSTANCES * sizeof(gpu::WalkInstance);
 constexpr VkDeviceSize kCountersStride = kAlignment;
 constexpr uint32_t kFirstSeed = FROTH_WALK_MOST_INSTANCES;
+static_assert(int{FROTH_PREPARE_VISIBILITY} == gpu::kPreparedVisibility &&
+              int{FROTH_PREPARE_RADIANCE} == gpu::kPreparedRadiance);
 static_assert(kChunksOffset % 16 == 0 && sizeof(gpu::WalkCounters) <= kCountersStride);
 
 gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye, const FrothWalkInfo& info) {
@@ -55,11 +57,19 @@ gpu::WalkInstance describe(const WalkedInstance& instance, const glm::dvec3& eye
   entry.borderCount = asset.borderCount;
   entry.fileChunkCount = asset.fileChunkCount;
   entry.firstSlot = asset.firstSlot;
+  entry.prepared = asset.prepared;
   return entry;
 }
 
 uint64_t sumOf(const gpu::WalkCounters& counters, uint32_t kind) {
   return counters.work[2 * kind] | uint64_t{counters.work[2 * kind + 1]} << 32;
+}
+
+// Of all of them; each form holds what is less.
+uint32_t preparedOf(std::span<const WalkedInstance> instances) {
+  uint32_t prepared = gpu::kPreparedRadiance;
+  for (const WalkedInstance& instance : instances) prepared = std::min(prepared, instance.placement.asset->prepared);
+  return prepared;
 }
 
 }  // namespace
@@ -172,6 +182,7 @@ void WalkSets::writeTables(uint32_t slot, const FrothWalkInfo& info, std::span<c
   block.logCutoff = info.cutoff > 0 ? std::log(info.cutoff) : -std::numeric_limits<float>::infinity();
   block.logQuantile = std::log(info.quantile);
   block.flags = countsWork_ ? gpu::kWalkCountsWork : 0;
+  block.prepared = preparedOf(instances);
   block.instances = address + kInstancesOffset;
   std::memcpy(staged, &block, sizeof(block));
   VkDeviceSize chunks = kChunksOffset;
@@ -228,6 +239,7 @@ VkDescriptorSet WalkSets::record(VkCommandBuffer commandBuffer, const FrothWalkI
   free->serial = serial;
   recordedSerial_ = serial;
   instanceCount_ = static_cast<uint32_t>(instances.size());
+  prepared_ = std::min(preparedOf(instances), pipelines_->mostPrepared());
   writeTables(current_, info, instances);
   updateSet(current_);
   recordCopies(commandBuffer, current_, info.stages);
@@ -235,8 +247,9 @@ VkDescriptorSet WalkSets::record(VkCommandBuffer commandBuffer, const FrothWalkI
   return free->set;
 }
 
-// Of assets that are seen for the first time, or with other chunks than before: the cells of all, then the marks of
-// all. Frames before may still read the entries of the chunks before.
+// Of assets that are seen for the first time, or with other chunks than before: what they prepare of their
+// cells, then the entries' cells of all, then the marks of all. Frames before may still read those of the chunks
+// before.
 void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
                            VkPipelineStageFlags2 stages) const {
   const auto isNew = [&](const WalkedInstance& instance) {
@@ -246,10 +259,12 @@ void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const Walked
   if (std::none_of(instances.begin(), instances.end(), isNew)) return;
   device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE,
                                     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_NONE);
-  for (const uint32_t pipeline : {kSeedEntries, kMarkEntries}) {
+  for (const uint32_t pipeline : {kPrepareCells, kSeedEntries, kMarkEntries}) {
     bind(commandBuffer, pipeline);
     for (uint32_t i = 0; i < instances.size(); ++i) {
-      if (isNew(instances[i])) recordSeeds(commandBuffer, pipeline, i, *instances[i].placement.asset);
+      const GpuAsset& asset = *instances[i].placement.asset;
+      const bool isWanted = pipeline != kPrepareCells || asset.prepared != gpu::kPreparedNothing;
+      if (isNew(instances[i]) && isWanted) recordSeeds(commandBuffer, pipeline, i, asset);
     }
     device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
@@ -271,8 +286,9 @@ void WalkSets::recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uin
   }
   const auto chunks = static_cast<uint32_t>(asset.chunks.size());
   const uint32_t rows = groupsOver(chunks, gpu::kMostGroupsAlong);
-  vk.vkCmdDispatch(commandBuffer, groupsOver(groupsOver(asset.liveCount, chunks), gpu::kRayGroupSize),
-                   groupsOver(chunks, rows), rows);
+  const uint32_t cells = pipeline == kPrepareCells ? asset.cellCount : asset.liveCount;
+  vk.vkCmdDispatch(commandBuffer, groupsOver(groupsOver(cells, chunks), gpu::kRayGroupSize), groupsOver(chunks, rows),
+                   rows);
 }
 
 void WalkSets::bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const {
@@ -286,7 +302,7 @@ void WalkSets::recordRays(VkCommandBuffer commandBuffer, VkDeviceAddress rays, V
                           FrothRayKind kind) const {
   const DeviceTable& vk = device_.table;
   const bool isMerged = instanceCount_ > 1 && pipelines_->canMerge();
-  bind(commandBuffer, kind + (isMerged ? kCastMerged : 0));
+  bind(commandBuffer, castPipeline({kind, prepared_, isMerged}));
   const CastConstants constants{rays, hits, count, 0};
   vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
                         &constants);

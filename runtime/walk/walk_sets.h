@@ -37,6 +37,10 @@ class WalkSets {
   // Makes what casts rays through several instances at once; until then rays meet one at a time. Any thread.
   Status prepareMerging() { return pipelines_->prepareMerging(); }
   bool canMerge() const { return pipelines_->canMerge(); }
+  // Makes what casts rays through cells of which so much is prepared (kPreparedNothing...); until then they are
+  // decoded. Any thread.
+  Status prepareFor(uint32_t prepared) { return pipelines_->prepareFor(prepared); }
+  uint32_t mostPrepared() const { return pipelines_->mostPrepared(); }
   bool hasSpaceFor(uint32_t chunkCount) const { return chunkCount <= chunkCapacity_; }
 
   // info: defaults resolved. Instances: at most FROTH_WALK_MOST_INSTANCES, with space for all their chunks. Once per
@@ -76,8 +80,9 @@ class WalkSets {
   std::vector<Slot> slots_;  // [frames in flight]
   GpuBuffer tables_, staging_, counters_;
   uint32_t chunkCapacity_ = 0;
-  uint32_t current_ = 0;        // slot of the newest recording
-  uint32_t instanceCount_ = 0;  // in it
+  uint32_t current_ = 0;                       // slot of the newest recording
+  uint32_t instanceCount_ = 0;                 // in it
+  uint32_t prepared_ = gpu::kPreparedNothing;  // what casting takes as prepared of all of them
   uint64_t recordedSerial_ = 0;
   std::vector<std::pair<uint64_t, GpuBuffer>> retired_;  // newest serial that may use it
   FrothWalkStatus status_{};

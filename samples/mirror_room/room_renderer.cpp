@@ -41,12 +41,14 @@ FrothImage foamOutput(const Host& host, const HostImage& image) {
 
 }  // namespace
 
-Result<std::unique_ptr<RoomRenderer>> RoomRenderer::create(Host& host, const Room& room, const Scene& scene) {
+Result<std::unique_ptr<RoomRenderer>> RoomRenderer::create(Host& host, const Room& room, const Scene& scene,
+                                                           FrothRayPreparation prepared) {
   if (room.materials.size() > room::kMostMaterials) {
     return makeError(ErrorKind::kBadInput, "the room has %zu materials; use no more than %u", room.materials.size(),
                      room::kMostMaterials);
   }
   std::unique_ptr<RoomRenderer> renderer(new RoomRenderer(host, room));
+  renderer->prepared_ = prepared;
   Result<std::unique_ptr<MeshPass>> meshes = MeshPass::create(host, room);
   if (!meshes) return meshes.error();
   renderer->meshes_ = std::move(*meshes);
@@ -133,8 +135,9 @@ Status RoomRenderer::createPasses() {
                 {&passes_.reflect, kReflectShader},
                 {&passes_.foreground, kForegroundShader},
                 {&passes_.light, kLightRoomShader}};
+  const uint32_t constants[] = {prepared_};
   for (const auto& [pass, spirv] : wanted) {
-    Result<std::unique_ptr<ComputePass>> made = ComputePass::create(host_, spirv, resources, walkLayout_);
+    Result<std::unique_ptr<ComputePass>> made = ComputePass::create(host_, spirv, resources, walkLayout_, constants);
     if (!made) return made.error();
     *pass = std::move(*made);
   }

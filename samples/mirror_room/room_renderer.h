@@ -23,7 +23,8 @@ struct RoomImages {
 class RoomRenderer {
  public:
   // The scene's context was made with walkShaders. `room` may change its nodes' places later on.
-  static Result<std::unique_ptr<RoomRenderer>> create(Host& host, const Room& room, const Scene& scene);
+  static Result<std::unique_ptr<RoomRenderer>> create(Host& host, const Room& room, const Scene& scene,
+                                                      FrothRayPreparation prepared);
   ~RoomRenderer();  // the device is done with every frame
   RoomRenderer(const RoomRenderer&) = delete;
   RoomRenderer& operator=(const RoomRenderer&) = delete;
@@ -59,6 +60,7 @@ class RoomRenderer {
   std::unique_ptr<GpuTimer> timer_;
   HostBuffer frame_;
   VkDescriptorSetLayout walkLayout_ = VK_NULL_HANDLE;  // Froth's
+  FrothRayPreparation prepared_ = FROTH_PREPARE_NOTHING;
   RoomImages images_;
   Passes passes_;
 };

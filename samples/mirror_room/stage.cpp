@@ -25,10 +25,11 @@ Result<std::unique_ptr<RoomStage>> RoomStage::create(Host& host, const MirrorRoo
   FrothContextInfo context = host.contextInfo();
   context.framesInFlight = kFramesInFlight;
   context.walkShaders = 1;
-  Result<std::unique_ptr<Scene>> scene = Scene::create(context, options.asset, true);
+  Result<std::unique_ptr<Scene>> scene = Scene::create(context, options.asset, {true, options.prepareRays});
   if (!scene) return scene.error();
   stage->scene_ = std::move(*scene);
-  Result<std::unique_ptr<RoomRenderer>> renderer = RoomRenderer::create(host, stage->room_, *stage->scene_);
+  Result<std::unique_ptr<RoomRenderer>> renderer =
+      RoomRenderer::create(host, stage->room_, *stage->scene_, options.prepareRays);
   if (!renderer) return renderer.error();
   stage->renderer_ = std::move(*renderer);
   return stage;

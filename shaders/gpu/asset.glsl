@@ -23,6 +23,7 @@ struct Chunk {
   vec3 offsetHigh, offsetLow;
   FloatQuadArray siteRadius;
   UintArray neighbourOffsets, neighbours;
+  UintQuadArray prepared;
   uint neighbourShift;
   uint cellCount, siteCount, neighbourCount;
   uint liveCount;
@@ -31,8 +32,8 @@ struct Chunk {
 Chunk loadChunk(uint index) {
   uint i = checked(index, FRAME.chunkCount);
   return Chunk(i, FRAME.chunks.v[i].offsetHigh.xyz, FRAME.chunks.v[i].offsetLow.xyz, FRAME.chunks.v[i].siteRadius,
-               FRAME.chunks.v[i].neighbourOffsets, FRAME.chunks.v[i].neighbours, FRAME.chunks.v[i].neighbourShift,
-               FRAME.chunks.v[i].cellCount,
+               FRAME.chunks.v[i].neighbourOffsets, FRAME.chunks.v[i].neighbours, FRAME.chunks.v[i].prepared,
+               FRAME.chunks.v[i].neighbourShift, FRAME.chunks.v[i].cellCount,
                FRAME.chunks.v[i].siteCount, FRAME.chunks.v[i].neighbourCount, FRAME.chunks.v[i].liveCount);
 }
 

@@ -99,13 +99,15 @@ struct Frame {
   vec3 normal, tangent, bitangent;
 };
 
-Frame takeFrame(CellCode code, inout BitCursor cursor) {
-  vec4 quaternion = takeOrientation(code, cursor);  // unit (w, x, y, z); the frame: the rows of its rotation matrix
+// The rows of the rotation matrix of a unit quaternion (w, x, y, z).
+Frame frameOf(vec4 quaternion) {
   float w = quaternion.x, x = quaternion.y, y = quaternion.z, z = quaternion.w;
   return Frame(vec3(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
                vec3(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
                vec3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)));
 }
+
+Frame takeFrame(CellCode code, inout BitCursor cursor) { return frameOf(takeOrientation(code, cursor)); }
 
 CellHeader loadCellHeader(CellCode code, uint chunk, uint cell) {
   BitCursor cursor = cellBits(chunk, cell);
@@ -167,6 +169,8 @@ struct Lobes {
   BitCursor cursor;
   uint count;
 };
+
+Lobes noLobes(CellHeader header) { return Lobes(header.lobeCounts, 0u); }
 
 Lobes loadLobes(CellCode code, CellHeader header, uint detailCount, uint detail) {
   BitCursor counts = header.lobeCounts;

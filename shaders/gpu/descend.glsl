@@ -2,6 +2,9 @@
 #ifndef FROTH_GPU_DESCEND_GLSL
 #define FROTH_GPU_DESCEND_GLSL
 #include "gpu/asset.glsl"
+#if defined(FROTH_WALK)
+#include "gpu/prepared_planes.glsl"
+#endif
 #include "foam/cell.h"
 
 const float kLeastFall = 1e-37;
@@ -56,6 +59,33 @@ float powerFall(Chunk chunk, vec3 point, vec4 site, vec4 otherSite) {
   return max(-exitClearance(centre, toOther, radicalOffset(toOther, site.w, otherSite.w), clearance), 0.0);
 }
 
+// The site of a part of a cell's row to which the power falls most; kNoCell: to none.
+uint lowestSite(Chunk chunk, vec3 point, vec4 siteRadius, uvec2 row) {
+  float most = 0.0;
+  uint site = kNoCell;
+  for (uint i = row.x; i < row.y; ++i) {
+    uint other = neighbourAt(chunk, i);
+    float fall = powerFall(chunk, point, siteRadius, siteRadiusOf(chunk, other));
+    if (fall > most) {
+      most = fall;
+      site = other;
+    }
+  }
+  return site;
+}
+
+uint lowestNeighbour(Chunk chunk, vec3 point, vec4 siteRadius, uvec2 row) {
+#if defined(FROTH_WALK)
+  if (hasPlanes()) {
+    vec3 centre = ballOf(chunk, siteRadius).centre;
+    uvec2 part = findFalls(chunk, row, centre - point, sizeOf(centre) + sizeOf(point));
+    uint site = lowestSite(chunk, point, siteRadius, part);
+    if (site != kNoCell || part.x == part.y) return site;
+  }
+#endif
+  return lowestSite(chunk, point, siteRadius, row);
+}
+
 // The search goes where the power falls most, and ends as it falls with every step. point: relative to the eye. steps:
 // how many it took. neighbours: grows by those that it tests; from FRAME.maxNeighbours on the search ends where it
 // stands.
@@ -63,19 +93,9 @@ uvec2 descendTo(vec3 point, uvec2 first, out uint steps, inout uint neighbours) 
   uvec2 cell = first;
   Chunk chunk = loadChunk(cell.x);
   for (steps = 0; steps < FRAME.maxSteps && neighbours < FRAME.maxNeighbours; ++steps) {
-    vec4 siteRadius = siteRadiusOf(chunk, cell.y);
     uvec2 row = neighbourRow(chunk, cell.y);
     neighbours += row.y - row.x;
-    float most = 0.0;
-    uint site = kNoCell;
-    for (uint i = row.x; i < row.y; ++i) {
-      uint other = neighbourAt(chunk, i);
-      float fall = powerFall(chunk, point, siteRadius, siteRadiusOf(chunk, other));
-      if (fall > most) {
-        most = fall;
-        site = other;
-      }
-    }
+    uint site = lowestNeighbour(chunk, point, siteRadiusOf(chunk, cell.y), row);
     if (site == kNoCell) break;
     cell = cellOfSite(chunk, site);
     if (cell.x != chunk.index) chunk = loadChunk(cell.x);

@@ -5,17 +5,13 @@
 #include "foam/appearance.h"
 
 // direction: unit.
-vec3 detailColour(CellCode code, CellHeader header, uint detailCount, bool hasLobes, uint detail, vec3 base,
-                vec3 direction) {
+vec3 detailColour(CellCode code, CellHeader header, Lobes lobes, vec3 base, vec3 direction) {
   float weightSum = 0.0;
   vec3 colourSum = vec3(0.0);
-  if (hasLobes) {
-    Lobes lobes = loadLobes(code, header, detailCount, detail);
-    float largest = -3.402823466e38;
-    for (uint lobe = 0; lobe < lobes.count; ++lobe) {
-      float exponent = lobeExponent(takeAxis(code, header, lobes), direction);
-      addLobe(exponent, takeLobeColour(code, header, lobes), largest, weightSum, colourSum);
-    }
+  float largest = -3.402823466e38;
+  for (uint lobe = 0; lobe < lobes.count; ++lobe) {
+    float exponent = lobeExponent(takeAxis(code, header, lobes), direction);
+    addLobe(exponent, takeLobeColour(code, header, lobes), largest, weightSum, colourSum);
   }
   return lobeColour(base, weightSum, colourSum);
 }

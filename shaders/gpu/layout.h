@@ -53,6 +53,12 @@ FROTH_CONST kRasterLanes = 8;          // threads that expand one visible cell: 
 FROTH_CONST kWalkLanes = 32;           // or all of them, hundreds where a cell fills a room
 FROTH_CONST kWholeBall = 0x40202020u;  // ChunkContents::solidBalls: the cell's own ball
 
+// What rays from anywhere find prepared of an asset's cells (gpu/prepared_cells.glsl); each holds those before it.
+FROTH_CONST kPreparedNothing = 0;
+FROTH_CONST kPreparedVisibility = 1;  // planes and faces, and the places of details where they have heights
+FROTH_CONST kPreparedRadiance = 2;    // the places of details and what their colours begin with
+FROTH_CONST kFaceQuads = 2;           // of a live cell
+
 // FrameBlock::sizeCounts: keys of cells in view (gpu/cell_sizes.glsl). Four classes of sizes an octave; cells of one
 // class are told apart by what neighbours do not share.
 FROTH_CONST kSizeClasses = 64;
@@ -141,7 +147,7 @@ struct ChunkEntry {
   uint hasSolidBalls;
   uint firstGroup;  // of the workgroups over its cells, in a grid of kGroupSize cells each over those of all chunks
   uint number;      // of the chunk in the file: what its cells are called outside (namedCell() of gpu/asset.glsl)
-  uint padding[2];
+  FROTH_ADDRESS(UintQuadArray) prepared;  // gpu/prepared_cells.glsl; absent: kPreparedNothing
   CellCode code;
 };
 
@@ -356,7 +362,8 @@ struct PartConstants {
 };
 
 static_assert(sizeof(ChunkEntry) == 208 && offsetof(ChunkEntry, siteRadius) == 32);
-static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, code) == 144 && sizeof(CellCode) == 64);
+static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, prepared) == 136 &&
+              offsetof(ChunkEntry, code) == 144 && sizeof(CellCode) == 64);
 static_assert(sizeof(DetailRecord) == 24 && offsetof(DetailRecord, colour) == 16);
 static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64);
 static_assert(kSizeClasses * kKeysPerSize == kSizeKeys && kSizeKeys % kGroupSize == 0);

@@ -1,7 +1,8 @@
-// What one ray meets in one cell, from the cell's bits (docs/FOAM.md "What one ray meets in one cell").
+// What one ray meets in one cell (docs/FOAM.md "What one ray meets in one cell").
 #ifndef FROTH_GPU_WALK_CELL_GLSL
 #define FROTH_GPU_WALK_CELL_GLSL
 #include "gpu/detail_colour.glsl"
+#include "gpu/prepared_cells.glsl"
 #include "foam/cell.h"
 #include "foam/clip_face.h"
 
@@ -24,16 +25,17 @@ vec3 faceQueryAt(MetCell met, Frame frame, vec3 direction, float t) {
 }
 
 // Blended height of the face at a query point, in units of the radius.
-float heightAt(CellCode code, CellHeader header, vec3 query) {
+float heightAt(CellCode code, uvec2 cell, vec3 query) {
+  CellHeader header = headerForHeights(code, cell);
   uint detailCount = FRAME.detailCount;
   float sharpness = FRAME.detailSharpness;
   float weightSum = 0.0;
   float heightSum = 0.0;
   for (uint k = 0; k < detailCount; ++k) {
-    DetailSite detail = loadDetailSite(code, header, detailCount, k);
-    float weight = detailWeight(query, detail.place, sharpness);
+    vec3 place = placeOfDetail(code, header, cell, k);
+    float weight = detailWeight(query, place.xy, sharpness);
     weightSum += weight;
-    heightSum += weight * detail.height;
+    heightSum += weight * place.z;
   }
   return heightSum / flooredWeightSum(weightSum);
 }
@@ -44,8 +46,7 @@ void clipByFace(CellCode code, MetCell met, Frame frame, vec3 direction, inout f
   float height = 0.0;
   if (FRAME.hasHeights != 0) {
     float tQuery = placeOfHeight(met.centre, frame.normal, facing, tNear);
-    CellHeader header = loadCellHeader(code, met.cell.x, met.cell.y);
-    height = met.radius * heightAt(code, header, faceQueryAt(met, frame, direction, tQuery));
+    height = met.radius * heightAt(code, met.cell, faceQueryAt(met, frame, direction, tQuery));
   }
   clipByFace(met.centre, frame.normal, facing, height, tNear, tFar);
 }
@@ -53,26 +54,26 @@ void clipByFace(CellCode code, MetCell met, Frame frame, vec3 direction, inout f
 // Display-coded colour at t, seen from the point that lies `behind` the ray's origin. shaded: how many detail sites
 // took part.
 vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, float behind, out uint shaded) {
-  CellHeader header = loadCellHeader(code, met.cell.x, met.cell.y);
+  CellHeader header = headerForColours(code, met.cell);
   uint detailCount = FRAME.detailCount;
   float sharpness = FRAME.detailSharpness;
-  bool hasLobes = FRAME.lobeCount > 0;
   vec3 query = faceQueryAt(met, frame, direction, t);
   float weightSum = 0.0;
   for (uint k = 0; k < detailCount; ++k) {
-    weightSum += detailWeight(query, loadDetailSite(code, header, detailCount, k).place, sharpness);
+    weightSum += detailWeight(query, loadPlacedDetail(code, header, met.cell, k).place, sharpness);
   }
   vec3 colour = vec3(0.0);
   float shownSum = 0.0;
   shaded = 0;
   for (uint k = 0; k < detailCount; ++k) {
-    DetailSite detail = loadDetailSite(code, header, detailCount, k);
+    DetailSite detail = loadPlacedDetail(code, header, met.cell, k);
     float weight = detailWeight(query, detail.place, sharpness);
     if (!(weight > leastShownShare() * weightSum)) continue;
+    Lobes lobes = takeSeen(code, header, met.cell, k, detail);
     vec3 toDetail = met.centre + behind * direction +
                   met.radius * (frame.tangent * detail.place.x + frame.bitangent * detail.place.y);
     vec3 seen = directionToDetail(toDetail, frame.normal);
-    colour += weight * detailColour(code, header, detailCount, hasLobes, k, detail.base, seen);
+    colour += weight * detailColour(code, header, lobes, detail.base, seen);
     shownSum += weight;
     ++shaded;
   }

@@ -61,7 +61,7 @@ struct WalkInstance {
   // (gpu/walk_entries.glsl)
   FROTH_ADDRESS(UintQuadArray) entries;
   FROTH_ADDRESS(UintArray) borders;
-  uint padding0, padding1;
+  uint prepared, padding;  // kPreparedNothing...: of this one
 };
 
 #if !defined(__cplusplus)
@@ -72,7 +72,8 @@ struct WalkBlock {
   uint abi;  // FROTH_WALK_ABI
   uint instanceCount;
   float logCutoff, logQuantile;
-  uint flags, padding;
+  uint flags;
+  uint prepared;                               // kPreparedNothing...: of all instances
   FROTH_ADDRESS(WalkInstanceArray) instances;  // [instanceCount]
 };
 

@@ -35,6 +35,11 @@ layout(set = FROTH_WALK_SET, binding = kBindingWalkCounters, std430)
 uint instanceAtHand;
 #endif
 
+// How much of the cells rays take as prepared (kPreparedNothing...), as a constant, for each form has its own code.
+#if !defined(FROTH_WALK_PREPARED)
+#define FROTH_WALK_PREPARED kPreparedNothing
+#endif
+
 #define FRAME walkSet.block.instances.v[instanceAtHand]
 #define kInfinity uintBitsToFloat(0x7f800000u)
 

@@ -4,6 +4,7 @@
 #ifndef FROTH_GPU_WALK_STREAM_GLSL
 #define FROTH_GPU_WALK_STREAM_GLSL
 #include "gpu/descend.glsl"
+#include "gpu/prepared_planes.glsl"
 #include "gpu/walk_cell.glsl"
 #include "gpu/walk_entries.glsl"
 #include "foam/next_cell.h"
@@ -127,20 +128,19 @@ struct Exit {
   float t, key;
 };
 
-Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 direction, float key,
-              inout uint neighbours) {
+// Through the planes of a part of the cell's row.
+Exit findExitAmong(Chunk chunk, ChunkPlace place, uvec2 row, vec4 siteRadius, vec3 direction, float key) {
   vec3 centre = centreAt(place, siteRadius.xyz);
   vec2 order = orderAlong(direction, siteRadius.xyz);
   uint site = kNoCell;
   float siteKey = key;
   float clearance = 1.0, q = 0.0;  // of the nearest plane: t = clearance / q
-  uvec2 row = neighbourRow(chunk, cell);
-  neighbours += row.y - row.x;
   for (uint i = row.x; i < row.y; ++i) {
     uint other = neighbourAt(chunk, i);
     vec4 otherSite = siteRadiusOf(chunk, other);
     vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, otherSite.xyz);
-    float otherQ = dot(direction, toNeighbour);
+    // as findExits() has it
+    float otherQ = hasPlanes() ? fixedDot(direction, toNeighbour) : dot(direction, toNeighbour);
     if (!(otherQ > 0.0)) continue;
     vec3 otherCentre = centreAt(place, otherSite.xyz);
     float otherClearance = sharedClearance(centre, otherCentre, toNeighbour, siteRadius.w, otherSite.w);
@@ -159,6 +159,23 @@ Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 di
   return Exit(site, site == kNoCell ? kInfinity : clearance / q, siteKey);
 }
 
+// Prepared planes only tell which part of the row matters; the sites decide, so that a ray goes the same way without them.
+Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 direction, float key,
+              inout uint neighbours) {
+  uvec2 row = neighbourRow(chunk, cell);
+  neighbours += row.y - row.x;
+  uvec2 part = hasPlanes() ? findExits(chunk, row, centreAt(place, siteRadius.xyz), direction) : row;
+  Exit exit;
+  for (;;) {
+    exit = findExitAmong(chunk, place, part, siteRadius, direction, key);
+    bool isWhole = part.x == row.x && part.y == row.y;
+    if (exit.site != kNoCell || part.x == part.y || isWhole) break;
+    part = row;
+    neighbours += row.y - row.x;
+  }
+  return exit;
+}
+
 // Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it; false: there is none.
 bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tNear, out float tFar,
                 inout WalkWork work) {
@@ -170,7 +187,8 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
     ++work.cells;
     vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);
     uint before = stream.neighbours;
-    Exit exit = findExit(chunk, place, stream.cell.y, siteRadius, ray.direction, stream.key, stream.neighbours);
+    Exit exit = findExit(chunk, place, stream.cell.y, siteRadius, ray.direction, stream.key,
+                         stream.neighbours);
     work.neighbours += stream.neighbours - before;
     met = MetCell(stream.cell, centreAt(place, siteRadius.xyz), siteRadius.w);
     bool isMet = stream.cell.y < chunk.liveCount && intersectBall(met.centre, met.radius, ray.direction, tNear, tFar);
@@ -206,29 +224,24 @@ void advanceStream(inout Stream stream, vec3 origin, vec3 direction, bool isSeen
   if (!stream.isAhead) return;
   ++work.met;
   CellCode code = FRAME.chunks.v[met.cell.x].code;
-  BitCursor bits = cellBits(met.cell.x, met.cell.y);
-  float density = takeDensity(code, bits);
-  Frame frame = takeFrame(code, bits);
-  clipByFace(code, met, frame, ray.direction, tNear, tFar);
-  if (!(tNear < tFar && density > 0.0)) return;
+  Face face = loadFace(code, met.cell);
+  clipByFace(code, met, face.frame, ray.direction, tNear, tFar);
+  if (!(tNear < tFar && face.density > 0.0)) return;
   if (isSeen) {
     uint shaded;
-    stream.colour = colourAt(code, met, frame, ray.direction, tNear, behind / scale, shaded);
+    stream.colour = colourAt(code, met, face.frame, ray.direction, tNear, behind / scale, shaded);
     work.shaded += shaded;
   }
   stream.metCell = met.cell;
   stream.tNear = tNear * scale;
   stream.tFar = tFar * scale;
-  stream.density = density / scale;
+  stream.density = face.density / scale;
 }
 
 // World axes, unit.
 vec3 normalOf(uint instance, uvec2 cell) {
   instanceAtHand = instance;
-  CellCode code = FRAME.chunks.v[cell.x].code;
-  BitCursor bits = cellBits(cell.x, cell.y);
-  takeDensity(code, bits);
-  return worldFromAsset(takeFrame(code, bits).normal);
+  return worldFromAsset(loadFace(FRAME.chunks.v[cell.x].code, cell).frame.normal);
 }
 
 #endif

@@ -1,6 +1,7 @@
 // froth_estimate.h: what is told ahead of time is what assets and views then take.
 #include "froth/froth_estimate.h"
 #include "froth/froth_reader.h"
+#include "froth/froth_walk.h"
 
 #include "runtime_fixture.h"
 
@@ -13,7 +14,7 @@ struct EstimateCase {
   const char* name;
   SampleOptions sample;
   uint32_t layers = 0, keepForQueries = 0, walkShaders = 0, framesInFlight = 0, instances = 1;
-  uint32_t lensClasses = 0, keepsHits = 0, keepsReactive = 0, reserveCells = 0;
+  uint32_t lensClasses = 0, keepsHits = 0, keepsReactive = 0, reserveCells = 0, prepareRays = 0;
   VkExtent2D extent = {64, 48};
 };
 
@@ -48,6 +49,7 @@ TEST_P(Estimate, IsWhatTheAssetAndTheViewTake) {
   assetInfo_.data = bytes.data();
   assetInfo_.dataSize = bytes.size();
   assetInfo_.layers = given.layers;
+  assetInfo_.prepareRays = given.prepareRays;
   assetInfo_.keepForQueries = given.keepForQueries;
   auto viewInfo = makeStruct<FrothViewInfo>();
   viewInfo.maxExtent = given.extent;
@@ -103,6 +105,14 @@ INSTANTIATE_TEST_SUITE_P(
                                  .sample = {.chunkCount = 2, .cellsPerChunk = 30, .localBits = 16},
                                  .keepForQueries = 1,
                                  .walkShaders = 1},
+                    EstimateCase{.name = "PreparedForVisibility",
+                                 .sample = {.chunkCount = 2, .cellsPerChunk = 30, .localBits = 16},
+                                 .walkShaders = 1,
+                                 .prepareRays = FROTH_PREPARE_VISIBILITY},
+                    EstimateCase{.name = "PreparedForRadiance",
+                                 .sample = {.cellsPerChunk = 90, .detailCount = 8, .lobeCount = 5},
+                                 .walkShaders = 1,
+                                 .prepareRays = FROTH_PREPARE_RADIANCE},
                     EstimateCase{.name = "LensesAndHits",
                                  .sample = {.hasWalkGraph = false},
                                  .walkShaders = 1,
@@ -160,6 +170,9 @@ TEST_F(EstimateCall, RefusesWhatOtherCallsRefuse) {
   asset_.layers = 4;
   expectRefused(FROTH_ERROR_ARGUMENT, "layers: 4");
   asset_.layers = 0;
+  asset_.prepareRays = 3;
+  expectRefused(FROTH_ERROR_ARGUMENT, "prepareRays: 3");
+  asset_.prepareRays = 0;
   asset_.dataSize /= 2;
   expectRefused(FROTH_ERROR_FILE, "asset in memory");
   const auto reader = makeStruct<FrothReader>();

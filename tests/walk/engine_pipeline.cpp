@@ -54,12 +54,16 @@ EnginePipeline::~EnginePipeline() {
   if (picture_.image) sharedHost().destroyImage(picture_);
 }
 
-EnginePipeline::EnginePipeline(FrothContext* context, std::span<const uint32_t> computeSpirv, uint32_t constantBytes)
+EnginePipeline::EnginePipeline(FrothContext* context, std::span<const uint32_t> computeSpirv, uint32_t constantBytes,
+                               FrothRayPreparation prepared)
     : EnginePipeline(context, VK_SHADER_STAGE_COMPUTE_BIT, constantBytes) {
   const VkShaderModule shader = createModule(computeSpirv);
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage = stageOf(VK_SHADER_STAGE_COMPUTE_BIT, shader);
+  const VkSpecializationMapEntry entry{0, 0, sizeof(prepared)};
+  const VkSpecializationInfo specialization{1, &entry, sizeof(prepared), &prepared};
+  info.stage.pSpecializationInfo = &specialization;
   info.layout = layout_;
   const VkDevice device = sharedHost().device;
   check(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_), "vkCreateComputePipelines");

@@ -10,7 +10,9 @@ namespace froth::test {
 
 class EnginePipeline {
  public:
-  EnginePipeline(FrothContext* context, std::span<const uint32_t> computeSpirv, uint32_t constantBytes);
+  // prepared: its constant_id 0.
+  EnginePipeline(FrothContext* context, std::span<const uint32_t> computeSpirv, uint32_t constantBytes,
+                 FrothRayPreparation prepared);
   // Draws a triangle into a picture of its own, of four floats per pixel.
   EnginePipeline(FrothContext* context, std::span<const uint32_t> vertexSpirv, std::span<const uint32_t> fragmentSpirv,
                  uint32_t constantBytes, VkExtent2D extent);

@@ -29,8 +29,8 @@ EngineShader::EngineShader()
   instance_ = stage_.place(asset_);
 }
 
-EnginePipeline EngineShader::pipelineOf(std::span<const uint32_t> spirv) const {
-  return EnginePipeline(stage_.context(), spirv, sizeof(CallConstants));
+EnginePipeline EngineShader::pipelineOf(std::span<const uint32_t> spirv, FrothRayPreparation prepared) const {
+  return EnginePipeline(stage_.context(), spirv, sizeof(CallConstants), prepared);
 }
 
 std::vector<Answer> EngineShader::call(const EnginePipeline& pipeline, Mode mode, const std::vector<Asked>& asked,

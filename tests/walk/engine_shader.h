@@ -28,7 +28,8 @@ class EngineShader : public testing::Test {
  protected:
   EngineShader();
 
-  EnginePipeline pipelineOf(std::span<const uint32_t> spirv) const;
+  EnginePipeline pipelineOf(std::span<const uint32_t> spirv,
+                            FrothRayPreparation prepared = FROTH_PREPARE_NOTHING) const;
   std::vector<Answer> call(const EnginePipeline& pipeline, Mode mode, const std::vector<Asked>& asked,
                            const FrothWalkInfo& info = walkInfo());
   std::vector<Asked> randomAsked(size_t count) const;

@@ -13,9 +13,9 @@ namespace {
 
 constexpr int kMostFrames = 100;  // until a cut is drawn
 
-class LevelRays : public EngineShader {
+class LevelRays : public EngineShader, public testing::WithParamInterface<FrothRayPreparation> {
  protected:
-  LevelRays() : levels_(stage_.open(levelSample())) { stage_.move(instance_, levels_, {}); }
+  LevelRays() : levels_(stage_.open(levelSample(), GetParam())) { stage_.move(instance_, levels_, {}); }
 
   void show(const std::vector<uint32_t>& cut) {
     Context& context = *stage_.context();
@@ -68,7 +68,7 @@ std::pair<uint32_t, uint32_t> cellAt(const std::vector<uint32_t>& cut, const glm
   return best;
 }
 
-TEST_F(LevelRays, OfAnyCutAreThePictureOfTheRaster) {
+TEST_P(LevelRays, OfAnyCutAreThePictureOfTheRaster) {
   const View outside = lookAt({0.2, 0.3, -5}, {0, 0, 0}, 96, 64, 0.4);
   const View inside = lookAt({0.3, 0.2, -0.4}, {0, -0.1, 0.4}, 96, 64, 0.9);
   std::vector<Image> casts, rasters;
@@ -96,7 +96,7 @@ TEST_F(LevelRays, OfAnyCutAreThePictureOfTheRaster) {
   }
 }
 
-TEST_F(LevelRays, LocateTheCellOfTheCutByItsNameInTheFile) {
+TEST_P(LevelRays, LocateTheCellOfTheCutByItsNameInTheFile) {
   const EnginePipeline pipeline = pipelineOf(calls_comp_spirv);
   std::vector<Asked> asked = pointsInside(500);
   for (Asked& point : asked) point.hint[0] = 0;
@@ -115,7 +115,7 @@ TEST_F(LevelRays, LocateTheCellOfTheCutByItsNameInTheFile) {
   EXPECT_EQ(stage_.status().indexViolations, 0u);
 }
 
-TEST_F(LevelRays, TakeNamesAsHints) {
+TEST_P(LevelRays, TakeNamesAsHints) {
   const EnginePipeline pipeline = pipelineOf(calls_comp_spirv);
   std::mt19937 random(11);
   show(randomCut(random));
@@ -137,6 +137,9 @@ TEST_F(LevelRays, TakeNamesAsHints) {
   EXPECT_EQ(std::memcmp(others.data(), expected.data(), others.size() * sizeof(Answer)), 0);
   EXPECT_EQ(stage_.status().indexViolations, 0u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Prepared, LevelRays, testing::Values(FROTH_PREPARE_NOTHING, FROTH_PREPARE_RADIANCE),
+                         nameOfPreparation);
 
 }  // namespace
 }  // namespace froth::test

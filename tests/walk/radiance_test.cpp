@@ -25,11 +25,13 @@ Image linearOf(const RenderedImages& images) {
   return result;
 }
 
+class GpuRadiance : public testing::TestWithParam<FrothRayPreparation> {};
+
 void print(const char* name, double psnr) { std::printf("%s: %.1f dB\n", name, psnr); }
 
-void expectPictures(const Foam& foam, const View& view) {
+void expectPictures(const Foam& foam, const View& view, FrothRayPreparation prepared) {
   WalkStage stage;
-  stage.place(stage.open(bakeForTest(foam)));
+  stage.place(stage.open(bakeForTest(foam), prepared));
   const Image rays = imageOf(stage.cast(cameraRays(view), FROTH_RAY_RADIANCE, walkInfo(eyeOf(view))), view);
   const FrothWalkStatus status = stage.status();
   std::printf("%.1f cells, %.1f cells met, %.1f detail sites per ray\n", double(status.cells) / double(status.rays),
@@ -42,12 +44,13 @@ void expectPictures(const Foam& foam, const View& view) {
   EXPECT_GE(toReference, 55);
 }
 
-TEST(GpuRadiance, OfACamerasRaysIsThePictureOfARandomFoam) {
-  expectPictures(makeRandomFoam(200, 4, 2, 3), lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, 96, 64, 0.5));
+TEST_P(GpuRadiance, OfACamerasRaysIsThePictureOfARandomFoam) {
+  expectPictures(makeRandomFoam(200, 4, 2, 3), lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, 96, 64, 0.5), GetParam());
 }
 
-TEST(GpuRadiance, OfACamerasRaysIsThePictureOfAGallery) {
-  expectPictures(synthesize("gallery", 5000), resizeView(galleryCameras().views.at(0), 120, 80));
+TEST_P(GpuRadiance, OfACamerasRaysIsThePictureOfAGallery) {
+  static const Foam foam = synthesize("gallery", 5000);
+  expectPictures(foam, resizeView(galleryCameras().views.at(0), 120, 80), GetParam());
 }
 
 // What a mirror shows, its rays seen from their apex, is the picture of the mirrored camera.
@@ -57,11 +60,11 @@ TEST(GpuRadiance, OfACamerasRaysIsThePictureOfAGallery) {
 //     ---------------------------- mirror, from where the rays start
 //                     /     \  .
 //                  ( foam )
-TEST(GpuRadiance, OfMirroredRaysIsThePictureOfTheMirroredCamera) {
+TEST_P(GpuRadiance, OfMirroredRaysIsThePictureOfTheMirroredCamera) {
   const Foam foam = makeRandomFoam(200, 4, 2, 3);
   const View view = lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, 96, 64, 0.4);
   WalkStage stage;
-  stage.place(stage.open(bakeForTest(foam)));
+  stage.place(stage.open(bakeForTest(foam), GetParam()));
   const glm::vec3 normal(0.3f, 0.2f, 0.9f);
   std::vector<FrothGpuRay> rays = cameraRays(view);
   for (FrothGpuRay& ray : rays) {
@@ -74,6 +77,8 @@ TEST(GpuRadiance, OfMirroredRaysIsThePictureOfTheMirroredCamera) {
   print("mirrored rays and raster", toRaster);
   EXPECT_GE(toRaster, 60);
 }
+
+INSTANTIATE_TEST_SUITE_P(Prepared, GpuRadiance, preparations(), nameOfPreparation);
 
 }  // namespace
 }  // namespace froth::test

@@ -61,7 +61,7 @@ void print(const FrothWalkStatus& status) {
               per(status.detailSites));
 }
 
-class GpuRays : public testing::Test {
+class GpuRays : public testing::TestWithParam<FrothRayPreparation> {
  protected:
   // With the foam moved by `shift`, chunks and all, and an eye that goes with it.
   void expectAgreement(AssetContents contents, size_t count, const glm::dvec3& shift = glm::dvec3(0)) {
@@ -75,7 +75,7 @@ class GpuRays : public testing::Test {
       for (int axis = 0; axis < 3; ++axis) chunk.origin[static_cast<size_t>(axis)] += shift[axis];
     }
     WalkStage stage;
-    stage.place(stage.open(contents));
+    stage.place(stage.open(contents, GetParam()));
     // the asset is seen from the world's origin first
     stage.frame(walkInfo(), [](VkCommandBuffer, VkDescriptorSet) {});
     const std::vector<FrothGpuRay> rays = randomRays(low, high, count, 1);
@@ -91,21 +91,24 @@ class GpuRays : public testing::Test {
   }
 };
 
-TEST_F(GpuRays, ThroughARandomFoamAgreeWithTheQueries) {
+TEST_P(GpuRays, ThroughARandomFoamAgreeWithTheQueries) {
   expectAgreement(bakeScene(makeRandomFoam(200, 4, 2, 3), "exact", 64), 5000);
 }
 
 // Chunk origins are so large that a float holds the foam's box to 0.06 and to 64 units.
-TEST_F(GpuRays, ThroughChunksFarFromTheOriginAgreeWithTheQueries) {
+TEST_P(GpuRays, ThroughChunksFarFromTheOriginAgreeWithTheQueries) {
   const AssetContents contents = bakeScene(makeRandomFoam(200, 4, 2, 3), "default", 64);
   ASSERT_GE(contents.chunks.size(), 3u);
   expectAgreement(contents, 2000, {0x1p20, -0x1p20, 0x1p19});  // 1e6
   expectAgreement(contents, 2000, {-0x1p30, 0x1p29, 0x1p30});  // 1e9
 }
 
-TEST_F(GpuRays, ThroughASyntheticFoamAgreeWithTheQueries) {
-  expectAgreement(bakeScene(synthesize("gallery", 5000), "default", 500), 10000);
+TEST_P(GpuRays, ThroughASyntheticFoamAgreeWithTheQueries) {
+  static const AssetContents contents = bakeScene(synthesize("gallery", 5000), "default", 500);
+  expectAgreement(contents, 10000);
 }
+
+INSTANTIATE_TEST_SUITE_P(Prepared, GpuRays, preparations(), nameOfPreparation);
 
 // What denoisers take for hit distances.
 class HitDistances : public testing::Test {

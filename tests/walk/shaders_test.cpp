@@ -117,6 +117,23 @@ TEST_F(EngineShader, HintsChangeNoAnswer) {
   EXPECT_EQ(stage_.status().indexViolations, 0u);
 }
 
+TEST_F(EngineShader, WithPreparedCellsFindsTheSameAndWithoutThemNothing) {
+  const std::vector<Asked> asked = randomAsked(500);
+  const std::vector<Answer> expected = call(pipelineOf(calls_comp_spirv), kFindClosest, asked);
+  const EnginePipeline pipeline = pipelineOf(calls_comp_spirv, FROTH_PREPARE_RADIANCE);
+  for (const Answer& answer : call(pipeline, kFindClosest, asked)) {
+    EXPECT_EQ(answer.fourth[3], uint32_t{FROTH_WALK_UNPREPARED});
+    EXPECT_TRUE(std::isinf(answer.first[3])) << answer.first[3];
+  }
+  stage_.move(instance_, stage_.open(contents_, FROTH_PREPARE_RADIANCE), {});
+  const std::vector<Answer> answers = call(pipeline, kFindClosest, asked);
+  for (size_t i = 0; i < asked.size(); ++i) {
+    EXPECT_EQ(answers[i].fourth[3], uint32_t{FROTH_WALK_DONE});
+    EXPECT_EQ(answers[i].fourth[2], expected[i].fourth[2]) << "another cell stops it";
+    EXPECT_NEAR(answers[i].second[0], expected[i].second[0], 1e-5);
+  }
+}
+
 TEST_F(EngineShader, InTheFragmentStageDrawsThePictureOfTheRays) {
   const View view = lookAt({0.2, 0.3, -1}, {0, 0, 3}, 64, 48, 0.4);
   const Image expected = imageOf(stage_.cast(cameraRays(view), FROTH_RAY_RADIANCE, walkInfo(eyeOf(view))), view);

@@ -22,6 +22,11 @@ FrothContext* createWalkContext(FrothContextInfo info) {
 
 }  // namespace
 
+std::string nameOfPreparation(const testing::TestParamInfo<FrothRayPreparation>& info) {
+  constexpr const char* kNames[] = {"Nothing", "Visibility", "Radiance"};
+  return kNames[info.param];
+}
+
 FrothWalkInfo walkInfo(const glm::dvec3& eye) {
   FrothWalkInfo info{};
   info.structSize = sizeof(info);
@@ -90,7 +95,7 @@ WalkStage::~WalkStage() {
   for (; reported < messages.size(); ++reported) ADD_FAILURE() << messages[reported];
 }
 
-FrothAsset WalkStage::open(const AssetContents& contents) {
+FrothAsset WalkStage::open(const AssetContents& contents, FrothRayPreparation prepared) {
   Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
   EXPECT_TRUE(bytes) << bytes.error().message;
   const std::vector<uint8_t>& kept = bytes_.emplace_back(std::move(*bytes));
@@ -99,6 +104,7 @@ FrothAsset WalkStage::open(const AssetContents& contents) {
   info.data = kept.data();
   info.dataSize = kept.size();
   info.keepForQueries = 1;
+  info.prepareRays = prepared;
   FrothAsset asset{};
   check(frothOpenAsset(context_, &info, &asset), "frothOpenAsset");
   assets_.push_back(asset);

@@ -3,7 +3,10 @@
 
 #include <functional>
 #include <list>
+#include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "base/image/image.h"
 #include "format/asset_contents.h"
@@ -27,6 +30,12 @@ glm::dvec3 eyeOf(const View& view);
 // Premultiplied colour and opacity of hits, pixel by pixel.
 Image imageOf(const std::vector<FrothGpuHit>& hits, const View& view);
 
+// All values of FrothRayPreparation, for tests with a parameter.
+inline auto preparations() {
+  return testing::Values(FROTH_PREPARE_NOTHING, FROTH_PREPARE_VISIBILITY, FROTH_PREPARE_RADIANCE);
+}
+std::string nameOfPreparation(const testing::TestParamInfo<FrothRayPreparation>& info);
+
 // Assets and instances of the one context that these tests share: its pipelines take long to make. Any failing call,
 // validation message or index violation fails the test.
 class WalkStage {
@@ -34,7 +43,8 @@ class WalkStage {
   WalkStage();
   ~WalkStage();
 
-  FrothAsset open(const AssetContents& contents);  // READY, kept for queries
+  // READY, kept for queries
+  FrothAsset open(const AssetContents& contents, FrothRayPreparation prepared = FROTH_PREPARE_NOTHING);
   FrothInstance place(FrothAsset asset, FrothInstanceInfo placement = {});
   void move(FrothInstance instance, FrothAsset asset, FrothInstanceInfo placement);
 

@@ -14,7 +14,7 @@ extern "C" {
 
 typedef struct FrothEstimateInfo {
   uint32_t structSize;
-  const FrothAssetInfo* asset; /* path or data, layers and keepForQueries count; no reader */
+  const FrothAssetInfo* asset; /* path or data, layers, keepForQueries and prepareRays count; no reader */
   /* maxExtent, lensClasses, keepsHits, keepsReactive and reserveCells count. Null: no view; its bytes are then 0 */
   const FrothViewInfo* view;
   uint32_t walkShaders;           /* FrothContextInfo's */

@@ -20,7 +20,22 @@ extern "C" {
 
 /* Version of the set's layout and of the include's structures. The include holds the same number. A shader that was
  * compiled with another number meets nothing and returns FROTH_WALK_VERSION. */
-#define FROTH_WALK_ABI 5u
+#define FROTH_WALK_ABI 6u
+
+/* FrothAssetInfo::prepareRays: what is kept in device memory so that rays need not decode cells. Images and hits are
+ * the same with each but for the rounding of last digits. frothRecordRays uses what all instances of the set have;
+ * shaders of an engine what FROTH_WALK_PREPARED says (froth_walk.glsl). Bytes: frothEstimateMemory beforehand,
+ * FrothAssetStatus::memory ("cells prepared for rays") after; docs/PERFORMANCE.md says what they buy. Made on the
+ * device by the first frothRecordWalkSet after the asset, or a cut of its levels, is there. Nothing without
+ * FrothContextInfo::walkShaders, or without a walk graph. */
+typedef enum FrothRayPreparation {
+  FROTH_PREPARE_NOTHING = 0,
+  /* planes and faces, and heights if the asset has such: for FROTH_RAY_TRANSMITTANCE and FROTH_RAY_CLOSEST. 16 bytes
+   * per neighbour of a cell, 32 per live cell, with heights 16 per detail site */
+  FROTH_PREPARE_VISIBILITY = 1,
+  FROTH_PREPARE_RADIANCE = 2, /* detail sites too: for FROTH_RAY_RADIANCE. 32 bytes per detail site in all */
+  FROTH_RAY_PREPARATION_MAX = 0x7fffffff
+} FrothRayPreparation;
 
 /* In one set. */
 #define FROTH_WALK_MOST_INSTANCES 64u
@@ -80,6 +95,7 @@ typedef enum FrothWalkEnd {
   FROTH_WALK_STEP_LIMIT = 1,
   FROTH_WALK_STREAM_LIMIT = 2, /* an instance was left out: more than FROTH_WALK_STREAMS (4) overlap at once */
   FROTH_WALK_VERSION = 3,      /* shader and library do not match */
+  FROTH_WALK_UNPREPARED = 4,   /* shader: FROTH_WALK_PREPARED is more than is prepared of an instance of the set */
   FROTH_WALK_END_MAX = 0x7fffffff
 } FrothWalkEnd;
 

@@ -3,6 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #include "clashes.glsl"
+layout(constant_id = 0) const uint whatIsPrepared = 0;
+#define FROTH_WALK_PREPARED whatIsPrepared
 #define FROTH_WALK_SET 0
 #include "froth_walk.glsl"
 

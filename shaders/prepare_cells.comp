@@ -1,0 +1,60 @@
+// Prepares the cells of an asset that are drawn for rays (gpu/prepared_cells.glsl). A row of workgroups per chunk: as
+// many as the mean chunk has cells for; in a larger chunk each thread takes several.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#define FROTH_WALK_PREPARED FRAME.prepared
+#include "gpu/prepared_cells.glsl"
+
+layout(local_size_x = kRayGroupSize) in;
+
+layout(push_constant) uniform Push {
+  uint instance;
+} push;
+
+void preparePlanes(Chunk chunk, uint cell) {
+  vec4 siteRadius = siteRadiusOf(chunk, cell);
+  uvec2 row = neighbourRow(chunk, cell);
+  for (uint i = row.x; i < row.y; ++i) {
+    vec4 other = siteRadiusOf(chunk, neighbourAt(chunk, i));
+    vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, other.xyz);
+    chunk.prepared.v[i] = floatBitsToUint(vec4(toNeighbour, radicalOffset(toNeighbour, siteRadius.w, other.w)));
+  }
+}
+
+void prepareFace(Chunk chunk, CellCode code, CellHeader header, uint cell) {
+  BitCursor bits = cellBits(chunk.index, cell);
+  float density = takeDensity(code, bits);
+  uint quad = faceQuad(chunk, cell);
+  chunk.prepared.v[quad] = floatBitsToUint(takeOrientation(code, bits));
+  chunk.prepared.v[quad + 1] =
+      uvec4(floatBitsToUint(vec2(density, header.unit)), packWidths(header), header.ownAxes.word);
+}
+
+void prepareDetails(Chunk chunk, CellCode code, CellHeader header, uint cell) {
+  for (uint k = 0; k < FRAME.detailCount; ++k) {
+    DetailSite site = loadDetailSite(code, header, FRAME.detailCount, k);
+    chunk.prepared.v[placeQuad(chunk, cell, k)] = floatBitsToUint(vec4(site.place, site.height, site.base.r));
+    if (!hasColours()) continue;
+    Lobes lobes = noLobes(header);
+    if (FRAME.lobeCount > 0) lobes = loadLobes(code, header, FRAME.detailCount, k);
+    chunk.prepared.v[colourQuad(chunk, cell, k)] =
+        uvec4(floatBitsToUint(site.base.gb), lobes.cursor.word, lobes.cursor.bit | lobes.count << 5);
+  }
+}
+
+void main() {
+  instanceAtHand = push.instance;
+  uint index = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;
+  if (index >= FRAME.chunkCount) return;
+  Chunk chunk = loadChunk(index);
+  CellCode code = FRAME.chunks.v[index].code;
+  uint stride = gl_NumWorkGroups.x * kRayGroupSize;
+  for (uint cell = gl_GlobalInvocationID.x; cell < chunk.cellCount; cell += stride) {
+    preparePlanes(chunk, cell);
+    if (cell >= chunk.liveCount) continue;
+    CellHeader header = loadCellHeader(code, index, cell);
+    prepareFace(chunk, code, header, cell);
+    if (hasPlaces()) prepareDetails(chunk, code, header, cell);
+  }
+}
