@@ -11,7 +11,7 @@
 #include "base/progress.h"
 #include "base/result.h"
 #include "measure/gpu/gpu_renderer.h"
-#include "reference/camera/view_selection.h"
+#include "reference/capture/view_selection.h"
 
 namespace froth {
 
