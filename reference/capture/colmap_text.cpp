@@ -90,7 +90,7 @@ class TextReader {
 };
 
 template <class Record, class Read>
-Result<std::vector<Record>> readRecords(const NamedBytes& file, const Read& readRecord) {
+Result<std::vector<Record>> readTextRecords(const NamedBytes& file, const Read& readRecord) {
   TextReader reader(file);
   std::vector<Record> records;
   while (reader.nextRecord()) records.push_back(readRecord(reader));
@@ -98,7 +98,7 @@ Result<std::vector<Record>> readRecords(const NamedBytes& file, const Read& read
   return records;
 }
 
-ColmapCamera readCamera(TextReader& reader) {
+ColmapCamera readTextCamera(TextReader& reader) {
   ColmapCamera camera;
   camera.id = reader.take<uint32_t>("CAMERA_ID");
   camera.model = reader.takeWord("MODEL");
@@ -108,7 +108,7 @@ ColmapCamera readCamera(TextReader& reader) {
   return camera;
 }
 
-ColmapImage readImageRecord(TextReader& reader) {
+ColmapImage readTextImage(TextReader& reader) {
   ColmapImage image;
   image.id = reader.take<uint32_t>("IMAGE_ID");
   for (double& component : image.rotation) component = reader.take<double>("QW, QX, QY, QZ");
@@ -119,7 +119,7 @@ ColmapImage readImageRecord(TextReader& reader) {
   return image;
 }
 
-ColmapPoint readPoint(TextReader& reader) {
+ColmapPoint readTextPoint(TextReader& reader) {
   ColmapPoint point;
   point.id = reader.take<uint64_t>("POINT3D_ID");
   point.position = reader.takeVector("X, Y, Z");
@@ -135,15 +135,15 @@ ColmapPoint readPoint(TextReader& reader) {
 }  // namespace
 
 Result<std::vector<ColmapCamera>> readTextCameras(const NamedBytes& file) {
-  return readRecords<ColmapCamera>(file, readCamera);
+  return readTextRecords<ColmapCamera>(file, readTextCamera);
 }
 
 Result<std::vector<ColmapImage>> readTextImages(const NamedBytes& file) {
-  return readRecords<ColmapImage>(file, readImageRecord);
+  return readTextRecords<ColmapImage>(file, readTextImage);
 }
 
 Result<std::vector<ColmapPoint>> readTextPoints(const NamedBytes& file) {
-  return readRecords<ColmapPoint>(file, readPoint);
+  return readTextRecords<ColmapPoint>(file, readTextPoint);
 }
 
 }  // namespace froth
