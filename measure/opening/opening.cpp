@@ -23,7 +23,7 @@ namespace froth {
 namespace {
 
 constexpr uint32_t kThreads = 2;
-constexpr uint32_t kRestFrames = 16;  // what a view wants changes while its buffers grow
+constexpr uint32_t kOpenRestFrames = 16;  // what a view wants changes while its buffers grow
 constexpr double kMostMs = 120'000;   // a server may be slow
 
 using Clock = std::chrono::steady_clock;
@@ -234,7 +234,7 @@ OpeningMark Run::markNow() const {
 Status Run::drawUntilSettled(Opening& opening) {
   OpeningMark before, settledSince;
   bool wasDrawn = false, wasSettled = false, isFirstKnown = false;
-  for (uint32_t atRest = 0; atRest < kRestFrames;) {
+  for (uint32_t atRest = 0; atRest < kOpenRestFrames;) {
     if (isStopRequested()) return stoppedError();
     Frame frame;
     if (Status drawn = draw(frame); !drawn) return drawn;

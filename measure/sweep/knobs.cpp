@@ -229,7 +229,7 @@ std::vector<Knob> levelKnobs(uint64_t chunkBytes, uint64_t viewBytes) {
                                    {1.0 / 64, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1, 2, 4},
                                    [](ReportConfig& c, double v) { c.streaming.detail = static_cast<float>(v); }));
   detail.values.push_back({"all cells", 8, [](ReportConfig& c) { c.streaming.detail = kAllCells; }});
-  Numbers budgets;  // chunks get half of what else is free (froth_stream.h)
+  Numbers budgets;  // views and chunks share what it leaves (docs/STREAMING.md)
   for (const double share : {1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0}) {
     budgets.push_back(
         std::ceil((static_cast<double>(viewBytes) + 2 * share * static_cast<double>(chunkBytes)) / kMega));

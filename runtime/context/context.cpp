@@ -84,6 +84,7 @@ FrothResult Context::closeAsset(FrothAsset handle) {
   if (exchange_ && isSame(exchange_->asset, handle)) {
     abandonExchange();
   }
+  retired_.reserve(retired_.size() + 2);  // the asset, and one that was to replace it
   endReplacement(handle);
   std::erase_if(cuts_, [&](const auto& cut) { return isSame(cut.first, handle); });
   levels_.remove(handle);

@@ -25,8 +25,9 @@ FrothResult Context::replaceAsset(FrothAsset handle, const FrothAssetInfo& info)
     return messages.fail(FROTH_ERROR_STATE, old->name().c_str(),
                          "it is not READY, so there is nothing to draw meanwhile; close it and open the other file");
   }
+  std::shared_ptr<Asset> successor = makeAsset(info);
   endReplacement(handle);
-  replacements_.push_back({handle, makeAsset(info), FROTH_OK});
+  replacements_.push_back({handle, std::move(successor), FROTH_OK});
   return FROTH_OK;
 }
 
@@ -48,13 +49,13 @@ FrothResult Context::describeReplacement(FrothAsset handle, FrothReplacementStat
 void Context::endReplacement(FrothAsset handle) {
   Replacement* replacement = findReplacement(handle);
   if (!replacement) return;
+  retired_.reserve(retired_.size() + 1);
   if (replacement->successor) dropAsset(std::move(replacement->successor));
   replacements_.erase(replacements_.begin() + (replacement - replacements_.data()));
 }
 
-// Frames in flight, and jobs, may use it.
+// Frames in flight, and jobs, may use it. retired_ has room for it.
 void Context::dropAsset(std::shared_ptr<Asset> asset) {
-  retired_.reserve(retired_.size() + 1);
   asset->stop();
   if (ring_) asset->forgetCopies(*ring_, asset);
   retire(std::move(asset));
@@ -71,6 +72,7 @@ void Context::loadReplacements(LoadLimit& limit, const Asset::Preparation& prepa
     if (!replacement.successor) continue;
     replacement.successor->load(jobs_, reads_, limit, prepare, warnings);
     if (!replacement.successor->hasFailed()) continue;
+    retired_.reserve(retired_.size() + 1);
     replacement.error = replacement.successor->describe().error;
     dropAsset(std::move(replacement.successor));
   }
@@ -84,6 +86,7 @@ void Context::finishReplacements() {
     const bool isUploaded =
         successor.queuedBytes() == 0 && (!ring_ || ring_->isWithin(&successor, completedUploadSerial_));
     if (!successor.isDecoded() || !isUploaded) continue;
+    retired_.reserve(retired_.size() + 1);
     if (exchange_ && isSame(exchange_->asset, replacement.asset)) abandonExchange();
     std::erase_if(cuts_, [&](const auto& cut) { return isSame(cut.first, replacement.asset); });
     levels_.remove(replacement.asset);

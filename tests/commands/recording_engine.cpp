@@ -79,6 +79,7 @@ RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeForma
   asset.data = bytes_.data();
   asset.dataSize = bytes_.size();
   asset.bytesStay = 1;
+  asset.prepareRays = hasLevels ? FROTH_PREPARE_RADIANCE : FROTH_PREPARE_NOTHING;
   check(frothOpenAsset(context_, &asset, &asset_), "frothOpenAsset");
   instances_.resize(instanceCount);
   for (FrothInstance& instance : instances_) {
