@@ -6,6 +6,7 @@
 
 #include "base/counter_random.h"
 #include "format/limits.h"
+#include "reference/camera/view_pose.h"
 #include "reference/camera/view_rays.h"
 
 namespace froth {
@@ -54,21 +55,13 @@ void place(View& view, const glm::dvec3& eye) {
 
 // Looks at `target` from `eye`.
 View lookAt(const glm::dvec3& eye, const glm::dvec3& target) {
-  const glm::dvec3 forward = glm::normalize(target - eye);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.31, 0.22, 1)));
-  const glm::dvec3 down = glm::cross(forward, right);
   View view;
+  setPose(view, eye, glm::normalize(target - eye), {0.31, 0.22, 1});
   view.width = 160;
   view.height = 120;
   view.fx = view.fy = 120;
   view.cx = 80;
   view.cy = 60;
-  for (int row = 0; row < 3; ++row) {
-    view.worldFromCamera[4 * row] = right[row];
-    view.worldFromCamera[4 * row + 1] = down[row];
-    view.worldFromCamera[4 * row + 2] = forward[row];
-    view.worldFromCamera[4 * row + 3] = eye[row];
-  }
   return view;
 }
 

@@ -4,6 +4,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "baker/synth/synth.h"
+#include "reference/camera/view_pose.h"
 
 namespace froth {
 
@@ -15,22 +16,14 @@ constexpr uint32_t kWidth = 960, kHeight = 640;
 constexpr double kHalfWidthTangent = 0.7;  // 70 degrees across
 
 View lookAt(std::string name, const dvec3& eye, const dvec3& target) {
-  const dvec3 forward = glm::normalize(target - eye);
-  const dvec3 right = glm::normalize(glm::cross(forward, dvec3(0, 0, 1)));
-  const dvec3 down = glm::cross(forward, right);
   View view;
+  setPose(view, eye, glm::normalize(target - eye), {0, 0, 1});
   view.name = std::move(name);
   view.width = kWidth;
   view.height = kHeight;
   view.fx = view.fy = 0.5 * kWidth / kHalfWidthTangent;
   view.cx = 0.5 * kWidth;
   view.cy = 0.5 * kHeight;
-  for (int row = 0; row < 3; ++row) {
-    const double values[4] = {right[row], down[row], forward[row], eye[row]};
-    for (int column = 0; column < 4; ++column) {
-      view.worldFromCamera[static_cast<size_t>(4 * row + column)] = values[column];
-    }
-  }
   return view;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "reference/camera/view_pose.h"
+
 namespace froth {
 
 Foam foamOf(const std::vector<PlainCell>& cells) {
@@ -73,21 +75,13 @@ Foam permuteFoam(const Foam& foam, const std::vector<uint32_t>& order) {
 }
 
 View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height, double tanHalfFov) {
-  const glm::dvec3 forward = glm::normalize(target - eye);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, -1, 0)));
-  const glm::dvec3 down = glm::cross(forward, right);
   View view;
+  setPose(view, eye, glm::normalize(target - eye), {0, -1, 0});
   view.width = width;
   view.height = height;
   view.fx = view.fy = height / (2 * tanHalfFov);
   view.cx = width / 2.0;
   view.cy = height / 2.0;
-  for (int row = 0; row < 3; ++row) {
-    view.worldFromCamera[4 * row] = right[row];
-    view.worldFromCamera[4 * row + 1] = down[row];
-    view.worldFromCamera[4 * row + 2] = forward[row];
-    view.worldFromCamera[4 * row + 3] = eye[row];
-  }
   return view;
 }
 

@@ -8,6 +8,7 @@
 
 #include "format/write/asset_writer.h"
 #include "reference/camera/ray_map.h"
+#include "reference/camera/view_pose.h"
 
 namespace froth::test {
 namespace {
@@ -258,20 +259,14 @@ FrothInstanceInfo placementOf(const glm::dvec3& position, const glm::vec4& rotat
 }
 
 View lookAt(const glm::dvec3& eye, const glm::dvec3& target, uint32_t width, uint32_t height, double tanHalfFovY) {
-  const glm::dvec3 forward = glm::normalize(target - eye);
-  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.1, 1, 0.05), forward));
-  const glm::dvec3 down = glm::cross(forward, right);
   View view;
+  setPose(view, eye, glm::normalize(target - eye), {-0.1, -1, -0.05});
   view.name = "test";
   view.width = width;
   view.height = height;
   view.fx = view.fy = 0.5 * height / tanHalfFovY;
   view.cx = 0.5 * width;
   view.cy = 0.5 * height;
-  for (int row = 0; row < 3; ++row) {
-    const double values[4] = {right[row], down[row], forward[row], eye[row]};
-    for (int column = 0; column < 4; ++column) view.worldFromCamera[row * 4 + column] = values[column];
-  }
   return view;
 }
 

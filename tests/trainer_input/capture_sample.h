@@ -9,26 +9,22 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/counter_random.h"
+#include "reference/camera/view_pose.h"
 #include "reference/capture/capture.h"
 
 namespace froth::test {
 
 // Looks from `eye` at `subject`; y is down.
 inline CapturedView viewFrom(const glm::dvec3& eye, const glm::dvec3& subject, const std::string& name) {
-  const glm::dvec3 forward = glm::normalize(subject - eye);
-  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), forward)), down = glm::cross(forward, right);
   CapturedView captured;
   View& view = captured.view;
+  setPose(view, eye, glm::normalize(subject - eye), {0, -1, 0});
   view.name = name;
   view.width = 64;
   view.height = 48;
   view.fx = view.fy = 60;
   view.cx = 32;
   view.cy = 24;
-  for (int row = 0; row < 3; ++row) {
-    const double values[] = {right[row], down[row], forward[row], eye[row]};
-    std::copy_n(values, 4, &view.worldFromCamera[4 * row]);
-  }
   return captured;
 }
 

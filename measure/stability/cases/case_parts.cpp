@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "base/counter_random.h"
+#include "reference/camera/view_pose.h"
 
 namespace froth {
 namespace {
@@ -29,20 +30,13 @@ void addFace(const CaseCell& cell, uint32_t details, uint32_t lobes, Foam& foam)
 
 View viewAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up, uint32_t width,
                uint32_t height) {
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
-  const glm::dvec3 down = glm::cross(forward, right);
   View view;
+  setPose(view, eye, forward, up);
   view.width = width;
   view.height = height;
   view.cx = width / 2.0;
   view.cy = height / 2.0;
   view.nearDepth = view.nearRatio = 0;
-  for (int row = 0; row < 3; ++row) {
-    view.worldFromCamera[4 * row] = right[row];
-    view.worldFromCamera[4 * row + 1] = down[row];
-    view.worldFromCamera[4 * row + 2] = forward[row];
-    view.worldFromCamera[4 * row + 3] = eye[row];
-  }
   return view;
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/counter_random.h"
 #include "base/float_span.h"
+#include "reference/camera/view_pose.h"
 #include "reference/camera/view_rays.h"
 #include "shaders/foam/cell.h"
 
@@ -214,16 +215,8 @@ glm::dvec3 drawEye(Dice& dice, const Foam& foam, double unit) {
   }
 }
 
-void setPose(const glm::dvec3& eye, const glm::dvec3& forward, View& view) {
-  const glm::dvec3 up = std::abs(forward.y) < 0.9 ? glm::dvec3(0, -1, 0) : glm::dvec3(1, 0, 0);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, up)), down = glm::cross(forward, right);
-  for (int row = 0; row < 3; ++row) {
-    const size_t first = 4 * static_cast<size_t>(row);
-    view.worldFromCamera[first] = right[row];
-    view.worldFromCamera[first + 1] = down[row];
-    view.worldFromCamera[first + 2] = forward[row];
-    view.worldFromCamera[first + 3] = eye[row];
-  }
+glm::dvec3 upBeside(const glm::dvec3& forward) {
+  return std::abs(forward.y) < 0.9 ? glm::dvec3(0, -1, 0) : glm::dvec3(1, 0, 0);
 }
 
 View drawView(Dice& dice, const Foam& foam, double unit) {
@@ -231,8 +224,9 @@ View drawView(Dice& dice, const Foam& foam, double unit) {
   const glm::dvec3 eye = drawEye(dice, foam, unit);
   const glm::dvec3 target(foam.sites[dice.below(foam.cellCount)]);
   const bool isAligned = dice.chance(0.3) || !(glm::distance(eye, target) > 0);
+  const glm::dvec3 forward = isAligned ? dice.axis() : glm::normalize(target - eye);
   View view;
-  setPose(eye, isAligned ? dice.axis() : glm::normalize(target - eye), view);
+  setPose(view, eye, forward, upBeside(forward));
   const auto [width, height] = dice.pick(kSizes);
   view.width = width;
   view.height = height;
