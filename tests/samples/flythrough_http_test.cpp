@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/http/range_server.h"
-#include "tests/tool/program_runner.h"
+#include "tests/samples/level_gallery.h"
 
 namespace froth::test {
 namespace {
@@ -14,29 +14,14 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// The gallery, baked once.
-class FlythroughHttp : public ToolTest {
+class FlythroughHttp : public LevelGallery {
  protected:
-  static void TearDownTestSuite() {
-    asset_.clear();
-    cameras_.clear();
-  }
-
   void SetUp() override {
 #ifndef FROTH_HAS_CURL
     FROTH_SKIP() << "no libcurl";
 #endif
-    if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
-    unsetenv("DISPLAY");
-    unsetenv("WAYLAND_DISPLAY");
-    if (asset_.empty()) {
-      frothWell({"synth", "gallery", "--cells", "20000", "-o", "gallery.pt"});
-      frothWell({"bake", "gallery.pt", "--lod", "--chunk-cells", "1024", "--no-measure", "-o", "gallery.froth"});
-      asset_ = readBytes(folder_ / "gallery.froth");
-      cameras_ = readBytes(folder_ / "gallery.cameras.json");
-    }
-    writeBytes(folder_ / "gallery.froth", asset_);
-    writeBytes(folder_ / "cameras.json", cameras_);
+    LevelGallery::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
     server_ = std::make_unique<RangeServer>(folder_);
     if (server_->port() == 0) FROTH_SKIP() << "no python3";
   }
@@ -49,9 +34,6 @@ class FlythroughHttp : public ToolTest {
   }
 
   std::unique_ptr<RangeServer> server_;
-
- private:
-  static inline std::string asset_, cameras_;
 };
 
 TEST_F(FlythroughHttp, ShowsWhatTheFileShowsThoughTheServerFailsNowAndThen) {

@@ -9,6 +9,7 @@
 
 #include "base/image/image.h"
 #include "samples/flythrough/level_colours.h"
+#include "tests/samples/level_gallery.h"
 #include "tests/samples/x_server.h"
 #include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
@@ -37,28 +38,8 @@ std::optional<size_t> levelOf(const float* coded) {
   return std::nullopt;
 }
 
-// The gallery, baked once.
-class FlythroughLevels : public ToolTest {
+class FlythroughLevels : public LevelGallery {
  protected:
-  static void TearDownTestSuite() {
-    asset_.clear();
-    cameras_.clear();
-  }
-
-  void SetUp() override {
-    if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
-    unsetenv("DISPLAY");
-    unsetenv("WAYLAND_DISPLAY");
-    if (asset_.empty()) {
-      frothWell({"synth", "gallery", "--cells", "20000", "-o", "gallery.pt"});
-      frothWell({"bake", "gallery.pt", "--lod", "--chunk-cells", "1024", "--no-measure", "-o", "gallery.froth"});
-      asset_ = readBytes(folder_ / "gallery.froth");
-      cameras_ = readBytes(folder_ / "gallery.cameras.json");
-    }
-    writeBytes(folder_ / "gallery.froth", asset_);
-    writeBytes(folder_ / "cameras.json", cameras_);
-  }
-
   ProgramRun fly(const std::vector<std::string>& more, const std::string& asset = "gallery.froth") const {
     std::vector<std::string> arguments{asset, "--cameras", "cameras.json", "--headless",
                                        "-o",  "frames",    "--json",       "flight.json"};
@@ -91,9 +72,6 @@ class FlythroughLevels : public ToolTest {
     }
     return levels;
   }
-
- private:
-  static inline std::string asset_, cameras_;  // bytes of their files; empty: not baked yet
 };
 
 TEST_F(FlythroughLevels, ShowsOfEachPixelTheLevelOfADrawnChunk) {

@@ -31,16 +31,6 @@ class GpuInstances : public testing::Test {
  protected:
   GpuInstances() : asset_(stage_.open(bakeScene(makeRandomFoam(120, 3, 1, 4), "exact", 64))) { info_.cutoff = -1; }
 
-  std::vector<FrothGpuRay> raysThrough(const glm::dvec3& low, const glm::dvec3& high, size_t count = 2000) const {
-    Random random(7);
-    std::vector<FrothGpuRay> rays;
-    for (size_t i = 0; i < count; ++i) {
-      const glm::vec3 origin(random.inBox(low, high));
-      rays.push_back(gpuRay(origin, glm::vec3(glm::normalize(random.inBox(low, high) - glm::dvec3(origin)))));
-    }
-    return rays;
-  }
-
   void expectAsOnHost(const std::vector<FrothGpuRay>& rays) {
     const auto hits = stage_.cast(rays, FROTH_RAY_TRANSMITTANCE, info_);
     const auto expected = stage_.castOnHost(rays, withoutCutoff());

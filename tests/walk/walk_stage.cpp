@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "format/write/asset_writer.h"
+#include "tests/query/query_fixture.h"
 #include "tests/render/render_harness.h"
 
 namespace froth::test {
@@ -43,6 +44,16 @@ FrothGpuRay gpuRay(const glm::vec3& origin, const glm::vec3& direction, float tM
   ray.tMin = tMin;
   ray.tMax = tMax;
   return ray;
+}
+
+std::vector<FrothGpuRay> raysThrough(const glm::dvec3& low, const glm::dvec3& high, size_t count, uint64_t seed) {
+  Random random(seed);
+  std::vector<FrothGpuRay> rays;
+  for (size_t i = 0; i < count; ++i) {
+    const glm::vec3 origin(random.inBox(low, high));
+    rays.push_back(gpuRay(origin, glm::vec3(glm::normalize(random.inBox(low, high) - glm::dvec3(origin)))));
+  }
+  return rays;
 }
 
 glm::dvec3 eyeOf(const View& view) {

@@ -23,6 +23,10 @@ FrothWalkInfo walkInfo(const glm::dvec3& eye = glm::dvec3(0));
 
 FrothGpuRay gpuRay(const glm::vec3& origin, const glm::vec3& direction, float tMin = 0, float tMax = 0);
 
+// From places in a box to others in it.
+std::vector<FrothGpuRay> raysThrough(const glm::dvec3& low, const glm::dvec3& high, size_t count = 2000,
+                                     uint64_t seed = 7);
+
 // The ray of each pixel of a pinhole view, from its eye: the point to which rays are relative.
 std::vector<FrothGpuRay> cameraRays(const View& view);
 glm::dvec3 eyeOf(const View& view);
