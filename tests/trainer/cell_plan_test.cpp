@@ -18,8 +18,9 @@ class CellPlanOf : public ::testing::Test {
  protected:
   static constexpr uint32_t kCells = 200;
 
-  CellPlanOf() : foam_(storeFoam<float>(randomFoam(kCells, 2, 2, 4))), quaternions_(kCells, glm::vec4(1, 0, 0, 0)) {
+  CellPlanOf() : foam_(storeFoam<float>(randomFoam(kCells, 2, 2, 4))) {
     for (uint32_t i = 0; i < kCells; ++i) {
+      for (uint32_t c = 0; c < 4; ++c) orientations()[4 * i + c] = c == 0 ? 1.0f : 0.0f;
       foam_.balls[i] = ballOfCell(i);
       foam_.contributions[i] = i % 20 == 0 ? 0.0f : 0.01f;
       foam_.errors[i] = 1e-3f;
@@ -32,12 +33,10 @@ class CellPlanOf : public ::testing::Test {
     const std::vector<float>& points = foam_.values[0];
     return {points[3 * i], points[3 * i + 1], points[3 * i + 2], 0.5f};
   }
-  CellPlan plan(uint32_t wanted, uint64_t seed = 1) const {
-    return planCells({foam_.balls, quaternions_, foam_.contributions, foam_.errors}, wanted, seed, 99);
-  }
+  CellPlan plan(uint32_t wanted, uint64_t seed = 1) const { return planCells(factsOf(foam_), wanted, seed, 99); }
+  std::vector<float>& orientations() { return foam_.values[static_cast<size_t>(Parameter::kOrientations)]; }
 
   FoamStorage<float> foam_;
-  std::vector<glm::vec4> quaternions_;
 };
 
 TEST_F(CellPlanOf, RemovesWhatDoesNotShowAndSplitsUntilThereAreAsManyAsWanted) {

@@ -74,6 +74,7 @@ GalleryCapture makeGalleryCapture(uint32_t width, uint32_t height) {
   gallery.set.frame = findSceneFrame(gallery.capture);
   const Result<PhotoSplit> split = splitPhotos(gallery.capture.views, 8);
   EXPECT_TRUE(split);
+  gallery.set.trainingViews = split->training;
   for (size_t i = 0; i < gallery.capture.views.size(); ++i) {
     const View& view = gallery.capture.views[i].view;
     const bool isTest = std::ranges::count(split->test, i) > 0;

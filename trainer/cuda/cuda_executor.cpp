@@ -86,12 +86,7 @@ Status CudaExecutor::rearrange(const CellPlan& plan) { return step_.rearrange(pl
 
 Result<CellFacts> CudaExecutor::facts() {
   if (Status read = step_.downloadFacts(facts_); !read) return read.error();
-  const std::vector<float>& raw = facts_.values[static_cast<size_t>(Parameter::kOrientations)];
-  quaternions_.resize(raw.size() / 4);
-  for (size_t i = 0; i < quaternions_.size(); ++i) {
-    quaternions_[i] = {raw[4 * i], raw[4 * i + 1], raw[4 * i + 2], raw[4 * i + 3]};
-  }
-  return CellFacts{facts_.balls, quaternions_, facts_.contributions, facts_.errors};
+  return factsOf(facts_);
 }
 
 Status CudaExecutor::read(FoamStorage<float>& foam) { return step_.download(foam); }

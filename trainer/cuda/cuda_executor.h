@@ -41,9 +41,8 @@ class CudaExecutor : public StepExecutor {
   CudaStep step_;
   CudaPhotos photos_;
   std::array<DeviceArray<float>, kParameterCount> drifts_;
-  uint32_t driftsSent_ = 0;  // steps whose drifts the GPU has
-  FoamStorage<float> facts_;
-  std::vector<glm::vec4> quaternions_;
+  uint32_t driftsSent_ = 0;   // steps whose drifts the GPU has
+  FoamStorage<float> facts_;  // what facts() looks into
 };
 
 }  // namespace froth

@@ -63,7 +63,6 @@ void CudaStep::point() {
 }
 
 Status CudaStep::upload(const FoamStorage<float>& foam) {
-  const size_t cells = foam.shape.cellCount, details = cells * foam.shape.detailCount;
   Status status;
   for (size_t i = 0; i < kParameterCount && status; ++i) {
     const char* name = kParameterKeys[i].data();

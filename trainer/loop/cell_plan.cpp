@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_for.h>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "base/counter_random.h"
 #include "foam/morton_order.h"
@@ -69,7 +70,7 @@ std::vector<uint32_t> drawParents(const CellFacts& facts, const std::vector<uint
 
 glm::vec3 stepOnFace(const CellFacts& facts, uint32_t cell, const CounterRandom& random) {
   glm::vec3 normal, tangent, bitangent;
-  foam::frameOfQuaternion(facts.quaternions[cell], normal, tangent, bitangent);
+  foam::frameOfQuaternion(glm::make_vec4(&facts.quaternions[4 * size_t{cell}]), normal, tangent, bitangent);
   const auto angle = static_cast<float>(random.uniform(cell, 0, glm::two_pi<double>()));
   return kPart * facts.balls[cell].w * (std::cos(angle) * tangent + std::sin(angle) * bitangent);
 }
@@ -89,6 +90,10 @@ CellPlan sortAlongCurve(const CellFacts& facts, const CellPlan& plan) {
 }
 
 }  // namespace
+
+CellFacts factsOf(const FoamStorage<float>& foam) {
+  return {foam.balls, foam.values[static_cast<size_t>(Parameter::kOrientations)], foam.contributions, foam.errors};
+}
 
 CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint32_t step) {
   const std::vector<uint32_t> survivors = findSurvivors(facts, wanted);

@@ -13,10 +13,13 @@ namespace froth {
 
 // What a plan is made of, by cell.
 struct CellFacts {
-  std::span<const glm::vec4> balls;        // site, radius
-  std::span<const glm::vec4> quaternions;  // raw
+  std::span<const glm::vec4> balls;    // site, radius
+  std::span<const float> quaternions;  // raw, 4 each
   std::span<const float> contributions, errors;
 };
+
+// What they are of a foam whose balls are known.
+CellFacts factsOf(const FoamStorage<float>& foam);
 
 // Cell i of the foam that comes is a copy of cell sources[i], moments and all, moved by shifts[i]. Its means are
 // multiplied by meanFactors[i]. Along a Morton curve, so that cells near each other lie near each other in memory.

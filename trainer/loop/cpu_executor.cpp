@@ -69,14 +69,7 @@ Status CpuExecutor::rearrange(const CellPlan& plan) {
   return {};
 }
 
-Result<CellFacts> CpuExecutor::facts() {
-  const std::vector<float>& raw = foam_.values[static_cast<size_t>(Parameter::kOrientations)];
-  quaternions_.resize(foam_.shape.cellCount);
-  for (size_t i = 0; i < quaternions_.size(); ++i) {
-    quaternions_[i] = {raw[4 * i], raw[4 * i + 1], raw[4 * i + 2], raw[4 * i + 3]};
-  }
-  return CellFacts{foam_.balls, quaternions_, foam_.contributions, foam_.errors};
-}
+Result<CellFacts> CpuExecutor::facts() { return factsOf(foam_); }
 
 Status CpuExecutor::read(FoamStorage<float>& foam) {
   foam = foam_;

@@ -39,7 +39,7 @@ class CpuExecutor : public StepExecutor {
   std::vector<PhotoTarget> targets_;
   uint32_t halvings_ = UINT32_MAX;  // of targets_
   ImageLoss<float> loss_;
-  std::vector<glm::vec4> gradients_, quaternions_;
+  std::vector<glm::vec4> gradients_;
 };
 
 }  // namespace froth

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,9 +29,8 @@ std::string settingsText(const TrainOptions& options, const TrainingSet& set) {
                      options.lobeCount, options.seed, set.training.size(), view.width, view.height, options.nearRatio);
 }
 
-Result<FoamStorage<float>> makeStart(const Capture& capture, const TrainingSet& set, const TrainOptions& options,
-                                     std::span<const uint32_t> training) {
-  const StartScene scene{capture, set.frame, training, set.training, options.seed};
+Result<FoamStorage<float>> makeStart(const Capture& capture, const TrainingSet& set, const TrainOptions& options) {
+  const StartScene scene{capture, set.frame, set.trainingViews, set.training, options.seed};
   const Result<StartFoam> start =
       makeStartFoam(scene, {options.schedule.startCells, options.detailCount, options.lobeCount});
   if (!start) return start.error();
@@ -121,6 +119,7 @@ Result<TrainingSet> prepareTraining(const Capture& capture, const TrainOptions& 
     if (!photo.view.nearRatio) photo.view.nearRatio = options.nearRatio;
   }
   for (const uint32_t i : split->training) set.training.push_back(std::move((*photos)[i]));
+  set.trainingViews = split->training;
   for (const uint32_t i : split->test) {
     set.testNames.push_back(capture.views[i].view.name);
     set.testing.push_back(std::move((*photos)[i]));
@@ -136,8 +135,6 @@ Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, c
     return makeError(ErrorKind::kUsage, "training: begins with %u cells, but may have %u; give fewer to begin with",
                      options.schedule.startCells, options.schedule.mostCells);
   }
-  const Result<PhotoSplit> split = splitPhotos(capture.views, options.testPeriod);
-  if (!split) return split.error();
   const std::string settings = settingsText(options, set);
   LoopOptions loop;
   loop.schedule = options.schedule;
@@ -150,7 +147,7 @@ Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, c
     loop.firstStep = state->stepsDone;
     foam = std::move(state->foam);
   } else {
-    foam = makeStart(capture, set, options, split->training);
+    foam = makeStart(capture, set, options);
     if (!foam) return foam.error();
   }
   Result<std::unique_ptr<StepExecutor>> executor = makeExecutor(std::move(*foam), set.training);

@@ -35,6 +35,7 @@ struct TrainOptions {
 struct TrainingSet {
   SceneFrame frame;                      // of the normalised scene
   std::vector<Photo> training, testing;  // views in the normalised scene
+  std::vector<uint32_t> trainingViews;   // [training] of which view of the capture it is
   std::vector<std::string> testNames;
 };
 

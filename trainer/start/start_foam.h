@@ -24,10 +24,11 @@ struct StartFoam {
 // Cells on points of structure from motion, spread over all of them; where there are too few, random mixtures of
 // neighbours, at most 9 for each point; all others random in the frusta of the cameras.
 //
-//   radius    the mean distance of the 8 nearest (its own 0 included), at least 0.0069, at most 5 % of an image's
-//   height density   softplus(0.1): a cell absorbs about 1 % normal    to the cameras that see it, turned about that at
-//   random; unknown: random colours   the point's, or the pixel's, in every direction detail sites normal(0, 0.1^2),
-//   heights 0, lobe axes normal(0, 2^2)
+// - radius: the mean distance of the 8 nearest (its own 0 included), at least 1e-4, at most 5 % of an image's height
+// - density: softplus(0.1), so a cell absorbs about 1 %
+// - normal: to the cameras that see it, turned about that at random; unknown: random
+// - colours: the point's, or the pixel's, in every direction
+// - detail sites normal(0, 0.1^2), heights 0, lobe axes normal(0, 2^2)
 //
 // The same scene, options and seed give the same bits, on any number of threads.
 Result<StartFoam> makeStartFoam(const StartScene& scene, const StartOptions& options);

@@ -66,33 +66,20 @@ FROTH_HD bool clipByBallAndPlanes(const SeenCell<Real>& cell, const SeenPlane<Re
   return segment.ballOrPlaneNear < segment.ballOrPlaneFar;
 }
 
-template <class Real>
-FROTH_HD void blendHeight(const SeenDetail<Real>* details, uint32_t detailCount, const glm::vec<3, Real>& point,
-                          Real sharpness, Segment<Real>& segment) {
+// What `value` of the detail sites (their height, or colour) blends to at a point of the face frame [radii]; `weights`:
+// the sum of their weights.
+template <class Real, class Value>
+FROTH_HD Value blendDetails(const SeenDetail<Real>* details, uint32_t detailCount, Value SeenDetail<Real>::*value,
+                            const glm::vec<3, Real>& point, Real sharpness, Real& weights) {
   const glm::vec<3, Real> query = foam::faceQuery(point);
-  Real sum = 0, weights = 0;
+  Value sum(0);
+  weights = 0;
   for (uint32_t k = 0; k < detailCount; ++k) {
     const Real weight = foam::detailWeight(query, details[k].place, sharpness);
-    sum += weight * details[k].height;
+    sum += weight * (details[k].*value);
     weights += weight;
   }
-  segment.height = sum / foam::flooredWeightSum(weights);
-  segment.heightWeights = weights;
-}
-
-template <class Real>
-FROTH_HD void blendColour(const SeenDetail<Real>* details, uint32_t detailCount, const glm::vec<3, Real>& point,
-                          Real sharpness, Segment<Real>& segment) {
-  const glm::vec<3, Real> query = foam::faceQuery(point);
-  glm::vec<3, Real> sum(0);
-  Real weights = 0;
-  for (uint32_t k = 0; k < detailCount; ++k) {
-    const Real weight = foam::detailWeight(query, details[k].place, sharpness);
-    sum += weight * details[k].colour;
-    weights += weight;
-  }
-  segment.colour = sum / foam::flooredWeightSum(weights);
-  segment.colourWeights = weights;
+  return sum / foam::flooredWeightSum(weights);
 }
 
 // False: the ray gains no opacity in the cell, or its numbers are no finite ones. `details`: those of the cell.
@@ -103,13 +90,15 @@ FROTH_HD bool meetCell(const SeenCell<Real>& cell, const SeenPlane<Real>* planes
   if (!clipByBallAndPlanes(cell, planes, direction, segment)) return false;
   segment.facing = glm::dot(cell.normal, direction);
   segment.heightPlace = foam::placeOfHeight(cell.centre, cell.normal, segment.facing, segment.ballOrPlaneNear);
-  blendHeight(details, detailCount, pointInFrame(cell, direction, segment.heightPlace), sharpness, segment);
+  segment.height = blendDetails(details, detailCount, &SeenDetail<Real>::height,
+                                pointInFrame(cell, direction, segment.heightPlace), sharpness, segment.heightWeights);
   segment.face = foam::intersectFace(cell.centre, cell.normal, segment.facing, segment.height);
   segment.near = segment.ballOrPlaneNear;
   segment.far = segment.ballOrPlaneFar;
   foam::clipByFace(cell.centre, cell.normal, segment.facing, segment.height, segment.near, segment.far);
   if (!(segment.near < segment.far)) return false;
-  blendColour(details, detailCount, pointInFrame(cell, direction, segment.near), sharpness, segment);
+  segment.colour = blendDetails(details, detailCount, &SeenDetail<Real>::colour,
+                                pointInFrame(cell, direction, segment.near), sharpness, segment.colourWeights);
   return std::isfinite(segment.colour.x + segment.colour.y + segment.colour.z + cell.density * segment.far);
 }
 
