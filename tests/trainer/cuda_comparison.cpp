@@ -18,6 +18,7 @@ Difference compare(const std::vector<float>& cpu, const std::vector<float>& gpu,
   }
   const double count = static_cast<double>(std::max<size_t>(cpu.size(), 1)), rms = std::sqrt(squares / count);
   Difference difference;
+  difference.scale = rms;
   difference.rootMeanSquare = std::sqrt(differences / count) / (unit > 0 ? unit : std::max(rms, 1e-30));
   for (size_t i = 0; i < cpu.size(); ++i) {
     const double expected = double{cpu[i]} - (start.empty() ? 0 : start[i]);

@@ -26,6 +26,7 @@ std::vector<glm::vec4> plainWanted(size_t pixelCount);
 // Differences of one array, relative to the root of the mean square of the CPU's.
 struct Difference {
   double rootMeanSquare = 0;
+  double scale = 0;       // the root of the mean square of the CPU's
   double partFarOff = 0;  // of the entries: farther off than a hundredth of their own size and of the RMS together
 };
 
