@@ -1,4 +1,5 @@
 // What froth report tells of levels of detail.
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -6,6 +7,7 @@
 
 #include <gmock/gmock.h>
 
+#include "reference/camera/camera.h"
 #include "tests/surroundings.h"
 #include "tests/tool/program_runner.h"
 
@@ -22,10 +24,19 @@ class ReportLevels : public ToolTest {
     if (!figures_.is_null()) return;
     frothWell({"synth", "gallery", "--cells", "6000", "-o", "gallery.pt"});
     frothWell({"bake", "gallery.pt", "--lod", "--chunk-cells", "512", "--no-measure", "-o", "gallery.froth"});
-    frothWell({"report", "gallery.froth", "--cameras", "gallery.cameras.json", "-o", "out", "--size", "96x64",
-               "--views", "1", "--search", "0s", "--frames", "1", "--knobs", "detail,budget", "--no-images"});
+    stepBack(25);
+    frothWell({"report", "gallery.froth", "--cameras", "outside.json", "-o", "out", "--size", "96x64", "--views", "1",
+               "--search", "0s", "--frames", "1", "--knobs", "detail,budget", "--no-images"});
     figures_ = Json::parse(readBytes(folder_ / "out/report.json"));
     page_ = readBytes(folder_ / "out/report.html");
+  }
+  // From within the balls of groups all of them are fine at any detail: outside.json looks at the gallery from outside.
+  void stepBack(double distance) const {
+    CameraSet cameras = *readCameras(folder_ / "gallery.cameras.json");
+    cameras.views.resize(1);
+    std::array<double, 12>& pose = cameras.views[0].worldFromCamera;
+    for (size_t row = 0; row < 12; row += 4) pose[row + 3] -= distance * pose[row + 2];
+    ASSERT_TRUE(writeCameras(folder_ / "outside.json", cameras));
   }
   static void TearDownTestSuite() {
     figures_ = {};
@@ -39,7 +50,7 @@ class ReportLevels : public ToolTest {
   static inline std::string page_;
 };
 
-TEST_F(ReportLevels, BytesGrowWithDetailAndBudgetAndAllCellsAreTheReference) {
+TEST_F(ReportLevels, ErrorsFallAndBytesGrowWithDetailAndBudget) {
   if (!hasDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   measureGallery();
   const Json& figures = figures_;
@@ -54,6 +65,14 @@ TEST_F(ReportLevels, BytesGrowWithDetailAndBudgetAndAllCellsAreTheReference) {
     for (const Json& id : sweep["points"]) {
       EXPECT_GE(points.at(id)["drawnBytes"].get<uint64_t>(), bytes) << id;
       bytes = points.at(id)["drawnBytes"];
+    }
+    const Json &least = points.at(sweep["points"].front()), &most = points.at(sweep["points"].back());
+    EXPECT_LT(least["drawnBytes"], whole["drawnBytes"]);
+    EXPECT_LT(least["drawnCells"], whole["drawnCells"]);
+    const double gained = number(most["wholeErrors"]["psnr"]) - number(least["wholeErrors"]["psnr"]);
+    // Budgets are whole megabytes above what a view takes, and this asset has less than one.
+    if (sweep["knob"] == "detail") {
+      EXPECT_GT(gained, 0);
     }
   }
   EXPECT_EQ(figures["sweeps"].size(), 2u);
