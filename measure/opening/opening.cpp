@@ -24,7 +24,7 @@ namespace {
 
 constexpr uint32_t kThreads = 2;
 constexpr uint32_t kOpenRestFrames = 16;  // what a view wants changes while its buffers grow
-constexpr double kMostMs = 120'000;   // a server may be slow
+constexpr double kMostMs = 120'000;       // a server may be slow
 
 using Clock = std::chrono::steady_clock;
 

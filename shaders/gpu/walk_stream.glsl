@@ -187,8 +187,7 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
     ++work.cells;
     vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);
     uint before = stream.neighbours;
-    Exit exit = findExit(chunk, place, stream.cell.y, siteRadius, ray.direction, stream.key,
-                         stream.neighbours);
+    Exit exit = findExit(chunk, place, stream.cell.y, siteRadius, ray.direction, stream.key, stream.neighbours);
     work.neighbours += stream.neighbours - before;
     met = MetCell(stream.cell, centreAt(place, siteRadius.xyz), siteRadius.w);
     bool isMet = stream.cell.y < chunk.liveCount && intersectBall(met.centre, met.radius, ray.direction, tNear, tFar);

@@ -91,7 +91,7 @@ typedef struct FrothAssetInfo {
   /* 1: where the budget is short, layers of this asset go before cells of views do, and return where there is room
    * (frothSetBudget) */
   uint32_t layersMayGo;
-  uint32_t padding;
+  uint32_t padding;     /* 0; an older header's structure ends behind it */
   uint32_t prepareRays; /* FrothRayPreparation: device memory that makes rays faster (froth_walk.h) */
 } FrothAssetInfo;
 

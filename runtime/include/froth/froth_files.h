@@ -4,8 +4,8 @@
  *   FrothFileInfo info = {.structSize = sizeof info, .path = "data.pack", .offset = at, .size = bytes,
  *                         .runJob = frothRunInPool, .jobUser = ioPool};
  *   frothOpenFile(context, &info, &file);
- *   frothOpenAsset(context, &(FrothAssetInfo){.structSize = sizeof(FrothAssetInfo), .reader =
- * frothGetFileReader(file)}, &asset);
+ *   FrothAssetInfo opened = {.structSize = sizeof opened, .reader = frothGetFileReader(file)};
+ *   frothOpenAsset(context, &opened, &asset);
  *   ...
  *   frothDestroyContext(context, UINT64_MAX);  // FROTH_PENDING: a read is under way
  *   frothCloseFile(file);                      // waits for it
