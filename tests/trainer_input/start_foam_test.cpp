@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <tbb/global_control.h>
 
@@ -98,8 +97,7 @@ TEST(StartFoam, TheSameSeedGivesTheSameBitsOnAnyNumberOfThreads) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 1);
   const StartFoam one = startOf(capture, kSmall);
   visitArrays([&](const FoamArray& array, auto values) {
-    EXPECT_EQ(
-        std::memcmp((many.foam.*values).data(), (one.foam.*values).data(), floatsOf(many.foam.*values).size_bytes()), 0)
+    EXPECT_TRUE(std::ranges::equal(std::as_bytes(floatsOf(many.foam.*values)), std::as_bytes(floatsOf(one.foam.*values))))
         << array.name;
   });
   EXPECT_NE(many.foam.sites, other.foam.sites);
