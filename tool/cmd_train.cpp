@@ -1,7 +1,8 @@
 // froth train: photos become a foam.
+#include <algorithm>
 #include <chrono>
 #include <memory>
-#include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -10,16 +11,23 @@
 #include "reference/capture/capture.h"
 #include "tool/commands.h"
 #include "tool/options.h"
+#include "tool/train_presets.h"
+#include "tool/training_log.h"
 #ifdef FROTH_HAS_CUDA
 #include "trainer/cuda/cuda_executor.h"
 #endif
+#include "trainer/loop/evaluate.h"
 #include "trainer/loop/train_scene.h"
 
 namespace froth {
 namespace {
 
+constexpr uint32_t kLinesByDefault = 20;
+
 struct TrainCommandOptions {
-  std::filesystem::path scene, output;
+  std::filesystem::path scene, output, log, refined;
+  std::string preset = trainPresets().front().name;
+  std::optional<uint32_t> steps, cells, startCells, measureEvery;  // go before the preset's
   TrainOptions train;
   bool isPremultiplied = false, isOutdoor = false;
   std::string device;  // cpu, cuda; empty: cuda where there is one
@@ -35,10 +43,6 @@ Result<MakeExecutor> chooseExecutor(const std::string& device) {
                    "--device cuda: this froth is built without CUDA; take cpu, or build it with nvcc");
 }
 
-double meanOf(const std::vector<double>& values) {
-  return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set, const TrainResult& result,
                       double seconds) {
   nlohmann::ordered_json tests = nlohmann::ordered_json::array();
@@ -49,7 +53,7 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
     fmt::print("{}: {} cells from {} photos, {} steps in {:.1f} s\n", options.output.string(), result.foam.cellCount,
                set.training.size(), options.train.schedule.steps - result.firstStep, seconds);
     if (!result.testPsnrs.empty()) {
-      fmt::print("PSNR of {} test photos: {:.2f} dB\n", result.testPsnrs.size(), meanOf(result.testPsnrs));
+      fmt::print("PSNR of {} test photos: {:.2f} dB\n", result.testPsnrs.size(), meanPsnr(result.testPsnrs));
     }
     if (result.droppedCount > 0) {
       fmt::print("{} contributions to gradients were no finite numbers, and were dropped\n", result.droppedCount);
@@ -62,16 +66,58 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
                                 {"steps", options.train.schedule.steps},
                                 {"seconds", seconds},
                                 {"droppedContributions", result.droppedCount},
-                                {"psnr", meanOf(result.testPsnrs)},
+                                {"psnr", meanPsnr(result.testPsnrs)},
                                 {"tests", tests}});
 }
 
-Status runTrain(TrainCommandOptions options, const Progress& progress) {
+// What the preset sets and what options set in its place; `refined`: null, or the foam to go on from.
+void setSchedule(TrainCommandOptions& options, const Foam* refined) {
+  const TrainPreset& preset = trainPreset(options.preset);
+  TrainOptions& train = options.train;
+  Schedule& schedule = train.schedule;
+  schedule.steps = options.steps.value_or(preset.steps);
+  schedule.mostCells = options.cells.value_or(refined != nullptr ? refined->cellCount : preset.cells);
+  schedule.startCells = options.startCells.value_or(options.cells ? 0 : preset.startCells);
+  schedule.preset = options.isOutdoor ? RatePreset::kOutdoor : RatePreset::kIndoor;
+  train.photos.isMaskAlpha |= preset.isMaskAlpha;
+  train.measureEvery = options.measureEvery.value_or(std::max(schedule.steps / kLinesByDefault, 1u));
+  train.refined = refined;
+}
+
+// Lines on the way: in the terminal, and in the log if there is one.
+Status logWhenMeasured(TrainCommandOptions& options, TrainingLog& log, ProgressPrinter& printer) {
+  if (!options.log.empty()) {
+    if (Status opened = log.open(options.log, options.train.isResumed); !opened) return opened;
+  }
+  const uint32_t steps = options.train.schedule.steps;
+  const bool wantsLines = options.figures.wantsTable(), hasLog = !options.log.empty();
+  options.train.whenMeasured = [&log, &printer, steps, wantsLines, hasLog](const TrainingMoment& moment) -> Status {
+    if (wantsLines) {
+      printer.finishLine();
+      fmt::print("{} of {} steps: {:.2f} dB, {} cells, {:.1f} s\n", moment.stepsDone, steps, moment.psnr, moment.cells,
+                 moment.seconds);
+      std::fflush(stdout);
+    }
+    return hasLog ? log.write(moment) : Status{};
+  };
+  return {};
+}
+
+Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
+  const Progress progress = printer.callback();
   if (Status writable = checkWritable(options.output); !writable) return writable;
+  std::optional<Foam> refined;
+  if (!options.refined.empty()) {
+    Result<Foam> foam = importCheckpoint(options.refined, progress);
+    if (!foam) return foam.error();
+    refined = std::move(*foam);
+  }
+  setSchedule(options, refined ? &*refined : nullptr);
+  TrainingLog log;
+  if (Status opened = logWhenMeasured(options, log, printer); !opened) return opened;
   options.train.state = options.output;
   options.train.state.replace_extension(".state.bin");
   options.train.photos.alpha = options.isPremultiplied ? AlphaForm::kPremultiplied : AlphaForm::kStraight;
-  options.train.schedule.preset = options.isOutdoor ? RatePreset::kOutdoor : RatePreset::kIndoor;
   const Result<MakeExecutor> makeExecutor = chooseExecutor(options.device);
   if (!makeExecutor) return makeExecutor.error();
   const Result<Capture> capture = readCapture(options.scene);
@@ -86,6 +132,12 @@ Status runTrain(TrainCommandOptions options, const Progress& progress) {
   return reportTraining(options, *set, *result, seconds);
 }
 
+std::vector<std::string> presetNames() {
+  std::vector<std::string> names;
+  for (const TrainPreset& preset : trainPresets()) names.push_back(preset.name);
+  return names;
+}
+
 }  // namespace
 
 void addTrainCommand(CLI::App& program, Tool& tool) {
@@ -94,11 +146,15 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
   command.add_option("scene", options->scene, "A folder with a COLMAP model or transforms.json")->required();
   command.add_option("-o,--output", options->output, "The foam; its state, to go on from, stands beside it")
       ->required();
-  Schedule& schedule = options->train.schedule;
-  command.add_option("--cells", schedule.mostCells, "At most so many cells")->check(countBetween(1, 1u << 30));
-  command.add_option("--start-cells", schedule.startCells, "Cells to begin with; default: a quarter of --cells")
+  command.add_option("--preset", options->preset, "Steps and cells; options below go before what it sets")
+      ->check(CLI::IsMember(presetNames()))
+      ->capture_default_str();
+  command.add_option("--cells", options->cells, "At most so many cells")->check(countBetween(1, 1u << 30));
+  command
+      .add_option("--start-cells", options->startCells, "Cells to begin with; where --cells is given, a quarter of it")
       ->check(countBetween(1, 1u << 30));
-  command.add_option("--steps", schedule.steps, "Steps, one photo each")->check(countBetween(1, 10000000));
+  command.add_option("--steps", options->steps, "Steps, one photo each")->check(countBetween(1, 10000000));
+  command.add_option("--refine", options->refined, "Goes on from this foam, with its K and M, at low rates");
   command.add_option("--detail-sites", options->train.detailCount, "Per cell")->check(countBetween(1, 32));
   command.add_option("--lobes", options->train.lobeCount, "Per detail site")->check(countBetween(1, 32));
   command.add_option("--downscale", options->train.photos.downscale, "Divides the sides of photos")
@@ -106,6 +162,11 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
   command
       .add_option("--test-every", options->train.testPeriod, "Each so many-th photo tests and does not train; 0: none")
       ->check(countBetween(0, 1000000));
+  command
+      .add_option("--measure-every", options->measureEvery,
+                  "Steps between two looks at the test photos; 0: at the end alone; default: a twentieth of the steps")
+      ->check(countBetween(0, 10000000));
+  command.add_option("--log", options->log, "What each look found, as lines of JSON");
   command.add_option("--seed", options->train.seed, "Of all random choices");
   command.add_option("--save-every", options->train.saveEvery, "Steps between two saved states")
       ->check(countBetween(1, 10000000));
@@ -116,8 +177,7 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
   command.add_flag("--mask-as-alpha", options->train.photos.isMaskAlpha, "Masks cut the object out");
   command.add_flag("--resume", options->train.isResumed, "Goes on from the state that a stopped run left");
   addFiguresOption(command, options->figures);
-  command.callback(
-      [options, &tool] { tool.action = [options, &tool] { return runTrain(*options, tool.progress.callback()); }; });
+  command.callback([options, &tool] { tool.action = [options, &tool] { return runTrain(*options, tool.progress); }; });
 }
 
 }  // namespace froth

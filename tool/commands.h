@@ -18,6 +18,7 @@ struct Tool {
 
 void addSynthCommand(CLI::App& program, Tool& tool);
 void addTrainCommand(CLI::App& program, Tool& tool);
+void addEvaluateCommand(CLI::App& program, Tool& tool);
 void addBakeCommand(CLI::App& program, Tool& tool);
 void addRenderCommand(CLI::App& program, Tool& tool);
 void addInfoCommand(CLI::App& program, Tool& tool);

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
       "-q,--quiet", [&tool] { tool.progress.setQuiet(); }, "No progress on stderr");
   froth::addSynthCommand(program, tool);
   froth::addTrainCommand(program, tool);
+  froth::addEvaluateCommand(program, tool);
   froth::addBakeCommand(program, tool);
   froth::addRenderCommand(program, tool);
   froth::addInfoCommand(program, tool);

@@ -65,6 +65,10 @@ class WatchedExecutor : public StepExecutor {
   }
   Status read(FoamStorage<float>& foam) override { return executor_.read(foam); }
   Status beginAnew() override { return executor_.beginAnew(); }
+  uint32_t cellCount() const override { return executor_.cellCount(); }
+  Result<std::vector<double>> psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) override {
+    return executor_.psnrs(photos, adam);
+  }
   Result<uint64_t> droppedCount() override { return executor_.droppedCount(); }
 
  private:
@@ -84,7 +88,7 @@ void WatchedExecutor::print(const StepPlan& plan, uint32_t done) {
   double psnr = 0, similarity = 0;
   std::vector<glm::vec4> image, unused;
   for (const Photo& photo : tests_) {
-    check(executor_.show(photo.view, plan, image));
+    check(executor_.show(photo.view, plan.adam, image));
     psnr += psnrOf(photo, image) / static_cast<double>(tests_.size());
     unused.resize(image.size());
     const LossTarget target{photo.view.width, photo.view.height, photo.rgba.data(),
@@ -131,7 +135,7 @@ void train(const Options& options) {
   }
   double psnr = 0;
   for (const double one : result->testPsnrs) psnr += one / static_cast<double>(result->testPsnrs.size());
-  fmt::print("{{\"psnr_on_cpu\": {:.3f}, \"dropped\": {}, \"cells\": {}}}\n", psnr, result->droppedCount,
+  fmt::print("{{\"psnr\": {:.3f}, \"dropped\": {}, \"cells\": {}}}\n", psnr, result->droppedCount,
              result->foam.cellCount);
   if (!options.output.empty()) check(exportCheckpoint(options.output, result->foam, {}));
 }

@@ -1,4 +1,6 @@
 // froth train: from photos on disk to a foam that bakes.
+#include <sstream>
+
 #include "tests/tool/program_runner.h"
 
 namespace froth::test {
@@ -49,11 +51,40 @@ TEST_F(Train, MakesAFoamThatBakesAndGoesOnFromItsState) {
   EXPECT_EQ(frothJson({"info", "trained.pt"})["cells"], figures["cells"]);
   frothWell({"bake", "trained.pt", "-o", "trained.froth"});
 
+  const nlohmann::json drawn = frothJson({"evaluate", "trained.froth", "shots", "-o", "drawn"});
+  ASSERT_EQ(drawn["views"].size(), 1u);
+  EXPECT_NEAR(drawn["mean"]["psnr"].get<double>(), figures["psnr"].get<double>(), 0.3);
+  EXPECT_EQ(drawn["views"][0]["psnr"], drawn["mean"]["psnr"]);
+  const nlohmann::json again = frothJson({"compare", "drawn/shot_0.png", "shots/shot_0.png"});
+  EXPECT_NEAR(again["psnr"].get<double>(), drawn["mean"]["psnr"].get<double>(), 0.01);
+  EXPECT_NEAR(again["ssim"].get<double>(), drawn["mean"]["ssim"].get<double>(), 1e-3);
+
   const std::string first = readBytes(folder_ / "trained.pt");
   std::vector<std::string> resume = command_;
   resume.push_back("--resume");
   EXPECT_EQ(frothJson(resume)["firstStep"], 30);
   EXPECT_EQ(readBytes(folder_ / "trained.pt"), first);
+}
+
+TEST_F(Train, LogsWhatItMeasuresAndRefines) {
+  makeShots();
+  std::vector<std::string> logged = command_;
+  logged.insert(logged.end(), {"--log", "log.jsonl", "--measure-every", "10"});
+  const nlohmann::json figures = frothJson(logged);
+  std::istringstream lines(readBytes(folder_ / "log.jsonl"));
+  std::vector<nlohmann::json> moments;
+  for (std::string line; std::getline(lines, line);) moments.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(moments.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(moments[i]["steps"], 10 * (i + 1));
+  EXPECT_EQ(moments[2]["psnr"], figures["psnr"]);
+  EXPECT_EQ(moments[2]["cells"], figures["cells"]);
+
+  const nlohmann::json refined =
+      frothJson({"train", "shots", "-o", "refined.pt", "--refine", "trained.pt", "--steps", "10"});
+  EXPECT_EQ(refined["cells"], figures["cells"]);
+  EXPECT_GT(refined["psnr"].get<double>(), figures["psnr"].get<double>() - 0.3);
+  EXPECT_EQ(froth({"train", "shots", "-o", "b.pt", "--refine", "shots/transforms.json"}).exitCode, 3);
+  EXPECT_EQ(froth({"train", "shots", "-o", "b.pt", "--log", "none/log.jsonl"}).exitCode, 1);
 }
 
 TEST_F(Train, SaysWhatIsWrong) {

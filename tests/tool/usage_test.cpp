@@ -145,8 +145,8 @@ TEST_F(Usage, FiguresThatCannotBeWrittenAreAFailure) {
 
 TEST_F(Usage, HelpManAndCompletionNameEveryCommandAndItsOptions) {
   const std::string help = frothWell({"help"}), man = frothWell({"man"}), completion = frothWell({"completion"});
-  for (const char* command :
-       {"synth", "train", "bake", "render", "info", "verify", "compare", "bench", "report", "stability", "devices"}) {
+  for (const char* command : {"synth", "train", "evaluate", "bake", "render", "info", "verify", "compare", "bench",
+                              "report", "stability", "devices"}) {
     EXPECT_NE(help.find(std::string("  ") + command + " "), std::string::npos) << command;
     EXPECT_NE(man.find(std::string("\"froth ") + command + "\""), std::string::npos) << command;
     EXPECT_NE(completion.find(std::string("    ") + command + ") options='"), std::string::npos) << command;

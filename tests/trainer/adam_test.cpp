@@ -45,5 +45,20 @@ TEST(Adam, RateOfTheFirstStepObeysTheWarmUp) {
   EXPECT_EQ(rateAt(schedule, Parameter::kDensity, schedule.steps / 2), 1);
 }
 
+TEST(Adam, ARefinementHasTheRatesOfTheSecondHalf) {
+  const Schedule whole;
+  Schedule refinement = whole;
+  refinement.steps = whole.steps / 2;
+  refinement.isRefinement = true;
+  for (const uint32_t step : {1000u, refinement.steps}) {
+    for (const Parameter parameter : {Parameter::kPoints, Parameter::kRadii, Parameter::kDetailHeights}) {
+      EXPECT_NEAR(rateAt(refinement, parameter, step) / rateAt(whole, parameter, refinement.steps + step), 1, 1e-12);
+    }
+    EXPECT_EQ(halvingsAt(refinement, step), 0u);
+  }
+  EXPECT_EQ(rateAt(refinement, Parameter::kPoints, 0), 0);
+  EXPECT_EQ(halvingsAt(refinement, 0), 0u);
+}
+
 }  // namespace
 }  // namespace froth

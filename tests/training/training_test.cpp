@@ -2,19 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <numeric>
 
 #include "foam/foam_arrays.h"
 #include "tests/training/gallery_capture.h"
+#include "trainer/loop/evaluate.h"
 
 namespace froth {
 namespace {
 
 namespace fs = std::filesystem;
-
-double meanOf(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 TEST(Training, OfTheGalleryReaches28DecibelsOnViewsItDoesNotKnow) {
   const test::GalleryCapture gallery = test::makeGalleryCapture(96, 64);
@@ -26,7 +22,7 @@ TEST(Training, OfTheGalleryReaches28DecibelsOnViewsItDoesNotKnow) {
   options.lobeCount = 2;
   const Result<TrainResult> result = trainScene(gallery.capture, gallery.set, options, makeCpuExecutor);
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_GE(meanOf(result->testPsnrs), 28);
+  EXPECT_GE(meanPsnr(result->testPsnrs), 28);
   EXPECT_EQ(result->foam.cellCount, 4000u);
   EXPECT_EQ(result->droppedCount, 0u);
 }
@@ -52,7 +48,7 @@ class Resume : public ::testing::Test {
   void expectSame(const Result<TrainResult>& a, const Result<TrainResult>& b) {
     ASSERT_TRUE(a) << a.error().message;
     ASSERT_TRUE(b) << b.error().message;
-    ASSERT_GT(meanOf(a->testPsnrs), 10);  // something was trained
+    ASSERT_GT(meanPsnr(a->testPsnrs), 10);  // something was trained
     visitArrays(
         [&](const FoamArray& array, auto values) { EXPECT_EQ(a->foam.*values, b->foam.*values) << array.name; });
     EXPECT_EQ(a->testPsnrs, b->testPsnrs);
@@ -99,6 +95,43 @@ TEST_F(Resume, AfterAKillGoesOnFromTheLastSavedState) {
   ASSERT_TRUE(resumed) << resumed.error().message;
   expectSame(whole, resumed);
   EXPECT_EQ(resumed->firstStep, 140u);
+}
+
+TEST_F(Resume, MeasuringOnTheWayChangesNoBits) {
+  const Result<TrainResult> unmeasured = train("a.bin", false);
+  std::vector<TrainingMoment> moments;
+  options_.measureEvery = 50;
+  options_.whenMeasured = [&](const TrainingMoment& moment) -> Status {
+    moments.push_back(moment);
+    return {};
+  };
+  const Result<TrainResult> measured = train("b.bin", false);
+  expectSame(unmeasured, measured);
+  ASSERT_EQ(moments.size(), 5u);
+  for (size_t i = 0; i < 5; ++i) EXPECT_EQ(moments[i].stepsDone, i < 4 ? 50 * (i + 1) : 230);
+  EXPECT_EQ(moments.back().psnr, meanPsnr(measured->testPsnrs));
+  EXPECT_EQ(moments.back().cells, 400u);
+  EXPECT_GT(moments.back().seconds, moments.front().seconds);
+}
+
+TEST_F(Resume, ARefinementBeginsWhereTheFoamIs) {
+  options_.schedule.steps = 400;
+  const Result<TrainResult> trained = train("trained.bin", false);
+  ASSERT_TRUE(trained) << trained.error().message;
+  std::vector<double> psnrs;
+  options_.whenMeasured = [&](const TrainingMoment& moment) -> Status {
+    psnrs.push_back(moment.psnr);
+    return {};
+  };
+  options_.refined = &trained->foam;
+  options_.schedule.steps = 60;
+  options_.measureEvery = 1;
+  const Result<TrainResult> refined = train("refined.bin", false);
+  ASSERT_TRUE(refined) << refined.error().message;
+  EXPECT_EQ(refined->foam.cellCount, trained->foam.cellCount);
+  EXPECT_EQ(refined->foam.detailCount, 2u);
+  EXPECT_NEAR(psnrs.front(), meanPsnr(trained->testPsnrs), 0.01);
+  EXPECT_GE(psnrs.back(), meanPsnr(trained->testPsnrs) - 0.3);
 }
 
 TEST_F(Resume, WithOtherSettingsIsRefused) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "trainer/loop/drift_tables.h"
+#include "trainer/loop/evaluate.h"
 #include "trainer/loop/view_exchange.h"
 
 namespace froth {
@@ -62,6 +63,7 @@ Status CudaExecutor::run(const StepPlan& plan) {
   if (!target) return target.error();
   const Result<AdamStep<float>> adam = sendDrifts(plan.adam);
   if (!adam) return adam.error();
+  leastSkin_ = plan.leastSkin;
   while (true) {
     if (Status ran = runOnce(plan, *target, *adam); !ran) return ran;
     const Result<bool> isDone = step_.settle();
@@ -70,16 +72,31 @@ Status CudaExecutor::run(const StepPlan& plan) {
   }
 }
 
-Status CudaExecutor::show(const View& view, const StepPlan& last, std::vector<glm::vec4>& image) {
-  const Result<AdamStep<float>> adam = sendDrifts(last.adam);
-  if (!adam) return adam.error();
+Status CudaExecutor::show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) {
+  const Result<AdamStep<float>> onDevice = sendDrifts(adam);
+  if (!onDevice) return onDevice.error();
+  const std::vector<float> directions = lensDirections(view);
+  DeviceArray<float> sent;
+  if (Status uploaded = sent.upload(directions, "directions of a lens", step_.stream()); !uploaded) return uploaded;
+  TrainingView<float> seen = trainingView<float>(view);
+  if (!directions.empty()) seen.directions = sent.data();
   while (true) {
-    if (Status ran = step_.activate(last.leastSkin); !ran) return ran;
-    if (Status ran = step_.render(trainingView<float>(view), {}, *adam); !ran) return ran;
+    if (Status ran = step_.activate(leastSkin_); !ran) return ran;
+    if (Status ran = step_.render(seen, {}, *onDevice); !ran) return ran;
     const Result<bool> isDone = step_.settle();
     if (!isDone) return isDone.error();
     if (*isDone) return step_.downloadImage(image);
   }
+}
+
+Result<std::vector<double>> CudaExecutor::psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) {
+  std::vector<double> psnrs;
+  std::vector<glm::vec4> image;
+  for (const Photo& photo : photos) {
+    if (Status shown = show(photo.view, adam, image); !shown) return shown.error();
+    psnrs.push_back(psnrOf(photo, image));
+  }
+  return psnrs;
 }
 
 Status CudaExecutor::rearrange(const CellPlan& plan) { return step_.rearrange(plan); }

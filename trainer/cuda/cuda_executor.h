@@ -23,13 +23,14 @@ class CudaExecutor : public StepExecutor {
   Status run(const StepPlan& plan) override;
   Status rearrange(const CellPlan& plan) override;
   Result<CellFacts> facts() override;
+  uint32_t cellCount() const override { return step_.cellCount(); }
+  Result<std::vector<double>> psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) override;
   Status read(FoamStorage<float>& foam) override;
   Status beginAnew() override { return {}; }
   Result<uint64_t> droppedCount() override;
 
-  // For measurements. What a pinhole sees of the foam after `last`, the step that was run last: colour over black,
-  // transmittance.
-  Status show(const View& view, const StepPlan& last, std::vector<glm::vec4>& image);
+  // What a view sees of the foam: colour over black, transmittance. `adam` as for psnrs().
+  Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image);
   CudaStep& step() { return step_; }
   size_t byteCount() const { return step_.byteCount() + photos_.byteCount(); }  // of GPU memory
 
@@ -42,6 +43,7 @@ class CudaExecutor : public StepExecutor {
   CudaPhotos photos_;
   std::array<DeviceArray<float>, kParameterCount> drifts_;
   uint32_t driftsSent_ = 0;   // steps whose drifts the GPU has
+  float leastSkin_ = 0;       // of the last step
   FoamStorage<float> facts_;  // what facts() looks into
 };
 

@@ -21,6 +21,8 @@ class CpuExecutor : public StepExecutor {
   Status run(const StepPlan& plan) override;
   Status rearrange(const CellPlan& plan) override;
   Result<CellFacts> facts() override;
+  uint32_t cellCount() const override { return foam_.shape.cellCount; }
+  Result<std::vector<double>> psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) override;
   Status read(FoamStorage<float>& foam) override;
   Status beginAnew() override;
   Result<uint64_t> droppedCount() override { return step_.droppedCount(); }

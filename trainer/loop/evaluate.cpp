@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "trainer/cpu/cpu_step.h"
 #include "trainer/loop/view_exchange.h"
@@ -29,16 +30,20 @@ double psnrOf(const Photo& photo, const std::vector<glm::vec4>& rendered) {
   return mean > 0 ? std::min(-10 * std::log10(mean), kMostPsnr) : kMostPsnr;
 }
 
-std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos) {
+double meanPsnr(const std::vector<double>& psnrs) {
+  return psnrs.empty() ? 0 : std::accumulate(psnrs.begin(), psnrs.end(), 0.0) / static_cast<double>(psnrs.size());
+}
+
+std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos,
+                               const AdamStep<float>& adam) {
   CpuStep<float> step(foam);
   step.activate(0);
-  AdamStep<float> still{};  // at step 1 nothing waits
   std::vector<double> psnrs;
   for (const Photo& photo : photos) {
     const std::vector<float> directions = lensDirections(photo.view);
     TrainingView<float> view = trainingView<float>(photo.view);
     if (!directions.empty()) view.directions = directions.data();
-    psnrs.push_back(psnrOf(photo, step.render(view, RaySettings<float>{}, still)));
+    psnrs.push_back(psnrOf(photo, step.render(view, RaySettings<float>{}, adam)));
   }
   return psnrs;
 }

@@ -5,6 +5,7 @@
 
 #include "trainer/cpu/foam_storage.h"
 #include "trainer/photos/photos.h"
+#include "trainer/step/adam.h"
 
 namespace froth {
 
@@ -12,7 +13,10 @@ namespace froth {
 // equal. rendered: colour over black, transmittance.
 double psnrOf(const Photo& photo, const std::vector<glm::vec4>& rendered);
 
-// The same of each photo.
-std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos);
+// 0 without any.
+double meanPsnr(const std::vector<double>& psnrs);
+
+// The PSNR of each photo, on the CPU. Cells that a photo sees catch up to `adam`.
+std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos, const AdamStep<float>& adam);
 
 }  // namespace froth

@@ -8,6 +8,8 @@ namespace froth {
 namespace {
 
 constexpr double kPublishedSteps = 30000;
+constexpr double kRefinementBegin = 0.5;   // of a schedule
+constexpr double kRefinementWarmUp = 0.1;  // of a refinement
 
 struct Rate {
   double first, last;
@@ -37,16 +39,22 @@ Rate rateOf(RatePreset preset, Parameter parameter) {
   return {};
 }
 
-double progressOf(const Schedule& schedule, uint32_t step) { return double{1} * step / schedule.steps; }
+double progressOf(const Schedule& schedule, uint32_t step) {
+  const double share = double{1} * step / schedule.steps;
+  return schedule.isRefinement ? kRefinementBegin + (1 - kRefinementBegin) * share : share;
+}
 
 }  // namespace
 
 double rateAt(const Schedule& schedule, Parameter parameter, uint32_t step) {
   const Rate rate = rateOf(schedule.preset, parameter);
-  const double steps = schedule.steps, warmUp = rate.warmUp / kPublishedSteps * steps;
-  if (step < warmUp) return rate.first * step / warmUp;
-  const double cosine = std::cos(std::numbers::pi * (step - warmUp) / (steps - warmUp));
-  return rate.last + 0.5 * (rate.first - rate.last) * (1 + cosine);
+  const double progress = progressOf(schedule, step), warmUp = rate.warmUp / kPublishedSteps;
+  if (progress < warmUp) return rate.first * progress / warmUp;
+  const double cosine = std::cos(std::numbers::pi * (progress - warmUp) / (1 - warmUp));
+  const double now = rate.last + 0.5 * (rate.first - rate.last) * (1 + cosine);
+  if (!schedule.isRefinement) return now;
+  // Adam's first steps move each parameter by its whole rate, whatever its gradient: moments are 0.
+  return now * std::min(1.0, step / (kRefinementWarmUp * schedule.steps));
 }
 
 LossWeights weightsAt(const Schedule& schedule, uint32_t step) {
@@ -64,7 +72,8 @@ bool isDensifyStep(const Schedule& schedule, uint32_t step) {
 }
 
 uint32_t cellsAfter(const Schedule& schedule, uint32_t step, uint32_t present) {
-  const double first = 1000 / kPublishedSteps, last = 24000 / kPublishedSteps, now = progressOf(schedule, step);
+  const double first = schedule.isRefinement ? kRefinementBegin : 1000 / kPublishedSteps;
+  const double last = 24000 / kPublishedSteps, now = progressOf(schedule, step);
   if (now < first) return present;
   const double share = std::min((now - first) / (last - first), 1.0);
   const double start = schedule.startCells;

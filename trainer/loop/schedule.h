@@ -15,6 +15,7 @@ struct Schedule {
   uint32_t startCells = 0;     // at step 0
   uint32_t mostCells = 40000;  // from four fifths of the steps on
   RatePreset preset = RatePreset::kIndoor;
+  bool isRefinement = false;  // of a trained foam: the second half of a schedule, so rates are low and images whole
 };
 
 // The learning rate of a parameter at step 0, 1, ...
@@ -27,7 +28,7 @@ LossWeights weightsAt(const Schedule& schedule, uint32_t step);
 
 // Steps after which cells are removed and added.
 bool isDensifyStep(const Schedule& schedule, uint32_t step);
-// How many cells there should be after such a step; `present`: how many there are.
+// How many cells there should be after such a step; `present`: how many there are. A refinement adds from its start on.
 uint32_t cellsAfter(const Schedule& schedule, uint32_t step, uint32_t present);
 
 // How often the sides of images are halved at a step: 2, 1, 0. Early steps learn coarse things, and cost less.

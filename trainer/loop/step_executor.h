@@ -9,6 +9,7 @@
 #include "trainer/cpu/foam_storage.h"
 #include "trainer/loop/cell_plan.h"
 #include "trainer/loop/schedule.h"
+#include "trainer/photos/photos.h"
 #include "trainer/step/adam.h"
 
 namespace froth {
@@ -32,6 +33,10 @@ class StepExecutor {
   virtual Status rearrange(const CellPlan& plan) = 0;
   // Of all steps that were run. Valid until the next call.
   virtual Result<CellFacts> facts() = 0;
+  virtual uint32_t cellCount() const = 0;
+  // How well photos with views in the normalised scene are shown: PSNR as psnrOf() gives it. `adam`: of the step that
+  // comes next, to which cells catch up. Later steps give the bits that they would give without this call.
+  virtual Result<std::vector<double>> psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) = 0;
   // All arrays, as the steps left them.
   virtual Status read(FoamStorage<float>& foam) = 0;
   // From here on the steps give the same bits as those of an executor that begins with what read() gave.

@@ -1,6 +1,7 @@
 #include "trainer/loop/train_scene.h"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <utility>
 
@@ -24,17 +25,24 @@ constexpr float kFirstContribution = 1e-5f;  // the means begin there (design: t
 std::string settingsText(const TrainOptions& options, const TrainingSet& set) {
   const Schedule& schedule = options.schedule;
   const View& view = set.training.front().view;
-  return fmt::format("steps {} cells {} to {} rates {} K {} M {} seed {} photos {} of {} x {} near {}", schedule.steps,
-                     schedule.startCells, schedule.mostCells, static_cast<int>(schedule.preset), options.detailCount,
-                     options.lobeCount, options.seed, set.training.size(), view.width, view.height, options.nearRatio);
+  return fmt::format("{} {} cells {} to {} rates {} K {} M {} seed {} photos {} of {} x {} near {}",
+                     schedule.isRefinement ? "refinement, steps" : "steps", schedule.steps, schedule.startCells,
+                     schedule.mostCells, static_cast<int>(schedule.preset), options.detailCount, options.lobeCount,
+                     options.seed, set.training.size(), view.width, view.height, options.nearRatio);
 }
 
 Result<FoamStorage<float>> makeStart(const Capture& capture, const TrainingSet& set, const TrainOptions& options) {
-  const StartScene scene{capture, set.frame, set.trainingViews, set.training, options.seed};
-  const Result<StartFoam> start =
-      makeStartFoam(scene, {options.schedule.startCells, options.detailCount, options.lobeCount});
-  if (!start) return start.error();
-  FoamStorage<float> storage = storeFoam<float>(start->foam);
+  Foam foam;
+  if (options.refined != nullptr) {
+    foam = normalisedFoam(*options.refined, set.frame);
+  } else {
+    const StartScene scene{capture, set.frame, set.trainingViews, set.training, options.seed};
+    Result<StartFoam> start =
+        makeStartFoam(scene, {options.schedule.startCells, options.detailCount, options.lobeCount});
+    if (!start) return start.error();
+    foam = std::move(start->foam);
+  }
+  FoamStorage<float> storage = storeFoam<float>(foam);
   std::fill(storage.contributions.begin(), storage.contributions.end(), kFirstContribution);
   std::fill(storage.errors.begin(), storage.errors.end(), kFirstContribution);
   return storage;
@@ -56,14 +64,51 @@ Status saveState(StepExecutor& executor, const TrainOptions& options, const std:
   return executor.beginAnew();
 }
 
-// Runs the steps that are left; saves on the way, and when it is stopped.
+// Tells how far a run is, and how long its steps took.
+class Meter {
+ public:
+  Meter(StepExecutor& executor, const TrainOptions& options, const std::vector<Photo>& tests)
+      : executor_(executor), options_(options), tests_(tests) {}
+
+  // The PSNR of each test photo.
+  Result<std::vector<double>> measure(uint32_t done, DriftTables& drifts) {
+    if (const Result<uint64_t> waited = executor_.droppedCount(); !waited) return waited.error();
+    pause();
+    Result<std::vector<double>> psnrs = executor_.psnrs(tests_, drifts.adamAt(done));
+    if (!psnrs || !options_.whenMeasured) return psnrs;
+    const Status told = options_.whenMeasured({done, seconds_, executor_.cellCount(), meanPsnr(*psnrs)});
+    if (!told) return told.error();
+    goOn();
+    return psnrs;
+  }
+  void pause() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  void goOn() { begin_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  StepExecutor& executor_;
+  const TrainOptions& options_;
+  const std::vector<Photo>& tests_;
+  Clock::time_point begin_ = Clock::now();
+  double seconds_ = 0;
+};
+
+// Runs the steps that are left; measures and saves on the way, and saves when it is stopped.
 Status runSteps(StepExecutor& executor, const TrainOptions& options, const LoopOptions& loop,
-                const std::string& settings, const Progress& progress) {
+                const std::string& settings, Meter& meter, const Progress& progress) {
   uint32_t done = loop.firstStep;
-  const auto afterStep = [&](uint32_t steps, DriftTables&) -> Status {
+  const auto afterStep = [&](uint32_t steps, DriftTables& drifts) -> Status {
     done = steps;
-    if (options.state.empty() || steps % options.saveEvery != 0 || steps == options.schedule.steps) return {};
-    return saveState(executor, options, settings, steps);
+    const bool isLast = steps == options.schedule.steps;
+    if (options.measureEvery != 0 && steps % options.measureEvery == 0 && !isLast) {
+      if (const auto measured = meter.measure(steps, drifts); !measured) return measured.error();
+    }
+    if (options.state.empty() || steps % options.saveEvery != 0 || isLast) return {};
+    meter.pause();
+    const Status saved = saveState(executor, options, settings, steps);
+    meter.goOn();
+    return saved;
   };
   const Status ran = runLoop(executor, loop, afterStep, progress);
   const bool wasStopped = !ran && ran.error().kind == ErrorKind::kCancelled;
@@ -86,15 +131,18 @@ Foam withoutVanished(const Foam& foam) {
   return pickFoam(foam, {cells, details, foam.detailCount, foam.lobeCount});
 }
 
-Result<TrainResult> finishTraining(StepExecutor& executor, const TrainingSet& set, const LoopOptions& loop) {
+Result<TrainResult> finishTraining(StepExecutor& executor, const TrainingSet& set, const LoopOptions& loop,
+                                   Meter& meter) {
+  DriftTables drifts(loop.schedule);
+  Result<std::vector<double>> psnrs = meter.measure(loop.schedule.steps, drifts);
+  if (!psnrs) return psnrs.error();
   FoamStorage<float> foam;
   if (Status read = executor.read(foam); !read) return read.error();
   const Result<uint64_t> dropped = executor.droppedCount();
   if (!dropped) return dropped.error();
-  DriftTables drifts(loop.schedule);
   catchUpAll(foam, loop.schedule.steps, drifts);
   TrainResult result;
-  result.testPsnrs = photoPsnrs(foam, set.testing);
+  result.testPsnrs = std::move(*psnrs);
   result.foam = sceneFoam(withoutVanished(activateFoam(foam)), set.frame);
   result.droppedCount = *dropped;
   result.firstStep = loop.firstStep;
@@ -130,9 +178,16 @@ Result<TrainingSet> prepareTraining(const Capture& capture, const TrainOptions& 
 Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, const TrainOptions& given,
                                const MakeExecutor& makeExecutor, const Progress& progress) {
   TrainOptions options = given;
+  if (options.refined != nullptr) {
+    options.schedule.isRefinement = true;
+    options.schedule.startCells = options.refined->cellCount;
+    options.detailCount = options.refined->detailCount;
+    options.lobeCount = options.refined->lobeCount;
+  }
   if (options.schedule.startCells == 0) options.schedule.startCells = std::max(options.schedule.mostCells / 4, 1u);
   if (options.schedule.startCells > options.schedule.mostCells) {
-    return makeError(ErrorKind::kUsage, "training: begins with %u cells, but may have %u; give fewer to begin with",
+    return makeError(ErrorKind::kUsage,
+                     "training: begins with %u cells, but may have %u; allow more, or begin with fewer",
                      options.schedule.startCells, options.schedule.mostCells);
   }
   const std::string settings = settingsText(options, set);
@@ -152,8 +207,9 @@ Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, c
   }
   Result<std::unique_ptr<StepExecutor>> executor = makeExecutor(std::move(*foam), set.training);
   if (!executor) return executor.error();
-  if (Status ran = runSteps(**executor, options, loop, settings, progress); !ran) return ran.error();
-  return finishTraining(**executor, set, loop);
+  Meter meter(**executor, options, set.testing);
+  if (Status ran = runSteps(**executor, options, loop, settings, meter, progress); !ran) return ran.error();
+  return finishTraining(**executor, set, loop, meter);
 }
 
 }  // namespace froth

@@ -18,8 +18,17 @@
 
 namespace froth {
 
+// How far a run is.
+struct TrainingMoment {
+  uint32_t stepsDone = 0;
+  double seconds = 0;  // of steps of this run; reading, saving and measuring do not count
+  uint32_t cells = 0;
+  double psnr = 0;  // [dB] mean of the test photos; 0 without any
+};
+using WhenMeasured = std::function<Status(const TrainingMoment&)>;
+
 struct TrainOptions {
-  Schedule schedule;         // startCells 0: a quarter of mostCells
+  Schedule schedule;         // startCells 0: a quarter of mostCells; of a refinement: as many as the foam has
   uint32_t detailCount = 8;  // K [1..32]
   uint32_t lobeCount = 8;    // M [1..32]
   uint64_t seed = 1;
@@ -29,6 +38,11 @@ struct TrainOptions {
   std::filesystem::path state;  // where the state is saved; empty: nowhere
   uint32_t saveEvery = 1000;    // [steps, >= 1]
   bool isResumed = false;       // go on from `state`
+  uint32_t measureEvery = 0;    // [steps] between two calls of `whenMeasured`; 0: never
+  WhenMeasured whenMeasured;
+  // Goes on from this foam, in the scene's units, in place of a start; K and M are its own, and the schedule is one of
+  // a refinement. It outlives the run.
+  const Foam* refined = nullptr;
 };
 
 // What training works on.
