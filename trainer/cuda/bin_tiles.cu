@@ -20,7 +20,7 @@ __global__ void writeEntriesKernel(StepArrays arrays, TrainingView<float> view) 
     tiles = tilesToTest(view, arrays.foam.balls[arrays.sortedCells[rank]]);
     place = arrays.entriesBegin[rank];
   }
-  visitTiles(tiles, arrays.tileCones, tilesAlong(view.width), [&](int lane, uint32_t tile, bool isSeen) {
+  visitTiles(tiles, arrays, tilesAlong(view.width), [&](int lane, uint32_t tile, bool isSeen) {
     const uint32_t seen = __ballot_sync(kAllLanes, isSeen);
     const uint32_t entry = __shfl_sync(kAllLanes, place, lane) + __popc(seen & lanesBefore());
     if (isSeen && entry < arrays.entryCapacity) {

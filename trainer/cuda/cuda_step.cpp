@@ -58,6 +58,7 @@ void CudaStep::point() {
                                               &arrays_.sortedRanks};
   for (size_t i = 0; i < kArraysByEntry; ++i) *byEntry[i] = byEntry_[i].data();
   arrays_.tileCones = tileCones_.data();
+  arrays_.groupCones = groupCones_.data();
   arrays_.tilesBegin = tilesBegin_.data();
   arrays_.entryCapacity = static_cast<uint32_t>(byEntry_[0].size());
 }
@@ -197,6 +198,7 @@ Status CudaStep::reservePixels(size_t pixels, size_t tiles) {
                                [&] { return wanted_.resize(pixels, "wanted pixels"); },
                                [&] { return logTransmittances_.resize(pixels, "transmittances"); },
                                [&] { return ends_.resize(pixels, "ends of rays"); },
+                               [&] { return groupCones_.resize(tiles, "cones of groups"); },
                                [&] { return tileCones_.resize(tiles, "cones of tiles"); },
                                [&] { return tilesBegin_.resize(tiles + 1, "lists of tiles"); });
   point();
@@ -270,6 +272,7 @@ size_t CudaStep::byteCount() const {
   const auto add = [&](const auto&... arrays) { sum += (arrays.byteCount() + ...); };
   for (const Tensors& tensors : tensors_) add(tensors.values, tensors.firstMoments, tensors.secondMoments);
   for (const auto& array : byCell_) add(array);
+  add(groupCones_);
   for (const auto& array : byEntry_) add(array);
   add(lastSteps_, balls_, contributions_, errors_, offsets_, neighbours_, reverses_, seenCells_, planes_, details_);
   add(rankOf_, cellSums_, detailSums_, pairSums_, tileCones_, tilesBegin_, rendered_, gradients_, wanted_);

@@ -88,6 +88,7 @@ class CudaStep {
   DeviceArray<CellSums<float>> cellSums_;
   DeviceArray<DetailSums<float>> detailSums_;
   DeviceArray<glm::vec4> pairSums_;
+  DeviceArray<glm::vec4> groupCones_;
   DeviceArray<uint32_t> byCell_[kArraysByCell];
   DeviceArray<glm::vec4> tileCones_;
   DeviceArray<uint32_t> tilesBegin_, byEntry_[kArraysByEntry];

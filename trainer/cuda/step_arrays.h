@@ -37,6 +37,7 @@ struct StepArrays {
 
   // The lists of tiles: an entry is a tile and the rank of a cell that it sees.
   glm::vec4* tileCones;                                           // [tiles]
+  glm::vec4* groupCones;                                          // [groups of tiles] (ball_tiles.h)
   uint32_t* tilesBegin;                                           // [tiles + 1] in sortedRanks
   uint32_t *entryTiles, *sortedTiles, *entryRanks, *sortedRanks;  // [entryCapacity]
   uint32_t entryCapacity;
