@@ -218,10 +218,9 @@ Status CudaStep::mark(Status passed, const char* pass) {
 }
 
 Status CudaStep::activate(float leastSkin) {
-  if (Status activated = mark(activateCells(arrays_, hasPairs_, stream_), "activate"); !activated || hasPairs_) {
-    return activated;
-  }
-  return mark(findPairs(leastSkin), "find pairs");
+  if (Status waited = mark({}, "wait"); hasPairs_) return waited;  // update() left balls that fit them
+  return inTurn([&] { return mark(activateCells(arrays_, hasPairs_, stream_), "activate"); },
+                [&] { return mark(findPairs(leastSkin), "find pairs"); });
 }
 
 Status CudaStep::render(const TrainingView<float>& view, const RaySettings<float>& settings,
@@ -252,7 +251,8 @@ Status CudaStep::differentiate() {
 }
 
 Status CudaStep::update(const AdamStep<float>& adam, float overlapWeight) {
-  return mark(updateCells(arrays_, adam, overlapWeight, stream_), "update");
+  return inTurn([&] { return mark(updateCells(arrays_, adam, overlapWeight, stream_), "update"); },
+                [&] { return mark(activateCells(arrays_, hasPairs_, stream_), "activate"); });
 }
 
 Result<bool> CudaStep::settle() {
@@ -260,7 +260,7 @@ Result<bool> CudaStep::settle() {
   if (Status read = counters_.download(counters, "counters", stream_); !read) return read.error();
   lastCounters_ = counters[0];
   if (lastCounters_.cellsOutOfSkin > 0) hasPairs_ = false;
-  if (lastCounters_.tileEntries <= arrays_.entryCapacity) return hasPairs_;
+  if (lastCounters_.tileEntries <= arrays_.entryCapacity) return true;
   // A quarter more than this view needs, for others.
   const Status grown = reserveEntries(lastCounters_.tileEntries + lastCounters_.tileEntries / 4);
   if (!grown) return grown.error();

@@ -34,15 +34,16 @@ class CudaStep {
 
   // The calls of a step, in this order. Pointers in `view` and `adam` are to device memory.
   //
-  // Finds the pairs where there are none that hold, which waits for the GPU. leastSkin: trainer/step/skin.h.
+  // Balls and pairs, where the last update() did not leave some that hold; waits for the GPU. leastSkin:
+  // trainer/step/skin.h.
   Status activate(float leastSkin);
   Status render(const TrainingView<float>& view, const RaySettings<float>& settings, const AdamStep<float>& adam);
   Status differentiateImage(const ImageTarget& target, const LossTerms& terms);
   Status differentiate();
+  // Balls are then those of the next step.
   Status update(const AdamStep<float>& adam, float overlapWeight);
 
-  // Waits for the GPU. false: the lists of the last step did not fit or its pairs did not hold, so it changed nothing;
-  // taken again it will.
+  // Waits for the GPU. false: the lists of the last step did not fit, so it changed nothing; taken again it will.
   Result<bool> settle();
 
   // What densification goes by.

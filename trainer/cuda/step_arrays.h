@@ -15,7 +15,7 @@ struct StepCounters {
   uint32_t seenCells = 0;       // ranks
   uint32_t tileEntries = 0;     // of all tiles; more than fit: the step changes nothing, and is taken again
   uint32_t droppedCount = 0;    // contributions that were no finite numbers, of all steps
-  uint32_t cellsOutOfSkin = 0;  // not 0: the pairs may lack some; as with tileEntries
+  uint32_t cellsOutOfSkin = 0;  // not 0: the pairs may lack some of the next step's
 };
 
 struct StepArrays {
