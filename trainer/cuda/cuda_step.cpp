@@ -47,6 +47,7 @@ void CudaStep::point() {
   arrays_.slacks = slacks_.data();
   arrays_.pairs = {offsets_.data(), neighbours_.data(), reverses_.data()};
   arrays_.seen = {0, seenCells_.data(), planes_.data(), details_.data(), rankOf_.data()};
+  arrays_.pairOfPlane = pairOfPlane_.data();
   arrays_.counters = counters_.data();
   arrays_.sums = {cellSums_.data(), detailSums_.data(), pairSums_.data(), nullptr};
   arrays_.pixels = {rendered_.data(), logTransmittances_.data(), ends_.data(), gradients_.data(), wanted_.data()};
@@ -182,7 +183,8 @@ Status CudaStep::findPairs(float leastSkin) {
   const size_t room = pairs > neighbours_.size() ? pairs + pairs / 4 : neighbours_.size();
   const Status reserved = inTurn(
       [&] { return neighbours_.resize(room, "pairs"); }, [&] { return reverses_.resize(room, "reverse pairs"); },
-      [&] { return planes_.resize(room, "seen planes"); }, [&] { return pairSums_.resize(room, "sums of pairs"); });
+      [&] { return planes_.resize(room, "seen planes"); }, [&] { return pairOfPlane_.resize(room, "pairs of planes"); },
+      [&] { return pairSums_.resize(room, "sums of pairs"); });
   point();
   if (!reserved) return reserved;
   lists.neighbours = neighbours_.data();
@@ -271,6 +273,7 @@ size_t CudaStep::byteCount() const {
   size_t sum = scratch_.byteCount() + counters_.byteCount();
   const auto add = [&](const auto&... arrays) { sum += (arrays.byteCount() + ...); };
   for (const Tensors& tensors : tensors_) add(tensors.values, tensors.firstMoments, tensors.secondMoments);
+  add(pairOfPlane_);
   for (const auto& array : byCell_) add(array);
   add(groupCones_);
   for (const auto& array : byEntry_) add(array);

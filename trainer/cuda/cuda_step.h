@@ -85,7 +85,7 @@ class CudaStep {
   DeviceArray<SeenCell<float>> seenCells_;
   DeviceArray<SeenPlane<float>> planes_;
   DeviceArray<SeenDetail<float>> details_;
-  DeviceArray<uint32_t> rankOf_;
+  DeviceArray<uint32_t> rankOf_, pairOfPlane_;
   DeviceArray<CellSums<float>> cellSums_;
   DeviceArray<DetailSums<float>> detailSums_;
   DeviceArray<glm::vec4> pairSums_;

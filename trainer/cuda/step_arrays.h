@@ -24,6 +24,7 @@ struct StepArrays {
   glm::vec4* foundBalls;  // [cells] when the pairs were found
   float* slacks;          // [cells] by how much they may change since (trainer/step/skin.h)
   SeenCells<float> seen;  // `count` is unused: StepCounters::seenCells
+  uint32_t* pairOfPlane;  // [SeenCells::planes] its place in GradientSums::pairs
   GradientSums<float> sums;
   PixelArrays<float> pixels;
   StepCounters* counters;
