@@ -17,6 +17,13 @@ Status inTurn(const Calls&... calls) {
   return status;
 }
 
+template <size_t kCount>
+Status resizeAll(DeviceArray<uint32_t> (&arrays)[kCount], size_t size, const char* name) {
+  Status status;
+  for (size_t i = 0; i < kCount && status; ++i) status = arrays[i].resize(size, name);
+  return status;
+}
+
 // The first guess of a view's entries; more make it grow.
 constexpr uint32_t kFirstEntries = 1u << 20;
 
@@ -58,6 +65,9 @@ void CudaStep::point() {
   uint32_t** const byEntry[kArraysByEntry] = {&arrays_.entryTiles, &arrays_.sortedTiles, &arrays_.entryRanks,
                                               &arrays_.sortedRanks};
   for (size_t i = 0; i < kArraysByEntry; ++i) *byEntry[i] = byEntry_[i].data();
+  uint32_t** const byTile[kArraysByTile] = {&arrays_.tileLengths, &arrays_.sortedTileLengths, &arrays_.tiles,
+                                            &arrays_.tileOrder};
+  for (size_t i = 0; i < kArraysByTile; ++i) *byTile[i] = byTile_[i].data();
   arrays_.tileCones = tileCones_.data();
   arrays_.groupCones = groupCones_.data();
   arrays_.tilesBegin = tilesBegin_.data();
@@ -82,11 +92,9 @@ Status CudaStep::upload(const FoamStorage<float>& foam) {
 
 Status CudaStep::reserveCells(const FoamShape& shape) {
   const size_t cells = shape.cellCount, details = cells * shape.detailCount;
-  Status status;
-  for (size_t i = 0; i < kArraysByCell && status; ++i) status = byCell_[i].resize(cells, "numbers of cells");
-  if (!status) return status;
-  status = inTurn(
-      [&] { return balls_.resize(cells, "balls"); }, [&] { return foundBalls_.resize(cells, "balls of pairs"); },
+  const Status status = inTurn(
+      [&] { return resizeAll(byCell_, cells, "numbers of cells"); }, [&] { return balls_.resize(cells, "balls"); },
+      [&] { return foundBalls_.resize(cells, "balls of pairs"); },
       [&] { return enlargedBalls_.resize(cells, "enlarged balls"); }, [&] { return slacks_.resize(cells, "slacks"); },
       [&] { return boxes_.resize(size_t{2} * blocksOfCells(cells), "boxes of cells"); },
       [&] { return offsets_.resize(cells + 1, "offsets of pairs"); },
@@ -202,14 +210,14 @@ Status CudaStep::reservePixels(size_t pixels, size_t tiles) {
                                [&] { return ends_.resize(pixels, "ends of rays"); },
                                [&] { return groupCones_.resize(tiles, "cones of groups"); },
                                [&] { return tileCones_.resize(tiles, "cones of tiles"); },
+                               [&] { return resizeAll(byTile_, tiles, "numbers of tiles"); },
                                [&] { return tilesBegin_.resize(tiles + 1, "lists of tiles"); });
   point();
   return status;
 }
 
 Status CudaStep::reserveEntries(uint32_t capacity) {
-  Status status;
-  for (size_t i = 0; i < kArraysByEntry && status; ++i) status = byEntry_[i].resize(capacity, "entries of tiles");
+  const Status status = resizeAll(byEntry_, capacity, "entries of tiles");
   point();
   return status;
 }
@@ -277,6 +285,7 @@ size_t CudaStep::byteCount() const {
   for (const auto& array : byCell_) add(array);
   add(groupCones_);
   for (const auto& array : byEntry_) add(array);
+  for (const auto& array : byTile_) add(array);
   add(lastSteps_, balls_, contributions_, errors_, offsets_, neighbours_, reverses_, seenCells_, planes_, details_);
   add(rankOf_, cellSums_, detailSums_, pairSums_, tileCones_, tilesBegin_, rendered_, gradients_, wanted_);
   add(logTransmittances_, ends_, lossFields_, foundBalls_, enlargedBalls_, slacks_, boxes_);

@@ -68,7 +68,7 @@ class CudaStep {
   Status reserveCells(const FoamShape& shape);
   Status findPairs(float leastSkin);
 
-  static constexpr size_t kArraysByCell = 7, kArraysByEntry = 4;
+  static constexpr size_t kArraysByCell = 7, kArraysByEntry = 4, kArraysByTile = 4;
   struct Tensors {
     DeviceArray<float> values, firstMoments, secondMoments;
   };
@@ -92,7 +92,7 @@ class CudaStep {
   DeviceArray<glm::vec4> groupCones_;
   DeviceArray<uint32_t> byCell_[kArraysByCell];
   DeviceArray<glm::vec4> tileCones_;
-  DeviceArray<uint32_t> tilesBegin_, byEntry_[kArraysByEntry];
+  DeviceArray<uint32_t> tilesBegin_, byEntry_[kArraysByEntry], byTile_[kArraysByTile];
   DeviceArray<glm::vec4> rendered_, gradients_, wanted_;
   DeviceArray<float> logTransmittances_, lossFields_;
   DeviceArray<uint32_t> ends_;

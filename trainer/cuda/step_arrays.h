@@ -42,6 +42,8 @@ struct StepArrays {
   uint32_t* tilesBegin;                                           // [tiles + 1] in sortedRanks
   uint32_t *entryTiles, *sortedTiles, *entryRanks, *sortedRanks;  // [entryCapacity]
   uint32_t entryCapacity;
+  uint32_t *tileLengths, *sortedTileLengths, *tiles;  // [tiles]
+  uint32_t* tileOrder;                                // [tiles] in which tiles are drawn
 };
 
 inline constexpr uint32_t kUnseenKey = UINT32_MAX;
