@@ -69,7 +69,10 @@ Status CpuExecutor::rearrange(const CellPlan& plan) {
   return {};
 }
 
-Result<CellFacts> CpuExecutor::facts() { return factsOf(foam_); }
+Result<CellFacts> CpuExecutor::facts() {
+  overlaps_ = step_.countOverlaps();
+  return factsOf(foam_, overlaps_);
+}
 
 Status CpuExecutor::read(FoamStorage<float>& foam) {
   foam = foam_;
