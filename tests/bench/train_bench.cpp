@@ -85,6 +85,7 @@ class WatchedExecutor : public StepExecutor {
 };
 
 void WatchedExecutor::print(const StepPlan& plan, uint32_t done) {
+  executor_.step().setClock(nullptr);  // what follows is no step
   double psnr = 0, similarity = 0;
   std::vector<glm::vec4> image, unused;
   for (const Photo& photo : tests_) {
@@ -108,7 +109,6 @@ void WatchedExecutor::print(const StepPlan& plan, uint32_t done) {
   }
   fmt::print("}}\n");
   std::fflush(stdout);
-  executor_.step().setClock(nullptr);
   clock_.reset();
 }
 

@@ -45,6 +45,7 @@ void compareWithCpu(const FoamStorage<float>& foam, const View& view) {
   printDifference("image", found.image);
   for (size_t i = 0; i < kParameterCount; ++i) {
     printDifference(fmt::format("gradient of {}", kParameterKeys[i]), found.gradients[i]);
+    printDifference(fmt::format("gradient of {}, CPU in floats and doubles", kParameterKeys[i]), found.roundings[i]);
     printDifference(fmt::format("step of {}", kParameterKeys[i]), found.values[i]);
   }
   printDifference("contributions", found.contributions);

@@ -53,6 +53,35 @@ Status runOnGpu(FoamStorage<float>& foam, const StepCase& stepCase, const std::v
   return step.download(foam);
 }
 
+template <class To, class From>
+std::vector<To> convert(const std::vector<From>& from) {
+  return {from.begin(), from.end()};
+}
+
+// The gradients of the step in doubles, from the same numbers.
+std::array<std::vector<float>, kParameterCount> differentiateInDouble(const FoamStorage<float>& foam,
+                                                                      const StepCase& stepCase,
+                                                                      const std::vector<glm::vec4>& gradients,
+                                                                      const std::vector<glm::vec4>& wanted) {
+  FoamStorage<double> storage;
+  resizeStorage(storage, foam.shape);
+  for (size_t i = 0; i < kParameterCount; ++i) storage.values[i] = convert<double>(foam.values[i]);
+  const TrainingView<float>& view = stepCase.view;
+  const TrainingView<double> wideView{view.width,     view.height,    view.fx,        view.fy,
+                                      view.cx,        view.cy,        view.eye,       view.worldFromCamera,
+                                      view.nearRatio, view.nearDepth, view.directions};
+  const RaySettings<float>& settings = stepCase.settings;
+  AdamStep<double> adam{};
+  CpuStep<double> step(storage);
+  step.activate(stepCase.leastSkin);
+  (void)step.render(wideView, {settings.sharpness, settings.cutoff, settings.normalWeight, settings.perPixel}, adam);
+  step.differentiate(convert<glm::dvec4>(gradients), convert<glm::dvec4>(wanted));
+  step.update(adam, stepCase.overlapWeight);
+  std::array<std::vector<float>, kParameterCount> found;
+  for (size_t i = 0; i < kParameterCount; ++i) found[i] = convert<float>(storage.firstMoments[i]);
+  return found;
+}
+
 }  // namespace
 
 std::vector<glm::vec4> plainGradients(uint32_t width, uint32_t height) {
@@ -82,7 +111,9 @@ Result<StepComparison> compareStep(const FoamStorage<float>& foam, const StepCas
   step.update(stepCase.adam, stepCase.overlapWeight);
   comparison.seenOnCpu = step.seen().count;
   comparison.image = compare(numbersOf(expected), numbersOf(shown), {}, 1);
+  const auto inDouble = differentiateInDouble(foam, stepCase, gradients, wanted);
   for (size_t i = 0; i < kParameterCount; ++i) {
+    comparison.roundings[i] = compare(inDouble[i], onCpu.firstMoments[i], {}, 0);
     comparison.gradients[i] = compare(onCpu.firstMoments[i], onGpu.firstMoments[i], foam.firstMoments[i], 0);
     comparison.values[i] = compare(onCpu.values[i], onGpu.values[i], foam.values[i], 0);
   }

@@ -34,6 +34,9 @@ struct StepComparison {
   Difference image;                                   // not relative: values are in 0..1
   std::array<Difference, kParameterCount> gradients;  // the first moments after one step
   std::array<Difference, kParameterCount> values;     // by how much the step moved them
+  // Gradients on the CPU in floats against doubles. Rays that graze a ball, a plane or a face divide by little, so
+  // those of small balls far away are mostly rounding, on the GPU as well.
+  std::array<Difference, kParameterCount> roundings;
   Difference contributions, errors;
   uint32_t seenOnCpu = 0, seenOnGpu = 0;
 };

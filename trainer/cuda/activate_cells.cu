@@ -1,4 +1,4 @@
-// Balls at the beginning of a step, and whether they still fit the pairs. Bound: 36 bytes read and 16 written per cell.
+// Balls of the step that comes, and whether they still fit the pairs. Bound: 36 bytes read and 16 written per cell.
 #include "trainer/cuda/launch.h"
 #include "trainer/cuda/passes.h"
 #include "trainer/step/skin.h"

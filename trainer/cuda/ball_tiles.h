@@ -31,18 +31,60 @@ __device__ inline uint32_t tileCountOf(const TileRange& range) {
   return (range.endX - range.beginX) * (range.endY - range.beginY);
 }
 
-// All lanes call it. visit(lane, tile, isSeen): for each lane's ball, by all lanes, for each tile of its range at most;
-// `tile` differs by lane.
+// Tiles lie in groups, one tile per lane. A ball with many tiles looks at the groups' cones first.
+inline constexpr uint32_t kGroupWidth = 8, kGroupHeight = 4, kManyTiles = 4 * kWarp;
+static_assert(kGroupWidth * kGroupHeight == kWarp);
+
+FROTH_HD uint32_t groupsAlong(uint32_t tiles, uint32_t size) { return (tiles + size - 1) / size; }
+FROTH_HD uint32_t groupCountOf(uint32_t tilesX, uint32_t tilesY) {
+  return groupsAlong(tilesX, kGroupWidth) * groupsAlong(tilesY, kGroupHeight);
+}
+
 template <class Visit>
-__device__ void visitTiles(const BallTiles& own, const glm::vec4* cones, uint32_t tilesX, const Visit& visit) {
+__device__ void visitFewTiles(const BallTiles& ball, int lane, const StepArrays& arrays, uint32_t tilesX,
+                              const Visit& visit) {
+  const uint32_t count = tileCountOf(ball.range), width = ball.range.endX - ball.range.beginX;
+  for (uint32_t first = 0; first < count; first += kWarp) {
+    const uint32_t i = first + laneOfWarp();
+    const uint32_t tile = (ball.range.beginY + i / width) * tilesX + ball.range.beginX + i % width;
+    visit(lane, tile, i < count && foam::coneMeetsBall(arrays.tileCones[tile], ball.centre, ball.radius));
+  }
+}
+
+template <class Visit>
+__device__ void visitManyTiles(const BallTiles& ball, int lane, const StepArrays& arrays, uint32_t tilesX,
+                               const Visit& visit) {
+  const uint32_t groupsX = groupsAlong(tilesX, kGroupWidth);
+  const uint32_t beginX = ball.range.beginX / kGroupWidth, beginY = ball.range.beginY / kGroupHeight;
+  const uint32_t width = groupsAlong(ball.range.endX, kGroupWidth) - beginX;
+  const uint32_t count = width * (groupsAlong(ball.range.endY, kGroupHeight) - beginY);
+  for (uint32_t first = 0; first < count; first += kWarp) {
+    const uint32_t i = first + laneOfWarp();
+    const uint32_t group = (beginY + i / width) * groupsX + beginX + i % width;
+    const bool meets = i < count && foam::coneMeetsBall(arrays.groupCones[group], ball.centre, ball.radius);
+    for (uint32_t meeting = __ballot_sync(kAllLanes, meets); meeting != 0; meeting &= meeting - 1) {
+      const uint32_t met = __shfl_sync(kAllLanes, group, __ffs(static_cast<int>(meeting)) - 1);
+      const uint32_t x = met % groupsX * kGroupWidth + laneOfWarp() % kGroupWidth;
+      const uint32_t y = met / groupsX * kGroupHeight + laneOfWarp() / kGroupWidth;
+      const TileRange& range = ball.range;
+      const bool isIn = x >= range.beginX && x < range.endX && y >= range.beginY && y < range.endY;
+      const uint32_t tile = y * tilesX + x;
+      visit(lane, tile, isIn && foam::coneMeetsBall(arrays.tileCones[tile], ball.centre, ball.radius));
+    }
+  }
+}
+
+// All lanes call it. visit(lane, tile, isSeen): for each lane's ball, by all lanes, for each tile of its range at most,
+// each once; `tile` differs by lane.
+template <class Visit>
+__device__ void visitTiles(const BallTiles& own, const StepArrays& arrays, uint32_t tilesX, const Visit& visit) {
   for (uint32_t lanes = __ballot_sync(kAllLanes, tileCountOf(own.range) > 0); lanes != 0; lanes &= lanes - 1) {
     const int lane = __ffs(static_cast<int>(lanes)) - 1;
     const BallTiles ball = ballOfLane(own, lane);
-    const uint32_t count = tileCountOf(ball.range), width = ball.range.endX - ball.range.beginX;
-    for (uint32_t first = 0; first < count; first += kWarp) {
-      const uint32_t i = first + laneOfWarp();
-      const uint32_t tile = (ball.range.beginY + i / width) * tilesX + ball.range.beginX + i % width;
-      visit(lane, tile, i < count && foam::coneMeetsBall(cones[tile], ball.centre, ball.radius));
+    if (tileCountOf(ball.range) < kManyTiles) {
+      visitFewTiles(ball, lane, arrays, tilesX, visit);
+    } else {
+      visitManyTiles(ball, lane, arrays, tilesX, visit);
     }
   }
 }

@@ -11,6 +11,8 @@
 namespace froth {
 namespace {
 
+constexpr uint32_t kLongestList = 0xffff;  // longer ones count as that
+
 __global__ void writeEntriesKernel(StepArrays arrays, TrainingView<float> view) {
   const uint32_t rank = globalThread(), seenCount = arrays.counters->seenCells;
   if (rank - laneOfWarp() >= seenCount) return;
@@ -20,7 +22,7 @@ __global__ void writeEntriesKernel(StepArrays arrays, TrainingView<float> view) 
     tiles = tilesToTest(view, arrays.foam.balls[arrays.sortedCells[rank]]);
     place = arrays.entriesBegin[rank];
   }
-  visitTiles(tiles, arrays.tileCones, tilesAlong(view.width), [&](int lane, uint32_t tile, bool isSeen) {
+  visitTiles(tiles, arrays, tilesAlong(view.width), [&](int lane, uint32_t tile, bool isSeen) {
     const uint32_t seen = __ballot_sync(kAllLanes, isSeen);
     const uint32_t entry = __shfl_sync(kAllLanes, place, lane) + __popc(seen & lanesBefore());
     if (isSeen && entry < arrays.entryCapacity) {
@@ -46,6 +48,24 @@ __global__ void findTilesKernel(StepArrays arrays, uint32_t tileCount) {
   for (uint32_t tile = first; tile <= own; ++tile) arrays.tilesBegin[tile] = entry;
 }
 
+// Tiles with long lists come first, so that none begins when all others are done.
+__global__ void measureTilesKernel(StepArrays arrays, uint32_t tileCount) {
+  const uint32_t tile = globalThread();
+  if (tile >= tileCount) return;
+  const uint32_t length = arrays.tilesBegin[tile + 1] - arrays.tilesBegin[tile];
+  arrays.tileLengths[tile] = min(length, kLongestList);
+  arrays.tiles[tile] = tile;
+}
+
+Status orderTiles(const StepArrays& arrays, uint32_t tileCount, Scratch& scratch, cudaStream_t stream) {
+  measureTilesKernel<<<blocksFor(tileCount), kBlock, 0, stream>>>(arrays, tileCount);
+  return callCub(scratch, "sort of tiles", [&](void* memory, size_t& bytes) {
+    return cub::DeviceRadixSort::SortPairsDescending(memory, bytes, arrays.tileLengths, arrays.sortedTileLengths,
+                                                     arrays.tiles, arrays.tileOrder, static_cast<int>(tileCount), 0,
+                                                     std::bit_width(kLongestList), stream);
+  });
+}
+
 }  // namespace
 
 Status binTiles(const StepArrays& arrays, const TrainingView<float>& view, Scratch& scratch, cudaStream_t stream) {
@@ -59,6 +79,7 @@ Status binTiles(const StepArrays& arrays, const TrainingView<float>& view, Scrat
   });
   if (!sorted) return sorted;
   findTilesKernel<<<blocksFor(size_t{arrays.entryCapacity} + 1), kBlock, 0, stream>>>(arrays, tileCount);
+  if (Status ordered = orderTiles(arrays, tileCount, scratch, stream); !ordered) return ordered;
   return checkLaunch("binTiles");
 }
 

@@ -17,6 +17,13 @@ Status inTurn(const Calls&... calls) {
   return status;
 }
 
+template <size_t kCount>
+Status resizeAll(DeviceArray<uint32_t> (&arrays)[kCount], size_t size, const char* name) {
+  Status status;
+  for (size_t i = 0; i < kCount && status; ++i) status = arrays[i].resize(size, name);
+  return status;
+}
+
 // The first guess of a view's entries; more make it grow.
 constexpr uint32_t kFirstEntries = 1u << 20;
 
@@ -47,6 +54,7 @@ void CudaStep::point() {
   arrays_.slacks = slacks_.data();
   arrays_.pairs = {offsets_.data(), neighbours_.data(), reverses_.data()};
   arrays_.seen = {0, seenCells_.data(), planes_.data(), details_.data(), rankOf_.data()};
+  arrays_.pairOfPlane = pairOfPlane_.data();
   arrays_.counters = counters_.data();
   arrays_.sums = {cellSums_.data(), detailSums_.data(), pairSums_.data(), nullptr};
   arrays_.pixels = {rendered_.data(), logTransmittances_.data(), ends_.data(), gradients_.data(), wanted_.data()};
@@ -57,7 +65,11 @@ void CudaStep::point() {
   uint32_t** const byEntry[kArraysByEntry] = {&arrays_.entryTiles, &arrays_.sortedTiles, &arrays_.entryRanks,
                                               &arrays_.sortedRanks};
   for (size_t i = 0; i < kArraysByEntry; ++i) *byEntry[i] = byEntry_[i].data();
+  uint32_t** const byTile[kArraysByTile] = {&arrays_.tileLengths, &arrays_.sortedTileLengths, &arrays_.tiles,
+                                            &arrays_.tileOrder};
+  for (size_t i = 0; i < kArraysByTile; ++i) *byTile[i] = byTile_[i].data();
   arrays_.tileCones = tileCones_.data();
+  arrays_.groupCones = groupCones_.data();
   arrays_.tilesBegin = tilesBegin_.data();
   arrays_.entryCapacity = static_cast<uint32_t>(byEntry_[0].size());
 }
@@ -80,16 +92,14 @@ Status CudaStep::upload(const FoamStorage<float>& foam) {
 
 Status CudaStep::reserveCells(const FoamShape& shape) {
   const size_t cells = shape.cellCount, details = cells * shape.detailCount;
-  Status status;
-  for (size_t i = 0; i < kArraysByCell && status; ++i) status = byCell_[i].resize(cells, "numbers of cells");
-  if (!status) return status;
-  status = inTurn(
-      [&] { return balls_.resize(cells, "balls"); }, [&] { return foundBalls_.resize(cells, "balls of pairs"); },
+  const Status status = inTurn(
+      [&] { return resizeAll(byCell_, cells, "numbers of cells"); }, [&] { return balls_.resize(cells, "balls"); },
+      [&] { return foundBalls_.resize(cells, "balls of pairs"); },
       [&] { return enlargedBalls_.resize(cells, "enlarged balls"); }, [&] { return slacks_.resize(cells, "slacks"); },
       [&] { return boxes_.resize(size_t{2} * blocksOfCells(cells), "boxes of cells"); },
       [&] { return offsets_.resize(cells + 1, "offsets of pairs"); },
-      [&] { return seenCells_.resize(cells, "seen cells"); }, [&] { return rankOf_.resize(cells, "ranks"); },
-      [&] { return cellSums_.resize(cells, "sums of cells"); },
+      [&] { return overlaps_.resize(cells, "overlaps"); }, [&] { return seenCells_.resize(cells, "seen cells"); },
+      [&] { return rankOf_.resize(cells, "ranks"); }, [&] { return cellSums_.resize(cells, "sums of cells"); },
       [&] { return details_.resize(details, "seen details"); },
       [&] { return detailSums_.resize(details, "sums of details"); });
   arrays_.foam.shape = shape;
@@ -113,13 +123,15 @@ Status CudaStep::download(FoamStorage<float>& foam) {
                 [&] { return errors_.download(foam.errors, "errors", stream_); });
 }
 
-Status CudaStep::downloadFacts(FoamStorage<float>& foam) {
+Status CudaStep::downloadFacts(FoamStorage<float>& foam, std::vector<uint32_t>& overlaps) {
   constexpr auto kQuaternions = static_cast<size_t>(Parameter::kOrientations);
   return inTurn(
       [&] { return tensors_[kQuaternions].values.download(foam.values[kQuaternions], "orientations", stream_); },
       [&] { return balls_.download(foam.balls, "balls", stream_); },
       [&] { return contributions_.download(foam.contributions, "contributions", stream_); },
-      [&] { return errors_.download(foam.errors, "errors", stream_); });
+      [&] { return errors_.download(foam.errors, "errors", stream_); },
+      [&] { return countOverlaps(arrays_, overlaps_.data(), stream_); },
+      [&] { return overlaps_.download(overlaps, "overlaps", stream_); });
 }
 
 Status CudaStep::downloadPairs(CellGraph& graph, std::vector<uint32_t>& reverses) {
@@ -138,7 +150,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   shape.cellCount = static_cast<uint32_t>(plan.sources.size());
   DeviceArray<uint32_t> sources;
   DeviceArray<glm::vec3> shifts;
-  DeviceArray<float> meanFactors;
+  DeviceArray<float> radiusFactors, meanFactors;
   const auto gather = [&](auto& array, uint32_t width, const char* name) -> Status {
     std::remove_reference_t<decltype(array)> next;
     if (Status made = next.resize(size_t{shape.cellCount} * width, name); !made) return made;
@@ -149,6 +161,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   Status status =
       inTurn([&] { return sources.upload(plan.sources, "sources of cells", stream_); },
              [&] { return shifts.upload(plan.shifts, "shifts of cells", stream_); },
+             [&] { return radiusFactors.upload(plan.radiusFactors, "factors of radii", stream_); },
              [&] { return meanFactors.upload(plan.meanFactors, "factors of means", stream_); },
              [&] { return gather(lastSteps_, 1, "last steps"); },
              [&] { return gather(contributions_, 1, "contributions"); }, [&] { return gather(errors_, 1, "errors"); });
@@ -161,7 +174,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   }
   hasPairs_ = false;
   return inTurn([&] { return status; }, [&] { return reserveCells(shape); },
-                [&] { return applyPlan(arrays_, shifts.data(), meanFactors.data(), stream_); },
+                [&] { return applyPlan(arrays_, shifts.data(), radiusFactors.data(), meanFactors.data(), stream_); },
                 [&] { return checkCuda(cudaStreamSynchronize(stream_), "rearrangement of cells"); });
 }
 
@@ -181,7 +194,8 @@ Status CudaStep::findPairs(float leastSkin) {
   const size_t room = pairs > neighbours_.size() ? pairs + pairs / 4 : neighbours_.size();
   const Status reserved = inTurn(
       [&] { return neighbours_.resize(room, "pairs"); }, [&] { return reverses_.resize(room, "reverse pairs"); },
-      [&] { return planes_.resize(room, "seen planes"); }, [&] { return pairSums_.resize(room, "sums of pairs"); });
+      [&] { return planes_.resize(room, "seen planes"); }, [&] { return pairOfPlane_.resize(room, "pairs of planes"); },
+      [&] { return pairSums_.resize(room, "sums of pairs"); });
   point();
   if (!reserved) return reserved;
   lists.neighbours = neighbours_.data();
@@ -197,15 +211,16 @@ Status CudaStep::reservePixels(size_t pixels, size_t tiles) {
                                [&] { return wanted_.resize(pixels, "wanted pixels"); },
                                [&] { return logTransmittances_.resize(pixels, "transmittances"); },
                                [&] { return ends_.resize(pixels, "ends of rays"); },
+                               [&] { return groupCones_.resize(tiles, "cones of groups"); },
                                [&] { return tileCones_.resize(tiles, "cones of tiles"); },
+                               [&] { return resizeAll(byTile_, tiles, "numbers of tiles"); },
                                [&] { return tilesBegin_.resize(tiles + 1, "lists of tiles"); });
   point();
   return status;
 }
 
 Status CudaStep::reserveEntries(uint32_t capacity) {
-  Status status;
-  for (size_t i = 0; i < kArraysByEntry && status; ++i) status = byEntry_[i].resize(capacity, "entries of tiles");
+  const Status status = resizeAll(byEntry_, capacity, "entries of tiles");
   point();
   return status;
 }
@@ -216,10 +231,9 @@ Status CudaStep::mark(Status passed, const char* pass) {
 }
 
 Status CudaStep::activate(float leastSkin) {
-  if (Status activated = mark(activateCells(arrays_, hasPairs_, stream_), "activate"); !activated || hasPairs_) {
-    return activated;
-  }
-  return mark(findPairs(leastSkin), "find pairs");
+  if (Status waited = mark({}, "wait"); hasPairs_) return waited;  // update() left balls that fit them
+  return inTurn([&] { return mark(activateCells(arrays_, hasPairs_, stream_), "activate"); },
+                [&] { return mark(findPairs(leastSkin), "find pairs"); });
 }
 
 Status CudaStep::render(const TrainingView<float>& view, const RaySettings<float>& settings,
@@ -250,7 +264,8 @@ Status CudaStep::differentiate() {
 }
 
 Status CudaStep::update(const AdamStep<float>& adam, float overlapWeight) {
-  return mark(updateCells(arrays_, adam, overlapWeight, stream_), "update");
+  return inTurn([&] { return mark(updateCells(arrays_, adam, overlapWeight, stream_), "update"); },
+                [&] { return mark(activateCells(arrays_, hasPairs_, stream_), "activate"); });
 }
 
 Result<bool> CudaStep::settle() {
@@ -258,7 +273,7 @@ Result<bool> CudaStep::settle() {
   if (Status read = counters_.download(counters, "counters", stream_); !read) return read.error();
   lastCounters_ = counters[0];
   if (lastCounters_.cellsOutOfSkin > 0) hasPairs_ = false;
-  if (lastCounters_.tileEntries <= arrays_.entryCapacity) return hasPairs_;
+  if (lastCounters_.tileEntries <= arrays_.entryCapacity) return true;
   // A quarter more than this view needs, for others.
   const Status grown = reserveEntries(lastCounters_.tileEntries + lastCounters_.tileEntries / 4);
   if (!grown) return grown.error();
@@ -269,11 +284,14 @@ size_t CudaStep::byteCount() const {
   size_t sum = scratch_.byteCount() + counters_.byteCount();
   const auto add = [&](const auto&... arrays) { sum += (arrays.byteCount() + ...); };
   for (const Tensors& tensors : tensors_) add(tensors.values, tensors.firstMoments, tensors.secondMoments);
+  add(pairOfPlane_);
   for (const auto& array : byCell_) add(array);
+  add(groupCones_);
   for (const auto& array : byEntry_) add(array);
+  for (const auto& array : byTile_) add(array);
   add(lastSteps_, balls_, contributions_, errors_, offsets_, neighbours_, reverses_, seenCells_, planes_, details_);
   add(rankOf_, cellSums_, detailSums_, pairSums_, tileCones_, tilesBegin_, rendered_, gradients_, wanted_);
-  add(logTransmittances_, ends_, lossFields_, foundBalls_, enlargedBalls_, slacks_, boxes_);
+  add(logTransmittances_, ends_, lossFields_, foundBalls_, enlargedBalls_, slacks_, boxes_, overlaps_);
   return sum;
 }
 

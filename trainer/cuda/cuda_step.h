@@ -34,19 +34,20 @@ class CudaStep {
 
   // The calls of a step, in this order. Pointers in `view` and `adam` are to device memory.
   //
-  // Finds the pairs where there are none that hold, which waits for the GPU. leastSkin: trainer/step/skin.h.
+  // Balls and pairs, where the last update() did not leave some that hold; waits for the GPU. leastSkin:
+  // trainer/step/skin.h.
   Status activate(float leastSkin);
   Status render(const TrainingView<float>& view, const RaySettings<float>& settings, const AdamStep<float>& adam);
   Status differentiateImage(const ImageTarget& target, const LossTerms& terms);
   Status differentiate();
+  // Balls are then those of the next step.
   Status update(const AdamStep<float>& adam, float overlapWeight);
 
-  // Waits for the GPU. false: the lists of the last step did not fit or its pairs did not hold, so it changed nothing;
-  // taken again it will.
+  // Waits for the GPU. false: the lists of the last step did not fit, so it changed nothing; taken again it will.
   Result<bool> settle();
 
-  // What densification goes by.
-  Status downloadFacts(FoamStorage<float>& foam);
+  // What densification goes by (CellFacts).
+  Status downloadFacts(FoamStorage<float>& foam, std::vector<uint32_t>& overlaps);
   Status downloadPairs(CellGraph& graph, std::vector<uint32_t>& reverses);
   Status downloadImage(std::vector<glm::vec4>& rendered) { return rendered_.download(rendered, "rendered", stream_); }
   // In place of differentiateImage().
@@ -67,7 +68,7 @@ class CudaStep {
   Status reserveCells(const FoamShape& shape);
   Status findPairs(float leastSkin);
 
-  static constexpr size_t kArraysByCell = 7, kArraysByEntry = 4;
+  static constexpr size_t kArraysByCell = 7, kArraysByEntry = 4, kArraysByTile = 4;
   struct Tensors {
     DeviceArray<float> values, firstMoments, secondMoments;
   };
@@ -75,7 +76,7 @@ class CudaStep {
   DeviceArray<uint32_t> lastSteps_;
   DeviceArray<glm::vec4> balls_;
   DeviceArray<float> contributions_, errors_;
-  DeviceArray<uint32_t> offsets_, neighbours_, reverses_;
+  DeviceArray<uint32_t> offsets_, neighbours_, reverses_, overlaps_;
   DeviceArray<glm::vec4> foundBalls_, enlargedBalls_;
   DeviceArray<float> slacks_;
   DeviceArray<glm::vec3> boxes_;
@@ -84,13 +85,14 @@ class CudaStep {
   DeviceArray<SeenCell<float>> seenCells_;
   DeviceArray<SeenPlane<float>> planes_;
   DeviceArray<SeenDetail<float>> details_;
-  DeviceArray<uint32_t> rankOf_;
+  DeviceArray<uint32_t> rankOf_, pairOfPlane_;
   DeviceArray<CellSums<float>> cellSums_;
   DeviceArray<DetailSums<float>> detailSums_;
   DeviceArray<glm::vec4> pairSums_;
+  DeviceArray<glm::vec4> groupCones_;
   DeviceArray<uint32_t> byCell_[kArraysByCell];
   DeviceArray<glm::vec4> tileCones_;
-  DeviceArray<uint32_t> tilesBegin_, byEntry_[kArraysByEntry];
+  DeviceArray<uint32_t> tilesBegin_, byEntry_[kArraysByEntry], byTile_[kArraysByTile];
   DeviceArray<glm::vec4> rendered_, gradients_, wanted_;
   DeviceArray<float> logTransmittances_, lossFields_;
   DeviceArray<uint32_t> ends_;

@@ -1,5 +1,6 @@
 // Near tests, the tiles that see each ball, and the key that orders what is seen. Bound: 16 bytes read and 16 written
-// per cell, and some 30 flops per ball and tile of its box.
+// per cell, and some 30 flops per ball and tile of its box, or of the groups of tiles that it meets where they are
+// many.
 #include "trainer/cuda/ball_tiles.h"
 #include "trainer/cuda/passes.h"
 
@@ -11,6 +12,29 @@ __global__ void findConesKernel(StepArrays arrays, TrainingView<float> view) {
   if (tile < tilesX * tilesAlong(view.height)) {
     arrays.tileCones[tile] = coneOfTile(view, tile % tilesX, tile / tilesX);
   }
+}
+
+// Around the cones of a group's tiles.
+__global__ void findGroupConesKernel(StepArrays arrays, uint32_t tilesX, uint32_t tilesY) {
+  const uint32_t group = globalThread(), groupsX = groupsAlong(tilesX, kGroupWidth);
+  if (group >= groupCountOf(tilesX, tilesY)) return;
+  const uint32_t beginX = group % groupsX * kGroupWidth, endX = min(beginX + kGroupWidth, tilesX);
+  const uint32_t beginY = group / groupsX * kGroupHeight, endY = min(beginY + kGroupHeight, tilesY);
+  glm::vec3 sum(0);
+  for (uint32_t y = beginY; y < endY; ++y) {
+    for (uint32_t x = beginX; x < endX; ++x) {
+      const glm::vec4 cone = arrays.tileCones[y * tilesX + x];
+      if (cone.w >= 0) sum += glm::vec3(cone);
+    }
+  }
+  const float length = sqrtf(glm::dot(sum, sum));
+  const glm::vec3 axis = length > 0 ? sum / length : glm::vec3(0, 0, 1);
+  float sine = length > 0 ? 0 : float(foam::kConeOfAll);
+  for (uint32_t y = beginY; y < endY; ++y) {
+    for (uint32_t x = beginX; x < endX; ++x)
+      sine = fmaxf(sine, foam::sineToHold(axis, arrays.tileCones[y * tilesX + x]));
+  }
+  arrays.groupCones[group] = foam::guardedCone(axis, sine);
 }
 
 // Unsigned numbers in the order of floats that are finite.
@@ -33,7 +57,7 @@ __global__ void cullCellsKernel(StepArrays arrays, TrainingView<float> view) {
     if (isShown) tiles = tilesToTest(view, ball);
   }
   uint32_t tileCount = 0;
-  visitTiles(tiles, arrays.tileCones, tilesX, [&](int lane, uint32_t, bool isSeen) {
+  visitTiles(tiles, arrays, tilesX, [&](int lane, uint32_t, bool isSeen) {
     const uint32_t found = __popc(__ballot_sync(kAllLanes, isSeen));
     if (laneOfWarp() == static_cast<uint32_t>(lane)) tileCount += found;
   });
@@ -58,6 +82,8 @@ Status cullCells(const StepArrays& arrays, const TrainingView<float>& view, cuda
   cudaMemsetAsync(arrays.counters, 0, offsetof(StepCounters, droppedCount), stream);
   findConesKernel<<<blocksFor(size_t{tilesAlong(view.width)} * tilesAlong(view.height)), kBlock, 0, stream>>>(arrays,
                                                                                                               view);
+  const uint32_t tilesX = tilesAlong(view.width), tilesY = tilesAlong(view.height);
+  findGroupConesKernel<<<blocksFor(groupCountOf(tilesX, tilesY)), kBlock, 0, stream>>>(arrays, tilesX, tilesY);
   cullCellsKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays, view);
   return checkLaunch("cullCells");
 }

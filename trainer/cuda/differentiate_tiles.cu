@@ -70,7 +70,9 @@ __global__ __launch_bounds__(kThreads) void differentiateTilesKernel(StepArrays 
       }
       __syncwarp();
       addColumns(rows, __popc(hits), rowCount, detailCount, arrays.sums, rank);
-      for (int side = 0; side < 2; ++side) addPairs(gradient.planes[side], gradient.pairs[side], arrays.sums);
+      for (int side = 0; side < 2; ++side) {
+        addPairs(gradient.planes[side], gradient.pairs[side], arrays.pairOfPlane, arrays.sums);
+      }
       __syncwarp();
     }
   }

@@ -1,6 +1,7 @@
 // The Cech pairs with a skin (trainer/cpu/skin_pairs.h). Cells lie along a Morton curve, so 32 that follow each other
-// are neighbours: a warp tests boxes around 32 cells against its own box, and cells only where boxes meet. Rows come
-// ascending and without atomics. Bound: flops, some 10 per pair of boxes and per pair of cells whose boxes meet, twice.
+// are neighbours: a warp tests boxes around 32 cells against its own box, then its balls against the boxes it meets,
+// and cells only where those meet. Rows come ascending and without atomics. Bound: flops, some 10 per pair of boxes,
+// per ball and box it may meet, and per ball and cell of a box it meets, twice.
 #include <cub/device/device_scan.cuh>
 
 #include "trainer/cuda/cub_call.h"
@@ -45,22 +46,48 @@ __device__ bool boxesMeet(const glm::vec3* boxes, uint32_t a, uint32_t b) {
   return true;
 }
 
-// All lanes call it, each for its own cell of block `own`. visit(other): for each cell that overlaps it, ascending.
+// Whether a ball meets the box of a block.
+__device__ bool ballMeetsBox(const glm::vec4& ball, const glm::vec3* boxes, uint32_t block) {
+  float squared = 0;
+  for (int c = 0; c < 3; ++c) {
+    const float outside = fmaxf(fmaxf(boxes[2 * block][c] - ball[c], ball[c] - boxes[2 * block + 1][c]), 0.0f);
+    squared += outside * outside;
+  }
+  return squared <= ball.w * ball.w * (1 + 1e-6f);
+}
+
+__device__ bool ballsOverlap(const glm::vec4& a, const glm::vec4& b) {
+  const glm::vec3 difference = glm::vec3(b) - glm::vec3(a);
+  const float reach = a.w + b.w;
+  return glm::dot(difference, difference) < reach * reach;
+}
+
+__device__ glm::vec4 ballOfLane(const glm::vec4& own, int lane) {
+  glm::vec4 ball;
+  for (int c = 0; c < 4; ++c) ball[c] = __shfl_sync(kAllLanes, own[c], lane);
+  return ball;
+}
+
+// All lanes call it, each for its own cell of block `own`. visit(lane, other, hits): by all lanes, for the cell of each
+// lane whose ball meets the box of a block, ascending: each lane's cell `other` of that block, and which lanes' overlap
+// it. So a huge ball, which meets all boxes, takes one test per block, and not one per cell.
 template <class Visit>
 __device__ void visitPairs(const PairLists& lists, uint32_t cellCount, uint32_t own, const Visit& visit) {
   const uint32_t blockCount = blocksOfCells(cellCount), cell = own * kWarp + laneOfWarp();
-  const glm::vec4 ball = cell < cellCount ? lists.enlarged[cell] : glm::vec4(INFINITY, 0, 0, -INFINITY);
+  const glm::vec4 none(INFINITY, 0, 0, 0);
+  const glm::vec4 ball = cell < cellCount ? lists.enlarged[cell] : none;
   for (uint32_t first = 0; first < blockCount; first += kWarp) {
     const uint32_t block = first + laneOfWarp();
     uint32_t meeting = __ballot_sync(kAllLanes, block < blockCount && boxesMeet(lists.boxes, own, block));
     for (; meeting != 0; meeting &= meeting - 1) {
-      const uint32_t begin = (first + __ffs(static_cast<int>(meeting)) - 1) * kWarp;
-      const uint32_t end = min(begin + kWarp, cellCount);
-      for (uint32_t other = begin; other < end; ++other) {
-        const glm::vec4 otherBall = lists.enlarged[other];
-        const glm::vec3 difference = glm::vec3(otherBall) - glm::vec3(ball);
-        const float reach = ball.w + otherBall.w;
-        if (other != cell && glm::dot(difference, difference) < reach * reach) visit(other);
+      const uint32_t met = first + __ffs(static_cast<int>(meeting)) - 1, other = met * kWarp + laneOfWarp();
+      const glm::vec4 otherBall = other < cellCount ? lists.enlarged[other] : none;
+      uint32_t lanes = __ballot_sync(kAllLanes, cell < cellCount && ballMeetsBox(ball, lists.boxes, met));
+      for (; lanes != 0; lanes &= lanes - 1) {
+        const int lane = __ffs(static_cast<int>(lanes)) - 1;
+        const glm::vec4 laneBall = ballOfLane(ball, lane);
+        const bool isHit = other < cellCount && other != own * kWarp + lane && ballsOverlap(laneBall, otherBall);
+        visit(lane, other, __ballot_sync(kAllLanes, isHit));
       }
     }
   }
@@ -70,7 +97,9 @@ __global__ void countPairsKernel(PairLists lists, uint32_t cellCount) {
   const uint32_t block = globalThread() / kWarp;
   if (block >= blocksOfCells(cellCount)) return;
   uint32_t count = 0;
-  visitPairs(lists, cellCount, block, [&](uint32_t) { ++count; });
+  visitPairs(lists, cellCount, block, [&](int lane, uint32_t, uint32_t hits) {
+    if (laneOfWarp() == static_cast<uint32_t>(lane)) count += __popc(hits);
+  });
   const uint32_t cell = globalThread();
   if (cell < cellCount) lists.offsets[cell] = count;
   if (cell == cellCount - 1) lists.offsets[cellCount] = 0;  // the sum behind the last row
@@ -80,7 +109,11 @@ __global__ void listPairsKernel(PairLists lists, uint32_t cellCount) {
   const uint32_t block = globalThread() / kWarp, cell = globalThread();
   if (block >= blocksOfCells(cellCount)) return;
   uint32_t place = cell < cellCount ? lists.offsets[cell] : 0;
-  visitPairs(lists, cellCount, block, [&](uint32_t other) { lists.neighbours[place++] = other; });
+  visitPairs(lists, cellCount, block, [&](int lane, uint32_t other, uint32_t hits) {
+    const uint32_t begin = __shfl_sync(kAllLanes, place, lane);
+    if (hits >> laneOfWarp() & 1) lists.neighbours[begin + __popc(hits & lanesBefore())] = other;
+    if (laneOfWarp() == static_cast<uint32_t>(lane)) place += __popc(hits);
+  });
 }
 
 // Where in the other's row the cell stands, by a warp per cell.
@@ -99,6 +132,11 @@ __global__ void findReversesKernel(PairLists lists, uint32_t cellCount) {
     }
     lists.reverses[e] = low;
   }
+}
+
+__global__ void countOverlapsKernel(StepArrays arrays, uint32_t* counts) {
+  const uint32_t cell = globalThread();
+  if (cell < arrays.foam.shape.cellCount) counts[cell] = countOverlaps(arrays.foam.balls, arrays.pairs, cell);
 }
 
 constexpr uint32_t kSmallBlock = 64;  // few cells make few warps; small blocks spread them over the GPU
@@ -126,6 +164,11 @@ Status listPairs(const StepArrays& arrays, const PairLists& lists, cudaStream_t 
   listPairsKernel<<<smallBlocksFor(count), kSmallBlock, 0, stream>>>(lists, count);
   findReversesKernel<<<blocksFor(size_t{count} * kWarp), kBlock, 0, stream>>>(lists, count);
   return checkLaunch("listPairs");
+}
+
+Status countOverlaps(const StepArrays& arrays, uint32_t* counts, cudaStream_t stream) {
+  countOverlapsKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays, counts);
+  return checkLaunch("countOverlaps");
 }
 
 }  // namespace froth

@@ -71,14 +71,16 @@ __device__ inline float sumQuads(const glm::vec4& quad) {
 }
 
 // Adds the sums of a pair once per plane that some lanes' rays end at; other lanes' plane is no place of a plane.
-__device__ inline void addPairs(uint32_t plane, const glm::vec4& pair, const GradientSums<float>& sums) {
+__device__ inline void addPairs(uint32_t plane, const glm::vec4& pair, const uint32_t* pairOfPlane,
+                                const GradientSums<float>& sums) {
   uint32_t waiting = __ballot_sync(kAllLanes, plane < kBoundedByEye);
   while (waiting != 0) {
     const uint32_t shared = __shfl_sync(kAllLanes, plane, __ffs(static_cast<int>(waiting)) - 1);
     const bool isShared = plane == shared;
     waiting &= ~__ballot_sync(kAllLanes, isShared);
     const float sum = sumQuads(isShared ? pair : glm::vec4(0));
-    if (laneOfWarp() < 4) atomicAdd(reinterpret_cast<float*>(sums.pairs + shared) + laneOfWarp(), sum);
+    float* pairSum = reinterpret_cast<float*>(sums.pairs + pairOfPlane[shared]);
+    if (laneOfWarp() < 4) atomicAdd(pairSum + laneOfWarp(), sum);
   }
 }
 

@@ -18,9 +18,7 @@ __device__ inline uint32_t laneOfWarp() { return threadIdx.x % kWarp; }
 // A bit mask of the lanes before this one.
 __device__ inline uint32_t lanesBefore() { return (1u << laneOfWarp()) - 1; }
 
-// A step whose lists did not fit, or whose pairs are out of date, changes nothing.
-__device__ inline bool isVoid(const StepArrays& arrays) {
-  return arrays.counters->tileEntries > arrays.entryCapacity || arrays.counters->cellsOutOfSkin > 0;
-}
+// A step whose lists did not fit changes nothing.
+__device__ inline bool isVoid(const StepArrays& arrays) { return arrays.counters->tileEntries > arrays.entryCapacity; }
 
 }  // namespace froth

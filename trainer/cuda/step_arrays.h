@@ -15,7 +15,7 @@ struct StepCounters {
   uint32_t seenCells = 0;       // ranks
   uint32_t tileEntries = 0;     // of all tiles; more than fit: the step changes nothing, and is taken again
   uint32_t droppedCount = 0;    // contributions that were no finite numbers, of all steps
-  uint32_t cellsOutOfSkin = 0;  // not 0: the pairs may lack some; as with tileEntries
+  uint32_t cellsOutOfSkin = 0;  // not 0: the pairs may lack some of the next step's
 };
 
 struct StepArrays {
@@ -24,6 +24,7 @@ struct StepArrays {
   glm::vec4* foundBalls;  // [cells] when the pairs were found
   float* slacks;          // [cells] by how much they may change since (trainer/step/skin.h)
   SeenCells<float> seen;  // `count` is unused: StepCounters::seenCells
+  uint32_t* pairOfPlane;  // [SeenCells::planes] its place in GradientSums::pairs
   GradientSums<float> sums;
   PixelArrays<float> pixels;
   StepCounters* counters;
@@ -37,9 +38,12 @@ struct StepArrays {
 
   // The lists of tiles: an entry is a tile and the rank of a cell that it sees.
   glm::vec4* tileCones;                                           // [tiles]
+  glm::vec4* groupCones;                                          // [groups of tiles] (ball_tiles.h)
   uint32_t* tilesBegin;                                           // [tiles + 1] in sortedRanks
   uint32_t *entryTiles, *sortedTiles, *entryRanks, *sortedRanks;  // [entryCapacity]
   uint32_t entryCapacity;
+  uint32_t *tileLengths, *sortedTileLengths, *tiles;  // [tiles]
+  uint32_t* tileOrder;                                // [tiles] in which tiles are drawn
 };
 
 inline constexpr uint32_t kUnseenKey = UINT32_MAX;

@@ -43,7 +43,7 @@ struct WarpPixel {
 };
 
 __device__ inline WarpPixel pixelOfThread(const StepArrays& arrays, const TrainingView<float>& view) {
-  const uint32_t tile = blockIdx.x, tilesX = tilesAlong(view.width);
+  const uint32_t tile = arrays.tileOrder[blockIdx.x], tilesX = tilesAlong(view.width);
   const uint32_t x = tile % tilesX * kTileSize + threadIdx.x % kTileSize;
   const uint32_t y = tile / tilesX * kTileSize + threadIdx.x / kTileSize;
   WarpPixel own;
