@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "measure/flight/flight_figures.h"
+#include "measure/flight/pops_figures.h"
 #include "tool/options.h"
 
 namespace froth {
@@ -24,7 +25,8 @@ Result<std::vector<Pose>> keyPoses(const std::filesystem::path& cameras) {
 
 }  // namespace
 
-void addFlightOptions(CLI::App& command, FlightOptions& options) {
+void addFlightOptions(CLI::App& command, FlightFlags& flags) {
+  FlightOptions& options = flags.flight;
   constexpr const char* kGroup = "Flight with streaming";
   const auto needsFlight = [&](CLI::Option* option) { option->needs("--flight")->group(kGroup); };
   CLI::Option* const flight =
@@ -50,23 +52,45 @@ void addFlightOptions(CLI::App& command, FlightOptions& options) {
       command.add_option("--fail-once", options.scene.disk.failOnce, "Share of the ranges whose first read fails")
           ->check(numberBetween(0, 1)));
   needsFlight(command.add_flag("--bad-chunk", options.scene.disk.hasBadRange, "One range cannot be read at all"));
-  needsFlight(
+  CLI::Option* const jumps =
       command.add_option("--jump-every", options.jumpEvery, "After so many frames the camera goes on elsewhere")
-          ->check(countBetween(1, 10000000)));
-  needsFlight(command.add_option("--image-every", options.imageEvery, "Frames between images that are compared")
-                  ->capture_default_str()
-                  ->check(countBetween(1, 10000000)));
+          ->check(countBetween(1, 10000000));
+  CLI::Option* const images =
+      command.add_option("--image-every", options.imageEvery, "Frames between images that are compared")
+          ->capture_default_str()
+          ->check(countBetween(1, 10000000));
+  needsFlight(jumps);
+  needsFlight(images);
+  needsFlight(command
+                  .add_flag("--pops", flags.wantsPops,
+                            "Move slowly forwards from the first view instead, and tell how pixels change by frame")
+                  ->excludes(jumps)
+                  ->excludes(images));
 }
 
-Status runFlight(const FlightOptions& options, const ViewOptions& views, const FiguresOutput& output,
+namespace {
+
+Status runPops(const CameraPath& path, const FlightOptions& options, const FiguresOutput& output,
+               const Progress& progress) {
+  const Result<Pops> pops = measurePops(viewOf(path, options, 0), options, progress);
+  if (!pops) return pops.error();
+  if (output.wantsTable()) printPops(*pops, options);
+  return output.write(popsAsJson(*pops, options));
+}
+
+}  // namespace
+
+Status runFlight(const FlightFlags& flags, const ViewOptions& views, const FiguresOutput& output,
                  const Progress& progress) {
   const Result<std::vector<SelectedView>> selected = selectViews(views);
   if (!selected) return selected.error();
   Result<std::vector<Pose>> keys = keyPoses(views.cameras);
   if (!keys) return keys.error();
-  FlightOptions sized = options;
+  FlightOptions sized = flags.flight;
   sized.scene.extent = {selected->front().view.width, selected->front().view.height};
-  const Result<Flight> flight = fly(CameraPath(std::move(*keys)), sized, progress);
+  const CameraPath path(std::move(*keys));
+  if (flags.wantsPops) return runPops(path, sized, output, progress);
+  const Result<Flight> flight = fly(path, sized, progress);
   if (!flight) return flight.error();
   if (output.wantsTable()) printFlight(*flight, sized);
   return output.write(flightAsJson(*flight, sized));

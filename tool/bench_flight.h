@@ -12,10 +12,15 @@
 
 namespace froth {
 
-void addFlightOptions(CLI::App& command, FlightOptions& options);
+struct FlightFlags {
+  FlightOptions flight;
+  bool wantsPops = false;  // a slow dolly from the first view, in place of the path
+};
+
+void addFlightOptions(CLI::App& command, FlightFlags& flags);
 
 // Along the key frames of the cameras' flight, else through the views.
-Status runFlight(const FlightOptions& options, const ViewOptions& views, const FiguresOutput& output,
+Status runFlight(const FlightFlags& flags, const ViewOptions& views, const FiguresOutput& output,
                  const Progress& progress);
 
 }  // namespace froth

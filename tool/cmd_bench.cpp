@@ -39,7 +39,7 @@ struct BenchOptions {
   uint32_t layers = kAllLayers;
   std::string device;
   bool isCounting = false;
-  FlightOptions flight;
+  FlightFlags flight;
   OpeningOptions opening;
   RayFlags rays;
   FiguresOutput figures;
@@ -174,12 +174,12 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
 }
 
 Status benchFlight(const BenchOptions& options, const Progress& progress) {
-  FlightOptions flight = options.flight;
-  flight.device = options.device;
-  flight.scene.asset = options.input;
-  flight.scene.render.method = findMethod(options.renderer)->method;
-  flight.scene.render.cutoff = options.cutoff;
-  return runFlight(flight, options.views, options.figures, progress);
+  FlightFlags flags = options.flight;
+  flags.flight.device = options.device;
+  flags.flight.scene.asset = options.input;
+  flags.flight.scene.render.method = findMethod(options.renderer)->method;
+  flags.flight.scene.render.cutoff = options.cutoff;
+  return runFlight(flags, options.views, options.figures, progress);
 }
 
 void addRayFlags(CLI::App& command, RayFlags& flags) {
@@ -205,7 +205,7 @@ Status benchOpen(const BenchOptions& options, const Progress& progress) {
 }
 
 Status runWanted(const BenchOptions& options, const Progress& progress) {
-  if (options.flight.frames > 0) return benchFlight(options, progress);
+  if (options.flight.flight.frames > 0) return benchFlight(options, progress);
   if (options.opening.runs > 0) return benchOpen(options, progress);
   return runBench(options, progress);
 }

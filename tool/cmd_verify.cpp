@@ -29,9 +29,8 @@ void printReport(const std::filesystem::path& path, const ValidityReport& found,
 void printLevelChecks(const AssetContents& contents) {
   if (contents.levels.empty()) return;
   fmt::print(
-      "levels            {}, {} groups: both forms of each with the same neighbours outside; the finest scene, the "
-      "floor and a "
-      "mixture are whole foams\n",
+      "levels            {}, {} groups: both forms of each with the same neighbours outside; errors grow towards the "
+      "floor; the finest scene, the floor and a mixture are whole foams\n",
       countLevels(contents.levels), contents.groups.size());
   fmt::print("borders           {}, each the same ball wherever it stands\n", contents.borderCount);
 }

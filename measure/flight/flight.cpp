@@ -1,7 +1,6 @@
 #include "measure/flight/flight.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -51,10 +50,8 @@ Status compare(Host& host, const FlightOptions& options, const std::vector<View>
   atRest.disk = {};
   const Result<std::vector<FlownImage>> settled = settledImages(host, atRest, views, "at rest", progress);
   if (!settled) return settled.error();
-  SceneOptions unlimited = atRest;
-  unlimited.budget = unlimited.mostCells = 0;
-  unlimited.detail = std::numeric_limits<float>::max();
-  const Result<std::vector<FlownImage>> whole = settledImages(host, unlimited, views, "all cells", progress);
+  const Result<std::vector<FlownImage>> whole =
+      settledImages(host, allCellsOf(options.scene), views, "all cells", progress);
   if (!whole) return whole.error();
   for (size_t i = 0; i < images.size(); ++i) {
     const Result<double> asFlown = psnrOf(flown[i], (*whole)[i]);

@@ -1,6 +1,7 @@
 #include "measure/flight/streamed_scene.h"
 
 #include <chrono>
+#include <limits>
 #include <utility>
 
 #include "base/progress_printer.h"
@@ -18,6 +19,14 @@ constexpr uint32_t kRestFrames = 16;
 constexpr uint32_t kMostSettlingFrames = 10000;
 
 }  // namespace
+
+SceneOptions allCellsOf(const SceneOptions& options) {
+  SceneOptions whole = options;
+  whole.disk = {};
+  whole.budget = whole.mostCells = 0;
+  whole.detail = std::numeric_limits<float>::max();
+  return whole;
+}
 
 Result<std::unique_ptr<StreamedScene>> StreamedScene::create(Host& host, const SceneOptions& options) {
   Result<SimulatedDisk> disk = SimulatedDisk::open(options.asset, options.disk);
@@ -77,6 +86,20 @@ FrothAssetStatus StreamedScene::assetStatus() const {
   auto status = makeStruct<FrothAssetStatus>();
   frothGetAssetStatus(context_, asset_, &status);
   return status;
+}
+
+Result<std::vector<uint32_t>> StreamedScene::drawnChunks() const {
+  uint32_t count = 0;
+  Status asked = check(frothGetChunks(context_, asset_, 0, nullptr, &count), "frothGetChunks");
+  if (!asked) return asked.error();
+  std::vector<FrothChunk> chunks(count);
+  asked = check(frothGetChunks(context_, asset_, count, chunks.data(), &count), "frothGetChunks");
+  if (!asked) return asked.error();
+  std::vector<uint32_t> drawn;
+  for (uint32_t chunk = 0; chunk < count; ++chunk) {
+    if (chunks[chunk].state == FROTH_CHUNK_DRAWN) drawn.push_back(chunk);
+  }
+  return drawn;
 }
 
 Status StreamedScene::record(const View& view, VkCommandBuffer commands, uint64_t serial, FlownFrame& frame) {

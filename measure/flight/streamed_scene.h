@@ -31,6 +31,9 @@ struct SceneOptions {
   GpuRenderOptions render;
 };
 
+// The same on a fast disk with all cells of level 0, whatever they take.
+SceneOptions allCellsOf(const SceneOptions& options);
+
 struct FlownFrame {
   double updateMs = 0;   // [ms] frothUpdate, on the clock
   double gpuMs = 0;      // [ms] sum of passes, once a further frame is drawn; 0: the device tells no times
@@ -58,6 +61,7 @@ class StreamedScene {
 
   uint64_t bytesRead() const { return disk_.bytesRead(); }
   FrothAssetStatus assetStatus() const;
+  Result<std::vector<uint32_t>> drawnChunks() const;  // ascending; of the newest frame
 
  private:
   StreamedScene(Host& host, SimulatedDisk disk, const SceneOptions& options)

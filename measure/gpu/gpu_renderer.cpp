@@ -352,6 +352,7 @@ Status GpuRenderer::setStreaming(const GpuStreaming& streaming) {
   if (!set) return set;
   auto info = makeStruct<FrothStreamInfo>();
   info.detail = streaming.detail;
+  info.mostCells = streaming.mostCells;
   return state_->check(frothSetStreaming(state_->context, &info), "frothSetStreaming");
 }
 

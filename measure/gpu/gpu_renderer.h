@@ -54,8 +54,9 @@ struct RayOptions {
 
 // Levels of detail; without effect on assets that have none.
 struct GpuStreaming {
-  float detail = 1;     // FrothStreamInfo
-  uint64_t budget = 0;  // [bytes] frothSetBudget
+  float detail = 1;        // FrothStreamInfo
+  uint64_t budget = 0;     // [bytes] frothSetBudget
+  uint64_t mostCells = 0;  // FrothStreamInfo
 };
 
 struct DrawnChunks {

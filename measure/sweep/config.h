@@ -55,8 +55,9 @@ std::vector<Knob> encodingKnobs();
 // Turn how it is drawn; walks: also those of the walk.
 std::vector<Knob> drawingKnobs(bool walks);
 
-// Turn which levels of detail are drawn, of an asset that has them; all of its finest cells take these bytes.
-std::vector<Knob> levelKnobs(uint64_t chunkBytes, uint64_t viewBytes);
+// Turn which levels of detail are drawn, of an asset that has them. Budgets lie between what asset and view take of
+// device memory with the floor alone, and with all cells [bytes].
+std::vector<Knob> levelKnobs(uint64_t floorBytes, uint64_t wholeBytes);
 inline constexpr float kAllCells = std::numeric_limits<float>::max();  // GpuStreaming::detail
 
 // The default preset, and the exact asset at full precision.

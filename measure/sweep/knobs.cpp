@@ -223,16 +223,16 @@ std::vector<Knob> drawingKnobs(bool walks) {
   return knobs;
 }
 
-std::vector<Knob> levelKnobs(uint64_t chunkBytes, uint64_t viewBytes) {
+std::vector<Knob> levelKnobs(uint64_t floorBytes, uint64_t wholeBytes) {
   constexpr double kMega = 1e6;
   Knob detail = logarithmic(knobOf("detail", "Levels of detail: errors may be 1 / detail pixels large", "",
                                    {1.0 / 64, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1, 2, 4},
                                    [](ReportConfig& c, double v) { c.streaming.detail = static_cast<float>(v); }));
   detail.values.push_back({"all cells", 8, [](ReportConfig& c) { c.streaming.detail = kAllCells; }});
-  Numbers budgets;  // views and chunks share what it leaves (docs/STREAMING.md)
+  Numbers budgets;
+  const double floor = static_cast<double>(floorBytes) / kMega, whole = static_cast<double>(wholeBytes) / kMega;
   for (const double share : {1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0}) {
-    budgets.push_back(
-        std::ceil((static_cast<double>(viewBytes) + 2 * share * static_cast<double>(chunkBytes)) / kMega));
+    budgets.push_back(std::ceil((floor + share * (whole - floor)) * 100) / 100);
   }
   Knob budget = logarithmic(
       knobOf("budget", "Levels of detail: device memory for all of Froth; what the views want most comes first", "MB",

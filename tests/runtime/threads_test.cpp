@@ -4,10 +4,16 @@
 #include <atomic>
 #include <deque>
 #include <mutex>
+#include <random>
+#include <set>
 #include <thread>
+#include <utility>
 
+#include "froth/froth_pool.h"
 #include "froth/froth_reader.h"
+#include "froth/froth_stream.h"
 #include "runtime_fixture.h"
+#include "tests/surroundings.h"
 
 namespace froth {
 namespace {
@@ -43,6 +49,8 @@ class Recorder {
 
 class Threads : public RuntimeGpuTest {
  protected:
+  class Levels;
+
   FrothRenderInfo infoFor(const HostImage& image) {
     auto info = makeStruct<FrothRenderInfo>();
     info.camera = makeCamera(kExtent.width, kExtent.height);
@@ -215,6 +223,105 @@ TEST_F(Threads, AnswerReadsWhileFramesGoOnAndAssetsAndContextsEnd) {
     while (frothDestroyContext(context_, UINT64_MAX) == FROTH_PENDING) std::this_thread::yield();
     context_ = nullptr;
   }
+}
+
+// An asset with levels of detail, in a context whose jobs run on threads: what it wants, and what is asked of it.
+class Threads::Levels {
+ public:
+  explicit Levels(Threads& test) : test_(test) {
+    EXPECT_EQ(frothCreateJobPool(2, &pool_), FROTH_OK);
+    FrothContextInfo info = test.host_->contextInfo();
+    info.runJob = frothRunInPool;
+    info.jobUser = pool_;
+    test.createContext(info);
+    const std::filesystem::path path = test::sourceFolder() / "tests/format/golden/version_3_0.froth";
+    test.bytes_.resize(std::filesystem::file_size(path));
+    std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(test.bytes_.data()), std::ssize(test.bytes_));
+    asset_ = test.openForQueries();
+    instance_ = test.createInstance(asset_);
+    while (test.statusOf(asset_).state == FROTH_ASSET_OPENING) test.runFrame();
+    EXPECT_EQ(test.statusOf(asset_).state, FROTH_ASSET_READY) << test.lastText();
+    floorBytes_ = test.statusOf(asset_).deviceBytes;
+  }
+  ~Levels() {
+    EXPECT_EQ(frothDestroyContext(std::exchange(test_.context_, nullptr), UINT64_MAX), FROTH_OK);
+    frothDestroyJobPool(pool_);
+  }
+
+  // From now on: the floor, or all that there is room for.
+  void want(bool isNear, bool hasRoom) {
+    const FrothStreamPoint point{{0, 0, isNear ? 0.0 : 1e6}, 0, 1e-3f, 0};
+    auto info = makeStruct<FrothStreamInfo>();
+    info.pointCount = 1;
+    info.points = &point;
+    EXPECT_EQ(frothSetStreaming(test_.context_, &info), FROTH_OK) << test_.lastText();
+    EXPECT_EQ(frothSetBudget(test_.context_, hasRoom ? 0 : 2 * floorBytes_), FROTH_OK) << test_.lastText();
+  }
+  std::set<uint32_t> drawn() const {
+    uint32_t count = 0;
+    EXPECT_EQ(frothGetChunks(test_.context_, asset_, 0, nullptr, &count), FROTH_OK);
+    std::vector<FrothChunk> chunks(count);
+    EXPECT_EQ(frothGetChunks(test_.context_, asset_, count, chunks.data(), &count), FROTH_OK);
+    std::set<uint32_t> numbers;
+    for (uint32_t i = 0; i < count; ++i) {
+      if (chunks[i].state == FROTH_CHUNK_DRAWN) numbers.insert(i);
+    }
+    return numbers;
+  }
+  FrothStreamStatus status() const {
+    auto status = makeStruct<FrothStreamStatus>();
+    EXPECT_EQ(frothGetStreamStatus(test_.context_, &status), FROTH_OK);
+    return status;
+  }
+  // All answers are from these chunks.
+  void ask(uint32_t seed, const std::set<uint32_t>& chunks) const {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int i = 0; i < 20; ++i) {
+      FrothRay ray{};
+      for (double& value : ray.origin) value = uniform(random);
+      for (double& value : ray.direction) value = uniform(random);
+      FrothRayHit hit;
+      EXPECT_GE(frothCastRays(test_.context_, nullptr, &ray, &hit, 1), FROTH_OK);
+      EXPECT_TRUE(std::isinf(hit.distance) || chunks.contains(hit.chunk)) << hit.chunk;
+      auto location = makeStruct<FrothLocation>();
+      EXPECT_EQ(frothLocate(test_.context_, instance_, ray.origin, &location), FROTH_OK);
+      EXPECT_TRUE(chunks.contains(location.chunk)) << location.chunk;
+      auto sphere = makeStruct<FrothSphere>();
+      std::copy_n(ray.origin, 3, sphere.centre);
+      sphere.radius = 0.2;
+      auto contact = makeStruct<FrothContact>();
+      EXPECT_GE(frothOverlapSphere(test_.context_, &sphere, &contact), FROTH_OK);
+      EXPECT_TRUE(contact.isTouching == 0 || chunks.contains(contact.chunk)) << contact.chunk;
+    }
+  }
+
+ private:
+  Threads& test_;
+  FrothJobPool* pool_ = nullptr;
+  FrothAsset asset_{};
+  FrothInstance instance_{};
+  uint64_t floorBytes_ = 0;
+};
+
+TEST_F(Threads, AskWhatIsDrawnWhileJobsBringOtherChunks) {
+  Levels levels(*this);
+  std::set<uint32_t> before = levels.drawn();
+  uint32_t changes = 0;
+  for (uint32_t frame = 0; frame < 120; ++frame) {
+    if (frame % 15 == 0) levels.want(frame % 30 == 0, frame % 60 < 30);
+    runFrame(0, [&](VkCommandBuffer) {
+      const std::set<uint32_t> now = levels.drawn();
+      changes += now != before ? 1 : 0;
+      before = now;
+      std::thread first([&] { levels.ask(2 * frame, now); }), second([&] { levels.ask(2 * frame + 1, now); });
+      first.join();
+      second.join();
+    });
+  }
+  EXPECT_GT(changes, 8u);
+  EXPECT_GT(levels.status().evictions, 0u);
+  EXPECT_EQ(levels.status().failures, 0u);
 }
 
 }  // namespace
