@@ -27,13 +27,20 @@ double heightAt(const QueryDetail* details, uint32_t count, const glm::dvec3& qu
 }  // namespace
 
 FoamWalk::FoamWalk(const QueryFoam& foam, const FoamRay& ray, const WalkLimits& limits)
-    : foam_(&foam),
-      ray_(ray),
-      limits_(limits),
-      current_(foam.locate(ray.origin)),
-      chunk_(&foam.chunk(current_.chunk)),
-      localOrigin_(ray.origin - chunk_->origin),
-      key_(glm::dot(ray.direction, chunk_->siteOf(current_.cell) - localOrigin_)) {}
+    : foam_(&foam), ray_(ray), limits_(limits), current_(foam.findEntry(ray.origin)) {
+  const bool isAtCell = foam.descend(current_, ray.origin);
+  enter(current_);
+  if (isAtCell) return;
+  key_ = -std::numeric_limits<double>::infinity();
+  skipToBall();
+}
+
+void FoamWalk::enter(CellAddress cell) {
+  current_ = cell;
+  chunk_ = &foam_->chunk(cell.chunk);
+  localOrigin_ = ray_.origin - chunk_->origin;
+  key_ = glm::dot(ray_.direction, chunk_->siteOf(cell.cell) - localOrigin_);
+}
 
 bool FoamWalk::next(FoamSegment& segment) {
   while (entry_ < ray_.tEnd) {
@@ -41,6 +48,7 @@ bool FoamWalk::next(FoamSegment& segment) {
       hitLimit_ = true;
       return false;
     }
+    if (isInTheOpen() && skipToBall()) continue;
     ++steps_;
     const Exit exit = findExit();
     const CellAddress cell = current_;
@@ -50,6 +58,35 @@ bool FoamWalk::next(FoamSegment& segment) {
     stepThrough(exit);
     if (isMet) return true;
   }
+  return false;
+}
+
+// The present cell has a long row, and its ball lies behind or aside.
+bool FoamWalk::isInTheOpen() const {
+  if (!foam_->isRowLong(*chunk_, current_.cell)) return false;
+  if (current_.cell >= chunk_->liveCount) return true;
+  double tNear, tFar;
+  const glm::dvec3 centre = chunk_->siteOf(current_.cell) - localOrigin_;
+  return !foam::intersectBall(centre, chunk_->radiusOf(current_.cell), ray_.direction, tNear, tFar) || tFar <= entry_;
+}
+
+// Only forwards, as a step: where rounding sees it otherwise, the walk goes on through the present cell.
+bool FoamWalk::skipToBall() {
+  const BallEntry ball = foam_->findFirstBall(ray_.origin, ray_.direction, entry_, ray_.tEnd);
+  neighbours_ += ball.asked;
+  if (!(ball.t < ray_.tEnd)) {
+    entry_ = ray_.tEnd;
+    return true;
+  }
+  const double before = key_;
+  const CellAddress from = current_;
+  enter(foam_->locateFrom(ball.cell, ray_.origin + ball.t * ray_.direction));
+  if (key_ > before) {
+    entry_ = ball.t;
+    return true;
+  }
+  enter(from);
+  key_ = before;
   return false;
 }
 

@@ -29,7 +29,8 @@ struct FoamSegment {
 
 // No rounding can make a walk cycle: each step has a key, the dot product of the direction and the site it leads to,
 // and is taken only to a greater key; the key of a site of a chunk, be it a cell or a ghost, is one fixed number for a
-// ray.
+// ray. In the open, where no ball is and a cell has hundreds of neighbours, a tree over the balls tells where the ray
+// enters the next one; the cells before it have nothing to show.
 class FoamWalk {
  public:
   FoamWalk(const QueryFoam& foam, const FoamRay& ray, const WalkLimits& limits);
@@ -47,6 +48,9 @@ class FoamWalk {
     double t, key;
   };
 
+  bool isInTheOpen() const;
+  bool skipToBall();
+  void enter(CellAddress cell);
   Exit findExit();
   void stepThrough(const Exit& exit);
   bool meetCell(CellAddress cell, const QueryChunk& chunk, const glm::dvec3& centre, double exit,
@@ -60,9 +64,9 @@ class FoamWalk {
   bool hitLimit_ = false;
 
   CellAddress current_;
-  const QueryChunk* chunk_;
-  glm::dvec3 localOrigin_;  // of the ray, from the chunk's origin
-  double key_, entry_ = 0;
+  const QueryChunk* chunk_ = nullptr;
+  glm::dvec3 localOrigin_{0};  // of the ray, from the chunk's origin
+  double key_ = 0, entry_ = 0;
 };
 
 }  // namespace froth

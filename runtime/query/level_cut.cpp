@@ -33,11 +33,11 @@ void QueryFoam::removeChunk(uint32_t number) {
 }
 
 QueryCut QueryFoam::makeCut(std::span<const uint32_t> ascending) const {
-  QueryCut cut{{ascending.begin(), ascending.end()}, {}};
-  if (!hasWalkGraph_) return cut;
+  std::vector<uint32_t> chunks(ascending.begin(), ascending.end());
+  if (!hasWalkGraph_) return makeTrees(std::move(chunks), {});
   std::vector<EntryTree::Sample> samples;
-  samples.reserve(kEntriesPerChunk * cut.chunks.size());
-  for (const uint32_t number : cut.chunks) {
+  samples.reserve(kEntriesPerChunk * chunks.size());
+  for (const uint32_t number : chunks) {
     const QueryChunk& chunk = chunks_[number];
     const uint32_t count = std::min(kEntriesPerChunk, chunk.cellCount);
     for (uint32_t i = 0; i < count; ++i) {
@@ -45,19 +45,16 @@ QueryCut QueryFoam::makeCut(std::span<const uint32_t> ascending) const {
       samples.push_back({glm::vec3(chunk.origin + chunk.siteOf(cell)), {number, cell}});
     }
   }
-  if (!samples.empty()) cut.entries = EntryTree(std::move(samples));
-  return cut;
+  return makeTrees(std::move(chunks), std::move(samples));
 }
 
 // What goes before what comes: a border is in both forms of a group.
 void QueryFoam::show(QueryCut&& cut) {
   isWhole_ = true;
   if (!hasWalkGraph_) return;
-  forEachMissing(shown_, cut.chunks, [&](uint32_t chunk) { forgetBorders(chunk); });
-  forEachMissing(cut.chunks, shown_, [&](uint32_t chunk) { tellBorders(chunk); });
-  bytes_ += cut.entries.bytes() - entries_.bytes();
-  shown_ = std::move(cut.chunks);
-  entries_ = std::move(cut.entries);
+  forEachMissing(cut_.chunks, cut.chunks, [&](uint32_t chunk) { forgetBorders(chunk); });
+  forEachMissing(cut.chunks, cut_.chunks, [&](uint32_t chunk) { tellBorders(chunk); });
+  takeCut(std::move(cut));
 }
 
 void QueryFoam::tellBorders(uint32_t chunk) {

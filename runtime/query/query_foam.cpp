@@ -1,6 +1,7 @@
 #include "runtime/query/query_foam.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "format/checks.h"
@@ -15,11 +16,6 @@ constexpr uint32_t kCellsPerEntry = 16;
 template <class T>
 uint64_t bytesOf(const std::vector<T>& values) {
   return values.capacity() * sizeof(T);
-}
-
-double powerOf(const glm::vec4& siteRadius, const glm::dvec3& point) {
-  const glm::dvec3 difference = point - glm::dvec3(siteRadius);
-  return glm::dot(difference, difference) - double{siteRadius.w} * siteRadius.w;
 }
 
 // QueryChunk::neighbours
@@ -58,12 +54,13 @@ QueryChunk makeQueryChunk(const ChunkContents& contents) {
   chunk.densities = contents.densities;
   chunk.orientations = contents.orientations;
   chunk.details = joinDetails(contents);
+  chunk.balls = makeBallTrees(chunk.siteRadius, chunk.cellCount, chunk.liveCount);
   return chunk;
 }
 
 uint64_t QueryChunk::arrayBytes() const {
   return bytesOf(siteRadius) + bytesOf(neighbourOffsets) + bytesOf(neighbours.words) + bytesOf(ghostRefs) +
-         bytesOf(borders) + bytesOf(densities) + bytesOf(orientations) + bytesOf(details);
+         bytesOf(borders) + bytesOf(densities) + bytesOf(orientations) + bytesOf(details) + balls.bytes();
 }
 
 QueryFoam::QueryFoam(const AssetContents& manifest, const LiveBounds& bounds)
@@ -112,9 +109,10 @@ Status QueryFoam::checkGhosts(const std::string& name) const {
 void QueryFoam::finish() {
   isWhole_ = true;
   if (samples_.empty()) return;
-  entries_ = EntryTree(std::move(samples_));
+  std::vector<uint32_t> all(chunks_.size());
+  std::iota(all.begin(), all.end(), 0u);
+  takeCut(makeTrees(std::move(all), std::move(samples_)));
   samples_ = {};
-  bytes_ += entries_.bytes();
 }
 
 double QueryFoam::meanHeightOf(const QueryChunk& chunk, uint32_t cell) const {
@@ -133,42 +131,6 @@ CellAddress QueryFoam::cellOfSite(CellAddress from, uint32_t site) const {
     if (ref == kNowhere) return from;
   }
   return {chunkOf(ref, localBits_), localOf(ref, localBits_)};
-}
-
-double QueryFoam::powerOf(CellAddress cell, const glm::dvec3& point) const {
-  const QueryChunk& chunk = chunks_[cell.chunk];
-  return froth::powerOf(chunk.siteRadius[cell.cell], point - chunk.origin);
-}
-
-// Greedy descent of the power. Over the regular triangulation it ends at the least one. Ends in any graph: each step is
-// taken only to a lower number, and a site of a chunk, be it a cell or a ghost, always has the same.
-CellAddress QueryFoam::locate(const glm::dvec3& point) const {
-  CellAddress current = entries_.find(glm::vec3(point));
-  const QueryChunk* chunk = &chunks_[current.chunk];
-  glm::dvec3 local = point - chunk->origin;
-  double least = froth::powerOf(chunk->siteRadius[current.cell], local);
-  for (;;) {
-    uint32_t best = current.cell;
-    const uint32_t end = chunk->neighbourOffsets[current.cell + 1];
-    for (uint32_t i = chunk->neighbourOffsets[current.cell]; i < end; ++i) {
-      const uint32_t other = chunk->neighbourAt(i);
-      const double power = froth::powerOf(chunk->siteRadius[other], local);
-      // On a plane: the first of its sites (shaders/foam/cell.h). Not a ghost, whose place another chunk may tell
-      // otherwise: so the search ends whatever a file holds.
-      const bool isFirst = power == least && other < chunk->cellCount &&
-                           !foam::comesFirst(glm::vec3(chunk->siteRadius[other]) - glm::vec3(chunk->siteRadius[best]));
-      if (power < least || isFirst) {
-        least = power;
-        best = other;
-      }
-    }
-    if (best == current.cell) return current;
-    const uint32_t from = current.chunk;
-    current = cellOfSite(current, best);
-    if (current.chunk == from) continue;
-    chunk = &chunks_[current.chunk];
-    local = point - chunk->origin;
-  }
 }
 
 }  // namespace froth

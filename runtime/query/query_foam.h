@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 
 #include "base/result.h"
 #include "format/asset_contents.h"
+#include "runtime/query/ball_trees.h"
 #include "runtime/query/chunk_geometry.h"
 #include "runtime/query/entry_tree.h"
 #include "runtime/query/packed_elements.h"
@@ -47,6 +49,7 @@ struct QueryChunk {
   std::vector<float> densities;         // [liveCount]
   std::vector<glm::vec4> orientations;  // [liveCount]
   std::vector<QueryDetail> details;     // [liveCount * K]; empty: the chunk has no heights
+  BallTrees balls;
 
   uint64_t arrayBytes() const;
   glm::dvec3 siteOf(uint32_t site) const { return glm::dvec3(siteRadius[site]); }
@@ -67,10 +70,21 @@ struct QueryChunk {
 // The neighbours' rows in the order of sites.
 QueryChunk makeQueryChunk(const ChunkContents& contents);
 
-// Chunks of an asset with levels that are drawn together, and where searches among their cells begin.
+// Chunks that answer together, and where searches among their cells begin.
 struct QueryCut {
   std::vector<uint32_t> chunks;  // ascending
   EntryTree entries;
+  glm::dvec3 origin{0};  // of the frame of `balls`
+  BallTrees balls;       // items: places in `chunks`
+
+  uint64_t treeBytes() const { return entries.bytes() + balls.bytes(); }
+};
+
+// Where a ray enters a ball: of a live cell, at t >= where the search began. Inside of a ball it enters there.
+struct BallEntry {
+  CellAddress cell;
+  double t = std::numeric_limits<double>::infinity();  // none
+  uint32_t asked = 0;                                  // boxes and balls
 };
 
 class QueryFoam {
@@ -100,7 +114,7 @@ class QueryFoam {
   bool hasWalkGraph() const { return hasWalkGraph_; }
   uint32_t detailCount() const { return detailCount_; }
   double detailSharpness() const { return detailSharpness_; }
-  bool hasCells() const { return entries_.bytes() > 0; }
+  bool hasCells() const { return cut_.entries.bytes() > 0; }
   bool hasLiveCells() const { return hasCells() && bounds_.low.x <= bounds_.high.x; }
   uint64_t bytes() const { return bytes_; }
 
@@ -112,7 +126,16 @@ class QueryFoam {
   CellAddress cellOfSite(CellAddress from, uint32_t site) const;
 
   // The power cell that holds a point of the asset. There must be cells and a walk graph.
-  CellAddress locate(const glm::dvec3& point) const;
+  CellAddress locate(const glm::dvec3& point) const { return locateFrom(findEntry(point), point); }
+  // Begins at a cell that is probably near.
+  CellAddress locateFrom(CellAddress cell, const glm::dvec3& point) const;
+  // Steps towards the power cell of a point while rows are short. false: it stands at a long one.
+  bool descend(CellAddress& cell, const glm::dvec3& point) const;
+  // In open space, where rows have hundreds of neighbours, a search in a tree is faster than one row.
+  static bool isRowLong(const QueryChunk& chunk, uint32_t cell);
+  CellAddress findEntry(const glm::dvec3& point) const { return cut_.entries.find(glm::vec3(point)); }
+  // Where a ray from `origin` enters the first ball of a live cell from t = `from` on, before `to`.
+  BallEntry findFirstBall(const glm::dvec3& origin, const glm::dvec3& direction, double from, double to) const;
   double powerOf(CellAddress cell, const glm::dvec3& point) const;
 
   // Box of the balls of live cells.
@@ -122,6 +145,9 @@ class QueryFoam {
  private:
   static constexpr CellRef kNowhere = UINT32_MAX;
 
+  QueryCut makeTrees(std::vector<uint32_t>&& chunks, std::vector<EntryTree::Sample>&& samples) const;
+  void takeCut(QueryCut&& cut);
+  CellAddress findLeastPower(CellAddress cell, const glm::dvec3& point) const;
   void tellBorders(uint32_t chunk);
   void forgetBorders(uint32_t chunk);
 
@@ -130,9 +156,8 @@ class QueryFoam {
   double detailSharpness_;
   std::vector<QueryChunk> chunks_;
   std::vector<EntryTree::Sample> samples_;  // until finish()
-  EntryTree entries_;
-  std::vector<uint32_t> shown_;   // with levels: chunks of the cut, ascending
-  std::vector<CellRef> borders_;  // [border number] the shown cell that it is, or kNowhere
+  QueryCut cut_;                            // that is shown; without levels all chunks
+  std::vector<CellRef> borders_;            // [border number] the shown cell that it is, or kNowhere
   LiveBounds bounds_;
   uint64_t bytes_ = 0;
 };

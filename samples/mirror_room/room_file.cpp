@@ -5,6 +5,12 @@
 #include <limits>
 #include <optional>
 
+// TinyGLTF as a part of this file, under a name of its own: libdraco.a, which froth_baker links, has parts of another
+// version, and a linker takes one of two functions of one name.
+#define TINYGLTF_IMPLEMENTATION
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define tinygltf froth_tinygltf
 #include <tiny_gltf.h>
 
 namespace froth {

@@ -5,6 +5,7 @@
 #include "froth/froth_estimate.h"
 #include "runtime/context/context.h"
 #include "tests/levels/level_cuts.h"
+#include "tests/query/first_ball.h"
 #include "tests/query/query_fixture.h"
 #include "tests/query/reference_rays.h"
 
@@ -200,6 +201,7 @@ TEST_F(CutQueries, AnswerAsBruteForceOverTheDrawnCellsDoes) {
       const FrothRayHit& hit = found.hits[i];
       const auto& [o, d, tMin, tMax] = rays[i];
       const ReferenceHit expected = reference.cast({o[0], o[1], o[2]}, {d[0], d[1], d[2]}, kInfinity, 0.5, 0);
+      expectFirstBall(*context_->findAsset(asset)->queryFoam(), cut, {o[0], o[1], o[2]}, {d[0], d[1], d[2]}, 0);
       EXPECT_NEAR(hit.transmittance, expected.transmittance, 1e-6);
       ASSERT_EQ(std::isfinite(hit.distance), expected.distance >= 0);
       if (!std::isfinite(hit.distance)) continue;

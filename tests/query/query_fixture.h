@@ -45,14 +45,15 @@ inline FrothRay makeRay(const glm::dvec3& origin, const glm::dvec3& direction, d
   return {{origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}, tMin, tMax};
 }
 
-inline AssetContents bakeScene(const Foam& foam, const std::string& preset, uint32_t chunkCells,
-                               bool walkGraph = true) {
+inline AssetContents bakeScene(const Foam& foam, const std::string& preset, uint32_t chunkCells, bool walkGraph = true,
+                               bool steiner = true) {
   BakeOptions options;
   options.knobs = *presetKnobs(preset);
   options.knobs.compressColours = false;  // queries see none
   options.preset = preset;
   options.chunkCells = chunkCells;
   options.walkGraph = walkGraph;
+  options.steiner = steiner;
   options.measure = false;
   Result<BakeResult> baked = bakeFoam(foam, options);
   EXPECT_TRUE(baked) << baked.error().message;

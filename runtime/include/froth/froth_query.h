@@ -52,7 +52,7 @@ typedef struct FrothCastInfo {
   float cutoff;         /* [< 1] a ray ends when its transmittance falls below this; 0: 1e-3; negative: never */
   uint32_t maxSteps;    /* cells of one ray in one instance; 0: 65536 */
   uint32_t closestOnly; /* 1: a ray ends at `distance`; transmittance is then the one behind that cell */
-  /* neighbours that one ray tests in one instance, without those of its last cell; 0: 1048576 */
+  /* neighbours, and in open space balls, that a ray tests in one instance, without its last cell's; 0: 1048576 */
   uint32_t maxNeighbours;
 } FrothCastInfo;
 

@@ -1,0 +1,131 @@
+// Far apart clusters of cells, with a few empty ones between them that touch hundreds: there trees over balls answer in
+// place of the walk. Against brute force over all cells.
+#include <algorithm>
+#include <cmath>
+
+#include "measure/stability/cases/case_parts.h"
+#include "tests/query/first_ball.h"
+#include "tests/query/query_fixture.h"
+#include "tests/query/reference_rays.h"
+
+namespace froth::test {
+namespace {
+
+constexpr float kApart = 8;
+
+//     o   o        o: 150 cells in a cube of edge 2
+//       .          .: some without density
+//     o   o
+Foam clusters() {
+  std::vector<CaseCell> cells;
+  for (uint32_t corner = 0; corner < 8; ++corner) {
+    const glm::vec3 centre = kApart * (2.0f * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1.0f);
+    for (CaseCell cell : cloud(150, corner + 1)) {
+      cell.site += centre;
+      cells.push_back(cell);
+    }
+  }
+  Random random(9);
+  for (int i = 0; i < 12; ++i) {
+    CaseCell empty;
+    empty.site = glm::vec3(random.inBox(glm::dvec3(-6), glm::dvec3(6)));
+    empty.density = 0;
+    cells.push_back(empty);
+  }
+  return foamOfCells(cells);
+}
+
+AssetContents bakeClusters() { return bakeScene(clusters(), "exact", 200, true, false); }
+
+class OpenSpace : public QueryTest {
+ protected:
+  void SetUp() override {
+    contents_ = bakeClusters();
+    ASSERT_GT(contents_.chunks.size(), 4u);
+    foam_ = *foamFromAsset(contents_);
+  }
+
+  QueryFoam makeQueryFoam() const {
+    QueryFoam foam(contents_);
+    for (const ChunkContents& chunk : contents_.chunks) foam.addChunk(makeQueryChunk(chunk), findLiveBounds(chunk));
+    foam.finish();
+    return foam;
+  }
+
+  AssetContents contents_;
+  Foam foam_;
+};
+
+TEST_F(OpenSpace, HasCellsWithLongRows) {
+  const QueryFoam foam = makeQueryFoam();
+  size_t longRows = 0, deadLongRows = 0;
+  for (uint32_t chunk = 0; chunk < contents_.chunks.size(); ++chunk) {
+    for (uint32_t cell = 0; cell < contents_.chunks[chunk].cellCount; ++cell) {
+      if (!foam.isRowLong(foam.chunk(chunk), cell)) continue;
+      ++longRows;
+      deadLongRows += cell >= contents_.chunks[chunk].liveCount;
+    }
+  }
+  EXPECT_GE(deadLongRows, 4u);
+  EXPECT_GT(longRows, deadLongRows);
+}
+
+TEST_F(OpenSpace, APointIsInTheCellOfLeastPower) {
+  const FrothInstance instance = createInstance(openReady(contents_));
+  Random random(1);
+  for (int i = 0; i < 3000; ++i) {
+    const glm::dvec3 point = random.inBox(glm::dvec3(-12), glm::dvec3(12));
+    EXPECT_NEAR(locate(instance, point).power, leastPower(foam_, point), 1e-11);
+  }
+}
+
+TEST_F(OpenSpace, ARayMeetsWhatTheReferenceMeets) {
+  createInstance(openReady(contents_));
+  auto info = makeStruct<FrothCastInfo>();
+  info.cutoff = -1;
+  const ReferenceRays reference(foam_);
+  Random random(2);
+  std::vector<FrothRay> rays;
+  for (int i = 0; i < 4000; ++i) {
+    const glm::dvec3 origin = random.inBox(glm::dvec3(-12), glm::dvec3(12));
+    const glm::dvec3 target(
+        foam_.sites[static_cast<size_t>(random.uniform(0, 1) * static_cast<double>(foam_.cellCount))]);
+    rays.push_back(makeRay(origin, glm::normalize(target - origin)));
+  }
+  const std::vector<FrothRayHit> hits = cast(rays, info);
+  size_t stopped = 0;
+  uint64_t steps = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const glm::dvec3 origin(rays[i].origin[0], rays[i].origin[1], rays[i].origin[2]);
+    const glm::dvec3 direction(rays[i].direction[0], rays[i].direction[1], rays[i].direction[2]);
+    const ReferenceHit expected = reference.cast(origin, direction, kInfinity, 0.5, 0);
+    EXPECT_NEAR(hits[i].transmittance, expected.transmittance, 1e-6) << i;
+    ASSERT_EQ(std::isfinite(hits[i].distance), expected.distance >= 0) << i;
+    if (expected.distance >= 0) {
+      EXPECT_NEAR(hits[i].distance, expected.distance, 1e-6) << i;
+    }
+    stopped += expected.distance >= 0;
+    steps += hits[i].steps;
+  }
+  EXPECT_GT(stopped, rays.size() / 2);
+  std::printf("%.1f cells per ray\n", static_cast<double>(steps) / static_cast<double>(rays.size()));
+}
+
+// Along axes too, where a float of the direction is 0, and from inside of balls.
+TEST_F(OpenSpace, TheFirstBallIsTheFirstOfAll) {
+  const QueryFoam foam = makeQueryFoam();
+  Random random(3);
+  size_t found = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const glm::dvec3 site(foam_.sites[static_cast<size_t>(i) % foam_.cellCount]);
+    glm::dvec3 direction = random.direction();
+    if (i % 4 == 0) direction = glm::dvec3(i % 3 == 0, i % 3 == 1, i % 3 == 2);
+    const glm::dvec3 origin = site - random.uniform(0, 20) * direction;
+    const double from = i % 2 == 0 ? 0 : random.uniform(0, 10);
+    found += expectFirstBall(foam, allChunks(contents_.chunks.size()), origin, direction, from);
+  }
+  EXPECT_GT(found, 2000u);
+}
+
+}  // namespace
+}  // namespace froth::test
