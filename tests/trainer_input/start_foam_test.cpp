@@ -97,7 +97,8 @@ TEST(StartFoam, TheSameSeedGivesTheSameBitsOnAnyNumberOfThreads) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 1);
   const StartFoam one = startOf(capture, kSmall);
   visitArrays([&](const FoamArray& array, auto values) {
-    EXPECT_TRUE(std::ranges::equal(std::as_bytes(floatsOf(many.foam.*values)), std::as_bytes(floatsOf(one.foam.*values))))
+    EXPECT_TRUE(
+        std::ranges::equal(std::as_bytes(floatsOf(many.foam.*values)), std::as_bytes(floatsOf(one.foam.*values))))
         << array.name;
   });
   EXPECT_NE(many.foam.sites, other.foam.sites);

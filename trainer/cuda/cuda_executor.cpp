@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "trainer/cpu/view_exchange.h"
 #include "trainer/loop/drift_tables.h"
-#include "trainer/loop/view_exchange.h"
 
 namespace froth {
 

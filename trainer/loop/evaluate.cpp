@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "trainer/cpu/cpu_step.h"
-#include "trainer/loop/view_exchange.h"
+#include "trainer/cpu/view_exchange.h"
 
 namespace froth {
 namespace {
