@@ -246,7 +246,8 @@ std::vector<double> sumWeights(const Foam& foam, const Visibility& visibility) {
 Status Bake::makeCoarser() {
   if (!options_.levels) return {};
   std::vector<View> views = knownViews();
-  if (views.empty()) views = viewsAround(foam_);
+  const bool fitsViews = !views.empty();
+  if (!fitsViews) views = viewsAround(foam_);
   const LevelInput input{foam_,
                          triangulation_.graph,
                          alpha_.graph,
@@ -256,7 +257,8 @@ Status Bake::makeCoarser() {
                          visibility_ ? sumWeights(foam_, *visibility_) : std::vector<double>{},
                          std::move(views),
                          options_.nearRatio,
-                         options_.nearDepth};
+                         options_.nearDepth,
+                         fitsViews};
   Result<Levels> levels = makeLevels(input, cells_, progress_);
   if (!levels) return levels.error();
   levels_ = std::move(*levels);

@@ -19,6 +19,7 @@
 #include "baker/lod/gather_cells.h"
 #include "baker/lod/group_balls.h"
 #include "baker/lod/level_errors.h"
+#include "baker/lod/level_fit.h"
 #include "foam/append_cells.h"
 #include "reference/camera/view_rays.h"
 
@@ -38,7 +39,9 @@ class LevelMaker {
         cells_(cells),
         progress_(progress),
         contributions_(input.contributions),
-        errors_(input.views, {input.nearRatio, input.nearDepth}) {
+        errors_(input.views, {input.nearRatio, input.nearDepth}),
+        fit_(input.fitsViews ? std::span<const View>(input.views) : std::span<const View>(),
+             {input.nearRatio, input.nearDepth}) {
     for (const View& view : input.views) eyes_.emplace_back(eyeOf(view));
   }
 
@@ -63,6 +66,9 @@ class LevelMaker {
   void weighMergedCells(size_t count);
   void splitForm(Step& step) const;
   void addGroup(Step& step);
+  struct Front;
+  Front gatherFront() const;
+  Status fitFront(Front& front);
   Status measureFront(uint32_t firstGroup);
   Levels collect();
 
@@ -72,6 +78,7 @@ class LevelMaker {
   std::vector<double> contributions_;  // [input cells, merged cells] or empty
   std::vector<glm::vec3> eyes_;        // of the views
   LevelErrors errors_;
+  LevelFit fit_;
 
   std::vector<LevelChunk> chunks_;
   std::vector<uint32_t> front_;  // chunks that may get coarser
@@ -90,6 +97,7 @@ Status LevelMaker::takeLevel0() {
     chunks_.push_back({planned, gatherRows(input_.walk, input_.alpha, planned.cells), {}});
   }
   if (!errors_.isMeasuring() || isFloor()) return {};
+  if (Status status = fit_.takeFinest(input_.foam, progress_); !status) return status;
   return errors_.takeFinest(input_.foam, owners, progress_);
 }
 
@@ -242,10 +250,14 @@ void LevelMaker::addGroup(Step& step) {
 }
 
 // All cells as the newest groups leave them: those of the chunks that are in no group.
-Status LevelMaker::measureFront(uint32_t firstGroup) {
-  const auto groupCount = static_cast<uint32_t>(levels_.groups.size());
-  if (!errors_.isMeasuring() || firstGroup == groupCount) return {};
-  std::vector<uint32_t> shown, sources, owners;
+struct LevelMaker::Front {
+  Foam foam;
+  std::vector<uint32_t> cells, owners;  // of the scene; chunks
+};
+
+LevelMaker::Front LevelMaker::gatherFront() const {
+  Front front;
+  std::vector<uint32_t> sources;
   std::vector<float> densities;
   for (uint32_t index = 0; index < chunks_.size(); ++index) {
     const LevelChunk& chunk = chunks_[index];
@@ -253,19 +265,46 @@ Status LevelMaker::measureFront(uint32_t firstGroup) {
     for (uint32_t local = 0; local < chunk.planned.cells.size(); ++local) {
       const uint32_t cell = chunk.planned.cells[local];
       if (cells_.sources[cell] == kNoSource) continue;
-      shown.push_back(cell);
+      front.cells.push_back(cell);
+      front.owners.push_back(index);
       sources.push_back(cells_.sources[cell]);
-      owners.push_back(index);
       densities.push_back(local < chunk.planned.liveCount ? cells_.densities[cell] : 0);
     }
   }
-  Foam front = gatherCells(input_.foam, levels_.merged, sources);
-  for (size_t k = 0; k < shown.size(); ++k) {
-    front.sites[k] = cells_.sites[shown[k]];
-    front.radii[k] = cells_.radii[shown[k]];
+  front.foam = gatherCells(input_.foam, levels_.merged, sources);
+  for (size_t k = 0; k < front.cells.size(); ++k) {
+    front.foam.sites[k] = cells_.sites[front.cells[k]];
+    front.foam.radii[k] = cells_.radii[front.cells[k]];
   }
-  front.densities = std::move(densities);
-  return errors_.addLevel(front, owners, chunks_, firstGroup, groupCount, progress_);
+  front.foam.densities = std::move(densities);
+  return front;
+}
+
+// The merged cells of the newest level descend towards the views; finer levels have all others.
+Status LevelMaker::fitFront(Front& front) {
+  const auto newest = static_cast<uint32_t>(levels_.reports.back().merges);
+  const uint32_t firstNew = input_.foam.cellCount + levels_.merged.cellCount - newest;
+  std::vector<uint8_t> isFree;
+  for (const uint32_t cell : front.cells) isFree.push_back(cells_.sources[cell] >= firstNew ? 1 : 0);
+  if (Status status = fit_.fit(front.foam, isFree, progress_); !status) return status;
+  for (uint32_t k = 0; k < front.foam.cellCount; ++k) {
+    if (!isFree[k]) continue;
+    float& density = front.foam.densities[k];
+    density = roundMantissa(density, input_.lattices.densityBits);
+    if (density > 0) cells_.densities[front.cells[k]] = density;
+    copyFittedFace(front.foam, k, levels_.merged, cells_.sources[front.cells[k]] - input_.foam.cellCount);
+  }
+  return {};
+}
+
+Status LevelMaker::measureFront(uint32_t firstGroup) {
+  const auto groupCount = static_cast<uint32_t>(levels_.groups.size());
+  if (!errors_.isMeasuring() || firstGroup == groupCount) return {};
+  Front front = gatherFront();
+  if (fit_.isFitting()) {
+    if (Status status = fitFront(front); !status) return status;
+  }
+  return errors_.addLevel(front.foam, front.owners, chunks_, firstGroup, groupCount, progress_);
 }
 
 Levels LevelMaker::collect() {

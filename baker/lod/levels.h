@@ -25,6 +25,7 @@ struct LevelInput {
   std::vector<double> contributions;    // [input cells] how much each shows; empty: all alike
   std::vector<View> views;              // what errors are measured in; empty: errors are distances between forms
   double nearRatio = 4, nearDepth = 0;  // where a view does not say
+  bool fitsViews = false;               // merged cells descend towards what the views show of level 0
 };
 
 struct Levels {

@@ -19,11 +19,13 @@
 #include "baker/input/foam_input.h"
 #include "baker/lod/choose_pairs.h"
 #include "baker/lod/contributions.h"
+#include "baker/lod/level_fit.h"
 #include "baker/lod/merge_cells.h"
 #include "base/image/mean_square.h"
 #include "foam/foam_arrays.h"
 #include "foam/pick_foam.h"
 #include "reference/camera/view_rays.h"
+#include "reference/capture/view_selection.h"
 #include "reference/render/reference.h"
 
 namespace froth {
@@ -33,7 +35,7 @@ namespace {
 constexpr uint32_t kRoundPart = 4;
 
 struct Options {
-  std::string foam, cameras;
+  std::string foam, cameras, seen;
   double part = 0.5;  // of the cells that are left
   uint32_t groups = 1, threads = 2, rays = 2;
   std::vector<uint32_t> widths{660, 330, 165, 82};
@@ -104,14 +106,23 @@ class LevelsBench {
         cameras_(valueOf(readCameras(options.cameras))),
         fine_(input_.foam) {
     for (size_t v = 0; v < cameras_.views.size(); ++v) {
-      (v % 4 == 2 ? tests_ : others_).push_back(cameras_.views[v]);
+      if (options.seen.empty() || v % 4 == 2) (v % 4 == 2 ? tests_ : others_).push_back(cameras_.views[v]);
     }
+    if (options.seen.empty()) return;
+    constexpr double kSame = 1e-3;  // of the scene's units, which are about a metre
+    for (const View& view : valueOf(readViews(options.seen)).views) {
+      const bool isTest = std::ranges::any_of(
+          cameras_.views, [&](const View& test) { return glm::distance(eyeOf(test), eyeOf(view)) < kSame; });
+      if (!isTest) others_.push_back(view);
+    }
+    fmt::print("{} views of {}\n", others_.size(), options.seen);
   }
 
   void run() {
     std::vector<double> contributions;
     const double measured = secondsOf([&] {
-      contributions = valueOf(measureContributions(input_.foam, others_, {input_.nearRatio, input_.nearDepth, 80'000}));
+      contributions = valueOf(measureContributions(
+          input_.foam, others_, {input_.nearRatio, input_.nearDepth, others_.size() > 20 ? 20'000u : 80'000u}));
     });
     fmt::print("contributions of {} views: {:.2f} s\n", others_.size(), measured);
     for (const View& view : others_) eyes_.emplace_back(eyeOf(view));
@@ -125,6 +136,16 @@ class LevelsBench {
       const Foam made = mergeRounds(fine, std::move(shown));
       append(made, coarse);
     }
+    compare(coarse);
+    LevelFit fit(others_, {input_.nearRatio, input_.nearDepth});
+    const auto check = [](const Status& status) {
+      if (!status) throw std::runtime_error(status.error().message);
+    };
+    const double seconds = secondsOf([&] {
+      check(fit.takeFinest(input_.foam, {}));
+      check(fit.fit(coarse, std::vector<uint8_t>(coarse.cellCount, 1), {}));
+    });
+    fmt::print("fit: {:.2f} s\n", seconds);
     compare(coarse);
   }
 
@@ -225,6 +246,7 @@ int main(int argc, char** argv) {
   CLI::App program("What a level of detail costs in likeness");
   program.add_option("FOAM", options.foam)->required();
   program.add_option("CAMERAS", options.cameras)->required();
+  program.add_option("--seen", options.seen, "cameras.json, a COLMAP folder or transforms.json");
   program.add_option("--part", options.part);
   program.add_option("--groups", options.groups, "a power of two");
   program.add_option("--widths", options.widths);

@@ -12,10 +12,10 @@
 
 #include "foam/checkpoint/checkpoint.h"
 #include "tests/bench/bench_calls.h"
+#include "trainer/cpu/view_exchange.h"
 #include "trainer/cuda/cuda_executor.h"
 #include "trainer/loop/evaluate.h"
 #include "trainer/loop/train_scene.h"
-#include "trainer/loop/view_exchange.h"
 #include "trainer/loss/image_loss.h"
 
 namespace froth {

@@ -12,7 +12,7 @@
 #include "tests/bench/bench_calls.h"
 #include "tests/trainer/cuda_comparison.h"
 #include "trainer/cpu/foam_exchange.h"
-#include "trainer/loop/view_exchange.h"
+#include "trainer/cpu/view_exchange.h"
 
 namespace froth {
 namespace {

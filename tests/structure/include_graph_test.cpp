@@ -53,7 +53,7 @@ const std::map<std::string, std::vector<std::string>> kRooms{
     {"host", {"base", "runtime/include"}},
     {"foam", {"base", "shaders/foam"}},
     {"reference", {"base", "foam", "shaders/foam"}},
-    {"baker", {"base", "format", "foam", "reference", "shaders/foam"}},
+    {"baker", {"base", "format", "foam", "reference", "trainer/cpu", "trainer/step", "shaders/foam"}},
     {"trainer", {"base", "foam", "reference", "shaders/foam"}},
     {"measure", {"base", "format", "foam", "reference", "baker", "host", "runtime/include", "shaders/foam"}},
     {"tool",

@@ -9,7 +9,7 @@
 
 #include "tests/reference/scenes.h"
 #include "trainer/cpu/foam_exchange.h"
-#include "trainer/loop/view_exchange.h"
+#include "trainer/cpu/view_exchange.h"
 
 namespace froth {
 namespace {

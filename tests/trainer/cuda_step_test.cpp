@@ -6,8 +6,8 @@
 #include "tests/reference/scenes.h"
 #include "tests/trainer/cuda_comparison.h"
 #include "trainer/cpu/foam_exchange.h"
+#include "trainer/cpu/view_exchange.h"
 #include "trainer/cuda/cuda_executor.h"
-#include "trainer/loop/view_exchange.h"
 
 namespace froth {
 namespace {

@@ -18,6 +18,11 @@ SeenCells<Real> CpuStep<Real>::seen() {
 }
 
 template <class Real>
+GradientSums<Real> CpuStep<Real>::sums() {
+  return {cellSums_.data(), detailSums_.data(), pairSums_.data(), nullptr};
+}
+
+template <class Real>
 PixelArrays<Real> CpuStep<Real>::pixels() {
   return {rendered_.data(), logTransmittances_.data(), ends_.data(), gradients_.data(), wanted_.data()};
 }
@@ -261,11 +266,10 @@ void CpuStep<Real>::update(const AdamStep<Real>& adam, Real overlapWeight) {
     bad += badHere;
   });
   const SeenCells<Real> cells = seen();
-  const GradientSums<Real> sums{cellSums_.data(), detailSums_.data(), pairSums_.data(), nullptr};
   tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
     uint32_t badHere = 0;
-    updateBall(foam, adam, cell, gatherBall(foam, pairs_.rows(), cells, sums, overlapWeight, cell), badHere);
-    updateMeans(foam, cells, sums, cell);
+    updateBall(foam, adam, cell, gatherBall(foam, pairs_.rows(), cells, sums(), overlapWeight, cell), badHere);
+    updateMeans(foam, cells, sums(), cell);
     bad += badHere;
   });
   droppedCount_ += bad;

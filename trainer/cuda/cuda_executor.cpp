@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "trainer/cpu/view_exchange.h"
 #include "trainer/loop/drift_tables.h"
 #include "trainer/loop/evaluate.h"
-#include "trainer/loop/view_exchange.h"
 
 namespace froth {
 

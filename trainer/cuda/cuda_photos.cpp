@@ -2,7 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "trainer/loop/view_exchange.h"
+#include "trainer/cpu/view_exchange.h"
 #include "trainer/photos/reduce_photo.h"
 
 namespace froth {

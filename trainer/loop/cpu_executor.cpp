@@ -4,8 +4,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "trainer/cpu/view_exchange.h"
 #include "trainer/loop/evaluate.h"
-#include "trainer/loop/view_exchange.h"
 #include "trainer/photos/reduce_photo.h"
 
 namespace froth {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "trainer/cpu/cpu_step.h"
-#include "trainer/loop/view_exchange.h"
+#include "trainer/cpu/view_exchange.h"
 
 namespace froth {
 namespace {

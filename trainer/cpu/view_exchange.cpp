@@ -1,4 +1,4 @@
-#include "trainer/loop/view_exchange.h"
+#include "trainer/cpu/view_exchange.h"
 
 namespace froth {
 
