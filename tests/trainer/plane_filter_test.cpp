@@ -8,7 +8,7 @@
 #include "tests/reference/scenes.h"
 #include "trainer/cpu/cpu_step.h"
 #include "trainer/cpu/foam_exchange.h"
-#include "trainer/loop/view_exchange.h"
+#include "trainer/cpu/view_exchange.h"
 #include "trainer/step/ray_cell.h"
 
 namespace froth {
