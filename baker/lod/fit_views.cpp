@@ -55,16 +55,12 @@ std::vector<size_t> neighboursOf(std::span<const View> views, size_t own) {
 
 std::vector<View> chooseFitViews(std::span<const View> views) {
   std::vector<View> chosen;
-  const size_t count = std::min(kMostFitViews, views.size());
-  for (size_t k = 0; k < count; ++k) chosen.push_back(views[k * views.size() / count]);
-  if (count < 2) return chosen;
-  std::vector<std::vector<size_t>> neighbours;
-  for (size_t k = 0; k < count; ++k) neighbours.push_back(neighboursOf(views, k));
-  for (size_t k = 0; chosen.size() < kMostFitViews; ++k) {
-    const std::vector<size_t>& near = neighbours[k % count];
-    const size_t other = near[k / count % near.size()];
+  if (views.size() < 2) return chosen;
+  for (size_t k = 0; k < kFitViews; ++k) {
+    const size_t first = views.size() > kFitViews ? k * views.size() / kFitViews : k % views.size();
+    const std::vector<size_t> near = neighboursOf(views, first);
     const double share = std::fmod((static_cast<double>(k) + 1) / std::numbers::phi, 1.0);  // evenly spread
-    chosen.push_back(viewBetween(views[k % count], views[other], share));
+    chosen.push_back(viewBetween(views[first], views[near[k / views.size() % near.size()]], share));
   }
   return chosen;
 }

@@ -8,9 +8,10 @@
 
 namespace froth {
 
-// At most kMostFitViews of the views; where they are fewer, the rest stand between neighbouring ones. A foam that fits
-// few views looks wrong from elsewhere, so a fit looks through many, and through each once.
-inline constexpr size_t kMostFitViews = 192;
+// kFitViews that stand between neighbouring views: errors are measured in the views themselves, which a fit should not
+// know. A foam that fits few views looks wrong from elsewhere, so a fit looks through many, and through each once. None
+// between fewer than two views.
+inline constexpr size_t kFitViews = 192;
 std::vector<View> chooseFitViews(std::span<const View> views);
 
 }  // namespace froth
