@@ -21,8 +21,8 @@ constexpr double kMostBoxes = 8'000;  // of a view: from some cells on a fit cos
 constexpr double kBoxesPerCell = 1;   // ... and less in small foams
 constexpr double kLastRate = 0.05;    // of the first
 
-RaySettings<float> raySettings() {
-  RaySettings<float> settings;
+PixelSettings<float> raySettings() {
+  PixelSettings<float> settings;
   settings.sharpness = static_cast<float>(kTrainedSharpness);
   settings.perPixel = 1;
   return settings;

@@ -15,8 +15,9 @@ namespace {
 constexpr double kPixelsPerFrame = 0.1;
 
 View moveForwards(View view, double distance) {
-  for (size_t row = 0; row < 3; ++row)
+  for (size_t row = 0; row < 3; ++row) {
     view.worldFromCamera[4 * row + 3] += distance * view.worldFromCamera[4 * row + 2];
+  }
   return view;
 }
 

@@ -32,7 +32,7 @@ AdamStep<float> firstAdam() {
 }
 
 void takeStep(CpuStep<float>& step, const TrainingView<float>& view) {
-  RaySettings<float> settings;
+  PixelSettings<float> settings;
   settings.normalWeight = 1e-4f;
   settings.perPixel = 1.0f / (kWidth * kHeight);
   step.activate(1e-3f);
@@ -56,7 +56,7 @@ TEST_P(CpuStepOf, ShowsWhatTheReferenceShows) {
   TrainingView<double> training = trainingView<double>(view);
   training.nearRatio = options.nearRatio;
   training.nearDepth = options.nearDepth;
-  RaySettings<double> settings;
+  PixelSettings<double> settings;
   settings.cutoff = 0;
   step.activate(0.01f);
   AdamStep<double> adam{};
@@ -104,7 +104,7 @@ TEST(CpuStep, DropsAndCountsWhatIsNoFiniteNumber) {
     foam.values[size_t(Parameter::kPoints)][6 + c] = foam.values[size_t(Parameter::kPoints)][3 + c];
   }
   CpuStep<float> step(foam);
-  RaySettings<float> settings;
+  PixelSettings<float> settings;
   step.activate(1e-3f);
   std::vector<glm::vec4> gradients = gradientsFor(step.render(view, settings, firstAdam()));
   for (const glm::vec4& gradient : gradients) ASSERT_TRUE(std::isfinite(glm::dot(gradient, gradient)));

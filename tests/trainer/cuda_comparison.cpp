@@ -70,7 +70,7 @@ std::array<std::vector<float>, kParameterCount> differentiateInDouble(const Foam
   const TrainingView<double> wideView{view.width,     view.height,    view.fx,        view.fy,
                                       view.cx,        view.cy,        view.eye,       view.worldFromCamera,
                                       view.nearRatio, view.nearDepth, view.directions};
-  const RaySettings<float>& settings = stepCase.settings;
+  const PixelSettings<float>& settings = stepCase.settings;
   AdamStep<double> adam{};
   CpuStep<double> step(storage);
   step.activate(stepCase.leastSkin);

@@ -14,7 +14,7 @@ namespace froth {
 
 struct StepCase {
   TrainingView<float> view;
-  RaySettings<float> settings;
+  PixelSettings<float> settings;
   AdamStep<float> adam;  // with pointers to host memory
   float overlapWeight = 0, leastSkin = 1e-3f;
 };

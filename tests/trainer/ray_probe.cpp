@@ -46,7 +46,7 @@ void RayProbe<Real>::render(const ProbeRay& ray, const ProbeLoss& loss) {
   view.eye = glm::vec<3, Real>(ray.eye);
   view.worldFromCamera = {glm::vec<3, Real>(right), glm::vec<3, Real>(glm::cross(ray.direction, right)),
                           glm::vec<3, Real>(ray.direction)};
-  RaySettings<Real> settings;
+  PixelSettings<Real> settings;
   settings.cutoff = 0;
   settings.normalWeight = Real(loss.normalWeight);
   settings.perPixel = 1;

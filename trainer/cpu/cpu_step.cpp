@@ -36,7 +36,7 @@ void CpuStep<Real>::activate(float leastSkin) {
 
 template <class Real>
 const std::vector<glm::vec<4, Real>>& CpuStep<Real>::render(const TrainingView<Real>& view,
-                                                            const RaySettings<Real>& settings,
+                                                            const PixelSettings<Real>& settings,
                                                             const AdamStep<Real>& adam) {
   view_ = view;
   settings_ = settings;
@@ -188,7 +188,7 @@ static void addSegment(const SegmentGradient<Real>& gradient, const SeenCell<Rea
 
 template <class Real>
 static void differentiatePixel(const SeenCells<Real>& seen, uint32_t detailCount, const glm::vec<3, Real>& direction,
-                               const RaySettings<Real>& settings, const std::vector<uint32_t>& ranks,
+                               const PixelSettings<Real>& settings, const std::vector<uint32_t>& ranks,
                                const std::vector<uint32_t>& places, uint32_t end, PixelAdjoint<Real> adjoint,
                                TileRow<Real>& row) {
   while (end-- > 0) {

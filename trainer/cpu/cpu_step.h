@@ -38,7 +38,7 @@ class CpuStep {
   void activate(float leastSkin);
   // What the view shows; colour over black and transmittance by pixel. The waiting parameters of what is seen are
   // brought to the step before adam.step.
-  const std::vector<glm::vec<4, Real>>& render(const TrainingView<Real>& view, const RaySettings<Real>& settings,
+  const std::vector<glm::vec<4, Real>>& render(const TrainingView<Real>& view, const PixelSettings<Real>& settings,
                                                const AdamStep<Real>& adam);
   // gradients: [pixels] of the loss, by what render() returned. wanted: what PixelArrays says.
   void differentiate(const std::vector<glm::vec<4, Real>>& gradients, const std::vector<glm::vec<4, Real>>& wanted);
@@ -72,7 +72,7 @@ class CpuStep {
   FoamStorage<Real>& foam_;
   SkinPairs pairs_;
   TrainingView<Real> view_;
-  RaySettings<Real> settings_;
+  PixelSettings<Real> settings_;
   uint64_t droppedCount_ = 0;
 
   std::vector<Candidate> candidates_;  // by rank

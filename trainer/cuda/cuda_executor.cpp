@@ -46,7 +46,7 @@ Result<AdamStep<float>> CudaExecutor::sendDrifts(const AdamStep<float>& adam) {
 
 Status CudaExecutor::runOnce(const StepPlan& plan, const CudaPhotos::Target& target, const AdamStep<float>& adam) {
   const float perPixel = 1.0f / (static_cast<float>(target.view.width) * static_cast<float>(target.view.height));
-  RaySettings<float> settings;
+  PixelSettings<float> settings;
   settings.perPixel = perPixel;
   settings.normalWeight = static_cast<float>(plan.weights.normal) * perPixel;
   const LossTerms terms{perPixel, -static_cast<float>(plan.weights.similarity) * perPixel / 3,

@@ -236,7 +236,7 @@ Status CudaStep::activate(float leastSkin) {
                 [&] { return mark(findPairs(leastSkin), "find pairs"); });
 }
 
-Status CudaStep::render(const TrainingView<float>& view, const RaySettings<float>& settings,
+Status CudaStep::render(const TrainingView<float>& view, const PixelSettings<float>& settings,
                         const AdamStep<float>& adam) {
   view_ = view;
   settings_ = settings;

@@ -37,7 +37,7 @@ class CudaStep {
   // Balls and pairs, where the last update() did not leave some that hold; waits for the GPU. leastSkin:
   // trainer/step/skin.h.
   Status activate(float leastSkin);
-  Status render(const TrainingView<float>& view, const RaySettings<float>& settings, const AdamStep<float>& adam);
+  Status render(const TrainingView<float>& view, const PixelSettings<float>& settings, const AdamStep<float>& adam);
   Status differentiateImage(const ImageTarget& target, const LossTerms& terms);
   Status differentiate();
   // Balls are then those of the next step.
@@ -101,7 +101,7 @@ class CudaStep {
 
   StepArrays arrays_{};
   TrainingView<float> view_;
-  RaySettings<float> settings_;
+  PixelSettings<float> settings_;
   StepCounters lastCounters_;
   PassClock* clock_ = nullptr;
   cudaStream_t stream_ = nullptr;

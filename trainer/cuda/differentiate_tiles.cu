@@ -12,9 +12,10 @@ constexpr uint32_t kThreads = kTileSize * kTileSize;
 
 // What one ray adds for one cell that it meets; moves the adjoint to before the cell.
 __device__ void differentiateCell(const SeenCells<float>& seen, const SeenCell<float>& cell, uint32_t rank,
-                                  uint32_t detailCount, const glm::vec3& direction, const RaySettings<float>& settings,
-                                  const Segment<float>& segment, PixelAdjoint<float>& adjoint,
-                                  SegmentGradient<float>& gradient, GradientColumn& column, uint32_t* droppedCount) {
+                                  uint32_t detailCount, const glm::vec3& direction,
+                                  const PixelSettings<float>& settings, const Segment<float>& segment,
+                                  PixelAdjoint<float>& adjoint, SegmentGradient<float>& gradient,
+                                  GradientColumn& column, uint32_t* droppedCount) {
   float weight;
   const SegmentSeeds<float> seeds = seedSegment(cell, segment, settings, adjoint, weight);
   const glm::vec3 miss = glm::abs(segment.colour - glm::vec3(adjoint.wanted));
@@ -32,7 +33,7 @@ __device__ void differentiateCell(const SeenCells<float>& seen, const SeenCell<f
 
 template <uint32_t kDetails>
 __global__ __launch_bounds__(kThreads) void differentiateTilesKernel(StepArrays arrays, TrainingView<float> view,
-                                                                     RaySettings<float> settings) {
+                                                                     PixelSettings<float> settings) {
   extern __shared__ float sharedRows[];
   if (isVoid(arrays)) return;
   const uint32_t detailCount = kDetails > 0 ? kDetails : arrays.foam.shape.detailCount;
@@ -80,8 +81,8 @@ __global__ __launch_bounds__(kThreads) void differentiateTilesKernel(StepArrays 
 
 }  // namespace
 
-Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view, const RaySettings<float>& settings,
-                          cudaStream_t stream) {
+Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view,
+                          const PixelSettings<float>& settings, cudaStream_t stream) {
   const uint32_t tileCount = tilesAlong(view.width) * tilesAlong(view.height);
   const size_t bytes = sizeof(float) * kWarpsPerTile * rowCountOf(arrays.foam.shape.detailCount) * kColumns;
   return withDetailCount(arrays.foam.shape.detailCount, [&]<uint32_t kDetails>() -> Status {

@@ -40,10 +40,10 @@ Status catchUpCells(const StepArrays& arrays, const AdamStep<float>& adam, cudaS
 // Cells, planes and details as seen from the eye; their sums become 0.
 Status prepareCells(const StepArrays& arrays, const TrainingView<float>& view, cudaStream_t stream);
 Status binTiles(const StepArrays& arrays, const TrainingView<float>& view, Scratch& scratch, cudaStream_t stream);
-Status renderTiles(const StepArrays& arrays, const TrainingView<float>& view, const RaySettings<float>& settings,
+Status renderTiles(const StepArrays& arrays, const TrainingView<float>& view, const PixelSettings<float>& settings,
                    cudaStream_t stream);
-Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view, const RaySettings<float>& settings,
-                          cudaStream_t stream);
+Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view,
+                          const PixelSettings<float>& settings, cudaStream_t stream);
 Status updateCells(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, cudaStream_t stream);
 
 // A photo in device memory.

@@ -22,7 +22,7 @@ __device__ void addCell(const SeenCells<float>& seen, uint32_t rank, uint32_t de
 
 template <uint32_t kDetails>
 __global__ __launch_bounds__(kTileSize* kTileSize) void renderTilesKernel(StepArrays arrays, TrainingView<float> view,
-                                                                          RaySettings<float> settings) {
+                                                                          PixelSettings<float> settings) {
   if (isVoid(arrays)) return;
   const uint32_t detailCount = kDetails > 0 ? kDetails : arrays.foam.shape.detailCount;
   const WarpPixel own = pixelOfThread(arrays, view);
@@ -51,7 +51,7 @@ __global__ __launch_bounds__(kTileSize* kTileSize) void renderTilesKernel(StepAr
 
 }  // namespace
 
-Status renderTiles(const StepArrays& arrays, const TrainingView<float>& view, const RaySettings<float>& settings,
+Status renderTiles(const StepArrays& arrays, const TrainingView<float>& view, const PixelSettings<float>& settings,
                    cudaStream_t stream) {
   const uint32_t tileCount = tilesAlong(view.width) * tilesAlong(view.height);
   return withDetailCount(arrays.foam.shape.detailCount, [&]<uint32_t kDetails>() -> Status {

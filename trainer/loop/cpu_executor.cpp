@@ -46,7 +46,7 @@ Status CpuExecutor::run(const StepPlan& plan) {
   TrainingView<float> view = trainingView<float>(target.photo.view);
   if (!target.directions.empty()) view.directions = target.directions.data();
   const size_t pixelCount = target.wanted.size();
-  RaySettings<float> settings;
+  PixelSettings<float> settings;
   settings.perPixel = 1.0f / static_cast<float>(pixelCount);
   settings.normalWeight = static_cast<float>(plan.weights.normal) * settings.perPixel;
 

@@ -43,7 +43,7 @@ std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo
     const std::vector<float> directions = lensDirections(photo.view);
     TrainingView<float> view = trainingView<float>(photo.view);
     if (!directions.empty()) view.directions = directions.data();
-    psnrs.push_back(psnrOf(photo, step.render(view, RaySettings<float>{}, adam)));
+    psnrs.push_back(psnrOf(photo, step.render(view, PixelSettings<float>{}, adam)));
   }
   return psnrs;
 }

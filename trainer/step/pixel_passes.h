@@ -12,7 +12,7 @@
 namespace froth {
 
 template <class Real>
-struct RaySettings {
+struct PixelSettings {
   Real sharpness = 10;       // of detail sites
   Real cutoff = Real(1e-3);  // a ray ends when its transmittance falls below
   Real normalWeight = 0;     // of the normal loss, by pixel: lambda / pixels
@@ -23,7 +23,7 @@ struct RaySettings {
 template <class Real>
 FROTH_HD glm::vec<4, Real> renderPixel(const SeenCells<Real>& seen, uint32_t detailCount, const uint32_t* ranks,
                                        uint32_t rankCount, const glm::vec<3, Real>& direction,
-                                       const RaySettings<Real>& settings, uint32_t& end) {
+                                       const PixelSettings<Real>& settings, uint32_t& end) {
   glm::vec<3, Real> colour(0);
   Real logTransmittance = 0;
   const Real logCutoff = std::log(settings.cutoff);
@@ -54,7 +54,8 @@ struct PixelAdjoint {
 // The seeds of one segment, and its weight T alpha; moves the adjoint to before the cell.
 template <class Real>
 FROTH_HD SegmentSeeds<Real> seedSegment(const SeenCell<Real>& cell, const Segment<Real>& segment,
-                                        const RaySettings<Real>& settings, PixelAdjoint<Real>& adjoint, Real& weight) {
+                                        const PixelSettings<Real>& settings, PixelAdjoint<Real>& adjoint,
+                                        Real& weight) {
   const Real opticalDepth = cell.density * (segment.far - segment.near);
   const Real transmittance = std::exp(adjoint.logTransmittance);
   adjoint.logTransmittance += opticalDepth;
