@@ -43,7 +43,6 @@ class CudaExecutor : public StepExecutor {
   std::array<DeviceArray<float>, kParameterCount> drifts_;
   uint32_t driftsSent_ = 0;   // steps whose drifts the GPU has
   FoamStorage<float> facts_;  // what facts() looks into
-  std::vector<uint32_t> overlaps_;
 };
 
 }  // namespace froth

@@ -69,10 +69,7 @@ Status CpuExecutor::rearrange(const CellPlan& plan) {
   return {};
 }
 
-Result<CellFacts> CpuExecutor::facts() {
-  overlaps_ = step_.countOverlaps();
-  return factsOf(foam_, overlaps_);
-}
+Result<CellFacts> CpuExecutor::facts() { return factsOf(foam_); }
 
 Status CpuExecutor::read(FoamStorage<float>& foam) {
   foam = foam_;
