@@ -31,8 +31,9 @@ __global__ void findGroupConesKernel(StepArrays arrays, uint32_t tilesX, uint32_
   const glm::vec3 axis = length > 0 ? sum / length : glm::vec3(0, 0, 1);
   float sine = length > 0 ? 0 : float(foam::kConeOfAll);
   for (uint32_t y = beginY; y < endY; ++y) {
-    for (uint32_t x = beginX; x < endX; ++x)
+    for (uint32_t x = beginX; x < endX; ++x) {
       sine = fmaxf(sine, foam::sineToHold(axis, arrays.tileCones[y * tilesX + x]));
+    }
   }
   arrays.groupCones[group] = foam::guardedCone(axis, sine);
 }
