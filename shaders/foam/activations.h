@@ -14,13 +14,6 @@ FOAM_FN real softplusSlope(real raw) {
   return scaled > real(20) ? real(1) : real(1) / (real(1) + exp(-scaled));
 }
 
-// The raw radius of a ball `factor` (0..1] times as large. An unchanged one keeps its bits.
-FOAM_FN real scaledRadius(real raw, real factor) {
-  real scaled = real(100) * factor * softplus(raw);
-  if (factor == real(1) || !(scaled > real(0))) return raw;
-  return (scaled > real(20) ? scaled : log(std::expm1(scaled))) / real(100);
-}
-
 // The frame of a quaternion (w, x, y, z) of any length [> 0]: the rows of its matrix are normal, tangent, bitangent.
 FOAM_FN void frameOfQuaternion(real4 raw, FOAM_OUT(real3) normal, FOAM_OUT(real3) tangent, FOAM_OUT(real3) bitangent) {
   real4 unit = raw / sqrt(dot(raw, raw));

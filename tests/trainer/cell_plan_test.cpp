@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 
-#include "shaders/foam/activations.h"
 #include "tests/reference/scenes.h"
 #include "trainer/cpu/foam_exchange.h"
 #include "trainer/loop/schedule.h"
@@ -34,13 +33,10 @@ class CellPlanOf : public ::testing::Test {
     const std::vector<float>& points = foam_.values[0];
     return {points[3 * i], points[3 * i + 1], points[3 * i + 2], 0.5f};
   }
-  CellPlan plan(uint32_t wanted, uint64_t seed = 1) const {
-    return planCells(factsOf(foam_, overlaps_), wanted, seed, 99);
-  }
+  CellPlan plan(uint32_t wanted, uint64_t seed = 1) const { return planCells(factsOf(foam_), wanted, seed, 99); }
   std::vector<float>& orientations() { return foam_.values[static_cast<size_t>(Parameter::kOrientations)]; }
 
   FoamStorage<float> foam_;
-  std::vector<uint32_t> overlaps_ = std::vector<uint32_t>(kCells, 10);
 };
 
 TEST_F(CellPlanOf, RemovesWhatDoesNotShowAndSplitsUntilThereAreAsManyAsWanted) {
@@ -94,22 +90,6 @@ TEST_F(CellPlanOf, PartsParentAndChildOnTheFaceAndCopiesTheRest) {
     EXPECT_EQ(next.errors[i], foam_.errors[source] * (isSplit ? 0.5f : 1.0f));
   }
   for (const auto& [source, sum] : shiftSums) EXPECT_EQ(sum, glm::vec3(0));
-}
-
-TEST_F(CellPlanOf, ShrinksWhatItSplitsInACrowd) {
-  for (uint32_t i = 0; i < kCells; i += 2) overlaps_[i] = 50;
-  const CellPlan made = plan(300);
-  const FoamStorage<float> next = rearrange(foam_, made);
-  const auto radii = static_cast<size_t>(Parameter::kRadii);
-  for (size_t i = 0; i < made.sources.size(); ++i) {
-    const float before = foam_.values[radii][made.sources[i]], after = next.values[radii][i];
-    const bool shrinks = made.shifts[i] != glm::vec3(0) && made.sources[i] % 2 == 0;
-    if (shrinks) {
-      EXPECT_NEAR(foam::softplus(after), 0.8f * foam::softplus(before), 1e-6);
-    } else {
-      EXPECT_EQ(after, before);
-    }
-  }
 }
 
 TEST(Schedule, ReachesTheCellsThatAreWanted) {

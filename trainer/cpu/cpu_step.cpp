@@ -7,7 +7,6 @@
 #include <tbb/parallel_for.h>
 
 #include "trainer/step/cell_update.h"
-#include "trainer/step/skin.h"
 #include "trainer/step/tiles.h"
 
 namespace froth {
@@ -273,15 +272,6 @@ void CpuStep<Real>::update(const AdamStep<Real>& adam, Real overlapWeight) {
     bad += badHere;
   });
   droppedCount_ += bad;
-}
-
-template <class Real>
-std::vector<uint32_t> CpuStep<Real>::countOverlaps() const {
-  std::vector<uint32_t> counts(foam_.shape.cellCount);
-  tbb::parallel_for(0u, foam_.shape.cellCount, [&](uint32_t cell) {
-    counts[cell] = froth::countOverlaps(foam_.balls.data(), pairs_.rows(), cell);
-  });
-  return counts;
 }
 
 template class CpuStep<float>;

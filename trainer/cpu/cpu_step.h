@@ -52,8 +52,6 @@ class CpuStep {
   GradientSums<Real> sums();                               // what the last differentiate() added up for it
   uint64_t droppedCount() const { return droppedCount_; }  // contributions that were no finite numbers, of all steps
   const CellGraph& pairs() const { return pairs_.graph(); }
-  // [cells] how many other balls overlap each, as of the last activate().
-  std::vector<uint32_t> countOverlaps() const;
 
  private:
   struct Candidate {

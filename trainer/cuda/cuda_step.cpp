@@ -98,8 +98,8 @@ Status CudaStep::reserveCells(const FoamShape& shape) {
       [&] { return enlargedBalls_.resize(cells, "enlarged balls"); }, [&] { return slacks_.resize(cells, "slacks"); },
       [&] { return boxes_.resize(size_t{2} * blocksOfCells(cells), "boxes of cells"); },
       [&] { return offsets_.resize(cells + 1, "offsets of pairs"); },
-      [&] { return overlaps_.resize(cells, "overlaps"); }, [&] { return seenCells_.resize(cells, "seen cells"); },
-      [&] { return rankOf_.resize(cells, "ranks"); }, [&] { return cellSums_.resize(cells, "sums of cells"); },
+      [&] { return seenCells_.resize(cells, "seen cells"); }, [&] { return rankOf_.resize(cells, "ranks"); },
+      [&] { return cellSums_.resize(cells, "sums of cells"); },
       [&] { return details_.resize(details, "seen details"); },
       [&] { return detailSums_.resize(details, "sums of details"); });
   arrays_.foam.shape = shape;
@@ -123,15 +123,13 @@ Status CudaStep::download(FoamStorage<float>& foam) {
                 [&] { return errors_.download(foam.errors, "errors", stream_); });
 }
 
-Status CudaStep::downloadFacts(FoamStorage<float>& foam, std::vector<uint32_t>& overlaps) {
+Status CudaStep::downloadFacts(FoamStorage<float>& foam) {
   constexpr auto kQuaternions = static_cast<size_t>(Parameter::kOrientations);
   return inTurn(
       [&] { return tensors_[kQuaternions].values.download(foam.values[kQuaternions], "orientations", stream_); },
       [&] { return balls_.download(foam.balls, "balls", stream_); },
       [&] { return contributions_.download(foam.contributions, "contributions", stream_); },
-      [&] { return errors_.download(foam.errors, "errors", stream_); },
-      [&] { return countOverlaps(arrays_, overlaps_.data(), stream_); },
-      [&] { return overlaps_.download(overlaps, "overlaps", stream_); });
+      [&] { return errors_.download(foam.errors, "errors", stream_); });
 }
 
 Status CudaStep::downloadPairs(CellGraph& graph, std::vector<uint32_t>& reverses) {
@@ -150,7 +148,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   shape.cellCount = static_cast<uint32_t>(plan.sources.size());
   DeviceArray<uint32_t> sources;
   DeviceArray<glm::vec3> shifts;
-  DeviceArray<float> radiusFactors, meanFactors;
+  DeviceArray<float> meanFactors;
   const auto gather = [&](auto& array, uint32_t width, const char* name) -> Status {
     std::remove_reference_t<decltype(array)> next;
     if (Status made = next.resize(size_t{shape.cellCount} * width, name); !made) return made;
@@ -161,7 +159,6 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   Status status =
       inTurn([&] { return sources.upload(plan.sources, "sources of cells", stream_); },
              [&] { return shifts.upload(plan.shifts, "shifts of cells", stream_); },
-             [&] { return radiusFactors.upload(plan.radiusFactors, "factors of radii", stream_); },
              [&] { return meanFactors.upload(plan.meanFactors, "factors of means", stream_); },
              [&] { return gather(lastSteps_, 1, "last steps"); },
              [&] { return gather(contributions_, 1, "contributions"); }, [&] { return gather(errors_, 1, "errors"); });
@@ -174,7 +171,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   }
   hasPairs_ = false;
   return inTurn([&] { return status; }, [&] { return reserveCells(shape); },
-                [&] { return applyPlan(arrays_, shifts.data(), radiusFactors.data(), meanFactors.data(), stream_); },
+                [&] { return applyPlan(arrays_, shifts.data(), meanFactors.data(), stream_); },
                 [&] { return checkCuda(cudaStreamSynchronize(stream_), "rearrangement of cells"); });
 }
 
@@ -291,7 +288,7 @@ size_t CudaStep::byteCount() const {
   for (const auto& array : byTile_) add(array);
   add(lastSteps_, balls_, contributions_, errors_, offsets_, neighbours_, reverses_, seenCells_, planes_, details_);
   add(rankOf_, cellSums_, detailSums_, pairSums_, tileCones_, tilesBegin_, rendered_, gradients_, wanted_);
-  add(logTransmittances_, ends_, lossFields_, foundBalls_, enlargedBalls_, slacks_, boxes_, overlaps_);
+  add(logTransmittances_, ends_, lossFields_, foundBalls_, enlargedBalls_, slacks_, boxes_);
   return sum;
 }
 

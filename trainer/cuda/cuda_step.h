@@ -46,8 +46,8 @@ class CudaStep {
   // Waits for the GPU. false: the lists of the last step did not fit, so it changed nothing; taken again it will.
   Result<bool> settle();
 
-  // What densification goes by (CellFacts).
-  Status downloadFacts(FoamStorage<float>& foam, std::vector<uint32_t>& overlaps);
+  // What densification goes by.
+  Status downloadFacts(FoamStorage<float>& foam);
   Status downloadPairs(CellGraph& graph, std::vector<uint32_t>& reverses);
   Status downloadImage(std::vector<glm::vec4>& rendered) { return rendered_.download(rendered, "rendered", stream_); }
   // In place of differentiateImage().
@@ -76,7 +76,7 @@ class CudaStep {
   DeviceArray<uint32_t> lastSteps_;
   DeviceArray<glm::vec4> balls_;
   DeviceArray<float> contributions_, errors_;
-  DeviceArray<uint32_t> offsets_, neighbours_, reverses_, overlaps_;
+  DeviceArray<uint32_t> offsets_, neighbours_, reverses_;
   DeviceArray<glm::vec4> foundBalls_, enlargedBalls_;
   DeviceArray<float> slacks_;
   DeviceArray<glm::vec3> boxes_;

@@ -1,7 +1,6 @@
 // The Cech pairs with a skin (trainer/cpu/skin_pairs.h). Cells lie along a Morton curve, so 32 that follow each other
-// are neighbours: a warp tests boxes around 32 cells against its own box, then its balls against the boxes it meets,
-// and cells only where those meet. Rows come ascending and without atomics. Bound: flops, some 10 per pair of boxes,
-// per ball and box it may meet, and per ball and cell of a box it meets, twice.
+// are neighbours: a warp tests boxes around 32 cells against its own box, and cells only where boxes meet. Rows come
+// ascending and without atomics. Bound: flops, some 10 per pair of boxes and per pair of cells whose boxes meet, twice.
 #include <cub/device/device_scan.cuh>
 
 #include "trainer/cuda/cub_call.h"
@@ -134,11 +133,6 @@ __global__ void findReversesKernel(PairLists lists, uint32_t cellCount) {
   }
 }
 
-__global__ void countOverlapsKernel(StepArrays arrays, uint32_t* counts) {
-  const uint32_t cell = globalThread();
-  if (cell < arrays.foam.shape.cellCount) counts[cell] = countOverlaps(arrays.foam.balls, arrays.pairs, cell);
-}
-
 constexpr uint32_t kSmallBlock = 64;  // few cells make few warps; small blocks spread them over the GPU
 
 uint32_t smallBlocksFor(size_t cells) {
@@ -164,11 +158,6 @@ Status listPairs(const StepArrays& arrays, const PairLists& lists, cudaStream_t 
   listPairsKernel<<<smallBlocksFor(count), kSmallBlock, 0, stream>>>(lists, count);
   findReversesKernel<<<blocksFor(size_t{count} * kWarp), kBlock, 0, stream>>>(lists, count);
   return checkLaunch("listPairs");
-}
-
-Status countOverlaps(const StepArrays& arrays, uint32_t* counts, cudaStream_t stream) {
-  countOverlapsKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays, counts);
-  return checkLaunch("countOverlaps");
 }
 
 }  // namespace froth

@@ -1,5 +1,4 @@
 // Cells of a plan (trainer/loop/cell_plan.h) gathered from those before. Bound: bytes, each value read and written.
-#include "shaders/foam/activations.h"
 #include "trainer/cuda/launch.h"
 #include "trainer/cuda/passes.h"
 
@@ -12,14 +11,11 @@ __global__ void gatherRowsKernel(const T* from, T* to, const uint32_t* sources, 
   if (i < size_t{cellCount} * width) to[i] = from[size_t{sources[i / width]} * width + i % width];
 }
 
-__global__ void applyPlanKernel(TrainedFoam<float> foam, const glm::vec3* shifts, const float* radiusFactors,
-                                const float* meanFactors) {
+__global__ void applyPlanKernel(TrainedFoam<float> foam, const glm::vec3* shifts, const float* meanFactors) {
   const uint32_t cell = globalThread();
   if (cell >= foam.shape.cellCount) return;
   float* site = foam.values.row(Parameter::kPoints, foam.shape, cell);
   for (int c = 0; c < 3; ++c) site[c] += shifts[cell][c];
-  float* radius = foam.values.row(Parameter::kRadii, foam.shape, cell);
-  *radius = foam::scaledRadius(*radius, radiusFactors[cell]);
   foam.contributions[cell] *= meanFactors[cell];
   foam.errors[cell] *= meanFactors[cell];
 }
@@ -36,10 +32,8 @@ Status gatherRows(const T* from, T* to, const uint32_t* sources, uint32_t cellCo
 template Status gatherRows(const float*, float*, const uint32_t*, uint32_t, uint32_t, cudaStream_t);
 template Status gatherRows(const uint32_t*, uint32_t*, const uint32_t*, uint32_t, uint32_t, cudaStream_t);
 
-Status applyPlan(const StepArrays& arrays, const glm::vec3* shifts, const float* radiusFactors,
-                 const float* meanFactors, cudaStream_t stream) {
-  applyPlanKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays.foam, shifts, radiusFactors,
-                                                                                 meanFactors);
+Status applyPlan(const StepArrays& arrays, const glm::vec3* shifts, const float* meanFactors, cudaStream_t stream) {
+  applyPlanKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays.foam, shifts, meanFactors);
   return checkLaunch("applyPlan");
 }
 

@@ -19,11 +19,6 @@ constexpr float kLeastShare = 1.0f / 25;  // of what a cell would show if all sh
 constexpr double kMostRemoved = 0.1;      // of all cells at a time
 constexpr double kTrimmedErrors = 0.99;   // errors beyond this share count as that
 constexpr float kPart = 0.05f;            // parent and child move by so many radii
-// Where more balls than these overlap a cell's, it and its child keep this share of their radius. Otherwise balls would
-// overlap ever more others as their number grows, for rates of radii are too small to follow; and with the pairs grow
-// the planes that each ray looks at. Where fewer overlap a smaller ball would leave a hole.
-constexpr uint32_t kCrowd = 20;
-constexpr float kShrink = 0.8f;
 
 float quantileOf(std::vector<float> values, double share) {
   const auto place = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
@@ -89,7 +84,6 @@ CellPlan sortAlongCurve(const CellFacts& facts, const CellPlan& plan) {
   for (const uint32_t place : mortonOrder(sites)) {
     sorted.sources.push_back(plan.sources[place]);
     sorted.shifts.push_back(plan.shifts[place]);
-    sorted.radiusFactors.push_back(plan.radiusFactors[place]);
     sorted.meanFactors.push_back(plan.meanFactors[place]);
   }
   return sorted;
@@ -97,9 +91,8 @@ CellPlan sortAlongCurve(const CellFacts& facts, const CellPlan& plan) {
 
 }  // namespace
 
-CellFacts factsOf(const FoamStorage<float>& foam, std::span<const uint32_t> overlaps) {
-  return {foam.balls, foam.values[static_cast<size_t>(Parameter::kOrientations)], foam.contributions, foam.errors,
-          overlaps};
+CellFacts factsOf(const FoamStorage<float>& foam) {
+  return {foam.balls, foam.values[static_cast<size_t>(Parameter::kOrientations)], foam.contributions, foam.errors};
 }
 
 CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint32_t step) {
@@ -107,7 +100,6 @@ CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint3
   CellPlan plan;
   plan.sources = survivors;
   plan.shifts.assign(survivors.size(), glm::vec3(0));
-  plan.radiusFactors.assign(survivors.size(), 1);
   plan.meanFactors.assign(survivors.size(), 1);
   const auto count = static_cast<uint32_t>(survivors.size());
   const CounterRandom choice(seed, Purpose::kSplit, uint64_t{2} * step),
@@ -116,13 +108,10 @@ CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint3
     const auto place =
         static_cast<size_t>(std::lower_bound(survivors.begin(), survivors.end(), parent) - survivors.begin());
     const glm::vec3 shift = stepOnFace(facts, parent, way);
-    const float radiusFactor = facts.overlaps[parent] > kCrowd ? kShrink : 1.0f;
     plan.shifts[place] = shift;
-    plan.radiusFactors[place] = radiusFactor;
     plan.meanFactors[place] = 0.5f;
     plan.sources.push_back(parent);
     plan.shifts.push_back(-shift);
-    plan.radiusFactors.push_back(radiusFactor);
     plan.meanFactors.push_back(0.5f);
   }
   return sortAlongCurve(facts, plan);
@@ -146,8 +135,6 @@ FoamStorage<float> rearrange(const FoamStorage<float>& foam, const CellPlan& pla
     }
     float* site = &next.values[static_cast<size_t>(Parameter::kPoints)][size_t{3} * cell];
     for (int c = 0; c < 3; ++c) site[c] += plan.shifts[cell][c];
-    float& radius = next.values[static_cast<size_t>(Parameter::kRadii)][cell];
-    radius = foam::scaledRadius(radius, plan.radiusFactors[cell]);
     next.lastSteps[cell] = foam.lastSteps[source];
     next.contributions[cell] = plan.meanFactors[cell] * foam.contributions[source];
     next.errors[cell] = plan.meanFactors[cell] * foam.errors[source];

@@ -16,24 +16,21 @@ struct CellFacts {
   std::span<const glm::vec4> balls;    // site, radius
   std::span<const float> quaternions;  // raw, 4 each
   std::span<const float> contributions, errors;
-  std::span<const uint32_t> overlaps;  // how many other balls overlap the cell's
 };
 
 // What they are of a foam whose balls are known.
-CellFacts factsOf(const FoamStorage<float>& foam, std::span<const uint32_t> overlaps);
+CellFacts factsOf(const FoamStorage<float>& foam);
 
-// Cell i of the foam that comes is a copy of cell sources[i], moments and all, moved by shifts[i]. Its radius is
-// multiplied by radiusFactors[i] (0..1], its means by meanFactors[i]. Along a Morton curve, so that cells near each
-// other lie near each other in memory.
+// Cell i of the foam that comes is a copy of cell sources[i], moments and all, moved by shifts[i]. Its means are
+// multiplied by meanFactors[i]. Along a Morton curve, so that cells near each other lie near each other in memory.
 struct CellPlan {
   std::vector<uint32_t> sources;
   std::vector<glm::vec3> shifts;
-  std::vector<float> radiusFactors, meanFactors;
+  std::vector<float> meanFactors;
 };
 
 // Cells that show too little are removed, and parents drawn without replacement by their error until there are
-// `wanted`; a parent and its child part in opposite directions on the face, and shrink where they are
-// crowded. The same facts, seed and step give the same
+// `wanted`; a parent and its child part in opposite directions on the face. The same facts, seed and step give the same
 // plan. Fewer than wanted come where there are too few parents.
 CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint32_t step);
 

@@ -75,10 +75,7 @@ Result<std::vector<double>> CpuExecutor::psnrs(const std::vector<Photo>& photos,
   return photoPsnrs(foam, photos, adam);
 }
 
-Result<CellFacts> CpuExecutor::facts() {
-  overlaps_ = step_.countOverlaps();
-  return factsOf(foam_, overlaps_);
-}
+Result<CellFacts> CpuExecutor::facts() { return factsOf(foam_); }
 
 Status CpuExecutor::read(FoamStorage<float>& foam) {
   foam = foam_;

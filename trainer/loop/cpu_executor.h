@@ -42,7 +42,6 @@ class CpuExecutor : public StepExecutor {
   uint32_t halvings_ = UINT32_MAX;  // of targets_
   ImageLoss<float> loss_;
   std::vector<glm::vec4> gradients_;
-  std::vector<uint32_t> overlaps_;  // what facts() looks into
 };
 
 }  // namespace froth
