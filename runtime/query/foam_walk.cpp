@@ -28,7 +28,7 @@ double heightAt(const QueryDetail* details, uint32_t count, const glm::dvec3& qu
 
 FoamWalk::FoamWalk(const QueryFoam& foam, const FoamRay& ray, const WalkLimits& limits)
     : foam_(&foam), ray_(ray), limits_(limits), current_(foam.findEntry(ray.origin)) {
-  const bool isAtCell = foam.descend(current_, ray.origin);
+  const bool isAtCell = foam.approach(current_, ray.origin);
   enter(current_);
   if (isAtCell) return;
   key_ = -std::numeric_limits<double>::infinity();

@@ -54,7 +54,7 @@ QueryChunk makeQueryChunk(const ChunkContents& contents) {
   chunk.densities = contents.densities;
   chunk.orientations = contents.orientations;
   chunk.details = joinDetails(contents);
-  chunk.balls = makeBallTrees(chunk.siteRadius, chunk.cellCount, chunk.liveCount);
+  chunk.balls = makeBallTree(std::span(chunk.siteRadius).first(chunk.liveCount));
   return chunk;
 }
 

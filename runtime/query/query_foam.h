@@ -18,7 +18,7 @@
 
 #include "base/result.h"
 #include "format/asset_contents.h"
-#include "runtime/query/ball_trees.h"
+#include "runtime/query/ball_tree.h"
 #include "runtime/query/chunk_geometry.h"
 #include "runtime/query/entry_tree.h"
 #include "runtime/query/packed_elements.h"
@@ -49,7 +49,7 @@ struct QueryChunk {
   std::vector<float> densities;         // [liveCount]
   std::vector<glm::vec4> orientations;  // [liveCount]
   std::vector<QueryDetail> details;     // [liveCount * K]; empty: the chunk has no heights
-  BallTrees balls;
+  BoxTree balls;                        // of live cells
 
   uint64_t arrayBytes() const;
   glm::dvec3 siteOf(uint32_t site) const { return glm::dvec3(siteRadius[site]); }
@@ -75,7 +75,7 @@ struct QueryCut {
   std::vector<uint32_t> chunks;  // ascending
   EntryTree entries;
   glm::dvec3 origin{0};  // of the frame of `balls`
-  BallTrees balls;       // items: places in `chunks`
+  BoxTree balls;         // items: places in `chunks`
 
   uint64_t treeBytes() const { return entries.bytes() + balls.bytes(); }
 };
@@ -129,8 +129,8 @@ class QueryFoam {
   CellAddress locate(const glm::dvec3& point) const { return locateFrom(findEntry(point), point); }
   // Begins at a cell that is probably near.
   CellAddress locateFrom(CellAddress cell, const glm::dvec3& point) const;
-  // Steps towards the power cell of a point while rows are short. false: it stands at a long one.
-  bool descend(CellAddress& cell, const glm::dvec3& point) const;
+  // The same while rows are short. false: it stands at a long one.
+  bool approach(CellAddress& cell, const glm::dvec3& point) const;
   // In open space, where rows have hundreds of neighbours, a search in a tree is faster than one row.
   static bool isRowLong(const QueryChunk& chunk, uint32_t cell);
   CellAddress findEntry(const glm::dvec3& point) const { return cut_.entries.find(glm::vec3(point)); }
@@ -147,7 +147,7 @@ class QueryFoam {
 
   QueryCut makeTrees(std::vector<uint32_t>&& chunks, std::vector<EntryTree::Sample>&& samples) const;
   void takeCut(QueryCut&& cut);
-  CellAddress findLeastPower(CellAddress cell, const glm::dvec3& point) const;
+  bool descend(CellAddress& current, const glm::dvec3& point, uint32_t longestRow) const;
   void tellBorders(uint32_t chunk);
   void forgetBorders(uint32_t chunk);
 

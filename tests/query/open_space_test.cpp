@@ -13,14 +13,14 @@ namespace {
 
 constexpr float kApart = 8;
 
-//     o   o        o: 150 cells in a cube of edge 2
+//     o   o        o: 600 cells in a cube of edge 2
 //       .          .: some without density
 //     o   o
 Foam clusters() {
   std::vector<CaseCell> cells;
   for (uint32_t corner = 0; corner < 8; ++corner) {
     const glm::vec3 centre = kApart * (2.0f * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1.0f);
-    for (CaseCell cell : cloud(150, corner + 1)) {
+    for (CaseCell cell : cloud(600, corner + 1)) {
       cell.site += centre;
       cells.push_back(cell);
     }
@@ -86,7 +86,7 @@ TEST_F(OpenSpace, ARayMeetsWhatTheReferenceMeets) {
   const ReferenceRays reference(foam_);
   Random random(2);
   std::vector<FrothRay> rays;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < 1500; ++i) {
     const glm::dvec3 origin = random.inBox(glm::dvec3(-12), glm::dvec3(12));
     const glm::dvec3 target(
         foam_.sites[static_cast<size_t>(random.uniform(0, 1) * static_cast<double>(foam_.cellCount))]);
@@ -94,7 +94,6 @@ TEST_F(OpenSpace, ARayMeetsWhatTheReferenceMeets) {
   }
   const std::vector<FrothRayHit> hits = cast(rays, info);
   size_t stopped = 0;
-  uint64_t steps = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
     const glm::dvec3 origin(rays[i].origin[0], rays[i].origin[1], rays[i].origin[2]);
     const glm::dvec3 direction(rays[i].direction[0], rays[i].direction[1], rays[i].direction[2]);
@@ -105,10 +104,8 @@ TEST_F(OpenSpace, ARayMeetsWhatTheReferenceMeets) {
       EXPECT_NEAR(hits[i].distance, expected.distance, 1e-6) << i;
     }
     stopped += expected.distance >= 0;
-    steps += hits[i].steps;
   }
   EXPECT_GT(stopped, rays.size() / 2);
-  std::printf("%.1f cells per ray\n", static_cast<double>(steps) / static_cast<double>(rays.size()));
 }
 
 // Along axes too, where a float of the direction is 0, and from inside of balls.

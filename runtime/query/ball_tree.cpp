@@ -1,4 +1,4 @@
-#include "runtime/query/ball_trees.h"
+#include "runtime/query/ball_tree.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -19,18 +19,14 @@ float slackOf(const glm::vec3& point, const BallBox& bounds) {
 double above(double value) { return value + 0x1p-22 * std::abs(value); }
 double below(double value) { return value - 0x1p-22 * std::abs(value); }
 
-BoxTree makeTree(std::span<const glm::vec4> siteRadius) {
-  std::vector<BallBox> boxes((siteRadius.size() + kBallsPerBox - 1) / kBallsPerBox);
-  for (size_t i = 0; i < siteRadius.size(); ++i) {
-    boxes[i / kBallsPerBox].add({glm::vec3(siteRadius[i]), glm::vec3(siteRadius[i]), siteRadius[i].w});
-  }
-  return BoxTree(boxes);
-}
-
 }  // namespace
 
-BallTrees makeBallTrees(std::span<const glm::vec4> siteRadius, uint32_t cellCount, uint32_t liveCount) {
-  return {makeTree(siteRadius.first(liveCount)), makeTree(siteRadius.subspan(liveCount, cellCount - liveCount))};
+BoxTree makeBallTree(std::span<const glm::vec4> balls) {
+  std::vector<BallBox> boxes((balls.size() + kBallsPerBox - 1) / kBallsPerBox);
+  for (size_t i = 0; i < balls.size(); ++i) {
+    boxes[i / kBallsPerBox].add({glm::vec3(balls[i]), glm::vec3(balls[i]), balls[i].w});
+  }
+  return BoxTree(boxes);
 }
 
 RayBounds::RayBounds(const glm::dvec3& origin, const glm::dvec3& direction, double from, const BallBox& bounds)
@@ -65,25 +61,5 @@ void RayBounds::measure(const BoxTree::Node& node, float (&bounds)[BoxTree::kWid
 }
 
 float RayBounds::limitOf(double t) { return static_cast<float>(std::min(above(t), double{FLT_MAX})); }
-
-PowerBounds::PowerBounds(const glm::dvec3& point, const BallBox& bounds)
-    : point_{static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z)},
-      slack_(slackOf(glm::vec3(point), bounds)) {}
-
-void PowerBounds::measure(const BoxTree::Node& node, float (&bounds)[BoxTree::kWidth]) const {
-  float squares[BoxTree::kWidth] = {};
-  for (int axis = 0; axis < 3; ++axis) {
-    const float point = point_[axis];
-    for (uint32_t i = 0; i < BoxTree::kWidth; ++i) {
-      const float outside = std::max(std::max(node.low[axis][i] - point, point - node.high[axis][i]) - slack_, 0.0f);
-      squares[i] += outside * outside;
-    }
-  }
-  for (uint32_t i = 0; i < BoxTree::kWidth; ++i) {
-    bounds[i] = (1 - kSlack) * squares[i] - (1 + kSlack) * node.radius[i] * node.radius[i];
-  }
-}
-
-float PowerBounds::limitOf(double power) { return static_cast<float>(above(power)); }
 
 }  // namespace froth
