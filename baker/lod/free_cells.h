@@ -16,7 +16,7 @@ class FreeCells {
   // `isFree`: [cells]. Keeps a reference to the storage.
   FreeCells(FoamStorage<float>& storage, std::span<const uint8_t> isFree);
 
-  // After step.differentiate(). `rate`: of kRates. Cells that the view does not show stay.
+  // After step.differentiate(). `rate`: what all rates are multiplied by. Cells that the view does not show stay.
   void update(CpuStep<float>& step, float rate);
   // What has changed, into the foam that the storage was made of.
   void write(Foam& foam) const;

@@ -133,10 +133,8 @@ void train(const Options& options) {
     fmt::print("{}\n", result.error().message);
     return;
   }
-  double psnr = 0;
-  for (const double one : result->testPsnrs) psnr += one / static_cast<double>(result->testPsnrs.size());
-  fmt::print("{{\"psnr\": {:.3f}, \"dropped\": {}, \"cells\": {}}}\n", psnr, result->droppedCount,
-             result->foam.cellCount);
+  fmt::print("{{\"psnr\": {:.3f}, \"dropped\": {}, \"cells\": {}}}\n", meanPsnr(result->testPsnrs),
+             result->droppedCount, result->foam.cellCount);
   if (!options.output.empty()) check(exportCheckpoint(options.output, result->foam, {}));
 }
 

@@ -75,9 +75,10 @@ class Meter {
     if (const Result<uint64_t> waited = executor_.droppedCount(); !waited) return waited.error();
     pause();
     Result<std::vector<double>> psnrs = executor_.psnrs(tests_, drifts.adamAt(done));
-    if (!psnrs || !options_.whenMeasured) return psnrs;
-    const Status told = options_.whenMeasured({done, seconds_, executor_.cellCount(), meanPsnr(*psnrs)});
-    if (!told) return told.error();
+    if (psnrs && options_.whenMeasured) {
+      const Status told = options_.whenMeasured({done, seconds_, executor_.cellCount(), meanPsnr(*psnrs)});
+      if (!told) return told.error();
+    }
     goOn();
     return psnrs;
   }
