@@ -27,6 +27,7 @@ struct StabilityOptions {
   std::filesystem::path replay;          // a folder of case files, in place of the built-in cases; empty: none
   std::filesystem::path markdown;
   std::string only = "*";
+  std::vector<std::string> presets = stabilityPresets();
   GpuDeviceOptions device;
   FiguresOutput figures;
   StabilitySearch search;
@@ -87,8 +88,7 @@ Result<std::vector<JudgedCase>> runCases(const StabilityOptions& options, std::v
                                          StabilityRunner& runner, Tool& tool) {
   const Progress progress = tool.progress.callback();
   // Found cases are found in `exact`, which keeps every number of the foam.
-  const std::vector<std::string> presets =
-      options.replay.empty() ? stabilityPresets() : std::vector<std::string>{"exact"};
+  const std::vector<std::string> presets = options.replay.empty() ? options.presets : std::vector<std::string>{"exact"};
   std::vector<JudgedCase> judged;
   for (StiffCase& stiff : cases) {
     if (!report(progress, "stability: " + stiff.name, judged.size(), cases.size())) return stoppedError();
@@ -151,7 +151,7 @@ void addSearchOptions(CLI::App& command, StabilitySearch& search) {
   command.add_option("--seed", search.seed, "Of the random cases")->check(countBetween(0, UINT64_MAX))->needs(duration);
   command.add_option("-o,--output", search.folder, "Folder for a file of each found case; the current one if left out")
       ->needs(duration);
-  for (const char* other : {"INPUT", "--replay", "--cameras", "--only", "--markdown"}) {
+  for (const char* other : {"INPUT", "--replay", "--cameras", "--only", "--presets", "--markdown"}) {
     duration->excludes(command.get_option(other));
   }
 }
@@ -173,13 +173,16 @@ void addStabilityCommand(CLI::App& program, Tool& tool) {
   CLI::Option* replay = command->add_option(
       "--replay", options->replay,
       "Run the case files of a folder, as --search writes them, by their exact bakes, in place of the built-in set");
-  replay->type_name("DIR")->excludes(input)->excludes(only);
+  CLI::Option* presets = command->add_option("--presets", options->presets, "Only these presets, with commas between");
+  presets->delimiter(',')->check(CLI::IsMember(stabilityPresets()))->default_str("all");
+  replay->type_name("DIR")->excludes(input)->excludes(only)->excludes(presets);
   command->add_option("--device", options->device.device, "Index or part of a name from `froth devices`");
   command->add_flag_callback(
       "--no-validation", [options] { options->device.validate = false; },
       "Where no validation layers are installed; indices are checked all the same");
   command->add_option("--markdown", options->markdown, "Put the tables into this file, between its markers")
       ->excludes(only)
+      ->excludes(presets)
       ->excludes(replay);
   addSearchOptions(*command, options->search);
   addFiguresOption(*command, options->figures);

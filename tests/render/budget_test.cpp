@@ -21,7 +21,7 @@ AssetContents makeAssetOfManyCells() {
 class Budget : public testing::Test {
  protected:
   Budget() {
-    FrothContextInfo info = sharedHost().contextInfo();
+    FrothContextInfo info = sharedContextInfo();
     info.framesInFlight = kFramesInFlight;
     info.onMessage = [](void* user, FrothSeverity severity, FrothResult, const char*, const char* text) {
       static_cast<Budget*>(user)->messages_.emplace_back(severity, text);

@@ -40,7 +40,7 @@ TEST(FirstFrame, IsWholeHoweverSmallTheView) {
 class OtherViews : public testing::Test {
  protected:
   OtherViews() : image_(*sharedHost().createImage(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent)) {
-    const FrothContextInfo info = sharedHost().contextInfo();
+    const FrothContextInfo info = sharedContextInfo();
     EXPECT_EQ(frothCreateContext(&info, &context_), FROTH_OK);
     stage_.emplace(assetOfManyCells(), kExtent, context_);
   }

@@ -84,7 +84,7 @@ TEST(RealFoam, MikuPlushIsRefusedAt1MegabyteAndWholeAt100) {
   const RealFoam foam = loadFoam(folder);
   const View full = withNearLimits(foam, 0), view = resizeView(full, full.width / 4, full.height / 4);
   std::vector<std::string> messages;
-  FrothContextInfo info = sharedHost().contextInfo();
+  FrothContextInfo info = sharedContextInfo();
   info.deviceBudget = 1'000'000;
   info.onMessage = [](void* user, FrothSeverity, FrothResult, const char*, const char* text) {
     static_cast<std::vector<std::string>*>(user)->emplace_back(text);

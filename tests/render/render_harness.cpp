@@ -9,6 +9,7 @@
 #include "format/write/asset_writer.h"
 #include "reference/camera/ray_map.h"
 #include "reference/camera/view_pose.h"
+#include "tests/kept_pipelines.h"
 
 namespace froth::test {
 namespace {
@@ -103,8 +104,14 @@ Host& sharedHost() {
   return *host;
 }
 
-FrothContextInfo checkedContextInfo(uint32_t lensClasses) {
+FrothContextInfo sharedContextInfo() {
   FrothContextInfo info = sharedHost().contextInfo();
+  info.getInstanceProcAddr = getInstanceProcAddrKeepingPipelines;
+  return info;
+}
+
+FrothContextInfo checkedContextInfo(uint32_t lensClasses) {
+  FrothContextInfo info = sharedContextInfo();
   info.onMessage = failOnMessage;
   info.checkIndices = 1;
   info.countWork = 1;

@@ -44,6 +44,8 @@ void failOnMessage(void* user, FrothSeverity severity, FrothResult code, const c
 // test.
 Host& sharedHost();
 FrothContext* sharedContext();
+// For contexts on that device; they share what shaders compile to (tests/kept_pipelines.h).
+FrothContextInfo sharedContextInfo();
 
 // The same for cameras of all lenses.
 FrothContext* lensContext();

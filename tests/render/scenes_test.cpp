@@ -234,7 +234,7 @@ TEST(Scenes, PairsBeyondTheSpaceAreReportedAndTheNextFrameIsWhole) {
 
 // Without messages: a view that meets the budget sends one.
 FrothContext* createContextOfBudget(uint64_t deviceBudget) {
-  FrothContextInfo info = sharedHost().contextInfo();
+  FrothContextInfo info = sharedContextInfo();
   info.deviceBudget = deviceBudget;
   FrothContext* context = nullptr;
   EXPECT_EQ(frothCreateContext(&info, &context), FROTH_OK);

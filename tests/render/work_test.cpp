@@ -186,7 +186,7 @@ TEST(Work, IsWhatTheCpuCounts) {
 
 TEST(Work, IsCountedOnlyOnDemandAndChangesNoImage) {
   const AssetContents contents = bakeForTest(makeRandomFoam(120, 2, 1, 8));
-  FrothContextInfo info = sharedHost().contextInfo();
+  FrothContextInfo info = sharedContextInfo();
   FrothContext* plain = nullptr;
   ASSERT_EQ(frothCreateContext(&info, &plain), FROTH_OK);
   {

@@ -18,6 +18,7 @@
 #include "host/host.h"
 #include "host/make_struct.h"
 #include "tests/format/sample_asset.h"
+#include "tests/kept_pipelines.h"
 
 namespace froth {
 
@@ -153,6 +154,14 @@ class RuntimeGpuTest : public RuntimeTest {
       EXPECT_THAT(host_->validationMessages(), ::testing::IsEmpty());
       host_->forgetValidationMessages();  // they are of this test alone
     }
+  }
+
+  // On the shared device contexts share what shaders compile to.
+  void createContext(FrothContextInfo info = nullContextInfo()) {
+    if (info.device == sharedHost()->device && info.getInstanceProcAddr == vkGetInstanceProcAddr) {
+      info.getInstanceProcAddr = test::getInstanceProcAddrKeepingPipelines;
+    }
+    RuntimeTest::createContext(info);
   }
 
   // One frame: update, upload, then `record`. It is submitted and waited for.

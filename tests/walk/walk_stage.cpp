@@ -87,7 +87,7 @@ Image imageOf(const std::vector<FrothGpuHit>& hits, const View& view) {
 }
 
 WalkStage::WalkStage() {
-  FrothContextInfo info = sharedHost().contextInfo();
+  FrothContextInfo info = sharedContextInfo();
   static FrothContext* const context = createWalkContext(info);
   context_ = context;
   Result<Device> device = Device::create(info.getInstanceProcAddr, info.instance, info.physicalDevice, info.device);
