@@ -24,11 +24,10 @@ bool isTerminal() {
   return value;
 }
 
-std::string describeProgress(std::string_view stage, uint64_t done, uint64_t total, double elapsed) {
+std::string describeProgress(std::string_view stage, uint64_t done, uint64_t total, double rate) {
   std::string line = std::string(stage) + ": " + std::to_string(done);
   if (total > 0) line += " of " + std::to_string(total);
-  if (done == 0 || elapsed <= 0) return line;
-  const double rate = static_cast<double>(done) / elapsed;
+  if (rate <= 0) return line;
   char text[64];
   std::snprintf(text, sizeof(text), ", %.4g/s", rate);
   line += text;
@@ -70,12 +69,12 @@ void ProgressPrinter::report(std::string_view stage, uint64_t done, uint64_t tot
   const bool isNewStage = stage != stage_;
   if (isNewStage) {
     stage_ = stage;
-    stageStart_ = now;
+    rate_.begin(now, done);
     lastDrawn_ = isTerminal() ? Clock::time_point{} : now;  // short stages leave no plain lines
   }
   if (now - lastDrawn_ < (isTerminal() ? kTerminalInterval : kPlainInterval)) return;
   lastDrawn_ = now;
-  draw(describeProgress(stage, done, total, Seconds(now - stageStart_).count()));
+  draw(describeProgress(stage, done, total, rate_.update(now, done)));
 }
 
 void ProgressPrinter::draw(const std::string& line) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/progress.h"
+#include "base/progress_rate.h"
 #include "base/result.h"
 
 namespace froth {
@@ -36,7 +37,8 @@ class ProgressPrinter {
   bool isQuiet_ = false;
   bool isLineOpen_ = false;
   std::string stage_;
-  Clock::time_point stageStart_, lastDrawn_;
+  ProgressRate rate_;  // of the stage
+  Clock::time_point lastDrawn_;
 };
 
 }  // namespace froth
