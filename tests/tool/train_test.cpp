@@ -1,49 +1,16 @@
 // froth train: from photos on disk to a foam that bakes.
 #include <sstream>
 
-#include "tests/tool/program_runner.h"
+#include "tests/tool/shots_fixture.h"
 
 namespace froth::test {
 namespace {
 
-class Train : public ToolTest {
- protected:
-  static constexpr size_t kPhotos = 6;
-
-  // Photos of the foam "random" under shots/, with transforms.json.
-  void makeShots() const {
-    makeRandomFoam("60", kPhotos);
-    Result<CameraSet> cameras = readCameras(folder_ / "cameras.json");
-    ASSERT_TRUE(cameras);
-    for (size_t i = 0; i < kPhotos; ++i) cameras->views[i].name = "shot_" + std::to_string(i);
-    ASSERT_TRUE(writeCameras(folder_ / "cameras.json", *cameras));
-    std::filesystem::create_directory(folder_ / "shots");
-    for (size_t i = 0; i < kPhotos; ++i) {
-      frothWell({"render", "random.pt", "--cameras", "cameras.json", "--renderer", "reference", "--size", "32x32",
-                 "--view", std::to_string(i), "-o", "shots/" + cameras->views[i].name + ".png"});
-    }
-    nlohmann::json frames = nlohmann::json::array();
-    for (const View& view : cameras->views) {
-      nlohmann::json matrix = nlohmann::json::array();
-      for (size_t row = 0; row < 3; ++row) {
-        const double* m = &view.worldFromCamera[4 * row];
-        matrix.push_back({m[0], -m[1], -m[2], m[3]});  // axes right, up, back
-      }
-      matrix.push_back({0, 0, 0, 1});
-      frames.push_back({{"file_path", view.name + ".png"}, {"transform_matrix", matrix}});
-    }
-    const View view = resizeView(cameras->views.front(), 32, 32);
-    writeBytes(folder_ / "shots/transforms.json",
-               nlohmann::json{{"fl_x", view.fx}, {"fl_y", view.fy}, {"w", 32}, {"h", 32}, {"frames", frames}}.dump());
-  }
-
-  const std::vector<std::string> command_{"train",   "shots", "-o",      "trained.pt", "--cells",        "200",
-                                          "--steps", "30",    "--lobes", "1",          "--detail-sites", "1"};
-};
+class Train : public ShotsTest {};
 
 TEST_F(Train, MakesAFoamThatBakesAndGoesOnFromItsState) {
   makeShots();
-  const nlohmann::json figures = frothJson(command_);
+  const nlohmann::json figures = frothJson(trainCommand());
   EXPECT_EQ(figures["photos"], 5);
   EXPECT_EQ(figures["tests"].size(), 1u);
   EXPECT_GT(figures["psnr"].get<double>(), 5);
@@ -60,7 +27,7 @@ TEST_F(Train, MakesAFoamThatBakesAndGoesOnFromItsState) {
   EXPECT_NEAR(again["ssim"].get<double>(), drawn["mean"]["ssim"].get<double>(), 1e-3);
 
   const std::string first = readBytes(folder_ / "trained.pt");
-  std::vector<std::string> resume = command_;
+  std::vector<std::string> resume = trainCommand();
   resume.push_back("--resume");
   EXPECT_EQ(frothJson(resume)["firstStep"], 30);
   EXPECT_EQ(readBytes(folder_ / "trained.pt"), first);
@@ -68,7 +35,7 @@ TEST_F(Train, MakesAFoamThatBakesAndGoesOnFromItsState) {
 
 TEST_F(Train, LogsWhatItMeasuresAndRefines) {
   makeShots();
-  std::vector<std::string> logged = command_;
+  std::vector<std::string> logged = trainCommand();
   logged.insert(logged.end(), {"--log", "log.jsonl", "--measure-every", "10"});
   const nlohmann::json figures = frothJson(logged);
   std::istringstream lines(readBytes(folder_ / "log.jsonl"));
@@ -90,12 +57,12 @@ TEST_F(Train, LogsWhatItMeasuresAndRefines) {
 TEST_F(Train, SaysWhatIsWrong) {
   EXPECT_EQ(froth({"train", "none", "-o", "a.pt"}).exitCode, 3);
   makeShots();
-  std::vector<std::string> resume = command_;
+  std::vector<std::string> resume = trainCommand();
   resume.push_back("--resume");
   const ProgramRun stateless = froth(resume);
   EXPECT_EQ(stateless.exitCode, 3);
   EXPECT_NE(stateless.err.find("trained.state.bin"), std::string::npos) << stateless.err;
-  std::vector<std::string> many = command_;
+  std::vector<std::string> many = trainCommand();
   many.insert(many.end(), {"--start-cells", "300"});
   const ProgramRun shrinking = froth(many);
   EXPECT_EQ(shrinking.exitCode, 2);
