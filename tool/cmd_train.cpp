@@ -120,7 +120,7 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
   options.train.photos.alpha = options.isPremultiplied ? AlphaForm::kPremultiplied : AlphaForm::kStraight;
   const Result<MakeExecutor> makeExecutor = chooseExecutor(options.device);
   if (!makeExecutor) return makeExecutor.error();
-  const Result<Capture> capture = readCapture(options.scene);
+  Result<Capture> capture = readCapture(options.scene);
   if (!capture) return capture.error();
   const Result<TrainingSet> set = prepareTraining(*capture, options.train, progress);
   if (!set) return set.error();

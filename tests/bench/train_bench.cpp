@@ -113,7 +113,7 @@ void WatchedExecutor::print(const StepPlan& plan, uint32_t done) {
 }
 
 void train(const Options& options) {
-  const Capture capture = take(readCapture(options.scene));
+  Capture capture = take(readCapture(options.scene));
   Clock::time_point begin = Clock::now();
   const TrainingSet set = take(prepareTraining(capture, options.train, {}));
   const View& view = set.training.front().view;

@@ -42,6 +42,13 @@ TEST(SceneFrame, CamerasDecideWhereThereAreNoPoints) {
   EXPECT_LT(glm::distance(turn.centre, {1, 2, 3}), 1e-9);
   EXPECT_NEAR(turn.scale, 4, 1e-6);
 
+  for (CapturedView& view : turned.views) {
+    const glm::dvec3 eye(4.1, 2.9, 1.5);  // whose mean is rounded
+    for (int axis = 0; axis < 3; ++axis) view.view.worldFromCamera[4 * size_t(axis) + 3] = eye[axis];
+  }
+  turned.views.resize(7);
+  EXPECT_NEAR(findSceneFrame(turned).scale, 4, 1e-6);
+
   Capture parallel;
   for (int i = 0; i < 5; ++i) parallel.views.push_back(test::viewFrom({i, 0, 0}, {i, 0, 9}, "a"));
   const SceneFrame side = findSceneFrame(parallel);

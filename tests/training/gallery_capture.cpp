@@ -7,7 +7,6 @@
 
 #include "baker/synth/synth.h"
 #include "foam/detail_colour.h"
-#include "trainer/photos/photo_order.h"
 
 namespace froth::test {
 namespace {
@@ -67,23 +66,15 @@ Photo tracePhoto(const View& view) {
 
 }  // namespace
 
-GalleryCapture makeGalleryCapture(uint32_t width, uint32_t height) {
+GalleryCapture makeGalleryCapture(uint32_t width, uint32_t height, bool hasPoints) {
   GalleryCapture gallery;
   gallery.capture.views = galleryViews(width, height);
-  gallery.capture.points = galleryPoints();
-  gallery.set.frame = findSceneFrame(gallery.capture);
-  const Result<PhotoSplit> split = splitPhotos(gallery.capture.views, 8);
-  EXPECT_TRUE(split);
-  gallery.set.trainingViews = split->training;
-  for (size_t i = 0; i < gallery.capture.views.size(); ++i) {
-    const View& view = gallery.capture.views[i].view;
-    const bool isTest = std::ranges::count(split->test, i) > 0;
-    Photo photo = tracePhoto(view);
-    photo.view = normalised(view, gallery.set.frame);
-    photo.view.nearRatio = TrainOptions{}.nearRatio;
-    (isTest ? gallery.set.testing : gallery.set.training).push_back(std::move(photo));
-    if (isTest) gallery.set.testNames.push_back(view.name);
-  }
+  if (hasPoints) gallery.capture.points = galleryPoints();
+  std::vector<Photo> photos;
+  for (const CapturedView& captured : gallery.capture.views) photos.push_back(tracePhoto(captured.view));
+  Result<TrainingSet> set = makeTrainingSet(gallery.capture, std::move(photos), {});
+  EXPECT_TRUE(set) << set.error().message;
+  gallery.set = std::move(*set);
   return gallery;
 }
 

@@ -11,6 +11,6 @@ struct GalleryCapture {
 };
 
 // Views from around one of the gallery's, ray traced; every eighth tests. Fails the test when that fails.
-GalleryCapture makeGalleryCapture(uint32_t width, uint32_t height);
+GalleryCapture makeGalleryCapture(uint32_t width, uint32_t height, bool hasPoints = true);
 
 }  // namespace froth::test

@@ -14,6 +14,7 @@
 #include "trainer/loop/state_file.h"
 #include "trainer/loop/training_loop.h"
 #include "trainer/photos/photo_order.h"
+#include "trainer/start/match_points.h"
 #include "trainer/start/start_foam.h"
 
 namespace froth {
@@ -156,24 +157,32 @@ Result<std::unique_ptr<StepExecutor>> makeCpuExecutor(FoamStorage<float> foam, s
   return std::unique_ptr<StepExecutor>(std::make_unique<CpuExecutor>(std::move(foam), std::move(photos)));
 }
 
-Result<TrainingSet> prepareTraining(const Capture& capture, const TrainOptions& options, const Progress& progress) {
+Result<TrainingSet> makeTrainingSet(Capture& capture, std::vector<Photo> photos, const TrainOptions& options) {
   const Result<PhotoSplit> split = splitPhotos(capture.views, options.testPeriod);
   if (!split) return split.error();
-  Result<std::vector<Photo>> photos = readPhotos(capture.views, options.photos, progress);
-  if (!photos) return photos.error();
   TrainingSet set;
-  set.frame = findSceneFrame(capture);
-  for (Photo& photo : *photos) {
-    photo.view = normalised(photo.view, set.frame);
-    if (!photo.view.nearRatio) photo.view.nearRatio = options.nearRatio;
-  }
-  for (const uint32_t i : split->training) set.training.push_back(std::move((*photos)[i]));
   set.trainingViews = split->training;
+  for (const uint32_t i : split->training) set.training.push_back(std::move(photos[i]));
   for (const uint32_t i : split->test) {
     set.testNames.push_back(capture.views[i].view.name);
-    set.testing.push_back(std::move((*photos)[i]));
+    set.testing.push_back(std::move(photos[i]));
+  }
+  set.matchedPoints = replaceFewPoints(capture, set.trainingViews, set.training, options.seed);
+  set.frame = findSceneFrame(capture);
+  for (std::vector<Photo>* part : {&set.training, &set.testing}) {
+    for (Photo& photo : *part) {
+      photo.view = normalised(photo.view, set.frame);
+      if (!photo.view.nearRatio) photo.view.nearRatio = options.nearRatio;
+    }
   }
   return set;
+}
+
+Result<TrainingSet> prepareTraining(Capture& capture, const TrainOptions& options, const Progress& progress) {
+  if (const Result<PhotoSplit> split = splitPhotos(capture.views, options.testPeriod); !split) return split.error();
+  Result<std::vector<Photo>> photos = readPhotos(capture.views, options.photos, progress);
+  if (!photos) return photos.error();
+  return makeTrainingSet(capture, std::move(*photos), options);
 }
 
 Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, const TrainOptions& given,

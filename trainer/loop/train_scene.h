@@ -51,6 +51,7 @@ struct TrainingSet {
   std::vector<Photo> training, testing;  // views in the normalised scene
   std::vector<uint32_t> trainingViews;   // [training] of which view of the capture it is
   std::vector<std::string> testNames;
+  uint32_t matchedPoints = 0;  // found in the photos, for the capture had few
 };
 
 struct TrainResult {
@@ -64,8 +65,12 @@ struct TrainResult {
 using MakeExecutor = std::function<Result<std::unique_ptr<StepExecutor>>(FoamStorage<float>, std::vector<Photo>)>;
 Result<std::unique_ptr<StepExecutor>> makeCpuExecutor(FoamStorage<float> foam, std::vector<Photo> photos);
 
-// Reads photos and splits them.
-Result<TrainingSet> prepareTraining(const Capture& capture, const TrainOptions& options, const Progress& progress);
+// Splits photos, which are in the order of the capture's views, and normalises their views. A capture of few points
+// gets those that are found in its training photos (trainer/start/match_points.h).
+Result<TrainingSet> makeTrainingSet(Capture& capture, std::vector<Photo> photos, const TrainOptions& options);
+
+// Reads photos and makes a set of them.
+Result<TrainingSet> prepareTraining(Capture& capture, const TrainOptions& options, const Progress& progress);
 
 // Trains, saves the state every saveEvery steps and when `progress` asks to stop, and measures the test photos.
 Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, const TrainOptions& options,

@@ -85,7 +85,9 @@ std::optional<glm::dvec3> meetingOfAxes(const std::vector<CapturedView>& views, 
 SceneFrame frameOfCameras(const Capture& capture) {
   constexpr double kLeastShare = 0.25;  // of the spread: nearer than that, axes meet by chance or in the cameras
   const glm::dvec3 middle = meanEye(capture.views);
-  const double spread = spreadOf(capture.views, middle);
+  constexpr double kRounding = 1e-9;  // of how far out the cameras are: eyes at one place, as a mean rounds them
+  const double measured = spreadOf(capture.views, middle);
+  const double spread = measured > kRounding * glm::length(middle) ? measured : 0;
   if (const std::optional<glm::dvec3> place = meetingOfAxes(capture.views, middle)) {
     const double distance = medianDistance(capture, *place);
     if (distance > kLeastShare * spread && distance > 0) return {*place, kMedianDistance / distance};

@@ -5,7 +5,7 @@
 
 namespace froth {
 
-enum class StartStream : uint64_t { kPriority, kMixture, kPixel, kDepth, kNormal, kDetailSites, kAxes };
+enum class StartStream : uint64_t { kPriority, kMixture, kPixel, kDepth, kNormal, kDetailSites, kAxes, kMatchPixel };
 
 inline CounterRandom startRandom(uint64_t seed, StartStream stream) {
   return CounterRandom(seed, Purpose::kStart, static_cast<uint64_t>(stream));
