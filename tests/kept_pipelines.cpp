@@ -14,9 +14,19 @@ std::map<VkShaderModule, std::string> codes;
 std::map<std::string, VkPipeline> pipelines;  // by code and constants
 std::set<VkPipeline> kept;
 
+VkDevice deviceOfKept = VK_NULL_HANDLE;
+
 PFN_vkCreateShaderModule createShaderModuleBelow = nullptr;
 PFN_vkCreateComputePipelines createComputePipelinesBelow = nullptr;
 PFN_vkDestroyPipeline destroyPipelineBelow = nullptr;
+
+// Constructed after the device, and so destroyed before it: validation layers would tell of pipelines that are left, at
+// a time when they can no longer.
+struct DestroyAtExit {
+  ~DestroyAtExit() {
+    for (const VkPipeline pipeline : kept) destroyPipelineBelow(deviceOfKept, pipeline, nullptr);
+  }
+};
 
 VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
                                                   const VkAllocationCallbacks* allocator, VkShaderModule* module) {
@@ -30,8 +40,10 @@ VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShade
 VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                       const VkComputePipelineCreateInfo* infos,
                                                       const VkAllocationCallbacks*, VkPipeline* made) {
+  static const DestroyAtExit destroyAtExit;
   for (uint32_t i = 0; i < count; ++i) {
     const std::lock_guard lock(mutex);
+    deviceOfKept = device;
     std::string key = codes[infos[i].stage.module];
     if (const VkSpecializationInfo* constants = infos[i].stage.pSpecializationInfo) {
       key.append(static_cast<const char*>(constants->pData), constants->dataSize);

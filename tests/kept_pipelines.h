@@ -7,8 +7,8 @@
 namespace froth::test {
 
 // For FrothContextInfo::getInstanceProcAddr. Compute pipelines of the same code and constants are the same one, which
-// stays until the process ends; their layouts must be alike wherever the code is. Any thread; the device must live as
-// long as the process.
+// stays until the process ends; their layouts must be alike wherever the code is. Any thread; one device, made before
+// any pipeline and there until the process ends.
 PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddrKeepingPipelines(VkInstance instance, const char* name);
 
 }  // namespace froth::test
