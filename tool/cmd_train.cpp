@@ -55,6 +55,9 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
     if (!result.testPsnrs.empty()) {
       fmt::print("PSNR of {} test photos: {:.2f} dB\n", result.testPsnrs.size(), meanPsnr(result.testPsnrs));
     }
+    if (set.matchedPoints > 0) {
+      fmt::print("The capture has few points or none: began with {} that its photos show alike\n", set.matchedPoints);
+    }
     if (result.droppedCount > 0) {
       fmt::print("{} contributions to gradients were no finite numbers, and were dropped\n", result.droppedCount);
     }
@@ -62,6 +65,7 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
   return options.figures.write({{"output", options.output.string()},
                                 {"cells", result.foam.cellCount},
                                 {"photos", set.training.size()},
+                                {"matchedPoints", set.matchedPoints},
                                 {"firstStep", result.firstStep},
                                 {"steps", options.train.schedule.steps},
                                 {"seconds", seconds},

@@ -129,7 +129,7 @@ TEST(MatchPoints, TakeThePlaceOfFewPointsAlone) {
   for (const Capture& few : {bare, coincident}) {
     Capture capture = few;
     const uint32_t found = replaceFewPoints(capture, training, trained, 1);
-    EXPECT_GT(found, 400u);
+    ASSERT_GT(found, 400u);
     EXPECT_EQ(capture.points.size(), found);
     EXPECT_EQ(std::ranges::count(capture.observers, 0u), 0);  // the test view
     EXPECT_EQ(std::ranges::max(capture.observers), 11u);
