@@ -14,7 +14,7 @@ std::map<VkShaderModule, std::string> codes;
 std::map<std::string, VkPipeline> pipelines;  // by code and constants
 std::set<VkPipeline> kept;
 
-VkDevice deviceOfKept = VK_NULL_HANDLE;
+VkDevice deviceOfKept = VK_NULL_HANDLE;  // the first that makes one
 
 PFN_vkCreateShaderModule createShaderModuleBelow = nullptr;
 PFN_vkCreateComputePipelines createComputePipelinesBelow = nullptr;
@@ -39,11 +39,15 @@ VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShade
 
 VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                       const VkComputePipelineCreateInfo* infos,
-                                                      const VkAllocationCallbacks*, VkPipeline* made) {
+                                                      const VkAllocationCallbacks* allocator, VkPipeline* made) {
   static const DestroyAtExit destroyAtExit;
+  {
+    const std::lock_guard lock(mutex);
+    if (!deviceOfKept) deviceOfKept = device;
+  }
+  if (device != deviceOfKept) return createComputePipelinesBelow(device, cache, count, infos, allocator, made);
   for (uint32_t i = 0; i < count; ++i) {
     const std::lock_guard lock(mutex);
-    deviceOfKept = device;
     std::string key = codes[infos[i].stage.module];
     if (const VkSpecializationInfo* constants = infos[i].stage.pSpecializationInfo) {
       key.append(static_cast<const char*>(constants->pData), constants->dataSize);

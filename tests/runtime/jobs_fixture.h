@@ -84,7 +84,7 @@ inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceFunction(VkDevice device, 
 }
 
 inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceFunction(VkInstance instance, const char* name) {
-  const PFN_vkVoidFunction function = vkGetInstanceProcAddr(instance, name);
+  const PFN_vkVoidFunction function = test::getInstanceProcAddrKeepingPipelines(instance, name);
   if (std::string(name) != "vkGetDeviceProcAddr") return function;
   deviceFunctionBelow = reinterpret_cast<PFN_vkGetDeviceProcAddr>(function);
   return reinterpret_cast<PFN_vkVoidFunction>(deviceFunction);
