@@ -16,7 +16,7 @@ from pathlib import Path
 PACK = Path(__file__).resolve().parent
 # Part: program, whether the tests ask for validation layers.
 PROGRAMS = {"render": ("test_render", True), "walk": ("test_walk", True), "levels": ("test_levels", True),
-            "runtime": ("test_runtime", True), "runtime_inside": ("test_runtime_inside", True), "query": ("test_query", True),
+            "runtime": ("test_runtime", True), "threads": ("test_threads", True), "runtime_inside": ("test_runtime_inside", True), "query": ("test_query", True),
             "room": ("test_room", True), "faults": ("test_faults", False), "far_away": ("test_stability_far_away", True),
             "tool": ("test_tool", False)}
 STABILITY = {"stability": [], "found": ["--replay", str(PACK / "source/tests/stability/found")]}
