@@ -9,6 +9,7 @@
 
 #include "foam/checkpoint/activation.h"
 #include "foam/checkpoint/parameters.h"
+#include "trainer/start/cover_views.h"
 #include "trainer/start/nearest_sites.h"
 #include "trainer/start/start_streams.h"
 
@@ -19,6 +20,7 @@ constexpr double kPointShare = 0.95;   // of the points: the last ones lie close
 constexpr double kMixFrom = 0.9;       // of the points: as many cells, and mixtures begin
 constexpr uint64_t kMostMixtures = 9;  // for each point
 constexpr uint32_t kNearest = 8;       // distances in a radius
+constexpr double kGapShare = 0.25;     // of the cells that may cover gaps
 constexpr double kLeastRadius = 1e-4;  // cells at one place, and before a lens, keep a radius that trains
 constexpr double kRawDensity = 0.1, kSiteSpread = 0.1, kAxisSpread = 2;
 
@@ -35,19 +37,30 @@ glm::vec4 orientationTo(const glm::dvec3& towards, const CounterRandom& random, 
   return normaliseQuaternion({q.w, q.x, q.y, q.z});
 }
 
-void setRadii(const std::vector<StartCell>& cells, Foam& foam) {
+std::vector<float> radiiOf(const std::vector<StartCell>& cells) {
+  std::vector<glm::vec3> sites;
+  for (const StartCell& cell : cells) sites.emplace_back(cell.position);
   const std::vector<float> zeros(cells.size(), 0.0f);
   std::vector<uint32_t> members(cells.size());
   std::iota(members.begin(), members.end(), 0u);
-  const SiteTree tree(foam.sites, zeros, std::move(members));
-  foam.radii.resize(cells.size());
+  const SiteTree tree(sites, zeros, std::move(members));
+  std::vector<float> radii(cells.size());
   tbb::parallel_for(size_t{0}, cells.size(), [&](size_t i) {
-    const std::vector<NearSite> nearest = findNearestSites(tree, foam.sites, glm::dvec3(foam.sites[i]), kNearest);
+    const std::vector<NearSite> nearest = findNearestSites(tree, sites, glm::dvec3(sites[i]), kNearest);
     double sum = 0;
     for (const NearSite& near : nearest) sum += std::sqrt(near.squared);
     const double mean = sum / static_cast<double>(nearest.size());
-    foam.radii[i] = static_cast<float>(std::max(std::min(mean, cells[i].mostRadius), kLeastRadius));
+    radii[i] = static_cast<float>(std::max(std::min(mean, cells[i].mostRadius), kLeastRadius));
   });
+  return radii;
+}
+
+// Cells that cover gaps stand in place of the last ones, which matter least.
+uint32_t coverGaps(const StartScene& scene, std::vector<StartCell>& cells) {
+  const auto most = static_cast<uint32_t>(kGapShare * static_cast<double>(cells.size()));
+  const std::vector<StartCell> gaps = cellsInGaps(scene, cells, radiiOf(cells), most);
+  std::copy(gaps.begin(), gaps.end(), cells.end() - static_cast<std::ptrdiff_t>(gaps.size()));
+  return static_cast<uint32_t>(gaps.size());
 }
 
 void setAppearance(const std::vector<StartCell>& cells, uint64_t seed, Foam& foam) {
@@ -83,7 +96,7 @@ Foam foamOf(const std::vector<StartCell>& cells, const StartOptions& options, ui
   foam.orientations.resize(cells.size());
   tbb::parallel_for(uint32_t{0}, foam.cellCount,
                     [&](uint32_t i) { foam.orientations[i] = orientationTo(cells[i].towards, normals, i); });
-  setRadii(cells, foam);
+  foam.radii = radiiOf(cells);
   setAppearance(cells, seed, foam);
   return foam;
 }
@@ -114,6 +127,7 @@ Result<StartFoam> makeStartFoam(const StartScene& scene, const StartOptions& opt
   }
   const std::vector<StartCell> random = cellsInFrusta(scene, start.random);
   cells.insert(cells.end(), random.begin(), random.end());
+  start.gaps = coverGaps(scene, cells);
   start.foam = foamOf(cells, options, scene.seed);
   return start;
 }
