@@ -31,12 +31,13 @@ enum class Purpose : uint64_t {
   kAxis,
   kTemperature,
   kColour,
-  kSurface,               // one stream for each surface follows
-  kStart = 1 << 28,       // one stream for each parameter of a cell follows
-  kPhotoOrder = 1 << 29,  // one stream for each epoch follows
-  kSplit = 3 << 28,       // two streams for each step of training follow
-  kDisk = (1 << 30) - 1,  // one number for each range
-  kRounding = 1 << 30,    // last: one stream for each cell follows
+  kSurface,                // one stream for each surface follows
+  kStart = 1 << 28,        // one stream for each parameter of a cell follows
+  kPhotoOrder = 1 << 29,   // one stream for each epoch follows
+  kSplit = 3 << 28,        // two streams for each step of training follow
+  kCrowd = (1 << 30) - 2,  // one stream for the neighbours of crowded cells
+  kDisk = (1 << 30) - 1,   // one number for each range
+  kRounding = 1 << 30,     // last: one stream for each cell follows
 };
 
 class CounterRandom {

@@ -243,4 +243,14 @@ Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> vie
   return visibility;
 }
 
+std::vector<double> sumCellWeights(const Foam& foam, const Visibility& visibility) {
+  std::vector<double> sums(foam.cellCount, 0);
+  for (size_t detail = 0; detail + 1 < visibility.offsets.size(); ++detail) {
+    for (uint64_t entry = visibility.offsets[detail]; entry < visibility.offsets[detail + 1]; ++entry) {
+      sums[detail / foam.detailCount] += visibility.weights[entry];
+    }
+  }
+  return sums;
+}
+
 }  // namespace froth

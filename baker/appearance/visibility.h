@@ -37,4 +37,7 @@ struct Visibility {
 Result<Visibility> measureVisibility(const Foam& foam, std::span<const View> views, const VisibilityOptions& options,
                                      const Progress& progress = {});
 
+// [N] The weights of each cell in all views, summed.
+std::vector<double> sumCellWeights(const Foam& foam, const Visibility& visibility);
+
 }  // namespace froth

@@ -27,6 +27,7 @@
 #include "baker/cells/snap_cells.h"
 #include "baker/lod/gather_cells.h"
 #include "baker/lod/levels.h"
+#include "baker/steiner/crowded_cells.h"
 #include "baker/steiner/steiner.h"
 
 namespace froth {
@@ -47,6 +48,7 @@ void storeCameras(const CameraSet& cameras, AssetContents& contents) {
 }
 
 // That show a box of eyes; each takes about half a second.
+constexpr uint32_t kMostSplits = 4;  // rounds in which crowded cells are split
 constexpr uint32_t kViewsOfBox = 96;
 
 // Whether the asset can look different from the input.
@@ -69,6 +71,9 @@ class Bake {
   std::vector<View> knownViews() const;
   Status lookThroughCameras();
   Status snap();
+  bool hasSteiner() const { return options_.steiner && options_.walkGraph; }
+  SteinerOptions steinerOptions() const;
+  void addSteinerCells(const SteinerCells& added);
   Status placeSteiner();
   Status triangulate();
   Status mark();
@@ -97,6 +102,7 @@ class Bake {
   uint64_t unseenCulled_ = 0;
   std::optional<Visibility> visibility_;
   BakeCells cells_;
+  size_t realCount_ = 0;  // cells before the Steiner cells
   RegularTriangulation triangulation_;
   AlphaComplex alpha_;
   ChunkPlan plan_;
@@ -149,13 +155,10 @@ std::vector<View> Bake::knownViews() const {
 
 Status Bake::lookThroughCameras() {
   if (isLossy(options_)) contents_.eyes = makeEyeRegion(options_);
-  const bool isNeeded = options_.knobs.compressColours || options_.cullUnseen > 0;
-  if (!isNeeded) return {};
+  if (!options_.knobs.compressColours && options_.cullUnseen <= 0) return {};
   const std::vector<View> views = knownViews();
   if (views.empty()) return {};
-  VisibilityOptions visibility;
-  visibility.nearRatio = options_.nearRatio;
-  visibility.nearDepth = options_.nearDepth;
+  const VisibilityOptions visibility{.nearRatio = options_.nearRatio, .nearDepth = options_.nearDepth};
   Result<Visibility> measured = measureVisibility(foam_, views, visibility, progress_);
   if (!measured) return measured.error();
   visibility_ = std::move(*measured);
@@ -175,22 +178,26 @@ Status Bake::snap() {
   return {};
 }
 
-Status Bake::placeSteiner() {
-  if (!options_.steiner || !options_.walkGraph) return {};
-  SteinerOptions steiner;
-  steiner.seed = options_.seed;
-  steiner.cameras = options_.cameras;
-  steiner.nearRatio = options_.nearRatio;
-  steiner.nearDepth = options_.nearDepth;
-  steiner.positionStep = contents_.quantization.positionStep;
-  steiner.radiusBits = contents_.quantization.radiusBits;
-  const Result<SteinerCells> added =
-      placeSteinerCells(cells_.sites, cells_.radii, cells_.densities, steiner, progress_);
-  if (!added) return added.error();
-  cells_.sites.insert(cells_.sites.end(), added->sites.begin(), added->sites.end());
-  cells_.radii.insert(cells_.radii.end(), added->radii.begin(), added->radii.end());
+SteinerOptions Bake::steinerOptions() const {
+  const Quantization& lattices = contents_.quantization;
+  return {options_.seed,      options_.cameras,      options_.nearRatio,
+          options_.nearDepth, lattices.positionStep, lattices.radiusBits};
+}
+
+void Bake::addSteinerCells(const SteinerCells& added) {
+  cells_.sites.insert(cells_.sites.end(), added.sites.begin(), added.sites.end());
+  cells_.radii.insert(cells_.radii.end(), added.radii.begin(), added.radii.end());
   cells_.densities.resize(cells_.sites.size(), 0);
   cells_.sources.resize(cells_.sites.size(), kNoSource);
+}
+
+Status Bake::placeSteiner() {
+  if (!hasSteiner()) return {};
+  realCount_ = cells_.count();
+  const Result<SteinerCells> added =
+      placeSteinerCells(cells_.sites, cells_.radii, cells_.densities, steinerOptions(), progress_);
+  if (!added) return added.error();
+  addSteinerCells(*added);
   result_.walkLengthBefore = added->walkLengthBefore;
   result_.walkLengthAfter = added->walkLengthAfter;
   recorder_.finish("steiner", added->sites.size());
@@ -198,12 +205,18 @@ Status Bake::placeSteiner() {
 }
 
 Status Bake::triangulate() {
-  Result<RegularTriangulation> triangulation =
-      triangulateWithin(options_.memoryLimit, cells_.sites, cells_.radii, progress_);
-  if (!triangulation) return triangulation.error();
-  triangulation_ = std::move(*triangulation);
+  for (uint32_t round = 0;; ++round) {
+    Result<RegularTriangulation> triangulation =
+        triangulateWithin(options_.memoryLimit, cells_.sites, cells_.radii, progress_);
+    if (!triangulation) return triangulation.error();
+    triangulation_ = std::move(*triangulation);
+    if (!hasSteiner() || round == kMostSplits) break;
+    const SteinerCells more =
+        splitCrowdedCells(cells_.sites, cells_.radii, realCount_, triangulation_.graph, steinerOptions(), round);
+    if (more.sites.empty()) break;
+    addSteinerCells(more);
+  }
   recorder_.finish("triangulate", cells_.count());
-
   alpha_ = computeAlphaComplex(cells_.sites, cells_.radii, triangulation_, progress_);
   if (alpha_.graph.offsets.empty()) return stoppedOnRequest("bake");
   recorder_.finish("alpha-complex", triangulation_.graph.neighbours.size() / 2);
@@ -232,17 +245,6 @@ Status Bake::check() {
                    result_.validity.faults.front().c_str());
 }
 
-// How much each cell of the input shows in all views.
-std::vector<double> sumWeights(const Foam& foam, const Visibility& visibility) {
-  std::vector<double> sums(foam.cellCount, 0);
-  for (size_t detail = 0; detail + 1 < visibility.offsets.size(); ++detail) {
-    for (uint64_t entry = visibility.offsets[detail]; entry < visibility.offsets[detail + 1]; ++entry) {
-      sums[detail / foam.detailCount] += visibility.weights[entry];
-    }
-  }
-  return sums;
-}
-
 Status Bake::makeCoarser() {
   if (!options_.levels) return {};
   std::vector<View> views = knownViews();
@@ -254,7 +256,7 @@ Status Bake::makeCoarser() {
                          plan_,
                          contents_.quantization,
                          options_.chunkCells,
-                         visibility_ ? sumWeights(foam_, *visibility_) : std::vector<double>{},
+                         visibility_ ? sumCellWeights(foam_, *visibility_) : std::vector<double>{},
                          std::move(views),
                          options_.nearRatio,
                          options_.nearDepth,

@@ -28,6 +28,12 @@ class EmptyBallFinder {
   // [< 2^32] tells the random numbers of several rays apart.
   void findAlong(const WalkRay& ray, const RayCells& cells, uint64_t stream, std::vector<EmptyBall>& found) const;
 
+  // Appends the ball about a point outside of all balls, moved `tries` times to where there is more room; none where no
+  // ball fits.
+  void findAt(const glm::dvec3& point, uint32_t tries, std::vector<EmptyBall>& found) const {
+    addBall(climb(point, tries), found);
+  }
+
  private:
   struct Place {
     glm::dvec3 point;

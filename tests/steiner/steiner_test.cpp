@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 
 #include "baker/graph/graph.h"
+#include "baker/steiner/crowded_cells.h"
 #include "baker/steiner/steiner.h"
 #include "baker/steiner/walk_length.h"
 #include "tests/graph/ball_sets.h"
@@ -63,6 +64,37 @@ BallSet with(BallSet balls, const SteinerCells& cells) {
 
 AlphaComplex alphaOf(const BallSet& balls) {
   return computeAlphaComplex(balls.sites, balls.radii, *triangulateRegular(balls.sites, balls.radii));
+}
+
+size_t mostNeighbours(const CellGraph& graph) {
+  size_t most = 0;
+  for (size_t i = 0; i + 1 < graph.offsets.size(); ++i) {
+    most = std::max<size_t>(most, graph.offsets[i + 1] - graph.offsets[i]);
+  }
+  return most;
+}
+
+// One ball in a room of 11,616 wall cells, which is a neighbour of a quarter of them.
+TEST(Steiner, ACellThatTouchesThousandsIsSplit) {
+  const BallSet room = makeRoom(45);
+  BallSet balls = with(room, {{{5, 5, 5}}, {4}, 0, 0});
+  CellGraph graph = triangulateRegular(balls.sites, balls.radii)->graph;
+  ASSERT_GT(mostNeighbours(graph), 2000u);
+  for (uint32_t round = 0; round < 4; ++round) {
+    const SteinerCells more = splitCrowdedCells(balls.sites, balls.radii, room.size(), graph, {}, round);
+    if (more.sites.empty()) break;
+    balls = with(balls, more);
+    graph = triangulateRegular(balls.sites, balls.radii)->graph;
+  }
+  EXPECT_LE(mostNeighbours(graph), 1024u);
+  EXPECT_LT(balls.size(), room.size() + 400);
+  for (size_t s = room.size() + 1; s < balls.size(); ++s) {
+    for (uint32_t i = 0; i < room.size(); ++i) {
+      const double distance = glm::distance(glm::dvec3(balls.sites[s]), glm::dvec3(balls.sites[i]));
+      ASSERT_GT(distance, double{balls.radii[s]} + balls.radii[i]);
+    }
+  }
+  EXPECT_TRUE(splitCrowdedCells(balls.sites, balls.radii, room.size(), graph, {}, 4).sites.empty());
 }
 
 TEST(Steiner, NoBallMeetsABallOfTheScene) {

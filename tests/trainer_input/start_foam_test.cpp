@@ -157,6 +157,54 @@ TEST(StartFoam, RandomCellsFillTheVisualHull) {
   EXPECT_NEAR(start.foam.lobeColours[0].y, 0.5, 1e-6);
 }
 
+// Rays through samples of all views that meet no ball.
+uint32_t countMisses(const Foam& foam, const Capture& capture) {
+  const SceneFrame frame = findSceneFrame(capture);
+  uint32_t misses = 0;
+  for (const CapturedView& captured : capture.views) {
+    const View view = normalised(captured.view, frame);
+    const ViewRays rays(view);
+    for (uint32_t sample = 0; sample < 64 * 48; sample += 13) {
+      const ViewRay ray = *rays.ofPixel(sample % 64, sample / 64);
+      const auto isMet = [&](size_t cell) {
+        const glm::dvec3 offset = glm::dvec3(foam.sites[cell]) - eyeOf(view);
+        const double along = glm::dot(offset, ray.direction), radius = foam.radii[cell];
+        return along > 0 && glm::dot(offset, offset) - along * along < radius * radius;
+      };
+      bool meets = false;
+      for (size_t cell = 0; cell < foam.sites.size() && !meets; ++cell) meets = isMet(cell);
+      misses += !meets;
+    }
+  }
+  return misses;
+}
+
+TEST(StartFoam, CellsCoverWhatPhotosShowAndPointsDoNot) {
+  constexpr StartOptions kCovering{1600, 1, 1};
+  Capture capture = test::orbit(4, {0, 0, 0}, 4);
+  test::addPoints(capture, 2000, {0, 0, 0}, 0.3);  // in the middle of each image
+  std::vector<Photo> photos;
+  for (const CapturedView& view : capture.views) {
+    photos.push_back({view.view, std::vector<uint8_t>(size_t{4} * 64 * 48, 255), {}});
+  }
+  const StartFoam bare = startOf(capture, kCovering), covered = startOf(capture, kCovering, photos);
+  expectSound(covered.foam, kCovering);
+  EXPECT_EQ(bare.gaps, 0u);
+  EXPECT_GT(countMisses(bare.foam, capture), 600u);  // of 948 samples
+  EXPECT_GT(covered.gaps, 100u);
+  EXPECT_LE(covered.gaps, 400u);
+  EXPECT_LT(countMisses(covered.foam, capture), 30u);  // between samples of the lattice
+  EXPECT_EQ(covered.foam.lobeColours[1599], glm::vec3(0.5f));
+
+  for (Photo& photo : photos) photo.counted.assign(size_t{64} * 48, 0);
+  EXPECT_EQ(startOf(capture, kCovering, photos).gaps, 0u);
+  for (Photo& photo : photos) {
+    photo.counted.clear();
+    std::fill(photo.rgba.begin(), photo.rgba.end(), uint8_t{0});
+  }
+  EXPECT_EQ(startOf(capture, kCovering, photos).gaps, 0u);
+}
+
 TEST(StartFoam, BadCountsAreRefused) {
   const Capture capture = test::orbit(8, {0, 0, 0}, 4);
   const std::vector<uint32_t> training = test::allViews(capture);

@@ -12,8 +12,8 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kRows = 36;        // of samples over the height of an image: less than a ball's radius apart
-constexpr double kHeightShare = 0.05;  // of an image that a ball's radius covers
+constexpr uint32_t kRows = 36;         // of samples over the height of an image: less than a ball's radius apart
+constexpr double kHeightShare = 0.08;  // of an image that a ball's radius covers
 constexpr double kNearRatio = 4;       // of radii: nearer cells are not drawn (docs/FOAM.md "Near cells")
 constexpr uint8_t kObject = 128;       // alpha from which a pixel shows the object
 constexpr double kUnknownDepth = 8;    // where a view shows no cell: twice the median distance

@@ -9,7 +9,7 @@
 namespace froth {
 
 // Points stand on texture, so bare walls and what lies far away begin without a ball. A ray that meets none shows the
-// background and pulls no ball there, and radii learn slowly, so such gaps would stay. Here balls of 5 % of an image's
+// background and pulls no ball there, and radii learn slowly, so such gaps would stay. Here balls of 8 % of an image's
 // height cover them, view by view, as deep as the farthest cells around the gap in that view.
 //
 // `cells` have the radii [cells, > 0] and are seen but for those nearer than 4 radii. At most `most` cells; none for
