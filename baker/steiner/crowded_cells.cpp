@@ -14,7 +14,7 @@ namespace {
 constexpr size_t kMostNeighbours = 1024;  // of a cell that is not crowded
 constexpr uint64_t kNeighboursPerBall = 64;
 constexpr double kNearest = 1.0 / 32, kFarthest = 0.5;  // of the way from a neighbour to the crowded site
-constexpr uint64_t kMostClimbs = 4;
+constexpr uint64_t kCrowdedClimbs = 4;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ SteinerCells splitCrowdedCells(std::span<const glm::vec3> sites, std::span<const
       // Near the neighbour and far from it, so that balls of all sizes come.
       const double share = kNearest * std::pow(kFarthest / kNearest, random.uniform(draw + 1));
       const glm::dvec3 place = glm::mix(glm::dvec3(sites[neighbour]), glm::dvec3(sites[crowded[i]]), share);
-      finder.findAt(place, static_cast<uint32_t>(random.bits(draw + 2) % kMostClimbs), found[i]);
+      finder.findAt(place, static_cast<uint32_t>(random.bits(draw + 2) % kCrowdedClimbs), found[i]);
     }
   });
   std::vector<EmptyBall> balls;
