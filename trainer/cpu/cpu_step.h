@@ -52,6 +52,7 @@ class CpuStep {
   GradientSums<Real> sums();                               // what the last differentiate() added up for it
   uint64_t droppedCount() const { return droppedCount_; }  // contributions that were no finite numbers, of all steps
   const CellGraph& pairs() const { return pairs_.graph(); }
+  NeighbourRows rows() const { return pairs_.rows(); }  // the same, of the last activate()
 
  private:
   struct Candidate {

@@ -29,6 +29,8 @@ FROTH_HD uint32_t blocksOfCells(size_t cells) { return static_cast<uint32_t>((ce
 Status countPairs(const StepArrays& arrays, const PairLists& lists, float leastSkin, Scratch& scratch,
                   cudaStream_t stream);
 Status listPairs(const StepArrays& arrays, const PairLists& lists, cudaStream_t stream);
+// overlaps: [cells] countOverlaps(), by the pairs that were listed last.
+Status countCellOverlaps(const StepArrays& arrays, uint32_t* overlaps, cudaStream_t stream);
 
 // Which cells the view sees, and in how many tiles.
 Status cullCells(const StepArrays& arrays, const TrainingView<float>& view, cudaStream_t stream);
@@ -65,7 +67,8 @@ Status differentiateLoss(const PixelArrays<float>& pixels, glm::vec4* wanted, co
 template <class T>
 Status gatherRows(const T* from, T* to, const uint32_t* sources, uint32_t cellCount, uint32_t width,
                   cudaStream_t stream);
-// CellPlan::shifts and meanFactors, on the cells that were gathered.
-Status applyPlan(const StepArrays& arrays, const glm::vec3* shifts, const float* meanFactors, cudaStream_t stream);
+// CellPlan::shifts, meanFactors and radiusFactors, on the cells that were gathered.
+Status applyPlan(const StepArrays& arrays, const glm::vec3* shifts, const float* meanFactors,
+                 const float* radiusFactors, cudaStream_t stream);
 
 }  // namespace froth

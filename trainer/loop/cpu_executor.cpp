@@ -7,6 +7,7 @@
 #include "trainer/cpu/view_exchange.h"
 #include "trainer/loop/evaluate.h"
 #include "trainer/photos/reduce_photo.h"
+#include "trainer/step/crowds.h"
 
 namespace froth {
 namespace {
@@ -75,7 +76,12 @@ Result<std::vector<double>> CpuExecutor::psnrs(const std::vector<Photo>& photos,
   return photoPsnrs(foam, photos, adam);
 }
 
-Result<CellFacts> CpuExecutor::facts() { return factsOf(foam_); }
+Result<CellFacts> CpuExecutor::facts() {
+  overlaps_.resize(foam_.shape.cellCount);
+  tbb::parallel_for(0u, foam_.shape.cellCount,
+                    [&](uint32_t cell) { overlaps_[cell] = countOverlaps(foam_.balls.data(), step_.rows(), cell); });
+  return factsOf(foam_, overlaps_);
+}
 
 Status CpuExecutor::read(FoamStorage<float>& foam) {
   foam = foam_;

@@ -42,6 +42,7 @@ class CpuExecutor : public StepExecutor {
   uint32_t halvings_ = UINT32_MAX;  // of targets_
   ImageLoss<float> loss_;
   std::vector<glm::vec4> gradients_;
+  std::vector<uint32_t> overlaps_;  // of facts()
 };
 
 }  // namespace froth
