@@ -82,14 +82,15 @@ TEST_F(CudaExecutorOf, FindsThePairsOfTheCpu) {
   }
 }
 
-// The first step has the gradients in its moments; the second waits with cells that the first photo does not see.
+// The first step has the gradients in its moments; in the second cells wait that the first photo shows alone, and the
+// third updates them.
 TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpu) {
   CpuExecutor cpu(foam_, photos_);
   Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
   ASSERT_TRUE(gpu) << gpu.error().message;
   DriftTables drifts(schedule_);
-  for (uint32_t step = 0; step < 2; ++step) {
-    const StepPlan plan{step, step, drifts.adamAt(step), weightsAt(schedule_, step), 1e-2f};
+  for (uint32_t step = 0; step < 3; ++step) {
+    const StepPlan plan{step % 2, step % 2, drifts.adamAt(step), weightsAt(schedule_, step), 1e-2f};
     ASSERT_TRUE(cpu.run(plan));
     ASSERT_TRUE((*gpu)->run(plan));
     FoamStorage<float> expected, found;
@@ -99,7 +100,9 @@ TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpu) {
       EXPECT_LE(relativeDifference(expected.firstMoments[i], found.firstMoments[i]), 0.01)
           << kParameterKeys[i] << " in step " << step;
     }
-    EXPECT_EQ(expected.lastSteps, found.lastSteps);
+    uint32_t shownByOne = 0;  // a ray may graze a cell or miss it
+    for (uint32_t cell = 0; cell < kCells; ++cell) shownByOne += expected.lastSteps[cell] != found.lastSteps[cell];
+    EXPECT_LE(shownByOne, kCells / 200);
     EXPECT_LE(relativeDifference(expected.errors, found.errors), 1e-3);
   }
   const Result<uint64_t> dropped = (*gpu)->droppedCount();

@@ -246,8 +246,8 @@ Status CudaStep::render(const TrainingView<float>& view, const PixelSettings<flo
   return inTurn([&] { return reservePixels(size_t{view.width} * view.height, tiles); },
                 [&] { return mark(cullCells(arrays_, view, stream_), "cull"); },
                 [&] { return mark(rankCells(arrays_, scratch_, stream_), "rank"); },
-                [&] { return mark(catchUpCells(arrays_, adam, stream_), "catch up"); },
-                [&] { return mark(prepareCells(arrays_, view, stream_), "prepare"); },
+                [&] { return mark(prepareCells(arrays_, view, adam, stream_), "prepare"); },
+                [&] { return mark(prepareDetails(arrays_, adam, stream_), "prepare details"); },
                 [&] { return mark(binTiles(arrays_, view, scratch_, stream_), "bin"); },
                 [&] { return mark(renderTiles(arrays_, view, settings, stream_), "render"); });
 }
@@ -266,7 +266,8 @@ Status CudaStep::differentiate() {
 }
 
 Status CudaStep::update(const AdamStep<float>& adam, float overlapWeight) {
-  return inTurn([&] { return mark(updateCells(arrays_, adam, overlapWeight, stream_), "update"); },
+  return inTurn([&] { return mark(updateShownCells(arrays_, adam, stream_), "update"); },
+                [&] { return mark(updateBalls(arrays_, adam, overlapWeight, stream_), "update balls"); },
                 [&] { return mark(activateCells(arrays_, hasPairs_, stream_), "activate"); });
 }
 

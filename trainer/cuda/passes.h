@@ -36,15 +36,20 @@ Status countCellOverlaps(const StepArrays& arrays, uint32_t* overlaps, cudaStrea
 Status cullCells(const StepArrays& arrays, const TrainingView<float>& view, cudaStream_t stream);
 // Ranks, and where each rank's planes and entries begin.
 Status rankCells(const StepArrays& arrays, Scratch& scratch, cudaStream_t stream);
-Status catchUpCells(const StepArrays& arrays, const AdamStep<float>& adam, cudaStream_t stream);
-// Cells, planes and details as seen from the eye; their sums become 0.
-Status prepareCells(const StepArrays& arrays, const TrainingView<float>& view, cudaStream_t stream);
+// Cells and planes, then details, as seen from the eye; their sums become 0. Parameters are those before the step
+// `adam`.
+Status prepareCells(const StepArrays& arrays, const TrainingView<float>& view, const AdamStep<float>& adam,
+                    cudaStream_t stream);
+Status prepareDetails(const StepArrays& arrays, const AdamStep<float>& adam, cudaStream_t stream);
 Status binTiles(const StepArrays& arrays, const TrainingView<float>& view, Scratch& scratch, cudaStream_t stream);
 Status renderTiles(const StepArrays& arrays, const TrainingView<float>& view, const PixelSettings<float>& settings,
                    cudaStream_t stream);
 Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view,
                           const PixelSettings<float>& settings, cudaStream_t stream);
-Status updateCells(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, cudaStream_t stream);
+// Of cells that pixels show, all but their balls.
+Status updateShownCells(const StepArrays& arrays, const AdamStep<float>& adam, cudaStream_t stream);
+// Of all cells.
+Status updateBalls(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, cudaStream_t stream);
 
 // A photo in device memory.
 struct ImageTarget {

@@ -72,8 +72,7 @@ Status CpuExecutor::rearrange(const CellPlan& plan) {
 }
 
 Result<std::vector<double>> CpuExecutor::psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) {
-  FoamStorage<float> foam = foam_;  // to catch up in two parts would round otherwise than in one
-  return photoPsnrs(foam, photos, adam);
+  return photoPsnrs(foam_, photos, adam);
 }
 
 Result<CellFacts> CpuExecutor::facts() {

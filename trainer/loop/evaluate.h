@@ -16,7 +16,7 @@ double psnrOf(const Photo& photo, const std::vector<glm::vec4>& rendered);
 // 0 without any.
 double meanPsnr(const std::vector<double>& psnrs);
 
-// The PSNR of each photo, on the CPU. Cells that a photo sees catch up to `adam`.
+// The PSNR of each photo, on the CPU, before the step `adam`. Activates the balls; all else stays.
 std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos, const AdamStep<float>& adam);
 
 }  // namespace froth

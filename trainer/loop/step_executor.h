@@ -35,7 +35,7 @@ class StepExecutor {
   virtual Result<CellFacts> facts() = 0;
   virtual uint32_t cellCount() const = 0;
   // How well photos with views in the normalised scene are shown: PSNR as psnrOf() gives it. `adam`: of the step that
-  // comes next, to which cells catch up. Later steps give the bits that they would give without this call.
+  // comes next. Later steps give the bits that they would give without this call.
   virtual Result<std::vector<double>> psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) = 0;
   // All arrays, as the steps left them.
   virtual Status read(FoamStorage<float>& foam) = 0;
