@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/counter_random.h"
@@ -120,15 +119,15 @@ TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   ASSERT_TRUE((*gpu)->read(before));
   const Result<CellFacts> facts = (*gpu)->facts();
   ASSERT_TRUE(facts);
-  const CellPlan plan = planCells(*facts, kCells + 500, 3, 99);
+  CellPlan plan = planCells(*facts, kCells + 500, 3, 99);
+  for (size_t i = 0; i < plan.radiusFactors.size(); i += 3) plan.radiusFactors[i] = 0.9f;
   ASSERT_TRUE((*gpu)->rearrange(plan));
   ASSERT_TRUE((*gpu)->read(after));
   const FoamStorage<float> expected = rearrange(before, plan);
   EXPECT_EQ(after.shape.cellCount, plan.sources.size());
-  EXPECT_TRUE(std::ranges::any_of(plan.radiusFactors, [](float factor) { return factor < 1; }));
   for (size_t i = 0; i < kParameterCount; ++i) {
     const auto parameter = static_cast<Parameter>(i);
-    const bool isRounded = parameter == Parameter::kRadii || parameter == Parameter::kDensity;  // of crowded cells
+    const bool isRounded = parameter == Parameter::kRadii || parameter == Parameter::kDensity;
     EXPECT_LE(relativeDifference(expected.values[i], after.values[i]), isRounded ? 1e-5 : 0.0) << kParameterKeys[i];
   }
   EXPECT_EQ(after.firstMoments, expected.firstMoments);

@@ -104,7 +104,9 @@ CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint3
   plan.sources = survivors;
   plan.shifts.assign(survivors.size(), glm::vec3(0));
   plan.meanFactors.assign(survivors.size(), 1);
-  for (const uint32_t cell : survivors) plan.radiusFactors.push_back(shrinkOf(facts.overlaps[cell]));
+  for (const uint32_t cell : survivors) {
+    plan.radiusFactors.push_back(shrinkOf(facts.balls[cell].w, facts.overlaps[cell]));
+  }
   const auto count = static_cast<uint32_t>(survivors.size());
   const CounterRandom choice(seed, Purpose::kSplit, uint64_t{2} * step),
       way(seed, Purpose::kSplit, uint64_t{2} * step + 1);

@@ -15,6 +15,9 @@ namespace froth {
 // A surface that is covered evenly has some 13 overlaps per ball.
 inline constexpr uint32_t kMostOverlaps = 24;
 inline constexpr float kLeastShrink = 0.95f;  // of a radius at a time: steps repair what it changes
+// How far a site can move until cells change again, by the first rate of points. Children lie in a pile at their
+// parent's site: larger balls have not spread by then, and would leave a gap around the pile.
+inline constexpr float kMostSpread = 0.1f;
 
 // How many balls overlap that of a cell. The rows hold all pairs that do, and some that do not.
 FROTH_HD uint32_t countOverlaps(const glm::vec4* balls, const NeighbourRows& rows, uint32_t cell) {
@@ -29,9 +32,9 @@ FROTH_HD uint32_t countOverlaps(const glm::vec4* balls, const NeighbourRows& row
   return count;
 }
 
-// By what its radius is multiplied, towards as many as there should be: overlaps on a surface grow with r^2.
-FROTH_HD float shrinkOf(uint32_t overlaps) {
-  if (overlaps <= kMostOverlaps) return 1;
+// By what a radius is multiplied, towards as many as there should be: overlaps on a surface grow with r^2.
+FROTH_HD float shrinkOf(float radius, uint32_t overlaps) {
+  if (overlaps <= kMostOverlaps || radius > kMostSpread) return 1;
   const float wanted = std::sqrt(float(kMostOverlaps) / float(overlaps));
   return wanted > kLeastShrink ? wanted : kLeastShrink;
 }
