@@ -22,12 +22,13 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kLinesByDefault = 20;
+constexpr uint32_t kMeasuredByDefault = 20;  // times in a run
 
 struct TrainCommandOptions {
   std::filesystem::path scene, output, log, refined;
   std::string preset = trainPresets().front().name;
   std::optional<uint32_t> steps, cells, startCells, measureEvery;  // go before the preset's
+  double minutes = 0;                                              // 0: by steps
   TrainOptions train;
   bool isPremultiplied = false, isOutdoor = false;
   std::string device;  // cpu, cuda; empty: cuda where there is one
@@ -51,7 +52,7 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
   }
   if (options.figures.wantsTable()) {
     fmt::print("{}: {} cells from {} photos, {} steps in {:.1f} s\n", options.output.string(), result.foam.cellCount,
-               set.training.size(), options.train.schedule.steps - result.firstStep, seconds);
+               set.training.size(), result.stepsDone - result.firstStep, seconds);
     if (!result.testPsnrs.empty()) {
       fmt::print("PSNR of {} test photos: {:.2f} dB\n", result.testPsnrs.size(), meanPsnr(result.testPsnrs));
     }
@@ -67,7 +68,7 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
                                 {"photos", set.training.size()},
                                 {"matchedPoints", set.matchedPoints},
                                 {"firstStep", result.firstStep},
-                                {"steps", options.train.schedule.steps},
+                                {"steps", result.stepsDone},
                                 {"seconds", seconds},
                                 {"droppedContributions", result.droppedCount},
                                 {"psnr", meanPsnr(result.testPsnrs)},
@@ -80,11 +81,13 @@ void setSchedule(TrainCommandOptions& options, const Foam* refined) {
   TrainOptions& train = options.train;
   Schedule& schedule = train.schedule;
   schedule.steps = options.steps.value_or(preset.steps);
+  schedule.seconds = 60 * options.minutes;
   schedule.mostCells = options.cells.value_or(refined != nullptr ? refined->cellCount : preset.cells);
   schedule.startCells = options.startCells.value_or(options.cells ? 0 : preset.startCells);
   schedule.preset = options.isOutdoor ? RatePreset::kOutdoor : RatePreset::kIndoor;
   train.photos.isMaskAlpha |= preset.isMaskAlpha;
-  train.measureEvery = options.measureEvery.value_or(std::max(schedule.steps / kLinesByDefault, 1u));
+  train.measureEvery = options.measureEvery.value_or(0);
+  train.measureTimes = options.measureEvery ? 0 : kMeasuredByDefault;
   train.refined = refined;
 }
 
@@ -93,13 +96,15 @@ Status logWhenMeasured(TrainCommandOptions& options, TrainingLog& log, ProgressP
   if (!options.log.empty()) {
     if (Status opened = log.open(options.log, options.train.isResumed); !opened) return opened;
   }
-  const uint32_t steps = options.train.schedule.steps;
+  const Schedule schedule = options.train.schedule;
   const bool wantsLines = options.figures.wantsTable(), hasLog = !options.log.empty();
-  options.train.whenMeasured = [&log, &printer, steps, wantsLines, hasLog](const TrainingMoment& moment) -> Status {
+  options.train.whenMeasured = [&log, &printer, schedule, wantsLines, hasLog](const TrainingMoment& moment) -> Status {
     if (wantsLines) {
       printer.finishLine();
-      fmt::print("{} of {} steps: {:.2f} dB, {} cells, {:.1f} s\n", moment.stepsDone, steps, moment.psnr, moment.cells,
-                 moment.seconds);
+      const std::string steps = schedule.seconds > 0 ? "" : fmt::format(" of {}", schedule.steps);
+      const std::string seconds = schedule.seconds > 0 ? fmt::format(" of {:.1f}", schedule.seconds) : "";
+      fmt::print("{}{} steps: {:.2f} dB, {} cells, {:.1f}{} s\n", moment.stepsDone, steps, moment.psnr, moment.cells,
+                 moment.seconds, seconds);
       std::fflush(stdout);
     }
     return hasLog ? log.write(moment) : Status{};
@@ -157,7 +162,13 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
   command
       .add_option("--start-cells", options->startCells, "Cells to begin with; where --cells is given, a quarter of it")
       ->check(countBetween(1, 1u << 30));
-  command.add_option("--steps", options->steps, "Steps, one photo each")->check(countBetween(1, 10000000));
+  CLI::Option* steps =
+      command.add_option("--steps", options->steps, "Steps, one photo each")->check(countBetween(1, 10000000));
+  command
+      .add_option("--minutes", options->minutes,
+                  "As many steps as take so long, in place of --steps: rates, sizes and cells follow the time")
+      ->check(numberBetween(1e-3, 1e6))
+      ->excludes(steps);
   command.add_option("--refine", options->refined, "Goes on from this foam, with its K and M, at low rates");
   command.add_option("--detail-sites", options->train.detailCount, "Per cell")->check(countBetween(1, 32));
   command.add_option("--lobes", options->train.lobeCount, "Per detail site")->check(countBetween(1, 32));
@@ -168,7 +179,7 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
       ->check(countBetween(0, 1000000));
   command
       .add_option("--measure-every", options->measureEvery,
-                  "Steps between two looks at the test photos; 0: at the end alone; default: a twentieth of the steps")
+                  "Steps between two looks at the test photos; 0: at the end alone; default: 20 looks in a run")
       ->check(countBetween(0, 10000000));
   command.add_option("--log", options->log, "What each look found, as lines of JSON");
   command.add_option("--seed", options->train.seed, "Of all random choices");
