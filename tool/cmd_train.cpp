@@ -13,6 +13,7 @@
 #include "tool/options.h"
 #include "tool/train_presets.h"
 #include "tool/training_log.h"
+#include "tool/training_page.h"
 #ifdef FROTH_HAS_CUDA
 #include "trainer/cuda/cuda_executor.h"
 #endif
@@ -25,7 +26,7 @@ namespace {
 constexpr uint32_t kMeasuredByDefault = 20;  // times in a run
 
 struct TrainCommandOptions {
-  std::filesystem::path scene, output, log, refined;
+  std::filesystem::path scene, output, log, page, refined;
   std::string preset = trainPresets().front().name;
   std::optional<uint32_t> steps, cells, startCells, measureEvery;  // go before the preset's
   double minutes = 0;                                              // 0: by steps
@@ -91,30 +92,27 @@ void setSchedule(TrainCommandOptions& options, const Foam* refined) {
   train.refined = refined;
 }
 
-// Lines on the way: in the terminal, and in the log if there is one.
-Status logWhenMeasured(TrainCommandOptions& options, TrainingLog& log, ProgressPrinter& printer) {
-  if (!options.log.empty()) {
-    if (Status opened = log.open(options.log, options.train.isResumed); !opened) return opened;
+// Fails before the long work where its results could not be written.
+Status openOutputs(const TrainCommandOptions& options, TrainingLog& log) {
+  if (Status writable = checkWritable(options.output); !writable) return writable;
+  if (!options.page.empty()) {
+    if (Status writable = checkWritable(options.page); !writable) return writable;
   }
-  const Schedule schedule = options.train.schedule;
-  const bool wantsLines = options.figures.wantsTable(), hasLog = !options.log.empty();
-  options.train.whenMeasured = [&log, &printer, schedule, wantsLines, hasLog](const TrainingMoment& moment) -> Status {
-    if (wantsLines) {
-      printer.finishLine();
-      const std::string steps = schedule.seconds > 0 ? "" : fmt::format(" of {}", schedule.steps);
-      const std::string seconds = schedule.seconds > 0 ? fmt::format(" of {:.1f}", schedule.seconds) : "";
-      fmt::print("{}{} steps: {:.2f} dB, {} cells, {:.1f}{} s\n", moment.stepsDone, steps, moment.psnr, moment.cells,
-                 moment.seconds, seconds);
-      std::fflush(stdout);
-    }
-    return hasLog ? log.write(moment) : Status{};
-  };
-  return {};
+  return options.log.empty() ? Status{} : log.open(options.log, options.train.isResumed);
+}
+
+void printMoment(const TrainingMoment& moment, const Schedule& schedule) {
+  const std::string steps = schedule.seconds > 0 ? "" : fmt::format(" of {}", schedule.steps);
+  const std::string seconds = schedule.seconds > 0 ? fmt::format(" of {:.1f}", schedule.seconds) : "";
+  fmt::print("{}{} steps: {:.2f} dB, {} cells, {:.1f}{} s\n", moment.stepsDone, steps, moment.psnr, moment.cells,
+             moment.seconds, seconds);
+  std::fflush(stdout);
 }
 
 Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
   const Progress progress = printer.callback();
-  if (Status writable = checkWritable(options.output); !writable) return writable;
+  TrainingLog log;
+  if (Status opened = openOutputs(options, log); !opened) return opened;
   std::optional<Foam> refined;
   if (!options.refined.empty()) {
     Result<Foam> foam = importCheckpoint(options.refined, progress);
@@ -122,8 +120,6 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
     refined = std::move(*foam);
   }
   setSchedule(options, refined ? &*refined : nullptr);
-  TrainingLog log;
-  if (Status opened = logWhenMeasured(options, log, printer); !opened) return opened;
   options.train.state = options.output;
   options.train.state.replace_extension(".state.bin");
   options.train.photos.alpha = options.isPremultiplied ? AlphaForm::kPremultiplied : AlphaForm::kStraight;
@@ -133,6 +129,17 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
   if (!capture) return capture.error();
   const Result<TrainingSet> set = prepareTraining(*capture, options.train, progress);
   if (!set) return set.error();
+  TrainingPage page(options.page, options.output.string());
+  options.train.whenMeasured = [&](const TrainingMoment& moment) -> Status {
+    if (options.figures.wantsTable()) {
+      printer.finishLine();
+      printMoment(moment, options.train.schedule);
+    }
+    if (!options.log.empty()) {
+      if (Status written = log.write(moment); !written) return written;
+    }
+    return options.page.empty() ? Status{} : page.write(moment, *set);
+  };
   const auto begin = std::chrono::steady_clock::now();
   const Result<TrainResult> result = trainScene(*capture, *set, options.train, *makeExecutor, progress);
   if (!result) return result.error();
@@ -182,6 +189,7 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
                   "Steps between two looks at the test photos; 0: at the end alone; default: 20 looks in a run")
       ->check(countBetween(0, 10000000));
   command.add_option("--log", options->log, "What each look found, as lines of JSON");
+  command.add_option("--page", options->page, "What the looks found, as a page (HTML): curves, and test photos");
   command.add_option("--seed", options->train.seed, "Of all random choices");
   command.add_option("--save-every", options->train.saveEvery, "Steps between two saved states")
       ->check(countBetween(1, 10000000));

@@ -102,9 +102,9 @@ class WatchedExecutor : public StepExecutor {
   Status rearrange(const CellPlan& plan) override { return executor_->rearrange(plan); }
   Result<CellFacts> facts() override { return executor_->facts(); }
   uint32_t cellCount() const override { return executor_->cellCount(); }
-  Result<std::vector<double>> psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) override {
+  Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) override {
     watch_.now += 1e6;  // it takes no time of steps
-    return executor_->psnrs(photos, adam);
+    return executor_->show(view, adam, image);
   }
   Status read(FoamStorage<float>& foam) override { return executor_->read(foam); }
   Status beginAnew() override { return executor_->beginAnew(); }

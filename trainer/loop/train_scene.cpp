@@ -73,9 +73,14 @@ Result<std::vector<double>> measure(StepExecutor& executor, const TrainOptions& 
   if (const Result<uint64_t> waited = executor.droppedCount(); !waited) return waited.error();
   pace.pause();
   const uint32_t done = pace.stepsDone();
-  Result<std::vector<double>> psnrs = executor.psnrs(tests, drifts.adamAt(done));
+  const AdamStep<float> adam = drifts.adamAt(done);
+  Result<std::vector<double>> psnrs = photoPsnrs(executor, tests, adam);
   if (psnrs && options.whenMeasured) {
-    const Status told = options.whenMeasured({done, pace.seconds().back(), executor.cellCount(), meanPsnr(*psnrs)});
+    const auto showTest = [&](size_t test, std::vector<glm::vec4>& image) {
+      return executor.show(tests[test].view, adam, image);
+    };
+    const Status told = options.whenMeasured(
+        {done, pace.positionAt(done), pace.seconds().back(), executor.cellCount(), meanPsnr(*psnrs), *psnrs, showTest});
     if (!told) return told.error();
   }
   pace.goOn();

@@ -21,9 +21,13 @@ namespace froth {
 // How far a run is.
 struct TrainingMoment {
   uint32_t stepsDone = 0;
-  double seconds = 0;  // of its steps; reading, saving and measuring do not count
+  double position = 0;  // [0..1] in its schedule; 1: at the end
+  double seconds = 0;   // of its steps; reading, saving and measuring do not count
   uint32_t cells = 0;
-  double psnr = 0;  // [dB] mean of the test photos; 0 without any
+  double psnr = 0;                // [dB] mean of the test photos; 0 without any
+  std::vector<double> testPsnrs;  // [dB] by TrainingSet::testing
+  // What the foam shows in the view of a test photo: colour over black, transmittance. For `whenMeasured` alone.
+  std::function<Status(size_t test, std::vector<glm::vec4>& image)> showTest;
 };
 using WhenMeasured = std::function<Status(const TrainingMoment&)>;
 
