@@ -140,6 +140,7 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
     }
     return options.page.empty() ? Status{} : page.write(moment, *set);
   };
+  options.train.whenShown = [&](const Foam& foam) { return exportCheckpoint(options.output, foam); };
   const auto begin = std::chrono::steady_clock::now();
   const Result<TrainResult> result = trainScene(*capture, *set, options.train, *makeExecutor, progress);
   if (!result) return result.error();
@@ -190,6 +191,11 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
       ->check(countBetween(0, 10000000));
   command.add_option("--log", options->log, "What each look found, as lines of JSON");
   command.add_option("--page", options->page, "What the looks found, as a page (HTML): curves, and test photos");
+  command
+      .add_option(
+          "--show-every", options->train.showEvery,
+          "Steps between two foams on the way, in the place of the last; `froth_flythrough --follow` shows them")
+      ->check(countBetween(1, 10000000));
   command.add_option("--seed", options->train.seed, "Of all random choices");
   command.add_option("--save-every", options->train.saveEvery, "Steps between two saved states")
       ->check(countBetween(1, 10000000));

@@ -87,6 +87,36 @@ Result<std::vector<double>> measure(StepExecutor& executor, const TrainOptions& 
   return psnrs;
 }
 
+// A checkpoint has no cells without a radius.
+Foam withoutVanished(const Foam& foam) {
+  std::vector<uint32_t> cells;
+  std::vector<uint64_t> details;
+  for (uint32_t i = 0; i < foam.cellCount; ++i) {
+    if (!(foam.radii[i] >= std::numeric_limits<float>::min())) continue;
+    cells.push_back(i);
+    for (uint32_t k = 0; k < foam.detailCount; ++k) details.push_back(uint64_t{i} * foam.detailCount + k);
+  }
+  return pickFoam(foam, {cells, details, foam.detailCount, foam.lobeCount});
+}
+
+// In the scene's units, as it stands after the steps that are done.
+Result<Foam> readFoam(StepExecutor& executor, const SceneFrame& frame, const Pace& pace, DriftTables& drifts) {
+  FoamStorage<float> foam;
+  if (Status read = executor.read(foam); !read) return read.error();
+  catchUpAll(foam, pace.stepsDone(), drifts);
+  return sceneFoam(withoutVanished(activateFoam(foam)), frame);
+}
+
+Status showFoam(StepExecutor& executor, const TrainOptions& options, const SceneFrame& frame, Pace& pace,
+                DriftTables& drifts) {
+  pace.pause();
+  const Result<Foam> foam = readFoam(executor, frame, pace, drifts);
+  if (!foam) return foam.error();
+  const Status shown = options.whenShown(*foam);
+  pace.goOn();
+  return shown;
+}
+
 bool isMeasured(const TrainOptions& options, const Pace& pace) {
   const uint32_t done = pace.stepsDone();
   if (options.measureEvery != 0 && done % options.measureEvery == 0) return true;
@@ -95,14 +125,17 @@ bool isMeasured(const TrainOptions& options, const Pace& pace) {
   return timesAt(done) > timesAt(done - 1);
 }
 
-// Runs the steps that are left; measures and saves on the way, and saves when it is stopped.
-Status runSteps(StepExecutor& executor, const TrainOptions& options, const std::vector<Photo>& tests, Pace& pace,
+// Runs the steps that are left; measures, shows and saves on the way, and saves when it is stopped.
+Status runSteps(StepExecutor& executor, const TrainOptions& options, const TrainingSet& set, Pace& pace,
                 const LoopOptions& loop, const std::string& settings, const Progress& progress) {
   const auto afterStep = [&](uint32_t done, DriftTables& drifts) -> Status {
     if (pace.isOver()) return {};
     if (isMeasured(options, pace)) {
-      const auto measured = measure(executor, options, tests, pace, drifts);
+      const auto measured = measure(executor, options, set.testing, pace, drifts);
       if (!measured) return measured.error();
+    }
+    if (options.showEvery != 0 && done % options.showEvery == 0) {
+      if (Status shown = showFoam(executor, options, set.frame, pace, drifts); !shown) return shown;
     }
     if (options.state.empty() || done % options.saveEvery != 0) return {};
     pace.pause();
@@ -119,31 +152,18 @@ Status runSteps(StepExecutor& executor, const TrainOptions& options, const std::
                    pace.stepsDone(), options.state.c_str());
 }
 
-// A checkpoint has no cells without a radius.
-Foam withoutVanished(const Foam& foam) {
-  std::vector<uint32_t> cells;
-  std::vector<uint64_t> details;
-  for (uint32_t i = 0; i < foam.cellCount; ++i) {
-    if (!(foam.radii[i] >= std::numeric_limits<float>::min())) continue;
-    cells.push_back(i);
-    for (uint32_t k = 0; k < foam.detailCount; ++k) details.push_back(uint64_t{i} * foam.detailCount + k);
-  }
-  return pickFoam(foam, {cells, details, foam.detailCount, foam.lobeCount});
-}
-
 Result<TrainResult> finishTraining(StepExecutor& executor, const TrainOptions& options, const TrainingSet& set,
                                    Pace& pace) {
   DriftTables drifts(pace);
   Result<std::vector<double>> psnrs = measure(executor, options, set.testing, pace, drifts);
   if (!psnrs) return psnrs.error();
-  FoamStorage<float> foam;
-  if (Status read = executor.read(foam); !read) return read.error();
+  Result<Foam> foam = readFoam(executor, set.frame, pace, drifts);
+  if (!foam) return foam.error();
   const Result<uint64_t> dropped = executor.droppedCount();
   if (!dropped) return dropped.error();
-  catchUpAll(foam, pace.stepsDone(), drifts);
   TrainResult result;
   result.testPsnrs = std::move(*psnrs);
-  result.foam = sceneFoam(withoutVanished(activateFoam(foam)), set.frame);
+  result.foam = std::move(*foam);
   result.droppedCount = *dropped;
   result.stepsDone = pace.stepsDone();
   return result;
@@ -215,7 +235,7 @@ Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, c
   Pace pace(options.schedule, options.clock, std::move(seconds));
   const uint32_t firstStep = pace.stepsDone();
   const LoopOptions loop{options.seed, static_cast<uint32_t>(set.training.size())};
-  const Status ran = runSteps(**executor, options, set.testing, pace, loop, settings, progress);
+  const Status ran = runSteps(**executor, options, set, pace, loop, settings, progress);
   if (!ran) return ran.error();
   Result<TrainResult> result = finishTraining(**executor, options, set, pace);
   if (result) result->firstStep = firstStep;

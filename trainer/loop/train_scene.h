@@ -45,6 +45,8 @@ struct TrainOptions {
   uint32_t measureEvery = 0;    // [steps] between two calls of `whenMeasured`; 0: none on the way
   uint32_t measureTimes = 0;    // and so many calls, at equal shares of the schedule
   WhenMeasured whenMeasured;
+  uint32_t showEvery = 0;                        // [steps] between two calls of `whenShown`; 0: never
+  std::function<Status(const Foam&)> whenShown;  // gets the foam as it stands, in the scene's units
   // Goes on from this foam, in the scene's units, in place of a start; K and M are its own, and the schedule is one of
   // a refinement. It outlives the run.
   const Foam* refined = nullptr;
