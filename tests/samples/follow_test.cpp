@@ -62,8 +62,9 @@ TEST_F(Follow, BakesEachFoamThatIsWritten) {
 }
 
 TEST_F(Follow, ABakeThatFailsLeavesTheLastAssetAndTellsWhy) {
-  const auto follower = follow(writeBaker("if grep -q bad \"$2\"; then echo \"$2: no foam\" >&2; exit 3; fi\n"
-                                          "cp \"$2\" \"$4\"\n"));
+  const auto follower =
+      follow(writeBaker("if grep -q bad \"$2\"; then echo \"$2: no foam\" >&2; exit 3; fi\n"
+                        "cp \"$2\" \"$4\"\n"));
   replaceFoam("good");
   EXPECT_EQ(nextNews(*follower), News::kBaked);
   replaceFoam("bad");
@@ -110,11 +111,11 @@ TEST_F(Follow, HeadlessShowsAFrameOfEachFoam) {
   const std::string baker =
       writeBaker("'" FROTH_TOOL "' \"$@\" || exit\nif test -f second.pt; then mv second.pt foam.pt; fi\n");
   const auto fly = [&](const std::string& frames) {
-    return runProgram(FROTH_FLYTHROUGH,
-                      {"--follow", "foam.pt", "--baker", baker, "--headless", "--validate", "--size", "96x64",
-                       "--cameras", "cameras.json", "--frames", frames, "-o", "frames", "--compare", "second.png",
-                       "--min-psnr", "40"},
-                      folder_);
+    return runProgram(
+        FROTH_FLYTHROUGH,
+        {"--follow", "foam.pt", "--baker", baker, "--headless", "--validate", "--size", "96x64", "--cameras",
+         "cameras.json", "--frames", frames, "-o", "frames", "--compare", "second.png", "--min-psnr", "40"},
+        folder_);
   };
   const ProgramRun both = fly("2");
   EXPECT_EQ(both.exitCode, 0) << both.err;

@@ -30,7 +30,7 @@ TEST(Pace, BySteps) {
 
 TEST(Pace, ByTheTimeOfStepsAlone) {
   Schedule schedule;
-  schedule.seconds = 10;
+  schedule.seconds = 16;
   double now = 1000;
   Pace pace(schedule, [&] { return now; });
   now += 1;
@@ -39,10 +39,10 @@ TEST(Pace, ByTheTimeOfStepsAlone) {
   pace.pause();
   now += 100;
   pace.goOn();
-  EXPECT_DOUBLE_EQ(pace.positionAt(1), 0.15);
-  now += 8.4;
+  EXPECT_EQ(pace.positionAt(1), 1.5 / 16);
+  now += 14.25;
   pace.finishStep();
-  EXPECT_DOUBLE_EQ(pace.positionAt(2), 0.99);
+  EXPECT_EQ(pace.positionAt(2), 15.75 / 16);
   EXPECT_FALSE(pace.isOver());
   now += 5;
   pace.finishStep();
@@ -118,7 +118,7 @@ class WatchedExecutor : public StepExecutor {
 class TimedTraining : public ::testing::Test {
  protected:
   TimedTraining() : state_(fs::path(::testing::TempDir()) / "froth_timed.state.bin") {
-    options_.schedule.seconds = 2700;
+    options_.schedule.seconds = 1000;
     options_.schedule.startCells = 300;
     options_.schedule.mostCells = 400;
     options_.detailCount = options_.lobeCount = 2;
@@ -157,17 +157,17 @@ TEST_F(TimedTraining, EndsAtItsBudgetWithTheWholeScheduleDone) {
   EXPECT_GE(seconds, budget);
   EXPECT_LT(seconds, budget + watch.lastStep);
   EXPECT_EQ(result->stepsDone, watch.plans.size());
-  EXPECT_EQ(result->foam.cellCount, 400u);
+  EXPECT_GT(result->foam.cellCount, 375u);  // wanted at the last step that splits cells, 0.69 of the schedule: 384
 
   const StepPlan& last = watch.plans.back();
   const auto points = static_cast<size_t>(Parameter::kPoints);
   const double correction = std::sqrt(1 - std::pow(kBeta2, last.adam.step));  // beta1's is 1 by now
   EXPECT_NEAR(last.adam.rates[points] / correction, 5e-5, 1e-7);
-  EXPECT_NEAR(last.weights.normal, 0.01, 1e-4);
+  EXPECT_NEAR(last.weights.normal, 0.01, 2e-4);
   uint32_t stepsBySize[3] = {};
   for (const StepPlan& plan : watch.plans) ++stepsBySize[plan.halvings];
-  EXPECT_EQ(stepsBySize[2], 270u);            // a tenth of the time, a second each
-  EXPECT_LT(stepsBySize[0], 2700 * 0.6 / 4);  // full size has three fifths of the time, not of the steps
+  EXPECT_EQ(stepsBySize[2], 100u);            // a tenth of the time, a second each
+  EXPECT_LT(stepsBySize[0], 1000 * 0.6 / 4);  // full size has three fifths of the time, not of the steps
 
   ASSERT_EQ(moments_.size(), 10u);
   for (size_t i = 0; i < 10; ++i) EXPECT_NEAR(moments_[i].seconds, budget * double(i + 1) / 10, 6) << i;
@@ -179,7 +179,7 @@ TEST_F(TimedTraining, AfterAStopGivesTheSameBits) {
   ASSERT_TRUE(whole) << whole.error().message;
   options_.state = state_;
   const Result<TrainResult> stopped =
-      train(stoppedWatch, [](std::string_view, uint64_t seconds, uint64_t) { return seconds < 1500; });
+      train(stoppedWatch, [](std::string_view, uint64_t seconds, uint64_t) { return seconds < 600; });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().kind, ErrorKind::kCancelled);
   options_.isResumed = true;
@@ -193,10 +193,10 @@ TEST_F(TimedTraining, AfterAStopGivesTheSameBits) {
   });
   EXPECT_EQ(whole->testPsnrs, resumed->testPsnrs);
 
-  options_.schedule.seconds = 2000;
+  options_.schedule.seconds = 900;
   const Result<TrainResult> other = train(resumedWatch);
   ASSERT_FALSE(other);
-  EXPECT_NE(other.error().message.find("seconds 2700"), std::string::npos) << other.error().message;
+  EXPECT_NE(other.error().message.find("seconds 1000"), std::string::npos) << other.error().message;
 }
 
 }  // namespace
