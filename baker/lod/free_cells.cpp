@@ -31,7 +31,6 @@ class FreeCells::Descent {
 
   // By how much the next parameter moves.
   float move(float gradient, float rate) {
-    constexpr double kEpsilon = 1e-15;
     float change = 0;
     updateValue(change, next_->first, next_->second, gradient, static_cast<float>(rate * rate_),
                 static_cast<float>(kEpsilon * root_));
@@ -63,7 +62,7 @@ void FreeCells::update(CpuStep<float>& step, float rate) {
   const size_t K = foam_.shape.detailCount;
   tbb::parallel_for(0u, seen.count, [&](uint32_t rank) {
     const SeenCell<float>& cell = seen.cells[rank];
-    if (rows_[cell.cell] == kNotFree || !(sums.cells[rank].contribution > 0)) return;
+    if (rows_[cell.cell] == kNotFree || !isShown(sums.cells[rank])) return;
     updateCell(cell, seen.details + rank * K, sums.cells[rank], sums.details + rank * K, rate);
   });
 }

@@ -9,8 +9,6 @@
 namespace froth {
 namespace {
 
-constexpr double kBeta = 100;
-constexpr double kLinearFrom = 20;  // as of foam::softplus
 constexpr float kRawOfZero = -2;  // exp(-200) / 100 is far below the smallest float, in double and in float arithmetic
 
 }  // namespace
@@ -21,9 +19,7 @@ float inverseSoftplus(float activated) {
   if (activated == 0) {
     return kRawOfZero;
   }
-  const double scaled = kBeta * activated;
-  const double exact = scaled > kLinearFrom ? double{activated} : std::log(std::expm1(scaled)) / kBeta;
-  const auto nearest = static_cast<float>(exact);
+  const auto nearest = static_cast<float>(foam::softplusInverse(double{activated}));
   float best = nearest;
   double bestError = std::numeric_limits<double>::infinity();
   for (const float raw : {nearest, std::nextafter(nearest, -1e30f), std::nextafter(nearest, 1e30f)}) {

@@ -9,6 +9,12 @@ FOAM_FN real softplus(real raw) {
   return scaled > real(20) ? raw : std::log1p(exp(scaled)) / real(100);
 }
 
+// The raw value of an activated one [> 0].
+FOAM_FN real softplusInverse(real activated) {
+  real scaled = real(100) * activated;
+  return scaled > real(20) ? activated : log(std::expm1(scaled)) / real(100);
+}
+
 FOAM_FN real softplusSlope(real raw) {
   real scaled = real(100) * raw;
   return scaled > real(20) ? real(1) : real(1) / (real(1) + exp(-scaled));

@@ -1,7 +1,8 @@
 // froth_bench_train_step FOAM CAMERAS [options]: what a step of training costs on a GPU, by pass, as lines of JSON.
 //
 // First it takes one step on the CPU and on the GPU, and prints how far apart they end. Then it takes steps in turn
-// through the views of CAMERAS, with a rate of 0, so that all rounds do the same work.
+// through the views of CAMERAS, with a rate of 0, so that all rounds do the same work. Cells wait as in training, but
+// drift by next to nothing.
 #include <cstdio>
 #include <string>
 
@@ -16,6 +17,8 @@
 
 namespace froth {
 namespace {
+
+constexpr uint32_t kMostSteps = 1u << 20;
 
 struct Options {
   std::string foam, cameras;
@@ -63,10 +66,14 @@ void timePasses(const FoamStorage<float>& foam, const std::vector<View>& views, 
   CudaStep step;
   check(step.start());
   check(step.upload(foam));
+  DeviceArray<float> drifts;  // of all parameters
+  check(drifts.upload(std::vector<float>(kMostSteps, 1e-30f), "drifts", step.stream()));
+  AdamStep<float> adam{};  // rates of 0
+  std::fill(std::begin(adam.drifts), std::end(adam.drifts), drifts.data());
   std::vector<StepCase> cases;
   for (const View& view : views) {
     StepCase stepCase = caseOf(view);
-    std::fill(std::begin(stepCase.adam.rates), std::end(stepCase.adam.rates), 0.0f);
+    stepCase.adam = adam;
     do {
       check(step.activate(stepCase.leastSkin));
       check(step.render(stepCase.view, stepCase.settings, stepCase.adam));
@@ -80,8 +87,10 @@ void timePasses(const FoamStorage<float>& foam, const std::vector<View>& views, 
   PassClock clock;
   step.setClock(&clock);
   for (int round = 0; round < rounds; ++round) {
-    for (const StepCase& stepCase : cases) {
+    for (StepCase& stepCase : cases) {
       clock.mark(nullptr, step.stream());
+      stepCase.adam.step = ++adam.step;
+      require(adam.step < kMostSteps, "too many steps; give fewer --rounds");
       takeStep(step, stepCase);
     }
   }

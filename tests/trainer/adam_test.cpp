@@ -4,12 +4,24 @@
 #include <cmath>
 #include <random>
 
+#include "trainer/cpu/foam_storage.h"
 #include "trainer/loop/drift_tables.h"
+#include "trainer/step/trained_cell.h"
 
 namespace froth {
 namespace {
 
-TEST(Adam, OfParametersThatWaitEqualsDenseAdam) {
+struct WaitCase {
+  const char* name;
+  double gradient;   // how large
+  double tolerance;  // of a value
+};
+
+void PrintTo(const WaitCase& c, std::ostream* out) { *out << c.name; }
+
+class AdamOf : public ::testing::TestWithParam<WaitCase> {};
+
+TEST_P(AdamOf, ParametersThatWaitEqualsDenseAdam) {
   Schedule schedule;
   schedule.steps = 1500;
   std::mt19937_64 random(3);
@@ -17,26 +29,33 @@ TEST(Adam, OfParametersThatWaitEqualsDenseAdam) {
   const auto index = static_cast<size_t>(parameter);
   const Pace pace(schedule);
   DriftTables drifts(pace);
-  float value = 0.5f, first = 0, second = 0;                 // waits
+  FoamStorage<float> storage;  // of one cell, which waits
+  resizeStorage(storage, {1, 1, 1});
+  const TrainedFoam<float> foam = viewStorage(storage);
+  float &value = storage.values[index][0], &second = storage.secondMoments[index][0];
+  value = 0.5f;
   double denseValue = 0.5, denseFirst = 0, denseSecond = 0;  // does not
-  uint32_t lastStep = 0;
   for (uint32_t step = 0; step < schedule.steps; ++step) {
     const AdamStep<float> adam = drifts.adamAt(step);
-    const bool isSeen = random() % 9 == 0 && !(step > 400 && step < 1000);  // among others 600 steps long not
-    const double gradient = isSeen ? 1e-9 * std::normal_distribution<double>(1)(random) : 0.0;
+    const bool isShown = random() % 9 == 0 && !(step > 400 && step < 1000);  // among others 600 steps long not
+    const double gradient = isShown ? GetParam().gradient * std::normal_distribution<double>(1)(random) : 0.0;
     const double correction = std::sqrt(1 - std::pow(0.999, step + 1)) / (1 - std::pow(0.9, step + 1));
     updateValue<double>(denseValue, denseFirst, denseSecond, gradient,
                         rateAt(schedule, parameter, pace.positionAt(step)) * correction,
                         1e-15 * std::sqrt(1 - std::pow(0.999, step + 1)));
-    if (!isSeen) continue;
-    if (lastStep + 1 < adam.step) catchUp(value, first, second, waitSince(adam, parameter, lastStep));
-    updateValue(value, first, second, static_cast<float>(gradient), adam.rates[index], adam.epsilon);
-    lastStep = adam.step;
-    ASSERT_NEAR(value, denseValue, 2e-5 * (1 + std::abs(denseValue))) << step;
+    if (!isShown) continue;
+    TrainedCell<float>(foam, adam, 0).part(parameter).update(0, static_cast<float>(gradient));
+    foam.lastSteps[0] = adam.step;
+    ASSERT_NEAR(value, denseValue, GetParam().tolerance * (1 + std::abs(denseValue))) << step;
     ASSERT_NEAR(second, denseSecond, 1e-4 * denseSecond) << step;
   }
   EXPECT_GT(std::abs(denseValue - 0.5), 0.1);  // something happened
 }
+
+// The second is like epsilon.
+INSTANTIATE_TEST_SUITE_P(Gradients, AdamOf,
+                         ::testing::Values(WaitCase{"Usual", 1e-9, 2e-5}, WaitCase{"Tiny", 1e-15, 2e-2}),
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(Adam, RateOfTheFirstStepObeysTheWarmUp) {
   const Schedule schedule;

@@ -10,6 +10,7 @@
 #include "tests/reference/scenes.h"
 #include "trainer/cpu/foam_exchange.h"
 #include "trainer/loop/schedule.h"
+#include "trainer/step/crowds.h"
 
 namespace froth {
 namespace {
@@ -33,10 +34,13 @@ class CellPlanOf : public ::testing::Test {
     const std::vector<float>& points = foam_.values[0];
     return {points[3 * i], points[3 * i + 1], points[3 * i + 2], 0.5f};
   }
-  CellPlan plan(uint32_t wanted, uint64_t seed = 1) const { return planCells(factsOf(foam_), wanted, seed, 99); }
+  CellPlan plan(uint32_t wanted, uint64_t seed = 1) const {
+    return planCells(factsOf(foam_, overlaps_), wanted, seed, 99);
+  }
   std::vector<float>& orientations() { return foam_.values[static_cast<size_t>(Parameter::kOrientations)]; }
 
   FoamStorage<float> foam_;
+  std::vector<uint32_t> overlaps_ = std::vector<uint32_t>(kCells, kMostOverlaps);  // none is crowded
 };
 
 TEST_F(CellPlanOf, RemovesWhatDoesNotShowAndSplitsUntilThereAreAsManyAsWanted) {
@@ -90,6 +94,32 @@ TEST_F(CellPlanOf, PartsParentAndChildOnTheFaceAndCopiesTheRest) {
     EXPECT_EQ(next.errors[i], foam_.errors[source] * (isSplit ? 0.5f : 1.0f));
   }
   for (const auto& [source, sum] : shiftSums) EXPECT_EQ(sum, glm::vec3(0));
+}
+
+TEST_F(CellPlanOf, ShrinksCrowdedCellsAndKeepsTheirOpticalDepth) {
+  for (uint32_t i = 0; i < kCells; ++i) overlaps_[i] = i % 2 == 0 ? kMostOverlaps : i % 3 == 0 ? 25 : 1000;
+  const CellPlan made = plan(300);
+  const FoamStorage<float> next = rearrange(foam_, made);
+  const auto valueOf = [](const FoamStorage<float>& foam, Parameter parameter, uint32_t cell) {
+    return foam::softplus(foam.values[static_cast<size_t>(parameter)][cell]);
+  };
+  for (uint32_t i = 0; i < next.shape.cellCount; ++i) {
+    const uint32_t source = made.sources[i];
+    const float radius = valueOf(foam_, Parameter::kRadii, source), now = valueOf(next, Parameter::kRadii, i);
+    const float density = valueOf(foam_, Parameter::kDensity, source), dense = valueOf(next, Parameter::kDensity, i);
+    const float factor = source % 2 == 0 ? 1.0f : source % 3 == 0 ? std::sqrt(24.0f / 25) : 0.95f;
+    EXPECT_NEAR(now / radius, factor, 1e-5) << source;  // of parents and of children
+    EXPECT_NEAR(now * dense, radius * density, 1e-5 * radius * density) << source;
+  }
+}
+
+TEST_F(CellPlanOf, CountsTheBallsThatOverlap) {
+  const std::vector<glm::vec4> balls = {{0, 0, 0, 1}, {1.9f, 0, 0, 1}, {0, 2.1f, 0, 1}, {0, 0, 0.5f, 0.1f}};
+  const std::vector<uint32_t> offsets = {0, 3, 4, 5, 6}, neighbours = {1, 2, 3, 0, 0, 0}, reverses = {3, 4, 5, 0, 1, 2};
+  const NeighbourRows rows{offsets.data(), neighbours.data(), reverses.data()};
+  EXPECT_EQ(countOverlaps(balls.data(), rows, 0), 2u);
+  EXPECT_EQ(countOverlaps(balls.data(), rows, 1), 1u);
+  EXPECT_EQ(countOverlaps(balls.data(), rows, 2), 0u);
 }
 
 TEST(Schedule, ReachesTheCellsThatAreWanted) {

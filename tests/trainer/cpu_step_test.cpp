@@ -105,10 +105,11 @@ TEST(CpuStep, DropsAndCountsWhatIsNoFiniteNumber) {
   }
   CpuStep<float> step(foam);
   PixelSettings<float> settings;
+  settings.perPixel = 1.0f / (kWidth * kHeight);
   step.activate(1e-3f);
   std::vector<glm::vec4> gradients = gradientsFor(step.render(view, settings, firstAdam()));
   for (const glm::vec4& gradient : gradients) ASSERT_TRUE(std::isfinite(glm::dot(gradient, gradient)));
-  gradients[gradients.size() / 2 + kWidth / 2].x = std::numeric_limits<float>::infinity();
+  gradients[kHeight / 2 * kWidth + kWidth / 2].x = std::numeric_limits<float>::infinity();
   step.differentiate(gradients, std::vector<glm::vec4>(gradients.size()));
   step.update(firstAdam(), 1e-4f);
   EXPECT_GT(step.droppedCount(), 0u);

@@ -1,5 +1,6 @@
 #include "tests/trainer/cuda_comparison.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "trainer/cpu/cpu_step.h"
@@ -33,17 +34,38 @@ std::vector<float> numbersOf(const std::vector<glm::vec4>& pixels) {
   return {first, first + 4 * pixels.size()};
 }
 
+// Adam's step with its tables in other numbers, which `tables` keep; without tables no cell waits.
+template <class Real>
+AdamStep<Real> convertAdam(const AdamStep<float>& adam, std::array<std::vector<Real>, kParameterCount>& tables) {
+  AdamStep<Real> converted{};
+  converted.step = adam.step;
+  converted.epsilon = adam.epsilon;
+  for (size_t i = 0; i < kParameterCount; ++i) {
+    converted.rates[i] = adam.rates[i];
+    if (adam.drifts[i] != nullptr) tables[i].assign(adam.drifts[i], adam.drifts[i] + adam.step);
+    converted.drifts[i] = tables[i].data();
+  }
+  return converted;
+}
+
 Status runOnGpu(FoamStorage<float>& foam, const StepCase& stepCase, const std::vector<glm::vec4>& gradients,
                 const std::vector<glm::vec4>& wanted, std::vector<glm::vec4>& rendered, uint32_t& seenCount) {
   CudaStep step;
   if (Status started = step.start(); !started) return started;
   if (Status given = step.upload(foam); !given) return given;
+  std::array<std::vector<float>, kParameterCount> tables;
+  std::array<DeviceArray<float>, kParameterCount> sent;
+  AdamStep<float> adam = convertAdam(stepCase.adam, tables);
+  for (size_t i = 0; i < kParameterCount; ++i) {
+    if (Status uploaded = sent[i].upload(tables[i], "drifts", step.stream()); !uploaded) return uploaded;
+    adam.drifts[i] = sent[i].data();
+  }
   for (bool isDone = false; !isDone;) {
     if (Status ran = step.activate(stepCase.leastSkin); !ran) return ran;
-    if (Status ran = step.render(stepCase.view, stepCase.settings, stepCase.adam); !ran) return ran;
+    if (Status ran = step.render(stepCase.view, stepCase.settings, adam); !ran) return ran;
     if (Status ran = step.uploadLoss(gradients, wanted); !ran) return ran;
     if (Status ran = step.differentiate(); !ran) return ran;
-    if (Status ran = step.update(stepCase.adam, stepCase.overlapWeight); !ran) return ran;
+    if (Status ran = step.update(adam, stepCase.overlapWeight); !ran) return ran;
     const Result<bool> fits = step.settle();
     if (!fits) return fits.error();
     isDone = *fits;
@@ -53,25 +75,46 @@ Status runOnGpu(FoamStorage<float>& foam, const StepCase& stepCase, const std::v
   return step.download(foam);
 }
 
+// Cells that pixels of one show alone, which wait on the other; their values there become those of the CPU.
+uint32_t alignCells(const FoamStorage<float>& cpu, FoamStorage<float>& gpu) {
+  uint32_t count = 0;
+  for (uint32_t cell = 0; cell < cpu.shape.cellCount; ++cell) {
+    if (cpu.lastSteps[cell] == gpu.lastSteps[cell]) continue;
+    ++count;
+    for (size_t i = 0; i < kParameterCount; ++i) {
+      const size_t width = widthOf(static_cast<Parameter>(i), cpu.shape);
+      std::copy_n(cpu.values[i].begin() + static_cast<std::ptrdiff_t>(cell * width), width,
+                  gpu.values[i].begin() + static_cast<std::ptrdiff_t>(cell * width));
+    }
+  }
+  return count;
+}
+
 template <class To, class From>
 std::vector<To> convert(const std::vector<From>& from) {
   return {from.begin(), from.end()};
 }
 
-// The gradients of the step in doubles, from the same numbers.
+// The first moments after the step in doubles, from the same numbers.
 std::array<std::vector<float>, kParameterCount> differentiateInDouble(const FoamStorage<float>& foam,
                                                                       const StepCase& stepCase,
                                                                       const std::vector<glm::vec4>& gradients,
                                                                       const std::vector<glm::vec4>& wanted) {
   FoamStorage<double> storage;
   resizeStorage(storage, foam.shape);
-  for (size_t i = 0; i < kParameterCount; ++i) storage.values[i] = convert<double>(foam.values[i]);
+  for (size_t i = 0; i < kParameterCount; ++i) {
+    storage.values[i] = convert<double>(foam.values[i]);
+    storage.firstMoments[i] = convert<double>(foam.firstMoments[i]);
+    storage.secondMoments[i] = convert<double>(foam.secondMoments[i]);
+  }
+  storage.lastSteps = foam.lastSteps;
   const TrainingView<float>& view = stepCase.view;
   const TrainingView<double> wideView{view.width,     view.height,    view.fx,        view.fy,
                                       view.cx,        view.cy,        view.eye,       view.worldFromCamera,
                                       view.nearRatio, view.nearDepth, view.directions};
   const PixelSettings<float>& settings = stepCase.settings;
-  AdamStep<double> adam{};
+  std::array<std::vector<double>, kParameterCount> tables;
+  const AdamStep<double> adam = convertAdam<double>(stepCase.adam, tables);
   CpuStep<double> step(storage);
   step.activate(stepCase.leastSkin);
   (void)step.render(wideView, {settings.sharpness, settings.cutoff, settings.normalWeight, settings.perPixel}, adam);
@@ -110,10 +153,11 @@ Result<StepComparison> compareStep(const FoamStorage<float>& foam, const StepCas
   step.differentiate(gradients, wanted);
   step.update(stepCase.adam, stepCase.overlapWeight);
   comparison.seenOnCpu = step.seen().count;
+  comparison.shownByOne = alignCells(onCpu, onGpu);
   comparison.image = compare(numbersOf(expected), numbersOf(shown), {}, 1);
   const auto inDouble = differentiateInDouble(foam, stepCase, gradients, wanted);
   for (size_t i = 0; i < kParameterCount; ++i) {
-    comparison.roundings[i] = compare(inDouble[i], onCpu.firstMoments[i], {}, 0);
+    comparison.roundings[i] = compare(inDouble[i], onCpu.firstMoments[i], foam.firstMoments[i], 0);
     comparison.gradients[i] = compare(onCpu.firstMoments[i], onGpu.firstMoments[i], foam.firstMoments[i], 0);
     comparison.values[i] = compare(onCpu.values[i], onGpu.values[i], foam.values[i], 0);
   }

@@ -32,16 +32,17 @@ struct Difference {
 
 struct StepComparison {
   Difference image;                                   // not relative: values are in 0..1
-  std::array<Difference, kParameterCount> gradients;  // the first moments after one step
+  std::array<Difference, kParameterCount> gradients;  // by how much the step moved the first moments
   std::array<Difference, kParameterCount> values;     // by how much the step moved them
   // Gradients on the CPU in floats against doubles. Rays that graze a ball, a plane or a face divide by little, so
   // those of small balls far away are mostly rounding, on the GPU as well.
   std::array<Difference, kParameterCount> roundings;
   Difference contributions, errors;
   uint32_t seenOnCpu = 0, seenOnGpu = 0;
+  uint32_t shownByOne = 0;  // cells that pixels of one show, and of the other do not; without part in `values`
 };
 
-// Takes one step from `foam`, whose moments are 0, on both.
+// Takes one step from `foam` on both.
 Result<StepComparison> compareStep(const FoamStorage<float>& foam, const StepCase& stepCase);
 
 }  // namespace froth

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/counter_random.h"
@@ -83,14 +84,15 @@ TEST_F(CudaExecutorOf, FindsThePairsOfTheCpu) {
   }
 }
 
-// The first step has the gradients in its moments; the second waits with cells that the first photo does not see.
+// The first step has the gradients in its moments; in the second cells wait that the first photo shows alone, and the
+// third updates them.
 TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpu) {
   CpuExecutor cpu(foam_, photos_);
   Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
   ASSERT_TRUE(gpu) << gpu.error().message;
   DriftTables drifts(pace_);
-  for (uint32_t step = 0; step < 2; ++step) {
-    const StepPlan plan{step, step, drifts.adamAt(step), weightsAt(schedule_, pace_.positionAt(step)), 1e-2f};
+  for (uint32_t step = 0; step < 3; ++step) {
+    const StepPlan plan{step % 2, step % 2, drifts.adamAt(step), weightsAt(schedule_, pace_.positionAt(step)), 1e-2f};
     ASSERT_TRUE(cpu.run(plan));
     ASSERT_TRUE((*gpu)->run(plan));
     FoamStorage<float> expected, found;
@@ -100,7 +102,9 @@ TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpu) {
       EXPECT_LE(relativeDifference(expected.firstMoments[i], found.firstMoments[i]), 0.01)
           << kParameterKeys[i] << " in step " << step;
     }
-    EXPECT_EQ(expected.lastSteps, found.lastSteps);
+    uint32_t shownByOne = 0;  // a ray may graze a cell or miss it
+    for (uint32_t cell = 0; cell < kCells; ++cell) shownByOne += expected.lastSteps[cell] != found.lastSteps[cell];
+    EXPECT_LE(shownByOne, kCells / 200);
     EXPECT_LE(relativeDifference(expected.errors, found.errors), 1e-3);
   }
   const Result<uint64_t> dropped = (*gpu)->droppedCount();
@@ -122,7 +126,12 @@ TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   ASSERT_TRUE((*gpu)->read(after));
   const FoamStorage<float> expected = rearrange(before, plan);
   EXPECT_EQ(after.shape.cellCount, plan.sources.size());
-  EXPECT_EQ(after.values, expected.values);
+  EXPECT_TRUE(std::ranges::any_of(plan.radiusFactors, [](float factor) { return factor < 1; }));
+  for (size_t i = 0; i < kParameterCount; ++i) {
+    const auto parameter = static_cast<Parameter>(i);
+    const bool isRounded = parameter == Parameter::kRadii || parameter == Parameter::kDensity;  // of crowded cells
+    EXPECT_LE(relativeDifference(expected.values[i], after.values[i]), isRounded ? 1e-6 : 0.0) << kParameterKeys[i];
+  }
   EXPECT_EQ(after.firstMoments, expected.firstMoments);
   EXPECT_EQ(after.secondMoments, expected.secondMoments);
   EXPECT_EQ(after.lastSteps, expected.lastSteps);

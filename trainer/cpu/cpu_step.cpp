@@ -39,8 +39,8 @@ const std::vector<glm::vec<4, Real>>& CpuStep<Real>::render(const TrainingView<R
                                                             const AdamStep<Real>& adam) {
   view_ = view;
   settings_ = settings;
-  cull(adam);
-  prepare();
+  cull();
+  prepare(adam);
   bin();
   const size_t pixelCount = size_t{view.width} * view.height;
   rendered_.resize(pixelCount);
@@ -52,7 +52,7 @@ const std::vector<glm::vec<4, Real>>& CpuStep<Real>::render(const TrainingView<R
 
 // Near tests, and the tiles that see each ball; then front to back, equals by index.
 template <class Real>
-void CpuStep<Real>::cull(const AdamStep<Real>& adam) {
+void CpuStep<Real>::cull() {
   const TrainedFoam<Real> foam = viewStorage(foam_);
   const uint32_t tilesX = tilesAlong(view_.width), tilesY = tilesAlong(view_.height);
   std::vector<glm::vec<4, Real>> cones(size_t{tilesX} * tilesY);
@@ -76,7 +76,6 @@ void CpuStep<Real>::cull(const AdamStep<Real>& adam) {
       if (tile % tilesX < range.beginX || tile % tilesX >= range.endX) continue;
       if (foam::coneMeetsBall(cones[tile], centre, radius)) candidate.tiles.push_back(tile);
     }
-    if (!candidate.tiles.empty()) catchUpCell(foam, adam, cell);
   });
   std::erase_if(candidates_, [](const Candidate& candidate) { return candidate.tiles.empty(); });
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
@@ -85,7 +84,7 @@ void CpuStep<Real>::cull(const AdamStep<Real>& adam) {
 }
 
 template <class Real>
-void CpuStep<Real>::prepare() {
+void CpuStep<Real>::prepare(const AdamStep<Real>& adam) {
   const TrainedFoam<Real> foam = viewStorage(foam_);
   const NeighbourRows rows = pairs_.rows();
   cells_.resize(candidates_.size());
@@ -103,12 +102,13 @@ void CpuStep<Real>::prepare() {
   tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
     const uint32_t cell = candidates_[rank].cell;
     SeenCell<Real>& prepared = cells_[rank];
-    prepareCell(foam, view_, cell, prepared);
+    const TrainedCell<Real> trained(foam, adam, cell);
+    prepareCell(trained, view_, prepared);
     for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
       planes_[prepared.planesBegin + e - rows.offsets[cell]] = preparePlane(foam, view_, cell, rows.neighbours[e]);
     }
     for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
-      details_[rank * foam.shape.detailCount + k] = prepareDetail(foam, prepared, k);
+      details_[rank * foam.shape.detailCount + k] = prepareDetail(trained, prepared, k);
     }
   });
 }
@@ -256,18 +256,25 @@ void CpuStep<Real>::update(const AdamStep<Real>& adam, Real overlapWeight) {
   const TrainedFoam<Real> foam = viewStorage(foam_);
   std::atomic<uint64_t> bad = 0;
   tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
+    if (!isShown(cellSums_[rank])) return;
+    const TrainedCell<Real> trained(foam, adam, cells_[rank].cell);
     uint32_t badHere = 0;
     for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
       const size_t detail = rank * foam.shape.detailCount + k;
-      updateDetail(foam, adam, cells_[rank], details_[detail], k, detailSums_[detail], cellSums_[rank], badHere);
+      updateDetail(trained, cells_[rank], details_[detail], k, detailSums_[detail], cellSums_[rank], badHere);
     }
-    updateSeenCell(foam, adam, cells_[rank], cellSums_[rank], badHere);
+    updateShownCell(trained, cellSums_[rank], badHere);
     bad += badHere;
   });
   const SeenCells<Real> cells = seen();
+  const NeighbourRows rows = pairs_.rows();
   tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
     uint32_t badHere = 0;
-    updateBall(foam, adam, cell, gatherBall(foam, pairs_.rows(), cells, sums(), overlapWeight, cell), badHere);
+    glm::vec<4, Real> gradient = gradientOfOwnSums(cells, sums(), cell);
+    for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
+      gradient += gradientOfPair(foam, rows, cells, sums(), overlapWeight, cell, e);
+    }
+    updateBall(foam, adam, cell, gradient, badHere);
     updateMeans(foam, cells, sums(), cell);
     bad += badHere;
   });

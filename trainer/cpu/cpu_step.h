@@ -36,8 +36,8 @@ class CpuStep {
 
   // The calls of a step, in this order. `leastSkin`: SkinPairs.
   void activate(float leastSkin);
-  // What the view shows; colour over black and transmittance by pixel. The waiting parameters of what is seen are
-  // brought to the step before adam.step.
+  // What the view shows; colour over black and transmittance by pixel. Parameters are those before adam.step, waiting
+  // ones too, and stay as they are.
   const std::vector<glm::vec<4, Real>>& render(const TrainingView<Real>& view, const PixelSettings<Real>& settings,
                                                const AdamStep<Real>& adam);
   // gradients: [pixels] of the loss, by what render() returned. wanted: what PixelArrays says.
@@ -52,6 +52,7 @@ class CpuStep {
   GradientSums<Real> sums();                               // what the last differentiate() added up for it
   uint64_t droppedCount() const { return droppedCount_; }  // contributions that were no finite numbers, of all steps
   const CellGraph& pairs() const { return pairs_.graph(); }
+  NeighbourRows rows() const { return pairs_.rows(); }  // the same, of the last activate()
 
  private:
   struct Candidate {
@@ -59,8 +60,8 @@ class CpuStep {
     uint32_t cell = 0;
     std::vector<uint32_t> tiles;  // ascending; none: the view does not see the cell
   };
-  void cull(const AdamStep<Real>& adam);
-  void prepare();
+  void cull();
+  void prepare(const AdamStep<Real>& adam);
   void bin();
   void renderRow(uint32_t tileY);
   void differentiateRow(uint32_t tileY);

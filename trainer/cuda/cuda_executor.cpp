@@ -91,8 +91,8 @@ Status CudaExecutor::show(const View& view, const AdamStep<float>& adam, std::ve
 Status CudaExecutor::rearrange(const CellPlan& plan) { return step_.rearrange(plan); }
 
 Result<CellFacts> CudaExecutor::facts() {
-  if (Status read = step_.downloadFacts(facts_); !read) return read.error();
-  return factsOf(facts_);
+  if (Status read = step_.downloadFacts(facts_, overlaps_); !read) return read.error();
+  return factsOf(facts_, overlaps_);
 }
 
 Status CudaExecutor::read(FoamStorage<float>& foam) { return step_.download(foam); }

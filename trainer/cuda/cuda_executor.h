@@ -43,6 +43,7 @@ class CudaExecutor : public StepExecutor {
   uint32_t driftsSent_ = 0;   // steps whose drifts the GPU has
   float leastSkin_ = 0;       // of the last step
   FoamStorage<float> facts_;  // what facts() looks into
+  std::vector<uint32_t> overlaps_;
 };
 
 }  // namespace froth

@@ -123,9 +123,13 @@ Status CudaStep::download(FoamStorage<float>& foam) {
                 [&] { return errors_.download(foam.errors, "errors", stream_); });
 }
 
-Status CudaStep::downloadFacts(FoamStorage<float>& foam) {
+Status CudaStep::downloadFacts(FoamStorage<float>& foam, std::vector<uint32_t>& overlaps) {
   constexpr auto kQuaternions = static_cast<size_t>(Parameter::kOrientations);
+  DeviceArray<uint32_t> counts;
   return inTurn(
+      [&] { return counts.resize(cellCount(), "overlaps"); },
+      [&] { return countCellOverlaps(arrays_, counts.data(), stream_); },
+      [&] { return counts.download(overlaps, "overlaps", stream_); },
       [&] { return tensors_[kQuaternions].values.download(foam.values[kQuaternions], "orientations", stream_); },
       [&] { return balls_.download(foam.balls, "balls", stream_); },
       [&] { return contributions_.download(foam.contributions, "contributions", stream_); },
@@ -148,7 +152,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   shape.cellCount = static_cast<uint32_t>(plan.sources.size());
   DeviceArray<uint32_t> sources;
   DeviceArray<glm::vec3> shifts;
-  DeviceArray<float> meanFactors;
+  DeviceArray<float> meanFactors, radiusFactors;
   const auto gather = [&](auto& array, uint32_t width, const char* name) -> Status {
     std::remove_reference_t<decltype(array)> next;
     if (Status made = next.resize(size_t{shape.cellCount} * width, name); !made) return made;
@@ -160,6 +164,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
       inTurn([&] { return sources.upload(plan.sources, "sources of cells", stream_); },
              [&] { return shifts.upload(plan.shifts, "shifts of cells", stream_); },
              [&] { return meanFactors.upload(plan.meanFactors, "factors of means", stream_); },
+             [&] { return radiusFactors.upload(plan.radiusFactors, "factors of radii", stream_); },
              [&] { return gather(lastSteps_, 1, "last steps"); },
              [&] { return gather(contributions_, 1, "contributions"); }, [&] { return gather(errors_, 1, "errors"); });
   for (size_t i = 0; i < kParameterCount && status; ++i) {
@@ -171,7 +176,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   }
   hasPairs_ = false;
   return inTurn([&] { return status; }, [&] { return reserveCells(shape); },
-                [&] { return applyPlan(arrays_, shifts.data(), meanFactors.data(), stream_); },
+                [&] { return applyPlan(arrays_, shifts.data(), meanFactors.data(), radiusFactors.data(), stream_); },
                 [&] { return checkCuda(cudaStreamSynchronize(stream_), "rearrangement of cells"); });
 }
 
@@ -241,8 +246,8 @@ Status CudaStep::render(const TrainingView<float>& view, const PixelSettings<flo
   return inTurn([&] { return reservePixels(size_t{view.width} * view.height, tiles); },
                 [&] { return mark(cullCells(arrays_, view, stream_), "cull"); },
                 [&] { return mark(rankCells(arrays_, scratch_, stream_), "rank"); },
-                [&] { return mark(catchUpCells(arrays_, adam, stream_), "catch up"); },
-                [&] { return mark(prepareCells(arrays_, view, stream_), "prepare"); },
+                [&] { return mark(prepareCells(arrays_, view, adam, stream_), "prepare"); },
+                [&] { return mark(prepareDetails(arrays_, adam, stream_), "prepare details"); },
                 [&] { return mark(binTiles(arrays_, view, scratch_, stream_), "bin"); },
                 [&] { return mark(renderTiles(arrays_, view, settings, stream_), "render"); });
 }
@@ -261,7 +266,8 @@ Status CudaStep::differentiate() {
 }
 
 Status CudaStep::update(const AdamStep<float>& adam, float overlapWeight) {
-  return inTurn([&] { return mark(updateCells(arrays_, adam, overlapWeight, stream_), "update"); },
+  return inTurn([&] { return mark(updateShownCells(arrays_, adam, stream_), "update"); },
+                [&] { return mark(updateBalls(arrays_, adam, overlapWeight, stream_), "update balls"); },
                 [&] { return mark(activateCells(arrays_, hasPairs_, stream_), "activate"); });
 }
 

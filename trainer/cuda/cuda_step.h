@@ -47,7 +47,7 @@ class CudaStep {
   Result<bool> settle();
 
   // What densification goes by.
-  Status downloadFacts(FoamStorage<float>& foam);
+  Status downloadFacts(FoamStorage<float>& foam, std::vector<uint32_t>& overlaps);
   Status downloadPairs(CellGraph& graph, std::vector<uint32_t>& reverses);
   Status downloadImage(std::vector<glm::vec4>& rendered) { return rendered_.download(rendered, "rendered", stream_); }
   // In place of differentiateImage().

@@ -6,6 +6,7 @@
 #include "trainer/cuda/cub_call.h"
 #include "trainer/cuda/launch.h"
 #include "trainer/cuda/passes.h"
+#include "trainer/step/crowds.h"
 #include "trainer/step/skin.h"
 
 namespace froth {
@@ -133,6 +134,11 @@ __global__ void findReversesKernel(PairLists lists, uint32_t cellCount) {
   }
 }
 
+__global__ void countOverlapsKernel(StepArrays arrays, uint32_t* overlaps) {
+  const uint32_t cell = globalThread();
+  if (cell < arrays.foam.shape.cellCount) overlaps[cell] = countOverlaps(arrays.foam.balls, arrays.pairs, cell);
+}
+
 constexpr uint32_t kSmallBlock = 64;  // few cells make few warps; small blocks spread them over the GPU
 
 uint32_t smallBlocksFor(size_t cells) {
@@ -158,6 +164,11 @@ Status listPairs(const StepArrays& arrays, const PairLists& lists, cudaStream_t 
   listPairsKernel<<<smallBlocksFor(count), kSmallBlock, 0, stream>>>(lists, count);
   findReversesKernel<<<blocksFor(size_t{count} * kWarp), kBlock, 0, stream>>>(lists, count);
   return checkLaunch("listPairs");
+}
+
+Status countCellOverlaps(const StepArrays& arrays, uint32_t* overlaps, cudaStream_t stream) {
+  countOverlapsKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays, overlaps);
+  return checkLaunch("countCellOverlaps");
 }
 
 }  // namespace froth

@@ -18,6 +18,27 @@ __device__ inline uint32_t laneOfWarp() { return threadIdx.x % kWarp; }
 // A bit mask of the lanes before this one.
 __device__ inline uint32_t lanesBefore() { return (1u << laneOfWarp()) - 1; }
 
+// Over as many neighbouring lanes, a power of two. All lanes of the warp call it.
+__device__ inline float sumOfLanes(float value, uint32_t lanes) {
+  for (uint32_t distance = lanes / 2; distance > 0; distance /= 2) {
+    value += __shfl_xor_sync(kAllLanes, value, distance);
+  }
+  return value;
+}
+
+template <int kLength>
+__device__ inline glm::vec<kLength, float> sumOfLanes(glm::vec<kLength, float> vector, uint32_t lanes) {
+  for (int c = 0; c < kLength; ++c) vector[c] = sumOfLanes(vector[c], lanes);
+  return vector;
+}
+
+__device__ inline float largestOfLanes(float value, uint32_t lanes) {
+  for (uint32_t distance = lanes / 2; distance > 0; distance /= 2) {
+    value = fmaxf(value, __shfl_xor_sync(kAllLanes, value, distance));
+  }
+  return value;
+}
+
 // A step whose lists did not fit changes nothing.
 __device__ inline bool isVoid(const StepArrays& arrays) { return arrays.counters->tileEntries > arrays.entryCapacity; }
 

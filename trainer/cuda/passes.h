@@ -29,20 +29,27 @@ FROTH_HD uint32_t blocksOfCells(size_t cells) { return static_cast<uint32_t>((ce
 Status countPairs(const StepArrays& arrays, const PairLists& lists, float leastSkin, Scratch& scratch,
                   cudaStream_t stream);
 Status listPairs(const StepArrays& arrays, const PairLists& lists, cudaStream_t stream);
+// overlaps: [cells] countOverlaps(), by the pairs that were listed last.
+Status countCellOverlaps(const StepArrays& arrays, uint32_t* overlaps, cudaStream_t stream);
 
 // Which cells the view sees, and in how many tiles.
 Status cullCells(const StepArrays& arrays, const TrainingView<float>& view, cudaStream_t stream);
 // Ranks, and where each rank's planes and entries begin.
 Status rankCells(const StepArrays& arrays, Scratch& scratch, cudaStream_t stream);
-Status catchUpCells(const StepArrays& arrays, const AdamStep<float>& adam, cudaStream_t stream);
-// Cells, planes and details as seen from the eye; their sums become 0.
-Status prepareCells(const StepArrays& arrays, const TrainingView<float>& view, cudaStream_t stream);
+// Cells and planes, then details, as seen from the eye; their sums become 0. Parameters are those before the step
+// `adam`.
+Status prepareCells(const StepArrays& arrays, const TrainingView<float>& view, const AdamStep<float>& adam,
+                    cudaStream_t stream);
+Status prepareDetails(const StepArrays& arrays, const AdamStep<float>& adam, cudaStream_t stream);
 Status binTiles(const StepArrays& arrays, const TrainingView<float>& view, Scratch& scratch, cudaStream_t stream);
 Status renderTiles(const StepArrays& arrays, const TrainingView<float>& view, const PixelSettings<float>& settings,
                    cudaStream_t stream);
 Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view,
                           const PixelSettings<float>& settings, cudaStream_t stream);
-Status updateCells(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, cudaStream_t stream);
+// Of cells that pixels show, all but their balls.
+Status updateShownCells(const StepArrays& arrays, const AdamStep<float>& adam, cudaStream_t stream);
+// Of all cells.
+Status updateBalls(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, cudaStream_t stream);
 
 // A photo in device memory.
 struct ImageTarget {
@@ -65,7 +72,8 @@ Status differentiateLoss(const PixelArrays<float>& pixels, glm::vec4* wanted, co
 template <class T>
 Status gatherRows(const T* from, T* to, const uint32_t* sources, uint32_t cellCount, uint32_t width,
                   cudaStream_t stream);
-// CellPlan::shifts and meanFactors, on the cells that were gathered.
-Status applyPlan(const StepArrays& arrays, const glm::vec3* shifts, const float* meanFactors, cudaStream_t stream);
+// CellPlan::shifts, meanFactors and radiusFactors, on the cells that were gathered.
+Status applyPlan(const StepArrays& arrays, const glm::vec3* shifts, const float* meanFactors,
+                 const float* radiusFactors, cudaStream_t stream);
 
 }  // namespace froth

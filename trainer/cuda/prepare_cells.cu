@@ -1,7 +1,6 @@
-// Cells, planes and details of the seen cells, relative to the eye, and zeros for what their rays will add up. Compiled
-// without fused multiply-adds, so that both cells of a pair find the same plane, and the CPU does too. Bound: 24 M + 40
-// bytes read per detail site (M lobes); per pair 56 bytes read and 16 written, and some 40 flops for each of up to 32
-// planes that may remove it.
+// The seen cells and their planes, relative to the eye, and zeros for what their rays will add up. Compiled without
+// fused multiply-adds, so that both cells of a pair find the same plane, and the CPU does too. Bound: per pair 56 bytes
+// read and 16 written, and some 40 flops for each of up to 32 planes that may remove it.
 #include "trainer/cuda/launch.h"
 #include "trainer/cuda/passes.h"
 #include "trainer/step/plane_filter.h"
@@ -9,12 +8,11 @@
 namespace froth {
 namespace {
 
-__global__ void prepareCellsKernel(StepArrays arrays, TrainingView<float> view) {
+__global__ void prepareCellsKernel(StepArrays arrays, TrainingView<float> view, AdamStep<float> adam) {
   const uint32_t rank = globalThread();
   if (rank >= arrays.counters->seenCells) return;
-  const uint32_t cell = arrays.sortedCells[rank];
   SeenCell<float> seen;
-  prepareCell(arrays.foam, view, cell, seen);
+  prepareCell(TrainedCell<float>(arrays.foam, adam, arrays.sortedCells[rank]), view, seen);
   arrays.seen.cells[rank] = seen;
   arrays.sums.cells[rank] = {};
 }
@@ -108,21 +106,13 @@ __global__ void preparePlanesKernel(StepArrays arrays, TrainingView<float> view)
   }
 }
 
-__global__ void prepareDetailsKernel(StepArrays arrays) {
-  const uint32_t detail = globalThread(), rank = detail / arrays.foam.shape.detailCount;
-  if (rank >= arrays.counters->seenCells) return;
-  arrays.seen.details[detail] =
-      prepareDetail(arrays.foam, arrays.seen.cells[rank], detail % arrays.foam.shape.detailCount);
-  arrays.sums.details[detail] = {};
-}
-
 }  // namespace
 
-Status prepareCells(const StepArrays& arrays, const TrainingView<float>& view, cudaStream_t stream) {
+Status prepareCells(const StepArrays& arrays, const TrainingView<float>& view, const AdamStep<float>& adam,
+                    cudaStream_t stream) {
   const size_t count = arrays.foam.shape.cellCount;
-  prepareCellsKernel<<<blocksFor(count), kBlock, 0, stream>>>(arrays, view);
+  prepareCellsKernel<<<blocksFor(count), kBlock, 0, stream>>>(arrays, view, adam);
   preparePlanesKernel<<<blocksFor(count * kWarp), kBlock, 0, stream>>>(arrays, view);
-  prepareDetailsKernel<<<blocksFor(count * arrays.foam.shape.detailCount), kBlock, 0, stream>>>(arrays);
   return checkLaunch("prepareCells");
 }
 

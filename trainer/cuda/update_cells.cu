@@ -1,59 +1,96 @@
-// Sums become gradients, and Adam takes them in the same breath. Bound: bytes. Details: 48 M + 36 read and written
-// twice per seen detail site; balls: 100 per cell and 40 per pair.
-#include "trainer/cuda/launch.h"
+// Sums become gradients, and Adam takes them in the same breath. Bound: bytes. A cell that pixels show, by a warp: per
+// detail site of M lobes 144 M + 72 read and written; balls, by 8 lanes each: 100 per cell and 40 per pair.
+#include "trainer/cuda/lobe_lanes.h"
 #include "trainer/cuda/passes.h"
 #include "trainer/step/cell_update.h"
 
 namespace froth {
 namespace {
 
+constexpr uint32_t kLanesOfBall = 8;  // most balls have some ten pairs
+
 __device__ void countBad(const StepArrays& arrays, uint32_t bad) {
   if (bad > 0) atomicAdd(&arrays.counters->droppedCount, bad);
 }
 
-__global__ void updateDetailsKernel(StepArrays arrays, AdamStep<float> adam) {
-  const uint32_t detail = globalThread(), detailCount = arrays.foam.shape.detailCount;
-  const uint32_t rank = detail / detailCount;
-  if (rank >= arrays.counters->seenCells || isVoid(arrays)) return;
-  CellSums<float> asked;
-  uint32_t bad = 0;
-  updateDetail(arrays.foam, adam, arrays.seen.cells[rank], arrays.seen.details[detail], detail % detailCount,
-               arrays.sums.details[detail], asked, bad);
-  CellSums<float>& sums = arrays.sums.cells[rank];
-  for (int c = 0; c < 3; ++c) {
-    atomicAdd(&sums.site[c], asked.site[c]);
-    atomicAdd(&sums.torque[c], asked.torque[c]);
-  }
-  atomicAdd(&sums.radius, asked.radius);
-  countBad(arrays, bad);
+// As updateLobes(), of all detail sites of a round: each lane returns what its lobe asks of the direction.
+__device__ glm::vec3 updateLobesOfRound(const TrainedCell<float>& trained, const LobeRound& round,
+                                        const LobeSeeds<float>& seeds, uint32_t& bad) {
+  LaneNumbers axes(trained, Parameter::kLobeAxes, round, true), colours(trained, Parameter::kLobeColours, round, true);
+  axes.catchUp();
+  colours.catchUp();
+  const glm::vec3 axis = numbersOfLobe(round, axes.values()), colour = numbersOfLobe(round, colours.values());
+  const float share = shareOfLobe(round, foam::lobeExponent(axis, seeds.direction));
+  LobeGradient<float> gradient;
+  if (round.hasLobe) gradient = differentiateLobe(axis, colour, share, seeds);
+  axes.update(round, numbersOfLane(round, gradient.axis), bad);
+  colours.update(round, numbersOfLane(round, gradient.colour), bad);
+  return gradient.direction;
 }
 
-__global__ void updateSeenCellsKernel(StepArrays arrays, AdamStep<float> adam) {
-  const uint32_t rank = globalThread();
-  if (rank >= arrays.counters->seenCells || isVoid(arrays)) return;
+__global__ void updateShownCellsKernel(StepArrays arrays, AdamStep<float> adam) {
+  __shared__ float stages[kBlock / kWarp][kStageNumbers];
+  const uint32_t rank = globalThread() / kWarp;
+  if (rank >= arrays.counters->seenCells || isVoid(arrays) || !isShown(arrays.sums.cells[rank])) return;
+  const FoamShape& shape = arrays.foam.shape;
+  const SeenCell<float> seen = arrays.seen.cells[rank];
+  const TrainedCell<float> trained(arrays.foam, adam, seen.cell);
+  CellSums<float> asked;
   uint32_t bad = 0;
-  updateSeenCell(arrays.foam, adam, arrays.seen.cells[rank], arrays.sums.cells[rank], bad);
+  for (uint32_t first = 0; first < shape.detailCount; first += LobeRound::detailsAtATime(shape)) {
+    const LobeRound round(shape, first, stages[threadIdx.x / kWarp]);
+    const size_t place = size_t{rank} * shape.detailCount + round.detail;
+    SeenDetail<float> detail{};
+    DetailSums<float> sums;
+    if (round.hasDetail) {
+      detail = arrays.seen.details[place];
+      sums = arrays.sums.details[place];
+    }
+    const LobeSeeds<float> seeds = seedLobes(seen, detail, sums);
+    const glm::vec3 directionSeed = sumOfLanes(updateLobesOfRound(trained, round, seeds, bad), round.lanes);
+    if (round.isFirst) updatePlace(trained, seen, detail, round.detail, sums, seeds, directionSeed, asked, bad);
+    __syncwarp();
+  }
+  asked.site = sumOfLanes(asked.site, kWarp);
+  asked.radius = sumOfLanes(asked.radius, kWarp);
+  asked.torque = sumOfLanes(asked.torque, kWarp);
+  if (laneOfWarp() == 0) {
+    arrays.sums.cells[rank] += asked;
+    updateShownCell(trained, arrays.sums.cells[rank], bad);
+  }
   countBad(arrays, bad);
 }
 
 __global__ void updateBallsKernel(StepArrays arrays, AdamStep<float> adam, float overlapWeight) {
-  const uint32_t cell = globalThread();
-  if (cell >= arrays.foam.shape.cellCount || isVoid(arrays)) return;
+  const uint32_t cell = globalThread() / kLanesOfBall, lane = laneOfWarp() % kLanesOfBall;
+  if (isVoid(arrays)) return;
+  const bool isCell = cell < arrays.foam.shape.cellCount;
+  glm::vec4 gradient(0);
+  if (isCell) {
+    for (uint32_t e = arrays.pairs.offsets[cell] + lane; e < arrays.pairs.offsets[cell + 1]; e += kLanesOfBall) {
+      gradient += gradientOfPair(arrays.foam, arrays.pairs, arrays.seen, arrays.sums, overlapWeight, cell, e);
+    }
+  }
+  __syncwarp();
+  gradient = sumOfLanes(gradient, kLanesOfBall);
+  if (!isCell || lane != 0) return;
   uint32_t bad = 0;
-  updateBall(arrays.foam, adam, cell,
-             gatherBall(arrays.foam, arrays.pairs, arrays.seen, arrays.sums, overlapWeight, cell), bad);
+  updateBall(arrays.foam, adam, cell, gradientOfOwnSums(arrays.seen, arrays.sums, cell) + gradient, bad);
   updateMeans(arrays.foam, arrays.seen, arrays.sums, cell);
   countBad(arrays, bad);
 }
 
 }  // namespace
 
-Status updateCells(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, cudaStream_t stream) {
-  const size_t count = arrays.foam.shape.cellCount;
-  updateDetailsKernel<<<blocksFor(count * arrays.foam.shape.detailCount), kBlock, 0, stream>>>(arrays, adam);
-  updateSeenCellsKernel<<<blocksFor(count), kBlock, 0, stream>>>(arrays, adam);
-  updateBallsKernel<<<blocksFor(count), kBlock, 0, stream>>>(arrays, adam, overlapWeight);
-  return checkLaunch("updateCells");
+Status updateShownCells(const StepArrays& arrays, const AdamStep<float>& adam, cudaStream_t stream) {
+  updateShownCellsKernel<<<blocksFor(size_t{arrays.foam.shape.cellCount} * kWarp), kBlock, 0, stream>>>(arrays, adam);
+  return checkLaunch("updateShownCells");
+}
+
+Status updateBalls(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, cudaStream_t stream) {
+  const size_t threads = size_t{arrays.foam.shape.cellCount} * kLanesOfBall;
+  updateBallsKernel<<<blocksFor(threads), kBlock, 0, stream>>>(arrays, adam, overlapWeight);
+  return checkLaunch("updateBalls");
 }
 
 }  // namespace froth

@@ -11,26 +11,14 @@ namespace froth {
 
 inline constexpr uint32_t kWarpsPerTile = kTileSize * kTileSize / kWarp;
 
-__device__ inline float sumOfWarp(float value) {
-  for (int distance = 16; distance > 0; distance /= 2) value += __shfl_xor_sync(kAllLanes, value, distance);
-  return value;
-}
-
-__device__ inline float largestOfWarp(float value) {
-  for (int distance = 16; distance > 0; distance /= 2) {
-    value = fmaxf(value, __shfl_xor_sync(kAllLanes, value, distance));
-  }
-  return value;
-}
-
 // Around the rays of a warp's pixels, as coneOfTile().
 __device__ inline glm::vec4 coneOfWarp(const glm::vec3& direction) {
-  const glm::vec3 sum(sumOfWarp(direction.x), sumOfWarp(direction.y), sumOfWarp(direction.z));
+  const glm::vec3 sum = sumOfLanes(direction, kWarp);
   const float length = sqrtf(glm::dot(sum, sum));
   if (!(length > 0)) return {0, 0, 1, float(foam::kConeOfNone)};
   const glm::vec3 axis = sum / length, difference = direction - axis;
   const float squared = direction == glm::vec3(0) ? 0 : glm::dot(difference, difference);
-  return foam::coneOfChord(axis, sqrtf(largestOfWarp(squared)));
+  return foam::coneOfChord(axis, sqrtf(largestOfLanes(squared, kWarp)));
 }
 
 // The pixel of a thread. Blocks of 64 threads draw a tile.

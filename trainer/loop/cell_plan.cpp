@@ -11,6 +11,7 @@
 #include "base/counter_random.h"
 #include "foam/morton_order.h"
 #include "shaders/foam/activations.h"
+#include "trainer/step/crowds.h"
 
 namespace froth {
 namespace {
@@ -85,14 +86,16 @@ CellPlan sortAlongCurve(const CellFacts& facts, const CellPlan& plan) {
     sorted.sources.push_back(plan.sources[place]);
     sorted.shifts.push_back(plan.shifts[place]);
     sorted.meanFactors.push_back(plan.meanFactors[place]);
+    sorted.radiusFactors.push_back(plan.radiusFactors[place]);
   }
   return sorted;
 }
 
 }  // namespace
 
-CellFacts factsOf(const FoamStorage<float>& foam) {
-  return {foam.balls, foam.values[static_cast<size_t>(Parameter::kOrientations)], foam.contributions, foam.errors};
+CellFacts factsOf(const FoamStorage<float>& foam, std::span<const uint32_t> overlaps) {
+  return {foam.balls, foam.values[static_cast<size_t>(Parameter::kOrientations)], foam.contributions, foam.errors,
+          overlaps};
 }
 
 CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint32_t step) {
@@ -101,6 +104,7 @@ CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint3
   plan.sources = survivors;
   plan.shifts.assign(survivors.size(), glm::vec3(0));
   plan.meanFactors.assign(survivors.size(), 1);
+  for (const uint32_t cell : survivors) plan.radiusFactors.push_back(shrinkOf(facts.overlaps[cell]));
   const auto count = static_cast<uint32_t>(survivors.size());
   const CounterRandom choice(seed, Purpose::kSplit, uint64_t{2} * step),
       way(seed, Purpose::kSplit, uint64_t{2} * step + 1);
@@ -113,6 +117,7 @@ CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint3
     plan.sources.push_back(parent);
     plan.shifts.push_back(-shift);
     plan.meanFactors.push_back(0.5f);
+    plan.radiusFactors.push_back(plan.radiusFactors[place]);
   }
   return sortAlongCurve(facts, plan);
 }
@@ -121,6 +126,7 @@ FoamStorage<float> rearrange(const FoamStorage<float>& foam, const CellPlan& pla
   FoamStorage<float> next;
   const FoamShape shape{static_cast<uint32_t>(plan.sources.size()), foam.shape.detailCount, foam.shape.lobeCount};
   resizeStorage(next, shape);
+  const ParameterRows<float> values = rowsOf<float>(next.values);
   tbb::parallel_for(0u, shape.cellCount, [&](uint32_t cell) {
     const uint32_t source = plan.sources[cell];
     for (size_t t = 0; t < kParameterCount; ++t) {
@@ -135,6 +141,7 @@ FoamStorage<float> rearrange(const FoamStorage<float>& foam, const CellPlan& pla
     }
     float* site = &next.values[static_cast<size_t>(Parameter::kPoints)][size_t{3} * cell];
     for (int c = 0; c < 3; ++c) site[c] += plan.shifts[cell][c];
+    shrinkCell(values, shape, cell, plan.radiusFactors[cell]);
     next.lastSteps[cell] = foam.lastSteps[source];
     next.contributions[cell] = plan.meanFactors[cell] * foam.contributions[source];
     next.errors[cell] = plan.meanFactors[cell] * foam.errors[source];

@@ -16,22 +16,24 @@ struct CellFacts {
   std::span<const glm::vec4> balls;    // site, radius
   std::span<const float> quaternions;  // raw, 4 each
   std::span<const float> contributions, errors;
+  std::span<const uint32_t> overlaps;  // countOverlaps()
 };
 
-// What they are of a foam whose balls are known.
-CellFacts factsOf(const FoamStorage<float>& foam);
+// What they are of a foam whose balls are known. Both outlive the facts.
+CellFacts factsOf(const FoamStorage<float>& foam, std::span<const uint32_t> overlaps);
 
 // Cell i of the foam that comes is a copy of cell sources[i], moments and all, moved by shifts[i]. Its means are
-// multiplied by meanFactors[i]. Along a Morton curve, so that cells near each other lie near each other in memory.
+// multiplied by meanFactors[i], its radius by radiusFactors[i] (shrinkCell()). Along a Morton curve, so that cells near
+// each other lie near each other in memory.
 struct CellPlan {
   std::vector<uint32_t> sources;
   std::vector<glm::vec3> shifts;
-  std::vector<float> meanFactors;
+  std::vector<float> meanFactors, radiusFactors;
 };
 
 // Cells that show too little are removed, and parents drawn without replacement by their error until there are
-// `wanted`; a parent and its child part in opposite directions on the face. The same facts, seed and step give the same
-// plan. Fewer than wanted come where there are too few parents.
+// `wanted`; a parent and its child part in opposite directions on the face. Crowded cells shrink. The same facts, seed
+// and step give the same plan. Fewer than wanted come where there are too few parents.
 CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint32_t step);
 
 FoamStorage<float> rearrange(const FoamStorage<float>& foam, const CellPlan& plan);

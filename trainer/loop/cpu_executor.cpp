@@ -6,6 +6,7 @@
 
 #include "trainer/cpu/view_exchange.h"
 #include "trainer/photos/reduce_photo.h"
+#include "trainer/step/crowds.h"
 
 namespace froth {
 namespace {
@@ -73,18 +74,22 @@ Status CpuExecutor::rearrange(const CellPlan& plan) {
 
 Status CpuExecutor::show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) {
   if (!shown_) {
-    shown_ = std::make_unique<ShownFoam>();
-    shown_->foam = foam_;
-    shown_->step.activate(0);
+    shown_ = std::make_unique<CpuStep<float>>(foam_);
+    shown_->activate(0);
   }
   const std::vector<float> directions = lensDirections(view);
   TrainingView<float> seen = trainingView<float>(view);
   if (!directions.empty()) seen.directions = directions.data();
-  image = shown_->step.render(seen, PixelSettings<float>{}, adam);
+  image = shown_->render(seen, PixelSettings<float>{}, adam);
   return {};
 }
 
-Result<CellFacts> CpuExecutor::facts() { return factsOf(foam_); }
+Result<CellFacts> CpuExecutor::facts() {
+  overlaps_.resize(foam_.shape.cellCount);
+  tbb::parallel_for(0u, foam_.shape.cellCount,
+                    [&](uint32_t cell) { overlaps_[cell] = countOverlaps(foam_.balls.data(), step_.rows(), cell); });
+  return factsOf(foam_, overlaps_);
+}
 
 Status CpuExecutor::read(FoamStorage<float>& foam) {
   foam = foam_;

@@ -34,11 +34,6 @@ class CpuExecutor : public StepExecutor {
     std::vector<float> directions;
     std::vector<glm::vec4> wanted;  // PixelArrays::wanted
   };
-  // Cells that are shown catch up in a copy: to catch up in two parts would round otherwise than in one.
-  struct ShownFoam {
-    FoamStorage<float> foam;
-    CpuStep<float> step{foam};
-  };
   const PhotoTarget& targetOf(const StepPlan& plan);
 
   FoamStorage<float> foam_;
@@ -48,7 +43,8 @@ class CpuExecutor : public StepExecutor {
   uint32_t halvings_ = UINT32_MAX;  // of targets_
   ImageLoss<float> loss_;
   std::vector<glm::vec4> gradients_;
-  std::unique_ptr<ShownFoam> shown_;  // until cells change
+  std::vector<uint32_t> overlaps_;         // of facts()
+  std::unique_ptr<CpuStep<float>> shown_;  // what show() draws with, until cells change
 };
 
 }  // namespace froth

@@ -32,7 +32,7 @@ AdamStep<float> DriftTables::adamAt(uint32_t step) {
   while (next_ < step) advance();
   AdamStep<float> adam;
   adam.step = step + 1;
-  adam.epsilon = static_cast<float>(1e-15 * std::sqrt(1 - std::pow(kBeta2, adam.step)));
+  adam.epsilon = static_cast<float>(kEpsilon * std::sqrt(1 - std::pow(kBeta2, adam.step)));
   for (size_t i = 0; i < kParameterCount; ++i) {
     const double rate = rateAt(pace_.schedule(), static_cast<Parameter>(i), pace_.positionAt(step));
     adam.rates[i] = static_cast<float>(rate * correctionAt(adam.step));

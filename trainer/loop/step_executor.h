@@ -35,7 +35,7 @@ class StepExecutor {
   virtual Result<CellFacts> facts() = 0;
   virtual uint32_t cellCount() const = 0;
   // What a view in the normalised scene sees of the foam: colour over black, transmittance. `adam`: of the step that
-  // comes next, to which cells catch up. Later steps give the bits that they would give without this call.
+  // comes next. Later steps give the bits that they would give without this call.
   virtual Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) = 0;
   // All arrays, as the steps left them.
   virtual Status read(FoamStorage<float>& foam) = 0;

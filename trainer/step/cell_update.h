@@ -1,8 +1,8 @@
 // From what rays added up for a cell to its parameters' gradients, and Adam in the same breath: the gradients of lobes,
 // nine tenths of all, are never stored.
 //
-// Order: catchUpCell() before a view looks at the cell; updateDetail() for each of its detail sites, which adds to the
-// cell's sums; updateSeenCell(); and for all cells, seen or not, updateBall(), which reads the sums of neighbours.
+// Order: of each cell that some pixel shows, updateDetail() for its detail sites, which adds to the cell's sums, and
+// updateShownCell(); then of all cells updateBall(), which reads the sums of neighbours.
 #pragma once
 
 #include <cmath>
@@ -10,151 +10,154 @@
 #include "shaders/foam/activations.h"
 #include "shaders/foam/appearance_gradient.h"
 #include "shaders/foam/cell_gradient.h"
-#include "trainer/step/adam.h"
 #include "trainer/step/gradient_sums.h"
 #include "trainer/step/seen_cells.h"
 
 namespace froth {
 
-// Whether a parameter waits while no view sees its cell.
-FROTH_HD bool isWaiting(Parameter parameter) {
-  return parameter != Parameter::kPoints && parameter != Parameter::kRadii;
-}
-
-// Three rows of one parameter of one cell, or a part of them.
-template <class Real>
-struct ParameterPart {
-  Real *values, *firstMoments, *secondMoments;
-};
-
-template <class Real>
-FROTH_HD ParameterPart<Real> partOf(const TrainedFoam<Real>& foam, Parameter parameter, uint32_t cell,
-                                    uint32_t first = 0) {
-  return {foam.values.row(parameter, foam.shape, cell) + first,
-          foam.firstMoments.row(parameter, foam.shape, cell) + first,
-          foam.secondMoments.row(parameter, foam.shape, cell) + first};
-}
-
-template <class Real>
-FROTH_HD bool updatePart(const ParameterPart<Real>& part, uint32_t i, Real gradient, const AdamStep<Real>& adam,
-                         Parameter parameter) {
-  return updateValue(part.values[i], part.firstMoments[i], part.secondMoments[i], gradient,
-                     adam.rates[static_cast<size_t>(parameter)], adam.epsilon);
-}
-
-// Brings the waiting parameters of a cell to the step before adam.step.
+// Stores the parameters of a cell as they are before adam.step.
 template <class Real>
 FROTH_HD void catchUpCell(const TrainedFoam<Real>& foam, const AdamStep<Real>& adam, uint32_t cell) {
-  const uint32_t lastStep = foam.lastSteps[cell];
-  if (lastStep + 1 >= adam.step) return;
+  const TrainedCell<Real> trained(foam, adam, cell);
+  if (trained.wait.isNone) return;
   for (size_t index = 0; index < kParameterCount; ++index) {
     const auto parameter = static_cast<Parameter>(index);
     if (!isWaiting(parameter)) continue;
-    const Wait<Real> wait = waitSince(adam, parameter, lastStep);
-    const ParameterPart<Real> part = partOf(foam, parameter, cell);
-    const uint32_t width = widthOf(parameter, foam.shape);
-    for (uint32_t i = 0; i < width; ++i) {
-      catchUp(part.values[i], part.firstMoments[i], part.secondMoments[i], wait);
-    }
+    const ParameterPart<Real> part = trained.part(parameter);
+    for (uint32_t i = 0; i < widthOf(parameter, foam.shape); ++i) part.store(i, part.load(i));
   }
   foam.lastSteps[cell] = adam.step - 1;
 }
 
+// What the lobes of a detail site have in common.
+template <class Real>
+struct LobeSeeds {
+  glm::vec<3, Real> direction;  // in which the site is seen
+  glm::vec<3, Real> blend;      // of the lobes' colours
+  glm::vec<3, Real> seed;       // the gradient by it
+};
+
+template <class Real>
+FROTH_HD LobeSeeds<Real> seedLobes(const SeenCell<Real>& seen, const SeenDetail<Real>& detail,
+                                   const DetailSums<Real>& sums) {
+  LobeSeeds<Real> seeds{directionOfDetail(seen, detail.place), detail.colour - Real(0.5), sums.colour};
+  for (int c = 0; c < 3; ++c) seeds.seed[c] = foam::shownGradient(detail.colour[c], sums.colour[c]);
+  return seeds;
+}
+
+template <class Real>
+struct LobeGradient {
+  glm::vec<3, Real> axis{0}, colour{0}, direction{0};
+};
+
+// share: of the lobe in the blend.
+template <class Real>
+FROTH_HD LobeGradient<Real> differentiateLobe(const glm::vec<3, Real>& axis, const glm::vec<3, Real>& colour,
+                                              Real share, const LobeSeeds<Real>& seeds) {
+  LobeGradient<Real> gradient;
+  foam::lobeGradient(axis, seeds.direction, share * glm::dot(seeds.seed, colour - seeds.blend), gradient.axis,
+                     gradient.direction);
+  gradient.colour = share * seeds.seed;
+  return gradient;
+}
+
 // Updates the lobes of detail site k; returns the gradient by the direction in which it is seen.
 template <class Real>
-FROTH_HD glm::vec<3, Real> updateLobes(const TrainedFoam<Real>& foam, const AdamStep<Real>& adam, uint32_t cell,
-                                       uint32_t k, const glm::vec<3, Real>& direction, const glm::vec<3, Real>& seed,
-                                       const glm::vec<3, Real>& blendOffset, uint32_t& bad) {
-  using Vec3 = glm::vec<3, Real>;
-  const uint32_t lobeCount = foam.shape.lobeCount, first = 3 * k * lobeCount;
-  const ParameterPart<Real> axes = partOf(foam, Parameter::kLobeAxes, cell, first);
-  const ParameterPart<Real> colours = partOf(foam, Parameter::kLobeColours, cell, first);
+FROTH_HD glm::vec<3, Real> updateLobes(const TrainedCell<Real>& trained, uint32_t k, const LobeSeeds<Real>& seeds,
+                                       uint32_t& bad) {
+  const uint32_t numbers = 3 * trained.foam.shape.lobeCount;
+  const ParameterPart<Real> axes = trained.part(Parameter::kLobeAxes, k * numbers);
+  const ParameterPart<Real> colours = trained.part(Parameter::kLobeColours, k * numbers);
   Real largest = Real(-1e30), weightSum = 0;
-  for (uint32_t m = 0; m < 3 * lobeCount; m += 3) {
-    const Real exponent = foam::lobeExponent(Vec3(axes.values[m], axes.values[m + 1], axes.values[m + 2]), direction);
-    Vec3 unused(0);
-    foam::addLobe(exponent, Vec3(0), largest, weightSum, unused);
+  for (uint32_t m = 0; m < numbers; m += 3) {
+    glm::vec<3, Real> unused(0);
+    foam::addLobe(foam::lobeExponent(axes.readThree(m), seeds.direction), glm::vec<3, Real>(0), largest, weightSum,
+                  unused);
   }
-  Vec3 directionSum(0);
-  for (uint32_t m = 0; m < 3 * lobeCount; m += 3) {
-    const Vec3 axis(axes.values[m], axes.values[m + 1], axes.values[m + 2]);
-    const Vec3 colour(colours.values[m], colours.values[m + 1], colours.values[m + 2]);
-    const Real share = std::exp(foam::lobeExponent(axis, direction) - largest) / weightSum;
-    Vec3 axisGradient, directionGradient;
-    foam::lobeGradient(axis, direction, share * glm::dot(seed, colour - blendOffset), axisGradient, directionGradient);
-    directionSum += directionGradient;
+  glm::vec<3, Real> directionSum(0);
+  for (uint32_t m = 0; m < numbers; m += 3) {
+    const glm::vec<3, Real> axis = axes.readThree(m);
+    const Real share = std::exp(foam::lobeExponent(axis, seeds.direction) - largest) / weightSum;
+    const LobeGradient<Real> gradient = differentiateLobe(axis, colours.readThree(m), share, seeds);
+    directionSum += gradient.direction;
     for (uint32_t c = 0; c < 3; ++c) {
-      bad += !updatePart(axes, m + c, axisGradient[c], adam, Parameter::kLobeAxes);
-      bad += !updatePart(colours, m + c, share * seed[c], adam, Parameter::kLobeColours);
+      bad += !axes.update(m + c, gradient.axis[c]);
+      bad += !colours.update(m + c, gradient.colour[c]);
     }
   }
   return directionSum;
 }
 
-// All parameters of detail site k; adds what its direction asks of the cell to `sums`.
+// Place and height of detail site k; adds what its direction asks of the cell to `cellSums`. directionSeed: of
+// updateLobes().
 template <class Real>
-FROTH_HD void updateDetail(const TrainedFoam<Real>& foam, const AdamStep<Real>& adam, const SeenCell<Real>& seen,
-                           const SeenDetail<Real>& detail, uint32_t k, const DetailSums<Real>& detailSums,
-                           CellSums<Real>& sums, uint32_t& bad) {
-  using Vec3 = glm::vec<3, Real>;
-  const Vec3 bitangent = glm::cross(seen.normal, seen.tangent);
-  const Vec3 toDetail = seen.centre + seen.radius * (detail.place.x * seen.tangent + detail.place.y * bitangent);
-  const Vec3 direction = foam::directionToDetail(toDetail, seen.normal);
-  const Vec3 seed(foam::shownGradient(detail.colour.x, detailSums.colour.x),
-                  foam::shownGradient(detail.colour.y, detailSums.colour.y),
-                  foam::shownGradient(detail.colour.z, detailSums.colour.z));
-  const Vec3 directionSeed = updateLobes(foam, adam, seen.cell, k, direction, seed, detail.colour - Real(0.5), bad);
-  const Vec3 moved = foam::detailDirectionGradient(toDetail, direction, directionSeed);
-  const Vec3 inFrame = foam::inFaceFrame(moved, seen.tangent, bitangent, seen.normal, Real(1));
-  const Vec3 place(detail.place, 0);
-
-  const ParameterPart<Real> heights = partOf(foam, Parameter::kDetailHeights, seen.cell);
-  const ParameterPart<Real> places = partOf(foam, Parameter::kDetailSites, seen.cell, 2 * k);
-  sums.site += moved;
-  sums.radius += glm::dot(place, inFrame) + heights.values[k] * detailSums.height;
-  sums.torque += glm::cross(inFrame, seen.radius * place);
-  bad += !updatePart(heights, k, seen.radius * detailSums.height, adam, Parameter::kDetailHeights);
-  bad += !updatePart(places, 0, detailSums.place.x + seen.radius * inFrame.x, adam, Parameter::kDetailSites);
-  bad += !updatePart(places, 1, detailSums.place.y + seen.radius * inFrame.y, adam, Parameter::kDetailSites);
+FROTH_HD void updatePlace(const TrainedCell<Real>& trained, const SeenCell<Real>& seen, const SeenDetail<Real>& detail,
+                          uint32_t k, const DetailSums<Real>& sums, const LobeSeeds<Real>& seeds,
+                          const glm::vec<3, Real>& directionSeed, CellSums<Real>& cellSums, uint32_t& bad) {
+  const glm::vec<3, Real> toDetail = vectorToDetail(seen, detail.place), place(detail.place, 0);
+  const glm::vec<3, Real> moved = foam::detailDirectionGradient(toDetail, seeds.direction, directionSeed);
+  const glm::vec<3, Real> inFrame =
+      foam::inFaceFrame(moved, seen.tangent, glm::cross(seen.normal, seen.tangent), seen.normal, Real(1));
+  const ParameterPart<Real> heights = trained.part(Parameter::kDetailHeights);
+  const ParameterPart<Real> places = trained.part(Parameter::kDetailSites, 2 * k);
+  cellSums.site += moved;
+  cellSums.radius += glm::dot(place, inFrame) + heights.read(k) * sums.height;
+  cellSums.torque += glm::cross(inFrame, seen.radius * place);
+  bad += !heights.update(k, seen.radius * sums.height);
+  bad += !places.update(0, sums.place.x + seen.radius * inFrame.x);
+  bad += !places.update(1, sums.place.y + seen.radius * inFrame.y);
 }
 
-// Density and orientation.
+// All parameters of detail site k.
 template <class Real>
-FROTH_HD void updateSeenCell(const TrainedFoam<Real>& foam, const AdamStep<Real>& adam, const SeenCell<Real>& seen,
-                             const CellSums<Real>& sums, uint32_t& bad) {
-  const ParameterPart<Real> density = partOf(foam, Parameter::kDensity, seen.cell);
-  const ParameterPart<Real> raw = partOf(foam, Parameter::kOrientations, seen.cell);
-  bad += !updatePart(density, 0, sums.density * foam::softplusSlope(density.values[0]), adam, Parameter::kDensity);
-  const glm::vec<4, Real> quaternion(raw.values[0], raw.values[1], raw.values[2], raw.values[3]);
+FROTH_HD void updateDetail(const TrainedCell<Real>& trained, const SeenCell<Real>& seen, const SeenDetail<Real>& detail,
+                           uint32_t k, const DetailSums<Real>& sums, CellSums<Real>& cellSums, uint32_t& bad) {
+  const LobeSeeds<Real> seeds = seedLobes(seen, detail, sums);
+  const glm::vec<3, Real> directionSeed = updateLobes(trained, k, seeds, bad);
+  updatePlace(trained, seen, detail, k, sums, seeds, directionSeed, cellSums, bad);
+}
+
+// Density and orientation. From here on the cell waits.
+template <class Real>
+FROTH_HD void updateShownCell(const TrainedCell<Real>& trained, const CellSums<Real>& sums, uint32_t& bad) {
+  const ParameterPart<Real> density = trained.part(Parameter::kDensity);
+  const ParameterPart<Real> raw = trained.part(Parameter::kOrientations);
+  bad += !density.update(0, sums.density * foam::softplusSlope(density.read(0)));
+  const glm::vec<4, Real> quaternion(raw.readThree(0), raw.read(3));
   const glm::vec<4, Real> gradient = foam::quaternionGradient(quaternion, sums.torque);
-  for (int c = 0; c < 4; ++c) bad += !updatePart(raw, c, gradient[c], adam, Parameter::kOrientations);
-  foam.lastSteps[seen.cell] = adam.step;
+  for (uint32_t c = 0; c < 4; ++c) bad += !raw.update(c, gradient[c]);
+  trained.foam.lastSteps[trained.cell] = trained.adam.step;
 }
 
-// The gradient by site (xyz) and activated radius (w) of a cell: its own sums, those of the pairs that its neighbours'
-// rays and its own met, and the loss of overlaps.
+// The gradient by site (xyz) and activated radius (w) of a cell is that of its own sums, and of all its pairs.
 template <class Real>
-FROTH_HD glm::vec<4, Real> gatherBall(const TrainedFoam<Real>& foam, const NeighbourRows& rows,
-                                      const SeenCells<Real>& seen, const GradientSums<Real>& sums, Real overlapWeight,
-                                      uint32_t cell) {
+FROTH_HD glm::vec<4, Real> gradientOfOwnSums(const SeenCells<Real>& seen, const GradientSums<Real>& sums,
+                                             uint32_t cell) {
+  const uint32_t rank = seen.rankOf[cell];
+  if (rank == SeenCells<Real>::kNotSeen) return glm::vec<4, Real>(0);
+  return {sums.cells[rank].site, sums.cells[rank].radius};
+}
+
+// Of the pair at place e of the cell's row: what its neighbour's rays and its own met, and the loss of overlaps.
+template <class Real>
+FROTH_HD glm::vec<4, Real> gradientOfPair(const TrainedFoam<Real>& foam, const NeighbourRows& rows,
+                                          const SeenCells<Real>& seen, const GradientSums<Real>& sums,
+                                          Real overlapWeight, uint32_t cell, uint32_t e) {
   using Vec3 = glm::vec<3, Real>;
   using Vec4 = glm::vec<4, Real>;
-  const Vec4 own = foam.balls[cell];
-  const uint32_t rank = seen.rankOf[cell], begin = rows.offsets[cell];
-  const bool isSeen = rank != SeenCells<Real>::kNotSeen;
-  Vec4 gradient = isSeen ? Vec4(sums.cells[rank].site, sums.cells[rank].radius) : Vec4(0);
-  for (uint32_t e = begin; e < rows.offsets[cell + 1]; ++e) {
-    const uint32_t neighbour = rows.neighbours[e];
-    const Vec4 other = foam.balls[neighbour];
-    const Vec3 toNeighbour = Vec3(other) - Vec3(own);
-    if (isSeen) gradient += foam::gradientOfCell(sums.pairs[seen.cells[rank].planesBegin + e - begin], own.w);
-    const uint32_t otherRank = seen.rankOf[neighbour];
-    if (otherRank != SeenCells<Real>::kNotSeen) {
-      const uint32_t place = rows.reverses[e] - rows.offsets[neighbour];
-      const Vec4 pair = sums.pairs[seen.cells[otherRank].planesBegin + place];
-      gradient += foam::gradientOfNeighbour(pair, -toNeighbour, own.w);
-    }
-    gradient += overlapWeight * foam::overlapGradient(toNeighbour, own.w, other.w);
+  const uint32_t neighbour = rows.neighbours[e];
+  const Vec4 own = foam.balls[cell], other = foam.balls[neighbour];
+  const Vec3 toNeighbour = Vec3(other) - Vec3(own);
+  const uint32_t rank = seen.rankOf[cell], otherRank = seen.rankOf[neighbour];
+  Vec4 gradient = overlapWeight * foam::overlapGradient(toNeighbour, own.w, other.w);
+  if (rank != SeenCells<Real>::kNotSeen) {
+    const uint32_t place = e - rows.offsets[cell];
+    gradient += foam::gradientOfCell(sums.pairs[seen.cells[rank].planesBegin + place], own.w);
+  }
+  if (otherRank != SeenCells<Real>::kNotSeen) {
+    const uint32_t place = rows.reverses[e] - rows.offsets[neighbour];
+    const Vec4 pair = sums.pairs[seen.cells[otherRank].planesBegin + place];
+    gradient += foam::gradientOfNeighbour(pair, -toNeighbour, own.w);
   }
   return gradient;
 }
@@ -162,11 +165,10 @@ FROTH_HD glm::vec<4, Real> gatherBall(const TrainedFoam<Real>& foam, const Neigh
 template <class Real>
 FROTH_HD void updateBall(const TrainedFoam<Real>& foam, const AdamStep<Real>& adam, uint32_t cell,
                          const glm::vec<4, Real>& gradient, uint32_t& bad) {
-  const ParameterPart<Real> point = partOf(foam, Parameter::kPoints, cell);
-  const ParameterPart<Real> radius = partOf(foam, Parameter::kRadii, cell);
-  for (int c = 0; c < 3; ++c) bad += !updatePart(point, c, gradient[c], adam, Parameter::kPoints);
-  const Real slope = foam::softplusSlope(radius.values[0]);
-  bad += !updatePart(radius, 0, gradient.w * slope, adam, Parameter::kRadii);
+  const ParameterPart<Real> point = partOf(foam, adam, Wait<Real>{}, Parameter::kPoints, cell);
+  const ParameterPart<Real> radius = partOf(foam, adam, Wait<Real>{}, Parameter::kRadii, cell);
+  for (uint32_t c = 0; c < 3; ++c) bad += !point.update(c, gradient[c]);
+  bad += !radius.update(0, gradient.w * foam::softplusSlope(radius.read(0)));
 }
 
 // The means that densification goes by: of contributions over the steps that see the cell, of errors over all steps.

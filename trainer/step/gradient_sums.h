@@ -27,6 +27,12 @@ struct DetailSums {
   glm::vec<3, Real> colour{0};
 };
 
+// Whether some pixel shows the cell. Where none does all sums are 0: its parameters wait.
+template <class Real>
+FROTH_HD bool isShown(const CellSums<Real>& sums) {
+  return sums.contribution > 0;
+}
+
 template <class Real>
 FROTH_HD CellSums<Real>& operator+=(CellSums<Real>& sums, const CellSums<Real>& more) {
   sums.site += more.site;

@@ -9,7 +9,7 @@
 #include "shaders/foam/activations.h"
 #include "shaders/foam/appearance.h"
 #include "shaders/foam/cell.h"
-#include "trainer/step/trained_foam.h"
+#include "trainer/step/trained_cell.h"
 #include "trainer/step/training_view.h"
 
 namespace froth {
@@ -60,17 +60,15 @@ FROTH_HD glm::vec<4, Real> ballOf(const TrainedFoam<Real>& foam, uint32_t cell) 
 
 // All but planes and details. The near tests and whether a tile meets the ball come before.
 template <class Real>
-FROTH_HD void prepareCell(const TrainedFoam<Real>& foam, const TrainingView<Real>& view, uint32_t cell,
-                          SeenCell<Real>& seen) {
-  const glm::vec<4, Real> ball = foam.balls[cell];
-  const Real* quaternion = foam.values.row(Parameter::kOrientations, foam.shape, cell);
+FROTH_HD void prepareCell(const TrainedCell<Real>& trained, const TrainingView<Real>& view, SeenCell<Real>& seen) {
+  const glm::vec<4, Real> ball = trained.foam.balls[trained.cell];
+  const ParameterPart<Real> raw = trained.part(Parameter::kOrientations);
   glm::vec<3, Real> bitangent;
   seen.centre = glm::vec<3, Real>(ball) - view.eye;
   seen.radius = ball.w;
-  seen.density = foam::softplus(*foam.values.row(Parameter::kDensity, foam.shape, cell));
-  foam::frameOfQuaternion(glm::vec<4, Real>(quaternion[0], quaternion[1], quaternion[2], quaternion[3]), seen.normal,
-                          seen.tangent, bitangent);
-  seen.cell = cell;
+  seen.density = foam::softplus(trained.part(Parameter::kDensity).read(0));
+  foam::frameOfQuaternion(glm::vec<4, Real>(raw.readThree(0), raw.read(3)), seen.normal, seen.tangent, bitangent);
+  seen.cell = trained.cell;
 }
 
 // Both cells of a pair find the same plane: as seen from the one that comes first.
@@ -90,30 +88,39 @@ FROTH_HD SeenPlane<Real> preparePlane(const TrainedFoam<Real>& foam, const Train
   return {toNeighbour / guarded, guarded};
 }
 
-// The colour of detail site k as seen from the eye, and its direction.
+// From the eye to a detail site.
 template <class Real>
-FROTH_HD glm::vec<3, Real> directionOfDetail(const SeenCell<Real>& seen, const glm::vec<2, Real>& place) {
+FROTH_HD glm::vec<3, Real> vectorToDetail(const SeenCell<Real>& seen, const glm::vec<2, Real>& place) {
   const glm::vec<3, Real> bitangent = glm::cross(seen.normal, seen.tangent);
-  const glm::vec<3, Real> fromEye = seen.centre + seen.radius * (place.x * seen.tangent + place.y * bitangent);
-  return foam::directionToDetail(fromEye, seen.normal);
+  return seen.centre + seen.radius * (place.x * seen.tangent + place.y * bitangent);
 }
 
 template <class Real>
-FROTH_HD SeenDetail<Real> prepareDetail(const TrainedFoam<Real>& foam, const SeenCell<Real>& seen, uint32_t k) {
-  const Real* place = foam.values.row(Parameter::kDetailSites, foam.shape, seen.cell) + 2 * k;
-  SeenDetail<Real> detail;
-  detail.place = {place[0], place[1]};
-  detail.height = seen.radius * foam.values.row(Parameter::kDetailHeights, foam.shape, seen.cell)[k];
+FROTH_HD glm::vec<3, Real> directionOfDetail(const SeenCell<Real>& seen, const glm::vec<2, Real>& place) {
+  return foam::directionToDetail(vectorToDetail(seen, place), seen.normal);
+}
+
+// Place and height of detail site k.
+template <class Real>
+FROTH_HD SeenDetail<Real> placeDetail(const TrainedCell<Real>& trained, const SeenCell<Real>& seen, uint32_t k) {
+  const ParameterPart<Real> place = trained.part(Parameter::kDetailSites, 2 * k);
+  const Real height = trained.part(Parameter::kDetailHeights).read(k);
+  return {{place.read(0), place.read(1)}, seen.radius * height, glm::vec<3, Real>(0)};
+}
+
+// Detail site k with its colour as seen from the eye.
+template <class Real>
+FROTH_HD SeenDetail<Real> prepareDetail(const TrainedCell<Real>& trained, const SeenCell<Real>& seen, uint32_t k) {
+  SeenDetail<Real> detail = placeDetail(trained, seen, k);
   const glm::vec<3, Real> direction = directionOfDetail(seen, detail.place);
-  const uint32_t lobeCount = foam.shape.lobeCount;
-  const Real* axes = foam.values.row(Parameter::kLobeAxes, foam.shape, seen.cell) + 3 * k * lobeCount;
-  const Real* colours = foam.values.row(Parameter::kLobeColours, foam.shape, seen.cell) + 3 * k * lobeCount;
+  const uint32_t numbers = 3 * trained.foam.shape.lobeCount;
+  const ParameterPart<Real> axes = trained.part(Parameter::kLobeAxes, k * numbers);
+  const ParameterPart<Real> colours = trained.part(Parameter::kLobeColours, k * numbers);
   Real largest = Real(-1e30), weightSum = 0;
   glm::vec<3, Real> colourSum(0);
-  for (uint32_t m = 0; m < 3 * lobeCount; m += 3) {
-    const Real exponent = foam::lobeExponent(glm::vec<3, Real>(axes[m], axes[m + 1], axes[m + 2]), direction);
-    foam::addLobe(exponent, glm::vec<3, Real>(colours[m], colours[m + 1], colours[m + 2]), largest, weightSum,
-                  colourSum);
+  for (uint32_t m = 0; m < numbers; m += 3) {
+    const Real exponent = foam::lobeExponent(axes.readThree(m), direction);
+    foam::addLobe(exponent, colours.readThree(m), largest, weightSum, colourSum);
   }
   detail.colour = foam::lobeColour(glm::vec<3, Real>(0), weightSum, colourSum);
   return detail;

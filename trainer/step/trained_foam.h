@@ -50,8 +50,8 @@ struct ParameterRows {
   }
 };
 
-// Points and radii move in every step, for neighbours pull at them. All other parameters of a cell wait while no view
-// sees it: lastSteps tells since when, and catchUp() (adam.h) makes up for it, exactly.
+// Points and radii move in every step, for neighbours pull at them. All other parameters of a cell wait while no pixel
+// shows it: lastSteps tells since when, and who reads them makes up for it (trained_cell.h).
 template <class Real>
 struct TrainedFoam {
   FoamShape shape;
