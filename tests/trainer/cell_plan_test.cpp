@@ -98,6 +98,8 @@ TEST_F(CellPlanOf, PartsParentAndChildOnTheFaceAndCopiesTheRest) {
 
 TEST_F(CellPlanOf, ShrinksCrowdedCellsAndKeepsTheirOpticalDepth) {
   for (uint32_t i = 0; i < kCells; ++i) overlaps_[i] = i % 2 == 0 ? kMostOverlaps : i % 3 == 0 ? 25 : 1000;
+  float& nothing = foam_.values[static_cast<size_t>(Parameter::kDensity)][5];
+  nothing = -2;  // activated, 0
   const CellPlan made = plan(300);
   const FoamStorage<float> next = rearrange(foam_, made);
   const auto valueOf = [](const FoamStorage<float>& foam, Parameter parameter, uint32_t cell) {
@@ -110,6 +112,9 @@ TEST_F(CellPlanOf, ShrinksCrowdedCellsAndKeepsTheirOpticalDepth) {
     const float factor = source % 2 == 0 ? 1.0f : source % 3 == 0 ? std::sqrt(24.0f / 25) : 0.95f;
     EXPECT_NEAR(now / radius, factor, 1e-5) << source;  // of parents and of children
     EXPECT_NEAR(now * dense, radius * density, 1e-5 * radius * density) << source;
+    if (source == 5) {
+      EXPECT_EQ(next.values[static_cast<size_t>(Parameter::kDensity)][i], nothing);
+    }
   }
 }
 

@@ -36,13 +36,17 @@ FROTH_HD float shrinkOf(uint32_t overlaps) {
   return wanted > kLeastShrink ? wanted : kLeastShrink;
 }
 
+// What is activated as 0 stays: no raw value is its inverse.
+FROTH_HD void scaleActivated(float& raw, float factor) {
+  const float scaled = factor * foam::softplus(raw);
+  if (scaled > 0) raw = foam::softplusInverse(scaled);
+}
+
 // A ray through the centre keeps its optical depth. values: raw.
 FROTH_HD void shrinkCell(const ParameterRows<float>& values, const FoamShape& shape, uint32_t cell, float factor) {
   if (factor == 1) return;
-  float& radius = *values.row(Parameter::kRadii, shape, cell);
-  float& density = *values.row(Parameter::kDensity, shape, cell);
-  radius = foam::softplusInverse(factor * foam::softplus(radius));
-  density = foam::softplusInverse(foam::softplus(density) / factor);
+  scaleActivated(*values.row(Parameter::kRadii, shape, cell), factor);
+  scaleActivated(*values.row(Parameter::kDensity, shape, cell), 1 / factor);
 }
 
 }  // namespace froth
