@@ -41,10 +41,10 @@ FoamFollower::~FoamFollower() {
   if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
 }
 
-// What is quick to bake: no graph for walks, no measurement.
+// What is quick to bake: values as they are, no graph for walks, no measurement.
 Status FoamFollower::begin() {
-  std::vector<std::string> words{baker_,          "bake",      foam_.string(), "-o",
-                                 asset_.string(), "--no-walk", "--no-measure", "--quiet"};
+  std::vector<std::string> words{baker_,     "bake",  foam_.string(), "-o",           asset_.string(),
+                                 "--preset", "exact", "--no-walk",    "--no-measure", "--quiet"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
