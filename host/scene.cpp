@@ -24,7 +24,8 @@ Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::s
   Status made = scene->check(frothCreateContext(&info, &scene->context_), "frothCreateContext");
   if (!made) return made.error();
 
-  if (Status opened = scene->open(asset, uses); !opened) return opened.error();
+  scene->uses_ = uses;
+  if (Status opened = scene->open(asset); !opened) return opened.error();
 
   // An instance may exist before its asset is ready: it appears once it is.
   FrothInstanceInfo instanceInfo{};
@@ -35,11 +36,16 @@ Result<std::unique_ptr<Scene>> Scene::create(FrothContextInfo info, const std::s
   return scene;
 }
 
-Status Scene::open(const std::string& asset, const SceneUses& uses) {
+FrothAssetInfo Scene::assetInfo() const {
   FrothAssetInfo info{};
   info.structSize = sizeof(info);
-  info.keepForQueries = uses.isQueried ? 1 : 0;
-  info.prepareRays = uses.prepareRays;
+  info.keepForQueries = uses_.isQueried ? 1 : 0;
+  info.prepareRays = uses_.prepareRays;
+  return info;
+}
+
+Status Scene::open(const std::string& asset) {
+  FrothAssetInfo info = assetInfo();
   FrothReader reader{};
   if (isUrl(asset)) {
     Result<std::unique_ptr<HttpReader>> http = HttpReader::open(asset, context_);
@@ -51,6 +57,21 @@ Status Scene::open(const std::string& asset, const SceneUses& uses) {
     info.path = asset.c_str();
   }
   return check(frothOpenAsset(context_, &info, &assetHandle_), "frothOpenAsset");
+}
+
+Status Scene::replace(const std::string& path) {
+  FrothAssetInfo info = assetInfo();
+  info.path = path.c_str();
+  return check(frothReplaceAsset(context_, assetHandle_, &info), "frothReplaceAsset");
+}
+
+Result<FrothReplacementStatus> Scene::replacement() const {
+  FrothReplacementStatus status{};
+  status.structSize = sizeof(status);
+  if (Status asked = check(frothGetReplacement(context_, assetHandle_, &status), "frothGetReplacement"); !asked) {
+    return asked.error();
+  }
+  return status;
 }
 
 Scene::~Scene() {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "froth/froth_replace.h"
 #include "froth/froth_stream.h"
 #include "froth/froth_walk.h"
 #include "host/camera_path.h"
@@ -36,6 +37,10 @@ class Scene {
   // Records the images of `info`; size and near limits are filled in. Nothing is drawn before the asset is ready.
   Status draw(VkCommandBuffer commands, Method method, FrothRenderInfo info);
 
+  // Once the asset is ready: another file takes its place, which is drawn until that file is loaded (froth_replace.h).
+  Status replace(const std::string& path);
+  Result<FrothReplacementStatus> replacement() const;
+
   bool isReady() const { return asset_.state == FROTH_ASSET_READY; }
   const FrothAssetStatus& assetStatus() const { return asset_; }
   const FrothFrameStatus& frameStatus() const { return frame_; }
@@ -57,9 +62,11 @@ class Scene {
 
  private:
   Scene() = default;
-  Status open(const std::string& asset, const SceneUses& uses);
+  Status open(const std::string& asset);
+  FrothAssetInfo assetInfo() const;  // without bytes
   Status countLevels();
 
+  SceneUses uses_;
   FrothContext* context_ = nullptr;
   std::unique_ptr<HttpReader> http_;  // of a URL
   FrothAsset assetHandle_{};

@@ -11,6 +11,7 @@
 #include "reference/image/metrics.h"
 #include "tool/commands.h"
 #include "tool/options.h"
+#include "tool/photo_image.h"
 #include "tool/view_output.h"
 #include "trainer/loop/evaluate.h"
 #include "trainer/photos/photo_order.h"
@@ -48,16 +49,6 @@ Result<std::vector<Photo>> readChosen(const EvaluateOptions& options, const Prog
     capture->views = std::move(tests);
   }
   return readPhotos(capture->views, options.photos, progress);
-}
-
-// Over black, 3 channels; black where a mask ignores the pixel.
-Image imageOf(const Photo& photo) {
-  Image image{photo.view.width, photo.view.height, 3, std::vector<float>(photo.rgba.size() / 4 * 3)};
-  for (size_t i = 0; i < photo.rgba.size() / 4; ++i) {
-    if (!photo.counted.empty() && !photo.counted[i]) continue;
-    for (size_t c = 0; c < 3; ++c) image.values[3 * i + c] = static_cast<float>(photo.rgba[4 * i + c]) / 255;
-  }
-  return image;
 }
 
 Result<PhotoErrors> compareWith(const Photo& photo, Image drawn) {

@@ -13,6 +13,7 @@
 #include "tool/options.h"
 #include "tool/train_presets.h"
 #include "tool/training_log.h"
+#include "tool/training_page.h"
 #ifdef FROTH_HAS_CUDA
 #include "trainer/cuda/cuda_executor.h"
 #endif
@@ -22,12 +23,13 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kLinesByDefault = 20;
+constexpr uint32_t kMeasuredByDefault = 20;  // times in a run
 
 struct TrainCommandOptions {
-  std::filesystem::path scene, output, log, refined;
+  std::filesystem::path scene, output, log, page, refined;
   std::string preset = trainPresets().front().name;
   std::optional<uint32_t> steps, cells, startCells, measureEvery;  // go before the preset's
+  double minutes = 0;                                              // 0: by steps
   TrainOptions train;
   bool isPremultiplied = false, isOutdoor = false;
   std::string device;  // cpu, cuda; empty: cuda where there is one
@@ -51,7 +53,7 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
   }
   if (options.figures.wantsTable()) {
     fmt::print("{}: {} cells from {} photos, {} steps in {:.1f} s\n", options.output.string(), result.foam.cellCount,
-               set.training.size(), options.train.schedule.steps - result.firstStep, seconds);
+               set.training.size(), result.stepsDone - result.firstStep, seconds);
     if (!result.testPsnrs.empty()) {
       fmt::print("PSNR of {} test photos: {:.2f} dB\n", result.testPsnrs.size(), meanPsnr(result.testPsnrs));
     }
@@ -67,7 +69,7 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
                                 {"photos", set.training.size()},
                                 {"matchedPoints", set.matchedPoints},
                                 {"firstStep", result.firstStep},
-                                {"steps", options.train.schedule.steps},
+                                {"steps", result.stepsDone},
                                 {"seconds", seconds},
                                 {"droppedContributions", result.droppedCount},
                                 {"psnr", meanPsnr(result.testPsnrs)},
@@ -80,36 +82,37 @@ void setSchedule(TrainCommandOptions& options, const Foam* refined) {
   TrainOptions& train = options.train;
   Schedule& schedule = train.schedule;
   schedule.steps = options.steps.value_or(preset.steps);
+  schedule.seconds = 60 * options.minutes;
   schedule.mostCells = options.cells.value_or(refined != nullptr ? refined->cellCount : preset.cells);
   schedule.startCells = options.startCells.value_or(options.cells ? 0 : preset.startCells);
   schedule.preset = options.isOutdoor ? RatePreset::kOutdoor : RatePreset::kIndoor;
   train.photos.isMaskAlpha |= preset.isMaskAlpha;
-  train.measureEvery = options.measureEvery.value_or(std::max(schedule.steps / kLinesByDefault, 1u));
+  train.measureEvery = options.measureEvery.value_or(0);
+  train.measureTimes = options.measureEvery ? 0 : kMeasuredByDefault;
   train.refined = refined;
 }
 
-// Lines on the way: in the terminal, and in the log if there is one.
-Status logWhenMeasured(TrainCommandOptions& options, TrainingLog& log, ProgressPrinter& printer) {
-  if (!options.log.empty()) {
-    if (Status opened = log.open(options.log, options.train.isResumed); !opened) return opened;
+// Fails before the long work where its results could not be written.
+Status openOutputs(const TrainCommandOptions& options, TrainingLog& log) {
+  if (Status writable = checkWritable(options.output); !writable) return writable;
+  if (!options.page.empty()) {
+    if (Status writable = checkWritable(options.page); !writable) return writable;
   }
-  const uint32_t steps = options.train.schedule.steps;
-  const bool wantsLines = options.figures.wantsTable(), hasLog = !options.log.empty();
-  options.train.whenMeasured = [&log, &printer, steps, wantsLines, hasLog](const TrainingMoment& moment) -> Status {
-    if (wantsLines) {
-      printer.finishLine();
-      fmt::print("{} of {} steps: {:.2f} dB, {} cells, {:.1f} s\n", moment.stepsDone, steps, moment.psnr, moment.cells,
-                 moment.seconds);
-      std::fflush(stdout);
-    }
-    return hasLog ? log.write(moment) : Status{};
-  };
-  return {};
+  return options.log.empty() ? Status{} : log.open(options.log, options.train.isResumed);
+}
+
+void printMoment(const TrainingMoment& moment, const Schedule& schedule) {
+  const std::string steps = schedule.seconds > 0 ? "" : fmt::format(" of {}", schedule.steps);
+  const std::string seconds = schedule.seconds > 0 ? fmt::format(" of {:.1f}", schedule.seconds) : "";
+  fmt::print("{}{} steps: {:.2f} dB, {} cells, {:.1f}{} s\n", moment.stepsDone, steps, moment.psnr, moment.cells,
+             moment.seconds, seconds);
+  std::fflush(stdout);
 }
 
 Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
   const Progress progress = printer.callback();
-  if (Status writable = checkWritable(options.output); !writable) return writable;
+  TrainingLog log;
+  if (Status opened = openOutputs(options, log); !opened) return opened;
   std::optional<Foam> refined;
   if (!options.refined.empty()) {
     Result<Foam> foam = importCheckpoint(options.refined, progress);
@@ -117,8 +120,6 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
     refined = std::move(*foam);
   }
   setSchedule(options, refined ? &*refined : nullptr);
-  TrainingLog log;
-  if (Status opened = logWhenMeasured(options, log, printer); !opened) return opened;
   options.train.state = options.output;
   options.train.state.replace_extension(".state.bin");
   options.train.photos.alpha = options.isPremultiplied ? AlphaForm::kPremultiplied : AlphaForm::kStraight;
@@ -128,6 +129,18 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
   if (!capture) return capture.error();
   const Result<TrainingSet> set = prepareTraining(*capture, options.train, progress);
   if (!set) return set.error();
+  TrainingPage page(options.page, options.output.string());
+  options.train.whenMeasured = [&](const TrainingMoment& moment) -> Status {
+    if (options.figures.wantsTable()) {
+      printer.finishLine();
+      printMoment(moment, options.train.schedule);
+    }
+    if (!options.log.empty()) {
+      if (Status written = log.write(moment); !written) return written;
+    }
+    return options.page.empty() ? Status{} : page.write(moment, *set);
+  };
+  options.train.whenShown = [&](const Foam& foam) { return exportCheckpoint(options.output, foam); };
   const auto begin = std::chrono::steady_clock::now();
   const Result<TrainResult> result = trainScene(*capture, *set, options.train, *makeExecutor, progress);
   if (!result) return result.error();
@@ -157,7 +170,13 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
   command
       .add_option("--start-cells", options->startCells, "Cells to begin with; where --cells is given, a quarter of it")
       ->check(countBetween(1, 1u << 30));
-  command.add_option("--steps", options->steps, "Steps, one photo each")->check(countBetween(1, 10000000));
+  CLI::Option* steps =
+      command.add_option("--steps", options->steps, "Steps, one photo each")->check(countBetween(1, 10000000));
+  command
+      .add_option("--minutes", options->minutes,
+                  "As many steps as take so long, in place of --steps: rates, sizes and cells follow the time")
+      ->check(numberBetween(1e-3, 1e6))
+      ->excludes(steps);
   command.add_option("--refine", options->refined, "Goes on from this foam, with its K and M, at low rates");
   command.add_option("--detail-sites", options->train.detailCount, "Per cell")->check(countBetween(1, 32));
   command.add_option("--lobes", options->train.lobeCount, "Per detail site")->check(countBetween(1, 32));
@@ -168,9 +187,15 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
       ->check(countBetween(0, 1000000));
   command
       .add_option("--measure-every", options->measureEvery,
-                  "Steps between two looks at the test photos; 0: at the end alone; default: a twentieth of the steps")
+                  "Steps between two looks at the test photos; 0: at the end alone; default: 20 looks in a run")
       ->check(countBetween(0, 10000000));
   command.add_option("--log", options->log, "What each look found, as lines of JSON");
+  command.add_option("--page", options->page, "What the looks found, as a page (HTML): curves, and test photos");
+  command
+      .add_option(
+          "--show-every", options->train.showEvery,
+          "Steps between two foams on the way, in the place of the last; `froth_flythrough --follow` shows them")
+      ->check(countBetween(1, 10000000));
   command.add_option("--seed", options->train.seed, "Of all random choices");
   command.add_option("--save-every", options->train.saveEvery, "Steps between two saved states")
       ->check(countBetween(1, 10000000));

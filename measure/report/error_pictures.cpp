@@ -5,6 +5,7 @@
 
 #include "base/image/formats.h"
 #include "measure/report/report.h"
+#include "measure/report/shrink_image.h"
 #include "reference/image/flip.h"
 
 namespace froth {
@@ -81,24 +82,6 @@ void pasteCrop(Image& strip, uint32_t left, const Image& image, const Square& sq
   }
 }
 
-// Means over squares of pixels, whole ones alone, so many that the width is bounded.
-Image shrinkMap(const Image& map) {
-  const uint32_t factor = (map.width + kMapWidth - 1) / kMapWidth;
-  if (factor == 1 || map.height < factor) return map;
-  Image small{map.width / factor, map.height / factor, 3, {}};
-  for (uint32_t y = 0; y < small.height; ++y) {
-    for (size_t i = 0; i < size_t{small.width} * 3; ++i) {
-      const auto x = static_cast<uint32_t>(i / 3);
-      float sum = 0;
-      for (uint32_t part = 0; part < factor * factor; ++part) {
-        sum += map.pixel(x * factor + part % factor, y * factor + part / factor)[i % 3];
-      }
-      small.values.push_back(sum / static_cast<float>(factor * factor));
-    }
-  }
-  return small;
-}
-
 Result<ReportImage> makePicture(std::string title, std::string caption, const Image& image) {
   Result<std::vector<uint8_t>> png = encodePng(image, title);
   if (!png) return png.error();
@@ -123,7 +106,7 @@ Result<std::vector<ReportImage>> picturesOfError(const std::string& title, const
   const Square square = squareAround(a, worstX, worstY);
   Image map = colourErrorMap(flip->map);
   paintFrame(map, square.x, square.y, square.side, 4);
-  map = shrinkMap(map);
+  map = shrinkToWidth(map, kMapWidth);
 
   const float gain = gainFor(a, b, square);
   const uint32_t side = square.side * kZoom;

@@ -6,6 +6,7 @@
 
 #include "host/frame_files.h"
 #include "samples/flythrough/cameras_json.h"
+#include "samples/flythrough/foam_follower.h"
 #include "samples/flythrough/stream_report.h"
 
 namespace froth {
@@ -33,11 +34,28 @@ Status settle(Host& host, Scene& scene, const RecordFrame& record) {
       kMostIdleFrames);
 }
 
+// Waits for the next foam, and shows it.
+Status showNext(Host& host, Scene& scene, FoamFollower& follower) {
+  if (Status baked = follower.waitForAsset(); !baked) return baked;
+  if (Status begun = scene.replace(follower.asset()); !begun) return begun;
+  while (true) {
+    const Status loaded = submitFrame(host, scene, [](VkCommandBuffer, uint64_t) { return Status(); });
+    if (!loaded) return loaded;
+    const Result<FrothReplacementStatus> status = scene.replacement();
+    if (!status) return status.error();
+    if (status->state == FROTH_REPLACEMENT_FAILED) return scene.check(status->error, "frothReplaceAsset");
+    if (status->state == FROTH_REPLACEMENT_DONE) return {};
+  }
+}
+
 Status flyPath(Host& host, Scene& scene, Painter& painter, const CameraPath& path, const FlythroughOptions& options) {
   FrameFiles files(options);
   StreamReport report(options, scene.levelCount());
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     const double share = options.frames > 1 ? static_cast<double>(frame) / (options.frames - 1) : 0.0;
+    if (options.follower && frame > 0) {
+      if (Status shown = showNext(host, scene, *options.follower); !shown) return shown;
+    }
     StreamFigures figures;
     const auto record = [&](VkCommandBuffer commands, uint64_t) -> Status {
       Result<StreamFigures> read = readFigures(scene);

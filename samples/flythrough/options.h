@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/command_line.h"
+#include "samples/flythrough/foam_follower.h"
 #include "samples/flythrough/painter.h"
 #include "samples/flythrough/streaming.h"
 
@@ -12,7 +13,8 @@ namespace froth {
 
 struct FlythroughOptions : RunOptions {
   std::string asset;
-  std::filesystem::path cameras;  // empty: what the asset has stored
+  FoamFollower* follower = nullptr;  // --follow: what it bakes takes the place of its first asset; null: none
+  std::filesystem::path cameras;     // empty: what the asset has stored
   Picture picture = Picture::kRaster;
   StreamSettings streaming;
   bool isSettled = false;        // headless: frames wait until what is wanted is drawn

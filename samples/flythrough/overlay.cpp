@@ -46,6 +46,7 @@ void Overlay::layOut(const OverlayContent& content, VkExtent2D extent) {
   if (content.asset.state == FROTH_ASSET_OPENING) {
     ImGui::Text("loading, %.1f MiB to go", static_cast<double>(content.frame.uploadBytesQueued) / kMebi);
   }
+  if (!content.followed.empty()) ImGui::TextUnformatted(content.followed.c_str());
   history_.add(content.view.serial, {content.view.passes, content.view.passCount});
   layOutPassTimes(history_);
   ImGui::Separator();

@@ -1,6 +1,8 @@
 // What the overlay tells: what Froth did in the newest complete frames, and the keys.
 #pragma once
 
+#include <string>
+
 #include "host/pass_history.h"
 #include "host/scene.h"
 
@@ -14,6 +16,7 @@ struct OverlayContent {
   FrothFrameStatus frame{};
   FrothViewStatus view{};
   bool hasLevels = false;
+  std::string followed;  // how --follow goes; empty: without
 };
 
 class Overlay {

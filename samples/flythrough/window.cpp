@@ -41,6 +41,8 @@ class Flythrough : public WindowClient {
   void steer(double seconds);
   Pose currentPose() const;
   Status holdTime(uint64_t serial);
+  Status follow();
+  std::string followed() const;
   void layOutLevels();
   bool hasLevels() const { return scene_->levelCount() > 1; }
 
@@ -61,6 +63,8 @@ class Flythrough : public WindowClient {
   bool isStreamingNew_ = true;  // not applied yet
   bool isOnPath_ = true, isOverlayShown_ = true;
   Status screenshot_;
+  bool isReplacing_ = false;  // --follow: the newest asset is loading
+  std::string replacementFault_;
 };
 
 Flythrough::~Flythrough() {
@@ -109,6 +113,33 @@ Status Flythrough::holdTime(uint64_t serial) {
   Status stepped = scene_->check(frothStepQuality(&info, &times, &quality_), "frothStepQuality");
   if (stepped) painter_->setQuality(quality_);
   return stepped;
+}
+
+// What the foam's newest bake gave takes the place of what is shown. Another bake waits until it is loaded, for it
+// would replace the file.
+Status Flythrough::follow() {
+  if (!options_.follower || !scene_->isReady()) return {};
+  if (isReplacing_) {
+    const Result<FrothReplacementStatus> status = scene_->replacement();
+    if (!status) return status.error();
+    isReplacing_ = status->state == FROTH_REPLACEMENT_LOADING;
+    const bool hasFailed = status->state == FROTH_REPLACEMENT_FAILED;
+    replacementFault_ = hasFailed ? frothResultName(status->error) : "";
+    return {};
+  }
+  const Result<FoamFollower::News> news = options_.follower->poll();
+  if (!news) return news.error();
+  if (*news != FoamFollower::News::kBaked) return {};
+  isReplacing_ = true;
+  return scene_->replace(options_.follower->asset());
+}
+
+std::string Flythrough::followed() const {
+  if (!options_.follower) return "";
+  const std::string& fault = options_.follower->fault();
+  if (!fault.empty()) return "the last foam stays: " + fault;
+  if (!replacementFault_.empty()) return "the last foam stays: " + replacementFault_;
+  return isReplacing_ ? "a new foam is loading" : options_.follower->isBaking() ? "a new foam is baked" : "newest foam";
 }
 
 Status Flythrough::startFlight() {
@@ -176,6 +207,7 @@ void Flythrough::layOut() {
   content.frame = scene_->frameStatus();
   if (const Result<FrothViewStatus> view = scene_->viewStatus()) content.view = *view;
   content.hasLevels = hasLevels();
+  content.followed = followed();
   overlay_.layOut(content, window_->extent());
   if (hasLevels()) layOutLevels();
 }
@@ -196,6 +228,7 @@ Status Flythrough::record(VkCommandBuffer commands, const FrameRing& frames) {
   if (!path_ && scene_->isReady()) {
     if (Status started = startFlight(); !started) return started;
   }
+  if (Status followed = follow(); !followed) return followed;
   if (Status held = holdTime(frames.nextSerial()); !held) return held;
   return painter_->record(commands, *scene_, shown_, currentPose(), VK_PIPELINE_STAGE_2_BLIT_BIT);
 }

@@ -66,8 +66,8 @@ class WatchedExecutor : public StepExecutor {
   Status read(FoamStorage<float>& foam) override { return executor_.read(foam); }
   Status beginAnew() override { return executor_.beginAnew(); }
   uint32_t cellCount() const override { return executor_.cellCount(); }
-  Result<std::vector<double>> psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) override {
-    return executor_.psnrs(photos, adam);
+  Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) override {
+    return executor_.show(view, adam, image);
   }
   Result<uint64_t> droppedCount() override { return executor_.droppedCount(); }
 

@@ -115,6 +115,16 @@ TEST_F(Browser, ShowsItOnDarkPaperToo) {
   EXPECT_GT(pixelsOf(*image, 0x6c, 0xb0, 0xff), 500u);
 }
 
+TEST_F(Browser, ShowsATrainingRun) {
+  const fs::path page = writePage("training.html", trainingAsHtml(test::makeSampleTraining(1))),
+                 picture = kFolder / "training.png";
+  EXPECT_EQ(openPage(page, picture, 1000), "");
+  const Result<Image> image = readImage(picture);
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_GT(pixelsOf(*image, 0x0b, 0x63, 0xce), 500u);  // the curves
+  EXPECT_GT(drawnShare(*image, 600, 750), 0.5);         // the photos
+}
+
 // The checks above can fail: errors and loads from elsewhere are seen.
 TEST_F(Browser, WouldHaveShownErrorsAndLoads) {
   const fs::path picture = kFolder / "planted.png";

@@ -129,6 +129,46 @@ TEST(ReportHtml, SaysWhatIsATie) {
   EXPECT_NE(html.find("ties with it in time"), std::string::npos);
 }
 
+// Tags, and nothing that is loaded from elsewhere.
+TEST(TrainingHtml, IsAPageOfItsOwn) {
+  const TrainingReport report = test::makeSampleTraining(0.4);
+  const std::string html = trainingAsHtml(report);
+  EXPECT_EQ(firstUnbalanced(html), "");
+  EXPECT_EQ(html.find("url("), std::string::npos);
+  const std::regex sources(" (?:src|href)=\"([^\"]{0,5})");
+  for (std::sregex_iterator it(html.begin(), html.end(), sources), end; it != end; ++it) EXPECT_EQ((*it)[1], "data:");
+  EXPECT_NE(html.find("1200 steps in 432 s, 40 % of the schedule"), std::string::npos);
+  EXPECT_NE(html.find("aria-label=\"PSNR [dB] over seconds\""), std::string::npos);
+  EXPECT_NE(html.find("aria-label=\"cells over seconds\""), std::string::npos);
+}
+
+TEST(TrainingHtml, IsLoadedAgainAsLongAsTheRunGoesOn) {
+  EXPECT_NE(trainingAsHtml(test::makeSampleTraining(0.99)).find("http-equiv=\"refresh\""), std::string::npos);
+  EXPECT_EQ(trainingAsHtml(test::makeSampleTraining(1)).find("http-equiv=\"refresh\""), std::string::npos);
+}
+
+TEST(TrainingHtml, WithoutTestPhotosHasNoCurveOfThem) {
+  TrainingReport report = test::makeSampleTraining(1);
+  report.pictures.clear();
+  for (TrainingPoint& point : report.points) point.psnr = 0;
+  report.title = "<script>";
+  const std::string html = trainingAsHtml(report);
+  EXPECT_EQ(firstUnbalanced(html), "");
+  EXPECT_EQ(html.find("PSNR"), std::string::npos);
+  EXPECT_EQ(html.find("<img"), std::string::npos);
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+}
+
+TEST(TrainingHtml, ShrinksPhotosToFitBesideEachOther) {
+  const TrainingReport report = test::makeSampleTraining(1);
+  const Result<Image> pair = decodePng(report.pictures[0].png, "pair");
+  ASSERT_TRUE(pair) << pair.error().message;
+  EXPECT_EQ(pair->width, 400u + 8 + 400);  // a third of 1200: at most 480
+  EXPECT_EQ(pair->height, 266u);
+  EXPECT_NEAR(pair->pixel(200, 100)[1], 0.5, 0.01);
+  EXPECT_NEAR(pair->pixel(608, 100)[1], 0.4, 0.01);
+}
+
 TEST(ErrorPictures, FrameTheWorstPixelAndStayWithinTheImage) {
   Image reference{60, 50, 3, std::vector<float>(60 * 50 * 3, 0.5f)}, image = reference;
   image.pixel(59, 0)[1] = 0.6f;

@@ -368,4 +368,19 @@ Report makeSampleReport() {
   return report;
 }
 
+TrainingReport makeSampleTraining(double position) {
+  TrainingReport report;
+  report.title = "fox.pt";
+  report.position = position;
+  for (uint32_t i = 1; i <= 12; ++i) report.points.push_back({100 * i, 3.0 * i * i, 10000 + 900 * i, 27 - 9.0 / i});
+  Image photo{1200, 800, 3, {}}, shown{1200, 800, 3, {}};
+  for (size_t i = 0; i < size_t{1200} * 800; ++i) {
+    const auto shade = static_cast<float>(i % 1200) / 1200;
+    photo.values.insert(photo.values.end(), {shade, 0.5f, 0.2f});
+    shown.values.insert(shown.values.end(), {shade, 0.4f, 0.2f});
+  }
+  report.pictures.push_back(*makePair("room/a.jpg", "21.50 dB", photo, shown));
+  return report;
+}
+
 }  // namespace froth::test

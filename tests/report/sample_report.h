@@ -2,10 +2,11 @@
 // rule.
 #pragma once
 
-#include "measure/report/report.h"
+#include "measure/report/training_html.h"
 
 namespace froth::test {
 
 Report makeSampleReport();
+TrainingReport makeSampleTraining(double position);  // with a pair of pictures
 
 }  // namespace froth::test

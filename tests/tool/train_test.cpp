@@ -1,6 +1,8 @@
 // froth train: from photos on disk to a foam that bakes.
 #include <sstream>
 
+#include <fmt/format.h>
+
 #include "tests/tool/shots_fixture.h"
 
 namespace froth::test {
@@ -36,7 +38,7 @@ TEST_F(Train, MakesAFoamThatBakesAndGoesOnFromItsState) {
 TEST_F(Train, LogsWhatItMeasuresAndRefines) {
   makeShots();
   std::vector<std::string> logged = trainCommand();
-  logged.insert(logged.end(), {"--log", "log.jsonl", "--measure-every", "10"});
+  logged.insert(logged.end(), {"--log", "log.jsonl", "--page", "page.html", "--measure-every", "10"});
   const nlohmann::json figures = frothJson(logged);
   std::istringstream lines(readBytes(folder_ / "log.jsonl"));
   std::vector<nlohmann::json> moments;
@@ -45,6 +47,10 @@ TEST_F(Train, LogsWhatItMeasuresAndRefines) {
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(moments[i]["steps"], 10 * (i + 1));
   EXPECT_EQ(moments[2]["psnr"], figures["psnr"]);
   EXPECT_EQ(moments[2]["cells"], figures["cells"]);
+  const std::string page = readBytes(folder_ / "page.html");
+  EXPECT_NE(page.find("30 steps in"), std::string::npos);
+  EXPECT_NE(page.find("<b>shot_0.png</b> " + fmt::format("{:.2f} dB", figures["psnr"].get<double>())),
+            std::string::npos);
 
   const nlohmann::json refined =
       frothJson({"train", "shots", "-o", "refined.pt", "--refine", "trained.pt", "--steps", "10"});
@@ -52,6 +58,18 @@ TEST_F(Train, LogsWhatItMeasuresAndRefines) {
   EXPECT_GT(refined["psnr"].get<double>(), figures["psnr"].get<double>() - 0.3);
   EXPECT_EQ(froth({"train", "shots", "-o", "b.pt", "--refine", "shots/transforms.json"}).exitCode, 3);
   EXPECT_EQ(froth({"train", "shots", "-o", "b.pt", "--log", "none/log.jsonl"}).exitCode, 1);
+  EXPECT_EQ(froth({"train", "shots", "-o", "b.pt", "--page", "none/page.html"}).exitCode, 1);
+}
+
+TEST_F(Train, FitsIntoMinutes) {
+  makeShots();
+  std::vector<std::string> timed{"train", "shots",          "-o", "timed.pt", "--cells", "200",       "--lobes",
+                                 "1",     "--detail-sites", "1",  "--device", "cpu",     "--minutes", "0.01"};
+  const nlohmann::json figures = frothJson(timed);
+  EXPECT_GT(figures["steps"], 0);
+  EXPECT_EQ(frothJson({"info", "timed.pt"})["cells"], figures["cells"]);
+  timed.insert(timed.end(), {"--steps", "30"});
+  EXPECT_EQ(froth(timed).exitCode, 2);
 }
 
 TEST_F(Train, SaysWhatIsWrong) {

@@ -27,7 +27,8 @@ TEST_P(AdamOf, ParametersThatWaitEqualsDenseAdam) {
   std::mt19937_64 random(3);
   const auto parameter = Parameter::kLobeAxes;
   const auto index = static_cast<size_t>(parameter);
-  DriftTables drifts(schedule);
+  const Pace pace(schedule);
+  DriftTables drifts(pace);
   FoamStorage<float> storage;  // of one cell, which waits
   resizeStorage(storage, {1, 1, 1});
   const TrainedFoam<float> foam = viewStorage(storage);
@@ -39,7 +40,8 @@ TEST_P(AdamOf, ParametersThatWaitEqualsDenseAdam) {
     const bool isShown = random() % 9 == 0 && !(step > 400 && step < 1000);  // among others 600 steps long not
     const double gradient = isShown ? GetParam().gradient * std::normal_distribution<double>(1)(random) : 0.0;
     const double correction = std::sqrt(1 - std::pow(0.999, step + 1)) / (1 - std::pow(0.9, step + 1));
-    updateValue<double>(denseValue, denseFirst, denseSecond, gradient, rateAt(schedule, parameter, step) * correction,
+    updateValue<double>(denseValue, denseFirst, denseSecond, gradient,
+                        rateAt(schedule, parameter, pace.positionAt(step)) * correction,
                         1e-15 * std::sqrt(1 - std::pow(0.999, step + 1)));
     if (!isShown) continue;
     TrainedCell<float>(foam, adam, 0).part(parameter).update(0, static_cast<float>(gradient));
@@ -60,20 +62,19 @@ TEST(Adam, RateOfTheFirstStepObeysTheWarmUp) {
   EXPECT_EQ(rateAt(schedule, Parameter::kDensity, 0), 0);
   EXPECT_EQ(rateAt(schedule, Parameter::kRadii, 0), 0);
   EXPECT_EQ(rateAt(schedule, Parameter::kPoints, 0), 1e-3);
-  EXPECT_NEAR(rateAt(schedule, Parameter::kPoints, schedule.steps), 5e-5, 1e-12);
-  EXPECT_EQ(rateAt(schedule, Parameter::kDensity, schedule.steps / 2), 1);
+  EXPECT_NEAR(rateAt(schedule, Parameter::kPoints, 1), 5e-5, 1e-12);
+  EXPECT_EQ(rateAt(schedule, Parameter::kDensity, 0.5), 1);
 }
 
 TEST(Adam, ARefinementHasTheRatesOfTheSecondHalf) {
   const Schedule whole;
   Schedule refinement = whole;
-  refinement.steps = whole.steps / 2;
   refinement.isRefinement = true;
-  for (const uint32_t step : {1000u, refinement.steps}) {
+  for (const double position : {0.2, 1.0}) {
     for (const Parameter parameter : {Parameter::kPoints, Parameter::kRadii, Parameter::kDetailHeights}) {
-      EXPECT_NEAR(rateAt(refinement, parameter, step) / rateAt(whole, parameter, refinement.steps + step), 1, 1e-12);
+      EXPECT_NEAR(rateAt(refinement, parameter, position) / rateAt(whole, parameter, 0.5 + 0.5 * position), 1, 1e-12);
     }
-    EXPECT_EQ(halvingsAt(refinement, step), 0u);
+    EXPECT_EQ(halvingsAt(refinement, position), 0u);
   }
   EXPECT_EQ(rateAt(refinement, Parameter::kPoints, 0), 0);
   EXPECT_EQ(halvingsAt(refinement, 0), 0u);

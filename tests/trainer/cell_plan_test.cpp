@@ -131,14 +131,13 @@ TEST_F(CellPlanOf, CountsTheBallsThatOverlap) {
 
 TEST(Schedule, ReachesTheCellsThatAreWanted) {
   Schedule schedule;
-  schedule.steps = 30000;
   schedule.startCells = 100000;
   schedule.mostCells = 500000;
-  EXPECT_EQ(cellsAfter(schedule, 99, 98765), 98765u);
-  EXPECT_EQ(cellsAfter(schedule, 24000, 1), 500000u);
-  EXPECT_EQ(cellsAfter(schedule, 28499, 1), 500000u);
-  EXPECT_TRUE(isDensifyStep(schedule, 28499));
-  EXPECT_FALSE(isDensifyStep(schedule, 28599));
+  EXPECT_EQ(cellsAfter(schedule, 99 / 30000.0, 98765), 98765u);
+  EXPECT_EQ(cellsAfter(schedule, 24000 / 30000.0, 1), 500000u);
+  EXPECT_EQ(cellsAfter(schedule, 28499 / 30000.0, 1), 500000u);
+  EXPECT_TRUE(isDensifyStep(schedule, 28499, 28499 / 30000.0));
+  EXPECT_FALSE(isDensifyStep(schedule, 28599, 28599 / 30000.0));
 }
 
 }  // namespace

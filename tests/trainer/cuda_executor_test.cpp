@@ -41,6 +41,7 @@ class CudaExecutorOf : public ::testing::Test {
   FoamStorage<float> foam_;
   std::vector<Photo> photos_{makePhoto({0.5, 0.4, -3}), makePhoto({-3, 0.4, 0.3})};
   Schedule schedule_;
+  Pace pace_{schedule_};
 };
 
 double relativeDifference(const std::vector<float>& expected, const std::vector<float>& found) {
@@ -88,9 +89,9 @@ TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpu) {
   CpuExecutor cpu(foam_, photos_);
   Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
   ASSERT_TRUE(gpu) << gpu.error().message;
-  DriftTables drifts(schedule_);
+  DriftTables drifts(pace_);
   for (uint32_t step = 0; step < 3; ++step) {
-    const StepPlan plan{step % 2, step % 2, drifts.adamAt(step), weightsAt(schedule_, step), 1e-2f};
+    const StepPlan plan{step % 2, step % 2, drifts.adamAt(step), weightsAt(schedule_, pace_.positionAt(step)), 1e-2f};
     ASSERT_TRUE(cpu.run(plan));
     ASSERT_TRUE((*gpu)->run(plan));
     FoamStorage<float> expected, found;
@@ -113,7 +114,7 @@ TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpu) {
 TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
   ASSERT_TRUE(gpu) << gpu.error().message;
-  DriftTables drifts(schedule_);
+  DriftTables drifts(pace_);
   ASSERT_TRUE((*gpu)->run({0, 0, drifts.adamAt(0), weightsAt(schedule_, 0), 1e-2f}));
   FoamStorage<float> before, after;
   ASSERT_TRUE((*gpu)->read(before));
@@ -135,7 +136,7 @@ TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   EXPECT_EQ(after.lastSteps, expected.lastSteps);
   EXPECT_EQ(after.contributions, expected.contributions);
   EXPECT_EQ(after.errors, expected.errors);
-  EXPECT_TRUE((*gpu)->run({1, 0, drifts.adamAt(1), weightsAt(schedule_, 1), 1e-2f}));
+  EXPECT_TRUE((*gpu)->run({1, 0, drifts.adamAt(1), weightsAt(schedule_, pace_.positionAt(1)), 1e-2f}));
 }
 
 }  // namespace

@@ -104,7 +104,8 @@ class CudaStepAfterAWait : public ::testing::TestWithParam<Case> {
 
   static constexpr uint32_t kFirst = 1000, kSteps = 6, kWaited = 30;  // rates are past their warm-up
   Schedule schedule_;
-  DriftTables drifts_{schedule_};
+  Pace pace_{schedule_};
+  DriftTables drifts_{pace_};
 };
 
 TEST_P(CudaStepAfterAWait, EqualsTheCpuUpToRounding) {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "tests/reference/scenes.h"
 #include "trainer/cpu/foam_exchange.h"
@@ -14,7 +16,7 @@ namespace {
 class StateFile : public ::testing::Test {
  protected:
   StateFile() : path_(std::filesystem::path(::testing::TempDir()) / "froth_state_test.bin") {
-    state_.stepsDone = 123;
+    state_.seconds = {0, 0.5, 0.5, 7};
     state_.settings = "steps 500";
     state_.foam = storeFoam<float>(randomFoam(20, 3, 2, 1));
     state_.foam.secondMoments[5][7] = 1e-30f;
@@ -31,7 +33,7 @@ class StateFile : public ::testing::Test {
 TEST_F(StateFile, ComesBackBitForBit) {
   const Result<TrainingState> read = readState(path_);
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->stepsDone, 123u);
+  EXPECT_EQ(read->seconds, state_.seconds);
   EXPECT_EQ(read->settings, state_.settings);
   EXPECT_EQ(read->foam.values, state_.foam.values);
   EXPECT_EQ(read->foam.firstMoments, state_.foam.firstMoments);
@@ -48,6 +50,25 @@ TEST_F(StateFile, CutAnywhereIsRefused) {
     const Result<TrainingState> read = readState(path_);
     ASSERT_FALSE(read) << size;
     EXPECT_NE(read.error().message.find("froth_state_test.bin"), std::string::npos);
+  }
+}
+
+TEST_F(StateFile, OfVersion1TellsWhatToDo) {
+  std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(7);
+  file.put('1');
+  file.close();
+  const Result<TrainingState> read = readState(path_);
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("version 1"), std::string::npos) << read.error().message;
+}
+
+TEST_F(StateFile, WhoseTimeGoesBackIsRefused) {
+  for (const std::vector<double>& seconds :
+       {std::vector<double>{0, 3, 2}, {1, 2}, {0, std::nan(""), 2}, {0, 1e308 * 10}}) {
+    state_.seconds = seconds;
+    ASSERT_TRUE(writeState(path_, state_));
+    EXPECT_FALSE(readState(path_)) << seconds.size();
   }
 }
 

@@ -68,7 +68,8 @@ class Waiting : public ::testing::Test {
            second = before_.secondMoments[index][i];
     for (uint32_t number = kFirst + kShown; number < kFirst + kShown + kHidden; ++number) {
       const double root = std::sqrt(1 - std::pow(kBeta2, number + 1));
-      const double rate = rateAt(schedule_, parameter, number) * root / (1 - std::pow(kBeta1, number + 1));
+      const double rate =
+          rateAt(schedule_, parameter, pace_.positionAt(number)) * root / (1 - std::pow(kBeta1, number + 1));
       updateValue<double>(value, first, second, 0, rate, kEpsilon * root);
     }
     return value;
@@ -77,7 +78,8 @@ class Waiting : public ::testing::Test {
   const TrainingView<float> back_ = trainingView<float>(lookAt({-0.5, 0.2, 3}, {0, 0, 0}, kWidth, kHeight, 0.5));
   const TrainingView<float> front_ = trainingView<float>(lookAt({0.5, 0.4, -3}, {0, 0, 0}, kWidth, kHeight, 0.5));
   Schedule schedule_;
-  DriftTables drifts_{schedule_};
+  Pace pace_{schedule_};
+  DriftTables drifts_{pace_};
   FoamStorage<float> foam_, before_;
   CpuStep<float> step_{foam_};
   std::vector<uint32_t> hidden_;  // seen in all later steps and shown by no pixel, but shown just before

@@ -128,6 +128,32 @@ TEST_F(Resume, MeasuringOnTheWayChangesNoBits) {
   EXPECT_GT(moments.back().seconds, moments.front().seconds);
 }
 
+TEST_F(Resume, ShowingOnTheWayChangesNoBits) {
+  const Result<TrainResult> unshown = train("a.bin", false);
+  std::vector<Foam> foams;
+  options_.showEvery = 60;
+  options_.whenShown = [&](const Foam& foam) -> Status {
+    foams.push_back(foam);
+    return {};
+  };
+  const Result<TrainResult> shown = train("b.bin", false);
+  expectSame(unshown, shown);
+  ASSERT_EQ(foams.size(), 3u);
+  EXPECT_EQ(foams[0].cellCount, 300u);
+  EXPECT_GT(foams[2].cellCount, 300u);
+
+  // What is shown is what a run that ends there would give, but for the rates: the foam of the last step.
+  options_.showEvery = 229;
+  ASSERT_TRUE(train("c.bin", false));
+  ASSERT_EQ(foams.size(), 4u);
+  ASSERT_EQ(foams[3].cellCount, shown->foam.cellCount);
+  double distance = 0;
+  for (size_t i = 0; i < foams[3].sites.size(); ++i) {
+    distance = std::max(distance, double{glm::distance(foams[3].sites[i], shown->foam.sites[i])});
+  }
+  EXPECT_LT(distance, 0.01);
+}
+
 TEST_F(Resume, ARefinementBeginsWhereTheFoamIs) {
   options_.schedule.steps = 400;
   const Result<TrainResult> trained = train("trained.bin", false);

@@ -5,7 +5,6 @@
 
 #include "trainer/cpu/view_exchange.h"
 #include "trainer/loop/drift_tables.h"
-#include "trainer/loop/evaluate.h"
 
 namespace froth {
 
@@ -87,16 +86,6 @@ Status CudaExecutor::show(const View& view, const AdamStep<float>& adam, std::ve
     if (!isDone) return isDone.error();
     if (*isDone) return step_.downloadImage(image);
   }
-}
-
-Result<std::vector<double>> CudaExecutor::psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) {
-  std::vector<double> psnrs;
-  std::vector<glm::vec4> image;
-  for (const Photo& photo : photos) {
-    if (Status shown = show(photo.view, adam, image); !shown) return shown.error();
-    psnrs.push_back(psnrOf(photo, image));
-  }
-  return psnrs;
 }
 
 Status CudaExecutor::rearrange(const CellPlan& plan) { return step_.rearrange(plan); }

@@ -24,13 +24,11 @@ class CudaExecutor : public StepExecutor {
   Status rearrange(const CellPlan& plan) override;
   Result<CellFacts> facts() override;
   uint32_t cellCount() const override { return step_.cellCount(); }
-  Result<std::vector<double>> psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) override;
+  Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) override;
   Status read(FoamStorage<float>& foam) override;
   Status beginAnew() override { return {}; }
   Result<uint64_t> droppedCount() override;
 
-  // What a view sees of the foam: colour over black, transmittance. `adam` as for psnrs().
-  Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image);
   CudaStep& step() { return step_; }
   size_t byteCount() const { return step_.byteCount() + photos_.byteCount(); }  // of GPU memory
 

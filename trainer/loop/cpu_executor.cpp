@@ -5,7 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include "trainer/cpu/view_exchange.h"
-#include "trainer/loop/evaluate.h"
 #include "trainer/photos/reduce_photo.h"
 #include "trainer/step/crowds.h"
 
@@ -43,6 +42,7 @@ const CpuExecutor::PhotoTarget& CpuExecutor::targetOf(const StepPlan& plan) {
 }
 
 Status CpuExecutor::run(const StepPlan& plan) {
+  shown_.reset();
   const PhotoTarget& target = targetOf(plan);
   TrainingView<float> view = trainingView<float>(target.photo.view);
   if (!target.directions.empty()) view.directions = target.directions.data();
@@ -66,13 +66,22 @@ Status CpuExecutor::run(const StepPlan& plan) {
 }
 
 Status CpuExecutor::rearrange(const CellPlan& plan) {
+  shown_.reset();
   foam_ = froth::rearrange(foam_, plan);
   step_.forgetPairs();
   return {};
 }
 
-Result<std::vector<double>> CpuExecutor::psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) {
-  return photoPsnrs(foam_, photos, adam);
+Status CpuExecutor::show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) {
+  if (!shown_) {
+    shown_ = std::make_unique<CpuStep<float>>(foam_);
+    shown_->activate(0);
+  }
+  const std::vector<float> directions = lensDirections(view);
+  TrainingView<float> seen = trainingView<float>(view);
+  if (!directions.empty()) seen.directions = directions.data();
+  image = shown_->render(seen, PixelSettings<float>{}, adam);
+  return {};
 }
 
 Result<CellFacts> CpuExecutor::facts() {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "trainer/cpu/cpu_step.h"
@@ -22,7 +23,7 @@ class CpuExecutor : public StepExecutor {
   Status rearrange(const CellPlan& plan) override;
   Result<CellFacts> facts() override;
   uint32_t cellCount() const override { return foam_.shape.cellCount; }
-  Result<std::vector<double>> psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) override;
+  Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) override;
   Status read(FoamStorage<float>& foam) override;
   Status beginAnew() override;
   Result<uint64_t> droppedCount() override { return step_.droppedCount(); }
@@ -42,7 +43,8 @@ class CpuExecutor : public StepExecutor {
   uint32_t halvings_ = UINT32_MAX;  // of targets_
   ImageLoss<float> loss_;
   std::vector<glm::vec4> gradients_;
-  std::vector<uint32_t> overlaps_;  // of facts()
+  std::vector<uint32_t> overlaps_;         // of facts()
+  std::unique_ptr<CpuStep<float>> shown_;  // what show() draws with, until cells change
 };
 
 }  // namespace froth

@@ -11,16 +11,12 @@ double correctionAt(uint32_t step) { return std::sqrt(1 - std::pow(kBeta2, step)
 
 }  // namespace
 
-DriftTables::DriftTables(const Schedule& schedule) : schedule_(schedule) {
-  for (std::vector<double>& table : drifts_) table.assign(size_t{schedule.steps} + 1, 0);
-  for (std::vector<float>& table : rounded_) table.assign(size_t{schedule.steps} + 1, 0);
-}
-
 void DriftTables::advance() {
+  const double position = pace_.positionAt(next_);
   const uint32_t count = ++next_;  // the step's number from 1
   const double rho = kBeta1 / std::sqrt(kBeta2);
   for (size_t i = 0; i < kParameterCount; ++i) {
-    double part = rateAt(schedule_, static_cast<Parameter>(i), count - 1) * correctionAt(count);
+    double part = rateAt(pace_.schedule(), static_cast<Parameter>(i), position) * correctionAt(count);
     for (uint32_t waited = 1; waited <= std::min(count, kLongestDrift); ++waited) {
       part *= rho;
       double& drift = drifts_[i][count - waited];
@@ -31,12 +27,14 @@ void DriftTables::advance() {
 }
 
 AdamStep<float> DriftTables::adamAt(uint32_t step) {
+  for (std::vector<double>& table : drifts_) table.resize(size_t{step} + 1);
+  for (std::vector<float>& table : rounded_) table.resize(size_t{step} + 1);
   while (next_ < step) advance();
   AdamStep<float> adam;
   adam.step = step + 1;
   adam.epsilon = static_cast<float>(kEpsilon * std::sqrt(1 - std::pow(kBeta2, adam.step)));
   for (size_t i = 0; i < kParameterCount; ++i) {
-    const double rate = step < schedule_.steps ? rateAt(schedule_, static_cast<Parameter>(i), step) : 0;
+    const double rate = rateAt(pace_.schedule(), static_cast<Parameter>(i), pace_.positionAt(step));
     adam.rates[i] = static_cast<float>(rate * correctionAt(adam.step));
     adam.drifts[i] = rounded_[i].data();
   }

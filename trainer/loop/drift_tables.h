@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trainer/loop/schedule.h"
+#include "trainer/loop/pace.h"
 #include "trainer/step/adam.h"
 
 namespace froth {
@@ -16,15 +16,16 @@ inline constexpr uint32_t kLongestDrift = 256;
 
 class DriftTables {
  public:
-  explicit DriftTables(const Schedule& schedule);
+  explicit DriftTables(const Pace& pace) : pace_(pace) {}  // keeps a reference
 
-  // Adam of a step (0, 1, ...), never of one before the last that was asked for. Points into the tables.
+  // Adam of a step, up to the one that comes next, and never of one before the last that was asked for. Points into the
+  // tables, until the next call.
   AdamStep<float> adamAt(uint32_t step);
 
  private:
   void advance();  // by the rates of step `next_`
 
-  Schedule schedule_;
+  const Pace& pace_;
   uint32_t next_ = 0;
   std::array<std::vector<double>, kParameterCount> drifts_;
   std::array<std::vector<float>, kParameterCount> rounded_;

@@ -4,9 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "trainer/cpu/cpu_step.h"
-#include "trainer/cpu/view_exchange.h"
-
 namespace froth {
 namespace {
 
@@ -34,16 +31,13 @@ double meanPsnr(const std::vector<double>& psnrs) {
   return psnrs.empty() ? 0 : std::accumulate(psnrs.begin(), psnrs.end(), 0.0) / static_cast<double>(psnrs.size());
 }
 
-std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos,
-                               const AdamStep<float>& adam) {
-  CpuStep<float> step(foam);
-  step.activate(0);
+Result<std::vector<double>> photoPsnrs(StepExecutor& executor, const std::vector<Photo>& photos,
+                                       const AdamStep<float>& adam) {
   std::vector<double> psnrs;
+  std::vector<glm::vec4> image;
   for (const Photo& photo : photos) {
-    const std::vector<float> directions = lensDirections(photo.view);
-    TrainingView<float> view = trainingView<float>(photo.view);
-    if (!directions.empty()) view.directions = directions.data();
-    psnrs.push_back(psnrOf(photo, step.render(view, PixelSettings<float>{}, adam)));
+    if (Status shown = executor.show(photo.view, adam, image); !shown) return shown.error();
+    psnrs.push_back(psnrOf(photo, image));
   }
   return psnrs;
 }

@@ -3,9 +3,7 @@
 
 #include <vector>
 
-#include "trainer/cpu/foam_storage.h"
-#include "trainer/photos/photos.h"
-#include "trainer/step/adam.h"
+#include "trainer/loop/step_executor.h"
 
 namespace froth {
 
@@ -16,7 +14,8 @@ double psnrOf(const Photo& photo, const std::vector<glm::vec4>& rendered);
 // 0 without any.
 double meanPsnr(const std::vector<double>& psnrs);
 
-// The PSNR of each photo, on the CPU, before the step `adam`. Activates the balls; all else stays.
-std::vector<double> photoPsnrs(FoamStorage<float>& foam, const std::vector<Photo>& photos, const AdamStep<float>& adam);
+// Of each photo, whose view is in the normalised scene; `adam` as for StepExecutor::show().
+Result<std::vector<double>> photoPsnrs(StepExecutor& executor, const std::vector<Photo>& photos,
+                                       const AdamStep<float>& adam);
 
 }  // namespace froth

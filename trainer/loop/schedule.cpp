@@ -39,26 +39,26 @@ Rate rateOf(RatePreset preset, Parameter parameter) {
   return {};
 }
 
-double progressOf(const Schedule& schedule, uint32_t step) {
-  const double share = double{1} * step / schedule.steps;
-  return schedule.isRefinement ? kRefinementBegin + (1 - kRefinementBegin) * share : share;
+// In a whole schedule.
+double progressOf(const Schedule& schedule, double position) {
+  return schedule.isRefinement ? kRefinementBegin + (1 - kRefinementBegin) * position : position;
 }
 
 }  // namespace
 
-double rateAt(const Schedule& schedule, Parameter parameter, uint32_t step) {
+double rateAt(const Schedule& schedule, Parameter parameter, double position) {
   const Rate rate = rateOf(schedule.preset, parameter);
-  const double progress = progressOf(schedule, step), warmUp = rate.warmUp / kPublishedSteps;
+  const double progress = progressOf(schedule, position), warmUp = rate.warmUp / kPublishedSteps;
   if (progress < warmUp) return rate.first * progress / warmUp;
   const double cosine = std::cos(std::numbers::pi * (progress - warmUp) / (1 - warmUp));
   const double now = rate.last + 0.5 * (rate.first - rate.last) * (1 + cosine);
   if (!schedule.isRefinement) return now;
   // Adam's first steps move each parameter by its whole rate, whatever its gradient: moments are 0.
-  return now * std::min(1.0, step / (kRefinementWarmUp * schedule.steps));
+  return now * std::min(1.0, position / kRefinementWarmUp);
 }
 
-LossWeights weightsAt(const Schedule& schedule, uint32_t step) {
-  const double progress = progressOf(schedule, step);
+LossWeights weightsAt(const Schedule& schedule, double position) {
+  const double progress = progressOf(schedule, position);
   LossWeights weights;
   weights.normal *= std::pow(0.1, progress);
   weights.sparsity *= std::pow(1e-3, progress);
@@ -66,22 +66,22 @@ LossWeights weightsAt(const Schedule& schedule, uint32_t step) {
   return weights;
 }
 
-bool isDensifyStep(const Schedule& schedule, uint32_t step) {
+bool isDensifyStep(const Schedule& schedule, uint32_t step, double position) {
   constexpr uint32_t kPeriod = 100;
-  return step % kPeriod == kPeriod - 1 && progressOf(schedule, step) < 0.95;
+  return step % kPeriod == kPeriod - 1 && progressOf(schedule, position) < 0.95;
 }
 
-uint32_t cellsAfter(const Schedule& schedule, uint32_t step, uint32_t present) {
+uint32_t cellsAfter(const Schedule& schedule, double position, uint32_t present) {
   const double first = schedule.isRefinement ? kRefinementBegin : 1000 / kPublishedSteps;
-  const double last = 24000 / kPublishedSteps, now = progressOf(schedule, step);
+  const double last = 24000 / kPublishedSteps, now = progressOf(schedule, position);
   if (now < first) return present;
   const double share = std::min((now - first) / (last - first), 1.0);
   const double start = schedule.startCells;
   return static_cast<uint32_t>(std::lround(start * std::pow(schedule.mostCells / start, share)));
 }
 
-uint32_t halvingsAt(const Schedule& schedule, uint32_t step) {
-  const double progress = progressOf(schedule, step);
+uint32_t halvingsAt(const Schedule& schedule, double position) {
+  const double progress = progressOf(schedule, position);
   return progress < 0.1 ? 2 : progress < 0.4 ? 1 : 0;
 }
 

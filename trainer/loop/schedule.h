@@ -1,5 +1,6 @@
 // What changes from step to step: rates, weights of losses, how many cells there should be, how large images are.
-// Figures are those of the published recipe, whose 30,000 steps are stretched to as many as are asked for.
+// Figures are those of the published recipe, whose 30,000 steps are stretched to as many as are asked for, or to as
+// much time. `position`: of a step in its schedule [0..1], as Pace gives it (pace.h).
 #pragma once
 
 #include <cstdint>
@@ -12,26 +13,27 @@ enum class RatePreset { kIndoor, kOutdoor };
 
 struct Schedule {
   uint32_t steps = 12000;      // [>= 1]
+  double seconds = 0;          // > 0: as many steps as take so long, in place of `steps`
   uint32_t startCells = 0;     // at step 0
   uint32_t mostCells = 40000;  // from four fifths of the steps on
   RatePreset preset = RatePreset::kIndoor;
   bool isRefinement = false;  // of a trained foam: the second half of a schedule, so rates are low and images whole
 };
 
-// The learning rate of a parameter at step 0, 1, ...
-double rateAt(const Schedule& schedule, Parameter parameter, uint32_t step);
+// The learning rate of a parameter.
+double rateAt(const Schedule& schedule, Parameter parameter, double position);
 
 struct LossWeights {
   double similarity = 0.2, normal = 0.1, sparsity = 0.1, overlap = 1e-4;
 };
-LossWeights weightsAt(const Schedule& schedule, uint32_t step);
+LossWeights weightsAt(const Schedule& schedule, double position);
 
 // Steps after which cells are removed and added.
-bool isDensifyStep(const Schedule& schedule, uint32_t step);
+bool isDensifyStep(const Schedule& schedule, uint32_t step, double position);
 // How many cells there should be after such a step; `present`: how many there are. A refinement adds from its start on.
-uint32_t cellsAfter(const Schedule& schedule, uint32_t step, uint32_t present);
+uint32_t cellsAfter(const Schedule& schedule, double position, uint32_t present);
 
-// How often the sides of images are halved at a step: 2, 1, 0. Early steps learn coarse things, and cost less.
-uint32_t halvingsAt(const Schedule& schedule, uint32_t step);
+// How often the sides of images are halved: 2, 1, 0. Early steps learn coarse things, and cost less.
+uint32_t halvingsAt(const Schedule& schedule, double position);
 
 }  // namespace froth

@@ -1,6 +1,7 @@
 #include "trainer/loop/state_file.h"
 
-#include <cstring>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "base/atomic_file.h"
@@ -9,7 +10,8 @@
 namespace froth {
 namespace {
 
-constexpr uint64_t kMagic = 0x31736d6168746f72;  // "rothams1", little-endian; the last byte is the version
+constexpr uint64_t kMagic = 0x32736d6168746f72;  // "rothams2", little-endian; the last byte is the version
+constexpr uint64_t kOlderMagic = 0x31736d6168746f72;
 constexpr uint32_t kMostSettings = 1 << 16;
 
 struct StateHeader {
@@ -35,17 +37,25 @@ Status visitArrays(FoamStorage<float>& foam, Visit&& visit) {
   return visitVector(foam.errors);
 }
 
-uint64_t bytesOf(const FoamShape& shape, uint64_t settingsBytes) {
+uint64_t bytesOf(const FoamShape& shape, uint64_t stepsDone, uint64_t settingsBytes) {
   uint64_t perCell = 3;  // last step and two means
   for (size_t i = 0; i < kParameterCount; ++i) perCell += uint64_t{3} * widthOf(static_cast<Parameter>(i), shape);
-  return sizeof(StateHeader) + settingsBytes + perCell * shape.cellCount * sizeof(float);
+  return sizeof(StateHeader) + settingsBytes + (stepsDone + 1) * sizeof(double) +
+         perCell * shape.cellCount * sizeof(float);
 }
 
 bool isSound(const StateHeader& header) {
   return header.magic == kMagic && header.settingsBytes <= kMostSettings && header.cellCount > 0 &&
          header.detailCount > 0 && header.detailCount <= kMaxDetails && header.lobeCount > 0 &&
          header.lobeCount <= kMaxLobes &&
-         header.fileBytes == bytesOf({header.cellCount, header.detailCount, header.lobeCount}, header.settingsBytes);
+         header.fileBytes ==
+             bytesOf({header.cellCount, header.detailCount, header.lobeCount}, header.stepsDone, header.settingsBytes);
+}
+
+bool isTime(const std::vector<double>& seconds) {
+  const auto goesBack = [](double before, double after) { return !(before <= after); };
+  return seconds.front() == 0 && std::isfinite(seconds.back()) &&
+         std::adjacent_find(seconds.begin(), seconds.end(), goesBack) == seconds.end();
 }
 
 }  // namespace
@@ -53,18 +63,20 @@ bool isSound(const StateHeader& header) {
 Status writeState(const std::filesystem::path& path, TrainingState& state) {
   const FoamShape shape = state.foam.shape;
   StateHeader header;
-  header.stepsDone = state.stepsDone;
+  header.stepsDone = static_cast<uint32_t>(state.seconds.size() - 1);
   header.settingsBytes = static_cast<uint32_t>(state.settings.size());
   header.cellCount = shape.cellCount;
   header.detailCount = shape.detailCount;
   header.lobeCount = shape.lobeCount;
-  header.fileBytes = bytesOf(shape, state.settings.size());
+  header.fileBytes = bytesOf(shape, header.stepsDone, state.settings.size());
   return streamFileAtomically(path, [&](const ByteSink& sink) -> Status {
     const auto asBytes = [](const void* data, size_t size) {
       return std::span(static_cast<const uint8_t*>(data), size);
     };
     if (Status written = sink(asBytes(&header, sizeof(header))); !written) return written;
     if (Status written = sink(asBytes(state.settings.data(), state.settings.size())); !written) return written;
+    const size_t secondsBytes = state.seconds.size() * sizeof(double);
+    if (Status written = sink(asBytes(state.seconds.data(), secondsBytes)); !written) return written;
     return visitArrays(state.foam, [&](std::span<const uint8_t> bytes) { return sink(bytes); });
   });
 }
@@ -79,6 +91,13 @@ Result<TrainingState> readState(const std::filesystem::path& path) {
   }
   const std::span<uint8_t> headerBytes(reinterpret_cast<uint8_t*>(&header), sizeof(header));
   if (Status read = file->readAt(0, headerBytes); !read) return read.error();
+  if (header.magic == kOlderMagic) {
+    return makeError(
+        ErrorKind::kBadInput,
+        "%s: a state of version 1, this froth reads version 2; go on with the froth that wrote it, or begin "
+        "without --resume",
+        path.c_str());
+  }
   if (!isSound(header) || header.fileBytes != file->size()) {
     return makeError(ErrorKind::kBadInput,
                      "%s: no state of training of this version, or a part of one (%llu bytes, its header says %llu); "
@@ -87,7 +106,7 @@ Result<TrainingState> readState(const std::filesystem::path& path) {
                      static_cast<unsigned long long>(header.fileBytes));
   }
   TrainingState state;
-  state.stepsDone = header.stepsDone;
+  state.seconds.resize(size_t{header.stepsDone} + 1);
   state.settings.resize(header.settingsBytes);
   resizeStorage(state.foam, {header.cellCount, header.detailCount, header.lobeCount});
   uint64_t offset = sizeof(header);
@@ -98,6 +117,13 @@ Result<TrainingState> readState(const std::filesystem::path& path) {
   };
   const std::span<uint8_t> settings(reinterpret_cast<uint8_t*>(state.settings.data()), state.settings.size());
   if (Status read = readInto(settings); !read) return read.error();
+  const std::span<uint8_t> seconds(reinterpret_cast<uint8_t*>(state.seconds.data()),
+                                   state.seconds.size() * sizeof(double));
+  if (Status read = readInto(seconds); !read) return read.error();
+  if (!isTime(state.seconds)) {
+    return makeError(ErrorKind::kBadInput, "%s: the seconds of its steps do not grow from 0; begin without --resume",
+                     path.c_str());
+  }
   if (Status read = visitArrays(state.foam, readInto); !read) return read.error();
   return state;
 }

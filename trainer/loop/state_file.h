@@ -1,9 +1,9 @@
 // What a run needs to go on, bit for bit: state.bin.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "trainer/cpu/foam_storage.h"
@@ -11,8 +11,8 @@
 namespace froth {
 
 struct TrainingState {
-  uint32_t stepsDone = 0;
-  std::string settings;  // text; a run goes on with the same ones alone
+  std::vector<double> seconds{0};  // [steps done + 1] Pace::seconds()
+  std::string settings;            // text; a run goes on with the same ones alone
   FoamStorage<float> foam;
 };
 

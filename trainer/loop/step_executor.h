@@ -34,9 +34,9 @@ class StepExecutor {
   // Of all steps that were run. Valid until the next call.
   virtual Result<CellFacts> facts() = 0;
   virtual uint32_t cellCount() const = 0;
-  // How well photos with views in the normalised scene are shown: PSNR as psnrOf() gives it. `adam`: of the step that
+  // What a view in the normalised scene sees of the foam: colour over black, transmittance. `adam`: of the step that
   // comes next. Later steps give the bits that they would give without this call.
-  virtual Result<std::vector<double>> psnrs(const std::vector<Photo>& photos, const AdamStep<float>& adam) = 0;
+  virtual Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) = 0;
   // All arrays, as the steps left them.
   virtual Status read(FoamStorage<float>& foam) = 0;
   // From here on the steps give the same bits as those of an executor that begins with what read() gave.

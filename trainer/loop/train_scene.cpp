@@ -1,7 +1,7 @@
 #include "trainer/loop/train_scene.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -26,10 +26,12 @@ constexpr float kFirstContribution = 1e-5f;  // the means begin there (design: t
 std::string settingsText(const TrainOptions& options, const TrainingSet& set) {
   const Schedule& schedule = options.schedule;
   const View& view = set.training.front().view;
-  return fmt::format("{} {} cells {} to {} rates {} K {} M {} seed {} photos {} of {} x {} near {}",
-                     schedule.isRefinement ? "refinement, steps" : "steps", schedule.steps, schedule.startCells,
-                     schedule.mostCells, static_cast<int>(schedule.preset), options.detailCount, options.lobeCount,
-                     options.seed, set.training.size(), view.width, view.height, options.nearRatio);
+  const std::string length =
+      schedule.seconds > 0 ? fmt::format("seconds {}", schedule.seconds) : fmt::format("steps {}", schedule.steps);
+  return fmt::format("{}{} cells {} to {} rates {} K {} M {} seed {} photos {} of {} x {} near {}",
+                     schedule.isRefinement ? "refinement, " : "", length, schedule.startCells, schedule.mostCells,
+                     static_cast<int>(schedule.preset), options.detailCount, options.lobeCount, options.seed,
+                     set.training.size(), view.width, view.height, options.nearRatio);
 }
 
 Result<FoamStorage<float>> makeStart(const Capture& capture, const TrainingSet& set, const TrainOptions& options) {
@@ -56,69 +58,33 @@ Result<TrainingState> resumeState(const TrainOptions& options, const std::string
                    options.state.c_str(), state->settings.c_str(), settings.c_str());
 }
 
-Status saveState(StepExecutor& executor, const TrainOptions& options, const std::string& settings, uint32_t done) {
+Status saveState(StepExecutor& executor, const TrainOptions& options, const std::string& settings, const Pace& pace) {
   TrainingState state;
-  state.stepsDone = done;
+  state.seconds = pace.seconds();
   state.settings = settings;
   if (Status read = executor.read(state.foam); !read) return read;
   if (Status written = writeState(options.state, state); !written) return written;
   return executor.beginAnew();
 }
 
-// Tells how far a run is, and how long its steps took.
-class Meter {
- public:
-  Meter(StepExecutor& executor, const TrainOptions& options, const std::vector<Photo>& tests)
-      : executor_(executor), options_(options), tests_(tests) {}
-
-  // The PSNR of each test photo.
-  Result<std::vector<double>> measure(uint32_t done, DriftTables& drifts) {
-    if (const Result<uint64_t> waited = executor_.droppedCount(); !waited) return waited.error();
-    pause();
-    Result<std::vector<double>> psnrs = executor_.psnrs(tests_, drifts.adamAt(done));
-    if (psnrs && options_.whenMeasured) {
-      const Status told = options_.whenMeasured({done, seconds_, executor_.cellCount(), meanPsnr(*psnrs)});
-      if (!told) return told.error();
-    }
-    goOn();
-    return psnrs;
+// The PSNR of each test photo; tells how far the run is.
+Result<std::vector<double>> measure(StepExecutor& executor, const TrainOptions& options,
+                                    const std::vector<Photo>& tests, Pace& pace, DriftTables& drifts) {
+  if (const Result<uint64_t> waited = executor.droppedCount(); !waited) return waited.error();
+  pace.pause();
+  const uint32_t done = pace.stepsDone();
+  const AdamStep<float> adam = drifts.adamAt(done);
+  Result<std::vector<double>> psnrs = photoPsnrs(executor, tests, adam);
+  if (psnrs && options.whenMeasured) {
+    const auto showTest = [&](size_t test, std::vector<glm::vec4>& image) {
+      return executor.show(tests[test].view, adam, image);
+    };
+    const Status told = options.whenMeasured(
+        {done, pace.positionAt(done), pace.seconds().back(), executor.cellCount(), meanPsnr(*psnrs), *psnrs, showTest});
+    if (!told) return told.error();
   }
-  void pause() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  void goOn() { begin_ = Clock::now(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  StepExecutor& executor_;
-  const TrainOptions& options_;
-  const std::vector<Photo>& tests_;
-  Clock::time_point begin_ = Clock::now();
-  double seconds_ = 0;
-};
-
-// Runs the steps that are left; measures and saves on the way, and saves when it is stopped.
-Status runSteps(StepExecutor& executor, const TrainOptions& options, const LoopOptions& loop,
-                const std::string& settings, Meter& meter, const Progress& progress) {
-  uint32_t done = loop.firstStep;
-  const auto afterStep = [&](uint32_t steps, DriftTables& drifts) -> Status {
-    done = steps;
-    const bool isLast = steps == options.schedule.steps;
-    if (options.measureEvery != 0 && steps % options.measureEvery == 0 && !isLast) {
-      if (const auto measured = meter.measure(steps, drifts); !measured) return measured.error();
-    }
-    if (options.state.empty() || steps % options.saveEvery != 0 || isLast) return {};
-    meter.pause();
-    const Status saved = saveState(executor, options, settings, steps);
-    meter.goOn();
-    return saved;
-  };
-  const Status ran = runLoop(executor, loop, afterStep, progress);
-  const bool wasStopped = !ran && ran.error().kind == ErrorKind::kCancelled;
-  if (options.state.empty() || !(ran || wasStopped)) return ran;
-  if (Status saved = saveState(executor, options, settings, done); !saved) return saved;
-  if (!wasStopped) return ran;
-  return makeError(ErrorKind::kCancelled, "training stopped on request after %u of %u steps; %s goes on with --resume",
-                   done, options.schedule.steps, options.state.c_str());
+  pace.goOn();
+  return psnrs;
 }
 
 // A checkpoint has no cells without a radius.
@@ -133,21 +99,73 @@ Foam withoutVanished(const Foam& foam) {
   return pickFoam(foam, {cells, details, foam.detailCount, foam.lobeCount});
 }
 
-Result<TrainResult> finishTraining(StepExecutor& executor, const TrainingSet& set, const LoopOptions& loop,
-                                   Meter& meter) {
-  DriftTables drifts(loop.schedule);
-  Result<std::vector<double>> psnrs = meter.measure(loop.schedule.steps, drifts);
-  if (!psnrs) return psnrs.error();
+// In the scene's units, as it stands after the steps that are done.
+Result<Foam> readFoam(StepExecutor& executor, const SceneFrame& frame, const Pace& pace, DriftTables& drifts) {
   FoamStorage<float> foam;
   if (Status read = executor.read(foam); !read) return read.error();
+  catchUpAll(foam, pace.stepsDone(), drifts);
+  return sceneFoam(withoutVanished(activateFoam(foam)), frame);
+}
+
+Status showFoam(StepExecutor& executor, const TrainOptions& options, const SceneFrame& frame, Pace& pace,
+                DriftTables& drifts) {
+  pace.pause();
+  const Result<Foam> foam = readFoam(executor, frame, pace, drifts);
+  if (!foam) return foam.error();
+  const Status shown = options.whenShown(*foam);
+  pace.goOn();
+  return shown;
+}
+
+bool isMeasured(const TrainOptions& options, const Pace& pace) {
+  const uint32_t done = pace.stepsDone();
+  if (options.measureEvery != 0 && done % options.measureEvery == 0) return true;
+  // A multiple of a position such as 3 / 20 rounds to a little less than a whole number.
+  const auto timesAt = [&](uint32_t step) { return std::floor(options.measureTimes * pace.positionAt(step) + 1e-9); };
+  return timesAt(done) > timesAt(done - 1);
+}
+
+// Runs the steps that are left; measures, shows and saves on the way, and saves when it is stopped.
+Status runSteps(StepExecutor& executor, const TrainOptions& options, const TrainingSet& set, Pace& pace,
+                const LoopOptions& loop, const std::string& settings, const Progress& progress) {
+  const auto afterStep = [&](uint32_t done, DriftTables& drifts) -> Status {
+    if (pace.isOver()) return {};
+    if (isMeasured(options, pace)) {
+      const auto measured = measure(executor, options, set.testing, pace, drifts);
+      if (!measured) return measured.error();
+    }
+    if (options.showEvery != 0 && done % options.showEvery == 0) {
+      if (Status shown = showFoam(executor, options, set.frame, pace, drifts); !shown) return shown;
+    }
+    if (options.state.empty() || done % options.saveEvery != 0) return {};
+    pace.pause();
+    const Status saved = saveState(executor, options, settings, pace);
+    pace.goOn();
+    return saved;
+  };
+  const Status ran = runLoop(executor, pace, loop, afterStep, progress);
+  const bool wasStopped = !ran && ran.error().kind == ErrorKind::kCancelled;
+  if (options.state.empty() || !(ran || wasStopped)) return ran;
+  if (Status saved = saveState(executor, options, settings, pace); !saved) return saved;
+  if (!wasStopped) return ran;
+  return makeError(ErrorKind::kCancelled, "training stopped on request after %u steps; %s goes on with --resume",
+                   pace.stepsDone(), options.state.c_str());
+}
+
+Result<TrainResult> finishTraining(StepExecutor& executor, const TrainOptions& options, const TrainingSet& set,
+                                   Pace& pace) {
+  DriftTables drifts(pace);
+  Result<std::vector<double>> psnrs = measure(executor, options, set.testing, pace, drifts);
+  if (!psnrs) return psnrs.error();
+  Result<Foam> foam = readFoam(executor, set.frame, pace, drifts);
+  if (!foam) return foam.error();
   const Result<uint64_t> dropped = executor.droppedCount();
   if (!dropped) return dropped.error();
-  catchUpAll(foam, loop.schedule.steps, drifts);
   TrainResult result;
   result.testPsnrs = std::move(*psnrs);
-  result.foam = sceneFoam(withoutVanished(activateFoam(foam)), set.frame);
+  result.foam = std::move(*foam);
   result.droppedCount = *dropped;
-  result.firstStep = loop.firstStep;
+  result.stepsDone = pace.stepsDone();
   return result;
 }
 
@@ -201,15 +219,12 @@ Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, c
                      options.schedule.startCells, options.schedule.mostCells);
   }
   const std::string settings = settingsText(options, set);
-  LoopOptions loop;
-  loop.schedule = options.schedule;
-  loop.seed = options.seed;
-  loop.photoCount = static_cast<uint32_t>(set.training.size());
+  std::vector<double> seconds{0};
   Result<FoamStorage<float>> foam = FoamStorage<float>{};
   if (options.isResumed) {
     Result<TrainingState> state = resumeState(options, settings);
     if (!state) return state.error();
-    loop.firstStep = state->stepsDone;
+    seconds = std::move(state->seconds);
     foam = std::move(state->foam);
   } else {
     foam = makeStart(capture, set, options);
@@ -217,9 +232,14 @@ Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, c
   }
   Result<std::unique_ptr<StepExecutor>> executor = makeExecutor(std::move(*foam), set.training);
   if (!executor) return executor.error();
-  Meter meter(**executor, options, set.testing);
-  if (Status ran = runSteps(**executor, options, loop, settings, meter, progress); !ran) return ran.error();
-  return finishTraining(**executor, set, loop, meter);
+  Pace pace(options.schedule, options.clock, std::move(seconds));
+  const uint32_t firstStep = pace.stepsDone();
+  const LoopOptions loop{options.seed, static_cast<uint32_t>(set.training.size())};
+  const Status ran = runSteps(**executor, options, set, pace, loop, settings, progress);
+  if (!ran) return ran.error();
+  Result<TrainResult> result = finishTraining(**executor, options, set, pace);
+  if (result) result->firstStep = firstStep;
+  return result;
 }
 
 }  // namespace froth

@@ -11,7 +11,7 @@
 #include "base/progress.h"
 #include "base/result.h"
 #include "foam/foam.h"
-#include "trainer/loop/schedule.h"
+#include "trainer/loop/pace.h"
 #include "trainer/loop/step_executor.h"
 #include "trainer/photos/photos.h"
 #include "trainer/start/scene_frame.h"
@@ -21,9 +21,13 @@ namespace froth {
 // How far a run is.
 struct TrainingMoment {
   uint32_t stepsDone = 0;
-  double seconds = 0;  // of steps of this run; reading, saving and measuring do not count
+  double position = 0;  // [0..1] in its schedule; 1: at the end
+  double seconds = 0;   // of its steps; reading, saving and measuring do not count
   uint32_t cells = 0;
-  double psnr = 0;  // [dB] mean of the test photos; 0 without any
+  double psnr = 0;                // [dB] mean of the test photos; 0 without any
+  std::vector<double> testPsnrs;  // [dB] by TrainingSet::testing
+  // What the foam shows in the view of a test photo: colour over black, transmittance. For `whenMeasured` alone.
+  std::function<Status(size_t test, std::vector<glm::vec4>& image)> showTest;
 };
 using WhenMeasured = std::function<Status(const TrainingMoment&)>;
 
@@ -38,11 +42,15 @@ struct TrainOptions {
   std::filesystem::path state;  // where the state is saved; empty: nowhere
   uint32_t saveEvery = 1000;    // [steps, >= 1]
   bool isResumed = false;       // go on from `state`
-  uint32_t measureEvery = 0;    // [steps] between two calls of `whenMeasured`; 0: never
+  uint32_t measureEvery = 0;    // [steps] between two calls of `whenMeasured`; 0: none on the way
+  uint32_t measureTimes = 0;    // and so many calls, at equal shares of the schedule
   WhenMeasured whenMeasured;
+  uint32_t showEvery = 0;                        // [steps] between two calls of `whenShown`; 0: never
+  std::function<Status(const Foam&)> whenShown;  // gets the foam as it stands, in the scene's units
   // Goes on from this foam, in the scene's units, in place of a start; K and M are its own, and the schedule is one of
   // a refinement. It outlives the run.
   const Foam* refined = nullptr;
+  SecondsClock clock = steadySeconds;
 };
 
 // What training works on.
@@ -59,6 +67,7 @@ struct TrainResult {
   std::vector<double> testPsnrs;  // by TrainingSet::testing
   uint64_t droppedCount = 0;      // contributions that were no finite numbers
   uint32_t firstStep = 0;         // > 0: a run that went on
+  uint32_t stepsDone = 0;
 };
 
 // Makes the executor of a run: the CPU's, or a GPU's.

@@ -13,21 +13,26 @@ namespace {
 // Cells move by up to about a rate per step and axis: a skin for some ten steps, in which the graph is not looked for.
 constexpr double kSkinSteps = 10;
 
-StepPlan planStep(const LoopOptions& options, uint32_t step, uint32_t photo, DriftTables& drifts) {
+// Of the step that comes next.
+StepPlan planStep(const Pace& pace, uint32_t photo, DriftTables& drifts) {
+  const Schedule& schedule = pace.schedule();
+  const double position = pace.positionAt(pace.stepsDone());
   StepPlan plan;
   plan.photo = photo;
-  plan.halvings = halvingsAt(options.schedule, step);
-  plan.adam = drifts.adamAt(step);
-  plan.weights = weightsAt(options.schedule, step);
-  plan.leastSkin = static_cast<float>(kSkinSteps * rateAt(options.schedule, Parameter::kPoints, step));
+  plan.halvings = halvingsAt(schedule, position);
+  plan.adam = drifts.adamAt(pace.stepsDone());
+  plan.weights = weightsAt(schedule, position);
+  plan.leastSkin = static_cast<float>(kSkinSteps * rateAt(schedule, Parameter::kPoints, position));
   return plan;
 }
 
-Status densify(StepExecutor& executor, const LoopOptions& options, uint32_t step) {
+Status densify(StepExecutor& executor, const Pace& pace, uint64_t seed) {
+  const uint32_t step = pace.stepsDone();
   const Result<CellFacts> facts = executor.facts();
   if (!facts) return facts.error();
-  const uint32_t wanted = cellsAfter(options.schedule, step, static_cast<uint32_t>(facts->balls.size()));
-  const CellPlan plan = planCells(*facts, wanted, options.seed, step);
+  const uint32_t wanted =
+      cellsAfter(pace.schedule(), pace.positionAt(step), static_cast<uint32_t>(facts->balls.size()));
+  const CellPlan plan = planCells(*facts, wanted, seed, step);
   if (plan.sources.empty()) {
     return makeError(ErrorKind::kBadInput,
                      "training: after %u steps no cell has finite numbers; report the scene that does this", step + 1);
@@ -37,21 +42,23 @@ Status densify(StepExecutor& executor, const LoopOptions& options, uint32_t step
 
 }  // namespace
 
-Status runLoop(StepExecutor& executor, const LoopOptions& options, const AfterStep& afterStep,
+Status runLoop(StepExecutor& executor, Pace& pace, const LoopOptions& options, const AfterStep& afterStep,
                const Progress& progress) {
-  DriftTables drifts(options.schedule);
+  DriftTables drifts(pace);
   std::vector<uint32_t> order;
   uint64_t orderOf = UINT64_MAX;
-  for (uint32_t step = options.firstStep; step < options.schedule.steps; ++step) {
-    if (!report(progress, "train", step, options.schedule.steps)) return stoppedOnRequest("training");
+  while (!pace.isOver()) {
+    if (!pace.reportTo(progress)) return stoppedOnRequest("training");
+    const uint32_t step = pace.stepsDone();
     const uint64_t epoch = step / options.photoCount;
     if (epoch != orderOf) order = epochOrder(options.photoCount, options.seed, epoch);
     orderOf = epoch;
-    const StepPlan plan = planStep(options, step, order[step % options.photoCount], drifts);
+    const StepPlan plan = planStep(pace, order[step % options.photoCount], drifts);
     if (Status ran = executor.run(plan); !ran) return ran;
-    if (isDensifyStep(options.schedule, step)) {
-      if (Status changed = densify(executor, options, step); !changed) return changed;
+    if (isDensifyStep(pace.schedule(), step, pace.positionAt(step))) {
+      if (Status changed = densify(executor, pace, options.seed); !changed) return changed;
     }
+    pace.finishStep();
     if (Status went = afterStep(step + 1, drifts); !went) return went;
   }
   return {};

@@ -12,18 +12,17 @@
 namespace froth {
 
 struct LoopOptions {
-  Schedule schedule;
   uint64_t seed = 1;
   uint32_t photoCount = 0;  // [>= 1] photos that train
-  uint32_t firstStep = 0;   // of a run that goes on
 };
 
-// Called after each step with the number of steps done. An error ends the loop.
+// Called after each step with the number of steps done; its time counts as that of steps, unless the pace is paused. An
+// error ends the loop.
 using AfterStep = std::function<Status(uint32_t done, DriftTables& drifts)>;
 
-// Runs the steps from firstStep on. Fails with kCancelled when `progress` asks to stop, between two steps, so that the
+// Runs the steps that are left. Fails with kCancelled when `progress` asks to stop, between two steps, so that the
 // state can be saved.
-Status runLoop(StepExecutor& executor, const LoopOptions& options, const AfterStep& afterStep,
+Status runLoop(StepExecutor& executor, Pace& pace, const LoopOptions& options, const AfterStep& afterStep,
                const Progress& progress);
 
 // The foam as it stands after `done` steps, with all waiting parameters caught up.
