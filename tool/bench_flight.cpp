@@ -43,6 +43,9 @@ void addFlightOptions(CLI::App& command, FlightFlags& flags) {
                   ->capture_default_str()
                   ->check(numberBetween(1e-6, 1e6)));
   needsFlight(command.add_option("--most-cells", options.scene.mostCells, "Live cells above the floor; 0: no limit"));
+  needsFlight(
+      command.add_option("--fade", options.scene.fadeFrames, "Frames in which a change of levels fades, 0 to 64")
+          ->check(countBetween(0, 64)));
   needsFlight(addDurationOption(command, "--disk-latency", options.scene.disk.latency,
                                 "From a request to its first byte", 0, 60));
   needsFlight(

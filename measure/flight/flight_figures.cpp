@@ -26,7 +26,7 @@ struct Summary {
   uint32_t settled = 0, lacking = 0, aboveBudget = 0, onFloor = 0;  // frames
   uint32_t longestUnsettled = 0, oldestRequest = 0;                 // [frames]
   uint64_t mostDeviceBytes = 0, mostChunkBytes = 0, missingPixels = 0;
-  std::vector<double> updates, gpuTimes;  // [ms]
+  std::vector<double> updates, gpuTimes, fadingTimes;  // [ms] GPU: of all frames, and of those in a fade
   Range flown, settledError;
 };
 
@@ -54,6 +54,7 @@ Summary summarize(const Flight& flight, const FlightOptions& options) {
     if (!frame.isReady) continue;
     if (!summary.firstReady) summary.firstReady = i;
     summary.gpuTimes.push_back(frame.gpuMs);
+    if (frame.isFading) summary.fadingTimes.push_back(frame.gpuMs);
     summary.lacking += frame.isWhole ? 0 : 1;
     summary.settled += frame.stream.isSettled;
     summary.onFloor += frame.stream.floorHits > 0 ? 1 : 0;
@@ -66,18 +67,6 @@ Summary summarize(const Flight& flight, const FlightOptions& options) {
   summary.flown = rangeOf(flight.images, &ComparedImage::flown);
   summary.settledError = rangeOf(flight.images, &ComparedImage::settled);
   return summary;
-}
-
-nlohmann::ordered_json timesAsJson(const std::vector<double>& times) {
-  if (times.empty()) return nullptr;
-  return percentilesAsJson(percentilesOf(times));
-}
-
-void printTimes(const char* name, const std::vector<double>& times) {
-  if (times.empty()) return;
-  const Percentiles found = percentilesOf(times);
-  fmt::print("{:<24} median {:.3f}, 95 % {:.3f}, 99.9 % {:.3f}, longest {:.3f} ms\n", name, found.median, found.p95,
-             found.p999, found.worst);
 }
 
 nlohmann::ordered_json imagesAsJson(const std::vector<ComparedImage>& images) {
@@ -99,6 +88,18 @@ nlohmann::ordered_json diskAsJson(const DiskOptions& disk) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json frameTimesAsJson(const std::vector<double>& times) {
+  if (times.empty()) return nullptr;
+  return percentilesAsJson(percentilesOf(times));
+}
+
+void printFrameTimes(const char* name, const std::vector<double>& times) {
+  if (times.empty()) return;
+  const Percentiles found = percentilesOf(times);
+  fmt::print("{:<24} median {:.3f}, 95 % {:.3f}, 99.9 % {:.3f}, longest {:.3f} ms\n", name, found.median, found.p95,
+             found.p999, found.worst);
+}
 
 void printFlight(const Flight& flight, const FlightOptions& options) {
   const Summary summary = summarize(flight, options);
@@ -123,8 +124,9 @@ void printFlight(const Flight& flight, const FlightOptions& options) {
   fmt::print("{:<24} {:.1f} MiB at most, {:.1f} of them chunks; {} frames above the budget\n", "device memory",
              static_cast<double>(summary.mostDeviceBytes) / kMebi, static_cast<double>(summary.mostChunkBytes) / kMebi,
              summary.aboveBudget);
-  printTimes("frothUpdate", summary.updates);
-  printTimes("GPU", summary.gpuTimes);
+  printFrameTimes("frothUpdate", summary.updates);
+  printFrameTimes("GPU", summary.gpuTimes);
+  printFrameTimes("GPU, in a fade", summary.fadingTimes);
   fmt::print("{:<24} flown {:.2f}, worst {:.2f}; at rest {:.2f}, worst {:.2f} dB\n", "PSNR of all images",
              summary.flown.mean, summary.flown.worst, summary.settledError.mean, summary.settledError.worst);
 }
@@ -141,6 +143,7 @@ nlohmann::ordered_json flightAsJson(const Flight& flight, const FlightOptions& o
       {"budget", scene.budget},
       {"detail", scene.detail},
       {"mostCells", scene.mostCells},
+      {"fadeFrames", scene.fadeFrames},
       {"jumpEvery", options.jumpEvery},
       {"disk", diskAsJson(scene.disk)},
       {"cells", flight.asset.cellCount},
@@ -160,8 +163,10 @@ nlohmann::ordered_json flightAsJson(const Flight& flight, const FlightOptions& o
       {"mostDeviceBytes", summary.mostDeviceBytes},
       {"mostChunkBytes", summary.mostChunkBytes},
       {"framesAboveBudget", summary.aboveBudget},
-      {"updateMs", timesAsJson(summary.updates)},
-      {"gpuMs", timesAsJson(summary.gpuTimes)},
+      {"updateMs", frameTimesAsJson(summary.updates)},
+      {"gpuMs", frameTimesAsJson(summary.gpuTimes)},
+      {"fadingFrames", summary.fadingTimes.size()},
+      {"gpuFadingMs", frameTimesAsJson(summary.fadingTimes)},
       {"psnrFlown", {{"mean", summary.flown.mean}, {"worst", summary.flown.worst}}},
       {"psnrSettled", {{"mean", summary.settledError.mean}, {"worst", summary.settledError.worst}}},
       {"images", imagesAsJson(flight.images)}};

@@ -1,11 +1,17 @@
 // What a flight with streaming showed, as a table and as JSON.
 #pragma once
 
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "measure/flight/flight.h"
 
 namespace froth {
+
+// [ms] Nothing, and null, where there are none.
+void printFrameTimes(const char* name, const std::vector<double>& times);
+nlohmann::ordered_json frameTimesAsJson(const std::vector<double>& times);
 
 void printFlight(const Flight& flight, const FlightOptions& options);
 nlohmann::ordered_json flightAsJson(const Flight& flight, const FlightOptions& options);

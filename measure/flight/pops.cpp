@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "base/progress_printer.h"
@@ -79,16 +81,45 @@ struct Dolly {
   }
 };
 
-Status drawNext(const View& view, Dolly& levels, Dolly& whole, Pops& pops) {
-  const Image levelsBefore = std::move(levels.image), wholeBefore = std::move(whole.image);
+// The largest change of a channel in the difference of two pictures.
+double mostChange(const Image& before, const Image& wholeBefore, const Image& now, const Image& wholeNow) {
+  double most = 0;
+  for (size_t i = 0; i < now.values.size(); ++i) {
+    const double errorBefore = double{before.values[i]} - double{wholeBefore.values[i]};
+    most = std::max(most, std::abs(double{now.values[i]} - double{wholeNow.values[i]} - errorBefore));
+  }
+  return most;
+}
+
+// A further frame of a scene with levels, beside those with all cells.
+Status drawLevels(const View& view, const Image& wholeBefore, const Image& wholeNow, Dolly& levels,
+                  std::vector<FrameChange>& frames, PixelChanges& still, PixelChanges& moved) {
+  const Image before = std::move(levels.image);
   const std::vector<uint32_t> chunksBefore = std::move(levels.chunks);
   if (Status drawn = levels.draw(view); !drawn) return drawn;
-  if (Status drawn = whole.draw(view); !drawn) return drawn;
-  const uint32_t moved = countMoved(chunksBefore, levels.chunks);
-  pops.levels.push_back((moved > 0 ? pops.moved : pops.still).add(levelsBefore, levels.image));
-  pops.levels.back().movedChunks = moved;
-  pops.whole.push_back(pops.wholeChanges.add(wholeBefore, whole.image));
+  const uint32_t movedChunks = countMoved(chunksBefore, levels.chunks);
+  FrameChange change = (movedChunks > 0 ? moved : still).add(before, levels.image);
+  change.movedChunks = movedChunks;
+  change.mostOfError = mostChange(before, wholeBefore, levels.image, wholeNow);
+  frames.push_back(change);
   return {};
+}
+
+// faded: null without fades.
+Status drawNext(const View& view, Dolly& levels, Dolly* faded, Dolly& whole, Pops& pops) {
+  const Image wholeBefore = std::move(whole.image);
+  if (Status drawn = whole.draw(view); !drawn) return drawn;
+  pops.whole.push_back(pops.wholeChanges.add(wholeBefore, whole.image));
+  Status drawn = drawLevels(view, wholeBefore, whole.image, levels, pops.levels, pops.still, pops.moved);
+  if (!drawn || !faded) return drawn;
+  return drawLevels(view, wholeBefore, whole.image, *faded, pops.faded, pops.fadedChanges, pops.fadedChanges);
+}
+
+// The time of the last frame is not known.
+void takeTimes(std::span<const FlownFrame> frames, Pops& pops) {
+  for (const FlownFrame& frame : frames.first(frames.size() - 1)) {
+    (frame.isFading ? pops.gpuFading : pops.gpuStill).push_back(frame.gpuMs);
+  }
 }
 
 }  // namespace
@@ -130,16 +161,25 @@ Result<Pops> measurePops(const View& first, const FlightOptions& options, const 
   if (!host) return host.error();
   pops.deviceName = (*host)->info.name;
   pops.driverName = (*host)->info.driver;
-  Result<Dolly> levels = Dolly::begin(**host, options.scene, first);
+  SceneOptions unfaded = options.scene;
+  unfaded.fadeFrames = 0;
+  Result<Dolly> levels = Dolly::begin(**host, unfaded, first);
   if (!levels) return levels.error();
+  std::optional<Dolly> faded;
+  if (options.scene.fadeFrames > 0) {
+    Result<Dolly> begun = Dolly::begin(**host, options.scene, first);
+    if (!begun) return begun.error();
+    faded = std::move(*begun);
+  }
+  const size_t settling = faded ? faded->scene->frames().size() : 0;
   Result<Dolly> whole = Dolly::begin(**host, allCellsOf(options.scene), first);
   if (!whole) return whole.error();
   for (uint32_t frame = 1; frame < options.frames; ++frame) {
     if (!report(progress, "dolly", frame, options.frames)) return stoppedError();
-    if (Status drawn = drawNext(moveForwards(first, frame * pops.step), *levels, *whole, pops); !drawn) {
-      return drawn.error();
-    }
+    const View view = moveForwards(first, frame * pops.step);
+    if (Status drawn = drawNext(view, *levels, faded ? &*faded : nullptr, *whole, pops); !drawn) return drawn.error();
   }
+  if (faded) takeTimes(std::span(faded->scene->frames()).subspan(settling), pops);
   pops.asset = levels->scene->assetStatus();
   return pops;
 }

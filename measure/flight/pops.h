@@ -20,6 +20,7 @@ constexpr double kSeenChange = 8.0 / 255;  // what more than this is, is counted
 
 struct FrameChange {
   double most = 0;           // of a pixel
+  double mostOfError = 0;    // the same of the difference from all cells: what does not come from the movement
   uint64_t seenPixels = 0;   // that change by more than kSeenChange
   uint32_t movedChunks = 0;  // that come into the cut, and that leave it
 };
@@ -43,17 +44,19 @@ class PixelChanges {
 struct Pops {
   double distance = 0;  // [asset units] of the median surface of the first view
   double step = 0;      // [asset units] of the camera in a frame
-  // From frame i to i + 1; seen with levels, and with all cells.
-  std::vector<FrameChange> levels, whole;
+  // From frame i to i + 1; seen with levels, with levels that fade (none without SceneOptions::fadeFrames), and with
+  // all cells.
+  std::vector<FrameChange> levels, faded, whole;
   PixelChanges still, moved;  // with levels: frames whose cut is that of the frame before, and others
-  PixelChanges wholeChanges;
+  PixelChanges fadedChanges, wholeChanges;
+  std::vector<double> gpuFading, gpuStill;  // [ms] of the frames with levels that fade: in a fade, and others
   FrothAssetStatus asset{};
   std::string deviceName, driverName;
 };
 
 // `options.frames` frames forwards from a pinhole view of the scene's extent. In each of them the median surface, as it
-// lies in the first one, moves by a tenth of a pixel at the middle of the upper edge. Both are settled at the start.
-// The same figures on each run.
+// lies in the first one, moves by a tenth of a pixel at the middle of the upper edge. All scenes are settled at the
+// start. The same figures on each run but for times.
 Result<Pops> measurePops(const View& first, const FlightOptions& options, const Progress& progress);
 
 }  // namespace froth

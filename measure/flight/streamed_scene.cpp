@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "base/progress_printer.h"
@@ -23,7 +24,7 @@ constexpr uint32_t kMostSettlingFrames = 10000;
 SceneOptions allCellsOf(const SceneOptions& options) {
   SceneOptions whole = options;
   whole.disk = {};
-  whole.budget = whole.mostCells = 0;
+  whole.budget = whole.mostCells = whole.fadeFrames = 0;
   whole.detail = std::numeric_limits<float>::max();
   return whole;
 }
@@ -75,6 +76,7 @@ Status StreamedScene::begin() {
   auto view = makeStruct<FrothViewInfo>();
   view.maxExtent = options_.extent;
   view.measurePasses = 1;
+  view.fadeFrames = options_.fadeFrames;
   if (Status made = check(frothCreateView(context_, &view, &view_), "frothCreateView"); !made) return made;
   Result<HostImage> image = host_.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, options_.extent);
   if (!image) return image.error();
@@ -133,7 +135,10 @@ Status StreamedScene::completeFrameBefore() {
   FlownFrame& before = frames_.back();
   auto status = makeStruct<FrothViewStatus>();
   if (Status asked = check(frothGetViewStatus(context_, view_, &status), "frothGetViewStatus"); !asked) return asked;
-  for (uint32_t pass = 0; pass < status.passCount; ++pass) before.gpuMs += status.passes[pass].milliseconds;
+  for (uint32_t pass = 0; pass < status.passCount; ++pass) {
+    before.gpuMs += status.passes[pass].milliseconds;
+    before.isFading = before.isFading || std::string_view(status.passes[pass].name) == "fade";
+  }
   if (status.bits != 0) before.isWhole = false;
   return {};
 }

@@ -25,20 +25,22 @@ struct SceneOptions {
   uint64_t budget = 0;  // [bytes] FrothContextInfo::deviceBudget
   float detail = 1;     // FrothStreamInfo::detail
   uint64_t mostCells = 0;
+  uint32_t fadeFrames = 0;  // FrothViewInfo::fadeFrames
   double frameSeconds = 1.0 / 60;
   VkExtent2D extent{1920, 1080};
   DiskOptions disk;
   GpuRenderOptions render;
 };
 
-// The same on a fast disk with all cells of level 0, whatever they take.
+// The same on a fast disk with all cells of level 0, whatever they take, without fades.
 SceneOptions allCellsOf(const SceneOptions& options);
 
 struct FlownFrame {
-  double updateMs = 0;   // [ms] frothUpdate, on the clock
-  double gpuMs = 0;      // [ms] sum of passes, once a further frame is drawn; 0: the device tells no times
-  bool isReady = false;  // the floor is there
-  bool isWhole = false;  // nothing was missing, as far as is known when a further frame is drawn
+  double updateMs = 0;    // [ms] frothUpdate, on the clock
+  double gpuMs = 0;       // [ms] sum of passes, once a further frame is drawn; 0: the device tells no times
+  bool isReady = false;   // the floor is there
+  bool isFading = false;  // drew two cuts, once a further frame is drawn and the device tells times
+  bool isWhole = false;   // nothing was missing, as far as is known when a further frame is drawn
   FrothStreamStatus stream{};
   uint64_t deviceBytes = 0;  // of the context
 };

@@ -43,6 +43,8 @@ void Asset::restart(const Messages& messages) {
   flightPath_.clear();
   chunks_.clear();
   gpu_ = {};
+  before_.reset();
+  mustEndFade_ = false;
   slots_ = {};
   levelFoam_.reset();
   entriesSerial = 0;

@@ -117,7 +117,8 @@ class Asset {
   void readChunk(uint32_t chunk);
   Error takeRefusal(uint32_t chunk);  // why it failed
   // One that is not of the floor. Before its fetch has begun: at once. Resident, not drawn and not planned: its memory
-  // returns once no frame uses it. Else nothing happens: tell it again.
+  // returns once no frame uses it. Else, or where a fade draws it, nothing happens: tell it again. But the fade is to
+  // end.
   void evictChunk(uint32_t chunk);
   // Of its cuts, for which views may make room ahead: GpuAsset::mostCells.
   void setMostCells(uint32_t cells) { gpu_.mostCells = cells; }
@@ -126,9 +127,17 @@ class Asset {
   // In each frame: which copies are complete, which memory returns. True: the plan can be taken, and gpu() tells what
   // views need for it.
   bool updateChunks(uint64_t completedSerial, uint64_t completedUploadSerial, const UploadRing* ring);
-  void takePlan(uint64_t serial);
+  // fades: the cut that was drawn, if there was one, is there as before() until endFade(), of the first frame without
+  // it.
+  void takePlan(uint64_t serial, bool fades);
+  const GpuAsset* before() const { return before_ ? &*before_ : nullptr; }
+  bool mustEndFade() const { return mustEndFade_; }  // its chunks are to go
+  void endFade(uint64_t serial);
   // What walks of the frame `serial` need before them (runtime/render/border_pass.h).
   ChunkSlots::Publication publishBorders(uint64_t serial) { return slots_.publish(serial); }
+  // What they need besides, once that is recorded, to walk before(), and to walk gpu() afterwards.
+  ChunkSlots::Publication bordersBefore() const { return slots_.leaving(); }
+  ChunkSlots::Publication bordersNow() const { return slots_.entering(); }
 
   // The frame will not be submitted.
   void dropFrame(uint64_t serial);
@@ -178,7 +187,7 @@ class Asset {
   void placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place, GpuChunk& chunk, const void* owner);
   Status placeEntries();
   Status placeBorders();
-  void drawPlan(uint64_t serial);
+  void drawPlan(uint64_t serial, bool fades);
   void removeChunk(uint32_t chunk);
   VkDeviceSize bytesToCome(uint32_t chunk, VkDeviceSize size) const;
   uint32_t entriesAlong() const;
@@ -223,6 +232,8 @@ class Asset {
   std::vector<FrothStoredCamera> flightPath_;
   std::vector<FrothChunk> chunks_;  // without their state; deviceBytes 0: it was not placed yet
   GpuAsset gpu_;
+  std::optional<GpuAsset> before_;  // while a fade draws it
+  bool mustEndFade_ = false;
   ChunkSlots slots_;                    // with levels
   std::map<uint32_t, Error> refusals_;  // of chunks that failed
   uint32_t floorCount_ = 0;             // the first chunks of the file

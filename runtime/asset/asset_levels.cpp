@@ -76,7 +76,9 @@ void Asset::evictChunk(uint32_t chunk) {
     slots_.setState(chunk, SlotState::kAbsent);
     return;
   }
-  const bool mayGo = chunk >= floorCount_ && !slots_.isDrawn(chunk) && !slots_.isPlanned(chunk);
+  const bool isFading = slots_.isFading(chunk), isDrawn = slots_.isDrawn(chunk);
+  if (before_ && (isFading || isDrawn)) mustEndFade_ = true;  // what is drawn waits for that with the next plan
+  const bool mayGo = chunk >= floorCount_ && !isFading && !isDrawn && !slots_.isPlanned(chunk);
   if (mayGo && slots_.stateOf(chunk) == SlotState::kResident) slots_.setState(chunk, SlotState::kLeaving);
 }
 
@@ -123,19 +125,29 @@ void Asset::removeChunk(uint32_t chunk) {
 }
 
 // Entries of rays are those of the chunks that are drawn.
-void Asset::takePlan(uint64_t serial) {
-  drawPlan(serial);
+void Asset::takePlan(uint64_t serial, bool fades) {
+  drawPlan(serial, fades);
   entriesSerial = 0;
 }
 
 // For queries too. Without memory all stays as it is.
-void Asset::drawPlan(uint64_t serial) {
+void Asset::drawPlan(uint64_t serial, bool fades) {
   QueryCut cut;
   if (levelFoam_) cut = levelFoam_->makeCut(slots_.planned());
-  slots_.takePlan(serial, gpu_);
+  if (fades && !slots_.drawn().empty() && !std::ranges::equal(slots_.drawn(), slots_.planned())) {
+    before_ = gpu_;
+    before_->next = {};
+  }
+  slots_.takePlan(serial, gpu_, before_.has_value());
   if (!levelFoam_) return;
   levelFoam_->show(std::move(cut));
   queryFoam_ = levelFoam_;
+}
+
+void Asset::endFade(uint64_t serial) {
+  slots_.endFade(serial);
+  before_.reset();
+  mustEndFade_ = false;
 }
 
 void Asset::dropFrame(uint64_t serial) {

@@ -316,7 +316,7 @@ Status Asset::finish() {
   }
   if (hasLevels()) {
     slots_.measurePlan(gpu_);
-    drawPlan(0);  // no frame draws it before its copies are recorded
+    drawPlan(0, false);  // no frame draws it before its copies are recorded
   }
   isDecoded_ = true;
   figures_[layers_ - 1] = {heldBytes(), gpu_.detailCount};

@@ -54,13 +54,23 @@ void ChunkSlots::measurePlan(GpuAsset& asset) const {
   }
 }
 
-void ChunkSlots::takePlan(uint64_t serial, GpuAsset& asset) {
+void ChunkSlots::takePlan(uint64_t serial, GpuAsset& asset, bool keepsBefore) {
+  if (keepsBefore) {
+    entering_.reserve(planned_.size());
+    leaving_.reserve(drawn_.size());
+    for (const uint32_t chunk : planned_) {
+      if (!isDrawn(chunk)) entering_.push_back(slotOf_[chunk]);
+    }
+  }
   for (const uint32_t chunk : drawn_) slotOf(chunk).isDrawn = false;
   for (const uint32_t chunk : planned_) slotOf(chunk).isDrawn = true;
   for (const uint32_t chunk : drawn_) {
     if (isDrawn(chunk)) continue;
-    slotOf(chunk).lastSerial = serial - 1;
-    slotOf(chunk).publishedSerial = 0;
+    ChunkSlot& slot = slotOf(chunk);
+    slot.lastSerial = serial - 1;
+    slot.publishedSerial = 0;
+    slot.isFading = keepsBefore;
+    if (keepsBefore) leaving_.push_back(slotOf_[chunk]);
   }
   asset.liveCount = asset.cellCount = 0;
   asset.alphaTotal = asset.neighbourTotal = 0;
@@ -76,6 +86,15 @@ void ChunkSlots::takePlan(uint64_t serial, GpuAsset& asset) {
   asset.next = {};
   drawn_ = std::exchange(planned_, {});
   unpublished_.reserve(drawn_.size());
+}
+
+void ChunkSlots::endFade(uint64_t serial) {
+  for (const uint32_t slot : leaving_) {
+    slots_[slot].isFading = false;
+    slots_[slot].lastSerial = serial - 1;
+  }
+  leaving_.clear();
+  entering_.clear();
 }
 
 ChunkSlots::Publication ChunkSlots::publish(uint64_t serial) {

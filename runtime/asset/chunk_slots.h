@@ -28,6 +28,7 @@ struct ChunkSlot {
   VkDeviceSize size = 0;                                      // of the place
   std::vector<std::pair<const char*, VkDeviceSize>> parts{};  // what FrothAssetStatus::memory counts of it
   bool isTaken = false, isDrawn = false;
+  bool isFading = false;         // drawn beside those that are, until endFade()
   uint64_t lastSerial = 0;       // newest frame that may use it, once it is not drawn
   uint64_t publishedSerial = 0;  // frame that told walks where its borders are; 0: none did since it is drawn
 };
@@ -41,6 +42,7 @@ class ChunkSlots {
 
   SlotState stateOf(uint32_t chunk) const { return states_[chunk]; }
   void setState(uint32_t chunk, SlotState state) { states_[chunk] = state; }
+  bool isFading(uint32_t chunk) const { return hasSlot(chunk) && slots_[slotOf_[chunk]].isFading; }
   bool isDrawn(uint32_t chunk) const { return hasSlot(chunk) && slots_[slotOf_[chunk]].isDrawn; }
   bool hasSlot(uint32_t chunk) const { return slotOf_[chunk] != kNoSlot; }
   ChunkSlot& slotOf(uint32_t chunk) { return slots_[slotOf_[chunk]]; }
@@ -56,8 +58,10 @@ class ChunkSlots {
   bool isPlanned(uint32_t chunk) const;
   bool canTakePlan() const;                 // there is one, and all of it is resident
   void measurePlan(GpuAsset& asset) const;  // one that can be taken: what views need for it
-  // From the frame `serial` on the planned chunks are drawn: those that were measured.
-  void takePlan(uint64_t serial, GpuAsset& asset);
+  // From the frame `serial` on the planned chunks are drawn: those that were measured. keepsBefore: those that were
+  // drawn are fading, until endFade(), the first frame without them.
+  void takePlan(uint64_t serial, GpuAsset& asset, bool keepsBefore);
+  void endFade(uint64_t serial);
   std::span<const uint32_t> drawn() const { return drawn_; }
 
   // Slots that are drawn and whose borders no frame has told yet: now `serial` does. isTableNew: the table has nothing
@@ -67,6 +71,9 @@ class ChunkSlots {
     bool isTableNew;
   };
   Publication publish(uint64_t serial);
+  // What turns a table that is published into that of the cut before, while it fades, and back.
+  Publication leaving() const { return {leaving_, false}; }
+  Publication entering() const { return {entering_, false}; }
   void dropFrame(uint64_t serial);
 
   template <class Visit>
@@ -81,7 +88,8 @@ class ChunkSlots {
   std::vector<uint32_t> slotOf_;   // [chunk of the file]
   std::vector<SlotState> states_;  // [chunk of the file]
   std::vector<uint32_t> drawn_, planned_, unpublished_;
-  uint64_t tableSerial_ = 0;  // frame that filled the table of borders; 0: none
+  std::vector<uint32_t> leaving_, entering_;  // slots of one of two cuts alone, while the one before fades
+  uint64_t tableSerial_ = 0;                  // frame that filled the table of borders; 0: none
 };
 
 }  // namespace froth

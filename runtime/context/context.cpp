@@ -202,10 +202,15 @@ FrothResult Context::createView(const FrothViewInfo& info, FrothView& handle) {
   if (info.eyeCount > kMostEyes) {
     return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "eyeCount: %u; at most %u", info.eyeCount, kMostEyes);
   }
+  if (info.fadeFrames > kMostFadeFrames) {
+    return messages.fail(FROTH_ERROR_ARGUMENT, "frothCreateView", "fadeFrames: %u; at most %u", info.fadeFrames,
+                         kMostFadeFrames);
+  }
   auto view = std::make_unique<View>();
   view->maxExtent = info.maxExtent;
   view->eyeCount = info.eyeCount == 0 ? 1 : info.eyeCount;
   view->lensClasses = info.lensClasses;
+  view->fadeFrames = info.fadeFrames;
   view->measurePasses = info.measurePasses != 0;
   view->keepsReactive = info.keepsReactive != 0;
   view->keepsHits = info.keepsHits != 0 || view->keepsReactive;
@@ -248,7 +253,8 @@ Status Context::createRenderer(View& view) {
   }
   view.breadcrumbs.reset();
   if (hasBreadcrumbs_) {
-    Result<std::unique_ptr<Breadcrumbs>> breadcrumbs = Breadcrumbs::create(device_, framesInFlight_);
+    Result<std::unique_ptr<Breadcrumbs>> breadcrumbs = Breadcrumbs::create(
+        device_, framesInFlight_, view.fadeFrames > 0 ? kFadingRecordingsPerFrame : kRecordingsPerFrame);
     if (!breadcrumbs) {
       return breadcrumbs.error();
     }
@@ -266,6 +272,7 @@ Status Context::createRenderer(View& view) {
                                      .measurePasses = view.measurePasses && canMeasure,
                                      .keepsHits = view.keepsHits && hasExtendedFormats_,
                                      .keepsReactive = view.keepsReactive && hasExtendedFormats_,
+                                     .fades = view.fadeFrames > 0,
                                      .composites = compositeFormat_ != VK_FORMAT_UNDEFINED,
                                      .exportsDepth = depthExportFormat_ != VK_FORMAT_UNDEFINED,
                                      .breadcrumbs = view.breadcrumbs.get(),

@@ -142,12 +142,14 @@ class Context {
     VkExtent2D maxExtent{};
     uint32_t lensClasses = 0;  // FrothLensClass bits
     uint32_t reservedCells = 0;
+    uint32_t fadeFrames = 0;
     bool measurePasses = false, keepsHits = false, keepsReactive = false;
     std::unique_ptr<Breadcrumbs> breadcrumbs;  // null: null context, or none are wanted
     std::unique_ptr<ViewRenderer> renderer;    // null: null context, or the device is lost
     // in the newest frothUpdate: those it has buffers for, if they fit the budget
     std::vector<RenderInstance> prepared;
-    std::vector<RenderInstance> visible;        // of the record call under way; has room for all
+    std::vector<RenderInstance> visible;        // of the record call under way; has room for all, as has
+    std::vector<RenderInstance> visibleBefore;  // the same with the cuts before, in a fade
     std::optional<ToldError> preparationError;  // sent already
     uint32_t eyeCount = 1;
     Eye eyes[kMostEyes];
@@ -208,6 +210,13 @@ class Context {
   void limitLevels();
   bool isRoomMadeFor(const Asset& asset) const;
   void publishBorders(VkCommandBuffer commandBuffer);
+  // Fades from cut to cut (runtime/context/context_fade.cpp).
+  uint32_t mostFadeFrames() const;
+  bool isFading() const;
+  void stepFade();
+  float fadeWeight(View& view, const FrothRenderInfo& info) const;
+  uint32_t recordView(RenderMethod method, View& view, VkCommandBuffer commandBuffer, const FrothRenderInfo& info);
+  void turnBorders(VkCommandBuffer commandBuffer, bool isBefore);
   uint32_t walkedChunks() const;
   FrothAssetState stateOf(const Asset& asset) const;
   // Instances that queries see; why others were left out, as FrothQueryBit.
@@ -277,6 +286,7 @@ class Context {
   std::vector<StreamEye> streamEyes_;  // of the asset at hand
   double streamDetail_ = 1;
   uint64_t streamCells_ = std::numeric_limits<uint64_t>::max();
+  uint32_t fadeStep_ = 1;       // of this frame in its fade; 1: the first, if one begins
   bool areEyesFrozen_ = false;  // levels_ keeps those that it has
   bool isFloorTold_ = false;    // that the budget is too low for floors
   HandlePool<Instance, FrothInstance> instances_;

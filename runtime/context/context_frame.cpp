@@ -183,6 +183,7 @@ void Context::prepareView(FrothView handle, View& view) {
     }
   });
   view.visible.reserve(gpu::kMostInstances);
+  view.visibleBefore.reserve(gpu::kMostInstances);
   const Status status = view.renderer->prepare(completedSerial_, view.prepared);
   if (status || device_.loss->isTold()) {  // of the loss frothUpdate tells
     view.preparationError.reset();
@@ -368,10 +369,7 @@ FrothResult Context::render(RenderMethod method, FrothView handle, VkCommandBuff
   }
   renderedSerial = serial_;
   drawnSerial_ = serial_;
-  if (method == RenderMethod::kWalk) {
-    publishBorders(commandBuffer);
-  }
-  bits |= view->renderer->record(method, commandBuffer, *pipelines_, view->visible, info, serial_);
+  bits |= recordView(method, *view, commandBuffer, info);
   if (bits != 0) {
     view->bits.emplace_back(serial_, bits);
   }

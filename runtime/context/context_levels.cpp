@@ -22,6 +22,7 @@ void followCut(Asset& asset, const std::vector<uint32_t>& cut) {
     asset.planChunks(cut);
     return;
   }
+  if (asset.before()) return;
   for (uint32_t chunk = 0; chunk < asset.manifest().levels.size(); ++chunk) {
     if (!std::ranges::binary_search(cut, chunk)) asset.evictChunk(chunk);
   }
@@ -37,10 +38,11 @@ void Context::setCut(FrothAsset handle, std::vector<uint32_t> chunks) {
 }
 
 void Context::updateLevels() {
+  stepFade();
   assets_.forEachNamed([&](FrothAsset handle, Asset& asset) {
     if (!asset.hasLevels() || !asset.isDecoded() || asset.hasFailed()) return;
     const bool canTakePlan = asset.updateChunks(completedSerial_, completedUploadSerial_, ring_.get());
-    if (canTakePlan && isRoomMadeFor(asset)) asset.takePlan(serial_);
+    if (canTakePlan && fadeStep_ == 1 && isRoomMadeFor(asset)) asset.takePlan(serial_, mostFadeFrames() > 0);
     const auto isIts = [&](const auto& cut) { return isSame(cut.first, handle); };
     if (const auto cut = std::ranges::find_if(cuts_, isIts); cut != cuts_.end()) {
       followCut(asset, cut->second);

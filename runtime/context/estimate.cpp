@@ -15,6 +15,7 @@ ViewOptions optionsOf(const FrothEstimateInfo& info) {
           .framesInFlight = info.framesInFlight == 0 ? kDefaultFramesInFlight : info.framesInFlight,
           .keepsHits = view.keepsHits != 0 || view.keepsReactive != 0,
           .keepsReactive = view.keepsReactive != 0,
+          .fades = view.fadeFrames != 0,
           .reservedCells = view.reserveCells == 0 ? kReservedCells : view.reserveCells};
 }
 

@@ -7,6 +7,7 @@
 namespace froth {
 
 inline constexpr uint32_t kDefaultFramesInFlight = 2;
+inline constexpr uint32_t kMostFadeFrames = 64;       // FrothViewInfo::fadeFrames
 inline constexpr uint32_t kReservedCells = 1u << 20;  // FrothViewInfo::reserveCells
 inline constexpr float kDefaultCutoff = 1e-3f, kDefaultQuantile = 0.5f;
 

@@ -76,7 +76,7 @@ void LevelStreaming::remove(FrothAsset handle) {
 void LevelStreaming::report(FrothAsset handle, Asset& asset, const Messages& messages) {
   Stream& stream = *find(handle);
   reportComing(stream, asset, messages);
-  stream.isDrawn = std::ranges::equal(stream.drawn, asset.drawnChunks());
+  stream.isDrawn = !asset.before() && std::ranges::equal(stream.drawn, asset.drawnChunks());
   std::erase_if(stream.leaving, [&](uint32_t chunk) {
     asset.evictChunk(chunk);
     const SlotState state = asset.chunkState(chunk);

@@ -43,7 +43,7 @@ class LevelStreaming {
   const ChunkStreamer& streamer() const { return streamer_; }
   uint64_t budgetBytes() const { return budget_.chunkBytes; }  // UINT64_MAX: no limit
   uint64_t floorBytes() const { return floorBytes_; }
-  // What is wanted is drawn, of all assets; as of the newest report().
+  // What is wanted is drawn, and nothing else, of all assets; as of the newest report().
   bool isSettled() const;
   uint32_t drawnChunks() const;
 
@@ -56,7 +56,7 @@ class LevelStreaming {
     bool isNew = false;                     // `drawn`: not planned yet
     std::vector<uint32_t> coming, leaving;  // chunks that the asset was told to bring and to let go
     std::vector<uint32_t> drawn;            // ascending; what the streamer shows
-    bool isDrawn = false;                   // `drawn`: by the asset too
+    bool isDrawn = false;                   // `drawn`: by the asset too, and alone
   };
   const Stream* find(FrothAsset handle) const;
   Stream* find(FrothAsset handle);

@@ -4,20 +4,19 @@
 #include <cstring>
 
 #include "runtime/render/pass_timer.h"
-#include "runtime/render/view_buffers.h"
 #include "runtime/render/view_renderer.h"
 
 namespace froth {
 namespace {
 
-// A composite and a depth export of each eye beside the recordings.
-constexpr uint32_t kPassesPerFrame = kRecordingsPerFrame * PassTimer::kMaxPasses + 2 * kMostEyes;
+// Composites and depth exports beside the recordings, each of each eye.
+constexpr uint32_t kOtherPasses = 2 * kMostEyes;
 
 }  // namespace
 
-Result<std::unique_ptr<Breadcrumbs>> Breadcrumbs::create(Device& device, uint32_t framesInFlight) {
+Result<std::unique_ptr<Breadcrumbs>> Breadcrumbs::create(Device& device, uint32_t framesInFlight, uint32_t recordings) {
   std::unique_ptr<Breadcrumbs> made(new Breadcrumbs(device));
-  made->crumbs_.resize(framesInFlight * kPassesPerFrame);
+  made->crumbs_.resize(framesInFlight * (recordings * PassTimer::kMaxPasses + kOtherPasses));
   made->kept_.resize(made->crumbs_.size());
   const VkDeviceSize size = made->crumbs_.size() * sizeof(Marks);
   const Result<GpuBuffer> buffer =

@@ -20,7 +20,8 @@ class Breadcrumbs {
     uint64_t serial;
   };
 
-  static Result<std::unique_ptr<Breadcrumbs>> create(Device& device, uint32_t framesInFlight);
+  // recordings: of a frame.
+  static Result<std::unique_ptr<Breadcrumbs>> create(Device& device, uint32_t framesInFlight, uint32_t recordings);
   ~Breadcrumbs();  // the GPU must be done with the view
 
   // Around the commands of a pass, which may have others within. begin() gives what end() takes.

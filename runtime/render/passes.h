@@ -25,7 +25,8 @@ namespace froth {
   ONE(AimRaysByImage, aim_rays_by_image, kMapped)   \
   ONE(WidenCones, widen_cones, kMapped)             \
   ONE(PublishBorders, publish_borders, kAnyLens)    \
-  COLOURS(Clear, clear, kAnyLens)
+  COLOURS(Clear, clear, kAnyLens)                   \
+  COLOURS(Fade, fade, kAnyLens)
 
 // Made where a view draws several instances.
 #define FROTH_MERGED_PASSES(ONE, COLOURS, FORMS) \

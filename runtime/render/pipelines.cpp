@@ -17,6 +17,8 @@
 #include "spirv/cull_cells.h"
 #include "spirv/emit_pairs.h"
 #include "spirv/expand_cells.h"
+#include "spirv/fade_rgba16f.h"
+#include "spirv/fade_rgba32f.h"
 #include "spirv/locate.h"
 #include "spirv/order_tiles.h"
 #include "spirv/publish_borders.h"

@@ -98,14 +98,14 @@ void Recording::wait() const { view.parts.front().recorder.wait(); }
 Recording beginRecording(ViewState& view, const RenderPipelines::State& pipelines, VkCommandBuffer commandBuffer,
                          RenderMethod method, const FrothRenderInfo& info, uint64_t serial) {
   FrameSlot& slot = view.slots[view.slot];
-  const uint32_t place = slot.recordings % kRecordingsPerFrame;
+  const uint32_t place = slot.recordings % view.leastCapacity.recordings;
   const Recording recording{.view = view,
                             .pipelines = pipelines,
                             .info = info,
                             .commandBuffer = commandBuffer,
                             .method = method,
                             .place = place,
-                            .number = view.slot * kRecordingsPerFrame + place};
+                            .number = view.slot * view.leastCapacity.recordings + place};
   slot.serial = serial;
   slot.recordings = place + 1;
   view.lastSerial = serial;

@@ -23,13 +23,13 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
   const VkDeviceSize pairs = capacity.pairs;
   switch (id) {
     case ViewBuffer::kFrames:
-      return kRecordingsPerFrame * strideOf(capacity);
+      return capacity.recordings * strideOf(capacity);
     case ViewBuffer::kStaging:
-      return capacity.frames * kRecordingsPerFrame * strideOf(capacity);
+      return capacity.frames * capacity.recordings * strideOf(capacity);
     case ViewBuffer::kReadback:
-      return capacity.frames * kRecordingsPerFrame * kBlockStride;
+      return capacity.frames * capacity.recordings * kBlockStride;
     case ViewBuffer::kCounters:
-      return kRecordingsPerFrame * kBlockStride;
+      return capacity.recordings * kBlockStride;
     case ViewBuffer::kGroupSums:
       return 8 * VkDeviceSize{capacity.groups};
     case ViewBuffer::kVisibility:
@@ -68,6 +68,8 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
       return gpu::kHitWords * sizeof(uint32_t) * capacity.hits;
     case ViewBuffer::kQuarters:
       return sizeof(gpu::uvec4) * capacity.quarters;
+    case ViewBuffer::kFade:
+      return sizeof(gpu::uvec2) * capacity.fades;
   }
   return 0;
 }
@@ -87,6 +89,7 @@ constexpr std::array<const char*, kViewBufferCount> kNames = {"view: frames",
                                                               "view: cones",
                                                               "view: hits",
                                                               "view: quarters",
+                                                              "view: fade",
                                                               "view: tallies",
                                                               "view: visible cells",
                                                               "view: cell keys",
@@ -110,7 +113,7 @@ struct Group {
   ViewBuffer first, last;
 };
 constexpr Group kGroups[] = {{"view: frames", ViewBuffer::kFrames, ViewBuffer::kWalkStart},
-                             {"view: pixels", ViewBuffer::kRays, ViewBuffer::kQuarters},
+                             {"view: pixels", ViewBuffer::kRays, ViewBuffer::kFade},
                              {"view: tallies", ViewBuffer::kTallies, ViewBuffer::kTallies},
                              {"view: visible cells", ViewBuffer::kVisibleCells, ViewBuffer::kDetails},
                              {"view: planes", ViewBuffer::kPlanes, ViewBuffer::kPlanes},
@@ -247,6 +250,7 @@ void ViewBuffers::addMemory(FrothViewStatus& status) const {
   add("detail sites", {kDetails});
   if (capacity_.rays > 0) add("rays", {kRays, kCones});
   if (capacity_.hits > 0) add("hits", {kHits, kQuarters});
+  if (capacity_.fades > 0) add("fade", {kFade});
   add("pairs", {kPairTiles, kPairTilesSwap, kPairCells, kPairCellsSwap, kTallies, kTileLists});
 }
 

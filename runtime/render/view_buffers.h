@@ -28,6 +28,7 @@ enum class ViewBuffer : uint32_t {
   kCones,
   kHits,  // empty where the view does not keep them, as is
   kQuarters,
+  kFade,
   // of cells, pairs and tiles
   kTallies,  // TallyLayout
   // of visible cells
@@ -51,8 +52,7 @@ enum class ViewBuffer : uint32_t {
   kStaging,   // as kFrames, for all frames in flight, written by the CPU
   kReadback,  // Counters of all frames in flight
 };
-inline constexpr uint32_t kViewBufferCount = 27;
-inline constexpr uint32_t kRecordingsPerFrame = 4;  // a raster and a walk of two eyes
+inline constexpr uint32_t kViewBufferCount = 28;
 
 // [bytes] The space of a FrameBlock with its HitBlock, and of Counters. The chunk table follows its block.
 inline constexpr VkDeviceSize kBlockStride = 2048;

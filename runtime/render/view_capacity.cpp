@@ -31,12 +31,14 @@ uint64_t roomFor(uint64_t wanted, uint64_t capacity, uint64_t most) {
 
 ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b) {
   return {.frames = std::max(a.frames, b.frames),
+          .recordings = std::max(a.recordings, b.recordings),
           .chunks = std::max(a.chunks, b.chunks),
           .groups = std::max(a.groups, b.groups),
           .tiles = std::max(a.tiles, b.tiles),
           .rays = std::max(a.rays, b.rays),
           .hits = std::max(a.hits, b.hits),
           .quarters = std::max(a.quarters, b.quarters),
+          .fades = std::max(a.fades, b.fades),
           .walkStarts = std::max(a.walkStarts, b.walkStarts),
           .cells = std::max(a.cells, b.cells),
           .planes = std::max(a.planes, b.planes),

@@ -8,15 +8,21 @@
 
 namespace froth {
 
+// A raster and a walk of two eyes; of a view that fades, each of two cuts.
+inline constexpr uint32_t kRecordingsPerFrame = 4;
+inline constexpr uint32_t kFadingRecordingsPerFrame = 2 * kRecordingsPerFrame;
+
 struct ViewCapacity {
   // Known before a frame is recorded.
   uint32_t frames = 1;  // in flight
+  uint32_t recordings = kRecordingsPerFrame;
   uint32_t chunks = 1;
   uint32_t groups = 1;  // groupsOfCells
   uint32_t tiles = 1;
   uint64_t rays = 0;        // pixels of a view that mapped lenses draw; else 0
   uint64_t hits = 0;        // pixels of a view that keeps hits; else 0
   uint64_t quarters = 0;    // the same, where it keeps what reactive needs
+  uint64_t fades = 0;       // pixels of a view that fades; else 0
   uint32_t walkStarts = 1;  // as many as tiles where rays may be parallel
   // Of visible cells. A frame that wants more is valid without what has no space.
   uint32_t cells = 1;

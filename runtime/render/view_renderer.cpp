@@ -6,6 +6,7 @@
 #include "runtime/device/handles.h"
 #include "runtime/render/camera_rays.h"
 #include "runtime/render/composite.h"
+#include "runtime/render/fade.h"
 #include "runtime/render/hit_passes.h"
 #include "runtime/render/space_growth.h"
 #include "runtime/render/view_state.h"
@@ -69,7 +70,7 @@ void readBack(ViewState& view, uint64_t completedSerial) {
   view.status.structSize = sizeof(FrothViewStatus);
   view.status.serial = newest->serial;
   for (const auto& space : view.spaces) space->demand = {};
-  const auto firstNumber = static_cast<uint32_t>(newest - view.slots.data()) * kRecordingsPerFrame;
+  const auto firstNumber = static_cast<uint32_t>(newest - view.slots.data()) * view.leastCapacity.recordings;
   for (uint32_t number = firstNumber; number < firstNumber + newest->recordings; ++number) readRecording(view, number);
 }
 
@@ -99,7 +100,7 @@ InstanceSpace& takeSpace(ViewState& view, FrothInstance instance) {
     if (!view.spaces[i]->isTaken) space = view.spaces[i].get();
   }
   if (!space) {
-    const auto recordings = static_cast<uint32_t>(view.slots.size()) * kRecordingsPerFrame;
+    const auto recordings = static_cast<uint32_t>(view.slots.size()) * view.leastCapacity.recordings;
     space = view.spaces.emplace_back(std::make_unique<InstanceSpace>(view.device, recordings)).get();
   }
   space->instance = instance;
@@ -162,6 +163,7 @@ ViewCapacity leastCapacity(const ViewOptions& options) {
   const VkExtent2D extent = options.maxExtent;
   ViewCapacity capacity;
   capacity.frames = options.framesInFlight;
+  if (options.fades) capacity.recordings = kFadingRecordingsPerFrame;
   capacity.tiles = tilesAlong(extent.width) * tilesAlong(extent.height);
   if (options.lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
   if (options.lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = uint64_t{extent.width} * extent.height;
@@ -173,6 +175,7 @@ ViewCapacity firstCapacity(const ViewOptions& options) {
   const uint64_t pixels = uint64_t{options.maxExtent.width} * options.maxExtent.height;
   if (options.keepsHits) capacity.hits = pixels;
   if (options.keepsReactive) capacity.quarters = pixels;
+  if (options.fades) capacity.fades = pixels;
   return capacity;
 }
 
@@ -180,7 +183,7 @@ ViewRenderer::ViewRenderer() = default;
 ViewRenderer::~ViewRenderer() = default;
 
 Result<std::unique_ptr<ViewRenderer>> ViewRenderer::create(Device& device, const ViewOptions& options) {
-  const uint32_t recordings = options.framesInFlight * kRecordingsPerFrame;
+  const uint32_t recordings = options.framesInFlight * leastCapacity(options).recordings;
   Result<std::unique_ptr<OutputImages>> images = OutputImages::create(device, recordings);
   if (!images) return images.error();
   std::unique_ptr<PassTimer> timer;
@@ -269,6 +272,11 @@ bool ViewRenderer::coversNext(const RenderInstance& instance) const {
                  : froth::coversNext(*instance.asset, state_->reservedCells, space->demand, space->buffers.capacity());
 }
 
+bool ViewRenderer::covers(const RenderInstance& instance) const {
+  const InstanceSpace* space = findSpace(*state_, instance.handle);
+  return space && space->buffers.areMade() && coversAsset(*instance.asset, space->buffers.capacity());
+}
+
 CutRoom ViewRenderer::roomForCuts(FrothInstance instance, const GpuAsset& asset) const {
   const InstanceSpace* space = findSpace(*state_, instance);
   const ViewCapacity& capacity = space ? space->buffers.capacity() : state_->leastCapacity;
@@ -309,7 +317,8 @@ bool ViewRenderer::isShrinking() const {
 }
 
 uint32_t ViewRenderer::record(RenderMethod method, VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
-                              std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial) {
+                              std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial,
+                              float fadeWeight) {
   ViewState& view = *state_;
   const Recording recording = beginRecording(view, pipelines.state(), commandBuffer, method, info, serial);
   const uint32_t bits = addParts(recording, pipelines.state(), instances);
@@ -323,6 +332,7 @@ uint32_t ViewRenderer::record(RenderMethod method, VkCommandBuffer commandBuffer
   } else {
     recordWalkPasses(recording);
   }
+  if (fadeWeight < 1) recordFade(recording, fadeWeight);  // before hits, which bind images of their own
   recordHitPasses(recording);
   endRecording(recording);
   return bits;

@@ -44,6 +44,7 @@ struct ViewOptions {
   bool measurePasses = false;
   bool keepsHits = false;      // for id and motion
   bool keepsReactive = false;  // for reactive, with hits
+  bool fades = false;          // from a cut to the next
   bool composites = false, exportsDepth = false;
   Breadcrumbs* breadcrumbs = nullptr;    // they stay longer than the renderer; null: none are wanted
   uint32_t reservedCells = 0;            // room from the first frame on, for each instance; no more than its asset has
@@ -81,6 +82,9 @@ class ViewRenderer {
   // the budget refused the room.
   bool coversNext(const RenderInstance& instance) const;
 
+  // Whether the view has the buffers to draw the asset of the instance, with room for some of its cells at least.
+  bool covers(const RenderInstance& instance) const;
+
   // For sharing a budget between views and chunks.
   CutRoom roomForCuts(FrothInstance instance, const GpuAsset& asset) const;
   VkDeviceSize heldBytes() const;  // [bytes] of device memory, for all instances
@@ -94,12 +98,14 @@ class ViewRenderer {
   void shrink(double factor);            // keeps `factor` [0..1] of them
   bool isShrinking() const;
 
-  // Between frothUpdate calls, once per frame and method; `serial` is that of the frame. `instances`: all that are to
-  // be seen; none clears the wanted outputs (colour 0, distance +inf, normal 0). info has been checked and its defaults
-  // resolved: camera.scissor is what is drawn, not empty, within maxExtent and the images. Allocates nothing. Returns
-  // the FrothViewBit set known at record time.
+  // Between frothUpdate calls, once per frame and method, and with each of two cuts; `serial` is that of the frame.
+  // `instances`: all that are to be seen; none clears the wanted outputs (colour 0, distance +inf, normal 0). info has
+  // been checked and its defaults resolved: camera.scissor is what is drawn, not empty, within maxExtent and the
+  // images. Allocates nothing. Returns the FrothViewBit set known at record time. fadeWeight: fade.h; of a view that
+  // fades. 1: the instances alone.
   uint32_t record(RenderMethod method, VkCommandBuffer commandBuffer, RenderPipelines& pipelines,
-                  std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial);
+                  std::span<const RenderInstance> instances, const FrothRenderInfo& info, uint64_t serial,
+                  float fadeWeight);
 
   // Into the engine's images; after record() and once per frame. info has been checked. region: what was drawn.
   void composite(VkCommandBuffer commandBuffer, RenderPipelines& pipelines, const FrothCompositeInfo& info,

@@ -350,6 +350,14 @@ struct BorderConstants {
   uint slot, slotPlace;                 // which is written to borders[slotPlace]
 };
 
+// Push constants of fade.comp.
+struct FadeConstants {
+  uint64_t frame;
+  uint64_t kept;  // [row of the region, column] four halves
+  float weight;   // of the colours in the image [0..1); 0: they are kept
+  uint padding;
+};
+
 // Push constants of all other passes.
 struct PassConstants {
   uint64_t frame;
@@ -373,7 +381,8 @@ static_assert(offsetof(FrameBlock, counters) == 328 && sizeof(FrameBlock) == 576
 static_assert(sizeof(FrameBlock) <= kHitBlockOffset && sizeof(HitInstance) == 64);
 static_assert(offsetof(HitBlock, pixels) == 208 && offsetof(HitBlock, hasPrevious) == 256 && sizeof(HitBlock) == 288);
 static_assert(kMostInstances <= kQuarterPartMask + 1);
-static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8 && sizeof(BorderConstants) == 40);
+static_assert(sizeof(SortConstants) == 80 && sizeof(PassConstants) == 8 && sizeof(BorderConstants) == 40 &&
+              sizeof(FadeConstants) == 24);
 static_assert(sizeof(PassConstants) + sizeof(PartConstants) <= 128, "what every device has");
 
 }  // namespace froth::gpu

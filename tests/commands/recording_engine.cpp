@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "format/write/asset_writer.h"
+#include "froth/froth_stream.h"
 #include "tests/format/level_sample.h"
 #include "tests/format/sample_asset.h"
 
@@ -15,6 +16,7 @@ namespace {
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkPipelineStageFlags2 kCopy = VK_PIPELINE_STAGE_2_COPY_BIT;
 constexpr VkAccessFlags2 kCopyRead = VK_ACCESS_2_TRANSFER_READ_BIT, kCopyWrite = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+constexpr uint32_t kFadeFrames = 3;
 const VkCommandBuffer kCommands = reinterpret_cast<VkCommandBuffer>(1);             // never reaches the driver
 constexpr VkDeviceAddress kRays = VkDeviceAddress{1} << 61, kHits = kRays + 65536;  // in no buffer of the runtime's
 
@@ -81,6 +83,9 @@ RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeForma
   asset.bytesStay = 1;
   asset.prepareRays = hasLevels ? FROTH_PREPARE_RADIANCE : FROTH_PREPARE_NOTHING;
   check(frothOpenAsset(context_, &asset, &asset_), "frothOpenAsset");
+  auto streaming = makeStruct<FrothStreamInfo>();
+  streaming.detail = 1e9f;  // level 0, from wherever the camera is
+  check(frothSetStreaming(context_, &streaming), "frothSetStreaming");
   instances_.resize(instanceCount);
   for (FrothInstance& instance : instances_) {
     auto placement = makeStruct<FrothInstanceInfo>();
@@ -88,7 +93,8 @@ RecordingEngine::RecordingEngine(uint32_t instanceCount, VkFormat compositeForma
     placement.mask = 1;
     check(frothCreateInstance(context_, &placement, &instance), "frothCreateInstance");
   }
-  const FrothViewInfo view{sizeof(FrothViewInfo), kExtent, 1, info.lensClasses, 1, 2, reserveCells, {}, 1};
+  const FrothViewInfo view{sizeof(FrothViewInfo), kExtent, 1, info.lensClasses,           1, 2,
+                           reserveCells,          {},      1, hasLevels ? kFadeFrames : 0};
   check(frothCreateView(context_, &view, &view_), "frothCreateView");
 }
 

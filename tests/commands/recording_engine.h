@@ -27,7 +27,7 @@ class RecordingEngine {
   static constexpr VkExtent2D kExtent{72, 40};
 
   // Opens an asset and places it so many times. reserveCells: FrothViewInfo's; 1: the view may lack cells. hasLevels:
-  // one whose chunks come and are drawn in the first frames.
+  // one whose chunks come and are drawn in the first frames, and a view that fades.
   RecordingEngine(uint32_t instanceCount, VkFormat compositeFormat, uint32_t reserveCells = 0, bool hasLevels = false);
   ~RecordingEngine();
 

@@ -1,4 +1,6 @@
 // A slow dolly: what is told of pixels that change, and that both of its scenes are the same where their cuts are.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "measure/flight/pops.h"
@@ -55,13 +57,32 @@ TEST(Pops, AreThoseOfCutsAlone) {
   EXPECT_EQ(pops.still.pixels() + pops.moved.pixels(), 39u * 48 * 32);
   EXPECT_GT(pops.moved.quantile(0.99), pops.still.quantile(0.99));
 
+  EXPECT_TRUE(pops.faded.empty());
+
   const Pops whole = measureWell(dollyOf(1e30f, 6));
   EXPECT_EQ(countMoved(whole), 0u);
   ASSERT_EQ(whole.whole.size(), whole.levels.size());
   for (size_t i = 0; i < whole.whole.size(); ++i) {
     EXPECT_EQ(whole.levels[i].most, whole.whole[i].most) << i;
     EXPECT_EQ(whole.levels[i].seenPixels, whole.whole[i].seenPixels) << i;
+    EXPECT_EQ(whole.levels[i].mostOfError, 0) << i;
   }
+}
+
+// A pop is a change of what is wrong; a fade spreads it over its frames.
+TEST(Pops, AreSmallerWhereTheyFade) {
+  FlightOptions options = dollyOf(1, 40);
+  options.scene.fadeFrames = 7;
+  const Pops pops = measureWell(options);
+  ASSERT_EQ(pops.faded.size(), pops.levels.size());
+  const auto mostOf = [](const std::vector<FrameChange>& frames) {
+    return std::ranges::max_element(frames, {}, &FrameChange::mostOfError)->mostOfError;
+  };
+  EXPECT_GT(mostOf(pops.levels), 0.05);
+  EXPECT_LT(mostOf(pops.faded), 0.75 * mostOf(pops.levels)) << "what is wrong moves with the camera, too";
+  EXPECT_EQ(pops.gpuFading.size() % 7, 0u);
+  EXPECT_GT(pops.gpuFading.size(), 0u);
+  EXPECT_EQ(pops.gpuFading.size() + pops.gpuStill.size() + 1, pops.faded.size());
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ class Reader {
 
 class Streamed {
  public:
-  explicit Streamed(Reader& reader, uint64_t budget = 0) {
+  explicit Streamed(Reader& reader, uint64_t budget = 0, uint32_t fadeFrames = 0) {
     FrothContextInfo info = checkedContextInfo(0);
     info.deviceBudget = budget;
     info.messageUser = this;
@@ -85,6 +85,7 @@ class Streamed {
     check(frothCreateInstance(context_, &instance, &instance_), "frothCreateInstance");
     auto view = makeStruct<FrothViewInfo>();
     view.maxExtent = kStreamedExtent;
+    view.fadeFrames = fadeFrames;
     check(frothCreateView(context_, &view, &view_), "frothCreateView");
     image_ = *sharedHost().createImage(VK_FORMAT_R32G32B32A32_SFLOAT, kStreamedExtent);
   }

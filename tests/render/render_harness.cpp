@@ -151,7 +151,7 @@ Stage::Stage(const AssetContents& contents, VkExtent2D maxExtent, FrothContext* 
   assetInfo.keepForQueries = keepForQueries;
   check(frothOpenAsset(context_, &assetInfo, &asset_), "frothOpenAsset");
   const FrothViewInfo viewInfo{sizeof(FrothViewInfo), maxExtent, 1, lensClasses, keepsHits, eyeCount, 0, {},
-                               keepsReactive};
+                               keepsReactive,         0};
   check(frothCreateView(context_, &viewInfo, &view_), "frothCreateView");
   place({});
 

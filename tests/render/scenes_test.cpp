@@ -259,7 +259,7 @@ constexpr size_t kIdleViews = 2;
 std::vector<FrothView> createIdleViews(FrothContext* context, VkExtent2D extent, size_t count) {
   std::vector<FrothView> views(count);
   for (FrothView& view : views) {
-    const FrothViewInfo info{sizeof(FrothViewInfo), extent, 0, 0, 0, 0, 0, {}, 0};
+    const FrothViewInfo info{sizeof(FrothViewInfo), extent, 0, 0, 0, 0, 0, {}, 0, 0};
     EXPECT_EQ(frothCreateView(context, &info, &view), FROTH_OK);
   }
   return views;

@@ -14,7 +14,7 @@ struct EstimateCase {
   const char* name;
   SampleOptions sample;
   uint32_t layers = 0, keepForQueries = 0, walkShaders = 0, framesInFlight = 0, instances = 1;
-  uint32_t lensClasses = 0, keepsHits = 0, keepsReactive = 0, reserveCells = 0, prepareRays = 0;
+  uint32_t lensClasses = 0, keepsHits = 0, keepsReactive = 0, reserveCells = 0, prepareRays = 0, fadeFrames = 0;
   VkExtent2D extent = {64, 48};
 };
 
@@ -57,6 +57,7 @@ TEST_P(Estimate, IsWhatTheAssetAndTheViewTake) {
   viewInfo.keepsHits = given.keepsHits;
   viewInfo.keepsReactive = given.keepsReactive;
   viewInfo.reserveCells = given.reserveCells;
+  viewInfo.fadeFrames = given.fadeFrames;
   auto info = makeStruct<FrothEstimateInfo>();
   info.asset = &assetInfo_;
   info.view = &viewInfo;
@@ -119,7 +120,8 @@ INSTANTIATE_TEST_SUITE_P(
                                  .instances = 2,
                                  .lensClasses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC,
                                  .keepsHits = 1},
-                    EstimateCase{.name = "Reactive", .sample = {}, .instances = 2, .keepsReactive = 1}),
+                    EstimateCase{.name = "Reactive", .sample = {}, .instances = 2, .keepsReactive = 1},
+                    EstimateCase{.name = "Fading", .sample = {}, .instances = 2, .fadeFrames = 8}),
     [](const auto& test) { return std::string(test.param.name); });
 
 class EstimateCall : public RuntimeTest {

@@ -194,7 +194,7 @@ std::vector<FrothRayHit> WalkStage::castOnHost(const std::vector<FrothGpuRay>& r
 }
 
 Image WalkStage::rasterize(const View& view) {
-  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), {view.width, view.height}, 0, 0, 0, 0, 0, {}, 0};
+  const FrothViewInfo viewInfo{sizeof(FrothViewInfo), {view.width, view.height}, 0, 0, 0, 0, 0, {}, 0, 0};
   FrothView handle{};
   check(frothCreateView(context_, &viewInfo, &handle), "frothCreateView");
   Host& host = sharedHost();

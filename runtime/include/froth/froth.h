@@ -177,6 +177,9 @@ typedef struct FrothViewInfo {
   FrothView startLike; /* begins with what the newest complete frame of this view wanted; {0, 0}: of none */
   /* 1: its cameras may use reactive too, and it keeps hits; 16 bytes more per pixel. The context has reactiveImages */
   uint32_t keepsReactive;
+  /* [<= 64] frothUpdate calls in which an asset with levels of detail fades from a cut to the next (froth_stream.h);
+   * 8 bytes per pixel of maxExtent. 0: it changes at once */
+  uint32_t fadeFrames;
 } FrothViewInfo;
 
 /* Makes room for the READY instances too, so that the view's first frame allocates nothing. */
@@ -206,7 +209,7 @@ typedef enum FrothViewBit {
 } FrothViewBit;
 
 typedef struct FrothPassTime {
-  const char* name; /* "aim", "cull", "sort", "bin", "shade", "raster", "walk" ...; static storage */
+  const char* name; /* "aim", "cull", "sort", "bin", "shade", "raster", "walk", "fade" ...; static storage */
   double milliseconds;
 } FrothPassTime;
 

@@ -15,7 +15,8 @@ extern "C" {
 typedef struct FrothEstimateInfo {
   uint32_t structSize;
   const FrothAssetInfo* asset; /* path or data, layers, keepForQueries and prepareRays count; no reader */
-  /* maxExtent, lensClasses, keepsHits, keepsReactive and reserveCells count. Null: no view; its bytes are then 0 */
+  /* maxExtent, lensClasses, keepsHits, keepsReactive, reserveCells and whether it fades count. Null: no view; its bytes
+   * are then 0 */
   const FrothViewInfo* view;
   uint32_t walkShaders;           /* FrothContextInfo's */
   uint32_t framesInFlight;        /* [1..8] FrothContextInfo's; 0: 2 */

@@ -6,6 +6,12 @@
  * (FrothContextInfo::deviceBudget, frothSetBudget) has no room. So what is wanted depends on views, points and budget
  * alone; while it comes, what is resident is drawn, and there is never a hole. Assets without levels are not touched.
  *
+ * Fades: with FrothViewInfo::fadeFrames = n the n frames from a change of cuts on draw both cuts and mix colour and
+ * alpha: frame i has i / (n + 1) of the new one. All other images are those of the new cut. Such a frame takes about
+ * twice the time. Cuts belong to assets: while a view fades, no cut of the context changes again, views without
+ * fadeFrames draw the new ones at once, and chunks that leave stay, unless their room is needed: then the fade ends.
+ * Frames are counted by frothUpdate. The first picture of an asset does not fade.
+ *
  * Threads: as all calls that take a context (froth.h): one at a time. */
 #ifndef FROTH_FROTH_STREAM_H
 #define FROTH_FROTH_STREAM_H
@@ -41,7 +47,8 @@ FROTH_API FrothResult frothSetStreaming(FrothContext* context, const FrothStream
 /* Of all assets with levels, as of the newest frothUpdate. */
 typedef struct FrothStreamStatus {
   uint32_t structSize;
-  uint32_t isSettled;      /* 1: what is wanted is drawn. A picture at rest does not change any more */
+  uint32_t
+      isSettled; /* 1: what is wanted is drawn, and no view fades to it. A picture at rest does not change any more */
   uint32_t drawnChunks;    /* by the next recording, once views have room for them */
   uint32_t residentChunks; /* drawn or kept */
   uint32_t comingChunks;   /* read, decoded or uploaded */
@@ -61,7 +68,7 @@ FROTH_API FrothResult frothGetStreamStatus(FrothContext* context, FrothStreamSta
 typedef enum FrothChunkState {
   FROTH_CHUNK_ABSENT = 0,
   FROTH_CHUNK_COMING = 1,   /* waits for its read, is read, decoded or uploaded */
-  FROTH_CHUNK_RESIDENT = 2, /* on the device and not drawn; also while frames in flight may still draw it */
+  FROTH_CHUNK_RESIDENT = 2, /* on the device and not drawn; also while frames in flight or a fade may still draw it */
   FROTH_CHUNK_DRAWN = 3,    /* by all views that show the asset, from this frame on */
   FROTH_CHUNK_FAILED = 4,   /* to be brought; may be tried again (FrothStreamStatus::failedChunks: for good) */
   FROTH_CHUNK_STATE_MAX = 0x7fffffff
