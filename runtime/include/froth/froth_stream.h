@@ -47,8 +47,7 @@ FROTH_API FrothResult frothSetStreaming(FrothContext* context, const FrothStream
 /* Of all assets with levels, as of the newest frothUpdate. */
 typedef struct FrothStreamStatus {
   uint32_t structSize;
-  uint32_t
-      isSettled; /* 1: what is wanted is drawn, and no view fades to it. A picture at rest does not change any more */
+  uint32_t isSettled;      /* 1: what is wanted is drawn, unfaded: a picture at rest changes no more */
   uint32_t drawnChunks;    /* by the next recording, once views have room for them */
   uint32_t residentChunks; /* drawn or kept */
   uint32_t comingChunks;   /* read, decoded or uploaded */
