@@ -4,6 +4,18 @@
 #include <utility>
 
 namespace froth {
+namespace {
+
+// What a call that fills a status tells. call(status): the call's result.
+template <class Answer, class Call>
+Result<Answer> askStatus(const Scene& scene, const char* name, Call&& call) {
+  Answer answer{};
+  answer.structSize = sizeof(answer);
+  if (Status asked = scene.check(call(&answer), name); !asked) return asked.error();
+  return answer;
+}
+
+}  // namespace
 
 Status Scene::check(FrothResult result, const char* call) const {
   if (result >= FROTH_OK) return {};  // what is positive is information, such as an asset that is still loading
@@ -66,12 +78,9 @@ Status Scene::replace(const std::string& path) {
 }
 
 Result<FrothReplacementStatus> Scene::replacement() const {
-  FrothReplacementStatus status{};
-  status.structSize = sizeof(status);
-  if (Status asked = check(frothGetReplacement(context_, assetHandle_, &status), "frothGetReplacement"); !asked) {
-    return asked.error();
-  }
-  return status;
+  return askStatus<FrothReplacementStatus>(*this, "frothGetReplacement", [&](FrothReplacementStatus* status) {
+    return frothGetReplacement(context_, assetHandle_, status);
+  });
 }
 
 Scene::~Scene() {
@@ -129,12 +138,8 @@ Result<std::vector<FrothChunk>> Scene::chunks() const {
 }
 
 Result<FrothStreamStatus> Scene::streamStatus() const {
-  FrothStreamStatus status{};
-  status.structSize = sizeof(status);
-  if (Status asked = check(frothGetStreamStatus(context_, &status), "frothGetStreamStatus"); !asked) {
-    return asked.error();
-  }
-  return status;
+  return askStatus<FrothStreamStatus>(
+      *this, "frothGetStreamStatus", [&](FrothStreamStatus* status) { return frothGetStreamStatus(context_, status); });
 }
 
 Status Scene::draw(VkCommandBuffer commands, Method method, FrothRenderInfo info) {
@@ -151,12 +156,9 @@ Status Scene::place(FrothInstanceInfo placement) {
 }
 
 Result<FrothViewStatus> Scene::viewStatus() const {
-  FrothViewStatus status{};
-  status.structSize = sizeof(status);
-  if (Status asked = check(frothGetViewStatus(context_, view_, &status), "frothGetViewStatus"); !asked) {
-    return asked.error();
-  }
-  return status;
+  return askStatus<FrothViewStatus>(*this, "frothGetViewStatus", [&](FrothViewStatus* status) {
+    return frothGetViewStatus(context_, view_, status);
+  });
 }
 
 Result<CameraPath> Scene::path(std::vector<Pose> keys) const {

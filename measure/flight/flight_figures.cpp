@@ -101,6 +101,13 @@ void printFrameTimes(const char* name, const std::vector<double>& times) {
              found.p999, found.worst);
 }
 
+nlohmann::ordered_json sceneAsJson(const SceneOptions& scene, const std::string& deviceName,
+                                   const std::string& driverName, size_t frames) {
+  return {{"device", deviceName},        {"driver", driverName},          {"frames", frames},
+          {"width", scene.extent.width}, {"height", scene.extent.height}, {"budget", scene.budget},
+          {"detail", scene.detail},      {"mostCells", scene.mostCells},  {"fadeFrames", scene.fadeFrames}};
+}
+
 void printFlight(const Flight& flight, const FlightOptions& options) {
   const Summary summary = summarize(flight, options);
   const SceneOptions& scene = options.scene;
@@ -133,43 +140,33 @@ void printFlight(const Flight& flight, const FlightOptions& options) {
 
 nlohmann::ordered_json flightAsJson(const Flight& flight, const FlightOptions& options) {
   const Summary summary = summarize(flight, options);
-  const SceneOptions& scene = options.scene;
-  nlohmann::ordered_json json{
-      {"device", flight.deviceName},
-      {"driver", flight.driverName},
-      {"frames", flight.frames.size()},
-      {"width", scene.extent.width},
-      {"height", scene.extent.height},
-      {"budget", scene.budget},
-      {"detail", scene.detail},
-      {"mostCells", scene.mostCells},
-      {"fadeFrames", scene.fadeFrames},
-      {"jumpEvery", options.jumpEvery},
-      {"disk", diskAsJson(scene.disk)},
-      {"cells", flight.asset.cellCount},
-      {"chunks", flight.asset.chunkCount},
-      {"settledFrames", summary.settled},
-      {"readyFrames", summary.gpuTimes.size()},
-      {"longestUnsettled", summary.longestUnsettled},
-      {"framesToSettle", flight.framesToSettle},
-      {"lackingFrames", summary.lacking},
-      {"missingPixels", summary.missingPixels},
-      {"floorFrames", summary.onFloor},
-      {"oldestRequest", summary.oldestRequest},
-      {"evictions", flight.atEnd.evictions},
-      {"retries", flight.atEnd.retries},
-      {"failures", flight.atEnd.failures},
-      {"bytesRead", flight.bytesRead},
-      {"mostDeviceBytes", summary.mostDeviceBytes},
-      {"mostChunkBytes", summary.mostChunkBytes},
-      {"framesAboveBudget", summary.aboveBudget},
-      {"updateMs", frameTimesAsJson(summary.updates)},
-      {"gpuMs", frameTimesAsJson(summary.gpuTimes)},
-      {"fadingFrames", summary.fadingTimes.size()},
-      {"gpuFadingMs", frameTimesAsJson(summary.fadingTimes)},
-      {"psnrFlown", {{"mean", summary.flown.mean}, {"worst", summary.flown.worst}}},
-      {"psnrSettled", {{"mean", summary.settledError.mean}, {"worst", summary.settledError.worst}}},
-      {"images", imagesAsJson(flight.images)}};
+  nlohmann::ordered_json json = sceneAsJson(options.scene, flight.deviceName, flight.driverName, flight.frames.size());
+  json.update({{"jumpEvery", options.jumpEvery},
+               {"disk", diskAsJson(options.scene.disk)},
+               {"cells", flight.asset.cellCount},
+               {"chunks", flight.asset.chunkCount},
+               {"settledFrames", summary.settled},
+               {"readyFrames", summary.gpuTimes.size()},
+               {"longestUnsettled", summary.longestUnsettled},
+               {"framesToSettle", flight.framesToSettle},
+               {"lackingFrames", summary.lacking},
+               {"missingPixels", summary.missingPixels},
+               {"floorFrames", summary.onFloor},
+               {"oldestRequest", summary.oldestRequest},
+               {"evictions", flight.atEnd.evictions},
+               {"retries", flight.atEnd.retries},
+               {"failures", flight.atEnd.failures},
+               {"bytesRead", flight.bytesRead},
+               {"mostDeviceBytes", summary.mostDeviceBytes},
+               {"mostChunkBytes", summary.mostChunkBytes},
+               {"framesAboveBudget", summary.aboveBudget},
+               {"updateMs", frameTimesAsJson(summary.updates)},
+               {"gpuMs", frameTimesAsJson(summary.gpuTimes)},
+               {"fadingFrames", summary.fadingTimes.size()},
+               {"gpuFadingMs", frameTimesAsJson(summary.fadingTimes)},
+               {"psnrFlown", {{"mean", summary.flown.mean}, {"worst", summary.flown.worst}}},
+               {"psnrSettled", {{"mean", summary.settledError.mean}, {"worst", summary.settledError.worst}}},
+               {"images", imagesAsJson(flight.images)}});
   json["firstReady"] = summary.firstReady ? nlohmann::ordered_json(*summary.firstReady) : nullptr;
   return json;
 }

@@ -97,19 +97,11 @@ void printPops(const Pops& pops, const FlightOptions& options) {
 
 nlohmann::ordered_json popsAsJson(const Pops& pops, const FlightOptions& options) {
   const SceneOptions& scene = options.scene;
-  nlohmann::ordered_json json{{"device", pops.deviceName},
-                              {"driver", pops.driverName},
-                              {"frames", options.frames},
-                              {"width", scene.extent.width},
-                              {"height", scene.extent.height},
-                              {"budget", scene.budget},
-                              {"fadeFrames", scene.fadeFrames},
-                              {"detail", scene.detail},
-                              {"mostCells", scene.mostCells},
-                              {"cells", pops.asset.cellCount},
-                              {"chunks", pops.asset.chunkCount},
-                              {"distance", pops.distance},
-                              {"step", pops.step}};
+  nlohmann::ordered_json json = sceneAsJson(scene, pops.deviceName, pops.driverName, options.frames);
+  json.update({{"cells", pops.asset.cellCount},
+               {"chunks", pops.asset.chunkCount},
+               {"distance", pops.distance},
+               {"step", pops.step}});
   for (const Row& row : rowsOf(pops)) {
     json[row.key] = {{"frames", row.frames},
                      {"most", row.worst.most},

@@ -29,6 +29,9 @@ nlohmann::ordered_json frontPlot(const Report& report, Cost cost, const std::vec
 nlohmann::ordered_json sweepPlots(const Report& report, const Sweep& sweep);  // a list
 nlohmann::ordered_json slopePlot(const Slope& slope);
 
+// A list of what templates/picture.html asks for.
+nlohmann::ordered_json picturesAsJson(const std::vector<ReportImage>& images);
+
 // What templates/levels.html asks for; null: the asset has no levels.
 nlohmann::ordered_json levelsOf(const Report& report);
 

@@ -136,12 +136,32 @@ void completeFeature(const FeatureCost& feature, Json& json) {
   json["walkWith"]["change"] = changeOf(feature.walkWith, feature.walkWithout);
 }
 
+std::string encodeBase64(const std::vector<uint8_t>& bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const size_t count = std::min<size_t>(3, bytes.size() - i);
+    uint32_t word = 0;
+    for (size_t k = 0; k < 3; ++k) word = word << 8 | (k < count ? bytes[i + k] : 0);
+    for (size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[word >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
 }  // namespace
+
+nlohmann::ordered_json picturesAsJson(const std::vector<ReportImage>& images) {
+  Json pictures = Json::array();
+  for (const ReportImage& image : images) {
+    pictures.push_back({{"title", image.title}, {"caption", image.caption}, {"png", encodeBase64(image.png)}});
+  }
+  return pictures;
+}
 
 std::string reportAsHtml(const Report& report) {
   Json page = reportAsJson(report);
   page["viewNumbers"] = fmt::format("{}", fmt::join(report.views, ", "));
-  page["points"] = page["defaults"] = page["fronts"] = page["images"] = Json::array();
+  page["points"] = page["defaults"] = page["fronts"] = Json::array();
   page["hasPasses"] = page["hasViews"] = page["hasPhotos"] = false;
   for (const ReportPoint& point : report.points) {
     if (point.photoErrors) page["hasPhotos"] = true;
@@ -160,9 +180,7 @@ std::string reportAsHtml(const Report& report) {
   for (size_t i = 0; i < report.slopes.size(); ++i) completeSlope(report.slopes[i], page["slopes"][i]);
   for (size_t i = 0; i < report.features.size(); ++i) completeFeature(report.features[i], page["features"][i]);
   page["levels"] = levelsOf(report);
-  for (const ReportImage& image : report.images) {
-    page["images"].push_back({{"title", image.title}, {"caption", image.caption}, {"png", encodeBase64(image.png)}});
-  }
+  page["images"] = picturesAsJson(report.images);
   return fillTemplate("page.html", page);
 }
 

@@ -24,6 +24,4 @@ struct ByteUnit {
 ByteUnit unitOfBytes(double largest);
 std::string bytesText(double bytes);  // "12.3 MB", of 10^6
 
-std::string encodeBase64(const std::vector<uint8_t>& bytes);
-
 }  // namespace froth

@@ -7,9 +7,9 @@
 
 #include "base/image/formats.h"
 #include "measure/report/fill_template.h"
+#include "measure/report/html_parts.h"
 #include "measure/report/shrink_image.h"
 #include "measure/report/svg_plot.h"
-#include "measure/report/text.h"
 
 namespace froth {
 namespace {
@@ -55,10 +55,7 @@ std::string trainingAsHtml(const TrainingReport& report) {
   page["plots"] = Json::array();
   if (hasTests) page["plots"].push_back(curveOf(report, "PSNR [dB]", [](const TrainingPoint& p) { return p.psnr; }));
   page["plots"].push_back(curveOf(report, "cells", [](const TrainingPoint& p) { return double(p.cells); }));
-  page["pictures"] = Json::array();
-  for (const ReportImage& image : report.pictures) {
-    page["pictures"].push_back({{"title", image.title}, {"caption", image.caption}, {"png", encodeBase64(image.png)}});
-  }
+  page["pictures"] = picturesAsJson(report.pictures);
   return fillTemplate("training.html", page);
 }
 

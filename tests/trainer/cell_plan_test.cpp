@@ -84,11 +84,11 @@ TEST_F(CellPlanOf, PartsParentAndChildOnTheFaceAndCopiesTheRest) {
   std::map<uint32_t, glm::vec3> shiftSums;
   for (size_t i = 0; i < made.sources.size(); ++i) {
     const uint32_t source = made.sources[i];
-    shiftSums[source] += made.shifts[i];
-    EXPECT_EQ(made.shifts[i].x, 0);  // the normal is x
-    const bool isSplit = made.shifts[i] != glm::vec3(0);
-    EXPECT_NEAR(glm::length(made.shifts[i]), isSplit ? 0.05f * 0.5f : 0, 1e-6);
-    EXPECT_EQ(next.values[0][3 * i + 1], foam_.values[0][3 * source + 1] + made.shifts[i].y);
+    shiftSums[source] += made.changes[i].shift;
+    EXPECT_EQ(made.changes[i].shift.x, 0);  // the normal is x
+    const bool isSplit = made.changes[i].shift != glm::vec3(0);
+    EXPECT_NEAR(glm::length(made.changes[i].shift), isSplit ? 0.05f * 0.5f : 0, 1e-6);
+    EXPECT_EQ(next.values[0][3 * i + 1], foam_.values[0][3 * source + 1] + made.changes[i].shift.y);
     EXPECT_EQ(next.firstMoments[0][3 * i], float(source));
     EXPECT_EQ(next.lastSteps[i], source);
     EXPECT_EQ(next.errors[i], foam_.errors[source] * (isSplit ? 0.5f : 1.0f));

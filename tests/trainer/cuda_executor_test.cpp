@@ -121,7 +121,7 @@ TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   const Result<CellFacts> facts = (*gpu)->facts();
   ASSERT_TRUE(facts);
   CellPlan plan = planCells(*facts, kCells + 500, 3, 99);
-  for (size_t i = 0; i < plan.radiusFactors.size(); i += 3) plan.radiusFactors[i] = 0.9f;
+  for (size_t i = 0; i < plan.changes.size(); i += 3) plan.changes[i].radiusFactor = 0.9f;
   ASSERT_TRUE((*gpu)->rearrange(plan));
   ASSERT_TRUE((*gpu)->read(after));
   const FoamStorage<float> expected = rearrange(before, plan);

@@ -151,8 +151,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   FoamShape shape = arrays_.foam.shape;
   shape.cellCount = static_cast<uint32_t>(plan.sources.size());
   DeviceArray<uint32_t> sources;
-  DeviceArray<glm::vec3> shifts;
-  DeviceArray<float> meanFactors, radiusFactors;
+  DeviceArray<CellChange> changes;
   const auto gather = [&](auto& array, uint32_t width, const char* name) -> Status {
     std::remove_reference_t<decltype(array)> next;
     if (Status made = next.resize(size_t{shape.cellCount} * width, name); !made) return made;
@@ -162,9 +161,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   };
   Status status =
       inTurn([&] { return sources.upload(plan.sources, "sources of cells", stream_); },
-             [&] { return shifts.upload(plan.shifts, "shifts of cells", stream_); },
-             [&] { return meanFactors.upload(plan.meanFactors, "factors of means", stream_); },
-             [&] { return radiusFactors.upload(plan.radiusFactors, "factors of radii", stream_); },
+             [&] { return changes.upload(plan.changes, "changes of cells", stream_); },
              [&] { return gather(lastSteps_, 1, "last steps"); },
              [&] { return gather(contributions_, 1, "contributions"); }, [&] { return gather(errors_, 1, "errors"); });
   for (size_t i = 0; i < kParameterCount && status; ++i) {
@@ -176,7 +173,7 @@ Status CudaStep::rearrange(const CellPlan& plan) {
   }
   hasPairs_ = false;
   return inTurn([&] { return status; }, [&] { return reserveCells(shape); },
-                [&] { return applyPlan(arrays_, shifts.data(), meanFactors.data(), radiusFactors.data(), stream_); },
+                [&] { return changeCells(arrays_, changes.data(), stream_); },
                 [&] { return checkCuda(cudaStreamSynchronize(stream_), "rearrangement of cells"); });
 }
 

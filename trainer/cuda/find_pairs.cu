@@ -56,12 +56,6 @@ __device__ bool ballMeetsBox(const glm::vec4& ball, const glm::vec3* boxes, uint
   return squared <= ball.w * ball.w * (1 + 1e-6f);
 }
 
-__device__ bool ballsOverlap(const glm::vec4& a, const glm::vec4& b) {
-  const glm::vec3 difference = glm::vec3(b) - glm::vec3(a);
-  const float reach = a.w + b.w;
-  return glm::dot(difference, difference) < reach * reach;
-}
-
 __device__ glm::vec4 ballOfLane(const glm::vec4& own, int lane) {
   glm::vec4 ball;
   for (int c = 0; c < 4; ++c) ball[c] = __shfl_sync(kAllLanes, own[c], lane);

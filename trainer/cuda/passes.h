@@ -7,6 +7,7 @@
 #include "trainer/cuda/device_array.h"
 #include "trainer/cuda/step_arrays.h"
 #include "trainer/step/adam.h"
+#include "trainer/step/cell_change.h"
 #include "trainer/step/pixel_passes.h"
 #include "trainer/step/training_view.h"
 
@@ -72,8 +73,7 @@ Status differentiateLoss(const PixelArrays<float>& pixels, glm::vec4* wanted, co
 template <class T>
 Status gatherRows(const T* from, T* to, const uint32_t* sources, uint32_t cellCount, uint32_t width,
                   cudaStream_t stream);
-// CellPlan::shifts, meanFactors and radiusFactors, on the cells that were gathered.
-Status applyPlan(const StepArrays& arrays, const glm::vec3* shifts, const float* meanFactors,
-                 const float* radiusFactors, cudaStream_t stream);
+// changes: [cells] CellPlan::changes, on the cells that were gathered.
+Status changeCells(const StepArrays& arrays, const CellChange* changes, cudaStream_t stream);
 
 }  // namespace froth

@@ -1,7 +1,6 @@
 // Cells of a plan (trainer/loop/cell_plan.h) gathered from those before. Bound: bytes, each value read and written.
 #include "trainer/cuda/launch.h"
 #include "trainer/cuda/passes.h"
-#include "trainer/step/crowds.h"
 
 namespace froth {
 namespace {
@@ -12,15 +11,9 @@ __global__ void gatherRowsKernel(const T* from, T* to, const uint32_t* sources, 
   if (i < size_t{cellCount} * width) to[i] = from[size_t{sources[i / width]} * width + i % width];
 }
 
-__global__ void applyPlanKernel(TrainedFoam<float> foam, const glm::vec3* shifts, const float* meanFactors,
-                                const float* radiusFactors) {
+__global__ void changeCellsKernel(TrainedFoam<float> foam, const CellChange* changes) {
   const uint32_t cell = globalThread();
-  if (cell >= foam.shape.cellCount) return;
-  float* site = foam.values.row(Parameter::kPoints, foam.shape, cell);
-  for (int c = 0; c < 3; ++c) site[c] += shifts[cell][c];
-  foam.contributions[cell] *= meanFactors[cell];
-  foam.errors[cell] *= meanFactors[cell];
-  shrinkCell(foam.values, foam.shape, cell, radiusFactors[cell]);
+  if (cell < foam.shape.cellCount) changeCell(foam, cell, changes[cell]);
 }
 
 }  // namespace
@@ -35,11 +28,9 @@ Status gatherRows(const T* from, T* to, const uint32_t* sources, uint32_t cellCo
 template Status gatherRows(const float*, float*, const uint32_t*, uint32_t, uint32_t, cudaStream_t);
 template Status gatherRows(const uint32_t*, uint32_t*, const uint32_t*, uint32_t, uint32_t, cudaStream_t);
 
-Status applyPlan(const StepArrays& arrays, const glm::vec3* shifts, const float* meanFactors,
-                 const float* radiusFactors, cudaStream_t stream) {
-  applyPlanKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays.foam, shifts, meanFactors,
-                                                                                 radiusFactors);
-  return checkLaunch("applyPlan");
+Status changeCells(const StepArrays& arrays, const CellChange* changes, cudaStream_t stream) {
+  changeCellsKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays.foam, changes);
+  return checkLaunch("changeCells");
 }
 
 }  // namespace froth

@@ -79,14 +79,12 @@ glm::vec3 stepOnFace(const CellFacts& facts, uint32_t cell, const CounterRandom&
 CellPlan sortAlongCurve(const CellFacts& facts, const CellPlan& plan) {
   std::vector<glm::vec3> sites;
   for (size_t i = 0; i < plan.sources.size(); ++i) {
-    sites.push_back(glm::vec3(facts.balls[plan.sources[i]]) + plan.shifts[i]);
+    sites.push_back(glm::vec3(facts.balls[plan.sources[i]]) + plan.changes[i].shift);
   }
   CellPlan sorted;
   for (const uint32_t place : mortonOrder(sites)) {
     sorted.sources.push_back(plan.sources[place]);
-    sorted.shifts.push_back(plan.shifts[place]);
-    sorted.meanFactors.push_back(plan.meanFactors[place]);
-    sorted.radiusFactors.push_back(plan.radiusFactors[place]);
+    sorted.changes.push_back(plan.changes[place]);
   }
   return sorted;
 }
@@ -102,10 +100,8 @@ CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint3
   const std::vector<uint32_t> survivors = findSurvivors(facts, wanted);
   CellPlan plan;
   plan.sources = survivors;
-  plan.shifts.assign(survivors.size(), glm::vec3(0));
-  plan.meanFactors.assign(survivors.size(), 1);
   for (const uint32_t cell : survivors) {
-    plan.radiusFactors.push_back(shrinkOf(facts.balls[cell].w, facts.overlaps[cell]));
+    plan.changes.push_back({.radiusFactor = shrinkOf(facts.balls[cell].w, facts.overlaps[cell])});
   }
   const auto count = static_cast<uint32_t>(survivors.size());
   const CounterRandom choice(seed, Purpose::kSplit, uint64_t{2} * step),
@@ -114,12 +110,11 @@ CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint3
     const auto place =
         static_cast<size_t>(std::lower_bound(survivors.begin(), survivors.end(), parent) - survivors.begin());
     const glm::vec3 shift = stepOnFace(facts, parent, way);
-    plan.shifts[place] = shift;
-    plan.meanFactors[place] = 0.5f;
+    CellChange change{.shift = shift, .meanFactor = 0.5f, .radiusFactor = plan.changes[place].radiusFactor};
+    plan.changes[place] = change;
+    change.shift = -shift;
     plan.sources.push_back(parent);
-    plan.shifts.push_back(-shift);
-    plan.meanFactors.push_back(0.5f);
-    plan.radiusFactors.push_back(plan.radiusFactors[place]);
+    plan.changes.push_back(change);
   }
   return sortAlongCurve(facts, plan);
 }
@@ -128,7 +123,7 @@ FoamStorage<float> rearrange(const FoamStorage<float>& foam, const CellPlan& pla
   FoamStorage<float> next;
   const FoamShape shape{static_cast<uint32_t>(plan.sources.size()), foam.shape.detailCount, foam.shape.lobeCount};
   resizeStorage(next, shape);
-  const ParameterRows<float> values = rowsOf<float>(next.values);
+  const TrainedFoam<float> view = viewStorage(next);
   tbb::parallel_for(0u, shape.cellCount, [&](uint32_t cell) {
     const uint32_t source = plan.sources[cell];
     for (size_t t = 0; t < kParameterCount; ++t) {
@@ -141,12 +136,10 @@ FoamStorage<float> rearrange(const FoamStorage<float>& foam, const CellPlan& pla
       copyRow(foam.firstMoments[t], next.firstMoments[t]);
       copyRow(foam.secondMoments[t], next.secondMoments[t]);
     }
-    float* site = &next.values[static_cast<size_t>(Parameter::kPoints)][size_t{3} * cell];
-    for (int c = 0; c < 3; ++c) site[c] += plan.shifts[cell][c];
-    shrinkCell(values, shape, cell, plan.radiusFactors[cell]);
     next.lastSteps[cell] = foam.lastSteps[source];
-    next.contributions[cell] = plan.meanFactors[cell] * foam.contributions[source];
-    next.errors[cell] = plan.meanFactors[cell] * foam.errors[source];
+    next.contributions[cell] = foam.contributions[source];
+    next.errors[cell] = foam.errors[source];
+    changeCell(view, cell, plan.changes[cell]);
   });
   return next;
 }

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "trainer/cpu/foam_storage.h"
+#include "trainer/step/cell_change.h"
 
 namespace froth {
 
@@ -22,13 +23,11 @@ struct CellFacts {
 // What they are of a foam whose balls are known. Both outlive the facts.
 CellFacts factsOf(const FoamStorage<float>& foam, std::span<const uint32_t> overlaps);
 
-// Cell i of the foam that comes is a copy of cell sources[i], moments and all, moved by shifts[i]. Its means are
-// multiplied by meanFactors[i], its radius by radiusFactors[i] (shrinkCell()). Along a Morton curve, so that cells near
-// each other lie near each other in memory.
+// Cell i of the foam that comes is a copy of cell sources[i], moments and all, changed by changes[i]. Along a Morton
+// curve, so that cells near each other lie near each other in memory.
 struct CellPlan {
   std::vector<uint32_t> sources;
-  std::vector<glm::vec3> shifts;
-  std::vector<float> meanFactors, radiusFactors;
+  std::vector<CellChange> changes;
 };
 
 // Cells that show too little are removed, and parents drawn without replacement by their error until there are

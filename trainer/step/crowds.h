@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "shaders/foam/activations.h"
 #include "trainer/step/trained_foam.h"
 
 namespace froth {
@@ -19,15 +18,17 @@ inline constexpr float kLeastShrink = 0.95f;  // of a radius at a time: steps re
 // parent's site: larger balls have not spread by then, and would leave a gap around the pile.
 inline constexpr float kMostSpread = 0.1f;
 
+FROTH_HD bool ballsOverlap(const glm::vec4& a, const glm::vec4& b) {
+  const glm::vec3 difference = glm::vec3(b) - glm::vec3(a);
+  const float reach = a.w + b.w;
+  return glm::dot(difference, difference) < reach * reach;
+}
+
 // How many balls overlap that of a cell. The rows hold all pairs that do, and some that do not.
 FROTH_HD uint32_t countOverlaps(const glm::vec4* balls, const NeighbourRows& rows, uint32_t cell) {
-  const glm::vec4 own = balls[cell];
   uint32_t count = 0;
   for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
-    const glm::vec4 other = balls[rows.neighbours[e]];
-    const glm::vec3 difference = glm::vec3(other) - glm::vec3(own);
-    const float reach = own.w + other.w;
-    count += glm::dot(difference, difference) < reach * reach;
+    count += ballsOverlap(balls[cell], balls[rows.neighbours[e]]);
   }
   return count;
 }
@@ -37,19 +38,6 @@ FROTH_HD float shrinkOf(float radius, uint32_t overlaps) {
   if (overlaps <= kMostOverlaps || radius > kMostSpread) return 1;
   const float wanted = std::sqrt(float(kMostOverlaps) / float(overlaps));
   return wanted > kLeastShrink ? wanted : kLeastShrink;
-}
-
-// What is activated as 0 stays: no raw value is its inverse.
-FROTH_HD void scaleActivated(float& raw, float factor) {
-  const float scaled = factor * foam::softplus(raw);
-  if (scaled > 0) raw = foam::softplusInverse(scaled);
-}
-
-// A ray through the centre keeps its optical depth. values: raw.
-FROTH_HD void shrinkCell(const ParameterRows<float>& values, const FoamShape& shape, uint32_t cell, float factor) {
-  if (factor == 1) return;
-  scaleActivated(*values.row(Parameter::kRadii, shape, cell), factor);
-  scaleActivated(*values.row(Parameter::kDensity, shape, cell), 1 / factor);
 }
 
 }  // namespace froth
