@@ -32,7 +32,7 @@ void Context::stepFade() {
 
 // Of the cuts now; 1: nothing fades. Else the instances with the cuts before are in view.visibleBefore.
 float Context::fadeWeight(View& view, const FrothRenderInfo& info) const {
-  if (view.fadeFrames == 0 || fadeStep_ > view.fadeFrames || !info.colour.image) return 1;
+  if (!isFading() || fadeStep_ > view.fadeFrames || !info.colour.image) return 1;
   bool isAny = false, areCovered = true;
   view.visibleBefore = view.visible;
   for (RenderInstance& instance : view.visibleBefore) {
