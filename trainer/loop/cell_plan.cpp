@@ -101,7 +101,7 @@ CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint3
   CellPlan plan;
   plan.sources = survivors;
   for (const uint32_t cell : survivors) {
-    plan.changes.push_back({.radiusFactor = shrinkOf(facts.balls[cell].w, facts.overlaps[cell])});
+    plan.changes.push_back({.radiusFactor = shrinkOf(facts.balls.size(), facts.overlaps[cell])});
   }
   const auto count = static_cast<uint32_t>(survivors.size());
   const CounterRandom choice(seed, Purpose::kSplit, uint64_t{2} * step),

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include <tbb/parallel_for.h>
 
+#include "foam/site_tree.h"
 #include "reference/camera/view_rays.h"
 
 namespace froth {
@@ -23,6 +25,40 @@ struct Ball {
   double radius;
 };
 
+// The balls of cells, and those that cover gaps: a tree finds the first, and the second are few.
+class Balls {
+ public:
+  Balls(std::span<const StartCell> cells, std::span<const float> radii)
+      : sites_(sitesOf(cells)), tree_(sites_, radii, placesOf(cells)) {
+    for (size_t i = 0; i < cells.size(); ++i) balls_.push_back({cells[i].position, radii[i]});
+  }
+
+  void add(const Ball& ball) { balls_.push_back(ball); }
+
+  // Visits those that the ray may meet.
+  template <class Visit>
+  void searchRay(const glm::dvec3& origin, const glm::dvec3& direction, const Visit& visit) const {
+    tree_.searchRay(origin, direction, [&](uint32_t i) { visit(balls_[i]); });
+    for (size_t i = sites_.size(); i < balls_.size(); ++i) visit(balls_[i]);
+  }
+
+ private:
+  static std::vector<glm::vec3> sitesOf(std::span<const StartCell> cells) {
+    std::vector<glm::vec3> sites;
+    for (const StartCell& cell : cells) sites.emplace_back(cell.position);
+    return sites;
+  }
+  static std::vector<uint32_t> placesOf(std::span<const StartCell> cells) {
+    std::vector<uint32_t> places(cells.size());
+    std::iota(places.begin(), places.end(), 0u);
+    return places;
+  }
+
+  std::vector<glm::vec3> sites_;
+  SiteTree tree_;
+  std::vector<Ball> balls_;
+};
+
 // Distance along a ray to the middle of its chord; none where it misses the ball, or the ball is not drawn.
 std::optional<double> depthOf(const Ball& ball, const glm::dvec3& origin, const glm::dvec3& direction) {
   const glm::dvec3 offset = ball.centre - origin;
@@ -35,14 +71,14 @@ std::optional<double> depthOf(const Ball& ball, const glm::dvec3& origin, const 
 // The rays of a view on a lattice of samples, and how deep its cells lie there.
 class SampledView {
  public:
-  SampledView(const View& view, const Photo& photo, std::span<const Ball> balls)
+  SampledView(const View& view, const Photo& photo, const Balls& balls)
       : view_(view), columns_(std::max(1u, kRows * view.width / view.height)), samples_(columns_ * kRows) {
     const ViewRays rays(view);
     tbb::parallel_for(size_t{0}, samples_.size(), [&](size_t i) { sample(rays, photo, balls, i); });
   }
 
   // Covers what is uncovered, in the order of the samples.
-  void cover(std::vector<StartCell>& cells, std::vector<Ball>& balls, uint32_t most) {
+  void cover(std::vector<StartCell>& cells, Balls& balls, uint32_t most) {
     const std::vector<double> depths = depthsAround();
     for (size_t i = 0; i < samples_.size() && cells.size() < most; ++i) {
       const Sample& sample = samples_[i];
@@ -54,8 +90,9 @@ class SampledView {
       cell.colour = sample.colour;
       cell.mostRadius = radius;
       cells.push_back(cell);
-      balls.push_back({cell.position, radius});
-      for (Sample& other : samples_) meet(other, balls.back());
+      const Ball ball{cell.position, radius};
+      balls.add(ball);
+      for (Sample& other : samples_) meet(other, ball);
     }
   }
 
@@ -72,7 +109,7 @@ class SampledView {
     if (depth) sample.depth = std::max(sample.depth, *depth);
   }
 
-  void sample(const ViewRays& rays, const Photo& photo, std::span<const Ball> balls, size_t index) {
+  void sample(const ViewRays& rays, const Photo& photo, const Balls& balls, size_t index) {
     const double x = (double(index % columns_) + 0.5) / columns_, y = (double(index / columns_) + 0.5) / kRows;
     const std::optional<ViewRay> ray = rays.at(x * view_.width, y * view_.height);
     const size_t pixel = size_t(y * photo.view.height) * photo.view.width + size_t(x * photo.view.width);
@@ -82,7 +119,7 @@ class SampledView {
     if (!sample.isWanted) return;
     sample.ray = *ray;
     sample.colour = glm::dvec3(rgba[0], rgba[1], rgba[2]) / double(rgba[3]);
-    for (const Ball& ball : balls) meet(sample, ball);
+    balls.searchRay(eyeOf(view_) + ray->offset, ray->direction, [&](const Ball& ball) { meet(sample, ball); });
   }
 
   // The median over eight directions of the first sample there that shows a cell.
@@ -120,8 +157,7 @@ class SampledView {
 
 std::vector<StartCell> cellsInGaps(const StartScene& scene, std::span<const StartCell> cells,
                                    std::span<const float> radii, uint32_t most) {
-  std::vector<Ball> balls;
-  for (size_t i = 0; i < cells.size(); ++i) balls.push_back({cells[i].position, radii[i]});
+  Balls balls(cells, radii);
   std::vector<StartCell> found;
   for (size_t i = 0; i < scene.photos.size() && found.size() < most; ++i) {
     const View view = normalised(scene.capture.views[scene.training[i]].view, scene.frame);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "trainer/step/trained_foam.h"
@@ -14,9 +15,10 @@ namespace froth {
 // A surface that is covered evenly has some 13 overlaps per ball.
 inline constexpr uint32_t kMostOverlaps = 24;
 inline constexpr float kLeastShrink = 0.95f;  // of a radius at a time: steps repair what it changes
-// How far a site can move until cells change again, by the first rate of points. Children lie in a pile at their
-// parent's site: larger balls have not spread by then, and would leave a gap around the pile.
-inline constexpr float kMostSpread = 0.1f;
+// Foams of fewer cells keep their radii. Children lie in a pile at their parent's site, and sites move by a tenth of
+// the scene's unit at most until cells change again: balls of few cells are larger than that, so a pile has not spread
+// by then, and would leave a gap around it.
+inline constexpr uint32_t kFewCells = 8000;
 
 FROTH_HD bool ballsOverlap(const glm::vec4& a, const glm::vec4& b) {
   const glm::vec3 difference = glm::vec3(b) - glm::vec3(a);
@@ -33,9 +35,10 @@ FROTH_HD uint32_t countOverlaps(const glm::vec4* balls, const NeighbourRows& row
   return count;
 }
 
-// By what a radius is multiplied, towards as many as there should be: overlaps on a surface grow with r^2.
-FROTH_HD float shrinkOf(float radius, uint32_t overlaps) {
-  if (overlaps <= kMostOverlaps || radius > kMostSpread) return 1;
+// By what a radius is multiplied in a foam of so many cells, towards as many as there should be: overlaps on a surface
+// grow with r^2.
+FROTH_HD float shrinkOf(size_t cells, uint32_t overlaps) {
+  if (overlaps <= kMostOverlaps || cells < kFewCells) return 1;
   const float wanted = std::sqrt(float(kMostOverlaps) / float(overlaps));
   return wanted > kLeastShrink ? wanted : kLeastShrink;
 }
