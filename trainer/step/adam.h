@@ -21,10 +21,11 @@ inline constexpr double kBeta1 = 0.9, kBeta2 = 0.999, kEpsilon = 1e-15;
 
 template <class Real>
 struct AdamStep {
-  uint32_t step = 1;                    // from 1
-  Real rates[kParameterCount];          // learning rate times sqrt(1 - beta2^step) / (1 - beta1^step)
-  Real epsilon = Real(kEpsilon);        // times sqrt(1 - beta2^step)
-  const Real* drifts[kParameterCount];  // [step] D for parameters that wait since step `index`, up to the step before
+  uint32_t step = 1;                 // from 1
+  Real rates[kParameterCount] = {};  // learning rate times sqrt(1 - beta2^step) / (1 - beta1^step)
+  Real epsilon = Real(kEpsilon);     // times sqrt(1 - beta2^step)
+  // [step] D for parameters that wait since step `index`, up to the step before
+  const Real* drifts[kParameterCount] = {};
 };
 
 // A gradient that is no finite number counts as 0; returns whether it was one.
