@@ -1,7 +1,6 @@
 #include "measure/stability/cases/case_parts.h"
 
 #include <cmath>
-#include <iterator>
 
 #include "base/counter_random.h"
 #include "reference/camera/view_pose.h"
@@ -123,16 +122,6 @@ View orthographicView(const glm::dvec3& eye, const glm::dvec3& target, double ha
 std::vector<View> outsideViews(double distance) {
   const glm::dvec3 corner = distance * glm::normalize(glm::dvec3(0.8, -0.5, 0.6));
   return {caseView({0, 0, -distance}, {0, 0, 0}), caseView(corner, {0, 0, 0})};
-}
-
-std::vector<StiffCase> builtInCases() {
-  std::vector<StiffCase> all;
-  for (auto* family : {siteCases, placeCases, sizeCases, densityCases, faceCases, eyeCases, appearanceCases, viewCases,
-                       instanceCases, depthCases, layerCases, inputCases}) {
-    std::vector<StiffCase> cases = family();
-    all.insert(all.end(), std::make_move_iterator(cases.begin()), std::make_move_iterator(cases.end()));
-  }
-  return all;
 }
 
 }  // namespace froth
