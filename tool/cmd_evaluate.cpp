@@ -14,6 +14,7 @@
 #include "tool/photo_image.h"
 #include "tool/view_output.h"
 #include "trainer/loop/evaluate.h"
+#include "trainer/photos/exposure.h"
 #include "trainer/photos/photo_order.h"
 
 namespace froth {
@@ -23,7 +24,7 @@ struct EvaluateOptions {
   std::filesystem::path input, scene, output;
   std::string renderer = "raster";
   uint32_t testPeriod = 8;
-  bool isAll = false, isPremultiplied = false;
+  bool isAll = false, isPremultiplied = false, evensExposure = false;
   double cutoff = 1e-3;
   PhotoOptions photos;
   GpuDeviceOptions device;
@@ -34,21 +35,35 @@ struct PhotoErrors {
   double psnr = 0, ssim = 0, flip = 0;
 };
 
+template <class Item>
+std::vector<Item> pick(std::vector<Item>& items, const std::vector<uint32_t>& indices) {
+  std::vector<Item> picked;
+  for (const uint32_t i : indices) picked.push_back(std::move(items[i]));
+  return picked;
+}
+
 Result<std::vector<Photo>> readChosen(const EvaluateOptions& options, const Progress& progress) {
   Result<Capture> capture = readCapture(options.scene);
   if (!capture) return capture.error();
+  std::vector<uint32_t> tests;
   if (!options.isAll) {
-    const Result<PhotoSplit> split = splitPhotos(capture->views, options.testPeriod);
+    Result<PhotoSplit> split = splitPhotos(capture->views, options.testPeriod);
     if (!split) return split.error();
-    std::vector<CapturedView> tests;
-    for (const uint32_t i : split->test) tests.push_back(std::move(capture->views[i]));
+    tests = std::move(split->test);
     if (tests.empty()) {
       return makeError(ErrorKind::kUsage, "%s: no photo is for testing; give --test-every, or --all for all photos",
                        options.scene.c_str());
     }
-    capture->views = std::move(tests);
   }
-  return readPhotos(capture->views, options.photos, progress);
+  // Exposures are relative to those of all photos.
+  const bool readsAll = options.isAll || options.evensExposure;
+  if (!readsAll) capture->views = pick(capture->views, tests);
+  Result<std::vector<Photo>> photos = readPhotos(capture->views, options.photos, progress);
+  if (!photos) return photos.error();
+  if (options.evensExposure) {
+    if (Status even = evenExposures(*capture, *photos); !even) return even.error();
+  }
+  return readsAll && !options.isAll ? pick(*photos, tests) : std::move(*photos);
 }
 
 Result<PhotoErrors> compareWith(const Photo& photo, Image drawn) {
@@ -148,6 +163,7 @@ void addEvaluateCommand(CLI::App& program, Tool& tool) {
       ->check(numberBetween(1, 64));
   command.add_flag("--premultiplied", options->isPremultiplied, "Alpha of photos is premultiplied");
   command.add_flag("--mask-as-alpha", options->photos.isMaskAlpha, "Masks cut the object out");
+  command.add_flag("--even-exposure", options->evensExposure, "As `froth train` was told");
   command.add_option("--renderer", options->renderer, "raster or walk")
       ->capture_default_str()
       ->check(CLI::IsMember(methodNames()));

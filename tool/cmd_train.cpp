@@ -204,6 +204,8 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
   command.add_flag("--outdoor", options->isOutdoor, "Rates for scenes whose cameras stand far apart");
   command.add_flag("--premultiplied", options->isPremultiplied, "Alpha of photos is premultiplied");
   command.add_flag("--mask-as-alpha", options->train.photos.isMaskAlpha, "Masks cut the object out");
+  command.add_flag("--even-exposure", options->train.evensExposure,
+                   "Photos, test photos too, as if taken with one exposure, by the points that several show");
   command.add_flag("--resume", options->train.isResumed, "Goes on from the state that a stopped run left");
   addFiguresOption(command, options->figures);
   command.callback([options, &tool] { tool.action = [options, &tool] { return runTrain(*options, tool.progress); }; });

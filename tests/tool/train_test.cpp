@@ -80,6 +80,11 @@ TEST_F(Train, SaysWhatIsWrong) {
   const ProgramRun stateless = froth(resume);
   EXPECT_EQ(stateless.exitCode, 3);
   EXPECT_NE(stateless.err.find("trained.state.bin"), std::string::npos) << stateless.err;
+  for (const ProgramRun& uneven : {froth({"train", "shots", "-o", "a.pt", "--even-exposure"}),
+                                   froth({"evaluate", "trained.pt", "shots", "--even-exposure"})}) {
+    EXPECT_EQ(uneven.exitCode, 3);
+    EXPECT_NE(uneven.err.find("of 0 points"), std::string::npos) << uneven.err;  // transforms.json has none
+  }
   std::vector<std::string> many = trainCommand();
   many.insert(many.end(), {"--start-cells", "300"});
   const ProgramRun shrinking = froth(many);

@@ -6,6 +6,7 @@
 
 #include "reference/camera/view_points.h"
 #include "tests/surroundings.h"
+#include "trainer/photos/exposure.h"
 #include "trainer/photos/photo_order.h"
 #include "trainer/start/start_foam.h"
 
@@ -44,6 +45,28 @@ void expectStart(const std::string& name, bool isMaskAlpha, uint32_t cells, doub
 TEST(RealScenes, MikuPlushStarts) { expectStart("miku_plush", false, 20000, 0.99); }
 TEST(RealScenes, TankardStarts) { expectStart("mary_rose_tankard", true, 20000, 0.99); }
 TEST(RealScenes, FoxStarts) { expectStart("fox", false, 5000, 1); }
+
+// By the same points as structure from motion saw them, photo 003946 is half as bright again as the mean, and 003956 a
+// sixth darker.
+TEST(RealScenes, MikuPlushHasPhotosOfSeveralExposures) {
+  const std::filesystem::path scene = test::dataFolder() / "scenes/miku_plush";
+  if (!std::filesystem::exists(scene)) FROTH_SKIP() << "no " << scene;
+  const Result<Capture> capture = readCapture(scene);
+  ASSERT_TRUE(capture) << capture.error().message;
+  const Result<std::vector<Photo>> photos = readPhotos(capture->views, {.downscale = 2});
+  ASSERT_TRUE(photos) << photos.error().message;
+  const Result<std::vector<glm::dvec3>> exposures = findExposures(*capture, *photos);
+  ASSERT_TRUE(exposures) << exposures.error().message;
+  for (size_t i = 0; i < photos->size(); ++i) {
+    const std::string& name = capture->views[i].view.name;
+    if (name == "20240212_003946.jpg") {
+      EXPECT_NEAR((*exposures)[i].y, 0.38, 0.08);
+    }
+    if (name == "20240212_003956.jpg") {
+      EXPECT_NEAR((*exposures)[i].y, -0.18, 0.08);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace froth

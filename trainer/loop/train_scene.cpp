@@ -13,6 +13,7 @@
 #include "trainer/loop/evaluate.h"
 #include "trainer/loop/state_file.h"
 #include "trainer/loop/training_loop.h"
+#include "trainer/photos/exposure.h"
 #include "trainer/photos/photo_order.h"
 #include "trainer/start/match_points.h"
 #include "trainer/start/start_foam.h"
@@ -28,10 +29,11 @@ std::string settingsText(const TrainOptions& options, const TrainingSet& set) {
   const View& view = set.training.front().view;
   const std::string length =
       schedule.seconds > 0 ? fmt::format("seconds {}", schedule.seconds) : fmt::format("steps {}", schedule.steps);
-  return fmt::format("{}{} cells {} to {} rates {} K {} M {} seed {} photos {} of {} x {} near {}",
+  return fmt::format("{}{} cells {} to {} rates {} K {} M {} seed {} photos {} of {} x {} near {}{}",
                      schedule.isRefinement ? "refinement, " : "", length, schedule.startCells, schedule.mostCells,
                      static_cast<int>(schedule.preset), options.detailCount, options.lobeCount, options.seed,
-                     set.training.size(), view.width, view.height, options.nearRatio);
+                     set.training.size(), view.width, view.height, options.nearRatio,
+                     options.evensExposure ? " even exposure" : "");
 }
 
 Result<FoamStorage<float>> makeStart(const Capture& capture, const TrainingSet& set, const TrainOptions& options) {
@@ -200,6 +202,9 @@ Result<TrainingSet> prepareTraining(Capture& capture, const TrainOptions& option
   if (const Result<PhotoSplit> split = splitPhotos(capture.views, options.testPeriod); !split) return split.error();
   Result<std::vector<Photo>> photos = readPhotos(capture.views, options.photos, progress);
   if (!photos) return photos.error();
+  if (options.evensExposure) {
+    if (Status even = evenExposures(capture, *photos); !even) return even.error();
+  }
   return makeTrainingSet(capture, std::move(*photos), options);
 }
 

@@ -38,6 +38,7 @@ struct TrainOptions {
   uint64_t seed = 1;
   uint32_t testPeriod = 8;  // every so many-th photo tests; 0: none, unless the capture says
   PhotoOptions photos;
+  bool evensExposure = false;   // trainer/photos/exposure.h; of test photos too
   double nearRatio = 4;         // docs/FOAM.md "Near cells"; cells so near to a camera are not seen by it
   std::filesystem::path state;  // where the state is saved; empty: nowhere
   uint32_t saveEvery = 1000;    // [steps, >= 1]
