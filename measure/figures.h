@@ -10,6 +10,8 @@
 
 namespace froth {
 
+inline constexpr double kMebi = 1 << 20;  // bytes
+
 // `--json` prints the figures as JSON on stdout instead of the table; `--json=FILE` writes them to a file
 // beside it.
 struct FiguresOutput {

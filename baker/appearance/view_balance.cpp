@@ -10,7 +10,7 @@
 namespace froth {
 namespace {
 
-constexpr int kRounds = 3;
+constexpr int kBalanceRounds = 3;
 constexpr uint32_t kSampledCells = 2048;
 constexpr uint32_t kTaskCells = 16;  // coded by one task
 constexpr double kMostWeight = 8;    // of a view, and its inverse the least
@@ -37,8 +37,8 @@ std::vector<double> measureErrors(const Foam& foam, const CellCoder& coder, size
 std::vector<float> balanceViews(const Foam& foam, const Visibility& visibility, const AxisCodebook& codebook,
                                 const AppearanceOptions& options, const Progress& progress) {
   std::vector<float> weights(visibility.eyes.size(), 1.0f);
-  for (int round = 0; round < kRounds; ++round) {
-    if (!report(progress, "views balanced", round, kRounds)) return {};
+  for (int round = 0; round < kBalanceRounds; ++round) {
+    if (!report(progress, "views balanced", round, kBalanceRounds)) return {};
     const Observer observer(foam, &visibility, options.eyeRadius, weights);
     std::vector<double> errors = measureErrors(foam, CellCoder(foam, observer, codebook, options), weights.size());
     double mean = 0;

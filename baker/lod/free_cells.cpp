@@ -17,7 +17,7 @@ constexpr float kTurnRate = 0.01f;     // of a unit quaternion
 constexpr float kPlaceRate = 0.01f;    // [radii]
 constexpr float kHeightRate = 0.005f;  // [radii]
 constexpr float kColourRate = 0.01f;
-constexpr float kMostChange = 2;  // of a density, in all steps: a live cell stays one
+constexpr float kMostLiveChange = 2;  // of a density, in all steps: a live cell stays one
 
 }  // namespace
 
@@ -74,7 +74,7 @@ void FreeCells::updateCell(const SeenCell<float>& seen, const SeenDetail<float>*
   float& density = *foam_.values.row(Parameter::kDensity, foam_.shape, seen.cell);
   const float moved = density + descent.move(sums.density * foam::softplusSlope(density), kDensityRate * seen.density);
   const float first = densities_[row];
-  if (first > 0) density = std::clamp(moved, first / kMostChange, first * kMostChange);
+  if (first > 0) density = std::clamp(moved, first / kMostLiveChange, first * kMostLiveChange);
   float* turn = foam_.values.row(Parameter::kOrientations, foam_.shape, seen.cell);
   const glm::vec4 gradient = foam::quaternionGradient(glm::vec4(turn[0], turn[1], turn[2], turn[3]), sums.torque);
   for (int c = 0; c < 4; ++c) turn[c] += descent.move(gradient[c], kTurnRate);

@@ -11,7 +11,6 @@
 namespace froth {
 namespace {
 
-constexpr double kMebi = 1 << 20;
 constexpr uint32_t kSubTileSize = 8;  // [pixels] of the workgroups that FrothWork speaks of
 
 void printTimes(const std::string& name, const Percentiles& frames, const Percentiles& cycles) {

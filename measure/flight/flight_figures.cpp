@@ -13,8 +13,6 @@
 namespace froth {
 namespace {
 
-constexpr double kMebi = 1 << 20;
-
 // PSNR [dB]: of the mean square over all images, and of the worst of them.
 struct Range {
   double mean = 0, worst = 0;

@@ -11,8 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMebi = 1 << 20;
-
 struct NamedMark {
   const char* name;
   OpeningMark Opening::*mark;

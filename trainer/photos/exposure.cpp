@@ -9,7 +9,7 @@
 namespace froth {
 namespace {
 
-constexpr int kReach = 1;                            // pixels around a point's, which count too
+constexpr int kAround = 1;                           // pixels around a point's, which count too
 constexpr double kLeastValue = 8, kMostValue = 247;  // of 255: darker is noise, brighter may be clipped
 constexpr size_t kLeastSeen = 20;                    // points of a photo that others show too
 constexpr double kSpread = 0.1;                      // gloss and occluders differ by more, and weigh less (Huber)
@@ -33,17 +33,17 @@ struct Observations {
 std::optional<glm::dvec3> valueAt(const Photo& photo, const glm::dvec2& pixel) {
   const int width = int(photo.view.width), height = int(photo.view.height);
   const int column = int(pixel.x), row = int(pixel.y);
-  if (column < kReach || row < kReach || column + kReach >= width || row + kReach >= height) return std::nullopt;
+  if (column < kAround || row < kAround || column + kAround >= width || row + kAround >= height) return std::nullopt;
   glm::dvec3 sum(0);
-  for (int y = row - kReach; y <= row + kReach; ++y) {
-    for (int x = column - kReach; x <= column + kReach; ++x) {
+  for (int y = row - kAround; y <= row + kAround; ++y) {
+    for (int x = column - kAround; x <= column + kAround; ++x) {
       const size_t index = size_t(y) * size_t(width) + size_t(x);
       const uint8_t* rgba = &photo.rgba[4 * index];
       if (rgba[3] != 255 || (!photo.counted.empty() && photo.counted[index] == 0)) return std::nullopt;
       sum += glm::dvec3(rgba[0], rgba[1], rgba[2]);
     }
   }
-  const glm::dvec3 mean = sum / double((2 * kReach + 1) * (2 * kReach + 1));
+  const glm::dvec3 mean = sum / double((2 * kAround + 1) * (2 * kAround + 1));
   const double least = std::min({mean.x, mean.y, mean.z}), most = std::max({mean.x, mean.y, mean.z});
   if (least < kLeastValue || most > kMostValue) return std::nullopt;
   return glm::log(mean);

@@ -14,11 +14,11 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kRows = 36;         // of samples over the height of an image: less than a ball's radius apart
-constexpr double kHeightShare = 0.08;  // of an image that a ball's radius covers
-constexpr double kNearRatio = 4;       // of radii: nearer cells are not drawn (docs/FOAM.md "Near cells")
-constexpr uint8_t kObject = 128;       // alpha from which a pixel shows the object
-constexpr double kUnknownDepth = 8;    // where a view shows no cell: twice the median distance
+constexpr uint32_t kRows = 36;        // of samples over the height of an image: less than a ball's radius apart
+constexpr double kBallShare = 0.08;   // of an image that a ball's radius covers
+constexpr double kNearRatio = 4;      // of radii: nearer cells are not drawn (docs/FOAM.md "Near cells")
+constexpr uint8_t kShownAlpha = 128;  // alpha from which a pixel shows the object
+constexpr double kUnknownDepth = 8;   // where a view shows no cell: twice the median distance
 
 struct Ball {
   glm::dvec3 centre;
@@ -83,7 +83,7 @@ class SampledView {
     for (size_t i = 0; i < samples_.size() && cells.size() < most; ++i) {
       const Sample& sample = samples_[i];
       if (!sample.isWanted || sample.depth > 0) continue;
-      const double radius = kHeightShare * view_.height / view_.fy * depths[i];
+      const double radius = kBallShare * view_.height / view_.fy * depths[i];
       StartCell cell;
       cell.position = sample.ray.offset + eyeOf(view_) + depths[i] * sample.ray.direction;
       cell.towards = -sample.ray.direction;
@@ -115,7 +115,7 @@ class SampledView {
     const size_t pixel = size_t(y * photo.view.height) * photo.view.width + size_t(x * photo.view.width);
     const uint8_t* rgba = &photo.rgba[pixel * 4];
     Sample& sample = samples_[index];
-    sample.isWanted = ray && rgba[3] >= kObject && (photo.counted.empty() || photo.counted[pixel] != 0);
+    sample.isWanted = ray && rgba[3] >= kShownAlpha && (photo.counted.empty() || photo.counted[pixel] != 0);
     if (!sample.isWanted) return;
     sample.ray = *ray;
     sample.colour = glm::dvec3(rgba[0], rgba[1], rgba[2]) / double(rgba[3]);

@@ -22,10 +22,10 @@ namespace {
 constexpr uint32_t kMostSide = 256;     // [pixels] of reduced photos
 constexpr uint32_t kPixelsPerRay = 16;  // a ray for so many pixels of all photos,
 constexpr uint32_t kMostRays = 16000;   // at most
-constexpr int kReach = 3;               // [pixels] a patch reaches so far from its middle
-constexpr int kPatch = 2 * kReach + 1;
+constexpr int kPatchReach = 3;          // [pixels] a patch reaches so far from its middle
+constexpr int kPatch = 2 * kPatchReach + 1;
 constexpr double kStep = 1.5;        // [pixels] by which a step along a ray moves in the photo farthest away
-constexpr double kNearest = 0.5;     // of the distance to that photo: where the sweep begins
+constexpr double kSweepBegin = 0.5;  // of the distance to that photo: where the sweep begins
 constexpr uint32_t kNearby = 16;     // photos to choose from,
 constexpr uint32_t kNeighbours = 8;  // and so many of them are looked at
 const double kSameSide = std::cos(glm::radians(40.0));  // between axes of photos that are compared
@@ -71,8 +71,8 @@ struct PatchPlace {
 
 // Greys of a patch with mean 0 and length 1; none where it leaves the photo, or has no structure.
 std::optional<Patch> patchAt(const GreyPhoto& photo, const PatchPlace& place) {
-  const float reachX = kReach * (std::abs(place.right.x) + std::abs(place.down.x)) + 1;
-  const float reachY = kReach * (std::abs(place.right.y) + std::abs(place.down.y)) + 1;
+  const float reachX = kPatchReach * (std::abs(place.right.x) + std::abs(place.down.x)) + 1;
+  const float reachY = kPatchReach * (std::abs(place.right.y) + std::abs(place.down.y)) + 1;
   if (!(place.middle.x > reachX && place.middle.x + reachX < static_cast<float>(photo.view.width) &&
         place.middle.y > reachY && place.middle.y + reachY < static_cast<float>(photo.view.height))) {
     return std::nullopt;
@@ -80,8 +80,8 @@ std::optional<Patch> patchAt(const GreyPhoto& photo, const PatchPlace& place) {
   Patch patch;
   float sum = 0, squares = 0;
   const size_t width = photo.view.width;
-  for (int v = -kReach, i = 0; v <= kReach; ++v) {
-    for (int u = -kReach; u <= kReach; ++u, ++i) {
+  for (int v = -kPatchReach, i = 0; v <= kPatchReach; ++v) {
+    for (int u = -kPatchReach; u <= kPatchReach; ++u, ++i) {
       const glm::vec2 at = place.middle + float(u) * place.right + float(v) * place.down - 0.5f;  // pixel centres
       const auto x = static_cast<size_t>(at.x), y = static_cast<size_t>(at.y);
       const float* row = &photo.grey[y * width + x];
@@ -238,7 +238,7 @@ std::optional<Sweep::Match> Sweep::matchOf(uint32_t index) const {
   const double widest = distanceTo(start->photo, neighbours.back());
   const double focal = std::max(photo.view.fx, photo.view.fy);
   const double step = kStep / (focal * widest);
-  const auto count = static_cast<size_t>(focal / (kNearest * kStep));
+  const auto count = static_cast<size_t>(focal / (kSweepBegin * kStep));
   std::vector<float> likeness{0};  // at infinity
   for (size_t i = 1; i <= count; ++i) likeness.push_back(likenessAt(*start, static_cast<double>(i) * step));
   const std::optional<double> peak = findPeak(likeness);
