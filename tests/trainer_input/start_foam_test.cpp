@@ -8,6 +8,7 @@
 
 #include "base/float_span.h"
 #include "foam/foam_arrays.h"
+#include "foam/morton_order.h"
 #include "reference/camera/view_points.h"
 #include "reference/camera/view_rays.h"
 #include "tests/trainer_input/capture_sample.h"
@@ -86,8 +87,15 @@ TEST(StartFoam, FewPointsAreMixedAndThenTheFrustaAreFilled) {
   EXPECT_EQ(start.points, 19u);
   EXPECT_EQ(start.mixtures, 180u);
   EXPECT_EQ(start.random, 301u);
-  for (uint32_t i = 0; i < 199; ++i) EXPECT_LT(glm::length(start.foam.sites[i]), 3);
+  EXPECT_GE(std::ranges::count_if(start.foam.sites, [](const glm::vec3& site) { return glm::length(site) < 3; }), 199);
   EXPECT_EQ(shareSeen(start.foam, capture), 1);
+}
+
+TEST(StartFoam, CellsLieAlongACurve) {
+  Capture capture = test::orbit(8, {0, 0, 0}, 4);
+  test::addPoints(capture, 200, {0, 0, 0}, 1);
+  const std::vector<uint32_t> order = mortonOrder(startOf(capture, kSmall).foam.sites);
+  EXPECT_TRUE(std::ranges::is_sorted(order));
 }
 
 TEST(StartFoam, TheSameSeedGivesTheSameBitsOnAnyNumberOfThreads) {

@@ -40,6 +40,12 @@ FROTH_HD uint32_t groupCountOf(uint32_t tilesX, uint32_t tilesY) {
   return groupsAlong(tilesX, kGroupWidth) * groupsAlong(tilesY, kGroupHeight);
 }
 
+// The tile of a group that a lane has; it may lie beyond the image.
+__device__ inline glm::uvec2 tileOfLane(uint32_t group, uint32_t groupsX) {
+  return {group % groupsX * kGroupWidth + laneOfWarp() % kGroupWidth,
+          group / groupsX * kGroupHeight + laneOfWarp() / kGroupWidth};
+}
+
 template <class Visit>
 __device__ void visitFewTiles(const BallTiles& ball, int lane, const StepArrays& arrays, uint32_t tilesX,
                               const Visit& visit) {
@@ -64,11 +70,10 @@ __device__ void visitManyTiles(const BallTiles& ball, int lane, const StepArrays
     const bool meets = i < count && foam::coneMeetsBall(arrays.groupCones[group], ball.centre, ball.radius);
     for (uint32_t meeting = __ballot_sync(kAllLanes, meets); meeting != 0; meeting &= meeting - 1) {
       const uint32_t met = __shfl_sync(kAllLanes, group, __ffs(static_cast<int>(meeting)) - 1);
-      const uint32_t x = met % groupsX * kGroupWidth + laneOfWarp() % kGroupWidth;
-      const uint32_t y = met / groupsX * kGroupHeight + laneOfWarp() / kGroupWidth;
+      const glm::uvec2 at = tileOfLane(met, groupsX);
       const TileRange& range = ball.range;
-      const bool isIn = x >= range.beginX && x < range.endX && y >= range.beginY && y < range.endY;
-      const uint32_t tile = y * tilesX + x;
+      const bool isIn = at.x >= range.beginX && at.x < range.endX && at.y >= range.beginY && at.y < range.endY;
+      const uint32_t tile = at.y * tilesX + at.x;
       visit(lane, tile, isIn && foam::coneMeetsBall(arrays.tileCones[tile], ball.centre, ball.radius));
     }
   }

@@ -70,7 +70,7 @@ Status orderTiles(const StepArrays& arrays, uint32_t tileCount, Scratch& scratch
 
 Status binTiles(const StepArrays& arrays, const TrainingView<float>& view, Scratch& scratch, cudaStream_t stream) {
   const uint32_t tileCount = tilesAlong(view.width) * tilesAlong(view.height);
-  writeEntriesKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays, view);
+  writeEntriesKernel<<<blocksFor(arrays.foam.shape.cellCount, kSmallBlock), kSmallBlock, 0, stream>>>(arrays, view);
   fillEntriesKernel<<<blocksFor(arrays.entryCapacity), kBlock, 0, stream>>>(arrays, tileCount);
   const Status sorted = callCub(scratch, "sort of tile entries", [&](void* memory, size_t& bytes) {
     return cub::DeviceRadixSort::SortPairs(memory, bytes, arrays.entryTiles, arrays.sortedTiles, arrays.entryRanks,

@@ -14,28 +14,19 @@ __global__ void findConesKernel(StepArrays arrays, TrainingView<float> view) {
   }
 }
 
-// Around the cones of a group's tiles.
+// Around the cones of a group's tiles, by a warp.
 __global__ void findGroupConesKernel(StepArrays arrays, uint32_t tilesX, uint32_t tilesY) {
-  const uint32_t group = globalThread(), groupsX = groupsAlong(tilesX, kGroupWidth);
+  const uint32_t group = globalThread() / kWarp, groupsX = groupsAlong(tilesX, kGroupWidth);
   if (group >= groupCountOf(tilesX, tilesY)) return;
-  const uint32_t beginX = group % groupsX * kGroupWidth, endX = min(beginX + kGroupWidth, tilesX);
-  const uint32_t beginY = group / groupsX * kGroupHeight, endY = min(beginY + kGroupHeight, tilesY);
-  glm::vec3 sum(0);
-  for (uint32_t y = beginY; y < endY; ++y) {
-    for (uint32_t x = beginX; x < endX; ++x) {
-      const glm::vec4 cone = arrays.tileCones[y * tilesX + x];
-      if (cone.w >= 0) sum += glm::vec3(cone);
-    }
-  }
+  const glm::uvec2 tile = tileOfLane(group, groupsX);
+  const bool isTile = tile.x < tilesX && tile.y < tilesY;
+  const glm::vec4 cone = isTile ? arrays.tileCones[tile.y * tilesX + tile.x] : glm::vec4(0, 0, 1, foam::kConeOfNone);
+  const glm::vec3 sum = sumOfLanes(cone.w >= 0 ? glm::vec3(cone) : glm::vec3(0), kWarp);
   const float length = sqrtf(glm::dot(sum, sum));
   const glm::vec3 axis = length > 0 ? sum / length : glm::vec3(0, 0, 1);
-  float sine = length > 0 ? 0 : float(foam::kConeOfAll);
-  for (uint32_t y = beginY; y < endY; ++y) {
-    for (uint32_t x = beginX; x < endX; ++x) {
-      sine = fmaxf(sine, foam::sineToHold(axis, arrays.tileCones[y * tilesX + x]));
-    }
-  }
-  arrays.groupCones[group] = foam::guardedCone(axis, sine);
+  const float least = length > 0 ? 0 : float(foam::kConeOfAll);
+  const float sine = largestOfLanes(fmaxf(least, foam::sineToHold(axis, cone)), kWarp);
+  if (laneOfWarp() == 0) arrays.groupCones[group] = foam::guardedCone(axis, sine);
 }
 
 // Unsigned numbers in the order of floats that are finite.
@@ -81,11 +72,12 @@ __global__ void cullCellsKernel(StepArrays arrays, TrainingView<float> view) {
 Status cullCells(const StepArrays& arrays, const TrainingView<float>& view, cudaStream_t stream) {
   static_assert(offsetof(StepCounters, droppedCount) == 8, "the counters of one view come first");
   cudaMemsetAsync(arrays.counters, 0, offsetof(StepCounters, droppedCount), stream);
-  findConesKernel<<<blocksFor(size_t{tilesAlong(view.width)} * tilesAlong(view.height)), kBlock, 0, stream>>>(arrays,
-                                                                                                              view);
   const uint32_t tilesX = tilesAlong(view.width), tilesY = tilesAlong(view.height);
-  findGroupConesKernel<<<blocksFor(groupCountOf(tilesX, tilesY)), kBlock, 0, stream>>>(arrays, tilesX, tilesY);
-  cullCellsKernel<<<blocksFor(arrays.foam.shape.cellCount), kBlock, 0, stream>>>(arrays, view);
+  const auto blocks = [](size_t threads) { return blocksFor(threads, kSmallBlock); };
+  findConesKernel<<<blocks(size_t{tilesX} * tilesY), kSmallBlock, 0, stream>>>(arrays, view);
+  findGroupConesKernel<<<blocks(size_t{groupCountOf(tilesX, tilesY)} * kWarp), kSmallBlock, 0, stream>>>(arrays, tilesX,
+                                                                                                         tilesY);
+  cullCellsKernel<<<blocks(arrays.foam.shape.cellCount), kSmallBlock, 0, stream>>>(arrays, view);
   return checkLaunch("cullCells");
 }
 

@@ -9,6 +9,7 @@ namespace froth {
 namespace {
 
 constexpr uint32_t kThreads = kTileSize * kTileSize;
+constexpr uint32_t kBlocksAtATime = 14;  // of a multiprocessor: 72 registers a thread in place of 96 keep more warps
 
 // What one ray adds for one cell that it meets; moves the adjoint to before the cell.
 __device__ void differentiateCell(const SeenCells<float>& seen, const SeenCell<float>& cell, uint32_t rank,
@@ -32,8 +33,9 @@ __device__ void differentiateCell(const SeenCells<float>& seen, const SeenCell<f
 }
 
 template <uint32_t kDetails>
-__global__ __launch_bounds__(kThreads) void differentiateTilesKernel(StepArrays arrays, TrainingView<float> view,
-                                                                     PixelSettings<float> settings) {
+__global__ __launch_bounds__(kThreads, kBlocksAtATime) void differentiateTilesKernel(StepArrays arrays,
+                                                                                     TrainingView<float> view,
+                                                                                     PixelSettings<float> settings) {
   extern __shared__ float sharedRows[];
   if (isVoid(arrays)) return;
   const uint32_t detailCount = kDetails > 0 ? kDetails : arrays.foam.shape.detailCount;

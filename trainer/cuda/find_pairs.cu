@@ -133,11 +133,7 @@ __global__ void countOverlapsKernel(StepArrays arrays, uint32_t* overlaps) {
   if (cell < arrays.foam.shape.cellCount) overlaps[cell] = countOverlaps(arrays.foam.balls, arrays.pairs, cell);
 }
 
-constexpr uint32_t kSmallBlock = 64;  // few cells make few warps; small blocks spread them over the GPU
-
-uint32_t smallBlocksFor(size_t cells) {
-  return static_cast<uint32_t>((size_t{blocksOfCells(cells)} * kWarp + kSmallBlock - 1) / kSmallBlock);
-}
+uint32_t smallBlocksFor(size_t cells) { return blocksFor(size_t{blocksOfCells(cells)} * kWarp, kSmallBlock); }
 
 }  // namespace
 

@@ -10,7 +10,11 @@ namespace froth {
 inline constexpr uint32_t kWarp = 32, kAllLanes = UINT32_MAX;
 inline constexpr uint32_t kBlock = 256;  // threads of kernels that have no shape of their own
 
-inline uint32_t blocksFor(size_t threads) { return static_cast<uint32_t>((threads + kBlock - 1) / kBlock); }
+inline constexpr uint32_t kSmallBlock = 64;  // few threads, or work that differs by warp, spread over the GPU
+
+inline uint32_t blocksFor(size_t threads, uint32_t size = kBlock) {
+  return static_cast<uint32_t>((threads + size - 1) / size);
+}
 
 __device__ inline uint32_t globalThread() { return blockIdx.x * blockDim.x + threadIdx.x; }
 __device__ inline uint32_t laneOfWarp() { return threadIdx.x % kWarp; }

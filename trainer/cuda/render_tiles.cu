@@ -6,6 +6,8 @@
 namespace froth {
 namespace {
 
+constexpr uint32_t kBlocksAtATime = 16;  // of a multiprocessor: 64 registers a thread in place of 80 keep more warps
+
 // One cell of one ray, as in renderPixel().
 __device__ void addCell(const SeenCells<float>& seen, uint32_t rank, uint32_t detailCount, const glm::vec3& direction,
                         float sharpness, glm::vec3& colour, float& logTransmittance) {
@@ -21,8 +23,9 @@ __device__ void addCell(const SeenCells<float>& seen, uint32_t rank, uint32_t de
 }
 
 template <uint32_t kDetails>
-__global__ __launch_bounds__(kTileSize* kTileSize) void renderTilesKernel(StepArrays arrays, TrainingView<float> view,
-                                                                          PixelSettings<float> settings) {
+__global__ __launch_bounds__(kTileSize* kTileSize,
+                             kBlocksAtATime) void renderTilesKernel(StepArrays arrays, TrainingView<float> view,
+                                                                    PixelSettings<float> settings) {
   if (isVoid(arrays)) return;
   const uint32_t detailCount = kDetails > 0 ? kDetails : arrays.foam.shape.detailCount;
   const WarpPixel own = pixelOfThread(arrays, view);

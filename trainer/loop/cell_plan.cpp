@@ -19,7 +19,8 @@ namespace {
 constexpr float kLeastShare = 1.0f / 25;  // of what a cell would show if all showed as much
 constexpr double kMostRemoved = 0.1;      // of all cells at a time
 constexpr double kTrimmedErrors = 0.99;   // errors beyond this share count as that
-constexpr float kPart = 0.05f;            // parent and child move by so many radii
+constexpr float kPart = 0.3f;             // parent and child move by so many radii, ...
+constexpr float kMostPart = 0.05f;        // ... and no farther: sites learn 0.1 at most until cells change again
 
 float quantileOf(std::vector<float> values, double share) {
   const auto place = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
@@ -73,7 +74,7 @@ glm::vec3 stepOnFace(const CellFacts& facts, uint32_t cell, const CounterRandom&
   glm::vec3 normal, tangent, bitangent;
   foam::frameOfQuaternion(glm::make_vec4(&facts.quaternions[4 * size_t{cell}]), normal, tangent, bitangent);
   const auto angle = static_cast<float>(random.uniform(cell, 0, glm::two_pi<double>()));
-  return kPart * facts.balls[cell].w * (std::cos(angle) * tangent + std::sin(angle) * bitangent);
+  return std::min(kPart * facts.balls[cell].w, kMostPart) * (std::cos(angle) * tangent + std::sin(angle) * bitangent);
 }
 
 CellPlan sortAlongCurve(const CellFacts& facts, const CellPlan& plan) {

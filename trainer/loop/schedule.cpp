@@ -81,8 +81,8 @@ uint32_t cellsAfter(const Schedule& schedule, double position, uint32_t present)
 }
 
 uint32_t halvingsAt(const Schedule& schedule, double position) {
-  const double progress = progressOf(schedule, position);
-  return progress < 0.1 ? 2 : progress < 0.4 ? 1 : 0;
+  if (schedule.isRefinement) return 0;
+  return position < 0.1 ? 2 : position < 0.4 ? 1 : 0;
 }
 
 }  // namespace froth

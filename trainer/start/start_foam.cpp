@@ -9,6 +9,7 @@
 
 #include "foam/checkpoint/activation.h"
 #include "foam/checkpoint/parameters.h"
+#include "foam/morton_order.h"
 #include "trainer/start/cover_views.h"
 #include "trainer/start/nearest_sites.h"
 #include "trainer/start/start_streams.h"
@@ -53,6 +54,16 @@ std::vector<float> radiiOf(const std::vector<StartCell>& cells) {
     radii[i] = static_cast<float>(std::max(std::min(mean, cells[i].mostRadius), kLeastRadius));
   });
   return radii;
+}
+
+// Steps look for pairs between runs of cells that follow each other (trainer/cuda/find_pairs.cu).
+std::vector<StartCell> sortAlongCurve(const std::vector<StartCell>& cells) {
+  std::vector<glm::vec3> sites;
+  for (const StartCell& cell : cells) sites.emplace_back(cell.position);
+  std::vector<StartCell> sorted;
+  sorted.reserve(cells.size());
+  for (const uint32_t cell : mortonOrder(sites)) sorted.push_back(cells[cell]);
+  return sorted;
 }
 
 // Cells that cover gaps stand in place of the last ones, which matter least.
@@ -128,7 +139,7 @@ Result<StartFoam> makeStartFoam(const StartScene& scene, const StartOptions& opt
   const std::vector<StartCell> random = cellsInFrusta(scene, start.random);
   cells.insert(cells.end(), random.begin(), random.end());
   start.gaps = coverGaps(scene, cells);
-  start.foam = foamOf(cells, options, scene.seed);
+  start.foam = foamOf(sortAlongCurve(cells), options, scene.seed);
   return start;
 }
 
