@@ -98,6 +98,19 @@ TEST_F(Resume, AfterAStopGivesTheSameBits) {
   }
 }
 
+// By the state: whoever goes on may have another number of GPUs.
+TEST_F(Resume, KeepsThePhotosOfAStep) {
+  options_.photosPerStep = 2;
+  const Result<TrainResult> whole = train("whole.bin", false);
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_EQ(whole->stepsDone, 115u);
+  ASSERT_FALSE(train("stopped.bin", false, [](std::string_view, uint64_t done, uint64_t) { return done < 60; }));
+  options_.photosPerStep = 1;
+  const Result<TrainResult> resumed = train("stopped.bin", true);
+  expectSame(whole, resumed);
+  EXPECT_EQ(resumed->stepsDone, 115u);
+}
+
 TEST_F(Resume, AfterAKillGoesOnFromTheLastSavedState) {
   const Result<TrainResult> whole = train("whole.bin", false);
   // What a kill after step 185 leaves is the file of step 140.
