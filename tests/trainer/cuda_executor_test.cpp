@@ -156,6 +156,13 @@ TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   EXPECT_TRUE((*gpu)->run(planOf(1, {1})));
 }
 
+TEST(GpuGroup, NeedsNcclOrSaysWhatToInstall) {
+  const Status there = GpuGroup::check();
+  if (!there) {
+    EXPECT_NE(there.error().message.find("install"), std::string::npos) << there.error().message;
+  }
+}
+
 class TwoGpus : public CudaExecutorOf {
  protected:
   void SetUp() override {

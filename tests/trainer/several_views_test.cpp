@@ -59,13 +59,12 @@ class SeveralViews : public ::testing::Test {
 // Cells wait since the step before, which saw the foam from another side.
 TEST_F(SeveralViews, TwiceTheSameGiveTheBitsOfOne) {
   takeStep(start_, {kLeft}, 1000);
-  const std::vector<uint32_t> before = start_.lastSteps;
+  const std::vector<uint32_t> first = start_.lastSteps;
   FoamStorage<float> once = start_, twice = start_;
   takeStep(once, {kFront}, 1030);
   takeStep(twice, {kFront, kFront}, 1030);
   size_t shownAgain = 0;
-  for (size_t cell = 0; cell < before.size(); ++cell)
-    shownAgain += before[cell] == 1001 && once.lastSteps[cell] == 1031;
+  for (size_t cell = 0; cell < first.size(); ++cell) shownAgain += first[cell] == 1001 && once.lastSteps[cell] == 1031;
   ASSERT_GT(shownAgain, 10u);
   EXPECT_EQ(once.lastSteps, twice.lastSteps);
   for (size_t i = 0; i < kParameterCount; ++i) {
