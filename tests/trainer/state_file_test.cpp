@@ -65,6 +65,17 @@ TEST_F(StateFile, OfVersion1TellsWhatToDo) {
   EXPECT_NE(read.error().message.find("version 1"), std::string::npos) << read.error().message;
 }
 
+TEST_F(StateFile, OfAFrothThatKnewOnePhotoAStepHasOne) {
+  state_.photosPerStep = 0;
+  ASSERT_TRUE(writeState(path_, state_));
+  const Result<TrainingState> older = readState(path_);
+  ASSERT_TRUE(older) << older.error().message;
+  EXPECT_EQ(older->photosPerStep, 1u);
+  state_.photosPerStep = 17;
+  ASSERT_TRUE(writeState(path_, state_));
+  EXPECT_FALSE(readState(path_));
+}
+
 TEST_F(StateFile, WhoseTimeGoesBackIsRefused) {
   for (const std::vector<double>& seconds :
        {std::vector<double>{0, 3, 2}, {1, 2}, {0, std::nan(""), 2}, {0, 1e308 * 10}}) {
