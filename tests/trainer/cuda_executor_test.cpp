@@ -218,7 +218,7 @@ TEST_F(TwoGpus, KeepTheSameFoams) {
 
 // The lists of the first photo alone do not fit into the first guess.
 TEST_F(TwoGpus, TakeAStepAgainThatDidNotFitOnOne) {
-  photos_[0] = makePhoto({0.5, 0.4, -3}, 16);
+  photos_[0] = makePhoto({0.5, 0.4, -3}, 8);
   MultiGpuExecutor& both = makeBoth();
   Result<std::unique_ptr<StepExecutor>> one = CudaExecutor::make(foam_, photos_);
   ASSERT_TRUE(one) << one.error().message;
