@@ -15,7 +15,7 @@
 #include "tool/training_log.h"
 #include "tool/training_page.h"
 #ifdef FROTH_HAS_CUDA
-#include "trainer/cuda/cuda_executor.h"
+#include "trainer/cuda/multi_gpu_executor.h"
 #endif
 #include "trainer/loop/evaluate.h"
 #include "trainer/loop/train_scene.h"
@@ -33,16 +33,24 @@ struct TrainCommandOptions {
   TrainOptions train;
   bool isPremultiplied = false, isOutdoor = false;
   std::string device;  // cpu, cuda; empty: cuda where there is one
+  uint32_t gpus = 1;
   FiguresOutput figures;
 };
 
-Result<MakeExecutor> chooseExecutor(const std::string& device) {
+Result<MakeExecutor> chooseExecutor(const std::string& device, uint32_t gpus) {
+  if (gpus > 1 && device == "cpu") return makeError(ErrorKind::kUsage, "--gpus %u: GPUs need --device cuda", gpus);
 #ifdef FROTH_HAS_CUDA
+  if (gpus > 1) {
+    if (Status fit = MultiGpuExecutor::check(gpus); !fit) return fit.error();
+    return MakeExecutor([gpus](FoamStorage<float> foam, std::vector<Photo> photos) {
+      return MultiGpuExecutor::make(gpus, foam, std::move(photos));
+    });
+  }
   if (device == "cuda" || (device.empty() && hasCudaDevice())) return MakeExecutor(CudaExecutor::make);
 #endif
-  if (device != "cuda") return MakeExecutor(makeCpuExecutor);
-  return makeError(ErrorKind::kUsage,
-                   "--device cuda: this froth is built without CUDA; take cpu, or build it with nvcc");
+  if (device != "cuda" && gpus == 1) return MakeExecutor(makeCpuExecutor);
+  return makeError(ErrorKind::kUsage, "%s: this froth is built without CUDA; train on the CPU, or build it with nvcc",
+                   gpus > 1 ? "several GPUs" : "--device cuda");
 }
 
 Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set, const TrainResult& result,
@@ -90,6 +98,7 @@ void setSchedule(TrainCommandOptions& options, const Foam* refined) {
   train.measureEvery = options.measureEvery.value_or(0);
   train.measureTimes = options.measureEvery ? 0 : kMeasuredByDefault;
   train.refined = refined;
+  train.photosPerStep = options.gpus;
 }
 
 // Fails before the long work where its results could not be written.
@@ -102,7 +111,8 @@ Status openOutputs(const TrainCommandOptions& options, TrainingLog& log) {
 }
 
 void printMoment(const TrainingMoment& moment, const Schedule& schedule) {
-  const std::string steps = schedule.seconds > 0 ? "" : fmt::format(" of {}", schedule.steps);
+  const uint32_t allSteps = spreadSchedule(schedule, moment.photosPerStep).steps;
+  const std::string steps = schedule.seconds > 0 ? "" : fmt::format(" of {}", allSteps);
   const std::string seconds = schedule.seconds > 0 ? fmt::format(" of {:.1f}", schedule.seconds) : "";
   fmt::print("{}{} steps: {:.2f} dB, {} cells, {:.1f}{} s\n", moment.stepsDone, steps, moment.psnr, moment.cells,
              moment.seconds, seconds);
@@ -123,7 +133,7 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
   options.train.state = options.output;
   options.train.state.replace_extension(".state.bin");
   options.train.photos.alpha = options.isPremultiplied ? AlphaForm::kPremultiplied : AlphaForm::kStraight;
-  const Result<MakeExecutor> makeExecutor = chooseExecutor(options.device);
+  const Result<MakeExecutor> makeExecutor = chooseExecutor(options.device, options.gpus);
   if (!makeExecutor) return makeExecutor.error();
   Result<Capture> capture = readCapture(options.scene);
   if (!capture) return capture.error();
@@ -170,8 +180,8 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
   command
       .add_option("--start-cells", options->startCells, "Cells to begin with; where --cells is given, a quarter of it")
       ->check(countBetween(1, 1u << 30));
-  CLI::Option* steps =
-      command.add_option("--steps", options->steps, "Steps, one photo each")->check(countBetween(1, 10000000));
+  CLI::Option* steps = command.add_option("--steps", options->steps, "Steps of one photo each; --gpus takes fewer")
+                           ->check(countBetween(1, 10000000));
   command
       .add_option("--minutes", options->minutes,
                   "As many steps as take so long, in place of --steps: rates, sizes and cells follow the time")
@@ -201,6 +211,11 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
       ->check(countBetween(1, 10000000));
   command.add_option("--device", options->device, "cpu or cuda; default: cuda where there is a GPU for it")
       ->check(CLI::IsMember({"cpu", "cuda"}));
+  command
+      .add_option(
+          "--gpus", options->gpus,
+          "GPUs of this machine, by NCCL: steps of so many photos, so many times fewer, at rates times its root")
+      ->check(countBetween(1, kMostPhotosPerStep));
   command.add_flag("--outdoor", options->isOutdoor, "Rates for scenes whose cameras stand far apart");
   command.add_flag("--premultiplied", options->isPremultiplied, "Alpha of photos is premultiplied");
   command.add_flag("--mask-as-alpha", options->train.photos.isMaskAlpha, "Masks cut the object out");

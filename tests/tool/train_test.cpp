@@ -85,6 +85,14 @@ TEST_F(Train, SaysWhatIsWrong) {
     EXPECT_EQ(uneven.exitCode, 3);
     EXPECT_NE(uneven.err.find("of 0 points"), std::string::npos) << uneven.err;  // transforms.json has none
   }
+  for (const std::string gpus : {"2", "16"}) {
+    std::vector<std::string> spread{"train", "shots", "-o", "a.pt", "--gpus", gpus};
+    if (gpus == "2") spread.insert(spread.end(), {"--device", "cpu"});
+    const ProgramRun lacking = froth(spread);  // no machine of ours has 16
+    EXPECT_NE(lacking.exitCode, 0);
+    EXPECT_NE(lacking.err.find("GPU"), std::string::npos) << lacking.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.pt"));
+  }
   std::vector<std::string> many = trainCommand();
   many.insert(many.end(), {"--start-cells", "300"});
   const ProgramRun shrinking = froth(many);

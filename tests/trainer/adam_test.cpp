@@ -80,5 +80,23 @@ TEST(Adam, ARefinementHasTheRatesOfTheSecondHalf) {
   EXPECT_EQ(halvingsAt(refinement, 0), 0u);
 }
 
+TEST(Schedule, SpreadOverStepsOfSeveralPhotosSeesAsManyPhotos) {
+  Schedule one;
+  one.steps = 1001;
+  const Schedule four = spreadSchedule(one, 4), same = spreadSchedule(one, 1);
+  EXPECT_EQ(four.steps, 251u);
+  EXPECT_EQ(same.steps, 1001u);
+  for (const double position : {0.01, 0.3, 1.0}) {
+    EXPECT_EQ(rateAt(four, Parameter::kRadii, position), 2 * rateAt(one, Parameter::kRadii, position));
+    EXPECT_EQ(rateAt(same, Parameter::kRadii, position), rateAt(one, Parameter::kRadii, position));
+  }
+  for (const uint32_t photosPerStep : {1u, 3u, 4u, 16u}) {
+    const Schedule spread = spreadSchedule(one, photosPerStep);
+    uint32_t times = 0;
+    for (uint32_t step = 0; step * photosPerStep < 900; ++step) times += isDensifyStep(spread, step, 0.5);
+    EXPECT_EQ(times, 9u) << photosPerStep;
+  }
+}
+
 }  // namespace
 }  // namespace froth

@@ -1,5 +1,5 @@
-// The executor on a GPU does what the executor on the CPU does. Skipped where there is no GPU.
-#include "trainer/cuda/cuda_executor.h"
+// Executors on one GPU and on two do what the executor on the CPU does. Skipped where there are not so many.
+#include "trainer/cuda/multi_gpu_executor.h"
 
 #include <gtest/gtest.h>
 
@@ -25,23 +25,31 @@ class CudaExecutorOf : public ::testing::Test {
   }
 
   // Half transparent here and there; a mask on the right.
-  static Photo makePhoto(const glm::dvec3& eye) {
+  static Photo makePhoto(const glm::dvec3& eye, uint32_t scale = 1) {
     Photo photo;
-    photo.view = lookAt(eye, {0.1, 0, 0}, kWidth, kHeight, 0.6);
+    photo.view = lookAt(eye, {0.1, 0, 0}, scale * kWidth, scale * kHeight, 0.6);
     const CounterRandom random(7, Purpose::kColour);
-    for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+    for (uint32_t i = 0; i < scale * kWidth * scale * kHeight; ++i) {
       const double alpha = i % 5 == 0 ? random.uniform(4 * i) : 1;
       for (uint32_t c = 0; c < 3; ++c) photo.rgba.push_back(uint8_t(255 * alpha * random.uniform(4 * i + 1 + c)));
       photo.rgba.push_back(uint8_t(255 * alpha));
-      photo.counted.push_back(i % kWidth < kWidth - 20);
+      photo.counted.push_back(i % (scale * kWidth) < scale * (kWidth - 20));
     }
     return photo;
   }
+
+  StepPlan planOf(uint32_t step, std::vector<uint32_t> photos) {
+    return {std::move(photos), step % 2, drifts_.adamAt(step), weightsAt(schedule_, pace_.positionAt(step)), 1e-2f};
+  }
+
+  // In the second step cells wait that the first photos show alone, and the third updates them.
+  void expectStepsOfTheCpu(StepExecutor& gpu, const std::vector<std::vector<uint32_t>>& photosOfSteps);
 
   FoamStorage<float> foam_;
   std::vector<Photo> photos_{makePhoto({0.5, 0.4, -3}), makePhoto({-3, 0.4, 0.3})};
   Schedule schedule_;
   Pace pace_{schedule_};
+  DriftTables drifts_{pace_};
 };
 
 double relativeDifference(const std::vector<float>& expected, const std::vector<float>& found) {
@@ -83,20 +91,17 @@ TEST_F(CudaExecutorOf, FindsThePairsOfTheCpu) {
   }
 }
 
-// The first step has the gradients in its moments; in the second cells wait that the first photo shows alone, and the
-// third updates them.
-TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpu) {
+// The first step has the gradients in its moments.
+void CudaExecutorOf::expectStepsOfTheCpu(StepExecutor& gpu, const std::vector<std::vector<uint32_t>>& photosOfSteps) {
   CpuExecutor cpu(foam_, photos_);
-  Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
-  ASSERT_TRUE(gpu) << gpu.error().message;
-  DriftTables drifts(pace_);
-  for (uint32_t step = 0; step < 3; ++step) {
-    const StepPlan plan{step % 2, step % 2, drifts.adamAt(step), weightsAt(schedule_, pace_.positionAt(step)), 1e-2f};
+  for (uint32_t step = 0; step < photosOfSteps.size(); ++step) {
+    const StepPlan plan = planOf(step, photosOfSteps[step]);
     ASSERT_TRUE(cpu.run(plan));
-    ASSERT_TRUE((*gpu)->run(plan));
+    const Status ran = gpu.run(plan);
+    ASSERT_TRUE(ran) << ran.error().message;
     FoamStorage<float> expected, found;
     ASSERT_TRUE(cpu.read(expected));
-    ASSERT_TRUE((*gpu)->read(found));
+    ASSERT_TRUE(gpu.read(found));
     for (size_t i = 0; i < kParameterCount; ++i) {
       EXPECT_LE(relativeDifference(expected.firstMoments[i], found.firstMoments[i]), 0.01)
           << kParameterKeys[i] << " in step " << step;
@@ -105,17 +110,29 @@ TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpu) {
     for (uint32_t cell = 0; cell < kCells; ++cell) shownByOne += expected.lastSteps[cell] != found.lastSteps[cell];
     EXPECT_LE(shownByOne, kCells / 200);
     EXPECT_LE(relativeDifference(expected.errors, found.errors), 1e-3);
+    EXPECT_LE(relativeDifference(expected.contributions, found.contributions), 1e-3);
   }
-  const Result<uint64_t> dropped = (*gpu)->droppedCount();
+  const Result<uint64_t> dropped = gpu.droppedCount();
   ASSERT_TRUE(dropped);
   EXPECT_EQ(*dropped, 0u);
+}
+
+TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpu) {
+  Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
+  ASSERT_TRUE(gpu) << gpu.error().message;
+  expectStepsOfTheCpu(**gpu, {{0}, {1}, {0}});
+}
+
+TEST_F(CudaExecutorOf, TakesStepsOfSeveralPhotosOfTheCpu) {
+  Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
+  ASSERT_TRUE(gpu) << gpu.error().message;
+  expectStepsOfTheCpu(**gpu, {{0}, {1, 0}, {0, 0, 1}});
 }
 
 TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
   ASSERT_TRUE(gpu) << gpu.error().message;
-  DriftTables drifts(pace_);
-  ASSERT_TRUE((*gpu)->run({0, 0, drifts.adamAt(0), weightsAt(schedule_, 0), 1e-2f}));
+  ASSERT_TRUE((*gpu)->run(planOf(0, {0})));
   FoamStorage<float> before, after;
   ASSERT_TRUE((*gpu)->read(before));
   const Result<CellFacts> facts = (*gpu)->facts();
@@ -136,7 +153,97 @@ TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   EXPECT_EQ(after.lastSteps, expected.lastSteps);
   EXPECT_EQ(after.contributions, expected.contributions);
   EXPECT_EQ(after.errors, expected.errors);
-  EXPECT_TRUE((*gpu)->run({1, 0, drifts.adamAt(1), weightsAt(schedule_, pace_.positionAt(1)), 1e-2f}));
+  EXPECT_TRUE((*gpu)->run(planOf(1, {1})));
+}
+
+TEST(GpuGroup, NeedsNcclOrSaysWhatToInstall) {
+  const Status there = GpuGroup::check();
+  if (!there) {
+    EXPECT_NE(there.error().message.find("install"), std::string::npos) << there.error().message;
+  }
+}
+
+class TwoGpus : public CudaExecutorOf {
+ protected:
+  void SetUp() override {
+    if (cudaDeviceCount() < 2) GTEST_SKIP() << "fewer than two GPUs";
+    CudaExecutorOf::SetUp();
+  }
+
+  MultiGpuExecutor& makeBoth() {
+    Result<std::unique_ptr<StepExecutor>> made = MultiGpuExecutor::make(2, foam_, photos_);
+    EXPECT_TRUE(made) << made.error().message;
+    owned_ = std::move(*made);
+    return static_cast<MultiGpuExecutor&>(*owned_);
+  }
+
+  static void expectSameFoams(MultiGpuExecutor& both) {
+    FoamStorage<float> first, second;
+    ASSERT_EQ(cudaSetDevice(0), cudaSuccess);
+    ASSERT_TRUE(both.gpu(0).read(first));
+    ASSERT_EQ(cudaSetDevice(1), cudaSuccess);
+    ASSERT_TRUE(both.gpu(1).read(second));
+    ASSERT_EQ(first.shape.cellCount, second.shape.cellCount);
+    for (size_t i = 0; i < kParameterCount; ++i) {
+      EXPECT_EQ(first.values[i], second.values[i]) << kParameterKeys[i];
+      EXPECT_EQ(first.firstMoments[i], second.firstMoments[i]) << kParameterKeys[i];
+      EXPECT_EQ(first.secondMoments[i], second.secondMoments[i]) << kParameterKeys[i];
+    }
+    EXPECT_EQ(first.lastSteps, second.lastSteps);
+    EXPECT_EQ(first.contributions, second.contributions);
+    EXPECT_EQ(first.errors, second.errors);
+  }
+
+  std::unique_ptr<StepExecutor> owned_;
+};
+
+TEST_F(TwoGpus, TakeTheStepsOfTheCpu) { expectStepsOfTheCpu(makeBoth(), {{0, 1}, {1, 1}, {1, 0, 0, 1}}); }
+
+TEST_F(TwoGpus, KeepTheSameFoams) {
+  MultiGpuExecutor& both = makeBoth();
+  for (uint32_t step = 0; step < 40; ++step) {
+    ASSERT_TRUE(both.run(planOf(step, {step % 2, step / 2 % 2})));
+    std::vector<glm::vec4> image;
+    if (step == 10) {
+      ASSERT_TRUE(both.show(photos_[0].view, drifts_.adamAt(step + 1), image));
+    }
+    if (step % 15 != 14) continue;
+    expectSameFoams(both);
+    const Result<CellFacts> facts = both.facts();
+    ASSERT_TRUE(facts);
+    ASSERT_TRUE(both.rearrange(planCells(*facts, both.cellCount() + 300, 3, step)));
+  }
+  expectSameFoams(both);
+}
+
+// The lists of the first photo alone do not fit into the first guess.
+TEST_F(TwoGpus, TakeAStepAgainThatDidNotFitOnOne) {
+  photos_[0] = makePhoto({0.5, 0.4, -3}, 8);
+  MultiGpuExecutor& both = makeBoth();
+  Result<std::unique_ptr<StepExecutor>> one = CudaExecutor::make(foam_, photos_);
+  ASSERT_TRUE(one) << one.error().message;
+  for (uint32_t step = 0; step < 2; ++step) {
+    StepPlan plan = planOf(step, {step, 1 - step});
+    plan.halvings = 0;
+    ASSERT_TRUE(both.run(plan));
+    ASSERT_EQ(cudaSetDevice(0), cudaSuccess);
+    ASSERT_TRUE((*one)->run(plan));
+    expectSameFoams(both);
+    FoamStorage<float> expected, found;
+    ASSERT_TRUE(both.read(found));
+    ASSERT_TRUE((*one)->read(expected));
+    for (size_t i = 0; i < kParameterCount; ++i) {
+      EXPECT_LE(relativeDifference(expected.firstMoments[i], found.firstMoments[i]), 0.01) << kParameterKeys[i];
+    }
+  }
+  EXPECT_GT(both.gpu(0).step().counters().tileEntries + both.gpu(1).step().counters().tileEntries, 1u << 20);
+}
+
+TEST_F(TwoGpus, RefuseStepsThatTheyDoNotShareEvenly) {
+  const Status ran = makeBoth().run(planOf(0, {0, 1, 0}));
+  ASSERT_FALSE(ran);
+  EXPECT_EQ(ran.error().kind, ErrorKind::kUsage);
+  EXPECT_NE(ran.error().message.find("--gpus 3"), std::string::npos) << ran.error().message;
 }
 
 }  // namespace

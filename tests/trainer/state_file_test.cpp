@@ -18,6 +18,7 @@ class StateFile : public ::testing::Test {
   StateFile() : path_(std::filesystem::path(::testing::TempDir()) / "froth_state_test.bin") {
     state_.seconds = {0, 0.5, 0.5, 7};
     state_.settings = "steps 500";
+    state_.photosPerStep = 3;
     state_.foam = storeFoam<float>(randomFoam(20, 3, 2, 1));
     state_.foam.secondMoments[5][7] = 1e-30f;
     state_.foam.lastSteps[3] = 100;
@@ -35,6 +36,7 @@ TEST_F(StateFile, ComesBackBitForBit) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->seconds, state_.seconds);
   EXPECT_EQ(read->settings, state_.settings);
+  EXPECT_EQ(read->photosPerStep, 3u);
   EXPECT_EQ(read->foam.values, state_.foam.values);
   EXPECT_EQ(read->foam.firstMoments, state_.foam.firstMoments);
   EXPECT_EQ(read->foam.secondMoments, state_.foam.secondMoments);
@@ -61,6 +63,17 @@ TEST_F(StateFile, OfVersion1TellsWhatToDo) {
   const Result<TrainingState> read = readState(path_);
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message.find("version 1"), std::string::npos) << read.error().message;
+}
+
+TEST_F(StateFile, OfAFrothThatKnewOnePhotoAStepHasOne) {
+  state_.photosPerStep = 0;
+  ASSERT_TRUE(writeState(path_, state_));
+  const Result<TrainingState> older = readState(path_);
+  ASSERT_TRUE(older) << older.error().message;
+  EXPECT_EQ(older->photosPerStep, 1u);
+  state_.photosPerStep = 17;
+  ASSERT_TRUE(writeState(path_, state_));
+  EXPECT_FALSE(readState(path_));
 }
 
 TEST_F(StateFile, WhoseTimeGoesBackIsRefused) {

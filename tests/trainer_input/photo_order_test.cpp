@@ -54,5 +54,21 @@ TEST(PhotoOrder, EpochsArePermutationsThatDiffer) {
   }
 }
 
+TEST(PhotoOrder, StepsOfSeveralPhotosGoThroughTheSameEpochs) {
+  std::vector<uint32_t> epochs = epochOrder(7, 1, 0);
+  for (const uint32_t photo : epochOrder(7, 1, 1)) epochs.push_back(photo);
+  for (const uint32_t photosPerStep : {1u, 2u, 3u}) {
+    PhotoSequence sequence(7, 1);
+    std::vector<uint32_t> photos;
+    for (uint32_t step = 0; photos.size() < epochs.size(); ++step) {
+      const std::vector<uint32_t> more = sequence.ofStep(step, photosPerStep);
+      ASSERT_EQ(more.size(), photosPerStep);
+      photos.insert(photos.end(), more.begin(), more.end());
+    }
+    photos.resize(epochs.size());
+    EXPECT_EQ(photos, epochs) << photosPerStep;
+  }
+}
+
 }  // namespace
 }  // namespace froth

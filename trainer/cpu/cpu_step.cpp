@@ -103,7 +103,7 @@ void CpuStep<Real>::prepare(const AdamStep<Real>& adam) {
     const uint32_t cell = candidates_[rank].cell;
     SeenCell<Real>& prepared = cells_[rank];
     const TrainedCell<Real> trained(foam, adam, cell);
-    prepareCell(trained, view_, prepared);
+    prepareCell(trained, view_.eye, prepared);
     for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
       planes_[prepared.planesBegin + e - rows.offsets[cell]] = preparePlane(foam, view_, cell, rows.neighbours[e]);
     }
@@ -266,19 +266,71 @@ void CpuStep<Real>::update(const AdamStep<Real>& adam, Real overlapWeight) {
     updateShownCell(trained, cellSums_[rank], badHere);
     bad += badHere;
   });
-  const SeenCells<Real> cells = seen();
-  const NeighbourRows rows = pairs_.rows();
   tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
     uint32_t badHere = 0;
-    glm::vec<4, Real> gradient = gradientOfOwnSums(cells, sums(), cell);
-    for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
-      gradient += gradientOfPair(foam, rows, cells, sums(), overlapWeight, cell, e);
-    }
-    updateBall(foam, adam, cell, gradient, badHere);
-    updateMeans(foam, cells, sums(), cell);
+    updateBall(foam, adam, cell, gradientOfBall(cell, overlapWeight), badHere);
+    updateMeans(foam, cell, sumsOfCell(seen(), sums(), cell));
     bad += badHere;
   });
   droppedCount_ += bad;
+}
+
+template <class Real>
+glm::vec<4, Real> CpuStep<Real>::gradientOfBall(uint32_t cell, Real overlapWeight) {
+  const TrainedFoam<Real> foam = viewStorage(foam_);
+  const NeighbourRows rows = pairs_.rows();
+  glm::vec<4, Real> gradient = gradientOfOwnSums(sumsOfCell(seen(), sums(), cell));
+  for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
+    gradient += gradientOfPair(foam, rows, seen(), sums(), overlapWeight, cell, e);
+  }
+  return gradient;
+}
+
+template <class Real>
+void CpuStep<Real>::keepGradients(const AdamStep<Real>& adam, Real overlapWeight) {
+  const TrainedFoam<Real> foam = viewStorage(foam_);
+  const uint32_t detailCount = foam.shape.detailCount;
+  KeptView& kept = keptViews_.emplace_back();
+  kept.eye = view_.eye;
+  kept.cells.resize(foam.shape.cellCount);
+  kept.details.resize(size_t{foam.shape.cellCount} * detailCount);
+  tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
+    if (!isShown(cellSums_[rank])) return;
+    const uint32_t cell = cells_[rank].cell;
+    const TrainedCell<Real> trained(foam, adam, cell);
+    for (uint32_t k = 0; k < detailCount; ++k) {
+      const size_t detail = rank * detailCount + k;
+      kept.details[size_t{cell} * detailCount + k] =
+          differentiateDetail(trained, cells_[rank], details_[detail], k, detailSums_[detail], cellSums_[rank]);
+    }
+  });
+  tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
+    kept.cells[cell] = viewCell(sumsOfCell(seen(), sums(), cell), gradientOfBall(cell, overlapWeight));
+  });
+}
+
+template <class Real>
+void CpuStep<Real>::updateByViews(const AdamStep<Real>& adam) {
+  const TrainedFoam<Real> foam = viewStorage(foam_);
+  std::vector<ViewGradients<Real>> views;
+  for (KeptView& kept : keptViews_) views.push_back({kept.eye, kept.cells.data(), kept.details.data()});
+  const auto viewCount = static_cast<uint32_t>(views.size());
+  std::atomic<uint64_t> bad = 0;
+  tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
+    uint32_t badHere = 0;
+    const CellSums<Real> mean = meanOfCell(views.data(), viewCount, cell);
+    if (isShown(mean)) {
+      const TrainedCell<Real> trained(foam, adam, cell);
+      for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
+        updateDetailByViews(trained, views.data(), viewCount, k, badHere);
+      }
+      updateShownCell(trained, mean, badHere);
+    }
+    updateBallByViews(foam, adam, views.data(), viewCount, cell, badHere);
+    bad += badHere;
+  });
+  droppedCount_ += bad;
+  keptViews_.clear();
 }
 
 template class CpuStep<float>;

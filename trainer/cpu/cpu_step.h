@@ -13,6 +13,7 @@
 #include "trainer/step/pixels.h"
 #include "trainer/step/seen_cells.h"
 #include "trainer/step/training_view.h"
+#include "trainer/step/view_gradients.h"
 
 namespace froth {
 
@@ -45,6 +46,11 @@ class CpuStep {
   // overlapWeight: lambda of L_connect.
   void update(const AdamStep<Real>& adam, Real overlapWeight);
 
+  // In place of update(), in a step of several views (trainer/step/view_gradients.h): the first after each
+  // differentiate(), the second after the last view; it forgets what was kept.
+  void keepGradients(const AdamStep<Real>& adam, Real overlapWeight);
+  void updateByViews(const AdamStep<Real>& adam);
+
   // After cells changed places: before the next activate().
   void forgetPairs() { pairs_.forget(); }
 
@@ -66,6 +72,7 @@ class CpuStep {
   void renderRow(uint32_t tileY);
   void differentiateRow(uint32_t tileY);
   void reduce();
+  glm::vec<4, Real> gradientOfBall(uint32_t cell, Real overlapWeight);
   PixelArrays<Real> pixels();
 
   FoamStorage<Real>& foam_;
@@ -92,6 +99,13 @@ class CpuStep {
   std::vector<CellSums<Real>> cellSums_;
   std::vector<DetailSums<Real>> detailSums_;
   std::vector<glm::vec<4, Real>> pairSums_;
+
+  struct KeptView {
+    glm::vec<3, Real> eye;
+    std::vector<ViewCell<Real>> cells;
+    std::vector<DetailSums<Real>> details;
+  };
+  std::vector<KeptView> keptViews_;  // of this step
 };
 
 }  // namespace froth

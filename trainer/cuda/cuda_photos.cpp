@@ -8,9 +8,9 @@
 namespace froth {
 
 Status CudaPhotos::upload(uint32_t halvings, cudaStream_t stream) {
-  std::vector<Photo> reduced(photos_.size());
-  tbb::parallel_for(size_t{0}, photos_.size(), [&](size_t i) { reduced[i] = reducePhoto(photos_[i], halvings); });
-  arrays_.resize(photos_.size());
+  std::vector<Photo> reduced(photos_->size());
+  tbb::parallel_for(size_t{0}, photos_->size(), [&](size_t i) { reduced[i] = reducePhoto((*photos_)[i], halvings); });
+  arrays_.resize(photos_->size());
   halvings_ = halvings;
   for (size_t i = 0; i < reduced.size(); ++i) {
     const Photo& photo = reduced[i];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "trainer/cuda/device_array.h"
@@ -18,8 +19,8 @@ class CudaPhotos {
     ImageTarget image;
   };
 
-  // `photos` are kept, for smaller ones are made of them.
-  explicit CudaPhotos(std::vector<Photo> photos) : photos_(std::move(photos)) {}
+  // `photos` are kept, for smaller ones are made of them; GPUs share them.
+  explicit CudaPhotos(std::shared_ptr<const std::vector<Photo>> photos) : photos_(std::move(photos)) {}
 
   // A photo with its sides halved so often. The first call for a number of halvings uploads all photos at that size.
   Result<Target> at(uint32_t photo, uint32_t halvings, cudaStream_t stream);
@@ -33,7 +34,7 @@ class CudaPhotos {
   };
   Status upload(uint32_t halvings, cudaStream_t stream);
 
-  std::vector<Photo> photos_;
+  std::shared_ptr<const std::vector<Photo>> photos_;
   std::vector<Arrays> arrays_;
   uint32_t halvings_ = UINT32_MAX;  // of arrays_
 };

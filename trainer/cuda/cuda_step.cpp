@@ -268,6 +268,26 @@ Status CudaStep::update(const AdamStep<float>& adam, float overlapWeight) {
                 [&] { return mark(activateCells(arrays_, hasPairs_, stream_), "activate"); });
 }
 
+Status CudaStep::keepGradients(uint32_t view, uint32_t viewCount, const AdamStep<float>& adam, float overlapWeight) {
+  const size_t bytes = bytesOfView();
+  if (Status made = keptViews_.resize(bytes * viewCount, "gradients of views"); !made) return made;
+  const KeptView kept = keptViewAt(keptViews_.data() + bytes * view, arrays_.foam.shape, view_.eye);
+  return mark(froth::keepGradients(arrays_, adam, overlapWeight, kept, stream_), "keep");
+}
+
+Status CudaStep::updateByViews(const std::vector<glm::vec3>& eyes, const AdamStep<float>& adam, bool countsBad) {
+  KeptViews kept{};
+  for (const glm::vec3& eye : eyes) {
+    const KeptView view = keptViewAt(keptViews_.data() + bytesOfView() * kept.count, arrays_.foam.shape, eye);
+    kept.headers[kept.count] = view.header;
+    kept.gradients[kept.count++] = view.gradients;
+  }
+  return inTurn([&] { return mark({}, "exchange"); },  // with what other GPUs sent
+                [&] { return mark(updateShownByViews(arrays_, adam, kept, countsBad, stream_), "update"); },
+                [&] { return mark(updateBallsByViews(arrays_, adam, kept, countsBad, stream_), "update balls"); },
+                [&] { return mark(activateCells(arrays_, hasPairs_, stream_), "activate"); });
+}
+
 Result<bool> CudaStep::settle() {
   std::vector<StepCounters> counters;
   if (Status read = counters_.download(counters, "counters", stream_); !read) return read.error();
@@ -281,7 +301,7 @@ Result<bool> CudaStep::settle() {
 }
 
 size_t CudaStep::byteCount() const {
-  size_t sum = scratch_.byteCount() + counters_.byteCount();
+  size_t sum = scratch_.byteCount() + counters_.byteCount() + keptViews_.byteCount();
   const auto add = [&](const auto&... arrays) { sum += (arrays.byteCount() + ...); };
   for (const Tensors& tensors : tensors_) add(tensors.values, tensors.firstMoments, tensors.secondMoments);
   add(pairOfPlane_);

@@ -43,6 +43,15 @@ class CudaStep {
   // Balls are then those of the next step.
   Status update(const AdamStep<float>& adam, float overlapWeight);
 
+  // In place of update(), in a step of `viewCount` views: the first after each differentiate(), of which view it was;
+  // the second when all are kept, here or by copies of other GPUs' blocks, for the eyes of all views. countsBad: as for
+  // updateShownByViews().
+  Status keepGradients(uint32_t view, uint32_t viewCount, const AdamStep<float>& adam, float overlapWeight);
+  Status updateByViews(const std::vector<glm::vec3>& eyes, const AdamStep<float>& adam, bool countsBad);
+  // [viewCount * bytesOfKeptView()] in device memory, of the last keepGradients().
+  uint8_t* keptViews() { return keptViews_.data(); }
+  size_t bytesOfView() const { return bytesOfKeptView(arrays_.foam.shape); }
+
   // Waits for the GPU. false: the lists of the last step did not fit, so it changed nothing; taken again it will.
   Result<bool> settle();
 
@@ -97,6 +106,7 @@ class CudaStep {
   DeviceArray<float> logTransmittances_, lossFields_;
   DeviceArray<uint32_t> ends_;
   DeviceArray<StepCounters> counters_;
+  DeviceArray<uint8_t> keptViews_;
   Scratch scratch_;
 
   StepArrays arrays_{};

@@ -43,6 +43,11 @@ __device__ inline float largestOfLanes(float value, uint32_t lanes) {
   return value;
 }
 
+// Gradients that were no finite numbers.
+__device__ inline void countBad(const StepArrays& arrays, uint32_t bad) {
+  if (bad > 0) atomicAdd(&arrays.counters->droppedCount, bad);
+}
+
 // A step whose lists did not fit changes nothing.
 __device__ inline bool isVoid(const StepArrays& arrays) { return arrays.counters->tileEntries > arrays.entryCapacity; }
 

@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "trainer/cuda/device_array.h"
+#include "trainer/cuda/kept_views.h"
 #include "trainer/cuda/step_arrays.h"
 #include "trainer/step/adam.h"
 #include "trainer/step/cell_change.h"
@@ -51,6 +52,15 @@ Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& v
 Status updateShownCells(const StepArrays& arrays, const AdamStep<float>& adam, cudaStream_t stream);
 // Of all cells.
 Status updateBalls(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, cudaStream_t stream);
+
+// In place of both, in a step of several views: after differentiateTiles() of each, what it asks goes to `kept`.
+Status keepGradients(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, const KeptView& kept,
+                     cudaStream_t stream);
+// Then all take the mean of what was kept, in this order. countsBad: whether StepCounters::droppedCount counts.
+Status updateShownByViews(const StepArrays& arrays, const AdamStep<float>& adam, const KeptViews& kept, bool countsBad,
+                          cudaStream_t stream);
+Status updateBallsByViews(const StepArrays& arrays, const AdamStep<float>& adam, const KeptViews& kept, bool countsBad,
+                          cudaStream_t stream);
 
 // A photo in device memory.
 struct ImageTarget {

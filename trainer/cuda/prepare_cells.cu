@@ -12,7 +12,7 @@ __global__ void prepareCellsKernel(StepArrays arrays, TrainingView<float> view, 
   const uint32_t rank = globalThread();
   if (rank >= arrays.counters->seenCells) return;
   SeenCell<float> seen;
-  prepareCell(TrainedCell<float>(arrays.foam, adam, arrays.sortedCells[rank]), view, seen);
+  prepareCell(TrainedCell<float>(arrays.foam, adam, arrays.sortedCells[rank]), view.eye, seen);
   arrays.seen.cells[rank] = seen;
   arrays.sums.cells[rank] = {};
 }

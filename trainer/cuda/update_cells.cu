@@ -9,26 +9,31 @@ namespace {
 
 constexpr uint32_t kLanesOfBall = 8;  // most balls have some ten pairs
 
-__device__ void countBad(const StepArrays& arrays, uint32_t bad) {
-  if (bad > 0) atomicAdd(&arrays.counters->droppedCount, bad);
-}
+// Each kernel is two: Adam takes the gradients at once (kKeeps false), or they are kept until all views of the step
+// have theirs (trainer/step/view_gradients.h).
 
-// As updateLobes(), of all detail sites of a round: each lane returns what its lobe asks of the direction.
-__device__ glm::vec3 updateLobesOfRound(const TrainedCell<float>& trained, const LobeRound& round,
+// As visitLobes(), of all detail sites of a round: each lane returns what its lobe asks of the direction.
+template <bool kKeeps>
+__device__ glm::vec3 differentiateLobes(const TrainedCell<float>& trained, const LobeRound& round,
                                         const LobeSeeds<float>& seeds, uint32_t& bad) {
-  LaneNumbers axes(trained, Parameter::kLobeAxes, round, true), colours(trained, Parameter::kLobeColours, round, true);
+  const bool hasMoments = !kKeeps || !trained.wait.isNone;
+  LaneNumbers axes(trained, Parameter::kLobeAxes, round, hasMoments);
+  LaneNumbers colours(trained, Parameter::kLobeColours, round, hasMoments);
   axes.catchUp();
   colours.catchUp();
   const glm::vec3 axis = numbersOfLobe(round, axes.values()), colour = numbersOfLobe(round, colours.values());
   const float share = shareOfLobe(round, foam::lobeExponent(axis, seeds.direction));
   LobeGradient<float> gradient;
   if (round.hasLobe) gradient = differentiateLobe(axis, colour, share, seeds);
-  axes.update(round, numbersOfLane(round, gradient.axis), bad);
-  colours.update(round, numbersOfLane(round, gradient.colour), bad);
+  if constexpr (!kKeeps) {
+    axes.update(round, numbersOfLane(round, gradient.axis), bad);
+    colours.update(round, numbersOfLane(round, gradient.colour), bad);
+  }
   return gradient.direction;
 }
 
-__global__ void updateShownCellsKernel(StepArrays arrays, AdamStep<float> adam) {
+template <bool kKeeps>
+__global__ void updateShownCellsKernel(StepArrays arrays, AdamStep<float> adam, DetailSums<float>* kept) {
   __shared__ float stages[kBlock / kWarp][kStageNumbers];
   const uint32_t rank = globalThread() / kWarp;
   if (rank >= arrays.counters->seenCells || isVoid(arrays) || !isShown(arrays.sums.cells[rank])) return;
@@ -47,8 +52,16 @@ __global__ void updateShownCellsKernel(StepArrays arrays, AdamStep<float> adam) 
       sums = arrays.sums.details[place];
     }
     const LobeSeeds<float> seeds = seedLobes(seen, detail, sums);
-    const glm::vec3 directionSeed = sumOfLanes(updateLobesOfRound(trained, round, seeds, bad), round.lanes);
-    if (round.isFirst) updatePlace(trained, seen, detail, round.detail, sums, seeds, directionSeed, asked, bad);
+    const glm::vec3 directionSeed = sumOfLanes(differentiateLobes<kKeeps>(trained, round, seeds, bad), round.lanes);
+    if (round.isFirst) {
+      const DetailSums<float> gradient =
+          differentiatePlace(trained, seen, detail, round.detail, sums, seeds, directionSeed, asked);
+      if constexpr (kKeeps) {
+        kept[size_t{seen.cell} * shape.detailCount + round.detail] = gradient;
+      } else {
+        updatePlace(trained, round.detail, gradient, bad);
+      }
+    }
     __syncwarp();
   }
   asked.site = sumOfLanes(asked.site, kWarp);
@@ -56,13 +69,15 @@ __global__ void updateShownCellsKernel(StepArrays arrays, AdamStep<float> adam) 
   asked.torque = sumOfLanes(asked.torque, kWarp);
   if (laneOfWarp() == 0) {
     arrays.sums.cells[rank] += asked;
-    updateShownCell(trained, arrays.sums.cells[rank], bad);
+    if constexpr (!kKeeps) updateShownCell(trained, arrays.sums.cells[rank], bad);
   }
   countBad(arrays, bad);
 }
 
-__global__ void updateBallsKernel(StepArrays arrays, AdamStep<float> adam, float overlapWeight) {
+template <bool kKeeps>
+__global__ void updateBallsKernel(StepArrays arrays, AdamStep<float> adam, float overlapWeight, KeptView kept) {
   const uint32_t cell = globalThread() / kLanesOfBall, lane = laneOfWarp() % kLanesOfBall;
+  if (kKeeps && globalThread() == 0) kept.header->isVoid = isVoid(arrays);
   if (isVoid(arrays)) return;
   const bool isCell = cell < arrays.foam.shape.cellCount;
   glm::vec4 gradient(0);
@@ -74,23 +89,38 @@ __global__ void updateBallsKernel(StepArrays arrays, AdamStep<float> adam, float
   __syncwarp();
   gradient = sumOfLanes(gradient, kLanesOfBall);
   if (!isCell || lane != 0) return;
-  uint32_t bad = 0;
-  updateBall(arrays.foam, adam, cell, gradientOfOwnSums(arrays.seen, arrays.sums, cell) + gradient, bad);
-  updateMeans(arrays.foam, arrays.seen, arrays.sums, cell);
-  countBad(arrays, bad);
+  const CellSums<float>* sums = sumsOfCell(arrays.seen, arrays.sums, cell);
+  gradient = gradientOfOwnSums(sums) + gradient;
+  if constexpr (kKeeps) {
+    kept.gradients.cells[cell] = viewCell(sums, gradient);
+  } else {
+    uint32_t bad = 0;
+    updateBall(arrays.foam, adam, cell, gradient, bad);
+    updateMeans(arrays.foam, cell, sums);
+    countBad(arrays, bad);
+  }
 }
 
 }  // namespace
 
 Status updateShownCells(const StepArrays& arrays, const AdamStep<float>& adam, cudaStream_t stream) {
-  updateShownCellsKernel<<<blocksFor(size_t{arrays.foam.shape.cellCount} * kWarp), kBlock, 0, stream>>>(arrays, adam);
+  const size_t threads = size_t{arrays.foam.shape.cellCount} * kWarp;
+  updateShownCellsKernel<false><<<blocksFor(threads), kBlock, 0, stream>>>(arrays, adam, nullptr);
   return checkLaunch("updateShownCells");
 }
 
 Status updateBalls(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, cudaStream_t stream) {
   const size_t threads = size_t{arrays.foam.shape.cellCount} * kLanesOfBall;
-  updateBallsKernel<<<blocksFor(threads), kBlock, 0, stream>>>(arrays, adam, overlapWeight);
+  updateBallsKernel<false><<<blocksFor(threads), kBlock, 0, stream>>>(arrays, adam, overlapWeight, KeptView{});
   return checkLaunch("updateBalls");
+}
+
+Status keepGradients(const StepArrays& arrays, const AdamStep<float>& adam, float overlapWeight, const KeptView& kept,
+                     cudaStream_t stream) {
+  const size_t cells = arrays.foam.shape.cellCount;
+  updateShownCellsKernel<true><<<blocksFor(cells * kWarp), kBlock, 0, stream>>>(arrays, adam, kept.gradients.details);
+  updateBallsKernel<true><<<blocksFor(cells * kLanesOfBall), kBlock, 0, stream>>>(arrays, adam, overlapWeight, kept);
+  return checkLaunch("keepGradients");
 }
 
 }  // namespace froth

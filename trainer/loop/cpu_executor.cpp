@@ -28,9 +28,9 @@ std::vector<glm::vec4> wantedOf(const Photo& photo) {
 CpuExecutor::CpuExecutor(FoamStorage<float> foam, std::vector<Photo> photos)
     : foam_(std::move(foam)), photos_(std::move(photos)) {}
 
-const CpuExecutor::PhotoTarget& CpuExecutor::targetOf(const StepPlan& plan) {
-  if (halvings_ != plan.halvings) {
-    halvings_ = plan.halvings;
+const CpuExecutor::PhotoTarget& CpuExecutor::targetOf(uint32_t photo, uint32_t halvings) {
+  if (halvings_ != halvings) {
+    halvings_ = halvings;
     targets_.assign(photos_.size(), {});
     tbb::parallel_for(size_t{0}, photos_.size(), [&](size_t i) {
       targets_[i].photo = reducePhoto(photos_[i], halvings_);
@@ -38,12 +38,11 @@ const CpuExecutor::PhotoTarget& CpuExecutor::targetOf(const StepPlan& plan) {
       targets_[i].wanted = wantedOf(targets_[i].photo);
     });
   }
-  return targets_[plan.photo];
+  return targets_[photo];
 }
 
-Status CpuExecutor::run(const StepPlan& plan) {
-  shown_.reset();
-  const PhotoTarget& target = targetOf(plan);
+void CpuExecutor::differentiate(uint32_t photo, const StepPlan& plan) {
+  const PhotoTarget& target = targetOf(photo, plan.halvings);
   TrainingView<float> view = trainingView<float>(target.photo.view);
   if (!target.directions.empty()) view.directions = target.directions.data();
   const size_t pixelCount = target.wanted.size();
@@ -51,7 +50,6 @@ Status CpuExecutor::run(const StepPlan& plan) {
   settings.perPixel = 1.0f / static_cast<float>(pixelCount);
   settings.normalWeight = static_cast<float>(plan.weights.normal) * settings.perPixel;
 
-  step_.activate(plan.leastSkin);
   const std::vector<glm::vec4>& rendered = step_.render(view, settings, plan.adam);
   gradients_.resize(pixelCount);
   const uint8_t* counted = target.photo.counted.empty() ? nullptr : target.photo.counted.data();
@@ -61,7 +59,22 @@ Status CpuExecutor::run(const StepPlan& plan) {
   const float sparsity = static_cast<float>(plan.weights.sparsity) * settings.perPixel;
   for (size_t i = 0; i < pixelCount; ++i) gradients_[i].w -= sparsity * target.wanted[i].w;
   step_.differentiate(gradients_, target.wanted);
-  step_.update(plan.adam, static_cast<float>(plan.weights.overlap));
+}
+
+Status CpuExecutor::run(const StepPlan& plan) {
+  shown_.reset();
+  const auto overlapWeight = static_cast<float>(plan.weights.overlap);
+  step_.activate(plan.leastSkin);
+  if (plan.photos.size() == 1) {
+    differentiate(plan.photos[0], plan);
+    step_.update(plan.adam, overlapWeight);
+    return {};
+  }
+  for (const uint32_t photo : plan.photos) {
+    differentiate(photo, plan);
+    step_.keepGradients(plan.adam, overlapWeight);
+  }
+  step_.updateByViews(plan.adam);
   return {};
 }
 

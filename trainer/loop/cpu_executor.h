@@ -34,7 +34,8 @@ class CpuExecutor : public StepExecutor {
     std::vector<float> directions;
     std::vector<glm::vec4> wanted;  // PixelArrays::wanted
   };
-  const PhotoTarget& targetOf(const StepPlan& plan);
+  const PhotoTarget& targetOf(uint32_t photo, uint32_t halvings);
+  void differentiate(uint32_t photo, const StepPlan& plan);
 
   FoamStorage<float> foam_;
   CpuStep<float> step_{foam_};

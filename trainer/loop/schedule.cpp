@@ -44,9 +44,7 @@ double progressOf(const Schedule& schedule, double position) {
   return schedule.isRefinement ? kRefinementBegin + (1 - kRefinementBegin) * position : position;
 }
 
-}  // namespace
-
-double rateAt(const Schedule& schedule, Parameter parameter, double position) {
+double rateOfOnePhoto(const Schedule& schedule, Parameter parameter, double position) {
   const Rate rate = rateOf(schedule.preset, parameter);
   const double progress = progressOf(schedule, position), warmUp = rate.warmUp / kPublishedSteps;
   if (progress < warmUp) return rate.first * progress / warmUp;
@@ -55,6 +53,18 @@ double rateAt(const Schedule& schedule, Parameter parameter, double position) {
   if (!schedule.isRefinement) return now;
   // Adam's first steps move each parameter by its whole rate, whatever its gradient: moments are 0.
   return now * std::min(1.0, position / kRefinementWarmUp);
+}
+
+}  // namespace
+
+Schedule spreadSchedule(Schedule schedule, uint32_t photosPerStep) {
+  schedule.steps = (schedule.steps - 1) / photosPerStep + 1;
+  schedule.photosPerStep = photosPerStep;
+  return schedule;
+}
+
+double rateAt(const Schedule& schedule, Parameter parameter, double position) {
+  return std::sqrt(double{1} * schedule.photosPerStep) * rateOfOnePhoto(schedule, parameter, position);
 }
 
 LossWeights weightsAt(const Schedule& schedule, double position) {
@@ -67,8 +77,9 @@ LossWeights weightsAt(const Schedule& schedule, double position) {
 }
 
 bool isDensifyStep(const Schedule& schedule, uint32_t step, double position) {
-  constexpr uint32_t kPeriod = 100;
-  return step % kPeriod == kPeriod - 1 && progressOf(schedule, position) < 0.95;
+  constexpr uint64_t kPeriod = 100;  // [photos]
+  const uint64_t before = uint64_t{step} * schedule.photosPerStep, after = before + schedule.photosPerStep;
+  return after / kPeriod > before / kPeriod && progressOf(schedule, position) < 0.95;
 }
 
 uint32_t cellsAfter(const Schedule& schedule, double position, uint32_t present) {

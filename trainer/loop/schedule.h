@@ -9,16 +9,24 @@
 
 namespace froth {
 
+inline constexpr uint32_t kMostPhotosPerStep = 16;
+
 enum class RatePreset { kIndoor, kOutdoor };
 
 struct Schedule {
   uint32_t steps = 12000;      // [>= 1]
+  uint32_t photosPerStep = 1;  // [1..kMostPhotosPerStep] see spreadSchedule()
   double seconds = 0;          // > 0: as many steps as take so long, in place of `steps`
   uint32_t startCells = 0;     // at step 0
   uint32_t mostCells = 40000;  // from four fifths of the steps on
   RatePreset preset = RatePreset::kIndoor;
   bool isRefinement = false;  // of a trained foam: the second half of a schedule, so rates are low and images whole
 };
+
+// The same schedule in steps of so many photos each: it sees as many photos in fewer steps, rounded up. Rates grow by
+// the root of the number, as Adam's steps go by a mean of so many gradients, whose noise shrinks by it (the square root
+// rule).
+Schedule spreadSchedule(Schedule schedule, uint32_t photosPerStep);
 
 // The learning rate of a parameter.
 double rateAt(const Schedule& schedule, Parameter parameter, double position);
@@ -28,7 +36,7 @@ struct LossWeights {
 };
 LossWeights weightsAt(const Schedule& schedule, double position);
 
-// Steps after which cells are removed and added.
+// Steps after which cells are removed and added: each in which a hundredth photo is seen.
 bool isDensifyStep(const Schedule& schedule, uint32_t step, double position);
 // How many cells there should be after such a step; `present`: how many there are. A refinement adds from its start on.
 uint32_t cellsAfter(const Schedule& schedule, double position, uint32_t present);

@@ -6,6 +6,7 @@
 
 #include "base/atomic_file.h"
 #include "base/input_file.h"
+#include "trainer/loop/schedule.h"
 
 namespace froth {
 namespace {
@@ -17,8 +18,9 @@ constexpr uint32_t kMostSettings = 1 << 16;
 struct StateHeader {
   uint64_t magic = kMagic;
   uint32_t stepsDone = 0, settingsBytes = 0;
-  uint32_t cellCount = 0, detailCount = 0, lobeCount = 0, reserved = 0;
-  uint64_t fileBytes = 0;  // of the whole file
+  uint32_t cellCount = 0, detailCount = 0, lobeCount = 0;
+  uint32_t photosPerStep = 0;  // 0: of a froth that knew steps of one alone
+  uint64_t fileBytes = 0;      // of the whole file
 };
 
 // Calls visit(bytes) for the arrays of a foam in the order of the file. Balls are activated again.
@@ -47,7 +49,7 @@ uint64_t bytesOf(const FoamShape& shape, uint64_t stepsDone, uint64_t settingsBy
 bool isSound(const StateHeader& header) {
   return header.magic == kMagic && header.settingsBytes <= kMostSettings && header.cellCount > 0 &&
          header.detailCount > 0 && header.detailCount <= kMaxDetails && header.lobeCount > 0 &&
-         header.lobeCount <= kMaxLobes &&
+         header.lobeCount <= kMaxLobes && header.photosPerStep <= kMostPhotosPerStep &&
          header.fileBytes ==
              bytesOf({header.cellCount, header.detailCount, header.lobeCount}, header.stepsDone, header.settingsBytes);
 }
@@ -68,6 +70,7 @@ Status writeState(const std::filesystem::path& path, TrainingState& state) {
   header.cellCount = shape.cellCount;
   header.detailCount = shape.detailCount;
   header.lobeCount = shape.lobeCount;
+  header.photosPerStep = state.photosPerStep;
   header.fileBytes = bytesOf(shape, header.stepsDone, state.settings.size());
   return streamFileAtomically(path, [&](const ByteSink& sink) -> Status {
     const auto asBytes = [](const void* data, size_t size) {
@@ -106,6 +109,7 @@ Result<TrainingState> readState(const std::filesystem::path& path) {
                      static_cast<unsigned long long>(header.fileBytes));
   }
   TrainingState state;
+  state.photosPerStep = std::max(header.photosPerStep, 1u);
   state.seconds.resize(size_t{header.stepsDone} + 1);
   state.settings.resize(header.settingsBytes);
   resizeStorage(state.foam, {header.cellCount, header.detailCount, header.lobeCount});

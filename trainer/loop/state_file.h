@@ -13,6 +13,7 @@ namespace froth {
 struct TrainingState {
   std::vector<double> seconds{0};  // [steps done + 1] Pace::seconds()
   std::string settings;            // text; a run goes on with the same ones alone
+  uint32_t photosPerStep = 1;      // a run goes on with as many
   FoamStorage<float> foam;
 };
 

@@ -15,8 +15,8 @@
 namespace froth {
 
 struct StepPlan {
-  uint32_t photo = 0;     // index of a training photo
-  uint32_t halvings = 0;  // of its sides
+  std::vector<uint32_t> photos;  // [>= 1] indices of training photos; the step is by the mean of their losses
+  uint32_t halvings = 0;         // of their sides
   AdamStep<float> adam;
   LossWeights weights;
   float leastSkin = 0;  // trainer/cpu/skin_pairs.h

@@ -29,10 +29,12 @@ std::string settingsText(const TrainOptions& options, const TrainingSet& set) {
   const View& view = set.training.front().view;
   const std::string length =
       schedule.seconds > 0 ? fmt::format("seconds {}", schedule.seconds) : fmt::format("steps {}", schedule.steps);
-  return fmt::format("{}{} cells {} to {} rates {} K {} M {} seed {} photos {} of {} x {} near {}{}",
-                     schedule.isRefinement ? "refinement, " : "", length, schedule.startCells, schedule.mostCells,
-                     static_cast<int>(schedule.preset), options.detailCount, options.lobeCount, options.seed,
-                     set.training.size(), view.width, view.height, options.nearRatio,
+  const std::string photosPerStep =
+      schedule.photosPerStep > 1 ? fmt::format(" of {} photos", schedule.photosPerStep) : "";
+  return fmt::format("{}{}{} cells {} to {} rates {} K {} M {} seed {} photos {} of {} x {} near {}{}",
+                     schedule.isRefinement ? "refinement, " : "", length, photosPerStep, schedule.startCells,
+                     schedule.mostCells, static_cast<int>(schedule.preset), options.detailCount, options.lobeCount,
+                     options.seed, set.training.size(), view.width, view.height, options.nearRatio,
                      options.evensExposure ? " even exposure" : "");
 }
 
@@ -53,17 +55,17 @@ Result<FoamStorage<float>> makeStart(const Capture& capture, const TrainingSet& 
   return storage;
 }
 
-Result<TrainingState> resumeState(const TrainOptions& options, const std::string& settings) {
-  Result<TrainingState> state = readState(options.state);
-  if (!state || state->settings == settings) return state;
+Status checkSettings(const TrainOptions& options, const TrainingState& state, const std::string& settings) {
+  if (state.settings == settings) return {};
   return makeError(ErrorKind::kUsage, "%s: of a run with other settings (%s; now %s); give the same, or begin anew",
-                   options.state.c_str(), state->settings.c_str(), settings.c_str());
+                   options.state.c_str(), state.settings.c_str(), settings.c_str());
 }
 
 Status saveState(StepExecutor& executor, const TrainOptions& options, const std::string& settings, const Pace& pace) {
   TrainingState state;
   state.seconds = pace.seconds();
   state.settings = settings;
+  state.photosPerStep = pace.schedule().photosPerStep;
   if (Status read = executor.read(state.foam); !read) return read;
   if (Status written = writeState(options.state, state); !written) return written;
   return executor.beginAnew();
@@ -81,8 +83,9 @@ Result<std::vector<double>> measure(StepExecutor& executor, const TrainOptions& 
     const auto showTest = [&](size_t test, std::vector<glm::vec4>& image) {
       return executor.show(tests[test].view, adam, image);
     };
-    const Status told = options.whenMeasured(
-        {done, pace.positionAt(done), pace.seconds().back(), executor.cellCount(), meanPsnr(*psnrs), *psnrs, showTest});
+    const Status told =
+        options.whenMeasured({done, pace.schedule().photosPerStep, pace.positionAt(done), pace.seconds().back(),
+                              executor.cellCount(), meanPsnr(*psnrs), *psnrs, showTest});
     if (!told) return told.error();
   }
   pace.goOn();
@@ -223,21 +226,24 @@ Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, c
                      "training: begins with %u cells, but may have %u; allow more, or begin with fewer",
                      options.schedule.startCells, options.schedule.mostCells);
   }
-  const std::string settings = settingsText(options, set);
-  std::vector<double> seconds{0};
-  Result<FoamStorage<float>> foam = FoamStorage<float>{};
+  Result<TrainingState> state = TrainingState{};
   if (options.isResumed) {
-    Result<TrainingState> state = resumeState(options, settings);
+    state = readState(options.state);
     if (!state) return state.error();
-    seconds = std::move(state->seconds);
-    foam = std::move(state->foam);
-  } else {
-    foam = makeStart(capture, set, options);
-    if (!foam) return foam.error();
+    options.photosPerStep = state->photosPerStep;
   }
-  Result<std::unique_ptr<StepExecutor>> executor = makeExecutor(std::move(*foam), set.training);
+  options.schedule = spreadSchedule(options.schedule, options.photosPerStep);
+  const std::string settings = settingsText(options, set);
+  if (options.isResumed) {
+    if (Status same = checkSettings(options, *state, settings); !same) return same.error();
+  } else {
+    Result<FoamStorage<float>> start = makeStart(capture, set, options);
+    if (!start) return start.error();
+    state->foam = std::move(*start);
+  }
+  Result<std::unique_ptr<StepExecutor>> executor = makeExecutor(std::move(state->foam), set.training);
   if (!executor) return executor.error();
-  Pace pace(options.schedule, options.clock, std::move(seconds));
+  Pace pace(options.schedule, options.clock, std::move(state->seconds));
   const uint32_t firstStep = pace.stepsDone();
   const LoopOptions loop{options.seed, static_cast<uint32_t>(set.training.size())};
   const Status ran = runSteps(**executor, options, set, pace, loop, settings, progress);

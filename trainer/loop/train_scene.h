@@ -21,6 +21,7 @@ namespace froth {
 // How far a run is.
 struct TrainingMoment {
   uint32_t stepsDone = 0;
+  uint32_t photosPerStep = 1;
   double position = 0;  // [0..1] in its schedule; 1: at the end
   double seconds = 0;   // of its steps; reading, saving and measuring do not count
   uint32_t cells = 0;
@@ -32,7 +33,10 @@ struct TrainingMoment {
 using WhenMeasured = std::function<Status(const TrainingMoment&)>;
 
 struct TrainOptions {
-  Schedule schedule;         // startCells 0: a quarter of mostCells; of a refinement: as many as the foam has
+  // In steps of one photo. startCells 0: a quarter of mostCells; of a refinement: as many as the foam has.
+  Schedule schedule;
+  // [1..kMostPhotosPerStep] spreadSchedule(). A run that goes on keeps its own.
+  uint32_t photosPerStep = 1;
   uint32_t detailCount = 8;  // K [1..32]
   uint32_t lobeCount = 8;    // M [1..32]
   uint64_t seed = 1;

@@ -14,11 +14,11 @@ namespace {
 constexpr double kSkinSteps = 10;
 
 // Of the step that comes next.
-StepPlan planStep(const Pace& pace, uint32_t photo, DriftTables& drifts) {
+StepPlan planStep(const Pace& pace, PhotoSequence& photos, DriftTables& drifts) {
   const Schedule& schedule = pace.schedule();
   const double position = pace.positionAt(pace.stepsDone());
   StepPlan plan;
-  plan.photo = photo;
+  plan.photos = photos.ofStep(pace.stepsDone(), schedule.photosPerStep);
   plan.halvings = halvingsAt(schedule, position);
   plan.adam = drifts.adamAt(pace.stepsDone());
   plan.weights = weightsAt(schedule, position);
@@ -45,16 +45,11 @@ Status densify(StepExecutor& executor, const Pace& pace, uint64_t seed) {
 Status runLoop(StepExecutor& executor, Pace& pace, const LoopOptions& options, const AfterStep& afterStep,
                const Progress& progress) {
   DriftTables drifts(pace);
-  std::vector<uint32_t> order;
-  uint64_t orderOf = UINT64_MAX;
+  PhotoSequence photos(options.photoCount, options.seed);
   while (!pace.isOver()) {
     if (!pace.reportTo(progress)) return stoppedOnRequest("training");
     const uint32_t step = pace.stepsDone();
-    const uint64_t epoch = step / options.photoCount;
-    if (epoch != orderOf) order = epochOrder(options.photoCount, options.seed, epoch);
-    orderOf = epoch;
-    const StepPlan plan = planStep(pace, order[step % options.photoCount], drifts);
-    if (Status ran = executor.run(plan); !ran) return ran;
+    if (Status ran = executor.run(planStep(pace, photos, drifts)); !ran) return ran;
     if (isDensifyStep(pace.schedule(), step, pace.positionAt(step))) {
       if (Status changed = densify(executor, pace, options.seed); !changed) return changed;
     }

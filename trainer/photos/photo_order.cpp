@@ -33,4 +33,15 @@ std::vector<uint32_t> epochOrder(uint32_t count, uint64_t seed, uint64_t epoch) 
   return order;
 }
 
+std::vector<uint32_t> PhotoSequence::ofStep(uint32_t step, uint32_t photosPerStep) {
+  std::vector<uint32_t> photos;
+  for (uint32_t i = 0; i < photosPerStep; ++i) {
+    const uint64_t index = uint64_t{step} * photosPerStep + i, epoch = index / count_;
+    if (epoch != orderOf_) order_ = epochOrder(count_, seed_, epoch);
+    orderOf_ = epoch;
+    photos.push_back(order_[index % count_]);
+  }
+  return photos;
+}
+
 }  // namespace froth

@@ -21,4 +21,18 @@ Result<PhotoSplit> splitPhotos(const std::vector<CapturedView>& views, uint32_t 
 // A permutation of 0..count-1 for each epoch, from the seed alone.
 std::vector<uint32_t> epochOrder(uint32_t count, uint64_t seed, uint64_t epoch);
 
+// The photos of a run, epoch after epoch.
+class PhotoSequence {
+ public:
+  PhotoSequence(uint32_t count, uint64_t seed) : count_(count), seed_(seed) {}
+  // The photos of a step of so many. A step that ends an epoch goes on with the next.
+  std::vector<uint32_t> ofStep(uint32_t step, uint32_t photosPerStep);
+
+ private:
+  uint32_t count_;
+  uint64_t seed_;
+  std::vector<uint32_t> order_;
+  uint64_t orderOf_ = UINT64_MAX;  // the epoch of order_
+};
+
 }  // namespace froth

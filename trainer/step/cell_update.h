@@ -61,51 +61,66 @@ FROTH_HD LobeGradient<Real> differentiateLobe(const glm::vec<3, Real>& axis, con
   return gradient;
 }
 
-// Updates the lobes of detail site k; returns the gradient by the direction in which it is seen.
-template <class Real>
-FROTH_HD glm::vec<3, Real> updateLobes(const TrainedCell<Real>& trained, uint32_t k, const LobeSeeds<Real>& seeds,
-                                       uint32_t& bad) {
-  const uint32_t numbers = 3 * trained.foam.shape.lobeCount;
-  const ParameterPart<Real> axes = trained.part(Parameter::kLobeAxes, k * numbers);
-  const ParameterPart<Real> colours = trained.part(Parameter::kLobeColours, k * numbers);
+// Calls visit(first number, gradient) for the lobes of a detail site, whose numbers are `axes` and `colours`.
+template <class Real, class Visit>
+FROTH_HD void visitLobes(const ParameterPart<Real>& axes, const ParameterPart<Real>& colours, uint32_t lobeCount,
+                         const LobeSeeds<Real>& seeds, const Visit& visit) {
+  const uint32_t numbers = 3 * lobeCount;
   Real largest = Real(-1e30), weightSum = 0;
   for (uint32_t m = 0; m < numbers; m += 3) {
     glm::vec<3, Real> unused(0);
     foam::addLobe(foam::lobeExponent(axes.readThree(m), seeds.direction), glm::vec<3, Real>(0), largest, weightSum,
                   unused);
   }
-  glm::vec<3, Real> directionSum(0);
   for (uint32_t m = 0; m < numbers; m += 3) {
     const glm::vec<3, Real> axis = axes.readThree(m);
     const Real share = std::exp(foam::lobeExponent(axis, seeds.direction) - largest) / weightSum;
-    const LobeGradient<Real> gradient = differentiateLobe(axis, colours.readThree(m), share, seeds);
-    directionSum += gradient.direction;
-    for (uint32_t c = 0; c < 3; ++c) {
-      bad += !axes.update(m + c, gradient.axis[c]);
-      bad += !colours.update(m + c, gradient.colour[c]);
-    }
+    visit(m, differentiateLobe(axis, colours.readThree(m), share, seeds));
   }
-  return directionSum;
 }
 
-// Place and height of detail site k; adds what its direction asks of the cell to `cellSums`. directionSeed: of
-// updateLobes().
 template <class Real>
-FROTH_HD void updatePlace(const TrainedCell<Real>& trained, const SeenCell<Real>& seen, const SeenDetail<Real>& detail,
-                          uint32_t k, const DetailSums<Real>& sums, const LobeSeeds<Real>& seeds,
-                          const glm::vec<3, Real>& directionSeed, CellSums<Real>& cellSums, uint32_t& bad) {
+FROTH_HD void updateLobe(const ParameterPart<Real>& axes, const ParameterPart<Real>& colours, uint32_t m,
+                         const LobeGradient<Real>& gradient, uint32_t& bad) {
+  for (uint32_t c = 0; c < 3; ++c) {
+    bad += !axes.update(m + c, gradient.axis[c]);
+    bad += !colours.update(m + c, gradient.colour[c]);
+  }
+}
+
+// The gradient of detail site k by its raw place and height, and the seed of its lobes; adds what its direction asks of
+// the cell to `cellSums`. directionSeed: the sum of LobeGradient::direction.
+template <class Real>
+FROTH_HD DetailSums<Real> differentiatePlace(const TrainedCell<Real>& trained, const SeenCell<Real>& seen,
+                                             const SeenDetail<Real>& detail, uint32_t k, const DetailSums<Real>& sums,
+                                             const LobeSeeds<Real>& seeds, const glm::vec<3, Real>& directionSeed,
+                                             CellSums<Real>& cellSums) {
   const glm::vec<3, Real> toDetail = vectorToDetail(seen, detail.place), place(detail.place, 0);
   const glm::vec<3, Real> moved = foam::detailDirectionGradient(toDetail, seeds.direction, directionSeed);
   const glm::vec<3, Real> inFrame =
       foam::inFaceFrame(moved, seen.tangent, glm::cross(seen.normal, seen.tangent), seen.normal, Real(1));
+  cellSums.site += moved;
+  cellSums.radius += glm::dot(place, inFrame) + trained.part(Parameter::kDetailHeights).read(k) * sums.height;
+  cellSums.torque += glm::cross(inFrame, seen.radius * place);
+  return {{sums.place.x + seen.radius * inFrame.x, sums.place.y + seen.radius * inFrame.y},
+          seen.radius * sums.height,
+          seeds.seed};
+}
+
+template <class Real>
+FROTH_HD void updatePlace(const TrainedCell<Real>& trained, uint32_t k, const DetailSums<Real>& gradient,
+                          uint32_t& bad) {
   const ParameterPart<Real> heights = trained.part(Parameter::kDetailHeights);
   const ParameterPart<Real> places = trained.part(Parameter::kDetailSites, 2 * k);
-  cellSums.site += moved;
-  cellSums.radius += glm::dot(place, inFrame) + heights.read(k) * sums.height;
-  cellSums.torque += glm::cross(inFrame, seen.radius * place);
-  bad += !heights.update(k, seen.radius * sums.height);
-  bad += !places.update(0, sums.place.x + seen.radius * inFrame.x);
-  bad += !places.update(1, sums.place.y + seen.radius * inFrame.y);
+  bad += !heights.update(k, gradient.height);
+  bad += !places.update(0, gradient.place.x);
+  bad += !places.update(1, gradient.place.y);
+}
+
+// The numbers of the lobes of detail site k.
+template <class Real>
+FROTH_HD ParameterPart<Real> lobesOfDetail(const TrainedCell<Real>& trained, Parameter parameter, uint32_t k) {
+  return trained.part(parameter, 3 * k * trained.foam.shape.lobeCount);
 }
 
 // All parameters of detail site k.
@@ -113,8 +128,14 @@ template <class Real>
 FROTH_HD void updateDetail(const TrainedCell<Real>& trained, const SeenCell<Real>& seen, const SeenDetail<Real>& detail,
                            uint32_t k, const DetailSums<Real>& sums, CellSums<Real>& cellSums, uint32_t& bad) {
   const LobeSeeds<Real> seeds = seedLobes(seen, detail, sums);
-  const glm::vec<3, Real> directionSeed = updateLobes(trained, k, seeds, bad);
-  updatePlace(trained, seen, detail, k, sums, seeds, directionSeed, cellSums, bad);
+  const ParameterPart<Real> axes = lobesOfDetail(trained, Parameter::kLobeAxes, k);
+  const ParameterPart<Real> colours = lobesOfDetail(trained, Parameter::kLobeColours, k);
+  glm::vec<3, Real> directionSeed(0);
+  visitLobes(axes, colours, trained.foam.shape.lobeCount, seeds, [&](uint32_t m, const LobeGradient<Real>& gradient) {
+    directionSeed += gradient.direction;
+    updateLobe(axes, colours, m, gradient, bad);
+  });
+  updatePlace(trained, k, differentiatePlace(trained, seen, detail, k, sums, seeds, directionSeed, cellSums), bad);
 }
 
 // Density and orientation. From here on the cell waits.
@@ -129,13 +150,17 @@ FROTH_HD void updateShownCell(const TrainedCell<Real>& trained, const CellSums<R
   trained.foam.lastSteps[trained.cell] = trained.adam.step;
 }
 
+// What the view's rays added up for a cell; null: it does not see the cell.
+template <class Real>
+FROTH_HD const CellSums<Real>* sumsOfCell(const SeenCells<Real>& seen, const GradientSums<Real>& sums, uint32_t cell) {
+  const uint32_t rank = seen.rankOf[cell];
+  return rank == SeenCells<Real>::kNotSeen ? nullptr : &sums.cells[rank];
+}
+
 // The gradient by site (xyz) and activated radius (w) of a cell is that of its own sums, and of all its pairs.
 template <class Real>
-FROTH_HD glm::vec<4, Real> gradientOfOwnSums(const SeenCells<Real>& seen, const GradientSums<Real>& sums,
-                                             uint32_t cell) {
-  const uint32_t rank = seen.rankOf[cell];
-  if (rank == SeenCells<Real>::kNotSeen) return glm::vec<4, Real>(0);
-  return {sums.cells[rank].site, sums.cells[rank].radius};
+FROTH_HD glm::vec<4, Real> gradientOfOwnSums(const CellSums<Real>* sums) {
+  return sums == nullptr ? glm::vec<4, Real>(0) : glm::vec<4, Real>(sums->site, sums->radius);
 }
 
 // Of the pair at place e of the cell's row: what its neighbour's rays and its own met, and the loss of overlaps.
@@ -171,15 +196,13 @@ FROTH_HD void updateBall(const TrainedFoam<Real>& foam, const AdamStep<Real>& ad
   bad += !radius.update(0, gradient.w * foam::softplusSlope(radius.read(0)));
 }
 
-// The means that densification goes by: of contributions over the steps that see the cell, of errors over all steps.
+// The means that densification goes by: of contributions over the photos that see the cell, of errors over all photos.
+// sums: of a photo; null: it does not see the cell.
 template <class Real>
-FROTH_HD void updateMeans(const TrainedFoam<Real>& foam, const SeenCells<Real>& seen, const GradientSums<Real>& sums,
-                          uint32_t cell) {
+FROTH_HD void updateMeans(const TrainedFoam<Real>& foam, uint32_t cell, const CellSums<Real>* sums) {
   const Real fresh = Real(0.01);
-  const uint32_t rank = seen.rankOf[cell];
-  const bool isSeen = rank != SeenCells<Real>::kNotSeen;
-  foam.errors[cell] += fresh * ((isSeen ? sums.cells[rank].error : Real(0)) - foam.errors[cell]);
-  if (isSeen) foam.contributions[cell] += fresh * (sums.cells[rank].contribution - foam.contributions[cell]);
+  foam.errors[cell] += fresh * ((sums != nullptr ? sums->error : Real(0)) - foam.errors[cell]);
+  if (sums != nullptr) foam.contributions[cell] += fresh * (sums->contribution - foam.contributions[cell]);
 }
 
 }  // namespace froth

@@ -53,6 +53,17 @@ FROTH_HD DetailSums<Real>& operator+=(DetailSums<Real>& sums, const DetailSums<R
 }
 
 template <class Real>
+FROTH_HD CellSums<Real> scaled(const CellSums<Real>& sums, Real factor) {
+  return {factor * sums.site,    factor * sums.radius,       factor * sums.torque,
+          factor * sums.density, factor * sums.contribution, factor * sums.error};
+}
+
+template <class Real>
+FROTH_HD DetailSums<Real> scaled(const DetailSums<Real>& sums, Real factor) {
+  return {factor * sums.place, factor * sums.height, factor * sums.colour};
+}
+
+template <class Real>
 struct GradientSums {
   CellSums<Real>* cells;
   DetailSums<Real>* details;

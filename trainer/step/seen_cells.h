@@ -58,13 +58,13 @@ FROTH_HD glm::vec<4, Real> ballOf(const TrainedFoam<Real>& foam, uint32_t cell) 
   return {point[0], point[1], point[2], foam::softplus(*foam.values.row(Parameter::kRadii, foam.shape, cell))};
 }
 
-// All but planes and details. The near tests and whether a tile meets the ball come before.
+// All but planes and details, as seen from the eye. The near tests and whether a tile meets the ball come before.
 template <class Real>
-FROTH_HD void prepareCell(const TrainedCell<Real>& trained, const TrainingView<Real>& view, SeenCell<Real>& seen) {
+FROTH_HD void prepareCell(const TrainedCell<Real>& trained, const glm::vec<3, Real>& eye, SeenCell<Real>& seen) {
   const glm::vec<4, Real> ball = trained.foam.balls[trained.cell];
   const ParameterPart<Real> raw = trained.part(Parameter::kOrientations);
   glm::vec<3, Real> bitangent;
-  seen.centre = glm::vec<3, Real>(ball) - view.eye;
+  seen.centre = glm::vec<3, Real>(ball) - eye;
   seen.radius = ball.w;
   seen.density = foam::softplus(trained.part(Parameter::kDensity).read(0));
   foam::frameOfQuaternion(glm::vec<4, Real>(raw.readThree(0), raw.read(3)), seen.normal, seen.tangent, bitangent);
