@@ -220,6 +220,7 @@ TEST_F(TwoGpus, KeepTheSameFoams) {
 TEST_F(TwoGpus, TakeAStepAgainThatDidNotFitOnOne) {
   photos_[0] = makePhoto({0.5, 0.4, -3}, 8);
   MultiGpuExecutor& both = makeBoth();
+  ASSERT_EQ(cudaSetDevice(0), cudaSuccess);  // of whatever `one` does
   Result<std::unique_ptr<StepExecutor>> one = CudaExecutor::make(foam_, photos_);
   ASSERT_TRUE(one) << one.error().message;
   for (uint32_t step = 0; step < 2; ++step) {

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 TEST(Training, OfTheGalleryReaches28DecibelsOnViewsItDoesNotKnow) {
   const test::GalleryCapture gallery = test::makeGalleryCapture(96, 64);
   TrainOptions options;
-  options.schedule.steps = 800;
+  options.schedule.steps = 1000;
   options.schedule.startCells = 3000;
   options.schedule.mostCells = 4000;
   options.detailCount = 4;
