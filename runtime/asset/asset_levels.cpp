@@ -108,8 +108,8 @@ bool Asset::updateChunks(uint64_t completedSerial, uint64_t completedUploadSeria
   slots_.forEachTaken([&](ChunkSlot& slot) {
     const uint32_t chunk = slot.gpu.number;
     const SlotState state = slots_.stateOf(chunk);
-    if (state == SlotState::kComing && hasPlaces(slot) && isUploaded(slot))
-      slots_.setState(chunk, SlotState::kResident);
+    const bool isThere = state == SlotState::kComing && hasPlaces(slot) && isUploaded(slot);
+    if (isThere) slots_.setState(chunk, SlotState::kResident);
     if (state == SlotState::kLeaving && slot.lastSerial <= completedSerial) removeChunk(chunk);
   });
   if (!slots_.canTakePlan()) return false;
