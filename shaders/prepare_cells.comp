@@ -1,5 +1,5 @@
-// Prepares the cells of an asset that are drawn for rays (gpu/prepared_cells.glsl). A row of workgroups per chunk: as
-// many as the mean chunk has cells for; in a larger chunk each thread takes several.
+// Prepares the cells of a chunk for rays (gpu/prepared_cells.glsl). A thread per cell; of more cells than a dispatch has
+// threads each takes several.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -9,7 +9,7 @@
 layout(local_size_x = kRayGroupSize) in;
 
 layout(push_constant) uniform Push {
-  uint instance;
+  uint instance, slot;
 } push;
 
 void preparePlanes(Chunk chunk, uint cell) {
@@ -45,15 +45,13 @@ void prepareDetails(Chunk chunk, CellCode code, CellHeader header, uint cell) {
 
 void main() {
   instanceAtHand = push.instance;
-  uint index = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;
-  if (index >= FRAME.chunkCount) return;
-  Chunk chunk = loadChunk(index);
-  CellCode code = FRAME.chunks.v[index].code;
+  Chunk chunk = loadChunk(push.slot);
+  CellCode code = FRAME.chunks.v[push.slot].code;
   uint stride = gl_NumWorkGroups.x * kRayGroupSize;
   for (uint cell = gl_GlobalInvocationID.x; cell < chunk.cellCount; cell += stride) {
     preparePlanes(chunk, cell);
     if (cell >= chunk.liveCount) continue;
-    CellHeader header = loadCellHeader(code, index, cell);
+    CellHeader header = loadCellHeader(code, push.slot, cell);
     prepareFace(chunk, code, header, cell);
     if (hasPlaces()) prepareDetails(chunk, code, header, cell);
   }

@@ -56,7 +56,8 @@ void main() {
   if (!seesNothing(rayOf(pixel))) {
     for (uint part = 0; part < push.partCount; ++part) {
       uvec2 range = tileRange(push.parts[part], tile);
-      if (range.x < range.y) startStream(part, Cursor(range.x, range.y));
+      selectPart(part);
+      if (range.x < range.y) startStream(part, rayOf(pixel), Cursor(range.x, range.y));
     }
   }
   writeMerged(pixel, mergeStreams(pixel));

@@ -49,7 +49,7 @@ void main() {
   if (!seesNothing(rayOf(pixel))) {
     for (uint part = 0; part < push.partCount; ++part) {
       selectPart(part);
-      startStream(part, Cursor(firstStep(pixel, rayOf(pixel)), true, 0));
+      startStream(part, rayOf(pixel), Cursor(firstStep(pixel, rayOf(pixel)), true, 0));
     }
   }
   writeMerged(pixel, mergeStreams(pixel));

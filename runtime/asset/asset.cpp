@@ -48,6 +48,9 @@ void Asset::restart(const Messages& messages) {
   slots_ = {};
   levelFoam_.reset();
   entriesSerial = 0;
+  prepared_.reset();
+  isPreparingRefused_ = false;
+  awaitPrepared();
   arena_ = device_ ? std::make_shared<GpuArena>(*device_) : nullptr;
   if (source_.kind == SourceKind::kMemory && !source_.bytesStay) {
     fail(FROTH_ERROR_STATE,
@@ -111,9 +114,7 @@ void Asset::placeArrays(const ChunkArrays& arrays, const GpuArena::Place& place,
   placedBytes_ += arrays.size;
   for (const ChunkArray& array : arrays.arrays) {
     chunk.*array.address = place.address + array.offset;
-    if (array.bytes) {
-      arrays_.push_back({owner, array.bytes, place.buffer, place.offset + array.offset, array.size, 0});
-    }
+    arrays_.push_back({owner, array.bytes, place.buffer, place.offset + array.offset, array.size, 0});
     addMemory(array.purpose, array.size);
   }
 }
@@ -207,7 +208,9 @@ FrothAssetStatus Asset::describe() const {
   description.error = error_;
   description.hostBytes = queryFoam_ ? queryFoam_->bytes() : 0;
   if (levelFoam_ != queryFoam_ && levelFoam_) description.hostBytes += levelFoam_->bytes();
-  description.deviceBytes = heldBytes();
+  description.deviceBytes = heldBytes() + preparedBytesHeld();
+  description.prepared = gpu_.prepared;
+  if (prepared_) description.memory[description.memoryCount++] = {"cells prepared for rays", prepared_->usedBytes()};
   if (description.deviceBytes > 0) {
     uint64_t named = 0;
     for (uint32_t i = 0; i < description.memoryCount; ++i) named += description.memory[i].bytes;

@@ -22,6 +22,7 @@
 #include "runtime/asset/gpu_asset.h"
 #include "runtime/asset/load_limit.h"
 #include "runtime/asset/loaded_chunk.h"
+#include "runtime/asset/prepared_cells.h"
 #include "runtime/device/device.h"
 #include "runtime/device/messages.h"
 #include "runtime/device/upload_ring.h"
@@ -44,8 +45,8 @@ class Asset {
   void keepForQueries() { keepsForQueries_ = true; }
   bool keepsForQueries() const { return keepsForQueries_; }
 
-  // Before the first load(): gpu() will have a table of entries for rays, and so much of its cells prepared
-  // (kPreparedNothing...). Walk sets fill both.
+  // Before the first load(): gpu() will have a table of entries for rays, which walk sets fill; prepared:
+  // preparedForm().
   void keepForWalks(uint32_t prepared) {
     keepsForWalks_ = true;
     preparedForWalks_ = prepared;
@@ -139,6 +140,28 @@ class Asset {
   ChunkSlots::Publication bordersBefore() const { return slots_.leaving(); }
   ChunkSlots::Publication bordersNow() const { return slots_.entering(); }
 
+  // ---- Cells prepared for rays (asset_prepared.cpp). Who tells limits their bytes (context_prepared.cpp).
+
+  // kPreparedNothing..., once the head is read.
+  uint32_t preparedForm() const;
+  // It is not READY before it was told whether its cells are prepared.
+  void awaitPrepared() { awaitsPrepared_ = preparedForWalks_ != gpu::kPreparedNothing; }
+  bool awaitsPrepared() const { return awaitsPrepared_ && preparedForm() != gpu::kPreparedNothing; }
+  // [bytes] that they take, and blocks around them; with levels an estimate for all chunks.
+  VkDeviceSize preparedBytesWanted() const;
+  VkDeviceSize preparedBytesHeld() const { return prepared_ ? prepared_->heldBytes() : 0; }
+  bool isPreparing() const { return prepared_ != nullptr; }
+  // Memory for it was refused: it is not asked for again.
+  void refusePreparing(bool isRefused) { isPreparingRefused_ = isRefused; }
+  bool isPreparingRefused() const { return isPreparingRefused_; }
+  void beginPreparing();
+  // In each update while isPreparing(): places for chunks that have none. isPending(): there are more.
+  Status placePrepared();
+  // None is prepared any more, from the next walk set on. The result stays until the GPU is done with it.
+  std::shared_ptr<PreparedCells> releasePrepared();
+  // Slots of gpu().chunks that the walk set of this frame fills: of no more bytes than are left, but for one chunk.
+  std::span<const uint32_t> fillPrepared(uint64_t serial, uint64_t& bytesLeft);
+
   // The frame will not be submitted.
   void dropFrame(uint64_t serial);
   // Its copies that are not recorded will never be. `targets` stays until the others are complete.
@@ -190,6 +213,7 @@ class Asset {
   void drawPlan(uint64_t serial, bool fades);
   void removeChunk(uint32_t chunk);
   VkDeviceSize bytesToCome(uint32_t chunk, VkDeviceSize size) const;
+  VkDeviceSize preparedBytesOf(const GpuChunk& chunk) const;
   uint32_t entriesAlong() const;
   void takeSizes(const AssetReader& reader);
   uint32_t layersHeld(uint32_t most) const;
@@ -242,6 +266,9 @@ class Asset {
   // until then.
   std::shared_ptr<QueryFoam> levelFoam_;
   std::shared_ptr<GpuArena> arena_;
+  std::shared_ptr<PreparedCells> prepared_;  // null: cells are not prepared
+  bool awaitsPrepared_ = false, isPreparingRefused_ = false;
+  std::vector<uint32_t> toFill_;  // of fillPrepared()
 };
 
 }  // namespace froth

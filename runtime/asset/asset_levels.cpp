@@ -102,10 +102,14 @@ bool Asset::updateChunks(uint64_t completedSerial, uint64_t completedUploadSeria
     return std::none_of(arrays_.begin(), arrays_.end(), isWaiting) &&
            (!ring || ring->isWithin(owner, completedUploadSerial));
   };
+  const auto hasPlaces = [&](const ChunkSlot& slot) {
+    return !prepared_ || prepared_->has(slot.gpu.number) || preparedBytesOf(slot.gpu) == 0;
+  };
   slots_.forEachTaken([&](ChunkSlot& slot) {
     const uint32_t chunk = slot.gpu.number;
     const SlotState state = slots_.stateOf(chunk);
-    if (state == SlotState::kComing && isUploaded(slot)) slots_.setState(chunk, SlotState::kResident);
+    const bool isThere = state == SlotState::kComing && hasPlaces(slot) && isUploaded(slot);
+    if (isThere) slots_.setState(chunk, SlotState::kResident);
     if (state == SlotState::kLeaving && slot.lastSerial <= completedSerial) removeChunk(chunk);
   });
   if (!slots_.canTakePlan()) return false;
@@ -117,6 +121,7 @@ void Asset::removeChunk(uint32_t chunk) {
   const ChunkSlot& slot = slots_.slotOf(chunk);
   for (const auto& [name, bytes] : slot.parts) removeMemory(name, bytes);
   if (slot.size > 0) arena_->free(slot.place, slot.size);
+  if (prepared_) prepared_->free(chunk);
   placedBytes_ -= slot.size;
   workDone_ -= chunkWork_[chunk];
   workToCome_ += chunkWork_[chunk];
@@ -152,6 +157,7 @@ void Asset::endFade(uint64_t serial) {
 
 void Asset::dropFrame(uint64_t serial) {
   if (entriesSerial == serial) entriesSerial = 0;
+  if (prepared_) prepared_->dropFrame(serial);
   slots_.dropFrame(serial);
 }
 

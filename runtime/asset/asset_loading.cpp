@@ -247,7 +247,7 @@ bool Asset::startDecoding(JobRunner& jobs, LoadLimit& limit) {
   const uint32_t chunk = toRead_.front();
   toRead_.pop_front();
   limit.count(chunkWork_[chunk]);
-  const ChunkUses uses{device_ != nullptr, isQueryChunkWanted(), gpu_.prepared, gpu_.hasHeights};
+  const ChunkUses uses{device_ != nullptr, isQueryChunkWanted()};
   Decoding& decoding = decoding_.emplace_back();
   decoding.chunk = chunk;
   decoding.job.start(jobs, [reader = reader_, bytes, chunk, name = source_.name, uses] {
@@ -279,7 +279,6 @@ void Asset::takeReader(std::shared_ptr<const AssetReader> reader) {
     queryFoam_ = std::make_shared<QueryFoam>(manifest);
   }
   gpu_.hasHeights = shapeOf(*reader, source_.lastLayer).hasHeights;
-  gpu_.prepared = gpu_.hasWalkGraph ? preparedForWalks_ : gpu::kPreparedNothing;
   reader_ = std::move(reader);
   opener_.reset();
 }

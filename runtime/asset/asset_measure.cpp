@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/asset/loaded_chunk.h"
+#include "runtime/asset/prepared_cells.h"
 
 namespace froth {
 namespace {
@@ -28,13 +29,11 @@ Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQuerie
   const AssetContents& manifest = reader->manifest();
   AssetMeasure measure;
   measure.gpu.detailCount = manifest.detailCount;
+  measure.gpu.hasHeights = shapeOf(*reader, source.lastLayer).hasHeights;
   QueryFoam foam(manifest);
   const bool hasLevels = !manifest.levels.empty();
   std::vector<uint32_t> finest;
-  const ChunkUses uses{.drawing = true,
-                       .queries = keepsForQueries && manifest.hasWalkGraph,
-                       .prepared = keepsForWalks && manifest.hasWalkGraph ? prepared : gpu::kPreparedNothing,
-                       .hasHeights = shapeOf(*reader, source.lastLayer).hasHeights};
+  const ChunkUses uses{.drawing = true, .queries = keepsForQueries && manifest.hasWalkGraph};
   for (uint32_t chunk = 0; chunk < manifest.chunks.size(); ++chunk) {
     if (hasLevels && manifest.levels[chunk].level > 0 && manifest.levels[chunk].in != kNoGroup) continue;
     Result<LoadedChunk> loaded = loadChunk(*reader, *reader->source(), chunk, source.name, uses);
@@ -58,6 +57,7 @@ Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQuerie
   if (keepsForWalks && manifest.hasWalkGraph && measure.gpu.liveCount > 0) {
     const uint64_t along = walkEntriesAlong(measure.gpu.cellCount);
     measure.deviceBytes += sizeof(gpu::uvec4) * along * along * along;
+    measure.deviceBytes += preparedBytes(measure.gpu, prepared, measure.gpu.liveCount, measure.gpu.neighbourTotal);
   }
   return measure;
 }

@@ -13,7 +13,7 @@ namespace froth {
 
 struct ChunkArray {
   const char* purpose;                 // static storage
-  std::shared_ptr<const void> bytes;   // owned; null: the device fills it
+  std::shared_ptr<const void> bytes;   // owned
   VkDeviceSize offset, size;           // in the place
   VkDeviceAddress GpuChunk::*address;  // to be told
 };
@@ -27,11 +27,6 @@ struct ChunkArrays {
   void add(std::vector<T>&& values, const char* purpose, VkDeviceAddress GpuChunk::*address) {
     const auto owner = std::make_shared<const std::vector<T>>(std::move(values));
     place({purpose, std::shared_ptr<const void>(owner, owner->data()), size, owner->size() * sizeof(T), address});
-  }
-
-  // One that the device fills.
-  void reserve(VkDeviceSize bytes, const char* purpose, VkDeviceAddress GpuChunk::*address) {
-    place({purpose, nullptr, size, bytes, address});
   }
 
  private:

@@ -27,7 +27,7 @@ struct GpuChunk {
   VkDeviceAddress cellStarts = 0;        // uint [liveCount] first byte of a live cell in cellWords
   VkDeviceAddress cellWords = 0;         // uint [cellWordCount] PackedCells (runtime/asset/cell_packer.h)
   VkDeviceAddress solidBalls = 0;        // uint [liveCount] ChunkContents::solidBalls; absent: kWholeBall each
-  VkDeviceAddress prepared = 0;          // uvec4 [] as GpuAsset::prepared says (shaders/gpu/prepared_cells.glsl)
+  VkDeviceAddress prepared = 0;          // uvec4 [] as GpuAsset::preparing says (shaders/gpu/prepared_cells.glsl)
   uint32_t neighbourShift = 0, alphaShift = 0;
   uint32_t cellWordCount = 0;
   gpu::CellCode code{};
@@ -66,7 +66,9 @@ struct GpuAsset {
   std::array<double, 3> boundsLow{}, boundsHigh{};  // of the balls of live cells, with levels of all
   uint32_t walkEntriesAlong = 0;  // WalkInstance::entries (shaders/gpu/walk_layout.h); 0: there are none
   VkDeviceAddress walkEntries = 0;
-  uint32_t prepared = gpu::kPreparedNothing;  // of GpuChunk::prepared
+  // What GpuChunk::prepared has places for, and what of it is filled in all chunks that are drawn; as of the newest
+  // walk set.
+  uint32_t preparing = gpu::kPreparedNothing, prepared = gpu::kPreparedNothing;
   // With levels by slot: a chunk keeps its slot as long as it is resident, and slots of chunks that are not drawn are
   // empty. Else in the order of the file.
   std::vector<GpuChunk> chunks;

@@ -11,15 +11,6 @@
 namespace froth {
 namespace {
 
-// The layout of shaders/gpu/prepared_cells.glsl.
-VkDeviceSize preparedBytes(const GpuChunk& chunk, uint32_t detailCount, const ChunkUses& uses) {
-  if (uses.prepared == gpu::kPreparedNothing) return 0;
-  const bool isSeen = uses.prepared == gpu::kPreparedRadiance;
-  const uint32_t detailQuads = (isSeen || uses.hasHeights ? 1 : 0) + (isSeen ? 1 : 0);
-  const uint64_t cellQuads = gpu::kFaceQuads + uint64_t{detailCount} * detailQuads;
-  return sizeof(gpu::uvec4) * (chunk.neighbourCount + chunk.liveCount * cellQuads);
-}
-
 Status packArrays(CodedChunk&& coded, const AssetContents& manifest, LoadedChunk& loaded) {
   ChunkContents& contents = coded.contents;
   Result<PackedCells> cells = packCells(contents, std::move(coded.codes), manifest);
@@ -76,8 +67,6 @@ Result<LoadedChunk> loadChunk(const AssetReader& reader, const ByteSource& bytes
     if (const Status status = packArrays(std::move(*coded), reader.manifest(), loaded); !status) {
       return status.error();
     }
-    loaded.arrays.reserve(preparedBytes(gpu, reader.manifest().detailCount, uses), "cells prepared for rays",
-                          &GpuChunk::prepared);
   }
   return loaded;
 }

@@ -22,9 +22,6 @@ struct LoadedChunk {
 // What an asset wants of its chunks besides their counts and bounds.
 struct ChunkUses {
   bool drawing = false, queries = false;
-  // what rays find prepared of it: kPreparedNothing... ; hasHeights: as AssetShape's
-  uint32_t prepared = gpu::kPreparedNothing;
-  bool hasHeights = false;
 };
 
 // Any thread. `bytes`: as for AssetReader::readCodedChunk. `name` is the asset's, for messages.

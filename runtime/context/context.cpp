@@ -19,7 +19,9 @@ FrothResult Context::openAsset(const FrothAssetInfo& info, FrothAsset& handle) {
   if (const FrothResult result = checkSource(messages, "frothOpenAsset", info); result != FROTH_OK) {
     return result;
   }
-  handle = assets_.add(makeAsset(info));
+  const std::shared_ptr<Asset> asset = makeAsset(info);
+  asset->awaitPrepared();
+  handle = assets_.add(asset);
   return FROTH_OK;
 }
 
@@ -39,7 +41,8 @@ FrothAssetState Context::stateOf(const Asset& asset) const {
   }
   const uint64_t readable = hasUploadQueue_ ? completedUploadSerial_ : uploadSerial_;
   const bool isUploaded = asset.isStaged() && (!ring_ || ring_->isWithin(&asset, readable));
-  return asset.isDecoded() && isUploaded && !isLost_ ? FROTH_ASSET_READY : FROTH_ASSET_OPENING;
+  const bool isReady = asset.isDecoded() && isUploaded && !asset.awaitsPrepared() && !isLost_;
+  return isReady ? FROTH_ASSET_READY : FROTH_ASSET_OPENING;
 }
 
 FrothResult Context::describeAsset(FrothAsset handle, FrothAssetStatus& status) const {

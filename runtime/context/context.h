@@ -198,6 +198,13 @@ class Context {
   std::optional<FrothAsset> findLayersToGive() const;
   std::optional<FrothAsset> findLayersToTake() const;
   void tellExcess();
+  // Cells prepared for rays (runtime/context/context_prepared.cpp).
+  void choosePrepared();
+  VkDeviceSize roomForPrepared();
+  bool isPreparedInTheWay() const;
+  bool dropPrepared(VkDeviceSize bytes);
+  void dropPrepared(Asset& asset);
+  void refusePrepared(Asset& asset, const Error& error);
   // Levels of detail (runtime/context/context_levels.cpp).
   void updateLevels();
   void gatherEyes(FrothAsset handle, const Asset& asset);
@@ -257,9 +264,11 @@ class Context {
   ReadTable reads_;
   JobRunner jobs_;
   Device device_;
-  bool isNull_ = false;        // no device, for good
-  bool isLost_ = false;        // between frothDeviceLost and frothRestoreDevice
-  bool isExcessTold_ = false;  // of this budget
+  bool isNull_ = false;             // no device, for good
+  bool isLost_ = false;             // between frothDeviceLost and frothRestoreDevice
+  bool isExcessTold_ = false;       // of this budget
+  bool isViewRefused_ = false;      // memory, in the newest frothUpdate
+  bool isPreparedLeaving_ = false;  // prepared cells were dropped, and their memory is not back yet
   // These use the device, which stays until they have ended. The last runs a MemoryBatch beside what
   // FrothContextInfo::mostJobs allows, the others make pipelines.
   std::map<AssetShape, Job<Done>> making_;

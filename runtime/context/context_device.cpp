@@ -166,6 +166,7 @@ void Context::setBudget(uint64_t bytes) {
   device_.budget = bytes;
   device_.ledger.restartPeaks();
   isExcessTold_ = false;
+  assets_.forEach([](Asset& asset) { asset.refusePreparing(false); });
 }
 
 void Context::describeMemory(FrothMemoryReport& report) const {
@@ -190,10 +191,10 @@ bool Context::isMemoryReturning() const {
   return isReturning;
 }
 
-// What goes anyway goes first; then all views give up the same part of what they can.
+// What goes anyway goes first, then prepared cells; then all views give up the same part of what they can.
 void Context::shrinkViews() {
   const VkDeviceSize excess = device_.excessBytes();
-  if (excess == 0 || isMemoryReturning()) {
+  if (excess == 0 || isMemoryReturning() || dropPrepared(excess)) {
     return;
   }
   if (const VkDeviceSize shrinkable = shrinkableBytes(); shrinkable > 0) {
@@ -274,7 +275,10 @@ void Context::loseDevice() {
     if (std::exchange(replacement.successor, nullptr)) replacement.error = FROTH_ERROR_DEVICE;
   }
   levels_.clear();
-  assets_.forEach([](Asset& asset) { asset.releaseBuffers(); });
+  assets_.forEach([](Asset& asset) {
+    asset.releasePrepared();
+    asset.releaseBuffers();
+  });
   ring_.reset();
   walks_.reset();
   walkError_.clear();

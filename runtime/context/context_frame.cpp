@@ -110,8 +110,10 @@ void Context::runFrame(FrothFrameStatus& status) {
     prepareMerging();
     prepareRayForms();
     shrinkViews();
+    isViewRefused_ = false;
     views_.forEachNamed([&](FrothView handle, View& view) { prepareView(handle, view); });
     prepareWalks();
+    choosePrepared();
     chooseExchange();
   });
 
@@ -151,12 +153,13 @@ void Context::loadAssets() {
                                              : LoadLimit::ofWork();
   const auto prepare = [this](const AssetShape& shape) { return prepareShape(shape); };
   assets_.forEach([&](Asset& asset) {
-    retired_.reserve(retired_.size() + 1);
+    retired_.reserve(retired_.size() + 2);
     asset.load(jobs_, reads_, limit, prepare, messages);
     if (asset.hasFailed() && ring_) {
       const std::shared_ptr<GpuArena> targets = asset.releaseBuffers();
       asset.forgetCopies(*ring_, targets);
       retire(targets);
+      retire(asset.releasePrepared());
     }
   });
   loadSuccessor(limit, prepare);
@@ -191,6 +194,8 @@ void Context::prepareView(FrothView handle, View& view) {
   }
   // The view keeps the buffers it had: it goes on drawing what they hold.
   if (isPending(status)) return;
+  isViewRefused_ = true;
+  if (isPreparedInTheWay()) return;
   const ToldError told{status.error().kind, device_.budget};
   if (view.preparationError == told) return;  // once, not in every frame
   view.preparationError = told;

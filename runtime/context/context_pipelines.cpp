@@ -104,11 +104,11 @@ void Context::prepareMerging() {
   merging_.job.start(jobs_, [this] { return doneIf(makeMerging()); });
 }
 
-// Where an asset has cells prepared for rays.
+// Where an asset is to have cells prepared for rays.
 void Context::prepareRayForms() {
   takePipelines(rayForms_, "prepared cells");
   uint32_t prepared = gpu::kPreparedNothing;
-  assets_.forEach([&](const Asset& asset) { prepared = std::max(prepared, asset.gpu().prepared); });
+  assets_.forEach([&](const Asset& asset) { prepared = std::max(prepared, asset.preparedForm()); });
   if (!walks_ || prepared <= walks_->mostPrepared() || rayForms_.job.isUnderWay() || !jobs_.hasRoom()) {
     return;
   }

@@ -1,4 +1,5 @@
 // The calls of rays on the GPU: order of calls, numbers checked, defaults resolved, instances gathered.
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/context/context.h"
@@ -113,6 +114,11 @@ FrothResult Context::recordWalkSet(VkCommandBuffer commandBuffer, FrothWalkInfo 
   }
   publishBorders(commandBuffer);
   const bool isWhole = gatherWalked();
+  assets_.forEach([&](Asset& asset) {
+    const auto isIts = [&](const WalkedInstance& instance) { return instance.placement.asset == &asset.gpu(); };
+    const auto walked = std::ranges::find_if(walked_, isIts);
+    if (walked != walked_.end()) walked->toFill = asset.fillPrepared(serial_, uploadBytesLeft_);
+  });
   set = walks_->record(commandBuffer, info, walked_, serial_);
   assets_.forEach([&](Asset& asset) {
     for (const WalkedInstance& instance : walked_) {

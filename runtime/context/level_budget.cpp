@@ -12,6 +12,8 @@ constexpr double kWantedPart = 7.0 / 8;
 
 uint64_t scaled(uint64_t bytes, double factor) { return static_cast<uint64_t>(static_cast<double>(bytes) * factor); }
 
+uint64_t blocksForAll(const LevelNeeds& needs) { return scaled(needs.allBytes, 1 / kUsedPart / kWantedPart); }
+
 }  // namespace
 
 LevelNeeds& LevelNeeds::operator+=(const LevelNeeds& other) {
@@ -25,9 +27,11 @@ LevelNeeds& LevelNeeds::operator+=(const LevelNeeds& other) {
   return *this;
 }
 
+uint64_t bytesForAll(const LevelNeeds& needs) { return blocksForAll(needs) + needs.reservedViewBytes; }
+
 LevelShares shareBudget(uint64_t bytes, const LevelNeeds& needs) {
   const uint64_t leastBlocks = scaled(needs.floorBytes + needs.changeBytes, 1 / kUsedPart);
-  const uint64_t mostBlocks = scaled(needs.allBytes, 1 / kUsedPart / kWantedPart);
+  const uint64_t mostBlocks = blocksForAll(needs);
   const uint64_t least = leastBlocks + needs.floorViewBytes;
   const double finestBlocks = static_cast<double>(needs.finestBytes) / kUsedPart / kWantedPart;
   const double viewPart = static_cast<double>(needs.finestViewBytes) /

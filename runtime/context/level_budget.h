@@ -23,6 +23,9 @@ struct LevelShares {
   uint64_t viewBytes = UINT64_MAX;   // for cells of cuts
 };
 
+// [bytes] With so much no share is short.
+uint64_t bytesForAll(const LevelNeeds& needs);
+
 // Floors first; the rest so that both reach equally far towards level 0. What one has no use for the other gets.
 LevelShares shareBudget(uint64_t bytes, const LevelNeeds& needs);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/asset/to_vector.h"
 #include "runtime/render/device_depth.h"
 #include "runtime/render/frame_images.h"
 #include "shaders/foam/tone.h"
@@ -61,6 +62,17 @@ void fillTransients(const ViewBuffers& buffers, const GpuAsset& asset, const VkR
   block.walkStart = buffers[ViewBuffer::kWalkStart].address;
   block.rays = buffers[ViewBuffer::kRays].address;
   block.cones = buffers[ViewBuffer::kCones].address;
+}
+
+// Rays lose less than this part of the distance to their own rounding.
+constexpr double kBoxGuard = 1e-5;
+
+void fillBox(const GpuAsset& asset, const glm::dvec3& eye, gpu::FrameBlock& block) {
+  const glm::dvec3 low = toVector(asset.boundsLow) - eye, high = toVector(asset.boundsHigh) - eye;
+  const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
+  const double guard = kBoxGuard * std::max({farthest.x, farthest.y, farthest.z});
+  block.boxLow = toFloats(low - guard);
+  block.boxHigh = toFloats(high + guard);
 }
 
 }  // namespace
@@ -132,6 +144,7 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   fillCamera(info, rays, instance, block);
   fillTransients(buffers, asset, region, block);
   fillChunks(asset, rays.eye, chunks);
+  fillBox(asset, rays.eye, block);
   block.flags |= holdsAllCells(asset, buffers.capacity()) ? 0 : gpu::kFlagCountSizes;
   block.scale = instance.scale;
   block.exposure = instance.exposure;

@@ -36,6 +36,7 @@ struct CastConstants {
 
 struct SeedConstants {
   uint32_t instance;
+  uint32_t slot;  // of prepare_cells.comp
 };
 
 class WalkPipelines {

@@ -188,6 +188,7 @@ void WalkSets::writeTables(uint32_t slot, const FrothWalkInfo& info, std::span<c
   VkDeviceSize chunks = kChunksOffset;
   const auto write = [&](size_t place, const WalkedInstance& instance, const glm::dvec3& localEye) {
     gpu::WalkInstance entry = describe(instance, localEye, info);
+    if (place >= kFirstSeed) entry.prepared = instance.placement.asset->preparing;
     entry.chunks = address + chunks;
     std::memcpy(staged + kInstancesOffset + place * sizeof(entry), &entry, sizeof(entry));
     fillChunks(*instance.placement.asset, localEye, reinterpret_cast<gpu::ChunkEntry*>(staged + chunks));
@@ -197,7 +198,7 @@ void WalkSets::writeTables(uint32_t slot, const FrothWalkInfo& info, std::span<c
     const GpuAsset& asset = *instances[i].placement.asset;
     write(i, instances[i], assetFromWorld(instances[i].placement, eye));
     // Seeds are for all frames: seen from the middle of the box, and not from an eye that may be far away.
-    if (!instances[i].isSeeded) {
+    if (!instances[i].isSeeded || !instances[i].toFill.empty()) {
       write(kFirstSeed + i, instances[i], 0.5 * (toVector(asset.boundsLow) + toVector(asset.boundsHigh)));
     }
   }
@@ -243,13 +244,31 @@ VkDescriptorSet WalkSets::record(VkCommandBuffer commandBuffer, const FrothWalkI
   writeTables(current_, info, instances);
   updateSet(current_);
   recordCopies(commandBuffer, current_, info.stages);
+  prepareCells(commandBuffer, instances, info.stages);
   seedEntries(commandBuffer, instances, info.stages);
   return free->set;
 }
 
-// Of assets that are seen for the first time, or with other chunks than before: what they prepare of their
-// cells, then the entries' cells of all, then the marks of all. Frames before may still read those of the chunks
-// before.
+// No frame before reads what is filled here.
+void WalkSets::prepareCells(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
+                            VkPipelineStageFlags2 stages) const {
+  const auto isFilled = [](const WalkedInstance& instance) { return instance.toFill.empty(); };
+  if (std::ranges::all_of(instances, isFilled)) return;
+  const DeviceTable& vk = device_.table;
+  bind(commandBuffer, kPrepareCells);
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    for (const uint32_t slot : instances[i].toFill) {
+      const uint32_t cells = instances[i].placement.asset->chunks[slot].cellCount;
+      pushSeed(commandBuffer, {kFirstSeed + i, slot});
+      vk.vkCmdDispatch(commandBuffer, std::min(groupsOver(cells, gpu::kRayGroupSize), gpu::kMostGroupsAlong), 1, 1);
+    }
+  }
+  vk.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                         stages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+}
+
+// Of assets that are seen for the first time, or with other chunks than before: the entries' cells of all, then the
+// marks of all. Frames before may still read those of the chunks before.
 void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
                            VkPipelineStageFlags2 stages) const {
   const auto isNew = [&](const WalkedInstance& instance) {
@@ -259,12 +278,10 @@ void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const Walked
   if (std::none_of(instances.begin(), instances.end(), isNew)) return;
   device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE,
                                     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_NONE);
-  for (const uint32_t pipeline : {kPrepareCells, kSeedEntries, kMarkEntries}) {
+  for (const uint32_t pipeline : {kSeedEntries, kMarkEntries}) {
     bind(commandBuffer, pipeline);
     for (uint32_t i = 0; i < instances.size(); ++i) {
-      const GpuAsset& asset = *instances[i].placement.asset;
-      const bool isWanted = pipeline != kPrepareCells || asset.prepared != gpu::kPreparedNothing;
-      if (isNew(instances[i]) && isWanted) recordSeeds(commandBuffer, pipeline, i, asset);
+      if (isNew(instances[i])) recordSeeds(commandBuffer, pipeline, i, *instances[i].placement.asset);
     }
     device_.table.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
@@ -276,9 +293,7 @@ void WalkSets::seedEntries(VkCommandBuffer commandBuffer, std::span<const Walked
 void WalkSets::recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uint32_t instance,
                            const GpuAsset& asset) const {
   const DeviceTable& vk = device_.table;
-  const SeedConstants constants{kFirstSeed + instance};
-  vk.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
-                        &constants);
+  pushSeed(commandBuffer, {kFirstSeed + instance, 0});
   if (pipeline == kSeedEntries) {
     const uint32_t along = asset.walkEntriesAlong;
     dispatchGroups(vk, commandBuffer, groupsOver(along * along * along, gpu::kRayGroupSize));
@@ -286,9 +301,13 @@ void WalkSets::recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uin
   }
   const auto chunks = static_cast<uint32_t>(asset.chunks.size());
   const uint32_t rows = groupsOver(chunks, gpu::kMostGroupsAlong);
-  const uint32_t cells = pipeline == kPrepareCells ? asset.cellCount : asset.liveCount;
-  vk.vkCmdDispatch(commandBuffer, groupsOver(groupsOver(cells, chunks), gpu::kRayGroupSize), groupsOver(chunks, rows),
-                   rows);
+  vk.vkCmdDispatch(commandBuffer, groupsOver(groupsOver(asset.liveCount, chunks), gpu::kRayGroupSize),
+                   groupsOver(chunks, rows), rows);
+}
+
+void WalkSets::pushSeed(VkCommandBuffer commandBuffer, const SeedConstants& constants) const {
+  device_.table.vkCmdPushConstants(commandBuffer, pipelines_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                   sizeof(constants), &constants);
 }
 
 void WalkSets::bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const {

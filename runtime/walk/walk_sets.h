@@ -19,7 +19,8 @@ namespace froth {
 struct WalkedInstance {
   RenderInstance placement;
   uint32_t mask;
-  bool isSeeded;  // the asset's entries are there, or on their way in an earlier command
+  bool isSeeded;                       // the asset's entries are there, or on their way in an earlier command
+  std::span<const uint32_t> toFill{};  // slots of chunks whose cells are to be prepared; of one instance of an asset
 };
 
 // One thread at a time.
@@ -67,9 +68,12 @@ class WalkSets {
   VkDeviceSize stride() const;
   void writeTables(uint32_t slot, const FrothWalkInfo& info, std::span<const WalkedInstance> instances);
   void updateSet(uint32_t slot);
+  void prepareCells(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
+                    VkPipelineStageFlags2 stages) const;
   void seedEntries(VkCommandBuffer commandBuffer, std::span<const WalkedInstance> instances,
                    VkPipelineStageFlags2 stages) const;
   void recordSeeds(VkCommandBuffer commandBuffer, uint32_t pipeline, uint32_t instance, const GpuAsset& asset) const;
+  void pushSeed(VkCommandBuffer commandBuffer, const SeedConstants& constants) const;
   void bind(VkCommandBuffer commandBuffer, uint32_t pipeline) const;
   void recordCopies(VkCommandBuffer commandBuffer, uint32_t slot, VkPipelineStageFlags2 stages) const;
 

@@ -284,6 +284,7 @@ struct FrameBlock {
   uint borderCount, fileChunkCount;  // 0: no levels
   uint firstSlot;                    // that is drawn
   uint padding;
+  vec4 boxLow, boxHigh;  // around the balls of live cells, relative to the eye, with what rounding takes from rays
 };
 
 // A hit: where a pixel's ray was stopped, by bits of a float [world units] (+inf: nowhere), the instance (an index of
@@ -377,7 +378,7 @@ static_assert(sizeof(CellRecord) == 80 && offsetof(CellRecord, planeBegin) == 64
 static_assert(kSizeClasses * kKeysPerSize == kSizeKeys && kSizeKeys % kGroupSize == 0);
 static_assert(offsetof(Counters, dropDispatch) == 64 && offsetof(Counters, work) == 192 && sizeof(Counters) == 256);
 static_assert(offsetof(FrameBlock, nearRatio) == 208 && offsetof(FrameBlock, regionX) == 248);
-static_assert(offsetof(FrameBlock, counters) == 328 && sizeof(FrameBlock) == 576);
+static_assert(offsetof(FrameBlock, counters) == 328 && sizeof(FrameBlock) == 608);
 static_assert(sizeof(FrameBlock) <= kHitBlockOffset && sizeof(HitInstance) == 64);
 static_assert(offsetof(HitBlock, pixels) == 208 && offsetof(HitBlock, hasPrevious) == 256 && sizeof(HitBlock) == 288);
 static_assert(kMostInstances <= kQuarterPartMask + 1);

@@ -5,12 +5,13 @@
 // The shader that includes this defines how a stream goes on in one instance, in the asset's units, with frameAtHand
 // set:
 //   struct Cursor
-//   bool isAtEnd(Cursor cursor, float end)
+//   bool isAtEnd(Cursor cursor, float end)  // end: nothing lies behind it
 //   bool meetNext(Shading shading, uvec2 pixel, float end, inout Cursor cursor, out Segment segment, out vec3 colour,
 //                 out uint slot, out CellRecord cell)
 //     // goes on by a cell or more; returns whether the ray gains anything in the last of them
 #ifndef FROTH_GPU_STREAMS_GLSL
 #define FROTH_GPU_STREAMS_GLSL
+#include "gpu/box.glsl"
 #include "gpu/device_depth.glsl"
 #include "gpu/hits.glsl"
 #include "gpu/outputs.glsl"
@@ -26,6 +27,7 @@ struct Interval {
 
 struct Stream {
   uint part;
+  float end;  // where the ray leaves the instance's box, or where the scene stops it [asset units]
   Cursor cursor;
   Interval ahead;  // the newest one; behind the ray's present place once that has passed its end
 };
@@ -40,10 +42,17 @@ void selectPart(uint part) { frameAtHand = push.parts[part]; }
 // [1 / world unit] As opaque as any; sums of it times colours are finite.
 const float kMostDensity = 1e30;
 
-void startStream(uint part, Cursor cursor) {
+// Of the instance at hand, if the ray meets its box. Up to there nothing is ahead: the stream goes on once the ray has
+// passed that place, and not if it ends before.
+void startStream(uint part, vec3 ray, Cursor cursor) {
+  Segment inside = insideBox(ray);
+  float scale = FRAME.scale;
+  float begin = inside.tNear * scale;
+  if (isEmpty(inside) || !(begin < rayEnd)) return;
   streams[streamCount].part = part;
+  streams[streamCount].end = min(inside.tFar, rayEnd / scale);
   streams[streamCount].cursor = cursor;
-  streams[streamCount].ahead.segment = Segment(0.0, 0.0);
+  streams[streamCount].ahead = Interval(Segment(begin, begin), 0.0, 0.0, vec3(0.0), vec3(0.0), part, kNoCell);
   ++streamCount;
 }
 
@@ -52,7 +61,7 @@ void advance(uvec2 pixel, uint index) {
   selectPart(streams[index].part);
   Cursor cursor = streams[index].cursor;
   float scale = FRAME.scale;
-  float end = rayEnd / scale;
+  float end = streams[index].end;
   if (isAtEnd(cursor, end)) {
     streams[index] = streams[--streamCount];
     return;
@@ -122,8 +131,8 @@ struct Merged {
   float exposure;
 };
 
-// Composites what the started streams hold. One loop that goes on by a cell or composites an interval, not a loop within
-// another: the rays of a workgroup wait for each other at every turn.
+// Composites what the started streams hold. One loop whose turn goes on by a cell and composites an interval where none
+// is behind, not a loop within another: the rays of a workgroup wait for each other at every turn.
 Merged mergeStreams(uvec2 pixel) {
   Radiance radiance = emptyRadiance();
   float exposures = 0.0;
@@ -136,7 +145,7 @@ Merged mergeStreams(uvec2 pixel) {
     uint behind = streamBehind(passed);
     if (behind < streamCount) {
       advance(pixel, behind);
-      continue;
+      if (streamCount == 0 || streamBehind(passed) < streamCount) continue;
     }
     Interval interval = findInterval(passed);
     if (interval.density > 0.0) {

@@ -1,6 +1,7 @@
 // MergedInstances instances in one view, crossing each other: against the double reference that merges them.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -178,6 +179,48 @@ TEST_F(MergedInstances, FoamsBesideEachOtherLookAsIfDrawnAlone) {
     }
     EXPECT_EQ(differing, 0u) << "instance " << which;
   }
+}
+
+// Steps of a walk, by which of two are seen: the first, the second, both.
+class StepsThroughInstances : public MergedInstances {
+ protected:
+  struct Steps {
+    double first, second, both;
+  };
+
+  Steps countSteps(const View& view) {
+    for (uint32_t which = 0; which < 2; ++which) {
+      FrothInstanceInfo info = placementOf(placed_[which]);
+      info.mask = 1u << which;
+      stages_[which]->place(info);
+    }
+    const auto count = [&](uint32_t mask) {
+      FrothRenderInfo info = infoOf(view);
+      info.mask = mask;
+      const Frame frame = stages_[0]->draw(Method::kWalk, info, {view.width, view.height});
+      return static_cast<double>(frame.status.work.steps);
+    };
+    const Steps steps{count(1), count(2), count(3)};
+    std::printf("[  STEPS   ] first %.0f, second %.0f, both %.0f\n", steps.first, steps.second, steps.both);
+    EXPECT_GE(psnr(draw(Method::kWalk, view).colour, reference(view).colour), 55);
+    return steps;
+  }
+};
+
+TEST_F(StepsThroughInstances, AreNotTakenInAFoamThatTheRayMisses) {
+  place(0, {-1.4, 0, 0}, {1, 0, 0, 0}, 1);
+  place(1, {1.4, 0, 0}, {1, 0, 0, 0}, 1);
+  const Steps steps = countSteps(lookAt({0, 0, -4}, {0, 0, 3}, 96, 64, 0.35));
+  EXPECT_LT(steps.both, 0.8 * (steps.first + steps.second));
+}
+
+TEST_F(StepsThroughInstances, AreNotTakenInAFoamBehindWhereTheRayEnds) {
+  place(0, {0, 0, 0}, {1, 0, 0, 0}, 1);
+  place(1, {0, 0, 20}, {1, 0, 0, 0}, 10);
+  const View view = lookAt({0, 0, -4}, {0, 0, 3}, 96, 64, 0.02);
+  const Steps steps = countSteps(view);
+  EXPECT_LT(steps.both, 1.05 * steps.first);
+  EXPECT_GT(steps.second, 0.2 * steps.first);
 }
 
 TEST_F(MergedInstances, TheScenesDepthStopsRaysInAllOfThem) {

@@ -123,6 +123,9 @@ typedef struct FrothAssetStatus {
    * budget (frothSetBudget). detailCount, lobeCount, deviceBytes and memory are of these. 0: the head is not read yet
    */
   uint32_t layers;
+  /* FrothRayPreparation that rays of the newest frothRecordWalkSet find. Less than FrothAssetInfo::prepareRays: it is
+   * not made yet, or the budget has no room for it (frothSetBudget) */
+  uint32_t prepared;
 } FrothAssetStatus;
 
 /* Returns at once: FROTH_OK, and the asset is OPENING. The following frothUpdate / frothRecordUpload calls load it. A

@@ -188,8 +188,8 @@ FROTH_API FrothResult frothCreateContext(const FrothContextInfo* info, FrothCont
 FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t completedSerial);
 
 /* Changes FrothContextInfo::deviceBudget. New allocations never exceed it, but for exchanges, below. Where the budget
- * is short, cells go; before them view dependence, then detail, of the assets that allow it
- * (FrothAssetInfo::layersMayGo).
+ * is short, what is prepared for rays goes (FrothAssetInfo::prepareRays), of an asset at once, with one warning; then
+ * cells go; before them view dependence, then detail, of the assets that allow it (FrothAssetInfo::layersMayGo).
  *
  * A budget below the bytes held is obeyed within frames: from the next frothUpdate on, views exchange their buffers for
  * smaller ones, one after the other; cells or pairs without space are missing (FROTH_VIEW_CELL_OVERFLOW,
@@ -203,7 +203,8 @@ FROTH_API FrothResult frothDestroyContext(FrothContext* context, uint64_t comple
  * the budget.
  *
  * Where there is room: views grow; once they hold what they want, layers return, one at a time, where the larger asset
- * fits beside the smaller one. */
+ * fits beside the smaller one; then cells are prepared for rays again, of an asset with levels of detail where there is
+ * room for all of its chunks. */
 FROTH_API FrothResult frothSetBudget(FrothContext* context, uint64_t bytes);
 
 /* Memory of one purpose. */

@@ -26,8 +26,10 @@ extern "C" {
  * the same with each but for the rounding of last digits. frothRecordRays uses what all instances of the set have;
  * shaders of an engine what FROTH_WALK_PREPARED says (froth_walk.glsl). Bytes: frothEstimateMemory beforehand,
  * FrothAssetStatus::memory ("cells prepared for rays") after; docs/PERFORMANCE.md says what they buy. Made on the
- * device by the first frothRecordWalkSet after the asset, or a cut of its levels, is there. Nothing without
- * FrothContextInfo::walkShaders, or without a walk graph. */
+ * device by frothRecordWalkSet once the asset, or a chunk of its levels, is there: within what FrothFrame::uploadBytes
+ * leaves, but for one chunk. Until all that is drawn is made, and where the budget takes its memory (frothSetBudget),
+ * rays find nothing prepared: FrothAssetStatus::prepared. Nothing without FrothContextInfo::walkShaders, or without a
+ * walk graph. */
 typedef enum FrothRayPreparation {
   FROTH_PREPARE_NOTHING = 0,
   /* planes and faces, and heights if the asset has such: for FROTH_RAY_TRANSMITTANCE and FROTH_RAY_CLOSEST. 16 bytes
