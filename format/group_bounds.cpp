@@ -1,5 +1,6 @@
 #include "format/group_bounds.h"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -32,18 +33,16 @@ Box placeBox(const std::array<double, 3>& origin, const Box& box) {
 std::vector<GroupBounds> boundGroups(std::span<const ChunkLevel> levels, std::span<const LevelGroup> groups,
                                      std::span<const Box> liveBoxes) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::vector<GroupBounds> bounds;
-  for (const LevelGroup& group : groups) {
-    bounds.push_back({vectorOf(group.centre), group.radius, glm::dvec3(kInfinity), glm::dvec3(-kInfinity)});
-  }
+  std::vector<GroupBounds> bounds(groups.size(), {glm::dvec3(kInfinity), glm::dvec3(-kInfinity)});
   for (size_t chunk = 0; chunk < levels.size(); ++chunk) {
     if (hasNothing(liveBoxes[chunk])) continue;
     for (const uint32_t group : {levels[chunk].in, levels[chunk].madeBy}) {
       if (group != kNoGroup) include(bounds[group], vectorOf(liveBoxes[chunk].min), vectorOf(liveBoxes[chunk].max));
     }
   }
-  for (GroupBounds& group : bounds) {
-    if (group.low.x > group.high.x) group.low = group.high = group.centre;  // no live cells
+  for (size_t group = 0; group < groups.size(); ++group) {
+    const bool isEmpty = bounds[group].low.x > bounds[group].high.x;  // no live cells
+    if (isEmpty) bounds[group].low = bounds[group].high = vectorOf(groups[group].centre);
   }
   std::vector<uint32_t> order(levels.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -2,7 +2,6 @@
 // the runtime chooses groups, by the same distance.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -14,18 +13,16 @@
 
 namespace froth {
 
-// Each holds the balls of a group's live cells, of both forms, and the same bound of the groups that lie finer below.
+// A box around the balls of a group's live cells, of both forms, and around the bounds of the groups that lie finer
+// below.
 struct GroupBounds {
-  glm::dvec3 centre{0};  // a ball: LevelGroup's [scene units]
-  double radius = 0;
-  glm::dvec3 low{0}, high{0};  // a box [scene units]
+  glm::dvec3 low{0}, high{0};  // [scene units]
 };
 
-// No live cell of the group, or of those below it, is nearer to the point; 0 where both bounds hold it. That of a
-// coarser group is no greater, for both of its bounds hold those of this one.
+// No live cell of the group, or of those below it, is nearer to the point; 0 inside. That of a coarser group is no
+// greater, however it is rounded: each step is monotone.
 inline double distanceTo(const GroupBounds& bounds, const glm::dvec3& point) {
-  const glm::dvec3 outside = glm::max(glm::max(bounds.low - point, point - bounds.high), 0.0);
-  return std::max(glm::length(outside), glm::length(point - bounds.centre) - bounds.radius);
+  return glm::length(glm::max(glm::max(bounds.low - point, point - bounds.high), 0.0));
 }
 
 // A chunk's live_bounds, which are relative to its origin, in the axes of the scene. All zero stays: no live cells.

@@ -35,7 +35,7 @@ std::vector<LevelGroup> measureTwo(const Foam& fine, const Foam& coarse, const V
     const glm::vec3& site = fine.sites[k];
     groups[k] = {{site.x, site.y, site.z}, 1, 0.1, 0};
     const glm::dvec3 centre(site);
-    bounds.push_back({centre, 1, centre - 1.0, centre + 1.0});
+    bounds.push_back({centre - 1.0, centre + 1.0});
   }
   EXPECT_TRUE(errors.takeFinest(fine, std::vector<uint32_t>{0, 1}, {}));
   EXPECT_TRUE(errors.addLevel(coarse, std::vector<uint32_t>{2, 3}, chunks, 0, 2, {}));

@@ -46,7 +46,6 @@ TEST(GroupBounds, AreTheBoxesOfBothFormsAndOfAllThatIsFiner) {
       const Corners corners = cornersOf(dag, group);
       EXPECT_EQ(bounds[group].low, corners.low) << "seed " << seed << ", group " << group;
       EXPECT_EQ(bounds[group].high, corners.high) << "seed " << seed << ", group " << group;
-      EXPECT_EQ(bounds[group].radius, dag.groups[group].radius);
     }
   }
 }
@@ -64,8 +63,7 @@ TEST(GroupBounds, OfCoarserGroupsAreAsNearOrNearer) {
       for (int k = 0; k < 20; ++k) {
         const glm::dvec3 eye(uniform(random), uniform(random), 0.2 * uniform(random));
         const double coarser = distanceTo(bounds[place.in], eye), finer = distanceTo(bounds[place.madeBy], eye);
-        const double rounding = 1e-14 * dag.extent;  // of the balls
-        EXPECT_LE(coarser, finer + rounding) << "seed " << seed;
+        EXPECT_LE(coarser, finer) << "seed " << seed;
         ++steps;
         between += coarser < finer ? 1 : 0;
       }
@@ -82,8 +80,9 @@ TEST(GroupBounds, AreAsFarAsTheNearestPointOfTheBox) {
   size_t outside = 0;
   for (int k = 0; k < 100; ++k) {
     const glm::dvec3 a(uniform(random), uniform(random), uniform(random));
-    const glm::dvec3 b(uniform(random), uniform(random), uniform(random)), eye = 2.0 * glm::dvec3(uniform(random));
-    GroupBounds bounds{0.5 * (a + b), glm::distance(a, b), glm::min(a, b), glm::max(a, b)};  // a ball that says nothing
+    const glm::dvec3 b(uniform(random), uniform(random), uniform(random)),
+        eye = 2.0 * glm::dvec3(uniform(random), uniform(random), uniform(random));
+    const GroupBounds bounds{glm::min(a, b), glm::max(a, b)};
     const glm::dvec3 step = (bounds.high - bounds.low) / double{kAlong - 1};
     double nearest = kInfinity;
     for (int x = 0; x < kAlong; ++x) {
@@ -100,19 +99,13 @@ TEST(GroupBounds, AreAsFarAsTheNearestPointOfTheBox) {
   EXPECT_GT(outside, 20u);
 }
 
-TEST(GroupBounds, AreAtNoDistanceFromAnEyeInsideOfBothAndAtThatOfTheFarther) {
-  //   y
-  //   1 +-----+        the box; the ball of radius 1.5 leaves its corners out
-  //   0 |  o  |
-  //  -1 +-----+
-  const GroupBounds bounds{{0, 0, 0}, 1.5, {-1, -1, -1}, {1, 1, 1}};
+TEST(GroupBounds, AreAtNoDistanceFromAnEyeInside) {
+  const GroupBounds bounds{{-1, -1, -1}, {1, 1, 1}};
   EXPECT_EQ(distanceTo(bounds, {0, 0, 0}), 0);
-  EXPECT_EQ(distanceTo(bounds, {0.9, -0.5, 0}), 0);
-  EXPECT_DOUBLE_EQ(distanceTo(bounds, {3, 0, 0}), 2);                            // of the box
-  EXPECT_DOUBLE_EQ(distanceTo(bounds, {1.1, 0, 0}), 1.1 - 1);                    // in the ball
-  EXPECT_DOUBLE_EQ(distanceTo(bounds, {1, 1, 1}), std::sqrt(3.0) - 1.5);         // in the box, not in the ball
-  EXPECT_DOUBLE_EQ(distanceTo(bounds, {2, 2, 2}), 2 * std::sqrt(3.0) - 1.5);     // nearer to the box
-  EXPECT_DOUBLE_EQ(distanceTo(bounds, {0, -4, 3}), std::hypot(4 - 1, 3 - 1.0));  // the edge
+  EXPECT_EQ(distanceTo(bounds, {0.9, -0.5, 1}), 0);
+  EXPECT_DOUBLE_EQ(distanceTo(bounds, {3, 0, 0}), 2);                          // from a face
+  EXPECT_DOUBLE_EQ(distanceTo(bounds, {0, -4, 3}), std::hypot(4 - 1, 3 - 1));  // an edge
+  EXPECT_DOUBLE_EQ(distanceTo(bounds, {-2, 2, 2}), std::sqrt(3.0));            // a corner
 }
 
 // Chunk 0 is the floor, of chunk 1; no cell is live, or only those of chunk 1.

@@ -144,7 +144,7 @@ TEST(Selection, WantsTheFloorWithoutEyesAndAllWhereAnEyeIsInside) {
 // The bounds are 5 from an eye, 3 for the eye that may move by 2.
 TEST(Selection, MeasuresTheErrorByThePixelAtTheNearestPointOfTheBounds) {
   LevelGraph::Group group;
-  group.bounds = {{0, 0, 10}, 7, {-2, -2, 5}, {2, 2, 15}};
+  group.bounds = {{-2, -2, 5}, {2, 2, 15}};
   group.error = 0.6;
   const StreamEye still{{0, 0, 0}, 0, 0.01, 0, 1}, wandering{{0, 0, 0}, 2, 0.01, 0, 1}, flat{{0, 0, 0}, 0, 0, 0.3, 1};
   const StreamEye detailed{{0, 0, 0}, 0, 0.01, 0, 2}, nearBound{{0, 1, 6}, 0, 0.01, 0.002, 1};
