@@ -1,4 +1,4 @@
-// Balls around groups of levels.
+// Balls around groups of levels, and boxes around their chunks.
 #pragma once
 
 #include <span>
@@ -19,6 +19,9 @@ struct GroupBall {
 
 // Appends the balls of a chunk's live cells.
 void addLiveBalls(const BakeCells& cells, const PlannedChunk& chunk, std::vector<GroupBall>& balls);
+
+// Around the live cells of a chunk; all zero without any.
+Box boxAroundLive(const BakeCells& cells, const PlannedChunk& chunk);
 
 // A ball that holds all of them, whatever double rounds; not the smallest one.
 GroupBall boundBalls(std::span<const GroupBall> balls);

@@ -30,11 +30,6 @@ double pixelSizeAt(const View& view, double distance) {
   return view.fx > 0 ? distance / view.fx : distance * kHalfTurn / view.width;  // a ray map says no focal length
 }
 
-double distanceTo(const LevelGroup& group, const glm::dvec3& eye) {
-  return std::max(0.0,
-                  glm::distance(glm::dvec3(group.centre[0], group.centre[1], group.centre[2]), eye) - group.radius);
-}
-
 // Errors grow, and are none of them 0. A group's fine chunks stand before its coarse ones.
 void growErrors(std::span<const LevelChunk> chunks, std::vector<LevelGroup>& groups) {
   for (LevelGroup& group : groups) group.error = std::max(group.error, group.radius * 0x1p-40);
@@ -125,13 +120,15 @@ void LevelErrors::measureGroups(std::vector<LevelGroup>& groups) const {
 
 // The least factor from which on the cuts that a reader chooses for the views look as level 0 does. No less than lets
 // one of the views refine a group: nothing is known from nearer.
-double LevelErrors::chooseScale(std::span<const LevelChunk> chunks, std::span<const LevelGroup> groups) const {
-  const auto refinedFrom = [&](const SeenView& seen, const LevelGroup& group) {  // the factor
-    return seen.pixelScale * pixelSizeAt(seen.view, distanceTo(group, eyeOf(seen.view))) / group.error;
+double LevelErrors::chooseScale(std::span<const LevelChunk> chunks, std::span<const GroupBounds> bounds,
+                                std::span<const LevelGroup> groups) const {
+  const auto refinedFrom = [&](const SeenView& seen, uint32_t group) {  // the factor
+    const double distance = distanceTo(bounds[group], eyeOf(seen.view));
+    return seen.pixelScale * pixelSizeAt(seen.view, distance) / groups[group].error;
   };
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const SeenView& seen : views_) {
-    for (const LevelGroup& group : groups) {
+    for (uint32_t group = 0; group < groups.size(); ++group) {
       const double factor = refinedFrom(seen, group);
       if (factor > 0) least = std::min(least, factor);
       most = std::max(most, factor);
@@ -141,7 +138,7 @@ double LevelErrors::chooseScale(std::span<const LevelChunk> chunks, std::span<co
   const auto isGood = [&](double scale) {
     double sum = 0, worst = 0;
     for (const SeenView& seen : views_) {
-      const auto isRefined = [&](uint32_t group) { return refinedFrom(seen, groups[group]) <= scale; };
+      const auto isRefined = [&](uint32_t group) { return refinedFrom(seen, group) <= scale; };
       double square = 0;
       for (size_t c = 0; c < seen.squares.size(); ++c) {
         const ChunkLevel& place = chunks[c].place;
@@ -160,11 +157,12 @@ double LevelErrors::chooseScale(std::span<const LevelChunk> chunks, std::span<co
   return scale;
 }
 
-void LevelErrors::finish(std::span<const LevelChunk> chunks, std::vector<LevelGroup>& groups) const {
+void LevelErrors::finish(std::span<const LevelChunk> chunks, std::span<const GroupBounds> bounds,
+                         std::vector<LevelGroup>& groups) const {
   if (isMeasuring()) measureGroups(groups);
   growErrors(chunks, groups);
   if (!isMeasuring()) return;
-  const double scale = kScaleMargin * chooseScale(chunks, groups);
+  const double scale = kScaleMargin * chooseScale(chunks, bounds, groups);
   for (LevelGroup& group : groups) group.error *= scale;
 }
 

@@ -12,6 +12,7 @@
 #include "baker/lod/level_chunk.h"
 #include "base/progress.h"
 #include "base/result.h"
+#include "format/group_bounds.h"
 
 namespace froth {
 
@@ -29,14 +30,16 @@ class LevelErrors {
                   uint32_t firstGroup, uint32_t groupCount, const Progress& progress);
 
   // Until now errors of groups are the distances between their forms [scene units]; without views they stay, but grow
-  // towards the floor.
-  void finish(std::span<const LevelChunk> chunks, std::vector<LevelGroup>& groups) const;
+  // towards the floor. bounds: [groups].
+  void finish(std::span<const LevelChunk> chunks, std::span<const GroupBounds> bounds,
+              std::vector<LevelGroup>& groups) const;
 
  private:
   void addPixel(size_t view, size_t pixel, const FrontImage& image, std::span<const LevelChunk> chunks,
                 uint32_t firstGroup);
   void measureGroups(std::vector<LevelGroup>& groups) const;
-  double chooseScale(std::span<const LevelChunk> chunks, std::span<const LevelGroup> groups) const;
+  double chooseScale(std::span<const LevelChunk> chunks, std::span<const GroupBounds> bounds,
+                     std::span<const LevelGroup> groups) const;
 
   struct SeenView {
     View view;              // of few pixels

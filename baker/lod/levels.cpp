@@ -70,6 +70,7 @@ class LevelMaker {
   Front gatherFront() const;
   Status fitFront(Front& front);
   Status measureFront(uint32_t firstGroup);
+  std::vector<GroupBounds> findBounds() const;
   Levels collect();
 
   const LevelInput& input_;
@@ -307,9 +308,19 @@ Status LevelMaker::measureFront(uint32_t firstGroup) {
   return errors_.addLevel(front.foam, front.owners, chunks_, firstGroup, groupCount, progress_);
 }
 
+std::vector<GroupBounds> LevelMaker::findBounds() const {
+  std::vector<ChunkLevel> places;
+  std::vector<Box> boxes;
+  for (const LevelChunk& chunk : chunks_) {
+    places.push_back(chunk.place);
+    boxes.push_back(boxAroundLive(cells_, chunk.planned));
+  }
+  return boundGroups(places, levels_.groups, boxes);
+}
+
 Levels LevelMaker::collect() {
   if (levels_.groups.empty()) return {};
-  errors_.finish(chunks_, levels_.groups);
+  errors_.finish(chunks_, findBounds(), levels_.groups);
   const auto rank = [&](uint32_t chunk) {
     const ChunkLevel& place = chunks_[chunk].place;
     return std::pair(place.in != kNoGroup, -int64_t{place.level});

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "format/group_bounds.h"
 #include "format/read/asset_opener.h"
 #include "froth/froth.h"
 #include "froth/froth_stream.h"
@@ -108,6 +109,8 @@ class Asset {
   bool hasLevels() const { return gpu_.hasLevels(); }
   // With levels, once isDecoded(): counts, levels and groups, without what is in chunks.
   const AssetContents& manifest() const { return reader_->manifest(); }
+  // Of the balls of a chunk's live cells, in the asset's axes; all zero without any.
+  Box liveBox(uint32_t chunk) const { return placeBox(manifest().chunks[chunk].origin, reader_->liveBounds(chunk)); }
   SlotState chunkState(uint32_t chunk) const { return slots_.stateOf(chunk); }
   std::span<const uint32_t> drawnChunks() const { return slots_.drawn(); }
   // [bytes] of device memory, without what blocks leave unused: an estimate before it was resident.

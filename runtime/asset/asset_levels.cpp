@@ -29,10 +29,9 @@ void Asset::takeLevels(const AssetReader& reader) {
   LoadedChunk whole;
   for (uint32_t chunk = 0; chunk < chunkCount; ++chunk) {
     if (manifest.chunks[chunk].liveCount == 0) continue;
-    const glm::dvec3 origin = toVector(manifest.chunks[chunk].origin);
-    const Box box = reader.liveBounds(chunk);
-    whole.bounds.low = glm::min(whole.bounds.low, origin + toVector(box.min));
-    whole.bounds.high = glm::max(whole.bounds.high, origin + toVector(box.max));
+    const Box box = placeBox(manifest.chunks[chunk].origin, reader.liveBounds(chunk));
+    whole.bounds.low = glm::min(whole.bounds.low, toVector(box.min));
+    whole.bounds.high = glm::max(whole.bounds.high, toVector(box.max));
     whole.gpu.liveCount += manifest.chunks[chunk].liveCount;
   }
   growBounds(whole);

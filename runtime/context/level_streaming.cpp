@@ -18,11 +18,13 @@ LevelGraph makeGraph(const Asset& asset) {
   const AssetContents& manifest = asset.manifest();
   std::vector<uint64_t> bytes;
   std::vector<uint32_t> cells;
+  std::vector<Box> boxes;
   for (uint32_t chunk = 0; chunk < manifest.chunks.size(); ++chunk) {
     bytes.push_back(asset.chunkBytes(chunk));
     cells.push_back(manifest.chunks[chunk].liveCount);
+    boxes.push_back(asset.liveBox(chunk));
   }
-  return LevelGraph({manifest.levels, manifest.groups, bytes, cells});
+  return LevelGraph({manifest.levels, manifest.groups, bytes, cells, boxes});
 }
 
 void insertSorted(std::vector<uint32_t>& chunks, uint32_t chunk) {

@@ -19,11 +19,10 @@ LevelGraph::LevelGraph(const LevelTables& tables) : chunks_(tables.bytes.size())
     }
     allBytes_ += tables.bytes[i];
   }
+  const std::vector<GroupBounds> bounds = boundGroups(tables.levels, tables.groups, tables.liveBoxes);
   for (uint32_t g = 0; g < groupCount(); ++g) {
-    const LevelGroup& group = tables.groups[g];
-    groups_[g].centre = {group.centre[0], group.centre[1], group.centre[2]};
-    groups_[g].radius = group.radius;
-    groups_[g].error = group.error;
+    groups_[g].bounds = bounds[g];
+    groups_[g].error = tables.groups[g].error;
   }
   fine_ = chunksBy(&Chunk::in);
   coarse_ = chunksBy(&Chunk::madeBy);

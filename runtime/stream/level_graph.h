@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "format/asset_contents.h"
+#include "format/group_bounds.h"
 
 namespace froth {
 
@@ -18,6 +17,7 @@ struct LevelTables {
   std::span<const LevelGroup> groups;
   std::span<const uint64_t> bytes;  // [chunks] of memory while it is resident
   std::span<const uint32_t> cells;  // [chunks] live
+  std::span<const Box> liveBoxes;   // [chunks] in the axes of the asset, as placeBox() makes them; empty without levels
 };
 
 // Never changes. Thread safety: any number of readers.
@@ -31,8 +31,8 @@ class LevelGraph {
   // Prices are what the cut grows by when the group is refined. The coarse chunks need not stay, but for those of the
   // floor. A price is never negative, so each cut inside an affordable one is affordable too.
   struct Group {
-    glm::dvec3 centre{0};
-    double radius = 0, error = 0;  // LevelGroup
+    GroupBounds bounds;
+    double error = 0;  // LevelGroup
     uint64_t bytePrice = 0, cellPrice = 0;
   };
 

@@ -8,7 +8,7 @@ double keyOf(const LevelGraph::Group& group, std::span<const StreamEye> eyes) {
   constexpr double kLeastPixel = 1e-100;  // keeps keys finite, so that errors order the groups that an eye is inside of
   double key = 0;
   for (const StreamEye& eye : eyes) {
-    const double distance = std::max(0.0, glm::length(group.centre - eye.position) - group.radius - eye.radius);
+    const double distance = std::max(0.0, distanceTo(group.bounds, eye.position) - eye.radius);
     const double pixel = std::max({eye.pixelSize, eye.pixelAngle * distance, kLeastPixel});
     key = std::max(key, group.error * eye.detail / pixel);
   }

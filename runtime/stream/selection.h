@@ -18,17 +18,17 @@ struct StreamEye {
   glm::dvec3 position{0};  // [scene units]
   double radius = 0;       // the eye may be anywhere this near to the position [scene units]
   // The size of a pixel at distance d is max(pixelSize, pixelAngle * d). Orthographic views have no angle; others may
-  // give the size at their nearest distance, so that an eye inside of a ball does not want it without bound.
+  // give the size at their nearest distance, so that an eye inside of a group does not want it without bound.
   double pixelAngle = 0;  // [radians]
   double pixelSize = 0;   // [scene units]
   double detail = 1;      // how much finer than measured errors ask for; 0: wants the floor [>= 0]
 };
 
-// How much an eye wants a group: its measured error by the size of a pixel at the nearest point of its ball. From 1 on
-// the eye sees the error.
+// How much an eye wants a group: its measured error by the size of a pixel at the nearest point of its bounds
+// (format/group_bounds.h). From 1 on the eye sees the error.
 //
-// A group that is coarser than another has a greater error, and its ball holds the other's ball, so the eye is as near
-// or nearer to it and the pixel as small or smaller: its key is as great or greater. The maximum over eyes keeps that.
+// A group that is coarser than another has a greater error, and its bounds hold the other's, so the eye is as near or
+// nearer to it and the pixel as small or smaller: its key is as great or greater. The maximum over eyes keeps that.
 double keyOf(const LevelGraph::Group& group, std::span<const StreamEye> eyes);
 
 // What an asset brings to the selection, and what it gets.

@@ -17,6 +17,7 @@
 #include "baker/lod/cut.h"
 #include "baker/lod/shrink_view.h"
 #include "base/image/mean_square.h"
+#include "format/group_bounds.h"
 #include "format/read/asset_reader.h"
 #include "reference/camera/view_rays.h"
 #include "reference/render/reference.h"
@@ -81,10 +82,9 @@ class CutsBench {
 
   std::vector<uint8_t> refinedAt(const View& view, double detail) const {
     std::vector<uint8_t> isRefined;
-    for (const LevelGroup& group : contents_.groups) {
-      const glm::dvec3 centre(group.centre[0], group.centre[1], group.centre[2]);
-      const double nearest = std::max(0.0, glm::distance(centre, eyeOf(view)) - group.radius);
-      isRefined.push_back(group.error * detail >= nearest / view.fx);
+    for (size_t g = 0; g < bounds_.size(); ++g) {
+      const double nearest = distanceTo(bounds_[g], eyeOf(view));
+      isRefined.push_back(contents_.groups[g].error * detail >= nearest / view.fx);
     }
     return isRefined;
   }
@@ -100,6 +100,7 @@ class CutsBench {
 
   const Options& options_;
   const AssetContents contents_;
+  const std::vector<GroupBounds> bounds_ = boundGroups(contents_);
   const Foam finestFoam_;
   std::vector<View> views_;
   std::vector<Image> finest_;

@@ -30,13 +30,16 @@ std::vector<LevelGroup> measureTwo(const Foam& fine, const Foam& coarse, const V
   LevelErrors errors(views, {.nearRatio = 0});
   const std::vector<LevelChunk> chunks = twoGroups();
   std::vector<LevelGroup> groups(2);
+  std::vector<GroupBounds> bounds;
   for (uint32_t k = 0; k < 2; ++k) {
     const glm::vec3& site = fine.sites[k];
     groups[k] = {{site.x, site.y, site.z}, 1, 0.1, 0};
+    const glm::dvec3 centre(site);
+    bounds.push_back({centre - 1.0, centre + 1.0});
   }
   EXPECT_TRUE(errors.takeFinest(fine, std::vector<uint32_t>{0, 1}, {}));
   EXPECT_TRUE(errors.addLevel(coarse, std::vector<uint32_t>{2, 3}, chunks, 0, 2, {}));
-  errors.finish(chunks, groups);
+  errors.finish(chunks, bounds, groups);
   return groups;
 }
 
@@ -65,10 +68,10 @@ TEST(LevelErrors, WhatIsHiddenIsGuessed) {
 // The cut that a reader draws at detail 1 for a view (docs/STREAMING.md), as a foam; counts the refined groups.
 Foam drawnCut(const AssetContents& contents, const View& view, size_t& refined) {
   std::vector<uint8_t> isRefined;
-  for (const LevelGroup& group : contents.groups) {
-    const glm::dvec3 centre(group.centre[0], group.centre[1], group.centre[2]);
-    const double nearest = std::max(0.0, glm::distance(centre, eyeOf(view)) - group.radius);
-    isRefined.push_back(group.error >= nearest / view.fx);
+  const std::vector<GroupBounds> bounds = boundGroups(contents);
+  for (size_t group = 0; group < bounds.size(); ++group) {
+    const double nearest = distanceTo(bounds[group], eyeOf(view));
+    isRefined.push_back(contents.groups[group].error >= nearest / view.fx);
     refined += isRefined.back();
   }
   return *foamFromAsset(*contentsOfCut(contents, isRefined));

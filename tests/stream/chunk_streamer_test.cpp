@@ -31,7 +31,7 @@ LevelGraph makeLadder(uint64_t finestBytes = 100) {
   std::vector<uint64_t> bytes(7, 100);
   for (size_t chunk = 3; chunk < 7; ++chunk) bytes[chunk] = finestBytes;
   const std::vector<uint32_t> cells(7, 10);
-  return LevelGraph({levels, groups, bytes, cells});
+  return LevelGraph({levels, groups, bytes, cells, std::vector<Box>(levels.size())});
 }
 
 // Two of them in one asset, of chunks 0 to 6 and 7 to 13, which lie 100 apart.
@@ -45,7 +45,7 @@ LevelGraph makeTwoLadders() {
       {{0, 0, 0}, 1, 0.1, 0}, {{0, 0, 0}, 1, 1, 1}, {{100, 0, 0}, 1, 0.1, 0}, {{100, 0, 0}, 1, 1, 1}};
   const std::vector<uint64_t> bytes(14, 100);
   const std::vector<uint32_t> cells(14, 10);
-  return LevelGraph({levels, groups, bytes, cells});
+  return LevelGraph({levels, groups, bytes, cells, std::vector<Box>(levels.size())});
 }
 
 // Eyes with one size of pixel everywhere.
@@ -312,7 +312,7 @@ TEST(ChunkStreamer, DoesNotGiveUpAFloorThatIsHalfThere) {
   const std::vector<uint32_t> cells{1, 1};
   ChunkStreamer streamer(kOptions);
   EXPECT_TRUE(streamer.setBudget(10'000));
-  const uint32_t flat = streamer.addAsset(LevelGraph({{}, {}, bytes, cells}));
+  const uint32_t flat = streamer.addAsset(LevelGraph({{}, {}, bytes, cells, {}}));
   EXPECT_TRUE(streamer.placeAsset(flat));
   streamer.update(kReads);
   streamer.fail({flat, 0}, true);
@@ -360,7 +360,7 @@ TEST(ChunkStreamer, DrawsAnAssetWithoutLevelsWhenAllOfItIsThere) {
   const std::vector<uint32_t> cells{1, 2};
   ChunkStreamer streamer;
   EXPECT_TRUE(streamer.setBudget(30));
-  const uint32_t asset = streamer.addAsset(LevelGraph({{}, {}, bytes, cells}));
+  const uint32_t asset = streamer.addAsset(LevelGraph({{}, {}, bytes, cells, {}}));
   EXPECT_TRUE(streamer.placeAsset(asset));
   EXPECT_EQ(streamer.update(kReads).reads.size(), 2);
   streamer.advance({asset, 0}, ChunkState::kResident);

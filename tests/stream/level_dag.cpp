@@ -8,7 +8,8 @@ namespace froth::test {
 
 namespace {
 
-// A chunk while levels are made: the ball around its live cells and the balls of all that is finer.
+// A chunk while levels are made: the ball around its live cells and the balls of all that is finer. Its own live cells
+// lie in a box in that ball.
 struct Node {
   uint32_t chunk = 0;
   glm::dvec3 centre{0};
@@ -18,7 +19,7 @@ struct Node {
 
 class DagMaker {
  public:
-  DagMaker(uint64_t seed, const DagShape& shape) : random_(seed), shape_(shape) {}
+  DagMaker(uint64_t seed, const DagShape& shape) : random_(seed), boxRandom_(seed), shape_(shape) {}
 
   LevelDag make() {
     std::vector<Node> nodes = makeFinest();
@@ -31,10 +32,22 @@ class DagMaker {
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   uint32_t pick(uint32_t low, uint32_t high) { return std::uniform_int_distribution<uint32_t>(low, high)(random_); }
 
-  uint32_t addChunk(uint32_t level, uint32_t madeBy) {
+  Box boxWithin(const glm::dvec3& centre, double radius) {
+    std::uniform_real_distribution<double> extent(0.1 * radius / std::sqrt(3.0), radius / std::sqrt(3.0));
+    Box box;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double at = centre[static_cast<int>(axis)];
+      box.min[axis] = at - extent(boxRandom_);
+      box.max[axis] = at + extent(boxRandom_);
+    }
+    return box;
+  }
+
+  uint32_t addChunk(uint32_t level, uint32_t madeBy, const glm::dvec3& centre, double radius) {
     dag_.levels.push_back({level, madeBy, kNoGroup});
     dag_.bytes.push_back(pick(50, 150));
     dag_.cells.push_back(pick(5, 15));
+    dag_.liveBoxes.push_back(boxWithin(centre, radius));
     return static_cast<uint32_t>(dag_.levels.size() - 1);
   }
 
@@ -45,7 +58,9 @@ class DagMaker {
     std::vector<Node> nodes;
     for (uint32_t i = 0; i < shape_.finestChunks; ++i) {
       const uint32_t row = i / side, column = row % 2 == 0 ? i % side : side - 1 - i % side;
-      nodes.push_back({addChunk(0, kNoGroup), {column + 0.5, row + 0.5, 0}, uniform(0.5, 0.8), 0});
+      const glm::dvec3 centre(column + 0.5, row + 0.5, 0);
+      const double radius = uniform(0.5, 0.8);
+      nodes.push_back({addChunk(0, kNoGroup, centre, radius), centre, radius, 0});
     }
     return nodes;
   }
@@ -59,7 +74,7 @@ class DagMaker {
       const auto group = static_cast<uint32_t>(dag_.groups.size() - 1);
       for (size_t i = 0; i < std::max<size_t>(1, count / 2); ++i) {
         coarse.push_back(whole);
-        coarse.back().chunk = addChunk(level + 1, group);
+        coarse.back().chunk = addChunk(level + 1, group, whole.centre, whole.radius);
       }
       begin += count;
     }
@@ -91,11 +106,12 @@ class DagMaker {
       sorted.levels[i] = dag_.levels[order[i]];
       sorted.bytes[i] = dag_.bytes[order[i]];
       sorted.cells[i] = dag_.cells[order[i]];
+      sorted.liveBoxes[i] = dag_.liveBoxes[order[i]];
     }
     return sorted;
   }
 
-  std::mt19937_64 random_;
+  std::mt19937_64 random_, boxRandom_;
   DagShape shape_;
   LevelDag dag_;
 };

@@ -13,9 +13,10 @@ struct LevelDag {
   std::vector<LevelGroup> groups;
   std::vector<uint64_t> bytes;
   std::vector<uint32_t> cells;
-  double extent = 0;  // chunks lie in [0, extent]^2
+  std::vector<Box> liveBoxes;  // [chunks]
+  double extent = 0;           // chunks lie in [0, extent]^2
 
-  LevelGraph graph() const { return LevelGraph({levels, groups, bytes, cells}); }
+  LevelGraph graph() const { return LevelGraph({levels, groups, bytes, cells, liveBoxes}); }
 };
 
 struct DagShape {

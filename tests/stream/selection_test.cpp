@@ -141,20 +141,43 @@ TEST(Selection, WantsTheFloorWithoutEyesAndAllWhereAnEyeIsInside) {
   EXPECT_TRUE(scene.select(kUnlimited, kUnlimited).empty());
 }
 
-// A pixel at distance 10 from an eye, at distance 3 from the ball's nearest point for the eye that may move by 2.
-TEST(Selection, MeasuresTheErrorByThePixelAtTheNearestPointOfTheBall) {
+// The bounds are 5 from an eye, 3 for the eye that may move by 2.
+TEST(Selection, MeasuresTheErrorByThePixelAtTheNearestPointOfTheBounds) {
   LevelGraph::Group group;
-  group.centre = {0, 0, 10};
-  group.radius = 5;
+  group.bounds = {{-2, -2, 5}, {2, 2, 15}};
   group.error = 0.6;
   const StreamEye still{{0, 0, 0}, 0, 0.01, 0, 1}, wandering{{0, 0, 0}, 2, 0.01, 0, 1}, flat{{0, 0, 0}, 0, 0, 0.3, 1};
-  const StreamEye detailed{{0, 0, 0}, 0, 0.01, 0, 2}, nearBound{{0, 0, 6}, 0, 0.01, 0.002, 1};
+  const StreamEye detailed{{0, 0, 0}, 0, 0.01, 0, 2}, nearBound{{0, 1, 6}, 0, 0.01, 0.002, 1};
   EXPECT_DOUBLE_EQ(keyOf(group, std::vector{still}), 0.6 / 0.05);
   EXPECT_DOUBLE_EQ(keyOf(group, std::vector{wandering}), 0.6 / 0.03);
   EXPECT_DOUBLE_EQ(keyOf(group, std::vector{flat}), 0.6 / 0.3);
   EXPECT_DOUBLE_EQ(keyOf(group, std::vector{detailed}), 2 * 0.6 / 0.05);
   EXPECT_DOUBLE_EQ(keyOf(group, std::vector{nearBound}), 0.6 / 0.002);
   EXPECT_DOUBLE_EQ(keyOf(group, std::vector{flat, wandering, still}), 0.6 / 0.03);
+}
+
+// Two walls of a room, each a group, and an eye between them: in both balls, in no box.
+//
+//    |     o     |
+//    0     5    10   x
+TEST(Selection, LeavesAGroupWhoseBallHoldsTheEyeButWhoseBoxDoesNotAtASmallDetail) {
+  const std::vector<ChunkLevel> levels{{1, 0, kNoGroup}, {1, 1, kNoGroup}, {0, kNoGroup, 0}, {0, kNoGroup, 1}};
+  const std::vector<LevelGroup> groups{{{0, 0, 0}, 8, 0.1, 0}, {{10, 0, 0}, 8, 0.1, 0}};
+  const Box left{{-1, -4, -4}, {1, 4, 4}}, right{{9, -4, -4}, {11, 4, 4}};
+  const std::vector<Box> boxes{left, right, left, right};
+  const std::vector<uint64_t> bytes(4, 1);
+  const std::vector<uint32_t> cells(4, 1);
+  const LevelGraph graph({levels, groups, bytes, cells, boxes});
+  const auto wantedAt = [&](const glm::dvec3& position, double detail) {
+    AssetDemand demand{&graph, {{position, 0, 0.01, 1e-6, detail}}, GroupSet(graph.groupCount())};
+    Selection selection;
+    selection.select({&demand, 1}, {});
+    const auto members = demand.wanted.members();
+    return std::vector<uint32_t>(members.begin(), members.end());
+  };
+  EXPECT_EQ(wantedAt({5, 0, 0}, 1).size(), 2u);  // a pixel of 0.04 at both walls
+  EXPECT_TRUE(wantedAt({5, 0, 0}, 0.39).empty());
+  EXPECT_EQ(wantedAt({0.5, 0, 0}, 0.39), std::vector{0u});
 }
 
 TEST(Selection, IsACutEvenWhereKeysOfFinerGroupsAreGreater) {
