@@ -40,6 +40,9 @@ fetch_slang() {
     echo "$package cannot be had: the tests of froth_walk.slang are left out"
 }
 
+# Where ccache compiles: headers compiled once for several files would keep it from remembering those files.
+export CCACHE_SLOPPINESS=pch_defines,time_macros
+
 # build PRESET [-DNAME=VALUE ...] [TARGET ...]
 build() {
   local preset=$1 settings=()
