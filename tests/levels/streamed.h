@@ -26,7 +26,7 @@ inline View lookFrom(double distance) {
   return lookAt({0.1, 0.2, -distance}, {0, 0, 0}, kStreamedExtent.width, kStreamedExtent.height, 0.9);
 }
 // Distances:
-inline constexpr double kNear = 0.5, kBetween = 2.7, kFar = 1e6;  // level 0; the floor but for one group; the floor
+inline constexpr double kNear = 0.5, kBetween = 1.748, kFar = 1e6;  // level 0; the floor but for one group; the floor
 
 // The sample's bytes through a reader that answers at once, and fails where it is told to.
 class Reader {
