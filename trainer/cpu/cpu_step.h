@@ -102,7 +102,7 @@ class CpuStep {
 
   struct KeptView {
     glm::vec<3, Real> eye;
-    std::vector<ViewCell<Real>> cells;
+    std::vector<KeptCell<Real>> cells;
     std::vector<DetailSums<Real>> details;
   };
   std::vector<KeptView> keptViews_;  // of this step

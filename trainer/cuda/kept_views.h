@@ -13,7 +13,7 @@ struct alignas(16) KeptHeader {
 };
 
 inline size_t bytesOfKeptView(const FoamShape& shape) {
-  const size_t perCell = sizeof(ViewCell<float>) + shape.detailCount * sizeof(DetailSums<float>);
+  const size_t perCell = sizeof(KeptCell<float>) + shape.detailCount * sizeof(DetailSums<float>);
   return (sizeof(KeptHeader) + shape.cellCount * perCell + alignof(KeptHeader) - 1) / alignof(KeptHeader) *
          alignof(KeptHeader);
 }
@@ -24,7 +24,7 @@ struct KeptView {
 };
 
 inline KeptView keptViewAt(uint8_t* block, const FoamShape& shape, const glm::vec3& eye) {
-  auto* cells = reinterpret_cast<ViewCell<float>*>(block + sizeof(KeptHeader));
+  auto* cells = reinterpret_cast<KeptCell<float>*>(block + sizeof(KeptHeader));
   return {reinterpret_cast<KeptHeader*>(block),
           {eye, cells, reinterpret_cast<DetailSums<float>*>(cells + shape.cellCount)}};
 }

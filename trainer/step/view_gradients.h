@@ -11,7 +11,7 @@
 namespace froth {
 
 template <class Real>
-struct ViewCell {
+struct KeptCell {
   CellSums<Real> sums;  // site and radius: also of its pairs, and of overlaps
   uint32_t isSeen = 0;  // 0: the view does not see the cell, and asks by overlaps alone
 };
@@ -19,7 +19,7 @@ struct ViewCell {
 template <class Real>
 struct ViewGradients {
   glm::vec<3, Real> eye;
-  ViewCell<Real>* cells;      // [cells]
+  KeptCell<Real>* cells;      // [cells]
   DetailSums<Real>* details;  // [cells * K] differentiatePlace(), of the cells that some pixel of the view shows
 };
 
@@ -38,8 +38,8 @@ FROTH_HD DetailSums<Real> differentiateDetail(const TrainedCell<Real>& trained, 
 
 // What a view asks of a cell. sums: sumsOfCell(), with what its detail sites ask; ball: the whole gradient of its ball.
 template <class Real>
-FROTH_HD ViewCell<Real> viewCell(const CellSums<Real>* sums, const glm::vec<4, Real>& ball) {
-  ViewCell<Real> asked;
+FROTH_HD KeptCell<Real> viewCell(const CellSums<Real>* sums, const glm::vec<4, Real>& ball) {
+  KeptCell<Real> asked;
   if (sums != nullptr) asked = {*sums, 1};
   asked.sums.site = glm::vec<3, Real>(ball);
   asked.sums.radius = ball.w;
@@ -95,7 +95,7 @@ FROTH_HD void updateBallByViews(const TrainedFoam<Real>& foam, const AdamStep<Re
   const CellSums<Real> mean = meanOfCell(views, viewCount, cell);
   updateBall(foam, adam, cell, gradientOfOwnSums(&mean), bad);
   for (uint32_t i = 0; i < viewCount; ++i) {
-    const ViewCell<Real>& asked = views[i].cells[cell];
+    const KeptCell<Real>& asked = views[i].cells[cell];
     updateMeans(foam, cell, asked.isSeen != 0 ? &asked.sums : nullptr);
   }
 }
