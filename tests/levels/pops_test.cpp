@@ -25,7 +25,7 @@ TEST(Pops, CountAPixelByItsChannelThatChangesMost) {
 }
 
 // Towards the sample, from where a group of it begins to be refined some frames later.
-View startOfDolly() { return lookAt({0.1, 0.2, -2.8}, {0, 0, 0}, 48, 32, 0.9); }
+View startOfDolly() { return lookAt({0.1, 0.2, -1.7}, {0, 0, 0}, 48, 32, 0.9); }
 
 FlightOptions dollyOf(float detail, uint32_t frames) {
   FlightOptions options;
