@@ -258,6 +258,10 @@ void WalkSets::prepareCells(VkCommandBuffer commandBuffer, std::span<const Walke
   bind(commandBuffer, kPrepareCells);
   for (uint32_t i = 0; i < instances.size(); ++i) {
     for (const uint32_t slot : instances[i].toFill) {
+      // Chunks share no bytes, but a barrier stands between all uses of what one pointer leads to (tests/commands).
+      vk.recordMemoryBarrier(commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                             VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
       const uint32_t cells = instances[i].placement.asset->chunks[slot].cellCount;
       pushSeed(commandBuffer, {kFirstSeed + i, slot});
       vk.vkCmdDispatch(commandBuffer, std::min(groupsOver(cells, gpu::kRayGroupSize), gpu::kMostGroupsAlong), 1, 1);
