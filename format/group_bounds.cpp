@@ -5,11 +5,10 @@
 #include <numeric>
 
 #include "format/checks.h"
+#include "format/to_vector.h"
 
 namespace froth {
 namespace {
-
-glm::dvec3 vectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 bool hasNothing(const Box& box) { return box.min == std::array<double, 3>{} && box.max == box.min; }
 
@@ -37,12 +36,12 @@ std::vector<GroupBounds> boundGroups(std::span<const ChunkLevel> levels, std::sp
   for (size_t chunk = 0; chunk < levels.size(); ++chunk) {
     if (hasNothing(liveBoxes[chunk])) continue;
     for (const uint32_t group : {levels[chunk].in, levels[chunk].madeBy}) {
-      if (group != kNoGroup) include(bounds[group], vectorOf(liveBoxes[chunk].min), vectorOf(liveBoxes[chunk].max));
+      if (group != kNoGroup) include(bounds[group], toVector(liveBoxes[chunk].min), toVector(liveBoxes[chunk].max));
     }
   }
   for (size_t group = 0; group < groups.size(); ++group) {
     const bool isEmpty = bounds[group].low.x > bounds[group].high.x;  // no live cells
-    if (isEmpty) bounds[group].low = bounds[group].high = vectorOf(groups[group].centre);
+    if (isEmpty) bounds[group].low = bounds[group].high = toVector(groups[group].centre);
   }
   std::vector<uint32_t> order(levels.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -6,6 +6,7 @@
 
 #include "base/counter_random.h"
 #include "format/limits.h"
+#include "format/to_vector.h"
 #include "reference/camera/view_pose.h"
 #include "reference/camera/view_rays.h"
 
@@ -13,8 +14,6 @@ namespace froth {
 namespace {
 
 constexpr uint32_t kSideOfFreeViews = 960;  // [pixels] without cameras, whose views say it
-
-glm::dvec3 vectorOf(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 bool hasViews(const CameraSet* cameras) { return cameras && !cameras->views.empty(); }
 
@@ -24,7 +23,7 @@ glm::dvec3 drawEye(const EyeRegion& region, uint32_t index, uint32_t count, uint
   const uint64_t first = uint64_t{index} * 3;
   const glm::dvec3 share(place.uniform(first), place.uniform(first + 1), place.uniform(first + 2));
   const double distance = region.radius * std::cbrt(radius.uniform(index));  // even in volume
-  return glm::mix(vectorOf(box.min), vectorOf(box.max), share) + distance * direction.direction(index);
+  return glm::mix(toVector(box.min), toVector(box.max), share) + distance * direction.direction(index);
 }
 
 const View& findNearest(const std::vector<View>& views, const glm::dvec3& eye) {

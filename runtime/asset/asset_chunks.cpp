@@ -1,8 +1,8 @@
 // What frothGetChunks tells of the chunks of an asset.
 #include <limits>
 
+#include "format/to_vector.h"
 #include "runtime/asset/asset.h"
-#include "runtime/asset/to_vector.h"
 
 namespace froth {
 namespace {

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "format/to_vector.h"
 #include "runtime/asset/asset.h"
-#include "runtime/asset/to_vector.h"
 
 namespace froth {
 

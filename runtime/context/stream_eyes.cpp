@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "runtime/asset/to_vector.h"
+#include "format/to_vector.h"
 
 namespace froth {
 namespace {

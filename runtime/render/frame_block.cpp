@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "runtime/asset/to_vector.h"
+#include "format/to_vector.h"
 #include "runtime/render/device_depth.h"
 #include "runtime/render/frame_images.h"
 #include "shaders/foam/tone.h"

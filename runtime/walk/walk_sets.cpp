@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "runtime/asset/to_vector.h"
+#include "format/to_vector.h"
 #include "runtime/render/camera_rays.h"
 #include "runtime/render/frame_block.h"
 #include "runtime/render/pass_recorder.h"

@@ -305,7 +305,7 @@ void CpuStep<Real>::keepGradients(const AdamStep<Real>& adam, Real overlapWeight
     }
   });
   tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
-    kept.cells[cell] = viewCell(sumsOfCell(seen(), sums(), cell), gradientOfBall(cell, overlapWeight));
+    kept.cells[cell] = keepCell(sumsOfCell(seen(), sums(), cell), gradientOfBall(cell, overlapWeight));
   });
 }
 

@@ -92,7 +92,7 @@ __global__ void updateBallsKernel(StepArrays arrays, AdamStep<float> adam, float
   const CellSums<float>* sums = sumsOfCell(arrays.seen, arrays.sums, cell);
   gradient = gradientOfOwnSums(sums) + gradient;
   if constexpr (kKeeps) {
-    kept.gradients.cells[cell] = viewCell(sums, gradient);
+    kept.gradients.cells[cell] = keepCell(sums, gradient);
   } else {
     uint32_t bad = 0;
     updateBall(arrays.foam, adam, cell, gradient, bad);

@@ -38,7 +38,7 @@ FROTH_HD DetailSums<Real> differentiateDetail(const TrainedCell<Real>& trained, 
 
 // What a view asks of a cell. sums: sumsOfCell(), with what its detail sites ask; ball: the whole gradient of its ball.
 template <class Real>
-FROTH_HD KeptCell<Real> viewCell(const CellSums<Real>* sums, const glm::vec<4, Real>& ball) {
+FROTH_HD KeptCell<Real> keepCell(const CellSums<Real>* sums, const glm::vec<4, Real>& ball) {
   KeptCell<Real> asked;
   if (sums != nullptr) asked = {*sums, 1};
   asked.sums.site = glm::vec<3, Real>(ball);
