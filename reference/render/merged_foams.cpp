@@ -96,26 +96,30 @@ class FoamInView {
   ViewCells<double> cells_;
 };
 
-// Between two neighbouring ends of intervals everything is constant.
+// Between two neighbouring ends of intervals everything is constant. A ray that is cut off ends where its transmittance
+// is `cutoff`, also within an interval: a renderer may part intervals anywhere, and end between the parts.
 MergedRay mergeIntervals(const std::vector<Interval>& intervals, double cutoff, double logQuantile) {
   std::vector<double> ends;
   for (const Interval& interval : intervals) ends.insert(ends.end(), {interval.tNear, interval.tFar});
   std::sort(ends.begin(), ends.end());
+  const double logCutoff = std::log(cutoff);
   MergedRay merged;
   RayResult<double>& ray = merged.ray;
-  for (size_t i = 0; i + 1 < ends.size() && std::exp(ray.logTransmittance) >= cutoff; ++i) {
-    const double tNear = ends[i], tFar = ends[i + 1];
+  for (size_t i = 0; i + 1 < ends.size() && ray.logTransmittance > logCutoff; ++i) {
+    const double tNear = ends[i];
     double density = 0, most = 0;
     uint32_t densest = 0;
     glm::dvec3 colour(0), normal(0);
     for (const Interval& interval : intervals) {
-      if (!(interval.tNear <= tNear && tFar <= interval.tFar)) continue;
+      if (!(interval.tNear <= tNear && ends[i + 1] <= interval.tFar)) continue;
       density += interval.density;
       colour += interval.density * interval.colour;
       normal += interval.density * interval.normal;
       if (interval.density > most) densest = interval.foam;
       most = std::max(most, interval.density);
     }
+    const double cut = foam::quantileDistance(tNear, ray.logTransmittance, logCutoff, density);
+    const double tFar = std::min(ends[i + 1], cut);
     if (!(tNear < tFar && density > 0)) continue;
     const std::array<double, 4> before = ray.quarters;
     compositeInterval(tNear, tFar, density, colour / density, normal / density, logQuantile, ray);

@@ -217,6 +217,20 @@ TEST(EndedRays, ShowWhatLiesBeforeTheEndAndNothingElse) {
   }
 }
 
+TEST(CutOffRays, OfSeveralFoamsEndWhereTransmittanceIsTheCutoff) {
+  const Foam foam = foamOf({{.site = {0, 0, 5}, .density = 3}});  // leaves exp(-6) = 0.0025
+  const View view = lookAt({0, 0, 0}, {0, 0, 1}, 1, 1, 1e-6);
+  const ReferenceRenderer renderer(foam);
+  const PlacedFoam placed{&renderer, {0, 0, 0}};
+  ReferenceOptions options = plainOptions();
+  for (const double cutoff : {0.0, 0.001, 0.0025, 0.01, 0.5}) {
+    options.cutoff = cutoff;
+    const Result<RenderedImages> merged = renderMerged(std::span(&placed, 1), view, options);
+    ASSERT_TRUE(merged);
+    EXPECT_NEAR(merged->alpha.values[0], 1 - std::max(std::exp(-6.0), cutoff), 1e-6) << cutoff;
+  }
+}
+
 TEST(EndedRays, NeedAnImageOfTheViewsSize) {
   const Foam foam = foamOf({{.site = {0, 0, 5}}});
   const Ended ended(endsOf(4, 8, 1));
