@@ -80,6 +80,19 @@ TEST(Adam, ARefinementHasTheRatesOfTheSecondHalf) {
   EXPECT_EQ(halvingsAt(refinement, 0), 0u);
 }
 
+// In fewer than a hundred steps Adam's moments do not fill: rates stay low, and the foam near what it was.
+TEST(Adam, AShortRefinementKeepsLowRates) {
+  Schedule longer, shorter;
+  longer.isRefinement = shorter.isRefinement = true;
+  shorter.steps = 50;
+  for (const double position : {0.2, 0.6, 1.0}) {
+    const double share = rateAt(shorter, Parameter::kPoints, position) / rateAt(longer, Parameter::kPoints, position);
+    EXPECT_NEAR(share, position / 2, 1e-12);
+  }
+  shorter.seconds = 1;
+  EXPECT_EQ(rateAt(shorter, Parameter::kPoints, 0.2), rateAt(longer, Parameter::kPoints, 0.2));
+}
+
 TEST(Schedule, SpreadOverStepsOfSeveralPhotosSeesAsManyPhotos) {
   Schedule one;
   one.steps = 1001;

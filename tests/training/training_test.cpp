@@ -189,7 +189,6 @@ TEST_F(Resume, ShowingOnTheWayChangesNoBits) {
 }
 
 TEST_F(Resume, ARefinementBeginsWhereTheFoamIs) {
-  options_.seed = 3;
   options_.schedule.steps = 400;
   const Result<TrainResult> trained = train("trained.bin", false);
   ASSERT_TRUE(trained) << trained.error().message;

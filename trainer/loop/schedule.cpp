@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kPublishedSteps = 30000;
 constexpr double kRefinementBegin = 0.5;   // of a schedule
-constexpr double kRefinementWarmUp = 0.1;  // of a refinement
+constexpr double kRefinementWarmUp = 0.1;  // of a refinement; of one whose steps are counted at least
+constexpr double kLeastWarmUpSteps = 100;
 
 struct Rate {
   double first, last;
@@ -52,7 +53,8 @@ double rateOfOnePhoto(const Schedule& schedule, Parameter parameter, double posi
   const double now = rate.last + 0.5 * (rate.first - rate.last) * (1 + cosine);
   if (!schedule.isRefinement) return now;
   // Adam's first steps move each parameter by its whole rate, whatever its gradient: moments are 0.
-  return now * std::min(1.0, position / kRefinementWarmUp);
+  const double leastWarmUp = schedule.seconds > 0 ? 0 : kLeastWarmUpSteps / schedule.steps;
+  return now * std::min(1.0, position / std::max(kRefinementWarmUp, leastWarmUp));
 }
 
 }  // namespace
