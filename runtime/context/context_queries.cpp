@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory_resource>
 
+#include "format/to_vector.h"
 #include "runtime/context/context.h"
 #include "runtime/context/info_checks.h"
 #include "runtime/context/walk_limits.h"
@@ -25,8 +26,6 @@ struct Scratch {
 bool isFinite(const double (&vector)[3]) {
   return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);
 }
-
-glm::dvec3 toVector(const double (&vector)[3]) { return {vector[0], vector[1], vector[2]}; }
 
 void fromVector(const glm::dvec3& vector, double (&result)[3]) {
   for (int axis = 0; axis < 3; ++axis) result[axis] = vector[axis];

@@ -4,25 +4,13 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "baker/graph/graph.h"
 #include "foam/cech_pairs.h"
 #include "shaders/foam/cell.h"
+#include "tests/graph/graphs.h"
 #include "tests/graph/power_oracle.h"
 
 namespace froth {
 namespace {
-
-struct Graphs {
-  RegularTriangulation triangulation;
-  AlphaComplex alpha;
-};
-
-Graphs makeGraphs(const BallSet& balls) {
-  Result<RegularTriangulation> triangulation = triangulateRegular(balls.sites, balls.radii);
-  EXPECT_TRUE(triangulation) << triangulation.error().message;
-  AlphaComplex alpha = computeAlphaComplex(balls.sites, balls.radii, *triangulation);
-  return {std::move(*triangulation), std::move(alpha)};
-}
 
 TEST(AlphaComplex, HoldsEveryFaceThatIsMetInsideTheBalls) {
   for (uint64_t seed = 1; seed <= 6; ++seed) {

@@ -4,23 +4,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "baker/graph/graph.h"
-#include "tests/graph/ball_sets.h"
+#include "tests/graph/graphs.h"
 
 namespace froth {
 namespace {
-
-struct Graphs {
-  RegularTriangulation triangulation;
-  AlphaComplex alpha;
-};
-
-Graphs makeGraphs(const BallSet& balls) {
-  Result<RegularTriangulation> triangulation = triangulateRegular(balls.sites, balls.radii);
-  EXPECT_TRUE(triangulation) << triangulation.error().message;
-  AlphaComplex alpha = computeAlphaComplex(balls.sites, balls.radii, *triangulation);
-  return {std::move(*triangulation), std::move(alpha)};
-}
 
 ValidityReport check(const BallSet& balls, const Graphs& graphs) {
   return checkGraphs(balls.sites, balls.radii, graphs.triangulation, graphs.alpha, 1);
