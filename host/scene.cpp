@@ -171,6 +171,9 @@ Result<CameraPath> Scene::path(std::vector<Pose> keys) const {
   for (const FrothStoredCamera& camera : stored) {
     keys.push_back(poseFromMatrix(camera.worldFromCamera, camera.tanHalfFovY));
   }
+  if (keys.empty() && asset_.hasStartView) {
+    keys.push_back(poseFromMatrix(asset_.startView.worldFromCamera, asset_.startView.tanHalfFovY));
+  }
   if (keys.empty()) return orbitPath(asset_.boundsMin, asset_.boundsMax);
   return CameraPath(std::move(keys));
 }

@@ -51,7 +51,8 @@ class Scene {
   Result<std::vector<FrothChunk>> chunks() const;
   Result<FrothStreamStatus> streamStatus() const;
 
-  // The path to fly: the given keys, else those stored in the asset, else an orbit. Only when ready.
+  // The path to fly: the given keys, else those stored in the asset, else its start view alone, for cells far off may
+  // make its bounds much larger than what its cameras saw; else an orbit around the bounds. Only when ready.
   Result<CameraPath> path(std::vector<Pose> keys) const;
 
   // Where the foam stands in the world; the asset's own place until then. `asset` is filled in.

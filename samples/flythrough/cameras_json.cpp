@@ -1,9 +1,10 @@
 #include "samples/flythrough/cameras_json.h"
 
 #include <cmath>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
 
 namespace froth {
 namespace {
@@ -42,12 +43,12 @@ Result<Pose> readPose(const nlohmann::json& view) {
 }  // namespace
 
 Result<std::vector<Pose>> readKeyPoses(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) return makeError(ErrorKind::kBadInput, "%s: cannot be opened; check the name", path.c_str());
+  const Result<std::vector<uint8_t>> text = readFile(path);
+  if (!text) return text.error();
   std::vector<Pose> poses;
   const char* list = "views";
   try {
-    const nlohmann::json root = nlohmann::json::parse(file);
+    const nlohmann::json root = nlohmann::json::parse(*text);
     if (root.contains("flight") && !root["flight"].empty()) list = "flight";
     for (const nlohmann::json& view : root.at(list)) {
       const Result<Pose> pose = readPose(view);

@@ -70,6 +70,26 @@ TEST_F(Flythrough, OrbitsAnAssetWithoutCameras) {
   EXPECT_EQ(run.exitCode, 0) << run.err;
 }
 
+TEST_F(Flythrough, BeginsAtTheStartViewOfAnAssetWithoutAPath) {
+  frothWell({"bake", "random.pt", "--cameras", "cameras.json", "-o", "started.froth"});
+  frothWell({"render", "started.froth", "--cameras", "cameras.json", "--view", "0", "--renderer", "raster", "--size",
+             "96x64", "-o", "first.png"});
+  const ProgramRun run = runProgram(FROTH_FLYTHROUGH,
+                                    {"started.froth", "--headless", "--size", "96x64", "--frames", "2", "-o", "frames",
+                                     "--compare", "first.png", "--min-psnr", "45"},
+                                    folder_);
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+}
+
+TEST_F(Flythrough, RefusesAFolderOfCameras) {
+  std::filesystem::create_directory(folder_ / "photos");
+  const ProgramRun run =
+      runProgram(FROTH_FLYTHROUGH,
+                 {"random.froth", "--headless", "--cameras", "photos", "--frames", "1", "-o", "frames"}, folder_);
+  EXPECT_EQ(run.exitCode, 3) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("photos"));
+}
+
 TEST_F(Flythrough, RefusesADamagedAsset) {
   writeBytes(folder_ / "bad.froth", readBytes(folder_ / "random.froth").substr(0, 500));
   const ProgramRun run = fly({"--frames", "1"}, "bad.froth");
