@@ -1,4 +1,4 @@
-// Vectors of structs without GLM, as ours.
+// Vectors as structs without GLM hold them, as glm::dvec3.
 #pragma once
 
 #include <array>

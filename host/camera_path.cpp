@@ -25,6 +25,8 @@ Pose poseFromMatrix(const double m[12], double tanHalfFovY) {
   return {{m[3], m[7], m[11]}, glm::normalize(glm::quat_cast(rotation)), tanHalfFovY};
 }
 
+Pose poseOf(const FrothStoredCamera& camera) { return poseFromMatrix(camera.worldFromCamera, camera.tanHalfFovY); }
+
 FrothCamera cameraOf(const Pose& pose, VkExtent2D extent) {
   FrothCamera camera{};
   for (int axis = 0; axis < 3; ++axis) camera.eye[axis] = pose.eye[axis];

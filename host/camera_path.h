@@ -19,6 +19,7 @@ struct Pose {
 
 // `worldFromCamera`: 3 rows of 4, as in FrothStoredCamera and cameras.json.
 Pose poseFromMatrix(const double worldFromCamera[12], double tanHalfFovY);
+Pose poseOf(const FrothStoredCamera& camera);
 
 // Centred principal point, square pixels, reversed depth with an infinite far plane.
 FrothCamera cameraOf(const Pose& pose, VkExtent2D extent);

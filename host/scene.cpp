@@ -168,12 +168,8 @@ Result<CameraPath> Scene::path(std::vector<Pose> keys) const {
   uint32_t count = 0;
   const FrothResult copied = frothGetFlightPath(context_, assetHandle_, asset_.flightPathCount, stored.data(), &count);
   if (Status got = check(copied, "frothGetFlightPath"); !got) return got.error();
-  for (const FrothStoredCamera& camera : stored) {
-    keys.push_back(poseFromMatrix(camera.worldFromCamera, camera.tanHalfFovY));
-  }
-  if (keys.empty() && asset_.hasStartView) {
-    keys.push_back(poseFromMatrix(asset_.startView.worldFromCamera, asset_.startView.tanHalfFovY));
-  }
+  for (const FrothStoredCamera& camera : stored) keys.push_back(poseOf(camera));
+  if (keys.empty() && asset_.hasStartView) keys.push_back(poseOf(asset_.startView));
   if (keys.empty()) return orbitPath(asset_.boundsMin, asset_.boundsMax);
   return CameraPath(std::move(keys));
 }

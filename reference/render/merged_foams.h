@@ -18,8 +18,9 @@ struct PlacedFoam {
   double scale = 1;
 };
 
-// In double precision, whatever `options` say; its lengths are in world units, its near tests apply to each foam. Fails
-// as ReferenceRenderer::render does.
+// In double precision, whatever `options` say; its lengths are in world units, its near tests apply to each foam. A ray
+// that is cut off ends where its transmittance is `cutoff`, also within a cell. Fails as
+// ReferenceRenderer::render does.
 Result<RenderedImages> renderMerged(std::span<const PlacedFoam> foams, const View& view,
                                     const ReferenceOptions& options, const Progress& progress = {});
 

@@ -70,8 +70,7 @@ Status FoamScene::beginFrame(VkCommandBuffer commands, uint64_t serial, uint64_t
 // The start view, or a place outside of the foam, turned around an upright axis through the foam's middle.
 Pose FoamScene::poseAt(double turn) const {
   if (asset_.state != FROTH_ASSET_READY) return {};  // nothing is drawn yet
-  Pose pose = asset_.hasStartView ? poseFromMatrix(asset_.startView.worldFromCamera, asset_.startView.tanHalfFovY)
-                                  : orbitPath(asset_.boundsMin, asset_.boundsMax).at(0);
+  Pose pose = asset_.hasStartView ? poseOf(asset_.startView) : orbitPath(asset_.boundsMin, asset_.boundsMax).at(0);
   glm::dvec3 middle{};
   for (int axis = 0; axis < 3; ++axis) middle[axis] = 0.5 * (double{asset_.boundsMin[axis]} + asset_.boundsMax[axis]);
   const glm::dquat turned = glm::angleAxis(turn, pose.worldFromCamera * glm::dvec3(0, -1, 0));

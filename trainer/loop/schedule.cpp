@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kPublishedSteps = 30000;
 constexpr double kRefinementBegin = 0.5;   // of a schedule
-constexpr double kRefinementWarmUp = 0.1;  // of a refinement; of one whose steps are counted at least
-constexpr double kLeastWarmUpSteps = 100;
+constexpr double kRefinementWarmUp = 0.1;  // of a refinement
+constexpr double kLeastWarmUpSteps = 100;  // of one that lasts a number of steps, and not of seconds
 
 struct Rate {
   double first, last;
