@@ -38,6 +38,10 @@ void addFlightOptions(CLI::App& command, FlightFlags& flags) {
   const auto addBytes = [&](const char* name, uint64_t& bytes, const char* description) {
     return command.add_option(name, bytes, description)->transform(CLI::AsSizeValue(false));
   };
+  needsFlight(
+      command.add_option("--copies", options.scene.copies, "Open INPUT so often, and set the assets beside each other")
+          ->capture_default_str()
+          ->check(countBetween(1, kMostCopies)));
   needsFlight(addBytes("--budget", options.scene.budget, "Device memory, as 64MB; 0: no limit"));
   needsFlight(command.add_option("--detail", options.scene.detail, "Errors may be 1 / DETAIL pixels large")
                   ->capture_default_str()

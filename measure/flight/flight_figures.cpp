@@ -101,17 +101,18 @@ void printFrameTimes(const char* name, const std::vector<double>& times) {
 
 nlohmann::ordered_json sceneAsJson(const SceneOptions& scene, const std::string& deviceName,
                                    const std::string& driverName, size_t frames) {
-  return {{"device", deviceName},        {"driver", driverName},          {"frames", frames},
-          {"width", scene.extent.width}, {"height", scene.extent.height}, {"budget", scene.budget},
-          {"detail", scene.detail},      {"mostCells", scene.mostCells},  {"fadeFrames", scene.fadeFrames}};
+  return {{"device", deviceName},          {"driver", driverName},        {"frames", frames},
+          {"copies", scene.copies},        {"width", scene.extent.width}, {"height", scene.extent.height},
+          {"budget", scene.budget},        {"detail", scene.detail},      {"mostCells", scene.mostCells},
+          {"fadeFrames", scene.fadeFrames}};
 }
 
 void printFlight(const Flight& flight, const FlightOptions& options) {
   const Summary summary = summarize(flight, options);
   const SceneOptions& scene = options.scene;
-  fmt::print("{} frames of {}x{} on {} ({}), {} cells in {} chunks of all levels\n", flight.frames.size(),
+  fmt::print("{} frames of {}x{} on {} ({}), {} cells in {} chunks of all levels, {} times\n", flight.frames.size(),
              scene.extent.width, scene.extent.height, flight.deviceName, flight.driverName, flight.asset.cellCount,
-             flight.asset.chunkCount);
+             flight.asset.chunkCount, scene.copies);
   if (!summary.firstReady) {
     fmt::print("the floor did not come\n");
     return;

@@ -1,9 +1,13 @@
 #include "measure/flight/streamed_scene.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <string_view>
 #include <utility>
+
+#include <glm/glm.hpp>
 
 #include "base/progress_printer.h"
 #include "host/make_struct.h"
@@ -18,6 +22,23 @@ constexpr uint32_t kJobsPerThread = 4;
 constexpr uint32_t kRestFrames = 16;
 // A chunk that cannot be read is tried for the last time 630 frames after the first.
 constexpr uint32_t kMostSettlingFrames = 10000;
+// Between copies, of the box of the asset.
+constexpr double kCopyGap = 0.05;
+
+// The nearest places of a grid, the origin first.
+std::vector<glm::ivec3> nearestPlaces(uint32_t count) {
+  const int reach = static_cast<int>(std::ceil(std::cbrt(static_cast<double>(count)))) - 1;
+  std::vector<glm::ivec3> places;
+  for (int x = -reach; x <= reach; ++x) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int z = -reach; z <= reach; ++z) places.emplace_back(x, y, z);
+    }
+  }
+  const auto squaredDistance = [](const glm::ivec3& p) { return p.x * p.x + p.y * p.y + p.z * p.z; };
+  std::ranges::stable_sort(places, {}, squaredDistance);
+  places.resize(count);
+  return places;
+}
 
 }  // namespace
 
@@ -65,14 +86,7 @@ Status StreamedScene::begin() {
   streaming.detail = options_.detail;
   streaming.mostCells = options_.mostCells;
   if (Status set = check(frothSetStreaming(context_, &streaming), "frothSetStreaming"); !set) return set;
-  const FrothReader reader = disk_.reader();
-  auto asset = makeStruct<FrothAssetInfo>();
-  asset.reader = &reader;
-  if (Status opened = check(frothOpenAsset(context_, &asset, &asset_), "frothOpenAsset"); !opened) return opened;
-  auto placed = makeStruct<FrothInstanceInfo>();
-  placed.asset = asset_;
-  FrothInstance instance{};
-  if (Status made = check(frothCreateInstance(context_, &placed, &instance), "frothCreateInstance"); !made) return made;
+  if (Status opened = openAssets(); !opened) return opened;
   auto view = makeStruct<FrothViewInfo>();
   view.maxExtent = options_.extent;
   view.measurePasses = 1;
@@ -84,22 +98,63 @@ Status StreamedScene::begin() {
   return {};
 }
 
-FrothAssetStatus StreamedScene::assetStatus() const {
+Status StreamedScene::openAssets() {
+  const FrothReader reader = disk_.reader();
+  auto info = makeStruct<FrothAssetInfo>();
+  info.reader = &reader;
+  assets_.resize(options_.copies);
+  for (FrothAsset& asset : assets_) {
+    if (Status opened = check(frothOpenAsset(context_, &info, &asset), "frothOpenAsset"); !opened) return opened;
+  }
+  return placeCopy(0);
+}
+
+// The bounds of an asset are known when it is READY, so until then the first copy stands alone.
+Status StreamedScene::placeCopies(bool& arePlaced) {
+  arePlaced = true;
+  for (size_t copy = 0; copy < assets_.size(); ++copy) {
+    const FrothAssetStatus status = statusOf(assets_[copy]);
+    if (status.state == FROTH_ASSET_FAILED) return check(status.error, "frothOpenAsset");
+    arePlaced = arePlaced && status.state == FROTH_ASSET_READY && copy < placed_;
+    if (status.state != FROTH_ASSET_READY || copy != placed_) continue;
+    if (Status made = placeCopy(copy); !made) return made;
+  }
+  return {};
+}
+
+Status StreamedScene::placeCopy(size_t copy) {
+  const FrothAssetStatus status = assetStatus();
+  const glm::ivec3 place = nearestPlaces(options_.copies)[copy];
+  auto info = makeStruct<FrothInstanceInfo>();
+  info.asset = assets_[copy];
+  for (int axis = 0; axis < 3; ++axis) {
+    info.position[axis] = (1 + kCopyGap) * (status.boundsMax[axis] - status.boundsMin[axis]) * place[axis];
+  }
+  FrothInstance instance{};
+  ++placed_;
+  return check(frothCreateInstance(context_, &info, &instance), "frothCreateInstance");
+}
+
+FrothAssetStatus StreamedScene::statusOf(FrothAsset asset) const {
   auto status = makeStruct<FrothAssetStatus>();
-  frothGetAssetStatus(context_, asset_, &status);
+  frothGetAssetStatus(context_, asset, &status);
   return status;
 }
 
 Result<std::vector<uint32_t>> StreamedScene::drawnChunks() const {
-  uint32_t count = 0;
-  Status asked = check(frothGetChunks(context_, asset_, 0, nullptr, &count), "frothGetChunks");
-  if (!asked) return asked.error();
-  std::vector<FrothChunk> chunks(count);
-  asked = check(frothGetChunks(context_, asset_, count, chunks.data(), &count), "frothGetChunks");
-  if (!asked) return asked.error();
   std::vector<uint32_t> drawn;
-  for (uint32_t chunk = 0; chunk < count; ++chunk) {
-    if (chunks[chunk].state == FROTH_CHUNK_DRAWN) drawn.push_back(chunk);
+  uint32_t before = 0;
+  for (const FrothAsset asset : assets_) {
+    uint32_t count = 0;
+    Status asked = check(frothGetChunks(context_, asset, 0, nullptr, &count), "frothGetChunks");
+    if (!asked) return asked.error();
+    std::vector<FrothChunk> chunks(count);
+    asked = check(frothGetChunks(context_, asset, count, chunks.data(), &count), "frothGetChunks");
+    if (!asked) return asked.error();
+    for (uint32_t chunk = 0; chunk < count; ++chunk) {
+      if (chunks[chunk].state == FROTH_CHUNK_DRAWN) drawn.push_back(before + chunk);
+    }
+    before += count;
   }
   return drawn;
 }
@@ -117,9 +172,7 @@ Status StreamedScene::record(const View& view, VkCommandBuffer commands, uint64_
   if (Status completed = completeFrameBefore(); !completed) return completed;
   if (Status copied = check(frothRecordUpload(context_, commands), "frothRecordUpload"); !copied) return copied;
 
-  const FrothAssetStatus asset = assetStatus();
-  if (asset.state == FROTH_ASSET_FAILED) return check(asset.error, "frothOpenAsset");
-  frame.isReady = asset.state == FROTH_ASSET_READY;
+  if (Status placed = placeCopies(frame.isReady); !placed) return placed;
   FrothRenderInfo info = renderInfoOf(view, options_.render);
   info.colour = host_.describe(image_);
   const FrothResult drawn = infoOf(options_.render.method).record(context_, view_, commands, &info);

@@ -1,4 +1,4 @@
-// One asset with levels on a simulated disk, seen by one view: an engine's loop in which time is counted in frames.
+// Assets with levels on a simulated disk, seen by one view: an engine's loop in which time is counted in frames.
 #pragma once
 
 #include <filesystem>
@@ -19,9 +19,13 @@
 namespace froth {
 
 constexpr uint32_t kJobThreads = 2;
+constexpr uint32_t kMostCopies = 14;  // instances that a view shows (froth.h)
 
 struct SceneOptions {
   std::filesystem::path asset;
+  // The file is opened so often, as assets of their own. The first stands as it is, the others on a grid around it, the
+  // nearest places first.
+  uint32_t copies = 1;
   uint64_t budget = 0;  // [bytes] FrothContextInfo::deviceBudget
   float detail = 1;     // FrothStreamInfo::detail
   uint64_t mostCells = 0;
@@ -38,7 +42,7 @@ SceneOptions allCellsOf(const SceneOptions& options);
 struct FlownFrame {
   double updateMs = 0;    // [ms] frothUpdate, on the clock
   double gpuMs = 0;       // [ms] sum of passes, once a further frame is drawn; 0: the device tells no times
-  bool isReady = false;   // the floor is there
+  bool isReady = false;   // the floors are there
   bool isFading = false;  // drew two cuts, once a further frame is drawn and the device tells times
   bool isWhole = false;   // nothing was missing, as far as is known when a further frame is drawn
   FrothStreamStatus stream{};
@@ -62,13 +66,18 @@ class StreamedScene {
   Result<FlownImage> readImage();                                    // of the newest frame
 
   uint64_t bytesRead() const { return disk_.bytesRead(); }
-  FrothAssetStatus assetStatus() const;
-  Result<std::vector<uint32_t>> drawnChunks() const;  // ascending; of the newest frame
+  FrothAssetStatus assetStatus() const { return statusOf(assets_.front()); }  // of the first copy
+  // Ascending; of the newest frame. Chunks of the second copy follow those of the first.
+  Result<std::vector<uint32_t>> drawnChunks() const;
 
  private:
   StreamedScene(Host& host, SimulatedDisk disk, const SceneOptions& options)
       : host_(host), disk_(std::move(disk)), options_(options), jobs_(kJobThreads) {}
   Status begin();
+  Status openAssets();
+  Status placeCopies(bool& arePlaced);
+  Status placeCopy(size_t copy);
+  FrothAssetStatus statusOf(FrothAsset asset) const;
   Status check(FrothResult result, const char* call) const;
   Status record(const View& view, VkCommandBuffer commands, uint64_t serial, FlownFrame& frame);
   Status completeFrameBefore();
@@ -78,7 +87,8 @@ class StreamedScene {
   SceneOptions options_;
   FrameJobs jobs_;
   FrothContext* context_ = nullptr;
-  FrothAsset asset_{};
+  std::vector<FrothAsset> assets_;  // [copies]
+  size_t placed_ = 0;               // of them have an instance
   FrothView view_{};
   HostImage image_;
   std::vector<FlownFrame> frames_;

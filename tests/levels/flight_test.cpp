@@ -1,5 +1,7 @@
 // A flight on a simulated disk: its figures are those of the disk and the budget, and the same each time.
 #include <algorithm>
+#include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -172,6 +174,30 @@ TEST(Flight, AtRestHasAllThatIsWanted) {
   const Flight flight = flyWell(coarse);
   EXPECT_LT(flight.images.back().settled, 60) << "the floor is another foam";
   EXPECT_LT(flight.bytesRead, flyWell(fine).bytesRead);
+}
+
+// At rest, from a camera that sees all copies: share of the pixels that they cover, and number of chunks.
+std::pair<double, size_t> sizesOfCopies(Host& host, uint32_t copies) {
+  const CameraPath path = approach();
+  FlightOptions far = options();
+  far.scene.copies = copies;
+  Result<std::unique_ptr<StreamedScene>> scene = StreamedScene::create(host, far.scene);
+  EXPECT_TRUE(scene) << scene.error().message;
+  const Status settled = (*scene)->settle(viewOf(path, far, 56));
+  EXPECT_TRUE(settled) << settled.error().message;
+  const Result<FlownImage> image = (*scene)->readImage();
+  const Result<std::vector<uint32_t>> chunks = (*scene)->drawnChunks();
+  const double sum = std::accumulate(image->alpha.values.begin(), image->alpha.values.end(), 0.0);
+  return {sum / static_cast<double>(image->alpha.values.size()), chunks->size()};
+}
+
+TEST(Flight, SetsCopiesBesideEachOther) {
+  Result<std::unique_ptr<Host>> host = Host::create({});
+  ASSERT_TRUE(host) << host.error().message;
+  const auto [oneCovers, oneDraws] = sizesOfCopies(**host, 1);
+  const auto [threeCover, threeDraw] = sizesOfCopies(**host, 3);
+  EXPECT_NEAR(threeCover, 3 * oneCovers, 0.3 * oneCovers);
+  EXPECT_EQ(threeDraw, 3 * oneDraws);
 }
 
 TEST(Flight, GoesOnWithoutWhatCannotBeRead) {
