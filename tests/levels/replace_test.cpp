@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/levels/streamed.h"
+#include "tests/surroundings.h"
 
 namespace froth::test {
 namespace {
 
-const char* const kWithoutLevels = FROTH_SOURCE_DIR "/tests/format/golden/version_2_0.froth";
+const std::filesystem::path kWithoutLevels = sourceFolder() / "tests/format/golden/version_2_0.froth";
 constexpr int kMostLoadingFrames = 100;
 
 const AssetContents& otherSample() {
@@ -24,9 +25,10 @@ FrothResult replaceBy(Streamed& streamed, Reader& reader) {
   return frothReplaceAsset(streamed.context(), streamed.asset(), &info);
 }
 
-FrothResult replaceBy(Streamed& streamed, const char* path) {
+FrothResult replaceBy(Streamed& streamed, const std::filesystem::path& path) {
+  const std::string text = path.string();
   auto info = makeStruct<FrothAssetInfo>();
-  info.path = path;
+  info.path = text.c_str();
   return frothReplaceAsset(streamed.context(), streamed.asset(), &info);
 }
 
@@ -93,7 +95,7 @@ TEST(Replace, KeepsTheOldFileIfTheNewOneIsBroken) {
   Reader reader;
   Streamed streamed(reader);
   streamed.settle(kNear);
-  ASSERT_EQ(replaceBy(streamed, FROTH_SOURCE_DIR "/README.md"), FROTH_OK);
+  ASSERT_EQ(replaceBy(streamed, sourceFolder() / "README.md"), FROTH_OK);
   const FrothReplacementStatus status = flyUntilReplaced(streamed);
   EXPECT_EQ(status.state, FROTH_REPLACEMENT_FAILED);
   EXPECT_LT(status.error, FROTH_OK);
@@ -146,7 +148,8 @@ TEST(Replace, NeedsAnAssetThatIsDrawn) {
   Streamed streamed(reader);
   EXPECT_EQ(replaceBy(streamed, other), FROTH_ERROR_STATE);
   streamed.settle(kFar);
-  EXPECT_EQ(replaceBy(streamed, static_cast<const char*>(nullptr)), FROTH_ERROR_ARGUMENT);
+  const auto nothing = makeStruct<FrothAssetInfo>();
+  EXPECT_EQ(frothReplaceAsset(streamed.context(), streamed.asset(), &nothing), FROTH_ERROR_ARGUMENT);
   ASSERT_EQ(replaceBy(streamed, other), FROTH_OK);
   streamed.close();  // ends what loads
   EXPECT_EQ(replaceBy(streamed, other), FROTH_ERROR_HANDLE);

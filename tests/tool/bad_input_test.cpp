@@ -103,7 +103,7 @@ TEST_F(BadInput, ATruncatedAsset) {
 
 TEST_F(BadInput, AnAssetOfAnotherVersionHasTheSameExitCodeEverywhere) {
   makeRandomFoam("12");
-  writeBytes(folder_ / "bad.froth", readBytes(FROTH_SOURCE_DIR "/tests/format/golden/version_1_0.froth"));
+  writeBytes(folder_ / "bad.froth", readBytes(sourceFolder() / "tests/format/golden/version_1_0.froth"));
   expectRefusal({"verify", "bad.froth"}, "bad.froth", {"format version 1.0"});
   expectRefusal({"info", "bad.froth"}, "bad.froth", {"format version 1.0"});
   expectRefusal({"render", "bad.froth", "--cameras", "cameras.json", "--renderer", "reference", "-o", "out"},
