@@ -27,7 +27,6 @@ namespace froth {
 namespace {
 
 constexpr uint32_t kGroupChunks = 4;  // full ones, of a group
-constexpr double kFloorShare = 0.02;  // of level 0's live cells: small enough to be the floor
 // What errors of a merged cell's colours weigh, where those of a cell of level 0 that shows as much have 1. Coarser
 // levels are drawn where merging, which costs 25 to 30 dB, shows little: so does coding that costs less.
 constexpr double kMergedWeight = 0x1p-3;
@@ -108,12 +107,8 @@ uint64_t countLive(const std::vector<LevelChunk>& chunks, const std::vector<uint
   return live;
 }
 
-bool LevelMaker::isFloor() const {
-  uint64_t finest = 0;
-  for (const PlannedChunk& chunk : input_.plan.chunks) finest += chunk.liveCount;
-  const double enough = std::max<double>(kFloorShare * static_cast<double>(finest), input_.chunkCells);
-  return front_.size() <= 1 || static_cast<double>(countLive(chunks_, front_)) <= enough;
-}
+// The floor is what a first image waits for, and stays resident: so it does not grow with the scene.
+bool LevelMaker::isFloor() const { return front_.size() <= 1 || countLive(chunks_, front_) <= input_.chunkCells; }
 
 // False: asked to stop.
 bool LevelMaker::forEachStep(std::vector<Step>& steps, const std::function<void(Step&)>& work) {

@@ -1,11 +1,12 @@
 // Decoding, in bytes of raw output per second and core:
 //   froth_bench_codecs ASSET [--benchmark_...]
 // Every section codec on lattice indices of the asset's sites, on its radii and on its base colours; the
-// graph; whole chunks, all layers.
+// graph; whole chunks, all layers, as they are read and as the runtime's jobs make them ready for the GPU.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 #include <benchmark/benchmark.h>
 
@@ -17,6 +18,7 @@
 #include "format/read/asset_reader.h"
 #include "format/read/section_codec_read.h"
 #include "format/write/section_codec_write.h"
+#include "runtime/asset/loaded_chunk.h"
 
 namespace froth {
 namespace {
@@ -134,6 +136,16 @@ void benchChunk(const AssetReader& reader, const ChunkContents& chunk, size_t st
                                [&reader, rawSize = decodedSize(chunk), storedSize](benchmark::State& state) {
                                  for (auto _ : state) {
                                    if (!reader.readChunk(0)) return state.SkipWithError("not read");
+                                 }
+                                 setRates(state, rawSize, storedSize);
+                               });
+  benchmark::RegisterBenchmark("whole chunk for the GPU",
+                               [&reader, rawSize = decodedSize(chunk), storedSize](benchmark::State& state) {
+                                 const std::shared_ptr<const ByteSource> bytes = reader.source();
+                                 for (auto _ : state) {
+                                   if (!loadChunk(reader, *bytes, 0, "asset", {.drawing = true})) {
+                                     return state.SkipWithError("not loaded");
+                                   }
                                  }
                                  setRates(state, rawSize, storedSize);
                                });
