@@ -15,6 +15,8 @@ namespace {
 
 // Small enough to choose from, large enough that most of a group of four lies away from its border.
 constexpr uint32_t kLevelChunkCells = 8192;
+// From here on a reader that loads all cells before it shows one takes seconds.
+constexpr uint32_t kManyCells = 500'000;
 
 // A lattice step: 0 or a power of two.
 CLI::Validator stepUpTo(float most) {
@@ -96,7 +98,9 @@ void BakeFlags::addTo(CLI::App& command) {
       ->check(numberBetween(0, kMaxNumber));
   command.add_flag("--no-walk", noWalk_, "No graph for walks: the asset can only be rasterized");
   command.add_flag("--no-steiner", noSteiner_, "No cells in empty space, which shorten walks");
-  command.add_flag("--lod,!--no-lod", options_.levels, "Levels of detail, for scenes larger than memory");
+  command.add_flag_function(
+      "--lod,!--no-lod", [this](int64_t count) { levels_ = count > 0; },
+      "Levels of detail, for scenes larger than memory; default: from 500,000 cells on");
   command.add_flag("--no-measure", noMeasure_, "No PSNR on sample views");
   command
       .add_option_function<std::string>(
@@ -121,15 +125,16 @@ void BakeFlags::addTo(CLI::App& command) {
       ->check(countBetween(1, 1024));
 }
 
-Result<BakeOptions> BakeFlags::options() const {
+Result<BakeOptions> BakeFlags::options(uint32_t cells) const {
   const Result<BakeKnobs> knobs = presetKnobs(options_.preset);
   if (!knobs) return knobs.error();
   BakeOptions options = options_;
   options.knobs = *knobs;
   for (const auto& change : changes_) change(options.knobs);
+  options.walkGraph = !noWalk_;
+  options.levels = levels_.value_or(cells >= kManyCells && options.walkGraph);
   if (options.levels) options.chunkCells = kLevelChunkCells;
   if (chunkCells_ > 0) options.chunkCells = chunkCells_;
-  options.walkGraph = !noWalk_;
   options.steiner = !noSteiner_;
   options.measure = !noMeasure_;
   return options;

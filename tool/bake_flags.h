@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -15,8 +16,8 @@ namespace froth {
 class BakeFlags {
  public:
   void addTo(CLI::App& command);
-  // The preset's knobs, changed by the flags that were given.
-  Result<BakeOptions> options() const;
+  // For a foam of so many cells: the preset's knobs, changed by the flags that were given.
+  Result<BakeOptions> options(uint32_t cells) const;
   uint32_t threads() const { return threads_; }  // 0: as many as there are
 
  private:
@@ -29,7 +30,8 @@ class BakeFlags {
 
   BakeOptions options_;
   uint32_t threads_ = 0;
-  uint32_t chunkCells_ = 0;  // 0: not given
+  uint32_t chunkCells_ = 0;     // 0: not given
+  std::optional<bool> levels_;  // none: by the number of cells
   bool noWalk_ = false, noSteiner_ = false, noMeasure_ = false;
   std::vector<std::function<void(BakeKnobs&)>> changes_;  // by the flags that were given
 };

@@ -149,23 +149,24 @@ Result<nlohmann::ordered_json> reportBake(const BakeJob& job, const BakeResult& 
                                 {"sections", sectionsAsJson(*written)}};
 }
 
-Result<nlohmann::ordered_json> runJob(const BakeJob& job, BakeOptions bake, const BakeCommandOptions& options,
-                                      const Progress& progress) {
+Result<nlohmann::ordered_json> runJob(const BakeJob& job, const BakeCommandOptions& options, const Progress& progress) {
   if (Status writable = checkWritable(job.output, options.isProtected()); !writable) return writable.error();
   StageClock clock;
   Result<CameraSet> cameras = CameraSet{};
   if (!job.cameras.empty()) {
     cameras = readViews(job.cameras);
     if (!cameras) return cameras.error();
-    bake.cameras = &*cameras;
   }
   Result<Foam> foam = importCheckpoint(job.input, progress);
   if (!foam) return foam.error();
   const StageReport import = clock.stop("import", foam->cellCount);
 
-  bake.source = printable(job.input.filename().string());  // a file name need not be UTF-8
+  Result<BakeOptions> bake = options.flags.options(foam->cellCount);
+  if (!bake) return bake.error();
+  if (!job.cameras.empty()) bake->cameras = &*cameras;
+  bake->source = printable(job.input.filename().string());  // a file name need not be UTF-8
   AssetFileSink file(job.output, options.isProtected());
-  Result<BakeResult> baked = bakeFoam(*foam, bake, file.sink(), progress);
+  Result<BakeResult> baked = bakeFoam(*foam, *bake, file.sink(), progress);
   if (!baked) return baked.error();
   *foam = {};
   baked->stages.insert(baked->stages.begin(), import);
@@ -179,13 +180,12 @@ Result<nlohmann::ordered_json> runJob(const BakeJob& job, BakeOptions bake, cons
 }
 
 // One that fails stops none of the others; the first one's error is returned.
-Status runJobs(const std::vector<BakeJob>& jobs, const BakeOptions& bake, const BakeCommandOptions& options,
-               Tool& tool) {
+Status runJobs(const std::vector<BakeJob>& jobs, const BakeCommandOptions& options, Tool& tool) {
   nlohmann::ordered_json done = nlohmann::ordered_json::array();
   std::optional<Error> first;
   size_t failed = 0;
   for (const BakeJob& job : jobs) {
-    Result<nlohmann::ordered_json> figures = runJob(job, bake, options, tool.progress.callback());
+    Result<nlohmann::ordered_json> figures = runJob(job, options, tool.progress.callback());
     tool.progress.finishLine();
     if (figures) {
       done.push_back(std::move(*figures));
@@ -204,15 +204,13 @@ Status runJobs(const std::vector<BakeJob>& jobs, const BakeOptions& bake, const 
 Status runBake(const BakeCommandOptions& options, Tool& tool) {
   const Result<std::vector<BakeJob>> jobs = findBakeJobs(options.given);
   if (!jobs) return jobs.error();
-  const Result<BakeOptions> bake = options.flags.options();
-  if (!bake) return bake.error();
   std::optional<tbb::global_control> threads;
   if (options.flags.threads() > 0) {
     threads.emplace(tbb::global_control::max_allowed_parallelism, options.flags.threads());
   }
   const bool isFolder = jobs->front().input != options.given.input;
-  if (isFolder) return runJobs(*jobs, *bake, options, tool);
-  const Result<nlohmann::ordered_json> figures = runJob(jobs->front(), *bake, options, tool.progress.callback());
+  if (isFolder) return runJobs(*jobs, options, tool);
+  const Result<nlohmann::ordered_json> figures = runJob(jobs->front(), options, tool.progress.callback());
   if (!figures) return figures.error();
   return options.figures.write(*figures);
 }
