@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "baker/lod/chunk_groups.h"
 
@@ -45,6 +47,31 @@ TEST(ChunkGroups, HaveMoreChunksWhereThoseAreSmall) {
   std::vector<LevelChunk> chunks = makeRowOfChunks(10);
   for (LevelChunk& chunk : chunks) chunk.planned.liveCount = 7;
   EXPECT_EQ(groupAll(chunks), (Groups{{0, 1, 2, 3, 4}, {5, 6, 7, 8, 9}}));
+}
+
+// Before a row of chunks stands a sheet of others, cell before cell, that have more pairs in common with each other.
+TEST(ChunkGroups, ASheetBeforeAnotherIsSharedAmongTheGroupsBehindIt) {
+  std::vector<LevelChunk> chunks = makeRowOfChunks(8);
+  const auto link = [&](uint32_t a, uint32_t b) {
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+      CellGraph& walk = chunks[from / 10].rows.walk;
+      const uint32_t local = from % 10;
+      walk.neighbours.insert(walk.neighbours.begin() + walk.offsets[local + 1], to);
+      for (uint32_t k = local + 1; k <= 10; ++k) ++walk.offsets[k];
+    }
+  };
+  for (uint32_t index = 0; index < 4; ++index) {
+    LevelChunk& chunk = chunks.emplace_back();
+    chunk.planned.liveCount = 10;
+    chunk.rows = {{std::vector<uint32_t>(11), {}}, {{0}, {}}};
+    for (uint32_t k = 0; k < 10; ++k) chunk.planned.cells.push_back(10 * (8 + index) + k);
+    for (uint32_t k = 0; k < 10; ++k) link(10 * (8 + index) + k, 10 * (2 * index) + k);
+    for (uint32_t k = 0; k < 30 && index > 0; ++k) link(10 * (8 + index) + k % 10, 10 * (7 + index) + k % 10);
+  }
+  for (const std::vector<uint32_t>& group : groupAll(chunks)) {
+    const bool isSheet = std::all_of(group.begin(), group.end(), [](uint32_t chunk) { return chunk >= 8; });
+    EXPECT_FALSE(isSheet) << testing::PrintToString(group);
+  }
 }
 
 // Two columns of four chunks; each column was made by a group of its own, and has twice as many pairs of neighbours in
