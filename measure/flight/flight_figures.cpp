@@ -20,9 +20,9 @@ struct Range {
 
 // Of the frames from the first with the floor on.
 struct Summary {
-  std::optional<uint32_t> firstReady;                               // frame; absent: never
-  uint32_t settled = 0, lacking = 0, aboveBudget = 0, onFloor = 0;  // frames
-  uint32_t longestUnsettled = 0, oldestRequest = 0;                 // [frames]
+  std::optional<uint32_t> firstReady;                                            // frame; absent: never
+  uint32_t settled = 0, lacking = 0, limited = 0, aboveBudget = 0, onFloor = 0;  // frames
+  uint32_t longestUnsettled = 0, oldestRequest = 0;                              // [frames]
   uint64_t mostDeviceBytes = 0, mostChunkBytes = 0, missingPixels = 0;
   std::vector<double> updates, gpuTimes, fadingTimes;  // [ms] GPU: of all frames, and of those in a fade
   Range flown, settledError;
@@ -54,6 +54,7 @@ Summary summarize(const Flight& flight, const FlightOptions& options) {
     summary.gpuTimes.push_back(frame.gpuMs);
     if (frame.isFading) summary.fadingTimes.push_back(frame.gpuMs);
     summary.lacking += frame.isWhole ? 0 : 1;
+    summary.limited += frame.isLimited ? 1 : 0;
     summary.settled += frame.stream.isSettled;
     summary.onFloor += frame.stream.floorHits > 0 ? 1 : 0;
     summary.oldestRequest = std::max(summary.oldestRequest, frame.stream.oldestRequest);
@@ -121,8 +122,8 @@ void printFlight(const Flight& flight, const FlightOptions& options) {
   fmt::print("{:<24} frame {}\n", "first with the floor", *summary.firstReady);
   fmt::print("{:<24} {} of {} since then ({:.1f} %), longest time between {} frames; at rest after {}\n", "settled",
              summary.settled, ready, 100 * summary.settled / ready, summary.longestUnsettled, flight.framesToSettle);
-  fmt::print("{:<24} {} frames that lack cells, {} pixels of {} images\n", "missing", summary.lacking,
-             summary.missingPixels, flight.images.size());
+  fmt::print("{:<24} {} frames that lack cells, {} pixels of {} images; {} frames met a limit of their rays\n",
+             "missing", summary.lacking, summary.missingPixels, flight.images.size(), summary.limited);
   fmt::print("{:<24} {} frames show a chunk of the floor where a finer one is wanted; oldest request {} frames\n",
              "waiting", summary.onFloor, summary.oldestRequest);
   fmt::print("{:<24} {} evictions, {} retries, {} failures, {:.1f} MiB read\n", "chunks", flight.atEnd.evictions,
@@ -149,6 +150,7 @@ nlohmann::ordered_json flightAsJson(const Flight& flight, const FlightOptions& o
                {"longestUnsettled", summary.longestUnsettled},
                {"framesToSettle", flight.framesToSettle},
                {"lackingFrames", summary.lacking},
+               {"limitedFrames", summary.limited},
                {"missingPixels", summary.missingPixels},
                {"floorFrames", summary.onFloor},
                {"oldestRequest", summary.oldestRequest},

@@ -22,6 +22,8 @@ constexpr uint32_t kJobsPerThread = 4;
 constexpr uint32_t kRestFrames = 16;
 // A chunk that cannot be read is tried for the last time 630 frames after the first.
 constexpr uint32_t kMostSettlingFrames = 10000;
+// What an application sets itself, whatever is streamed.
+constexpr uint32_t kLimitBits = FROTH_VIEW_ENTRY_LIMIT | FROTH_VIEW_STEP_LIMIT;
 // Between copies, of the box of the asset.
 constexpr double kCopyGap = 0.05;
 
@@ -192,7 +194,8 @@ Status StreamedScene::completeFrameBefore() {
     before.gpuMs += status.passes[pass].milliseconds;
     before.isFading = before.isFading || std::string_view(status.passes[pass].name) == "fade";
   }
-  if (status.bits != 0) before.isWhole = false;
+  before.isLimited = (status.bits & kLimitBits) != 0;
+  if ((status.bits & ~kLimitBits) != 0) before.isWhole = false;
   return {};
 }
 

@@ -40,11 +40,12 @@ struct SceneOptions {
 SceneOptions allCellsOf(const SceneOptions& options);
 
 struct FlownFrame {
-  double updateMs = 0;    // [ms] frothUpdate, on the clock
-  double gpuMs = 0;       // [ms] sum of passes, once a further frame is drawn; 0: the device tells no times
-  bool isReady = false;   // the floors are there
-  bool isFading = false;  // drew two cuts, once a further frame is drawn and the device tells times
-  bool isWhole = false;   // nothing was missing, as far as is known when a further frame is drawn
+  double updateMs = 0;     // [ms] frothUpdate, on the clock
+  double gpuMs = 0;        // [ms] sum of passes, once a further frame is drawn; 0: the device tells no times
+  bool isReady = false;    // the floors are there
+  bool isFading = false;   // drew two cuts, once a further frame is drawn and the device tells times
+  bool isWhole = false;    // there was room for all cells, as far as is known when a further frame is drawn
+  bool isLimited = false;  // maxEntries or maxSteps ended lists or walks; known then, too
   FrothStreamStatus stream{};
   uint64_t deviceBytes = 0;  // of the context
 };

@@ -163,6 +163,20 @@ TEST(Flight, LacksNoCellsAndSettlesInTightBudgets) {
   }
 }
 
+// What the caller's own limits leave out is not lacking.
+TEST(Flight, TellsFramesThatMeetALimitApart) {
+  FlightOptions limited = options();
+  limited.imageEvery = limited.frames + 1;
+  limited.scene.render.method = Method::kWalk;
+  for (const uint32_t maxSteps : {0u, 1u}) {
+    limited.scene.render.maxSteps = maxSteps;
+    const Flight flight = flyWell(limited);
+    const FlownFrame& frame = flight.frames[limited.frames - 2];
+    EXPECT_TRUE(frame.isWhole);
+    EXPECT_EQ(frame.isLimited, maxSteps == 1);
+  }
+}
+
 TEST(Flight, AtRestHasAllThatIsWanted) {
   FlightOptions fine = options();
   fine.scene.detail = 1e9f;
