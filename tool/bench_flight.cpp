@@ -43,6 +43,10 @@ void addFlightOptions(CLI::App& command, FlightFlags& flags) {
           ->capture_default_str()
           ->check(countBetween(1, kMostCopies)));
   needsFlight(addBytes("--budget", options.scene.budget, "Device memory, as 64MB; 0: no limit"));
+  needsFlight(command
+                  .add_option("--reserve-cells", options.scene.reserveCells,
+                              "Cells that the view has room for ahead of what frames show; 0: 1048576")
+                  ->check(countBetween(0, UINT32_MAX)));
   needsFlight(command.add_option("--detail", options.scene.detail, "Errors may be 1 / DETAIL pixels large")
                   ->capture_default_str()
                   ->check(numberBetween(1e-6, 1e6)));

@@ -102,10 +102,17 @@ void printFrameTimes(const char* name, const std::vector<double>& times) {
 
 nlohmann::ordered_json sceneAsJson(const SceneOptions& scene, const std::string& deviceName,
                                    const std::string& driverName, size_t frames) {
-  return {{"device", deviceName},          {"driver", driverName},        {"frames", frames},
-          {"copies", scene.copies},        {"width", scene.extent.width}, {"height", scene.extent.height},
-          {"budget", scene.budget},        {"detail", scene.detail},      {"mostCells", scene.mostCells},
-          {"fadeFrames", scene.fadeFrames}};
+  return {{"device", deviceName},
+          {"driver", driverName},
+          {"frames", frames},
+          {"copies", scene.copies},
+          {"width", scene.extent.width},
+          {"height", scene.extent.height},
+          {"budget", scene.budget},
+          {"detail", scene.detail},
+          {"mostCells", scene.mostCells},
+          {"fadeFrames", scene.fadeFrames},
+          {"reserveCells", scene.reserveCells}};
 }
 
 void printFlight(const Flight& flight, const FlightOptions& options) {

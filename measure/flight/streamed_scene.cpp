@@ -47,7 +47,7 @@ std::vector<glm::ivec3> nearestPlaces(uint32_t count) {
 SceneOptions allCellsOf(const SceneOptions& options) {
   SceneOptions whole = options;
   whole.disk = {};
-  whole.budget = whole.mostCells = whole.fadeFrames = 0;
+  whole.budget = whole.mostCells = whole.fadeFrames = whole.reserveCells = 0;
   whole.detail = std::numeric_limits<float>::max();
   return whole;
 }
@@ -93,6 +93,7 @@ Status StreamedScene::begin() {
   view.maxExtent = options_.extent;
   view.measurePasses = 1;
   view.fadeFrames = options_.fadeFrames;
+  view.reserveCells = options_.reserveCells;
   if (Status made = check(frothCreateView(context_, &view, &view_), "frothCreateView"); !made) return made;
   Result<HostImage> image = host_.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, options_.extent);
   if (!image) return image.error();

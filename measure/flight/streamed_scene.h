@@ -29,7 +29,7 @@ struct SceneOptions {
   uint64_t budget = 0;  // [bytes] FrothContextInfo::deviceBudget
   float detail = 1;     // FrothStreamInfo::detail
   uint64_t mostCells = 0;
-  uint32_t fadeFrames = 0;  // FrothViewInfo::fadeFrames
+  uint32_t fadeFrames = 0, reserveCells = 0;  // FrothViewInfo
   double frameSeconds = 1.0 / 60;
   VkExtent2D extent{1920, 1080};
   DiskOptions disk;

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "format/to_vector.h"
 
@@ -21,6 +22,15 @@ void takeProjection(const FrothCamera& camera, SeenFrom& seen) {
                                 std::abs(double{clip[5]}) * std::abs(camera.viewport.height));
   const double depth = std::hypot(clip[3], clip[7], clip[11]);  // w by a step along the view's depth
   (depth > 0 ? seen.pixelAngle : seen.pixelSize) = 2 * (depth > 0 ? depth : std::abs(double{clip[15]})) / along;
+
+  // Of a point (x, y, z) in view axes: -w <= x <= w, the same for y, by the margin wider.
+  const glm::dmat3 worldFromView = glm::transpose(glm::dmat3(glm::make_mat3(camera.viewFromWorld)));
+  const auto row = [&](int i) { return glm::dvec4(clip[i], clip[i + 4], clip[i + 8], clip[i + 12]); };
+  size_t side = 0;
+  for (const glm::dvec4& across : {row(0), -row(0), row(1), -row(1)}) {
+    const glm::dvec4 plane = (1 + 2 * kSightMargin) * row(3) + across;
+    seen.sight[side++] = {worldFromView * glm::dvec3(plane), plane.w};
+  }
 }
 
 }  // namespace
@@ -52,6 +62,10 @@ StreamEye eyeOf(const SeenFrom& from, const RenderInstance& instance, const GpuA
   eye.pixelAngle = from.pixelAngle;
   eye.pixelSize = std::max(from.pixelSize / scale, from.pixelAngle * kNearestPart * diagonal);
   eye.detail = from.detail;
+  for (size_t side = 0; side < eye.sight.size(); ++side) {
+    const SightPlane& plane = from.sight[side];
+    eye.sight[side] = {glm::inverse(worldFromAsset) * plane.normal, plane.offset / scale};
+  }
   return eye;
 }
 

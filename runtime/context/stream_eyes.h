@@ -18,11 +18,14 @@ struct SeenFrom {
   double pixelAngle = 0;  // [radians]
   double pixelSize = 0;   // of parallel rays [world units]
   double detail = 1;
-  uint32_t mask = 0;  // of instances that it shows; 0: all
+  uint32_t mask = 0;                  // of instances that it shows; 0: all
+  std::array<SightPlane, 4> sight{};  // as StreamEye's, in the world
 };
 
 // A camera whose fields were checked. Its smallest pixel counts; where a lens does not tell, that of a quarter turn
-// over the width of the viewport.
+// over the width of the viewport. A projection sees its viewport and kSightMargin of its extent beyond each side, so
+// that what a turning camera sees next comes in time; other lenses see all around.
+inline constexpr double kSightMargin = 0.125;
 SeenFrom seenFrom(const FrothRenderInfo& info);
 
 // In the axes and units of an instance's asset. No eye looks nearer than a thousandth of the asset's diagonal.

@@ -4,19 +4,29 @@
 
 namespace froth {
 
-double keyOf(const LevelGraph::Group& group, std::span<const StreamEye> eyes) {
+bool sees(const StreamEye& eye, const GroupBounds& bounds) {
+  const glm::dvec3 low = bounds.low - eye.position, high = bounds.high - eye.position;
+  return std::ranges::all_of(eye.sight, [&](const SightPlane& plane) {
+    const glm::dvec3 farthest = glm::max(plane.normal * low, plane.normal * high);
+    return farthest.x + farthest.y + farthest.z + plane.offset >= 0;
+  });
+}
+
+Wish wishFor(const LevelGraph::Group& group, std::span<const StreamEye> eyes) {
   constexpr double kLeastPixel = 1e-100;  // keeps keys finite, so that errors order the groups that an eye is inside of
-  double key = 0;
+  Wish wish;
   for (const StreamEye& eye : eyes) {
     const double distance = std::max(0.0, distanceTo(group.bounds, eye.position) - eye.radius);
     const double pixel = std::max({eye.pixelSize, eye.pixelAngle * distance, kLeastPixel});
-    key = std::max(key, group.error * eye.detail / pixel);
+    const double key = group.error * eye.detail / pixel;
+    wish.key = std::max(wish.key, key);
+    wish.rank = std::max(wish.rank, sees(eye, group.bounds) ? key : key * kUnseenPart);
   }
-  return key;
+  return wish;
 }
 
 bool Selection::Offer::operator<(const Offer& other) const {
-  if (key != other.key) return key < other.key;
+  if (rank != other.rank) return rank < other.rank;
   return id.asset != other.id.asset ? id.asset > other.id.asset : id.group > other.id.group;
 }
 
@@ -53,14 +63,14 @@ void Selection::select(std::span<AssetDemand> assets, CutLimits limits) {
 }
 
 void Selection::offer(const AssetDemand& asset, GroupId id) {
-  const double key = keyOf(asset.graph->group(id.group), asset.eyes);
-  if (!(key >= 1)) return;
-  heap_.push_back({key, id});
+  const Wish wish = wishFor(asset.graph->group(id.group), asset.eyes);
+  if (!(wish.key >= 1)) return;
+  heap_.push_back({wish.rank, id});
   std::push_heap(heap_.begin(), heap_.end());
 }
 
 // A group is on offer as soon as all that are coarser are bought, so what is bought is a cut even where rounding lifts
-// its key above theirs.
+// its rank above theirs.
 void Selection::offerFiner(const AssetDemand& asset, GroupId bought) {
   for (const uint32_t finer : asset.graph->finerThan(bought.group)) {
     const bool isReady = std::ranges::all_of(asset.graph->coarserThan(finer),

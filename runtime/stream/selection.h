@@ -2,6 +2,7 @@
 // assets share.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,6 +12,12 @@
 #include "runtime/stream/group_set.h"
 
 namespace froth {
+
+// What lies before it: dot(normal, x) + offset >= 0.
+struct SightPlane {
+  glm::dvec3 normal{0};
+  double offset = 0;
+};
 
 // Who looks at an asset: a view of one of its instances, or a point where a view may soon be. In the asset's frame; an
 // asset has an eye for each view and instance.
@@ -22,20 +29,34 @@ struct StreamEye {
   double pixelAngle = 0;  // [radians]
   double pixelSize = 0;   // [scene units]
   double detail = 1;      // how much finer than measured errors ask for; 0: wants the floor [>= 0]
+  // Around what it sees, relative to the position; as they are by default it sees all around.
+  std::array<SightPlane, 4> sight{};
 };
 
-// How much an eye wants a group: its measured error by the size of a pixel at the nearest point of its bounds
-// (format/group_bounds.h). From 1 on the eye sees the error.
+// Whether a point of the bounds may lie before all planes of the eye. What holds for bounds holds for all that hold
+// them, however it is rounded: each step is monotone.
+bool sees(const StreamEye& eye, const GroupBounds& bounds);
+
+// How much eyes want a group, and when.
 //
-// A group that is coarser than another has a greater error, and its bounds hold the other's, so the eye is as near or
-// nearer to it and the pixel as small or smaller: its key is as great or greater. The maximum over eyes keeps that.
-double keyOf(const LevelGraph::Group& group, std::span<const StreamEye> eyes);
+// A group that is coarser than another has a greater error, and its bounds hold the other's, so an eye is as near or
+// nearer to it, the pixel as small or smaller, and it is seen where the other is: its key and its rank are as great or
+// greater. The maximum over eyes keeps that.
+struct Wish {
+  // The measured error by the size of a pixel at the nearest point of the bounds (format/group_bounds.h), of the eye
+  // that wants it most. From 1 on an eye that turned there would see the error: the group is wanted.
+  double key = 0;
+  double rank = 0;  // the same, where no eye sees the bounds kUnseenPart of it: what is wanted comes in this order
+};
+inline constexpr double kUnseenPart = 1.0 / 16;
+
+Wish wishFor(const LevelGraph::Group& group, std::span<const StreamEye> eyes);
 
 // What an asset brings to the selection, and what it gets.
 struct AssetDemand {
   const LevelGraph* graph = nullptr;
   std::vector<StreamEye> eyes;
-  GroupSet wanted;                // by descending key
+  GroupSet wanted;                // by descending rank
   uint64_t viewBytesPerCell = 0;  // [bytes] that views need for each live cell that is drawn
 };
 
@@ -50,8 +71,8 @@ struct GroupId {
   uint32_t asset = 0, group = 0;
 };
 
-// The groups of all assets by descending key, up to the first that is not affordable or whose key is below 1. By the
-// above this is a cut of each asset, and depends on eyes and budget alone. Equal keys: the lower asset, then the lower
+// The groups of all assets whose key is 1 or more, by descending rank, up to the first that is not affordable. By the
+// above this is a cut of each asset, and depends on eyes and budget alone. Equal ranks: the lower asset, then the lower
 // group first. Time: that of a heap of the wanted groups and those next to them, whatever else the assets hold.
 class Selection {
  public:
@@ -64,7 +85,7 @@ class Selection {
 
  private:
   struct Offer {
-    double key = 0;
+    double rank = 0;
     GroupId id;
     bool operator<(const Offer& other) const;
   };

@@ -135,6 +135,11 @@ StreamEye makeEye(uint64_t seed, const LevelDag& dag) {
   }
   if (uniform(0, 1) < 0.2) eye.radius = uniform(0, 1);
   eye.detail = uniform(0.5, 2);
+  if (uniform(0, 1) < 0.5) {  // looks along the square
+    const double turn = uniform(0, 6.28), half = uniform(0.2, 1);
+    eye.sight[0] = {{std::sin(turn + half), -std::cos(turn + half), 0}, 0};
+    eye.sight[1] = {{-std::sin(turn - half), std::cos(turn - half), 0}, 0};
+  }
   return eye;
 }
 

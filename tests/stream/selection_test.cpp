@@ -33,10 +33,10 @@ struct Scene {
   }
 };
 
-// All groups sorted by key, the coarser first where keys are equal.
-std::vector<GroupId> sortedByKey(const Scene& scene) {
+// All groups whose key is 1 or more sorted by rank, the coarser first where ranks are equal.
+std::vector<GroupId> sortedByRank(const Scene& scene) {
   struct Entry {
-    double key;
+    Wish wish;
     uint32_t level;
     GroupId id;
   };
@@ -44,14 +44,15 @@ std::vector<GroupId> sortedByKey(const Scene& scene) {
   for (uint32_t a = 0; a < scene.graphs.size(); ++a) {
     for (uint32_t g = 0; g < scene.graphs[a].groupCount(); ++g) {
       entries.push_back(
-          {keyOf(scene.graphs[a].group(g), scene.demands[a].eyes), scene.dags[a].groups[g].level, {a, g}});
+          {wishFor(scene.graphs[a].group(g), scene.demands[a].eyes), scene.dags[a].groups[g].level, {a, g}});
     }
   }
-  std::ranges::sort(entries,
-                    [](const Entry& x, const Entry& y) { return x.key != y.key ? x.key > y.key : x.level > y.level; });
+  std::ranges::sort(entries, [](const Entry& x, const Entry& y) {
+    return x.wish.rank != y.wish.rank ? x.wish.rank > y.wish.rank : x.level > y.level;
+  });
   std::vector<GroupId> order;
   for (const Entry& entry : entries) {
-    if (entry.key >= 1) order.push_back(entry.id);
+    if (entry.wish.key >= 1) order.push_back(entry.id);
   }
   return order;
 }
@@ -67,10 +68,10 @@ uint64_t weigh(const LevelGraph& graph, const GroupSet& cut, bool isBytes) {
   return sum;
 }
 
-TEST(Selection, BuysGroupsInTheOrderOfTheirKeysUntilOneIsNotAffordable) {
+TEST(Selection, BuysGroupsInTheOrderOfTheirRanksUntilOneIsNotAffordable) {
   for (uint64_t seed = 1; seed <= 200; ++seed) {
     Scene scene(seed, 3);
-    const std::vector<GroupId> order = sortedByKey(scene);
+    const std::vector<GroupId> order = sortedByRank(scene);
     for (const uint64_t bytes : {uint64_t{0}, uint64_t{500}, uint64_t{1500}, uint64_t{3000}, kUnlimited}) {
       for (const uint64_t cells : {uint64_t{60}, uint64_t{150}, kUnlimited}) {
         size_t affordable = 0;
@@ -148,12 +149,62 @@ TEST(Selection, MeasuresTheErrorByThePixelAtTheNearestPointOfTheBounds) {
   group.error = 0.6;
   const StreamEye still{{0, 0, 0}, 0, 0.01, 0, 1}, wandering{{0, 0, 0}, 2, 0.01, 0, 1}, flat{{0, 0, 0}, 0, 0, 0.3, 1};
   const StreamEye detailed{{0, 0, 0}, 0, 0.01, 0, 2}, nearBound{{0, 1, 6}, 0, 0.01, 0.002, 1};
-  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{still}), 0.6 / 0.05);
-  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{wandering}), 0.6 / 0.03);
-  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{flat}), 0.6 / 0.3);
-  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{detailed}), 2 * 0.6 / 0.05);
-  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{nearBound}), 0.6 / 0.002);
-  EXPECT_DOUBLE_EQ(keyOf(group, std::vector{flat, wandering, still}), 0.6 / 0.03);
+  EXPECT_DOUBLE_EQ(wishFor(group, std::vector{still}).key, 0.6 / 0.05);
+  EXPECT_DOUBLE_EQ(wishFor(group, std::vector{wandering}).key, 0.6 / 0.03);
+  EXPECT_DOUBLE_EQ(wishFor(group, std::vector{flat}).key, 0.6 / 0.3);
+  EXPECT_DOUBLE_EQ(wishFor(group, std::vector{detailed}).key, 2 * 0.6 / 0.05);
+  EXPECT_DOUBLE_EQ(wishFor(group, std::vector{nearBound}).key, 0.6 / 0.002);
+  EXPECT_DOUBLE_EQ(wishFor(group, std::vector{flat, wandering, still}).key, 0.6 / 0.03);
+}
+
+// Two walls, each a group, at the same distance from an eye that sees the right one alone.
+//
+//    |     o>    |
+//    0     5    10   x
+TEST(Selection, BuysWhatIsSeenFirstAndAllThatIsWantedWhereTheBudgetReaches) {
+  const std::vector<ChunkLevel> levels{{1, 0, kNoGroup}, {1, 1, kNoGroup}, {0, kNoGroup, 0}, {0, kNoGroup, 1}};
+  const std::vector<LevelGroup> groups{{{0, 0, 0}, 8, 0.2, 0}, {{10, 0, 0}, 8, 0.1, 0}};
+  const Box left{{-1, -4, -4}, {1, 4, 4}}, right{{9, -4, -4}, {11, 4, 4}};
+  const std::vector<Box> boxes{left, right, left, right};
+  const std::vector<uint64_t> bytes{1, 1, 11, 11};
+  const std::vector<uint32_t> cells(4, 1);
+  const LevelGraph graph({levels, groups, bytes, cells, boxes});
+  const SightPlane forwards{{1, 0, 0}, 0}, backwards{{-1, 0, 0}, 0};
+  const auto boughtBy = [&](const std::vector<StreamEye>& eyes, uint64_t budget) {
+    AssetDemand demand{&graph, eyes, GroupSet(graph.groupCount())};
+    Selection selection;
+    selection.select({&demand, 1}, {budget});
+    const auto members = demand.wanted.members();
+    return std::vector<uint32_t>(members.begin(), members.end());
+  };
+  const StreamEye all{{5, 0, 0}, 0, 0.01, 1e-6, 1};
+  StreamEye right1 = all, left1 = all, none = all;
+  right1.sight[0] = forwards;
+  left1.sight[0] = backwards;
+  none.sight[0] = {{0, 1, 0}, -5};
+  using Groups = std::vector<uint32_t>;
+  EXPECT_EQ(boughtBy({all}, 22), (Groups{0, 1}));  // by error
+  EXPECT_EQ(boughtBy({right1}, 22), (Groups{1, 0}));
+  EXPECT_EQ(boughtBy({right1}, 11), Groups{1});
+  EXPECT_EQ(boughtBy({left1}, 11), Groups{0});
+  EXPECT_EQ(boughtBy({none}, 22), (Groups{0, 1}));
+  EXPECT_EQ(boughtBy({right1, left1}, 22), (Groups{0, 1}));
+  StreamEye beside = right1;
+  beside.position.x = 1.01;  // so near to the wall behind it that it comes first all the same
+  EXPECT_EQ(boughtBy({beside}, 22), (Groups{0, 1}));
+}
+
+TEST(Selection, SeesBoundsThatReachBeforeAllPlanes) {
+  StreamEye eye{.position = {1, 0, 0}};
+  const GroupBounds box{{2, -1, -1}, {3, 1, 1}};
+  EXPECT_TRUE(sees(eye, box));
+  eye.sight[0] = {{1, 0, 0}, -2};  // x >= 3
+  EXPECT_TRUE(sees(eye, box));
+  eye.sight[1] = {{0, -1, 0}, -0.99};  // y <= -0.99
+  EXPECT_TRUE(sees(eye, box));
+  eye.sight[1].offset = -1.01;
+  EXPECT_FALSE(sees(eye, box));
+  EXPECT_TRUE(sees(eye, {{-9, -2, -9}, {9, 2, 9}}));
 }
 
 // Two walls of a room, each a group, and an eye between them: in both balls, in no box.

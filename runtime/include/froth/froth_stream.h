@@ -2,9 +2,10 @@
  *
  * An asset baked with levels is READY when its floor, its coarsest form, is resident; the floor stays until the asset
  * is closed. Finer chunks come and go by what views see: the newest camera of each view, and stream points. Groups of
- * cells are refined in the order of how well their error is seen, until an error is smaller than a pixel or the budget
- * (FrothContextInfo::deviceBudget, frothSetBudget) has no room. So what is wanted depends on views, points and budget
- * alone; while it comes, what is resident is drawn, and there is never a hole. Assets without levels are not touched.
+ * cells are refined in the order of how well their error is seen, what cameras look at before what is around them,
+ * until an error is smaller than a pixel or the budget (FrothContextInfo::deviceBudget, frothSetBudget) has no room. So
+ * what is wanted depends on views, points and budget alone; while it comes, what is resident is drawn, and there is
+ * never a hole. Assets without levels are not touched.
  *
  * Fades: with FrothViewInfo::fadeFrames = n the n frames from a change of cuts on draw both cuts and mix colour and
  * alpha: frame i has i / (n + 1) of the new one. All other images are those of the new cut. Such a frame takes about
@@ -22,7 +23,8 @@
 extern "C" {
 #endif
 
-/* A place from where something will be seen soon: the end of a cut scene, a door. It counts as a view does. */
+/* A place from where something will be seen soon: the end of a cut scene, a door. It counts as a view that sees all
+ * around does. */
 typedef struct FrothStreamPoint {
   double position[3]; /* in the world */
   double radius;      /* [>= 0] the eye may be anywhere this near to the position */
