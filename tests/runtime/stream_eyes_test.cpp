@@ -71,7 +71,9 @@ TEST(StreamEyes, SeeTheViewportAndItsMargin) {
     (isSeen ? seen : unseen) += 1;
     EXPECT_EQ(sees(eye, {inAsset, inAsset}), isSeen) << i << ", beyond " << beyond;
     const glm::dvec3 around = glm::abs(dice.point(0.5));
-    if (isSeen) EXPECT_TRUE(sees(eye, {inAsset - around, inAsset + around})) << i;
+    if (isSeen) {
+      EXPECT_TRUE(sees(eye, {inAsset - around, inAsset + around})) << i;
+    }
   }
   EXPECT_GT(seen, 200u);
   EXPECT_GT(unseen, 200u);
