@@ -78,7 +78,8 @@ struct FrothWalk {
 struct Interval {
   float tNear, tFar, density, exposure;
   vec3 colour;
-  uint densest;  // stream
+  uint instance;  // the densest,
+  uvec2 cell;     // and its cell
 };
 
 uvec4 frothNoHint() { return uvec4(FROTH_NONE); }
@@ -152,12 +153,12 @@ FrothWalk frothBeginWalk(FrothRay ray) {
   return walk;
 }
 
-void startNextStream(inout FrothWalk walk, inout WalkWork work) {
+void startNextStream(inout FrothWalk walk) {
   uint place = 0;
   while (place < FROTH_WALK_STREAMS && walk.streams[place].isAhead) ++place;
   if (place < FROTH_WALK_STREAMS) {
     walk.streams[place] = startStream(walk.nextInstance, walk.start, walk.ray.direction, walk.nextEntry - walk.tStart,
-                                      walk.ray.tMax - walk.tStart, walk.ray.hint, work);
+                                      walk.ray.tMax - walk.tStart, walk.ray.hint);
   } else {
     walk.hit.status = max(walk.hit.status, FROTH_WALK_STREAM_LIMIT);
   }
@@ -172,12 +173,14 @@ void noteStepLimit(inout FrothWalk walk) {
 }
 
 // Where the next segment beyond what is passed begins.
-float advanceStreams(inout FrothWalk walk, bool isSeen, inout WalkWork work) {
+float advanceStreams(inout FrothWalk walk, bool isSeen) {
   float first = FROTH_INFINITY;
   float behind = walk.tStart + walk.ray.apex;
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
     while (walk.streams[i].isAhead && walk.streams[i].tFar <= walk.passed) {
-      advanceStream(walk.streams[i], walk.start, walk.ray.direction, isSeen, behind, work);
+      uint steps = walk.streams[i].steps;
+      advanceStream(walk.streams[i], walk.start, walk.ray.direction, isSeen, behind);
+      walk.cells += walk.streams[i].steps - steps;
       if (walk.streams[i].isCut) noteStepLimit(walk);
     }
     if (walk.streams[i].isAhead) first = min(first, max(walk.streams[i].tNear, walk.passed));
@@ -186,15 +189,15 @@ float advanceStreams(inout FrothWalk walk, bool isSeen, inout WalkWork work) {
 }
 
 // The next interval before `end`; false: there is none.
-bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval interval, inout WalkWork work) {
+bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval interval) {
   float begin;
   for (;;) {
-    begin = advanceStreams(walk, isSeen, work);
+    begin = advanceStreams(walk, isSeen);
     bool isInstanceNext = walk.nextInstance != FROTH_NONE && walk.nextEntry - walk.tStart <= min(begin, end);
     if (!isInstanceNext) break;
-    startNextStream(walk, work);
+    startNextStream(walk);
   }
-  interval = Interval(begin, min(end, walk.nextEntry - walk.tStart), 0.0, 0.0, vec3(0.0), 0u);
+  interval = Interval(begin, min(end, walk.nextEntry - walk.tStart), 0.0, 0.0, vec3(0.0), FROTH_NONE, uvec2(kNoCell));
   if (!(begin < end)) return false;
   float most = 0.0;
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
@@ -208,7 +211,10 @@ bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval int
     interval.density += density;
     interval.colour += density * walk.streams[i].colour;
     if (isSeen) interval.exposure += density * walkSet.block.instances.v[walk.streams[i].instance].exposure;
-    if (density > most) interval.densest = i;
+    if (density > most) {
+      interval.instance = walk.streams[i].instance;
+      interval.cell = walk.streams[i].metCell;
+    }
     most = max(most, density);
   }
   interval.colour /= interval.density;
@@ -216,24 +222,13 @@ bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval int
   return true;
 }
 
-void describeHit(inout FrothWalk walk, Interval interval, float logQuantile) {
-  Stream met = walk.streams[interval.densest];
-  walk.hit.distance =
-      walk.tStart + quantileDistance(interval.tNear, walk.logTransmittance, logQuantile, interval.density);
-  walk.hit.instance = met.instance;
-  walk.hit.normal = normalOf(met.instance, met.metCell);  // the instance is at hand
-  uvec2 name = namedCell(met.metCell);
-  walk.hit.chunk = name.x;
-  walk.hit.cell = name.y;
-  walk.hit.userId = FRAME.userId;
-}
-
-void countWork(WalkWork work) {
-  countWalkWork(kRayWorkDescents, work.descents);
-  countWalkWork(kRayWorkCells, work.cells);
-  countWalkWork(kRayWorkNeighbours, work.neighbours);
-  countWalkWork(kRayWorkMet, work.met);
-  countWalkWork(kRayWorkShaded, work.shaded);
+// cell: that stops the ray.
+void describeHit(inout FrothHit hit, uvec2 cell) {
+  hit.normal = normalOf(hit.instance, cell);  // the instance is at hand
+  uvec2 name = namedCell(cell);
+  hit.chunk = name.x;
+  hit.cell = name.y;
+  hit.userId = FRAME.userId;
 }
 
 // On to tEnd, or to where the walk ends: premultiplied linear colour of this part (isSeen), and its opacity. The part's
@@ -245,9 +240,9 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   float end = min(tEnd, walk.ray.tMax) - walk.tStart;
   vec3 colour = vec3(0.0);
   float exposures = 0.0;
-  WalkWork work = WalkWork(0u, 0u, 0u, 0u, 0u);
+  uvec2 stopping = uvec2(kNoCell);
   Interval interval;
-  while (walk.logTransmittance >= logCutoff && findInterval(walk, end, isSeen, interval, work)) {
+  while (walk.logTransmittance >= logCutoff && findInterval(walk, end, isSeen, interval)) {
     float opticalDepth = interval.density * (interval.tFar - interval.tNear);
     if (isSeen) {
       float shown = exp(logPassed) * opacity(opticalDepth);
@@ -257,13 +252,17 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
     logPassed -= opticalDepth;
     float logAfter = logBefore + logPassed;
     bool isHit = walk.logTransmittance >= logQuantile && logAfter < logQuantile;
-    if (isHit) describeHit(walk, interval, logQuantile);
+    if (isHit) {
+      walk.hit.distance =
+          walk.tStart + quantileDistance(interval.tNear, walk.logTransmittance, logQuantile, interval.density);
+      walk.hit.instance = interval.instance;
+      stopping = interval.cell;
+    }
     walk.passed = interval.tFar;
     walk.logTransmittance = logAfter;
     if (isHit && isClosestOnly) break;
   }
-  walk.cells += work.cells;
-  countWork(work);
+  if (stopping.x != kNoCell) describeHit(walk.hit, stopping);
   float coverage = coverageOf(logPassed);
   float exposure = coverage > 0.0 ? exposures / coverage : 1.0;
   return vec4(exposure * linearPremultiplied(colour, coverage), coverage);

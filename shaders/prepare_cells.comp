@@ -18,7 +18,7 @@ void preparePlanes(Chunk chunk, uint cell) {
   for (uint i = row.x; i < row.y; ++i) {
     vec4 other = siteRadiusOf(chunk, neighbourAt(chunk, i));
     vec3 toNeighbour = fromSiteToSite(siteRadius.xyz, other.xyz);
-    chunk.prepared.v[i] = floatBitsToUint(vec4(toNeighbour, radicalOffset(toNeighbour, siteRadius.w, other.w)));
+    chunk.prepared.v[i] = floatBitsToUint(preparePlane(toNeighbour, radicalOffset(toNeighbour, siteRadius.w, other.w)));
   }
 }
 

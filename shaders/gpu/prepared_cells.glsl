@@ -2,7 +2,7 @@
 // numbers that cell_bits.glsl and foam/cell.h give. Where nothing is prepared, from the cell's bits.
 //
 // A chunk's quads, one array behind the other; K: detail sites of a cell
-//   planes   [neighbourCount]             towards the neighbours of each row: toNeighbour, radicalOffset
+//   planes   [neighbourCount]             towards the neighbours of each row (gpu/prepared_planes.glsl)
 //   faces    [liveCount * kFaceQuads]     quaternion; density, unit of the colours, widths of lobes, own axes
 //   places   [liveCount * K]              place, height, red of the base colour; with heights or kPreparedRadiance
 //   colours  [liveCount * K]              green, blue, lobes; with kPreparedRadiance
