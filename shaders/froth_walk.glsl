@@ -153,12 +153,12 @@ FrothWalk frothBeginWalk(FrothRay ray) {
   return walk;
 }
 
-void startNextStream(inout FrothWalk walk) {
+void startNextStream(inout FrothWalk walk, inout WalkWork work) {
   uint place = 0;
   while (place < FROTH_WALK_STREAMS && walk.streams[place].isAhead) ++place;
   if (place < FROTH_WALK_STREAMS) {
     walk.streams[place] = startStream(walk.nextInstance, walk.start, walk.ray.direction, walk.nextEntry - walk.tStart,
-                                      walk.ray.tMax - walk.tStart, walk.ray.hint);
+                                      walk.ray.tMax - walk.tStart, walk.ray.hint, work);
   } else {
     walk.hit.status = max(walk.hit.status, FROTH_WALK_STREAM_LIMIT);
   }
@@ -173,14 +173,12 @@ void noteStepLimit(inout FrothWalk walk) {
 }
 
 // Where the next segment beyond what is passed begins.
-float advanceStreams(inout FrothWalk walk, bool isSeen) {
+float advanceStreams(inout FrothWalk walk, bool isSeen, inout WalkWork work) {
   float first = FROTH_INFINITY;
   float behind = walk.tStart + walk.ray.apex;
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
     while (walk.streams[i].isAhead && walk.streams[i].tFar <= walk.passed) {
-      uint steps = walk.streams[i].steps;
-      advanceStream(walk.streams[i], walk.start, walk.ray.direction, isSeen, behind);
-      walk.cells += walk.streams[i].steps - steps;
+      advanceStream(walk.streams[i], walk.start, walk.ray.direction, isSeen, behind, work);
       if (walk.streams[i].isCut) noteStepLimit(walk);
     }
     if (walk.streams[i].isAhead) first = min(first, max(walk.streams[i].tNear, walk.passed));
@@ -189,13 +187,13 @@ float advanceStreams(inout FrothWalk walk, bool isSeen) {
 }
 
 // The next interval before `end`; false: there is none.
-bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval interval) {
+bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval interval, inout WalkWork work) {
   float begin;
   for (;;) {
-    begin = advanceStreams(walk, isSeen);
+    begin = advanceStreams(walk, isSeen, work);
     bool isInstanceNext = walk.nextInstance != FROTH_NONE && walk.nextEntry - walk.tStart <= min(begin, end);
     if (!isInstanceNext) break;
-    startNextStream(walk);
+    startNextStream(walk, work);
   }
   interval = Interval(begin, min(end, walk.nextEntry - walk.tStart), 0.0, 0.0, vec3(0.0), FROTH_NONE, uvec2(kNoCell));
   if (!(begin < end)) return false;
@@ -231,6 +229,14 @@ void describeHit(inout FrothHit hit, uvec2 cell) {
   hit.userId = FRAME.userId;
 }
 
+void countWork(WalkWork work) {
+  countWalkWork(kRayWorkDescents, work.descents);
+  countWalkWork(kRayWorkCells, work.cells);
+  countWalkWork(kRayWorkNeighbours, work.neighbours);
+  countWalkWork(kRayWorkMet, work.met);
+  countWalkWork(kRayWorkShaded, work.shaded);
+}
+
 // On to tEnd, or to where the walk ends: premultiplied linear colour of this part (isSeen), and its opacity. The part's
 // exposure is the mean of what the instances contribute to it.
 vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
@@ -241,8 +247,9 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   vec3 colour = vec3(0.0);
   float exposures = 0.0;
   uvec2 stopping = uvec2(kNoCell);
+  WalkWork work = WalkWork(0u, 0u, 0u, 0u, 0u);
   Interval interval;
-  while (walk.logTransmittance >= logCutoff && findInterval(walk, end, isSeen, interval)) {
+  while (walk.logTransmittance >= logCutoff && findInterval(walk, end, isSeen, interval, work)) {
     float opticalDepth = interval.density * (interval.tFar - interval.tNear);
     if (isSeen) {
       float shown = exp(logPassed) * opacity(opticalDepth);
@@ -262,6 +269,8 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
     walk.logTransmittance = logAfter;
     if (isHit && isClosestOnly) break;
   }
+  walk.cells += work.cells;
+  countWork(work);
   if (stopping.x != kNoCell) describeHit(walk.hit, stopping);
   float coverage = coverageOf(logPassed);
   float exposure = coverage > 0.0 ? exposures / coverage : 1.0;

@@ -26,6 +26,10 @@ struct Stream {
   vec3 colour;
 };
 
+struct WalkWork {
+  uint descents, cells, neighbours, met, shaded;
+};
+
 vec3 assetFromWorld(vec3 vector) {
   vec4 x = FRAME.worldX, y = FRAME.worldY, z = FRAME.worldZ;
   return vector.x * x.xyz + vector.y * y.xyz + vector.z * z.xyz;
@@ -85,7 +89,8 @@ bool clipByBox(LocalRay ray, inout float tNear, inout float tFar) {
 }
 
 // In the box from `entry` to tEnd [world units from the ray's origin], but for what is empty. hint: as FrothRay::hint.
-Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, float tEnd, uvec4 hint) {
+Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, float tEnd, uvec4 hint,
+                   inout WalkWork work) {
   instanceAtHand = instance;
   LocalRay ray = localRay(origin, direction);
   Stream stream;
@@ -104,7 +109,7 @@ Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, floa
     stream.cell = locateFrom(ray.origin + stream.entry * ray.direction, isHinted ? cellOfName(hint.yz) : uvec2(kNoCell),
                              steps, stream.neighbours);
   }
-  countWalkWork(kRayWorkDescents, steps);
+  work.descents += steps;
   Chunk chunk = loadChunk(stream.cell.x);
   stream.key = keyOf(ray.direction, centreAt(placeFrom(ray.origin, chunk), siteRadiusOf(chunk, stream.cell.y).xyz));
   stream.steps = 0;
@@ -172,14 +177,18 @@ Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 di
 }
 
 // Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it; false: there is none.
-bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tNear, out float tFar) {
+bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tNear, out float tFar,
+                inout WalkWork work) {
   Chunk chunk = loadChunk(stream.cell.x);
   ChunkPlace place = placeFrom(ray.origin, chunk);
   uint maxSteps = FRAME.maxSteps, maxNeighbours = FRAME.maxNeighbours;
   while (stream.entry < stream.end && stream.steps < maxSteps && stream.neighbours < maxNeighbours) {
     ++stream.steps;
+    ++work.cells;
     vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);
+    uint before = stream.neighbours;
     Exit exit = findExit(chunk, place, stream.cell.y, siteRadius, ray.direction, stream.key, stream.neighbours);
+    work.neighbours += stream.neighbours - before;
     met = MetCell(stream.cell, centreAt(place, siteRadius.xyz), siteRadius.w);
     bool isMet = stream.cell.y < chunk.liveCount && intersectBall(met.centre, met.radius, ray.direction, tNear, tFar);
     if (isMet) {
@@ -203,19 +212,16 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
 
 // On to the next segment, if it is one: a face may leave nothing of it. isSeen: with its colour, seen from `behind` the
 // origin.
-void advanceStream(inout Stream stream, vec3 origin, vec3 direction, bool isSeen, float behind) {
+void advanceStream(inout Stream stream, vec3 origin, vec3 direction, bool isSeen, float behind, inout WalkWork work) {
   instanceAtHand = stream.instance;
   LocalRay ray = localRay(origin, direction);
   float scale = FRAME.scale;
   MetCell met;
   float tNear, tFar;
-  uint steps = stream.steps, neighbours = stream.neighbours;
-  stream.isAhead = walkToCell(stream, ray, met, tNear, tFar);
-  countWalkWork(kRayWorkCells, stream.steps - steps);
-  countWalkWork(kRayWorkNeighbours, stream.neighbours - neighbours);
+  stream.isAhead = walkToCell(stream, ray, met, tNear, tFar, work);
   stream.tFar = -kInfinity;
   if (!stream.isAhead) return;
-  countWalkWork(kRayWorkMet, 1u);
+  ++work.met;
   CellCode code = FRAME.chunks.v[met.cell.x].code;
   Face face = loadFace(code, met.cell);
   clipByFace(code, met, face.frame, ray.direction, tNear, tFar);
@@ -223,7 +229,7 @@ void advanceStream(inout Stream stream, vec3 origin, vec3 direction, bool isSeen
   if (isSeen) {
     uint shaded;
     stream.colour = colourAt(code, met, face.frame, ray.direction, tNear, behind / scale, shaded);
-    countWalkWork(kRayWorkShaded, shaded);
+    work.shaded += shaded;
   }
   stream.metCell = met.cell;
   stream.tNear = tNear * scale;
