@@ -7,8 +7,10 @@ namespace froth {
 bool sees(const StreamEye& eye, const GroupBounds& bounds) {
   const glm::dvec3 low = bounds.low - eye.position, high = bounds.high - eye.position;
   return std::ranges::all_of(eye.sight, [&](const SightPlane& plane) {
-    const glm::dvec3 farthest = glm::max(plane.normal * low, plane.normal * high);
-    return farthest.x + farthest.y + farthest.z + plane.offset >= 0;
+    const glm::dvec3& n = plane.normal;
+    const double farthest =
+        n.x * (n.x > 0 ? high.x : low.x) + n.y * (n.y > 0 ? high.y : low.y) + n.z * (n.z > 0 ? high.z : low.z);
+    return farthest + plane.offset >= 0;
   });
 }
 
@@ -20,6 +22,7 @@ Wish wishFor(const LevelGraph::Group& group, std::span<const StreamEye> eyes) {
     const double pixel = std::max({eye.pixelSize, eye.pixelAngle * distance, kLeastPixel});
     const double key = group.error * eye.detail / pixel;
     wish.key = std::max(wish.key, key);
+    if (!(key >= 1 && key > wish.rank)) continue;
     wish.rank = std::max(wish.rank, sees(eye, group.bounds) ? key : key * kUnseenPart);
   }
   return wish;

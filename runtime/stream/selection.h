@@ -46,7 +46,9 @@ struct Wish {
   // The measured error by the size of a pixel at the nearest point of the bounds (format/group_bounds.h), of the eye
   // that wants it most. From 1 on an eye that turned there would see the error: the group is wanted.
   double key = 0;
-  double rank = 0;  // the same, where no eye sees the bounds kUnseenPart of it: what is wanted comes in this order
+  // The greatest of the eyes that want it, of those that do not see the bounds kUnseenPart: what is wanted comes in
+  // this order.
+  double rank = 0;
 };
 inline constexpr double kUnseenPart = 1.0 / 16;
 
