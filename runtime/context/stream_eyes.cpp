@@ -22,8 +22,11 @@ void takeProjection(const FrothCamera& camera, SeenFrom& seen) {
                                 std::abs(double{clip[5]}) * std::abs(camera.viewport.height));
   const double depth = std::hypot(clip[3], clip[7], clip[11]);  // w by a step along the view's depth
   (depth > 0 ? seen.pixelAngle : seen.pixelSize) = 2 * (depth > 0 ? depth : std::abs(double{clip[15]})) / along;
+}
 
-  // Of a point (x, y, z) in view axes: -w <= x <= w, the same for y, by the margin wider.
+// Of a point in clip coordinates: -w <= x <= w and -w <= y <= w, by the margin wider.
+void takeSight(const FrothCamera& camera, SeenFrom& seen) {
+  const float* clip = camera.clipFromView;
   const glm::dmat3 worldFromView = glm::transpose(glm::dmat3(glm::make_mat3(camera.viewFromWorld)));
   const auto row = [&](int i) { return glm::dvec4(clip[i], clip[i + 4], clip[i + 8], clip[i + 12]); };
   size_t side = 0;
@@ -43,6 +46,7 @@ SeenFrom seenFrom(const FrothRenderInfo& info) {
   const double focal = std::max(camera.lens.focal[0], camera.lens.focal[1]);
   if (camera.lens.kind == FROTH_LENS_PROJECTION) {
     takeProjection(camera, seen);
+    takeSight(camera, seen);
   } else if (camera.lens.kind != FROTH_LENS_RAY_MAP && focal > 0) {
     seen.pixelAngle = 1 / focal;
   } else {
@@ -53,18 +57,18 @@ SeenFrom seenFrom(const FrothRenderInfo& info) {
 
 StreamEye eyeOf(const SeenFrom& from, const RenderInstance& instance, const GpuAsset& asset) {
   const std::array<float, 4>& q = instance.rotation;
-  const glm::dquat worldFromAsset(q[3], q[0], q[1], q[2]);
+  const glm::dquat assetFromWorld = glm::inverse(glm::dquat(q[3], q[0], q[1], q[2]));
   const double scale = instance.scale;
   const double diagonal = glm::length(toVector(asset.boundsHigh) - toVector(asset.boundsLow));
   StreamEye eye;
-  eye.position = glm::inverse(worldFromAsset) * (toVector(from.position) - toVector(instance.position)) / scale;
+  eye.position = assetFromWorld * (toVector(from.position) - toVector(instance.position)) / scale;
   eye.radius = from.radius / scale;
   eye.pixelAngle = from.pixelAngle;
   eye.pixelSize = std::max(from.pixelSize / scale, from.pixelAngle * kNearestPart * diagonal);
   eye.detail = from.detail;
   for (size_t side = 0; side < eye.sight.size(); ++side) {
     const SightPlane& plane = from.sight[side];
-    eye.sight[side] = {glm::inverse(worldFromAsset) * plane.normal, plane.offset / scale};
+    eye.sight[side] = {assetFromWorld * plane.normal, plane.offset / scale};
   }
   return eye;
 }

@@ -22,10 +22,11 @@ struct SeenFrom {
   std::array<SightPlane, 4> sight{};  // as StreamEye's, in the world
 };
 
-// A camera whose fields were checked. Its smallest pixel counts; where a lens does not tell, that of a quarter turn
-// over the width of the viewport. A projection sees its viewport and kSightMargin of its extent beyond each side, so
-// that what a turning camera sees next comes in time; other lenses see all around.
+// Of the viewport's extent: how far beyond each of its sides a camera sees, so that what it turns to comes in time.
 inline constexpr double kSightMargin = 0.125;
+
+// A camera whose fields were checked. Its smallest pixel counts; where a lens does not tell, that of a quarter turn
+// over the width of the viewport. A projection sees its viewport and the margin; other lenses see all around.
 SeenFrom seenFrom(const FrothRenderInfo& info);
 
 // In the axes and units of an instance's asset. No eye looks nearer than a thousandth of the asset's diagonal.

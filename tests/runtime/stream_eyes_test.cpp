@@ -38,7 +38,7 @@ FrothRenderInfo makeInfo(Dice& dice, const glm::mat4& clipFromView) {
   return info;
 }
 
-// By how much of half a viewport a point lies beyond a side of it; negative: inside. None: behind the eye.
+// By how much of half a viewport a point lies beyond a side of it; negative: inside; infinite: behind the eye.
 double beyondOf(const FrothCamera& camera, const glm::dvec3& inWorld) {
   const glm::dmat3 viewFromWorld(glm::make_mat3(camera.viewFromWorld));
   const glm::dvec3 inView = viewFromWorld * (inWorld - glm::make_vec3(camera.eye));

@@ -157,25 +157,36 @@ TEST(Selection, MeasuresTheErrorByThePixelAtTheNearestPointOfTheBounds) {
   EXPECT_DOUBLE_EQ(wishFor(group, std::vector{flat, wandering, still}).key, 0.6 / 0.03);
 }
 
-// Two walls, each a group, at the same distance from an eye that sees the right one alone.
+// Two walls of a room, each a group, and an eye between them: in both balls, in no box.
 //
-//    |     o>    |
+//    |     o     |
 //    0     5    10   x
-TEST(Selection, BuysWhatIsSeenFirstAndAllThatIsWantedWhereTheBudgetReaches) {
-  const std::vector<ChunkLevel> levels{{1, 0, kNoGroup}, {1, 1, kNoGroup}, {0, kNoGroup, 0}, {0, kNoGroup, 1}};
-  const std::vector<LevelGroup> groups{{{0, 0, 0}, 8, 0.2, 0}, {{10, 0, 0}, 8, 0.1, 0}};
-  const Box left{{-1, -4, -4}, {1, 4, 4}}, right{{9, -4, -4}, {11, 4, 4}};
-  const std::vector<Box> boxes{left, right, left, right};
-  const std::vector<uint64_t> bytes{1, 1, 11, 11};
-  const std::vector<uint32_t> cells(4, 1);
-  const LevelGraph graph({levels, groups, bytes, cells, boxes});
-  const SightPlane forwards{{1, 0, 0}, 0}, backwards{{-1, 0, 0}, 0};
-  const auto boughtBy = [&](const std::vector<StreamEye>& eyes, uint64_t budget) {
+struct TwoWalls {
+  LevelGraph graph;
+
+  explicit TwoWalls(double leftError) {
+    const std::vector<ChunkLevel> levels{{1, 0, kNoGroup}, {1, 1, kNoGroup}, {0, kNoGroup, 0}, {0, kNoGroup, 1}};
+    const std::vector<LevelGroup> groups{{{0, 0, 0}, 8, leftError, 0}, {{10, 0, 0}, 8, 0.1, 0}};
+    const Box left{{-1, -4, -4}, {1, 4, 4}}, right{{9, -4, -4}, {11, 4, 4}};
+    const std::vector<Box> boxes{left, right, left, right};
+    const std::vector<uint64_t> bytes{1, 1, 11, 11};
+    const std::vector<uint32_t> cells(4, 1);
+    graph = LevelGraph({levels, groups, bytes, cells, boxes});
+  }
+  std::vector<uint32_t> boughtBy(const std::vector<StreamEye>& eyes, CutLimits limits) const {
     AssetDemand demand{&graph, eyes, GroupSet(graph.groupCount())};
     Selection selection;
-    selection.select({&demand, 1}, {budget});
+    selection.select({&demand, 1}, limits);
     const auto members = demand.wanted.members();
-    return std::vector<uint32_t>(members.begin(), members.end());
+    return {members.begin(), members.end()};
+  }
+};
+
+TEST(Selection, BuysWhatIsSeenFirstAndAllThatIsWantedWhereTheBudgetReaches) {
+  const TwoWalls walls(0.2);
+  const SightPlane forwards{{1, 0, 0}, 0}, backwards{{-1, 0, 0}, 0};
+  const auto boughtBy = [&](const std::vector<StreamEye>& eyes, uint64_t bytes) {
+    return walls.boughtBy(eyes, {.bytes = bytes});
   };
   const StreamEye all{{5, 0, 0}, 0, 0.01, 1e-6, 1};
   StreamEye right1 = all, left1 = all, none = all;
@@ -207,24 +218,10 @@ TEST(Selection, SeesBoundsThatReachBeforeAllPlanes) {
   EXPECT_TRUE(sees(eye, {{-9, -2, -9}, {9, 2, 9}}));
 }
 
-// Two walls of a room, each a group, and an eye between them: in both balls, in no box.
-//
-//    |     o     |
-//    0     5    10   x
 TEST(Selection, LeavesAGroupWhoseBallHoldsTheEyeButWhoseBoxDoesNotAtASmallDetail) {
-  const std::vector<ChunkLevel> levels{{1, 0, kNoGroup}, {1, 1, kNoGroup}, {0, kNoGroup, 0}, {0, kNoGroup, 1}};
-  const std::vector<LevelGroup> groups{{{0, 0, 0}, 8, 0.1, 0}, {{10, 0, 0}, 8, 0.1, 0}};
-  const Box left{{-1, -4, -4}, {1, 4, 4}}, right{{9, -4, -4}, {11, 4, 4}};
-  const std::vector<Box> boxes{left, right, left, right};
-  const std::vector<uint64_t> bytes(4, 1);
-  const std::vector<uint32_t> cells(4, 1);
-  const LevelGraph graph({levels, groups, bytes, cells, boxes});
+  const TwoWalls walls(0.1);
   const auto wantedAt = [&](const glm::dvec3& position, double detail) {
-    AssetDemand demand{&graph, {{position, 0, 0.01, 1e-6, detail}}, GroupSet(graph.groupCount())};
-    Selection selection;
-    selection.select({&demand, 1}, {});
-    const auto members = demand.wanted.members();
-    return std::vector<uint32_t>(members.begin(), members.end());
+    return walls.boughtBy({{position, 0, 0.01, 1e-6, detail}}, {});
   };
   EXPECT_EQ(wantedAt({5, 0, 0}, 1).size(), 2u);  // a pixel of 0.04 at both walls
   EXPECT_TRUE(wantedAt({5, 0, 0}, 0.39).empty());
