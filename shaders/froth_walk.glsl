@@ -16,7 +16,7 @@
 #ifndef FROTH_WALK_GLSL
 #define FROTH_WALK_GLSL
 
-#define FROTH_WALK_ABI 6u
+#define FROTH_WALK_ABI 7u
 
 // FrothHit::status
 #define FROTH_WALK_DONE 0u
@@ -24,6 +24,10 @@
 #define FROTH_WALK_STREAM_LIMIT 2u  // an instance was left out: more overlap than FROTH_WALK_STREAMS
 #define FROTH_WALK_VERSION 3u       // the set is one of another library; nothing was met
 #define FROTH_WALK_UNPREPARED 4u    // less is prepared of an instance than FROTH_WALK_PREPARED; nothing was met
+
+// FrothRay::colours
+#define FROTH_COLOURS_SEEN 0u  // as they are seen along the ray
+#define FROTH_COLOURS_BASE 1u  // without view dependence, as an asset of two layers shows them: cheaper, for what is seen in mirrors
 
 #define FROTH_INFINITY uintBitsToFloat(0x7f800000u)
 #define FROTH_NONE 0xffffffffu  // no instance, no cell
@@ -44,6 +48,7 @@ struct FrothRay {
   // colours are seen from the point that lies this far behind the origin. 0: the origin itself. Of a ray that a plane
   // mirror reflects: the length of its path from the camera, for there the mirrored camera stands
   float apex;
+  uint colours;    // FROTH_COLOURS_...
   uint mask;       // meets instances whose FrothInstanceInfo::mask shares a bit with it
   uvec4 hint;      // where to look for the cell in which the walk begins: instance, chunk, cell of a hit nearby
 };
@@ -85,7 +90,7 @@ struct Interval {
 uvec4 frothNoHint() { return uvec4(FROTH_NONE); }
 
 FrothRay frothRay(vec3 origin, vec3 direction) {
-  return FrothRay(origin, direction, 0.0, FROTH_INFINITY, 0.0, FROTH_NONE, frothNoHint());
+  return FrothRay(origin, direction, 0.0, FROTH_INFINITY, 0.0, FROTH_COLOURS_SEEN, FROTH_NONE, frothNoHint());
 }
 
 // FROTH_WALK_DONE, or why nothing can be met.
@@ -175,10 +180,10 @@ void noteStepLimit(inout FrothWalk walk) {
 // Where the next segment beyond what is passed begins.
 float advanceStreams(inout FrothWalk walk, bool isSeen, inout WalkWork work) {
   float first = FROTH_INFINITY;
-  float behind = walk.tStart + walk.ray.apex;
+  Sight sight = Sight(isSeen, walk.ray.colours == FROTH_COLOURS_SEEN, walk.tStart + walk.ray.apex);
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
     while (walk.streams[i].isAhead && walk.streams[i].tFar <= walk.passed) {
-      advanceStream(walk.streams[i], walk.start, walk.ray.direction, isSeen, behind, work);
+      advanceStream(walk.streams[i], walk.start, walk.ray.direction, sight, work);
       if (walk.streams[i].isCut) noteStepLimit(walk);
     }
     if (walk.streams[i].isAhead) first = min(first, max(walk.streams[i].tNear, walk.passed));

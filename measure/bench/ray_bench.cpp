@@ -10,6 +10,7 @@
 #include "base/progress_printer.h"
 #include "measure/gpu/gpu_camera.h"
 #include "reference/camera/view_rays.h"
+#include "shaders/foam/colour.h"
 
 namespace froth {
 namespace {
@@ -56,6 +57,23 @@ std::vector<FrothGpuRay> secondRays(const std::vector<FrothGpuRay>& rays, const 
   return second;
 }
 
+std::vector<FrothGpuRay> inBaseColours(std::vector<FrothGpuRay> rays) {
+  for (FrothGpuRay& ray : rays) ray.flags = FROTH_RAY_BASE_COLOURS;
+  return rays;
+}
+
+void addError(const std::vector<FrothGpuHit>& hits, const std::vector<FrothGpuHit>& expected, ColourError& error) {
+  const auto coded = [](const FrothGpuHit& hit) {
+    return foam::displayPremultiplied<float>({hit.colour[0], hit.colour[1], hit.colour[2]}, 1 - hit.transmittance);
+  };
+  for (size_t i = 0; i < hits.size(); ++i) {
+    const glm::dvec3 difference = glm::abs(glm::dvec3(coded(hits[i])) - glm::dvec3(coded(expected[i])));
+    error.squares += glm::dot(difference, difference);
+    error.largest = std::max({error.largest, difference.x, difference.y, difference.z});
+    error.values += 3;
+  }
+}
+
 void addWork(const FrothWalkStatus& status, FrothWalkStatus& sum) {
   sum.rays += status.rays;
   sum.descents += status.descents;
@@ -79,22 +97,32 @@ class RayBench {
     next_ = 0;
     if (Status done = add("camera, transmittance", rays, FROTH_RAY_TRANSMITTANCE); !done) return done;
     if (Status done = add("camera, closest", rays, FROTH_RAY_CLOSEST, &hits); !done) return done;
-    if (Status done = add("camera, radiance", rays, FROTH_RAY_RADIANCE); !done) return done;
+    if (Status done = addRadiance("camera", rays); !done) return done;
     const std::vector<FrothGpuRay> mirrored = secondRays(rays, hits, nullptr);
-    if (Status done = add("mirrored, radiance", mirrored, FROTH_RAY_RADIANCE); !done) return done;
+    if (Status done = addRadiance("mirrored", mirrored); !done) return done;
     return add("to a light, transmittance", secondRays(rays, hits, kLightDirection), FROTH_RAY_TRANSMITTANCE);
   }
 
   std::vector<RayFigures>& figures() { return figures_; }
 
  private:
-  Status add(const char* kind, const std::vector<FrothGpuRay>& rays, FrothRayKind gpuKind,
+  Status addRadiance(const std::string& from, const std::vector<FrothGpuRay>& rays) {
+    std::vector<FrothGpuHit> seen, base;
+    if (Status done = add(from + ", radiance", rays, FROTH_RAY_RADIANCE, &seen); !done) return done;
+    if (Status done = add(from + ", base colours", inBaseColours(rays), FROTH_RAY_RADIANCE, &base); !done) return done;
+    std::optional<ColourError>& error = figures_[next_ - 1].error;
+    if (!error) error.emplace();
+    addError(base, seen, *error);
+    return {};
+  }
+
+  Status add(const std::string& kind, const std::vector<FrothGpuRay>& rays, FrothRayKind gpuKind,
              std::vector<FrothGpuHit>* hits = nullptr) {
     if (!report(progress_, kind, 0, 0)) return stoppedError();
     const RayTiming timing{eye_, gpuKind, options_.cutoff, options_.frames, hits != nullptr};
     Result<RayTimes> times = renderer_.timeRays(rays, timing);
     if (!times) return times.error();
-    if (next_ == figures_.size()) figures_.push_back({kind, 0, {}, {}});
+    if (next_ == figures_.size()) figures_.push_back({kind, 0, {}, {}, {}});
     RayFigures& figures = figures_[next_++];
     figures.rays += rays.size();
     if (!rays.empty()) figures.viewTimes.push_back(std::move(times->milliseconds));
@@ -110,6 +138,10 @@ class RayBench {
   size_t next_ = 0;
   std::vector<RayFigures> figures_;
 };
+
+std::string errorText(const std::optional<ColourError>& error) {
+  return error ? fmt::format(" {:8.2f} {:9.4f}", error->psnr(), error->largest) : std::string();
+}
 
 // [ms] of a view: the means over views of its median, 5th and 95th percentile.
 Percentiles timesOf(const RayFigures& figures) {
@@ -141,6 +173,8 @@ double perRay(const RayFigures& figures, const WorkColumn& column) {
 
 }  // namespace
 
+double ColourError::psnr() const { return 10 * std::log10(static_cast<double>(values) / squares); }
+
 Result<std::vector<RayFigures>> benchRays(GpuRenderer& renderer, const std::vector<SelectedView>& views,
                                           const RayBenchOptions& options, const Progress& progress) {
   RayBench bench(renderer, options, progress);
@@ -155,14 +189,14 @@ void printRays(const std::vector<RayFigures>& figures, bool isCounting) {
   for (const WorkColumn& column : kWorkColumns) {
     if (isCounting) fmt::print(" {:>11}", column.name);
   }
-  fmt::print("\n");
+  fmt::print(" {:>8} {:>9}\n", "PSNR", "largest");
   for (const RayFigures& kind : figures) {
     const Percentiles times = timesOf(kind);
     fmt::print("{:<26} {:9.3f} {:9.3f} {:9.3f} {:11}", kind.kind, times.median, times.p5, times.p95, kind.rays);
     for (const WorkColumn& column : kWorkColumns) {
       if (isCounting) fmt::print(" {:11.2f}", perRay(kind, column));
     }
-    fmt::print("\n");
+    fmt::print("{}\n", errorText(kind.error));
   }
 }
 
@@ -175,6 +209,7 @@ nlohmann::ordered_json raysAsJson(const std::vector<RayFigures>& figures, bool i
     for (const WorkColumn& column : kWorkColumns) {
       if (isCounting) entry["perRay"][column.name] = perRay(kind, column);
     }
+    if (kind.error) entry["error"] = {{"psnr", kind.error->psnr()}, {"largest", kind.error->largest}};
     result.push_back(std::move(entry));
   }
   return result;

@@ -20,6 +20,10 @@ int main(int argc, char** argv) {
                   "How much of their shadow meshes cast on the foam, 0 to 1")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
+  program.add_option("--ray-step", options.look.rayStep, "2: one pixel in four casts rays from meshes")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 2u));
+  program.add_flag("--base-colours", options.look.hasBaseColours, "Reflections of the foam without view dependence");
   program.add_flag("--no-particles", hasNoParticles, "Without the motes in the foam");
   program.add_option("--prepare-rays", prepared, "What is kept in device memory for rays")
       ->capture_default_str()

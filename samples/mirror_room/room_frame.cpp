@@ -108,6 +108,8 @@ room::RoomFrame frameOf(const RoomShot& shot, const SunCamera& sun, uint32_t sha
   setMaterials(room, frame);
   setParticles(shot, frame);
   frame.counts.y = hasFoam ? 1 : 0;
+  frame.counts.z = static_cast<int>(shot.look.rayStep);
+  frame.counts.w = shot.look.hasBaseColours ? 1 : 0;
   return frame;
 }
 

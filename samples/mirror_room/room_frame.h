@@ -13,6 +13,8 @@ namespace froth {
 struct RoomLook {
   double shadowCatching = 1;    // [0..1] how much of their shadow meshes cast on the foam
   double occlusionReach = 0.5;  // [metres] of the rays of ambient occlusion
+  uint32_t rayStep = 1;         // [1 or 2] pixels from one that casts rays at meshes to the next
+  bool hasBaseColours = false;  // reflections of the foam, without view dependence
 };
 
 struct RoomShot {

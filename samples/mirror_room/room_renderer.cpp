@@ -130,13 +130,16 @@ Status RoomRenderer::createPasses() {
   const struct {
     std::unique_ptr<ComputePass>* pass;
     std::span<const uint32_t> spirv;
-  } wanted[] = {{&passes_.sun, kSunShader},
-                {&passes_.surround, kSurroundShader},
-                {&passes_.reflect, kReflectShader},
-                {&passes_.foreground, kForegroundShader},
-                {&passes_.light, kLightRoomShader}};
-  const uint32_t constants[] = {prepared_};
-  for (const auto& [pass, spirv] : wanted) {
+    bool isBetween;  // pixels with rays: between_rays.glsl
+  } wanted[] = {{&passes_.sun, kSunShader, false},
+                {&passes_.sunBetween, kSunShader, true},
+                {&passes_.surround, kSurroundShader, false},
+                {&passes_.reflect, kReflectShader, false},
+                {&passes_.reflectBetween, kReflectShader, true},
+                {&passes_.foreground, kForegroundShader, false},
+                {&passes_.light, kLightRoomShader, false}};
+  for (const auto& [pass, spirv, isBetween] : wanted) {
+    const uint32_t constants[] = {prepared_, isBetween ? 1u : 0u};
     Result<std::unique_ptr<ComputePass>> made = ComputePass::create(host_, spirv, resources, walkLayout_, constants);
     if (!made) return made.error();
     *pass = std::move(*made);
@@ -159,7 +162,7 @@ Status RoomRenderer::record(VkCommandBuffer commands, Scene& scene, const RoomSh
   if (Status checked = scene.check(recorded, "frothRecordWalkSet"); !checked) return checked;
   timer_->mark(commands, "walk set");
   recordFrame(commands, frameOf(shot, sun_, kShadowMapEdge, images_.result.extent, recorded == FROTH_OK));
-  recordLight(commands, walkSet, readStage);
+  recordLight(commands, walkSet, shot.look.rayStep, readStage);
   return {};
 }
 
@@ -212,19 +215,32 @@ Status RoomRenderer::recordFoam(VkCommandBuffer commands, Scene& scene, const Ro
   return drawn;
 }
 
-void RoomRenderer::recordLight(VkCommandBuffer commands, VkDescriptorSet walkSet,
+// Of sunlight, occlusion and reflections.
+void RoomRenderer::recordRays(VkCommandBuffer commands, VkDescriptorSet walkSet, uint32_t step) const {
+  const VkExtent2D extent = images_.result.extent;
+  const VkExtent2D stepped{(extent.width + step - 1) / step, (extent.height + step - 1) / step};
+  const auto record = [&](const ComputePass& pass, const ComputePass& between, const HostImage& image) {
+    pass.record(commands, stepped, walkSet);
+    if (step == 1) return;
+    imageBarrier(commands, image.image, kWritten, kLoadedAndWritten);
+    between.record(commands, extent, walkSet);
+  };
+  record(*passes_.sun, *passes_.sunBetween, images_.sunlight);
+  timer_->mark(commands, "sun");
+  passes_.surround->record(commands, stepped, walkSet);
+  timer_->mark(commands, "surround");
+  record(*passes_.reflect, *passes_.reflectBetween, images_.reflection);
+  timer_->mark(commands, "reflection");
+}
+
+void RoomRenderer::recordLight(VkCommandBuffer commands, VkDescriptorSet walkSet, uint32_t rayStep,
                                VkPipelineStageFlags2 readStage) const {
   const VkExtent2D extent = images_.result.extent;
   for (const HostImage* image : {&images_.sunlight, &images_.surround, &images_.reflection}) {
     imageBarrier(commands, image->image, kNew, kWritten);
   }
   imageBarrier(commands, images_.result.image, {VK_IMAGE_LAYOUT_UNDEFINED, readStage, VK_ACCESS_2_NONE}, kWritten);
-  passes_.sun->record(commands, extent, walkSet);
-  timer_->mark(commands, "sun");
-  passes_.surround->record(commands, extent, walkSet);
-  timer_->mark(commands, "surround");
-  passes_.reflect->record(commands, extent, walkSet);
-  timer_->mark(commands, "reflection");
+  recordRays(commands, walkSet, rayStep);
   passes_.foreground->record(commands, extent, walkSet);
   timer_->mark(commands, "foreground");
   for (const HostImage* image : {&images_.sunlight, &images_.surround, &images_.reflection}) {

@@ -42,7 +42,7 @@ class RoomRenderer {
 
  private:
   struct Passes {
-    std::unique_ptr<ComputePass> sun, surround, reflect, foreground, light;
+    std::unique_ptr<ComputePass> sun, sunBetween, surround, reflect, reflectBetween, foreground, light;
   };
 
   RoomRenderer(Host& host, const Room& room) : host_(host), sun_(room) {}
@@ -52,7 +52,9 @@ class RoomRenderer {
   void recordFrame(VkCommandBuffer commands, const room::RoomFrame& frame) const;
   void recordMeshes(VkCommandBuffer commands, const RoomShot& shot) const;
   Status recordFoam(VkCommandBuffer commands, Scene& scene, const RoomShot& shot) const;
-  void recordLight(VkCommandBuffer commands, VkDescriptorSet walkSet, VkPipelineStageFlags2 readStage) const;
+  void recordRays(VkCommandBuffer commands, VkDescriptorSet walkSet, uint32_t step) const;
+  void recordLight(VkCommandBuffer commands, VkDescriptorSet walkSet, uint32_t rayStep,
+                   VkPipelineStageFlags2 readStage) const;
 
   Host& host_;
   SunCamera sun_;

@@ -37,7 +37,7 @@ const std::map<std::string, std::string> kSlangWords = {
     {"atomicAdd", "froth_atomicAdd"}, {"const", "static const"}};
 const std::set<std::string> kDirectiveWords = {"define", "undef", "if", "ifdef", "ifndef", "elif", "else", "endif", "defined",
                                                "extension", "require"};
-const std::set<std::string> kPublicFields = {"origin", "direction", "tMin", "tMax", "apex", "mask", "hint", "distance", "normal",
+const std::set<std::string> kPublicFields = {"origin", "direction", "tMin", "tMax", "apex", "colours", "mask", "hint", "distance", "normal",
                                              "instance", "chunk", "cell", "userId", "status", "ray", "hit"};
 // clang-format on
 

@@ -83,8 +83,8 @@ DetailSite loadPlacedDetail(CellCode code, CellHeader header, uvec2 cell, uint d
   return DetailSite(place.xy, place.z, vec3(place.w, 0.0, 0.0));
 }
 
-// The lobes of a detail site that is seen.
-Lobes takeSeen(CellCode code, CellHeader header, uvec2 cell, uint detail, inout DetailSite site) {
+// The lobes of a detail site that is seen, none if they are not wanted.
+Lobes takeSeen(CellCode code, CellHeader header, uvec2 cell, uint detail, bool hasLobes, inout DetailSite site) {
   if (hasColours()) {
     Chunk chunk = loadChunk(cell.x);
     uvec4 colour = chunk.prepared.v[colourQuad(chunk, cell.y, detail)];
@@ -93,9 +93,9 @@ Lobes takeSeen(CellCode code, CellHeader header, uvec2 cell, uint detail, inout 
     BitCursor lobes = header.ownAxes;
     lobes.word = colour.z;
     lobes.bit = colour.w & 31u;
-    return Lobes(lobes, colour.w >> 5);
+    return Lobes(lobes, hasLobes ? colour.w >> 5 : 0u);
   }
-  if (FRAME.lobeCount == 0) return noLobes(header);
+  if (FRAME.lobeCount == 0 || !hasLobes) return noLobes(header);
   return loadLobes(code, header, FRAME.detailCount, detail);
 }
 

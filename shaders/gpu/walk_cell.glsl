@@ -51,9 +51,10 @@ void clipByFace(CellCode code, MetCell met, Frame frame, vec3 direction, inout f
   clipByFace(met.centre, frame.normal, facing, height, tNear, tFar);
 }
 
-// Display-coded colour at t, seen from the point that lies `behind` the ray's origin. shaded: how many detail sites
-// took part.
-vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, float behind, out uint shaded) {
+// Display-coded colour at t, seen from the point that lies `behind` the ray's origin, or without lobes. shaded: how many
+// detail sites took part.
+vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, float behind, bool hasLobes,
+              out uint shaded) {
   CellHeader header = headerForColours(code, met.cell);
   uint detailCount = FRAME.detailCount;
   float sharpness = FRAME.detailSharpness;
@@ -69,7 +70,7 @@ vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, 
     DetailSite detail = loadPlacedDetail(code, header, met.cell, k);
     float weight = detailWeight(query, detail.place, sharpness);
     if (!(weight > leastShownShare() * weightSum)) continue;
-    Lobes lobes = takeSeen(code, header, met.cell, k, detail);
+    Lobes lobes = takeSeen(code, header, met.cell, k, hasLobes, detail);
     vec3 toDetail = met.centre + behind * direction +
                   met.radius * (frame.tangent * detail.place.x + frame.bitangent * detail.place.y);
     vec3 seen = directionToDetail(toDetail, frame.normal);

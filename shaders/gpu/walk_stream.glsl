@@ -176,6 +176,13 @@ Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 di
   return exit;
 }
 
+// What is wanted of the colours along a ray.
+struct Sight {
+  bool isSeen;    // any
+  bool hasLobes;  // as they are seen from the point that lies `behind` the ray's origin [world units]; else alike from all sides
+  float behind;
+};
+
 // Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it; false: there is none.
 bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tNear, out float tFar,
                 inout WalkWork work) {
@@ -210,9 +217,8 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
   return false;
 }
 
-// On to the next segment, if it is one: a face may leave nothing of it. isSeen: with its colour, seen from `behind` the
-// origin.
-void advanceStream(inout Stream stream, vec3 origin, vec3 direction, bool isSeen, float behind, inout WalkWork work) {
+// On to the next segment, if it is one: a face may leave nothing of it.
+void advanceStream(inout Stream stream, vec3 origin, vec3 direction, Sight sight, inout WalkWork work) {
   instanceAtHand = stream.instance;
   LocalRay ray = localRay(origin, direction);
   float scale = FRAME.scale;
@@ -226,9 +232,10 @@ void advanceStream(inout Stream stream, vec3 origin, vec3 direction, bool isSeen
   Face face = loadFace(code, met.cell);
   clipByFace(code, met, face.frame, ray.direction, tNear, tFar);
   if (!(tNear < tFar && face.density > 0.0)) return;
-  if (isSeen) {
+  if (sight.isSeen) {
     uint shaded;
-    stream.colour = colourAt(code, met, face.frame, ray.direction, tNear, behind / scale, shaded);
+    stream.colour =
+        colourAt(code, met, face.frame, ray.direction, tNear, sight.behind / scale, sight.hasLobes, shaded);
     work.shaded += shaded;
   }
   stream.metCell = met.cell;

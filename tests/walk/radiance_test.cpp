@@ -1,4 +1,6 @@
 // Colours of rays on the GPU against pictures of the raster and of the reference in double.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <gtest/gtest.h>
@@ -76,6 +78,35 @@ TEST_P(GpuRadiance, OfMirroredRaysIsThePictureOfTheMirroredCamera) {
   const double toRaster = psnr(mirrored, stage.rasterize(view));
   print("mirrored rays and raster", toRaster);
   EXPECT_GE(toRaster, 60);
+}
+
+double largestDifference(const Image& a, const Image& b) {
+  double largest = 0;
+  for (size_t i = 0; i < a.values.size(); ++i) {
+    largest = std::max(largest, std::abs(double{a.values[i]} - double{b.values[i]}));
+  }
+  return largest;
+}
+
+// Rays side by side in one cast: with base colours, and as they are seen.
+TEST_P(GpuRadiance, OfBaseColoursIsThatOfAnAssetWithoutViewDependence) {
+  const AssetContents contents = bakeForTest(makeRandomFoam(200, 4, 2, 3));
+  const View view = lookAt({0.2, 0.3, -2.5}, {0, 0, 3}, 96, 64, 0.5);
+  const auto castThrough = [&](uint32_t layers, uint32_t flags) {
+    WalkStage stage;
+    stage.place(stage.open(contents, GetParam(), layers));
+    std::vector<FrothGpuRay> rays = cameraRays(view);
+    for (size_t i = 0; i < rays.size(); i += 2) rays[i].flags = flags;
+    return imageOf(stage.cast(rays, FROTH_RAY_RADIANCE, walkInfo(eyeOf(view))), view);
+  };
+  const Image whole = castThrough(3, 0), mixed = castThrough(3, FROTH_RAY_BASE_COLOURS), base = castThrough(2, 0);
+  Image expected = whole;
+  for (size_t i = 0; i < expected.values.size(); i += 8) {
+    std::copy_n(base.values.begin() + static_cast<std::ptrdiff_t>(i), 4,
+                expected.values.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  EXPECT_LE(largestDifference(mixed, expected), 1e-4);
+  EXPECT_GE(largestDifference(whole, expected), 0.1) << "no view dependence to leave out";
 }
 
 INSTANTIATE_TEST_SUITE_P(Prepared, GpuRadiance, preparations(), nameOfPreparation);

@@ -106,7 +106,7 @@ WalkStage::~WalkStage() {
   for (; reported < messages.size(); ++reported) ADD_FAILURE() << messages[reported];
 }
 
-FrothAsset WalkStage::open(const AssetContents& contents, FrothRayPreparation prepared) {
+FrothAsset WalkStage::open(const AssetContents& contents, FrothRayPreparation prepared, uint32_t layers) {
   Result<std::vector<uint8_t>> bytes = encodeAsset(contents);
   EXPECT_TRUE(bytes) << bytes.error().message;
   const std::vector<uint8_t>& kept = bytes_.emplace_back(std::move(*bytes));
@@ -116,6 +116,7 @@ FrothAsset WalkStage::open(const AssetContents& contents, FrothRayPreparation pr
   info.dataSize = kept.size();
   info.keepForQueries = 1;
   info.prepareRays = prepared;
+  info.layers = layers;
   FrothAsset asset{};
   check(frothOpenAsset(context_, &info, &asset), "frothOpenAsset");
   assets_.push_back(asset);

@@ -47,8 +47,9 @@ class WalkStage {
   WalkStage();
   ~WalkStage();
 
-  // READY, kept for queries
-  FrothAsset open(const AssetContents& contents, FrothRayPreparation prepared = FROTH_PREPARE_NOTHING);
+  // READY, kept for queries. layers: as FrothAssetInfo's
+  FrothAsset open(const AssetContents& contents, FrothRayPreparation prepared = FROTH_PREPARE_NOTHING,
+                  uint32_t layers = 0);
   FrothInstance place(FrothAsset asset, FrothInstanceInfo placement = {});
   void move(FrothInstance instance, FrothAsset asset, FrothInstanceInfo placement);
 

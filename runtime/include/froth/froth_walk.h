@@ -20,7 +20,7 @@ extern "C" {
 
 /* Version of the set's layout and of the include's structures. The include holds the same number. A shader that was
  * compiled with another number meets nothing and returns FROTH_WALK_VERSION. */
-#define FROTH_WALK_ABI 6u
+#define FROTH_WALK_ABI 7u
 
 /* FrothAssetInfo::prepareRays: what is kept in device memory so that rays need not decode cells. Images and hits are
  * the same with each but for the rounding of last digits. frothRecordRays uses what all instances of the set have;
@@ -66,14 +66,22 @@ FROTH_API FrothResult frothRecordWalkSet(FrothContext* context, VkCommandBuffer 
 
 /* Elements of arrays in the caller's buffers: their layout is fixed. */
 typedef struct FrothGpuRay {
-  float origin[3];         /* relative to FrothWalkInfo::eye */
-  float tMin;              /* [world units] */
-  float direction[3];      /* any length but 0 */
-  float tMax;              /* 0: no end */
-  float apex;              /* colours are seen from the point this far behind the origin; FrothRay in froth_walk.glsl */
-  uint32_t mask;           /* meets instances whose mask shares a bit with it; 0: all */
-  uint32_t flags, padding; /* 0 */
+  float origin[3];    /* relative to FrothWalkInfo::eye */
+  float tMin;         /* [world units] */
+  float direction[3]; /* any length but 0 */
+  float tMax;         /* 0: no end */
+  float apex;         /* colours are seen from the point this far behind the origin; FrothRay in froth_walk.glsl */
+  uint32_t mask;      /* meets instances whose mask shares a bit with it; 0: all */
+  uint32_t flags;     /* FrothRayFlag bits */
+  uint32_t padding;   /* 0 */
 } FrothGpuRay;
+
+typedef enum FrothRayFlag {
+  /* of FROTH_RAY_RADIANCE: without view dependence, as an asset with `layers` 2 shows its colours. Cheaper, for what is
+   * seen in mirrors (docs/PERFORMANCE.md) */
+  FROTH_RAY_BASE_COLOURS = 1,
+  FROTH_RAY_FLAG_MAX = 0x7fffffff
+} FrothRayFlag;
 
 typedef struct FrothGpuHit {
   float colour[3];     /* FROTH_RAY_RADIANCE: premultiplied, linear, times FrothInstanceInfo::exposure */

@@ -5,24 +5,22 @@
 
 // Light on the meshes, and what they reflect, behind the foam that stands before them.
 
-// Mean over the sixteen pixels whose rays were spread together, of those that show the same surface.
+// Mean over the sixteen pixels whose rays were spread together, of those that show the same surface. Where none does, of
+// all: between rays something may be thinner than they stand apart.
 float smoothSurround(ivec2 pixel, Surface surface, bool isInMirror) {
-  float sum = 0.0, count = 0.0;
+  Shown shown = Shown(surface, isInMirror);
+  int step = room.counts.z;
+  vec2 same = vec2(0.0), whole = vec2(0.0);  // sums, and of how many
   for (int i = 0; i < 16; ++i) {
-    ivec2 other = pixel + ivec2(i & 3, i >> 2) - 1;
+    ivec2 other = pixel / step * step + step * (ivec2(i & 3, i >> 2) - 1);
     if (any(lessThan(other, ivec2(0))) || !isInImage(other)) continue;
-    Surface direct = surfaceAt(other);
-    if (isMirror(direct) != isInMirror) continue;
-    Surface neighbour = isInMirror ? mirroredSurfaceAt(other) : direct;
-    const float kSamePlane = 0.02;  // [metres]
-    bool isSame = neighbour.isThere && dot(neighbour.normal, surface.normal) > 0.9 &&
-                  abs(dot(neighbour.position - surface.position, surface.normal)) < kSamePlane;
-    if (!isSame) continue;
+    Shown neighbour = shownAt(other);
     vec4 shares = imageLoad(surroundImage, other);
-    sum += isInMirror ? shares.y : shares.x;
-    count += 1.0;
+    vec2 share = vec2(neighbour.isInMirror ? shares.y : shares.x, 1.0);
+    whole += share;
+    if (showsSame(shown, neighbour)) same += share;
   }
-  return sum / count;  // the pixel itself is among them
+  return same.y > 0.0 ? same.x / same.y : whole.x / whole.y;
 }
 
 // Light of a surface towards one who looks along `along`; what mirrors and glossy meshes reflect comes on top.

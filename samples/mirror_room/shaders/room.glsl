@@ -74,6 +74,28 @@ bool isGlossy(Surface surface) {
   return surface.isThere && uint(room.materials[surface.material].looks.w) == kGlossy;
 }
 
+bool isSameSurface(Surface a, Surface b) {
+  const float kSamePlane = 0.02;  // [metres]
+  return a.isThere && b.isThere && isMirror(a) == isMirror(b) && dot(a.normal, b.normal) > 0.9 &&
+         abs(dot(b.position - a.position, a.normal)) < kSamePlane;
+}
+
+// The surface that takes light for a pixel: a mirror shows another.
+struct Shown {
+  Surface surface;
+  bool isInMirror;
+};
+
+Shown shownAt(ivec2 pixel) {
+  Surface direct = surfaceAt(pixel);
+  return isMirror(direct) ? Shown(mirroredSurfaceAt(pixel), true) : Shown(direct, false);
+}
+
+bool showsSame(Shown a, Shown b) { return a.isInMirror == b.isInMirror && isSameSurface(a.surface, b.surface); }
+
+// As images hold a share of light: of surfaces seen directly, and in the mirror.
+vec4 shareOf(Shown shown, float share) { return shown.isInMirror ? vec4(0.0, share, 0.0, 0.0) : vec4(share, 0.0, 0.0, 0.0); }
+
 // One premultiplied colour behind another.
 vec4 behind(vec4 front, vec4 back) { return front + (1.0 - front.w) * back; }
 

@@ -64,7 +64,8 @@ struct RoomFrame {
   // x: depth at distance 1 forward, y: reach of ambient occlusion [metres], z: how much of their shadow meshes cast on
   // the foam, w: unused
   vec4 numbers;
-  ivec4 counts;  // particles, 1: the walk set is there, unused, unused
+  // particles, 1: the walk set is there, pixels from one with rays to the next, 1: reflections show base colours
+  ivec4 counts;
   RoomMaterial materials[kMostMaterials];
   RoomParticle particles[kMostParticles];
 };

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "foam_rays.glsl"
+#include "between_rays.glsl"
 
 // Sun that reaches the meshes, past other meshes and through the foam: one ray per surface that it shines on.
 float sunAt(Surface surface) {
@@ -10,15 +11,22 @@ float sunAt(Surface surface) {
   return past > 0.0 ? past * throughFoam(surface.position, room.toSun.xyz, FROTH_INFINITY) : 0.0;
 }
 
-void main() {
-  ivec2 pixel = thisPixel();
-  if (!isInImage(pixel)) return;
-  Surface surface = surfaceAt(pixel);
-  vec4 light = vec4(0.0);
-  if (isMirror(surface)) {
-    light.y = sunAt(mirroredSurfaceAt(pixel));
-  } else {
-    light.x = sunAt(surface);
+bool isFromAround(ivec2 pixel, Shown shown, out vec4 mean) {
+  Around around = nothingAround();
+  for (int i = 0; i < 4; ++i) {
+    ivec2 other = pixelAround(pixel, i);
+    if (!isInImage(other)) return false;
+    addRay(imageLoad(sunlightImage, other), showsSame(shown, shownAt(other)), around);
   }
+  mean = around.sum / float(around.count);
+  return areAlike(around);
+}
+
+void main() {
+  ivec2 pixel = pixelOfThread();
+  if (!isMine(pixel)) return;
+  Shown shown = shownAt(pixel);
+  vec4 light;
+  if (!(isBetween && isFromAround(pixel, shown, light))) light = shareOf(shown, sunAt(shown.surface));
   imageStore(sunlightImage, pixel, light);
 }

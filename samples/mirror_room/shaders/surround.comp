@@ -4,27 +4,21 @@
 #include "foam_rays.glsl"
 #include "hemisphere.glsl"
 
-// Surrounding light that reaches the meshes past the foam, by a few short rays. Sixteen neighbours share one spread of
-// directions, and light_room.comp takes their mean.
-float surroundAt(Surface surface, ivec2 pixel) {
+// Surrounding light that reaches the meshes past the foam, by a few short rays. Sixteen neighbours with rays share one
+// spread of directions, and light_room.comp takes their mean.
+float surroundAt(Surface surface, uint place) {
   if (!surface.isThere) return 0.0;
   float sum = 0.0;
   for (uint i = 0; i < kSurroundRays; ++i) {
-    vec3 direction = spreadDirection(surface.normal, 16u * i + placeInBlock(pixel), 16u * kSurroundRays);
+    vec3 direction = spreadDirection(surface.normal, 16u * i + place, 16u * kSurroundRays);
     sum += throughFoam(surface.position, direction, room.numbers.y);
   }
   return sum / float(kSurroundRays);
 }
 
 void main() {
-  ivec2 pixel = thisPixel();
+  ivec2 pixel = room.counts.z * thisPixel();
   if (!isInImage(pixel)) return;
-  Surface surface = surfaceAt(pixel);
-  vec4 light = vec4(0.0);
-  if (isMirror(surface)) {
-    light.y = surroundAt(mirroredSurfaceAt(pixel), pixel);
-  } else {
-    light.x = surroundAt(surface, pixel);
-  }
-  imageStore(surroundImage, pixel, light);
+  Shown shown = shownAt(pixel);
+  imageStore(surroundImage, pixel, shareOf(shown, surroundAt(shown.surface, placeInBlock(thisPixel()))));
 }
