@@ -1,5 +1,5 @@
-// Draws the tiles that several instances share, and those that none has cells in. Every ray reads the lists of its tile
-// on its own: how far it is in one depends on what it met in the others.
+// Draws the tiles that several instances share whose boxes meet. Every ray reads the lists of its tile on its own: how
+// far it is in one depends on what it met in the others.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define FROTH_RAYS 1
@@ -50,7 +50,8 @@ void main() {
   selectPart(0);
   uvec2 tileAt = pixel / kTileSize;
   uint tile = tileAt.y * FRAME.tilesX + tileAt.x;
-  if (!isInRegion(pixel) || partsIn(tile) == 1) return;
+  uint parts = partsIn(tile);
+  if (!isInRegion(pixel) || isAlone(parts) || isInOrder(parts)) return;
   findRayEnd(pixel);
   streamCount = 0;
   if (!seesNothing(rayOf(pixel))) {

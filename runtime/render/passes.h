@@ -29,9 +29,10 @@ namespace froth {
   COLOURS(Fade, fade, kAnyLens)
 
 // Made where a view draws several instances.
-#define FROTH_MERGED_PASSES(ONE, COLOURS, FORMS) \
-  ONE(ShareTiles, share_tiles, kAnyLens)         \
-  FORMS(RasterMerged, raster_merged, kEachLens)  \
+#define FROTH_MERGED_PASSES(ONE, COLOURS, FORMS)  \
+  ONE(ShareTiles, share_tiles, kAnyLens)          \
+  FORMS(RasterOrdered, raster_ordered, kEachLens) \
+  FORMS(RasterMerged, raster_merged, kEachLens)   \
   FORMS(WalkMerged, walk_merged, kEachLens)
 
 // Made for each shape of assets, on which they are specialized. RasterLong: of tiles with long lists.

@@ -26,6 +26,8 @@
 #include "spirv/raster_long_tiles_rgba32f.h"
 #include "spirv/raster_merged_rgba16f.h"
 #include "spirv/raster_merged_rgba32f.h"
+#include "spirv/raster_ordered_rgba16f.h"
+#include "spirv/raster_ordered_rgba32f.h"
 #include "spirv/raster_tiles_rgba16f.h"
 #include "spirv/raster_tiles_rgba32f.h"
 #include "spirv/shade_details.h"

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 
 #include "runtime/render/view_state.h"
@@ -67,7 +68,7 @@ void recordBin(const Recording& recording) {
   }
 }
 
-// Each instance draws the tiles in which it is alone.
+// Each instance draws the tiles in which it is alone; then come those that several share.
 void recordTiles(const Recording& recording) {
   pushParts(recording);
   if (recording.parts().size() > 1) {
@@ -80,7 +81,10 @@ void recordTiles(const Recording& recording) {
                               offsetof(gpu::Counters, longTileDispatch));
     part.recorder.runIndirect(pixelPass(Pass::kRaster16, recording.info), offsetof(gpu::Counters, tileDrawDispatch));
   }
-  if (recording.parts().size() > 1) recordPixels(recording, pixelPass(Pass::kRasterMerged16, recording.info));
+  if (recording.parts().size() == 1) return;
+  recordPixels(recording, pixelPass(Pass::kRasterOrdered16, recording.info));
+  const bool isAnyOverlapping = std::ranges::any_of(recording.parts(), [](const auto& p) { return p.overlaps != 0; });
+  if (isAnyOverlapping) recordPixels(recording, pixelPass(Pass::kRasterMerged16, recording.info));
 }
 
 }  // namespace

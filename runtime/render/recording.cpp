@@ -22,6 +22,7 @@ void writeBlock(const Recording& recording, const RecordingPart& part, const Ren
     fillFrame(recording.info, *instance, buffers, {part.recorder.frame, counters}, block,
               reinterpret_cast<gpu::ChunkEntry*>(staged + kBlockStride));
     block.flags |= recording.method == RenderMethod::kWalk ? gpu::kFlagWalk : 0;
+    block.overlaps = part.overlaps;
   }
   const auto index = static_cast<uint32_t>(recording.parts().size() - 1);
   describeHits(recording, index, block);
@@ -117,12 +118,13 @@ Recording beginRecording(ViewState& view, const RenderPipelines::State& pipeline
 }
 
 void addPart(const Recording& recording, InstanceSpace& space, const RenderInstance* instance,
-             const PassPipelines& passes) {
+             const PassPipelines& passes, uint32_t overlaps) {
   space.serials[recording.number] = space.lastSerial = recording.view.lastSerial;
   const VkDeviceAddress block =
       space.buffers[ViewBuffer::kFrames].address + recording.place * space.buffers.recordingStride();
   recording.view.parts.push_back({.space = space,
                                   .asset = instance ? instance->asset : nullptr,
+                                  .overlaps = overlaps,
                                   .recorder = {.vk = recording.view.device.table,
                                                .commandBuffer = recording.commandBuffer,
                                                .layout = recording.pipelines.layout,

@@ -1,6 +1,7 @@
 #include "runtime/render/view_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "runtime/device/handles.h"
@@ -8,6 +9,7 @@
 #include "runtime/render/composite.h"
 #include "runtime/render/fade.h"
 #include "runtime/render/hit_passes.h"
+#include "runtime/render/part_order.h"
 #include "runtime/render/space_growth.h"
 #include "runtime/render/view_state.h"
 
@@ -128,23 +130,36 @@ void describeMemory(ViewState& view) {
   for (const auto& space : view.spaces) space->buffers.addMemory(view.status);
 }
 
-// What can be drawn of the instances, as parts of the recording.
+struct Drawable {
+  InstanceSpace* space;
+  const PassPipelines* passes;
+};
+
+// What can be drawn of the instances, as parts of the recording, front to back where their boxes do not meet.
 uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
                   std::span<const RenderInstance> instances) {
-  uint32_t bits = 0;
+  uint32_t bits = 0, count = 0;
+  std::array<Drawable, gpu::kMostInstances> drawables;
+  std::array<const RenderInstance*, gpu::kMostInstances> drawn;
   for (const RenderInstance& instance : instances) {
     InstanceSpace* space = findSpace(recording.view, instance.handle);
     const PassPipelines* passes = pipelines.find(instance.asset->shape(), lensClassOf(recording.info.camera));
-    const bool isFirst = recording.view.parts.empty();
+    const bool isFirst = count == 0;
     if (!space || !passes || !space->buffers.areMade() || !coversAsset(*instance.asset, space->buffers.capacity()) ||
         !(isFirst || pipelines.canMerge)) {
       bits |= FROTH_VIEW_NOT_READY;
     } else if (recording.method == RenderMethod::kWalk && !instance.asset->hasWalkGraph) {
       bits |= FROTH_VIEW_NO_WALK_GRAPH;
     } else {
-      addPart(recording, *space, &instance, *passes);
+      drawables[count] = {space, passes};
+      drawn[count++] = &instance;
       if (mayLack(*instance.asset, space->demand, space->buffers.capacity())) bits |= FROTH_VIEW_MAY_LACK_CELLS;
     }
+  }
+  const PartOrder order = orderParts(recording.info.camera, std::span(drawn).first(count));
+  for (uint32_t place = 0; place < count; ++place) {
+    const uint32_t instance = order.boxes[place];
+    addPart(recording, *drawables[instance].space, drawn[instance], *drawables[instance].passes, order.overlaps[place]);
   }
   return bits;
 }

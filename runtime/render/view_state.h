@@ -53,6 +53,7 @@ struct InstanceSpace {
 struct RecordingPart {
   InstanceSpace& space;
   const GpuAsset* asset;  // null: a clear
+  uint32_t overlaps;      // PartOrder
   PassRecorder recorder;
 };
 
@@ -104,9 +105,10 @@ struct Recording {
 Recording beginRecording(ViewState& view, const RenderPipelines::State& pipelines, VkCommandBuffer commandBuffer,
                          RenderMethod method, const FrothRenderInfo& info, uint64_t serial);
 
-// Uploads the block of an instance in its space and clears the counters. instance: null for a clear.
+// Uploads the block of an instance in its space and clears the counters. instance: null for a clear. Parts are added in
+// the order of PartOrder.
 void addPart(const Recording& recording, InstanceSpace& space, const RenderInstance* instance,
-             const PassPipelines& passes);
+             const PassPipelines& passes, uint32_t overlaps = 0);
 
 // Once all parts are there: binds the images; the passes can be recorded.
 void startPasses(const Recording& recording);

@@ -31,6 +31,7 @@ layout(push_constant) uniform Push {
 #if defined(FROTH_MERGED)
 FrameRef frameAtHand;
 #define FRAME frameAtHand.v
+void selectPart(uint part) { frameAtHand = push.parts[part]; }
 #else
 #define FRAME push.frame.v
 #endif

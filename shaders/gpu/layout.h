@@ -283,7 +283,7 @@ struct FrameBlock {
   FROTH_ADDRESS(UintArray) borders;  // [borderCount] slot << localBits | local index; [fileChunkCount] slot
   uint borderCount, fileChunkCount;  // 0: no levels
   uint firstSlot;                    // that is drawn
-  uint padding;
+  uint overlaps;                     // bits: parts of the recording whose boxes meet that of this one (part_order.h)
   vec4 boxLow, boxHigh;  // around the balls of live cells, relative to the eye, with what rounding takes from rays
 };
 

@@ -37,8 +37,6 @@ Stream streams[kMostInstances];
 uint streamCount;
 float rayEnd;  // [world units] where the scene stops the ray
 
-void selectPart(uint part) { frameAtHand = push.parts[part]; }
-
 // [1 / world unit] As opaque as any; sums of it times colours are finite.
 const float kMostDensity = 1e30;
 

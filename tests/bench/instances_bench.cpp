@@ -2,7 +2,8 @@
 // the GPU.
 //
 // Seen from the stored start view: one alone; two and four beside each other, moved by 0.6 of the box's width; two and
-// four crossing, turned about the point in the middle of the picture. Milliseconds, median over FRAMES.
+// four behind each other, whose boxes do not meet; two and four crossing, turned about the point in the middle of the
+// picture. Milliseconds, median over FRAMES.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -66,8 +67,11 @@ class Bench {
     std::printf("%s, %u cells, %u x %u\n", host_->info.name.c_str(), status_.cellCount, extent.width, extent.height);
   }
 
-  // angle [radians] between instances about the middle of the box; step: how far they are moved, in widths of the box.
-  void measure(const char* name, int count, double angle, double step, int frames) {
+  // angle [radians] between instances about the middle of the box; step: how far they are moved, in widths of the box;
+  // behind: how far away from the camera, in lengths of the box along the axis on which it looks most.
+  void measure(const char* name, int count, double angle, double step, double behind, int frames) {
+    const int deepest = deepestAxis();
+    const double forward = status_.startView.worldFromCamera[4 * deepest + 2] < 0 ? -behind : behind;
     std::vector<FrothInstance> instances;
     for (int i = 0; i < count; ++i) {
       auto info = makeStruct<FrothInstanceInfo>();
@@ -79,6 +83,7 @@ class Bench {
       const double x = middle_.position[0], z = middle_.position[2];
       info.position[0] = x - (c * x + s * z) + step * (i - firstPlace) * (status_.boundsMax[0] - status_.boundsMin[0]);
       info.position[2] = z - (-s * x + c * z);
+      info.position[deepest] += forward * i * (status_.boundsMax[deepest] - status_.boundsMin[deepest]);
       instances.emplace_back();
       require(frothCreateInstance(context_, &info, &instances.back()) == FROTH_OK, "frothCreateInstance");
     }
@@ -88,6 +93,11 @@ class Bench {
   }
 
  private:
+  int deepestAxis() const {
+    const auto along = [&](int axis) { return std::abs(status_.startView.worldFromCamera[4 * axis + 2]); };
+    return along(0) > std::max(along(1), along(2)) ? 0 : along(1) > along(2) ? 1 : 2;
+  }
+
   // What the stored camera looks at.
   void findMiddle() {
     auto instanceInfo = makeStruct<FrothInstanceInfo>();
@@ -163,9 +173,11 @@ int main(int argc, char** argv) {
   const VkExtent2D extent{static_cast<uint32_t>(numberAt(2, 1920)), static_cast<uint32_t>(numberAt(3, 1080))};
   const int frames = numberAt(4, 100);
   Bench bench(argv[1], extent);
-  bench.measure("one", 1, 0, 0, frames);
-  bench.measure("two beside", 2, 0, 0.6, frames);
-  bench.measure("four beside", 4, 0, 0.6, frames);
-  bench.measure("two across", 2, 1.2, 0, frames);
-  bench.measure("four across", 4, 0.7, 0, frames);
+  bench.measure("one", 1, 0, 0, 0, frames);
+  bench.measure("two beside", 2, 0, 0.6, 0, frames);
+  bench.measure("four beside", 4, 0, 0.6, 0, frames);
+  bench.measure("two behind", 2, 0, 0, 1.02, frames);
+  bench.measure("four behind", 4, 0, 0, 1.02, frames);
+  bench.measure("two across", 2, 1.2, 0, 0, frames);
+  bench.measure("four across", 4, 0.7, 0, 0, frames);
 }
