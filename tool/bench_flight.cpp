@@ -70,6 +70,7 @@ void addFlightOptions(CLI::App& command, FlightFlags& flags) {
       command.add_option("--image-every", options.imageEvery, "Frames between images that are compared")
           ->capture_default_str()
           ->check(countBetween(1, 10000000));
+  needsFlight(command.add_flag("--from-rest", options.isFromRest, "Begin when all that the first view wants is drawn"));
   needsFlight(jumps);
   needsFlight(images);
   needsFlight(command

@@ -17,6 +17,7 @@
 #include "measure/sweep/assemble.h"
 #include "measure/sweep/features.h"
 #include "measure/sweep/levels.h"
+#include "measure/sweep/rays.h"
 #include "measure/sweep/search.h"
 #include "measure/sweep/slopes.h"
 #include "reference/capture/view_selection.h"
@@ -37,6 +38,8 @@ struct ReportOptions {
   bool isCpu = false, isWithoutImages = false, resumes = false, keepsWork = false;
   Rounds rounds;
 };
+
+constexpr const char* kRays = "rays";  // a word of --knobs
 
 // Spread evenly over those of the file.
 std::vector<SelectedView> spreadViews(const std::vector<SelectedView>& all, uint32_t count) {
@@ -105,7 +108,7 @@ Result<std::vector<Knob>> chooseKnobs(const ReportOptions& options, bool hasFoam
   const std::vector<std::string>& wanted = options.knobs;
   const auto nameOf = [](const Knob& knob) { return knob.sweep.knob.substr(0, knob.sweep.knob.find(',')); };
   for (const std::string& name : wanted) {
-    if (name == "none" ||
+    if (name == "none" || name == kRays ||
         std::any_of(knobs.begin(), knobs.end(), [&](const Knob& knob) { return nameOf(knob) == name; })) {
       continue;
     }
@@ -113,7 +116,7 @@ Result<std::vector<Knob>> chooseKnobs(const ReportOptions& options, bool hasFoam
     for (const Knob& knob : knobs) {
       if (names.find(nameOf(knob)) == std::string::npos) names += " " + nameOf(knob);
     }
-    return makeError(ErrorKind::kUsage, "--knobs: '%s' is not one of this input; give `none` or some of%s",
+    return makeError(ErrorKind::kUsage, "--knobs: '%s' is not one of this input; give `none`, `rays` or some of%s",
                      name.c_str(), names.c_str());
   }
   std::erase_if(
@@ -161,6 +164,16 @@ Status measureFeatures(const ReportOptions& options, const Bench& bench, const F
   }
   if (Status added = append(runtimeFeatures(bench, device, progress)); !added) return added;
   return append(bakeLeftOut(bench));
+}
+
+Status measureRays(const ReportOptions& options, const Bench& bench, const GpuDeviceOptions& device, Report& result,
+                   const Progress& progress) {
+  const bool isWanted = options.knobs.empty() || std::ranges::find(options.knobs, kRays) != options.knobs.end();
+  if (!isWanted || !bench.walks) return {};
+  Result<std::vector<RayCost>> costs = rayCosts(bench, device, progress);
+  if (!costs) return costs.error();
+  result.rays = std::move(*costs);
+  return {};
 }
 
 void printSummary(const ReportOptions& options, const Report& result) {
@@ -235,6 +248,7 @@ Status runReport(const ReportOptions& options, const Progress& progress) {
       !measured) {
     return measured;
   }
+  if (Status measured = measureRays(options, bench, device, result, progress); !measured) return measured;
   Result<std::vector<Slope>> slopes =
       measureSlopes(options, bench, *input, hasFoam, *knobs, result.sweeps, points, progress);
   if (!slopes) return slopes.error();
@@ -286,7 +300,7 @@ void addReportCommand(CLI::App& program, Tool& tool) {
   command->add_option("--photos", options->photos, "Folder of the photos, by the views' names");
   command
       ->add_option("--knobs", options->knobs,
-                   "Turn only these, as in preset,cutoff; `none`: what parts of the scene cost alone")
+                   "Turn only these, as in preset,cutoff; `rays`: what rays cost; `none`: parts of the scene alone")
       ->delimiter(',');
   addDurationOption(*command, "--search", options->searchSeconds, "For the search over several knobs at once", 0,
                     7 * 24 * 3600);

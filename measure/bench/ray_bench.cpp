@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "base/percentiles.h"
 #include "base/progress_printer.h"
 #include "measure/gpu/gpu_camera.h"
 #include "reference/camera/view_rays.h"
@@ -143,19 +142,6 @@ std::string errorText(const std::optional<ColourError>& error) {
   return error ? fmt::format(" {:8.2f} {:9.4f}", error->psnr(), error->largest) : std::string();
 }
 
-// [ms] of a view: the means over views of its median, 5th and 95th percentile.
-Percentiles timesOf(const RayFigures& figures) {
-  Percentiles mean;
-  const double share = 1.0 / static_cast<double>(std::max<size_t>(figures.viewTimes.size(), 1));
-  for (const std::vector<double>& times : figures.viewTimes) {
-    const Percentiles view = percentilesOf(times);
-    mean.median += share * view.median;
-    mean.p5 += share * view.p5;
-    mean.p95 += share * view.p95;
-  }
-  return mean;
-}
-
 struct WorkColumn {
   const char* name;
   uint64_t FrothWalkStatus::*sum;
@@ -172,6 +158,18 @@ double perRay(const RayFigures& figures, const WorkColumn& column) {
 }
 
 }  // namespace
+
+Percentiles timesOf(const RayFigures& figures) {
+  Percentiles mean;
+  const double share = 1.0 / static_cast<double>(std::max<size_t>(figures.viewTimes.size(), 1));
+  for (const std::vector<double>& times : figures.viewTimes) {
+    const Percentiles view = percentilesOf(times);
+    mean.median += share * view.median;
+    mean.p5 += share * view.p5;
+    mean.p95 += share * view.p95;
+  }
+  return mean;
+}
 
 double ColourError::psnr() const { return 10 * std::log10(static_cast<double>(values) / squares); }
 

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/percentiles.h"
 #include "base/progress.h"
 #include "base/result.h"
 #include "measure/gpu/gpu_renderer.h"
@@ -42,6 +43,8 @@ struct RayFigures {
 // every surface that the closest met; transmittance from there to a far light. Each radiance also in base colours.
 Result<std::vector<RayFigures>> benchRays(GpuRenderer& renderer, const std::vector<SelectedView>& views,
                                           const RayBenchOptions& options, const Progress& progress);
+
+Percentiles timesOf(const RayFigures& figures);  // [ms] of a view: means over the views
 
 void printRays(const std::vector<RayFigures>& figures, bool isCounting);
 nlohmann::ordered_json raysAsJson(const std::vector<RayFigures>& figures, bool isCounting);

@@ -101,6 +101,10 @@ struct Taken {
 
 Status flyPath(StreamedScene& scene, const CameraPath& path, const FlightOptions& options, Flight& flight, Taken& taken,
                const Progress& progress) {
+  if (options.isFromRest) {
+    if (Status settled = scene.settle(viewOf(path, options, 0)); !settled) return settled;
+  }
+  const auto before = static_cast<std::ptrdiff_t>(scene.frames().size());
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     if (!report(progress, "fly", frame, options.frames)) return stoppedError();
     const View view = viewOf(path, options, frame);
@@ -113,8 +117,9 @@ Status flyPath(StreamedScene& scene, const CameraPath& path, const FlightOptions
     flight.images.push_back({frame});
   }
   if (Status settled = scene.settle(viewOf(path, options, options.frames - 1)); !settled) return settled;
-  flight.frames.assign(scene.frames().begin(), scene.frames().begin() + options.frames);
-  flight.framesToSettle = static_cast<uint32_t>(scene.frames().size()) - options.frames;
+  const auto begin = scene.frames().begin() + before;
+  flight.frames.assign(begin, begin + options.frames);
+  flight.framesToSettle = static_cast<uint32_t>(scene.frames().end() - begin) - options.frames;
   flight.atEnd = scene.frames().back().stream;
   flight.bytesRead = scene.bytesRead();
   flight.asset = scene.assetStatus();

@@ -13,6 +13,7 @@ namespace froth {
 struct FlightOptions {
   SceneOptions scene;
   uint32_t frames = 0;       // at least 2
+  bool isFromRest = false;   // they begin when all that the first view wants is drawn
   uint32_t jumpEvery = 0;    // [frames] the camera goes on elsewhere on the path; 0: never
   uint32_t imageEvery = 50;  // [frames] between images that are compared
   std::string device;        // as GpuDeviceOptions

@@ -148,7 +148,8 @@ void printFlight(const Flight& flight, const FlightOptions& options) {
 nlohmann::ordered_json flightAsJson(const Flight& flight, const FlightOptions& options) {
   const Summary summary = summarize(flight, options);
   nlohmann::ordered_json json = sceneAsJson(options.scene, flight.deviceName, flight.driverName, flight.frames.size());
-  json.update({{"jumpEvery", options.jumpEvery},
+  json.update({{"isFromRest", options.isFromRest},
+               {"jumpEvery", options.jumpEvery},
                {"disk", diskAsJson(options.scene.disk)},
                {"cells", flight.asset.cellCount},
                {"chunks", flight.asset.chunkCount},

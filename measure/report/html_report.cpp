@@ -136,6 +136,24 @@ void completeFeature(const FeatureCost& feature, Json& json) {
   json["walkWith"]["change"] = changeOf(feature.walkWith, feature.walkWithout);
 }
 
+// A row per kind; a column for each form of what is prepared.
+Json raysOf(const Report& report) {
+  if (report.rays.empty()) return nullptr;
+  Json rows = Json::array(), bytes = Json::array();
+  for (const RayCost& cost : report.rays) {
+    if (bytes.empty() || bytes.back()["prepared"] != cost.prepared) {
+      bytes.push_back({{"prepared", cost.prepared}, {"residentBytes", bytesText(double(cost.residentBytes))}});
+    }
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const Json& made) { return made["rays"] == cost.rays; });
+    if (row == rows.end()) row = rows.insert(rows.end(), {{"rays", cost.rays}});
+    (*row)["forms"].push_back({{"time", {{"median", cost.time.median}, {"p5", cost.time.p5}, {"p95", cost.time.p95}}}});
+    if (cost.psnr) (*row)["psnr"] = decibels(*cost.psnr);
+    if (cost.maxError) (*row)["maxError"] = shortNumber(*cost.maxError);
+  }
+  bytes.back()["isLast"] = true;
+  return {{"rows", rows}, {"bytes", bytes}};
+}
+
 std::string encodeBase64(const std::vector<uint8_t>& bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -180,6 +198,7 @@ std::string reportAsHtml(const Report& report) {
   for (size_t i = 0; i < report.slopes.size(); ++i) completeSlope(report.slopes[i], page["slopes"][i]);
   for (size_t i = 0; i < report.features.size(); ++i) completeFeature(report.features[i], page["features"][i]);
   page["levels"] = levelsOf(report);
+  page["rayTable"] = raysOf(report);
   page["images"] = picturesAsJson(report.images);
   return fillTemplate("page.html", page);
 }

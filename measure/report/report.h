@@ -105,6 +105,16 @@ struct FeatureCost {
   double psnr = 0;                                            // of taking it out, where it is used
 };
 
+// Rays of a kind (measure/bench/ray_bench.h) in the default's asset.
+struct RayCost {
+  std::string rays;                      // "mirrored, base colours"
+  std::string prepared;                  // for them: "nothing", "visibility", "radiance"
+  Interval time;                         // [ms] of a view
+  uint64_t count = 0;                    // of all views
+  uint64_t residentBytes = 0;            // the asset, with what is prepared
+  std::optional<double> psnr, maxError;  // of base colours, against the same rays with those that are seen
+};
+
 // A picture for report.html.
 struct ReportImage {
   std::string title, caption;
@@ -126,6 +136,7 @@ struct Report {
   std::string choice;
   std::vector<Slope> slopes;
   std::vector<FeatureCost> features;
+  std::vector<RayCost> rays;        // by what is prepared; empty: the asset is not walked
   std::vector<ReportImage> images;  // empty with --no-images
   std::vector<std::string> notes;   // what was not measured, and why
 };

@@ -72,6 +72,17 @@ Json featureAsJson(const FeatureCost& feature) {
           {"psnr", figure(feature.psnr)}};
 }
 
+Json rayCostAsJson(const RayCost& rays) {
+  Json json = {{"rays", rays.rays},
+               {"prepared", rays.prepared},
+               {"time", intervalAsJson(rays.time)},
+               {"count", rays.count},
+               {"residentBytes", rays.residentBytes}};
+  if (rays.psnr) json["psnr"] = figure(*rays.psnr);
+  if (rays.maxError) json["maxError"] = figure(*rays.maxError);
+  return json;
+}
+
 // Reads members by name; the first that is missing or of the wrong kind is remembered, and all after it are
 // left alone.
 class Reader {
@@ -254,6 +265,8 @@ Json reportAsJson(const Report& report) {
   for (const Slope& slope : report.slopes) json["slopes"].push_back(slopeAsJson(slope));
   json["features"] = Json::array();
   for (const FeatureCost& feature : report.features) json["features"].push_back(featureAsJson(feature));
+  json["rays"] = Json::array();
+  for (const RayCost& rays : report.rays) json["rays"].push_back(rayCostAsJson(rays));
   json["levelNeeds"] = Json::array();
   for (const LevelNeed& need : levelNeeds(report)) {
     json["levelNeeds"].push_back({{"psnr", need.psnr}, {"point", need.point ? Json(need.point->id) : Json(nullptr)}});

@@ -132,6 +132,18 @@ TEST(Flight, OfASlowDiskShowsLater) {
   EXPECT_GE(firstReady(late), firstReady(fast) + 6);
 }
 
+TEST(Flight, FromRestBeginsWithAllThatTheFirstViewWants) {
+  FlightOptions rested = options();
+  rested.imageEvery = rested.frames + 1;
+  rested.isFromRest = true;
+  rested.scene.disk.latency = 0.1;
+  const Flight flight = flyWell(rested);
+  ASSERT_EQ(flight.frames.size(), rested.frames);
+  EXPECT_TRUE(flight.frames.front().isReady);
+  EXPECT_TRUE(flight.frames.front().stream.isSettled);
+  EXPECT_LT(flight.framesToSettle, 1000u);
+}
+
 // Views make room for a cut before it is drawn, whatever the disk does and wherever the camera goes on.
 TEST(Flight, LacksNoCellsOnceItsFloorIsDrawn) {
   for (const auto& [latency, jumpEvery] : {std::pair(0.0, 13u), std::pair(0.005, 0u), std::pair(0.05, 13u)}) {

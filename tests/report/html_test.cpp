@@ -61,7 +61,7 @@ TEST(ReportHtml, LinksWithinThePageLeadSomewhere) {
   for (std::sregex_iterator it(html.begin(), html.end(), links), end; it != end; ++it, ++count) {
     EXPECT_NE(html.find("id=\"" + (*it)[1].str() + "\""), std::string::npos) << (*it)[1];
   }
-  EXPECT_EQ(count, 11u);  // all sections
+  EXPECT_EQ(count, 12u);  // all sections
 }
 
 TEST(ReportHtml, TheSameReportGivesTheSameBytes) {
@@ -84,7 +84,8 @@ TEST(ReportHtml, NoTextReachesThePageUnescaped) {
   for (std::string* text :
        {&report.scene, &report.input, &report.credit, &report.device, &report.driver, &report.version, &report.command,
         &report.choice, &report.notes[0], &report.slopes[0].what, &report.slopes[0].note, &report.slopes[0].verdict,
-        &report.features[0].feature, &report.features[0].variant, &report.images[0].title, &report.images[0].caption}) {
+        &report.features[0].feature, &report.features[0].variant, &report.rays[0].rays, &report.rays[0].prepared,
+        &report.images[0].title, &report.images[0].caption}) {
     *text = evil;
   }
   for (Sweep& sweep : report.sweeps) {
@@ -120,6 +121,17 @@ TEST(ReportHtml, DegenerateReportsAreStillPages) {
   const std::string html = reportAsHtml(report);
   EXPECT_EQ(firstUnbalanced(html), "");
   EXPECT_NE(html.find("equal the reference"), std::string::npos);
+}
+
+TEST(ReportHtml, HasARowForEachKindOfRays) {
+  const std::string html = reportAsHtml(test::makeSampleReport());
+  const size_t begin = html.find("<section id=\"rays\">"), end = html.find("</section>", begin);
+  const std::string section = html.substr(begin, end - begin);
+  EXPECT_NE(section.find("nothing 6.6 MB, radiance 28.9 MB for the asset"), std::string::npos) << section;
+  EXPECT_NE(section.find("<td class=\"text\">mirrored, base colours</td><td class=\"number\">17"), std::string::npos)
+      << section;
+  EXPECT_NE(section.find("31.5"), std::string::npos) << section;
+  EXPECT_EQ(section.find("31.5"), section.rfind("31.5"));  // the error does not depend on what is prepared
 }
 
 TEST(ReportHtml, SaysWhatIsATie) {

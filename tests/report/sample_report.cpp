@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -299,6 +300,17 @@ void addSlopes(Report& report) {
 }
 
 void addFeatures(Report& report) {
+  for (const auto& [prepared, factor, bytes] : {std::tuple("nothing", 1.0, 6'600'000), {"radiance", 0.5, 28'900'000}}) {
+    report.rays.push_back({"camera, transmittance",
+                           prepared,
+                           around(7.5 * factor, 0.01),
+                           2'070'000,
+                           static_cast<uint64_t>(bytes),
+                           {},
+                           {}});
+    report.rays.push_back({"mirrored, base colours", prepared, around(17 * factor, 0.01), 1'900'000,
+                           static_cast<uint64_t>(bytes), 31.5, 0.7});
+  }
   report.features = {{"displacement", true, "heights taken out", 2'100'000, 4'200'000, around(1.35, 0.01),
                       around(1.42, 0.01), around(4.6, 0.01), around(4.9, 0.01), 38.2},
                      {"walk section",

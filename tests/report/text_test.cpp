@@ -84,6 +84,8 @@ TEST(ReportJson, HoldsAllButThePictures) {
   EXPECT_EQ(json["sweeps"].size(), report.sweeps.size());
   EXPECT_EQ(json["slopes"].size(), report.slopes.size());
   EXPECT_EQ(json["features"][0]["diskBytes"], report.features[0].diskBytes);
+  EXPECT_EQ(json["rays"].size(), report.rays.size());
+  EXPECT_EQ(json["rays"][1]["psnr"], *report.rays[1].psnr);
   EXPECT_EQ(json["chosen"], report.chosen);
   EXPECT_FALSE(json.contains("images"));
   EXPECT_EQ(Json::parse(json.dump()), json);

@@ -81,8 +81,18 @@ TEST_F(ReportCommand, ThroughTheRuntimeTimesRasterAndWalkAndWhatIsLeftOut) {
        {"view dependence", "displacement", "detail sites", "walk graph", "Steiner cells", "kept hits"}) {
     EXPECT_TRUE(features.count(name)) << name;
   }
+  ASSERT_EQ(figures["rays"].size(), 21u);  // 7 kinds, 3 forms of what is prepared
+  for (size_t i = 0; i < 21; ++i) {
+    const nlohmann::json& rays = figures["rays"][i];
+    EXPECT_GT(rays["time"]["median"], 0.0);
+    EXPECT_EQ(rays.contains("psnr"), rays["rays"].get<std::string>().ends_with("base colours")) << rays;
+    if (i >= 7) {
+      EXPECT_GT(rays["residentBytes"], figures["rays"][i - 7]["residentBytes"]);
+    }
+  }
   const std::string html = readBytes(folder_ / "out/report.html");
   EXPECT_EQ(html.find("data:image/png"), std::string::npos);
+  EXPECT_NE(html.find("mirrored, base colours"), std::string::npos);
   EXPECT_NE(html.find("positionBits"), std::string::npos);
 }
 
@@ -94,6 +104,7 @@ TEST_F(ReportCommand, OfAnAssetWithoutAWalkGraphDrawsItAsItIs) {
   for (const nlohmann::json& point : figures["points"]) EXPECT_EQ(point["renderer"], "raster");
   EXPECT_EQ(find(figures, "raster preset=exact"), nullptr);
   EXPECT_NE(find(figures, "raster layers=1"), nullptr);
+  EXPECT_TRUE(figures["rays"].empty());
 }
 
 TEST_F(ReportCommand, GoesOnOnlyWithTheSameInputs) {
