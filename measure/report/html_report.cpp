@@ -142,13 +142,15 @@ Json raysOf(const Report& report) {
   Json rows = Json::array(), bytes = Json::array();
   for (const RayCost& cost : report.rays) {
     if (bytes.empty() || bytes.back()["prepared"] != cost.prepared) {
-      bytes.push_back({{"prepared", cost.prepared}, {"residentBytes", bytesText(double(cost.residentBytes))}});
+      bytes.push_back({{"prepared", cost.prepared}, {"residentBytes", cost.residentBytes}});
     }
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const Json& made) { return made["rays"] == cost.rays; });
-    if (row == rows.end()) row = rows.insert(rows.end(), {{"rays", cost.rays}});
-    (*row)["forms"].push_back({{"time", {{"median", cost.time.median}, {"p5", cost.time.p5}, {"p95", cost.time.p95}}}});
-    if (cost.psnr) (*row)["psnr"] = decibels(*cost.psnr);
-    if (cost.maxError) (*row)["maxError"] = shortNumber(*cost.maxError);
+    const auto isIts = [&](const Json& row) { return row["rays"] == cost.rays; };
+    if (std::ranges::none_of(rows, isIts)) rows.push_back(Json::object({{"rays", cost.rays}}));
+    Json& row = *std::ranges::find_if(rows, isIts);
+    const Json time = {{"median", cost.time.median}, {"p5", cost.time.p5}, {"p95", cost.time.p95}};
+    row["forms"].push_back(Json::object({{"time", time}}));
+    if (cost.psnr) row["psnr"] = *cost.psnr;
+    if (cost.maxError) row["maxError"] = *cost.maxError;
   }
   bytes.back()["isLast"] = true;
   return {{"rows", rows}, {"bytes", bytes}};

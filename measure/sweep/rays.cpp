@@ -1,6 +1,7 @@
 #include "measure/sweep/rays.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "host/ray_preparation.h"
 #include "measure/bench/ray_bench.h"
@@ -28,7 +29,9 @@ Result<std::vector<RayCost>> rayCosts(const Bench& bench, GpuDeviceOptions devic
   const auto frames = std::max(5u, bench.rounds.frames / static_cast<uint32_t>(bench.views.size()));
   device.castsRays = true;
   std::vector<RayCost> costs;
-  for (const auto& [name, prepared] : kRayPreparations) {
+  std::vector<std::pair<std::string, FrothRayPreparation>> forms(kRayPreparations.begin(), kRayPreparations.end());
+  std::ranges::sort(forms, {}, [](const auto& form) { return form.second; });  // from the least on
+  for (const auto& [name, prepared] : forms) {
     device.prepareRays = prepared;
     const Result<std::unique_ptr<GpuRenderer>> renderer = GpuRenderer::create(device);
     if (!renderer) return renderer.error();

@@ -127,7 +127,7 @@ TEST(ReportHtml, HasARowForEachKindOfRays) {
   const std::string html = reportAsHtml(test::makeSampleReport());
   const size_t begin = html.find("<section id=\"rays\">"), end = html.find("</section>", begin);
   const std::string section = html.substr(begin, end - begin);
-  EXPECT_NE(section.find("nothing 6.6 MB, radiance 28.9 MB for the asset"), std::string::npos) << section;
+  EXPECT_NE(section.find("nothing 6.60 MB, radiance 28.9 MB for the asset"), std::string::npos) << section;
   EXPECT_NE(section.find("<td class=\"text\">mirrored, base colours</td><td class=\"number\">17"), std::string::npos)
       << section;
   EXPECT_NE(section.find("31.5"), std::string::npos) << section;

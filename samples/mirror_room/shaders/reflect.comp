@@ -26,14 +26,16 @@ vec4 reflection(ivec2 pixel, Surface surface) {
 }
 
 bool isFromAround(ivec2 pixel, Surface surface, out vec4 mean) {
-  Around around = nothingAround();
+  float count = 0.0;
+  mean = vec4(0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 other = pixelAround(pixel, i);
-    if (!isInImage(other)) return false;
-    addRay(imageLoad(reflectionImage, other), isSameSurface(surface, surfaceAt(other)), around);
+    if (!isInImage(other) || !isSameSurface(surface, surfaceAt(other))) continue;
+    mean += imageLoad(reflectionImage, other);
+    count += 1.0;
   }
-  mean = around.sum / float(around.count);
-  return areAlike(around);
+  mean /= max(count, 1.0);
+  return count > 0.0;
 }
 
 void main() {

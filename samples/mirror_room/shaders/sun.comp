@@ -12,14 +12,16 @@ float sunAt(Surface surface) {
 }
 
 bool isFromAround(ivec2 pixel, Shown shown, out vec4 mean) {
-  Around around = nothingAround();
+  float count = 0.0;
+  mean = vec4(0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 other = pixelAround(pixel, i);
-    if (!isInImage(other)) return false;
-    addRay(imageLoad(sunlightImage, other), showsSame(shown, shownAt(other)), around);
+    if (!isInImage(other) || !showsSame(shown, shownAt(other))) continue;
+    mean += imageLoad(sunlightImage, other);
+    count += 1.0;
   }
-  mean = around.sum / float(around.count);
-  return areAlike(around);
+  mean /= max(count, 1.0);
+  return count > 0.0;
 }
 
 void main() {
@@ -27,6 +29,7 @@ void main() {
   if (!isMine(pixel)) return;
   Shown shown = shownAt(pixel);
   vec4 light;
-  if (!(isBetween && isFromAround(pixel, shown, light))) light = shareOf(shown, sunAt(shown.surface));
+  bool isTaken = isBetween && shown.surface.isThere && isFromAround(pixel, shown, light);
+  if (!isTaken) light = shareOf(shown, sunAt(shown.surface));
   imageStore(sunlightImage, pixel, light);
 }
