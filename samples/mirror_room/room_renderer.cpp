@@ -8,11 +8,12 @@
 namespace froth {
 namespace {
 
-#include "foreground.comp.h"  // kForegroundShader
-#include "light_room.comp.h"  // kLightRoomShader
-#include "reflect.comp.h"     // kReflectShader
-#include "sun.comp.h"         // kSunShader
-#include "surround.comp.h"    // kSurroundShader
+#include "fill_between.comp.h"  // kFillBetweenShader
+#include "foreground.comp.h"    // kForegroundShader
+#include "light_room.comp.h"    // kLightRoomShader
+#include "reflect.comp.h"       // kReflectShader
+#include "sun.comp.h"           // kSunShader
+#include "surround.comp.h"      // kSurroundShader
 
 constexpr uint32_t kShadowMapEdge = 2048;
 
@@ -130,16 +131,14 @@ Status RoomRenderer::createPasses() {
   const struct {
     std::unique_ptr<ComputePass>* pass;
     std::span<const uint32_t> spirv;
-    bool isBetween;  // pixels with rays: between_rays.glsl
-  } wanted[] = {{&passes_.sun, kSunShader, false},
-                {&passes_.sunBetween, kSunShader, true},
-                {&passes_.surround, kSurroundShader, false},
-                {&passes_.reflect, kReflectShader, false},
-                {&passes_.reflectBetween, kReflectShader, true},
-                {&passes_.foreground, kForegroundShader, false},
-                {&passes_.light, kLightRoomShader, false}};
-  for (const auto& [pass, spirv, isBetween] : wanted) {
-    const uint32_t constants[] = {prepared_, isBetween ? 1u : 0u};
+  } wanted[] = {{&passes_.sun, kSunShader},
+                {&passes_.surround, kSurroundShader},
+                {&passes_.reflect, kReflectShader},
+                {&passes_.fillBetween, kFillBetweenShader},
+                {&passes_.foreground, kForegroundShader},
+                {&passes_.light, kLightRoomShader}};
+  const uint32_t constants[] = {prepared_};
+  for (const auto& [pass, spirv] : wanted) {
     Result<std::unique_ptr<ComputePass>> made = ComputePass::create(host_, spirv, resources, walkLayout_, constants);
     if (!made) return made.error();
     *pass = std::move(*made);
@@ -219,18 +218,18 @@ Status RoomRenderer::recordFoam(VkCommandBuffer commands, Scene& scene, const Ro
 void RoomRenderer::recordRays(VkCommandBuffer commands, VkDescriptorSet walkSet, uint32_t step) const {
   const VkExtent2D extent = images_.result.extent;
   const VkExtent2D stepped{(extent.width + step - 1) / step, (extent.height + step - 1) / step};
-  const auto record = [&](const ComputePass& pass, const ComputePass& between, const HostImage& image) {
-    pass.record(commands, stepped, walkSet);
-    if (step == 1) return;
-    imageBarrier(commands, image.image, kWritten, kLoadedAndWritten);
-    between.record(commands, extent, walkSet);
-  };
-  record(*passes_.sun, *passes_.sunBetween, images_.sunlight);
+  passes_.sun->record(commands, stepped, walkSet);
   timer_->mark(commands, "sun");
   passes_.surround->record(commands, stepped, walkSet);
   timer_->mark(commands, "surround");
-  record(*passes_.reflect, *passes_.reflectBetween, images_.reflection);
+  passes_.reflect->record(commands, stepped, walkSet);
   timer_->mark(commands, "reflection");
+  if (step == 1) return;
+  for (const HostImage* image : {&images_.sunlight, &images_.reflection}) {
+    imageBarrier(commands, image->image, kWritten, kLoadedAndWritten);
+  }
+  passes_.fillBetween->record(commands, extent, walkSet);
+  timer_->mark(commands, "fill between");
 }
 
 void RoomRenderer::recordLight(VkCommandBuffer commands, VkDescriptorSet walkSet, uint32_t rayStep,

@@ -42,7 +42,7 @@ class RoomRenderer {
 
  private:
   struct Passes {
-    std::unique_ptr<ComputePass> sun, sunBetween, surround, reflect, reflectBetween, foreground, light;
+    std::unique_ptr<ComputePass> sun, surround, reflect, fillBetween, foreground, light;
   };
 
   RoomRenderer(Host& host, const Room& room) : host_(host), sun_(room) {}

@@ -37,7 +37,7 @@ TEST(RoomFrame, LeavesThePhotosLightAloneWithoutShadowCatching) {
   expectLikeReference({.shadowCatching = 0, .occlusionReach = 0.5}, false, 0);
 }
 
-// One pixel in four casts rays, and others where those around them differ.
+// One pixel in four casts rays, and the others show what is around them.
 TEST(RoomFrame, OfRaysForOnePixelInFourIsTheSameAtTheseAndLikeItElsewhere) {
   if (!hasSuitableDevice()) FROTH_SKIP() << "no suitable Vulkan device";
   const auto draw = [](const RoomLook& look) {

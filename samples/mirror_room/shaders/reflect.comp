@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "foam_rays.glsl"
-#include "between_rays.glsl"
 #include "foam_light.glsl"
 
 bool isReflecting(Surface surface) { return isMirror(surface) || isGlossy(surface); }
@@ -25,24 +24,9 @@ vec4 reflection(ivec2 pixel, Surface surface) {
   return foamAndMotes(ray);
 }
 
-bool isFromAround(ivec2 pixel, Surface surface, out vec4 mean) {
-  float count = 0.0;
-  mean = vec4(0.0);
-  for (int i = 0; i < 4; ++i) {
-    ivec2 other = pixelAround(pixel, i);
-    if (!isInImage(other) || !isSameSurface(surface, surfaceAt(other))) continue;
-    mean += imageLoad(reflectionImage, other);
-    count += 1.0;
-  }
-  mean /= max(count, 1.0);
-  return count > 0.0;
-}
-
 void main() {
-  ivec2 pixel = pixelOfThread();
-  if (!isMine(pixel)) return;
+  ivec2 pixel = pixelWithRay();
+  if (!isInImage(pixel)) return;
   Surface surface = surfaceAt(pixel);
-  vec4 seen = vec4(0.0);
-  if (isReflecting(surface) && !(isBetween && isFromAround(pixel, surface, seen))) seen = reflection(pixel, surface);
-  imageStore(reflectionImage, pixel, seen);
+  imageStore(reflectionImage, pixel, isReflecting(surface) ? reflection(pixel, surface) : vec4(0.0));
 }

@@ -29,6 +29,7 @@ struct Surface {
 };
 
 ivec2 thisPixel() { return ivec2(gl_GlobalInvocationID.xy); }
+ivec2 pixelWithRay() { return room.counts.z * thisPixel(); }  // of passes with a thread for each pixel that casts rays
 bool isInImage(ivec2 pixel) { return all(lessThan(pixel, textureSize(depthImage, 0))); }
 
 // Through the middle of a pixel; its forward component is 1.

@@ -17,7 +17,7 @@ float surroundAt(Surface surface, uint place) {
 }
 
 void main() {
-  ivec2 pixel = room.counts.z * thisPixel();
+  ivec2 pixel = pixelWithRay();
   if (!isInImage(pixel)) return;
   Shown shown = shownAt(pixel);
   imageStore(surroundImage, pixel, shareOf(shown, surroundAt(shown.surface, placeInBlock(thisPixel()))));
