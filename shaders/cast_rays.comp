@@ -37,7 +37,6 @@ layout(push_constant) uniform Push {
 
 const uint kClosest = 1;
 const uint kRadiance = 2;
-const uint kBaseColours = 1;  // FrothRayFlag; FROTH_COLOURS_BASE, too
 
 FrothRay loadRay(uint index) {
   RayRecord record = push.rays.v[index];
@@ -45,7 +44,7 @@ FrothRay loadRay(uint index) {
   ray.tMin = record.originMin.w;
   if (record.directionMax.w != 0.0) ray.tMax = record.directionMax.w;
   ray.apex = record.apex;
-  ray.colours = record.flags & kBaseColours;
+  ray.colours = record.flags & FROTH_COLOURS_BASE;  // FROTH_RAY_BASE_COLOURS is the same bit
   if (record.mask != 0) ray.mask = record.mask;
   return ray;
 }

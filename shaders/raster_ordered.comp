@@ -3,49 +3,41 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define FROTH_MERGED
-#include "gpu/device_depth.glsl"
-#include "gpu/hits.glsl"
-#include "gpu/outputs.glsl"
+#include "gpu/merged_pixels.glsl"
 #include "gpu/shared_tiles.glsl"
 #include "gpu/tile_list.glsl"
 
 layout(local_size_x = kSubTileSize, local_size_y = kRows) in;
 
-// What a pixel shows of the parts so far, in the world's units and axes.
-struct Shown {
-  vec3 colour, normal;
-  float logTransmittance, distance;
-  float exposures;  // weighed by what each part contributes
-  uint part, cellCode;
-  vec4 quarters;
-  uvec4 quarterParts;
-};
-
-// In units of the part at hand, as far as it is to go on from there.
-Radiance partOf(Shown shown) {
-  return Radiance(shown.colour, shown.logTransmittance, vec3(0.0), shown.distance, kNoCell, shown.quarters);
+// The radiance so far, to be gone on with in the units and axes of the part at hand.
+Radiance startPart(Merged merged) {
+  Radiance radiance = merged.radiance;
+  radiance.normal = vec3(0.0);
+  radiance.cell = kNoCell;
+  return radiance;
 }
 
-void takePart(uint part, Radiance radiance, inout Shown shown) {
+// What the part at hand has made of it.
+void endPart(uint part, Radiance radiance, inout Merged merged) {
   float scale = FRAME.scale;
-  shown.exposures += FRAME.exposure * (exp(shown.logTransmittance) - exp(radiance.logTransmittance));
-  shown.colour = radiance.colour;
-  shown.logTransmittance = radiance.logTransmittance;
+  merged.exposures += FRAME.exposure * (exp(merged.radiance.logTransmittance) - exp(radiance.logTransmittance));
+  merged.radiance.colour = radiance.colour;
+  merged.radiance.logTransmittance = radiance.logTransmittance;
   if (keepsQuarters) {
-    bvec4 isNew = notEqual(shown.quarters, radiance.quarters);
-    shown.quarters = mix(shown.quarters, radiance.quarters * scale, isNew);
-    shown.quarterParts = mix(shown.quarterParts, uvec4(part), isNew);
+    bvec4 isNew = notEqual(merged.radiance.quarters, radiance.quarters);
+    merged.radiance.quarters = mix(merged.radiance.quarters, radiance.quarters * scale, isNew);
+    merged.quarterParts = mix(merged.quarterParts, uvec4(part), isNew);
   }
   if (!isFull) return;
-  shown.normal += inWorld(radiance.normal);
-  if (!isinf(shown.distance)) return;
-  shown.distance = radiance.distance * scale;
+  merged.radiance.normal += inWorld(radiance.normal);
+  if (!isinf(merged.radiance.distance)) return;
+  merged.radiance.distance = radiance.distance * scale;
   if (radiance.cell == kNoCell) return;
-  shown.part = part;
-  shown.cellCode = cellCodeOf(radiance.cell);
+  merged.part = part;
+  merged.radiance.cell = cellCodeOf(radiance.cell);
 }
 
-void drawPart(uint part, uvec2 range, uvec2 corner, inout Shown shown[kRays]) {
+void drawPart(uint part, uvec2 range, uvec2 corner, inout Merged merged[kRays]) {
   selectPart(part);
   Shading shading = loadShading();
   vec3 rays[kRays];
@@ -55,21 +47,11 @@ void drawPart(uint part, uvec2 range, uvec2 corner, inout Shown shown[kRays]) {
     uvec2 pixel = pixelOfThread(corner, r);
     rays[r] = rayOf(pixel);
     ends[r] = isInRegion(pixel) ? sceneDistance(pixel, rays[r]) : 0.0;
-    radiances[r] = partOf(shown[r]);
+    radiances[r] = startPart(merged[r]);
   }
   drawList(shading, range, corner, rays, ends, radiances);
-  for (uint r = 0; r < kRays; ++r) takePart(part, radiances[r], shown[r]);
+  for (uint r = 0; r < kRays; ++r) endPart(part, radiances[r], merged[r]);
   barrier();  // the next list may overwrite what its last batch was asked for
-}
-
-void writeShown(uvec2 pixel, Shown shown) {
-  vec3 ray = rayOf(pixel);
-  float depth = isFull ? deviceDepthAt(ray, shown.distance / FRAME.scale) : 0.0;
-  float coverage = coverageOf(seesNothing(ray) ? 0.0 : shown.logTransmittance);
-  float exposure = coverage > 0.0 ? shown.exposures / coverage : 1.0;
-  writePixel(pixel, shown.colour, coverage, exposure, shown.distance, shown.normal, depth);
-  if (isFull && wantsHits()) writeHit(pixel, shown.distance, shown.part, shown.cellCode);
-  if (keepsQuarters && wantsQuarters()) writeQuarters(pixel, shown.quarters, shown.quarterParts);
 }
 
 void main() {
@@ -78,18 +60,19 @@ void main() {
   uint tile = corner.y / kTileSize * FRAME.tilesX + corner.x / kTileSize;
   uint parts = partsIn(tile);
   if (!isInRegion(corner) || !isInOrder(parts)) return;
-  Shown shown[kRays];
+  Merged merged[kRays];
   for (uint r = 0; r < kRays; ++r) {
     uvec2 pixel = pixelOfThread(corner, r);
-    float begin = startOf(pixel, rayOf(pixel)).logTransmittance;
-    shown[r] = Shown(vec3(0.0), vec3(0.0), begin, kInfinity, 0.0, 0u, kNoCell, vec4(kInfinity), uvec4(0));
+    merged[r] = Merged(startOf(pixel, rayOf(pixel)), 0u, uvec4(0), 0.0);
   }
   for (uint part = 0; part < push.partCount; ++part) {
-    if ((parts >> part & 1) != 0) drawPart(part, tileRange(push.parts[part], tile), corner, shown);
+    if ((parts >> part & 1) != 0) drawPart(part, tileRange(push.parts[part], tile), corner, merged);
   }
   selectPart(0);
   for (uint r = 0; r < kRays; ++r) {
     uvec2 pixel = pixelOfThread(corner, r);
-    if (isInRegion(pixel)) writeShown(pixel, shown[r]);
+    if (!isInRegion(pixel)) continue;
+    if (seesNothing(rayOf(pixel))) merged[r].radiance = emptyRadiance();
+    writeMerged(pixel, merged[r]);
   }
 }

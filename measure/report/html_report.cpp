@@ -136,21 +136,15 @@ void completeFeature(const FeatureCost& feature, Json& json) {
   json["walkWith"]["change"] = changeOf(feature.walkWith, feature.walkWithout);
 }
 
-// A row per kind; a column for each form of what is prepared.
-Json raysOf(const Report& report) {
-  if (report.rays.empty()) return nullptr;
+// A row per kind; a column for each form of what is prepared. costs: reportAsJson()'s.
+Json rayTableOf(const Json& costs) {
+  if (costs.empty()) return nullptr;
   Json rows = Json::array(), bytes = Json::array();
-  for (const RayCost& cost : report.rays) {
-    if (bytes.empty() || bytes.back()["prepared"] != cost.prepared) {
-      bytes.push_back({{"prepared", cost.prepared}, {"residentBytes", cost.residentBytes}});
-    }
-    const auto isIts = [&](const Json& row) { return row["rays"] == cost.rays; };
-    if (std::ranges::none_of(rows, isIts)) rows.push_back(Json::object({{"rays", cost.rays}}));
-    Json& row = *std::ranges::find_if(rows, isIts);
-    const Json time = {{"median", cost.time.median}, {"p5", cost.time.p5}, {"p95", cost.time.p95}};
-    row["forms"].push_back(Json::object({{"time", time}}));
-    if (cost.psnr) row["psnr"] = *cost.psnr;
-    if (cost.maxError) row["maxError"] = *cost.maxError;
+  for (const Json& cost : costs) {
+    if (bytes.empty() || bytes.back()["prepared"] != cost["prepared"]) bytes.push_back(cost);
+    auto row = std::ranges::find_if(rows, [&](const Json& made) { return made["rays"] == cost["rays"]; });
+    if (row == rows.end()) row = rows.insert(rows.end(), cost);  // kind and error are the same in all forms
+    (*row)["forms"].push_back(Json::object({{"time", cost["time"]}}));
   }
   bytes.back()["isLast"] = true;
   return {{"rows", rows}, {"bytes", bytes}};
@@ -200,7 +194,7 @@ std::string reportAsHtml(const Report& report) {
   for (size_t i = 0; i < report.slopes.size(); ++i) completeSlope(report.slopes[i], page["slopes"][i]);
   for (size_t i = 0; i < report.features.size(); ++i) completeFeature(report.features[i], page["features"][i]);
   page["levels"] = levelsOf(report);
-  page["rayTable"] = raysOf(report);
+  page["rayTable"] = rayTableOf(page["rays"]);
   page["images"] = picturesAsJson(report.images);
   return fillTemplate("page.html", page);
 }

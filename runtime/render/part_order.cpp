@@ -107,17 +107,15 @@ PartOrder orderBoxes(std::span<const PlacedBox> boxes, const std::optional<glm::
     }
   }
   PartOrder order;
-  Masks places{};
   uint32_t left = (1u << boxes.size()) - 1;
   for (uint32_t place = 0; place < boxes.size(); ++place) {
     const uint32_t box = takeNext(left, before, overlaps);
     left &= ~(1u << box);
     order.boxes[place] = box;
-    places[box] = place;
   }
-  for (uint32_t box = 0; box < boxes.size(); ++box) {
-    for (uint32_t rest = overlaps[box]; rest != 0; rest &= rest - 1) {
-      order.overlaps[places[box]] |= 1u << places[static_cast<uint32_t>(std::countr_zero(rest))];
+  for (uint32_t place = 0; place < boxes.size(); ++place) {
+    for (uint32_t other = 0; other < boxes.size(); ++other) {
+      order.overlaps[place] |= (overlaps[order.boxes[place]] >> order.boxes[other] & 1) << other;
     }
   }
   return order;

@@ -12,10 +12,7 @@
 #ifndef FROTH_GPU_STREAMS_GLSL
 #define FROTH_GPU_STREAMS_GLSL
 #include "gpu/box.glsl"
-#include "gpu/device_depth.glsl"
-#include "gpu/hits.glsl"
-#include "gpu/outputs.glsl"
-#include "gpu/shade_hit.glsl"
+#include "gpu/merged_pixels.glsl"
 
 // In the world's units and axes.
 struct Interval {
@@ -121,14 +118,6 @@ Interval findInterval(float passed) {
   return interval;
 }
 
-// What a pixel shows. Its exposure is the mean of what the instances contribute to it.
-struct Merged {
-  Radiance radiance;  // with the code of its cell
-  uint part;          // whose that is
-  uvec4 quarterParts;  // whose Radiance::quarters are
-  float exposure;
-};
-
 // Composites what the started streams hold. One loop whose turn goes on by a cell and composites an interval where none
 // is behind, not a loop within another: the rays of a workgroup wait for each other at every turn.
 Merged mergeStreams(uvec2 pixel) {
@@ -162,23 +151,12 @@ Merged mergeStreams(uvec2 pixel) {
     }
     passed = interval.segment.tFar;
   }
-  float coverage = coverageOf(radiance.logTransmittance);
-  return Merged(radiance, part, quarterParts, coverage > 0.0 ? exposures / coverage : 1.0);
+  return Merged(radiance, part, quarterParts, exposures);
 }
 
 void findRayEnd(uvec2 pixel) {
   selectPart(0);
   rayEnd = isFull ? sceneDistance(pixel, rayOf(pixel)) * FRAME.scale : kInfinity;
-}
-
-void writeMerged(uvec2 pixel, Merged merged) {
-  Radiance radiance = merged.radiance;
-  selectPart(0);
-  float depth = isFull ? deviceDepthAt(rayOf(pixel), radiance.distance / FRAME.scale) : 0.0;
-  writePixel(pixel, radiance.colour, coverageOf(radiance.logTransmittance), merged.exposure, radiance.distance,
-             radiance.normal, depth);
-  if (isFull && wantsHits()) writeHit(pixel, radiance.distance, merged.part, radiance.cell);
-  if (keepsQuarters && wantsQuarters()) writeQuarters(pixel, radiance.quarters, merged.quarterParts);
 }
 
 #endif

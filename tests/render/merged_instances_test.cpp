@@ -29,6 +29,13 @@ const ReferenceRenderer& referenceOf(uint32_t which) {
 
 View frontView() { return lookAt({0.7, -0.5, -1.4}, {0.1, 0.1, 3}, 150, 110, 0.35); }
 
+// focal [pixels]
+View withLens(View view, LensKind kind, double focal) {
+  view.lens.kind = kind;
+  view.fx = view.fy = focal;
+  return view;
+}
+
 FrothInstanceInfo placementOf(const PlacedFoam& placed) {
   FrothInstanceInfo info{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -95,9 +102,7 @@ class MergedInstances : public testing::Test {
 
   // A wall all around the eye.
   void expectWallStopsRays(float distance) {
-    View view = frontView();
-    view.lens.kind = LensKind::kFisheye;
-    view.fx = view.fy = 150;
+    const View view = withLens(frontView(), LensKind::kFisheye, 150);
     const Image distances{view.width, view.height, 1, std::vector<float>(size_t{view.width} * view.height, distance)};
     FrothRenderInfo info = infoOf(view);
     Result<HostImage> wall = sharedHost().createImage(VK_FORMAT_R32_SFLOAT, {view.width, view.height});
@@ -134,17 +139,11 @@ TEST_F(MergedInstances, CrossingFoamsAreDrawnAsTheReferenceMergesThemFromWithin)
 }
 
 TEST_F(MergedInstances, ParallelRaysMergeToo) {
-  View view = frontView();
-  view.lens.kind = LensKind::kOrthographic;
-  view.fx = view.fy = 45;
-  expectLikeReference(view);
+  expectLikeReference(withLens(frontView(), LensKind::kOrthographic, 45));
 }
 
 TEST_F(MergedInstances, AFisheyeMergesToo) {
-  View view = lookAt({0.1, -0.2, 2.2}, {0.1, 0.1, 3}, 150, 110, 0.35);
-  view.lens.kind = LensKind::kFisheye;
-  view.fx = view.fy = 40;
-  expectLikeReference(view);
+  expectLikeReference(withLens(lookAt({0.1, -0.2, 2.2}, {0.1, 0.1, 3}, 150, 110, 0.35), LensKind::kFisheye, 40));
 }
 
 TEST_F(MergedInstances, AFarAndLargeFoamBehindANearAndSmallOneKeepsTheOrder) {
@@ -170,18 +169,13 @@ TEST_F(OrderedInstances, AreDrawnAsTheReferenceMergesThem) { expectLikeReference
 TEST_F(OrderedInstances, AreDrawnAsTheReferenceMergesThemFromTheOtherSide) { expectLikeReference(fromTheSide()); }
 
 TEST_F(OrderedInstances, TakeParallelRaysToo) {
-  for (View view : {frontView(), fromTheSide()}) {
-    view.lens.kind = LensKind::kOrthographic;
-    view.fx = view.fy = 45;
-    expectLikeReference(view);
+  for (const View& view : {frontView(), fromTheSide()}) {
+    expectLikeReference(withLens(view, LensKind::kOrthographic, 45));
   }
 }
 
 TEST_F(OrderedInstances, TakeAFisheyeToo) {
-  View view = lookAt({0.1, -0.2, 0.5}, {0.1, 0.1, 3}, 150, 110, 0.35);
-  view.lens.kind = LensKind::kFisheye;
-  view.fx = view.fy = 40;
-  expectLikeReference(view);
+  expectLikeReference(withLens(lookAt({0.1, -0.2, 0.5}, {0.1, 0.1, 3}, 150, 110, 0.35), LensKind::kFisheye, 40));
 }
 
 TEST_F(OrderedInstances, TheScenesDepthStopsRaysInTheFartherOne) { expectWallStopsRays(8.5f); }

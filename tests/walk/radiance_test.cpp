@@ -1,11 +1,11 @@
 // Colours of rays on the GPU against pictures of the raster and of the reference in double.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include <gtest/gtest.h>
 
 #include "baker/synth/synth.h"
+#include "reference/image/metrics.h"
 #include "shaders/foam/colour.h"
 #include "tests/query/query_fixture.h"
 #include "tests/render/random_foam.h"
@@ -80,14 +80,6 @@ TEST_P(GpuRadiance, OfMirroredRaysIsThePictureOfTheMirroredCamera) {
   EXPECT_GE(toRaster, 60);
 }
 
-double largestDifference(const Image& a, const Image& b) {
-  double largest = 0;
-  for (size_t i = 0; i < a.values.size(); ++i) {
-    largest = std::max(largest, std::abs(double{a.values[i]} - double{b.values[i]}));
-  }
-  return largest;
-}
-
 // Rays side by side in one cast: with base colours, and as they are seen.
 TEST_P(GpuRadiance, OfBaseColoursIsThatOfAnAssetWithoutViewDependence) {
   const AssetContents contents = bakeForTest(makeRandomFoam(200, 4, 2, 3));
@@ -105,8 +97,8 @@ TEST_P(GpuRadiance, OfBaseColoursIsThatOfAnAssetWithoutViewDependence) {
     std::copy_n(base.values.begin() + static_cast<std::ptrdiff_t>(i), 4,
                 expected.values.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  EXPECT_LE(largestDifference(mixed, expected), 1e-4);
-  EXPECT_GE(largestDifference(whole, expected), 0.1) << "no view dependence to leave out";
+  EXPECT_LE(compareImages(mixed, expected)->maxError, 1e-4);
+  EXPECT_GE(compareImages(whole, expected)->maxError, 0.1) << "no view dependence to leave out";
 }
 
 INSTANTIATE_TEST_SUITE_P(Prepared, GpuRadiance, preparations(), nameOfPreparation);

@@ -23,17 +23,18 @@ void main() {
   ivec2 pixel = thisPixel(), step = ivec2(room.counts.z), low = pixel / step * step;
   if (!isInImage(pixel) || low == pixel) return;
   Surface surface = surfaceAt(pixel);
-  Shown shown = shownAt(pixel);
+  Shown shown = shownBy(surface, pixel);
   const Mean nothing = Mean(vec4(0.0), 0.0);
   Mean sameSun = nothing, anySun = nothing, sameSeen = nothing, anySeen = nothing;
   for (int i = 0; i < 4; ++i) {  // two, or four
     ivec2 other = low + ivec2(i & 1, i >> 1) * step * ivec2(notEqual(low, pixel));
     if (!isInImage(other)) continue;
+    Surface neighbour = surfaceAt(other);
     vec4 sun = imageLoad(sunlightImage, other), seen = imageLoad(reflectionImage, other);
     add(sun, anySun);
     add(seen, anySeen);
-    if (showsSame(shown, shownAt(other))) add(sun, sameSun);
-    if (isSameSurface(surface, surfaceAt(other))) add(seen, sameSeen);
+    if (showsSame(shown, shownBy(neighbour, other))) add(sun, sameSun);
+    if (isSameSurface(surface, neighbour)) add(seen, sameSeen);
   }
   imageStore(sunlightImage, pixel, meanOf(sameSun, anySun));
   imageStore(reflectionImage, pixel, meanOf(sameSeen, anySeen));

@@ -87,10 +87,12 @@ struct Shown {
   bool isInMirror;
 };
 
-Shown shownAt(ivec2 pixel) {
-  Surface direct = surfaceAt(pixel);
+// direct: surfaceAt(pixel).
+Shown shownBy(Surface direct, ivec2 pixel) {
   return isMirror(direct) ? Shown(mirroredSurfaceAt(pixel), true) : Shown(direct, false);
 }
+
+Shown shownAt(ivec2 pixel) { return shownBy(surfaceAt(pixel), pixel); }
 
 bool showsSame(Shown a, Shown b) { return a.isInMirror == b.isInMirror && isSameSurface(a.surface, b.surface); }
 
