@@ -20,7 +20,10 @@ Radiance startPart(Merged merged) {
 // What the part at hand has made of it.
 void endPart(uint part, Radiance radiance, inout Merged merged) {
   float scale = FRAME.scale;
-  merged.exposures += FRAME.exposure * (exp(merged.radiance.logTransmittance) - exp(radiance.logTransmittance));
+  float opticalDepth = merged.radiance.logTransmittance - radiance.logTransmittance;
+  if (opticalDepth > 0.0) {  // not where both are infinite
+    merged.exposures += FRAME.exposure * exp(merged.radiance.logTransmittance) * opacity(opticalDepth);
+  }
   merged.radiance.colour = radiance.colour;
   merged.radiance.logTransmittance = radiance.logTransmittance;
   if (keepsQuarters) {
