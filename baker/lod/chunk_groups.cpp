@@ -21,29 +21,35 @@ struct Edge {
 };
 using Adjacency = std::vector<std::vector<Edge>>;  // [listed]
 
-// [cells] the place of its chunk in the list; kNoGroupYet: in none of them.
-std::vector<uint32_t> findPlaces(std::span<const LevelChunk> chunks, std::span<const uint32_t> listed,
-                                 uint32_t cellCount) {
-  std::vector<uint32_t> listedOf(cellCount, kNoGroupYet);
-  for (uint32_t place = 0; place < listed.size(); ++place) {
-    for (const uint32_t cell : chunks[listed[place]].planned.cells) listedOf[cell] = place;
+// The chunks to group. What follows calls them by their places in the list.
+struct ListedChunks {
+  ListedChunks(std::span<const LevelChunk> all, std::span<const uint32_t> listedChunks, uint32_t cellCount)
+      : chunks(all), listed(listedChunks), placeOf(cellCount, kNoGroupYet) {
+    for (uint32_t place = 0; place < listed.size(); ++place) {
+      for (const uint32_t cell : at(place).planned.cells) placeOf[cell] = place;
+    }
   }
-  return listedOf;
-}
 
-Adjacency countPairs(std::span<const LevelChunk> chunks, std::span<const uint32_t> listed,
-                     std::span<const uint32_t> listedOf) {
-  Adjacency adjacency(listed.size());
-  tbb::parallel_for(size_t{0}, listed.size(), [&](size_t place) {
+  const LevelChunk& at(uint32_t place) const { return chunks[listed[place]]; }
+  uint32_t count() const { return static_cast<uint32_t>(listed.size()); }
+
+  std::span<const LevelChunk> chunks;
+  std::span<const uint32_t> listed;
+  std::vector<uint32_t> placeOf;  // [cells] of its chunk; kNoGroupYet: in none of them
+};
+
+Adjacency countPairs(const ListedChunks& list) {
+  Adjacency adjacency(list.count());
+  tbb::parallel_for(uint32_t{0}, list.count(), [&](uint32_t place) {
     std::vector<uint32_t> others;
-    for (const uint32_t cell : chunks[listed[place]].rows.walk.neighbours) {
-      if (listedOf[cell] != kNoGroupYet && listedOf[cell] != place) others.push_back(listedOf[cell]);
+    for (const uint32_t cell : list.at(place).rows.walk.neighbours) {
+      if (list.placeOf[cell] != kNoGroupYet && list.placeOf[cell] != place) others.push_back(list.placeOf[cell]);
     }
     std::sort(others.begin(), others.end());
-    const uint32_t maker = chunks[listed[place]].place.madeBy;
+    const uint32_t maker = list.at(place).place.madeBy;
     for (auto run = others.begin(); run != others.end();) {
       const auto end = std::upper_bound(run, others.end(), *run);
-      const bool isApart = maker == kNoGroup || chunks[listed[*run]].place.madeBy != maker;
+      const bool isApart = maker == kNoGroup || list.at(*run).place.madeBy != maker;
       adjacency[place].push_back({*run, static_cast<uint64_t>(end - run) * (isApart ? kApartWeight : 1)});
       run = end;
     }
@@ -53,17 +59,13 @@ Adjacency countPairs(std::span<const LevelChunk> chunks, std::span<const uint32_
 
 class Grouping {
  public:
-  // `live`: of each chunk.
-  Grouping(const Adjacency& adjacency, std::span<const uint32_t> live, uint64_t groupLive)
-      : adjacency_(adjacency),
-        live_(live),
+  Grouping(const ListedChunks& list, uint64_t groupLive)
+      : list_(list),
+        adjacency_(countPairs(list)),
         groupLive_(static_cast<double>(groupLive)),
-        groupOf_(adjacency.size(), kNoGroupYet) {}
+        groupOf_(list.count(), kNoGroupYet) {}
 
-  const std::vector<std::vector<uint32_t>>& groups() const { return groups_; }
-  uint32_t groupOf(uint32_t chunk) const { return groupOf_[chunk]; }
-
-  void run() {
+  void form() {
     while (const std::optional<uint32_t> seed = chooseSeed()) {
       const auto group = static_cast<uint32_t>(groups_.size());
       groups_.emplace_back();
@@ -77,13 +79,45 @@ class Grouping {
     }
   }
 
+  // Groups that were made before, of indices of chunks.
+  void take(std::span<const std::vector<uint32_t>> groups) {
+    for (uint32_t group = 0; group < groups.size(); ++group) {
+      groups_.emplace_back();
+      for (const uint32_t chunk : groups[group]) {
+        const auto found = std::lower_bound(list_.listed.begin(), list_.listed.end(), chunk);
+        add(static_cast<uint32_t>(found - list_.listed.begin()), group);
+      }
+    }
+  }
+
   // Its chunks go to the neighbouring groups with room that they have most in common with. A chunk without one stays.
   void dissolve(uint32_t group) {
     for (const uint32_t chunk : std::exchange(groups_[group], {})) add(chunk, findNeighbour(chunk).value_or(group));
   }
 
-  void dropEmpty() {
-    std::erase_if(groups_, [](const auto& group) { return group.empty(); });
+  // Of a wall whose chunks lie in two sheets, say, the front one: all of its cells have neighbours in the other. The
+  // most locked groups go first, and unlock others.
+  void dissolveLocked() {
+    std::vector<std::pair<double, uint32_t>> order(groups_.size());
+    tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(order.size()), [&](uint32_t group) {
+      order[group] = {-lockedShare(group), group};
+    });
+    std::sort(order.begin(), order.end());
+    for (const auto& [negated, group] : order) {
+      if (-negated > kMostLocked && lockedShare(group) > kMostLocked) dissolve(group);
+    }
+  }
+
+  // Of indices of chunks, ascending.
+  std::vector<std::vector<uint32_t>> collect() const {
+    std::vector<std::vector<uint32_t>> groups;
+    for (const std::vector<uint32_t>& places : groups_) {
+      if (places.empty()) continue;
+      std::vector<uint32_t>& group = groups.emplace_back();
+      for (const uint32_t place : places) group.push_back(list_.listed[place]);
+      std::sort(group.begin(), group.end());
+    }
+    return groups;
   }
 
  private:
@@ -94,8 +128,27 @@ class Grouping {
 
   double liveOf(uint32_t group) const {
     double sum = 0;
-    for (const uint32_t chunk : groups_[group]) sum += live_[chunk];
+    for (const uint32_t chunk : groups_[group]) sum += list_.at(chunk).planned.liveCount;
     return sum;
+  }
+
+  // Live cells that have neighbours outside of the group, of all.
+  double lockedShare(uint32_t group) const {
+    const auto isOutside = [&](uint32_t cell) {
+      return list_.placeOf[cell] == kNoGroupYet || groupOf_[list_.placeOf[cell]] != group;
+    };
+    uint64_t live = 0, locked = 0;
+    for (const uint32_t place : groups_[group]) {
+      const LevelChunk& chunk = list_.at(place);
+      const CellGraph& walk = chunk.rows.walk;
+      live += chunk.planned.liveCount;
+      for (uint32_t local = 0; local < chunk.planned.liveCount; ++local) {
+        const auto first = walk.neighbours.begin() + walk.offsets[local];
+        const auto last = walk.neighbours.begin() + walk.offsets[local + 1];
+        locked += std::any_of(first, last, isOutside) ? 1 : 0;
+      }
+    }
+    return live > 0 ? static_cast<double>(locked) / static_cast<double>(live) : 0;
   }
 
   uint64_t weightTo(uint32_t chunk, uint32_t group) const {
@@ -137,73 +190,43 @@ class Grouping {
     for (const Edge& edge : adjacency_[chunk]) {
       const uint32_t group = groupOf_[edge.chunk];
       if (group == groupOf_[chunk] || group == kNoGroupYet) continue;
-      if (liveOf(group) + live_[chunk] > kOverfull * groupLive_) continue;
+      if (liveOf(group) + list_.at(chunk).planned.liveCount > kOverfull * groupLive_) continue;
       const uint64_t weight = weightTo(chunk, group);
       if (weight > most || (weight == most && group < best)) best = group, most = weight;
     }
     return best;
   }
 
-  const Adjacency& adjacency_;
-  std::span<const uint32_t> live_;
+  const ListedChunks& list_;
+  const Adjacency adjacency_;
   const double groupLive_;
   std::vector<uint32_t> groupOf_;  // [listed] kNoGroupYet: none yet
   std::vector<std::vector<uint32_t>> groups_;
 };
 
-// Live cells of a group that have neighbours outside of it, of all.
-double lockedShare(std::span<const LevelChunk> chunks, std::span<const uint32_t> listed,
-                   std::span<const uint32_t> listedOf, const Grouping& grouping, uint32_t group) {
-  const auto isOutside = [&](uint32_t cell) {
-    return listedOf[cell] == kNoGroupYet || grouping.groupOf(listedOf[cell]) != group;
-  };
-  uint64_t live = 0, locked = 0;
-  for (const uint32_t place : grouping.groups()[group]) {
-    const LevelChunk& chunk = chunks[listed[place]];
-    const CellGraph& walk = chunk.rows.walk;
-    live += chunk.planned.liveCount;
-    for (uint32_t local = 0; local < chunk.planned.liveCount; ++local) {
-      const auto first = walk.neighbours.begin() + walk.offsets[local];
-      const auto last = walk.neighbours.begin() + walk.offsets[local + 1];
-      locked += std::any_of(first, last, isOutside) ? 1 : 0;
-    }
-  }
-  return live > 0 ? static_cast<double>(locked) / static_cast<double>(live) : 0;
-}
-
-// Of a wall whose chunks lie in two sheets, say, the front one: all of its cells have neighbours in the other. The most
-// locked groups go first, and unlock others.
-void dissolveLocked(std::span<const LevelChunk> chunks, std::span<const uint32_t> listed,
-                    std::span<const uint32_t> listedOf, Grouping& grouping) {
-  const auto share = [&](uint32_t group) { return lockedShare(chunks, listed, listedOf, grouping, group); };
-  std::vector<std::pair<double, uint32_t>> order(grouping.groups().size());
-  tbb::parallel_for(size_t{0}, order.size(), [&](size_t group) {
-    order[group] = {-share(static_cast<uint32_t>(group)), static_cast<uint32_t>(group)};
-  });
-  std::sort(order.begin(), order.end());
-  for (const auto& [negated, group] : order) {
-    if (-negated > kMostLocked && share(group) > kMostLocked) grouping.dissolve(group);
-  }
-  grouping.dropEmpty();
-}
-
 }  // namespace
 
 std::vector<std::vector<uint32_t>> groupChunks(std::span<const LevelChunk> chunks, std::span<const uint32_t> listed,
                                                uint32_t cellCount, uint64_t groupLive) {
-  const std::vector<uint32_t> listedOf = findPlaces(chunks, listed, cellCount);
-  const Adjacency adjacency = countPairs(chunks, listed, listedOf);
-  std::vector<uint32_t> live;
-  for (const uint32_t chunk : listed) live.push_back(chunks[chunk].planned.liveCount);
-  Grouping grouping(adjacency, live, groupLive);
-  grouping.run();
-  dissolveLocked(chunks, listed, listedOf, grouping);
-  std::vector<std::vector<uint32_t>> groups = grouping.groups();
-  for (std::vector<uint32_t>& group : groups) {
-    for (uint32_t& chunk : group) chunk = listed[chunk];
-    std::sort(group.begin(), group.end());
-  }
-  return groups;
+  const ListedChunks list(chunks, listed, cellCount);
+  Grouping grouping(list, groupLive);
+  grouping.form();
+  grouping.dissolveLocked();
+  return grouping.collect();
+}
+
+std::vector<std::vector<uint32_t>> dissolveGroups(std::span<const LevelChunk> chunks,
+                                                  std::span<const std::vector<uint32_t>> groups,
+                                                  std::span<const uint32_t> dissolved, uint32_t cellCount,
+                                                  uint64_t groupLive) {
+  std::vector<uint32_t> listed;
+  for (const std::vector<uint32_t>& group : groups) listed.insert(listed.end(), group.begin(), group.end());
+  std::sort(listed.begin(), listed.end());
+  const ListedChunks list(chunks, listed, cellCount);
+  Grouping grouping(list, groupLive);
+  grouping.take(groups);
+  for (const uint32_t group : dissolved) grouping.dissolve(group);
+  return grouping.collect();
 }
 
 }  // namespace froth

@@ -233,22 +233,31 @@ Status Coarsening::triangulate() {
   return {};
 }
 
-// Merges whose cell reaches a cell outside, or has no power cell. False: there are none.
+// Merges whose cell reaches a cell outside or covers a live one, for what that one shows would be lost. Where a merged
+// cell has no power cell, what covers it is at fault: one giant may cover all others. False: there are none.
 bool Coarsening::undoFaults() {
-  bool isFaulty = false;
-  for (size_t k = 0; k < standing_.size(); ++k) {
-    const auto local = static_cast<uint32_t>(kept_.size() + k);
-    const std::span<const uint32_t> row = neighboursOf(triangulation_.graph, local);
-    // rows ascend, and the ring comes last
-    if (!triangulation_.isHidden[local] && (row.empty() || row.back() < ownCount())) continue;
-    isUndone_[standing_[k]] = 1;
-    ++form_.undone;
-    isFaulty = true;
+  if (standing_.empty()) return false;
+  std::vector<uint32_t> faulty;  // of clusters_
+  const SiteTree tree(mergedCells_.sites, mergedCells_.radii, standing_);
+  for (uint32_t local = 0; local < ownCount(); ++local) {
+    const bool isMerged = local >= kept_.size();
+    if (triangulation_.isHidden[local]) {
+      if (!isMerged && !fine_.isLive[kept_[local]]) continue;
+      faulty.push_back(tree.findLeastPower(glm::dvec3(sites_[local])).site);
+    } else if (isMerged) {
+      const std::span<const uint32_t> row = neighboursOf(triangulation_.graph, local);
+      // rows ascend, and the ring comes last
+      if (!row.empty() && row.back() >= ownCount()) faulty.push_back(standing_[local - kept_.size()]);
+    }
   }
-  return isFaulty;
+  std::sort(faulty.begin(), faulty.end());
+  faulty.erase(std::unique(faulty.begin(), faulty.end()), faulty.end());
+  for (const uint32_t cluster : faulty) isUndone_[cluster] = 1;
+  form_.undone += static_cast<uint32_t>(faulty.size());
+  return !faulty.empty();
 }
 
-// Kept cells that merged ones cover. False: there are none.
+// Kept cells that merged ones cover; they are not live. False: there are none.
 bool Coarsening::dropHidden() {
   bool isAny = false;
   for (size_t local = 0; local < kept_.size(); ++local) {

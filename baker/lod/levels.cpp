@@ -60,6 +60,9 @@ class LevelMaker {
   Status takeLevel0();
   bool isFloor() const;
   Status makeLevel();
+  bool makeSteps(std::vector<Step>& steps);
+  bool makeForms(std::vector<std::vector<uint32_t>> groups, std::vector<Step>& steps);
+  void makeForm(Step& step) const;
   bool forEachStep(std::vector<Step>& steps, const std::function<void(Step&)>& work);
   Status addMergedCells(std::vector<Step>& steps);
   void weighMergedCells(size_t count);
@@ -119,19 +122,43 @@ bool LevelMaker::forEachStep(std::vector<Step>& steps, const std::function<void(
   });
 }
 
-Status LevelMaker::makeLevel() {
-  const uint64_t groupLive = uint64_t{kGroupChunks} * input_.chunkCells;
-  std::vector<Step> steps;
-  for (std::vector<uint32_t>& group : groupChunks(chunks_, front_, cells_.count(), groupLive)) {
-    steps.emplace_back().group = std::move(group);
-  }
+void LevelMaker::makeForm(Step& step) const {
   const LevelSource source{input_.foam, levels_.merged, cells_, contributions_, eyes_, input_.lattices};
-  const auto makeForm = [&](Step& step) {
-    FineForm fine = makeFineForm(chunks_, step.group);
-    step.form = makeCoarseForm(source, fine);
-    step.ring = std::move(fine.ring);
-  };
-  if (!forEachStep(steps, makeForm)) return stoppedOnRequest("bake");
+  FineForm fine = makeFineForm(chunks_, step.group);
+  step.form = makeCoarseForm(source, fine);
+  step.ring = std::move(fine.ring);
+}
+
+// A group that is among the steps keeps its form. False: asked to stop.
+bool LevelMaker::makeForms(std::vector<std::vector<uint32_t>> groups, std::vector<Step>& steps) {
+  std::vector<Step> before = std::exchange(steps, {});
+  for (std::vector<uint32_t>& group : groups) {
+    const auto same = std::ranges::find(before, group, &Step::group);
+    steps.push_back(same != before.end() ? std::move(*same) : Step{std::move(group), {}, {}, 0, {}, {}});
+  }
+  return forEachStep(steps, [&](Step& step) {
+    if (!step.form) makeForm(step);
+  });
+}
+
+// Chunks that do not get coarser lock what is beside them on all levels above, and stay in the floor: so those of a
+// group that fails get another chance in the groups around it. False: asked to stop.
+bool LevelMaker::makeSteps(std::vector<Step>& steps) {
+  const uint64_t groupLive = uint64_t{kGroupChunks} * input_.chunkCells;
+  std::vector<std::vector<uint32_t>> groups = groupChunks(chunks_, front_, cells_.count(), groupLive);
+  if (!makeForms(groups, steps)) return false;
+  std::vector<uint32_t> failed;
+  for (uint32_t index = 0; index < steps.size(); ++index) {
+    const Result<CoarseForm>& form = *steps[index].form;
+    if (form && !form->isWorthwhile) failed.push_back(index);
+  }
+  if (failed.empty()) return true;
+  return makeForms(dissolveGroups(chunks_, groups, failed, cells_.count(), groupLive), steps);
+}
+
+Status LevelMaker::makeLevel() {
+  std::vector<Step> steps;
+  if (!makeSteps(steps)) return stoppedOnRequest("bake");
   if (Status status = addMergedCells(steps); !status) return status;
   if (!forEachStep(steps, [&](Step& step) { splitForm(step); })) return stoppedOnRequest("bake");
   front_.clear();

@@ -49,6 +49,20 @@ TEST(ChunkGroups, HaveMoreChunksWhereThoseAreSmall) {
   EXPECT_EQ(groupAll(chunks), (Groups{{0, 1, 2, 3, 4}, {5, 6, 7, 8, 9}}));
 }
 
+// The first neighbour is full after two of its chunks, so the third, which borders on no other, stays.
+TEST(ChunkGroups, ADissolvedGroupIsSharedByNeighboursWithRoom) {
+  const Groups before{{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
+  const std::vector<uint32_t> middle{1};
+  EXPECT_EQ(dissolveGroups(makeRowOfChunks(12), before, middle, 120, 30),
+            (Groups{{0, 1, 2, 3, 4, 5}, {6}, {7, 8, 9, 10, 11}}));
+}
+
+TEST(ChunkGroups, ADissolvedGroupStaysWhereNoOtherHasRoom) {
+  const Groups before{{0, 1, 2, 3}, {4, 5, 6, 7}};
+  const std::vector<uint32_t> second{1};
+  EXPECT_EQ(dissolveGroups(makeRowOfChunks(8), before, second, 80, 20), before);
+}
+
 // Before a row of chunks stands a sheet of others, cell before cell, that have more pairs in common with each other.
 TEST(ChunkGroups, ASheetBeforeAnotherIsSharedAmongTheGroupsBehindIt) {
   std::vector<LevelChunk> chunks = makeRowOfChunks(8);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
@@ -74,6 +75,15 @@ TEST(Levels, EveryGroupHasBothForms) {
     EXPECT_GT(coarse[group], 0u);
     EXPECT_LE(coarse[group], 0.85 * fine[group]);
   }
+}
+
+// The gallery's sky lies far behind its walls and is large: merged, one of its cells covers all others. And chunks that
+// never get coarser keep those beside them from it, up to the last level.
+TEST(Levels, EveryGroupGetsCoarserDownToOneChunk) {
+  const BakeResult baked = bakeLevels(*synthesizeFoam({"gallery", 15000, 1, 1, 1}), 300, "default");
+  for (size_t level = 0; level < baked.levels.size(); ++level) EXPECT_EQ(baked.levels[level].failed, 0u) << level;
+  const auto isOfFloor = [](const ChunkLevel& place) { return place.in == kNoGroup; };
+  EXPECT_EQ(std::ranges::count_if(baked.contents.levels, isOfFloor), 1);
 }
 
 double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
