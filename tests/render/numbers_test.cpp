@@ -1,8 +1,8 @@
 // Numbers at the edge of float: rays in a radical plane, wide lenses, huge balls.
-#include <algorithm>
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
 
 #include "measure/stability/cases/case_parts.h"
 #include "tests/render/render_harness.h"
@@ -12,12 +12,6 @@ namespace {
 
 constexpr uint32_t kLenses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC;
 
-double largestDifference(const Image& a, const Image& b) {
-  double most = 0;
-  for (size_t i = 0; i < a.values.size(); ++i) most = std::max(most, std::abs(double{a.values[i]} - b.values[i]));
-  return most;
-}
-
 // Raster and walk, from walks that start anywhere, within `most` of the reference.
 void expectReference(const Foam& foam, const std::vector<View>& views, double most) {
   for (const View& view : views) {
@@ -25,9 +19,10 @@ void expectReference(const Foam& foam, const std::vector<View>& views, double mo
     const RenderedImages expected = renderReference(foam, view);
     for (const Method method : {Method::kRaster, Method::kWalk}) {
       const Frame drawn = stage.draw(method, view);
-      EXPECT_LE(largestDifference(drawn.colour, expected.colour), most)
+      EXPECT_LE(compareImages(drawn.colour, expected.colour)->maxError, most)
           << (method == Method::kWalk ? "walk" : "raster");
-      EXPECT_LE(largestDifference(drawn.alpha, expected.alpha), most) << (method == Method::kWalk ? "walk" : "raster");
+      EXPECT_LE(compareImages(drawn.alpha, expected.alpha)->maxError, most)
+          << (method == Method::kWalk ? "walk" : "raster");
     }
   }
 }
@@ -83,7 +78,7 @@ TEST(RaysInAPlane, WalkAsTheyRasterizeThoughRoundingTurnsThem) {
       view.worldFromCamera[2] = turn;  // x of the forward axis
       Stage stage(bakeForTest(foam), {view.width, view.height}, lensContext(), 0, kLenses);
       const Frame raster = stage.draw(Method::kRaster, view), walk = stage.draw(Method::kWalk, view);
-      EXPECT_LE(largestDifference(walk.colour, raster.colour), 1e-3) << turn;
+      EXPECT_LE(compareImages(walk.colour, raster.colour)->maxError, 1e-3) << turn;
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "measure/stability/case_judge.h"
 #include "measure/stability/cases/stiff_case.h"
 #include "reference/camera/view_rays.h"
+#include "reference/image/metrics.h"
 #include "reference/render/reference.h"
 
 namespace froth {
@@ -43,13 +44,6 @@ class FoamCases : public testing::Test {
     EXPECT_TRUE(images);
     return images ? std::move(*images) : RenderedImages{};
   }
-  double largestDifference(const Image& a, const Image& b) const {
-    double largest = 0;
-    for (size_t i = 0; i < a.values.size(); ++i) {
-      largest = std::max(largest, std::abs(double{a.values[i]} - b.values[i]));
-    }
-    return largest;
-  }
 
   Foam foam_;
   std::vector<StiffCase> cases_;
@@ -68,13 +62,13 @@ TEST_F(FoamCases, AreTwelveOfDifferentNamesAndAtMost160PixelsWide) {
 TEST_F(FoamCases, OtherUnitsGiveTheSameImage) {
   const RenderedImages plain = render(find("foam/placed_1e+03_away"));
   for (const char* name : {"foam/units_1e-06", "foam/units_1e+06"}) {
-    EXPECT_LE(largestDifference(render(find(name)).colour, plain.colour), 1e-4) << name;
+    EXPECT_LE(compareImages(render(find(name)).colour, plain.colour)->maxError, 1e-4) << name;
   }
 }
 
 TEST_F(FoamCases, FloatsAThousandUnitsAwayGiveNearlyTheSameImage) {
   const RenderedImages plain = render(find("foam/placed_1e+03_away"));
-  EXPECT_LE(largestDifference(render(find("foam/saved_1e+03_away")).colour, plain.colour), 0.05);
+  EXPECT_LE(compareImages(render(find("foam/saved_1e+03_away")).colour, plain.colour)->maxError, 0.05);
 }
 
 // Power distance of a point, which may lie outside the floats.

@@ -1,5 +1,4 @@
 // A scene far from the origin, from the asset: placed there in double, or with its chunks' origins there.
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -15,15 +14,6 @@ namespace froth::test {
 namespace {
 
 constexpr double kStep = 1.0 / 255;
-
-double largestDifference(const Image& a, const Image& b) {
-  double largest = 0;
-  for (size_t i = 0; i < a.values.size(); ++i) {
-    const double difference = std::abs(double{a.values[i]} - b.values[i]);
-    largest = std::isnan(difference) ? INFINITY : std::max(largest, difference);
-  }
-  return largest;
-}
 
 View movedView(View view, const glm::dvec3& by) {
   for (int row = 0; row < 3; ++row) view.worldFromCamera[4 * static_cast<size_t>(row) + 3] += by[row];
@@ -41,7 +31,7 @@ void expectTheSameFarAway(const AssetContents& contents, const View& view) {
     const Frame near = stage.draw(method, view);
     for (const glm::dvec3& by : kFarAway) {
       stage.place(placementOf(by, glm::vec4(0), 0));
-      const double found = largestDifference(stage.draw(method, movedView(view, by)).colour, near.colour);
+      const double found = compareImages(stage.draw(method, movedView(view, by)).colour, near.colour)->maxError;
       EXPECT_LE(found, kStep) << by.x << " units away";
       testing::Test::RecordProperty(
           (std::string(method == Method::kRaster ? "raster" : "walk") + std::to_string(std::lround(std::log10(by.x))))
@@ -70,7 +60,7 @@ TEST(FarAway, AnAssetWithItsOriginsThereIsTheSameWithinOneStepOfAByte) {
         for (size_t axis = 0; axis < 3; ++axis) chunk.origin[axis] += by[static_cast<int>(axis)];
       }
       const Frame far = Stage(moved, {view.width, view.height}).draw(method, movedView(view, by));
-      EXPECT_LE(largestDifference(far.colour, near.colour), kStep) << by.x << " units away";
+      EXPECT_LE(compareImages(far.colour, near.colour)->maxError, kStep) << by.x << " units away";
     }
   }
 }
@@ -102,7 +92,8 @@ TEST(FarAway, AFoamSavedInFloatsThereIsBakedAndDrawnAsItsFloatsSay) {
       for (const Method method : {Method::kRaster, Method::kWalk}) {
         const Frame near = Stage(bakeAs(preset, rounded), {view.width, view.height}).draw(method, view);
         const Frame far = Stage(bakeAs(preset, saved), {view.width, view.height}).draw(method, movedView(view, by));
-        EXPECT_LE(largestDifference(far.colour, near.colour), kStep) << preset << ", " << distance << " units away";
+        EXPECT_LE(compareImages(far.colour, near.colour)->maxError, kStep)
+            << preset << ", " << distance << " units away";
       }
     }
   }
