@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -48,7 +47,7 @@ SceneOptions allCellsOf(const SceneOptions& options) {
   SceneOptions whole = options;
   whole.disk = {};
   whole.budget = whole.mostCells = whole.fadeFrames = whole.reserveCells = 0;
-  whole.detail = std::numeric_limits<float>::max();
+  whole.detail = kAllCells;
   return whole;
 }
 

@@ -1,6 +1,7 @@
 // Draws views through the runtime's public API on a Vulkan device, and reads images and measures back.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,6 +52,9 @@ struct RayOptions {
   uint32_t maxSteps = 0;        // of one ray; 0: the runtime's default
   const Image* ends = nullptr;  // as GpuRenderOptions::ends
 };
+
+// A detail at which all cells are drawn.
+inline constexpr float kAllCells = std::numeric_limits<float>::max();
 
 // Levels of detail; without effect on assets that have none.
 struct GpuStreaming {

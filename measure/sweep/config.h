@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -58,7 +57,6 @@ std::vector<Knob> drawingKnobs(bool walks);
 // Turn which levels of detail are drawn, of an asset that has them. Budgets lie between what asset and view take of
 // device memory with the floor alone, and with all cells [bytes].
 std::vector<Knob> levelKnobs(uint64_t floorBytes, uint64_t wholeBytes);
-inline constexpr float kAllCells = std::numeric_limits<float>::max();  // GpuStreaming::detail
 
 // The default preset, and the exact asset at full precision.
 ReportConfig defaultConfig();
