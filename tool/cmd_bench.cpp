@@ -34,6 +34,7 @@ struct BenchOptions {
   ViewOptions views;
   std::string renderer = "raster";
   float cutoff = 1e-3f;
+  uint32_t maxEntries = 0;
   uint32_t frames = 200;
   double warmupSeconds = 1.0;  // clocks of an idle GPU take about this long to rise
   uint32_t layers = kAllLayers;
@@ -44,6 +45,14 @@ struct BenchOptions {
   RayFlags rays;
   FiguresOutput figures;
 };
+
+GpuRenderOptions renderOptionsOf(const BenchOptions& options) {
+  GpuRenderOptions render;
+  render.method = findMethod(options.renderer)->method;
+  render.cutoff = options.cutoff;
+  render.maxEntries = options.maxEntries;
+  return render;
+}
 
 // The noise of a measurement is how far its cycles over the views scatter.
 constexpr uint32_t kLeastCycles = 5;
@@ -128,9 +137,7 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
   GpuRenderer& renderer = **created;
   if (Status loaded = renderer.load(*asset, progress); !loaded) return loaded;
 
-  GpuRenderOptions render;
-  render.method = findMethod(options.renderer)->method;
-  render.cutoff = options.cutoff;
+  GpuRenderOptions render = renderOptionsOf(options);
   render.isLinear = true;
   const auto viewCount = static_cast<uint32_t>(views->size());
   const uint32_t cycles = std::max(kLeastCycles, (options.frames + viewCount - 1) / viewCount);
@@ -177,8 +184,7 @@ Status benchFlight(const BenchOptions& options, const Progress& progress) {
   FlightFlags flags = options.flight;
   flags.flight.device = options.device;
   flags.flight.scene.asset = options.input;
-  flags.flight.scene.render.method = findMethod(options.renderer)->method;
-  flags.flight.scene.render.cutoff = options.cutoff;
+  flags.flight.scene.render = renderOptionsOf(options);
   return runFlight(flags, options.views, options.figures, progress);
 }
 
@@ -199,8 +205,7 @@ Status benchOpen(const BenchOptions& options, const Progress& progress) {
   OpeningOptions opening = options.opening;
   opening.asset = options.input.string();
   opening.device = options.device;
-  opening.render.method = findMethod(options.renderer)->method;
-  opening.render.cutoff = options.cutoff;
+  opening.render = renderOptionsOf(options);
   return runOpen(opening, options.views, options.figures, progress);
 }
 
@@ -224,6 +229,10 @@ void addBenchCommand(CLI::App& program, Tool& tool) {
   command->add_option("--cutoff", options->cutoff, "A ray ends below this transmittance")
       ->capture_default_str()
       ->check(numberBetween(0, 1));
+  command
+      ->add_option("--max-entries", options->maxEntries,
+                   "Longest list of a tile, as FrothRenderInfo::maxEntries; 0: 16384")
+      ->check(countBetween(0, UINT32_MAX));
   command->add_option("--frames", options->frames, "Least measured frames; whole cycles through the views, 5 at least")
       ->capture_default_str()
       ->check(countBetween(100, 1000000));

@@ -36,6 +36,7 @@ FrothRenderInfo renderInfoOf(const View& view, const GpuRenderOptions& options) 
   info.nearDepth = view.nearDepth ? static_cast<float>(*view.nearDepth) : FROTH_NEAR_DEFAULT;
   info.displayCoded = options.isLinear ? 0 : 1;
   info.maxSteps = options.maxSteps;
+  info.maxEntries = options.maxEntries;
   info.tileForm = options.tileForm;
   info.camera = cameraOf(view, options.ends);
   for (int axis = 0; axis < 2; ++axis) info.camera.jitter[axis] = options.jitter[axis];

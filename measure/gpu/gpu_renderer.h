@@ -35,6 +35,7 @@ struct GpuRenderOptions {
   float cutoff = 1e-3f;                                // 0: a ray never ends early
   bool isLinear = false;                               // colour decoded to linear light
   uint32_t maxSteps = 0;                               // of one walk; 0: the runtime's default
+  uint32_t maxEntries = 0;                             // of the list of a tile; the same
   bool isFull = false;                                 // of draw(): distance and normal too, all in float
   bool readsNormal = true;                             // of render(); else the image is empty
   FrothTileForm tileForm = FROTH_TILE_FORM_BY_LENGTH;  // of raster
