@@ -177,31 +177,27 @@ void noteStepLimit(inout FrothWalk walk) {
   walk.hit.status = max(walk.hit.status, FROTH_WALK_STEP_LIMIT);
 }
 
-// Where the next segment beyond what is passed begins.
-float advanceStreams(inout FrothWalk walk, bool isSeen, inout WalkWork work) {
+// Where the next segment beyond what is passed begins. isBehind: not known yet, for a stream has come to none.
+float advanceStreams(inout FrothWalk walk, bool isSeen, out bool isBehind, inout WalkWork work) {
   float first = FROTH_INFINITY;
+  isBehind = false;
   Sight sight = Sight(isSeen, walk.ray.colours == FROTH_COLOURS_SEEN, walk.tStart + walk.ray.apex);
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
-    while (walk.streams[i].isAhead && walk.streams[i].tFar <= walk.passed) {
+    if (walk.streams[i].isAhead && walk.streams[i].tFar <= walk.passed) {
       advanceStream(walk.streams[i], walk.start, walk.ray.direction, sight, work);
       if (walk.streams[i].isCut) noteStepLimit(walk);
     }
-    if (walk.streams[i].isAhead) first = min(first, max(walk.streams[i].tNear, walk.passed));
+    if (!walk.streams[i].isAhead) continue;
+    isBehind = isBehind || walk.streams[i].tFar <= walk.passed;
+    first = min(first, max(walk.streams[i].tNear, walk.passed));
   }
   return first;
 }
 
-// The next interval before `end`; false: there is none.
-bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval interval, inout WalkWork work) {
-  float begin;
-  for (;;) {
-    begin = advanceStreams(walk, isSeen, work);
-    bool isInstanceNext = walk.nextInstance != FROTH_NONE && walk.nextEntry - walk.tStart <= min(begin, end);
-    if (!isInstanceNext) break;
-    startNextStream(walk, work);
-  }
-  interval = Interval(begin, min(end, walk.nextEntry - walk.tStart), 0.0, 0.0, vec3(0.0), FROTH_NONE, uvec2(kNoCell));
-  if (!(begin < end)) return false;
+// From `begin`, where some segment begins or goes on, up to `end` at most.
+Interval findInterval(FrothWalk walk, float begin, float end, bool isSeen) {
+  Interval interval =
+      Interval(begin, min(end, walk.nextEntry - walk.tStart), 0.0, 0.0, vec3(0.0), FROTH_NONE, uvec2(kNoCell));
   float most = 0.0;
   for (uint i = 0; i < FROTH_WALK_STREAMS; ++i) {
     if (!walk.streams[i].isAhead) continue;
@@ -222,7 +218,7 @@ bool findInterval(inout FrothWalk walk, float end, bool isSeen, out Interval int
   }
   interval.colour /= interval.density;
   interval.exposure /= interval.density;
-  return true;
+  return interval;
 }
 
 // cell: that stops the ray.
@@ -253,8 +249,18 @@ vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
   float exposures = 0.0;
   uvec2 stopping = uvec2(kNoCell);
   WalkWork work = WalkWork(0u, 0u, 0u, 0u, 0u);
-  Interval interval;
-  while (walk.logTransmittance >= logCutoff && findInterval(walk, end, isSeen, interval, work)) {
+  // One loop, of which a turn goes on by a few cells and composites what that completes: in loops within it the rays of
+  // a subgroup would wait for each other at every turn.
+  while (walk.logTransmittance >= logCutoff) {
+    bool isBehind;
+    float begin = advanceStreams(walk, isSeen, isBehind, work);
+    if (isBehind) continue;
+    if (walk.nextInstance != FROTH_NONE && walk.nextEntry - walk.tStart <= min(begin, end)) {
+      startNextStream(walk, work);
+      continue;
+    }
+    if (!(begin < end)) break;
+    Interval interval = findInterval(walk, begin, end, isSeen);
     float opticalDepth = interval.density * (interval.tFar - interval.tNear);
     if (isSeen) {
       float shown = exp(logPassed) * opacity(opticalDepth);

@@ -183,13 +183,18 @@ struct Sight {
   float behind;
 };
 
-// Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it; false: there is none.
-bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tNear, out float tFar,
+// Cells that a ray goes on by before it waits for those of its subgroup. To shade one is dear, and half of the cells on
+// a ray's way are met: with two more rays shade at a time.
+const uint kStepsOfTurn = 1, kStepsOfSeenTurn = 2;
+
+// Walks on to the next live cell whose ball the ray meets, in [tNear, tFar] of it, by `steps` cells at most; false: it
+// has come to none.
+bool walkOn(inout Stream stream, LocalRay ray, uint steps, out MetCell met, out float tNear, out float tFar,
                 inout WalkWork work) {
   Chunk chunk = loadChunk(stream.cell.x);
   ChunkPlace place = placeFrom(ray.origin, chunk);
-  uint maxSteps = FRAME.maxSteps, maxNeighbours = FRAME.maxNeighbours;
-  while (stream.entry < stream.end && stream.steps < maxSteps && stream.neighbours < maxNeighbours) {
+  uint lastStep = min(FRAME.maxSteps, stream.steps + steps);
+  while (stream.entry < stream.end && stream.steps < lastStep && stream.neighbours < FRAME.maxNeighbours) {
     ++stream.steps;
     ++work.cells;
     vec4 siteRadius = siteRadiusOf(chunk, stream.cell.y);
@@ -213,20 +218,22 @@ bool walkToCell(inout Stream stream, LocalRay ray, out MetCell met, out float tN
     }
     if (isMet && tNear < tFar) return true;
   }
-  stream.isCut = stream.entry < stream.end;
+  bool isLimit = stream.steps >= FRAME.maxSteps || stream.neighbours >= FRAME.maxNeighbours;
+  stream.isAhead = stream.entry < stream.end && !isLimit;
+  stream.isCut = stream.entry < stream.end && isLimit;
   return false;
 }
 
-// On to the next segment, if it is one: a face may leave nothing of it.
+// On towards the next segment: by a few cells, of which a face may leave nothing.
 void advanceStream(inout Stream stream, vec3 origin, vec3 direction, Sight sight, inout WalkWork work) {
   instanceAtHand = stream.instance;
   LocalRay ray = localRay(origin, direction);
   float scale = FRAME.scale;
   MetCell met;
   float tNear, tFar;
-  stream.isAhead = walkToCell(stream, ray, met, tNear, tFar, work);
   stream.tFar = -kInfinity;
-  if (!stream.isAhead) return;
+  uint steps = sight.isSeen ? kStepsOfSeenTurn : kStepsOfTurn;
+  if (!walkOn(stream, ray, steps, met, tNear, tFar, work)) return;
   ++work.met;
   CellCode code = FRAME.chunks.v[met.cell.x].code;
   Face face = loadFace(code, met.cell);
