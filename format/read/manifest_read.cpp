@@ -184,18 +184,23 @@ Status unpackChunks(const fb::Manifest& packed, const std::string& file, Manifes
   return {};
 }
 
+// For messages: to name each section of a scene of millions of cells takes longer than to check them.
+std::string placeOf(const SectionRecord& record, const std::string& file) {
+  return sectionPlace(chunkPlace(file, record.chunk), record.type);
+}
+
 // What the record says about itself and its place in the file.
-Status checkRecord(const SectionRecord& record, bool hasReserved, uint64_t fileSize, const std::string& place) {
+Status checkRecord(const SectionRecord& record, bool hasReserved, uint64_t fileSize, const std::string& file) {
   if (hasReserved || (record.flags & kSectionReservedFlags) != 0) {
-    return makeError(ErrorKind::kUnsupported, "%s: reserved bits are set (flags 0x%04x); %s", place.c_str(),
-                     record.flags, kTooNew);
+    return makeError(ErrorKind::kUnsupported, "%s: reserved bits are set (flags 0x%04x); %s",
+                     placeOf(record, file).c_str(), record.flags, kTooNew);
   }
   if (record.offset > fileSize || record.storedSize > fileSize - record.offset) {
     return makeError(ErrorKind::kBadInput, "%s: offset %llu + size %llu lies beyond the file's %llu bytes; %s",
-                     place.c_str(), ull{record.offset}, ull{record.storedSize}, ull{fileSize}, kRemedy);
+                     placeOf(record, file).c_str(), ull{record.offset}, ull{record.storedSize}, ull{fileSize}, kRemedy);
   }
   if (sectionName(record.type) == nullptr && (record.flags & kSectionCritical) != 0) {
-    return makeError(ErrorKind::kUnsupported, "%s: unknown and critical; %s", place.c_str(), kTooNew);
+    return makeError(ErrorKind::kUnsupported, "%s: unknown and critical; %s", placeOf(record, file).c_str(), kTooNew);
   }
   return {};
 }
@@ -210,43 +215,46 @@ uint64_t demandedEntries(const SectionRecord& record, const Manifest& manifest) 
   return sectionEntries(type, counts, manifest.contents.detailCount);
 }
 
-Status checkElements(const SectionRecord& record, const Manifest& manifest, const std::string& place) {
+Status checkElements(const SectionRecord& record, const Manifest& manifest, const std::string& file) {
   const ElementKind kind = sectionKind(static_cast<SectionType>(record.type), manifest.contents.quantization);
   const bool isGraph = kind == ElementKind::kGraph;
   if (!isElementSize(kind, record.elementSize) ||
       (isGraph && record.elementSize != graphElementSize(manifest.contents.chunks[record.chunk]))) {
-    return makeError(ErrorKind::kBadInput, "%s: elements of %u bytes cannot be; %s", place.c_str(), record.elementSize,
-                     kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: elements of %u bytes cannot be; %s", placeOf(record, file).c_str(),
+                     record.elementSize, kRemedy);
   }
   if (record.base != 0 && kind != ElementKind::kUnsigned) {
-    return makeError(ErrorKind::kBadInput, "%s: base is %u, these elements have none; %s", place.c_str(), record.base,
-                     kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: base is %u, these elements have none; %s",
+                     placeOf(record, file).c_str(), record.base, kRemedy);
   }
   return {};
 }
 
 // What the record of a known section says, against the counts of its chunk.
-Status checkKnownRecord(const SectionRecord& record, const Manifest& manifest, const std::string& place) {
+Status checkKnownRecord(const SectionRecord& record, const Manifest& manifest, const std::string& file) {
   const SectionType type = static_cast<SectionType>(record.type);
   const bool isShared = type == SectionType::kAxisCodebook;
   if (isShared ? record.chunk != kSharedChunk : record.chunk >= manifest.chunks.size()) {
-    return makeError(ErrorKind::kBadInput, "%s: belongs to no such chunk, there are %zu; %s", place.c_str(),
-                     manifest.chunks.size(), kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: belongs to no such chunk, there are %zu; %s",
+                     placeOf(record, file).c_str(), manifest.chunks.size(), kRemedy);
   }
   if (record.codec > kLastSectionCodec) {
-    return makeError(ErrorKind::kUnsupported, "%s: unknown codec %u; %s", place.c_str(), record.codec, kTooNew);
+    return makeError(ErrorKind::kUnsupported, "%s: unknown codec %u; %s", placeOf(record, file).c_str(), record.codec,
+                     kTooNew);
   }
   const uint64_t entries = demandedEntries(record, manifest);
-  if (entries == 0) return makeError(ErrorKind::kBadInput, "%s: must not be there; %s", place.c_str(), kRemedy);
-  if (Status status = checkElements(record, manifest, place); !status) return status;
+  if (entries == 0) {
+    return makeError(ErrorKind::kBadInput, "%s: must not be there; %s", placeOf(record, file).c_str(), kRemedy);
+  }
+  if (Status status = checkElements(record, manifest, file); !status) return status;
   const uint64_t rawSize = entries * sectionComponents(type, manifest.contents.quantization) * record.elementSize;
   if (record.rawSize != rawSize) {
-    return makeError(ErrorKind::kBadInput, "%s: raw size %llu, but the counts demand %llu bytes; %s", place.c_str(),
-                     ull{record.rawSize}, ull{rawSize}, kRemedy);
+    return makeError(ErrorKind::kBadInput, "%s: raw size %llu, but the counts demand %llu bytes; %s",
+                     placeOf(record, file).c_str(), ull{record.rawSize}, ull{rawSize}, kRemedy);
   }
   const bool isStored = record.codec == static_cast<uint16_t>(SectionCodec::kStored);
   if (isStored ? record.storedSize != record.rawSize : record.rawSize > record.storedSize * kMaxExpansion) {
-    return makeError(ErrorKind::kBadInput, "%s: %llu stored bytes cannot hold %llu; %s", place.c_str(),
+    return makeError(ErrorKind::kBadInput, "%s: %llu stored bytes cannot hold %llu; %s", placeOf(record, file).c_str(),
                      ull{record.storedSize}, ull{record.rawSize}, kRemedy);
   }
   return {};
@@ -267,8 +275,7 @@ Status checkOverlaps(std::vector<std::pair<uint64_t, uint64_t>> occupied, const 
 Status checkKeys(const std::vector<SectionRecord>& sorted, const std::string& file) {
   for (size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].chunk == sorted[i - 1].chunk && sorted[i].type == sorted[i - 1].type) {
-      return makeError(ErrorKind::kBadInput, "%s: exists twice; %s",
-                       sectionPlace(chunkPlace(file, sorted[i].chunk), sorted[i].type).c_str(), kRemedy);
+      return makeError(ErrorKind::kBadInput, "%s: exists twice; %s", placeOf(sorted[i], file).c_str(), kRemedy);
     }
   }
   return {};
@@ -278,15 +285,17 @@ Status unpackSections(const fb::Manifest& packed, uint64_t manifestEnd, uint64_t
                       Manifest& manifest) {
   std::vector<SectionRecord> all;
   std::vector<std::pair<uint64_t, uint64_t>> occupied{{0, manifestEnd}};
+  all.reserve(packed.sections()->size());
+  occupied.reserve(all.capacity() + 1);
+  manifest.sections.reserve(all.capacity());
   for (const fb::Section* section : *packed.sections()) {
     const SectionRecord record = unpack(*section);
-    const std::string place = sectionPlace(chunkPlace(file, record.chunk), record.type);
     const bool hasReserved = section->reserved0() != 0 || section->reserved1() != 0;
-    if (Status status = checkRecord(record, hasReserved, fileSize, place); !status) return status;
+    if (Status status = checkRecord(record, hasReserved, fileSize, file); !status) return status;
     occupied.emplace_back(record.offset, record.offset + record.storedSize);
     all.push_back(record);
     if (sectionName(record.type) == nullptr) continue;
-    if (Status status = checkKnownRecord(record, manifest, place); !status) return status;
+    if (Status status = checkKnownRecord(record, manifest, file); !status) return status;
     manifest.sections.push_back(record);
   }
   std::sort(all.begin(), all.end(), hasLowerKey);
