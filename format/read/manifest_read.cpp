@@ -184,6 +184,8 @@ Status unpackChunks(const fb::Manifest& packed, const std::string& file, Manifes
   return {};
 }
 
+bool isKnown(const SectionRecord& record) { return sectionName(record.type) != nullptr; }
+
 // For messages: to name each section of a scene of millions of cells takes longer than to check them.
 std::string placeOf(const SectionRecord& record, const std::string& file) {
   return sectionPlace(chunkPlace(file, record.chunk), record.type);
@@ -199,7 +201,7 @@ Status checkRecord(const SectionRecord& record, bool hasReserved, uint64_t fileS
     return makeError(ErrorKind::kBadInput, "%s: offset %llu + size %llu lies beyond the file's %llu bytes; %s",
                      placeOf(record, file).c_str(), ull{record.offset}, ull{record.storedSize}, ull{fileSize}, kRemedy);
   }
-  if (sectionName(record.type) == nullptr && (record.flags & kSectionCritical) != 0) {
+  if (!isKnown(record) && (record.flags & kSectionCritical) != 0) {
     return makeError(ErrorKind::kUnsupported, "%s: unknown and critical; %s", placeOf(record, file).c_str(), kTooNew);
   }
   return {};
@@ -262,7 +264,7 @@ Status checkKnownRecord(const SectionRecord& record, const Manifest& manifest, c
 
 // `occupied`: ranges [offset, end) of all sections, and of the manifest with the header before it.
 Status checkOverlaps(std::vector<std::pair<uint64_t, uint64_t>> occupied, const std::string& file) {
-  std::sort(occupied.begin(), occupied.end());
+  if (!std::ranges::is_sorted(occupied)) std::ranges::sort(occupied);
   for (size_t i = 1; i < occupied.size(); ++i) {
     if (occupied[i].first < occupied[i - 1].second) {
       return makeError(ErrorKind::kBadInput, "%s: the section at byte %llu overlaps what ends at byte %llu; %s",
@@ -287,21 +289,21 @@ Status unpackSections(const fb::Manifest& packed, uint64_t manifestEnd, uint64_t
   std::vector<std::pair<uint64_t, uint64_t>> occupied{{0, manifestEnd}};
   all.reserve(packed.sections()->size());
   occupied.reserve(all.capacity() + 1);
-  manifest.sections.reserve(all.capacity());
   for (const fb::Section* section : *packed.sections()) {
     const SectionRecord record = unpack(*section);
     const bool hasReserved = section->reserved0() != 0 || section->reserved1() != 0;
     if (Status status = checkRecord(record, hasReserved, fileSize, file); !status) return status;
     occupied.emplace_back(record.offset, record.offset + record.storedSize);
     all.push_back(record);
-    if (sectionName(record.type) == nullptr) continue;
+    if (!isKnown(record)) continue;
     if (Status status = checkKnownRecord(record, manifest, file); !status) return status;
-    manifest.sections.push_back(record);
   }
   std::sort(all.begin(), all.end(), hasLowerKey);
   if (Status status = checkKeys(all, file); !status) return status;
-  std::sort(manifest.sections.begin(), manifest.sections.end(), hasLowerKey);
-  return checkOverlaps(std::move(occupied), file);
+  if (Status status = checkOverlaps(std::move(occupied), file); !status) return status;
+  std::erase_if(all, [](const SectionRecord& record) { return !isKnown(record); });
+  manifest.sections = std::move(all);
+  return {};
 }
 
 Status missing(const std::string& chunkPlace, SectionType type) {
