@@ -84,14 +84,15 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
                                 {"tests", tests}});
 }
 
-// What the preset sets and what options set in its place; `refined`: null, or the foam to go on from.
-void setSchedule(TrainCommandOptions& options, const Foam* refined) {
+// What the preset sets for a capture, and what options set in its place; `refined`: null, or the foam to go on from.
+void setSchedule(TrainCommandOptions& options, const Capture& capture, const Foam* refined) {
   const TrainPreset& preset = trainPreset(options.preset);
   TrainOptions& train = options.train;
   Schedule& schedule = train.schedule;
   schedule.steps = options.steps.value_or(preset.steps);
   schedule.seconds = 60 * options.minutes;
-  schedule.mostCells = options.cells.value_or(refined != nullptr ? refined->cellCount : preset.cells);
+  const uint32_t cells = refined != nullptr ? refined->cellCount : cellsFor(preset, capture.points.size());
+  schedule.mostCells = options.cells.value_or(cells);
   schedule.startCells = options.startCells.value_or(options.cells ? 0 : preset.startCells);
   schedule.preset = options.isOutdoor ? RatePreset::kOutdoor : RatePreset::kIndoor;
   train.photos.isMaskAlpha |= preset.isMaskAlpha;
@@ -129,7 +130,6 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
     if (!foam) return foam.error();
     refined = std::move(*foam);
   }
-  setSchedule(options, refined ? &*refined : nullptr);
   options.train.state = options.output;
   options.train.state.replace_extension(".state.bin");
   options.train.photos.alpha = options.isPremultiplied ? AlphaForm::kPremultiplied : AlphaForm::kStraight;
@@ -137,6 +137,7 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
   if (!makeExecutor) return makeExecutor.error();
   Result<Capture> capture = readCapture(options.scene);
   if (!capture) return capture.error();
+  setSchedule(options, *capture, refined ? &*refined : nullptr);
   const Result<TrainingSet> set = prepareTraining(*capture, options.train, progress);
   if (!set) return set.error();
   TrainingPage page(options.page, options.output.string());

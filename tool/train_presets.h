@@ -1,6 +1,7 @@
 // What `froth train --preset` sets.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,7 +10,9 @@ namespace froth {
 
 struct TrainPreset {
   std::string name;
-  uint32_t steps = 0, cells = 0, startCells = 0;
+  uint32_t steps = 0;
+  uint32_t leastCells = 0, mostCells = 0;  // cellsFor()
+  uint32_t startCells = 0;                 // 0: a quarter
   bool isMaskAlpha = false;
 };
 
@@ -17,5 +20,9 @@ struct TrainPreset {
 const std::vector<TrainPreset>& trainPresets();
 // One of those.
 const TrainPreset& trainPreset(const std::string& name);
+
+// How many cells a foam gets: two for each point of the capture, within the preset's bounds. What has more texture has
+// more points.
+uint32_t cellsFor(const TrainPreset& preset, size_t points);
 
 }  // namespace froth

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "tests/tool/shots_fixture.h"
+#include "tool/train_presets.h"
 
 namespace froth::test {
 namespace {
@@ -59,6 +60,14 @@ TEST_F(Train, LogsWhatItMeasuresAndRefines) {
   EXPECT_EQ(froth({"train", "shots", "-o", "b.pt", "--refine", "shots/transforms.json"}).exitCode, 3);
   EXPECT_EQ(froth({"train", "shots", "-o", "b.pt", "--log", "none/log.jsonl"}).exitCode, 1);
   EXPECT_EQ(froth({"train", "shots", "-o", "b.pt", "--page", "none/page.html"}).exitCode, 1);
+}
+
+TEST(TrainPresets, GiveTwoCellsForEachPointWithinBounds) {
+  const TrainPreset& preset = trainPreset("default");
+  EXPECT_EQ(cellsFor(preset, 0), 40000u);
+  EXPECT_EQ(cellsFor(preset, 30000), 60000u);
+  EXPECT_EQ(cellsFor(preset, size_t{1} << 40), 120000u);
+  EXPECT_EQ(cellsFor(trainPreset("object"), 30000), 50000u);
 }
 
 TEST_F(Train, FitsIntoMinutes) {

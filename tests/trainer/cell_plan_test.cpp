@@ -36,7 +36,7 @@ class CellPlanOf : public ::testing::Test {
     return {points[3 * i], points[3 * i + 1], points[3 * i + 2], 0.5f};
   }
   CellPlan plan(uint32_t wanted, uint64_t seed = 1) const {
-    return planCells(factsOf(foam_, overlaps_), wanted, seed, 99);
+    return planCells(factsOf(foam_, overlaps_), wanted, {}, seed, 99);
   }
   std::vector<float>& orientations() { return foam_.values[static_cast<size_t>(Parameter::kOrientations)]; }
 
@@ -54,6 +54,15 @@ TEST_F(CellPlanOf, RemovesWhatDoesNotShowAndSplitsUntilThereAreAsManyAsWanted) {
     EXPECT_LE(count, 2);  // without replacement
   }
   EXPECT_EQ(copies.size(), 190u);
+}
+
+// Far from the cameras balls are large, and so is the step.
+TEST_F(CellPlanOf, PartsFartherWhereTheUnitIsLarger) {
+  const glm::vec3 eye(0, 0, 1000);
+  const CellPlan made = planCells(factsOf(foam_, overlaps_), 300, {eye, 0}, 1, 99);
+  for (const CellChange& change : made.changes) {
+    EXPECT_TRUE(change.shift == glm::vec3(0) || std::abs(glm::length(change.shift) - 0.3f * 0.5f) < 1e-5f);
+  }
 }
 
 TEST_F(CellPlanOf, RemovesATenthAtMostAndAllWithoutNumbers) {

@@ -40,6 +40,7 @@ AdamStep<Real> convertAdam(const AdamStep<float>& adam, std::array<std::vector<R
   AdamStep<Real> converted{};
   converted.step = adam.step;
   converted.epsilon = adam.epsilon;
+  converted.eyes = adam.eyes;
   for (size_t i = 0; i < kParameterCount; ++i) {
     converted.rates[i] = adam.rates[i];
     if (adam.drifts[i] != nullptr) tables[i].assign(adam.drifts[i], adam.drifts[i] + adam.step);

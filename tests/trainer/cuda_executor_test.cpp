@@ -49,7 +49,7 @@ class CudaExecutorOf : public ::testing::Test {
   std::vector<Photo> photos_{makePhoto({0.5, 0.4, -3}), makePhoto({-3, 0.4, 0.3})};
   Schedule schedule_;
   Pace pace_{schedule_};
-  DriftTables drifts_{pace_};
+  DriftTables drifts_{pace_, {{10, 0, 0}, 1}};  // units of some 2
 };
 
 double relativeDifference(const std::vector<float>& expected, const std::vector<float>& found) {
@@ -137,7 +137,7 @@ TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   ASSERT_TRUE((*gpu)->read(before));
   const Result<CellFacts> facts = (*gpu)->facts();
   ASSERT_TRUE(facts);
-  CellPlan plan = planCells(*facts, kCells + 500, 3, 99);
+  CellPlan plan = planCells(*facts, kCells + 500, {}, 3, 99);
   for (size_t i = 0; i < plan.changes.size(); i += 3) plan.changes[i].radiusFactor = 0.9f;
   ASSERT_TRUE((*gpu)->rearrange(plan));
   ASSERT_TRUE((*gpu)->read(after));
@@ -211,7 +211,7 @@ TEST_F(TwoGpus, KeepTheSameFoams) {
     expectSameFoams(both);
     const Result<CellFacts> facts = both.facts();
     ASSERT_TRUE(facts);
-    ASSERT_TRUE(both.rearrange(planCells(*facts, both.cellCount() + 300, 3, step)));
+    ASSERT_TRUE(both.rearrange(planCells(*facts, both.cellCount() + 300, {}, 3, step)));
   }
   expectSameFoams(both);
 }

@@ -55,6 +55,15 @@ TEST(SceneFrame, CamerasDecideWhereThereAreNoPoints) {
   EXPECT_TRUE(std::isfinite(side.scale) && side.scale > 0);
 }
 
+TEST(SceneFrame, EyesLieInABallAroundTheirMean) {
+  const Capture capture = test::orbit(12, {100, 50, -20}, 30);
+  const SceneFrame frame{{90, 50, -20}, 0.5};
+  const Eyes eyes = findEyes(capture, frame);
+  EXPECT_NEAR(eyes.centre.x, 5, 0.1);
+  EXPECT_GE(eyes.radius, 14.9f);
+  EXPECT_LE(eyes.radius, 15.1f);
+}
+
 TEST(SceneFrame, FoamsComeBack) {
   const SceneFrame frame{{100, -50, 20}, 0.125};
   Foam foam;

@@ -23,7 +23,7 @@ StartFoam startOf(const Capture& capture, const StartOptions& options, std::span
                   uint64_t seed = 1) {
   const std::vector<uint32_t> training = test::allViews(capture);
   const SceneFrame frame = findSceneFrame(capture);
-  Result<StartFoam> start = makeStartFoam({capture, frame, training, photos, seed}, options);
+  Result<StartFoam> start = makeStartFoam({capture, frame, training, photos, seed, findEyes(capture, frame)}, options);
   if (start) return std::move(*start);
   ADD_FAILURE() << start.error().message;
   return {};
@@ -77,6 +77,23 @@ TEST(StartFoam, CellsStandOnPointsAndFaceWhoSawThem) {
   }
   EXPECT_NEAR(start.foam.lobeColours[0].y, 100 / 255.0 - 0.5, 1e-6);
   EXPECT_EQ(start.foam.lobeColours[0], start.foam.lobeColours[5]);
+}
+
+// So that a ball far away is as transparent as it looks.
+TEST(StartFoam, DensitiesFallWithTheUnit) {
+  Capture capture = test::orbit(8, {0, 0, 0}, 4);
+  test::addPoints(capture, 2000, {0, 0, 0}, 1);
+  for (size_t i = 0; i < 400; ++i) capture.points[i].position *= 500.0;
+  const SceneFrame frame = findSceneFrame(capture);
+  const Eyes eyes = findEyes(capture, frame);
+  const Foam foam = startOf(capture, kSmall).foam;
+  uint32_t far = 0;
+  for (uint32_t i = 0; i < foam.cellCount; ++i) {
+    const double unit = std::max(1.0, (glm::distance(foam.sites[i], eyes.centre) - eyes.radius) / 4.0);
+    EXPECT_NEAR(foam.densities[i] * unit, 0.1, 1e-3);
+    far += unit > 10;
+  }
+  EXPECT_GT(far, 20u);
 }
 
 TEST(StartFoam, FewPointsAreMixedAndThenTheFrustaAreFilled) {

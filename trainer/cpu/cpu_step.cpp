@@ -268,7 +268,7 @@ void CpuStep<Real>::update(const AdamStep<Real>& adam, Real overlapWeight) {
   });
   tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
     uint32_t badHere = 0;
-    updateBall(foam, adam, cell, gradientOfBall(cell, overlapWeight), badHere);
+    updateBall(foam, adam, cell, gradientOfBall(cell, adam.eyes, overlapWeight), badHere);
     updateMeans(foam, cell, sumsOfCell(seen(), sums(), cell));
     bad += badHere;
   });
@@ -276,12 +276,13 @@ void CpuStep<Real>::update(const AdamStep<Real>& adam, Real overlapWeight) {
 }
 
 template <class Real>
-glm::vec<4, Real> CpuStep<Real>::gradientOfBall(uint32_t cell, Real overlapWeight) {
+glm::vec<4, Real> CpuStep<Real>::gradientOfBall(uint32_t cell, const Eyes& eyes, Real overlapWeight) {
   const TrainedFoam<Real> foam = viewStorage(foam_);
   const NeighbourRows rows = pairs_.rows();
+  const Real weight = overlapWeightAt(eyes, foam.balls[cell], overlapWeight);
   glm::vec<4, Real> gradient = gradientOfOwnSums(sumsOfCell(seen(), sums(), cell));
   for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
-    gradient += gradientOfPair(foam, rows, seen(), sums(), overlapWeight, cell, e);
+    gradient += gradientOfPair(foam, rows, seen(), sums(), weight, cell, e);
   }
   return gradient;
 }
@@ -305,7 +306,7 @@ void CpuStep<Real>::keepGradients(const AdamStep<Real>& adam, Real overlapWeight
     }
   });
   tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
-    kept.cells[cell] = keepCell(sumsOfCell(seen(), sums(), cell), gradientOfBall(cell, overlapWeight));
+    kept.cells[cell] = keepCell(sumsOfCell(seen(), sums(), cell), gradientOfBall(cell, adam.eyes, overlapWeight));
   });
 }
 

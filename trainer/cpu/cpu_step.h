@@ -72,7 +72,7 @@ class CpuStep {
   void renderRow(uint32_t tileY);
   void differentiateRow(uint32_t tileY);
   void reduce();
-  glm::vec<4, Real> gradientOfBall(uint32_t cell, Real overlapWeight);
+  glm::vec<4, Real> gradientOfBall(uint32_t cell, const Eyes& eyes, Real overlapWeight);
   PixelArrays<Real> pixels();
 
   FoamStorage<Real>& foam_;

@@ -82,6 +82,7 @@ __global__ void updateBallsKernel(StepArrays arrays, AdamStep<float> adam, float
   const bool isCell = cell < arrays.foam.shape.cellCount;
   glm::vec4 gradient(0);
   if (isCell) {
+    overlapWeight = overlapWeightAt(adam.eyes, arrays.foam.balls[cell], overlapWeight);
     for (uint32_t e = arrays.pairs.offsets[cell] + lane; e < arrays.pairs.offsets[cell + 1]; e += kLanesOfBall) {
       gradient += gradientOfPair(arrays.foam, arrays.pairs, arrays.seen, arrays.sums, overlapWeight, cell, e);
     }

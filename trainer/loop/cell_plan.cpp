@@ -20,7 +20,7 @@ constexpr float kLeastShare = 1.0f / 25;  // of what a cell would show if all sh
 constexpr double kMostRemoved = 0.1;      // of all cells at a time
 constexpr double kTrimmedErrors = 0.99;   // errors beyond this share count as that
 constexpr float kPart = 0.3f;             // parent and child move by so many radii, ...
-constexpr float kMostPart = 0.05f;        // ... and no farther: sites learn 0.1 at most until cells change again
+constexpr float kMostPart = 0.05f;        // ... and no farther: sites learn 0.1 units at most until cells change again
 
 float quantileOf(std::vector<float> values, double share) {
   const auto place = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
@@ -70,11 +70,12 @@ std::vector<uint32_t> drawParents(const CellFacts& facts, const std::vector<uint
   return parents;
 }
 
-glm::vec3 stepOnFace(const CellFacts& facts, uint32_t cell, const CounterRandom& random) {
+glm::vec3 stepOnFace(const CellFacts& facts, uint32_t cell, const Eyes& eyes, const CounterRandom& random) {
   glm::vec3 normal, tangent, bitangent;
   foam::frameOfQuaternion(glm::make_vec4(&facts.quaternions[4 * size_t{cell}]), normal, tangent, bitangent);
   const auto angle = static_cast<float>(random.uniform(cell, 0, glm::two_pi<double>()));
-  return std::min(kPart * facts.balls[cell].w, kMostPart) * (std::cos(angle) * tangent + std::sin(angle) * bitangent);
+  const float length = std::min(kPart * facts.balls[cell].w, kMostPart * unitAt(eyes, facts.balls[cell]));
+  return length * (std::cos(angle) * tangent + std::sin(angle) * bitangent);
 }
 
 CellPlan sortAlongCurve(const CellFacts& facts, const CellPlan& plan) {
@@ -97,7 +98,7 @@ CellFacts factsOf(const FoamStorage<float>& foam, std::span<const uint32_t> over
           overlaps};
 }
 
-CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint32_t step) {
+CellPlan planCells(const CellFacts& facts, uint32_t wanted, const Eyes& eyes, uint64_t seed, uint32_t step) {
   const std::vector<uint32_t> survivors = findSurvivors(facts, wanted);
   CellPlan plan;
   plan.sources = survivors;
@@ -110,7 +111,7 @@ CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint3
   for (const uint32_t parent : drawParents(facts, survivors, wanted > count ? wanted - count : 0, choice)) {
     const auto place =
         static_cast<size_t>(std::lower_bound(survivors.begin(), survivors.end(), parent) - survivors.begin());
-    const glm::vec3 shift = stepOnFace(facts, parent, way);
+    const glm::vec3 shift = stepOnFace(facts, parent, eyes, way);
     CellChange change{.shift = shift, .meanFactor = 0.5f, .radiusFactor = plan.changes[place].radiusFactor};
     plan.changes[place] = change;
     change.shift = -shift;

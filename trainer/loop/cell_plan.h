@@ -9,6 +9,7 @@
 
 #include "trainer/cpu/foam_storage.h"
 #include "trainer/step/cell_change.h"
+#include "trainer/step/eyes.h"
 
 namespace froth {
 
@@ -33,7 +34,7 @@ struct CellPlan {
 // Cells that show too little are removed, and parents drawn without replacement by their error until there are
 // `wanted`; a parent and its child part in opposite directions on the face. Crowded cells shrink. The same facts, seed
 // and step give the same plan. Fewer than wanted come where there are too few parents.
-CellPlan planCells(const CellFacts& facts, uint32_t wanted, uint64_t seed, uint32_t step);
+CellPlan planCells(const CellFacts& facts, uint32_t wanted, const Eyes& eyes, uint64_t seed, uint32_t step);
 
 FoamStorage<float> rearrange(const FoamStorage<float>& foam, const CellPlan& plan);
 

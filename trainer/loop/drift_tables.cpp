@@ -32,6 +32,7 @@ AdamStep<float> DriftTables::adamAt(uint32_t step) {
   while (next_ < step) advance();
   AdamStep<float> adam;
   adam.step = step + 1;
+  adam.eyes = eyes_;
   adam.epsilon = static_cast<float>(kEpsilon * std::sqrt(1 - std::pow(kBeta2, adam.step)));
   for (size_t i = 0; i < kParameterCount; ++i) {
     const double rate = rateAt(pace_.schedule(), static_cast<Parameter>(i), pace_.positionAt(step));

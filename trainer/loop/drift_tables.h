@@ -16,7 +16,8 @@ inline constexpr uint32_t kLongestDrift = 256;
 
 class DriftTables {
  public:
-  explicit DriftTables(const Pace& pace) : pace_(pace) {}  // keeps a reference
+  explicit DriftTables(const Pace& pace, const Eyes& eyes = {})
+      : pace_(pace), eyes_(eyes) {}  // keeps a reference to pace
 
   // Adam of a step, up to the one that comes next, and never of one before the last that was asked for. Points into the
   // tables, until the next call.
@@ -26,6 +27,7 @@ class DriftTables {
   void advance();  // by the rates of step `next_`
 
   const Pace& pace_;
+  Eyes eyes_;
   uint32_t next_ = 0;
   std::array<std::vector<double>, kParameterCount> drifts_;
   std::array<std::vector<float>, kParameterCount> rounded_;

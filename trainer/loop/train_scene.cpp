@@ -43,7 +43,7 @@ Result<FoamStorage<float>> makeStart(const Capture& capture, const TrainingSet& 
   if (options.refined != nullptr) {
     foam = normalisedFoam(*options.refined, set.frame);
   } else {
-    const StartScene scene{capture, set.frame, set.trainingViews, set.training, options.seed};
+    const StartScene scene{capture, set.frame, set.trainingViews, set.training, options.seed, set.eyes};
     Result<StartFoam> start =
         makeStartFoam(scene, {options.schedule.startCells, options.detailCount, options.lobeCount});
     if (!start) return start.error();
@@ -159,7 +159,7 @@ Status runSteps(StepExecutor& executor, const TrainOptions& options, const Train
 
 Result<TrainResult> finishTraining(StepExecutor& executor, const TrainOptions& options, const TrainingSet& set,
                                    Pace& pace) {
-  DriftTables drifts(pace);
+  DriftTables drifts(pace, set.eyes);
   Result<std::vector<double>> psnrs = measure(executor, options, set.testing, pace, drifts);
   if (!psnrs) return psnrs.error();
   Result<Foam> foam = readFoam(executor, set.frame, pace, drifts);
@@ -192,6 +192,7 @@ Result<TrainingSet> makeTrainingSet(Capture& capture, std::vector<Photo> photos,
   }
   set.matchedPoints = replaceFewPoints(capture, set.trainingViews, set.training, options.seed);
   set.frame = findSceneFrame(capture);
+  set.eyes = findEyes(capture, set.frame);
   for (std::vector<Photo>* part : {&set.training, &set.testing}) {
     for (Photo& photo : *part) {
       photo.view = normalised(photo.view, set.frame);
@@ -245,7 +246,7 @@ Result<TrainResult> trainScene(const Capture& capture, const TrainingSet& set, c
   if (!executor) return executor.error();
   Pace pace(options.schedule, options.clock, std::move(state->seconds));
   const uint32_t firstStep = pace.stepsDone();
-  const LoopOptions loop{options.seed, static_cast<uint32_t>(set.training.size())};
+  const LoopOptions loop{options.seed, static_cast<uint32_t>(set.training.size()), set.eyes};
   const Status ran = runSteps(**executor, options, set, pace, loop, settings, progress);
   if (!ran) return ran.error();
   Result<TrainResult> result = finishTraining(**executor, options, set, pace);

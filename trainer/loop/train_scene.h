@@ -61,6 +61,7 @@ struct TrainOptions {
 // What training works on.
 struct TrainingSet {
   SceneFrame frame;                      // of the normalised scene
+  Eyes eyes;                             // of the capture, in it
   std::vector<Photo> training, testing;  // views in the normalised scene
   std::vector<uint32_t> trainingViews;   // [training] of which view of the capture it is
   std::vector<std::string> testNames;

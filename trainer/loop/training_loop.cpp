@@ -26,13 +26,13 @@ StepPlan planStep(const Pace& pace, PhotoSequence& photos, DriftTables& drifts) 
   return plan;
 }
 
-Status densify(StepExecutor& executor, const Pace& pace, uint64_t seed) {
+Status densify(StepExecutor& executor, const Pace& pace, const LoopOptions& options) {
   const uint32_t step = pace.stepsDone();
   const Result<CellFacts> facts = executor.facts();
   if (!facts) return facts.error();
   const uint32_t wanted =
       cellsAfter(pace.schedule(), pace.positionAt(step), static_cast<uint32_t>(facts->balls.size()));
-  const CellPlan plan = planCells(*facts, wanted, seed, step);
+  const CellPlan plan = planCells(*facts, wanted, options.eyes, options.seed, step);
   if (plan.sources.empty()) {
     return makeError(ErrorKind::kBadInput,
                      "training: after %u steps no cell has finite numbers; report the scene that does this", step + 1);
@@ -44,14 +44,14 @@ Status densify(StepExecutor& executor, const Pace& pace, uint64_t seed) {
 
 Status runLoop(StepExecutor& executor, Pace& pace, const LoopOptions& options, const AfterStep& afterStep,
                const Progress& progress) {
-  DriftTables drifts(pace);
+  DriftTables drifts(pace, options.eyes);
   PhotoSequence photos(options.photoCount, options.seed);
   while (!pace.isOver()) {
     if (!pace.reportTo(progress)) return stoppedOnRequest("training");
     const uint32_t step = pace.stepsDone();
     if (Status ran = executor.run(planStep(pace, photos, drifts)); !ran) return ran;
     if (isDensifyStep(pace.schedule(), step, pace.positionAt(step))) {
-      if (Status changed = densify(executor, pace, options.seed); !changed) return changed;
+      if (Status changed = densify(executor, pace, options); !changed) return changed;
     }
     pace.finishStep();
     if (Status went = afterStep(step + 1, drifts); !went) return went;

@@ -14,6 +14,7 @@ namespace froth {
 struct LoopOptions {
   uint64_t seed = 1;
   uint32_t photoCount = 0;  // [>= 1] photos that train
+  Eyes eyes = {};
 };
 
 // Called after each step with the number of steps done; its time counts as that of steps, unless the pace is paused. An

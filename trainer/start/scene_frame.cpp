@@ -112,6 +112,13 @@ SceneFrame findSceneFrame(const Capture& capture) {
   return distance > 0 ? SceneFrame{centre, kMedianDistance / distance} : frameOfCameras(capture);
 }
 
+Eyes findEyes(const Capture& capture, const SceneFrame& frame) {
+  const glm::dvec3 middle = meanEye(capture.views);
+  double radius = 0;
+  for (const CapturedView& view : capture.views) radius = std::max(radius, glm::distance(middle, eyeOf(view.view)));
+  return {glm::vec3(normalised(middle, frame)), static_cast<float>(radius * frame.scale)};
+}
+
 glm::dvec3 normalised(const glm::dvec3& place, const SceneFrame& frame) { return (place - frame.centre) * frame.scale; }
 
 View normalised(const View& view, const SceneFrame& frame) {

@@ -6,6 +6,7 @@
 
 #include "foam/foam.h"
 #include "reference/capture/capture.h"
+#include "trainer/step/eyes.h"
 
 namespace froth {
 
@@ -20,6 +21,9 @@ struct SceneFrame {
 // around one place, look outwards or in parallel), the middle of the cameras and three times how far they are spread.
 // One camera alone that turns around: scale 4.
 SceneFrame findSceneFrame(const Capture& capture);
+
+// Around the mean of the cameras, in the normalised scene.
+Eyes findEyes(const Capture& capture, const SceneFrame& frame);
 
 glm::dvec3 normalised(const glm::dvec3& place, const SceneFrame& frame);
 View normalised(const View& view, const SceneFrame& frame);

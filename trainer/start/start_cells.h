@@ -27,6 +27,7 @@ struct StartScene {
   std::span<const uint32_t> training;  // indices of views
   std::span<const Photo> photos;       // of those; empty: random cells are grey, and not cut by masks
   uint64_t seed = 0;
+  Eyes eyes = {};  // without: all cells count as near
 };
 
 // One cell for each point, but for those that coincide with another, lie outliers' far away or that only other views

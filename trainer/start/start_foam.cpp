@@ -21,7 +21,7 @@ constexpr double kPointShare = 0.95;   // of the points: the last ones lie close
 constexpr double kMixFrom = 0.9;       // of the points: as many cells, and mixtures begin
 constexpr uint64_t kMostMixtures = 9;  // for each point
 constexpr uint32_t kNearest = 8;       // distances in a radius
-constexpr double kGapShare = 0.25;     // of the cells that may cover gaps
+constexpr double kGapShare = 0.75;     // of the cells that may cover gaps
 constexpr double kLeastRadius = 1e-4;  // cells at one place, and before a lens, keep a radius that trains
 constexpr double kRawDensity = 0.1, kSiteSpread = 0.1, kAxisSpread = 2;
 
@@ -96,19 +96,22 @@ void setAppearance(const std::vector<StartCell>& cells, uint64_t seed, Foam& foa
   });
 }
 
-Foam foamOf(const std::vector<StartCell>& cells, const StartOptions& options, uint64_t seed) {
+Foam foamOf(const std::vector<StartCell>& cells, const StartOptions& options, const StartScene& scene) {
   Foam foam;
   foam.cellCount = options.cellCount;
   foam.detailCount = options.detailCount;
   foam.lobeCount = options.lobeCount;
   for (const StartCell& cell : cells) foam.sites.emplace_back(cell.position);
-  foam.densities.assign(cells.size(), static_cast<float>(softplus(kRawDensity)));
-  const CounterRandom normals = startRandom(seed, StartStream::kNormal);
+  const CounterRandom normals = startRandom(scene.seed, StartStream::kNormal);
   foam.orientations.resize(cells.size());
   tbb::parallel_for(uint32_t{0}, foam.cellCount,
                     [&](uint32_t i) { foam.orientations[i] = orientationTo(cells[i].towards, normals, i); });
   foam.radii = radiiOf(cells);
-  setAppearance(cells, seed, foam);
+  for (uint32_t i = 0; i < foam.cellCount; ++i) {
+    const float unit = unitAt(scene.eyes, glm::vec4(foam.sites[i], foam.radii[i]));
+    foam.densities.push_back(static_cast<float>(softplus(kRawDensity)) / unit);
+  }
+  setAppearance(cells, scene.seed, foam);
   return foam;
 }
 
@@ -139,7 +142,7 @@ Result<StartFoam> makeStartFoam(const StartScene& scene, const StartOptions& opt
   const std::vector<StartCell> random = cellsInFrusta(scene, start.random);
   cells.insert(cells.end(), random.begin(), random.end());
   start.gaps = coverGaps(scene, cells);
-  start.foam = foamOf(sortAlongCurve(cells), options, scene.seed);
+  start.foam = foamOf(sortAlongCurve(cells), options, scene);
   return start;
 }
 

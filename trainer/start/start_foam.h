@@ -24,7 +24,7 @@ struct StartFoam {
 
 // Cells on points of structure from motion, spread over all of them; where there are too few, random mixtures of
 // neighbours, at most 9 for each point; all others random in the frusta of the cameras. Where photos show what none of
-// these covers, cells that do so stand in place of the last, of a quarter at most (cover_views.h).
+// these covers, cells that do so stand in place of the last, of three quarters at most (cover_views.h).
 //
 // - radius: the mean distance of the 8 nearest (its own 0 included), at least 1e-4, at most 5 % of an image's height
 // - density: softplus(0.1), so a cell absorbs about 1 %

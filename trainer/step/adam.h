@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "foam/checkpoint/parameters.h"
+#include "trainer/step/eyes.h"
 #include "trainer/step/host_device.h"
 
 namespace froth {
@@ -26,6 +27,7 @@ struct AdamStep {
   Real epsilon = Real(kEpsilon);     // times sqrt(1 - beta2^step)
   // [step] D for parameters that wait since step `index`, up to the step before
   const Real* drifts[kParameterCount] = {};
+  Eyes eyes;  // rates and drifts are for cells near them: rateFactor()
 };
 
 // A gradient that is no finite number counts as 0; returns whether it was one.

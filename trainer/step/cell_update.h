@@ -163,7 +163,15 @@ FROTH_HD glm::vec<4, Real> gradientOfOwnSums(const CellSums<Real>* sums) {
   return sums == nullptr ? glm::vec<4, Real>(0) : glm::vec<4, Real>(sums->site, sums->radius);
 }
 
+// Of the loss of overlaps, at a ball: it sums squares of lengths.
+template <class Real>
+FROTH_HD Real overlapWeightAt(const Eyes& eyes, const glm::vec<4, Real>& ball, Real weight) {
+  const Real unit = unitAt(eyes, ball);
+  return weight / (unit * unit);
+}
+
 // Of the pair at place e of the cell's row: what its neighbour's rays and its own met, and the loss of overlaps.
+// overlapWeight: overlapWeightAt() the cell.
 template <class Real>
 FROTH_HD glm::vec<4, Real> gradientOfPair(const TrainedFoam<Real>& foam, const NeighbourRows& rows,
                                           const SeenCells<Real>& seen, const GradientSums<Real>& sums,

@@ -50,16 +50,31 @@ struct ParameterPart {
   FROTH_HD bool update(uint32_t i, Real gradient) const { return update(i, load(i), gradient); }
 };
 
+// Of a rate: lengths count in the unit at the cell, and densities in one per unit.
+template <class Real>
+FROTH_HD Real rateFactor(Parameter parameter, const Eyes& eyes, const glm::vec<4, Real>& ball) {
+  switch (parameter) {
+    case Parameter::kPoints:
+    case Parameter::kRadii:
+      return unitAt(eyes, ball);
+    case Parameter::kDensity:
+      return 1 / unitAt(eyes, ball);
+    default:
+      return 1;
+  }
+}
+
 template <class Real>
 FROTH_HD ParameterPart<Real> partOf(const TrainedFoam<Real>& foam, const AdamStep<Real>& adam, const Wait<Real>& wait,
                                     Parameter parameter, uint32_t cell, uint32_t first = 0) {
   const auto index = static_cast<size_t>(parameter);
+  const Real factor = rateFactor(parameter, adam.eyes, foam.balls[cell]);
   return {foam.values.row(parameter, foam.shape, cell) + first,
           foam.firstMoments.row(parameter, foam.shape, cell) + first,
           foam.secondMoments.row(parameter, foam.shape, cell) + first,
           wait,
-          wait.isNone ? Real(0) : adam.drifts[index][wait.lastStep],
-          adam.rates[index],
+          wait.isNone ? Real(0) : factor * adam.drifts[index][wait.lastStep],
+          factor * adam.rates[index],
           adam.epsilon};
 }
 
