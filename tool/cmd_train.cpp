@@ -84,18 +84,18 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
                                 {"tests", tests}});
 }
 
-// What the preset sets for a capture, and what options set in its place; `refined`: null, or the foam to go on from.
-void setSchedule(TrainCommandOptions& options, const Capture& capture, const Foam* refined) {
+// What the preset sets for a capture of which so many photos train, and what options set in its place; `refined`: null,
+// or the foam to go on from.
+void setSchedule(TrainCommandOptions& options, const Capture& capture, size_t photos, const Foam* refined) {
   const TrainPreset& preset = trainPreset(options.preset);
   TrainOptions& train = options.train;
   Schedule& schedule = train.schedule;
-  schedule.steps = options.steps.value_or(preset.steps);
+  schedule.steps = options.steps.value_or(stepsFor(preset, photos));
   schedule.seconds = 60 * options.minutes;
   const uint32_t cells = refined != nullptr ? refined->cellCount : cellsFor(preset, capture.points.size());
   schedule.mostCells = options.cells.value_or(cells);
   schedule.startCells = options.startCells.value_or(options.cells ? 0 : preset.startCells);
   schedule.preset = options.isOutdoor ? RatePreset::kOutdoor : RatePreset::kIndoor;
-  train.photos.isMaskAlpha |= preset.isMaskAlpha;
   train.measureEvery = options.measureEvery.value_or(0);
   train.measureTimes = options.measureEvery ? 0 : kMeasuredByDefault;
   train.refined = refined;
@@ -137,9 +137,10 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
   if (!makeExecutor) return makeExecutor.error();
   Result<Capture> capture = readCapture(options.scene);
   if (!capture) return capture.error();
-  setSchedule(options, *capture, refined ? &*refined : nullptr);
+  options.train.photos.isMaskAlpha |= trainPreset(options.preset).isMaskAlpha;
   const Result<TrainingSet> set = prepareTraining(*capture, options.train, progress);
   if (!set) return set.error();
+  setSchedule(options, *capture, set->training.size(), refined ? &*refined : nullptr);
   TrainingPage page(options.page, options.output.string());
   options.train.whenMeasured = [&](const TrainingMoment& moment) -> Status {
     if (options.figures.wantsTable()) {

@@ -70,6 +70,14 @@ TEST(TrainPresets, GiveTwoCellsForEachPointWithinBounds) {
   EXPECT_EQ(cellsFor(trainPreset("object"), 30000), 50000u);
 }
 
+TEST(TrainPresets, GiveEightyStepsForEachPhotoWithinBounds) {
+  const TrainPreset& preset = trainPreset("default");
+  EXPECT_EQ(stepsFor(preset, 84), 12000u);
+  EXPECT_EQ(stepsFor(preset, 256), 20480u);
+  EXPECT_EQ(stepsFor(preset, 1000), 30000u);
+  EXPECT_EQ(stepsFor(trainPreset("fast"), 1000), 5000u);
+}
+
 TEST_F(Train, FitsIntoMinutes) {
   makeShots();
   std::vector<std::string> timed{"train", "shots",          "-o", "timed.pt", "--cells", "200",       "--lobes",
