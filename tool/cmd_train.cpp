@@ -63,7 +63,8 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
     fmt::print("{}: {} cells from {} photos, {} steps in {:.1f} s\n", options.output.string(), result.foam.cellCount,
                set.training.size(), result.stepsDone - result.firstStep, seconds);
     if (!result.testPsnrs.empty()) {
-      fmt::print("PSNR of {} test photos: {:.2f} dB\n", result.testPsnrs.size(), meanPsnr(result.testPsnrs));
+      fmt::print("PSNR of {} test photos: {:.2f} dB; of as many that trained: {:.2f} dB\n", result.testPsnrs.size(),
+                 meanPsnr(result.testPsnrs), result.trainedPsnr);
     }
     if (set.matchedPoints > 0) {
       fmt::print("The capture has few points or none: began with {} that its photos show alike\n", set.matchedPoints);
@@ -81,6 +82,7 @@ Status reportTraining(const TrainCommandOptions& options, const TrainingSet& set
                                 {"seconds", seconds},
                                 {"droppedContributions", result.droppedCount},
                                 {"psnr", meanPsnr(result.testPsnrs)},
+                                {"trainedPsnr", result.trainedPsnr},
                                 {"tests", tests}});
 }
 

@@ -17,6 +17,7 @@ TEST_F(Train, MakesAFoamThatBakesAndGoesOnFromItsState) {
   EXPECT_EQ(figures["photos"], 5);
   EXPECT_EQ(figures["tests"].size(), 1u);
   EXPECT_GT(figures["psnr"].get<double>(), 5);
+  EXPECT_GT(figures["trainedPsnr"].get<double>(), 5);
   EXPECT_EQ(figures["droppedContributions"], 0);
   EXPECT_EQ(frothJson({"info", "trained.pt"})["cells"], figures["cells"]);
   frothWell({"bake", "trained.pt", "-o", "trained.froth"});

@@ -31,11 +31,12 @@ double meanPsnr(const std::vector<double>& psnrs) {
   return psnrs.empty() ? 0 : std::accumulate(psnrs.begin(), psnrs.end(), 0.0) / static_cast<double>(psnrs.size());
 }
 
-Result<std::vector<double>> photoPsnrs(StepExecutor& executor, const std::vector<Photo>& photos,
+Result<std::vector<double>> photoPsnrs(StepExecutor& executor, const std::vector<Photo>& photos, size_t count,
                                        const AdamStep<float>& adam) {
   std::vector<double> psnrs;
   std::vector<glm::vec4> image;
-  for (const Photo& photo : photos) {
+  for (size_t i = 0; i < count; ++i) {
+    const Photo& photo = photos[i * photos.size() / count];
     if (Status shown = executor.show(photo.view, adam, image); !shown) return shown.error();
     psnrs.push_back(psnrOf(photo, image));
   }

@@ -1,4 +1,4 @@
-// How well a foam in training shows photos that it does not know.
+// How well a foam in training shows photos.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ double psnrOf(const Photo& photo, const std::vector<glm::vec4>& rendered);
 // 0 without any.
 double meanPsnr(const std::vector<double>& psnrs);
 
-// Of each photo, whose view is in the normalised scene; `adam` as for StepExecutor::show().
-Result<std::vector<double>> photoPsnrs(StepExecutor& executor, const std::vector<Photo>& photos,
+// Of `count` photos, spread over all; their views are in the normalised scene. `adam` as for StepExecutor::show().
+Result<std::vector<double>> photoPsnrs(StepExecutor& executor, const std::vector<Photo>& photos, size_t count,
                                        const AdamStep<float>& adam);
 
 }  // namespace froth

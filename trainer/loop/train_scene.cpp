@@ -78,7 +78,7 @@ Result<std::vector<double>> measure(StepExecutor& executor, const TrainOptions& 
   pace.pause();
   const uint32_t done = pace.stepsDone();
   const AdamStep<float> adam = drifts.adamAt(done);
-  Result<std::vector<double>> psnrs = photoPsnrs(executor, tests, adam);
+  Result<std::vector<double>> psnrs = photoPsnrs(executor, tests, tests.size(), adam);
   if (psnrs && options.whenMeasured) {
     const auto showTest = [&](size_t test, std::vector<glm::vec4>& image) {
       return executor.show(tests[test].view, adam, image);
@@ -162,12 +162,17 @@ Result<TrainResult> finishTraining(StepExecutor& executor, const TrainOptions& o
   DriftTables drifts(pace, set.eyes);
   Result<std::vector<double>> psnrs = measure(executor, options, set.testing, pace, drifts);
   if (!psnrs) return psnrs.error();
+  const size_t count = std::min(set.testing.size(), set.training.size());
+  const Result<std::vector<double>> trained =
+      photoPsnrs(executor, set.training, count, drifts.adamAt(pace.stepsDone()));
+  if (!trained) return trained.error();
   Result<Foam> foam = readFoam(executor, set.frame, pace, drifts);
   if (!foam) return foam.error();
   const Result<uint64_t> dropped = executor.droppedCount();
   if (!dropped) return dropped.error();
   TrainResult result;
   result.testPsnrs = std::move(*psnrs);
+  result.trainedPsnr = meanPsnr(*trained);
   result.foam = std::move(*foam);
   result.droppedCount = *dropped;
   result.stepsDone = pace.stepsDone();

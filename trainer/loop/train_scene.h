@@ -71,6 +71,7 @@ struct TrainingSet {
 struct TrainResult {
   Foam foam;                      // in the scene's units
   std::vector<double> testPsnrs;  // by TrainingSet::testing
+  double trainedPsnr = 0;         // [dB] mean of as many photos that trained; 0 without test photos
   uint64_t droppedCount = 0;      // contributions that were no finite numbers
   uint32_t firstStep = 0;         // > 0: a run that went on
   uint32_t stepsDone = 0;
