@@ -7,6 +7,7 @@
 #include "base/atomic_file.h"
 #include "foam/checkpoint/bad_input.h"
 #include "reference/capture/colmap.h"
+#include "reference/capture/ply_points.h"
 #include "reference/capture/transforms.h"
 
 namespace froth {
@@ -68,6 +69,17 @@ void leaveOutMissing(Capture& capture) {
   std::erase_if(capture.views, isMissing);
 }
 
+// A file that is not there is no fault: data sets travel without it.
+Status readPoints(Capture& capture) {
+  if (!isFile(capture.pointFile)) return {};
+  const Result<std::vector<uint8_t>> bytes = readFile(capture.pointFile);
+  if (!bytes) return bytes.error();
+  Result<std::vector<CapturedPoint>> points = parsePlyPoints({*bytes, capture.pointFile.string()});
+  if (!points) return points.error();
+  capture.points = std::move(*points);
+  return {};
+}
+
 Result<Capture> readTransformsFile(const fs::path& path) {
   const Result<std::vector<uint8_t>> bytes = readFile(path);
   if (!bytes) return bytes.error();
@@ -84,6 +96,8 @@ Result<Capture> readTransformsFile(const fs::path& path) {
     }
   }
   leaveOutMissing(*capture);
+  if (!capture->pointFile.empty()) capture->pointFile = folder / capture->pointFile;
+  if (Status read = readPoints(*capture); !read) return read.error();
   return capture;
 }
 

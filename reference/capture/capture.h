@@ -43,6 +43,7 @@ struct CapturedPoint {
 struct Capture {
   std::vector<CapturedView> views;    // at least one; by name, bytewise; names are unique
   std::vector<CapturedPoint> points;  // may be none
+  std::filesystem::path pointFile;    // of transforms.json, which readCapture() takes the points from; empty: none
   std::vector<uint32_t> observers;    // indices of views, ascending for each point
   std::vector<std::string> leftOut;   // names of frames without a photo
 };
@@ -52,6 +53,7 @@ struct Capture {
 //   a folder with transforms.json, or with transforms_train.json and transforms_test.json or transforms_val.json
 //   a file of that form.
 // Frames of transforms.json without a photo are left out, as instant-ngp leaves them out, unless no frame has one.
+// Points of transforms.json are those of the PLY file that it names, if that is there.
 // Masks are found by the photo's name: masks/NAME.png, then masks/STEM.png; dynamic_mask_STEM.png beside the photo.
 // Poses and intrinsics are checked as those of cameras.json are.
 Result<Capture> readCapture(const std::filesystem::path& path);

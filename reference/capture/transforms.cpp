@@ -188,6 +188,16 @@ Result<PartNames> readParts(const Json& root, const std::string& file) {
   return parts;
 }
 
+// nerfstudio's points, in the frame of the poses.
+Status readPointFile(const Json& root, const std::string& file, std::filesystem::path& pointFile) {
+  const auto name = root.find("ply_file_path");
+  if (name == root.end() || name->is_null()) return {};
+  const std::string place = file + ", field 'ply_file_path'";
+  if (!name->is_string()) return badInput(place, "found {}; give the name of a file", FrameReader::describe(*name));
+  pointFile = name->get<std::string>();
+  return checkPhotoName(name->get<std::string>(), place);
+}
+
 Result<CapturedView> readFrame(const Json& root, const Json& frame, const std::string& place, const PartNames& parts,
                                const PhotoSizes& sizes) {
   if (!frame.is_object()) return badInput(place, "found {}; give an object", frame.type_name());
@@ -230,6 +240,7 @@ Result<Capture> parseTransforms(std::span<const uint8_t> bytes, const std::strin
   const Result<PartNames> parts = readParts(*root, file);
   if (!parts) return parts.error();
   Capture capture;
+  if (Status read = readPointFile(*root, file, capture.pointFile); !read) return read.error();
   for (size_t i = 0; i < frames->size(); ++i) {
     Result<CapturedView> view = readFrame(*root, (*frames)[i], fmt::format("{}: frame {}", file, i), *parts, sizes);
     if (!view) return view.error();

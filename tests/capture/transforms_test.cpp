@@ -57,6 +57,27 @@ class TransformsTest : public ::testing::Test {
 
 constexpr const char* kIntrinsics = "\"w\": 640, \"h\": 480.0, \"fl_x\": 500, \"fl_y\": 510, \"cx\": 322, \"cy\": 236";
 
+// A file that is named and not there is no fault.
+TEST_F(TransformsTest, PointsAreThoseOfTheFileThatItNames) {
+  writePhoto("a.png", 640, 480);
+  const std::string fields = std::string(kIntrinsics) + ", \"ply_file_path\": \"points/sparse_pc.ply\"";
+  Result<Capture> capture = readWith(fields, frame("a.png"));
+  ASSERT_TRUE(capture) << capture.error().message;
+  EXPECT_TRUE(capture->points.empty());
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  write("points/sparse_pc.ply", header + "1 2 3\n4 5 6\n");
+  capture = readWith(fields, frame("a.png"));
+  ASSERT_TRUE(capture) << capture.error().message;
+  ASSERT_EQ(capture->points.size(), 2u);
+  EXPECT_EQ(capture->points[1].position, glm::dvec3(4, 5, 6));  // poses have the same axes
+  write("points/sparse_pc.ply", header + "1.5 2.5 3.5\n");
+  expectBad(fields, frame("a.png"), {"sparse_pc.ply", "vertex 1", "found no number"});
+  expectBad(std::string(kIntrinsics) + ", \"ply_file_path\": \"../a.ply\"", frame("a.png"),
+            {"ply_file_path", "'../a.ply'"});
+  expectBad(std::string(kIntrinsics) + ", \"ply_file_path\": 3", frame("a.png"), {"ply_file_path", "found 3"});
+}
+
 TEST_F(TransformsTest, AxesTurnFromRightUpBackToRightDownForward) {
   const Result<Capture> capture = readWith(kIntrinsics, frame("images/b.jpg") + "," + frame("./images/a.jpg"));
   ASSERT_TRUE(capture) << capture.error().message;

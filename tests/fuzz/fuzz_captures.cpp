@@ -1,11 +1,13 @@
-// Any bytes as a COLMAP model or a transforms.json: views within their limits, or an error; no crash, no leak, no hang,
-// memory in proportion. The first byte: T a transforms.json, B or X a model in binary or text. Of a model four bytes
-// follow: the lengths of its cameras and of its images, little-endian; what is left are its points.
+// Any bytes as a COLMAP model, a transforms.json or a PLY file: views within their limits, or an error; no crash, no
+// leak, no hang, memory in proportion. The first byte: T a transforms.json, P a PLY, B or X a model in binary or text.
+// Of a model four bytes follow: the lengths of its cameras and of its images, little-endian; what is left are its
+// points.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "reference/capture/colmap.h"
+#include "reference/capture/ply_points.h"
 #include "reference/capture/transforms.h"
 #include "tests/fuzz/memory_watch.h"
 
@@ -29,8 +31,21 @@ bool isSound(const froth::Capture& capture) {
   return ok;
 }
 
+// With a view, for there is no capture without.
+froth::Result<froth::Capture> parsePly(Bytes bytes) {
+  auto points = froth::parsePlyPoints({bytes, "fuzz.ply"});
+  if (!points) return points.error();
+  froth::Capture capture;
+  capture.points = std::move(*points);
+  froth::View& view = capture.views.emplace_back().view;
+  view.width = view.height = 1;
+  view.fx = view.fy = 1;
+  return capture;
+}
+
 froth::Result<froth::Capture> parse(Bytes bytes) {
   const uint8_t form = bytes[0];
+  if (form == 'P') return parsePly(bytes.subspan(1));
   if (form != 'B' && form != 'X') {
     return froth::parseTransforms(bytes.subspan(1), "fuzz.json", [](const std::string&) {
       return froth::ImageSize{64, 48};

@@ -79,6 +79,26 @@ TEST(StartFoam, CellsStandOnPointsAndFaceWhoSawThem) {
   EXPECT_EQ(start.foam.lobeColours[0], start.foam.lobeColours[5]);
 }
 
+// As the nearest view sees it that has it in its image.
+TEST(StartFoam, PointsThatNobodyObservedFaceTheNearestView) {
+  Capture capture = test::orbit(8, {0, 0, 0}, 4);
+  test::addPoints(capture, 600, {0, 0, 0}, 0.5);
+  for (CapturedPoint& point : capture.points) point.observerCount = 0;
+  const SceneFrame frame = findSceneFrame(capture);
+  const Foam foam = startOf(capture, kSmall).foam;
+  for (uint32_t i = 0; i < foam.cellCount; ++i) {
+    const glm::dvec3 site(foam.sites[i]);
+    glm::dvec3 nearest(HUGE_VAL);
+    for (const CapturedView& view : capture.views) {
+      const glm::dvec3 eye = normalised(eyeOf(view.view), frame);
+      if (glm::distance(eye, site) < glm::distance(nearest, site)) nearest = eye;
+    }
+    const glm::dvec3 normal = faceFrame<double>(foam.orientations[i]).normal;
+    EXPECT_GT(glm::dot(normal, glm::normalize(nearest - site)), 0.9999);
+    EXPECT_LE(foam.radii[i], 0.0501 * 48 / 60 * glm::distance(nearest, site));
+  }
+}
+
 // So that a ball far away is as transparent as it looks.
 TEST(StartFoam, DensitiesFallWithTheUnit) {
   Capture capture = test::orbit(8, {0, 0, 0}, 4);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -32,6 +33,30 @@ void seeFrom(const View& view, StartCell& cell) {
   if (view.lens.kind == LensKind::kRayMap || view.lens.kind == LensKind::kOrthographic) return;
   cell.mostRadius = std::min(cell.mostRadius, radiusPerDistance(view) * distance);
 }
+
+// Of training views: who is said to see a point that lies in several images, where nobody observed it.
+class NearestViews {
+ public:
+  NearestViews(const std::vector<View>& views, std::span<const uint32_t> training) {
+    for (const uint32_t index : training) views_.emplace_back(&views[index], views[index]);
+  }
+
+  // Null: none has it in its image.
+  const View* of(const glm::dvec3& place) const {
+    const View* nearest = nullptr;
+    double least = HUGE_VAL;
+    for (const auto& [view, points] : views_) {
+      const double distance = glm::distance(eyeOf(*view), place);
+      if (!(distance < least) || !points.of(place)) continue;
+      least = distance;
+      nearest = view;
+    }
+    return nearest;
+  }
+
+ private:
+  std::vector<std::pair<const View*, ViewPoints>> views_;
+};
 
 std::vector<View> trainingViews(const StartScene& scene) {
   std::vector<View> views;
@@ -127,6 +152,7 @@ std::vector<StartCell> cellsOfPoints(const StartScene& scene) {
   std::vector<View> views;
   for (const CapturedView& view : capture.views) views.push_back(normalised(view.view, scene.frame));
 
+  const NearestViews nearest(views, scene.training);
   std::vector<StartCell> cells;
   for (const uint32_t index : spreadOrder(positions, kReach, scene.seed)) {
     const CapturedPoint& point = capture.points[index];
@@ -134,10 +160,12 @@ std::vector<StartCell> cellsOfPoints(const StartScene& scene) {
     cell.position = positions[index];
     cell.colour = glm::dvec3(point.colour[0], point.colour[1], point.colour[2]) / 255.0;
     bool isSeen = point.observerCount == 0;
+    const View* view = isSeen ? nearest.of(cell.position) : nullptr;
+    if (view != nullptr) seeFrom(*view, cell);
     for (uint32_t i = 0; i < point.observerCount; ++i) {
-      const uint32_t view = capture.observers[point.firstObserver + i];
-      if (!isTraining[view]) continue;
-      seeFrom(views[view], cell);
+      const uint32_t observer = capture.observers[point.firstObserver + i];
+      if (!isTraining[observer]) continue;
+      seeFrom(views[observer], cell);
       isSeen = true;
     }
     if (isSeen) cells.push_back(cell);

@@ -1,0 +1,237 @@
+#include "reference/capture/ply_points.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+namespace froth {
+namespace {
+
+constexpr const char* kPlyRemedy = "write it as nerfstudio does, or leave 'ply_file_path' out";
+
+enum class NumberKind { kSigned, kUnsigned, kFloat };
+
+struct NumberType {
+  const char *name, *otherName;
+  NumberKind kind;
+  size_t size;
+};
+constexpr NumberType kTypes[] = {
+    {"char", "int8", NumberKind::kSigned, 1},    {"uchar", "uint8", NumberKind::kUnsigned, 1},
+    {"short", "int16", NumberKind::kSigned, 2},  {"ushort", "uint16", NumberKind::kUnsigned, 2},
+    {"int", "int32", NumberKind::kSigned, 4},    {"uint", "uint32", NumberKind::kUnsigned, 4},
+    {"float", "float32", NumberKind::kFloat, 4}, {"double", "float64", NumberKind::kFloat, 8}};
+
+// What of a point a number is.
+constexpr const char* kPlaceNames[] = {"x", "y", "z"};
+constexpr const char* kColourNames[] = {"red", "green", "blue"};
+constexpr uint32_t kColours = 3, kNothing = 6;
+
+struct Property {
+  NumberType type;
+  std::string name;
+  uint32_t target = kNothing;  // an axis, or kColours and a channel
+  size_t offset = 0;           // in a vertex in binary
+};
+
+struct Header {
+  bool isText = false;
+  std::endian order = std::endian::little;
+  uint64_t count = 0;
+  std::vector<Property> properties;
+  size_t vertexSize = 0;  // in binary
+
+  bool has(uint32_t target) const {
+    return std::ranges::any_of(properties, [&](const Property& property) { return property.target == target; });
+  }
+};
+
+// The words of a line.
+std::vector<std::string_view> wordsOf(std::string_view line) {
+  std::vector<std::string_view> words;
+  constexpr const char* kSpaces = " \t\r";
+  for (size_t begin = line.find_first_not_of(kSpaces); begin != std::string_view::npos;) {
+    const size_t end = std::min(line.find_first_of(kSpaces, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(kSpaces, end);
+  }
+  return words;
+}
+
+uint32_t targetOf(std::string_view name) {
+  if (name.starts_with("diffuse_")) name.remove_prefix(8);
+  for (uint32_t i = 0; i < 3; ++i) {
+    if (name == kPlaceNames[i]) return i;
+    if (name == kColourNames[i]) return kColours + i;
+  }
+  return kNothing;
+}
+
+class HeaderReader {
+ public:
+  HeaderReader(const NamedBytes& file, std::string_view text) : file_(file), rest_(text) {}
+
+  // Up to the first byte of the vertices.
+  Status read(Header& header) {
+    if (takeLine() != "ply") return badInput(file_.name, "found no PLY header; get the file again");
+    while (!isAtEnd_) {
+      const std::vector<std::string_view> words = wordsOf(takeLine());
+      if (words.empty()) continue;
+      if (words[0] == "end_header") return check(header);
+      if (Status taken = take(words, header); !taken) return taken;
+    }
+    return badInput(file_.name, "the header does not end; get the file again");
+  }
+
+  std::string_view rest() const { return rest_; }
+
+ private:
+  std::string_view takeLine() {
+    const size_t end = rest_.find('\n');
+    isAtEnd_ = end == std::string_view::npos;
+    std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(isAtEnd_ ? rest_.size() : end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+
+  Status take(const std::vector<std::string_view>& words, Header& header) {
+    if (words[0] == "format" && words.size() == 3) return takeFormat(words[1], header);
+    if (words[0] == "element" && words.size() == 3) return takeElement(words[1], words[2], header);
+    if (words[0] == "property" && words.size() >= 3) {
+      return elements_ == 1 ? takeProperty(words, header) : Status();  // others stand behind the vertices
+    }
+    return {};  // comments, and what some programs write without that word
+  }
+
+  Status takeFormat(std::string_view format, Header& header) {
+    header.isText = format == "ascii";
+    header.order = format == "binary_big_endian" ? std::endian::big : std::endian::little;
+    hasFormat_ = header.isText || format == "binary_big_endian" || format == "binary_little_endian";
+    return hasFormat_ ? Status()
+                      : badInput(file_.name, "header: found format {}; {}", froth::quoted(format), kPlyRemedy);
+  }
+
+  Status takeElement(std::string_view name, std::string_view count, Header& header) {
+    if (++elements_ > 1) return {};
+    const auto [end, code] = std::from_chars(count.data(), count.data() + count.size(), header.count);
+    const bool isCount = code == std::errc{} && end == count.data() + count.size();
+    if (name == "vertex" && isCount) return {};
+    return badInput(file_.name, "header: found element {} {}; put the vertices first", froth::quoted(name),
+                    froth::quoted(count));
+  }
+
+  Status takeProperty(const std::vector<std::string_view>& words, Header& header) {
+    const auto type = std::ranges::find_if(
+        kTypes, [&](const NumberType& each) { return words[1] == each.name || words[1] == each.otherName; });
+    if (type == std::end(kTypes)) {
+      return badInput(file_.name, "header: found a vertex with a property of type {}; give numbers",
+                      froth::quoted(words[1]));
+    }
+    const uint32_t target = targetOf(words[2]);
+    if (target != kNothing && header.has(target)) {
+      return badInput(file_.name, "header: found {} twice; {}", froth::quoted(words[2]), kPlyRemedy);
+    }
+    header.properties.push_back({*type, std::string(words[2]), target, header.vertexSize});
+    header.vertexSize += type->size;
+    return {};
+  }
+
+  // Whether there are places, and as many vertices as the bytes can hold.
+  Status check(const Header& header) const {
+    if (!hasFormat_) return badInput(file_.name, "header: found no format; {}", kPlyRemedy);
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      if (header.has(axis)) continue;
+      return badInput(file_.name, "header: found no '{}' of vertices; {}", kPlaceNames[axis], kPlyRemedy);
+    }
+    // A number in text has a digit and a space behind it, but for the last.
+    const uint64_t least = header.isText ? 2 * header.properties.size() : header.vertexSize;
+    const uint64_t most = (rest_.size() + (header.isText ? 1 : 0)) / least;
+    if (header.count <= most) return {};
+    return badInput(file_.name,
+                    "header: found {} vertices, which take at least {} bytes each; the file has {} bytes left; get the "
+                    "whole file again",
+                    header.count, least, rest_.size());
+  }
+
+  const NamedBytes& file_;
+  std::string_view rest_;
+  bool isAtEnd_ = false, hasFormat_ = false;
+  uint32_t elements_ = 0;
+};
+
+template <class Number>
+double numberAt(const char* bytes, std::endian order) {
+  char swapped[sizeof(Number)];
+  std::memcpy(swapped, bytes, sizeof(Number));
+  if (order != std::endian::native) std::reverse(std::begin(swapped), std::end(swapped));
+  Number number;
+  std::memcpy(&number, swapped, sizeof(Number));
+  return static_cast<double>(number);
+}
+
+double binaryNumber(const char* bytes, const NumberType& type, std::endian order) {
+  if (type.kind == NumberKind::kFloat) {
+    return type.size == 4 ? numberAt<float>(bytes, order) : numberAt<double>(bytes, order);
+  }
+  const bool isSigned = type.kind == NumberKind::kSigned;
+  switch (type.size) {
+    case 1:
+      return isSigned ? numberAt<int8_t>(bytes, order) : numberAt<uint8_t>(bytes, order);
+    case 2:
+      return isSigned ? numberAt<int16_t>(bytes, order) : numberAt<uint16_t>(bytes, order);
+    default:
+      return isSigned ? numberAt<int32_t>(bytes, order) : numberAt<uint32_t>(bytes, order);
+  }
+}
+
+// The next number in text, which need not begin a line.
+std::optional<double> takeNumber(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  double number = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (code != std::errc{}) return std::nullopt;
+  text.remove_prefix(static_cast<size_t>(end - text.data()));
+  return number;
+}
+
+void setNumber(const Property& property, double number, CapturedPoint& point) {
+  if (property.target < kColours) {
+    point.position[static_cast<int>(property.target)] = number;
+  } else if (property.target < kNothing) {
+    const double byte = property.type.kind == NumberKind::kFloat ? 255 * number : number;
+    point.colour[property.target - kColours] = static_cast<uint8_t>(std::lround(std::clamp(byte, 0.0, 255.0)));
+  }
+}
+
+}  // namespace
+
+Result<std::vector<CapturedPoint>> parsePlyPoints(const NamedBytes& file) {
+  const std::string_view text(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
+  HeaderReader reader(file, text);
+  Header header;
+  if (Status read = reader.read(header); !read) return read.error();
+  std::string_view rest = reader.rest();
+  std::vector<CapturedPoint> points(header.count);
+  for (uint64_t i = 0; i < header.count; ++i) {
+    points[i].colour = {128, 128, 128};
+    for (const Property& property : header.properties) {
+      const std::optional<double> number =
+          header.isText
+              ? takeNumber(rest)
+              : binaryNumber(rest.data() + i * header.vertexSize + property.offset, property.type, header.order);
+      if (!number || (property.target != kNothing && !std::isfinite(*number))) {
+        return badInput(file.name, "vertex {}, field {}: found {}; {}", i, froth::quoted(property.name),
+                        number ? "a number that is not finite" : "no number", kPlyRemedy);
+      }
+      setNumber(property, *number, points[i]);
+    }
+  }
+  return points;
+}
+
+}  // namespace froth
