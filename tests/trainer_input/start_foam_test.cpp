@@ -79,6 +79,28 @@ TEST(StartFoam, CellsStandOnPointsAndFaceWhoSawThem) {
   EXPECT_EQ(start.foam.lobeColours[0], start.foam.lobeColours[5]);
 }
 
+TEST(StartFoam, BallsAreSmallBeforeEachViewThatHasThemInItsImage) {
+  Capture capture = test::orbit(8, {0, 0, 0}, 4);
+  test::addPoints(capture, 300, {0, 0, 0}, 1);
+  for (CapturedPoint& point : capture.points) {
+    point.firstObserver = 2;  // view 2 alone
+    point.observerCount = 1;
+  }
+  capture.views.push_back(test::viewFrom({0, 0, 1.5}, {0, 0, 0}, "near"));  // nobody says that it sees them
+  const SceneFrame frame = findSceneFrame(capture);
+  const Foam foam = startOf(capture, kSmall).foam;
+  const View near = normalised(capture.views.back().view, frame);
+  const ViewPoints image(near);
+  uint32_t inImage = 0;
+  for (uint32_t i = 0; i < foam.cellCount; ++i) {
+    if (!image.of(glm::dvec3(foam.sites[i]))) continue;
+    ++inImage;
+    const double distance = glm::distance(eyeOf(near), glm::dvec3(foam.sites[i]));
+    EXPECT_LE(foam.radii[i], std::max(1.001e-4, 0.0501 * near.height / near.fy * distance));
+  }
+  EXPECT_GT(inImage, 100u);
+}
+
 // As the nearest view sees it that has it in its image.
 TEST(StartFoam, PointsThatNobodyObservedFaceTheNearestView) {
   Capture capture = test::orbit(8, {0, 0, 0}, 4);

@@ -34,21 +34,27 @@ void seeFrom(const View& view, StartCell& cell) {
   cell.mostRadius = std::min(cell.mostRadius, radiusPerDistance(view) * distance);
 }
 
-// Of training views: who is said to see a point that lies in several images, where nobody observed it.
+std::vector<View> trainingViews(const StartScene& scene) {
+  std::vector<View> views;
+  for (const uint32_t index : scene.training) views.push_back(normalised(scene.capture.views[index].view, scene.frame));
+  return views;
+}
+
+// Of views, the one before which a place looks largest, among those that have it in their images.
 class NearestViews {
  public:
-  NearestViews(const std::vector<View>& views, std::span<const uint32_t> training) {
-    for (const uint32_t index : training) views_.emplace_back(&views[index], views[index]);
+  explicit NearestViews(const std::vector<View>& views) {
+    for (const View& view : views) views_.emplace_back(&view, view);
   }
 
-  // Null: none has it in its image.
+  // Null: none has it.
   const View* of(const glm::dvec3& place) const {
     const View* nearest = nullptr;
     double least = HUGE_VAL;
     for (const auto& [view, points] : views_) {
-      const double distance = glm::distance(eyeOf(*view), place);
-      if (!(distance < least) || !points.of(place)) continue;
-      least = distance;
+      const double radius = radiusPerDistance(*view) * glm::distance(eyeOf(*view), place);
+      if (!(radius < least) || !points.of(place)) continue;
+      least = radius;
       nearest = view;
     }
     return nearest;
@@ -57,12 +63,6 @@ class NearestViews {
  private:
   std::vector<std::pair<const View*, ViewPoints>> views_;
 };
-
-std::vector<View> trainingViews(const StartScene& scene) {
-  std::vector<View> views;
-  for (const uint32_t index : scene.training) views.push_back(normalised(scene.capture.views[index].view, scene.frame));
-  return views;
-}
 
 // Premultiplied pixel of a photo; `pixel` in pixels of its view.
 glm::dvec4 pixelOf(const Photo& photo, const glm::dvec2& pixel, const View& view) {
@@ -152,7 +152,8 @@ std::vector<StartCell> cellsOfPoints(const StartScene& scene) {
   std::vector<View> views;
   for (const CapturedView& view : capture.views) views.push_back(normalised(view.view, scene.frame));
 
-  const NearestViews nearest(views, scene.training);
+  const std::vector<View> training = trainingViews(scene);
+  const NearestViews nearest(training);
   std::vector<StartCell> cells;
   for (const uint32_t index : spreadOrder(positions, kReach, scene.seed)) {
     const CapturedPoint& point = capture.points[index];
@@ -202,6 +203,17 @@ std::vector<StartCell> mixCells(const std::vector<StartCell>& points, uint32_t c
     cell.mostRadius = points[base].mostRadius;
   });
   return cells;
+}
+
+void limitRadii(const StartScene& scene, std::vector<StartCell>& cells) {
+  const std::vector<View> views = trainingViews(scene);
+  const NearestViews nearest(views);
+  tbb::parallel_for(size_t{0}, cells.size(), [&](size_t i) {
+    const View* view = nearest.of(cells[i].position);
+    if (view == nullptr) return;
+    const double radius = radiusPerDistance(*view) * glm::distance(eyeOf(*view), cells[i].position);
+    cells[i].mostRadius = std::min(cells[i].mostRadius, radius);
+  });
 }
 
 std::vector<StartCell> cellsInFrusta(const StartScene& scene, uint32_t count) {

@@ -40,6 +40,10 @@ constexpr uint32_t kMixed = 6;
 // `count` random convex mixtures of a point and its nearest. `points` has at least kMixed.
 std::vector<StartCell> mixCells(const std::vector<StartCell>& points, uint32_t count, uint64_t seed);
 
+// A ball is no larger than 5 % of the height of any training view's image that has its centre, whether that view is
+// said to see it or not: before a camera it would hide what lies behind.
+void limitRadii(const StartScene& scene, std::vector<StartCell>& cells);
+
 // `count` random pixels of training views at log-uniform depths. Where photos have alpha, of pixels that show the
 // object, at depths that most other views show as object too, so in the visual hull; some tries that find none stay
 // outside.

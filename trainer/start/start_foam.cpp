@@ -141,6 +141,7 @@ Result<StartFoam> makeStartFoam(const StartScene& scene, const StartOptions& opt
   }
   const std::vector<StartCell> random = cellsInFrusta(scene, start.random);
   cells.insert(cells.end(), random.begin(), random.end());
+  limitRadii(scene, cells);
   start.gaps = coverGaps(scene, cells);
   start.foam = foamOf(sortAlongCurve(cells), options, scene);
   return start;
