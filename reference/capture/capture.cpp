@@ -97,7 +97,6 @@ Result<Capture> readTransformsFile(const fs::path& path) {
   }
   leaveOutMissing(*capture);
   if (!capture->pointFile.empty()) capture->pointFile = folder / capture->pointFile;
-  if (Status read = readPoints(*capture); !read) return read.error();
   return capture;
 }
 
@@ -132,8 +131,10 @@ Result<Capture> readTransformsParts(const fs::path& folder) {
   return capture;
 }
 
-Result<Capture> readSorted(Result<Capture> capture, const fs::path& path) {
+// What transforms.json describes, of one file or of several.
+Result<Capture> finishTransforms(Result<Capture> capture, const fs::path& path) {
   if (!capture) return capture;
+  if (Status read = readPoints(*capture); !read) return read.error();
   if (Status status = sortViews(path.string(), *capture); !status) return status.error();
   return capture;
 }
@@ -144,12 +145,12 @@ Result<Capture> readCapture(const fs::path& path) {
   if (isFile(path) && path.extension() != ".json") {
     return badInput(path.string(), "found a file that is no transforms.json; give the scene's folder");
   }
-  if (isFile(path)) return readSorted(readTransformsFile(path), path);
+  if (isFile(path)) return finishTransforms(readTransformsFile(path), path);
   for (const fs::path& model : {path / "sparse" / "0", path / "sparse", path}) {
     if (hasColmapModel(model)) return readColmapScene(model);
   }
-  if (isFile(path / "transforms.json")) return readSorted(readTransformsFile(path / "transforms.json"), path);
-  if (isFile(path / "transforms_train.json")) return readSorted(readTransformsParts(path), path);
+  if (isFile(path / "transforms.json")) return finishTransforms(readTransformsFile(path / "transforms.json"), path);
+  if (isFile(path / "transforms_train.json")) return finishTransforms(readTransformsParts(path), path);
   return badInput(path.string(),
                   "found {}; give a folder with a COLMAP model (sparse/0/cameras.bin or .txt) or transforms.json",
                   fs::exists(path) ? "neither a COLMAP model nor transforms.json" : "no such file or folder");

@@ -1,30 +1,44 @@
 #include "reference/capture/ply_points.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string_view>
+#include <type_traits>
+
+#include "foam/checkpoint/little_endian.h"
 
 namespace froth {
 namespace {
 
 constexpr const char* kPlyRemedy = "write it as nerfstudio does, or leave 'ply_file_path' out";
 
-enum class NumberKind { kSigned, kUnsigned, kFloat };
+template <class Number>
+double numberAt(const uint8_t* bytes, bool isBigEndian) {
+  std::array<uint8_t, sizeof(Number)> copy;
+  std::copy_n(bytes, copy.size(), copy.begin());
+  if (isBigEndian) std::reverse(copy.begin(), copy.end());
+  return static_cast<double>(loadLittleEndian<Number>(copy.data()));
+}
 
 struct NumberType {
   const char *name, *otherName;
-  NumberKind kind;
   size_t size;
+  bool isFloat;
+  double (*read)(const uint8_t* bytes, bool isBigEndian);
 };
-constexpr NumberType kTypes[] = {
-    {"char", "int8", NumberKind::kSigned, 1},    {"uchar", "uint8", NumberKind::kUnsigned, 1},
-    {"short", "int16", NumberKind::kSigned, 2},  {"ushort", "uint16", NumberKind::kUnsigned, 2},
-    {"int", "int32", NumberKind::kSigned, 4},    {"uint", "uint32", NumberKind::kUnsigned, 4},
-    {"float", "float32", NumberKind::kFloat, 4}, {"double", "float64", NumberKind::kFloat, 8}};
+
+template <class Number>
+constexpr NumberType typeOf(const char* name, const char* otherName) {
+  return {name, otherName, sizeof(Number), std::is_floating_point_v<Number>, numberAt<Number>};
+}
+
+constexpr NumberType kTypes[] = {typeOf<int8_t>("char", "int8"),    typeOf<uint8_t>("uchar", "uint8"),
+                                 typeOf<int16_t>("short", "int16"), typeOf<uint16_t>("ushort", "uint16"),
+                                 typeOf<int32_t>("int", "int32"),   typeOf<uint32_t>("uint", "uint32"),
+                                 typeOf<float>("float", "float32"), typeOf<double>("double", "float64")};
 
 // What of a point a number is.
 constexpr const char* kPlaceNames[] = {"x", "y", "z"};
@@ -39,8 +53,7 @@ struct Property {
 };
 
 struct Header {
-  bool isText = false;
-  std::endian order = std::endian::little;
+  bool isText = false, isBigEndian = false;
   uint64_t count = 0;
   std::vector<Property> properties;
   size_t vertexSize = 0;  // in binary
@@ -110,8 +123,8 @@ class HeaderReader {
 
   Status takeFormat(std::string_view format, Header& header) {
     header.isText = format == "ascii";
-    header.order = format == "binary_big_endian" ? std::endian::big : std::endian::little;
-    hasFormat_ = header.isText || format == "binary_big_endian" || format == "binary_little_endian";
+    header.isBigEndian = format == "binary_big_endian";
+    hasFormat_ = header.isText || header.isBigEndian || format == "binary_little_endian";
     return hasFormat_ ? Status()
                       : badInput(file_.name, "header: found format {}; {}", froth::quoted(format), kPlyRemedy);
   }
@@ -164,31 +177,6 @@ class HeaderReader {
   uint32_t elements_ = 0;
 };
 
-template <class Number>
-double numberAt(const char* bytes, std::endian order) {
-  char swapped[sizeof(Number)];
-  std::memcpy(swapped, bytes, sizeof(Number));
-  if (order != std::endian::native) std::reverse(std::begin(swapped), std::end(swapped));
-  Number number;
-  std::memcpy(&number, swapped, sizeof(Number));
-  return static_cast<double>(number);
-}
-
-double binaryNumber(const char* bytes, const NumberType& type, std::endian order) {
-  if (type.kind == NumberKind::kFloat) {
-    return type.size == 4 ? numberAt<float>(bytes, order) : numberAt<double>(bytes, order);
-  }
-  const bool isSigned = type.kind == NumberKind::kSigned;
-  switch (type.size) {
-    case 1:
-      return isSigned ? numberAt<int8_t>(bytes, order) : numberAt<uint8_t>(bytes, order);
-    case 2:
-      return isSigned ? numberAt<int16_t>(bytes, order) : numberAt<uint16_t>(bytes, order);
-    default:
-      return isSigned ? numberAt<int32_t>(bytes, order) : numberAt<uint32_t>(bytes, order);
-  }
-}
-
 // The next number in text, which need not begin a line.
 std::optional<double> takeNumber(std::string_view& text) {
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
@@ -203,7 +191,7 @@ void setNumber(const Property& property, double number, CapturedPoint& point) {
   if (property.target < kColours) {
     point.position[static_cast<int>(property.target)] = number;
   } else if (property.target < kNothing) {
-    const double byte = property.type.kind == NumberKind::kFloat ? 255 * number : number;
+    const double byte = property.type.isFloat ? 255 * number : number;
     point.colour[property.target - kColours] = static_cast<uint8_t>(std::lround(std::clamp(byte, 0.0, 255.0)));
   }
 }
@@ -216,14 +204,13 @@ Result<std::vector<CapturedPoint>> parsePlyPoints(const NamedBytes& file) {
   Header header;
   if (Status read = reader.read(header); !read) return read.error();
   std::string_view rest = reader.rest();
+  const uint8_t* vertex = file.bytes.data() + (text.size() - rest.size());  // in binary
   std::vector<CapturedPoint> points(header.count);
-  for (uint64_t i = 0; i < header.count; ++i) {
+  for (uint64_t i = 0; i < header.count; ++i, vertex += header.vertexSize) {
     points[i].colour = {128, 128, 128};
     for (const Property& property : header.properties) {
       const std::optional<double> number =
-          header.isText
-              ? takeNumber(rest)
-              : binaryNumber(rest.data() + i * header.vertexSize + property.offset, property.type, header.order);
+          header.isText ? takeNumber(rest) : property.type.read(vertex + property.offset, header.isBigEndian);
       if (!number || (property.target != kNothing && !std::isfinite(*number))) {
         return badInput(file.name, "vertex {}, field {}: found {}; {}", i, froth::quoted(property.name),
                         number ? "a number that is not finite" : "no number", kPlyRemedy);

@@ -56,15 +56,19 @@ double shareSeen(const Foam& foam, const Capture& capture) {
   return double(std::count_if(foam.sites.begin(), foam.sites.end(), isSeen)) / double(foam.sites.size());
 }
 
+void letOneViewObserve(Capture& capture, uint32_t view) {
+  for (CapturedPoint& point : capture.points) {
+    point.firstObserver = view;
+    point.observerCount = 1;
+  }
+}
+
 constexpr StartOptions kSmall{500, 2, 3};
 
 TEST(StartFoam, CellsStandOnPointsAndFaceWhoSawThem) {
   Capture capture = test::orbit(8, {10, 0, 0}, 20);
   test::addPoints(capture, 2000, {10, 0, 0}, 3);
-  for (CapturedPoint& point : capture.points) {
-    point.firstObserver = 2;  // view 2 alone
-    point.observerCount = 1;
-  }
+  letOneViewObserve(capture, 2);
   const StartFoam start = startOf(capture, kSmall);
   expectSound(start.foam, kSmall);
   EXPECT_EQ(start.points, 500u);
@@ -82,10 +86,7 @@ TEST(StartFoam, CellsStandOnPointsAndFaceWhoSawThem) {
 TEST(StartFoam, BallsAreSmallBeforeEachViewThatHasThemInItsImage) {
   Capture capture = test::orbit(8, {0, 0, 0}, 4);
   test::addPoints(capture, 300, {0, 0, 0}, 1);
-  for (CapturedPoint& point : capture.points) {
-    point.firstObserver = 2;  // view 2 alone
-    point.observerCount = 1;
-  }
+  letOneViewObserve(capture, 2);
   capture.views.push_back(test::viewFrom({0, 0, 1.5}, {0, 0, 0}, "near"));  // nobody says that it sees them
   const SceneFrame frame = findSceneFrame(capture);
   const Foam foam = startOf(capture, kSmall).foam;

@@ -10,8 +10,7 @@
 namespace froth {
 namespace {
 
-constexpr double kMedianDistance = 4;  // from camera to point, after it
-constexpr double kSpreads = 3;         // a subject that nothing tells of lies so many spreads of the cameras away
+constexpr double kSpreads = 3;  // a subject that nothing tells of lies so many spreads of the cameras away
 
 // The upper median; `values` not empty.
 double medianOf(std::vector<double> values) {
@@ -90,10 +89,10 @@ SceneFrame frameOfCameras(const Capture& capture) {
   const double spread = measured > kRounding * glm::length(middle) ? measured : 0;
   if (const std::optional<glm::dvec3> place = meetingOfAxes(capture.views, middle)) {
     const double distance = medianDistance(capture, *place);
-    if (distance > kLeastShare * spread && distance > 0) return {*place, kMedianDistance / distance};
+    if (distance > kLeastShare * spread && distance > 0) return {*place, kNearDistance / distance};
   }
   const double distance = spread > 0 ? kSpreads * spread : 1;
-  return {middle, kMedianDistance / distance};
+  return {middle, kNearDistance / distance};
 }
 
 Foam movedFoam(Foam foam, const glm::dvec3& before, double scale, const glm::dvec3& after) {
@@ -109,7 +108,7 @@ SceneFrame findSceneFrame(const Capture& capture) {
   if (capture.points.empty()) return frameOfCameras(capture);
   const glm::dvec3 centre = medianPoint(capture.points);
   const double distance = medianDistance(capture, centre);
-  return distance > 0 ? SceneFrame{centre, kMedianDistance / distance} : frameOfCameras(capture);
+  return distance > 0 ? SceneFrame{centre, kNearDistance / distance} : frameOfCameras(capture);
 }
 
 Eyes findEyes(const Capture& capture, const SceneFrame& frame) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -22,8 +21,10 @@ constexpr uint32_t kTries = 64;           // for a pixel of the object, and for 
 constexpr double kObject = 0.5;           // alpha from which a pixel shows the object
 constexpr double kMissing = 0.1;          // of the views may not show it in the hull: masks are not exact
 
-// A radius of so many per unit of distance.
-double radiusPerDistance(const View& view) { return kHeightShare * view.height / view.fy; }
+// The largest that a ball at a place may be in a view.
+double mostRadiusIn(const View& view, const glm::dvec3& place) {
+  return kHeightShare * view.height / view.fy * glm::distance(eyeOf(view), place);
+}
 
 void seeFrom(const View& view, StartCell& cell) {
   const glm::dvec3 offset = eyeOf(view) - cell.position;
@@ -31,7 +32,7 @@ void seeFrom(const View& view, StartCell& cell) {
   if (!(distance > 0)) return;
   cell.towards += offset / distance;
   if (view.lens.kind == LensKind::kRayMap || view.lens.kind == LensKind::kOrthographic) return;
-  cell.mostRadius = std::min(cell.mostRadius, radiusPerDistance(view) * distance);
+  cell.mostRadius = std::min(cell.mostRadius, mostRadiusIn(view, cell.position));
 }
 
 std::vector<View> trainingViews(const StartScene& scene) {
@@ -40,28 +41,29 @@ std::vector<View> trainingViews(const StartScene& scene) {
   return views;
 }
 
-// Of views, the one before which a place looks largest, among those that have it in their images.
+// Of the training views that have a place in their images, the one in which a ball there looks largest.
 class NearestViews {
  public:
-  explicit NearestViews(const std::vector<View>& views) {
-    for (const View& view : views) views_.emplace_back(&view, view);
+  explicit NearestViews(const StartScene& scene) : views_(trainingViews(scene)) {
+    for (const View& view : views_) points_.emplace_back(view);
   }
 
   // Null: none has it.
   const View* of(const glm::dvec3& place) const {
     const View* nearest = nullptr;
     double least = HUGE_VAL;
-    for (const auto& [view, points] : views_) {
-      const double radius = radiusPerDistance(*view) * glm::distance(eyeOf(*view), place);
-      if (!(radius < least) || !points.of(place)) continue;
+    for (size_t i = 0; i < views_.size(); ++i) {
+      const double radius = mostRadiusIn(views_[i], place);
+      if (!(radius < least) || !points_[i].of(place)) continue;
       least = radius;
-      nearest = view;
+      nearest = &views_[i];
     }
     return nearest;
   }
 
  private:
-  std::vector<std::pair<const View*, ViewPoints>> views_;
+  std::vector<View> views_;  // filled before points_ refer to it
+  std::vector<ViewPoints> points_;
 };
 
 // Premultiplied pixel of a photo; `pixel` in pixels of its view.
@@ -152,8 +154,7 @@ std::vector<StartCell> cellsOfPoints(const StartScene& scene) {
   std::vector<View> views;
   for (const CapturedView& view : capture.views) views.push_back(normalised(view.view, scene.frame));
 
-  const std::vector<View> training = trainingViews(scene);
-  const NearestViews nearest(training);
+  const NearestViews nearest(scene);
   std::vector<StartCell> cells;
   for (const uint32_t index : spreadOrder(positions, kReach, scene.seed)) {
     const CapturedPoint& point = capture.points[index];
@@ -206,13 +207,11 @@ std::vector<StartCell> mixCells(const std::vector<StartCell>& points, uint32_t c
 }
 
 void limitRadii(const StartScene& scene, std::vector<StartCell>& cells) {
-  const std::vector<View> views = trainingViews(scene);
-  const NearestViews nearest(views);
+  const NearestViews nearest(scene);
   tbb::parallel_for(size_t{0}, cells.size(), [&](size_t i) {
-    const View* view = nearest.of(cells[i].position);
-    if (view == nullptr) return;
-    const double radius = radiusPerDistance(*view) * glm::distance(eyeOf(*view), cells[i].position);
-    cells[i].mostRadius = std::min(cells[i].mostRadius, radius);
+    StartCell& cell = cells[i];
+    const View* view = nearest.of(cell.position);
+    if (view != nullptr) cell.mostRadius = std::min(cell.mostRadius, mostRadiusIn(*view, cell.position));
   });
 }
 

@@ -31,7 +31,8 @@ struct StartScene {
 };
 
 // One cell for each point, but for those that coincide with another, lie outliers' far away or that only other views
-// observed; each beginning of the list is spread over the scene (spread_points.h).
+// observed; each beginning of the list is spread over the scene (spread_points.h). A point that nobody is said to
+// observe faces the nearest training view that has it in its image.
 std::vector<StartCell> cellsOfPoints(const StartScene& scene);
 
 // Points that a random mixture is of.

@@ -27,7 +27,8 @@ struct StartFoam {
 // these covers, cells that do so stand in place of the last, of three quarters at most (cover_views.h).
 //
 // - radius: the mean distance of the 8 nearest (its own 0 included), at least 1e-4, at most 5 % of an image's height
-// - density: softplus(0.1), so a cell absorbs about 1 %
+//   (limitRadii)
+// - density: softplus(0.1) per unit (StartScene::eyes), so a cell absorbs about 1 %
 // - normal: to the cameras that see it, turned about that at random; unknown: random
 // - colours: the point's, or the pixel's, in every direction
 // - detail sites normal(0, 0.1^2), heights 0, lobe axes normal(0, 2^2)

@@ -20,7 +20,8 @@ struct Eyes {
   float radius = std::numeric_limits<float>::infinity();
 };
 
-inline constexpr float kNearDistance = 4;  // from the cameras; as far as what they look at (scene_frame.h)
+// From the cameras: the median distance to what they look at (scene_frame.h). Rates are meant for it.
+inline constexpr float kNearDistance = 4;
 
 // [>= 1, in scene units] ball: site, radius.
 template <class Real>
