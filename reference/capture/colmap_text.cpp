@@ -5,17 +5,10 @@
 #include <system_error>
 
 #include "reference/capture/colmap_records.h"
+#include "reference/capture/words.h"
 
 namespace froth {
 namespace {
-
-constexpr std::string_view kSpaces = " \t\r";
-
-std::string_view trim(std::string_view text) {
-  const size_t first = text.find_first_not_of(kSpaces);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
-}
 
 // Lines of a file, and the words of the line it stands at. The first fault is kept; what follows it reads zeros.
 class TextReader {
@@ -27,7 +20,7 @@ class TextReader {
   bool nextLine() {
     if (rest_.empty()) return false;
     const size_t end = rest_.find('\n');
-    line_ = trim(rest_.substr(0, end));
+    line_ = trimSpaces(rest_.substr(0, end));
     rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
     ++number_;
     return true;
@@ -48,9 +41,7 @@ class TextReader {
       fail(fmt::format("field '{}': found the end of the line", field));
       return {};
     }
-    const std::string_view word = line_.substr(0, line_.find_first_of(kSpaces));
-    line_ = trim(line_.substr(word.size()));
-    return word;
+    return froth::takeWord(line_);
   }
 
   template <class Number>

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "foam/checkpoint/little_endian.h"
+#include "reference/capture/words.h"
 
 namespace froth {
 namespace {
@@ -63,15 +64,9 @@ struct Header {
   }
 };
 
-// The words of a line.
 std::vector<std::string_view> wordsOf(std::string_view line) {
   std::vector<std::string_view> words;
-  constexpr const char* kSpaces = " \t\r";
-  for (size_t begin = line.find_first_not_of(kSpaces); begin != std::string_view::npos;) {
-    const size_t end = std::min(line.find_first_of(kSpaces, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(kSpaces, end);
-  }
+  while (!(line = trimSpaces(line)).empty()) words.push_back(takeWord(line));
   return words;
 }
 
