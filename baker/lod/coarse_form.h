@@ -2,26 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "baker/cells/cells.h"
 #include "baker/lod/fine_form.h"
+#include "baker/lod/merge_plan.h"
 #include "base/result.h"
 #include "foam/foam.h"
-#include "format/quantization.h"
 
 namespace froth {
-
-// What groups are made coarser from.
-struct LevelSource {
-  const Foam& input;
-  const Foam& merged;  // BakeCells::sources continue into it
-  const BakeCells& cells;
-  const std::vector<double>& contributions;  // [input cells, merged cells] how much each shows; empty: all alike
-  const std::vector<glm::vec3>& eyes;        // from where the foam is seen; may be empty
-  const Quantization& lattices;
-};
 
 struct CoarseForm {
   std::vector<uint32_t> kept;         // cells of the scene that are in both forms
@@ -41,6 +30,7 @@ struct CoarseForm {
 //
 // It is enough to look at merged cells: what a dropped cell leaves falls to its own neighbours, which lie inside, and a
 // pair of neighbours across the border can only come or go where a merged cell reaches the cell outside.
-Result<CoarseForm> makeCoarseForm(const LevelSource& source, const FineForm& fine);
+// Merges of the plan that would do so are undone.
+Result<CoarseForm> makeCoarseForm(const LevelSource& source, const FineForm& fine, const MergePlan& plan);
 
 }  // namespace froth

@@ -52,10 +52,15 @@ LevelErrors::LevelErrors(std::span<const View> views, const FrontOptions& option
   }
 }
 
-Status LevelErrors::takeFinest(const Foam& foam, std::span<const uint32_t> owners, const Progress& progress) {
+Result<std::vector<FrontImage>> LevelErrors::draw(const Foam& foam, std::span<const uint32_t> owners,
+                                                  const Progress& progress) const {
   std::vector<View> views;
   for (const SeenView& seen : views_) views.push_back(seen.view);
-  Result<std::vector<FrontImage>> images = drawFront(foam, owners, views, options_, progress);
+  return drawFront(foam, owners, views, options_, progress);
+}
+
+Status LevelErrors::takeFinest(const Foam& foam, std::span<const uint32_t> owners, const Progress& progress) {
+  Result<std::vector<FrontImage>> images = draw(foam, owners, progress);
   if (!images) return images.error();
   for (size_t v = 0; v < views_.size(); ++v) {
     views_[v].owners = (*images)[v].owners;
@@ -66,9 +71,7 @@ Status LevelErrors::takeFinest(const Foam& foam, std::span<const uint32_t> owner
 
 Status LevelErrors::addLevel(const Foam& foam, std::span<const uint32_t> owners, std::span<const LevelChunk> chunks,
                              uint32_t firstGroup, uint32_t groupCount, const Progress& progress) {
-  std::vector<View> views;
-  for (const SeenView& seen : views_) views.push_back(seen.view);
-  Result<std::vector<FrontImage>> images = drawFront(foam, owners, views, options_, progress);
+  Result<std::vector<FrontImage>> images = draw(foam, owners, progress);
   if (!images) return images.error();
   for (size_t v = 0; v < views_.size(); ++v) {
     SeenView& seen = views_[v];
@@ -80,12 +83,30 @@ Status LevelErrors::addLevel(const Foam& foam, std::span<const uint32_t> owners,
   return {};
 }
 
+double LevelErrors::squaredError(const FrontImage& image, const FrontImage& finest, size_t pixel) {
+  const glm::dvec3 difference = glm::dvec3(image.colours[pixel]) - glm::dvec3(finest.colours[pixel]);
+  return glm::dot(difference, difference) / 3;
+}
+
+Result<std::vector<double>> LevelErrors::sumByOwner(const Foam& foam, std::span<const uint32_t> owners,
+                                                    uint32_t ownerCount, const Progress& progress) const {
+  const Result<std::vector<FrontImage>> images = draw(foam, owners, progress);
+  if (!images) return images.error();
+  std::vector<double> sums(ownerCount, 0);
+  for (size_t v = 0; v < views_.size(); ++v) {
+    const FrontImage& image = (*images)[v];
+    for (size_t pixel = 0; pixel < image.owners.size(); ++pixel) {
+      if (image.owners[pixel] != kNoOwner) sums[image.owners[pixel]] += squaredError(image, views_[v].finest, pixel);
+    }
+  }
+  return sums;
+}
+
 // A pixel is a matter of the group whose coarse form it shows, and of the group whose fine form it showed.
 void LevelErrors::addPixel(size_t v, size_t pixel, const FrontImage& image, std::span<const LevelChunk> chunks,
                            uint32_t firstGroup) {
   SeenView& seen = views_[v];
-  const glm::dvec3 difference = glm::dvec3(image.colours[pixel]) - glm::dvec3(seen.finest.colours[pixel]);
-  const double square = glm::dot(difference, difference) / 3;
+  const double square = squaredError(image, seen.finest, pixel);
   const auto isNew = [&](uint32_t group) { return group != kNoGroup && group >= firstGroup; };
   const uint32_t now = image.owners[pixel], before = seen.owners[pixel];
   const uint32_t coarse = now == kNoOwner ? kNoGroup : chunks[now].place.madeBy;

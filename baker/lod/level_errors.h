@@ -29,12 +29,20 @@ class LevelErrors {
   Status addLevel(const Foam& foam, std::span<const uint32_t> owners, std::span<const LevelChunk> chunks,
                   uint32_t firstGroup, uint32_t groupCount, const Progress& progress);
 
+  // [owners] squared error of the pixels that show most of each, over all views. `owners`: [cells] or kNoOwner.
+  Result<std::vector<double>> sumByOwner(const Foam& foam, std::span<const uint32_t> owners, uint32_t ownerCount,
+                                         const Progress& progress) const;
+
   // Until now errors of groups are the distances between their forms [scene units]; without views they stay, but grow
   // towards the floor. bounds: [groups].
   void finish(std::span<const LevelChunk> chunks, std::span<const GroupBounds> bounds,
               std::vector<LevelGroup>& groups) const;
 
  private:
+  Result<std::vector<FrontImage>> draw(const Foam& foam, std::span<const uint32_t> owners,
+                                       const Progress& progress) const;
+  // Of a pixel, mean of channels.
+  static double squaredError(const FrontImage& image, const FrontImage& finest, size_t pixel);
   void addPixel(size_t view, size_t pixel, const FrontImage& image, std::span<const LevelChunk> chunks,
                 uint32_t firstGroup);
   void measureGroups(std::vector<LevelGroup>& groups) const;

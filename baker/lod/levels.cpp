@@ -9,17 +9,19 @@
 
 #include <tbb/task_arena.h>
 
-#include "baker/cells/mark_cells.h"
 #include "baker/cells/slices.h"
 #include "baker/cells/snap_cells.h"
 #include "baker/lod/border_numbers.h"
 #include "baker/lod/chunk_groups.h"
 #include "baker/lod/coarse_form.h"
 #include "baker/lod/fine_form.h"
-#include "baker/lod/gather_cells.h"
 #include "baker/lod/group_balls.h"
 #include "baker/lod/level_errors.h"
 #include "baker/lod/level_fit.h"
+#include "baker/lod/level_front.h"
+#include "baker/lod/merge_plan.h"
+#include "baker/lod/merge_review.h"
+#include "baker/lod/split_form.h"
 #include "foam/append_cells.h"
 #include "reference/camera/view_rays.h"
 
@@ -49,28 +51,32 @@ class LevelMaker {
  private:
   // A group on its way to the next level.
   struct Step {
-    std::vector<uint32_t> group;  // chunks
-    std::vector<uint32_t> ring;
-    std::optional<Result<CoarseForm>> form;
+    std::vector<uint32_t> group;           // chunks
+    std::optional<MergePlan> merges = {};  // until there is a form
+    std::vector<uint32_t> ring = {};
+    std::optional<Result<CoarseForm>> form = {};
     uint32_t firstMerged = 0;  // cell of the scene
-    std::vector<LevelChunk> made;
-    Status status;
+    std::vector<LevelChunk> made = {};
+    Status status = {};
   };
 
   Status takeLevel0();
   bool isFloor() const;
   Status makeLevel();
-  bool makeSteps(std::vector<Step>& steps);
-  bool makeForms(std::vector<std::vector<uint32_t>> groups, std::vector<Step>& steps);
-  void makeForm(Step& step) const;
+  Status makeSteps(std::vector<Step>& steps);
+  void listGroups(std::vector<std::vector<uint32_t>> groups, std::vector<Step>& steps) const;
+  LevelSource source() const;
+  bool planSteps(std::vector<Step>& steps);
+  Status reviewMerges(std::vector<Step>& steps);
+  bool keepApart(std::span<const uint32_t> merges, std::vector<Step>& steps);
+  bool makeForms(std::vector<Step>& steps);
+  static std::vector<uint32_t> findFailed(const std::vector<Step>& steps);
   bool forEachStep(std::vector<Step>& steps, const std::function<void(Step&)>& work);
   Status addMergedCells(std::vector<Step>& steps);
   void weighMergedCells(size_t count);
-  void splitForm(Step& step) const;
+  void splitStep(Step& step) const;
   void addGroup(Step& step);
-  struct Front;
-  Front gatherFront() const;
-  Status fitFront(Front& front);
+  Status fitFront(LevelFront& front);
   Status measureFront(uint32_t firstGroup);
   std::vector<GroupBounds> findBounds() const;
   Levels collect();
@@ -84,8 +90,9 @@ class LevelMaker {
   LevelFit fit_;
 
   std::vector<LevelChunk> chunks_;
-  std::vector<uint32_t> front_;  // chunks that may get coarser
-  uint32_t level_ = 0;           // of the front
+  std::vector<uint32_t> front_;      // chunks that may get coarser
+  uint32_t level_ = 0;               // of the front
+  std::vector<uint8_t> staysApart_;  // [cells] 1: merges with none of this level
   Levels levels_;
 };
 
@@ -122,45 +129,119 @@ bool LevelMaker::forEachStep(std::vector<Step>& steps, const std::function<void(
   });
 }
 
-void LevelMaker::makeForm(Step& step) const {
-  const LevelSource source{input_.foam, levels_.merged, cells_, contributions_, eyes_, input_.lattices};
-  FineForm fine = makeFineForm(chunks_, step.group);
-  step.form = makeCoarseForm(source, fine);
-  step.ring = std::move(fine.ring);
+LevelSource LevelMaker::source() const {
+  return {input_.foam, levels_.merged, cells_, contributions_, eyes_, input_.lattices};
 }
 
-// A group that is among the steps keeps its form. False: asked to stop.
-bool LevelMaker::makeForms(std::vector<std::vector<uint32_t>> groups, std::vector<Step>& steps) {
+// A group that is among the steps keeps what it has.
+void LevelMaker::listGroups(std::vector<std::vector<uint32_t>> groups, std::vector<Step>& steps) const {
   std::vector<Step> before = std::exchange(steps, {});
   for (std::vector<uint32_t>& group : groups) {
     const auto same = std::ranges::find(before, group, &Step::group);
-    steps.push_back(same != before.end() ? std::move(*same) : Step{std::move(group), {}, {}, 0, {}, {}});
+    steps.push_back(same != before.end() ? std::move(*same) : Step{std::move(group)});
   }
+}
+
+// Of steps without merges and form. False: asked to stop.
+bool LevelMaker::planSteps(std::vector<Step>& steps) {
   return forEachStep(steps, [&](Step& step) {
-    if (!step.form) makeForm(step);
+    if (!step.merges && !step.form) step.merges = planMerges(source(), makeFineForm(chunks_, step.group), staysApart_);
   });
 }
 
-// Chunks that do not get coarser lock what is beside them on all levels above, and stay in the floor: so those of a
-// group that fails get another chance in the groups around it. False: asked to stop.
-bool LevelMaker::makeSteps(std::vector<Step>& steps) {
-  const uint64_t groupLive = uint64_t{kGroupChunks} * input_.chunkCells;
-  std::vector<std::vector<uint32_t>> groups = groupChunks(chunks_, front_, cells_.count(), groupLive);
-  if (!makeForms(groups, steps)) return false;
+// Of steps without a form. False: asked to stop.
+bool LevelMaker::makeForms(std::vector<Step>& steps) {
+  return forEachStep(steps, [&](Step& step) {
+    if (step.form) return;
+    FineForm fine = makeFineForm(chunks_, step.group);
+    step.form = makeCoarseForm(source(), fine, *step.merges);
+    step.merges.reset();
+    step.ring = std::move(fine.ring);
+  });
+}
+
+// Draws the level as it is planned. Cells whose merges stand out by their error merge with none, and others do.
+Status LevelMaker::reviewMerges(std::vector<Step>& steps) {
+  for (int review = 0; errors_.isMeasuring() && review < kReviews; ++review) {
+    std::vector<uint8_t> isMerged(cells_.count(), 0);
+    for (const Step& step : steps) {
+      for (const std::vector<uint32_t>& cluster : step.merges->clusters) {
+        for (const uint32_t cell : cluster) isMerged[cell] = 1;
+      }
+    }
+    LevelFront front = gatherFront(source(), chunks_, isMerged);
+    front.owners.assign(front.foam.cellCount, kNoOwner);
+    uint32_t merges = 0;
+    for (const Step& step : steps) {
+      std::vector<uint32_t> all(step.merges->clusters.size());
+      std::iota(all.begin(), all.end(), 0u);
+      appendCells(step.merges->merged, all, front.foam);
+      for (size_t k = 0; k < all.size(); ++k) front.owners.push_back(merges++);
+    }
+    const Result<std::vector<double>> errors = errors_.sumByOwner(front.foam, front.owners, merges, progress_);
+    if (!errors) return errors.error();
+    const std::vector<uint32_t> outliers = findOutliers(*errors);
+    if (outliers.empty()) return {};
+    if (!keepApart(outliers, steps)) return stoppedOnRequest("bake");
+  }
+  return {};
+}
+
+// Cells of the listed merges, numbered through the steps, ascending; their steps are planned again. False: asked to
+// stop.
+bool LevelMaker::keepApart(std::span<const uint32_t> merges, std::vector<Step>& steps) {
+  uint32_t first = 0;
+  auto next = merges.begin();
+  for (Step& step : steps) {
+    const auto count = static_cast<uint32_t>(step.merges->clusters.size());
+    const bool isAny = next != merges.end() && *next < first + count;
+    for (; next != merges.end() && *next < first + count; ++next) {
+      for (const uint32_t cell : step.merges->clusters[*next - first]) staysApart_[cell] = 1;
+    }
+    if (isAny) step.merges.reset();
+    first += count;
+  }
+  return planSteps(steps);
+}
+
+// Indices of those whose form is not worth its bytes.
+std::vector<uint32_t> LevelMaker::findFailed(const std::vector<Step>& steps) {
   std::vector<uint32_t> failed;
   for (uint32_t index = 0; index < steps.size(); ++index) {
     const Result<CoarseForm>& form = *steps[index].form;
     if (form && !form->isWorthwhile) failed.push_back(index);
   }
-  if (failed.empty()) return true;
-  return makeForms(dissolveGroups(chunks_, groups, failed, cells_.count(), groupLive), steps);
+  return failed;
+}
+
+// Chunks that do not get coarser lock what is beside them on all levels above, and stay in the floor: so a group that
+// fails merges what it kept apart, and if that is not enough its chunks go to the groups around it.
+Status LevelMaker::makeSteps(std::vector<Step>& steps) {
+  const uint64_t groupLive = uint64_t{kGroupChunks} * input_.chunkCells;
+  const std::vector<std::vector<uint32_t>> groups = groupChunks(chunks_, front_, cells_.count(), groupLive);
+  staysApart_.assign(cells_.count(), 0);
+  listGroups(groups, steps);
+  if (!planSteps(steps)) return stoppedOnRequest("bake");
+  if (Status status = reviewMerges(steps); !status) return status;
+  if (!makeForms(steps)) return stoppedOnRequest("bake");
+  for (const uint32_t index : findFailed(steps)) {
+    for (const uint32_t chunk : groups[index]) {
+      for (const uint32_t cell : chunks_[chunk].planned.cells) staysApart_[cell] = 0;
+    }
+    steps[index] = {groups[index]};
+  }
+  if (!planSteps(steps) || !makeForms(steps)) return stoppedOnRequest("bake");
+  const std::vector<uint32_t> failed = findFailed(steps);
+  if (failed.empty()) return {};
+  listGroups(dissolveGroups(chunks_, groups, failed, cells_.count(), groupLive), steps);
+  return planSteps(steps) && makeForms(steps) ? Status() : Status(stoppedOnRequest("bake"));
 }
 
 Status LevelMaker::makeLevel() {
   std::vector<Step> steps;
-  if (!makeSteps(steps)) return stoppedOnRequest("bake");
+  if (Status status = makeSteps(steps); !status) return status;
   if (Status status = addMergedCells(steps); !status) return status;
-  if (!forEachStep(steps, [&](Step& step) { splitForm(step); })) return stoppedOnRequest("bake");
+  if (!forEachStep(steps, [&](Step& step) { splitStep(step); })) return stoppedOnRequest("bake");
   front_.clear();
   const auto firstGroup = static_cast<uint32_t>(levels_.groups.size());
   for (Step& step : steps) {
@@ -209,44 +290,12 @@ void LevelMaker::weighMergedCells(size_t count) {
   }
 }
 
-// The coarse form becomes chunks, and its rows name cells of the scene.
-void LevelMaker::splitForm(Step& step) const {
-  CoarseForm& form = **step.form;
-  if (!form.isWorthwhile) return;
-  const auto ownCount = static_cast<uint32_t>(form.isEmpty.size()), keptCount = static_cast<uint32_t>(form.kept.size());
-  const auto cellOf = [&](uint32_t local) {
-    if (local >= ownCount) return step.ring[local - ownCount];
-    return local < keptCount ? form.kept[local] : step.firstMerged + (local - keptCount);
-  };
-  for (CellGraph* graph : {&form.rows.walk, &form.rows.alpha}) {
-    for (uint32_t& neighbour : graph->neighbours) neighbour = cellOf(neighbour);
-    for (uint32_t local = 0; local < ownCount; ++local) {
-      const auto begin = graph->neighbours.begin();
-      std::sort(begin + graph->offsets[local], begin + graph->offsets[local + 1]);
-    }
-  }
-  std::vector<uint32_t> live, others;
-  std::vector<std::pair<uint32_t, uint32_t>> places;
-  for (uint32_t local = 0; local < ownCount; ++local) {
-    const uint32_t cell = cellOf(local);
-    places.emplace_back(cell, local);
-    (stateOf(cells_, cell, false, form.isEmpty[local]) == CellState::kLive ? live : others).push_back(cell);
-  }
-  std::sort(places.begin(), places.end());
-  Result<std::vector<PlannedChunk>> chunks =
-      splitIntoChunks(cells_, std::move(live), std::move(others), input_.chunkCells, input_.lattices.positionStep, {});
-  if (!chunks) {
-    step.status = chunks.error();
-    return;
-  }
-  for (PlannedChunk& planned : *chunks) {
-    std::vector<uint32_t> locals;
-    for (const uint32_t cell : planned.cells) {
-      locals.push_back(std::lower_bound(places.begin(), places.end(), std::pair(cell, 0u))->second);
-    }
-    CellRows rows = gatherRows(form.rows.walk, form.rows.alpha, locals);
-    step.made.push_back({std::move(planned), std::move(rows), {}});
-  }
+void LevelMaker::splitStep(Step& step) const {
+  if (!(*step.form)->isWorthwhile) return;
+  Result<std::vector<LevelChunk>> made =
+      splitForm(**step.form, step.ring, step.firstMerged, cells_, input_.chunkCells, input_.lattices.positionStep);
+  step.status = made ? Status() : Status(made.error());
+  if (made) step.made = std::move(*made);
 }
 
 // Its ball holds those of the groups that made its chunks.
@@ -272,39 +321,8 @@ void LevelMaker::addGroup(Step& step) {
       {{bound.centre.x, bound.centre.y, bound.centre.z}, bound.radius, (*step.form)->distance, level_});
 }
 
-// All cells as the newest groups leave them: those of the chunks that are in no group.
-struct LevelMaker::Front {
-  Foam foam;
-  std::vector<uint32_t> cells, owners;  // of the scene; chunks
-};
-
-LevelMaker::Front LevelMaker::gatherFront() const {
-  Front front;
-  std::vector<uint32_t> sources;
-  std::vector<float> densities;
-  for (uint32_t index = 0; index < chunks_.size(); ++index) {
-    const LevelChunk& chunk = chunks_[index];
-    if (chunk.place.in != kNoGroup) continue;
-    for (uint32_t local = 0; local < chunk.planned.cells.size(); ++local) {
-      const uint32_t cell = chunk.planned.cells[local];
-      if (cells_.sources[cell] == kNoSource) continue;
-      front.cells.push_back(cell);
-      front.owners.push_back(index);
-      sources.push_back(cells_.sources[cell]);
-      densities.push_back(local < chunk.planned.liveCount ? cells_.densities[cell] : 0);
-    }
-  }
-  front.foam = gatherCells(input_.foam, levels_.merged, sources);
-  for (size_t k = 0; k < front.cells.size(); ++k) {
-    front.foam.sites[k] = cells_.sites[front.cells[k]];
-    front.foam.radii[k] = cells_.radii[front.cells[k]];
-  }
-  front.foam.densities = std::move(densities);
-  return front;
-}
-
 // The merged cells of the newest level descend towards the views; finer levels have all others.
-Status LevelMaker::fitFront(Front& front) {
+Status LevelMaker::fitFront(LevelFront& front) {
   const auto newest = static_cast<uint32_t>(levels_.reports.back().merges);
   const uint32_t firstNew = input_.foam.cellCount + levels_.merged.cellCount - newest;
   std::vector<uint8_t> isFree;
@@ -323,7 +341,7 @@ Status LevelMaker::fitFront(Front& front) {
 Status LevelMaker::measureFront(uint32_t firstGroup) {
   const auto groupCount = static_cast<uint32_t>(levels_.groups.size());
   if (!errors_.isMeasuring() || firstGroup == groupCount) return {};
-  Front front = gatherFront();
+  LevelFront front = gatherFront(source(), chunks_);
   if (fit_.isFitting()) {
     if (Status status = fitFront(front); !status) return status;
   }

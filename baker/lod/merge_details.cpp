@@ -5,6 +5,7 @@
 
 #include "baker/lod/detail_sharpness.h"
 #include "baker/lod/ridge_solve.h"
+#include "foam/detail_colour.h"
 #include "shaders/foam/appearance.h"
 
 namespace froth {
@@ -14,11 +15,13 @@ constexpr double kLeastShare = 1e-3;  // of a cell: what a detail site counts th
 // Towards the mean of a cluster, in units of what a detail site shows: the blend alone leaves sites undetermined that
 // hardly show.
 constexpr double kDetailRidge = 0.5;
-constexpr double kHighest = 1;  // of a face over its site [radii]
+constexpr double kOfColours = 1;  // a squared difference [display-coded], of a squared distance [radii]
+constexpr double kHighest = 1;    // of a face over its site [radii]
 
 // A detail site of either cell on the merged face, or the mean of some.
 struct Cluster {
-  glm::dvec3 place{0};  // u, v, height [radii of the merged cell]
+  glm::dvec3 place{0};   // u, v, height [radii of the merged cell]
+  glm::dvec3 colour{0};  // from straight before the face [display-coded]
   double weight = 0;
   std::vector<uint32_t> members;
 };
@@ -67,7 +70,8 @@ class DetailMerger {
         const glm::dvec2 place(cells_.detailSites[own]);
         const glm::dvec3 local =
             place.x * frame.tangent + place.y * frame.bitangent + double{cells_.detailHeights[own]} * frame.normal;
-        clusters_[j] = {onFace(part.offset + double{cells_.radii[part.cell]} * local), weights_[j], {j}};
+        const glm::vec3 colour = detailColour(cells_, own, glm::vec3(-frame.normal));
+        clusters_[j] = {onFace(part.offset + double{cells_.radii[part.cell]} * local), colour, weights_[j], {j}};
       }
     }
   }
@@ -80,14 +84,17 @@ class DetailMerger {
       for (size_t a = 0; a < clusters_.size(); ++a) {
         for (size_t b = a + 1; b < clusters_.size(); ++b) {
           const glm::dvec3 between = clusters_[a].place - clusters_[b].place;
+          const glm::dvec3 colours = clusters_[a].colour - clusters_[b].colour;
           const double wa = clusters_[a].weight, wb = clusters_[b].weight;
-          const double rise = wa * wb / (wa + wb) * glm::dot(between, between);
+          const double rise =
+              wa * wb / (wa + wb) * (glm::dot(between, between) + kOfColours * glm::dot(colours, colours));
           if (rise < least) least = rise, first = a, second = b;
         }
       }
       Cluster& kept = clusters_[first];
       const Cluster& gone = clusters_[second];
       kept.place = (kept.weight * kept.place + gone.weight * gone.place) / (kept.weight + gone.weight);
+      kept.colour = (kept.weight * kept.colour + gone.weight * gone.colour) / (kept.weight + gone.weight);
       kept.weight += gone.weight;
       kept.members.insert(kept.members.end(), gone.members.begin(), gone.members.end());
       clusters_.erase(clusters_.begin() + static_cast<std::ptrdiff_t>(second));

@@ -1,8 +1,8 @@
 // froth_bench_levels FOAM CAMERAS: what a level of detail costs in likeness, and the CPU time of its parts.
 //
-// Merges cells without locks, in --groups alone, until --part of them is left, and compares with the foam: in every
-// fourth view at the sizes of
-// --widths, point-sampled, or each pixel the mean of --rays^2 rays; other views measure what cells contribute.
+// Merges cells without locks, in --groups alone, until --part of them is left, and compares with the foam before and
+// after reviews and fit: in every fourth view at the sizes of --widths, point-sampled, or each pixel the mean of
+// --rays^2 rays. Other views measure what cells contribute, review and fit.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <CLI/CLI.hpp>
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -19,8 +20,10 @@
 #include "baker/input/foam_input.h"
 #include "baker/lod/choose_pairs.h"
 #include "baker/lod/contributions.h"
+#include "baker/lod/level_errors.h"
 #include "baker/lod/level_fit.h"
 #include "baker/lod/merge_cells.h"
+#include "baker/lod/merge_review.h"
 #include "base/image/mean_square.h"
 #include "foam/foam_arrays.h"
 #include "foam/pick_foam.h"
@@ -84,6 +87,26 @@ Foam replacePairs(const Foam& foam, std::span<const CellPair> pairs, const Foam&
   return result;
 }
 
+// In the order of replacePairs.
+void replaceMembers(std::span<const CellPair> pairs, std::vector<uint8_t>& isLocked,
+                    std::vector<std::vector<uint32_t>>& members) {
+  std::vector<uint8_t> isMerged(members.size(), 0), keptLocks;
+  for (const CellPair& pair : pairs) isMerged[pair.first] = isMerged[pair.second] = 1;
+  std::vector<std::vector<uint32_t>> kept;
+  for (size_t cell = 0; cell < members.size(); ++cell) {
+    if (isMerged[cell]) continue;
+    kept.push_back(members[cell]);
+    keptLocks.push_back(isLocked[cell]);
+  }
+  for (const CellPair& pair : pairs) {
+    std::vector<uint32_t>& both = kept.emplace_back(members[pair.first]);
+    both.insert(both.end(), members[pair.second].begin(), members[pair.second].end());
+    keptLocks.push_back(0);
+  }
+  members = std::move(kept);
+  isLocked = std::move(keptLocks);
+}
+
 // Each pixel the mean of factor^2.
 Image reduce(const Image& image, uint32_t factor) {
   Image small{image.width / factor, image.height / factor, 3, {}};
@@ -128,19 +151,20 @@ class LevelsBench {
     for (const View& view : others_) eyes_.emplace_back(eyeOf(view));
     std::vector<uint32_t> cells(input_.foam.cellCount);
     std::iota(cells.begin(), cells.end(), 0u);
-    Foam coarse;
-    for (const std::vector<uint32_t>& group : split(cells, options_.groups)) {
-      const Foam fine = pick(group);
-      std::vector<double> shown;
-      for (const uint32_t cell : group) shown.push_back(contributions[cell]);
-      const Foam made = mergeRounds(fine, std::move(shown));
-      append(made, coarse);
-    }
-    compare(coarse);
-    LevelFit fit(others_, {input_.nearRatio, input_.nearDepth});
     const auto check = [](const Status& status) {
       if (!status) throw std::runtime_error(status.error().message);
     };
+    LevelErrors errors(others_, {input_.nearRatio, input_.nearDepth});
+    check(errors.takeFinest(input_.foam, cells, {}));
+    std::vector<uint8_t> staysApart(cells.size(), 0);
+    Merged merged = mergeGroups(split(cells, options_.groups), contributions, staysApart);
+    for (int review = 0; review < kReviews && keepApart(errors, merged, staysApart) > 0; ++review) {
+      compare(merged.foam);
+      merged = mergeGroups(split(cells, options_.groups), contributions, staysApart);
+    }
+    Foam& coarse = merged.foam;
+    compare(coarse);
+    LevelFit fit(others_, {input_.nearRatio, input_.nearDepth});
     const double seconds = secondsOf([&] {
       check(fit.takeFinest(input_.foam, {}));
       check(fit.fit(coarse, std::vector<uint8_t>(coarse.cellCount, 1), {}));
@@ -150,6 +174,47 @@ class LevelsBench {
   }
 
  private:
+  struct Merged {
+    Foam foam;
+    std::vector<std::vector<uint32_t>> members;  // [cells] of the input
+  };
+
+  Merged mergeGroups(const std::vector<std::vector<uint32_t>>& groups, const std::vector<double>& contributions,
+                     const std::vector<uint8_t>& staysApart) const {
+    Merged all;
+    for (const std::vector<uint32_t>& group : groups) {
+      std::vector<double> shown;
+      std::vector<uint8_t> isLocked;
+      for (const uint32_t cell : group) {
+        shown.push_back(contributions[cell]);
+        isLocked.push_back(staysApart[cell]);
+      }
+      Merged merged{pick(group), {}};
+      for (const uint32_t cell : group) merged.members.push_back({cell});
+      mergeRounds(merged, std::move(isLocked), std::move(shown));
+      append(merged.foam, all.foam);
+      std::ranges::move(merged.members, std::back_inserter(all.members));
+    }
+    return all;
+  }
+
+  // Marks the cells of the merges that stand out, as the bake does; how many merges those are.
+  size_t keepApart(const LevelErrors& errors, const Merged& merged, std::vector<uint8_t>& staysApart) const {
+    std::vector<uint32_t> owners, merges;
+    for (uint32_t cell = 0; cell < merged.foam.cellCount; ++cell) {
+      const bool isMerged = merged.members[cell].size() > 1;
+      owners.push_back(isMerged ? static_cast<uint32_t>(merges.size()) : kNoOwner);
+      if (isMerged) merges.push_back(cell);
+    }
+    const std::vector<uint32_t> outliers =
+        findOutliers(valueOf(errors.sumByOwner(merged.foam, owners, static_cast<uint32_t>(merges.size()), {})));
+    for (const uint32_t outlier : outliers) {
+      for (const uint32_t cell : merged.members[merges[outlier]]) staysApart[cell] = 1;
+    }
+    fmt::print("{} of {} merges stand out\n", outliers.size(), merges.size());
+    return outliers.size();
+  }
+
   // Halves by the median along the longest side.
   std::vector<std::vector<uint32_t>> split(std::vector<uint32_t> cells, uint32_t groups) const {
     if (groups <= 1) return {std::move(cells)};
@@ -184,21 +249,21 @@ class LevelsBench {
     });
   }
 
-  Foam mergeRounds(Foam coarse, std::vector<double> shown) const {
-    const auto left = static_cast<uint32_t>(options_.part * coarse.cellCount);
-    while (coarse.cellCount > left) {
+  void mergeRounds(Merged& merged, std::vector<uint8_t> isLocked, std::vector<double> shown) const {
+    const auto left = static_cast<uint32_t>(options_.part * merged.foam.cellCount);
+    while (merged.foam.cellCount > left) {
+      const Foam& coarse = merged.foam;
       std::vector<CellPair> pairs;
-      Foam merged;
-      const std::vector<uint8_t> isLocked(coarse.cellCount, 0);
+      Foam added;
       const size_t most = std::min<size_t>(coarse.cellCount - left, coarse.cellCount / kRoundPart);
       const double chosen = secondsOf([&] { pairs = choosePairs(coarse, isLocked, shown, most, eyes_); });
-      const double joined = secondsOf([&] { merged = mergePairs(coarse, pairs, shown, eyes_); });
+      const double joined = secondsOf([&] { added = mergePairs(coarse, pairs, shown, eyes_); });
       fmt::print("{} cells: {} pairs chosen in {:.2f} s, merged in {:.2f} s\n", coarse.cellCount, pairs.size(), chosen,
                  joined);
       if (pairs.empty()) break;
-      coarse = replacePairs(coarse, pairs, merged, shown);
+      replaceMembers(pairs, isLocked, merged.members);
+      merged.foam = replacePairs(coarse, pairs, added, shown);
     }
-    return coarse;
   }
 
   void compare(const Foam& coarse) const {

@@ -65,6 +65,20 @@ TEST(LevelErrors, WhatIsHiddenIsGuessed) {
   EXPECT_NEAR(groups[1].error, 0.5 * groups[0].error, 1e-6 * groups[0].error);
 }
 
+TEST(LevelErrors, AreSummedByWhatShowsThem) {
+  const glm::vec3 beside(3, 0, 0);
+  const View view = lookAt({1.5, 0.01, -8}, {1.5, 0, 0}, 60, 40, 0.4);
+  const Foam fine = twoBalls(beside, 0), coarse = twoBalls(beside, 0.3f);
+  LevelErrors errors(std::vector<View>{view}, {.nearRatio = 0});
+  ASSERT_TRUE(errors.takeFinest(fine, std::vector<uint32_t>{0, 1}, {}));
+  const std::vector<double> sums = *errors.sumByOwner(coarse, std::vector<uint32_t>{1, 0}, 2, {});
+  ASSERT_EQ(sums.size(), 2u);
+  EXPECT_EQ(sums[1], 0);
+  const auto colourOf = [&](const Foam& foam) { return renderFoam(foam, view).colour; };
+  EXPECT_NEAR(sums[0], 60 * 40 * meanSquare(colourOf(fine), colourOf(coarse)), 1e-3 * sums[0]);
+  EXPECT_EQ(errors.sumByOwner(coarse, std::vector<uint32_t>{kNoOwner, kNoOwner}, 1, {})->at(0), 0);
+}
+
 // The cut that a reader draws at detail 1 for a view (docs/STREAMING.md), as a foam; counts the refined groups.
 Foam drawnCut(const AssetContents& contents, const View& view, size_t& refined) {
   std::vector<uint8_t> isRefined;

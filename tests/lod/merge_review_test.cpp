@@ -1,0 +1,102 @@
+// Merges that get pictures wrong are made otherwise.
+#include "baker/lod/merge_review.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "baker/lod/merge_plan.h"
+#include "tests/lod/level_scene.h"
+#include "tests/reference/scenes.h"
+
+namespace froth {
+namespace {
+
+TEST(MergeReview, AnOutlierIsWhatHasSixTimesTheMean) {
+  std::vector<double> errors(100, 1.0);
+  EXPECT_TRUE(findOutliers(errors).empty());
+  errors[17] = 8;  // of a mean of 1.07
+  errors[60] = 6;
+  EXPECT_EQ(findOutliers(errors), std::vector<uint32_t>{17});
+  EXPECT_TRUE(findOutliers(std::vector<double>(5, 0.0)).empty());
+  EXPECT_TRUE(findOutliers({}).empty());
+}
+
+constexpr uint32_t kSide = 24;
+constexpr float kSpacing = 1.4f;
+
+// Cells with two detail sites in the plane z = 0, whose faces look towards -z. Every sixth one is half black and half
+// white, and so are two beside it; all others have one colour each, and it is not the same for any two.
+bool isHalved(uint32_t cell) { return cell % kSide % 6 < 2 && cell / kSide % 6 == 0; }
+
+Foam halvedWall() {
+  std::vector<PlainCell> cells;
+  for (uint32_t cell = 0; cell < kSide * kSide; ++cell) {
+    const auto x = static_cast<float>(cell % kSide), y = static_cast<float>(cell / kSide);
+    const float grey = 0.5f + (isHalved(cell) ? 0.0f : 0.03f * static_cast<float>(cell % 7) - 0.09f);
+    cells.push_back({.site = {kSpacing * x, kSpacing * y, 0},
+                     .density = 100,
+                     .colour = glm::vec3(grey),
+                     .orientation = kFaceTowardsMinusZ,
+                     .height = 0});
+  }
+  const Foam plain = foamOf(cells);
+  Foam foam = plain;
+  foam.detailCount = 2;
+  for (auto* values : {&foam.lobeAxes, &foam.lobeColours}) {
+    const std::vector<glm::vec3> one = *values;
+    values->clear();
+    for (const glm::vec3& value : one) values->insert(values->end(), 2, value);
+  }
+  foam.detailSites.clear();
+  foam.detailHeights.assign(2 * size_t{foam.cellCount}, 0.0f);
+  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
+    foam.detailSites.insert(foam.detailSites.end(), {{0.0f, -0.35f}, {0.0f, 0.35f}});
+    if (!isHalved(cell)) continue;
+    foam.lobeColours[2 * cell] = glm::vec3(-0.5f);
+    foam.lobeColours[2 * cell + 1] = glm::vec3(0.5f);
+  }
+  return foam;
+}
+
+// How many of the halved cells level 1 has.
+size_t countKept(const Foam& foam, const AssetContents& contents) {
+  size_t kept = 0;
+  for (uint32_t index = 0; index < contents.chunks.size(); ++index) {
+    if (contents.levels[index].level != 1) continue;
+    const ChunkContents& chunk = contents.chunks[index];
+    for (uint32_t local = 0; local < chunk.liveCount; ++local) {
+      const glm::vec3 site = worldSite(chunk, local);
+      for (uint32_t cell = 0; cell < foam.cellCount; ++cell) kept += isHalved(cell) && foam.sites[cell] == site;
+    }
+  }
+  return kept;
+}
+
+// A pair of halved cells differs in no mean colour, so it costs least, and its merged cell loses what it shows.
+TEST(MergeReview, CellsWhoseMergesWouldShowStayAsTheyAre) {
+  const Foam foam = halvedWall();
+  size_t halved = 0;
+  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) halved += isHalved(cell);
+  CameraSet cameras;
+  const float middle = 0.5f * kSpacing * (kSide - 1);
+  for (int k = 0; k < 4; ++k) {
+    cameras.views.push_back(lookAt({middle + k - 1.5, middle + 1.5 - k, -30}, {middle, middle, 0}, 160, 160, 0.7));
+  }
+  BakeOptions options;
+  options.preset = "exact";
+  options.knobs = *presetKnobs("exact");
+  options.chunkCells = 150;
+  options.levels = true;
+  options.measure = false;
+  options.cameras = &cameras;
+  const Result<BakeResult> baked = bakeFoam(foam, options);
+  ASSERT_TRUE(baked) << baked.error().message;
+  const LevelReport& level = baked->levels.at(0);
+  EXPECT_LT(level.live - level.merges, level.live);
+  EXPECT_GE(countKept(foam, baked->contents), halved * 9 / 10) << "of " << halved;
+}
+
+}  // namespace
+}  // namespace froth
