@@ -29,21 +29,19 @@ void appendAppearance(const CellAppearance& cells, ChunkContents& chunk, Attribu
 }
 
 // Cells that follow each other in a chunk, all of the input or all merged.
-struct Slice {
+struct Run {
   std::vector<uint32_t> cells;  // in the foam that has them
   bool isMerged = false;
 };
 
-std::vector<Slice> sliceRuns(std::span<const uint32_t> sources, uint32_t inputCount) {
-  std::vector<Slice> slices;
+std::vector<Run> findRuns(std::span<const uint32_t> sources, uint32_t inputCount) {
+  std::vector<Run> runs;
   for (const uint32_t source : sources) {
     const bool isMerged = source >= inputCount;
-    if (slices.empty() || slices.back().isMerged != isMerged || slices.back().cells.size() == kSliceCells) {
-      slices.push_back({{}, isMerged});
-    }
-    slices.back().cells.push_back(isMerged ? source - inputCount : source);
+    if (runs.empty() || runs.back().isMerged != isMerged) runs.push_back({{}, isMerged});
+    runs.back().cells.push_back(isMerged ? source - inputCount : source);
   }
-  return slices;
+  return runs;
 }
 
 }  // namespace
@@ -76,14 +74,17 @@ bool ColourSource::fill(std::span<const uint32_t> sources, const Foam& faces, co
     fillColours(faces, lobeCount_ > 0, chunk);
     return report(stage.progress, stage.stage, stage.done, stage.total);
   }
-  const std::vector<Slice> runs = sliceRuns(sources, inputCount_);
-  std::vector<CellAppearance> slices(runs.size());
+  std::vector<std::vector<CellAppearance>> slices((sources.size() + kSliceCells - 1) / kSliceCells);
   const auto compressSlice = [&](uint32_t slice) {
-    const Slice& run = runs[slice];
-    slices[slice] = (run.isMerged ? mergedCoder_ : coder_)->compress(run.cells);
+    const size_t first = size_t{slice} * kSliceCells, count = std::min<size_t>(kSliceCells, sources.size() - first);
+    for (const Run& run : findRuns(sources.subspan(first, count), inputCount_)) {
+      slices[slice].push_back((run.isMerged ? mergedCoder_ : coder_)->compress(run.cells));
+    }
   };
   if (!forEachSlice(static_cast<uint32_t>(slices.size()), kSliceCells, stage, compressSlice)) return false;
-  for (const CellAppearance& cells : slices) appendAppearance(cells, chunk, errors);
+  for (const std::vector<CellAppearance>& runs : slices) {
+    for (const CellAppearance& cells : runs) appendAppearance(cells, chunk, errors);
+  }
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 #include "tests/bake/same_bake.h"
@@ -192,6 +193,26 @@ TEST(Levels, ThreadsDoNotMatter) {
     EXPECT_EQ(one.contents.groups[k].radius, many.contents.groups[k].radius);
     EXPECT_EQ(one.contents.groups[k].error, many.contents.groups[k].error);
   }
+}
+
+// Chunks above level 0 hold cells of the input and merged ones by turns.
+TEST(Levels, ProgressOfColoursGrowsToItsTotal) {
+  BakeOptions options;
+  options.knobs = *presetKnobs("default");
+  options.chunkCells = kChunkCells;
+  options.levels = true;
+  options.measure = false;
+  uint64_t before = 0, reports = 0;
+  const auto check = [&](std::string_view stage, uint64_t done, uint64_t total) {
+    if (stage != "colours") return true;
+    EXPECT_LE(done, total);
+    EXPECT_GE(done, before);
+    before = done;
+    ++reports;
+    return true;
+  };
+  ASSERT_TRUE(bakeFoam(sampleFoam(), options, check));
+  EXPECT_GT(reports, 3u);
 }
 
 TEST(Levels, ASceneOfOneChunkHasNone) {
