@@ -228,8 +228,8 @@ Status Bake::mark() {
   contents_.statistics = countCells(cells_, states, triangulation_, alpha_);
   contents_.statistics.inputCells = foam_.cellCount;
   contents_.statistics.unseenCulled = unseenCulled_;
-  Result<ChunkPlan> plan =
-      planChunks(cells_, states, options_.chunkCells, contents_.quantization.positionStep, progress_);
+  Result<ChunkPlan> plan = planChunks(cells_, states, triangulation_.graph, options_.chunkCells,
+                                      contents_.quantization.positionStep, progress_);
   if (!plan) return plan.error();
   plan_ = std::move(*plan);
   recorder_.finish("chunks", plan_.chunks.size());

@@ -23,27 +23,20 @@ class KdSplitter {
  public:
   KdSplitter(const BakeCells& cells, const Progress& progress) : cells_(cells), progress_(progress) {}
 
-  // Splits into `chunkCount` chunks of nearly the same number of live cells; the others fall where the splits' planes
-  // put them. False: asked to stop.
-  bool split(std::span<uint32_t> live, std::span<uint32_t> others, size_t chunkCount,
-             std::vector<PlannedChunk>& chunks) {
+  // Splits into `chunkCount` chunks of nearly the same number of live cells. False: asked to stop.
+  bool split(std::span<uint32_t> live, size_t chunkCount, std::vector<PlannedChunk>& chunks) {
     if (!report(progress_, "chunks", chunks.size(), 0)) return false;
     if (chunkCount <= 1) {
       PlannedChunk& chunk = chunks.emplace_back();
       chunk.liveCount = static_cast<uint32_t>(live.size());
       chunk.cells.assign(live.begin(), live.end());
-      chunk.cells.insert(chunk.cells.end(), others.begin(), others.end());
       return true;
     }
     const AlongAxis isBefore{cells_.sites, widestAxis(live)};
     const size_t leftChunks = chunkCount / 2, leftCells = live.size() * leftChunks / chunkCount;
     std::nth_element(live.begin(), live.begin() + leftCells, live.end(), isBefore);
-    const float plane = cells_.sites[live[leftCells]][isBefore.axis];
-    const auto middle = std::partition(others.begin(), others.end(),
-                                       [&](uint32_t cell) { return cells_.sites[cell][isBefore.axis] < plane; });
-    const size_t leftOthers = middle - others.begin();
-    return split(live.first(leftCells), others.first(leftOthers), leftChunks, chunks) &&
-           split(live.subspan(leftCells), others.subspan(leftOthers), chunkCount - leftChunks, chunks);
+    return split(live.first(leftCells), leftChunks, chunks) &&
+           split(live.subspan(leftCells), chunkCount - leftChunks, chunks);
   }
 
  private:
@@ -61,6 +54,52 @@ class KdSplitter {
   const BakeCells& cells_;
   const Progress& progress_;
 };
+
+constexpr uint32_t kNoChunk = 0xffffffff;
+
+// The least of those that are most frequent; kNoChunk: the neighbours are in none.
+uint32_t findCommonChunk(std::span<const uint32_t> neighbours, std::span<const uint32_t> chunkOf) {
+  std::vector<uint32_t> chunks;
+  for (const uint32_t neighbour : neighbours) {
+    if (chunkOf[neighbour] != kNoChunk) chunks.push_back(chunkOf[neighbour]);
+  }
+  std::sort(chunks.begin(), chunks.end());
+  uint32_t common = kNoChunk;
+  std::ptrdiff_t most = 0;
+  for (auto run = chunks.begin(); run != chunks.end();) {
+    const auto end = std::upper_bound(run, chunks.end(), *run);
+    if (end - run > most) common = *run, most = end - run;
+    run = end;
+  }
+  return common;
+}
+
+// Those beside live cells first, then those beside them, and so on.
+void placeOthers(const BakeCells& cells, std::vector<uint32_t> others, const RowOf& rowOf,
+                 std::vector<PlannedChunk>& chunks) {
+  std::vector<uint32_t> chunkOf(cells.count(), kNoChunk);
+  for (uint32_t chunk = 0; chunk < chunks.size(); ++chunk) {
+    for (const uint32_t cell : chunks[chunk].cells) chunkOf[cell] = chunk;
+  }
+  while (!others.empty()) {
+    std::vector<std::pair<uint32_t, uint32_t>> placed;  // cells, their chunks
+    std::vector<uint32_t> left;
+    for (const uint32_t cell : others) {
+      const uint32_t chunk = findCommonChunk(rowOf(cell), chunkOf);
+      if (chunk != kNoChunk) {
+        placed.emplace_back(cell, chunk);
+      } else {
+        left.push_back(cell);
+      }
+    }
+    if (placed.empty()) placed.emplace_back(left.back(), 0), left.pop_back();  // no neighbours at all: any will do
+    for (const auto& [cell, chunk] : placed) {
+      chunkOf[cell] = chunk;
+      chunks[chunk].cells.push_back(cell);
+    }
+    others = std::move(left);
+  }
+}
 
 void appendRow(const CellGraph& graph, uint32_t cell, CellGraph& rows) {
   const std::span<const uint32_t> row = neighboursOf(graph, cell);
@@ -80,7 +119,7 @@ CellRows gatherRows(const CellGraph& walk, const CellGraph& alpha, std::span<con
 }
 
 Result<std::vector<PlannedChunk>> splitIntoChunks(const BakeCells& cells, std::vector<uint32_t> live,
-                                                  std::vector<uint32_t> others, uint32_t chunkCells,
+                                                  std::vector<uint32_t> others, const RowOf& rowOf, uint32_t chunkCells,
                                                   double positionStep, const Progress& progress) {
   std::vector<PlannedChunk> chunks;
   const size_t chunkCount = (live.size() + chunkCells - 1) / chunkCells;
@@ -90,8 +129,9 @@ Result<std::vector<PlannedChunk>> splitIntoChunks(const BakeCells& cells, std::v
     const std::span<uint32_t> own(chunk.cells);
     orderCells(own.first(chunk.liveCount), own.subspan(chunk.liveCount), cells, positionStep);
   };
-  if (!splitter.split(live, others, chunkCount, chunks) ||
-      !forEachSlice(static_cast<uint32_t>(chunks.size()), 1, {progress, "order", 0, chunkCount}, sortChunk)) {
+  if (!splitter.split(live, chunkCount, chunks)) return stoppedOnRequest("bake");
+  placeOthers(cells, std::move(others), rowOf, chunks);
+  if (!forEachSlice(static_cast<uint32_t>(chunks.size()), 1, {progress, "order", 0, chunkCount}, sortChunk)) {
     return stoppedOnRequest("bake");
   }
   return chunks;
@@ -109,14 +149,15 @@ Result<uint32_t> chooseLocalBits(std::span<const PlannedChunk> chunks) {
                    chunks.size(), largest);
 }
 
-Result<ChunkPlan> planChunks(const BakeCells& cells, const std::vector<CellState>& states, uint32_t chunkCells,
-                             double positionStep, const Progress& progress) {
+Result<ChunkPlan> planChunks(const BakeCells& cells, const std::vector<CellState>& states, const CellGraph& walk,
+                             uint32_t chunkCells, double positionStep, const Progress& progress) {
   std::vector<uint32_t> live, others;
   for (uint32_t cell = 0; cell < cells.count(); ++cell) {
     if (isInAsset(states[cell])) (states[cell] == CellState::kLive ? live : others).push_back(cell);
   }
-  Result<std::vector<PlannedChunk>> chunks =
-      splitIntoChunks(cells, std::move(live), std::move(others), chunkCells, positionStep, progress);
+  Result<std::vector<PlannedChunk>> chunks = splitIntoChunks(
+      cells, std::move(live), std::move(others), [&](uint32_t cell) { return neighboursOf(walk, cell); }, chunkCells,
+      positionStep, progress);
   if (!chunks) return chunks.error();
   const Result<uint32_t> localBits = chooseLocalBits(*chunks);
   if (!localBits) return localBits.error();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -36,17 +37,21 @@ struct CellRows {
 // Of the listed cells, from the graphs of the scene.
 CellRows gatherRows(const CellGraph& walk, const CellGraph& alpha, std::span<const uint32_t> cells);
 
+// The neighbours of a cell in the regular triangulation, as cells of the scene.
+using RowOf = std::function<std::span<const uint32_t>(uint32_t cell)>;
+
 // kd-median chunks of at most `chunkCells` live cells, in each the live cells, then the others, both in the order of
-// cell_order.h. Splits and order of the live cells know no others, so that a Steiner cell moves none of them.
+// cell_order.h. Splits and order of the live cells know no others, so that a Steiner cell moves none of them. Each of
+// the others is in the chunk that has most of its neighbours: one in the open touches hundreds of cells.
 Result<std::vector<PlannedChunk>> splitIntoChunks(const BakeCells& cells, std::vector<uint32_t> live,
-                                                  std::vector<uint32_t> others, uint32_t chunkCells,
+                                                  std::vector<uint32_t> others, const RowOf& rowOf, uint32_t chunkCells,
                                                   double positionStep, const Progress& progress);
 
 // Bits for the local index of a CellRef, so that there are enough for the chunks too.
 Result<uint32_t> chooseLocalBits(std::span<const PlannedChunk> chunks);
 
 // The chunks of a scene without levels, of all cells with a place.
-Result<ChunkPlan> planChunks(const BakeCells& cells, const std::vector<CellState>& states, uint32_t chunkCells,
-                             double positionStep, const Progress& progress);
+Result<ChunkPlan> planChunks(const BakeCells& cells, const std::vector<CellState>& states, const CellGraph& walk,
+                             uint32_t chunkCells, double positionStep, const Progress& progress);
 
 }  // namespace froth

@@ -33,15 +33,17 @@ Result<std::vector<LevelChunk>> splitForm(CoarseForm& form, std::span<const uint
     (stateOf(cells, cell, false, form.isEmpty[local]) == CellState::kLive ? live : others).push_back(cell);
   }
   std::sort(places.begin(), places.end());
+  const auto placeOf = [&](uint32_t cell) {
+    return std::lower_bound(places.begin(), places.end(), std::pair(cell, 0u))->second;
+  };
+  const auto rowOf = [&](uint32_t cell) { return neighboursOf(rows.walk, placeOf(cell)); };
   Result<std::vector<PlannedChunk>> planned =
-      splitIntoChunks(cells, std::move(live), std::move(others), chunkCells, positionStep, {});
+      splitIntoChunks(cells, std::move(live), std::move(others), rowOf, chunkCells, positionStep, {});
   if (!planned) return planned.error();
   std::vector<LevelChunk> chunks;
   for (PlannedChunk& chunk : *planned) {
     std::vector<uint32_t> locals;
-    for (const uint32_t cell : chunk.cells) {
-      locals.push_back(std::lower_bound(places.begin(), places.end(), std::pair(cell, 0u))->second);
-    }
+    for (const uint32_t cell : chunk.cells) locals.push_back(placeOf(cell));
     CellRows own = gatherRows(rows.walk, rows.alpha, locals);
     chunks.push_back({std::move(chunk), std::move(own), {}});
   }

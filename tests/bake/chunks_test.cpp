@@ -177,6 +177,31 @@ TEST(Chunks, LiveCellsAreTheSameWithAndWithoutSteinerCells) {
   }
 }
 
+// So that few pairs of neighbours lie across chunks.
+TEST(Chunks, OtherCellsAreWhereMostOfTheirLiveNeighboursAre) {
+  Foam foam = makeRandomFoam(600, 1, 2, 9);
+  for (float& radius : foam.radii) radius *= 0.3f;  // space between the balls
+  const AssetContents contents = bakeInChunks(foam, 100).contents;
+  ASSERT_GT(contents.chunks.size(), 4u);
+  size_t seen = 0;
+  for (uint32_t index = 0; index < contents.chunks.size(); ++index) {
+    const ChunkContents& chunk = contents.chunks[index];
+    for (uint32_t cell = chunk.liveCount; cell < chunk.cellCount; ++cell) {
+      std::vector<size_t> live(contents.chunks.size(), 0);
+      for (uint32_t entry = chunk.neighbourOffsets[cell]; entry < chunk.neighbourOffsets[cell + 1]; ++entry) {
+        const CellRef ref = refOf(contents, index, chunk.neighbours[entry]);
+        const uint32_t home = chunkOf(ref, contents.localBits);
+        live[home] += localOf(ref, contents.localBits) < contents.chunks[home].liveCount ? 1 : 0;
+      }
+      const size_t most = *std::max_element(live.begin(), live.end());
+      if (most == 0) continue;  // only Steiner cells around it
+      EXPECT_EQ(live[index], most);
+      seen += most > live[0];
+    }
+  }
+  EXPECT_GT(seen, 20u);
+}
+
 TEST(Chunks, WithoutAWalkGraphKeepTheAlphaComplexOfLiveCells) {
   BakeOptions options = latticeOptions();
   const BakeResult with = bakeInChunks(makeMixedFoam(), 50, options);
