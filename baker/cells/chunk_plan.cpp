@@ -55,16 +55,17 @@ class KdSplitter {
   const Progress& progress_;
 };
 
-constexpr uint32_t kNoChunk = 0xffffffff;
+// Of a cell of the scene, in place of a chunk: it has none yet; it belongs to none.
+constexpr uint32_t kOpen = 0xfffffffe, kOutside = 0xffffffff;
 
-// The least of those that are most frequent; kNoChunk: the neighbours are in none.
+// The least of those that are most frequent; kOpen: the neighbours are in none.
 uint32_t findCommonChunk(std::span<const uint32_t> neighbours, std::span<const uint32_t> chunkOf) {
   std::vector<uint32_t> chunks;
   for (const uint32_t neighbour : neighbours) {
-    if (chunkOf[neighbour] != kNoChunk) chunks.push_back(chunkOf[neighbour]);
+    if (chunkOf[neighbour] < kOpen) chunks.push_back(chunkOf[neighbour]);
   }
   std::sort(chunks.begin(), chunks.end());
-  uint32_t common = kNoChunk;
+  uint32_t common = kOpen;
   std::ptrdiff_t most = 0;
   for (auto run = chunks.begin(); run != chunks.end();) {
     const auto end = std::upper_bound(run, chunks.end(), *run);
@@ -74,30 +75,34 @@ uint32_t findCommonChunk(std::span<const uint32_t> neighbours, std::span<const u
   return common;
 }
 
-// Those beside live cells first, then those beside them, and so on.
-void placeOthers(const BakeCells& cells, std::vector<uint32_t> others, const RowOf& rowOf,
+// Those beside live cells first, then those beside them, and so on. A cell that is looked at again gets its place, so
+// each is looked at twice at most.
+void placeOthers(const BakeCells& cells, const std::vector<uint32_t>& others, const RowOf& rowOf,
                  std::vector<PlannedChunk>& chunks) {
-  std::vector<uint32_t> chunkOf(cells.count(), kNoChunk);
+  std::vector<uint32_t> chunkOf(cells.count(), kOutside);
   for (uint32_t chunk = 0; chunk < chunks.size(); ++chunk) {
     for (const uint32_t cell : chunks[chunk].cells) chunkOf[cell] = chunk;
   }
-  while (!others.empty()) {
+  for (const uint32_t cell : others) chunkOf[cell] = kOpen;
+  for (std::vector<uint32_t> wave = others; !wave.empty();) {
     std::vector<std::pair<uint32_t, uint32_t>> placed;  // cells, their chunks
-    std::vector<uint32_t> left;
-    for (const uint32_t cell : others) {
+    for (const uint32_t cell : wave) {
       const uint32_t chunk = findCommonChunk(rowOf(cell), chunkOf);
-      if (chunk != kNoChunk) {
-        placed.emplace_back(cell, chunk);
-      } else {
-        left.push_back(cell);
+      if (chunk != kOpen) placed.emplace_back(cell, chunk);
+    }
+    for (const auto& [cell, chunk] : placed) chunkOf[cell] = chunk;
+    wave.clear();
+    for (const auto& [cell, chunk] : placed) {
+      for (const uint32_t neighbour : rowOf(cell)) {
+        if (chunkOf[neighbour] == kOpen) wave.push_back(neighbour);
       }
     }
-    if (placed.empty()) placed.emplace_back(left.back(), 0), left.pop_back();  // no neighbours at all: any will do
-    for (const auto& [cell, chunk] : placed) {
-      chunkOf[cell] = chunk;
-      chunks[chunk].cells.push_back(cell);
-    }
-    others = std::move(left);
+    std::sort(wave.begin(), wave.end());
+    wave.erase(std::unique(wave.begin(), wave.end()), wave.end());
+  }
+  for (const uint32_t cell : others) {
+    const bool isAlone = chunkOf[cell] == kOpen;  // no path leads from it to a live cell: any chunk will do
+    chunks[isAlone ? 0 : chunkOf[cell]].cells.push_back(cell);
   }
 }
 
@@ -130,7 +135,7 @@ Result<std::vector<PlannedChunk>> splitIntoChunks(const BakeCells& cells, std::v
     orderCells(own.first(chunk.liveCount), own.subspan(chunk.liveCount), cells, positionStep);
   };
   if (!splitter.split(live, chunkCount, chunks)) return stoppedOnRequest("bake");
-  placeOthers(cells, std::move(others), rowOf, chunks);
+  placeOthers(cells, others, rowOf, chunks);
   if (!forEachSlice(static_cast<uint32_t>(chunks.size()), 1, {progress, "order", 0, chunkCount}, sortChunk)) {
     return stoppedOnRequest("bake");
   }

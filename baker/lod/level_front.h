@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "baker/lod/level_chunk.h"
-#include "baker/lod/merge_plan.h"
+#include "baker/lod/level_source.h"
 #include "foam/foam.h"
 
 namespace froth {

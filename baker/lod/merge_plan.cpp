@@ -5,8 +5,6 @@
 #include <optional>
 
 #include "baker/lod/choose_pairs.h"
-#include "baker/lod/gather_cells.h"
-#include "baker/lod/merge_cells.h"
 #include "foam/append_cells.h"
 
 namespace froth {
@@ -17,14 +15,6 @@ constexpr uint32_t kLeastRoundPart = 256;  // a round with fewer is the last
 // Merges of all rounds, at most, of the live cells that are not locked: three become one. With more the middle of a
 // small group is much coarser than its borders.
 constexpr double kMostMerged = 2.0 / 3;
-
-// Between rounds of merges.
-struct MergedFoam {
-  Foam cells;
-  std::vector<double> contributions;           // [cells] or empty
-  std::vector<uint8_t> isLocked;               // [cells]
-  std::vector<std::vector<uint32_t>> members;  // [cells] of the scene
-};
 
 bool cutsLive(const FineForm& fine, uint32_t i) {
   // A live cell outside has no row here, and locks this one anyway.
@@ -44,7 +34,37 @@ MergedFoam beginRounds(const LevelSource& source, const FineForm& fine, std::spa
   return begun;
 }
 
-// Cells in no pair stay, in order; the merged ones come behind them.
+MergePlan collectPlan(MergedFoam& foam) {
+  MergePlan plan;
+  std::vector<uint32_t> merged;
+  for (uint32_t cell = 0; cell < foam.cells.cellCount; ++cell) {
+    if (foam.members[cell].size() < 2) continue;
+    merged.push_back(cell);
+    plan.clusters.push_back(std::move(foam.members[cell]));
+    if (!foam.contributions.empty()) plan.contributions.push_back(foam.contributions[cell]);
+  }
+  appendCells(foam.cells, merged, plan.merged);
+  return plan;
+}
+
+}  // namespace
+
+FacedCells gatherFaced(const LevelSource& source, const FineForm& fine) {
+  FacedCells faced;
+  std::vector<uint32_t> cells;
+  std::vector<uint8_t> isLive;
+  for (uint32_t i = 0; i < fine.count(); ++i) {
+    const uint32_t row = source.cells.sources[fine.cells[i]];
+    if (row == kNoSource || !(fine.isLive[i] || cutsLive(fine, i))) continue;
+    faced.cells.push_back(i);
+    cells.push_back(fine.cells[i]);
+    isLive.push_back(fine.isLive[i]);
+    if (!source.contributions.empty()) faced.contributions.push_back(source.contributions[row]);
+  }
+  faced.faces = gatherSnapped(source, cells, isLive);
+  return faced;
+}
+
 MergedFoam mergeRound(MergedFoam& before, std::span<const CellPair> pairs, std::span<const glm::vec3> eyes) {
   const Foam merged = mergePairs(before.cells, pairs, before.contributions, eyes);
   std::vector<uint8_t> isPaired(before.cells.cellCount, 0);
@@ -69,41 +89,6 @@ MergedFoam mergeRound(MergedFoam& before, std::span<const CellPair> pairs, std::
   appendCells(before.cells, kept, after.cells);
   appendCells(merged, all, after.cells);
   return after;
-}
-
-MergePlan collectPlan(MergedFoam& foam) {
-  MergePlan plan;
-  std::vector<uint32_t> merged;
-  for (uint32_t cell = 0; cell < foam.cells.cellCount; ++cell) {
-    if (foam.members[cell].size() < 2) continue;
-    merged.push_back(cell);
-    plan.clusters.push_back(std::move(foam.members[cell]));
-    if (!foam.contributions.empty()) plan.contributions.push_back(foam.contributions[cell]);
-  }
-  appendCells(foam.cells, merged, plan.merged);
-  return plan;
-}
-
-}  // namespace
-
-FacedCells gatherFaced(const LevelSource& source, const FineForm& fine) {
-  FacedCells faced;
-  std::vector<uint32_t> sources;
-  for (uint32_t i = 0; i < fine.count(); ++i) {
-    const uint32_t row = source.cells.sources[fine.cells[i]];
-    if (row == kNoSource || !(fine.isLive[i] || cutsLive(fine, i))) continue;
-    faced.cells.push_back(i);
-    sources.push_back(row);
-  }
-  faced.faces = gatherCells(source.input, source.merged, sources);
-  for (size_t k = 0; k < faced.cells.size(); ++k) {
-    const uint32_t i = faced.cells[k], cell = fine.cells[i];
-    faced.faces.sites[k] = source.cells.sites[cell];
-    faced.faces.radii[k] = source.cells.radii[cell];
-    faced.faces.densities[k] = fine.isLive[i] ? source.cells.densities[cell] : 0;
-    if (!source.contributions.empty()) faced.contributions.push_back(source.contributions[sources[k]]);
-  }
-  return faced;
 }
 
 // In rounds: cells that show little merge again, and fewer of the others have to.

@@ -5,22 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "baker/cells/cells.h"
 #include "baker/lod/fine_form.h"
+#include "baker/lod/level_source.h"
+#include "baker/lod/merge_cells.h"
 #include "foam/foam.h"
-#include "format/quantization.h"
 
 namespace froth {
-
-// What groups are made coarser from.
-struct LevelSource {
-  const Foam& input;
-  const Foam& merged;  // BakeCells::sources continue into it
-  const BakeCells& cells;
-  const std::vector<double>& contributions;  // [input cells, merged cells] how much each shows; empty: all alike
-  const std::vector<glm::vec3>& eyes;        // from where the foam is seen; may be empty
-  const Quantization& lattices;
-};
 
 // Cells of a fine form with faces: live ones, and those that only cut live ones.
 struct FacedCells {
@@ -30,6 +20,17 @@ struct FacedCells {
 };
 
 FacedCells gatherFaced(const LevelSource& source, const FineForm& fine);
+
+// Between rounds of merges.
+struct MergedFoam {
+  Foam cells;
+  std::vector<double> contributions;           // [cells] or empty
+  std::vector<uint8_t> isLocked;               // [cells]
+  std::vector<std::vector<uint32_t>> members;  // [cells] of what the rounds began with
+};
+
+// Cells in no pair stay, in order; the merged ones come behind them, and are not locked. Takes the members of `before`.
+MergedFoam mergeRound(MergedFoam& before, std::span<const CellPair> pairs, std::span<const glm::vec3> eyes);
 
 struct MergePlan {
   std::vector<std::vector<uint32_t>> clusters;  // cells of the scene, two or more, that become one

@@ -14,17 +14,14 @@ Result<std::vector<LevelChunk>> splitForm(CoarseForm& form, std::span<const uint
     if (local >= ownCount) return ring[local - ownCount];
     return local < keptCount ? form.kept[local] : firstMerged + (local - keptCount);
   };
-  const CellRows rows = [&] {
-    CellRows named = std::move(form.rows);
-    for (CellGraph* graph : {&named.walk, &named.alpha}) {
-      for (uint32_t& neighbour : graph->neighbours) neighbour = cellOf(neighbour);
-      for (uint32_t local = 0; local < ownCount; ++local) {
-        const auto begin = graph->neighbours.begin();
-        std::sort(begin + graph->offsets[local], begin + graph->offsets[local + 1]);
-      }
+  CellRows rows = std::move(form.rows);
+  for (CellGraph* graph : {&rows.walk, &rows.alpha}) {
+    for (uint32_t& neighbour : graph->neighbours) neighbour = cellOf(neighbour);
+    for (uint32_t local = 0; local < ownCount; ++local) {
+      const auto begin = graph->neighbours.begin();
+      std::sort(begin + graph->offsets[local], begin + graph->offsets[local + 1]);
     }
-    return named;
-  }();
+  }
   std::vector<uint32_t> live, others;
   std::vector<std::pair<uint32_t, uint32_t>> places;
   for (uint32_t local = 0; local < ownCount; ++local) {

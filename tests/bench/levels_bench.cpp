@@ -22,7 +22,7 @@
 #include "baker/lod/contributions.h"
 #include "baker/lod/level_errors.h"
 #include "baker/lod/level_fit.h"
-#include "baker/lod/merge_cells.h"
+#include "baker/lod/merge_plan.h"
 #include "baker/lod/merge_review.h"
 #include "base/image/mean_square.h"
 #include "foam/foam_arrays.h"
@@ -55,56 +55,6 @@ double secondsOf(const auto& work) {
   const std::clock_t start = std::clock();
   work();
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
-// The cells that are in no pair, then the merged ones; contributions alike.
-Foam replacePairs(const Foam& foam, std::span<const CellPair> pairs, const Foam& merged,
-                  std::vector<double>& contributions) {
-  std::vector<uint8_t> isMerged(foam.cellCount, 0);
-  std::vector<double> kept;
-  for (const CellPair& pair : pairs) isMerged[pair.first] = isMerged[pair.second] = 1;
-  Foam result = foam;
-  const auto pick = [&](auto& values, const auto& added, size_t perCell) {
-    size_t end = 0;
-    for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
-      if (isMerged[cell]) continue;
-      for (size_t i = 0; i < perCell; ++i) values[end++] = values[cell * perCell + i];
-    }
-    values.resize(end);
-    values.insert(values.end(), added.begin(), added.end());
-  };
-  visitArrays([&](const FoamArray&, auto values) {
-    if ((foam.*values).empty()) return;
-    const size_t perCell = (foam.*values).size() / foam.cellCount;
-    pick(result.*values, merged.*values, perCell);
-  });
-  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) {
-    if (!isMerged[cell]) kept.push_back(contributions[cell]);
-  }
-  for (const CellPair& pair : pairs) kept.push_back(contributions[pair.first] + contributions[pair.second]);
-  contributions = std::move(kept);
-  result.cellCount = static_cast<uint32_t>(contributions.size());
-  return result;
-}
-
-// In the order of replacePairs.
-void replaceMembers(std::span<const CellPair> pairs, std::vector<uint8_t>& isLocked,
-                    std::vector<std::vector<uint32_t>>& members) {
-  std::vector<uint8_t> isMerged(members.size(), 0), keptLocks;
-  for (const CellPair& pair : pairs) isMerged[pair.first] = isMerged[pair.second] = 1;
-  std::vector<std::vector<uint32_t>> kept;
-  for (size_t cell = 0; cell < members.size(); ++cell) {
-    if (isMerged[cell]) continue;
-    kept.push_back(members[cell]);
-    keptLocks.push_back(isLocked[cell]);
-  }
-  for (const CellPair& pair : pairs) {
-    std::vector<uint32_t>& both = kept.emplace_back(members[pair.first]);
-    both.insert(both.end(), members[pair.second].begin(), members[pair.second].end());
-    keptLocks.push_back(0);
-  }
-  members = std::move(kept);
-  isLocked = std::move(keptLocks);
 }
 
 // Each pixel the mean of factor^2.
@@ -157,12 +107,12 @@ class LevelsBench {
     LevelErrors errors(others_, {input_.nearRatio, input_.nearDepth});
     check(errors.takeFinest(input_.foam, cells, {}));
     std::vector<uint8_t> staysApart(cells.size(), 0);
-    Merged merged = mergeGroups(split(cells, options_.groups), contributions, staysApart);
+    MergedFoam merged = mergeGroups(split(cells, options_.groups), contributions, staysApart);
     for (int review = 0; review < kReviews && keepApart(errors, merged, staysApart) > 0; ++review) {
-      compare(merged.foam);
+      compare(merged.cells);
       merged = mergeGroups(split(cells, options_.groups), contributions, staysApart);
     }
-    Foam& coarse = merged.foam;
+    Foam& coarse = merged.cells;
     compare(coarse);
     LevelFit fit(others_, {input_.nearRatio, input_.nearDepth});
     const double seconds = secondsOf([&] {
@@ -174,40 +124,34 @@ class LevelsBench {
   }
 
  private:
-  struct Merged {
-    Foam foam;
-    std::vector<std::vector<uint32_t>> members;  // [cells] of the input
-  };
-
-  Merged mergeGroups(const std::vector<std::vector<uint32_t>>& groups, const std::vector<double>& contributions,
-                     const std::vector<uint8_t>& staysApart) const {
-    Merged all;
+  // All groups behind each other, without their locks.
+  MergedFoam mergeGroups(const std::vector<std::vector<uint32_t>>& groups, const std::vector<double>& contributions,
+                         const std::vector<uint8_t>& staysApart) const {
+    MergedFoam all;
     for (const std::vector<uint32_t>& group : groups) {
-      std::vector<double> shown;
-      std::vector<uint8_t> isLocked;
+      MergedFoam merged{pick(group), {}, {}, {}};
       for (const uint32_t cell : group) {
-        shown.push_back(contributions[cell]);
-        isLocked.push_back(staysApart[cell]);
+        merged.contributions.push_back(contributions[cell]);
+        merged.isLocked.push_back(staysApart[cell]);
+        merged.members.push_back({cell});
       }
-      Merged merged{pick(group), {}};
-      for (const uint32_t cell : group) merged.members.push_back({cell});
-      mergeRounds(merged, std::move(isLocked), std::move(shown));
-      append(merged.foam, all.foam);
+      mergeRounds(merged);
+      append(merged.cells, all.cells);
       std::ranges::move(merged.members, std::back_inserter(all.members));
     }
     return all;
   }
 
   // Marks the cells of the merges that stand out, as the bake does; how many merges those are.
-  size_t keepApart(const LevelErrors& errors, const Merged& merged, std::vector<uint8_t>& staysApart) const {
+  size_t keepApart(const LevelErrors& errors, const MergedFoam& merged, std::vector<uint8_t>& staysApart) const {
     std::vector<uint32_t> owners, merges;
-    for (uint32_t cell = 0; cell < merged.foam.cellCount; ++cell) {
+    for (uint32_t cell = 0; cell < merged.cells.cellCount; ++cell) {
       const bool isMerged = merged.members[cell].size() > 1;
       owners.push_back(isMerged ? static_cast<uint32_t>(merges.size()) : kNoOwner);
       if (isMerged) merges.push_back(cell);
     }
     const std::vector<uint32_t> outliers =
-        findOutliers(valueOf(errors.sumByOwner(merged.foam, owners, static_cast<uint32_t>(merges.size()), {})));
+        findOutliers(valueOf(errors.sumByOwner(merged.cells, owners, static_cast<uint32_t>(merges.size()), {})));
     for (const uint32_t outlier : outliers) {
       for (const uint32_t cell : merged.members[merges[outlier]]) staysApart[cell] = 1;
     }
@@ -249,20 +193,17 @@ class LevelsBench {
     });
   }
 
-  void mergeRounds(Merged& merged, std::vector<uint8_t> isLocked, std::vector<double> shown) const {
-    const auto left = static_cast<uint32_t>(options_.part * merged.foam.cellCount);
-    while (merged.foam.cellCount > left) {
-      const Foam& coarse = merged.foam;
+  void mergeRounds(MergedFoam& merged) const {
+    const auto left = static_cast<uint32_t>(options_.part * merged.cells.cellCount);
+    while (merged.cells.cellCount > left) {
+      const uint32_t count = merged.cells.cellCount;
       std::vector<CellPair> pairs;
-      Foam added;
-      const size_t most = std::min<size_t>(coarse.cellCount - left, coarse.cellCount / kRoundPart);
-      const double chosen = secondsOf([&] { pairs = choosePairs(coarse, isLocked, shown, most, eyes_); });
-      const double joined = secondsOf([&] { added = mergePairs(coarse, pairs, shown, eyes_); });
-      fmt::print("{} cells: {} pairs chosen in {:.2f} s, merged in {:.2f} s\n", coarse.cellCount, pairs.size(), chosen,
-                 joined);
+      const size_t most = std::min<size_t>(count - left, count / kRoundPart);
+      const double chosen =
+          secondsOf([&] { pairs = choosePairs(merged.cells, merged.isLocked, merged.contributions, most, eyes_); });
+      const double joined = secondsOf([&] { merged = mergeRound(merged, pairs, eyes_); });
+      fmt::print("{} cells: {} pairs chosen in {:.2f} s, merged in {:.2f} s\n", count, pairs.size(), chosen, joined);
       if (pairs.empty()) break;
-      replaceMembers(pairs, isLocked, merged.members);
-      merged.foam = replacePairs(coarse, pairs, added, shown);
     }
   }
 

@@ -3,10 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "baker/lod/merge_plan.h"
 #include "tests/lod/level_scene.h"
 #include "tests/reference/scenes.h"
 
@@ -26,8 +22,8 @@ TEST(MergeReview, AnOutlierIsWhatHasSixTimesTheMean) {
 constexpr uint32_t kSide = 24;
 constexpr float kSpacing = 1.4f;
 
-// Cells with two detail sites in the plane z = 0, whose faces look towards -z. Every sixth one is half black and half
-// white, and so are two beside it; all others have one colour each, and it is not the same for any two.
+// Cells with two detail sites in the plane z = 0, whose faces look towards -z. Some pairs of neighbours are half black
+// and half white each; all others have one colour, and neighbours in a row not the same.
 bool isHalved(uint32_t cell) { return cell % kSide % 6 < 2 && cell / kSide % 6 == 0; }
 
 Foam halvedWall() {
@@ -41,8 +37,7 @@ Foam halvedWall() {
                      .orientation = kFaceTowardsMinusZ,
                      .height = 0});
   }
-  const Foam plain = foamOf(cells);
-  Foam foam = plain;
+  Foam foam = foamOf(cells);
   foam.detailCount = 2;
   for (auto* values : {&foam.lobeAxes, &foam.lobeColours}) {
     const std::vector<glm::vec3> one = *values;
