@@ -55,12 +55,13 @@ FOAM_FN real lobeExponent(real3 axis, real3 direction) {
 // Start with largest = the lowest finite number, weightSum = 0, colourSum = 0.
 FOAM_FN void addLobe(real exponent, real3 colour, FOAM_INOUT(real) largest, FOAM_INOUT(real) weightSum,
                      FOAM_INOUT(real3) colourSum) {
-  real newLargest = max(largest, exponent);
-  real rescale = exp(largest - newLargest);
-  real weight = exp(exponent - newLargest);
+  bool isLarger = exponent > largest;
+  real smaller = exp(isLarger ? largest - exponent : exponent - largest);  // of the two weights; the other is 1
+  real rescale = isLarger ? smaller : real(1);
+  real weight = isLarger ? real(1) : smaller;
   weightSum = weightSum * rescale + weight;
   colourSum = colourSum * rescale + weight * colour;
-  largest = newLargest;
+  largest = isLarger ? exponent : largest;
 }
 
 // From 0 to the largest half, 65504, as which renderers keep it between passes (1 is white). Sums that left the floats

@@ -24,11 +24,13 @@ uint takeBits(inout BitCursor cursor, uint width) {
   return width > 0 ? (low | high) & (0xffffffffu >> (32 - width)) : 0;
 }
 
-// Two's complement of width 0..31.
-int takeSigned(inout BitCursor cursor, uint width) {
+// The lowest bits as two's complement of width 0..31.
+int signedOf(uint bits, uint width) {
   uint sign = (1u << width) >> 1;
-  return int(takeBits(cursor, width) ^ sign) - int(sign);
+  return int(bits & ((1u << width) - 1) ^ sign) - int(sign);
 }
+
+int takeSigned(inout BitCursor cursor, uint width) { return signedOf(takeBits(cursor, width), width); }
 
 vec3 takeFloats(inout BitCursor cursor) {
   float x = uintBitsToFloat(takeBits(cursor, 32));
@@ -38,6 +40,12 @@ vec3 takeFloats(inout BitCursor cursor) {
 }
 
 ivec3 takeSignedTriple(inout BitCursor cursor, uint firstWidth, uint otherWidth) {
+  uint width = firstWidth + 2 * otherWidth;
+  if (width < 32) {  // as almost always: read once
+    uint bits = takeBits(cursor, width);
+    uint otherBits = bits >> firstWidth;
+    return ivec3(signedOf(bits, firstWidth), signedOf(otherBits, otherWidth), signedOf(otherBits >> otherWidth, otherWidth));
+  }
   int x = takeSigned(cursor, firstWidth);
   int y = takeSigned(cursor, otherWidth);
   int z = takeSigned(cursor, otherWidth);
@@ -167,7 +175,7 @@ DetailSite loadDetailSite(CellCode code, CellHeader header, uint detailCount, ui
 // The lobes of one detail site, to be taken one after the other.
 struct Lobes {
   BitCursor cursor;
-  uint count;
+  uint count;  // left
 };
 
 Lobes noLobes(CellHeader header) { return Lobes(header.lobeCounts, 0u); }
