@@ -53,10 +53,9 @@ void main() {
   uint group = linearGroup();
   uint index = group * kRayGroupSize + gl_LocalInvocationIndex;
   if (index >= push.count) return;
-  FrothWalk walk = frothBeginWalk(loadRay(index));
-  vec4 part = gather(walk, FROTH_INFINITY, kind == kRadiance, kind == kClosest);
-  FrothHit hit = walk.hit;
-  push.hits.v[index] = HitRecord(vec4(part.rgb, exp(walk.logTransmittance)),
-                                 vec4(hit.normal, hit.distance), uvec4(hit.instance, hit.chunk, hit.cell, hit.userId),
-                                 uvec4(hit.status, walk.cells, 0u, 0u));
+  Passage passage = castRay(loadRay(index), kind == kRadiance, kind == kClosest);
+  FrothHit hit = passage.hit;
+  push.hits.v[index] =
+      HitRecord(vec4(passage.radiance.rgb, passage.transmittance), vec4(hit.normal, hit.distance),
+                uvec4(hit.instance, hit.chunk, hit.cell, hit.userId), uvec4(hit.status, passage.cells, 0u, 0u));
 }

@@ -20,8 +20,8 @@ inline constexpr uint32_t kSeedEntries = 0, kMarkEntries = 1, kPrepareCells = 2,
 inline constexpr uint32_t kRayKinds = 3, kPreparedForms = gpu::kPreparedRadiance + 1;
 inline constexpr uint32_t kWalkPipelineCount = kFirstCast + 2 * kPreparedForms * kRayKinds;
 
-// What casts rays of a FrothRayKind, with so much of cells prepared (kPreparedNothing...): through one instance at a
-// time, or merged, through several at once.
+// What casts rays of a FrothRayKind, with so much of cells prepared (kPreparedNothing...): through the first instance,
+// or merged, through several.
 struct CastForm {
   uint32_t kind, prepared;
   bool isMerged;

@@ -35,7 +35,7 @@ class WalkSets {
   // In frothUpdate: reads counters of complete frames, frees what was replaced, grows tables to so many chunks of all
   // instances together: those of an instance that is not seeded count twice. On an error they are as before.
   Status prepare(uint64_t completedSerial, uint32_t chunkCount);
-  // Makes what casts rays through several instances at once; until then rays meet one at a time. Any thread.
+  // Makes what casts rays through several instances; until then rays meet the first. Any thread.
   Status prepareMerging() { return pipelines_->prepareMerging(); }
   bool canMerge() const { return pipelines_->canMerge(); }
   // Makes what casts rays through cells of which so much is prepared (kPreparedNothing...); until then they are

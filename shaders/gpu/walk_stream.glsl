@@ -179,7 +179,7 @@ Exit findExit(Chunk chunk, ChunkPlace place, uint cell, vec4 siteRadius, vec3 di
 // What is wanted of the colours along a ray.
 struct Sight {
   bool isSeen;    // any
-  bool hasLobes;  // as they are seen from the point that lies `behind` the ray's origin [world units]; else alike from all sides
+  bool hasLobes;  // as they are seen from the point that lies `behind` the ray's origin; else alike from all sides
   float behind;
 };
 
@@ -224,31 +224,47 @@ bool walkOn(inout Stream stream, LocalRay ray, uint steps, out MetCell met, out 
   return false;
 }
 
-// On towards the next segment: by a few cells, of which a face may leave nothing.
-void advanceStream(inout Stream stream, vec3 origin, vec3 direction, Sight sight, inout WalkWork work) {
-  instanceAtHand = stream.instance;
-  LocalRay ray = localRay(origin, direction);
-  float scale = FRAME.scale;
+// What a ray gains in one cell, in the instance's units.
+struct CellSegment {
+  uvec2 cell;
+  float tNear, tFar, density;
+  vec3 colour;
+};
+
+// On towards the next segment: by a few cells, of which a face may leave nothing. False: the ray has come to none.
+// ray: of the instance at hand; sight: with `behind` in its units.
+bool meetNext(inout Stream stream, LocalRay ray, Sight sight, out CellSegment segment, inout WalkWork work) {
+  segment = CellSegment(uvec2(kNoCell), 0.0, 0.0, 0.0, vec3(0.0));
   MetCell met;
   float tNear, tFar;
-  stream.tFar = -kInfinity;
   uint steps = sight.isSeen ? kStepsOfSeenTurn : kStepsOfTurn;
-  if (!walkOn(stream, ray, steps, met, tNear, tFar, work)) return;
+  if (!walkOn(stream, ray, steps, met, tNear, tFar, work)) return false;
   ++work.met;
   CellCode code = FRAME.chunks.v[met.cell.x].code;
   Face face = loadFace(code, met.cell);
   clipByFace(code, met, face.frame, ray.direction, tNear, tFar);
-  if (!(tNear < tFar && face.density > 0.0)) return;
+  if (!(tNear < tFar && face.density > 0.0)) return false;
+  segment = CellSegment(met.cell, tNear, tFar, face.density, vec3(0.0));
   if (sight.isSeen) {
     uint shaded;
-    stream.colour =
-        colourAt(code, met, face.frame, ray.direction, tNear, sight.behind / scale, sight.hasLobes, shaded);
+    segment.colour = colourAt(code, met, face.frame, ray.direction, tNear, sight.behind, sight.hasLobes, shaded);
     work.shaded += shaded;
   }
-  stream.metCell = met.cell;
-  stream.tNear = tNear * scale;
-  stream.tFar = tFar * scale;
-  stream.density = face.density / scale;
+  return true;
+}
+
+void advanceStream(inout Stream stream, vec3 origin, vec3 direction, Sight sight, inout WalkWork work) {
+  instanceAtHand = stream.instance;
+  float scale = FRAME.scale;
+  CellSegment segment;
+  stream.tFar = -kInfinity;
+  Sight local = Sight(sight.isSeen, sight.hasLobes, sight.behind / scale);
+  if (!meetNext(stream, localRay(origin, direction), local, segment, work)) return;
+  stream.colour = segment.colour;
+  stream.metCell = segment.cell;
+  stream.tNear = segment.tNear * scale;
+  stream.tFar = segment.tFar * scale;
+  stream.density = segment.density / scale;
 }
 
 // World axes, unit.

@@ -9,6 +9,7 @@
 #include "tests/render/render_harness.h"
 #include "tests/surroundings.h"
 #include "tests/walk/engine_shader.h"
+#include "walk_spirv/calls_alone_comp.h"
 #include "walk_spirv/calls_comp.h"
 #include "walk_spirv/mirror_frag.h"
 #include "walk_spirv/mirror_vert.h"
@@ -132,6 +133,29 @@ TEST_F(EngineShader, WithPreparedCellsFindsTheSameAndWithoutThemNothing) {
     EXPECT_EQ(answers[i].fourth[2], expected[i].fourth[2]) << "another cell stops it";
     EXPECT_NEAR(answers[i].second[0], expected[i].second[0], 1e-5);
   }
+}
+
+TEST_F(EngineShader, AloneFindsInTheFirstInstanceWhatOthersFindWhereItIsTheOnlyOne) {
+  const std::vector<Asked> asked = randomAsked(500);
+  const EnginePipeline pipeline = pipelineOf(calls_comp_spirv), alone = pipelineOf(calls_alone_comp_spirv);
+  const std::vector<Answer> closest = call(pipeline, kFindClosest, asked), whole = call(pipeline, kSplitRay, asked);
+  for (const uint32_t status : {FROTH_WALK_DONE, FROTH_WALK_STREAM_LIMIT}) {
+    const std::vector<Answer> found = call(alone, kFindClosest, asked), seen = call(alone, kSplitRay, asked);
+    for (size_t i = 0; i < asked.size(); ++i) {
+      EXPECT_EQ(found[i].fourth[3], status);
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(found[i].fourth[k], closest[i].fourth[k]) << "another cell stops it";
+      for (int k = 0; k < 4; ++k) {
+        EXPECT_TRUE(found[i].first[k] == closest[i].first[k] ||
+                    std::abs(found[i].first[k] - closest[i].first[k]) < 1e-5);
+        EXPECT_NEAR(seen[i].first[k], whole[i].first[k], 1e-5);
+      }
+      EXPECT_NEAR(found[i].second[0], closest[i].second[0], 1e-5);
+    }
+    FrothInstanceInfo across{};
+    across.position[0] = 0.3;
+    stage_.place(stage_.open(contents_), across);
+  }
+  EXPECT_EQ(stage_.status().indexViolations, 0u);
 }
 
 TEST_F(EngineShader, InTheFragmentStageDrawsThePictureOfTheRays) {

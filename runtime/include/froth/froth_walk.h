@@ -103,9 +103,12 @@ typedef enum FrothWalkEnd {
   FROTH_WALK_DONE = 0,
   /* FrothWalkInfo::maxSteps or maxNeighbours ended it; what lies beyond is missing */
   FROTH_WALK_STEP_LIMIT = 1,
-  FROTH_WALK_STREAM_LIMIT = 2, /* an instance was left out: more than FROTH_WALK_STREAMS (4) overlap at once */
-  FROTH_WALK_VERSION = 3,      /* shader and library do not match */
-  FROTH_WALK_UNPREPARED = 4,   /* shader: FROTH_WALK_PREPARED is more than is prepared of an instance of the set */
+  /* an instance was left out: more than FROTH_WALK_STREAMS (4) overlap at once; the shader defines FROTH_WALK_ALONE and
+   * the set has more than one; or frothRecordRays cannot meet several yet, for their pipelines are being made: then it
+   * meets the first, as views draw it */
+  FROTH_WALK_STREAM_LIMIT = 2,
+  FROTH_WALK_VERSION = 3,    /* shader and library do not match */
+  FROTH_WALK_UNPREPARED = 4, /* shader: FROTH_WALK_PREPARED is more than is prepared of an instance of the set */
   FROTH_WALK_END_MAX = 0x7fffffff
 } FrothWalkEnd;
 
