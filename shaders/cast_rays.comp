@@ -6,6 +6,8 @@
 layout(constant_id = 0) const bool checkIndices = false;
 layout(constant_id = 1) const uint kind = 0;  // FrothRayKind
 layout(constant_id = 2) const uint prepared = 0;  // kPreparedNothing...
+layout(constant_id = 3) const bool countsWork = false;
+#define FROTH_WALK_COUNTS countsWork
 #define FROTH_WALK_PREPARED prepared
 #define FROTH_WALK_CHECK_INDICES checkIndices
 #include "froth_walk.glsl"

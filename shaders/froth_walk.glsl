@@ -318,6 +318,7 @@ Passage castRay(FrothRay ray, bool isSeen, bool isClosestOnly) {
   vec3 colour = vec3(0.0);
   float logTransmittance = 0.0, entry;
   uvec2 stopping = uvec2(kNoCell);
+  uint cells = 0;
   bool isMet = hit.status == FROTH_WALK_DONE && walkSet.block.instanceCount > 0 && entersInstance(ray, 0u, entry);
   if (isMet) {
     vec3 start = ray.origin + entry * ray.direction;
@@ -341,6 +342,7 @@ Passage castRay(FrothRay ray, bool isSeen, bool isClosestOnly) {
       if (isHit && isClosestOnly) break;
     }
     if (stream.isCut) noteStepLimit(hit);
+    cells = stream.steps;
   }
   countWork(work);
   if (stopping.x != kNoCell) {
@@ -350,7 +352,7 @@ Passage castRay(FrothRay ray, bool isSeen, bool isClosestOnly) {
   if (walkSet.block.instanceCount > 1) hit.status = max(hit.status, FROTH_WALK_STREAM_LIMIT);
   float coverage = coverageOf(logTransmittance);
   vec3 linear = isMet ? FRAME.exposure * linearPremultiplied(colour, coverage) : vec3(0.0);
-  return Passage(hit, vec4(linear, coverage), exp(logTransmittance), work.cells);
+  return Passage(hit, vec4(linear, coverage), exp(logTransmittance), cells);
 }
 #else
 Passage castRay(FrothRay ray, bool isSeen, bool isClosestOnly) {

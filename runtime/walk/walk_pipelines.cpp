@@ -21,12 +21,14 @@ constexpr uint32_t kWalkConstantBytes = std::max(sizeof(CastConstants), sizeof(S
 struct CastSpecialization {
   VkBool32 checkIndices;
   uint32_t kind, prepared;
+  VkBool32 countsWork;
 };
 
-constexpr std::array<VkSpecializationMapEntry, 3> kCastSpecialization = {{
+constexpr std::array<VkSpecializationMapEntry, 4> kCastSpecialization = {{
     {0, offsetof(CastSpecialization, checkIndices), sizeof(VkBool32)},
     {1, offsetof(CastSpecialization, kind), sizeof(uint32_t)},
     {2, offsetof(CastSpecialization, prepared), sizeof(uint32_t)},
+    {3, offsetof(CastSpecialization, countsWork), sizeof(VkBool32)},
 }};
 
 }  // namespace
@@ -109,7 +111,7 @@ Status WalkPipelines::createLayouts() {
 Status WalkPipelines::createPipeline(uint32_t index, const char* name, std::span<const uint32_t> spirv,
                                      const CastForm& form) {
   if (pipelines_[index]) return {};
-  const CastSpecialization values{options_.checkIndices, form.kind, form.prepared};
+  const CastSpecialization values{options_.checkIndices, form.kind, form.prepared, options_.countsWork};
   VkSpecializationInfo specialization{};
   specialization.mapEntryCount = static_cast<uint32_t>(kCastSpecialization.size());
   specialization.pMapEntries = kCastSpecialization.data();

@@ -175,7 +175,7 @@ DetailSite loadDetailSite(CellCode code, CellHeader header, uint detailCount, ui
 // The lobes of one detail site, to be taken one after the other.
 struct Lobes {
   BitCursor cursor;
-  uint count;  // left
+  uint count;
 };
 
 Lobes noLobes(CellHeader header) { return Lobes(header.lobeCounts, 0u); }

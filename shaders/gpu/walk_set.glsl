@@ -55,7 +55,11 @@ uint checked(uint index, uint count) {
   return index;
 }
 
+// FROTH_WALK_COUNTS: an expression that tells whether work is counted at all; as a constant it frees the registers.
 void countWalkWork(uint kind, uint amount) {
+#if defined(FROTH_WALK_COUNTS)
+  if (!FROTH_WALK_COUNTS) return;
+#endif
 #if !defined(FROTH_WALK_NO_COUNTERS)
   if ((walkSet.block.flags & kWalkCountsWork) == 0 || amount == 0) return;
   uint before = atomicAdd(walkCounters.v.work[2 * kind], amount);
