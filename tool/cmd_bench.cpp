@@ -166,6 +166,7 @@ Status runBench(const BenchOptions& options, const Progress& progress) {
                                  {"renderer", options.renderer},
                                  {"output", "linear colour, rgba16f"},
                                  {"cutoff", options.cutoff},
+                                 {"maxEntries", options.maxEntries},
                                  {"width", view.width},
                                  {"height", view.height},
                                  {"layers", options.layers},

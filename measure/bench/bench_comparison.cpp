@@ -45,6 +45,10 @@ BenchComparison compareWell(const Json& a, const Json& b) {
       comparison.differences.push_back(fmt::format("{}: {} and {}", field, a.at(field).dump(), b.at(field).dump()));
     }
   }
+  const auto entriesOf = [](const Json& result) { return result.value("maxEntries", 0u); };  // none in older results
+  if (entriesOf(a) != entriesOf(b)) {
+    comparison.differences.push_back(fmt::format("maxEntries: {} and {}", entriesOf(a), entriesOf(b)));
+  }
   const Json &cyclesA = a.at("cycles"), &cyclesB = b.at("cycles");
   for (const auto& [name, times] : cyclesA.at("passes").items()) {
     if (cyclesB.at("passes").contains(name)) {

@@ -108,6 +108,8 @@ nlohmann::ordered_json sceneAsJson(const SceneOptions& scene, const std::string&
           {"copies", scene.copies},
           {"width", scene.extent.width},
           {"height", scene.extent.height},
+          {"cutoff", scene.render.cutoff},
+          {"maxEntries", scene.render.maxEntries},
           {"budget", scene.budget},
           {"detail", scene.detail},
           {"mostCells", scene.mostCells},

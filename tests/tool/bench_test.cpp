@@ -55,10 +55,12 @@ TEST_F(CompareBench, CallsOnlyDifferencesBeyondTheNoiseFasterOrSlower) {
 TEST_F(CompareBench, NamesWhatElseDiffersAndListsTheBytes) {
   Json other = makeResult(1.0, 2.0, 0.1);
   other["device"] = "e";
+  other["maxEntries"] = 64;
   other["memory"]["view"]["pairs"] = 32;
   const Json result = compare(makeResult(1.0, 2.0, 0.1), other);
-  ASSERT_EQ(result["differences"].size(), 1u);
+  ASSERT_EQ(result["differences"].size(), 2u);
   EXPECT_EQ(result["differences"][0], "device: \"d\" and \"e\"");
+  EXPECT_EQ(result["differences"][1], "maxEntries: 0 and 64");
   EXPECT_EQ(result["counts"]["bytes of view, pairs"]["b"], 32);
   const std::string table = frothWell({"compare-bench", "a.json", "b.json"});
   EXPECT_NE(table.find("differs: device"), std::string::npos) << table;

@@ -105,7 +105,7 @@ class CudaStepAfterAWait : public ::testing::TestWithParam<Case> {
   static constexpr uint32_t kFirst = 1000, kSteps = 6, kWaited = 30;  // rates are past their warm-up
   Schedule schedule_;
   Pace pace_{schedule_};
-  DriftTables drifts_{pace_};
+  DriftTables drifts_{pace_, {{10, 0, 0}, 1}};  // seen from so far that lengths count in larger units
 };
 
 TEST_P(CudaStepAfterAWait, EqualsTheCpuUpToRounding) {
