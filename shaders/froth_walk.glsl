@@ -310,7 +310,7 @@ struct Passage {
 
 #if defined(FROTH_WALK_ALONE)
 // Through the first instance: as gather(), in the instance's units, without what other instances and a way in parts
-// need. A quarter fewer registers are in use, so a quarter more rays are under way.
+// need. What a thread holds bounds these rays: without colours it is a quarter less (docs/notes/performance.md).
 Passage castRay(FrothRay ray, bool isSeen, bool isClosestOnly) {
   FrothHit hit = noHit(checkSet());
   WalkWork work = WalkWork(0u, 0u, 0u, 0u, 0u);

@@ -1,7 +1,7 @@
 // Rays through the foam, with what else floats in it. Included first: it enables extensions.
 #define FROTH_WALK_SET 1
-#define FROTH_WALK_STREAMS 1  // the room has one foam
-#define FROTH_WALK_ALONE
+#define FROTH_WALK_ALONE      // the room has one foam: for whole rays,
+#define FROTH_WALK_STREAMS 1  // and for those in segments
 layout(constant_id = 0) const uint prepared = 0;  // FrothRayPreparation of the foam
 #define FROTH_WALK_PREPARED prepared
 #include "froth_walk.glsl"
