@@ -11,37 +11,69 @@ layout(push_constant) uniform Push {
   uint instance;
 } push;
 
-const uint kMostOwnParts = 4096;  // a larger ball marks whole entries
+const uint kMostOwnEntries = 64;  // balls that meet more are marked by all threads together
 
-void markPart(uvec3 part) {
-  uint entry = entryOfPart(part);
-  uint bit = bitOfPart(part);
-  if (bit < 32) atomicOr(FRAME.entries.v[entry].z, 1u << bit);
-  else atomicOr(FRAME.entries.v[entry].w, 1u << (bit - 32));
-}
+shared uint largeCells[kRayGroupSize];
+shared uint largeCount;
 
-void markEntry(uvec3 part) {
-  uint entry = entryOfPart(part);
-  atomicOr(FRAME.entries.v[entry].z, ~0u);
-  atomicOr(FRAME.entries.v[entry].w, ~0u);
-}
+// Entries that a ball meets, and the first and the last of its parts.
+struct Reach {
+  uvec3 lowPart, highPart;
+  uvec3 low, extent;  // of entries
+};
 
-void markBall(Ball ball) {
+Reach reachOf(Ball ball) {
   vec3 reach = ball.radius * partsPerUnit() + kPartGuard;
-  uvec3 low = partAt(placeInParts(ball.centre) - reach);
-  uvec3 high = partAt(placeInParts(ball.centre) + reach);
-  uvec3 extent = high - low + 1;
-  bool isLarge = extent.x * extent.y * extent.z > kMostOwnParts;
-  uint step = isLarge ? kPartsAlong : 1;
-  if (isLarge) low -= low % kPartsAlong;
-  for (uint z = low.z; z <= high.z; z += step) {
-    for (uint y = low.y; y <= high.y; y += step) {
-      for (uint x = low.x; x <= high.x; x += step) {
-        if (isLarge) markEntry(uvec3(x, y, z));
-        else markPart(uvec3(x, y, z));
-      }
-    }
+  uvec3 lowPart = partAt(placeInParts(ball.centre) - reach);
+  uvec3 highPart = partAt(placeInParts(ball.centre) + reach);
+  uvec3 low = lowPart / kPartsAlong;
+  return Reach(lowPart, highPart, low, highPart / kPartsAlong - low + 1);
+}
+
+uint countEntries(Reach reach) { return reach.extent.x * reach.extent.y * reach.extent.z; }
+
+// The parts of the entry that lie within reach: bits as of bitOfPart().
+uvec2 partsWithin(Reach reach, uvec3 entry) {
+  uvec3 corner = entry * kPartsAlong;
+  uvec3 low = max(reach.lowPart, corner) - corner;
+  uvec3 high = min(reach.highPart, corner + kPartsAlong - 1) - corner;
+  uint row = (2u << high.x) - (1u << low.x);
+  uint layer = 0;
+  for (uint y = low.y; y <= high.y; ++y) layer |= row << kPartsAlong * y;
+  uvec2 parts = uvec2(0u);
+  for (uint z = low.z; z <= high.z; ++z) parts[z / 2] |= layer << 16 * (z % 2);
+  return parts;
+}
+
+// Of the entries that it meets: from one on, each `step`th.
+void markEntries(Reach reach, uint first, uint step) {
+  uint count = countEntries(reach);
+  for (uint i = first; i < count; i += step) {
+    uvec3 offset = uvec3(i % reach.extent.x, i / reach.extent.x % reach.extent.y, i / (reach.extent.x * reach.extent.y));
+    uvec3 entry = reach.low + offset;
+    uvec2 parts = partsWithin(reach, entry);
+    uint index = entryOfPart(entry * kPartsAlong);
+    if (parts.x != 0) atomicOr(FRAME.entries.v[index].z, parts.x);
+    if (parts.y != 0) atomicOr(FRAME.entries.v[index].w, parts.y);
   }
+}
+
+// A thread per cell, from one on; a ball that reaches far would have the others wait for one thread.
+void markCells(Chunk chunk, uint firstCell) {
+  uint lane = gl_LocalInvocationIndex;
+  if (lane == 0) largeCount = 0;
+  barrier();
+  uint cell = firstCell + lane;
+  if (cell < chunk.liveCount) {
+    Reach reach = reachOf(ballOfSite(chunk, cell));
+    if (countEntries(reach) > kMostOwnEntries) largeCells[atomicAdd(largeCount, 1u)] = cell;
+    else markEntries(reach, 0u, 1u);
+  }
+  barrier();
+  for (uint i = 0; i < largeCount; ++i) {
+    markEntries(reachOf(ballOfSite(chunk, largeCells[i])), lane, kRayGroupSize);
+  }
+  barrier();
 }
 
 void main() {
@@ -50,5 +82,5 @@ void main() {
   if (index >= FRAME.chunkCount) return;
   Chunk chunk = loadChunk(index);
   uint stride = gl_NumWorkGroups.x * kRayGroupSize;
-  for (uint cell = gl_GlobalInvocationID.x; cell < chunk.liveCount; cell += stride) markBall(ballOfSite(chunk, cell));
+  for (uint cell = gl_WorkGroupID.x * kRayGroupSize; cell < chunk.liveCount; cell += stride) markCells(chunk, cell);
 }

@@ -11,13 +11,13 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kCellsPerWalkEntry = 4, kMostEntriesAlong = 32;
+constexpr uint32_t kWalkEntriesPerCell = 2, kMostEntriesAlong = 64;
 
 }  // namespace
 
 // So many that from the nearest it is a few steps to any cell.
 uint32_t walkEntriesAlong(uint32_t cellCount) {
-  const double along = std::cbrt(static_cast<double>(cellCount) / kCellsPerWalkEntry);
+  const double along = std::cbrt(static_cast<double>(cellCount) * kWalkEntriesPerCell);
   return std::clamp(static_cast<uint32_t>(along), 1u, kMostEntriesAlong);
 }
 
@@ -57,7 +57,7 @@ Result<AssetMeasure> measureAsset(const AssetSource& source, bool keepsForQuerie
   if (keepsForWalks && manifest.hasWalkGraph && measure.gpu.liveCount > 0) {
     const uint64_t along = walkEntriesAlong(measure.gpu.cellCount);
     measure.deviceBytes += sizeof(gpu::uvec4) * along * along * along;
-    measure.deviceBytes += preparedBytes(measure.gpu, prepared, measure.gpu.liveCount, measure.gpu.neighbourTotal);
+    measure.deviceBytes += preparedBytes(measure.gpu, prepared);
   }
   return measure;
 }

@@ -36,7 +36,7 @@ uint bitOfPart(uvec3 part) {
   return (inside.z * kPartsAlong + inside.y) * kPartsAlong + inside.x;
 }
 
-// The first t from `t` on (of either sign) at which a ball may be, or tEnd.
+// The first t from `t` on at which a ball may be, or tEnd.
 float skipEmptyParts(vec3 origin, vec3 direction, float t, float tEnd) {
   vec3 place = placeInParts(origin);
   vec3 speed = direction * partsPerUnit();

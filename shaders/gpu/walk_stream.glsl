@@ -88,7 +88,7 @@ bool clipByBox(LocalRay ray, inout float tNear, inout float tFar) {
   return tNear < tFar;
 }
 
-// In the box from `entry` to tEnd [world units from the ray's origin], but for what is empty. hint: as FrothRay::hint.
+// In the box from `entry` to tEnd [world units from the ray's origin], from the first part on that is not empty. hint: as FrothRay::hint.
 Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, float tEnd, uvec4 hint,
                    inout WalkWork work) {
   instanceAtHand = instance;
@@ -98,9 +98,7 @@ Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, floa
   float tNear = entry / FRAME.scale, tFar = tEnd / FRAME.scale;
   clipByBox(ray, tNear, tFar);
   stream.entry = skipEmptyParts(ray.origin, ray.direction, tNear, tFar);
-  // Backwards as seen from the origin too: tFar may lie so far behind the box that no place there has digits for its
-  // parts.
-  stream.end = -skipEmptyParts(ray.origin, -ray.direction, -tFar, -stream.entry);
+  stream.end = tFar;
   bool isHinted = hint.x == instance && stream.entry == tNear;  // it lies where the ray begins
   uint steps = 0;
   stream.neighbours = 0;

@@ -111,7 +111,7 @@ TEST_F(EngineShader, HintsChangeNoAnswer) {
     for (int part : {1, 2}) hostile[i].hint[part] = static_cast<uint32_t>(random.uniform(0, i % 2 ? 100 : 4e9));
   }
   const std::vector<Answer> found = call(pipeline, kFindClosest, hinted);
-  EXPECT_LT(stage_.status().descents, descents / 4);
+  EXPECT_LT(stage_.status().descents, descents / 2);
   EXPECT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(Answer)), 0);
   const std::vector<Answer> others = call(pipeline, kFindClosest, hostile);
   EXPECT_EQ(std::memcmp(others.data(), expected.data(), others.size() * sizeof(Answer)), 0);
