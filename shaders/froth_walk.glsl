@@ -18,7 +18,7 @@
 #ifndef FROTH_WALK_GLSL
 #define FROTH_WALK_GLSL
 
-#define FROTH_WALK_ABI 7u
+#define FROTH_WALK_ABI 8u
 
 // FrothHit::status
 #define FROTH_WALK_DONE 0u
@@ -237,14 +237,6 @@ void describeHit(inout FrothHit hit, uvec2 cell) {
   hit.userId = FRAME.userId;
 }
 
-void countWork(WalkWork work) {
-  countWalkWork(kRayWorkDescents, work.descents);
-  countWalkWork(kRayWorkCells, work.cells);
-  countWalkWork(kRayWorkNeighbours, work.neighbours);
-  countWalkWork(kRayWorkMet, work.met);
-  countWalkWork(kRayWorkShaded, work.shaded);
-}
-
 // On to tEnd, or to where the walk ends: premultiplied linear colour of this part (isSeen), and its opacity. The part's
 // exposure is the mean of what the instances contribute to it.
 vec4 gather(inout FrothWalk walk, float tEnd, bool isSeen, bool isClosestOnly) {
@@ -325,21 +317,33 @@ Passage castRay(FrothRay ray, bool isSeen, bool isClosestOnly) {
     Stream stream = startStream(0u, start, ray.direction, 0.0, ray.tMax - entry, ray.hint, work);
     LocalRay local = localRay(start, ray.direction);
     float scale = FRAME.scale, logCutoff = walkSet.block.logCutoff, logQuantile = walkSet.block.logQuantile;
-    Sight sight = Sight(isSeen, ray.colours == FROTH_COLOURS_SEEN, (entry + ray.apex) / scale);
-    while (stream.isAhead && logTransmittance >= logCutoff) {
-      CellSegment segment;
-      if (!meetNext(stream, local, sight, segment, work)) continue;
-      float opticalDepth = segment.density * (segment.tFar - segment.tNear);
-      if (isSeen) colour += exp(logTransmittance) * opacity(opticalDepth) * segment.colour;
-      float logAfter = logTransmittance - opticalDepth;
-      bool isHit = logTransmittance >= logQuantile && logAfter < logQuantile;
-      if (isHit) {
-        float t = quantileDistance(segment.tNear, logTransmittance, logQuantile, segment.density);
-        hit.distance = entry + scale * t;
-        stopping = segment.cell;
+    Sight sight = Sight(false, ray.colours == FROTH_COLOURS_SEEN, (entry + ray.apex) / scale);
+    Shown shown[kShownAtOnce];
+    for (bool isDone = false; !isDone;) {
+      uint shownCount = 0;
+      while (shownCount < kShownAtOnce) {
+        isDone = !(stream.isAhead && logTransmittance >= logCutoff);
+        if (isDone) break;
+        CellSegment segment;
+        if (!meetNext(stream, local, sight, segment, work)) continue;
+        float opticalDepth = segment.density * (segment.tFar - segment.tNear);
+        if (isSeen) {
+          float weight = exp(logTransmittance) * opacity(opticalDepth);
+          shown[shownCount] = Shown(segment.cell, segment.tNear, weight);
+          ++shownCount;
+        }
+        float logAfter = logTransmittance - opticalDepth;
+        bool isHit = logTransmittance >= logQuantile && logAfter < logQuantile;
+        if (isHit) {
+          float t = quantileDistance(segment.tNear, logTransmittance, logQuantile, segment.density);
+          hit.distance = entry + scale * t;
+          stopping = segment.cell;
+        }
+        logTransmittance = logAfter;
+        isDone = isHit && isClosestOnly;
+        if (isDone) break;
       }
-      logTransmittance = logAfter;
-      if (isHit && isClosestOnly) break;
+      for (uint i = 0; i < shownCount; ++i) colour += shown[i].weight * colourShown(shown[i], local, sight, work);
     }
     if (stream.isCut) noteStepLimit(hit);
     cells = stream.steps;

@@ -8,6 +8,8 @@
 
 layout(local_size_x = kRayGroupSize) in;
 
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer CountedChunks { ChunkEntry v[]; };
+
 layout(push_constant) uniform Push {
   uint instance, slot;
 } push;
@@ -28,18 +30,45 @@ void prepareFace(Chunk chunk, CellCode code, CellHeader header, uint cell) {
   uint quad = faceQuad(chunk, cell);
   chunk.prepared.v[quad] = floatBitsToUint(takeOrientation(code, bits));
   chunk.prepared.v[quad + 1] =
-      uvec4(floatBitsToUint(vec2(density, header.unit)), packWidths(header), header.ownAxes.word);
+      uvec4(floatBitsToUint(vec2(density, header.unit)), 0u, 0u);
+}
+
+uint countLobes(CellHeader header) {
+  BitCursor counts = header.lobeCounts;
+  uint sum = 0;
+  for (uint k = 0; k < FRAME.detailCount; ++k) sum += takeBits(counts, header.lobes);
+  return sum;
+}
+
+// Cells have their places as they come: where a cell's lobes lie, nothing but the time of a ray depends on.
+uint placeLobes(Chunk chunk, uint count) {
+  return atomicAdd(CountedChunks(FRAME.chunks).v[chunk.index].lobesPlaced, count);
+}
+
+void prepareLobe(Chunk chunk, CellCode code, CellHeader header, inout Lobes lobes, uint quad) {
+  if (quadsOfLobe(chunk) == 1) {
+    ivec3 axis = takeAxisCode(code, header, lobes);
+    chunk.prepared.v[quad] = packLobe(axis, takeLobeColourCode(header, lobes));
+    return;
+  }
+  vec3 axis = takeAxis(code, header, lobes);
+  vec3 colour = takeLobeColour(code, header, lobes);
+  chunk.prepared.v[quad] = floatBitsToUint(vec4(axis, colour.r));
+  chunk.prepared.v[quad + 1] = floatBitsToUint(vec4(colour.gb, 0.0, 0.0));
 }
 
 void prepareDetails(Chunk chunk, CellCode code, CellHeader header, uint cell) {
+  uint nextLobe = hasColours() ? placeLobes(chunk, countLobes(header)) : 0;
   for (uint k = 0; k < FRAME.detailCount; ++k) {
     DetailSite site = loadDetailSite(code, header, FRAME.detailCount, k);
     chunk.prepared.v[placeQuad(chunk, cell, k)] = floatBitsToUint(vec4(site.place, site.height, site.base.r));
     if (!hasColours()) continue;
     Lobes lobes = noLobes(header);
     if (FRAME.lobeCount > 0) lobes = loadLobes(code, header, FRAME.detailCount, k);
-    chunk.prepared.v[colourQuad(chunk, cell, k)] =
-        uvec4(floatBitsToUint(site.base.gb), lobes.cursor.word, lobes.cursor.bit | lobes.count << 5);
+    chunk.prepared.v[colourQuad(chunk, cell, k)] = uvec4(floatBitsToUint(site.base.gb), nextLobe, lobes.count);
+    for (uint i = 0; i < lobes.count; ++i, ++nextLobe) {
+      prepareLobe(chunk, code, header, lobes, lobeQuad(chunk, nextLobe));
+    }
   }
 }
 

@@ -19,11 +19,12 @@ uint32_t Asset::preparedForm() const {
 }
 
 VkDeviceSize Asset::preparedBytesOf(const GpuChunk& chunk) const {
-  return preparedBytes(gpu_, preparedForm(), chunk.liveCount, chunk.neighbourCount);
+  const uint64_t lobeQuads = uint64_t{chunk.lobeCount} * chunk.lobeQuads;
+  return preparedBytes(gpu_, preparedForm(), {chunk.liveCount, chunk.neighbourCount, lobeQuads});
 }
 
 VkDeviceSize Asset::preparedBytesWanted() const {
-  const VkDeviceSize drawn = preparedBytes(gpu_, preparedForm(), gpu_.liveCount, gpu_.neighbourTotal);
+  const VkDeviceSize drawn = preparedBytes(gpu_, preparedForm());
   if (!hasLevels()) return drawn + drawn / kPreparedSpare;
   VkDeviceSize drawnChunks = 0, allChunks = 0;
   for (uint32_t chunk = 0; chunk < chunkCount(); ++chunk) {

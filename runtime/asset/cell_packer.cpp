@@ -33,6 +33,11 @@ struct OwnPlace {
 };
 constexpr uint32_t kNoCell = UINT32_MAX;
 
+bool isShort(const CellNumbers& numbers) {
+  const auto fits = [](int32_t code) { return static_cast<int16_t>(code) == code; };
+  return !numbers.isRaw() && std::ranges::all_of(numbers.codes, fits);
+}
+
 class CellPacker {
  public:
   CellPacker(const ChunkContents& chunk, ChunkCodes&& codes, const AssetContents& asset)
@@ -55,7 +60,7 @@ class CellPacker {
   Result<PackedCells> pack() {
     measureCells();
     describeCode();
-    PackedCells packed{code_, {}, {}};
+    PackedCells packed{code_, {}, {}, isShort(axes_) && isShort(colours_)};
     for (const AxisCode& axis : labels_.table) putAxis(axis);
     for (uint32_t cell = 0; cell < chunk_.liveCount; ++cell) {
       const uint64_t start = bits_.startByte();

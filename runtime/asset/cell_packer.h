@@ -38,6 +38,7 @@ struct PackedCells {
   gpu::CellCode code{};
   std::vector<uint32_t> starts;  // [liveCount] [bytes] into words
   std::vector<uint32_t> words;
+  bool hasShortLobes = false;  // the codes of all axes and colours of lobes have 16 bits at most
 };
 
 // `asset`: without its chunks. Fails if the bits of one chunk are beyond 32-bit addresses.

@@ -73,7 +73,7 @@ void ChunkSlots::takePlan(uint64_t serial, GpuAsset& asset, bool keepsBefore) {
     if (keepsBefore) leaving_.push_back(slotOf_[chunk]);
   }
   asset.liveCount = asset.cellCount = 0;
-  asset.alphaTotal = asset.neighbourTotal = 0;
+  asset.alphaTotal = asset.neighbourTotal = asset.lobeQuadTotal = 0;
   asset.chunks.assign(asset.next.chunkCount, {});
   asset.firstSlot = kNoSlot;
   for (const uint32_t chunk : planned_) {

@@ -31,7 +31,9 @@ struct GpuChunk {
   uint32_t neighbourShift = 0, alphaShift = 0;
   uint32_t cellWordCount = 0;
   gpu::CellCode code{};
-  uint32_t number = 0;  // in the file
+  uint32_t lobeCount = 0;  // of all detail sites
+  uint32_t lobeQuads = 0;  // of each, prepared (shaders/gpu/prepared_cells.glsl)
+  uint32_t number = 0;     // in the file
   // With levels, as in ChunkContents.
   uint32_t borderCount = 0;
   VkDeviceAddress borderCells = 0;    // uint [borderCount]
@@ -62,7 +64,7 @@ struct GpuAsset {
   uint32_t liveCount = 0;                           // over all chunks
   uint32_t cellCount = 0;                           // over all chunks
   uint64_t alphaTotal = 0;                          // over all chunks
-  uint64_t neighbourTotal = 0;                      // over all chunks
+  uint64_t neighbourTotal = 0, lobeQuadTotal = 0;   // over all chunks
   std::array<double, 3> boundsLow{}, boundsHigh{};  // of the balls of live cells, with levels of all
   uint32_t walkEntriesAlong = 0;  // WalkInstance::entries (shaders/gpu/walk_layout.h); 0: there are none
   VkDeviceAddress walkEntries = 0;
@@ -95,6 +97,7 @@ struct GpuAsset {
     cellCount += chunk.cellCount;
     alphaTotal += chunk.alphaTotal;
     neighbourTotal += chunk.neighbourCount;
+    lobeQuadTotal += uint64_t{chunk.lobeCount} * chunk.lobeQuads;
   }
 };
 

@@ -3,12 +3,16 @@
 namespace froth {
 
 // The layout of shaders/gpu/prepared_cells.glsl.
-VkDeviceSize preparedBytes(const GpuAsset& asset, uint32_t form, uint64_t liveCount, uint64_t neighbourCount) {
+VkDeviceSize preparedBytes(const GpuAsset& asset, uint32_t form, const PreparedCounts& counts) {
   if (form == gpu::kPreparedNothing) return 0;
   const bool isSeen = form == gpu::kPreparedRadiance;
   const uint32_t detailQuads = (isSeen || asset.hasHeights ? 1 : 0) + (isSeen ? 1 : 0);
   const uint64_t cellQuads = gpu::kFaceQuads + uint64_t{asset.detailCount} * detailQuads;
-  return sizeof(gpu::uvec4) * (neighbourCount + liveCount * cellQuads);
+  return sizeof(gpu::uvec4) * (counts.neighbours + counts.live * cellQuads + (isSeen ? counts.lobeQuads : 0));
+}
+
+VkDeviceSize preparedBytes(const GpuAsset& asset, uint32_t form) {
+  return preparedBytes(asset, form, {asset.liveCount, asset.neighbourTotal, asset.lobeQuadTotal});
 }
 
 Status PreparedCells::place(uint32_t chunk, VkDeviceSize size, VkDeviceSize more) {

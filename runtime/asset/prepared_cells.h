@@ -10,8 +10,16 @@
 
 namespace froth {
 
-// [bytes] of so many live cells, and neighbours of all cells, of an asset; form: kPreparedNothing...
-VkDeviceSize preparedBytes(const GpuAsset& asset, uint32_t form, uint64_t liveCount, uint64_t neighbourCount);
+// What cells have together.
+struct PreparedCounts {
+  uint64_t live = 0, neighbours = 0;
+  uint64_t lobeQuads = 0;
+};
+
+// [bytes] of some cells of an asset; form: kPreparedNothing...
+VkDeviceSize preparedBytes(const GpuAsset& asset, uint32_t form, const PreparedCounts& counts);
+// Of all that are drawn.
+VkDeviceSize preparedBytes(const GpuAsset& asset, uint32_t form);
 
 // Chunks have their numbers in the file. One thread at a time.
 class PreparedCells {

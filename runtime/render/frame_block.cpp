@@ -113,6 +113,9 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
     entry.firstGroup = group;
     entry.number = chunk.number;
     entry.code = chunk.code;
+    entry.lobeCount = chunk.lobeCount;
+    entry.lobeQuads = chunk.lobeQuads;
+    entry.lobesPlaced = 0;
     group += groupsOver(chunk.cellCount, gpu::kGroupSize);
   }
 }

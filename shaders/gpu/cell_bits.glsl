@@ -193,9 +193,9 @@ Lobes loadLobes(CellCode code, CellHeader header, uint detailCount, uint detail)
   return lobes;
 }
 
-vec3 takeAxis(CellCode code, CellHeader header, inout Lobes lobes) {
-  if (!(code.axisStep > 0.0)) return takeFloats(lobes.cursor);
-  if (code.axisCount == 0) return code.axisStep * vec3(takeSignedTriple(lobes.cursor, header.axis, header.axis));
+// Where there is a step.
+ivec3 takeAxisCode(CellCode code, CellHeader header, inout Lobes lobes) {
+  if (code.axisCount == 0) return takeSignedTriple(lobes.cursor, header.axis, header.axis);
   uint label = takeBits(lobes.cursor, header.axis);
   BitCursor axis = header.ownAxes;
   if (label < code.axisCount) {
@@ -205,12 +205,21 @@ vec3 takeAxis(CellCode code, CellHeader header, inout Lobes lobes) {
     label -= code.axisCount;
   }
   skipBits(axis, label * 3 * code.axisBits);
-  return code.axisStep * vec3(takeSignedTriple(axis, code.axisBits, code.axisBits));
+  return takeSignedTriple(axis, code.axisBits, code.axisBits);
+}
+
+vec3 takeAxis(CellCode code, CellHeader header, inout Lobes lobes) {
+  if (!(code.axisStep > 0.0)) return takeFloats(lobes.cursor);
+  return code.axisStep * vec3(takeAxisCode(code, header, lobes));
+}
+
+ivec3 takeLobeColourCode(CellHeader header, inout Lobes lobes) {
+  return takeSignedTriple(lobes.cursor, header.lobe.x, header.lobe.y);
 }
 
 vec3 takeLobeColour(CellCode code, CellHeader header, inout Lobes lobes) {
   if (!(code.colourStep > 0.0)) return takeFloats(lobes.cursor);
-  return joinGreen(takeSignedTriple(lobes.cursor, header.lobe.x, header.lobe.y), code.colourStep * header.unit);
+  return joinGreen(takeLobeColourCode(header, lobes), code.colourStep * header.unit);
 }
 
 #endif

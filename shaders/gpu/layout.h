@@ -149,6 +149,7 @@ struct ChunkEntry {
   uint number;      // of the chunk in the file: what its cells are called outside (namedCell() of gpu/asset.glsl)
   FROTH_ADDRESS(UintQuadArray) prepared;  // gpu/prepared_cells.glsl; absent: kPreparedNothing
   CellCode code;
+  uint lobeCount, lobeQuads, lobesPlaced, padding;  // of `prepared`: quads of a lobe; lobes with a place so far
 };
 
 // A visible cell as the rays meet it; for a walk also a cell that only guides it. Positions are relative to the eye.
@@ -370,7 +371,7 @@ struct PartConstants {
   std::array<uint64_t, kMostInstances> parts;  // FrameBlock
 };
 
-static_assert(sizeof(ChunkEntry) == 208 && offsetof(ChunkEntry, siteRadius) == 32);
+static_assert(sizeof(ChunkEntry) == 224 && offsetof(ChunkEntry, siteRadius) == 32);
 static_assert(offsetof(ChunkEntry, cellCount) == 96 && offsetof(ChunkEntry, prepared) == 136 &&
               offsetof(ChunkEntry, code) == 144 && sizeof(CellCode) == 64);
 static_assert(sizeof(DetailRecord) == 24 && offsetof(DetailRecord, colour) == 16);
@@ -389,7 +390,6 @@ static_assert(sizeof(PassConstants) + sizeof(PartConstants) <= 128, "what every 
 }  // namespace froth::gpu
 
 #else
-
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer FrameRef { FrameBlock v; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer HitRef { HitBlock v; };
 

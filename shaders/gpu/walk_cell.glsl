@@ -1,7 +1,6 @@
 // What one ray meets in one cell (docs/FOAM.md "What one ray meets in one cell").
 #ifndef FROTH_GPU_WALK_CELL_GLSL
 #define FROTH_GPU_WALK_CELL_GLSL
-#include "gpu/detail_colour.glsl"
 #include "gpu/prepared_cells.glsl"
 #include "foam/cell.h"
 #include "foam/clip_face.h"
@@ -74,7 +73,7 @@ vec3 colourAt(CellCode code, MetCell met, Frame frame, vec3 direction, float t, 
     vec3 toDetail = met.centre + behind * direction +
                   met.radius * (frame.tangent * detail.place.x + frame.bitangent * detail.place.y);
     vec3 seen = directionToDetail(toDetail, frame.normal);
-    colour += weight * detailColour(code, header, lobes, detail.base, seen);
+    colour += weight * seenColour(code, header, met.cell, lobes, detail.base, seen);
     shownSum += weight;
     ++shaded;
   }

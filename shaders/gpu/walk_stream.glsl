@@ -30,6 +30,14 @@ struct WalkWork {
   uint descents, cells, neighbours, met, shaded;
 };
 
+void countWork(WalkWork work) {
+  countWalkWork(kRayWorkDescents, work.descents);
+  countWalkWork(kRayWorkCells, work.cells);
+  countWalkWork(kRayWorkNeighbours, work.neighbours);
+  countWalkWork(kRayWorkMet, work.met);
+  countWalkWork(kRayWorkShaded, work.shaded);
+}
+
 vec3 assetFromWorld(vec3 vector) {
   vec4 x = FRAME.worldX, y = FRAME.worldY, z = FRAME.worldZ;
   return vector.x * x.xyz + vector.y * y.xyz + vector.z * z.xyz;
@@ -250,6 +258,28 @@ bool meetNext(inout Stream stream, LocalRay ray, Sight sight, out CellSegment se
   }
   return true;
 }
+
+// A cell that a ray meets at t, and the part of the ray's light that comes from it.
+struct Shown {
+  uvec2 cell;
+  float t, weight;
+};
+
+vec3 colourShown(Shown shown, LocalRay ray, Sight sight, inout WalkWork work) {
+  Chunk chunk = loadChunk(shown.cell.x);
+  vec4 siteRadius = siteRadiusOf(chunk, shown.cell.y);
+  MetCell met = MetCell(shown.cell, centreAt(placeFrom(ray.origin, chunk), siteRadius.xyz), siteRadius.w);
+  CellCode code = FRAME.chunks.v[shown.cell.x].code;
+  Face face = loadFace(code, shown.cell);
+  uint shaded;
+  vec3 colour = colourAt(code, met, face.frame, ray.direction, shown.t, sight.behind, sight.hasLobes, shaded);
+  work.shaded += shaded;
+  return colour;
+}
+
+// Cells that a ray meets before it finds their colours. Most rays end before: so those of a subgroup first all walk, and
+// then all shade, and hold what one of them needs at a time.
+const uint kShownAtOnce = 16;
 
 void advanceStream(inout Stream stream, vec3 origin, vec3 direction, Sight sight, inout WalkWork work) {
   instanceAtHand = stream.instance;

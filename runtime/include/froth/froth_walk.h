@@ -20,7 +20,7 @@ extern "C" {
 
 /* Version of the set's layout and of the include's structures. The include holds the same number. A shader that was
  * compiled with another number meets nothing and returns FROTH_WALK_VERSION. */
-#define FROTH_WALK_ABI 7u
+#define FROTH_WALK_ABI 8u
 
 /* FrothAssetInfo::prepareRays: what is kept in device memory so that rays need not decode cells. Images and hits are
  * the same with each but for the rounding of last digits. frothRecordRays uses what all instances of the set have;
@@ -35,7 +35,9 @@ typedef enum FrothRayPreparation {
   /* planes and faces, and heights if the asset has such: for FROTH_RAY_TRANSMITTANCE and FROTH_RAY_CLOSEST. 16 bytes
    * per neighbour of a cell, 32 per live cell, with heights 16 per detail site */
   FROTH_PREPARE_VISIBILITY = 1,
-  FROTH_PREPARE_RADIANCE = 2, /* detail sites too: for FROTH_RAY_RADIANCE. 32 bytes per detail site in all */
+  /* detail sites and lobes too: for FROTH_RAY_RADIANCE. 32 bytes per detail site in all, 16 per lobe, or 32 where lobes
+   * are stored without loss */
+  FROTH_PREPARE_RADIANCE = 2,
   FROTH_RAY_PREPARATION_MAX = 0x7fffffff
 } FrothRayPreparation;
 
