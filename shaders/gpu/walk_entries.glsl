@@ -1,5 +1,5 @@
-// The grid over an instance's box that tells rays where to begin and to end: for each of its boxes a cell that lies
-// there, and which of its kPartsAlong^3 parts the balls of live cells meet.
+// The grid over an instance's box that tells rays where to begin: for each of its boxes a cell that lies there,
+// and which of its kPartsAlong^3 parts the balls of live cells meet.
 #ifndef FROTH_GPU_WALK_ENTRIES_GLSL
 #define FROTH_GPU_WALK_ENTRIES_GLSL
 #include "gpu/asset.glsl"
