@@ -31,7 +31,7 @@ struct GpuChunk {
   uint32_t neighbourShift = 0, alphaShift = 0;
   uint32_t cellWordCount = 0;
   gpu::CellCode code{};
-  uint32_t lobeCount = 0;  // of all detail sites
+  uint32_t lobeTotal = 0;  // over all detail sites
   uint32_t lobeQuads = 0;  // of each, prepared (shaders/gpu/prepared_cells.glsl)
   uint32_t number = 0;     // in the file
   // With levels, as in ChunkContents.
@@ -97,7 +97,7 @@ struct GpuAsset {
     cellCount += chunk.cellCount;
     alphaTotal += chunk.alphaTotal;
     neighbourTotal += chunk.neighbourCount;
-    lobeQuadTotal += uint64_t{chunk.lobeCount} * chunk.lobeQuads;
+    lobeQuadTotal += uint64_t{chunk.lobeTotal} * chunk.lobeQuads;
   }
 };
 

@@ -23,7 +23,7 @@ Status packArrays(CodedChunk&& coded, const AssetContents& manifest, LoadedChunk
   loaded.gpu.alphaShift = alphaCounts.shift;
   loaded.gpu.cellWordCount = static_cast<uint32_t>(cells->words.size());
   loaded.gpu.code = cells->code;
-  loaded.gpu.lobeCount = static_cast<uint32_t>(contents.lobeColours.size());
+  loaded.gpu.lobeTotal = static_cast<uint32_t>(contents.lobeColours.size());
   loaded.gpu.lobeQuads = cells->hasShortLobes ? 1 : 2;
   ChunkArrays& arrays = loaded.arrays;
   arrays.add(joinSitesAndRadii(contents), "sites and radii", &GpuChunk::siteRadius);

@@ -113,7 +113,7 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
     entry.firstGroup = group;
     entry.number = chunk.number;
     entry.code = chunk.code;
-    entry.lobeCount = chunk.lobeCount;
+    entry.lobeTotal = chunk.lobeTotal;
     entry.lobeQuads = chunk.lobeQuads;
     entry.lobesPlaced = 0;
     group += groupsOver(chunk.cellCount, gpu::kGroupSize);

@@ -149,7 +149,7 @@ struct ChunkEntry {
   uint number;      // of the chunk in the file: what its cells are called outside (namedCell() of gpu/asset.glsl)
   FROTH_ADDRESS(UintQuadArray) prepared;  // gpu/prepared_cells.glsl; absent: kPreparedNothing
   CellCode code;
-  uint lobeCount, lobeQuads, lobesPlaced, padding;  // of `prepared`: quads of a lobe; lobes with a place so far
+  uint lobeTotal, lobeQuads, lobesPlaced, padding;  // of `prepared`: quads of a lobe; lobes with a place so far
 };
 
 // A visible cell as the rays meet it; for a walk also a cell that only guides it. Positions are relative to the eye.

@@ -31,7 +31,7 @@ uint quadsOfLobe(Chunk chunk) { return FRAME.chunks.v[chunk.index].lobeQuads; }
 
 uint lobeQuad(Chunk chunk, uint lobe) {
   uint first = chunk.neighbourCount + chunk.liveCount * (kFaceQuads + 2 * FRAME.detailCount);
-  return first + checked(lobe, FRAME.chunks.v[chunk.index].lobeCount) * quadsOfLobe(chunk);
+  return first + checked(lobe, FRAME.chunks.v[chunk.index].lobeTotal) * quadsOfLobe(chunk);
 }
 
 uvec4 packLobe(ivec3 axis, ivec3 colour) {
