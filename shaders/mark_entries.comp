@@ -45,12 +45,12 @@ uvec2 partsWithin(Reach reach, uvec3 entry) {
   return parts;
 }
 
-// Of the entries that it meets: from one on, each `step`th.
+// Marks every `step`th of the entries that the ball meets, from `first` on.
 void markEntries(Reach reach, uint first, uint step) {
   uint count = countEntries(reach);
   for (uint i = first; i < count; i += step) {
-    uvec3 offset = uvec3(i % reach.extent.x, i / reach.extent.x % reach.extent.y, i / (reach.extent.x * reach.extent.y));
-    uvec3 entry = reach.low + offset;
+    uint row = i / reach.extent.x;
+    uvec3 entry = reach.low + uvec3(i % reach.extent.x, row % reach.extent.y, row / reach.extent.y);
     uvec2 parts = partsWithin(reach, entry);
     uint index = entryOfPart(entry * kPartsAlong);
     if (parts.x != 0) atomicOr(FRAME.entries.v[index].z, parts.x);
@@ -58,7 +58,8 @@ void markEntries(Reach reach, uint first, uint step) {
   }
 }
 
-// A thread per cell, from one on; a ball that reaches far would have the others wait for one thread.
+// Every thread of the workgroup calls it. A thread marks a cell; all together mark what reaches far, so that none waits
+// for one thread.
 void markCells(Chunk chunk, uint firstCell) {
   uint lane = gl_LocalInvocationIndex;
   if (lane == 0) largeCount = 0;

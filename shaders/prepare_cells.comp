@@ -29,8 +29,7 @@ void prepareFace(Chunk chunk, CellCode code, CellHeader header, uint cell) {
   float density = takeDensity(code, bits);
   uint quad = faceQuad(chunk, cell);
   chunk.prepared.v[quad] = floatBitsToUint(takeOrientation(code, bits));
-  chunk.prepared.v[quad + 1] =
-      uvec4(floatBitsToUint(vec2(density, header.unit)), 0u, 0u);
+  chunk.prepared.v[quad + 1] = uvec4(floatBitsToUint(vec2(density, header.unit)), 0u, 0u);
 }
 
 uint countLobes(CellHeader header) {
@@ -40,7 +39,7 @@ uint countLobes(CellHeader header) {
   return sum;
 }
 
-// Cells have their places as they come: where a cell's lobes lie, nothing but the time of a ray depends on.
+// The first of so many lobes, in the order in which threads ask. No answer depends on the order.
 uint placeLobes(Chunk chunk, uint count) {
   return atomicAdd(CountedChunks(FRAME.chunks).v[chunk.index].lobesPlaced, count);
 }

@@ -19,8 +19,7 @@ uint32_t Asset::preparedForm() const {
 }
 
 VkDeviceSize Asset::preparedBytesOf(const GpuChunk& chunk) const {
-  const uint64_t lobeQuads = uint64_t{chunk.lobeTotal} * chunk.lobeQuads;
-  return preparedBytes(gpu_, preparedForm(), {chunk.liveCount, chunk.neighbourCount, lobeQuads});
+  return preparedBytes(gpu_, preparedForm(), {chunk.liveCount, chunk.neighbourCount, chunk.lobeQuadTotal()});
 }
 
 VkDeviceSize Asset::preparedBytesWanted() const {

@@ -38,6 +38,8 @@ struct GpuChunk {
   uint32_t borderCount = 0;
   VkDeviceAddress borderCells = 0;    // uint [borderCount]
   VkDeviceAddress borderNumbers = 0;  // uint [borderCount]
+
+  uint64_t lobeQuadTotal() const { return uint64_t{lobeTotal} * lobeQuads; }
 };
 
 // What the shaders that draw an asset are specialized on.
@@ -97,7 +99,7 @@ struct GpuAsset {
     cellCount += chunk.cellCount;
     alphaTotal += chunk.alphaTotal;
     neighbourTotal += chunk.neighbourCount;
-    lobeQuadTotal += uint64_t{chunk.lobeTotal} * chunk.lobeQuads;
+    lobeQuadTotal += chunk.lobeQuadTotal();
   }
 };
 

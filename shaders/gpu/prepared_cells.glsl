@@ -6,8 +6,8 @@
 //   faces    [liveCount * kFaceQuads]     quaternion; density, unit of the colours
 //   places   [liveCount * K]              place, height, red of the base colour; with heights or kPreparedRadiance
 //   colours  [liveCount * K]              green, blue, the first of its lobes, their number; with kPreparedRadiance
-//   lobes    [lobes * lobeQuads]          axis and colour: one quad of codes where those of the chunk are short, else two
-//                                         of floats; with kPreparedRadiance
+//   lobes    [lobeTotal * lobeQuads]      axis and colour: one quad of codes where those of the chunk are short, else
+//                                         two of floats; with kPreparedRadiance
 #ifndef FROTH_GPU_PREPARED_CELLS_GLSL
 #define FROTH_GPU_PREPARED_CELLS_GLSL
 #include "gpu/detail_colour.glsl"
@@ -125,7 +125,7 @@ Lobes takeSeen(CellCode code, CellHeader header, uvec2 cell, uint detail, bool h
   return loadLobes(code, header, FRAME.detailCount, detail);
 }
 
-// What takeSeen() gave, as detailColour().
+// The colour of what takeSeen() gave: detailColour() where the lobes are in the cell's bits.
 vec3 seenColour(CellCode code, CellHeader header, uvec2 cell, Lobes lobes, vec3 base, vec3 direction) {
   if (!hasColours()) return detailColour(code, header, lobes, base, direction);
   Chunk chunk = loadChunk(cell.x);

@@ -96,7 +96,8 @@ bool clipByBox(LocalRay ray, inout float tNear, inout float tFar) {
   return tNear < tFar;
 }
 
-// In the box from `entry` to tEnd [world units from the ray's origin], from the first part on that is not empty. hint: as FrothRay::hint.
+// In the box from `entry` to tEnd [world units from the ray's origin], from the first part on that is not empty.
+// hint: as FrothRay::hint.
 Stream startStream(uint instance, vec3 origin, vec3 direction, float entry, float tEnd, uvec4 hint,
                    inout WalkWork work) {
   instanceAtHand = instance;
@@ -277,8 +278,8 @@ vec3 colourShown(Shown shown, LocalRay ray, Sight sight, inout WalkWork work) {
   return colour;
 }
 
-// Cells that a ray meets before it finds their colours. Most rays end before: so those of a subgroup first all walk, and
-// then all shade, and hold what one of them needs at a time.
+// Cells that a ray meets before it finds their colours. Most rays end before. So the rays of a subgroup walk together,
+// then shade together, and a thread holds only what one of the two needs.
 const uint kShownAtOnce = 16;
 
 void advanceStream(inout Stream stream, vec3 origin, vec3 direction, Sight sight, inout WalkWork work) {

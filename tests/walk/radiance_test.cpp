@@ -57,7 +57,8 @@ TEST_P(GpuRadiance, OfACamerasRaysIsThePictureOfAGallery) {
   expectPictures(foam, resizeView(galleryCameras().views.at(0), 120, 80), GetParam());
 }
 
-// Colours are found of 16 cells at a time (kShownAtOnce of froth_walk.glsl). Without the others the picture has 38 dB.
+// Colours are found of 16 cells at a time (kShownAtOnce of gpu/walk_stream.glsl). Without the others the picture has 38
+// dB.
 TEST_P(GpuRadiance, OfRaysThroughMoreCellsThanTheyShadeAtOnceIsThePicture) {
   Foam foam = makeRandomFoam(4000, 4, 2, 3);
   for (float& radius : foam.radii) radius = 0.1f + 0.1f * radius;
