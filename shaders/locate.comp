@@ -1,11 +1,11 @@
-// Finds the power cell that holds the eye, or that where the middle ray of a tile of parallel rays starts: from the
-// cell of the last frame, always on to the neighbour to which the power falls most. It falls with every step, so the
-// search ends. A workgroup for each place; the threads share a cell's neighbours.
+// Finds the power cell in which a walk along the middle ray of a tile begins (gpu/walk_begin.glsl): from the cell of the
+// last frame, always on to the neighbour to which the power falls most. It falls with every step, so the search ends.
+// A workgroup for each tile; the threads share a cell's neighbours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/descend.glsl"
 #include "gpu/pixels.glsl"
-#include "gpu/view_rays.glsl"
+#include "gpu/walk_begin.glsl"
 
 const uint kThreads = 64;
 layout(local_size_x = kThreads) in;
@@ -49,16 +49,13 @@ uvec2 startCell(uint place) {
   return isCell(cell) ? cell : firstCell();
 }
 
-// Relative to the eye.
-vec3 startPoint() {
-  if (!isParallel) return vec3(0.0);
-  uvec2 middle = gl_WorkGroupID.xy * kTileSize + kTileSize / 2;
-  return startOfRay(rayOf(min(middle, uvec2(FRAME.regionWidth, FRAME.regionHeight) - 1)));
-}
-
 void main() {
+  uvec2 tile = gl_WorkGroupID.xy;
+  float distance;
+  if (!findWalkBegin(tile, distance)) return;
+  uvec2 middle = min(tile * kTileSize + kTileSize / 2, uvec2(FRAME.regionWidth, FRAME.regionHeight) - 1);
+  vec3 point = pointOnRay(rayOf(middle), distance);
   uint place = linearGroup();
-  vec3 point = startPoint();
   uvec2 cell = startCell(place);
   Chunk chunk = loadChunk(cell.x);
   for (uint steps = 0; steps < FRAME.maxSteps; ++steps) {

@@ -18,9 +18,9 @@ void main() {
   Radiance radiances[kRays];
   radiances[0] = emptyRadiance();
 
-  Step current = firstStep(pixel, ray);
+  Step current;
   float end = sceneDistance(pixel, ray);
-  bool isInside = !seesNothing(ray);
+  bool isInside = startWalk(shading, pixel, ray, current);
   uint steps = 0;
   while (isInside && !isSaturated(shading, radiances[0]) && steps < FRAME.maxSteps &&
          current.neighbours < FRAME.maxNeighbours) {

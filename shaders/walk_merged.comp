@@ -49,7 +49,9 @@ void main() {
   if (!seesNothing(rayOf(pixel))) {
     for (uint part = 0; part < push.partCount; ++part) {
       selectPart(part);
-      startStream(part, rayOf(pixel), Cursor(firstStep(pixel, rayOf(pixel)), true, 0));
+      Cursor cursor = Cursor(Step(kNoCell, uvec2(0), 0.0, 0.0, 0), true, 0);
+      cursor.isInside = startWalk(loadShading(), pixel, rayOf(pixel), cursor.current);
+      startStream(part, rayOf(pixel), cursor);
     }
   }
   writeMerged(pixel, mergeStreams(pixel));

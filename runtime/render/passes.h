@@ -17,10 +17,11 @@ namespace froth {
   ONE(SortScatter, sort_scatter, kAnyLens)          \
   ONE(SortScatterMany, sort_scatter_many, kAnyLens) \
   ONE(CountTiles, count_tiles, kEachLens)           \
+  ONE(NearestBalls, nearest_balls, kEachLens)       \
   ONE(EmitPairs, emit_pairs, kEachLens)             \
   ONE(OrderTiles, order_tiles, kAnyLens)            \
   ONE(ExpandCells, expand_cells, kEyeOrNone)        \
-  ONE(Locate, locate, kEyeOrNone)                   \
+  ONE(Locate, locate, kEachLens)                    \
   ONE(AimRays, aim_rays, kMapped)                   \
   ONE(AimRaysByImage, aim_rays_by_image, kMapped)   \
   ONE(WidenCones, widen_cones, kMapped)             \

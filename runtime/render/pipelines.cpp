@@ -20,6 +20,7 @@
 #include "spirv/fade_rgba16f.h"
 #include "spirv/fade_rgba32f.h"
 #include "spirv/locate.h"
+#include "spirv/nearest_balls.h"
 #include "spirv/order_tiles.h"
 #include "spirv/publish_borders.h"
 #include "spirv/raster_long_tiles_rgba16f.h"

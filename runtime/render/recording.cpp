@@ -43,7 +43,7 @@ void recordUpload(const Recording& recording, const RecordingPart& part) {
   if (!part.asset) return;
   const TallyLayout tallies = space.buffers.tallies();
   const bool isWalk = recording.method == RenderMethod::kWalk;
-  const uint64_t first = isWalk ? tallies.superSums : 0;
+  const uint64_t first = isWalk ? tallies.tileLengths : 0;
   const uint64_t end = isWalk ? tallies.tileSums : tallies.end;
   vk.vkCmdFillBuffer(recording.commandBuffer, space.buffers[ViewBuffer::kTallies].buffer, first, end - first, 0);
   if (isWalk && space.walkAsset != part.asset) {

@@ -59,7 +59,7 @@ VkDeviceSize sizeOf(ViewBuffer id, const ViewCapacity& capacity) {
     case ViewBuffer::kTallies:
       return layOutTallies(capacity, fewestSortRounds(capacity)).end;
     case ViewBuffer::kWalkStart:
-      return 8 * VkDeviceSize{capacity.walkStarts};
+      return 8 * VkDeviceSize{capacity.tiles};
     case ViewBuffer::kRays:
       return 16 * capacity.rays;
     case ViewBuffer::kCones:  // of sub-tiles, tiles, and at most as many blocks

@@ -39,7 +39,6 @@ ViewCapacity largest(const ViewCapacity& a, const ViewCapacity& b) {
           .hits = std::max(a.hits, b.hits),
           .quarters = std::max(a.quarters, b.quarters),
           .fades = std::max(a.fades, b.fades),
-          .walkStarts = std::max(a.walkStarts, b.walkStarts),
           .cells = std::max(a.cells, b.cells),
           .planes = std::max(a.planes, b.planes),
           .details = std::max(a.details, b.details),

@@ -19,11 +19,10 @@ struct ViewCapacity {
   uint32_t chunks = 1;
   uint32_t groups = 1;  // groupsOfCells
   uint32_t tiles = 1;
-  uint64_t rays = 0;        // pixels of a view that mapped lenses draw; else 0
-  uint64_t hits = 0;        // pixels of a view that keeps hits; else 0
-  uint64_t quarters = 0;    // the same, where it keeps what reactive needs
-  uint64_t fades = 0;       // pixels of a view that fades; else 0
-  uint32_t walkStarts = 1;  // as many as tiles where rays may be parallel
+  uint64_t rays = 0;      // pixels of a view that mapped lenses draw; else 0
+  uint64_t hits = 0;      // pixels of a view that keeps hits; else 0
+  uint64_t quarters = 0;  // the same, where it keeps what reactive needs
+  uint64_t fades = 0;     // pixels of a view that fades; else 0
   // Of visible cells. A frame that wants more is valid without what has no space.
   uint32_t cells = 1;
   uint64_t planes = 1;

@@ -180,7 +180,6 @@ ViewCapacity leastCapacity(const ViewOptions& options) {
   capacity.frames = options.framesInFlight;
   if (options.fades) capacity.recordings = kFadingRecordingsPerFrame;
   capacity.tiles = tilesAlong(extent.width) * tilesAlong(extent.height);
-  if (options.lensClasses & FROTH_LENS_CLASS_ORTHOGRAPHIC) capacity.walkStarts = capacity.tiles;
   if (options.lensClasses & FROTH_LENS_CLASS_MAPPED) capacity.rays = uint64_t{extent.width} * extent.height;
   return capacity;
 }

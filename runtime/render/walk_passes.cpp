@@ -1,16 +1,18 @@
-#include "runtime/render/camera_rays.h"
 #include "runtime/render/view_state.h"
 
 namespace froth {
 namespace {
 
-// Needs nothing of the passes around it, so it runs beside them.
+void recordNearest(const Recording& recording) {
+  for (const RecordingPart& part : recording.parts()) {
+    part.recorder.runIndirect(Pass::kNearestBalls, offsetof(gpu::Counters, tileDispatch));
+  }
+}
+
 void recordLocate(const Recording& recording) {
   const VkExtent2D& extent = recording.info.camera.scissor.extent;
-  const bool isPerTile = lensClassOf(recording.info.camera) == gpu::kLensClassOrthographic;
   for (const RecordingPart& part : recording.parts()) {
-    part.recorder.run(Pass::kLocate, isPerTile ? tilesAlong(extent.width) : 1,
-                      isPerTile ? tilesAlong(extent.height) : 1);
+    part.recorder.run(Pass::kLocate, tilesAlong(extent.width), tilesAlong(extent.height));
   }
 }
 
@@ -19,6 +21,8 @@ void recordLocate(const Recording& recording) {
 void recordWalkPasses(const Recording& recording) {
   recording.run("cull", [&] { recordCull(recording); });
   recording.run("shade", [&] {
+    recordNearest(recording);
+    recording.wait();
     recordLocate(recording);
     recordExpand(recording);
     recordShade(recording);

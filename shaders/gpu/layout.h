@@ -265,13 +265,13 @@ struct FrameBlock {
   FROTH_ADDRESS(UintArray) pairTiles;    // [pair] as emitted
   FROTH_ADDRESS(UintArray) pairCells;    // slots
   FROTH_ADDRESS(UintArray) tileCells;    // [pair] slots in the order of tiles
-  // [tile] pairs; order_tiles.comp makes that the place in tileLists; one more (emit_pairs.comp)
+  // [tile] pairs; order_tiles.comp makes that the place in tileLists; one more (emit_pairs.comp). Of a walk: what
+  // nearest_balls.comp says
   FROTH_ADDRESS(UintArray) tileLengths;
   FROTH_ADDRESS(UintQuadArray) tileLists;  // [tiles, longest lists first] tile, begin and end in tileCells
   FROTH_ADDRESS(UintArray) cellHistogram;  // of the lowest digit of cellKeys (histogram.glsl)
   FROTH_ADDRESS(UintArray) pairHistogram;  // of the lowest digit of pairTiles
-  // [1] chunk, local index of the cell that holds the eye; orthographic: [tile] of that where its middle ray starts;
-  // kept over frames
+  // [tile] chunk, local index of the cell in which a walk along its middle ray begins; kept over frames
   FROTH_ADDRESS(UintPairArray) walkStart;
   FROTH_ADDRESS(FloatQuadArray) rays;     // [row of the region, column] xyz: unit direction; 0: none
   FROTH_ADDRESS(FloatQuadArray) cones;    // (foam/cones.h) [tile * kSubTilesPerTile + sub-tile], [tile], [block]

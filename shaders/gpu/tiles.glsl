@@ -70,15 +70,18 @@ shared vec4 balls[kTileCellsPerGroup];
 shared uvec3 corners[kTileCellsPerGroup];  // first column and row, columns
 shared uint starts[kTileCellsPerGroup];    // first candidate
 
-// Makes the cell of a slot that of this thread, one of the first kTileCellsPerGroup. Returns how many candidates it
-// has.
-uint takeCell(uint slot) {
-  Ball ball = visibleBall(FRAME.visibleCells.v[checked(slot, FRAME.visibleCapacity)]);
+// Makes the ball that of this thread, one of the first kTileCellsPerGroup. Returns how many candidates it has.
+uint takeBall(Ball ball) {
   TileBounds bounds = tileBounds(ball);
   uvec2 extent = uvec2(max(bounds.last - bounds.first + 1, 0));
   balls[gl_LocalInvocationIndex] = vec4(ball.centre, ball.radius);
   corners[gl_LocalInvocationIndex] = uvec3(bounds.first, extent.x);
   return extent.x * extent.y;
+}
+
+// The same with what is seen of the cell of a slot.
+uint takeCell(uint slot) {
+  return takeBall(visibleBall(FRAME.visibleCells.v[checked(slot, FRAME.visibleCapacity)]));
 }
 
 // start: candidates of the threads before. Ends with a barrier.

@@ -14,6 +14,7 @@
 #include "gpu/descend.glsl"
 #include "gpu/eye_planes.glsl"
 #include "gpu/shade_hit.glsl"
+#include "gpu/walk_begin.glsl"
 
 struct Step {
   uint visible;  // of a listed cell; else kNoCell, and
@@ -129,17 +130,35 @@ bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 r
   return true;
 }
 
-// Parallel rays start in cells of their own, near that of the tile; the neighbours of their search count.
-uvec2 startCell(uvec2 pixel, vec3 ray, inout uint neighbours) {
-  if (!isParallel) return FRAME.walkStart.v[0];
-  uvec2 tile = pixel / kTileSize;
-  return cellHolding(startOfRay(ray), FRAME.walkStart.v[tile.y * FRAME.tilesX + tile.x], neighbours);
+// Whether the ray is in the cell at a distance, by the planes of its record.
+bool isInRecord(Shading shading, CellRecord cell, vec3 ray, float distance) {
+  float nearness = nearnessAt(distance);
+  bool isInside = cell.planeBegin < cell.planeEnd;
+  for (uint i = cell.planeBegin; i < cell.planeSplit && isInside; ++i) {
+    isInside = nearnessOf(shading.planes.v[checked(i, FRAME.planeCapacity)].xyz, ray) <= nearness;
+  }
+  for (uint i = cell.planeSplit; i < cell.planeEnd && isInside; ++i) {
+    isInside = nearnessOf(shading.planes.v[checked(i, FRAME.planeCapacity)].xyz, ray) >= nearness;
+  }
+  return isInside;
 }
 
-Step firstStep(uvec2 pixel, vec3 ray) {
+// The cell in which a ray begins, near that of its tile's middle ray; the neighbours of a search for it count. Returns
+// false: the ray meets nothing.
+bool startWalk(Shading shading, uvec2 pixel, vec3 ray, out Step start) {
+  uvec2 tile = pixel / kTileSize;
+  float distance;
+  start = Step(kNoCell, uvec2(0), 0.0, 0.0, 0);
+  if (seesNothing(ray) || !findWalkBegin(tile, distance)) return false;
   uint neighbours = 0;
-  uvec2 start = startCell(pixel, ray, neighbours);
-  return stepTo(start, keyOf(directionOfRay(ray), ballOfSite(loadChunk(start.x), start.y).centre), 0.0, neighbours);
+  uvec2 cell = FRAME.walkStart.v[tile.y * FRAME.tilesX + tile.x];
+  uint visible = slotOfCell(cell);
+  if (visible == kNoCell || !isInRecord(shading, shading.records.v[visible], ray, distance)) {
+    cell = cellHolding(pointOnRay(ray, distance), cell, neighbours);
+  }
+  float key = keyOf(directionOfRay(ray), ballOfSite(loadChunk(cell.x), cell.y).centre);
+  start = stepTo(cell, key, distance, neighbours);
+  return true;
 }
 
 // On to the next cell. Returns false: the ray leaves the foam; current.entry is where it leaves the present cell either

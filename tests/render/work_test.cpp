@@ -1,10 +1,13 @@
 // The counts of FrothWork against a count on the CPU, in double.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "shaders/foam/cell.h"
 #include "shaders/foam/clip_face.h"
+#include "shaders/foam/rays.h"
+#include "shaders/gpu/layout.h"
 #include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
 
@@ -30,9 +33,10 @@ struct Interval {
 // What rays of a pinhole view meet in a chunk.
 class Counter {
  public:
-  Counter(const ChunkContents& chunk, const View& view) : chunk_(chunk) {
+  Counter(const ChunkContents& chunk, const View& view) : chunk_(chunk), width_(view.width) {
     const auto& world = view.worldFromCamera;
     eye_ = {world[3], world[7], world[11]};
+    forward_ = {world[2], world[6], world[10]};
     for (uint32_t y = 0; y < view.height; ++y) {
       for (uint32_t x = 0; x < view.width; ++x) {
         const glm::dvec3 camera((x + 0.5 - view.cx) / view.fx, (y + 0.5 - view.cy) / view.fy, 1);
@@ -66,10 +70,11 @@ class Counter {
 
   FrothWork countWalk() const {
     FrothWork work{};
-    for (const glm::dvec3& ray : rays_) {
-      uint32_t cell = startCell();
-      double entry = 0;
-      for (bool isInside = true; isInside;) {
+    for (size_t pixel = 0; pixel < rays_.size(); ++pixel) {
+      const glm::dvec3& ray = rays_[pixel];
+      double entry = beginOfTile(pixel);
+      uint32_t cell = cellHolding(entry * ray);
+      for (bool isInside = std::isfinite(entry); isInside;) {
         ++work.steps;
         uint32_t next = cell;
         double exit = INFINITY;
@@ -126,18 +131,43 @@ class Counter {
     return interval.tFar > interval.tNear;
   }
 
-  uint32_t startCell() const {
+  // point: relative to the eye.
+  uint32_t cellHolding(const glm::dvec3& point) const {
+    const auto power = [&](uint32_t cell) { return foam::powerOfOrigin(centreOf(cell) - point, radiusOf(cell)); };
     uint32_t best = 0;
     for (uint32_t cell = 1; cell < chunk_.cellCount; ++cell) {
-      if (foam::powerOfOrigin(centreOf(cell), radiusOf(cell)) < foam::powerOfOrigin(centreOf(best), radiusOf(best))) {
-        best = cell;
-      }
+      if (power(cell) < power(best)) best = cell;
     }
     return best;
   }
 
+  // The nearest that a ball comes to the eye which the pixels of the tile can meet; infinite: none does.
+  double beginOfTile(size_t pixel) const {
+    const auto height = static_cast<uint32_t>(rays_.size()) / width_;
+    const auto x = static_cast<uint32_t>(pixel % width_) / gpu::kTileSize * gpu::kTileSize;
+    const auto y = static_cast<uint32_t>(pixel / width_) / gpu::kTileSize * gpu::kTileSize;
+    const uint32_t right = std::min(x + gpu::kTileSize, width_) - 1, low = std::min(y + gpu::kTileSize, height) - 1;
+    const glm::dvec3 corner = atUnitDepth(x, y);
+    double begin = INFINITY;
+    for (uint32_t cell = 0; cell < chunk_.liveCount; ++cell) {
+      const glm::dvec3 centre = centreOf(cell);
+      const double distance = std::max(glm::length(centre) - radiusOf(cell), 0.0);
+      const bool isMet = foam::rectangleMeetsBall(centre, radiusOf(cell), corner, atUnitDepth(right, y) - corner,
+                                                  atUnitDepth(x, low) - corner);
+      if (isMet) begin = std::min(begin, distance);
+    }
+    return begin;
+  }
+
+  // The point of a pixel's ray in the plane at distance 1 before the camera.
+  glm::dvec3 atUnitDepth(uint32_t x, uint32_t y) const {
+    const glm::dvec3& ray = rays_[size_t{y} * width_ + x];
+    return ray / glm::dot(ray, forward_);
+  }
+
   const ChunkContents& chunk_;
-  glm::dvec3 eye_{};
+  uint32_t width_;
+  glm::dvec3 eye_{}, forward_{};
   std::vector<glm::dvec3> rays_;
 };
 

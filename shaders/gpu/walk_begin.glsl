@@ -1,0 +1,16 @@
+// Where walks of a view begin: at the least distance at which a ray of their tile can meet a ball.
+#ifndef FROTH_GPU_WALK_BEGIN_GLSL
+#define FROTH_GPU_WALK_BEGIN_GLSL
+#include "gpu/view_rays.glsl"
+
+// False: no ray of the tile meets a ball.
+bool findWalkBegin(uvec2 tile, out float distance) {
+  uint complement = FRAME.tileLengths.v[tile.y * FRAME.tilesX + tile.x];  // nearest_balls.comp
+  distance = uintBitsToFloat(~complement);
+  return complement != 0;
+}
+
+// Relative to the eye.
+vec3 pointOnRay(vec3 ray, float distance) { return startOfRay(ray) + distance * directionOfRay(ray); }
+
+#endif
