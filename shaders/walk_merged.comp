@@ -49,9 +49,9 @@ void main() {
   if (!seesNothing(rayOf(pixel))) {
     for (uint part = 0; part < push.partCount; ++part) {
       selectPart(part);
-      Cursor cursor = Cursor(Step(kNoCell, uvec2(0), 0.0, 0.0, 0), true, 0);
-      cursor.isInside = startWalk(loadShading(), pixel, rayOf(pixel), cursor.current);
-      startStream(part, rayOf(pixel), cursor);
+      Step first;
+      bool isInside = startWalk(loadShading(), pixel, rayOf(pixel), first);
+      startStream(part, rayOf(pixel), Cursor(first, isInside, 0));
     }
   }
   writeMerged(pixel, mergeStreams(pixel));

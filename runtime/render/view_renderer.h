@@ -1,4 +1,4 @@
-// Records the passes of one view: cull -> sort -> bin -> shade -> raster, or cull -> shade -> locate -> walk.
+// Records the passes of one view: cull -> sort -> bin -> shade -> raster, or cull -> nearest -> locate, shade -> walk.
 #pragma once
 
 #include <array>
