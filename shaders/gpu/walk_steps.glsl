@@ -153,9 +153,11 @@ bool startWalk(Shading shading, uvec2 pixel, vec3 ray, out Step start) {
   uint neighbours = 0;
   uvec2 cell = FRAME.walkStart.v[tile.y * FRAME.tilesX + tile.x];
   uint visible = slotOfCell(cell);
-  if (visible == kNoCell || !isInRecord(shading, shading.records.v[visible], ray, distance)) {
-    cell = cellHolding(pointOnRay(ray, distance), cell, neighbours);
+  bool isInside = false;
+  if (visible != kNoCell) {
+    isInside = isInRecord(shading, shading.records.v[checked(visible, FRAME.visibleCapacity)], ray, distance);
   }
+  if (!isInside) cell = cellHolding(pointOnRay(ray, distance), cell, neighbours);
   float key = keyOf(directionOfRay(ray), ballOfSite(loadChunk(cell.x), cell.y).centre);
   start = stepTo(cell, key, distance, neighbours);
   return true;
