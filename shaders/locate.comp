@@ -4,7 +4,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/descend.glsl"
-#include "gpu/pixels.glsl"
 #include "gpu/walk_begin.glsl"
 
 const uint kThreads = 64;
@@ -44,19 +43,18 @@ void findMostFall(Chunk chunk, uint cell, vec3 point) {
 }
 
 // The last frame's cell; another asset, or other chunks that are drawn, may have fewer.
-uvec2 startCell(uint place) {
-  uvec2 cell = FRAME.walkStart.v[place];
+uvec2 startCell(uint tile) {
+  uvec2 cell = FRAME.walkStart.v[tile];
   return isCell(cell) ? cell : firstCell();
 }
 
 void main() {
-  uvec2 tile = gl_WorkGroupID.xy;
+  uint tile = tileIndex(gl_WorkGroupID.xy);
   float distance;
   if (!findWalkBegin(tile, distance)) return;
-  uvec2 middle = min(tile * kTileSize + kTileSize / 2, uvec2(FRAME.regionWidth, FRAME.regionHeight) - 1);
+  uvec2 middle = min(gl_WorkGroupID.xy * kTileSize + kTileSize / 2, uvec2(FRAME.regionWidth, FRAME.regionHeight) - 1);
   vec3 point = pointOnRay(rayOf(middle), distance);
-  uint place = linearGroup();
-  uvec2 cell = startCell(place);
+  uvec2 cell = startCell(tile);
   Chunk chunk = loadChunk(cell.x);
   for (uint steps = 0; steps < FRAME.maxSteps; ++steps) {
     findMostFall(chunk, cell.y, point);
@@ -66,5 +64,5 @@ void main() {
     cell = cellOfSite(chunk, neighbourAt(chunk, nearest));
     if (cell.x != chunk.index) chunk = loadChunk(cell.x);
   }
-  if (gl_LocalInvocationIndex == 0) FRAME.walkStart.v[place] = cell;
+  if (gl_LocalInvocationIndex == 0) FRAME.walkStart.v[tile] = cell;
 }

@@ -33,7 +33,6 @@ void main() {
   for (uint i = thread; i < candidates; i += kGroupSize) {
     TileCandidate candidate = candidateAt(i);
     if (!meetsTile(candidate)) continue;
-    uint tile = candidate.tile.y * FRAME.tilesX + candidate.tile.x;
-    atomicMax(FRAME.tileLengths.v[tile], ~floatBitsToUint(distanceTo(balls[candidate.cell])));
+    atomicMax(FRAME.tileLengths.v[tileIndex(candidate.tile)], ~floatBitsToUint(distanceTo(balls[candidate.cell])));
   }
 }

@@ -46,13 +46,11 @@ void main() {
   if (!isInRegion(pixel)) return;
   findRayEnd(pixel);
   streamCount = 0;
-  if (!seesNothing(rayOf(pixel))) {
-    for (uint part = 0; part < push.partCount; ++part) {
-      selectPart(part);
-      Step first;
-      bool isInside = startWalk(loadShading(), pixel, rayOf(pixel), first);
-      startStream(part, rayOf(pixel), Cursor(first, isInside, 0));
-    }
+  for (uint part = 0; part < push.partCount; ++part) {
+    selectPart(part);
+    Step first;
+    if (!startWalk(loadShading(), pixel, rayOf(pixel), first)) continue;
+    startStream(part, rayOf(pixel), Cursor(first, true, 0));
   }
   writeMerged(pixel, mergeStreams(pixel));
 }

@@ -60,7 +60,7 @@ uint32_t fewestSortRounds(const ViewCapacity& capacity);
 uint64_t histogramBytes(uint32_t keys, uint32_t sortRounds);
 
 // [bytes] Where in ViewBuffer::kTallies lies what every recording clears: of a walk only the
-// superSums and sizeCounts.
+// tileLengths, superSums and sizeCounts.
 struct TallyLayout {
   uint64_t cellHistograms, pairHistograms;  // one per digit
   uint64_t tileLengths, superSums, sizeCounts, tileSums;

@@ -44,7 +44,7 @@ struct InstanceSpace {
   FrothInstance instance{};             // whose it was in the newest prepare()
   bool isTaken = false;                 // by an instance, in the newest prepare()
   uint64_t lastSerial = 0;              // newest frame recorded with it
-  const GpuAsset* walkAsset = nullptr;  // whose cell kWalkStart holds
+  const GpuAsset* walkAsset = nullptr;  // whose cells kWalkStart holds
   ViewDemand demand{};                  // of the newest complete frame
   std::optional<GrowthRefusal> refusal{};
 };

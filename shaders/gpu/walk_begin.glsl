@@ -1,11 +1,12 @@
 // Where walks of a view begin: at the least distance at which a ray of their tile can meet a ball.
 #ifndef FROTH_GPU_WALK_BEGIN_GLSL
 #define FROTH_GPU_WALK_BEGIN_GLSL
+#include "gpu/pixels.glsl"
 #include "gpu/view_rays.glsl"
 
-// False: no ray of the tile meets a ball.
-bool findWalkBegin(uvec2 tile, out float distance) {
-  uint complement = FRAME.tileLengths.v[tile.y * FRAME.tilesX + tile.x];  // nearest_balls.comp
+// tile: its index. False: no ray of it meets a ball.
+bool findWalkBegin(uint tile, out float distance) {
+  uint complement = FRAME.tileLengths.v[tile];  // nearest_balls.comp
   distance = uintBitsToFloat(~complement);
   return complement != 0;
 }

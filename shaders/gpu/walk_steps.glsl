@@ -130,10 +130,13 @@ bool findNextRecord(Shading shading, inout Step current, CellRecord cell, vec3 r
   return true;
 }
 
+// False: there was no space for its planes.
+bool hasRow(CellRecord cell) { return cell.planeBegin < cell.planeEnd; }
+
 // Whether the ray is in the cell at a distance, by the planes of its record.
 bool isInRecord(Shading shading, CellRecord cell, vec3 ray, float distance) {
   float nearness = nearnessAt(distance);
-  bool isInside = cell.planeBegin < cell.planeEnd;
+  bool isInside = hasRow(cell);
   for (uint i = cell.planeBegin; i < cell.planeSplit && isInside; ++i) {
     isInside = nearnessOf(shading.planes.v[checked(i, FRAME.planeCapacity)].xyz, ray) <= nearness;
   }
@@ -146,12 +149,12 @@ bool isInRecord(Shading shading, CellRecord cell, vec3 ray, float distance) {
 // The cell in which a ray begins, near that of its tile's middle ray; the neighbours of a search for it count. Returns
 // false: the ray meets nothing.
 bool startWalk(Shading shading, uvec2 pixel, vec3 ray, out Step start) {
-  uvec2 tile = pixel / kTileSize;
+  uint tile = tileIndex(pixel / kTileSize);
   float distance;
   start = Step(kNoCell, uvec2(0), 0.0, 0.0, 0);
   if (seesNothing(ray) || !findWalkBegin(tile, distance)) return false;
   uint neighbours = 0;
-  uvec2 cell = FRAME.walkStart.v[tile.y * FRAME.tilesX + tile.x];
+  uvec2 cell = FRAME.walkStart.v[tile];
   uint visible = slotOfCell(cell);
   bool isInside = false;
   if (visible != kNoCell) {
@@ -169,8 +172,7 @@ bool takeStep(Shading shading, inout Step current, vec3 ray, out uint visible, o
   visible = current.visible;
   if (visible == kNoCell) return findNextSite(current, ray);
   cell = shading.records.v[checked(visible, FRAME.visibleCapacity)];
-  bool hasRow = cell.planeBegin < cell.planeEnd;
-  return hasRow ? findNextRecord(shading, current, cell, ray) : findNextSite(current, ray);
+  return hasRow(cell) ? findNextRecord(shading, current, cell, ray) : findNextSite(current, ray);
 }
 
 // What a ray meets in the ball of a listed cell between entry and exit.
