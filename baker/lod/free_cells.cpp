@@ -12,11 +12,11 @@ namespace froth {
 namespace {
 
 // What a parameter moves in a step, at most about.
-constexpr float kDensityRate = 0.03f;  // of the density
-constexpr float kTurnRate = 0.01f;     // of a unit quaternion
-constexpr float kPlaceRate = 0.01f;    // [radii]
-constexpr float kHeightRate = 0.005f;  // [radii]
-constexpr float kColourRate = 0.01f;
+constexpr float kDensityRate = 0.02f;   // of the density
+constexpr float kTurnRate = 0.007f;     // of a unit quaternion
+constexpr float kPlaceRate = 0.007f;    // [radii]
+constexpr float kHeightRate = 0.0035f;  // [radii]
+constexpr float kColourRate = 0.007f;
 constexpr float kMostLiveChange = 2;  // of a density, in all steps: a live cell stays one
 
 }  // namespace

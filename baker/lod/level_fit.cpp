@@ -20,11 +20,13 @@ constexpr uint32_t kBoxSide = 2;      // [rays]
 constexpr double kMostBoxes = 8'000;  // of a view: from some cells on a fit costs the same
 constexpr double kBoxesPerCell = 1;   // ... and less in small foams
 constexpr double kLastRate = 0.05;    // of the first
+constexpr float kCutoff = 1e-2f;      // of a ray's transmittance
 
 PixelSettings<float> raySettings() {
   PixelSettings<float> settings;
   settings.sharpness = static_cast<float>(kTrainedSharpness);
   settings.perPixel = 1;
+  settings.cutoff = kCutoff;
   return settings;
 }
 
@@ -68,7 +70,7 @@ LevelFit::LevelFit(std::span<const View> views, const FrontOptions& options)
 
 Status LevelFit::takeFinest(const Foam& foam, const Progress& progress) {
   if (given_.empty() || foam.lobeCount == 0 || !foam.baseColours.empty() || !foam.lobeOffsets.empty()) return {};
-  FoamStorage<float> storage = storeFoam<float>(foam);
+  FoamStorage<float> storage = storeFoam<float>(foam, AdamMoments::kNone);
   CpuStep<float> step(storage);
   step.activate(0);
   views_.reserve(given_.size());
@@ -86,7 +88,7 @@ Status LevelFit::takeFinest(const Foam& foam, const Progress& progress) {
 }
 
 Status LevelFit::fit(Foam& foam, std::span<const uint8_t> isFree, const Progress& progress) const {
-  FoamStorage<float> storage = storeFoam<float>(foam);
+  FoamStorage<float> storage = storeFoam<float>(foam, AdamMoments::kNone);
   CpuStep<float> step(storage);
   step.activate(0);
   FreeCells cells(storage, isFree);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -91,6 +92,27 @@ TEST(CpuStep, GivesTheSameBitsOnAnyNumberOfThreads) {
     EXPECT_EQ(one.secondMoments[t], many.secondMoments[t]) << kParameterKeys[t];
   }
   EXPECT_EQ(one.errors, many.errors);
+}
+
+TEST(CpuStep, NeedsNoMomentsToShowAndDifferentiate) {
+  const TrainingView<float> view = trainingView<float>(lookAt({0.5, 0.4, -3}, {0, 0, 0}, kWidth, kHeight, 0.5));
+  PixelSettings<float> settings;
+  settings.perPixel = 1.0f / (kWidth * kHeight);
+  std::vector<glm::vec4> shown[2];
+  std::vector<float> densities[2];
+  for (const AdamMoments moments : {AdamMoments::kKept, AdamMoments::kNone}) {
+    const auto own = static_cast<size_t>(moments);
+    FoamStorage<float> foam = storeFoam<float>(randomFoam(300, 3, 2, 6), moments);
+    EXPECT_EQ(foam.firstMoments[0].empty(), moments == AdamMoments::kNone);
+    CpuStep<float> step(foam);
+    step.activate(1e-3f);
+    shown[own] = step.render(view, settings, firstAdam());
+    step.differentiate(gradientsFor(shown[own]), std::vector<glm::vec4>(shown[own].size()));
+    for (uint32_t rank = 0; rank < step.seen().count; ++rank) densities[own].push_back(step.sums().cells[rank].density);
+  }
+  EXPECT_EQ(shown[0], shown[1]);
+  EXPECT_EQ(densities[0], densities[1]);
+  EXPECT_TRUE(std::ranges::any_of(densities[0], [](float density) { return density != 0; }));
 }
 
 TEST(CpuStep, DropsAndCountsWhatIsNoFiniteNumber) {

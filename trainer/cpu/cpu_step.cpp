@@ -99,8 +99,10 @@ void CpuStep<Real>::prepare(const AdamStep<Real>& adam) {
     cells_[rank].planesEnd = planeCount;
   }
   planes_.resize(planeCount);
-  tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
-    const uint32_t cell = candidates_[rank].cell;
+  // In the order of the foam: its parameters are most of what is read.
+  tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
+    const uint32_t rank = rankOf_[cell];
+    if (rank == SeenCells<Real>::kNotSeen) return;
     SeenCell<Real>& prepared = cells_[rank];
     const TrainedCell<Real> trained(foam, adam, cell);
     prepareCell(trained, view_.eye, prepared);
@@ -108,7 +110,7 @@ void CpuStep<Real>::prepare(const AdamStep<Real>& adam) {
       planes_[prepared.planesBegin + e - rows.offsets[cell]] = preparePlane(foam, view_, cell, rows.neighbours[e]);
     }
     for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
-      details_[rank * foam.shape.detailCount + k] = prepareDetail(trained, prepared, k);
+      details_[size_t{rank} * foam.shape.detailCount + k] = prepareDetail(trained, prepared, k);
     }
   });
 }

@@ -28,9 +28,9 @@ void loadItems(const std::vector<Real>& tensor, std::vector<Item>& items) {
 }  // namespace
 
 template <class Real>
-FoamStorage<Real> storeFoam(const Foam& foam) {
+FoamStorage<Real> storeFoam(const Foam& foam, AdamMoments moments) {
   FoamStorage<Real> storage;
-  resizeStorage(storage, {foam.cellCount, foam.detailCount, foam.lobeCount});
+  resizeStorage(storage, {foam.cellCount, foam.detailCount, foam.lobeCount}, moments);
   storeItems(foam.sites, tensorOf(storage, Parameter::kPoints));
   storeItems(foam.orientations, tensorOf(storage, Parameter::kOrientations));
   storeItems(foam.detailSites, tensorOf(storage, Parameter::kDetailSites));
@@ -69,8 +69,8 @@ Foam activateFoam(const FoamStorage<Real>& storage) {
   return foam;
 }
 
-template FoamStorage<float> storeFoam(const Foam&);
-template FoamStorage<double> storeFoam(const Foam&);
+template FoamStorage<float> storeFoam(const Foam&, AdamMoments);
+template FoamStorage<double> storeFoam(const Foam&, AdamMoments);
 template Foam activateFoam(const FoamStorage<float>&);
 template Foam activateFoam(const FoamStorage<double>&);
 

@@ -14,19 +14,26 @@ struct FoamStorage {
   using Tensors = std::array<std::vector<Real>, kParameterCount>;  // by Parameter
 
   FoamShape shape;
-  Tensors values, firstMoments, secondMoments;
+  Tensors values;
+  Tensors firstMoments, secondMoments;  // empty: the foam is drawn and differentiated, and no step of Adam changes it
   std::vector<uint32_t> lastSteps;
   std::vector<glm::vec<4, Real>> balls;
   std::vector<Real> contributions, errors;
 };
 
+// Moments are two thirds of what a foam in training takes.
+enum class AdamMoments { kKept, kNone };
+
 // Sets the shape and all lengths; what is new is 0.
 template <class Real>
-void resizeStorage(FoamStorage<Real>& foam, const FoamShape& shape) {
+void resizeStorage(FoamStorage<Real>& foam, const FoamShape& shape, AdamMoments moments = AdamMoments::kKept) {
   foam.shape = shape;
   for (size_t i = 0; i < kParameterCount; ++i) {
     const size_t length = size_t{shape.cellCount} * widthOf(static_cast<Parameter>(i), shape);
-    for (auto* tensors : {&foam.values, &foam.firstMoments, &foam.secondMoments}) (*tensors)[i].resize(length);
+    foam.values[i].resize(length);
+    for (auto* tensors : {&foam.firstMoments, &foam.secondMoments}) {
+      (*tensors)[i].resize(moments == AdamMoments::kKept ? length : 0);
+    }
   }
   foam.lastSteps.resize(shape.cellCount);
   foam.balls.resize(shape.cellCount);
@@ -43,10 +50,12 @@ ParameterRows<Real> rowsOf(typename FoamStorage<Real>::Tensors& tensors) {
 
 template <class Real>
 TrainedFoam<Real> viewStorage(FoamStorage<Real>& foam) {
+  // Of a foam without moments nobody reads the rows, but everybody finds them.
+  const bool hasMoments = !foam.firstMoments[0].empty();
   return {foam.shape,
           rowsOf<Real>(foam.values),
-          rowsOf<Real>(foam.firstMoments),
-          rowsOf<Real>(foam.secondMoments),
+          rowsOf<Real>(hasMoments ? foam.firstMoments : foam.values),
+          rowsOf<Real>(hasMoments ? foam.secondMoments : foam.values),
           foam.lastSteps.data(),
           foam.balls.data(),
           foam.contributions.data(),
