@@ -20,13 +20,13 @@ constexpr uint32_t kBoxSide = 2;      // [rays]
 constexpr double kMostBoxes = 8'000;  // of a view: from some cells on a fit costs the same
 constexpr double kBoxesPerCell = 1;   // ... and less in small foams
 constexpr double kLastRate = 0.05;    // of the first
-constexpr float kCutoff = 1e-2f;      // of a ray's transmittance
+constexpr float kRayCutoff = 1e-2f;   // of a ray's transmittance
 
 PixelSettings<float> raySettings() {
   PixelSettings<float> settings;
   settings.sharpness = static_cast<float>(kTrainedSharpness);
   settings.perPixel = 1;
-  settings.cutoff = kCutoff;
+  settings.cutoff = kRayCutoff;
   return settings;
 }
 
