@@ -231,10 +231,8 @@ void Coarsening::measure() {
 }
 
 Result<CoarseForm> Coarsening::run() {
-  for (uint32_t i = 0; i < fine_.count(); ++i) {
-    form_.liveCount += fine_.isLive[i];
-    form_.lockedLive += fine_.isLive[i] && fine_.isLocked[i];
-  }
+  form_.liveCount = fine_.liveCount;
+  form_.lockedLive = fine_.lockedLive;
   dropOthers();
   // Each round undoes a merge or drops a cell, so this ends; without any merge all borders are right.
   do {

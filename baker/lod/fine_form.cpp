@@ -28,6 +28,7 @@ FineForm makeFineForm(std::span<const LevelChunk> chunks, std::span<const uint32
     form.cells.insert(form.cells.end(), own.begin(), own.end());
     form.isLive.insert(form.isLive.end(), chunk.planned.liveCount, 1);
     form.isLive.resize(form.cells.size(), 0);
+    form.liveCount += chunk.planned.liveCount;
     appendRows(chunk.rows.walk, form.rows.walk);
     appendRows(chunk.rows.alpha, form.rows.alpha);
   }
@@ -41,6 +42,7 @@ FineForm makeFineForm(std::span<const LevelChunk> chunks, std::span<const uint32
       form.isLocked[i] = 1;
       form.ring.push_back(neighbour);
     }
+    form.lockedLive += form.isLocked[i] && form.isLive[i];
   }
   std::sort(form.ring.begin(), form.ring.end());
   form.ring.erase(std::unique(form.ring.begin(), form.ring.end()), form.ring.end());

@@ -15,8 +15,9 @@ struct FineForm {
   std::vector<uint32_t> cells;    // of the scene
   std::vector<uint8_t> isLive;    // [cells]
   std::vector<uint8_t> isLocked;  // [cells] 1: has a neighbour outside
-  CellRows rows;                  // of the cells
-  std::vector<uint32_t> ring;     // cells outside that are neighbours of some here, ascending
+  uint32_t liveCount = 0, lockedLive = 0;
+  CellRows rows;               // of the cells
+  std::vector<uint32_t> ring;  // cells outside that are neighbours of some here, ascending
 
   std::vector<std::pair<uint32_t, uint32_t>> places;  // cell of the scene, its index here; ascending
 

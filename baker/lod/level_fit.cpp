@@ -33,6 +33,16 @@ PixelSettings<float> raySettings() {
 // No parameter waits for a step of Adam: FreeCells makes them.
 constexpr AdamStep<float> kNoAdam{};
 
+// A view as a step takes it. The directions of a lens are many, so they are made for each step anew.
+struct StepView {
+  explicit StepView(const View& view) : directions(lensDirections(view)), training(trainingView<float>(view)) {
+    if (!directions.empty()) training.directions = directions.data();
+  }
+
+  const std::vector<float> directions;
+  TrainingView<float> training;
+};
+
 size_t boxOf(size_t ray, uint32_t width) {
   return ray / width / kBoxSide * (width / kBoxSide) + ray % width / kBoxSide;
 }
@@ -80,9 +90,7 @@ Status LevelFit::takeFinest(const Foam& foam, const Progress& progress) {
     view = resizeView(view, kBoxSide * view.width, kBoxSide * view.height);
     view.nearRatio = view.nearRatio.value_or(options_.nearRatio);
     view.nearDepth = view.nearDepth.value_or(options_.nearDepth);
-    FitView& fit = views_.emplace_back(FitView{trainingView<float>(view), lensDirections(view), {}});
-    if (!fit.directions.empty()) fit.view.directions = fit.directions.data();
-    fit.wanted = meansOfBoxes(step.render(fit.view, raySettings(), kNoAdam), view.width);
+    views_.push_back({view, meansOfBoxes(step.render(StepView(view).training, raySettings(), kNoAdam), view.width)});
   }
   return {};
 }
@@ -96,7 +104,8 @@ Status LevelFit::fit(Foam& foam, std::span<const uint8_t> isFree, const Progress
   for (size_t s = 0; s < count; ++s) {
     if (!report(progress, "level fit", s, count)) return stoppedOnRequest("level fit");
     const FitView& fit = views_[s * stride % count];
-    const std::vector<glm::vec4>& shown = step.render(fit.view, raySettings(), kNoAdam);
+    const StepView view(fit.view);
+    const std::vector<glm::vec4>& shown = step.render(view.training, raySettings(), kNoAdam);
     const std::vector<glm::vec4> gradients = gradientsOf(shown, fit.wanted, fit.view.width);
     step.differentiate(gradients, gradients);
     const double half = 0.5 * (1 + std::cos(std::numbers::pi * static_cast<double>(s) / static_cast<double>(count)));

@@ -13,7 +13,6 @@
 #include "base/result.h"
 #include "foam/foam.h"
 #include "reference/camera/camera.h"
-#include "trainer/step/training_view.h"
 
 namespace froth {
 
@@ -33,8 +32,7 @@ class LevelFit {
  private:
   // A pixel of it is a box of rays: a level stands for level 0 where pixels are no smaller than cells.
   struct FitView {
-    TrainingView<float> view;       // of the rays
-    std::vector<float> directions;  // what the view points to
+    View view;                      // of the rays
     std::vector<glm::vec4> wanted;  // [boxes] mean of what level 0 shows: colour over black, transmittance
   };
   std::vector<View> given_;

@@ -93,13 +93,9 @@ MergedFoam mergeRound(MergedFoam& before, std::span<const CellPair> pairs, std::
 
 // In rounds: cells that show little merge again, and fewer of the others have to.
 MergePlan planMerges(const LevelSource& source, const FineForm& fine, std::span<const uint8_t> staysApart) {
-  size_t live = 0, locked = 0;
-  for (uint32_t i = 0; i < fine.count(); ++i) {
-    live += fine.isLive[i];
-    locked += fine.isLive[i] && fine.isLocked[i];
-  }
+  const size_t live = fine.liveCount;
   MergedFoam round = beginRounds(source, fine, staysApart);
-  const auto most = static_cast<size_t>(kMostMerged * static_cast<double>(live - locked));
+  const auto most = static_cast<size_t>(kMostMerged * (fine.liveCount - fine.lockedLive));
   for (size_t left = std::min(live / 2, most); left > 0;) {
     const size_t ofRound = std::min(left, live / kRoundPart);
     const std::vector<CellPair> pairs =

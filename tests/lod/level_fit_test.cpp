@@ -19,12 +19,13 @@ namespace {
 constexpr FrontOptions kNoNearCells{.nearRatio = 0};
 
 // From all around, `turned` by some part of the angle between two of them.
-std::vector<View> viewsAround(double turned) {
+std::vector<View> viewsAround(double turned, LensKind lens = LensKind::kPinhole) {
   constexpr int kViews = 8;
   std::vector<View> views;
   for (int k = 0; k < kViews; ++k) {
     const double angle = 2 * 3.141592653589793 * (k + turned) / kViews;
     views.push_back(lookAt({7 * std::cos(angle), 7 * std::sin(angle), 2}, {0, 0, 0}, 40, 30, 0.4));
+    views.back().lens.kind = lens;
   }
   return views;
 }
@@ -58,8 +59,8 @@ const Foam& sampleFoam() {
   return foam;
 }
 
-Foam fitted(const Merged& merged) {
-  LevelFit fit(viewsAround(0), kNoNearCells);
+Foam fitted(const Merged& merged, LensKind lens = LensKind::kPinhole) {
+  LevelFit fit(viewsAround(0, lens), kNoNearCells);
   EXPECT_TRUE(fit.takeFinest(sampleFoam(), {}));
   EXPECT_TRUE(fit.isFitting());
   Foam foam = merged.foam;
@@ -77,9 +78,11 @@ double meanSquareOver(const std::vector<View>& views, const Foam& foam) {
 
 TEST(LevelFit, AMergedFoamComesNearerWhereTheFitDidNotLook) {
   const Merged merged = mergeHalf(sampleFoam());
-  const std::vector<View> unseen = viewsAround(0.25);
-  const double before = meanSquareOver(unseen, merged.foam), after = meanSquareOver(unseen, fitted(merged));
-  EXPECT_LT(after, 0.8 * before) << decibels(before) << " dB before, " << decibels(after) << " after";
+  for (const LensKind lens : {LensKind::kPinhole, LensKind::kFisheye}) {
+    const std::vector<View> unseen = viewsAround(0.25, lens);
+    const double before = meanSquareOver(unseen, merged.foam), after = meanSquareOver(unseen, fitted(merged, lens));
+    EXPECT_LT(after, 0.8 * before) << decibels(before) << " dB before, " << decibels(after) << " after";
+  }
 }
 
 TEST(LevelFit, OnlyFreeCellsChangeAndNoNeighbours) {
