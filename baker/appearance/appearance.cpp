@@ -79,10 +79,11 @@ Result<AppearanceCoder> AppearanceCoder::create(const Foam& foam, const Visibili
   return coder;
 }
 
-AppearanceCoder AppearanceCoder::forFoam(const Foam& foam, std::vector<float> weights) const {
+AppearanceCoder AppearanceCoder::forFoam(const Foam& foam, const Visibility* visibility, float weight) const {
   AppearanceCoder coder = *this;
   coder.foam_ = &foam;
-  coder.model_ = std::make_shared<const Model>(Model{Observer(foam, std::move(weights)), model_->codebook});
+  Observer observer(foam, visibility, -1, model_->observer.viewWeights(), weight);
+  coder.model_ = std::make_shared<const Model>(Model{std::move(observer), model_->codebook});
   return coder;
 }
 

@@ -53,10 +53,9 @@ class AppearanceCoder {
   static Result<AppearanceCoder> create(const Foam& foam, const Visibility* visibility,
                                         const AppearanceOptions& options, const Progress& progress = {});
 
-  // The same for another foam, of which it keeps a reference: its directions are the hemisphere before each face, its
-  // axes those of the same codebook. `weights`: how much each cell shows [cells], 1 like a typical one; empty: all
-  // alike.
-  AppearanceCoder forFoam(const Foam& foam, std::vector<float> weights) const;
+  // The same for another foam with a visibility of its own, of both of which it keeps references; its axes are those
+  // of the same codebook. `weight`: what an error of a typical cell weighs, beside one of the first foam.
+  AppearanceCoder forFoam(const Foam& foam, const Visibility* visibility, float weight) const;
 
   const std::vector<glm::vec3>& codebook() const;
   // Thread-safe. Each cell's result depends on that cell (and the codebook) alone, so the order and grouping

@@ -73,11 +73,13 @@ double totalWeight(const Observations& seen) {
   return sum;
 }
 
-Observer::Observer(const Foam& foam, const Visibility* visibility, float eyeRadius, std::vector<float> viewWeights)
+Observer::Observer(const Foam& foam, const Visibility* visibility, float eyeRadius, std::vector<float> viewWeights,
+                   float weight)
     : foam_(foam),
       visibility_(visibility),
       viewWeights_(std::move(viewWeights)),
-      hemisphere_(spreadHemisphere(visibility ? kDirectionsBesideCameras : kDirectionsWithoutCameras)) {
+      hemisphere_(spreadHemisphere(visibility ? kDirectionsBesideCameras : kDirectionsWithoutCameras)),
+      weight_(weight) {
   static_assert(kAround.size() == kEyesAround);
   if (!visibility) return;
   double sum = 0, shares = 1;
@@ -99,10 +101,6 @@ Observer::Observer(const Foam& foam, const Visibility* visibility, float eyeRadi
   if (sum > 0) typicalWeight_ = sum * shares / static_cast<double>(seen);
 }
 
-Observer::Observer(const Foam& foam, std::vector<float> cellWeights) : Observer(foam, nullptr, -1) {
-  cellWeights_ = std::move(cellWeights);
-}
-
 Observations Observer::observe(uint64_t detail) const {
   const uint64_t cell = detail / foam_.detailCount;
   const FaceFrame<float> frame = faceFrame<float>(foam_.orientations[cell]);
@@ -110,7 +108,7 @@ Observations Observer::observe(uint64_t detail) const {
   const glm::vec3 position = foam_.sites[cell] + place.x * frame.tangent + place.y * frame.bitangent;
   Observations seen;
   if (visibility_) addCameras(detail, position, seen);
-  addHemisphere(cell, frame, seen);
+  addHemisphere(frame, seen);
   if (region_) addRegion(detail, position, frame, seen);
   seen.colours.reserve(seen.size());
   for (const glm::vec3& direction : seen.directions) {
@@ -126,7 +124,7 @@ std::optional<uint32_t> Observer::viewOfEye(uint32_t eye) const {
 }
 
 float Observer::overlap(uint32_t cell, uint32_t k, uint32_t l) const {
-  if (!visibility_) return 0;
+  if (!visibility_ || visibility_->overlaps.empty()) return 0;
   if (k > l) std::swap(k, l);
   const uint64_t K = foam_.detailCount, before = k * K - k * (k + 1) / 2;  // pairs of the rows above
   return visibility_->overlaps[cell * (K * (K - 1) / 2) + before + (l - k - 1)];
@@ -136,13 +134,14 @@ void Observer::addCameras(uint64_t detail, const glm::vec3& position, Observatio
   const auto add = [&](uint32_t number, const glm::vec3& eye, double weight) {
     const glm::vec3 fromEye = position - eye;
     const float distance = glm::length(fromEye);
-    const auto relative = static_cast<float>(weight / typicalWeight_);
+    const auto relative = static_cast<float>(weight_ * weight / typicalWeight_);
     if (!(distance > 0) || !(relative > 0)) return;
     seen.eyes.push_back(number);
     seen.directions.push_back(fromEye / distance);
     seen.weights.push_back(relative);
   };
-  for (uint64_t i = visibility_->offsets[detail]; i < visibility_->offsets[detail + 1]; ++i) {
+  const uint64_t row = detail / visibility_->detailsPerRow;
+  for (uint64_t i = visibility_->offsets[row]; i < visibility_->offsets[row + 1]; ++i) {
     const uint32_t view = visibility_->views[i], number = view * (1 + kEyesAround);
     const float weight = viewWeight(view) * visibility_->weights[i];
     add(number, visibility_->eyes[view], weight);
@@ -166,9 +165,8 @@ void Observer::addRegion(uint64_t detail, const glm::vec3& position, const FaceF
   }
 }
 
-void Observer::addHemisphere(uint64_t cell, const FaceFrame<float>& frame, Observations& seen) const {
-  const float cellWeight = cellWeights_.empty() ? 1.0f : std::max(cellWeights_[cell], kHemisphereShare);
-  const float weight = (visibility_ ? kHemisphereShare : cellWeight) * 2 / static_cast<float>(hemisphere_.size());
+void Observer::addHemisphere(const FaceFrame<float>& frame, Observations& seen) const {
+  const float weight = weight_ * (visibility_ ? kHemisphereShare : 1) * 2 / static_cast<float>(hemisphere_.size());
   uint32_t number = visibility_ ? static_cast<uint32_t>(visibility_->eyes.size()) * (1 + kEyesAround) : 0;
   for (const glm::vec3& d : hemisphere_) {
     seen.eyes.push_back(number++);

@@ -36,13 +36,13 @@ class Observer {
  public:
   // Keeps references. `visibility` null: the hemisphere alone. `eyeRadius`: of AppearanceOptions. `viewWeights`: how
   // much an error in each view counts [views] > 0; empty: all alike.
-  Observer(const Foam& foam, const Visibility* visibility, float eyeRadius, std::vector<float> viewWeights = {});
-  // The hemisphere alone. `cellWeights`: how much each cell counts [cells] >= 0, 1 like a typical one; empty: all
-  // alike.
-  Observer(const Foam& foam, std::vector<float> cellWeights);
+  // `weight`: what a typical detail site weighs.
+  Observer(const Foam& foam, const Visibility* visibility, float eyeRadius, std::vector<float> viewWeights = {},
+           float weight = 1);
 
   // The view of whose camera an eye is; nothing for eyes around cameras and in the hemisphere.
   std::optional<uint32_t> viewOfEye(uint32_t eye) const;
+  const std::vector<float>& viewWeights() const { return viewWeights_; }
   float viewWeight(uint32_t view) const { return viewWeights_.empty() ? 1.0f : viewWeights_[view]; }
 
   Observations observe(uint64_t detail) const;
@@ -54,14 +54,15 @@ class Observer {
 
   void addCameras(uint64_t detail, const glm::vec3& position, Observations& seen) const;
   void addRegion(uint64_t detail, const glm::vec3& position, const FaceFrame<float>& frame, Observations& seen) const;
-  void addHemisphere(uint64_t cell, const FaceFrame<float>& frame, Observations& seen) const;
+  void addHemisphere(const FaceFrame<float>& frame, Observations& seen) const;
 
   const Foam& foam_;
   const Visibility* visibility_;
-  std::vector<float> viewWeights_, cellWeights_;
+  std::vector<float> viewWeights_;
   std::vector<glm::vec3> hemisphere_;                           // unit; z: against the face's normal
   std::array<std::vector<glm::vec3>, kEyesAround> eyesAround_;  // [views] each
   std::optional<RegionEyes> region_;
+  float weight_;
   double typicalWeight_ = 1;  // mean over the detail sites that are seen
 };
 

@@ -26,10 +26,12 @@ struct VisibilityOptions {
 struct Visibility {
   std::vector<glm::vec3> eyes;    // [views] [scene units]
   std::vector<double> pixels;     // [views] of the full-size view
-  std::vector<uint64_t> offsets;  // [N*K + 1]
+  uint32_t detailsPerRow = 1;     // detail sites that follow each other and show alike; 1, or K
+  std::vector<uint64_t> offsets;  // [N*K / detailsPerRow + 1]
   std::vector<uint16_t> views;    // [offsets.back()]
   std::vector<float> weights;     // [offsets.back()] > 0
-  std::vector<float> overlaps;  // [N * K(K-1)/2] for k < l, row by row: sum s_k s_l / sqrt(sum s_k^2 sum s_l^2) [0..1]
+  // [N * K(K-1)/2] for k < l, row by row: sum s_k s_l / sqrt(sum s_k^2 sum s_l^2) [0..1]; empty: all 0
+  std::vector<float> overlaps;
   std::vector<float> contributions;  // [N] the largest T alpha of the cell in any pixel of any view
 };
 

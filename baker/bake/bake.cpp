@@ -256,7 +256,7 @@ Status Bake::makeCoarser() {
                          plan_,
                          contents_.quantization,
                          options_.chunkCells,
-                         visibility_ ? sumCellWeights(foam_, *visibility_) : std::vector<double>{},
+                         visibility_ ? &*visibility_ : nullptr,
                          std::move(views),
                          options_.nearRatio,
                          options_.nearDepth,

@@ -11,6 +11,9 @@ namespace froth {
 namespace {
 
 constexpr uint32_t kSliceCells = 32;  // compressed by one task
+// What errors of a merged cell's colours weigh, where those of a cell of level 0 that shows as much have 1. Coarser
+// levels are drawn where merging shows little: so does coding that costs somewhat less (docs/notes/levels.md).
+constexpr float kMergedWeight = 0.25f;
 
 template <class T>
 void append(std::vector<T>& all, const std::vector<T>& values) {
@@ -63,7 +66,10 @@ Result<ColourSource> ColourSource::create(const Foam& foam, const Levels& levels
   Result<AppearanceCoder> coder = AppearanceCoder::create(foam, visibility, appearance, progress);
   if (!coder) return coder.error();
   source.coder_ = std::move(*coder);
-  if (levels.merged.cellCount > 0) source.mergedCoder_ = source.coder_->forFoam(levels.merged, levels.mergedWeights);
+  if (levels.merged.cellCount > 0) {
+    const Visibility* sights = levels.sights ? &*levels.sights : nullptr;
+    source.mergedCoder_ = source.coder_->forFoam(levels.merged, sights, kMergedWeight);
+  }
   source.lobeCount_ = std::min(foam.lobeCount, appearance.lobeLimit);
   return source;
 }

@@ -248,6 +248,7 @@ Result<CoarseForm> Coarsening::run() {
   measure();
   for (const uint32_t i : kept_) form_.kept.push_back(fine_.cells[i]);
   appendCells(plan_.merged, standing_, form_.merged);
+  for (const uint32_t k : standing_) form_.members.push_back(plan_.clusters[k]);
   if (plan_.contributions.empty()) return std::move(form_);
   for (const uint32_t k : standing_) form_.contributions.push_back(plan_.contributions[k]);
   return std::move(form_);

@@ -13,10 +13,11 @@
 namespace froth {
 
 struct CoarseForm {
-  std::vector<uint32_t> kept;         // cells of the scene that are in both forms
-  Foam merged;                        // new cells
-  std::vector<double> contributions;  // [merged cells]
-  std::vector<uint8_t> isEmpty;       // [kept and merged cells] no bounded cell
+  std::vector<uint32_t> kept;                  // cells of the scene that are in both forms
+  Foam merged;                                 // new cells
+  std::vector<double> contributions;           // [merged cells]
+  std::vector<std::vector<uint32_t>> members;  // [merged cells] cells of the scene that each stands for
+  std::vector<uint8_t> isEmpty;                // [kept and merged cells] no bounded cell
   // Rows of kept, then merged cells; neighbours are these cells by index, and behind them the ring of the fine form.
   CellRows rows;
   double distance = 0;  // form_distance.h [scene units]

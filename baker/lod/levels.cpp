@@ -21,6 +21,7 @@
 #include "baker/lod/level_front.h"
 #include "baker/lod/merge_plan.h"
 #include "baker/lod/merge_review.h"
+#include "baker/lod/sights.h"
 #include "baker/lod/split_form.h"
 #include "foam/append_cells.h"
 #include "reference/camera/view_rays.h"
@@ -29,9 +30,6 @@ namespace froth {
 namespace {
 
 constexpr uint32_t kGroupChunks = 4;  // full ones, of a group
-// What errors of a merged cell's colours weigh, where those of a cell of level 0 that shows as much have 1. Coarser
-// levels are drawn where merging, which costs 25 to 30 dB, shows little: so does coding that costs less.
-constexpr double kMergedWeight = 0x1p-3;
 
 class LevelMaker {
  public:
@@ -39,11 +37,12 @@ class LevelMaker {
       : input_(input),
         cells_(cells),
         progress_(progress),
-        contributions_(input.contributions),
+        contributions_(input.visibility ? sumCellWeights(input.foam, *input.visibility) : std::vector<double>{}),
         errors_(input.views, {input.nearRatio, input.nearDepth}),
         fit_(input.fitsViews ? std::span<const View>(input.views) : std::span<const View>(),
              {input.nearRatio, input.nearDepth}) {
     for (const View& view : input.views) eyes_.emplace_back(eyeOf(view));
+    if (input.visibility) levels_.sights = beginSights(*input.visibility, input.foam.detailCount);
   }
 
   Result<Levels> run();
@@ -73,7 +72,7 @@ class LevelMaker {
   static std::vector<uint32_t> findFailed(const std::vector<Step>& steps);
   bool forEachStep(std::vector<Step>& steps, const std::function<void(Step&)>& work);
   Status addMergedCells(std::vector<Step>& steps);
-  void weighMergedCells(size_t count);
+  void addSights(std::span<std::vector<uint32_t>> members);
   void splitStep(Step& step) const;
   void addGroup(Step& step);
   Status fitFront(LevelFront& front);
@@ -266,6 +265,7 @@ Status LevelMaker::addMergedCells(std::vector<Step>& steps) {
     if (!form.isWorthwhile) continue;
     report.merges += form.merged.cellCount;
     step.firstMerged = cells_.count();
+    addSights(form.members);
     const BakeCells snapped = snapCells(form.merged, input_.lattices);
     cells_.sites.insert(cells_.sites.end(), snapped.sites.begin(), snapped.sites.end());
     cells_.radii.insert(cells_.radii.end(), snapped.radii.begin(), snapped.radii.end());
@@ -275,18 +275,17 @@ Status LevelMaker::addMergedCells(std::vector<Step>& steps) {
     appendCells(form.merged, snapped.sources, levels_.merged);
     contributions_.insert(contributions_.end(), form.contributions.begin(), form.contributions.end());
     form.merged = {};
+    form.members = {};
   }
-  weighMergedCells(report.merges);
   return {};
 }
 
-// The newest `count` of them, which are a level's.
-void LevelMaker::weighMergedCells(size_t count) {
-  const auto newest = std::span(contributions_).last(contributions_.empty() ? 0 : count);
-  const double sum = std::accumulate(newest.begin(), newest.end(), 0.0);
-  for (size_t k = 0; k < count; ++k) {
-    const double share = sum > 0 ? newest[k] * static_cast<double>(count) / sum : 1;
-    levels_.mergedWeights.push_back(static_cast<float>(kMergedWeight * share));
+// Of the merged cells of a form.
+void LevelMaker::addSights(std::span<std::vector<uint32_t>> members) {
+  if (!levels_.sights) return;
+  for (std::vector<uint32_t>& cells : members) {
+    for (uint32_t& cell : cells) cell = cells_.sources[cell];
+    appendSights(*input_.visibility, input_.foam.cellCount, cells, *levels_.sights);
   }
 }
 
@@ -360,6 +359,7 @@ std::vector<GroupBounds> LevelMaker::findBounds() const {
 
 Levels LevelMaker::collect() {
   if (levels_.groups.empty()) return {};
+  if (levels_.sights) normaliseSights(levels_.reports, *levels_.sights);
   errors_.finish(chunks_, findBounds(), levels_.groups);
   const auto rank = [&](uint32_t chunk) {
     const ChunkLevel& place = chunks_[chunk].place;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "baker/appearance/visibility.h"
 #include "baker/cells/cells.h"
 #include "baker/cells/chunk_plan.h"
 #include "baker/lod/level_report.h"
@@ -22,7 +24,7 @@ struct LevelInput {
   const ChunkPlan& plan;   // of level 0
   const Quantization& lattices;
   uint32_t chunkCells;                  // most live cells of a chunk
-  std::vector<double> contributions;    // [input cells] how much each shows; empty: all alike
+  const Visibility* visibility;         // of the foam; null: all cells show alike
   std::vector<View> views;              // what errors are measured in; empty: errors are distances between forms
   double nearRatio = 4, nearDepth = 0;  // where a view does not say
   bool fitsViews = false;               // merged cells descend towards what the views show of level 0
@@ -36,9 +38,9 @@ struct Levels {
   uint32_t borderCount = 0;
   std::vector<LevelGroup> groups;  // none: nothing gets coarser, and all else is empty
   Foam merged;                     // BakeCells::sources continue into it
-  // [merged cells] what errors of its colours weigh, by how much it shows in its level: that is seen from where its
-  // cells look as large as those of level 0 do to the cameras
-  std::vector<float> mergedWeights;
+  // In which views merged cells show, by how much each does in its level: that is seen from where its cells look as
+  // large as those of level 0 do to the cameras. None: nothing is known.
+  std::optional<Visibility> sights;
   std::vector<LevelReport> reports;
 };
 

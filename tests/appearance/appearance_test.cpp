@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "foam/detail_colour.h"
 #include "format/quantization.h"
 #include "tests/reference/scenes.h"
 
@@ -229,12 +230,43 @@ TEST(Appearance, CellsOfAnotherFoamThatShowLittleKeepFewLobes) {
   ASSERT_TRUE(coder);
   std::vector<uint32_t> cells(other.cellCount);
   std::iota(cells.begin(), cells.end(), 0u);
-  const auto lobesWith = [&](std::vector<float> weights) {
-    return coder->forFoam(other, std::move(weights)).compress(cells).lobeColours.size();
+  const auto lobesWith = [&](float weight) {
+    return coder->forFoam(other, nullptr, weight).compress(cells).lobeColours.size();
   };
-  const size_t all = lobesWith({});
-  EXPECT_EQ(lobesWith(std::vector<float>(other.cellCount, 1)), all);
-  EXPECT_LT(lobesWith(std::vector<float>(other.cellCount, 0.05f)), all);
+  EXPECT_LT(lobesWith(0.05f), lobesWith(1));
+}
+
+// Where a foam is known to show in few views, its colours are those of these views.
+TEST(Appearance, CellsOfAnotherFoamLookRightWhereTheyAreSeen) {
+  const Foam foam = randomFoam(80, 3, 4, 1), other = randomFoam(60, 3, 4, 2);
+  const Result<AppearanceCoder> coder = AppearanceCoder::create(foam, nullptr, typicalOptions());
+  ASSERT_TRUE(coder);
+  std::vector<uint32_t> cells(other.cellCount);
+  std::iota(cells.begin(), cells.end(), 0u);
+  const glm::vec3 eye(0, 0, -6);
+  Visibility seen;
+  seen.eyes = {eye};
+  seen.pixels = {400};
+  seen.detailsPerRow = 3;
+  seen.offsets = {0};
+  for (uint32_t cell = 0; cell < other.cellCount; ++cell) {
+    seen.views.push_back(0);
+    seen.weights.push_back(1);
+    seen.offsets.push_back(seen.views.size());
+  }
+  // The first site's base colour alone, with so small a weight that there are no lobes.
+  const auto errorWith = [&](const Visibility* visibility) {
+    const CellAppearance coded = coder->forFoam(other, visibility, 1e-3f).compress(cells);
+    EXPECT_TRUE(coded.lobeColours.empty());
+    double sum = 0;
+    for (uint32_t cell = 0; cell < other.cellCount; ++cell) {
+      const glm::vec3 direction = glm::normalize(other.sites[cell] - eye);
+      const glm::vec3 shown = detailColour(other, uint64_t{3} * cell, direction);
+      sum += glm::distance(coded.baseColours[size_t{3} * cell] + 0.5f, shown);
+    }
+    return sum;
+  };
+  EXPECT_LT(errorWith(&seen), 0.6 * errorWith(nullptr));
 }
 
 }  // namespace
