@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t kSliceCells = 32;  // compressed by one task
 // What errors of a merged cell's colours weigh, where those of a cell of level 0 that shows as much have 1. Coarser
 // levels are drawn where merging shows little: so does coding that costs somewhat less (docs/notes/levels.md).
-constexpr float kMergedWeight = 0.25f;
+constexpr float kMergedWeight = 0.5f;
 
 template <class T>
 void append(std::vector<T>& all, const std::vector<T>& values) {
