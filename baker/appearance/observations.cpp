@@ -98,7 +98,7 @@ Observer::Observer(const Foam& foam, const Visibility* visibility, float eyeRadi
   for (size_t i = 0; i + 1 < visibility->offsets.size(); ++i) {
     seen += visibility->offsets[i + 1] > visibility->offsets[i];
   }
-  if (sum > 0) typicalWeight_ = sum * shares / static_cast<double>(seen);
+  if (sum > 0) typicalWeight_ = sum * shares / static_cast<double>(seen) / double{weight};
 }
 
 Observations Observer::observe(uint64_t detail) const {
@@ -134,7 +134,7 @@ void Observer::addCameras(uint64_t detail, const glm::vec3& position, Observatio
   const auto add = [&](uint32_t number, const glm::vec3& eye, double weight) {
     const glm::vec3 fromEye = position - eye;
     const float distance = glm::length(fromEye);
-    const auto relative = static_cast<float>(weight_ * weight / typicalWeight_);
+    const auto relative = static_cast<float>(weight / typicalWeight_);
     if (!(distance > 0) || !(relative > 0)) return;
     seen.eyes.push_back(number);
     seen.directions.push_back(fromEye / distance);

@@ -62,8 +62,8 @@ class Observer {
   std::vector<glm::vec3> hemisphere_;                           // unit; z: against the face's normal
   std::array<std::vector<glm::vec3>, kEyesAround> eyesAround_;  // [views] each
   std::optional<RegionEyes> region_;
-  float weight_;
-  double typicalWeight_ = 1;  // mean over the detail sites that are seen
+  float weight_;              // of a typical detail site
+  double typicalWeight_ = 1;  // mean over the detail sites that are seen, by weight_
 };
 
 }  // namespace froth
