@@ -54,8 +54,9 @@ TEST(WorkgroupRaces, AppearWhereAnyBarrierIsLeftOut) {
   EXPECT_GT(barriers, 60u);
   // The first one of scanExclusive, but where it is called in a loop. In order_tiles, the one behind placeClasses: that
   // one follows.
-  EXPECT_THAT(needless, testing::UnorderedElementsAre("choose_cells", "compact_cells", "count_tiles", "emit_pairs",
-                                                      "order_tiles", "sort_scatter", "sort_scatter_many"));
+  EXPECT_THAT(needless,
+              testing::UnorderedElementsAre("choose_cells", "compact_cells", "count_tiles", "emit_pairs",
+                                            "nearest_balls", "order_tiles", "sort_scatter", "sort_scatter_many"));
 }
 
 TEST(WorkgroupRaces, AppearWhereABarrierDoesNotOrderSharedMemory) {
