@@ -92,9 +92,11 @@ double shareOf(uint64_t part, uint64_t whole) {
 void printLevels(const std::vector<LevelReport>& levels) {
   for (size_t level = 0; level < levels.size(); ++level) {
     const LevelReport& made = levels[level];
-    fmt::print("level {:<11} {} live cells in {} groups, {} get coarser: {:.1f} % locked, {} merges, {} undone\n",
-               level, made.live, made.groups + made.failed, made.groups, 100 * shareOf(made.locked, made.live),
-               made.merges, made.undone);
+    fmt::print(
+        "level {:<11} {} live cells in {} groups, {} get coarser: {:.1f} % locked, {} merges, {} undone, {} "
+        "reviews\n",
+        level, made.live, made.groups + made.failed, made.groups, 100 * shareOf(made.locked, made.live), made.merges,
+        made.undone, made.reviews);
   }
 }
 
@@ -106,7 +108,8 @@ nlohmann::ordered_json levelsAsJson(const std::vector<LevelReport>& levels) {
                     {"groups", made.groups},
                     {"failedGroups", made.failed},
                     {"merges", made.merges},
-                    {"undoneMerges", made.undone}});
+                    {"undoneMerges", made.undone},
+                    {"reviews", made.reviews}});
   }
   return list;
 }

@@ -88,15 +88,17 @@ double LevelErrors::squaredError(const FrontImage& image, const FrontImage& fine
   return glm::dot(difference, difference) / 3;
 }
 
-Result<std::vector<double>> LevelErrors::sumByOwner(const Foam& foam, std::span<const uint32_t> owners,
-                                                    uint32_t ownerCount, const Progress& progress) const {
+Result<LevelErrors::OwnerErrors> LevelErrors::sumByOwner(const Foam& foam, std::span<const uint32_t> owners,
+                                                         uint32_t ownerCount, const Progress& progress) const {
   const Result<std::vector<FrontImage>> images = draw(foam, owners, progress);
   if (!images) return images.error();
-  std::vector<double> sums(ownerCount, 0);
+  OwnerErrors sums{std::vector<double>(ownerCount, 0)};
   for (size_t v = 0; v < views_.size(); ++v) {
     const FrontImage& image = (*images)[v];
     for (size_t pixel = 0; pixel < image.owners.size(); ++pixel) {
-      if (image.owners[pixel] != kNoOwner) sums[image.owners[pixel]] += squaredError(image, views_[v].finest, pixel);
+      const double square = squaredError(image, views_[v].finest, pixel);
+      sums.ofAll += square;
+      if (image.owners[pixel] != kNoOwner) sums.ofOwners[image.owners[pixel]] += square;
     }
   }
   return sums;

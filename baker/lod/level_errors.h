@@ -29,9 +29,13 @@ class LevelErrors {
   Status addLevel(const Foam& foam, std::span<const uint32_t> owners, std::span<const LevelChunk> chunks,
                   uint32_t firstGroup, uint32_t groupCount, const Progress& progress);
 
-  // [owners] squared error of the pixels that show most of each, over all views. `owners`: [cells] or kNoOwner.
-  Result<std::vector<double>> sumByOwner(const Foam& foam, std::span<const uint32_t> owners, uint32_t ownerCount,
-                                         const Progress& progress) const;
+  // Squared errors, over all views. `owners`: [cells] or kNoOwner.
+  struct OwnerErrors {
+    std::vector<double> ofOwners;  // of the pixels that show most of each
+    double ofAll = 0;              // pixels
+  };
+  Result<OwnerErrors> sumByOwner(const Foam& foam, std::span<const uint32_t> owners, uint32_t ownerCount,
+                                 const Progress& progress) const;
 
   // Until now errors of groups are the distances between their forms [scene units]; without views they stay, but grow
   // towards the floor. bounds: [groups].

@@ -95,15 +95,15 @@ Status LevelFit::takeFinest(const Foam& foam, const Progress& progress) {
   return {};
 }
 
-Status LevelFit::fit(Foam& foam, std::span<const uint8_t> isFree, const Progress& progress) const {
+Status LevelFit::fit(Foam& foam, std::span<const uint8_t> isFree, size_t viewCount, const Progress& progress) const {
   FoamStorage<float> storage = storeFoam<float>(foam, AdamMoments::kNone);
   CpuStep<float> step(storage);
   step.activate(0);
   FreeCells cells(storage, isFree);
-  const size_t count = views_.size(), stride = strideThrough(count);
+  const size_t count = std::min(viewCount, views_.size()), stride = strideThrough(views_.size());
   for (size_t s = 0; s < count; ++s) {
     if (!report(progress, "level fit", s, count)) return stoppedOnRequest("level fit");
-    const FitView& fit = views_[s * stride % count];
+    const FitView& fit = views_[s * stride % views_.size()];
     const StepView view(fit.view);
     const std::vector<glm::vec4>& shown = step.render(view.training, raySettings(), kNoAdam);
     const std::vector<glm::vec4> gradients = gradientsOf(shown, fit.wanted, fit.view.width);

@@ -25,9 +25,9 @@ class LevelFit {
   Status takeFinest(const Foam& foam, const Progress& progress);
   // Of a foam with base colours or lobes of any number nothing is.
   bool isFitting() const { return !views_.empty(); }
-  // All cells of a coarser level; changes those that are free. The same bits on any number of threads. Fails with
-  // kCancelled.
-  Status fit(Foam& foam, std::span<const uint8_t> isFree, const Progress& progress) const;
+  // All cells of a coarser level; changes those that are free. Through `viewCount` of the views, or all if they are
+  // fewer. The same bits on any number of threads. Fails with kCancelled.
+  Status fit(Foam& foam, std::span<const uint8_t> isFree, size_t viewCount, const Progress& progress) const;
 
  private:
   // A pixel of it is a box of rays: a level stands for level 0 where pixels are no smaller than cells.

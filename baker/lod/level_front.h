@@ -7,6 +7,7 @@
 
 #include "baker/lod/level_chunk.h"
 #include "baker/lod/level_source.h"
+#include "baker/lod/merge_plan.h"
 #include "foam/foam.h"
 
 namespace froth {
@@ -21,5 +22,9 @@ struct LevelFront {
 // empty] marks.
 LevelFront gatherFront(const LevelSource& source, std::span<const LevelChunk> chunks,
                        std::span<const uint8_t> isLeftOut = {});
+
+// The level that the plans make of them. Owners are merges, numbered through the plans, or kNoOwner.
+LevelFront gatherPlannedFront(const LevelSource& source, std::span<const LevelChunk> chunks,
+                              std::span<const MergePlan* const> plans);
 
 }  // namespace froth

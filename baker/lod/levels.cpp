@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -15,10 +16,12 @@
 #include "baker/lod/chunk_groups.h"
 #include "baker/lod/coarse_form.h"
 #include "baker/lod/fine_form.h"
+#include "baker/lod/fit_views.h"
 #include "baker/lod/group_balls.h"
 #include "baker/lod/level_errors.h"
 #include "baker/lod/level_fit.h"
 #include "baker/lod/level_front.h"
+#include "baker/lod/level_step.h"
 #include "baker/lod/merge_plan.h"
 #include "baker/lod/merge_review.h"
 #include "baker/lod/sights.h"
@@ -48,33 +51,22 @@ class LevelMaker {
   Result<Levels> run();
 
  private:
-  // A group on its way to the next level.
-  struct Step {
-    std::vector<uint32_t> group;           // chunks
-    std::optional<MergePlan> merges = {};  // until there is a form
-    std::vector<uint32_t> ring = {};
-    std::optional<Result<CoarseForm>> form = {};
-    uint32_t firstMerged = 0;  // cell of the scene
-    std::vector<LevelChunk> made = {};
-    Status status = {};
-  };
-
   Status takeLevel0();
   bool isFloor() const;
   Status makeLevel();
-  Status makeSteps(std::vector<Step>& steps);
-  void listGroups(std::vector<std::vector<uint32_t>> groups, std::vector<Step>& steps) const;
+  Status makeSteps(std::vector<LevelStep>& steps);
+  void listGroups(std::vector<std::vector<uint32_t>> groups, std::vector<LevelStep>& steps) const;
   LevelSource source() const;
-  bool planSteps(std::vector<Step>& steps);
-  Status reviewMerges(std::vector<Step>& steps);
-  bool keepApart(std::span<const uint32_t> merges, std::vector<Step>& steps);
-  bool makeForms(std::vector<Step>& steps);
-  static std::vector<uint32_t> findFailed(const std::vector<Step>& steps);
-  bool forEachStep(std::vector<Step>& steps, const std::function<void(Step&)>& work);
-  Status addMergedCells(std::vector<Step>& steps);
+  bool planSteps(std::vector<LevelStep>& steps);
+  Status reviewMerges(std::vector<LevelStep>& steps);
+  bool keepApart(std::span<const uint32_t> merges, std::vector<LevelStep>& steps);
+  bool makeForms(std::vector<LevelStep>& steps);
+  static std::vector<uint32_t> findFailed(const std::vector<LevelStep>& steps);
+  bool forEachStep(std::vector<LevelStep>& steps, const std::function<void(LevelStep&)>& work);
+  Status addMergedCells(std::vector<LevelStep>& steps);
   void addSights(std::span<std::vector<uint32_t>> members);
-  void splitStep(Step& step) const;
-  void addGroup(Step& step);
+  void splitStep(LevelStep& step) const;
+  void addGroup(LevelStep& step);
   Status fitFront(LevelFront& front);
   Status measureFront(uint32_t firstGroup);
   std::vector<GroupBounds> findBounds() const;
@@ -110,17 +102,15 @@ Status LevelMaker::takeLevel0() {
   return errors_.takeFinest(input_.foam, owners, progress_);
 }
 
-uint64_t countLive(const std::vector<LevelChunk>& chunks, const std::vector<uint32_t>& listed) {
+// The floor is what a first image waits for, and stays resident: so it does not grow with the scene.
+bool LevelMaker::isFloor() const {
   uint64_t live = 0;
-  for (const uint32_t chunk : listed) live += chunks[chunk].planned.liveCount;
-  return live;
+  for (const uint32_t chunk : front_) live += chunks_[chunk].planned.liveCount;
+  return front_.size() <= 1 || live <= input_.chunkCells;
 }
 
-// The floor is what a first image waits for, and stays resident: so it does not grow with the scene.
-bool LevelMaker::isFloor() const { return front_.size() <= 1 || countLive(chunks_, front_) <= input_.chunkCells; }
-
 // False: asked to stop.
-bool LevelMaker::forEachStep(std::vector<Step>& steps, const std::function<void(Step&)>& work) {
+bool LevelMaker::forEachStep(std::vector<LevelStep>& steps, const std::function<void(LevelStep&)>& work) {
   const StageProgress stage{progress_, "levels", 0, steps.size()};
   return forEachSlice(static_cast<uint32_t>(steps.size()), 1, stage, [&](uint32_t index) {
     // A thread that waits inside a group begins no other: memory holds as many groups as there are threads.
@@ -133,24 +123,24 @@ LevelSource LevelMaker::source() const {
 }
 
 // A group that is among the steps keeps what it has.
-void LevelMaker::listGroups(std::vector<std::vector<uint32_t>> groups, std::vector<Step>& steps) const {
-  std::vector<Step> before = std::exchange(steps, {});
+void LevelMaker::listGroups(std::vector<std::vector<uint32_t>> groups, std::vector<LevelStep>& steps) const {
+  std::vector<LevelStep> before = std::exchange(steps, {});
   for (std::vector<uint32_t>& group : groups) {
-    const auto same = std::ranges::find(before, group, &Step::group);
-    steps.push_back(same != before.end() ? std::move(*same) : Step{std::move(group)});
+    const auto same = std::ranges::find(before, group, &LevelStep::group);
+    steps.push_back(same != before.end() ? std::move(*same) : LevelStep{std::move(group)});
   }
 }
 
 // Of steps without merges and form. False: asked to stop.
-bool LevelMaker::planSteps(std::vector<Step>& steps) {
-  return forEachStep(steps, [&](Step& step) {
+bool LevelMaker::planSteps(std::vector<LevelStep>& steps) {
+  return forEachStep(steps, [&](LevelStep& step) {
     if (!step.merges && !step.form) step.merges = planMerges(source(), makeFineForm(chunks_, step.group), staysApart_);
   });
 }
 
 // Of steps without a form. False: asked to stop.
-bool LevelMaker::makeForms(std::vector<Step>& steps) {
-  return forEachStep(steps, [&](Step& step) {
+bool LevelMaker::makeForms(std::vector<LevelStep>& steps) {
+  return forEachStep(steps, [&](LevelStep& step) {
     if (step.form) return;
     FineForm fine = makeFineForm(chunks_, step.group);
     step.form = makeCoarseForm(source(), fine, *step.merges);
@@ -159,52 +149,51 @@ bool LevelMaker::makeForms(std::vector<Step>& steps) {
   });
 }
 
-// Draws the level as it is planned. Cells whose merges stand out by their error merge with none, and others do.
-Status LevelMaker::reviewMerges(std::vector<Step>& steps) {
-  for (int review = 0; errors_.isMeasuring() && review < kReviews; ++review) {
-    std::vector<uint8_t> isMerged(cells_.count(), 0);
-    for (const Step& step : steps) {
-      for (const std::vector<uint32_t>& cluster : step.merges->clusters) {
-        for (const uint32_t cell : cluster) isMerged[cell] = 1;
-      }
-    }
-    LevelFront front = gatherFront(source(), chunks_, isMerged);
-    front.owners.assign(front.foam.cellCount, kNoOwner);
-    uint32_t merges = 0;
-    for (const Step& step : steps) {
-      std::vector<uint32_t> all(step.merges->clusters.size());
-      std::iota(all.begin(), all.end(), 0u);
-      appendCells(step.merges->merged, all, front.foam);
-      for (size_t k = 0; k < all.size(); ++k) front.owners.push_back(merges++);
-    }
-    const Result<std::vector<double>> errors = errors_.sumByOwner(front.foam, front.owners, merges, progress_);
+// Cells whose merges stand out in pictures merge with none, and others do, for as long as all pictures gain by it.
+Status LevelMaker::reviewMerges(std::vector<LevelStep>& steps) {
+  uint64_t& reviews = levels_.reports.back().reviews;
+  double before = std::numeric_limits<double>::infinity();
+  std::vector<uint8_t> apartBefore;
+  for (; errors_.isMeasuring() && reviews < kReviews; ++reviews) {
+    std::vector<const MergePlan*> plans;
+    for (const LevelStep& step : steps) plans.push_back(&*step.merges);
+    const Result<LevelErrors::OwnerErrors> errors = drawPlans(source(), chunks_, plans, errors_, fit_, progress_);
     if (!errors) return errors.error();
-    const std::vector<uint32_t> outliers = findOutliers(*errors);
-    if (outliers.empty()) return {};
+    if (errors->ofAll > kKeptByReview * before) {
+      for (LevelStep& step : steps) step.takeBack();
+      staysApart_ = apartBefore;
+      --reviews;
+      break;
+    }
+    const std::vector<uint32_t> outliers = findOutliers(errors->ofOwners);
+    if (outliers.empty()) break;
+    before = errors->ofAll;
+    apartBefore = staysApart_;
     if (!keepApart(outliers, steps)) return stoppedOnRequest("bake");
   }
+  for (LevelStep& step : steps) step.replaced.reset();
   return {};
 }
 
 // Cells of the listed merges, numbered through the steps, ascending; their steps are planned again. False: asked to
 // stop.
-bool LevelMaker::keepApart(std::span<const uint32_t> merges, std::vector<Step>& steps) {
+bool LevelMaker::keepApart(std::span<const uint32_t> merges, std::vector<LevelStep>& steps) {
   uint32_t first = 0;
   auto next = merges.begin();
-  for (Step& step : steps) {
+  for (LevelStep& step : steps) {
     const auto count = static_cast<uint32_t>(step.merges->clusters.size());
     const bool isAny = next != merges.end() && *next < first + count;
     for (; next != merges.end() && *next < first + count; ++next) {
       for (const uint32_t cell : step.merges->clusters[*next - first]) staysApart_[cell] = 1;
     }
-    if (isAny) step.merges.reset();
+    step.replaced = isAny ? std::exchange(step.merges, std::nullopt) : std::nullopt;
     first += count;
   }
   return planSteps(steps);
 }
 
 // Indices of those whose form is not worth its bytes.
-std::vector<uint32_t> LevelMaker::findFailed(const std::vector<Step>& steps) {
+std::vector<uint32_t> LevelMaker::findFailed(const std::vector<LevelStep>& steps) {
   std::vector<uint32_t> failed;
   for (uint32_t index = 0; index < steps.size(); ++index) {
     const Result<CoarseForm>& form = *steps[index].form;
@@ -215,7 +204,7 @@ std::vector<uint32_t> LevelMaker::findFailed(const std::vector<Step>& steps) {
 
 // Chunks that do not get coarser lock what is beside them on all levels above, and stay in the floor: so a group that
 // fails merges what it kept apart, and if that is not enough its chunks go to the groups around it.
-Status LevelMaker::makeSteps(std::vector<Step>& steps) {
+Status LevelMaker::makeSteps(std::vector<LevelStep>& steps) {
   const uint64_t groupLive = uint64_t{kGroupChunks} * input_.chunkCells;
   const std::vector<std::vector<uint32_t>> groups = groupChunks(chunks_, front_, cells_.count(), groupLive);
   staysApart_.assign(cells_.count(), 0);
@@ -237,13 +226,14 @@ Status LevelMaker::makeSteps(std::vector<Step>& steps) {
 }
 
 Status LevelMaker::makeLevel() {
-  std::vector<Step> steps;
+  levels_.reports.emplace_back();
+  std::vector<LevelStep> steps;
   if (Status status = makeSteps(steps); !status) return status;
   if (Status status = addMergedCells(steps); !status) return status;
-  if (!forEachStep(steps, [&](Step& step) { splitStep(step); })) return stoppedOnRequest("bake");
+  if (!forEachStep(steps, [&](LevelStep& step) { splitStep(step); })) return stoppedOnRequest("bake");
   front_.clear();
   const auto firstGroup = static_cast<uint32_t>(levels_.groups.size());
-  for (Step& step : steps) {
+  for (LevelStep& step : steps) {
     if (!step.status) return step.status;
     if ((*step.form)->isWorthwhile) addGroup(step);
   }
@@ -252,9 +242,9 @@ Status LevelMaker::makeLevel() {
 }
 
 // In the order of groups, so that each cell's number is the same on any number of threads.
-Status LevelMaker::addMergedCells(std::vector<Step>& steps) {
-  LevelReport& report = levels_.reports.emplace_back();
-  for (Step& step : steps) {
+Status LevelMaker::addMergedCells(std::vector<LevelStep>& steps) {
+  LevelReport& report = levels_.reports.back();
+  for (LevelStep& step : steps) {
     if (!*step.form) return step.form->error();
     CoarseForm& form = **step.form;
     report.live += form.liveCount;
@@ -289,7 +279,7 @@ void LevelMaker::addSights(std::span<std::vector<uint32_t>> members) {
   }
 }
 
-void LevelMaker::splitStep(Step& step) const {
+void LevelMaker::splitStep(LevelStep& step) const {
   if (!(*step.form)->isWorthwhile) return;
   Result<std::vector<LevelChunk>> made =
       splitForm(**step.form, step.ring, step.firstMerged, cells_, input_.chunkCells, input_.lattices.positionStep);
@@ -298,7 +288,7 @@ void LevelMaker::splitStep(Step& step) const {
 }
 
 // Its ball holds those of the groups that made its chunks.
-void LevelMaker::addGroup(Step& step) {
+void LevelMaker::addGroup(LevelStep& step) {
   const auto number = static_cast<uint32_t>(levels_.groups.size());
   std::vector<GroupBall> balls;
   for (const uint32_t index : step.group) {
@@ -326,7 +316,7 @@ Status LevelMaker::fitFront(LevelFront& front) {
   const uint32_t firstNew = input_.foam.cellCount + levels_.merged.cellCount - newest;
   std::vector<uint8_t> isFree;
   for (const uint32_t cell : front.cells) isFree.push_back(cells_.sources[cell] >= firstNew ? 1 : 0);
-  if (Status status = fit_.fit(front.foam, isFree, progress_); !status) return status;
+  if (Status status = fit_.fit(front.foam, isFree, kFitViews, progress_); !status) return status;
   for (uint32_t k = 0; k < front.foam.cellCount; ++k) {
     if (!isFree[k]) continue;
     float& density = front.foam.densities[k];
@@ -341,9 +331,7 @@ Status LevelMaker::measureFront(uint32_t firstGroup) {
   const auto groupCount = static_cast<uint32_t>(levels_.groups.size());
   if (!errors_.isMeasuring() || firstGroup == groupCount) return {};
   LevelFront front = gatherFront(source(), chunks_);
-  if (fit_.isFitting()) {
-    if (Status status = fitFront(front); !status) return status;
-  }
+  if (Status status = fit_.isFitting() ? fitFront(front) : Status(); !status) return status;
   return errors_.addLevel(front.foam, front.owners, chunks_, firstGroup, groupCount, progress_);
 }
 

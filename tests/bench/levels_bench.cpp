@@ -20,6 +20,7 @@
 #include "baker/input/foam_input.h"
 #include "baker/lod/choose_pairs.h"
 #include "baker/lod/contributions.h"
+#include "baker/lod/fit_views.h"
 #include "baker/lod/level_errors.h"
 #include "baker/lod/level_fit.h"
 #include "baker/lod/merge_plan.h"
@@ -107,20 +108,34 @@ class LevelsBench {
     LevelErrors errors(others_, {input_.nearRatio, input_.nearDepth});
     check(errors.takeFinest(input_.foam, cells, {}));
     std::vector<uint8_t> staysApart(cells.size(), 0);
-    MergedFoam merged = mergeGroups(split(cells, options_.groups), contributions, staysApart);
-    for (int review = 0; review < kReviews && keepApart(errors, merged, staysApart) > 0; ++review) {
-      compare(merged.cells);
-      merged = mergeGroups(split(cells, options_.groups), contributions, staysApart);
-    }
-    Foam& coarse = merged.cells;
-    compare(coarse);
     LevelFit fit(others_, {input_.nearRatio, input_.nearDepth});
-    const double seconds = secondsOf([&] {
-      check(fit.takeFinest(input_.foam, {}));
-      check(fit.fit(coarse, std::vector<uint8_t>(coarse.cellCount, 1), {}));
-    });
-    fmt::print("fit: {:.2f} s\n", seconds);
-    compare(coarse);
+    check(fit.takeFinest(input_.foam, {}));
+    const auto merge = [&] { return mergeGroups(split(cells, options_.groups), contributions, staysApart); };
+    const auto fitted = [&](const MergedFoam& merged, size_t viewCount) {
+      Foam foam = merged.cells;
+      std::vector<uint8_t> isFree;
+      for (const std::vector<uint32_t>& members : merged.members) isFree.push_back(members.size() > 1 ? 1 : 0);
+      const double seconds = secondsOf([&] { check(fit.fit(foam, isFree, viewCount, {})); });
+      fmt::print("fit through {} views: {:.2f} s\n", viewCount, seconds);
+      return foam;
+    };
+    MergedFoam merged = merge();
+    double before = INFINITY;
+    std::vector<uint8_t> apartBefore;
+    for (int review = 0; review < kReviews; ++review) {
+      const Foam drawn = fitted(merged, kViewsOfReview);
+      compare(drawn);
+      std::vector<uint8_t> apart = staysApart;
+      const Review found = lookAt(errors, drawn, merged.members, apart);
+      const bool isBack = found.error > kKeptByReview * before;
+      if (!isBack && found.outliers == 0) break;
+      before = found.error;
+      apartBefore = std::exchange(staysApart, isBack ? apartBefore : apart);
+      merged = merge();
+      if (isBack) break;
+    }
+    compare(merged.cells);
+    compare(fitted(merged, kFitViews));
   }
 
  private:
@@ -142,21 +157,28 @@ class LevelsBench {
     return all;
   }
 
-  // Marks the cells of the merges that stand out, as the bake does; how many merges those are.
-  size_t keepApart(const LevelErrors& errors, const MergedFoam& merged, std::vector<uint8_t>& staysApart) const {
+  struct Review {
+    double error;  // of all pixels
+    size_t outliers;
+  };
+
+  // Marks the cells of the merges that stand out, as the bake does.
+  static Review lookAt(const LevelErrors& errors, const Foam& drawn, const std::vector<std::vector<uint32_t>>& members,
+                       std::vector<uint8_t>& staysApart) {
     std::vector<uint32_t> owners, merges;
-    for (uint32_t cell = 0; cell < merged.cells.cellCount; ++cell) {
-      const bool isMerged = merged.members[cell].size() > 1;
+    for (uint32_t cell = 0; cell < drawn.cellCount; ++cell) {
+      const bool isMerged = members[cell].size() > 1;
       owners.push_back(isMerged ? static_cast<uint32_t>(merges.size()) : kNoOwner);
       if (isMerged) merges.push_back(cell);
     }
-    const std::vector<uint32_t> outliers =
-        findOutliers(valueOf(errors.sumByOwner(merged.cells, owners, static_cast<uint32_t>(merges.size()), {})));
+    const LevelErrors::OwnerErrors sums =
+        valueOf(errors.sumByOwner(drawn, owners, static_cast<uint32_t>(merges.size()), {}));
+    const std::vector<uint32_t> outliers = findOutliers(sums.ofOwners);
     for (const uint32_t outlier : outliers) {
-      for (const uint32_t cell : merged.members[merges[outlier]]) staysApart[cell] = 1;
+      for (const uint32_t cell : members[merges[outlier]]) staysApart[cell] = 1;
     }
-    fmt::print("{} of {} merges stand out\n", outliers.size(), merges.size());
-    return outliers.size();
+    fmt::print("error {:.3f}; {} of {} merges stand out\n", sums.ofAll, outliers.size(), merges.size());
+    return {sums.ofAll, outliers.size()};
   }
 
   // Halves by the median along the longest side.

@@ -71,12 +71,16 @@ TEST(LevelErrors, AreSummedByWhatShowsThem) {
   const Foam fine = twoBalls(beside, 0), coarse = twoBalls(beside, 0.3f);
   LevelErrors errors(std::vector<View>{view}, {.nearRatio = 0});
   ASSERT_TRUE(errors.takeFinest(fine, std::vector<uint32_t>{0, 1}, {}));
-  const std::vector<double> sums = *errors.sumByOwner(coarse, std::vector<uint32_t>{1, 0}, 2, {});
+  const LevelErrors::OwnerErrors both = *errors.sumByOwner(coarse, std::vector<uint32_t>{1, 0}, 2, {});
+  const std::vector<double>& sums = both.ofOwners;
   ASSERT_EQ(sums.size(), 2u);
   EXPECT_EQ(sums[1], 0);
   const auto colourOf = [&](const Foam& foam) { return renderFoam(foam, view).colour; };
   EXPECT_NEAR(sums[0], 60 * 40 * meanSquare(colourOf(fine), colourOf(coarse)), 1e-3 * sums[0]);
-  EXPECT_EQ(errors.sumByOwner(coarse, std::vector<uint32_t>{kNoOwner, kNoOwner}, 1, {})->at(0), 0);
+  EXPECT_NEAR(both.ofAll, sums[0], 1e-12 * sums[0]);
+  const LevelErrors::OwnerErrors none = *errors.sumByOwner(coarse, std::vector<uint32_t>{kNoOwner, kNoOwner}, 1, {});
+  EXPECT_EQ(none.ofOwners, std::vector<double>{0});
+  EXPECT_EQ(none.ofAll, both.ofAll);
 }
 
 // The cut that a reader draws at detail 1 for a view (docs/STREAMING.md), as a foam; counts the refined groups.

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "baker/lod/choose_pairs.h"
+#include "baker/lod/fit_views.h"
 #include "baker/lod/merge_cells.h"
 #include "base/image/mean_square.h"
 #include "foam/append_cells.h"
@@ -59,12 +60,12 @@ const Foam& sampleFoam() {
   return foam;
 }
 
-Foam fitted(const Merged& merged, LensKind lens = LensKind::kPinhole) {
+Foam fitted(const Merged& merged, LensKind lens = LensKind::kPinhole, size_t viewCount = kFitViews) {
   LevelFit fit(viewsAround(0, lens), kNoNearCells);
   EXPECT_TRUE(fit.takeFinest(sampleFoam(), {}));
   EXPECT_TRUE(fit.isFitting());
   Foam foam = merged.foam;
-  EXPECT_TRUE(fit.fit(foam, merged.isFree, {}));
+  EXPECT_TRUE(fit.fit(foam, merged.isFree, viewCount, {}));
   return foam;
 }
 
@@ -83,6 +84,18 @@ TEST(LevelFit, AMergedFoamComesNearerWhereTheFitDidNotLook) {
     const double before = meanSquareOver(unseen, merged.foam), after = meanSquareOver(unseen, fitted(merged, lens));
     EXPECT_LT(after, 0.8 * before) << decibels(before) << " dB before, " << decibels(after) << " after";
   }
+}
+
+TEST(LevelFit, FewViewsDoSomeOfIt) {
+  const Merged merged = mergeHalf(sampleFoam());
+  const std::vector<View> unseen = viewsAround(0.25);
+  const auto errorOf = [&](size_t viewCount) {
+    return meanSquareOver(unseen, fitted(merged, LensKind::kPinhole, viewCount));
+  };
+  const double before = meanSquareOver(unseen, merged.foam), few = errorOf(kFitViews / 8), all = errorOf(SIZE_MAX);
+  EXPECT_LT(few, 0.95 * before);
+  EXPECT_LT(all, 0.95 * few);
+  EXPECT_EQ(errorOf(0), before);
 }
 
 TEST(LevelFit, OnlyFreeCellsChangeAndNoNeighbours) {

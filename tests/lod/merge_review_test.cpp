@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/lod/level_scene.h"
 #include "tests/reference/scenes.h"
 
@@ -69,6 +71,17 @@ size_t countKept(const Foam& foam, const AssetContents& contents) {
   return kept;
 }
 
+Result<BakeResult> bakeLevels(const Foam& foam, const CameraSet& cameras) {
+  BakeOptions options;
+  options.preset = "exact";
+  options.knobs = *presetKnobs("exact");
+  options.chunkCells = 150;
+  options.levels = true;
+  options.measure = false;
+  options.cameras = &cameras;
+  return bakeFoam(foam, options);
+}
+
 // A pair of halved cells differs in no mean colour, so it costs least, and its merged cell loses what it shows.
 TEST(MergeReview, CellsWhoseMergesWouldShowStayAsTheyAre) {
   const Foam foam = halvedWall();
@@ -79,17 +92,11 @@ TEST(MergeReview, CellsWhoseMergesWouldShowStayAsTheyAre) {
   for (int k = 0; k < 4; ++k) {
     cameras.views.push_back(lookAt({middle + k - 1.5, middle + 1.5 - k, -30}, {middle, middle, 0}, 160, 160, 0.7));
   }
-  BakeOptions options;
-  options.preset = "exact";
-  options.knobs = *presetKnobs("exact");
-  options.chunkCells = 150;
-  options.levels = true;
-  options.measure = false;
-  options.cameras = &cameras;
-  const Result<BakeResult> baked = bakeFoam(foam, options);
+  const Result<BakeResult> baked = bakeLevels(foam, cameras);
   ASSERT_TRUE(baked) << baked.error().message;
   const LevelReport& level = baked->levels.at(0);
   EXPECT_LT(level.live - level.merges, level.live);
+  EXPECT_GE(level.reviews, 1u);
   EXPECT_GE(countKept(foam, baked->contents), halved * 9 / 10) << "of " << halved;
 }
 
