@@ -15,6 +15,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "baker/input/foam_input.h"
@@ -122,7 +123,7 @@ class LevelsBench {
     MergedFoam merged = merge();
     double before = INFINITY;
     std::vector<uint8_t> apartBefore;
-    for (int review = 0; review < kReviews; ++review) {
+    for (uint64_t review = 0; review < kReviews; ++review) {
       const Foam drawn = fitted(merged, kViewsOfReview);
       compare(drawn);
       std::vector<uint8_t> apart = staysApart;
