@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -25,6 +27,7 @@ struct Summary {
   uint32_t longestUnsettled = 0, oldestRequest = 0;                              // [frames]
   uint64_t mostDeviceBytes = 0, mostChunkBytes = 0, missingPixels = 0;
   std::vector<double> updates, gpuTimes, fadingTimes;  // [ms] GPU: of all frames, and of those in a fade
+  std::vector<std::pair<std::string, std::vector<double>>> passTimes;  // [ms] of frames that have it, in their order
   Range flown, settledError;
 };
 
@@ -40,6 +43,19 @@ Range rangeOf(const std::vector<ComparedImage>& images, double ComparedImage::*f
   return range;
 }
 
+void addPasses(const FlownFrame& frame, Summary& summary) {
+  std::map<std::string, double> ofFrame;
+  for (const FrothPassTime& pass : frame.passes) ofFrame[pass.name] += pass.milliseconds;
+  for (const FrothPassTime& pass : frame.passes) {
+    const auto isNamed = [&](const auto& known) { return known.first == pass.name; };
+    if (std::ranges::none_of(summary.passTimes, isNamed))
+      summary.passTimes.emplace_back(pass.name, std::vector<double>{});
+  }
+  for (auto& [name, times] : summary.passTimes) {
+    if (ofFrame.contains(name)) times.push_back(ofFrame[name]);
+  }
+}
+
 Summary summarize(const Flight& flight, const FlightOptions& options) {
   Summary summary;
   uint32_t unsettled = 0;
@@ -52,6 +68,7 @@ Summary summarize(const Flight& flight, const FlightOptions& options) {
     if (!frame.isReady) continue;
     if (!summary.firstReady) summary.firstReady = i;
     summary.gpuTimes.push_back(frame.gpuMs);
+    addPasses(frame, summary);
     if (frame.isFading) summary.fadingTimes.push_back(frame.gpuMs);
     summary.lacking += frame.isWhole ? 0 : 1;
     summary.limited += frame.isLimited ? 1 : 0;
@@ -76,6 +93,12 @@ nlohmann::ordered_json imagesAsJson(const std::vector<ComparedImage>& images) {
                     {"psnrSettled", image.settled},
                     {"missingPixels", image.missing}});
   }
+  return json;
+}
+
+nlohmann::ordered_json passesAsJson(const Summary& summary) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [name, times] : summary.passTimes) json[name] = frameTimesAsJson(times);
   return json;
 }
 
@@ -142,6 +165,7 @@ void printFlight(const Flight& flight, const FlightOptions& options) {
              summary.aboveBudget);
   printFrameTimes("frothUpdate", summary.updates);
   printFrameTimes("GPU", summary.gpuTimes);
+  for (const auto& [name, times] : summary.passTimes) printFrameTimes(("  " + name).c_str(), times);
   printFrameTimes("GPU, in a fade", summary.fadingTimes);
   fmt::print("{:<24} flown {:.2f}, worst {:.2f}; at rest {:.2f}, worst {:.2f} dB\n", "PSNR of all images",
              summary.flown.mean, summary.flown.worst, summary.settledError.mean, summary.settledError.worst);
@@ -173,6 +197,7 @@ nlohmann::ordered_json flightAsJson(const Flight& flight, const FlightOptions& o
                {"framesAboveBudget", summary.aboveBudget},
                {"updateMs", frameTimesAsJson(summary.updates)},
                {"gpuMs", frameTimesAsJson(summary.gpuTimes)},
+               {"passesMs", passesAsJson(summary)},
                {"fadingFrames", summary.fadingTimes.size()},
                {"gpuFadingMs", frameTimesAsJson(summary.fadingTimes)},
                {"psnrFlown", {{"mean", summary.flown.mean}, {"worst", summary.flown.worst}}},

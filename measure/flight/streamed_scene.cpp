@@ -190,9 +190,10 @@ Status StreamedScene::completeFrameBefore() {
   FlownFrame& before = frames_.back();
   auto status = makeStruct<FrothViewStatus>();
   if (Status asked = check(frothGetViewStatus(context_, view_, &status), "frothGetViewStatus"); !asked) return asked;
-  for (uint32_t pass = 0; pass < status.passCount; ++pass) {
-    before.gpuMs += status.passes[pass].milliseconds;
-    before.isFading = before.isFading || std::string_view(status.passes[pass].name) == "fade";
+  before.passes.assign(status.passes, status.passes + status.passCount);
+  for (const FrothPassTime& pass : before.passes) {
+    before.gpuMs += pass.milliseconds;
+    before.isFading = before.isFading || std::string_view(pass.name) == "fade";
   }
   before.isLimited = (status.bits & kLimitBits) != 0;
   if ((status.bits & ~kLimitBits) != 0) before.isWhole = false;

@@ -40,8 +40,10 @@ struct SceneOptions {
 SceneOptions allCellsOf(const SceneOptions& options);
 
 struct FlownFrame {
-  double updateMs = 0;     // [ms] frothUpdate, on the clock
-  double gpuMs = 0;        // [ms] sum of passes, once a further frame is drawn; 0: the device tells no times
+  double updateMs = 0;  // [ms] frothUpdate, on the clock
+  // [ms] by pass, once a further frame is drawn; empty: the device tells no times. A fade has most passes twice.
+  std::vector<FrothPassTime> passes;
+  double gpuMs = 0;        // [ms] sum of passes
   bool isReady = false;    // the floors are there
   bool isFading = false;   // drew two cuts, once a further frame is drawn and the device tells times
   bool isWhole = false;    // there was room for all cells, as far as is known when a further frame is drawn

@@ -9,6 +9,7 @@
 
 #include "host/make_struct.h"
 #include "measure/flight/flight.h"
+#include "measure/flight/flight_figures.h"
 #include "tests/render/render_harness.h"
 #include "tests/surroundings.h"
 
@@ -121,6 +122,18 @@ TEST(Flight, IsTheSameEachTime) {
     EXPECT_EQ(first.frames[i].stream.drawnChunks, second.frames[i].stream.drawnChunks) << i;
     EXPECT_EQ(first.frames[i].stream.usedBytes, second.frames[i].stream.usedBytes) << i;
     EXPECT_EQ(first.frames[i].isReady, second.frames[i].isReady) << i;
+  }
+}
+
+TEST(Flight, TellsTimesByPass) {
+  const FlightOptions drawn = options();
+  const nlohmann::ordered_json json = flightAsJson(flyWell(drawn), drawn);
+  const nlohmann::ordered_json& passes = json["passesMs"];
+  EXPECT_FALSE(passes.contains("walk"));
+  for (const char* name : {"cull", "sort", "bin", "raster"}) {
+    ASSERT_TRUE(passes.contains(name)) << name;
+    EXPECT_GT(passes[name]["median"], 0) << name;
+    EXPECT_LT(passes[name]["median"], json["gpuMs"]["median"]) << name;
   }
 }
 
