@@ -57,6 +57,19 @@ void drawPart(uint part, uvec2 range, uvec2 corner, inout Merged merged[kRays]) 
   barrier();  // the next list may overwrite what its last batch was asked for
 }
 
+// Whether any ray of the workgroup goes on. Every thread calls it, at the same place.
+bool goesOn(Merged merged[kRays]) {
+  Radiance radiances[kRays];
+  for (uint r = 0; r < kRays; ++r) radiances[r] = merged[r].radiance;
+  if (gl_LocalInvocationIndex == 0) liveMask = 0;
+  barrier();
+  if (!areSaturated(loadShading(), radiances)) atomicOr(liveMask, 1u);
+  barrier();
+  bool isAny = liveMask != 0;
+  barrier();
+  return isAny;
+}
+
 void main() {
   selectPart(0);
   uvec2 corner = gl_WorkGroupID.xy * kSubTileSize;
@@ -69,7 +82,9 @@ void main() {
     merged[r] = Merged(startOf(pixel, rayOf(pixel)), 0u, uvec4(0), 0.0);
   }
   for (uint part = 0; part < push.partCount; ++part) {
-    if ((parts >> part & 1) != 0) drawPart(part, tileRange(push.parts[part], tile), corner, merged);
+    if ((parts >> part & 1) == 0) continue;
+    if (!goesOn(merged)) break;
+    drawPart(part, tileRange(push.parts[part], tile), corner, merged);
   }
   selectPart(0);
   for (uint r = 0; r < kRays; ++r) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "format/to_vector.h"
 #include "runtime/render/camera_rays.h"
 
 namespace froth {
@@ -22,9 +21,7 @@ struct Interval {
 };
 
 Interval along(const PlacedBox& box, const glm::dvec3& axis) {
-  const double middle = glm::dot(box.centre, axis);
-  const glm::dvec3 parts = glm::abs(glm::transpose(box.axes) * axis) * box.half;
-  const double reach = parts.x + parts.y + parts.z;
+  const double middle = glm::dot(box.centre, axis), reach = box.reachAlong(axis);
   return {middle - reach, middle + reach};
 }
 
@@ -80,15 +77,6 @@ uint32_t takeNext(uint32_t left, const Masks& before, Masks& overlaps) {
     overlaps[box] |= 1u << other;
     overlaps[other] |= 1u << box;
   }
-  return box;
-}
-
-PlacedBox boxOf(const RenderInstance& instance, const glm::dvec3& eye) {
-  const glm::dvec3 low = toVector(instance.asset->boundsLow), high = toVector(instance.asset->boundsHigh);
-  PlacedBox box;
-  box.axes = rotationOf(instance.rotation);
-  box.centre = toVector(instance.position) - eye + box.axes * (0.5 * double{instance.scale} * (low + high));
-  box.half = 0.5 * double{instance.scale} * (high - low);
   return box;
 }
 

@@ -10,17 +10,11 @@
 #include <glm/glm.hpp>
 
 #include "froth/froth.h"
+#include "runtime/render/placed_box.h"
 #include "runtime/render/view_renderer.h"
 #include "shaders/gpu/layout.h"
 
 namespace froth {
-
-// A box as seen from the eye, in world axes.
-struct PlacedBox {
-  glm::dvec3 centre{0};
-  glm::dmat3 axes{1};  // columns: unit and orthogonal
-  glm::dvec3 half{0};  // its extent along each, from the centre
-};
 
 struct PartOrder {
   std::array<uint32_t, gpu::kMostInstances> boxes{};  // [place] which; front to back

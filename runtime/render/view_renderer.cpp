@@ -10,6 +10,7 @@
 #include "runtime/render/fade.h"
 #include "runtime/render/hit_passes.h"
 #include "runtime/render/part_order.h"
+#include "runtime/render/placed_box.h"
 #include "runtime/render/space_growth.h"
 #include "runtime/render/view_state.h"
 
@@ -135,12 +136,15 @@ struct Drawable {
   const PassPipelines* passes;
 };
 
-// What can be drawn of the instances, as parts of the recording, front to back where their boxes do not meet.
+// What can be drawn of the instances and may be in view, as parts of the recording, front to back where their boxes do
+// not meet.
 uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
                   std::span<const RenderInstance> instances) {
   uint32_t bits = 0, count = 0;
   std::array<Drawable, gpu::kMostInstances> drawables;
   std::array<const RenderInstance*, gpu::kMostInstances> drawn;
+  const RayPyramid rays(recording.info.camera);
+  const glm::dvec3 eye(recording.info.camera.eye[0], recording.info.camera.eye[1], recording.info.camera.eye[2]);
   for (const RenderInstance& instance : instances) {
     InstanceSpace* space = findSpace(recording.view, instance.handle);
     const PassPipelines* passes = pipelines.find(instance.asset->shape(), lensClassOf(recording.info.camera));
@@ -151,8 +155,10 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
     } else if (recording.method == RenderMethod::kWalk && !instance.asset->hasWalkGraph) {
       bits |= FROTH_VIEW_NO_WALK_GRAPH;
     } else {
-      drawables[count] = {space, passes};
-      drawn[count++] = &instance;
+      if (rays.mayMeet(boxOf(instance, eye))) {
+        drawables[count] = {space, passes};
+        drawn[count++] = &instance;
+      }
       if (mayLack(*instance.asset, space->demand, space->buffers.capacity())) bits |= FROTH_VIEW_MAY_LACK_CELLS;
     }
   }

@@ -201,6 +201,14 @@ TEST_F(MergedInstances, ThousandsOfCellsBehindAFewPixelsAreAllMet) {
   EXPECT_GE(psnr(first.draw(Method::kWalk, info, {64, 48}).colour, expected.colour), 55);
 }
 
+// What lies behind the eye is no part of a picture, whichever of the two it is.
+TEST_F(MergedInstances, FoamsBehindTheEyeAreLeftOut) {
+  place(0, {0, 0, 0}, {1, 0, 0, 0}, 1);
+  place(1, {0.2, 0, -12}, {1, 0, 0, 0}, 1);
+  expectLikeReference(lookAt({0.1, 0.1, -3}, {0, 0, 3}, 150, 110, 0.3));
+  expectLikeReference(lookAt({0.1, 0.1, -3}, {0, 0, -9}, 150, 110, 0.3));
+}
+
 // A tile that one instance has for itself is drawn by the pass for one.
 TEST_F(MergedInstances, FoamsBesideEachOtherLookAsIfDrawnAlone) {
   place(0, {-2.2, 0, 0}, {1, 0, 0, 0}, 1);
