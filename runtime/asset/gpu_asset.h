@@ -15,6 +15,7 @@ namespace froth {
 // cells, then ghosts.
 struct GpuChunk {
   std::array<double, 3> origin{};
+  std::array<double, 3> liveLow{}, liveHigh{};  // box of the balls of live cells, in the axes of the asset
   uint32_t cellCount = 0, liveCount = 0;
   uint32_t siteCount = 0;                // cells and ghosts
   uint32_t neighbourCount = 0;           // length of `neighbours`

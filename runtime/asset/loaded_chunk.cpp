@@ -55,6 +55,10 @@ Result<LoadedChunk> loadChunk(const AssetReader& reader, const ByteSource& bytes
   loaded.bounds = findLiveBounds(contents);
   GpuChunk& gpu = loaded.gpu;
   gpu.origin = contents.origin;
+  for (int axis = 0; axis < 3; ++axis) {
+    gpu.liveLow[static_cast<size_t>(axis)] = loaded.bounds.low[axis];
+    gpu.liveHigh[static_cast<size_t>(axis)] = loaded.bounds.high[axis];
+  }
   gpu.number = chunk;
   gpu.borderCount = static_cast<uint32_t>(contents.borderCells.size());
   gpu.cellCount = contents.cellCount;

@@ -84,7 +84,7 @@ double leadingBits(double value) {
   return std::bit_cast<double>(std::bit_cast<uint64_t>(value) & ~kBehindFloat);
 }
 
-void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* chunks) {
+uint32_t fillChunks(const GpuAsset& asset, const glm::dvec3& eye, const RayPyramid& rays, gpu::ChunkEntry* chunks) {
   uint32_t group = 0;
   for (size_t i = 0; i < asset.chunks.size(); ++i) {
     const GpuChunk& chunk = asset.chunks[i];
@@ -116,8 +116,10 @@ void fillChunks(const GpuAsset& asset, const glm::dvec3& eye, gpu::ChunkEntry* c
     entry.lobeTotal = chunk.lobeTotal;
     entry.lobeQuads = chunk.lobeQuads;
     entry.lobesPlaced = 0;
-    group += groupsOver(chunk.cellCount, gpu::kGroupSize);
+    const bool mayBeSeen = rays.mayMeet(toVector(chunk.liveLow) - eye, toVector(chunk.liveHigh) - eye);
+    group += mayBeSeen ? groupsOver(chunk.cellCount, gpu::kGroupSize) : 0;
   }
+  return group;
 }
 
 uint32_t tilesAlong(uint32_t pixels) { return groupsOver(pixels, gpu::kTileSize); }
@@ -138,15 +140,18 @@ void fillOutputs(const FrothRenderInfo& info, gpu::FrameBlock& block) {
   block.regionHeight = region.extent.height;
 }
 
-void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, const ViewBuffers& buffers,
-               const RecordingPlace& place, gpu::FrameBlock& block, gpu::ChunkEntry* chunks) {
+void fillFrame(RenderMethod method, const FrothRenderInfo& info, const RenderInstance& instance,
+               const ViewBuffers& buffers, const RecordingPlace& place, gpu::FrameBlock& block,
+               gpu::ChunkEntry* chunks) {
   const GpuAsset& asset = *instance.asset;
   const VkRect2D& region = info.camera.scissor;
   const CameraRays rays = computeCameraRays(info.camera, instance);
   fillOutputs(info, block);
   fillCamera(info, rays, instance, block);
   fillTransients(buffers, asset, region, block);
-  fillChunks(asset, rays.eye, chunks);
+  const bool isWalk = method == RenderMethod::kWalk;  // lists cells that only guide it, wherever they lie
+  block.flags |= isWalk ? gpu::kFlagWalk : 0;
+  block.groupCount = fillChunks(asset, rays.eye, isWalk ? RayPyramid() : RayPyramid(info.camera, instance), chunks);
   fillBox(asset, rays.eye, block);
   block.flags |= holdsAllCells(asset, buffers.capacity()) ? 0 : gpu::kFlagCountSizes;
   block.scale = instance.scale;
@@ -166,7 +171,6 @@ void fillFrame(const FrothRenderInfo& info, const RenderInstance& instance, cons
   block.blocksX = groupsOver(block.tilesX, gpu::kBlockTiles);
   block.blocksY = groupsOver(block.tilesY, gpu::kBlockTiles);
   block.chunkCount = static_cast<uint32_t>(asset.chunks.size());
-  block.groupCount = groupsOfCells(asset);
   block.borders = asset.borders;
   block.borderCount = asset.borderCount;
   block.fileChunkCount = asset.fileChunkCount;

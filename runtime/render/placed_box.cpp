@@ -9,6 +9,10 @@ namespace {
 // Rays, and places of cells, lose less than this part of the distance to rounding.
 constexpr double kGuard = 1e-5;
 
+double guardOf(const glm::dvec3& centre, const glm::dvec3& half) {
+  return kGuard * (glm::length(centre) + glm::length(half));
+}
+
 }  // namespace
 
 double PlacedBox::reachAlong(const glm::dvec3& axis) const {
@@ -25,9 +29,9 @@ PlacedBox boxOf(const RenderInstance& instance, const glm::dvec3& eye) {
   return box;
 }
 
-RayPyramid::RayPyramid(const FrothCamera& camera) {
+RayPyramid::RayPyramid(const FrothCamera& camera, const RenderInstance& instance) {
   if (lensClassOf(camera) != gpu::kLensClassPinhole) return;
-  const CameraRays rays = computeCameraRays(camera, RenderInstance{});
+  const CameraRays rays = computeCameraRays(camera, instance);
   const double width = camera.scissor.extent.width, height = camera.scissor.extent.height;
   const auto rayOf = [&](double column, double row) { return rays.origin + column * rays.stepX + row * rays.stepY; };
   const std::array<glm::dvec3, 4> corners{rayOf(-1, -1), rayOf(width, -1), rayOf(width, height), rayOf(-1, height)};
@@ -39,9 +43,18 @@ RayPyramid::RayPyramid(const FrothCamera& camera) {
 }
 
 bool RayPyramid::mayMeet(const PlacedBox& box) const {
-  const double guard = kGuard * (glm::length(box.centre) + glm::length(box.half));
+  const double guard = guardOf(box.centre, box.half);
   for (const glm::dvec3& inwards : inwards_) {
     if (glm::dot(inwards, box.centre) + box.reachAlong(inwards) < -guard) return false;
+  }
+  return true;
+}
+
+bool RayPyramid::mayMeet(const glm::dvec3& low, const glm::dvec3& high) const {
+  const glm::dvec3 centre = 0.5 * (low + high), half = 0.5 * (high - low);
+  const double guard = guardOf(centre, half);
+  for (const glm::dvec3& inwards : inwards_) {
+    if (glm::dot(inwards, centre) + glm::dot(glm::abs(inwards), half) < -guard) return false;
   }
   return true;
 }

@@ -26,10 +26,12 @@ PlacedBox boxOf(const RenderInstance& instance, const glm::dvec3& eye);
 // Where the rays of a camera's region run, with a pixel around it: between planes through the eye.
 class RayPyramid {
  public:
-  // All around where the camera is no pinhole.
-  explicit RayPyramid(const FrothCamera& camera);
-  // False: no ray meets the box. True where that is not known.
+  RayPyramid() = default;  // all around
+  // In world axes, or in those of an instance's asset. All around where the camera is no pinhole.
+  explicit RayPyramid(const FrothCamera& camera, const RenderInstance& instance = {});
+  // False: no ray meets the box. True where that is not known. A box along the axes is relative to the eye, too.
   bool mayMeet(const PlacedBox& box) const;
+  bool mayMeet(const glm::dvec3& low, const glm::dvec3& high) const;
 
  private:
   std::array<glm::dvec3, 4> inwards_{};  // unit normals of the planes; 0: there is none

@@ -10,7 +10,7 @@
 namespace froth {
 namespace {
 
-void writeBlock(const Recording& recording, const RecordingPart& part, const RenderInstance* instance) {
+void writeBlock(const Recording& recording, RecordingPart& part, const RenderInstance* instance) {
   const ViewBuffers& buffers = part.space.buffers;
   char* staged =
       static_cast<char*>(buffers[ViewBuffer::kStaging].mapped) + recording.number * buffers.recordingStride();
@@ -19,10 +19,10 @@ void writeBlock(const Recording& recording, const RecordingPart& part, const Ren
     fillOutputs(recording.info, block);
   } else {
     const VkDeviceAddress counters = buffers[ViewBuffer::kCounters].address + recording.countersOffset();
-    fillFrame(recording.info, *instance, buffers, {part.recorder.frame, counters}, block,
+    fillFrame(recording.method, recording.info, *instance, buffers, {part.recorder.frame, counters}, block,
               reinterpret_cast<gpu::ChunkEntry*>(staged + kBlockStride));
-    block.flags |= recording.method == RenderMethod::kWalk ? gpu::kFlagWalk : 0;
     block.overlaps = part.overlaps;
+    part.groups = block.groupCount;
   }
   const auto index = static_cast<uint32_t>(recording.parts().size() - 1);
   describeHits(recording, index, block);
@@ -125,6 +125,7 @@ void addPart(const Recording& recording, InstanceSpace& space, const RenderInsta
   recording.view.parts.push_back({.space = space,
                                   .asset = instance ? instance->asset : nullptr,
                                   .overlaps = overlaps,
+                                  .groups = 0,
                                   .recorder = {.vk = recording.view.device.table,
                                                .commandBuffer = recording.commandBuffer,
                                                .layout = recording.pipelines.layout,
@@ -173,7 +174,7 @@ void recordCull(const Recording& recording) {
     recording.run("aim", [&] { recordRayPasses(recording); });
   }
   const auto runOverCells = [&](Pass pass) {
-    for (const RecordingPart& part : recording.parts()) part.recorder.runOver(pass, groupsOfCells(*part.asset));
+    for (const RecordingPart& part : recording.parts()) part.recorder.runOver(pass, part.groups);
     recording.wait();
   };
   runOverCells(Pass::kCullCells);

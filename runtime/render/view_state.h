@@ -54,6 +54,7 @@ struct RecordingPart {
   InstanceSpace& space;
   const GpuAsset* asset;  // null: a clear
   uint32_t overlaps;      // PartOrder
+  uint32_t groups;        // FrameBlock::groupCount
   PassRecorder recorder;
 };
 

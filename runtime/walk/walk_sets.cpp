@@ -191,7 +191,7 @@ void WalkSets::writeTables(uint32_t slot, const FrothWalkInfo& info, std::span<c
     if (place >= kFirstSeed) entry.prepared = instance.placement.asset->preparing;
     entry.chunks = address + chunks;
     std::memcpy(staged + kInstancesOffset + place * sizeof(entry), &entry, sizeof(entry));
-    fillChunks(*instance.placement.asset, localEye, reinterpret_cast<gpu::ChunkEntry*>(staged + chunks));
+    fillChunks(*instance.placement.asset, localEye, RayPyramid(), reinterpret_cast<gpu::ChunkEntry*>(staged + chunks));
     chunks += entry.chunkCount * sizeof(gpu::ChunkEntry);
   };
   for (size_t i = 0; i < instances.size(); ++i) {

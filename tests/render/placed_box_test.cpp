@@ -14,6 +14,7 @@
 
 #include "host/make_struct.h"
 #include "runtime/render/camera_rays.h"
+#include "runtime/render/frame_block.h"
 #include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
 
@@ -84,6 +85,22 @@ TEST(RayPyramid, LeavesOutWhatNoRayMeetsAndNothingElse) {
   EXPECT_GT(leftOut, missed * 9 / 10);
 }
 
+TEST(RayPyramid, MeetsBoxesAlongTheAxesAlike) {
+  size_t leftOut = 0;
+  for (uint32_t seed = 1; seed <= 300; ++seed) {
+    RandomView random(seed);
+    const RayPyramid rays(random.camera());
+    for (int i = 0; i < 100; ++i) {
+      PlacedBox box = random.box();
+      box.axes = glm::dmat3(1);
+      const bool mayMeet = rays.mayMeet(box);
+      EXPECT_EQ(rays.mayMeet(box.centre - box.half, box.centre + box.half), mayMeet);
+      leftOut += mayMeet ? 0 : 1;
+    }
+  }
+  EXPECT_GT(leftOut, 10'000u);
+}
+
 TEST(RayPyramid, OfOtherLensesIsAllAround) {
   View view = lookAt({}, {0, 0, 1}, 64, 48, 0.5);
   const PlacedBox behind{{0, 0, -10}, glm::dmat3(1), {1, 1, 1}};
@@ -96,6 +113,29 @@ TEST(RayPyramid, OfOtherLensesIsAllAround) {
     camera.scissor.extent = {64, 48};
     EXPECT_TRUE(RayPyramid(camera).mayMeet(behind));
   }
+}
+
+// Three in a row along x; the instance stands turned by a quarter about z and moved, so in the world they go along y.
+TEST(ChunkTable, HasNoWorkgroupsForChunksBesideTheView) {
+  RenderInstance instance;
+  instance.position = {100, 0, 0};
+  instance.rotation = {0, 0, std::sqrt(0.5f), std::sqrt(0.5f)};
+  GpuAsset asset;
+  for (int i = 0; i < 3; ++i) {
+    GpuChunk chunk;
+    chunk.cellCount = chunk.liveCount = gpu::kGroupSize + 1;
+    chunk.liveLow = {4.0 * i - 1, -1, 9};
+    chunk.liveHigh = {4.0 * i + 1, 1, 11};
+    asset.add(chunk);
+  }
+  std::vector<gpu::ChunkEntry> entries(3);
+  const auto groupsOf = [&](const RayPyramid& rays) { return fillChunks(asset, {}, rays, entries.data()); };
+  EXPECT_EQ(groupsOf({}), 6u);
+  FrothCamera camera = infoOf(lookAt({100, 0, 0}, {100, 4, 10}, 64, 48, 0.1)).camera;
+  camera.scissor.extent = {64, 48};
+  EXPECT_EQ(groupsOf(RayPyramid(camera, instance)), 2u);
+  EXPECT_EQ(entries[1].firstGroup, 0u);
+  EXPECT_EQ(entries[2].firstGroup, 2u);
 }
 
 // Names of the passes of a frame that the context's instances are seen in.
