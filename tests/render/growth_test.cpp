@@ -304,18 +304,26 @@ TEST(Capacity, NeverExceedsWhatTheAssetCanWant) {
   EXPECT_EQ(capacity.pairs, before.pairs) << "within the head room nothing grows";
 }
 
-TEST(Extremes, AViewThatSeesNoCellIsEmpty) {
-  const AssetContents contents = bakeForTest(makeRandomFoam(50, 2, 1, 3));
-  const uint32_t guides = contents.chunks[0].cellCount - contents.chunks[0].liveCount;
-  Stage stage(contents, kExtent);
-  const View away = lookAt({0, 0, 0}, {0, 0, -3}, kExtent.width, kExtent.height, 0.5);
+// visible: what a walk counts; a raster counts nothing.
+void expectEmpty(Stage& stage, const View& view, uint32_t visible) {
   for (const Method method : {Method::kRaster, Method::kWalk}) {
-    const Frame frame = stage.draw(method, away);
-    EXPECT_EQ(frame.status.visibleCells, method == Method::kRaster ? 0u : guides);
+    const Frame frame = stage.draw(method, view);
+    EXPECT_EQ(frame.status.visibleCells, method == Method::kRaster ? 0u : visible);
     EXPECT_EQ(frame.status.bits, 0u);
     for (const float value : frame.colour.values) ASSERT_EQ(value, 0.0f);
     for (const float value : frame.distance.values) ASSERT_TRUE(std::isinf(value));
   }
+}
+
+TEST(Extremes, AViewThatSeesNoCellIsEmpty) {
+  const AssetContents contents = bakeForTest(makeRandomFoam(50, 2, 1, 3));
+  const uint32_t guides = contents.chunks[0].cellCount - contents.chunks[0].liveCount;
+  Stage stage(contents, kExtent);
+  expectEmpty(stage, lookAt({0, 0, 0}, {0, 0, -3}, kExtent.width, kExtent.height, 0.5), 0);
+  // Along an edge of the box, where no cell lies.
+  const FrothAssetStatus status = stage.assetStatus();
+  const glm::dvec3 corner = glm::dvec3(status.boundsMin[0], status.boundsMin[1], status.boundsMin[2]) + 0.01;
+  expectEmpty(stage, lookAt(corner - glm::dvec3(0, 5, 0), corner, kExtent.width, kExtent.height, 1e-4), guides);
 }
 
 class ExtremeExtents : public testing::TestWithParam<VkExtent2D> {};
