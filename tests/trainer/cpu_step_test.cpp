@@ -5,8 +5,10 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "tests/reference/scenes.h"
 #include "trainer/cpu/foam_exchange.h"
@@ -113,6 +115,49 @@ TEST(CpuStep, NeedsNoMomentsToShowAndDifferentiate) {
   EXPECT_EQ(shown[0], shown[1]);
   EXPECT_EQ(densities[0], densities[1]);
   EXPECT_TRUE(std::ranges::any_of(densities[0], [](float density) { return density != 0; }));
+}
+
+using SeenBall = std::array<float, 4>;
+
+// The balls that a view sees of cells in this order. One more ball is too large for floats.
+std::vector<SeenBall> seenOf(Foam foam, const std::vector<uint32_t>& order, const View& view) {
+  const Foam given = foam;
+  for (uint32_t i = 0; i < order.size(); ++i) {
+    foam.sites[i] = given.sites[order[i]];
+    foam.radii[i] = given.radii[order[i]];
+  }
+  FoamStorage<float> storage = storeFoam<float>(foam);
+  storage.values[size_t(Parameter::kRadii)][foam.cellCount / 2] = 3e38f;
+  CpuStep<float> step(storage);
+  step.activate(1e-3f);
+  step.render(trainingView<float>(view), {}, firstAdam());
+  std::vector<SeenBall> balls;
+  for (uint32_t rank = 0; rank < step.seen().count; ++rank) {
+    const glm::vec4& ball = storage.balls[step.seen().cells[rank].cell];
+    balls.push_back({ball.x, ball.y, ball.z, ball.w});
+  }
+  std::ranges::sort(balls);
+  return balls;
+}
+
+// Cells that lie beside each other are culled together where they follow each other.
+TEST(CpuStep, SeesTheSameCellsInAnyOrder) {
+  Foam foam = randomFoam(3000, 1, 1, 6);
+  for (glm::vec3& site : foam.sites) site *= 5.0f;
+  for (float& radius : foam.radii) radius *= 0.3f;
+  std::vector<uint32_t> mixed(foam.cellCount);
+  std::iota(mixed.begin(), mixed.end(), 0u);
+  std::vector<uint32_t> sorted = mixed;
+  std::ranges::stable_sort(sorted, {}, [&](uint32_t cell) { return foam.sites[cell].x; });
+  // The ball that is too large takes the place of the same one.
+  std::swap(*std::ranges::find(sorted, mixed[foam.cellCount / 2]), sorted[foam.cellCount / 2]);
+  for (const glm::dvec3& target : {glm::dvec3(3, 0.2, 0.1), glm::dvec3(-0.2, 3, 0.1), glm::dvec3(-2, -2, 0.3)}) {
+    const View view = lookAt({0.5, 0.4, -0.3}, target, kWidth, kHeight, 0.3);
+    const std::vector<SeenBall> seen = seenOf(foam, sorted, view);
+    EXPECT_EQ(seen, seenOf(foam, mixed, view));
+    EXPECT_GT(seen.size(), 20u);
+    EXPECT_LT(seen.size(), foam.cellCount / 4);
+  }
 }
 
 TEST(CpuStep, DropsAndCountsWhatIsNoFiniteNumber) {

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <tuple>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include "trainer/step/cell_update.h"
 #include "trainer/step/tiles.h"
@@ -30,6 +34,8 @@ template <class Real>
 void CpuStep<Real>::activate(float leastSkin) {
   const TrainedFoam<Real> foam = viewStorage(foam_);
   tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) { foam.balls[cell] = ballOf(foam, cell); });
+  blocks_.resize((foam.shape.cellCount + kBlockCells - 1) / kBlockCells);
+  tbb::parallel_for(0u, static_cast<uint32_t>(blocks_.size()), [&](uint32_t block) { boundBlock(block); });
   pairs_.follow(foam_.balls, leastSkin);
 }
 
@@ -50,37 +56,83 @@ const std::vector<glm::vec<4, Real>>& CpuStep<Real>::render(const TrainingView<R
   return rendered_;
 }
 
-// Near tests, and the tiles that see each ball; then front to back, equals by index.
+// Of balls that are no numbers too: then it reaches everywhere.
+template <class Real>
+void CpuStep<Real>::boundBlock(uint32_t block) {
+  const auto begin = foam_.balls.begin() + static_cast<std::ptrdiff_t>(block) * kBlockCells;
+  const auto end = foam_.balls.end() - begin > kBlockCells ? begin + kBlockCells : foam_.balls.end();
+  glm::vec<3, Real> low(std::numeric_limits<Real>::max()), high(-low);
+  bool isFinite = true;
+  std::for_each(begin, end, [&](const glm::vec<4, Real>& ball) {
+    low = glm::min(low, glm::vec<3, Real>(ball) - ball.w);
+    high = glm::max(high, glm::vec<3, Real>(ball) + ball.w);
+    isFinite = isFinite && std::isfinite(ball.x + ball.y + ball.z + ball.w);
+  });
+  constexpr Real kGuard = Real(1.001);  // for what rounding takes
+  const Real radius = kGuard * glm::length(Real(0.5) * (high - low));
+  blocks_[block].ball = {Real(0.5) * (low + high), isFinite ? radius : std::numeric_limits<Real>::infinity()};
+}
+
+// Those that the view sees, front to back, equals by index.
 template <class Real>
 void CpuStep<Real>::cull() {
-  const TrainedFoam<Real> foam = viewStorage(foam_);
   const uint32_t tilesX = tilesAlong(view_.width), tilesY = tilesAlong(view_.height);
   std::vector<glm::vec<4, Real>> cones(size_t{tilesX} * tilesY);
   tbb::parallel_for(size_t{0}, cones.size(), [&](size_t tile) {
     const auto index = static_cast<uint32_t>(tile);
     cones[tile] = coneOfTile(view_, index % tilesX, index / tilesX);
   });
-  candidates_.resize(foam.shape.cellCount);
-  tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
-    Candidate& candidate = candidates_[cell];
-    const glm::vec<4, Real> ball = foam.balls[cell];
-    const glm::vec<3, Real> centre = glm::vec<3, Real>(ball) - view_.eye;
-    candidate.cell = cell;
-    candidate.power = foam::powerOfOrigin(centre, ball.w);
-    candidate.tiles.clear();
-    if (!std::isfinite(candidate.power) || !(ball.w > 0)) return;
-    if (foam::isNearCell(centre, ball.w, view_.worldFromCamera[2], view_.nearRatio, view_.nearDepth)) return;
-    const TileRange range = tilesOfBall(view_, centre, ball.w);
-    const Real radius = foam::guardedRadius(centre, ball.w);
-    for (uint32_t tile = range.beginY * tilesX; tile < range.endY * tilesX; ++tile) {
-      if (tile % tilesX < range.beginX || tile % tilesX >= range.endX) continue;
-      if (foam::coneMeetsBall(cones[tile], centre, radius)) candidate.tiles.push_back(tile);
-    }
-  });
-  std::erase_if(candidates_, [](const Candidate& candidate) { return candidate.tiles.empty(); });
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+  tbb::parallel_for(0u, static_cast<uint32_t>(blocks_.size()), [&](uint32_t block) { cullBlock(block, cones); });
+  candidates_.clear();
+  for (const CellBlock& block : blocks_) {
+    candidates_.insert(candidates_.end(), block.candidates.begin(), block.candidates.end());
+  }
+  tbb::parallel_sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.power, a.cell) < std::tie(b.power, b.cell);
   });
+}
+
+// Whether any tile may see the ball; its radius may be infinite.
+template <class Real>
+static bool mayBeSeen(const TrainingView<Real>& view, const glm::vec<4, Real>& ball) {
+  if (!std::isfinite(ball.w)) return true;
+  const TileRange tiles = tilesOfBall(view, glm::vec<3, Real>(ball) - view.eye, ball.w);
+  return tiles.beginX < tiles.endX && tiles.beginY < tiles.endY;
+}
+
+// Near tests, and the tiles that see each ball.
+template <class Real>
+void CpuStep<Real>::cullBlock(uint32_t index, const std::vector<glm::vec<4, Real>>& cones) {
+  const TrainedFoam<Real> foam = viewStorage(foam_);
+  CellBlock& block = blocks_[index];
+  block.candidates.clear();
+  block.tiles.clear();
+  if (!mayBeSeen(view_, block.ball)) return;
+  const uint32_t tilesX = tilesAlong(view_.width);
+  const uint32_t end = std::min((index + 1) * kBlockCells, foam.shape.cellCount);
+  for (uint32_t cell = index * kBlockCells; cell < end; ++cell) {
+    const glm::vec<4, Real> ball = foam.balls[cell];
+    const glm::vec<3, Real> centre = glm::vec<3, Real>(ball) - view_.eye;
+    const Real power = foam::powerOfOrigin(centre, ball.w);
+    if (!std::isfinite(power) || !(ball.w > 0)) continue;
+    if (foam::isNearCell(centre, ball.w, view_.worldFromCamera[2], view_.nearRatio, view_.nearDepth)) continue;
+    const TileRange range = tilesOfBall(view_, centre, ball.w);
+    const Real radius = foam::guardedRadius(centre, ball.w);
+    const auto begin = static_cast<uint32_t>(block.tiles.size());
+    for (uint32_t tileY = range.beginY; tileY < range.endY; ++tileY) {
+      for (uint32_t tile = tileY * tilesX + range.beginX; tile < tileY * tilesX + range.endX; ++tile) {
+        if (foam::coneMeetsBall(cones[tile], centre, radius)) block.tiles.push_back(tile);
+      }
+    }
+    const auto tilesEnd = static_cast<uint32_t>(block.tiles.size());
+    if (begin < tilesEnd) block.candidates.push_back({power, cell, begin, tilesEnd});
+  }
+}
+
+template <class Real>
+std::span<const uint32_t> CpuStep<Real>::tilesOf(const Candidate& candidate) const {
+  const std::vector<uint32_t>& tiles = blocks_[candidate.cell / kBlockCells].tiles;
+  return std::span(tiles).subspan(candidate.tilesBegin, candidate.tilesEnd - candidate.tilesBegin);
 }
 
 template <class Real>
@@ -99,10 +151,8 @@ void CpuStep<Real>::prepare(const AdamStep<Real>& adam) {
     cells_[rank].planesEnd = planeCount;
   }
   planes_.resize(planeCount);
-  // In the order of the foam: its parameters are most of what is read.
-  tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {
+  const auto prepareOne = [&](uint32_t cell) {
     const uint32_t rank = rankOf_[cell];
-    if (rank == SeenCells<Real>::kNotSeen) return;
     SeenCell<Real>& prepared = cells_[rank];
     const TrainedCell<Real> trained(foam, adam, cell);
     prepareCell(trained, view_.eye, prepared);
@@ -112,6 +162,10 @@ void CpuStep<Real>::prepare(const AdamStep<Real>& adam) {
     for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
       details_[size_t{rank} * foam.shape.detailCount + k] = prepareDetail(trained, prepared, k);
     }
+  };
+  // In the order of the foam: its parameters are most of what is read.
+  tbb::parallel_for(size_t{0}, blocks_.size(), [&](size_t block) {
+    for (const Candidate& candidate : blocks_[block].candidates) prepareOne(candidate.cell);
   });
 }
 
@@ -132,7 +186,7 @@ void CpuStep<Real>::bin() {
   rowPlacesBegin_.assign(1, 0);
   for (uint32_t rank = 0; rank < cells_.size(); ++rank) {
     uint32_t lastRow = UINT32_MAX;
-    for (const uint32_t tile : candidates_[rank].tiles) {
+    for (const uint32_t tile : tilesOf(candidates_[rank])) {
       const uint32_t tileY = tile / tilesX;
       TileRow<Real>& row = rows_[tileY];
       if (tileY != lastRow) {

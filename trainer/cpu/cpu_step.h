@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "trainer/cpu/foam_storage.h"
@@ -61,12 +62,23 @@ class CpuStep {
   NeighbourRows rows() const { return pairs_.rows(); }  // the same, of the last activate()
 
  private:
+  // A cell that the view sees.
   struct Candidate {
     Real power = 0;  // of the eye
     uint32_t cell = 0;
-    std::vector<uint32_t> tiles;  // ascending; none: the view does not see the cell
+    uint32_t tilesBegin = 0, tilesEnd = 0;  // in the tiles of its block
   };
+  // Cells that follow each other often lie beside each other, so they are culled together.
+  static constexpr uint32_t kBlockCells = 256;
+  struct CellBlock {
+    glm::vec<4, Real> ball;             // around those of its cells
+    std::vector<Candidate> candidates;  // by cell
+    std::vector<uint32_t> tiles;        // of each candidate, ascending
+  };
+  void boundBlock(uint32_t block);
   void cull();
+  void cullBlock(uint32_t block, const std::vector<glm::vec<4, Real>>& cones);
+  std::span<const uint32_t> tilesOf(const Candidate& candidate) const;
   void prepare(const AdamStep<Real>& adam);
   void bin();
   void renderRow(uint32_t tileY);
@@ -81,6 +93,7 @@ class CpuStep {
   PixelSettings<Real> settings_;
   uint64_t droppedCount_ = 0;
 
+  std::vector<CellBlock> blocks_;
   std::vector<Candidate> candidates_;  // by rank
   std::vector<SeenCell<Real>> cells_;
   std::vector<SeenPlane<Real>> planes_;
