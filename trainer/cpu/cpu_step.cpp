@@ -92,10 +92,9 @@ void CpuStep<Real>::cull() {
   });
 }
 
-// Whether any tile may see the ball; its radius may be infinite.
+// Whether any tile may see the ball. One without end is seen by all.
 template <class Real>
 static bool mayBeSeen(const TrainingView<Real>& view, const glm::vec<4, Real>& ball) {
-  if (!std::isfinite(ball.w)) return true;
   const TileRange tiles = tilesOfBall(view, glm::vec<3, Real>(ball) - view.eye, ball.w);
   return tiles.beginX < tiles.endX && tiles.beginY < tiles.endY;
 }
