@@ -120,7 +120,7 @@ TEST(CpuStep, NeedsNoMomentsToShowAndDifferentiate) {
 
 using SeenBall = std::array<float, 4>;
 
-// The balls that a view sees of cells in this order. One more ball is too large for floats.
+// The balls that a view sees of cells in this order. One of them becomes infinite.
 std::vector<SeenBall> seenOf(Foam foam, const std::vector<uint32_t>& order, const View& view) {
   const Foam given = foam;
   for (uint32_t i = 0; i < order.size(); ++i) {
@@ -128,7 +128,7 @@ std::vector<SeenBall> seenOf(Foam foam, const std::vector<uint32_t>& order, cons
     foam.radii[i] = given.radii[order[i]];
   }
   FoamStorage<float> storage = storeFoam<float>(foam);
-  storage.values[size_t(Parameter::kRadii)][foam.cellCount / 2] = 3e38f;
+  storage.values[size_t(Parameter::kRadii)][foam.cellCount / 2] = std::numeric_limits<float>::infinity();
   CpuStep<float> step(storage);
   step.activate(1e-3f);
   step.render(trainingView<float>(view), {}, firstAdam());
@@ -154,7 +154,7 @@ TEST(CpuStep, SeesTheSameCellsInAnyOrder) {
     return std::tuple(std::floor(site.x / 2.5f), std::floor(site.y / 2.5f), site.z);
   };
   std::ranges::stable_sort(sorted, {}, columnOf);
-  // The ball that is too large takes the place of the same one.
+  // The infinite ball takes the place of the same one.
   std::swap(*std::ranges::find(sorted, mixed[foam.cellCount / 2]), sorted[foam.cellCount / 2]);
   size_t seenCount = 0;
   for (int i = 0; i < 40; ++i) {

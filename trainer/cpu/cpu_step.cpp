@@ -56,21 +56,18 @@ const std::vector<glm::vec<4, Real>>& CpuStep<Real>::render(const TrainingView<R
   return rendered_;
 }
 
-// Of balls that are no numbers too: then it reaches everywhere.
+// Balls that are no numbers do not count: no view sees them.
 template <class Real>
 void CpuStep<Real>::boundBlock(uint32_t block) {
-  const auto begin = foam_.balls.begin() + static_cast<std::ptrdiff_t>(block) * kBlockCells;
-  const auto end = foam_.balls.end() - begin > kBlockCells ? begin + kBlockCells : foam_.balls.end();
+  const uint32_t end = std::min((block + 1) * kBlockCells, foam_.shape.cellCount);
   glm::vec<3, Real> low(std::numeric_limits<Real>::max()), high(-low);
-  bool isFinite = true;
-  std::for_each(begin, end, [&](const glm::vec<4, Real>& ball) {
+  for (uint32_t cell = block * kBlockCells; cell < end; ++cell) {
+    const glm::vec<4, Real>& ball = foam_.balls[cell];
     low = glm::min(low, glm::vec<3, Real>(ball) - ball.w);
     high = glm::max(high, glm::vec<3, Real>(ball) + ball.w);
-    isFinite = isFinite && std::isfinite(ball.x + ball.y + ball.z + ball.w);
-  });
+  }
   constexpr Real kGuard = Real(1.001);  // for what rounding takes
-  const Real radius = kGuard * glm::length(Real(0.5) * (high - low));
-  blocks_[block].ball = {Real(0.5) * (low + high), isFinite ? radius : std::numeric_limits<Real>::infinity()};
+  blocks_[block].ball = {Real(0.5) * (low + high), kGuard * glm::length(Real(0.5) * (high - low))};
 }
 
 // Those that the view sees, front to back, equals by index.
@@ -92,7 +89,7 @@ void CpuStep<Real>::cull() {
   });
 }
 
-// Whether any tile may see the ball. One without end is seen by all.
+// Whether any tile may see the ball. All see one without end.
 template <class Real>
 static bool mayBeSeen(const TrainingView<Real>& view, const glm::vec<4, Real>& ball) {
   const TileRange tiles = tilesOfBall(view, glm::vec<3, Real>(ball) - view.eye, ball.w);
