@@ -285,10 +285,13 @@ void CpuStep<Real>::differentiateRow(uint32_t tileY) {
 template <class Real>
 void CpuStep<Real>::reduce() {
   const uint32_t detailCount = foam_.shape.detailCount;
-  cellSums_.assign(cells_.size(), {});
-  detailSums_.assign(details_.size(), {});
-  pairSums_.assign(planes_.size(), glm::vec<4, Real>(0));
+  cellSums_.resize(cells_.size());
+  detailSums_.resize(details_.size());
+  pairSums_.resize(planes_.size());
   tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
+    cellSums_[rank] = {};
+    std::fill_n(&detailSums_[rank * detailCount], detailCount, DetailSums<Real>{});
+    for (uint32_t e = cells_[rank].planesBegin; e < cells_[rank].planesEnd; ++e) pairSums_[e] = glm::vec<4, Real>(0);
     for (size_t i = rowPlacesBegin_[rank]; i < rowPlacesBegin_[rank + 1]; ++i) {
       const TileRow<Real>& row = rows_[rowPlaces_[i].row];
       const uint32_t place = rowPlaces_[i].place;
