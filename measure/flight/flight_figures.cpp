@@ -48,8 +48,9 @@ void addPasses(const FlownFrame& frame, Summary& summary) {
   for (const FrothPassTime& pass : frame.passes) ofFrame[pass.name] += pass.milliseconds;
   for (const FrothPassTime& pass : frame.passes) {
     const auto isNamed = [&](const auto& known) { return known.first == pass.name; };
-    if (std::ranges::none_of(summary.passTimes, isNamed))
+    if (std::ranges::none_of(summary.passTimes, isNamed)) {
       summary.passTimes.emplace_back(pass.name, std::vector<double>{});
+    }
   }
   for (auto& [name, times] : summary.passTimes) {
     if (ofFrame.contains(name)) times.push_back(ofFrame[name]);
