@@ -17,6 +17,7 @@
 #include "runtime/render/frame_block.h"
 #include "tests/render/random_foam.h"
 #include "tests/render/render_harness.h"
+#include "tests/render/split_asset.h"
 
 namespace froth::test {
 namespace {
@@ -136,6 +137,24 @@ TEST(ChunkTable, HasNoWorkgroupsForChunksBesideTheView) {
   EXPECT_EQ(groupsOf(RayPyramid(camera, instance)), 2u);
   EXPECT_EQ(entries[1].firstGroup, 0u);
   EXPECT_EQ(entries[2].firstGroup, 2u);
+}
+
+// Two clumps of cells, a chunk each: the view is in the box around both and sees neither.
+TEST(ChunkTable, OfAViewBetweenChunksDrawsNothing) {
+  Foam foam = makeRandomFoam(60, 2, 1, 3);
+  for (uint32_t cell = 0; cell < foam.cellCount; ++cell) foam.sites[cell].x += cell % 2 == 0 ? -8.0f : 8.0f;
+  Stage stage(splitAsset(bakeForTest(foam), 2, 0x1p-10), {48, 32});
+  const Frame between = stage.draw(Method::kRaster, lookAt({0, 0, -3}, {0, 0, 3}, 48, 32, 0.3));
+  EXPECT_EQ(between.status.visibleCells, 0u);
+  EXPECT_EQ(between.status.pairs, 0u);
+  EXPECT_EQ(between.status.bits, 0u);
+  for (const float value : between.colour.values) ASSERT_EQ(value, 0.0f);
+  for (const float value : between.distance.values) ASSERT_TRUE(std::isinf(value));
+  for (const float x : {-8.0f, 8.0f}) {
+    const Frame seen = stage.draw(Method::kRaster, lookAt({x, 0, -3}, {x, 0, 3}, 48, 32, 0.3));
+    EXPECT_GT(*std::ranges::max_element(seen.alpha.values), 0.5f) << x;
+    EXPECT_GT(seen.status.visibleCells, 10u) << x;
+  }
 }
 
 // Names of the passes of a frame that the context's instances are seen in.
