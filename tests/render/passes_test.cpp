@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -174,6 +175,15 @@ class Bin : public Passes {
     asset.liveCount = asset.cellCount = foam.cellCount;
     GpuChunk chunk;
     chunk.cellCount = chunk.siteCount = chunk.liveCount = foam.cellCount;
+    chunk.liveLow.fill(std::numeric_limits<double>::max());
+    chunk.liveHigh.fill(std::numeric_limits<double>::lowest());
+    for (size_t i = 0; i < count; ++i) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double site = foam.sites[i][static_cast<int>(axis)], radius = foam.radii[i];
+        chunk.liveLow[axis] = std::min(chunk.liveLow[axis], site - radius);
+        chunk.liveHigh[axis] = std::max(chunk.liveHigh[axis], site + radius);
+      }
+    }
     chunk.siteRadius = upload(siteRadius).address;
     chunk.neighbourOffsets = upload(std::vector<uint32_t>(count + 1)).address;
     chunk.neighbours = upload(std::vector<uint32_t>(1)).address;
