@@ -48,7 +48,7 @@ void takeStep(CpuStep<float>& step, const TrainingView<float>& view) {
 class CpuStepOf : public ::testing::TestWithParam<glm::dvec3> {};
 
 TEST_P(CpuStepOf, ShowsWhatTheReferenceShows) {
-  const Foam foam = activateFoam(storeFoam<float>(randomFoam(300, 3, 2, 5)));
+  const Foam foam = activateFoam(storeFoam<float>(randomFoam(60, 3, 2, 5)));
   FoamStorage<double> storage = storeFoam<double>(foam);
   const View view = lookAt(GetParam(), {0.1, 0, 0}, kWidth, kHeight, 0.6);
   ReferenceOptions options = plainOptions();

@@ -44,9 +44,7 @@ TEST_P(PlaneFilterOf, RaysEndAtTheSamePlanesWithoutThose) {
   CpuStep<float> step(storage);
   step.activate(1e-2f);
   AdamStep<float> adam{};
-  PixelSettings<float> settings;
-  settings.cutoff = 0;  // rays come to all cells, so all are prepared
-  (void)step.render(trainingView<float>(lookAt({0.5, 0.4, -3}, {0.1, 0, 0}, 61, 43, 0.6)), settings, adam);
+  (void)step.render(trainingView<float>(lookAt({0.5, 0.4, -3}, {0.1, 0, 0}, 61, 43, 0.6)), {}, adam);
   const SeenCells<float> seen = step.seen();
   std::mt19937 random(7);
   size_t all = 0, left = 0, met = 0;

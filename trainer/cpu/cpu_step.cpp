@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <utility>
+#include <cstddef>
+#include <limits>
+#include <tuple>
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -32,7 +34,8 @@ template <class Real>
 void CpuStep<Real>::activate(float leastSkin) {
   const TrainedFoam<Real> foam = viewStorage(foam_);
   tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) { foam.balls[cell] = ballOf(foam, cell); });
-  culling_.follow(foam_.balls);
+  blocks_.resize((foam.shape.cellCount + kBlockCells - 1) / kBlockCells);
+  tbb::parallel_for(0u, static_cast<uint32_t>(blocks_.size()), [&](uint32_t block) { boundBlock(block); });
   pairs_.follow(foam_.balls, leastSkin);
 }
 
@@ -42,36 +45,124 @@ const std::vector<glm::vec<4, Real>>& CpuStep<Real>::render(const TrainingView<R
                                                             const AdamStep<Real>& adam) {
   view_ = view;
   settings_ = settings;
-  culling_.cull(view, foam_.balls);
-  place();
+  cull();
+  prepare(adam);
   bin();
-  renderInRounds(adam);
-  tbb::parallel_for(size_t{0}, rendered_.size(), [&](size_t pixel) {
-    logTransmittances_[pixel] = rendered_[pixel].w;
-    rendered_[pixel].w = std::exp(rendered_[pixel].w);
-  });
+  const size_t pixelCount = size_t{view.width} * view.height;
+  rendered_.resize(pixelCount);
+  logTransmittances_.resize(pixelCount);
+  ends_.resize(pixelCount);
+  tbb::parallel_for(0u, tilesAlong(view.height), [&](uint32_t tileY) { renderRow(tileY); });
   return rendered_;
 }
 
-// Where each candidate has its planes.
+// Balls that are no numbers do not count: no view sees them.
 template <class Real>
-void CpuStep<Real>::place() {
-  const std::vector<Candidate<Real>>& candidates = culling_.candidates();
+void CpuStep<Real>::boundBlock(uint32_t block) {
+  const uint32_t end = std::min((block + 1) * kBlockCells, foam_.shape.cellCount);
+  glm::vec<3, Real> low(std::numeric_limits<Real>::max()), high(-low);
+  for (uint32_t cell = block * kBlockCells; cell < end; ++cell) {
+    const glm::vec<4, Real>& ball = foam_.balls[cell];
+    low = glm::min(low, glm::vec<3, Real>(ball) - ball.w);
+    high = glm::max(high, glm::vec<3, Real>(ball) + ball.w);
+  }
+  constexpr Real kGuard = Real(1.001);  // for what rounding takes
+  blocks_[block].ball = {Real(0.5) * (low + high), kGuard * glm::length(Real(0.5) * (high - low))};
+}
+
+// Those that the view sees, front to back, equals by index.
+template <class Real>
+void CpuStep<Real>::cull() {
+  const uint32_t tilesX = tilesAlong(view_.width), tilesY = tilesAlong(view_.height);
+  std::vector<glm::vec<4, Real>> cones(size_t{tilesX} * tilesY);
+  tbb::parallel_for(size_t{0}, cones.size(), [&](size_t tile) {
+    const auto index = static_cast<uint32_t>(tile);
+    cones[tile] = coneOfTile(view_, index % tilesX, index / tilesX);
+  });
+  tbb::parallel_for(0u, static_cast<uint32_t>(blocks_.size()), [&](uint32_t block) { cullBlock(block, cones); });
+  candidates_.clear();
+  for (const CellBlock& block : blocks_) {
+    candidates_.insert(candidates_.end(), block.candidates.begin(), block.candidates.end());
+  }
+  tbb::parallel_sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.power, a.cell) < std::tie(b.power, b.cell);
+  });
+}
+
+// Whether any tile may see the ball. All see one without end.
+template <class Real>
+static bool mayBeSeen(const TrainingView<Real>& view, const glm::vec<4, Real>& ball) {
+  const TileRange tiles = tilesOfBall(view, glm::vec<3, Real>(ball) - view.eye, ball.w);
+  return tiles.beginX < tiles.endX && tiles.beginY < tiles.endY;
+}
+
+// Near tests, and the tiles that see each ball.
+template <class Real>
+void CpuStep<Real>::cullBlock(uint32_t index, const std::vector<glm::vec<4, Real>>& cones) {
+  const TrainedFoam<Real> foam = viewStorage(foam_);
+  CellBlock& block = blocks_[index];
+  block.candidates.clear();
+  block.tiles.clear();
+  if (!mayBeSeen(view_, block.ball)) return;
+  const uint32_t tilesX = tilesAlong(view_.width);
+  const uint32_t end = std::min((index + 1) * kBlockCells, foam.shape.cellCount);
+  for (uint32_t cell = index * kBlockCells; cell < end; ++cell) {
+    const glm::vec<4, Real> ball = foam.balls[cell];
+    const glm::vec<3, Real> centre = glm::vec<3, Real>(ball) - view_.eye;
+    const Real power = foam::powerOfOrigin(centre, ball.w);
+    if (!std::isfinite(power) || !(ball.w > 0)) continue;
+    if (foam::isNearCell(centre, ball.w, view_.worldFromCamera[2], view_.nearRatio, view_.nearDepth)) continue;
+    const TileRange range = tilesOfBall(view_, centre, ball.w);
+    const Real radius = foam::guardedRadius(centre, ball.w);
+    const auto begin = static_cast<uint32_t>(block.tiles.size());
+    for (uint32_t tileY = range.beginY; tileY < range.endY; ++tileY) {
+      for (uint32_t tile = tileY * tilesX + range.beginX; tile < tileY * tilesX + range.endX; ++tile) {
+        if (foam::coneMeetsBall(cones[tile], centre, radius)) block.tiles.push_back(tile);
+      }
+    }
+    const auto tilesEnd = static_cast<uint32_t>(block.tiles.size());
+    if (begin < tilesEnd) block.candidates.push_back({power, cell, begin, tilesEnd});
+  }
+}
+
+template <class Real>
+std::span<const uint32_t> CpuStep<Real>::tilesOf(const Candidate& candidate) const {
+  const std::vector<uint32_t>& tiles = blocks_[candidate.cell / kBlockCells].tiles;
+  return std::span(tiles).subspan(candidate.tilesBegin, candidate.tilesEnd - candidate.tilesBegin);
+}
+
+template <class Real>
+void CpuStep<Real>::prepare(const AdamStep<Real>& adam) {
+  const TrainedFoam<Real> foam = viewStorage(foam_);
   const NeighbourRows rows = pairs_.rows();
-  cells_.resize(candidates.size());
-  details_.resize(cells_.size() * foam_.shape.detailCount);
-  isPrepared_.assign(cells_.size(), 0);
-  rankOf_.assign(foam_.shape.cellCount, SeenCells<Real>::kNotSeen);
+  cells_.resize(candidates_.size());
+  details_.resize(cells_.size() * foam.shape.detailCount);
+  rankOf_.assign(foam.shape.cellCount, SeenCells<Real>::kNotSeen);
   uint32_t planeCount = 0;
   for (uint32_t rank = 0; rank < cells_.size(); ++rank) {
-    const uint32_t cell = candidates[rank].cell;
+    const uint32_t cell = candidates_[rank].cell;
     rankOf_[cell] = rank;
-    cells_[rank].cell = cell;
     cells_[rank].planesBegin = planeCount;
     planeCount += rows.offsets[cell + 1] - rows.offsets[cell];
     cells_[rank].planesEnd = planeCount;
   }
   planes_.resize(planeCount);
+  const auto prepareOne = [&](uint32_t cell) {
+    const uint32_t rank = rankOf_[cell];
+    SeenCell<Real>& prepared = cells_[rank];
+    const TrainedCell<Real> trained(foam, adam, cell);
+    prepareCell(trained, view_.eye, prepared);
+    for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
+      planes_[prepared.planesBegin + e - rows.offsets[cell]] = preparePlane(foam, view_, cell, rows.neighbours[e]);
+    }
+    for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
+      details_[size_t{rank} * foam.shape.detailCount + k] = prepareDetail(trained, prepared, k);
+    }
+  };
+  // In the order of the foam: its parameters are most of what is read.
+  tbb::parallel_for(size_t{0}, blocks_.size(), [&](size_t block) {
+    for (const Candidate& candidate : blocks_[block].candidates) prepareOne(candidate.cell);
+  });
 }
 
 // Cells go in by rank, so every list is front to back.
@@ -84,7 +175,6 @@ void CpuStep<Real>::bin() {
     row.planesBegin.assign(1, 0);
     row.tiles.resize(tilesX);
     row.tilePlaces.resize(tilesX);
-    row.isOpen.assign(tilesX, 1);
     for (auto& tile : row.tiles) tile.clear();
     for (auto& tile : row.tilePlaces) tile.clear();
   }
@@ -92,7 +182,7 @@ void CpuStep<Real>::bin() {
   rowPlacesBegin_.assign(1, 0);
   for (uint32_t rank = 0; rank < cells_.size(); ++rank) {
     uint32_t lastRow = UINT32_MAX;
-    for (const uint32_t tile : culling_.tilesOf(culling_.candidates()[rank])) {
+    for (const uint32_t tile : tilesOf(candidates_[rank])) {
       const uint32_t tileY = tile / tilesX;
       TileRow<Real>& row = rows_[tileY];
       if (tileY != lastRow) {
@@ -108,83 +198,22 @@ void CpuStep<Real>::bin() {
   }
 }
 
-// Most of what a view can see is hidden, so cells are prepared where rays come to them: each round prepares twice as
-// much of the lists of the tiles in which a ray goes on, and lets rays go on through that.
 template <class Real>
-void CpuStep<Real>::renderInRounds(const AdamStep<Real>& adam) {
-  constexpr uint32_t kFirstReach = 32;  // cells of a list
-  const size_t pixelCount = size_t{view_.width} * view_.height;
-  rendered_.assign(pixelCount, glm::vec<4, Real>(0));
-  logTransmittances_.resize(pixelCount);
-  ends_.assign(pixelCount, 0);
-  const auto rowCount = static_cast<uint32_t>(rows_.size());
-  const auto isOpen = [](const TileRow<Real>& row) { return std::ranges::find(row.isOpen, 1) != row.isOpen.end(); };
-  for (uint32_t before = 0, reach = kFirstReach; std::ranges::any_of(rows_, isOpen); before = reach, reach *= 2) {
-    tbb::parallel_for(0u, rowCount, [&](uint32_t tileY) { gatherDue(rows_[tileY], before, reach); });
-    prepareDue(adam);
-    tbb::parallel_for(0u, rowCount, [&](uint32_t tileY) { renderRow(tileY, reach); });
-  }
-}
-
-template <class Real>
-void CpuStep<Real>::gatherDue(TileRow<Real>& row, uint32_t before, uint32_t reach) const {
-  row.due.clear();
-  for (size_t tile = 0; tile < row.tiles.size(); ++tile) {
-    const std::vector<uint32_t>& ranks = row.tiles[tile];
-    const size_t end = row.isOpen[tile] ? std::min(ranks.size(), size_t{reach}) : 0;
-    for (size_t i = before; i < end; ++i) {
-      if (!isPrepared_[ranks[i]]) row.due.push_back(cells_[ranks[i]].cell);
-    }
-  }
-}
-
-// In the order of the foam: its parameters are most of what is read.
-template <class Real>
-void CpuStep<Real>::prepareDue(const AdamStep<Real>& adam) {
-  due_.clear();
-  for (const TileRow<Real>& row : rows_) due_.insert(due_.end(), row.due.begin(), row.due.end());
-  tbb::parallel_sort(due_.begin(), due_.end());
-  due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
-  tbb::parallel_for(size_t{0}, due_.size(), [&](size_t i) { prepare(due_[i], adam); });
-}
-
-template <class Real>
-void CpuStep<Real>::prepare(uint32_t cell, const AdamStep<Real>& adam) {
-  const TrainedFoam<Real> foam = viewStorage(foam_);
-  const NeighbourRows rows = pairs_.rows();
-  const uint32_t rank = rankOf_[cell];
-  SeenCell<Real>& prepared = cells_[rank];
-  const TrainedCell<Real> trained(foam, adam, cell);
-  prepareCell(trained, view_.eye, prepared);
-  for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
-    planes_[prepared.planesBegin + e - rows.offsets[cell]] = preparePlane(foam, view_, cell, rows.neighbours[e]);
-  }
-  for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
-    details_[size_t{rank} * foam.shape.detailCount + k] = prepareDetail(trained, prepared, k);
-  }
-  isPrepared_[rank] = 1;
-}
-
-// Rays go on through the first `reach` cells of their tiles' lists.
-template <class Real>
-void CpuStep<Real>::renderRow(uint32_t tileY, uint32_t reach) {
+void CpuStep<Real>::renderRow(uint32_t tileY) {
   const SeenCells<Real> cells = seen();
-  TileRow<Real>& row = rows_[tileY];
-  std::vector<uint8_t> goesOn(row.isOpen.size(), 0);
   for (uint32_t y = tileY * kTileSize; y < std::min((tileY + 1) * kTileSize, view_.height); ++y) {
     for (uint32_t x = 0; x < view_.width; ++x) {
-      if (!row.isOpen[x / kTileSize]) continue;
       const size_t pixel = size_t{y} * view_.width + x;
-      const std::vector<uint32_t>& ranks = row.tiles[x / kTileSize];
+      const std::vector<uint32_t>& ranks = rows_[tileY].tiles[x / kTileSize];
       const glm::vec<3, Real> direction = directionOfPixel(view_, x, y);
-      if (direction == glm::vec<3, Real>(0)) continue;
-      const auto count = static_cast<uint32_t>(std::min(ranks.size(), size_t{reach}));
-      const bool isSaturated = renderPixel(cells, foam_.shape.detailCount, ranks.data(), count, direction, settings_,
-                                           ends_[pixel], rendered_[pixel]);
-      if (!isSaturated && count < ranks.size()) goesOn[x / kTileSize] = 1;
+      const bool hasRay = direction != glm::vec<3, Real>(0);
+      const glm::vec<4, Real> shown =
+          renderPixel(cells, foam_.shape.detailCount, ranks.data(), hasRay ? static_cast<uint32_t>(ranks.size()) : 0,
+                      direction, settings_, ends_[pixel]);
+      logTransmittances_[pixel] = shown.w;
+      rendered_[pixel] = {shown.x, shown.y, shown.z, std::exp(shown.w)};
     }
   }
-  row.isOpen = std::move(goesOn);
 }
 
 template <class Real>
@@ -235,26 +264,12 @@ static void differentiatePixel(const SeenCells<Real>& seen, uint32_t detailCount
   }
 }
 
-// How many of the row's places its rays looked at.
-template <class Real>
-uint32_t CpuStep<Real>::placesOfRays(uint32_t tileY) const {
-  uint32_t count = 0;
-  for (uint32_t y = tileY * kTileSize; y < std::min((tileY + 1) * kTileSize, view_.height); ++y) {
-    for (uint32_t x = 0; x < view_.width; ++x) {
-      const uint32_t end = ends_[size_t{y} * view_.width + x];
-      if (end > 0) count = std::max(count, rows_[tileY].tilePlaces[x / kTileSize][end - 1] + 1);
-    }
-  }
-  return count;
-}
-
 template <class Real>
 void CpuStep<Real>::differentiateRow(uint32_t tileY) {
   TileRow<Real>& row = rows_[tileY];
-  const uint32_t placeCount = placesOfRays(tileY);
-  row.cells.assign(placeCount, {});
-  row.details.assign(size_t{placeCount} * foam_.shape.detailCount, {});
-  row.pairs.assign(row.planesBegin[placeCount], glm::vec<4, Real>(0));
+  row.cells.assign(row.ranks.size(), {});
+  row.details.assign(row.ranks.size() * foam_.shape.detailCount, {});
+  row.pairs.assign(row.planesBegin.back(), glm::vec<4, Real>(0));
   row.droppedCount = 0;
   for (uint32_t y = tileY * kTileSize; y < std::min((tileY + 1) * kTileSize, view_.height); ++y) {
     for (uint32_t x = 0; x < view_.width; ++x) {
@@ -280,7 +295,6 @@ void CpuStep<Real>::reduce() {
     for (size_t i = rowPlacesBegin_[rank]; i < rowPlacesBegin_[rank + 1]; ++i) {
       const TileRow<Real>& row = rows_[rowPlaces_[i].row];
       const uint32_t place = rowPlaces_[i].place;
-      if (place >= row.cells.size()) continue;
       cellSums_[rank] += row.cells[place];
       for (uint32_t k = 0; k < detailCount; ++k) {
         detailSums_[rank * detailCount + k] += row.details[size_t{place} * detailCount + k];

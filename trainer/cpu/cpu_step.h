@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "trainer/cpu/cell_culling.h"
 #include "trainer/cpu/foam_storage.h"
 #include "trainer/cpu/skin_pairs.h"
 #include "trainer/step/adam.h"
@@ -25,8 +25,6 @@ struct TileRow {
   std::vector<uint32_t> planesBegin;              // [ranks + 1] of the cell's pairs in `pairs`
   std::vector<std::vector<uint32_t>> tiles;       // [tiles] the ranks that each can see
   std::vector<std::vector<uint32_t>> tilePlaces;  // [tiles] the same cells, by their place
-  std::vector<uint8_t> isOpen;                    // [tiles] a ray goes on behind what it has looked at
-  std::vector<uint32_t> due;                      // cells that open tiles come to next, and which are not prepared
   std::vector<CellSums<Real>> cells;
   std::vector<DetailSums<Real>> details;
   std::vector<glm::vec<4, Real>> pairs;
@@ -57,22 +55,33 @@ class CpuStep {
   // After cells changed places: before the next activate().
   void forgetPairs() { pairs_.forget(); }
 
-  // All that the last view can see, of which render() prepared what its rays came to.
-  SeenCells<Real> seen();
+  SeenCells<Real> seen();                                  // what the last render() prepared
   GradientSums<Real> sums();                               // what the last differentiate() added up for it
   uint64_t droppedCount() const { return droppedCount_; }  // contributions that were no finite numbers, of all steps
   const CellGraph& pairs() const { return pairs_.graph(); }
   NeighbourRows rows() const { return pairs_.rows(); }  // the same, of the last activate()
 
  private:
-  void place();
+  // A cell that the view sees.
+  struct Candidate {
+    Real power = 0;  // of the eye
+    uint32_t cell = 0;
+    uint32_t tilesBegin = 0, tilesEnd = 0;  // in the tiles of its block
+  };
+  // Cells that follow each other often lie beside each other, so they are culled together.
+  static constexpr uint32_t kBlockCells = 256;
+  struct CellBlock {
+    glm::vec<4, Real> ball;             // around those of its cells
+    std::vector<Candidate> candidates;  // by cell
+    std::vector<uint32_t> tiles;        // of each candidate, ascending
+  };
+  void boundBlock(uint32_t block);
+  void cull();
+  void cullBlock(uint32_t block, const std::vector<glm::vec<4, Real>>& cones);
+  std::span<const uint32_t> tilesOf(const Candidate& candidate) const;
+  void prepare(const AdamStep<Real>& adam);
   void bin();
-  void renderInRounds(const AdamStep<Real>& adam);
-  void gatherDue(TileRow<Real>& row, uint32_t before, uint32_t reach) const;
-  void prepareDue(const AdamStep<Real>& adam);
-  void prepare(uint32_t cell, const AdamStep<Real>& adam);
-  void renderRow(uint32_t tileY, uint32_t reach);
-  uint32_t placesOfRays(uint32_t tileY) const;
+  void renderRow(uint32_t tileY);
   void differentiateRow(uint32_t tileY);
   void reduce();
   glm::vec<4, Real> gradientOfBall(uint32_t cell, const Eyes& eyes, Real overlapWeight);
@@ -84,13 +93,12 @@ class CpuStep {
   PixelSettings<Real> settings_;
   uint64_t droppedCount_ = 0;
 
-  CellCulling<Real> culling_;  // its candidates are by rank
+  std::vector<CellBlock> blocks_;
+  std::vector<Candidate> candidates_;  // by rank
   std::vector<SeenCell<Real>> cells_;
   std::vector<SeenPlane<Real>> planes_;
   std::vector<SeenDetail<Real>> details_;
   std::vector<uint32_t> rankOf_;
-  std::vector<uint8_t> isPrepared_;  // by rank
-  std::vector<uint32_t> due_;        // cells to prepare in this round
   std::vector<TileRow<Real>> rows_;
   struct RowPlace {
     uint32_t row, place;

@@ -19,16 +19,15 @@ struct PixelSettings {
   Real perPixel = 0;         // 1 / pixels
 };
 
-// Goes on through the list behind the first `end` cells, which were looked at before; so many are in the end. shown:
-// colour over black and ln T of these, at first 0. Returns whether the ray ends there.
+// Returns colour over black and ln T_N; `end`: how many cells of the list were looked at.
 template <class Real>
-FROTH_HD bool renderPixel(const SeenCells<Real>& seen, uint32_t detailCount, const uint32_t* ranks, uint32_t rankCount,
-                          const glm::vec<3, Real>& direction, const PixelSettings<Real>& settings, uint32_t& end,
-                          glm::vec<4, Real>& shown) {
-  glm::vec<3, Real> colour(shown);
-  Real logTransmittance = shown.w;
+FROTH_HD glm::vec<4, Real> renderPixel(const SeenCells<Real>& seen, uint32_t detailCount, const uint32_t* ranks,
+                                       uint32_t rankCount, const glm::vec<3, Real>& direction,
+                                       const PixelSettings<Real>& settings, uint32_t& end) {
+  glm::vec<3, Real> colour(0);
+  Real logTransmittance = 0;
   const Real logCutoff = std::log(settings.cutoff);
-  while (end < rankCount && logTransmittance >= logCutoff) {
+  for (end = 0; end < rankCount && logTransmittance >= logCutoff;) {
     const uint32_t rank = ranks[end++];
     const SeenCell<Real>& cell = seen.cells[rank];
     Segment<Real> segment;
@@ -40,8 +39,7 @@ FROTH_HD bool renderPixel(const SeenCells<Real>& seen, uint32_t detailCount, con
     colour += std::exp(logTransmittance) * foam::opacity(opticalDepth) * segment.colour;
     logTransmittance -= opticalDepth;
   }
-  shown = {colour, logTransmittance};
-  return !(logTransmittance >= logCutoff);
+  return {colour, logTransmittance};
 }
 
 // What the backward pass of a pixel carries from cell to cell.
