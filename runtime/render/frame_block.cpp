@@ -75,6 +75,12 @@ void fillBox(const GpuAsset& asset, const glm::dvec3& eye, gpu::FrameBlock& bloc
   block.boxHigh = toFloats(high + guard);
 }
 
+// Around the live cells, in the axes of the asset.
+PlacedBox boxOf(const GpuChunk& chunk, const glm::dvec3& eye) {
+  const glm::dvec3 low = toVector(chunk.liveLow), high = toVector(chunk.liveHigh);
+  return {.centre = 0.5 * (low + high) - eye, .half = 0.5 * (high - low)};
+}
+
 }  // namespace
 
 // The first 24 bits of a double, all that a float holds. Not by a float and back, which GCC 12 takes for the identity
@@ -116,8 +122,7 @@ uint32_t fillChunks(const GpuAsset& asset, const glm::dvec3& eye, const RayPyram
     entry.lobeTotal = chunk.lobeTotal;
     entry.lobeQuads = chunk.lobeQuads;
     entry.lobesPlaced = 0;
-    const bool mayBeSeen = rays.mayMeet(toVector(chunk.liveLow) - eye, toVector(chunk.liveHigh) - eye);
-    group += mayBeSeen ? groupsOver(chunk.cellCount, gpu::kGroupSize) : 0;
+    group += rays.mayMeet(boxOf(chunk, eye)) ? groupsOver(chunk.cellCount, gpu::kGroupSize) : 0;
   }
   return group;
 }
@@ -151,7 +156,7 @@ void fillFrame(RenderMethod method, const FrothRenderInfo& info, const RenderIns
   fillTransients(buffers, asset, region, block);
   const bool isWalk = method == RenderMethod::kWalk;  // lists cells that only guide it, wherever they lie
   block.flags |= isWalk ? gpu::kFlagWalk : 0;
-  block.groupCount = fillChunks(asset, rays.eye, isWalk ? RayPyramid() : RayPyramid(info.camera, instance), chunks);
+  block.groupCount = fillChunks(asset, rays.eye, isWalk ? RayPyramid() : RayPyramid(info.camera, rays), chunks);
   fillBox(asset, rays.eye, block);
   block.flags |= holdsAllCells(asset, buffers.capacity()) ? 0 : gpu::kFlagCountSizes;
   block.scale = instance.scale;

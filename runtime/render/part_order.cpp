@@ -109,16 +109,13 @@ PartOrder orderBoxes(std::span<const PlacedBox> boxes, const std::optional<glm::
   return order;
 }
 
-PartOrder orderParts(const FrothCamera& camera, std::span<const RenderInstance* const> instances) {
-  if (instances.size() < 2) return {};
-  std::array<PlacedBox, gpu::kMostInstances> boxes;
-  const glm::dvec3 eye(camera.eye[0], camera.eye[1], camera.eye[2]);
-  for (size_t i = 0; i < instances.size(); ++i) boxes[i] = boxOf(*instances[i], eye);
+PartOrder orderParts(const FrothCamera& camera, std::span<const PlacedBox> boxes) {
+  if (boxes.size() < 2) return {};
   std::optional<glm::dvec3> direction;
   if (lensClassOf(camera) == gpu::kLensClassOrthographic) {
     direction = computeCameraRays(camera, RenderInstance{}).forward;
   }
-  return orderBoxes(std::span(boxes).first(instances.size()), direction);
+  return orderBoxes(boxes, direction);
 }
 
 }  // namespace froth

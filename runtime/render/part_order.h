@@ -29,6 +29,7 @@ struct PartOrder {
 // separating axis theorem). Of these two, a ray from the eye comes first to the one on the eye's side.
 PartOrder orderBoxes(std::span<const PlacedBox> boxes, const std::optional<glm::dvec3>& direction);
 
-PartOrder orderParts(const FrothCamera& camera, std::span<const RenderInstance* const> instances);
+// Of instances' boxes, in world axes.
+PartOrder orderParts(const FrothCamera& camera, std::span<const PlacedBox> boxes);
 
 }  // namespace froth

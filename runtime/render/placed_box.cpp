@@ -1,17 +1,12 @@
 #include "runtime/render/placed_box.h"
 
 #include "format/to_vector.h"
-#include "runtime/render/camera_rays.h"
 
 namespace froth {
 namespace {
 
 // Rays, and places of cells, lose less than this part of the distance to rounding.
 constexpr double kGuard = 1e-5;
-
-double guardOf(const glm::dvec3& centre, const glm::dvec3& half) {
-  return kGuard * (glm::length(centre) + glm::length(half));
-}
 
 }  // namespace
 
@@ -29,9 +24,8 @@ PlacedBox boxOf(const RenderInstance& instance, const glm::dvec3& eye) {
   return box;
 }
 
-RayPyramid::RayPyramid(const FrothCamera& camera, const RenderInstance& instance) {
+RayPyramid::RayPyramid(const FrothCamera& camera, const CameraRays& rays) {
   if (lensClassOf(camera) != gpu::kLensClassPinhole) return;
-  const CameraRays rays = computeCameraRays(camera, instance);
   const double width = camera.scissor.extent.width, height = camera.scissor.extent.height;
   const auto rayOf = [&](double column, double row) { return rays.origin + column * rays.stepX + row * rays.stepY; };
   const std::array<glm::dvec3, 4> corners{rayOf(-1, -1), rayOf(width, -1), rayOf(width, height), rayOf(-1, height)};
@@ -43,18 +37,9 @@ RayPyramid::RayPyramid(const FrothCamera& camera, const RenderInstance& instance
 }
 
 bool RayPyramid::mayMeet(const PlacedBox& box) const {
-  const double guard = guardOf(box.centre, box.half);
+  const double guard = kGuard * (glm::length(box.centre) + glm::length(box.half));
   for (const glm::dvec3& inwards : inwards_) {
     if (glm::dot(inwards, box.centre) + box.reachAlong(inwards) < -guard) return false;
-  }
-  return true;
-}
-
-bool RayPyramid::mayMeet(const glm::dvec3& low, const glm::dvec3& high) const {
-  const glm::dvec3 centre = 0.5 * (low + high), half = 0.5 * (high - low);
-  const double guard = guardOf(centre, half);
-  for (const glm::dvec3& inwards : inwards_) {
-    if (glm::dot(inwards, centre) + glm::dot(glm::abs(inwards), half) < -guard) return false;
   }
   return true;
 }

@@ -6,11 +6,12 @@
 #include <glm/glm.hpp>
 
 #include "froth/froth.h"
+#include "runtime/render/camera_rays.h"
 #include "runtime/render/view_renderer.h"
 
 namespace froth {
 
-// A box as seen from the eye, in world axes.
+// A box as seen from the eye, in the axes of the world or of an asset.
 struct PlacedBox {
   glm::dvec3 centre{0};
   glm::dmat3 axes{1};  // columns: unit and orthogonal
@@ -20,18 +21,17 @@ struct PlacedBox {
   double reachAlong(const glm::dvec3& axis) const;
 };
 
-// Around all that can be seen of the instance.
+// Around all that can be seen of the instance, in world axes.
 PlacedBox boxOf(const RenderInstance& instance, const glm::dvec3& eye);
 
 // Where the rays of a camera's region run, with a pixel around it: between planes through the eye.
 class RayPyramid {
  public:
   RayPyramid() = default;  // all around
-  // In world axes, or in those of an instance's asset. All around where the camera is no pinhole.
-  explicit RayPyramid(const FrothCamera& camera, const RenderInstance& instance = {});
-  // False: no ray meets the box. True where that is not known. A box along the axes is relative to the eye, too.
+  // In the axes of the rays. All around where the camera is no pinhole.
+  RayPyramid(const FrothCamera& camera, const CameraRays& rays);
+  // False: no ray meets the box. True where that is not known.
   bool mayMeet(const PlacedBox& box) const;
-  bool mayMeet(const glm::dvec3& low, const glm::dvec3& high) const;
 
  private:
   std::array<glm::dvec3, 4> inwards_{};  // unit normals of the planes; 0: there is none

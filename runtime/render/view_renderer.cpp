@@ -143,11 +143,13 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
   uint32_t bits = 0, count = 0;
   std::array<Drawable, gpu::kMostInstances> drawables;
   std::array<const RenderInstance*, gpu::kMostInstances> drawn;
-  const RayPyramid rays(recording.info.camera);
-  const glm::dvec3 eye(recording.info.camera.eye[0], recording.info.camera.eye[1], recording.info.camera.eye[2]);
+  std::array<PlacedBox, gpu::kMostInstances> boxes;
+  const FrothCamera& camera = recording.info.camera;
+  const RayPyramid rays(camera, computeCameraRays(camera, RenderInstance{}));
+  const glm::dvec3 eye(camera.eye[0], camera.eye[1], camera.eye[2]);
   for (const RenderInstance& instance : instances) {
     InstanceSpace* space = findSpace(recording.view, instance.handle);
-    const PassPipelines* passes = pipelines.find(instance.asset->shape(), lensClassOf(recording.info.camera));
+    const PassPipelines* passes = pipelines.find(instance.asset->shape(), lensClassOf(camera));
     const bool isFirst = count == 0;
     if (!space || !passes || !space->buffers.areMade() || !coversAsset(*instance.asset, space->buffers.capacity()) ||
         !(isFirst || pipelines.canMerge)) {
@@ -155,14 +157,15 @@ uint32_t addParts(const Recording& recording, RenderPipelines::State& pipelines,
     } else if (recording.method == RenderMethod::kWalk && !instance.asset->hasWalkGraph) {
       bits |= FROTH_VIEW_NO_WALK_GRAPH;
     } else {
-      if (rays.mayMeet(boxOf(instance, eye))) {
+      boxes[count] = boxOf(instance, eye);
+      if (rays.mayMeet(boxes[count])) {
         drawables[count] = {space, passes};
         drawn[count++] = &instance;
       }
       if (mayLack(*instance.asset, space->demand, space->buffers.capacity())) bits |= FROTH_VIEW_MAY_LACK_CELLS;
     }
   }
-  const PartOrder order = orderParts(recording.info.camera, std::span(drawn).first(count));
+  const PartOrder order = orderParts(camera, std::span(boxes).first(count));
   for (uint32_t place = 0; place < count; ++place) {
     const uint32_t instance = order.boxes[place];
     addPart(recording, *drawables[instance].space, drawn[instance], *drawables[instance].passes, order.overlaps[place]);

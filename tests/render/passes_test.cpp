@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "format/checks.h"
 #include "runtime/asset/cell_packer.h"
 #include "runtime/render/pass_recorder.h"
 #include "runtime/render/view_state.h"
@@ -175,21 +175,17 @@ class Bin : public Passes {
     asset.liveCount = asset.cellCount = foam.cellCount;
     GpuChunk chunk;
     chunk.cellCount = chunk.siteCount = chunk.liveCount = foam.cellCount;
-    chunk.liveLow.fill(std::numeric_limits<double>::max());
-    chunk.liveHigh.fill(std::numeric_limits<double>::lowest());
-    for (size_t i = 0; i < count; ++i) {
-      for (size_t axis = 0; axis < 3; ++axis) {
-        const double site = foam.sites[i][static_cast<int>(axis)], radius = foam.radii[i];
-        chunk.liveLow[axis] = std::min(chunk.liveLow[axis], site - radius);
-        chunk.liveHigh[axis] = std::max(chunk.liveHigh[axis], site + radius);
-      }
-    }
     chunk.siteRadius = upload(siteRadius).address;
     chunk.neighbourOffsets = upload(std::vector<uint32_t>(count + 1)).address;
     chunk.neighbours = upload(std::vector<uint32_t>(1)).address;
     chunk.alphaCounts = upload(std::vector<uint32_t>(count)).address;
     ChunkContents contents;
     contents.cellCount = contents.liveCount = foam.cellCount;
+    contents.sites = foam.sites;
+    contents.radii = foam.radii;
+    const Box live = liveBoundsOf(contents);
+    chunk.liveLow = live.min;
+    chunk.liveHigh = live.max;
     contents.densities = foam.densities;
     contents.orientations = foam.orientations;
     contents.detailSites = foam.detailSites;
