@@ -19,10 +19,7 @@ uint takeWalkedCell(uint slot) {
   return cell.y < chunk.liveCount ? takeBall(ballOfSite(chunk, cell.y)) : 0;
 }
 
-float distanceTo(vec4 ball) {
-  float middle = isParallel ? dot(ball.xyz, FRAME.forward.xyz) : length(ball.xyz);
-  return max(middle - guardedRadius(ball.xyz, ball.w), 0.0) * kKeptOfDistance;
-}
+float distanceTo(vec4 ball) { return distanceToBall(ball.xyz, guardedRadius(ball.xyz, ball.w)) * kKeptOfDistance; }
 
 void main() {
   uint thread = gl_LocalInvocationIndex;

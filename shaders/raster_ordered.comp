@@ -3,9 +3,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define FROTH_MERGED
+#include "gpu/draw_cell.glsl"
 #include "gpu/merged_pixels.glsl"
 #include "gpu/shared_tiles.glsl"
-#include "gpu/tile_list.glsl"
 
 layout(local_size_x = kSubTileSize, local_size_y = kRows) in;
 

@@ -4,9 +4,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/device_depth.glsl"
+#include "gpu/draw_cell.glsl"
 #include "gpu/hits.glsl"
 #include "gpu/outputs.glsl"
-#include "gpu/tile_list.glsl"
 
 layout(local_size_x = kSubTileSize, local_size_y = kRows) in;
 

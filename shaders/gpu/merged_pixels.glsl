@@ -14,6 +14,8 @@ struct Merged {
   float exposures;     // of the instances, each weighed by what it contributes
 };
 
+Merged emptyMerged() { return Merged(emptyRadiance(), 0u, uvec4(0), 0.0); }
+
 void writeMerged(uvec2 pixel, Merged merged) {
   Radiance radiance = merged.radiance;
   selectPart(0);

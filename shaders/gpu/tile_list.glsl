@@ -1,10 +1,11 @@
-// Composites the cells of a tile's list into 8 x 8 pixels: reads it front to back in batches, keeps the cells whose solid
-// ball these pixels can meet, and ends when every pixel is saturated. A thread draws FROTH_RAYS pixels below each other:
+// Goes through the cells of a tile's list for 8 x 8 pixels: reads it front to back in batches, keeps the cells whose solid
+// ball these pixels can meet, and ends when every pixel is saturated. A thread takes FROTH_RAYS pixels below each other:
 // what costs is reading the cells, and all of them read the same.
 #ifndef FROTH_GPU_TILE_LIST_GLSL
 #define FROTH_GPU_TILE_LIST_GLSL
 #include "gpu/asset.glsl"
 #include "gpu/clip_planes.glsl"
+#include "gpu/outputs.glsl"
 #include "gpu/pixels.glsl"
 
 const uint kRows = kSubTileSize / kRays;  // of threads
@@ -17,44 +18,11 @@ shared uvec3 rows[kBatch];  // of planes: begin, split, end
 shared uint keptMask[kBatchWords];
 shared uint liveMask;
 
-// shadeHits in one piece: two rays per thread are 6 % slower through its two functions, single rays of a walk 6 %
-// faster.
-void shadeHitsAtOnce(Shading shading, uint visible, CellRecord cell, vec3 rays[kRays], Segment segments[kRays],
-                     inout Radiance radiances[kRays]) {
-  uint firstDetail = visible * detailCount;
-  FaceView view = faceViewOf(cell, rays);
-  clipByFace(shading, view, firstDetail, segments);
-  bool isAny = false;
-  vec3 queries[kRays];
-  for (uint r = 0; r < kRays; ++r) {
-    isAny = isAny || !isEmpty(segments[r]);
-    queries[r] = queryAt(view, r, segments[r].tNear);
-  }
-  if (!isAny) return;
-  vec3 colours[kRays];
-  coloursAt(shading, firstDetail, queries, colours);
-  compositeCell(shading, visible, cell, segments, colours, radiances);
-}
+// The entry of the list with which the batch at hand begins.
+uint batchBegin;
 
-void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], inout Radiance radiances[kRays]) {
-  vec4 ball = balls[index];
-  Segment segments[kRays];
-  bool isAny = false;
-  for (uint r = 0; r < kRays; ++r) {
-    segments[r] = Segment(1.0, 0.0);
-    if (isSaturated(shading, radiances[r])) continue;
-    float tNear, tFar;
-    if (!meetBall(ball, rays[r], tNear, tFar)) continue;
-    countWork(kWorkBallHits, 1);
-    if (isFull) tFar = min(tFar, ends[r]);
-    segments[r] = Segment(tNear, tFar);
-    isAny = true;
-  }
-  if (!isAny) return;
-  if (clipByPlanes(shading, rows[index], rays, segments)) {
-    shadeHitsAtOnce(shading, cells[index], shading.records.v[cells[index]], rays, segments, radiances);
-  }
-}
+// What rays do with the kept cell `index` of a batch: defined by who includes this.
+void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], inout Radiance radiances[kRays]);
 
 // Reads a word of each line of memory that rays in the cell will read, so that the entries of a batch wait for them
 // together and not one after the other. Always true, which no compiler can know. (What is read may be anything: a cell
@@ -124,6 +92,7 @@ void drawList(Shading shading, uvec2 range, uvec2 corner, vec3 rays[kRays], floa
     if (lane == 0) liveMask = 0;
     barrier();
     if (isLive) atomicOr(liveMask, 1u);
+    batchBegin = first;
     uint count = gatherBatch(first + lane, range.y, corner);
     if (lane == 0) {
       countWork(kWorkEntries, min(range.y - first, kBatch));

@@ -33,4 +33,9 @@ bool meetBall(vec4 ball, vec3 ray, out float tNear, out float tFar) {
   return intersectBall(fromStart(ray, ball.xyz), ball.w, directionOfRay(ray), tNear, tFar);
 }
 
+// The least distance along any ray at which it can meet the ball.
+float distanceToBall(vec3 centre, float radius) {
+  return max((isParallel ? dot(centre, FRAME.forward.xyz) : length(centre)) - radius, 0.0);
+}
+
 #endif

@@ -15,6 +15,7 @@ namespace {
 
 constexpr uint32_t kLenses = FROTH_LENS_CLASS_MAPPED | FROTH_LENS_CLASS_ORTHOGRAPHIC;
 constexpr VkExtent2D kLargest{240, 160};
+constexpr double kRecordsOfARay = 64;  // kRecords of shaders/gpu/hit_records.glsl
 
 // Two shapes of asset; their cells lie in [-1, 1]^3 + (0, 0, 3).
 const Foam& foamOf(uint32_t which) {
@@ -180,25 +181,63 @@ TEST_F(OrderedInstances, TakeAFisheyeToo) {
 
 TEST_F(OrderedInstances, TheScenesDepthStopsRaysInTheFartherOne) { expectWallStopsRays(8.5f); }
 
-// More cells than a workgroup gathers before its rays set out.
-TEST_F(MergedInstances, ThousandsOfCellsBehindAFewPixelsAreAllMet) {
-  const Foam dense = makeRandomFoam(4000, 1, 0, 3);
-  const ReferenceRenderer renderer(dense);
-  Stage first(bakeForTest(dense), {64, 48}, context(), 0, kLenses),
-      second(bakeForTest(dense), {8, 8}, context(), 0, kLenses);
-  placed_ = {{&renderer, {0, 0, 0}, {1, 0, 0, 0}, 1}, {&renderer, {0.2, 0.1, 0.3}, {1, 0, 0, 0}, 1}};
-  second.place(placementOf(placed_[1]));
-  for (const auto& stage : stages_) {
-    FrothInstanceInfo hidden{};
-    hidden.mask = 2;
-    stage->place(hidden);
+// Instances of one foam in place of those of the fixture.
+class CopiesOfAFoam : public MergedInstances {
+ protected:
+  void putCopies(Foam foam, const std::vector<glm::dvec3>& positions) {
+    foam_ = std::move(foam);
+    renderer_ = std::make_unique<ReferenceRenderer>(foam_);
+    const auto asset = bakeForTest(foam_);
+    for (const auto& stage : stages_) {
+      FrothInstanceInfo hidden{};
+      hidden.mask = 2;
+      stage->place(hidden);
+    }
+    placed_.clear();
+    for (const glm::dvec3& position : positions) {
+      placed_.push_back({renderer_.get(), position, {1, 0, 0, 0}, 1});
+      copies_.push_back(std::make_unique<Stage>(asset, VkExtent2D{64, 48}, context(), 0, kLenses));
+      copies_.back()->place(placementOf(placed_.back()));
+    }
   }
+
+  Frame drawCopies(Method method, const View& view) {
+    FrothRenderInfo info = infoOf(view);
+    info.mask = 1;
+    return copies_[0]->draw(method, info, {view.width, view.height});
+  }
+
+  Foam foam_;
+  std::unique_ptr<ReferenceRenderer> renderer_;
+  std::vector<std::unique_ptr<Stage>> copies_;
+};
+
+// More cells than a workgroup gathers before its rays set out.
+TEST_F(CopiesOfAFoam, OfThousandsOfCellsBehindAFewPixelsAreAllMet) {
+  putCopies(makeRandomFoam(4000, 1, 0, 3), {{0, 0, 0}, {0.2, 0.1, 0.3}});
   const View view = lookAt({0.1, 0.2, -20}, {0.1, 0.1, 3}, 64, 48, 0.3);
-  FrothRenderInfo info = infoOf(view);
-  info.mask = 1;
   const RenderedImages expected = reference(view);
-  EXPECT_GE(psnr(first.draw(Method::kRaster, info, {64, 48}).colour, expected.colour), 55);
-  EXPECT_GE(psnr(first.draw(Method::kWalk, info, {64, 48}).colour, expected.colour), 55);
+  EXPECT_GE(psnr(drawCopies(Method::kRaster, view).colour, expected.colour), 55);
+  EXPECT_GE(psnr(drawCopies(Method::kWalk, view).colour, expected.colour), 55);
+}
+
+// So thin that no ray ends in it: it gains something in more cells than it may keep at once.
+TEST_F(CopiesOfAFoam, AreMergedWhereARayKeepsNotAllThatItFinds) {
+  Foam thin = makeRandomFoam(4000, 1, 0, 3);
+  for (float& density : thin.densities) density *= 0.02f;
+  std::vector<glm::dvec3> positions;
+  for (int i = 0; i < 8; ++i) positions.push_back({0.05 * i, 0.03 * i, 0.07 * i});
+  putCopies(thin, positions);
+  const View view = lookAt({0.1, 0.2, 1}, {0.1, 0.1, 3}, 32, 24, 0.2);
+  const RenderedImages expected = reference(view);
+  for (const Method method : {Method::kRaster, Method::kWalk}) {
+    const Frame found = drawCopies(method, view);
+    const double perRay = static_cast<double>(found.status.work.colours) / (view.width * view.height);
+    EXPECT_GT(perRay, kRecordsOfARay);
+    EXPECT_GE(psnr(found.colour, expected.colour), 55);
+    EXPECT_GE(psnr(found.normal, expected.normal), 50);
+    expectDistances(found.distance, expected.distance);
+  }
 }
 
 // What lies behind the eye is no part of a picture, whichever of the two it is.
