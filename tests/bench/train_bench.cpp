@@ -67,6 +67,8 @@ class WatchedExecutor : public StepExecutor {
     return executor_->facts();
   }
   Status read(FoamStorage<float>& foam) override { return executor_->read(foam); }
+  Status average() override { return executor_->average(); }
+  Status takeMeans() override { return executor_->takeMeans(); }
   Status beginAnew() override { return executor_->beginAnew(); }
   uint32_t cellCount() const override { return executor_->cellCount(); }
   Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) override {

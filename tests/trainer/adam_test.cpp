@@ -62,8 +62,24 @@ TEST(Adam, RateOfTheFirstStepObeysTheWarmUp) {
   EXPECT_EQ(rateAt(schedule, Parameter::kDensity, 0), 0);
   EXPECT_EQ(rateAt(schedule, Parameter::kRadii, 0), 0);
   EXPECT_EQ(rateAt(schedule, Parameter::kPoints, 0), 1e-3);
-  EXPECT_NEAR(rateAt(schedule, Parameter::kPoints, 1), 5e-5, 1e-12);
+  EXPECT_NEAR(rateAt(schedule, Parameter::kPoints, 1), 2e-4, 1e-12);
   EXPECT_EQ(rateAt(schedule, Parameter::kDensity, 0.5), 1);
+}
+
+TEST(Adam, RatesNeverGrowAfterTheWarmUp) {
+  for (const RatePreset preset : {RatePreset::kIndoor, RatePreset::kOutdoor}) {
+    Schedule schedule;
+    schedule.preset = preset;
+    for (size_t i = 0; i < kParameterCount; ++i) {
+      const auto parameter = static_cast<Parameter>(i);
+      const bool isConstant = parameter == Parameter::kDensity;
+      for (double position = 0.1; position < 0.99; position += 0.1) {
+        const double share = rateAt(schedule, parameter, position + 0.1) / rateAt(schedule, parameter, position);
+        EXPECT_GT(share, 0.5) << kParameterKeys[i];
+        EXPECT_LE(share, isConstant ? 1 : 0.999) << kParameterKeys[i];
+      }
+    }
+  }
 }
 
 TEST(Adam, ARefinementHasTheRatesOfTheSecondHalf) {

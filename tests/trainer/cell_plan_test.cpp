@@ -153,9 +153,9 @@ TEST(Schedule, ReachesTheCellsThatAreWanted) {
   schedule.mostCells = 500000;
   EXPECT_EQ(cellsAfter(schedule, 99 / 30000.0, 98765), 98765u);
   EXPECT_EQ(cellsAfter(schedule, 24000 / 30000.0, 1), 500000u);
-  EXPECT_EQ(cellsAfter(schedule, 28499 / 30000.0, 1), 500000u);
-  EXPECT_TRUE(isDensifyStep(schedule, 28499, 28499 / 30000.0));
-  EXPECT_FALSE(isDensifyStep(schedule, 28599, 28599 / 30000.0));
+  EXPECT_EQ(cellsAfter(schedule, 26999 / 30000.0, 1), 500000u);
+  EXPECT_TRUE(isDensifyStep(schedule, 26999, 26999 / 30000.0));
+  EXPECT_FALSE(isDensifyStep(schedule, 27099, 27099 / 30000.0));
 }
 
 }  // namespace

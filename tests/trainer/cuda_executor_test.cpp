@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/counter_random.h"
@@ -11,6 +12,7 @@
 #include "trainer/cpu/skin_pairs.h"
 #include "trainer/loop/cpu_executor.h"
 #include "trainer/loop/drift_tables.h"
+#include "trainer/step/running_mean.h"
 
 namespace froth {
 namespace {
@@ -156,6 +158,43 @@ TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   EXPECT_TRUE((*gpu)->run(planOf(1, {1})));
 }
 
+// Nothing is multiplied, so the GPU rounds as the CPU does.
+TEST_F(CudaExecutorOf, KeepsTheMeanOfItsValues) {
+  Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
+  ASSERT_TRUE(gpu) << gpu.error().message;
+  FoamStorage<float> found;
+  FoamStorage<float>::Tensors expected;
+  for (uint32_t step = 0; step < 6; ++step) {
+    ASSERT_TRUE((*gpu)->run(planOf(1000 + step, {step % 2})));
+    ASSERT_TRUE((*gpu)->average());
+    ASSERT_TRUE((*gpu)->read(found));
+    ASSERT_EQ(found.averagedSteps, step + 1);
+    for (size_t t = 0; t < kParameterCount; ++t) {
+      expected[t].resize(found.values[t].size());
+      for (size_t i = 0; i < expected[t].size(); ++i) {
+        expected[t][i] = foldIntoMean(expected[t][i], found.values[t][i], step + 1);
+      }
+      ASSERT_EQ(found.meanValues[t], expected[t]) << kParameterKeys[t] << " in step " << step;
+    }
+    if (step == 2) gpu = CudaExecutor::make(found, photos_);  // as a run that goes on
+    ASSERT_TRUE(gpu) << gpu.error().message;
+  }
+  EXPECT_NE(found.values, expected);
+  ASSERT_TRUE((*gpu)->takeMeans());
+  std::vector<glm::vec4> shown, other;
+  ASSERT_TRUE((*gpu)->show(photos_[0].view, drifts_.adamAt(1010), shown));
+  ASSERT_TRUE((*gpu)->read(found));
+  EXPECT_EQ(found.values, expected);
+  EXPECT_EQ(found.averagedSteps, 0u);
+  std::fill(found.lastSteps.begin(), found.lastSteps.end(), 1010);  // no cell waits
+  CpuExecutor cpu(found, photos_);
+  ASSERT_TRUE(cpu.show(photos_[0].view, drifts_.adamAt(1010), other));
+  ASSERT_EQ(shown.size(), other.size());
+  double squares = 0;
+  for (size_t i = 0; i < shown.size(); ++i) squares += glm::dot(shown[i] - other[i], shown[i] - other[i]);
+  EXPECT_LE(std::sqrt(squares / (4.0 * double(shown.size()))), 2e-5);  // kImageTolerance of cuda_step_test.cpp
+}
+
 TEST(GpuGroup, NeedsNcclOrSaysWhatToInstall) {
   const Status there = GpuGroup::check();
   if (!there) {
@@ -192,6 +231,8 @@ class TwoGpus : public CudaExecutorOf {
     EXPECT_EQ(first.lastSteps, second.lastSteps);
     EXPECT_EQ(first.contributions, second.contributions);
     EXPECT_EQ(first.errors, second.errors);
+    EXPECT_EQ(first.averagedSteps, second.averagedSteps);
+    EXPECT_EQ(first.meanValues, second.meanValues);
   }
 
   std::unique_ptr<StepExecutor> owned_;
@@ -207,12 +248,17 @@ TEST_F(TwoGpus, KeepTheSameFoams) {
     if (step == 10) {
       ASSERT_TRUE(both.show(photos_[0].view, drifts_.adamAt(step + 1), image));
     }
+    if (step >= 30) {
+      ASSERT_TRUE(both.average());
+    }
     if (step % 15 != 14) continue;
     expectSameFoams(both);
     const Result<CellFacts> facts = both.facts();
     ASSERT_TRUE(facts);
     ASSERT_TRUE(both.rearrange(planCells(*facts, both.cellCount() + 300, {}, 3, step)));
   }
+  expectSameFoams(both);
+  ASSERT_TRUE(both.takeMeans());
   expectSameFoams(both);
 }
 

@@ -27,6 +27,14 @@ class StateFile : public ::testing::Test {
   }
   ~StateFile() override { std::filesystem::remove(path_); }
 
+  void addMeans(uint32_t steps) {
+    state_.foam.averagedSteps = steps;
+    state_.foam.meanValues = state_.foam.values;
+    state_.foam.meanValues[2][4] = -0.125f;
+    EXPECT_TRUE(writeState(path_, state_));
+  }
+  void expectCutsAreRefused();
+
   std::filesystem::path path_;
   TrainingState state_;
 };
@@ -43,9 +51,45 @@ TEST_F(StateFile, ComesBackBitForBit) {
   EXPECT_EQ(read->foam.lastSteps, state_.foam.lastSteps);
   EXPECT_EQ(read->foam.contributions, state_.foam.contributions);
   EXPECT_EQ(read->foam.errors, state_.foam.errors);
+  EXPECT_EQ(read->foam.averagedSteps, 0u);
+  EXPECT_TRUE(read->foam.meanValues[0].empty());
 }
 
-TEST_F(StateFile, CutAnywhereIsRefused) {
+TEST_F(StateFile, OfARunWithMeanValuesHasThem) {
+  const uint64_t without = std::filesystem::file_size(path_);
+  addMeans(2);
+  const Result<TrainingState> read = readState(path_);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->foam.averagedSteps, 2u);
+  EXPECT_EQ(read->foam.meanValues, state_.foam.meanValues);
+  EXPECT_EQ(read->foam.values, state_.foam.values);
+  EXPECT_EQ(read->foam.errors, state_.foam.errors);
+  size_t values = 0;
+  for (const std::vector<float>& tensor : state_.foam.values) values += tensor.size();
+  EXPECT_EQ(std::filesystem::file_size(path_), without + values * sizeof(float));
+}
+
+TEST_F(StateFile, OfMoreMeansThanStepsIsRefused) {
+  addMeans(3);  // of three steps
+  EXPECT_TRUE(readState(path_));
+  addMeans(4);
+  EXPECT_FALSE(readState(path_));
+}
+
+TEST_F(StateFile, ThatOnlySaysThatItHasMeansIsRefused) {
+  state_.foam.averagedSteps = 2;
+  ASSERT_TRUE(writeState(path_, state_));
+  EXPECT_FALSE(readState(path_));
+}
+
+TEST_F(StateFile, WithMeanValuesCutAnywhereIsRefused) {
+  addMeans(2);
+  expectCutsAreRefused();
+}
+
+TEST_F(StateFile, CutAnywhereIsRefused) { expectCutsAreRefused(); }
+
+void StateFile::expectCutsAreRefused() {
   for (uint64_t size = std::filesystem::file_size(path_); size-- > 0;) {
     if (size > 100 && size % 97 != 0) continue;
     std::filesystem::resize_file(path_, size);
@@ -55,25 +99,25 @@ TEST_F(StateFile, CutAnywhereIsRefused) {
   }
 }
 
-TEST_F(StateFile, OfVersion1TellsWhatToDo) {
-  std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(7);
-  file.put('1');
-  file.close();
-  const Result<TrainingState> read = readState(path_);
-  ASSERT_FALSE(read);
-  EXPECT_NE(read.error().message.find("version 1"), std::string::npos) << read.error().message;
+TEST_F(StateFile, OfAnOlderVersionTellsWhatToDo) {
+  for (const char version : {'1', '2'}) {
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(7);
+    file.put(version);
+    file.close();
+    const Result<TrainingState> read = readState(path_);
+    ASSERT_FALSE(read);
+    const std::string found = std::string("version ") + version + ", this froth reads version 3";
+    EXPECT_NE(read.error().message.find(found), std::string::npos) << read.error().message;
+  }
 }
 
-TEST_F(StateFile, OfAFrothThatKnewOnePhotoAStepHasOne) {
-  state_.photosPerStep = 0;
-  ASSERT_TRUE(writeState(path_, state_));
-  const Result<TrainingState> older = readState(path_);
-  ASSERT_TRUE(older) << older.error().message;
-  EXPECT_EQ(older->photosPerStep, 1u);
-  state_.photosPerStep = 17;
-  ASSERT_TRUE(writeState(path_, state_));
-  EXPECT_FALSE(readState(path_));
+TEST_F(StateFile, OfNoPhotosAStepOrTooManyIsRefused) {
+  for (const uint32_t photosPerStep : {0u, 17u}) {
+    state_.photosPerStep = photosPerStep;
+    ASSERT_TRUE(writeState(path_, state_));
+    EXPECT_FALSE(readState(path_)) << photosPerStep;
+  }
 }
 
 TEST_F(StateFile, WhoseTimeGoesBackIsRefused) {

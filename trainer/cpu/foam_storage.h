@@ -19,12 +19,14 @@ struct FoamStorage {
   std::vector<uint32_t> lastSteps;
   std::vector<glm::vec<4, Real>> balls;
   std::vector<Real> contributions, errors;
+  Tensors meanValues;          // of values after averaged steps (trainer/step/running_mean.h); empty: of none yet
+  uint32_t averagedSteps = 0;  // how many
 };
 
 // Moments are two thirds of what a foam in training takes.
 enum class AdamMoments { kKept, kNone };
 
-// Sets the shape and all lengths; what is new is 0.
+// Sets the shape and all lengths but those of mean values; what is new is 0.
 template <class Real>
 void resizeStorage(FoamStorage<Real>& foam, const FoamShape& shape, AdamMoments moments = AdamMoments::kKept) {
   foam.shape = shape;

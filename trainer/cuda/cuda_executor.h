@@ -26,6 +26,8 @@ class CudaExecutor : public StepExecutor {
 
   Status run(const StepPlan& plan) override;
   Status rearrange(const CellPlan& plan) override;
+  Status average() override { return step_.average(); }
+  Status takeMeans() override { return step_.takeMeans(); }
   Result<CellFacts> facts() override;
   uint32_t cellCount() const override { return step_.cellCount(); }
   Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) override;

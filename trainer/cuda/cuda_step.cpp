@@ -81,8 +81,12 @@ Status CudaStep::upload(const FoamStorage<float>& foam) {
     status = inTurn([&] { return tensors_[i].values.upload(foam.values[i], name, stream_); },
                     [&] { return tensors_[i].firstMoments.upload(foam.firstMoments[i], name, stream_); },
                     [&] { return tensors_[i].secondMoments.upload(foam.secondMoments[i], name, stream_); });
+    if (status && foam.averagedSteps > 0) {
+      status = tensors_[i].meanValues.upload(foam.meanValues[i], name, stream_);
+    }
   }
   if (!status) return status;
+  averagedSteps_ = foam.averagedSteps;
   hasPairs_ = false;
   return inTurn([&] { return lastSteps_.upload(foam.lastSteps, "last steps", stream_); },
                 [&] { return contributions_.upload(foam.contributions, "contributions", stream_); },
@@ -109,12 +113,15 @@ Status CudaStep::reserveCells(const FoamShape& shape) {
 
 Status CudaStep::download(FoamStorage<float>& foam) {
   resizeStorage(foam, arrays_.foam.shape);
+  foam.meanValues = {};
+  foam.averagedSteps = averagedSteps_;
   Status status;
   for (size_t i = 0; i < kParameterCount && status; ++i) {
     const char* name = kParameterKeys[i].data();
     status = inTurn([&] { return tensors_[i].values.download(foam.values[i], name, stream_); },
                     [&] { return tensors_[i].firstMoments.download(foam.firstMoments[i], name, stream_); },
                     [&] { return tensors_[i].secondMoments.download(foam.secondMoments[i], name, stream_); });
+    if (status && averagedSteps_ > 0) status = tensors_[i].meanValues.download(foam.meanValues[i], name, stream_);
   }
   if (!status) return status;
   return inTurn([&] { return lastSteps_.download(foam.lastSteps, "last steps", stream_); },
@@ -172,9 +179,35 @@ Status CudaStep::rearrange(const CellPlan& plan) {
                     [&] { return gather(tensors_[i].secondMoments, width, name); });
   }
   hasPairs_ = false;
+  averagedSteps_ = 0;
   return inTurn([&] { return status; }, [&] { return reserveCells(shape); },
                 [&] { return changeCells(arrays_, changes.data(), stream_); },
                 [&] { return checkCuda(cudaStreamSynchronize(stream_), "rearrangement of cells"); });
+}
+
+Status CudaStep::average() {
+  ParameterRows<float> means{};
+  for (size_t i = 0; i < kParameterCount; ++i) {
+    DeviceArray<float>& tensor = tensors_[i].meanValues;
+    if (Status made = tensor.resize(tensors_[i].values.size(), "mean values"); !made) return made;
+    means.tensors[i] = tensor.data();
+  }
+  return mark(averageValues(arrays_.foam, means, ++averagedSteps_, stream_), "average");
+}
+
+Status CudaStep::takeMeans() {
+  if (averagedSteps_ == 0) return {};
+  for (Tensors& tensors : tensors_) {
+    tensors.values = std::exchange(tensors.meanValues, {});
+    const DeviceArray<float>& moments = tensors.firstMoments;
+    const Status cleared =
+        checkCuda(cudaMemsetAsync(moments.data(), 0, moments.size() * sizeof(float), stream_), "first moments");
+    if (!cleared) return cleared;
+  }
+  averagedSteps_ = 0;
+  hasPairs_ = false;
+  point();
+  return {};
 }
 
 Status CudaStep::findPairs(float leastSkin) {
@@ -303,7 +336,9 @@ Result<bool> CudaStep::settle() {
 size_t CudaStep::byteCount() const {
   size_t sum = scratch_.byteCount() + counters_.byteCount() + keptViews_.byteCount();
   const auto add = [&](const auto&... arrays) { sum += (arrays.byteCount() + ...); };
-  for (const Tensors& tensors : tensors_) add(tensors.values, tensors.firstMoments, tensors.secondMoments);
+  for (const Tensors& tensors : tensors_) {
+    add(tensors.values, tensors.firstMoments, tensors.secondMoments, tensors.meanValues);
+  }
   add(pairOfPlane_);
   for (const auto& array : byCell_) add(array);
   add(groupCones_);

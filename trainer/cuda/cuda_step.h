@@ -31,6 +31,9 @@ class CudaStep {
   Status upload(const FoamStorage<float>& foam);
   Status download(FoamStorage<float>& foam);
   Status rearrange(const CellPlan& plan);
+  // Of StepExecutor; both between steps.
+  Status average();
+  Status takeMeans();
 
   // The calls of a step, in this order. Pointers in `view` and `adam` are to device memory.
   //
@@ -80,8 +83,10 @@ class CudaStep {
   static constexpr size_t kArraysByCell = 7, kArraysByEntry = 4, kArraysByTile = 4;
   struct Tensors {
     DeviceArray<float> values, firstMoments, secondMoments;
+    DeviceArray<float> meanValues;  // of averagedSteps_; before the first there are none
   };
   std::array<Tensors, kParameterCount> tensors_;
+  uint32_t averagedSteps_ = 0;
   DeviceArray<uint32_t> lastSteps_;
   DeviceArray<glm::vec4> balls_;
   DeviceArray<float> contributions_, errors_;

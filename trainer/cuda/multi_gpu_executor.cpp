@@ -105,6 +105,14 @@ Status MultiGpuExecutor::rearrange(const CellPlan& plan) {
   return onEach([&](CudaExecutor& gpu, uint32_t) { return gpu.rearrange(plan); });
 }
 
+Status MultiGpuExecutor::average() {
+  return onEach([](CudaExecutor& gpu, uint32_t) { return gpu.average(); });
+}
+
+Status MultiGpuExecutor::takeMeans() {
+  return onEach([](CudaExecutor& gpu, uint32_t) { return gpu.takeMeans(); });
+}
+
 Result<CellFacts> MultiGpuExecutor::facts() {
   if (Status taken = takeGpu(0); !taken) return taken.error();
   return gpus_.front()->facts();

@@ -23,6 +23,8 @@ class MultiGpuExecutor : public StepExecutor {
   // The number of photos must be a multiple of that of GPUs.
   Status run(const StepPlan& plan) override;
   Status rearrange(const CellPlan& plan) override;
+  Status average() override;
+  Status takeMeans() override;
   Result<CellFacts> facts() override;
   uint32_t cellCount() const override { return gpus_.front()->cellCount(); }
   Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) override;

@@ -79,6 +79,10 @@ struct LossTerms {
 Status differentiateLoss(const PixelArrays<float>& pixels, glm::vec4* wanted, const ImageTarget& target,
                          const LossTerms& terms, float* fields, cudaStream_t stream);
 
+// Counts values of all parameters in their means (foldIntoMean). count: of steps that are in them then.
+Status averageValues(const TrainedFoam<float>& foam, const ParameterRows<float>& means, uint32_t count,
+                     cudaStream_t stream);
+
 // Row i of `to` becomes row sources[i] of `from`. T: float, uint32_t.
 template <class T>
 Status gatherRows(const T* from, T* to, const uint32_t* sources, uint32_t cellCount, uint32_t width,

@@ -1,5 +1,6 @@
 #include "trainer/loop/cpu_executor.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -7,6 +8,7 @@
 #include "trainer/cpu/view_exchange.h"
 #include "trainer/photos/reduce_photo.h"
 #include "trainer/step/crowds.h"
+#include "trainer/step/running_mean.h"
 
 namespace froth {
 namespace {
@@ -81,6 +83,27 @@ Status CpuExecutor::run(const StepPlan& plan) {
 Status CpuExecutor::rearrange(const CellPlan& plan) {
   shown_.reset();
   foam_ = froth::rearrange(foam_, plan);
+  step_.forgetPairs();
+  return {};
+}
+
+Status CpuExecutor::average() {
+  const uint32_t count = ++foam_.averagedSteps;
+  for (size_t t = 0; t < kParameterCount; ++t) {
+    const std::vector<float>& values = foam_.values[t];
+    std::vector<float>& means = foam_.meanValues[t];
+    means.resize(values.size());
+    tbb::parallel_for(size_t{0}, values.size(), [&](size_t i) { means[i] = foldIntoMean(means[i], values[i], count); });
+  }
+  return {};
+}
+
+Status CpuExecutor::takeMeans() {
+  if (foam_.averagedSteps == 0) return {};
+  shown_.reset();
+  foam_.values = std::exchange(foam_.meanValues, {});
+  foam_.averagedSteps = 0;
+  for (std::vector<float>& moments : foam_.firstMoments) std::fill(moments.begin(), moments.end(), 0.0f);
   step_.forgetPairs();
   return {};
 }

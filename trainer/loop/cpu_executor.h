@@ -21,6 +21,8 @@ class CpuExecutor : public StepExecutor {
 
   Status run(const StepPlan& plan) override;
   Status rearrange(const CellPlan& plan) override;
+  Status average() override;
+  Status takeMeans() override;
   Result<CellFacts> facts() override;
   uint32_t cellCount() const override { return foam_.shape.cellCount; }
   Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) override;

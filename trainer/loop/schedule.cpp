@@ -11,7 +11,11 @@ constexpr double kPublishedSteps = 30000;
 constexpr double kRefinementBegin = 0.5;   // of a schedule
 constexpr double kRefinementWarmUp = 0.1;  // of a refinement
 constexpr double kLeastWarmUpSteps = 100;  // of one that lasts a number of steps, and not of seconds
+// Of a schedule: cells come and go no more, and steps are averaged. One number, for a mean is of the same cells.
+constexpr double kAveragingBegin = 0.9;
+constexpr uint64_t kDensifyPeriod = 100, kAveragingPeriod = 8;  // [photos]
 
+// Last rates are four times the published ones: the values move about more, so that their mean is of more places.
 struct Rate {
   double first, last;
   double warmUp = 0;  // of the published steps
@@ -21,21 +25,21 @@ Rate rateOf(RatePreset preset, Parameter parameter) {
   const bool isOutdoor = preset == RatePreset::kOutdoor;
   switch (parameter) {
     case Parameter::kPoints:
-      return isOutdoor ? Rate{1e-3, 1e-4} : Rate{1e-3, 5e-5};
+      return isOutdoor ? Rate{1e-3, 4e-4} : Rate{1e-3, 2e-4};
     case Parameter::kDensity:
       return {1, 1, 1000};
     case Parameter::kRadii:
-      return isOutdoor ? Rate{1e-4, 1e-5, 1000} : Rate{5e-5, 5e-6, 1000};
+      return isOutdoor ? Rate{1e-4, 4e-5, 1000} : Rate{5e-5, 2e-5, 1000};
     case Parameter::kOrientations:
-      return {1e-1, 1e-2};
+      return {1e-1, 4e-2};
     case Parameter::kDetailSites:
-      return {1e-2, 1e-3};
+      return {1e-2, 4e-3};
     case Parameter::kLobeAxes:
-      return isOutdoor ? Rate{1e-2, 1e-3} : Rate{5e-2, 5e-3};
+      return isOutdoor ? Rate{1e-2, 4e-3} : Rate{5e-2, 2e-2};
     case Parameter::kLobeColours:
-      return isOutdoor ? Rate{2e-3, 2e-4} : Rate{5e-3, 5e-4};
+      return isOutdoor ? Rate{2e-3, 8e-4} : Rate{5e-3, 2e-3};
     case Parameter::kDetailHeights:
-      return isOutdoor ? Rate{1e-2, 1e-3, 2000} : Rate{5e-3, 5e-4, 2000};
+      return isOutdoor ? Rate{1e-2, 4e-3, 2000} : Rate{5e-3, 2e-3, 2000};
   }
   return {};
 }
@@ -55,6 +59,12 @@ double rateOfOnePhoto(const Schedule& schedule, Parameter parameter, double posi
   // Adam's first steps move each parameter by its whole rate, whatever its gradient: moments are 0.
   const double leastWarmUp = schedule.seconds > 0 ? 0 : kLeastWarmUpSteps / schedule.steps;
   return now * std::min(1.0, position / std::max(kRefinementWarmUp, leastWarmUp));
+}
+
+// Whether the photos of a step bring their number to a multiple of `period`, or past one.
+bool fillsPeriod(const Schedule& schedule, uint32_t step, uint64_t period) {
+  const uint64_t before = uint64_t{step} * schedule.photosPerStep, after = before + schedule.photosPerStep;
+  return after / period > before / period;
 }
 
 }  // namespace
@@ -79,9 +89,11 @@ LossWeights weightsAt(const Schedule& schedule, double position) {
 }
 
 bool isDensifyStep(const Schedule& schedule, uint32_t step, double position) {
-  constexpr uint64_t kPeriod = 100;  // [photos]
-  const uint64_t before = uint64_t{step} * schedule.photosPerStep, after = before + schedule.photosPerStep;
-  return after / kPeriod > before / kPeriod && progressOf(schedule, position) < 0.95;
+  return fillsPeriod(schedule, step, kDensifyPeriod) && progressOf(schedule, position) < kAveragingBegin;
+}
+
+bool isAveragedStep(const Schedule& schedule, uint32_t step, double position) {
+  return fillsPeriod(schedule, step, kAveragingPeriod) && progressOf(schedule, position) >= kAveragingBegin;
 }
 
 uint32_t cellsAfter(const Schedule& schedule, double position, uint32_t present) {

@@ -1,6 +1,9 @@
 // What changes from step to step: rates, weights of losses, how many cells there should be, how large images are.
-// Figures are those of the published recipe, whose 30,000 steps are stretched to as many as are asked for, or to as
-// much time. `position`: of a step in its schedule [0..1], as Pace gives it (pace.h).
+// Figures are those of the published recipe, but for the last rates; its 30,000 steps are stretched to as many as are
+// asked for, or to as much time. `position`: of a step in its schedule [0..1], as Pace gives it (pace.h).
+//
+// In the last tenth rates stay high and cells stay the same; the foam that a run gives is the mean of what such steps
+// leave (Izmailov et al. 2018, "Averaging Weights Leads to Wider Optima and Better Generalization").
 #pragma once
 
 #include <cstdint>
@@ -36,10 +39,14 @@ struct LossWeights {
 };
 LossWeights weightsAt(const Schedule& schedule, double position);
 
-// Steps after which cells are removed and added: each in which a hundredth photo is seen.
+// Steps after which cells are removed and added: each in which a hundredth photo is seen, up to the last tenth.
 bool isDensifyStep(const Schedule& schedule, uint32_t step, double position);
 // How many cells there should be after such a step; `present`: how many there are. A refinement adds from its start on.
 uint32_t cellsAfter(const Schedule& schedule, double position, uint32_t present);
+
+// Steps whose values count in the mean: each of the last tenth in which an eighth photo is seen. Positions never go
+// back, so cells are never removed or added after one.
+bool isAveragedStep(const Schedule& schedule, uint32_t step, double position);
 
 // How often the sides of images are halved: 2, 1, 0. Early steps learn coarse things, and cost less.
 uint32_t halvingsAt(const Schedule& schedule, double position);

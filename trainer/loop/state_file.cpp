@@ -11,15 +11,17 @@
 namespace froth {
 namespace {
 
-constexpr uint64_t kMagic = 0x32736d6168746f72;  // "rothams2", little-endian; the last byte is the version
-constexpr uint64_t kOlderMagic = 0x31736d6168746f72;
+constexpr uint32_t kVersion = 3;
+// "rothams3" and older, little-endian.
+constexpr uint64_t magicOf(uint64_t version) { return ('0' + version) << 56 | 0x736d6168746f72; }
 constexpr uint32_t kMostSettings = 1 << 16;
 
 struct StateHeader {
-  uint64_t magic = kMagic;
+  uint64_t magic = magicOf(kVersion);
   uint32_t stepsDone = 0, settingsBytes = 0;
   uint32_t cellCount = 0, detailCount = 0, lobeCount = 0;
-  uint32_t photosPerStep = 0;  // 0: of a froth that knew steps of one alone
+  uint32_t photosPerStep = 1;
+  uint64_t averagedSteps = 0;  // [<= stepsDone] 0: no mean values follow
   uint64_t fileBytes = 0;      // of the whole file
 };
 
@@ -29,7 +31,7 @@ Status visitArrays(FoamStorage<float>& foam, Visit&& visit) {
   const auto visitVector = [&](auto& values) {
     return visit(std::span(reinterpret_cast<uint8_t*>(values.data()), values.size() * sizeof(values[0])));
   };
-  for (auto* tensors : {&foam.values, &foam.firstMoments, &foam.secondMoments}) {
+  for (auto* tensors : {&foam.values, &foam.firstMoments, &foam.secondMoments, &foam.meanValues}) {
     for (std::vector<float>& tensor : *tensors) {
       if (Status went = visitVector(tensor); !went) return went;
     }
@@ -39,19 +41,38 @@ Status visitArrays(FoamStorage<float>& foam, Visit&& visit) {
   return visitVector(foam.errors);
 }
 
-uint64_t bytesOf(const FoamShape& shape, uint64_t stepsDone, uint64_t settingsBytes) {
-  uint64_t perCell = 3;  // last step and two means
-  for (size_t i = 0; i < kParameterCount; ++i) perCell += uint64_t{3} * widthOf(static_cast<Parameter>(i), shape);
-  return sizeof(StateHeader) + settingsBytes + (stepsDone + 1) * sizeof(double) +
+FoamShape shapeOf(const StateHeader& header) { return {header.cellCount, header.detailCount, header.lobeCount}; }
+
+uint64_t bytesOf(const StateHeader& header) {
+  const FoamShape shape = shapeOf(header);
+  const uint64_t tensors = header.averagedSteps > 0 ? 4 : 3;  // values, moments, mean values
+  uint64_t perCell = 3;                                       // last step and two means
+  for (size_t i = 0; i < kParameterCount; ++i) perCell += tensors * widthOf(static_cast<Parameter>(i), shape);
+  return sizeof(StateHeader) + header.settingsBytes + (uint64_t{header.stepsDone} + 1) * sizeof(double) +
          perCell * shape.cellCount * sizeof(float);
 }
 
 bool isSound(const StateHeader& header) {
-  return header.magic == kMagic && header.settingsBytes <= kMostSettings && header.cellCount > 0 &&
+  return header.magic == magicOf(kVersion) && header.settingsBytes <= kMostSettings && header.cellCount > 0 &&
          header.detailCount > 0 && header.detailCount <= kMaxDetails && header.lobeCount > 0 &&
-         header.lobeCount <= kMaxLobes && header.photosPerStep <= kMostPhotosPerStep &&
-         header.fileBytes ==
-             bytesOf({header.cellCount, header.detailCount, header.lobeCount}, header.stepsDone, header.settingsBytes);
+         header.lobeCount <= kMaxLobes && header.photosPerStep > 0 && header.photosPerStep <= kMostPhotosPerStep &&
+         header.averagedSteps <= header.stepsDone && header.fileBytes == bytesOf(header);
+}
+
+Status checkHeader(const std::filesystem::path& path, const StateHeader& header, uint64_t fileBytes) {
+  for (uint32_t version = 1; version < kVersion; ++version) {
+    if (header.magic != magicOf(version)) continue;
+    return makeError(ErrorKind::kBadInput,
+                     "%s: a state of version %u, this froth reads version %u; go on with the froth that wrote it, or "
+                     "begin without --resume",
+                     path.c_str(), version, kVersion);
+  }
+  if (isSound(header) && header.fileBytes == fileBytes) return {};
+  return makeError(ErrorKind::kBadInput,
+                   "%s: no state of training of this version, or a part of one (%llu bytes, its header says %llu); "
+                   "begin without --resume",
+                   path.c_str(), static_cast<unsigned long long>(fileBytes),
+                   static_cast<unsigned long long>(header.fileBytes));
 }
 
 bool isTime(const std::vector<double>& seconds) {
@@ -71,7 +92,8 @@ Status writeState(const std::filesystem::path& path, TrainingState& state) {
   header.detailCount = shape.detailCount;
   header.lobeCount = shape.lobeCount;
   header.photosPerStep = state.photosPerStep;
-  header.fileBytes = bytesOf(shape, header.stepsDone, state.settings.size());
+  header.averagedSteps = state.foam.averagedSteps;
+  header.fileBytes = bytesOf(header);
   return streamFileAtomically(path, [&](const ByteSink& sink) -> Status {
     const auto asBytes = [](const void* data, size_t size) {
       return std::span(static_cast<const uint8_t*>(data), size);
@@ -94,25 +116,16 @@ Result<TrainingState> readState(const std::filesystem::path& path) {
   }
   const std::span<uint8_t> headerBytes(reinterpret_cast<uint8_t*>(&header), sizeof(header));
   if (Status read = file->readAt(0, headerBytes); !read) return read.error();
-  if (header.magic == kOlderMagic) {
-    return makeError(
-        ErrorKind::kBadInput,
-        "%s: a state of version 1, this froth reads version 2; go on with the froth that wrote it, or begin "
-        "without --resume",
-        path.c_str());
-  }
-  if (!isSound(header) || header.fileBytes != file->size()) {
-    return makeError(ErrorKind::kBadInput,
-                     "%s: no state of training of this version, or a part of one (%llu bytes, its header says %llu); "
-                     "begin without --resume",
-                     path.c_str(), static_cast<unsigned long long>(file->size()),
-                     static_cast<unsigned long long>(header.fileBytes));
-  }
+  if (Status sound = checkHeader(path, header, file->size()); !sound) return sound.error();
   TrainingState state;
-  state.photosPerStep = std::max(header.photosPerStep, 1u);
+  state.photosPerStep = header.photosPerStep;
   state.seconds.resize(size_t{header.stepsDone} + 1);
   state.settings.resize(header.settingsBytes);
-  resizeStorage(state.foam, {header.cellCount, header.detailCount, header.lobeCount});
+  resizeStorage(state.foam, shapeOf(header));
+  if (header.averagedSteps > 0) {
+    state.foam.averagedSteps = static_cast<uint32_t>(header.averagedSteps);
+    for (size_t i = 0; i < kParameterCount; ++i) state.foam.meanValues[i].resize(state.foam.values[i].size());
+  }
   uint64_t offset = sizeof(header);
   const auto readInto = [&](std::span<uint8_t> bytes) -> Status {
     const uint64_t at = offset;

@@ -29,8 +29,13 @@ class StepExecutor {
 
   // May return before the step is done; a fault of it may come from a later call.
   virtual Status run(const StepPlan& plan) = 0;
-  // Replaces the cells by those of a plan made from facts().
+  // Replaces the cells by those of a plan made from facts(). Forgets mean values, which are of the cells before.
   virtual Status rearrange(const CellPlan& plan) = 0;
+  // Counts the values of all parameters, as they are stored, in their means (trainer/step/running_mean.h).
+  virtual Status average() = 0;
+  // The means become the values, if any step was averaged; none comes after. No value waits then: what first moments
+  // would yet move it by belongs to the last step's values, so those moments become 0.
+  virtual Status takeMeans() = 0;
   // Of all steps that were run. Valid until the next call.
   virtual Result<CellFacts> facts() = 0;
   virtual uint32_t cellCount() const = 0;

@@ -159,6 +159,8 @@ Status runSteps(StepExecutor& executor, const TrainOptions& options, const Train
 
 Result<TrainResult> finishTraining(StepExecutor& executor, const TrainOptions& options, const TrainingSet& set,
                                    Pace& pace) {
+  // Not before: what a run saves and shows on the way are the values that its next steps go on from.
+  if (Status taken = executor.takeMeans(); !taken) return taken.error();
   DriftTables drifts(pace, set.eyes);
   Result<std::vector<double>> psnrs = measure(executor, options, set.testing, pace, drifts);
   if (!psnrs) return psnrs.error();

@@ -53,6 +53,9 @@ Status runLoop(StepExecutor& executor, Pace& pace, const LoopOptions& options, c
     if (isDensifyStep(pace.schedule(), step, pace.positionAt(step))) {
       if (Status changed = densify(executor, pace, options); !changed) return changed;
     }
+    if (isAveragedStep(pace.schedule(), step, pace.positionAt(step))) {
+      if (Status averaged = executor.average(); !averaged) return averaged;
+    }
     pace.finishStep();
     if (Status went = afterStep(step + 1, drifts); !went) return went;
   }
