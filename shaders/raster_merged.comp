@@ -14,7 +14,7 @@ shared uint resumes[kMostInstances];  // entries of the lists at which a round b
 shared float begins[kMostInstances];
 shared uint isGoingOn;
 
-// The batches of the lists in which the ray of this thread was cut; the ends of those that it has looked through.
+// Of each list: the first entry of the batch in which the ray of this thread was cut, or the list's end if it was not.
 uint cutBatches[kMostInstances];
 
 float beginOf(uint part) { return begins[part]; }
@@ -37,7 +37,7 @@ void meetCell(Shading shading, uint index, vec3 rays[kRays], float ends[kRays], 
   radiances[0].logTransmittance = -kInfinity;
 }
 
-// The lists of the tile. Every thread calls it.
+// The first round begins at the first entry of each list. Every thread calls it, at the same place.
 void startLists(uint tile, uint parts) {
   uint part = gl_LocalInvocationIndex;
   if (part < kMostInstances && (parts >> part & 1) != 0) {
@@ -62,7 +62,8 @@ void readList(uint part, uint tile, uvec2 corner, bool goesOn, float logTransmit
   barrier();  // the next list may overwrite what its last batch was asked for
 }
 
-// Where rays that go on were cut, all of them go on; false: none does. Every thread calls it.
+// The next round begins, in each list, where the first ray that goes on was cut. False: none goes on. Every thread calls
+// it, at the same place.
 bool startNextRound(uint parts, bool goesOn) {
   uint lane = gl_LocalInvocationIndex;
   barrier();
