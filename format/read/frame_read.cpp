@@ -1,4 +1,4 @@
-#define ZSTD_STATIC_LINKING_ONLY  // ZSTD_customMem; shared libraries of zstd export what takes it, too
+#define ZSTD_STATIC_LINKING_ONLY  // ZSTD_customMem, ZSTD_getFrameHeader; shared libraries of zstd export them, too
 #include "format/read/frame_read.h"
 
 #include <algorithm>
@@ -28,13 +28,15 @@ Status FrameReader::start(uint64_t contentSize) {
   ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, kMaxWindowLog);
   atEnd_ = false;
   const uint8_t* next = static_cast<const uint8_t*>(input_.src) + input_.pos;
-  const unsigned long long found = ZSTD_getFrameContentSize(next, input_.size - input_.pos);
-  if (found == contentSize) return {};
-  if (found == ZSTD_CONTENTSIZE_ERROR || found == ZSTD_CONTENTSIZE_UNKNOWN) {
+  // Of what zstd reads, this knows frames of RFC 8878 alone: no limit of windows holds for those from before.
+  ZSTD_frameHeader header{};
+  const bool isFrame = ZSTD_getFrameHeader(&header, next, input_.size - input_.pos) == 0;
+  if (!isFrame || header.frameType != ZSTD_frame || header.frameContentSize == ZSTD_CONTENTSIZE_UNKNOWN) {
     return makeError(ErrorKind::kBadInput, "%s: no zstd frame of known size; %s", place_.c_str(), kSectionRemedy);
   }
+  if (header.frameContentSize == contentSize) return {};
   return makeError(ErrorKind::kBadInput, "%s: the zstd frame holds %llu bytes instead of %llu; %s", place_.c_str(),
-                   found, static_cast<unsigned long long>(contentSize), kSectionRemedy);
+                   header.frameContentSize, static_cast<unsigned long long>(contentSize), kSectionRemedy);
 }
 
 Status FrameReader::read(std::span<uint8_t> out) {

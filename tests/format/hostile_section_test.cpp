@@ -234,6 +234,18 @@ TEST(HostileSection, IsRefusedIfItsFrameIsCutOrNone) {
   EXPECT_THAT(errorWithRadiiFrame(frame), HasSubstr("zstd"));
 }
 
+// zstd reads the frames of its versions before 0.8, too, and no limit of windows holds for them.
+TEST(HostileSection, IsRefusedIfItsFrameIsOfAnOlderZstd) {
+  const std::vector<float> radii = sampleRadii();
+  const std::span<const uint8_t> raw = rawBytes(radii);
+  const auto size = static_cast<uint8_t>(raw.size());
+  // Magic of version 0.7, one segment, content size; a raw block; the end.
+  std::vector<uint8_t> frame = {0x27, 0xb5, 0x2f, 0xfd, 0x20, size, 0x40, 0, size};
+  frame.insert(frame.end(), raw.begin(), raw.end());
+  frame.insert(frame.end(), {0xc0, 0, 0});
+  EXPECT_THAT(errorWithRadiiFrame(frame), HasSubstr("no zstd frame"));
+}
+
 TEST(HostileSection, IsRefusedIfItExpandsBeyondTheLimit) {
   Draft draft = draftOf(makeSampleAsset({.cellsPerChunk = 300, .detailCount = 8, .lobeCount = 8}));
   const std::vector<uint8_t> zeros(draft.contents.chunks[0].lobeAxes.size() * sizeof(glm::vec3), 0);
