@@ -167,6 +167,21 @@ TEST(CpuStep, SeesTheSameCellsInAnyOrder) {
   EXPECT_GT(seenCount, 400u);
 }
 
+TEST(CpuStep, PreparesNoCellsThatNoRayComesTo) {
+  Foam foam = randomFoam(3000, 1, 1, 5);
+  for (float& density : foam.densities) density *= 100;
+  FoamStorage<float> storage = storeFoam<float>(foam);
+  CpuStep<float> step(storage);
+  step.activate(0);
+  step.render(trainingView<float>(lookAt({0.5, 0.4, -6}, {0, 0, 0}, kWidth, kHeight, 0.3)), {}, firstAdam());
+  const SeenCells<float> seen = step.seen();
+  const auto prepared =
+      std::count_if(seen.cells, seen.cells + seen.count, [](const auto& cell) { return cell.radius > 0; });
+  EXPECT_GT(seen.count, 1000u);
+  EXPECT_GT(prepared, 100);
+  EXPECT_LT(prepared, 0.5 * seen.count);
+}
+
 TEST(CpuStep, DropsAndCountsWhatIsNoFiniteNumber) {
   const TrainingView<float> view = trainingView<float>(lookAt({0.5, 0.4, -3}, {0, 0, 0}, kWidth, kHeight, 0.5));
   FoamStorage<float> foam = storeFoam<float>(randomFoam(60, 3, 2, 6));

@@ -50,6 +50,7 @@ TEST_P(PlaneFilterOf, RaysEndAtTheSamePlanesWithoutThose) {
   size_t all = 0, left = 0, met = 0;
   for (uint32_t rank = 0; rank < seen.count; ++rank) {
     const SeenCell<float>& cell = seen.cells[rank];
+    if (cell.radius == 0) continue;  // no ray came to it
     std::vector<LocalPlane<float>> planes;
     for (uint32_t e = step.pairs().offsets[cell.cell]; e < step.pairs().offsets[cell.cell + 1]; ++e) {
       planes.push_back(localPlane(storage.balls[cell.cell], storage.balls[step.pairs().neighbours[e]]));

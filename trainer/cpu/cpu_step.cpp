@@ -17,7 +17,7 @@ namespace froth {
 
 template <class Real>
 SeenCells<Real> CpuStep<Real>::seen() {
-  return {static_cast<uint32_t>(cells_.size()), cells_.data(), planes_.data(), details_.data(), rankOf_.data()};
+  return prepared_.seen();
 }
 
 template <class Real>
@@ -27,7 +27,7 @@ GradientSums<Real> CpuStep<Real>::sums() {
 
 template <class Real>
 PixelArrays<Real> CpuStep<Real>::pixels() {
-  return {rendered_.data(), logTransmittances_.data(), ends_.data(), gradients_.data(), wanted_.data()};
+  return {rendered_.data(), logTransmittances_.data(), nullptr, gradients_.data(), wanted_.data()};
 }
 
 template <class Real>
@@ -46,13 +46,14 @@ const std::vector<glm::vec<4, Real>>& CpuStep<Real>::render(const TrainingView<R
   view_ = view;
   settings_ = settings;
   cull();
-  prepare(adam);
+  std::vector<uint32_t> cellOfRank;
+  for (const Candidate& candidate : candidates_) cellOfRank.push_back(candidate.cell);
+  prepared_.take(viewStorage(foam_), pairs_.rows(), view_, adam, cellOfRank);
   bin();
   const size_t pixelCount = size_t{view.width} * view.height;
   rendered_.resize(pixelCount);
   logTransmittances_.resize(pixelCount);
-  ends_.resize(pixelCount);
-  tbb::parallel_for(0u, tilesAlong(view.height), [&](uint32_t tileY) { renderRow(tileY); });
+  forEachRow(&renderRow<Real>);
   return rendered_;
 }
 
@@ -131,89 +132,55 @@ std::span<const uint32_t> CpuStep<Real>::tilesOf(const Candidate& candidate) con
   return std::span(tiles).subspan(candidate.tilesBegin, candidate.tilesEnd - candidate.tilesBegin);
 }
 
+// Which rows of tiles see each cell, and then, row by row, the lists of its tiles.
 template <class Real>
-void CpuStep<Real>::prepare(const AdamStep<Real>& adam) {
-  const TrainedFoam<Real> foam = viewStorage(foam_);
-  const NeighbourRows rows = pairs_.rows();
-  cells_.resize(candidates_.size());
-  details_.resize(cells_.size() * foam.shape.detailCount);
-  rankOf_.assign(foam.shape.cellCount, SeenCells<Real>::kNotSeen);
-  uint32_t planeCount = 0;
-  for (uint32_t rank = 0; rank < cells_.size(); ++rank) {
-    const uint32_t cell = candidates_[rank].cell;
-    rankOf_[cell] = rank;
-    cells_[rank].planesBegin = planeCount;
-    planeCount += rows.offsets[cell + 1] - rows.offsets[cell];
-    cells_[rank].planesEnd = planeCount;
-  }
-  planes_.resize(planeCount);
-  const auto prepareOne = [&](uint32_t cell) {
-    const uint32_t rank = rankOf_[cell];
-    SeenCell<Real>& prepared = cells_[rank];
-    const TrainedCell<Real> trained(foam, adam, cell);
-    prepareCell(trained, view_.eye, prepared);
-    for (uint32_t e = rows.offsets[cell]; e < rows.offsets[cell + 1]; ++e) {
-      planes_[prepared.planesBegin + e - rows.offsets[cell]] = preparePlane(foam, view_, cell, rows.neighbours[e]);
-    }
-    for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
-      details_[size_t{rank} * foam.shape.detailCount + k] = prepareDetail(trained, prepared, k);
-    }
-  };
-  // In the order of the foam: its parameters are most of what is read.
-  tbb::parallel_for(size_t{0}, blocks_.size(), [&](size_t block) {
-    for (const Candidate& candidate : blocks_[block].candidates) prepareOne(candidate.cell);
+void CpuStep<Real>::bin() {
+  const uint32_t tilesX = tilesAlong(view_.width);
+  rowRanges_.resize(candidates_.size());
+  tbb::parallel_for(size_t{0}, candidates_.size(), [&](size_t rank) {
+    const std::span<const uint32_t> tiles = tilesOf(candidates_[rank]);
+    rowRanges_[rank] = {tiles.front() / tilesX, tiles.back() / tilesX};
   });
+  rowPlacesBegin_.assign(1, 0);
+  for (const RowRange& range : rowRanges_) {
+    rowPlacesBegin_.push_back(rowPlacesBegin_.back() + range.last - range.first + 1);
+  }
+  rowPlaces_.resize(rowPlacesBegin_.back());
+  rows_.resize(tilesAlong(view_.height));
+  tbb::parallel_for(0u, static_cast<uint32_t>(rows_.size()), [&](uint32_t tileY) { binRow(tileY); });
 }
 
 // Cells go in by rank, so every list is front to back.
 template <class Real>
-void CpuStep<Real>::bin() {
+void CpuStep<Real>::binRow(uint32_t tileY) {
   const uint32_t tilesX = tilesAlong(view_.width);
-  rows_.resize(tilesAlong(view_.height));
-  for (TileRow<Real>& row : rows_) {
-    row.ranks.clear();
-    row.planesBegin.assign(1, 0);
-    row.tiles.resize(tilesX);
-    row.tilePlaces.resize(tilesX);
-    for (auto& tile : row.tiles) tile.clear();
-    for (auto& tile : row.tilePlaces) tile.clear();
-  }
-  rowPlaces_.clear();
-  rowPlacesBegin_.assign(1, 0);
-  for (uint32_t rank = 0; rank < cells_.size(); ++rank) {
-    uint32_t lastRow = UINT32_MAX;
-    for (const uint32_t tile : tilesOf(candidates_[rank])) {
-      const uint32_t tileY = tile / tilesX;
-      TileRow<Real>& row = rows_[tileY];
-      if (tileY != lastRow) {
-        rowPlaces_.push_back({tileY, static_cast<uint32_t>(row.ranks.size())});
-        row.ranks.push_back(rank);
-        row.planesBegin.push_back(row.planesBegin.back() + cells_[rank].planesEnd - cells_[rank].planesBegin);
-        lastRow = tileY;
-      }
-      row.tiles[tile % tilesX].push_back(rank);
-      row.tilePlaces[tile % tilesX].push_back(rowPlaces_.back().place);
+  const uint32_t firstTile = tileY * tilesX, endTile = firstTile + tilesX;
+  const SeenCell<Real>* cells = seen().cells;
+  TileRow<Real>& row = rows_[tileY];
+  row.ranks.clear();
+  row.planesBegin.assign(1, 0);
+  row.tiles.resize(tilesX);
+  row.tilePlaces.resize(tilesX);
+  for (auto& tile : row.tiles) tile.clear();
+  for (auto& tile : row.tilePlaces) tile.clear();
+  for (uint32_t rank = 0; rank < rowRanges_.size(); ++rank) {
+    if (tileY < rowRanges_[rank].first || rowRanges_[rank].last < tileY) continue;
+    const auto place = static_cast<uint32_t>(row.ranks.size());
+    rowPlaces_[rowPlacesBegin_[rank] + tileY - rowRanges_[rank].first] = place;
+    row.ranks.push_back(rank);
+    row.planesBegin.push_back(row.planesBegin.back() + cells[rank].planesEnd - cells[rank].planesBegin);
+    const std::span<const uint32_t> tiles = tilesOf(candidates_[rank]);
+    for (auto tile = std::ranges::lower_bound(tiles, firstTile); tile != tiles.end() && *tile < endTile; ++tile) {
+      row.tiles[*tile - firstTile].push_back(rank);
+      row.tilePlaces[*tile - firstTile].push_back(place);
     }
-    rowPlacesBegin_.push_back(rowPlaces_.size());
   }
 }
 
 template <class Real>
-void CpuStep<Real>::renderRow(uint32_t tileY) {
-  const SeenCells<Real> cells = seen();
-  for (uint32_t y = tileY * kTileSize; y < std::min((tileY + 1) * kTileSize, view_.height); ++y) {
-    for (uint32_t x = 0; x < view_.width; ++x) {
-      const size_t pixel = size_t{y} * view_.width + x;
-      const std::vector<uint32_t>& ranks = rows_[tileY].tiles[x / kTileSize];
-      const glm::vec<3, Real> direction = directionOfPixel(view_, x, y);
-      const bool hasRay = direction != glm::vec<3, Real>(0);
-      const glm::vec<4, Real> shown =
-          renderPixel(cells, foam_.shape.detailCount, ranks.data(), hasRay ? static_cast<uint32_t>(ranks.size()) : 0,
-                      direction, settings_, ends_[pixel]);
-      logTransmittances_[pixel] = shown.w;
-      rendered_[pixel] = {shown.x, shown.y, shown.z, std::exp(shown.w)};
-    }
-  }
+void CpuStep<Real>::forEachRow(void (*pass)(const RowImage<Real>&, uint32_t, TileRow<Real>&)) {
+  const RowImage<Real> image{prepared_, foam_.shape.detailCount, view_, settings_, pixels()};
+  tbb::parallel_for(0u, static_cast<uint32_t>(rows_.size()), [&](uint32_t tileY) { pass(image, tileY, rows_[tileY]); });
 }
 
 template <class Real>
@@ -221,86 +188,33 @@ void CpuStep<Real>::differentiate(const std::vector<glm::vec<4, Real>>& gradient
                                   const std::vector<glm::vec<4, Real>>& wanted) {
   gradients_ = gradients;
   wanted_ = wanted;
-  tbb::parallel_for(0u, static_cast<uint32_t>(rows_.size()), [&](uint32_t tileY) { differentiateRow(tileY); });
+  forEachRow(&differentiateRow<Real>);
   reduce();
   for (const TileRow<Real>& row : rows_) droppedCount_ += row.droppedCount;
-}
-
-// Adds what one ray met in one cell to the sums of its row.
-template <class Real>
-static void addSegment(const SegmentGradient<Real>& gradient, const SeenCell<Real>& cell, uint32_t place,
-                       TileRow<Real>& row) {
-  row.cells[place] += gradient.cell;
-  for (int end = 0; end < 2; ++end) {
-    if (gradient.planes[end] >= kBoundedByEye) continue;
-    row.pairs[row.planesBegin[place] + gradient.planes[end] - cell.planesBegin] += gradient.pairs[end];
-  }
-}
-
-template <class Real>
-static void differentiatePixel(const SeenCells<Real>& seen, uint32_t detailCount, const glm::vec<3, Real>& direction,
-                               const PixelSettings<Real>& settings, const std::vector<uint32_t>& ranks,
-                               const std::vector<uint32_t>& places, uint32_t end, PixelAdjoint<Real> adjoint,
-                               TileRow<Real>& row) {
-  while (end-- > 0) {
-    const SeenCell<Real>& cell = seen.cells[ranks[end]];
-    const SeenDetail<Real>* details = seen.details + size_t{ranks[end]} * detailCount;
-    Segment<Real> segment;
-    if (!meetCell(cell, seen.planes, details, detailCount, direction, settings.sharpness, segment)) continue;
-    Real weight;
-    const SegmentSeeds<Real> seeds = seedSegment(cell, segment, settings, adjoint, weight);
-    const glm::vec<3, Real> miss = glm::abs(segment.colour - glm::vec<3, Real>(adjoint.wanted));
-    CellSums<Real>& sums = row.cells[places[end]];
-    sums.contribution += weight * settings.perPixel;
-    sums.error += weight * adjoint.wanted.w * (miss.x + miss.y + miss.z) * settings.perPixel;
-    SegmentGradient<Real> gradient;
-    PlainSink<Real> sink{row.details.data() + size_t{places[end]} * detailCount};
-    if (differentiateSegment(cell, seen.planes, details, detailCount, direction, settings.sharpness, segment, seeds,
-                             gradient, sink)) {
-      addSegment(gradient, cell, places[end], row);
-    } else {
-      ++row.droppedCount;
-    }
-  }
-}
-
-template <class Real>
-void CpuStep<Real>::differentiateRow(uint32_t tileY) {
-  TileRow<Real>& row = rows_[tileY];
-  row.cells.assign(row.ranks.size(), {});
-  row.details.assign(row.ranks.size() * foam_.shape.detailCount, {});
-  row.pairs.assign(row.planesBegin.back(), glm::vec<4, Real>(0));
-  row.droppedCount = 0;
-  for (uint32_t y = tileY * kTileSize; y < std::min((tileY + 1) * kTileSize, view_.height); ++y) {
-    for (uint32_t x = 0; x < view_.width; ++x) {
-      const size_t pixel = size_t{y} * view_.width + x;
-      differentiatePixel(seen(), foam_.shape.detailCount, directionOfPixel(view_, x, y), settings_,
-                         row.tiles[x / kTileSize], row.tilePlaces[x / kTileSize], ends_[pixel],
-                         beginAdjoint(pixels(), pixel), row);
-    }
-  }
 }
 
 // The sums of all rows, by rank.
 template <class Real>
 void CpuStep<Real>::reduce() {
   const uint32_t detailCount = foam_.shape.detailCount;
-  cellSums_.resize(cells_.size());
-  detailSums_.resize(details_.size());
-  pairSums_.resize(planes_.size());
-  tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
+  const SeenCell<Real>* cells = seen().cells;
+  cellSums_.resize(prepared_.count());
+  detailSums_.resize(size_t{prepared_.count()} * detailCount);
+  pairSums_.resize(prepared_.planeCount());
+  tbb::parallel_for(size_t{0}, cellSums_.size(), [&](size_t rank) {
     cellSums_[rank] = {};
     std::fill_n(&detailSums_[rank * detailCount], detailCount, DetailSums<Real>{});
-    for (uint32_t e = cells_[rank].planesBegin; e < cells_[rank].planesEnd; ++e) pairSums_[e] = glm::vec<4, Real>(0);
-    for (size_t i = rowPlacesBegin_[rank]; i < rowPlacesBegin_[rank + 1]; ++i) {
-      const TileRow<Real>& row = rows_[rowPlaces_[i].row];
-      const uint32_t place = rowPlaces_[i].place;
+    for (uint32_t e = cells[rank].planesBegin; e < cells[rank].planesEnd; ++e) pairSums_[e] = glm::vec<4, Real>(0);
+    if (!(cells[rank].radius > 0)) return;  // no ray came to it
+    for (uint32_t tileY = rowRanges_[rank].first; tileY <= rowRanges_[rank].last; ++tileY) {
+      const TileRow<Real>& row = rows_[tileY];
+      const uint32_t place = rowPlaces_[rowPlacesBegin_[rank] + tileY - rowRanges_[rank].first];
       cellSums_[rank] += row.cells[place];
       for (uint32_t k = 0; k < detailCount; ++k) {
         detailSums_[rank * detailCount + k] += row.details[size_t{place} * detailCount + k];
       }
       for (uint32_t e = row.planesBegin[place]; e < row.planesBegin[place + 1]; ++e) {
-        pairSums_[cells_[rank].planesBegin + e - row.planesBegin[place]] += row.pairs[e];
+        pairSums_[cells[rank].planesBegin + e - row.planesBegin[place]] += row.pairs[e];
       }
     }
   });
@@ -309,14 +223,15 @@ void CpuStep<Real>::reduce() {
 template <class Real>
 void CpuStep<Real>::update(const AdamStep<Real>& adam, Real overlapWeight) {
   const TrainedFoam<Real> foam = viewStorage(foam_);
+  const SeenCells<Real> shown = seen();
   std::atomic<uint64_t> bad = 0;
-  tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
+  tbb::parallel_for(size_t{0}, cellSums_.size(), [&](size_t rank) {
     if (!isShown(cellSums_[rank])) return;
-    const TrainedCell<Real> trained(foam, adam, cells_[rank].cell);
+    const TrainedCell<Real> trained(foam, adam, shown.cells[rank].cell);
     uint32_t badHere = 0;
     for (uint32_t k = 0; k < foam.shape.detailCount; ++k) {
       const size_t detail = rank * foam.shape.detailCount + k;
-      updateDetail(trained, cells_[rank], details_[detail], k, detailSums_[detail], cellSums_[rank], badHere);
+      updateDetail(trained, shown.cells[rank], shown.details[detail], k, detailSums_[detail], cellSums_[rank], badHere);
     }
     updateShownCell(trained, cellSums_[rank], badHere);
     bad += badHere;
@@ -350,14 +265,15 @@ void CpuStep<Real>::keepGradients(const AdamStep<Real>& adam, Real overlapWeight
   kept.eye = view_.eye;
   kept.cells.resize(foam.shape.cellCount);
   kept.details.resize(size_t{foam.shape.cellCount} * detailCount);
-  tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t rank) {
+  const SeenCells<Real> shown = seen();
+  tbb::parallel_for(size_t{0}, cellSums_.size(), [&](size_t rank) {
     if (!isShown(cellSums_[rank])) return;
-    const uint32_t cell = cells_[rank].cell;
+    const uint32_t cell = shown.cells[rank].cell;
     const TrainedCell<Real> trained(foam, adam, cell);
     for (uint32_t k = 0; k < detailCount; ++k) {
       const size_t detail = rank * detailCount + k;
-      kept.details[size_t{cell} * detailCount + k] =
-          differentiateDetail(trained, cells_[rank], details_[detail], k, detailSums_[detail], cellSums_[rank]);
+      kept.details[size_t{cell} * detailCount + k] = differentiateDetail(
+          trained, shown.cells[rank], shown.details[detail], k, detailSums_[detail], cellSums_[rank]);
     }
   });
   tbb::parallel_for(0u, foam.shape.cellCount, [&](uint32_t cell) {

@@ -8,6 +8,7 @@
 
 #include "trainer/cpu/foam_storage.h"
 #include "trainer/cpu/skin_pairs.h"
+#include "trainer/cpu/tile_row.h"
 #include "trainer/step/adam.h"
 #include "trainer/step/gradient_sums.h"
 #include "trainer/step/pixel_passes.h"
@@ -17,19 +18,6 @@
 #include "trainer/step/view_gradients.h"
 
 namespace froth {
-
-// A row of tiles: what its rays meet, and what they add up. Cells of the row are numbered by their place in `ranks`.
-template <class Real>
-struct TileRow {
-  std::vector<uint32_t> ranks;                    // ascending
-  std::vector<uint32_t> planesBegin;              // [ranks + 1] of the cell's pairs in `pairs`
-  std::vector<std::vector<uint32_t>> tiles;       // [tiles] the ranks that each can see
-  std::vector<std::vector<uint32_t>> tilePlaces;  // [tiles] the same cells, by their place
-  std::vector<CellSums<Real>> cells;
-  std::vector<DetailSums<Real>> details;
-  std::vector<glm::vec<4, Real>> pairs;
-  uint32_t droppedCount = 0;
-};
 
 template <class Real>
 class CpuStep {
@@ -55,7 +43,7 @@ class CpuStep {
   // After cells changed places: before the next activate().
   void forgetPairs() { pairs_.forget(); }
 
-  SeenCells<Real> seen();                                  // what the last render() prepared
+  SeenCells<Real> seen();                                  // of the last render(): PreparedCells::seen()
   GradientSums<Real> sums();                               // what the last differentiate() added up for it
   uint64_t droppedCount() const { return droppedCount_; }  // contributions that were no finite numbers, of all steps
   const CellGraph& pairs() const { return pairs_.graph(); }
@@ -79,10 +67,9 @@ class CpuStep {
   void cull();
   void cullBlock(uint32_t block, const std::vector<glm::vec<4, Real>>& cones);
   std::span<const uint32_t> tilesOf(const Candidate& candidate) const;
-  void prepare(const AdamStep<Real>& adam);
   void bin();
-  void renderRow(uint32_t tileY);
-  void differentiateRow(uint32_t tileY);
+  void binRow(uint32_t tileY);
+  void forEachRow(void (*pass)(const RowImage<Real>&, uint32_t tileY, TileRow<Real>&));
   void reduce();
   glm::vec<4, Real> gradientOfBall(uint32_t cell, const Eyes& eyes, Real overlapWeight);
   PixelArrays<Real> pixels();
@@ -95,20 +82,17 @@ class CpuStep {
 
   std::vector<CellBlock> blocks_;
   std::vector<Candidate> candidates_;  // by rank
-  std::vector<SeenCell<Real>> cells_;
-  std::vector<SeenPlane<Real>> planes_;
-  std::vector<SeenDetail<Real>> details_;
-  std::vector<uint32_t> rankOf_;
+  PreparedCells<Real> prepared_;
   std::vector<TileRow<Real>> rows_;
-  struct RowPlace {
-    uint32_t row, place;
+  struct RowRange {
+    uint32_t first, last;
   };
-  std::vector<RowPlace> rowPlaces_;     // of all ranks
+  std::vector<RowRange> rowRanges_;     // [ranks] rows of tiles that see the cell
+  std::vector<uint32_t> rowPlaces_;     // of all ranks, of each in each row of its range
   std::vector<size_t> rowPlacesBegin_;  // [ranks + 1]
 
   std::vector<glm::vec<4, Real>> rendered_, gradients_, wanted_;
   std::vector<Real> logTransmittances_;
-  std::vector<uint32_t> ends_;
   std::vector<CellSums<Real>> cellSums_;
   std::vector<DetailSums<Real>> detailSums_;
   std::vector<glm::vec<4, Real>> pairSums_;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr uint32_t kBlocksAtATime = 16;  // of a multiprocessor: 64 registers a thread in place of 80 keep more warps
 
-// One cell of one ray, as in renderPixel().
+// One cell of one ray, as trainer/cpu/tile_row.cpp takes it.
 __device__ void addCell(const SeenCells<float>& seen, uint32_t rank, uint32_t detailCount, const glm::vec3& direction,
                         float sharpness, glm::vec3& colour, float& logTransmittance) {
   const SeenCell<float> cell = seen.cells[rank];

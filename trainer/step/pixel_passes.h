@@ -1,4 +1,4 @@
-// One pixel: forward through the cells of its tile's list, front to back, and backward the other way.
+// One pixel: what its backward pass carries through the cells that its ray met, back to front.
 #pragma once
 
 #include <cmath>
@@ -18,29 +18,6 @@ struct PixelSettings {
   Real normalWeight = 0;     // of the normal loss, by pixel: lambda / pixels
   Real perPixel = 0;         // 1 / pixels
 };
-
-// Returns colour over black and ln T_N; `end`: how many cells of the list were looked at.
-template <class Real>
-FROTH_HD glm::vec<4, Real> renderPixel(const SeenCells<Real>& seen, uint32_t detailCount, const uint32_t* ranks,
-                                       uint32_t rankCount, const glm::vec<3, Real>& direction,
-                                       const PixelSettings<Real>& settings, uint32_t& end) {
-  glm::vec<3, Real> colour(0);
-  Real logTransmittance = 0;
-  const Real logCutoff = std::log(settings.cutoff);
-  for (end = 0; end < rankCount && logTransmittance >= logCutoff;) {
-    const uint32_t rank = ranks[end++];
-    const SeenCell<Real>& cell = seen.cells[rank];
-    Segment<Real> segment;
-    if (!meetCell(cell, seen.planes, seen.details + size_t{rank} * detailCount, detailCount, direction,
-                  settings.sharpness, segment)) {
-      continue;
-    }
-    const Real opticalDepth = cell.density * (segment.far - segment.near);
-    colour += std::exp(logTransmittance) * foam::opacity(opticalDepth) * segment.colour;
-    logTransmittance -= opticalDepth;
-  }
-  return {colour, logTransmittance};
-}
 
 // What the backward pass of a pixel carries from cell to cell.
 template <class Real>
