@@ -21,7 +21,7 @@ glm::vec3 randomDirection(std::mt19937& random) {
 TEST(TileBalls, AreMetByARayThatMeetsThem) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> unit(0, 1);
-  constexpr uint32_t kBalls = 2 * TileBalls<float>::kBlock + 5;
+  constexpr uint32_t kBlock = TileBalls<float>::kBlock, kBalls = 2 * kBlock + 5;
   std::vector<uint32_t> ranks(kBalls);
   std::iota(ranks.rbegin(), ranks.rend(), 0u);  // not their order
   uint32_t met = 0, taken = 0, all = 0;
@@ -42,8 +42,8 @@ TEST(TileBalls, AreMetByARayThatMeetsThem) {
     TileBalls<float> balls;
     balls.take(guarded, ranks);
     ASSERT_EQ(balls.blockCount(), 3u);
-    for (uint32_t place = 0; place < 3 * TileBalls<float>::kBlock; ++place) {
-      const bool mayMeet = (balls.mayMeet(place / 16, ray) >> place % 16 & 1) != 0;
+    for (uint32_t place = 0; place < 3 * kBlock; ++place) {
+      const bool mayMeet = (balls.mayMeet(place / kBlock, ray) >> place % kBlock & 1) != 0;
       if (place >= kBalls) {
         EXPECT_FALSE(mayMeet) << place;
         continue;

@@ -20,8 +20,8 @@ struct TileRow {
   std::vector<uint32_t> planesBegin;              // [ranks + 1] of the cell's pairs in `pairs`
   std::vector<std::vector<uint32_t>> tiles;       // [tiles] the ranks that each can see
   std::vector<std::vector<uint32_t>> tilePlaces;  // [tiles] the same cells, by their place
+  std::vector<TileBalls<Real>> balls;             // [tiles] theirs
   // Of the rays, line by line: places in the tile's list of the cells that each met, front to back.
-  std::vector<TileBalls<Real>> balls;  // [tiles]
   std::vector<uint32_t> met;
   std::vector<size_t> metEnds;  // [pixels] in `met`
   // Sums.
