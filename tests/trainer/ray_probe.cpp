@@ -60,9 +60,10 @@ void RayProbe<Real>::visit(const SeenCells<Real>& seen, uint32_t rank, const glm
                            const ProbeLoss& loss, double& logTransmittance, ProbeResult& result) const {
   const uint32_t detailCount = foam_.shape.detailCount;
   const SeenCell<Real>& cell = seen.cells[rank];
+  const SeenPlane<Real>* planes = seen.planes + cell.planesBegin;
   const SeenDetail<Real>* details = seen.details + size_t{rank} * detailCount;
   Segment<Real> segment;
-  if (!meetCell(cell, seen.planes, details, detailCount, direction, Real(10), segment)) return;
+  if (!meetCell(cell, planes, details, detailCount, direction, Real(10), segment)) return;
   result.metCells.push_back(cell.cell);
   const double opticalDepth = double{cell.density} * (segment.far - segment.near);
   const double weight = std::exp(logTransmittance) * -std::expm1(-opticalDepth);
@@ -70,9 +71,7 @@ void RayProbe<Real>::visit(const SeenCells<Real>& seen, uint32_t rank, const glm
   const double facing = std::max(double{segment.facing}, 0.0);
   result.loss += weight * (glm::dot(loss.colour, inDouble(segment.colour)) + loss.normalWeight * facing * facing);
   mixInto(result.branches, cell.cell);
-  for (const uint32_t surface : {segment.nearSurface, segment.farSurface}) {
-    mixInto(result.branches, surface >= kBoundedByEye ? surface : surface - cell.planesBegin);
-  }
+  for (const uint32_t surface : {segment.nearSurface, segment.farSurface}) mixInto(result.branches, surface);
   mixInto(result.branches, (segment.facing < 0) + 2 * (segment.near > segment.ballOrPlaneNear) +
                                4 * (segment.far < segment.ballOrPlaneFar) +
                                8 * (segment.heightPlace > segment.ballOrPlaneNear) +
@@ -84,7 +83,7 @@ void RayProbe<Real>::visit(const SeenCells<Real>& seen, uint32_t rank, const glm
   result.isHeld = result.isHeld || std::abs(segment.facing) < Real(2e-4);
   for (const auto& [surface, t] : {std::pair{segment.nearSurface, segment.ballOrPlaneNear},
                                    std::pair{segment.farSurface, segment.ballOrPlaneFar}}) {
-    const double cosine = cosineAt(cell, seen.planes, surface, direction, t);
+    const double cosine = cosineAt(cell, planes, surface, direction, t);
     const bool isBall = surface == kBoundedByBall;
     result.isHeld = result.isHeld || cosine < (isBall ? 2e-3 : 2e-4);
     if (isBall) result.leastBallCosine = std::min(result.leastBallCosine, cosine);

@@ -29,7 +29,8 @@ glm::vec<4, Real> renderPixel(const RowImage<Real>& image, const std::vector<uin
       const SeenCell<Real>& cell = seen.cells[ranks[place]];
       const SeenDetail<Real>* details = seen.details + size_t{ranks[place]} * image.detailCount;
       Segment<Real> segment;
-      if (!meetCell(cell, seen.planes, details, image.detailCount, direction, image.settings.sharpness, segment)) {
+      if (!meetCell(cell, seen.planes + cell.planesBegin, details, image.detailCount, direction,
+                    image.settings.sharpness, segment)) {
         continue;
       }
       met.push_back(place);
@@ -43,11 +44,11 @@ glm::vec<4, Real> renderPixel(const RowImage<Real>& image, const std::vector<uin
 
 // Adds what one ray met in one cell to the sums of its row.
 template <class Real>
-void addSegment(const SegmentGradient<Real>& gradient, const SeenCell<Real>& cell, uint32_t place, TileRow<Real>& row) {
+void addSegment(const SegmentGradient<Real>& gradient, uint32_t place, TileRow<Real>& row) {
   row.cells[place] += gradient.cell;
   for (int end = 0; end < 2; ++end) {
     if (gradient.planes[end] >= kBoundedByEye) continue;
-    row.pairs[row.planesBegin[place] + gradient.planes[end] - cell.planesBegin] += gradient.pairs[end];
+    row.pairs[row.planesBegin[place] + gradient.planes[end]] += gradient.pairs[end];
   }
 }
 
@@ -60,12 +61,11 @@ void differentiatePixel(const RowImage<Real>& image, const std::vector<uint32_t>
   const SeenCells<Real> seen = image.cells.seen();
   for (const uint32_t inTile : met | std::views::reverse) {
     const SeenCell<Real>& cell = seen.cells[ranks[inTile]];
+    const SeenPlane<Real>* planes = seen.planes + cell.planesBegin;
     const SeenDetail<Real>* details = seen.details + size_t{ranks[inTile]} * image.detailCount;
     const uint32_t place = places[inTile];
     Segment<Real> segment;
-    if (!meetCell(cell, seen.planes, details, image.detailCount, direction, settings.sharpness, segment)) {
-      continue;
-    }
+    if (!meetCell(cell, planes, details, image.detailCount, direction, settings.sharpness, segment)) continue;
     Real weight;
     const SegmentSeeds<Real> seeds = seedSegment(cell, segment, settings, adjoint, weight);
     const glm::vec<3, Real> miss = glm::abs(segment.colour - glm::vec<3, Real>(adjoint.wanted));
@@ -74,9 +74,9 @@ void differentiatePixel(const RowImage<Real>& image, const std::vector<uint32_t>
     sums.error += weight * adjoint.wanted.w * (miss.x + miss.y + miss.z) * settings.perPixel;
     SegmentGradient<Real> gradient;
     PlainSink<Real> sink{row.details.data() + size_t{place} * image.detailCount};
-    if (differentiateSegment(cell, seen.planes, details, image.detailCount, direction, settings.sharpness, segment,
-                             seeds, gradient, sink)) {
-      addSegment(gradient, cell, place, row);
+    if (differentiateSegment(cell, planes, details, image.detailCount, direction, settings.sharpness, segment, seeds,
+                             gradient, sink)) {
+      addSegment(gradient, place, row);
     } else {
       ++row.droppedCount;
     }

@@ -1,10 +1,22 @@
-// The tiles that see a ball: a warp looks at those of its 32 balls together, for a ball near the eye has thousands.
+// The tiles that see a ball: a warp looks at those of its balls together, one ball after the other, for a ball near the
+// eye has thousands.
 #pragma once
 
 #include "trainer/cuda/launch.h"
 #include "trainer/step/tiles.h"
 
 namespace froth {
+
+// Balls of a warp, in its first lanes: few, so that there are enough warps for the GPU.
+inline constexpr uint32_t kBallsOfWarp = 8;
+
+// What is this lane's of all balls; UINT32_MAX: none.
+__device__ inline uint32_t ballOfThread() {
+  return laneOfWarp() < kBallsOfWarp ? globalThread() / kWarp * kBallsOfWarp + laneOfWarp() : UINT32_MAX;
+}
+inline uint32_t blocksForBalls(size_t balls) {
+  return blocksFor((balls + kBallsOfWarp - 1) / kBallsOfWarp * kWarp, kSmallBlock);
+}
 
 struct BallTiles {
   glm::vec3 centre{0};  // relative to the eye

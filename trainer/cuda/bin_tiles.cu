@@ -14,8 +14,9 @@ namespace {
 constexpr uint32_t kLongestList = 0xffff;  // longer ones count as that
 
 __global__ void writeEntriesKernel(StepArrays arrays, TrainingView<float> view) {
-  const uint32_t rank = globalThread(), seenCount = arrays.counters->seenCells;
-  if (rank - laneOfWarp() >= seenCount) return;
+  const uint32_t rank = ballOfThread(), firstRank = __shfl_sync(kAllLanes, rank, 0);
+  const uint32_t seenCount = arrays.counters->seenCells;
+  if (firstRank >= seenCount) return;
   BallTiles tiles;
   uint32_t place = 0;
   if (rank < seenCount) {
@@ -27,7 +28,7 @@ __global__ void writeEntriesKernel(StepArrays arrays, TrainingView<float> view) 
     const uint32_t entry = __shfl_sync(kAllLanes, place, lane) + __popc(seen & lanesBefore());
     if (isSeen && entry < arrays.entryCapacity) {
       arrays.entryTiles[entry] = tile;
-      arrays.entryRanks[entry] = rank - laneOfWarp() + lane;
+      arrays.entryRanks[entry] = firstRank + lane;
     }
     if (laneOfWarp() == static_cast<uint32_t>(lane)) place += __popc(seen);
   });
@@ -70,7 +71,7 @@ Status orderTiles(const StepArrays& arrays, uint32_t tileCount, Scratch& scratch
 
 Status binTiles(const StepArrays& arrays, const TrainingView<float>& view, Scratch& scratch, cudaStream_t stream) {
   const uint32_t tileCount = tilesAlong(view.width) * tilesAlong(view.height);
-  writeEntriesKernel<<<blocksFor(arrays.foam.shape.cellCount, kSmallBlock), kSmallBlock, 0, stream>>>(arrays, view);
+  writeEntriesKernel<<<blocksForBalls(arrays.foam.shape.cellCount), kSmallBlock, 0, stream>>>(arrays, view);
   fillEntriesKernel<<<blocksFor(arrays.entryCapacity), kBlock, 0, stream>>>(arrays, tileCount);
   const Status sorted = callCub(scratch, "sort of tile entries", [&](void* memory, size_t& bytes) {
     return cub::DeviceRadixSort::SortPairs(memory, bytes, arrays.entryTiles, arrays.sortedTiles, arrays.entryRanks,

@@ -71,6 +71,7 @@ void CudaStep::point() {
   arrays_.tileCones = tileCones_.data();
   arrays_.groupCones = groupCones_.data();
   arrays_.tilesBegin = tilesBegin_.data();
+  arrays_.metEntries = metEntries_.data();
   arrays_.entryCapacity = static_cast<uint32_t>(byEntry_[0].size());
 }
 
@@ -246,7 +247,11 @@ Status CudaStep::reservePixels(size_t pixels, size_t tiles) {
                                [&] { return groupCones_.resize(tiles, "cones of groups"); },
                                [&] { return tileCones_.resize(tiles, "cones of tiles"); },
                                [&] { return resizeAll(byTile_, tiles, "numbers of tiles"); },
-                               [&] { return tilesBegin_.resize(tiles + 1, "lists of tiles"); });
+                               [&] { return tilesBegin_.resize(tiles + 1, "lists of tiles"); },
+                               [&] {
+                                 const size_t words = metEntriesOf(arrays_.entryCapacity, tiles);
+                                 return metEntries_.resize(words, "entries that rays met");
+                               });
   point();
   return status;
 }
@@ -345,7 +350,7 @@ size_t CudaStep::byteCount() const {
   for (const auto& array : byEntry_) add(array);
   for (const auto& array : byTile_) add(array);
   add(lastSteps_, balls_, contributions_, errors_, offsets_, neighbours_, reverses_, seenCells_, planes_, details_);
-  add(rankOf_, cellSums_, detailSums_, pairSums_, tileCones_, tilesBegin_, rendered_, gradients_, wanted_);
+  add(rankOf_, cellSums_, detailSums_, pairSums_, tileCones_, tilesBegin_, metEntries_, rendered_, gradients_, wanted_);
   add(logTransmittances_, ends_, lossFields_, foundBalls_, enlargedBalls_, slacks_, boxes_);
   return sum;
 }

@@ -106,7 +106,7 @@ class CudaStep {
   DeviceArray<glm::vec4> groupCones_;
   DeviceArray<uint32_t> byCell_[kArraysByCell];
   DeviceArray<glm::vec4> tileCones_;
-  DeviceArray<uint32_t> tilesBegin_, byEntry_[kArraysByEntry], byTile_[kArraysByTile];
+  DeviceArray<uint32_t> tilesBegin_, metEntries_, byEntry_[kArraysByEntry], byTile_[kArraysByTile];
   DeviceArray<glm::vec4> rendered_, gradients_, wanted_;
   DeviceArray<float> logTransmittances_, lossFields_;
   DeviceArray<uint32_t> ends_;

@@ -36,7 +36,7 @@ __device__ uint32_t orderedBits(float value) {
 }
 
 __global__ void cullCellsKernel(StepArrays arrays, TrainingView<float> view) {
-  const uint32_t cell = globalThread(), tilesX = tilesAlong(view.width);
+  const uint32_t cell = ballOfThread(), tilesX = tilesAlong(view.width);
   const bool isCell = cell < arrays.foam.shape.cellCount;
   BallTiles tiles;
   float power = 0;
@@ -77,7 +77,7 @@ Status cullCells(const StepArrays& arrays, const TrainingView<float>& view, cuda
   findConesKernel<<<blocks(size_t{tilesX} * tilesY), kSmallBlock, 0, stream>>>(arrays, view);
   findGroupConesKernel<<<blocks(size_t{groupCountOf(tilesX, tilesY)} * kWarp), kSmallBlock, 0, stream>>>(arrays, tilesX,
                                                                                                          tilesY);
-  cullCellsKernel<<<blocks(arrays.foam.shape.cellCount), kSmallBlock, 0, stream>>>(arrays, view);
+  cullCellsKernel<<<blocksForBalls(arrays.foam.shape.cellCount), kSmallBlock, 0, stream>>>(arrays, view);
   return checkLaunch("cullCells");
 }
 

@@ -1,27 +1,26 @@
 // From the image's gradients back to the cells: each warp goes through its tile's list back to front, from where its
-// rays ended, and finds every segment again. Bound: flops, about three times those of renderTiles; 4 K + 7 shared
-// writes and 2 reads per ray and value are a tenth of that.
+// rays ended, and finds the segments again of what some of them met. Bound: flops, about three times those of
+// renderTiles; 4 K + 7 shared writes and 2 reads per ray and value are a tenth of that.
 #include "trainer/cuda/gradient_columns.h"
 #include "trainer/cuda/passes.h"
-#include "trainer/cuda/warp_pixels.h"
+#include "trainer/cuda/staged_cells.h"
 
 namespace froth {
 namespace {
 
 constexpr uint32_t kThreads = kTileSize * kTileSize;
-constexpr uint32_t kBlocksAtATime = 14;  // of a multiprocessor: 72 registers a thread in place of 96 keep more warps
+constexpr uint32_t kBlocksAtATime = 10;  // of a multiprocessor: as many as its shared memory has room for
 
 // What one ray adds for one cell that it meets; moves the adjoint to before the cell.
-__device__ void differentiateCell(const SeenCells<float>& seen, const SeenCell<float>& cell, uint32_t rank,
-                                  uint32_t detailCount, const glm::vec3& direction,
+__device__ void differentiateCell(const CellAtHand& at, uint32_t detailCount, const glm::vec3& direction,
                                   const PixelSettings<float>& settings, const Segment<float>& segment,
                                   PixelAdjoint<float>& adjoint, SegmentGradient<float>& gradient,
                                   GradientColumn& column, uint32_t* droppedCount) {
   float weight;
-  const SegmentSeeds<float> seeds = seedSegment(cell, segment, settings, adjoint, weight);
+  const SegmentSeeds<float> seeds = seedSegment(at.cell, segment, settings, adjoint, weight);
   const glm::vec3 miss = glm::abs(segment.colour - glm::vec3(adjoint.wanted));
-  const bool isGood = differentiateSegment(cell, seen.planes, seen.details + size_t{rank} * detailCount, detailCount,
-                                           direction, settings.sharpness, segment, seeds, gradient, column);
+  const bool isGood = differentiateSegment(at.cell, at.planes, at.details, detailCount, direction, settings.sharpness,
+                                           segment, seeds, gradient, column);
   if (!isGood) {
     gradient = {};
     column.clear(rowCountOf(detailCount));
@@ -37,8 +36,11 @@ __global__ __launch_bounds__(kThreads, kBlocksAtATime) void differentiateTilesKe
                                                                                      TrainingView<float> view,
                                                                                      PixelSettings<float> settings) {
   extern __shared__ float sharedRows[];
+  __shared__ CellStage<kDetails> stages[kWarpsPerTile];
   if (isVoid(arrays)) return;
   const uint32_t detailCount = kDetails > 0 ? kDetails : arrays.foam.shape.detailCount;
+  CellStage<kDetails>& stage = stages[threadIdx.x / kWarp];
+  const CellLane lane = CellLane::of<kDetails>(arrays.seen);
   const uint32_t rowCount = rowCountOf(detailCount);
   float* rows = sharedRows + threadIdx.x / kWarp * rowCount * kColumns;
   const WarpPixel own = pixelOfThread(arrays, view);
@@ -52,32 +54,28 @@ __global__ __launch_bounds__(kThreads, kBlocksAtATime) void differentiateTilesKe
   if (last <= own.listBegin) return;
   for (uint32_t batch = (last - own.listBegin + kWarp - 1) / kWarp; batch-- > 0;) {
     const uint32_t first = own.listBegin + batch * kWarp;
-    uint32_t rankOfLane;
-    uint32_t seen = lookAtEntries(arrays, own.cone, first, last, rankOfLane);
-    while (seen != 0) {
-      const int source = 31 - __clz(static_cast<int>(seen));
-      seen &= ~(1u << source);
-      const uint32_t rank = __shfl_sync(kAllLanes, rankOfLane, source);
-      const SeenCell<float> cell = arrays.seen.cells[rank];
+    const uint32_t met = own.metEntries[size_t{batch} * kWarpsPerTile];
+    const uint32_t count = stageEntries<true>(arrays, first, last, stage,
+                                              [&](const SeenCell<float>&) { return (met >> laneOfWarp() & 1) != 0; });
+    visitCells(arrays.seen, lane, count, detailCount, stage, [&](const CellAtHand& at) {
       Segment<float> segment;
-      const bool isHit =
-          first + source < end && meetCell(cell, arrays.seen.planes, arrays.seen.details + size_t{rank} * detailCount,
-                                           detailCount, own.direction, settings.sharpness, segment);
+      const bool isHit = at.place < end && meetCell(at.cell, at.planes, at.details, detailCount, own.direction,
+                                                    settings.sharpness, segment);
       const uint32_t hits = __ballot_sync(kAllLanes, isHit);
-      if (hits == 0) continue;
+      if (hits == 0) return true;
       SegmentGradient<float> gradient;
       if (isHit) {
         GradientColumn column{rows + __popc(hits & lanesBefore())};
-        differentiateCell(arrays.seen, cell, rank, detailCount, own.direction, settings, segment, adjoint, gradient,
-                          column, &arrays.counters->droppedCount);
+        differentiateCell(at, detailCount, own.direction, settings, segment, adjoint, gradient, column,
+                          &arrays.counters->droppedCount);
       }
       __syncwarp();
-      addColumns(rows, __popc(hits), rowCount, detailCount, arrays.sums, rank);
+      addColumns(rows, __popc(hits), rowCount, detailCount, arrays.sums, at.rank);
       for (int side = 0; side < 2; ++side) {
-        addPairs(gradient.planes[side], gradient.pairs[side], arrays.pairOfPlane, arrays.sums);
+        addPairs(gradient.planes[side], gradient.pairs[side], arrays.pairOfPlane + at.cell.planesBegin, arrays.sums);
       }
-      __syncwarp();
-    }
+      return true;
+    });
   }
 }
 

@@ -36,12 +36,35 @@ __device__ PixelPair pairAt(const PixelArrays<float>& pixels, const ImageTarget&
           foam::overGrey(photoValue(target, pixel, channel), photoGap(target, pixel)), 1};
 }
 
-// Sums of `values` with the weights of a row of the window; stride: between its elements.
-__device__ float blurOf(const float* values, int stride) {
+constexpr int kWindow = 2 * kReach + 1;
+
+// The sum of a column with the weights of the window's.
+__device__ float blurColumn(const float* values) {
   float sum = 0;
 #pragma unroll
-  for (int i = 0; i < 2 * kReach + 1; ++i) sum += foam::similarityWeight(i - kReach, 0.0f) * values[i * stride];
+  for (int i = 0; i < kWindow; ++i) sum += foam::similarityWeight(i - kReach, 0.0f) * values[i * kSquare];
   return sum;
+}
+
+// Blurs the lines of kCount fields along x, by all threads. Each makes four numbers at a time, which share what they
+// read: shared memory is the bound.
+template <int kCount>
+__device__ void blurRows(const float (&fields)[kCount][kWide][kWide + 1], float (&rows)[kCount][kWide][kSquare],
+                         int thread) {
+  constexpr int kAtATime = 4, kPerField = kWide * (kSquare / kAtATime);
+  for (int i = thread; i < kCount * kPerField; i += kSquare * kSquare) {
+    const int field = i / kPerField, y = i % kWide, x = i % kPerField / kWide * kAtATime;
+    float values[kWindow + kAtATime - 1];
+#pragma unroll
+    for (int j = 0; j < kWindow + kAtATime - 1; ++j) values[j] = fields[field][y][x + j];
+#pragma unroll
+    for (int place = 0; place < kAtATime; ++place) {
+      float sum = 0;
+#pragma unroll
+      for (int j = 0; j < kWindow; ++j) sum += foam::similarityWeight(j - kReach, 0.0f) * values[place + j];
+      rows[field][y][x + place] = sum;
+    }
+  }
 }
 
 // One channel per layer of the grid.
@@ -62,10 +85,7 @@ __global__ __launch_bounds__(kSquare* kSquare) void compareWindowsKernel(PixelAr
     for (int k = 0; k < kMoments; ++k) products[k][y][x] = values[k];
   }
   __syncthreads();
-  for (int i = thread; i < kWide * kSquare; i += kSquare * kSquare) {
-    const int x = i % kSquare, y = i / kSquare;
-    for (int k = 0; k < kMoments; ++k) rows[k][y][x] = blurOf(&products[k][y][x], 1);
-  }
+  blurRows(products, rows, thread);
   __syncthreads();
   const uint32_t x = blockIdx.x * kSquare + threadIdx.x, y = blockIdx.y * kSquare + threadIdx.y;
   if (x >= target.width || y >= target.height) return;
@@ -73,7 +93,7 @@ __global__ __launch_bounds__(kSquare* kSquare) void compareWindowsKernel(PixelAr
   glm::vec3 gradient(0);
   if (countsAt(target, pixel)) {
     float means[kMoments];
-    for (int k = 0; k < kMoments; ++k) means[k] = blurOf(&rows[k][threadIdx.y][threadIdx.x], kSquare);
+    for (int k = 0; k < kMoments; ++k) means[k] = blurColumn(&rows[k][threadIdx.y][threadIdx.x]);
     const float total = means[0];  // > 0: the pixel itself counts
     foam::similarity(means[1] / total, means[2] / total, means[3] / total, means[4] / total, means[5] / total,
                      gradient);
@@ -119,15 +139,11 @@ __global__ __launch_bounds__(kSquare* kSquare) void spreadGradientsKernel(PixelA
       }
     }
     __syncthreads();
-    for (int i = thread; i < kWide * kSquare; i += kSquare * kSquare) {
-      for (int k = 0; k < kFields; ++k) {
-        rows[k][i / kSquare][i % kSquare] = blurOf(&around[k][i / kSquare][i % kSquare], 1);
-      }
-    }
+    blurRows(around, rows, thread);
     __syncthreads();
     if (!counts) continue;
     float means[kFields];
-    for (int k = 0; k < kFields; ++k) means[k] = blurOf(&rows[k][threadIdx.y][threadIdx.x], kSquare);
+    for (int k = 0; k < kFields; ++k) means[k] = blurColumn(&rows[k][threadIdx.y][threadIdx.x]);
     const PixelPair pair = pairAt(pixels, target, x, y, channel);
     const float byShown = terms.similarity * (means[0] + 2 * pair.shown * means[1] + pair.wanted * means[2]);
     gradient[channel] += byShown;

@@ -6,6 +6,7 @@
 #include "trainer/step/gradient_sums.h"
 #include "trainer/step/pixels.h"
 #include "trainer/step/seen_cells.h"
+#include "trainer/step/tiles.h"
 #include "trainer/step/trained_foam.h"
 
 namespace froth {
@@ -44,8 +45,15 @@ struct StepArrays {
   uint32_t entryCapacity;
   uint32_t *tileLengths, *sortedTileLengths, *tiles;  // [tiles]
   uint32_t* tileOrder;                                // [tiles] in which tiles are drawn
+  uint32_t*
+      metEntries;  // [metEntriesOf()] by 32 entries and warp, those that a ray met (bits); renderTiles() writes it
 };
 
 inline constexpr uint32_t kUnseenKey = UINT32_MAX;
+
+inline constexpr uint32_t kWarpsPerTile = kTileSize * kTileSize / 32;
+
+// Each tile begins a new word of 32 entries, so it has one more than its part of all.
+FROTH_HD size_t metEntriesOf(size_t entries, size_t tiles) { return (entries / 32 + tiles + 1) * kWarpsPerTile; }
 
 }  // namespace froth

@@ -1,5 +1,4 @@
-// A warp draws 8 x 4 pixels, half a tile, and ends on its own. It looks at 32 entries of the tile's list at a time and
-// goes on with those that its pixels can see.
+// A warp draws 8 x 4 pixels, half a tile, and ends on its own.
 #pragma once
 
 #include "base/result.h"
@@ -8,8 +7,6 @@
 #include "trainer/step/tiles.h"
 
 namespace froth {
-
-inline constexpr uint32_t kWarpsPerTile = kTileSize * kTileSize / kWarp;
 
 // Around the rays of a warp's pixels, as coneOfTile().
 __device__ inline glm::vec4 coneOfWarp(const glm::vec3& direction) {
@@ -26,8 +23,8 @@ struct WarpPixel {
   bool isInside = false;  // of the image, with a ray
   size_t pixel = 0;
   glm::vec3 direction{0};
-  glm::vec4 cone;               // of the warp
   uint32_t listBegin, listEnd;  // of the tile
+  uint32_t* metEntries;         // of the warp, kWarpsPerTile from one to the next
 };
 
 __device__ inline WarpPixel pixelOfThread(const StepArrays& arrays, const TrainingView<float>& view) {
@@ -38,24 +35,10 @@ __device__ inline WarpPixel pixelOfThread(const StepArrays& arrays, const Traini
   own.isInside = x < view.width && y < view.height;
   own.pixel = size_t{y} * view.width + x;
   if (own.isInside) own.direction = directionOfPixel(view, x, y);
-  own.cone = coneOfWarp(own.direction);
   own.listBegin = arrays.tilesBegin[tile];
   own.listEnd = arrays.tilesBegin[tile + 1];
+  own.metEntries = arrays.metEntries + size_t{own.listBegin / kWarp + tile} * kWarpsPerTile + threadIdx.x / kWarp;
   return own;
-}
-
-// Of 32 entries from `first` on, one per lane: its rank, and which of them (bits) the warp can see.
-__device__ inline uint32_t lookAtEntries(const StepArrays& arrays, const glm::vec4& cone, uint32_t first, uint32_t end,
-                                         uint32_t& rank) {
-  const uint32_t entry = first + laneOfWarp();
-  bool isSeen = false;
-  rank = 0;
-  if (entry < end) {
-    rank = arrays.sortedRanks[entry];
-    const SeenCell<float>& cell = arrays.seen.cells[rank];
-    isSeen = foam::coneMeetsBall(cone, cell.centre, foam::guardedRadius(cell.centre, cell.radius));
-  }
-  return __ballot_sync(kAllLanes, isSeen);
 }
 
 // With the number of details known to the compiler where it is a common one.

@@ -14,7 +14,7 @@
 
 namespace froth {
 
-// The surface that bounds a segment is the radical plane at this place of SeenCells::planes, or one of these.
+// The surface that bounds a segment is the radical plane at this place among those of the cell, or one of these.
 inline constexpr uint32_t kBoundedByBall = UINT32_MAX, kBoundedByEye = UINT32_MAX - 1;
 
 template <class Real>
@@ -37,32 +37,39 @@ FROTH_HD glm::vec<3, Real> pointInFrame(const SeenCell<Real>& cell, const glm::v
                            cell.normal, 1 / cell.radius);
 }
 
-// Cuts the ray by ball and planes. Along a ray that starts at the eye a plane is met at t = 1 / (plane . direction)
-// (foam::eyePlane), so the loop has no division.
-template <class Real>
-FROTH_HD bool clipByBallAndPlanes(const SeenCell<Real>& cell, const SeenPlane<Real>* planes,
-                                  const glm::vec<3, Real>& direction, Segment<Real>& segment) {
+// visit(i, plane): for each of a cell's planes. (Other kinds of `planes`: trainer/cuda/staged_cells.h.)
+template <class Real, class Visit>
+FROTH_HD void visitPlanes(const SeenPlane<Real>* planes, uint32_t count, const Visit& visit) {
+  for (uint32_t i = 0; i < count; ++i) visit(i, planes[i]);
+}
+
+// Cuts the ray by ball and planes, those of the cell. Along a ray that starts at the eye a plane is met at t = 1 /
+// (plane . direction) (foam::eyePlane), so the loop has no division.
+template <class Real, class Planes>
+FROTH_HD bool clipByBallAndPlanes(const SeenCell<Real>& cell, const Planes& planes, const glm::vec<3, Real>& direction,
+                                  Segment<Real>& segment) {
   Real ballNear, ballFar;
   if (!foam::intersectBall(cell.centre, cell.radius, direction, ballNear, ballFar)) return false;
   const Real ballInverseNear = ballNear > 0 ? 1 / ballNear : Real(1e30);
   Real inverseNear = ballInverseNear, inverseFar = 1 / ballFar;
-  segment.nearSurface = ballNear > 0 ? kBoundedByBall : kBoundedByEye;
-  segment.farSurface = kBoundedByBall;
-  for (uint32_t i = cell.planesBegin; i < cell.planesEnd; ++i) {
-    const Real inverse = glm::dot(planes[i].plane, direction);
-    if (planes[i].clearance > 0) {
+  uint32_t nearSurface = ballNear > 0 ? kBoundedByBall : kBoundedByEye, farSurface = kBoundedByBall;
+  visitPlanes(planes, cell.planesEnd - cell.planesBegin, [&](uint32_t i, SeenPlane<Real> plane) {
+    const Real inverse = glm::dot(plane.plane, direction);
+    if (plane.clearance > 0) {
       if (inverse > inverseFar) {
         inverseFar = inverse;
-        segment.farSurface = i;
+        farSurface = i;
       }
     } else if (inverse < inverseNear) {
       inverseNear = inverse;
-      segment.nearSurface = i;
+      nearSurface = i;
     }
-  }
+  });
   if (!(inverseNear > inverseFar)) return false;
-  segment.ballOrPlaneNear = segment.nearSurface >= kBoundedByEye ? ballNear : 1 / inverseNear;
-  segment.ballOrPlaneFar = segment.farSurface == kBoundedByBall ? ballFar : 1 / inverseFar;
+  segment.nearSurface = nearSurface;
+  segment.farSurface = farSurface;
+  segment.ballOrPlaneNear = nearSurface >= kBoundedByEye ? ballNear : 1 / inverseNear;
+  segment.ballOrPlaneFar = farSurface == kBoundedByBall ? ballFar : 1 / inverseFar;
   return segment.ballOrPlaneNear < segment.ballOrPlaneFar;
 }
 
@@ -75,16 +82,18 @@ FROTH_HD Value blendDetails(const SeenDetail<Real>* details, uint32_t detailCoun
   Value sum(0);
   weights = 0;
   for (uint32_t k = 0; k < detailCount; ++k) {
-    const Real weight = foam::detailWeight(query, details[k].place, sharpness);
-    sum += weight * (details[k].*value);
+    const SeenDetail<Real> detail = details[k];
+    const Real weight = foam::detailWeight(query, detail.place, sharpness);
+    sum += weight * (detail.*value);
     weights += weight;
   }
   return sum / foam::flooredWeightSum(weights);
 }
 
-// False: the ray gains no opacity in the cell, or its numbers are no finite ones. `details`: those of the cell.
-template <class Real>
-FROTH_HD bool meetCell(const SeenCell<Real>& cell, const SeenPlane<Real>* planes, const SeenDetail<Real>* details,
+// False: the ray gains no opacity in the cell, or its numbers are no finite ones. `planes`, `details`: those of the
+// cell.
+template <class Real, class Planes>
+FROTH_HD bool meetCell(const SeenCell<Real>& cell, const Planes& planes, const SeenDetail<Real>* details,
                        uint32_t detailCount, const glm::vec<3, Real>& direction, Real sharpness,
                        Segment<Real>& segment) {
   if (!clipByBallAndPlanes(cell, planes, direction, segment)) return false;

@@ -27,7 +27,7 @@ struct SegmentSeeds {
 template <class Real>
 struct SegmentGradient {
   CellSums<Real> cell;
-  uint32_t planes[2] = {kBoundedByBall, kBoundedByBall};  // whose pairs get `pairs`; others: none
+  uint32_t planes[2] = {kBoundedByBall, kBoundedByBall};  // of the cell, whose pairs get `pairs`; others: none
   glm::vec<4, Real> pairs[2] = {glm::vec<4, Real>(0), glm::vec<4, Real>(0)};
 };
 
@@ -65,9 +65,10 @@ FROTH_HD Real addColourGradient(const SeenCell<Real>& cell, const SeenDetail<Rea
   const Real seedBlend = glm::dot(seed, segment.colour);
   PointSums<Real> sums;
   for (uint32_t k = 0; k < detailCount; ++k) {
-    const Real share = foam::detailWeight(query, details[k].place, sharpness) * inverseSum;
-    const Real exponent = foam::exponentGradient(share, glm::dot(seed, details[k].colour), seedBlend, isFloored);
-    const glm::vec<2, Real> place = foam::placeGradient(point, details[k].place, sharpness, exponent);
+    const SeenDetail<Real> detail = details[k];
+    const Real share = foam::detailWeight(query, detail.place, sharpness) * inverseSum;
+    const Real exponent = foam::exponentGradient(share, glm::dot(seed, detail.colour), seedBlend, isFloored);
+    const glm::vec<2, Real> place = foam::placeGradient(point, detail.place, sharpness, exponent);
     sums.point -= glm::vec<3, Real>(place, 0);
     sums.exponents += exponent;
     sink.addColour(k, place, share * seed);
@@ -85,9 +86,10 @@ FROTH_HD Real addHeightGradient(const SeenCell<Real>& cell, const SeenDetail<Rea
   const bool isFloored = foam::flooredWeightSum(segment.heightWeights) > segment.heightWeights;
   PointSums<Real> sums;
   for (uint32_t k = 0; k < detailCount; ++k) {
-    const Real share = foam::detailWeight(query, details[k].place, sharpness) * inverseSum;
-    const Real exponent = foam::exponentGradient(share, seed * details[k].height, seed * segment.height, isFloored);
-    const glm::vec<2, Real> place = foam::placeGradient(point, details[k].place, sharpness, exponent);
+    const SeenDetail<Real> detail = details[k];
+    const Real share = foam::detailWeight(query, detail.place, sharpness) * inverseSum;
+    const Real exponent = foam::exponentGradient(share, seed * detail.height, seed * segment.height, isFloored);
+    const glm::vec<2, Real> place = foam::placeGradient(point, detail.place, sharpness, exponent);
     sums.point -= glm::vec<3, Real>(place, 0);
     sums.exponents += exponent;
     sink.addHeight(k, place, share * seed);
@@ -96,8 +98,8 @@ FROTH_HD Real addHeightGradient(const SeenCell<Real>& cell, const SeenDetail<Rea
 }
 
 // Ball or plane at one end of the interval, met at t.
-template <class Real>
-FROTH_HD void addSurfaceGradient(const SeenCell<Real>& cell, const SeenPlane<Real>* planes, uint32_t surface,
+template <class Real, class Planes>
+FROTH_HD void addSurfaceGradient(const SeenCell<Real>& cell, const Planes& planes, uint32_t surface,
                                  const glm::vec<3, Real>& direction, Real t, Real seed, int end,
                                  SegmentGradient<Real>& gradient) {
   const glm::vec<3, Real> local = t * direction - cell.centre;
@@ -107,7 +109,8 @@ FROTH_HD void addSurfaceGradient(const SeenCell<Real>& cell, const SeenPlane<Rea
     return;
   }
   gradient.planes[end] = surface;
-  gradient.pairs[end] = foam::planeGradient(local, planes[surface].plane * planes[surface].clearance, direction, seed);
+  const SeenPlane<Real> plane = planes[surface];
+  gradient.pairs[end] = foam::planeGradient(local, plane.plane * plane.clearance, direction, seed);
 }
 
 template <class Real>
@@ -140,12 +143,13 @@ FROTH_HD Real addFacePart(const SeenCell<Real>& cell, const SeenDetail<Real>* de
 }
 
 // sink.addColour(k, place, colour) and sink.addHeight(k, place, height) get the gradients of detail site k, each once
-// at most. False: some number is not finite, and the caller drops what it was given.
-template <class Real, class Sink>
-FROTH_HD bool differentiateSegment(const SeenCell<Real>& cell, const SeenPlane<Real>* planes,
-                                   const SeenDetail<Real>* details, uint32_t detailCount,
-                                   const glm::vec<3, Real>& direction, Real sharpness, const Segment<Real>& segment,
-                                   const SegmentSeeds<Real>& seeds, SegmentGradient<Real>& gradient, Sink& sink) {
+// at most. `planes`, `details`: those of the cell. False: some number is not finite, and the caller drops what it was
+// given.
+template <class Real, class Planes, class Sink>
+FROTH_HD bool differentiateSegment(const SeenCell<Real>& cell, const Planes& planes, const SeenDetail<Real>* details,
+                                   uint32_t detailCount, const glm::vec<3, Real>& direction, Real sharpness,
+                                   const Segment<Real>& segment, const SegmentSeeds<Real>& seeds,
+                                   SegmentGradient<Real>& gradient, Sink& sink) {
   const Real seedSum = seeds.colour.x + seeds.colour.y + seeds.colour.z + seeds.opticalDepth + seeds.facing;
   if (!std::isfinite(seedSum)) return false;
   gradient.cell.density = (segment.far - segment.near) * seeds.opticalDepth;

@@ -33,8 +33,9 @@ struct alignas(4 * sizeof(Real)) SeenPlane {
   Real clearance;           // kept away from 0; > 0: the eye is on the cell's side, and the plane cuts the far end
 };
 
+// 24 bytes in float: a warp reads it as three vectors.
 template <class Real>
-struct SeenDetail {
+struct alignas(2 * sizeof(Real)) SeenDetail {
   glm::vec<2, Real> place;   // (u, v) [radii]
   Real height;               // [scene units]
   glm::vec<3, Real> colour;  // as seen from the eye, display-coded
