@@ -44,7 +44,7 @@ class WatchedExecutor : public StepExecutor {
 
   Status run(const StepPlan& plan) override {
     const uint32_t done = plan.adam.step, phase = (done - 1) % options_.every;
-    cudaSetDevice(0);  // of gpu_ and its clock; a step of several leaves this thread at any
+    cudaSetDevice(0);  // that of gpu_ and its clock; a step of several GPUs may leave this thread at another
     if (phase == options_.every - kTimedSteps) gpu_.step().setClock(&clock_.emplace());
     const Clock::time_point begin = Clock::now();
     if (clock_) clock_->mark(nullptr, gpu_.step().stream());

@@ -10,7 +10,7 @@ namespace froth {
 // Balls of a warp, in its first lanes: few, so that there are enough warps for the GPU.
 inline constexpr uint32_t kBallsOfWarp = 8;
 
-// What is this lane's of all balls; UINT32_MAX: none.
+// Which of all balls is the lane's; UINT32_MAX: none.
 __device__ inline uint32_t ballOfThread() {
   return laneOfWarp() < kBallsOfWarp ? globalThread() / kWarp * kBallsOfWarp + laneOfWarp() : UINT32_MAX;
 }

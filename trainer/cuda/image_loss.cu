@@ -9,7 +9,7 @@
 namespace froth {
 namespace {
 
-constexpr int kSquare = 16, kReach = foam::kSimilarityRadius, kWide = kSquare + 2 * kReach;
+constexpr int kSquare = 16, kReach = foam::kSimilarityRadius, kWindow = 2 * kReach + 1, kWide = kSquare + 2 * kReach;
 constexpr int kMoments = 6;  // means of 1, x, y, x^2, y^2, x y
 constexpr int kFields = 3;   // derivatives by the means of x, x^2, x y
 
@@ -36,13 +36,11 @@ __device__ PixelPair pairAt(const PixelArrays<float>& pixels, const ImageTarget&
           foam::overGrey(photoValue(target, pixel, channel), photoGap(target, pixel)), 1};
 }
 
-constexpr int kWindow = 2 * kReach + 1;
-
-// The sum of a column with the weights of the window's.
-__device__ float blurColumn(const float* values) {
+// Sums of `values` with the weights of a row of the window; stride: between its elements.
+__device__ float blurOf(const float* values, int stride) {
   float sum = 0;
 #pragma unroll
-  for (int i = 0; i < kWindow; ++i) sum += foam::similarityWeight(i - kReach, 0.0f) * values[i * kSquare];
+  for (int i = 0; i < kWindow; ++i) sum += foam::similarityWeight(i - kReach, 0.0f) * values[i * stride];
   return sum;
 }
 
@@ -58,12 +56,7 @@ __device__ void blurRows(const float (&fields)[kCount][kWide][kWide + 1], float 
 #pragma unroll
     for (int j = 0; j < kWindow + kAtATime - 1; ++j) values[j] = fields[field][y][x + j];
 #pragma unroll
-    for (int place = 0; place < kAtATime; ++place) {
-      float sum = 0;
-#pragma unroll
-      for (int j = 0; j < kWindow; ++j) sum += foam::similarityWeight(j - kReach, 0.0f) * values[place + j];
-      rows[field][y][x + place] = sum;
-    }
+    for (int place = 0; place < kAtATime; ++place) rows[field][y][x + place] = blurOf(values + place, 1);
   }
 }
 
@@ -93,7 +86,7 @@ __global__ __launch_bounds__(kSquare* kSquare) void compareWindowsKernel(PixelAr
   glm::vec3 gradient(0);
   if (countsAt(target, pixel)) {
     float means[kMoments];
-    for (int k = 0; k < kMoments; ++k) means[k] = blurColumn(&rows[k][threadIdx.y][threadIdx.x]);
+    for (int k = 0; k < kMoments; ++k) means[k] = blurOf(&rows[k][threadIdx.y][threadIdx.x], kSquare);
     const float total = means[0];  // > 0: the pixel itself counts
     foam::similarity(means[1] / total, means[2] / total, means[3] / total, means[4] / total, means[5] / total,
                      gradient);
@@ -143,7 +136,7 @@ __global__ __launch_bounds__(kSquare* kSquare) void spreadGradientsKernel(PixelA
     __syncthreads();
     if (!counts) continue;
     float means[kFields];
-    for (int k = 0; k < kFields; ++k) means[k] = blurColumn(&rows[k][threadIdx.y][threadIdx.x]);
+    for (int k = 0; k < kFields; ++k) means[k] = blurOf(&rows[k][threadIdx.y][threadIdx.x], kSquare);
     const PixelPair pair = pairAt(pixels, target, x, y, channel);
     const float byShown = terms.similarity * (means[0] + 2 * pair.shown * means[1] + pair.wanted * means[2]);
     gradient[channel] += byShown;

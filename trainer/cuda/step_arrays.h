@@ -45,8 +45,7 @@ struct StepArrays {
   uint32_t entryCapacity;
   uint32_t *tileLengths, *sortedTileLengths, *tiles;  // [tiles]
   uint32_t* tileOrder;                                // [tiles] in which tiles are drawn
-  uint32_t*
-      metEntries;  // [metEntriesOf()] by 32 entries and warp, those that a ray met (bits); renderTiles() writes it
+  uint32_t* metEntries;  // [metEntriesOf()] by 32 entries and warp of a tile: bits of those that some ray met
 };
 
 inline constexpr uint32_t kUnseenKey = UINT32_MAX;
