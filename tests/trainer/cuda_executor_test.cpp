@@ -48,7 +48,7 @@ class CudaExecutorOf : public ::testing::Test {
   void expectStepsOfTheCpu(StepExecutor& gpu, const std::vector<std::vector<uint32_t>>& photosOfSteps);
 
   FoamStorage<float> foam_;
-  std::vector<Photo> photos_{makePhoto({0.5, 0.4, -3}), makePhoto({-3, 0.4, 0.3})};
+  std::vector<Photo> photos_{makePhoto({0.5, 0.4, -3}), makePhoto({-2, 1.2, -2})};
   Schedule schedule_;
   Pace pace_{schedule_};
   DriftTables drifts_{pace_, {{10, 0, 0}, 1}};  // units of some 2
@@ -93,10 +93,14 @@ TEST_F(CudaExecutorOf, FindsThePairsOfTheCpu) {
   }
 }
 
-// The first step has the gradients in its moments.
+// The first step has the gradients in its moments. The CPU begins each step where the GPUs are: Adam's first steps move
+// a number by its whole rate whichever way a gradient of almost 0 points, so what rounding parts in one step would not
+// meet in the next, and rays that graze tell it.
 void CudaExecutorOf::expectStepsOfTheCpu(StepExecutor& gpu, const std::vector<std::vector<uint32_t>>& photosOfSteps) {
-  CpuExecutor cpu(foam_, photos_);
   for (uint32_t step = 0; step < photosOfSteps.size(); ++step) {
+    FoamStorage<float> before;
+    ASSERT_TRUE(gpu.read(before));
+    CpuExecutor cpu(before, photos_);
     const StepPlan plan = planOf(step, photosOfSteps[step]);
     ASSERT_TRUE(cpu.run(plan));
     const Status ran = gpu.run(plan);

@@ -9,6 +9,8 @@
 namespace froth {
 
 inline constexpr uint32_t kStageNumbers = 3 * kWarp;
+// Per multiprocessor, of the kernels that update lobes: 80 registers a thread in place of 100 to 121 keep more warps.
+inline constexpr uint32_t kMinBlocks = 3;
 
 // What one lane has of the detail sites from `firstDetail` on. All lanes of a warp go through the same rounds.
 struct LobeRound {

@@ -43,8 +43,9 @@ __device__ void updateLobesByViews(const TrainedCell<float>& trained, const Seen
   colours.update(round, numbersOfLane(round, mean.colour), bad);
 }
 
-__global__ void updateShownByViewsKernel(StepArrays arrays, AdamStep<float> adam,
-                                         const __grid_constant__ KeptViews kept, bool countsBad) {
+__global__ __launch_bounds__(kBlock, kMinBlocks) void updateShownByViewsKernel(StepArrays arrays, AdamStep<float> adam,
+                                                                               const __grid_constant__ KeptViews kept,
+                                                                               bool countsBad) {
   __shared__ float stages[kBlock / kWarp][kStageNumbers];
   const uint32_t cell = globalThread() / kWarp;
   const FoamShape& shape = arrays.foam.shape;

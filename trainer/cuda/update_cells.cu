@@ -7,8 +7,7 @@
 namespace froth {
 namespace {
 
-constexpr uint32_t kLanesOfBall = 8;    // most balls have some ten pairs
-constexpr uint32_t kBlocksAtATime = 3;  // of a multiprocessor: 80 registers a thread in place of 121 keep more warps
+constexpr uint32_t kLanesOfBall = 8;  // most balls have some ten pairs
 
 // Each kernel is two: Adam takes the gradients at once (kKeeps false), or they are kept until all views of the step
 // have theirs (trainer/step/view_gradients.h).
@@ -34,9 +33,8 @@ __device__ glm::vec3 differentiateLobes(const TrainedCell<float>& trained, const
 }
 
 template <bool kKeeps>
-__global__ __launch_bounds__(kBlock, kBlocksAtATime) void updateShownCellsKernel(StepArrays arrays,
-                                                                                 AdamStep<float> adam,
-                                                                                 DetailSums<float>* kept) {
+__global__ __launch_bounds__(kBlock, kMinBlocks) void updateShownCellsKernel(StepArrays arrays, AdamStep<float> adam,
+                                                                             DetailSums<float>* kept) {
   __shared__ float stages[kBlock / kWarp][kStageNumbers];
   const uint32_t rank = globalThread() / kWarp;
   if (rank >= arrays.counters->seenCells || isVoid(arrays) || !isShown(arrays.sums.cells[rank])) return;
