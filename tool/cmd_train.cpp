@@ -34,19 +34,25 @@ struct TrainCommandOptions {
   bool isPremultiplied = false, isOutdoor = false;
   std::string device;  // cpu, cuda; empty: cuda where there is one
   uint32_t gpus = 1;
+  bool isDeterministic = false;
   FiguresOutput figures;
 };
 
-Result<MakeExecutor> chooseExecutor(const std::string& device, uint32_t gpus) {
+Result<MakeExecutor> chooseExecutor(const std::string& device, uint32_t gpus,
+                                    [[maybe_unused]] bool isDeterministic) {  // a CPU always is
   if (gpus > 1 && device == "cpu") return makeError(ErrorKind::kUsage, "--gpus %u: GPUs need --device cuda", gpus);
 #ifdef FROTH_HAS_CUDA
   if (gpus > 1) {
     if (Status fit = MultiGpuExecutor::check(gpus); !fit) return fit.error();
-    return MakeExecutor([gpus](FoamStorage<float> foam, std::vector<Photo> photos) {
-      return MultiGpuExecutor::make(gpus, foam, std::move(photos));
+    return MakeExecutor([gpus, isDeterministic](const FoamStorage<float>& foam, std::vector<Photo> photos) {
+      return MultiGpuExecutor::make(gpus, foam, std::move(photos), isDeterministic);
     });
   }
-  if (device == "cuda" || (device.empty() && hasCudaDevice())) return MakeExecutor(CudaExecutor::make);
+  if (device == "cuda" || (device.empty() && hasCudaDevice())) {
+    return MakeExecutor([isDeterministic](const FoamStorage<float>& foam, std::vector<Photo> photos) {
+      return CudaExecutor::make(foam, std::move(photos), isDeterministic);
+    });
+  }
 #endif
   if (device != "cuda" && gpus == 1) return MakeExecutor(makeCpuExecutor);
   return makeError(ErrorKind::kUsage, "%s: this froth is built without CUDA; train on the CPU, or build it with nvcc",
@@ -135,7 +141,7 @@ Status runTrain(TrainCommandOptions options, ProgressPrinter& printer) {
   options.train.state = options.output;
   options.train.state.replace_extension(".state.bin");
   options.train.photos.alpha = options.isPremultiplied ? AlphaForm::kPremultiplied : AlphaForm::kStraight;
-  const Result<MakeExecutor> makeExecutor = chooseExecutor(options.device, options.gpus);
+  const Result<MakeExecutor> makeExecutor = chooseExecutor(options.device, options.gpus, options.isDeterministic);
   if (!makeExecutor) return makeExecutor.error();
   Result<Capture> capture = readCapture(options.scene);
   if (!capture) return capture.error();
@@ -186,11 +192,12 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
       ->check(countBetween(1, 1u << 30));
   CLI::Option* steps = command.add_option("--steps", options->steps, "Steps of one photo each; --gpus takes fewer")
                            ->check(countBetween(1, 10000000));
-  command
-      .add_option("--minutes", options->minutes,
-                  "As many steps as take so long, in place of --steps: rates, sizes and cells follow the time")
-      ->check(numberBetween(1e-3, 1e6))
-      ->excludes(steps);
+  CLI::Option* minutes =
+      command
+          .add_option("--minutes", options->minutes,
+                      "As many steps as take so long, in place of --steps: rates, sizes and cells follow the time")
+          ->check(numberBetween(1e-3, 1e6))
+          ->excludes(steps);
   command.add_option("--refine", options->refined, "Goes on from this foam, with its K and M, at low rates");
   command.add_option("--detail-sites", options->train.detailCount, "Per cell")->check(countBetween(1, 32));
   command.add_option("--lobes", options->train.lobeCount, "Per detail site")->check(countBetween(1, 32));
@@ -220,6 +227,10 @@ void addTrainCommand(CLI::App& program, Tool& tool) {
           "--gpus", options->gpus,
           "GPUs of this machine, by NCCL: steps of so many photos, so many times fewer, at rates times its root")
       ->check(countBetween(1, kMostPhotosPerStep));
+  command
+      .add_flag("--deterministic", options->isDeterministic,
+                "On GPUs too the same photos, options and seed give the same bits; takes longer")
+      ->excludes(minutes);
   command.add_flag("--outdoor", options->isOutdoor, "Rates for scenes whose cameras stand far apart");
   command.add_flag("--premultiplied", options->isPremultiplied, "Alpha of photos is premultiplied");
   command.add_flag("--mask-as-alpha", options->train.photos.isMaskAlpha, "Masks cut the object out");

@@ -29,6 +29,7 @@ constexpr uint32_t kTimedSteps = 100;
 struct Options {
   std::string scene, output;
   uint32_t every = 500, gpus = 1;
+  bool isDeterministic = false;
   double seconds = 1e9;
   TrainOptions train;
 };
@@ -135,8 +136,9 @@ void train(const Options& options) {
                                 std::vector<Photo> photos) -> Result<std::unique_ptr<StepExecutor>> {
     fmt::print("{{\"seconds_to_start\": {:.2f}, \"cells\": {}}}\n", secondsSince(begin), foam.shape.cellCount);
     const bool isOne = options.gpus == 1;
-    Result<std::unique_ptr<StepExecutor>> made = isOne ? CudaExecutor::make(std::move(foam), std::move(photos))
-                                                       : MultiGpuExecutor::make(options.gpus, foam, std::move(photos));
+    Result<std::unique_ptr<StepExecutor>> made =
+        isOne ? CudaExecutor::make(foam, std::move(photos), options.isDeterministic)
+              : MultiGpuExecutor::make(options.gpus, foam, std::move(photos), options.isDeterministic);
     if (!made) return made.error();
     CudaExecutor& gpu = isOne ? static_cast<CudaExecutor&>(**made) : static_cast<MultiGpuExecutor&>(**made).gpu(0);
     return std::unique_ptr<StepExecutor>(
@@ -170,6 +172,7 @@ int main(int argc, char** argv) {
   app.add_option("--lobes", options.train.lobeCount, "per detail site");
   app.add_option("--downscale", options.train.photos.downscale, "divides the sides of photos");
   app.add_option("--every", options.every, "steps between two lines");
+  app.add_flag("--deterministic", options.isDeterministic, "sums do not depend on an order");
   app.add_option("--seconds", options.seconds, "of training, then it stops");
   app.add_option("--output", options.output, "the foam");
   CLI11_PARSE(app, argc, argv);

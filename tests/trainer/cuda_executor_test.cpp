@@ -12,6 +12,7 @@
 #include "trainer/cpu/skin_pairs.h"
 #include "trainer/loop/cpu_executor.h"
 #include "trainer/loop/drift_tables.h"
+#include "trainer/loop/train_scene.h"
 #include "trainer/step/running_mean.h"
 
 namespace froth {
@@ -46,6 +47,7 @@ class CudaExecutorOf : public ::testing::Test {
 
   // In the second step cells wait that the first photos show alone, and the third updates them.
   void expectStepsOfTheCpu(StepExecutor& gpu, const std::vector<std::vector<uint32_t>>& photosOfSteps);
+  void expectSameBits(const MakeExecutor& make, uint32_t photosPerStep);
 
   FoamStorage<float> foam_;
   std::vector<Photo> photos_{makePhoto({0.5, 0.4, -3}), makePhoto({-2, 1.2, -2})};
@@ -162,6 +164,51 @@ TEST_F(CudaExecutorOf, RearrangesAsTheCpu) {
   EXPECT_TRUE((*gpu)->run(planOf(1, {1})));
 }
 
+// Cells come and go, and the third run goes on from the half of another.
+void CudaExecutorOf::expectSameBits(const MakeExecutor& make, uint32_t photosPerStep) {
+  FoamStorage<float> first, halfway, found;
+  for (uint32_t run = 0; run < 3; ++run) {
+    Result<std::unique_ptr<StepExecutor>> gpu = make(run == 2 ? halfway : foam_, photos_);
+    ASSERT_TRUE(gpu) << gpu.error().message;
+    for (uint32_t step = run == 2 ? 20 : 0; step < 40; ++step) {
+      std::vector<uint32_t> photos{step % 2, step / 2 % 2};
+      photos.resize(photosPerStep);
+      const Status ran = (*gpu)->run(planOf(step, photos));
+      ASSERT_TRUE(ran) << ran.error().message;
+      if (step % 15 == 14) {
+        const Result<CellFacts> facts = (*gpu)->facts();
+        ASSERT_TRUE(facts);
+        ASSERT_TRUE((*gpu)->rearrange(planCells(*facts, (*gpu)->cellCount() + 300, {}, 3, step)));
+      }
+      if (step != 19) continue;
+      ASSERT_TRUE((*gpu)->beginAnew());
+      ASSERT_TRUE((*gpu)->read(halfway));
+    }
+    ASSERT_TRUE((*gpu)->read(found));
+    if (run == 0) first = found;
+    EXPECT_EQ(found.values, first.values) << run;
+    EXPECT_EQ(found.firstMoments, first.firstMoments) << run;
+    EXPECT_EQ(found.secondMoments, first.secondMoments) << run;
+    EXPECT_EQ(found.contributions, first.contributions) << run;
+    EXPECT_EQ(found.errors, first.errors) << run;
+  }
+  EXPECT_NE(first.values, foam_.values);
+}
+
+TEST_F(CudaExecutorOf, GivesTheSameBitsWhereItIsDeterministic) {
+  const MakeExecutor make = [](const FoamStorage<float>& foam, std::vector<Photo> photos) {
+    return CudaExecutor::make(foam, std::move(photos), true);
+  };
+  expectSameBits(make, 1);
+  expectSameBits(make, 2);
+}
+
+TEST_F(CudaExecutorOf, TakesTheStepsOfTheCpuWhereItIsDeterministic) {
+  Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_, true);
+  ASSERT_TRUE(gpu) << gpu.error().message;
+  expectStepsOfTheCpu(**gpu, {{0}, {1, 0}, {0, 0, 1}});
+}
+
 // Nothing is multiplied, so the GPU rounds as the CPU does.
 TEST_F(CudaExecutorOf, KeepsTheMeanOfItsValues) {
   Result<std::unique_ptr<StepExecutor>> gpu = CudaExecutor::make(foam_, photos_);
@@ -243,6 +290,13 @@ class TwoGpus : public CudaExecutorOf {
 };
 
 TEST_F(TwoGpus, TakeTheStepsOfTheCpu) { expectStepsOfTheCpu(makeBoth(), {{0, 1}, {1, 1}, {1, 0, 0, 1}}); }
+
+TEST_F(TwoGpus, GiveTheSameBitsWhereTheyAreDeterministic) {
+  const MakeExecutor make = [](const FoamStorage<float>& foam, std::vector<Photo> photos) {
+    return MultiGpuExecutor::make(2, foam, std::move(photos), true);
+  };
+  expectSameBits(make, 2);
+}
 
 TEST_F(TwoGpus, KeepTheSameFoams) {
   MultiGpuExecutor& both = makeBoth();

@@ -13,16 +13,18 @@ uint32_t cudaDeviceCount() {
   return cudaGetDeviceCount(&count) == cudaSuccess ? static_cast<uint32_t>(count) : 0;
 }
 
-Result<std::unique_ptr<StepExecutor>> CudaExecutor::make(FoamStorage<float> foam, std::vector<Photo> photos) {
-  auto made = makeOnOne(foam, std::make_shared<const std::vector<Photo>>(std::move(photos)));
+Result<std::unique_ptr<StepExecutor>> CudaExecutor::make(const FoamStorage<float>& foam, std::vector<Photo> photos,
+                                                         bool isDeterministic) {
+  auto made = makeOnOne(foam, std::make_shared<const std::vector<Photo>>(std::move(photos)), isDeterministic);
   if (!made) return made.error();
   return std::unique_ptr<StepExecutor>(std::move(*made));
 }
 
 Result<std::unique_ptr<CudaExecutor>> CudaExecutor::makeOnOne(const FoamStorage<float>& foam,
-                                                              std::shared_ptr<const std::vector<Photo>> photos) {
+                                                              std::shared_ptr<const std::vector<Photo>> photos,
+                                                              bool isDeterministic) {
   std::unique_ptr<CudaExecutor> executor(new CudaExecutor(std::move(photos)));
-  if (Status started = executor->step_.start(); !started) return started.error();
+  if (Status started = executor->step_.start(isDeterministic); !started) return started.error();
   if (Status sent = executor->step_.upload(foam); !sent) return sent.error();
   return executor;
 }
@@ -140,6 +142,11 @@ Status CudaExecutor::rearrange(const CellPlan& plan) { return step_.rearrange(pl
 Result<CellFacts> CudaExecutor::facts() {
   if (Status read = step_.downloadFacts(facts_, overlaps_); !read) return read.error();
   return factsOf(facts_, overlaps_);
+}
+
+Status CudaExecutor::beginAnew() {
+  step_.forgetPairs();
+  return {};
 }
 
 Status CudaExecutor::read(FoamStorage<float>& foam) { return step_.download(foam); }

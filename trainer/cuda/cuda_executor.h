@@ -1,4 +1,5 @@
-// Steps on a GPU. Sums are atomic there, so two runs from the same seed differ by rounding, and soon by more.
+// Steps on a GPU. Sums are atomic there, so two runs from the same seed differ by rounding, and soon by more; those of
+// a deterministic executor do not, on GPUs of one architecture.
 #pragma once
 
 #include <array>
@@ -19,10 +20,12 @@ inline bool hasCudaDevice() { return cudaDeviceCount() > 0; }
 class CudaExecutor : public StepExecutor {
  public:
   // `photos` are those that train, with views in the normalised scene. Fails with kDevice where there is no GPU.
-  static Result<std::unique_ptr<StepExecutor>> make(FoamStorage<float> foam, std::vector<Photo> photos);
+  static Result<std::unique_ptr<StepExecutor>> make(const FoamStorage<float>& foam, std::vector<Photo> photos,
+                                                    bool isDeterministic = false);
   // On the GPU that is the calling thread's; it must be at all later calls too.
   static Result<std::unique_ptr<CudaExecutor>> makeOnOne(const FoamStorage<float>& foam,
-                                                         std::shared_ptr<const std::vector<Photo>> photos);
+                                                         std::shared_ptr<const std::vector<Photo>> photos,
+                                                         bool isDeterministic);
 
   Status run(const StepPlan& plan) override;
   Status rearrange(const CellPlan& plan) override;
@@ -32,7 +35,7 @@ class CudaExecutor : public StepExecutor {
   uint32_t cellCount() const override { return step_.cellCount(); }
   Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) override;
   Status read(FoamStorage<float>& foam) override;
-  Status beginAnew() override { return {}; }
+  Status beginAnew() override;
   Result<uint64_t> droppedCount() override;
 
   // run() of several photos in parts, for who spreads them over GPUs, in this order.

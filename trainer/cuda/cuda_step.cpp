@@ -33,7 +33,8 @@ CudaStep::~CudaStep() {
   if (stream_) cudaStreamDestroy(stream_);
 }
 
-Status CudaStep::start() {
+Status CudaStep::start(bool isDeterministic) {
+  isDeterministic_ = isDeterministic;
   return inTurn(
       [&] { return checkCuda(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "cudaStreamCreate"); },
       [&] { return counters_.upload({StepCounters{}}, "counters", stream_); });
@@ -57,6 +58,7 @@ void CudaStep::point() {
   arrays_.pairOfPlane = pairOfPlane_.data();
   arrays_.counters = counters_.data();
   arrays_.sums = {cellSums_.data(), detailSums_.data(), pairSums_.data(), nullptr};
+  arrays_.fixedSums = {fixedCellSums_.data(), fixedDetailSums_.data(), fixedPairSums_.data(), fixedPairSums_.size()};
   arrays_.pixels = {rendered_.data(), logTransmittances_.data(), ends_.data(), gradients_.data(), wanted_.data()};
   uint32_t** const byCell[kArraysByCell] = {&arrays_.powerKeys,   &arrays_.sortedKeys, &arrays_.cells,
                                             &arrays_.sortedCells, &arrays_.tileCounts, &arrays_.planesBegin,
@@ -108,6 +110,25 @@ Status CudaStep::reserveCells(const FoamShape& shape) {
       [&] { return details_.resize(details, "seen details"); },
       [&] { return detailSums_.resize(details, "sums of details"); });
   arrays_.foam.shape = shape;
+  return inTurn([&] { return status; }, [&] { return clearFixedSums(); });
+}
+
+// As many numbers as the floats have, all 0.
+Status CudaStep::clearFixedSums() {
+  const auto clear = [&](DeviceArray<FixedNumber>& fixed, const auto& sums) {
+    const size_t numbers = sums.size() * (sizeof(*sums.data()) / sizeof(float));
+    return inTurn([&] { return fixed.resize(numbers, "sums of whole numbers"); },
+                  [&] {
+                    const size_t bytes = numbers * sizeof(FixedNumber);
+                    return checkCuda(cudaMemsetAsync(fixed.data(), 0, bytes, stream_), "sums of whole numbers");
+                  });
+  };
+  Status status;
+  if (isDeterministic_) {
+    status =
+        inTurn([&] { return clear(fixedCellSums_, cellSums_); }, [&] { return clear(fixedDetailSums_, detailSums_); },
+               [&] { return clear(fixedPairSums_, pairSums_); });
+  }
   point();
   return status;
 }
@@ -228,8 +249,7 @@ Status CudaStep::findPairs(float leastSkin) {
   const Status reserved = inTurn(
       [&] { return neighbours_.resize(room, "pairs"); }, [&] { return reverses_.resize(room, "reverse pairs"); },
       [&] { return planes_.resize(room, "seen planes"); }, [&] { return pairOfPlane_.resize(room, "pairs of planes"); },
-      [&] { return pairSums_.resize(room, "sums of pairs"); });
-  point();
+      [&] { return pairSums_.resize(room, "sums of pairs"); }, [&] { return clearFixedSums(); });
   if (!reserved) return reserved;
   lists.neighbours = neighbours_.data();
   lists.reverses = reverses_.data();
@@ -351,6 +371,7 @@ size_t CudaStep::byteCount() const {
   for (const auto& array : byTile_) add(array);
   add(lastSteps_, balls_, contributions_, errors_, offsets_, neighbours_, reverses_, seenCells_, planes_, details_);
   add(rankOf_, cellSums_, detailSums_, pairSums_, tileCones_, tilesBegin_, metEntries_, rendered_, gradients_, wanted_);
+  add(fixedCellSums_, fixedDetailSums_, fixedPairSums_);
   add(logTransmittances_, ends_, lossFields_, foundBalls_, enlargedBalls_, slacks_, boxes_);
   return sum;
 }

@@ -2,7 +2,7 @@
 //
 // Calls put work into a stream and return. Nothing is read back within a step: lists have capacities, and a step whose
 // lists do not fit changes nothing. settle() tells afterwards, and makes room. Sums are atomic, so two runs differ by
-// rounding.
+// rounding, unless they are to be of whole numbers (fixed_sums.h).
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ class CudaStep {
   CudaStep& operator=(const CudaStep&) = delete;
   ~CudaStep();
 
-  // Before all others. Fails where there is no GPU.
-  Status start();
+  // Before all others. Fails where there is no GPU. isDeterministic: two runs give the same bits, and take longer.
+  Status start(bool isDeterministic = false);
   Status upload(const FoamStorage<float>& foam);
   Status download(FoamStorage<float>& foam);
   Status rearrange(const CellPlan& plan);
@@ -55,6 +55,9 @@ class CudaStep {
   uint8_t* keptViews() { return keptViews_.data(); }
   size_t bytesOfView() const { return bytesOfKeptView(arrays_.foam.shape); }
 
+  // The next step finds pairs as a step that begins with this foam does.
+  void forgetPairs() { hasPairs_ = false; }
+
   // Waits for the GPU. false: the lists of the last step did not fit, so it changed nothing; taken again it will.
   Result<bool> settle();
 
@@ -79,6 +82,7 @@ class CudaStep {
 
   Status reserveCells(const FoamShape& shape);
   Status findPairs(float leastSkin);
+  Status clearFixedSums();
 
   static constexpr size_t kArraysByCell = 7, kArraysByEntry = 4, kArraysByTile = 4;
   struct Tensors {
@@ -103,6 +107,8 @@ class CudaStep {
   DeviceArray<CellSums<float>> cellSums_;
   DeviceArray<DetailSums<float>> detailSums_;
   DeviceArray<glm::vec4> pairSums_;
+  bool isDeterministic_ = false;
+  DeviceArray<FixedNumber> fixedCellSums_, fixedDetailSums_, fixedPairSums_;
   DeviceArray<glm::vec4> groupCones_;
   DeviceArray<uint32_t> byCell_[kArraysByCell];
   DeviceArray<glm::vec4> tileCones_;

@@ -31,7 +31,7 @@ __device__ void differentiateCell(const CellAtHand& at, uint32_t detailCount, co
   column.setCell(gradient.cell);
 }
 
-template <uint32_t kDetails>
+template <uint32_t kDetails, class Number>
 __global__ __launch_bounds__(kThreads, kBlocksAtATime) void differentiateTilesKernel(StepArrays arrays,
                                                                                      TrainingView<float> view,
                                                                                      PixelSettings<float> settings) {
@@ -41,6 +41,7 @@ __global__ __launch_bounds__(kThreads, kBlocksAtATime) void differentiateTilesKe
   const uint32_t detailCount = kDetails > 0 ? kDetails : arrays.foam.shape.detailCount;
   CellStage<kDetails>& stage = stages[threadIdx.x / kWarp];
   const CellLane lane = CellLane::of<kDetails>(arrays.seen);
+  const SumTarget<Number> sums = targetOfSums<Number>(arrays, settings);
   const uint32_t rowCount = rowCountOf(detailCount);
   float* rows = sharedRows + threadIdx.x / kWarp * rowCount * kColumns;
   const WarpPixel own = pixelOfThread(arrays, view);
@@ -70,23 +71,22 @@ __global__ __launch_bounds__(kThreads, kBlocksAtATime) void differentiateTilesKe
                           &arrays.counters->droppedCount);
       }
       __syncwarp();
-      addColumns(rows, __popc(hits), rowCount, detailCount, arrays.sums, at.rank);
+      addColumns(rows, __popc(hits), rowCount, detailCount, sums, at.rank);
       for (int side = 0; side < 2; ++side) {
-        addPairs(gradient.planes[side], gradient.pairs[side], arrays.pairOfPlane + at.cell.planesBegin, arrays.sums);
+        addPairs(gradient.planes[side], gradient.pairs[side], arrays.pairOfPlane + at.cell.planesBegin, sums);
       }
       return true;
     });
   }
 }
 
-}  // namespace
-
-Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view,
-                          const PixelSettings<float>& settings, cudaStream_t stream) {
+template <class Number>
+Status differentiateInto(const StepArrays& arrays, const TrainingView<float>& view,
+                         const PixelSettings<float>& settings, cudaStream_t stream) {
   const uint32_t tileCount = tilesAlong(view.width) * tilesAlong(view.height);
   const size_t bytes = sizeof(float) * kWarpsPerTile * rowCountOf(arrays.foam.shape.detailCount) * kColumns;
   return withDetailCount(arrays.foam.shape.detailCount, [&]<uint32_t kDetails>() -> Status {
-    const auto kernel = differentiateTilesKernel<kDetails>;
+    const auto kernel = differentiateTilesKernel<kDetails, Number>;
     const Status allowed =
         checkCuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
                   "shared memory of differentiateTiles");
@@ -94,6 +94,15 @@ Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& v
     kernel<<<tileCount, kThreads, bytes, stream>>>(arrays, view, settings);
     return checkLaunch("differentiateTiles");
   });
+}
+
+}  // namespace
+
+Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view,
+                          const PixelSettings<float>& settings, cudaStream_t stream) {
+  if (arrays.fixedSums.cells == nullptr) return differentiateInto<float>(arrays, view, settings, stream);
+  const Status added = differentiateInto<FixedNumber>(arrays, view, settings, stream);
+  return added ? takeFixedSums(arrays, settings.perPixel, stream) : added;
 }
 
 }  // namespace froth

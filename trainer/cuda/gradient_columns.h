@@ -3,7 +3,7 @@
 // per row of the shared memory, and one atomic per value, those of a cell next to each other.
 #pragma once
 
-#include "trainer/cuda/launch.h"
+#include "trainer/cuda/fixed_sums.h"
 #include "trainer/step/gradient_sums.h"
 #include "trainer/step/ray_cell_gradient.h"
 
@@ -48,15 +48,16 @@ struct GradientColumn {
 };
 
 // All lanes, between __syncwarp()s.
-__device__ inline void addColumns(const float* rows, uint32_t columnCount, uint32_t rowCount, uint32_t detailCount,
-                                  const GradientSums<float>& sums, uint32_t rank) {
-  float* cell = reinterpret_cast<float*>(sums.cells + rank);
-  float* details = reinterpret_cast<float*>(sums.details + size_t{rank} * detailCount);
+template <class Number>
+__device__ void addColumns(const float* rows, uint32_t columnCount, uint32_t rowCount, uint32_t detailCount,
+                           const SumTarget<Number>& sums, uint32_t rank) {
+  Number* cell = sums.cells + size_t{rank} * kCellRows;
+  Number* details = sums.details + size_t{rank} * detailCount * kDetailRows;
   for (uint32_t row = laneOfWarp(); row < rowCount; row += kWarp) {
     float sum = 0;
 #pragma unroll 4
     for (uint32_t column = 0; column < columnCount; ++column) sum += rows[row * kColumns + column];
-    atomicAdd(row < kCellRows ? cell + row : details + (row - kCellRows), sum);
+    addTo(row < kCellRows ? cell + row : details + (row - kCellRows), sum, sums.scale);
   }
 }
 
@@ -71,16 +72,17 @@ __device__ inline float sumQuads(const glm::vec4& quad) {
 }
 
 // Adds the sums of a pair once per plane that some lanes' rays end at; other lanes' plane is no place of a plane.
-__device__ inline void addPairs(uint32_t plane, const glm::vec4& pair, const uint32_t* pairOfPlane,
-                                const GradientSums<float>& sums) {
+template <class Number>
+__device__ void addPairs(uint32_t plane, const glm::vec4& pair, const uint32_t* pairOfPlane,
+                         const SumTarget<Number>& sums) {
   uint32_t waiting = __ballot_sync(kAllLanes, plane < kBoundedByEye);
   while (waiting != 0) {
     const uint32_t shared = __shfl_sync(kAllLanes, plane, __ffs(static_cast<int>(waiting)) - 1);
     const bool isShared = plane == shared;
     waiting &= ~__ballot_sync(kAllLanes, isShared);
     const float sum = sumQuads(isShared ? pair : glm::vec4(0));
-    float* pairSum = reinterpret_cast<float*>(sums.pairs + pairOfPlane[shared]);
-    if (laneOfWarp() < 4) atomicAdd(pairSum + laneOfWarp(), sum);
+    Number* pairSum = sums.pairs + size_t{4} * pairOfPlane[shared];
+    if (laneOfWarp() < 4) addTo(pairSum + laneOfWarp(), sum, sums.scale);
   }
 }
 

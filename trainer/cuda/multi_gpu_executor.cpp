@@ -35,7 +35,7 @@ Status MultiGpuExecutor::check(uint32_t gpuCount) {
 }
 
 Result<std::unique_ptr<StepExecutor>> MultiGpuExecutor::make(uint32_t gpuCount, const FoamStorage<float>& foam,
-                                                             std::vector<Photo> photos) {
+                                                             std::vector<Photo> photos, bool isDeterministic) {
   if (Status fits = check(gpuCount); !fits) return fits.error();
   Result<std::unique_ptr<GpuGroup>> group = GpuGroup::make(gpuCount);
   if (!group) return group.error();
@@ -44,7 +44,7 @@ Result<std::unique_ptr<StepExecutor>> MultiGpuExecutor::make(uint32_t gpuCount, 
   const auto shared = std::make_shared<const std::vector<Photo>>(std::move(photos));
   for (uint32_t i = 0; i < gpuCount; ++i) {
     if (Status taken = takeGpu(i); !taken) return taken.error();
-    Result<std::unique_ptr<CudaExecutor>> gpu = CudaExecutor::makeOnOne(foam, shared);
+    Result<std::unique_ptr<CudaExecutor>> gpu = CudaExecutor::makeOnOne(foam, shared, isDeterministic);
     if (!gpu) return gpu.error();
     executor->gpus_.push_back(std::move(*gpu));
   }
@@ -103,6 +103,10 @@ Status MultiGpuExecutor::run(const StepPlan& plan) {
 
 Status MultiGpuExecutor::rearrange(const CellPlan& plan) {
   return onEach([&](CudaExecutor& gpu, uint32_t) { return gpu.rearrange(plan); });
+}
+
+Status MultiGpuExecutor::beginAnew() {
+  return onEach([](CudaExecutor& gpu, uint32_t) { return gpu.beginAnew(); });
 }
 
 Status MultiGpuExecutor::average() {

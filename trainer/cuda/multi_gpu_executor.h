@@ -18,7 +18,7 @@ class MultiGpuExecutor : public StepExecutor {
   static Status check(uint32_t gpuCount);
   // As CudaExecutor::make(), on the GPUs 0, 1, ..., gpuCount - 1. Fails as check() does.
   static Result<std::unique_ptr<StepExecutor>> make(uint32_t gpuCount, const FoamStorage<float>& foam,
-                                                    std::vector<Photo> photos);
+                                                    std::vector<Photo> photos, bool isDeterministic = false);
 
   // The number of photos must be a multiple of that of GPUs.
   Status run(const StepPlan& plan) override;
@@ -29,7 +29,7 @@ class MultiGpuExecutor : public StepExecutor {
   uint32_t cellCount() const override { return gpus_.front()->cellCount(); }
   Status show(const View& view, const AdamStep<float>& adam, std::vector<glm::vec4>& image) override;
   Status read(FoamStorage<float>& foam) override;
-  Status beginAnew() override { return {}; }
+  Status beginAnew() override;
   Result<uint64_t> droppedCount() override;
 
   // GPU 0 shows, and tells facts.

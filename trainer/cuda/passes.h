@@ -48,6 +48,8 @@ Status renderTiles(const StepArrays& arrays, const TrainingView<float>& view, co
                    cudaStream_t stream);
 Status differentiateTiles(const StepArrays& arrays, const TrainingView<float>& view,
                           const PixelSettings<float>& settings, cudaStream_t stream);
+// StepArrays::fixedSums become `sums`, for differentiateTiles().
+Status takeFixedSums(const StepArrays& arrays, float perPixel, cudaStream_t stream);
 // Of cells that pixels show, all but their balls.
 Status updateShownCells(const StepArrays& arrays, const AdamStep<float>& adam, cudaStream_t stream);
 // Of all cells.

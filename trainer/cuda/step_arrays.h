@@ -19,6 +19,15 @@ struct StepCounters {
   uint32_t cellsOutOfSkin = 0;  // not 0: the pairs may lack some of the next step's
 };
 
+// Two's complement, in steps of 2^-30 of what one pixel weighs (PixelSettings::perPixel).
+using FixedNumber = unsigned long long;
+
+// Where rays add up in place of GradientSums if two runs are to give the same bits (fixed_sums.h); null: they are not.
+struct FixedSums {
+  FixedNumber *cells, *details, *pairs;  // as many numbers, all 0 between views
+  size_t pairNumbers;
+};
+
 struct StepArrays {
   TrainedFoam<float> foam;
   NeighbourRows pairs;
@@ -27,6 +36,7 @@ struct StepArrays {
   SeenCells<float> seen;  // `count` is unused: StepCounters::seenCells
   uint32_t* pairOfPlane;  // [SeenCells::planes] its place in GradientSums::pairs
   GradientSums<float> sums;
+  FixedSums fixedSums;
   PixelArrays<float> pixels;
   StepCounters* counters;
 
