@@ -132,7 +132,7 @@ void train(const Options& options) {
   const View& view = set.training.front().view;
   fmt::print("{{\"photos\": {}, \"tests\": {}, \"width\": {}, \"height\": {}, \"seconds_to_read\": {:.2f}}}\n",
              set.training.size(), set.testing.size(), view.width, view.height, secondsSince(begin));
-  const MakeExecutor make = [&](FoamStorage<float> foam,
+  const MakeExecutor make = [&](const FoamStorage<float>& foam,
                                 std::vector<Photo> photos) -> Result<std::unique_ptr<StepExecutor>> {
     fmt::print("{{\"seconds_to_start\": {:.2f}, \"cells\": {}}}\n", secondsSince(begin), foam.shape.cellCount);
     const bool isOne = options.gpus == 1;

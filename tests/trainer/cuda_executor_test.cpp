@@ -95,9 +95,9 @@ TEST_F(CudaExecutorOf, FindsThePairsOfTheCpu) {
   }
 }
 
-// The first step has the gradients in its moments. The CPU begins each step where the GPUs are: Adam's first steps move
-// a number by its whole rate whichever way a gradient of almost 0 points, so what rounding parts in one step would not
-// meet in the next, and rays that graze tell it.
+// The first step has the gradients in its moments. The CPU begins each step from the GPU's foam: Adam's first steps
+// move a number by its whole rate, even where its gradient is almost 0. So foams that differ by rounding would drift
+// apart, and rays that graze a cell would show it.
 void CudaExecutorOf::expectStepsOfTheCpu(StepExecutor& gpu, const std::vector<std::vector<uint32_t>>& photosOfSteps) {
   for (uint32_t step = 0; step < photosOfSteps.size(); ++step) {
     FoamStorage<float> before;

@@ -58,7 +58,8 @@ void CudaStep::point() {
   arrays_.pairOfPlane = pairOfPlane_.data();
   arrays_.counters = counters_.data();
   arrays_.sums = {cellSums_.data(), detailSums_.data(), pairSums_.data(), nullptr};
-  arrays_.fixedSums = {fixedCellSums_.data(), fixedDetailSums_.data(), fixedPairSums_.data(), fixedPairSums_.size()};
+  arrays_.fixedSums = {fixedCellSums_.data(), fixedDetailSums_.data(), fixedPairSums_.data(),
+                       fixedCellSums_.size(), fixedDetailSums_.size(), fixedPairSums_.size()};
   arrays_.pixels = {rendered_.data(), logTransmittances_.data(), ends_.data(), gradients_.data(), wanted_.data()};
   uint32_t** const byCell[kArraysByCell] = {&arrays_.powerKeys,   &arrays_.sortedKeys, &arrays_.cells,
                                             &arrays_.sortedCells, &arrays_.tileCounts, &arrays_.planesBegin,

@@ -17,14 +17,13 @@ __global__ void takeFixedSumsKernel(FixedNumber* fixed, float* sums, size_t coun
 
 Status takeFixedSums(const StepArrays& arrays, float perPixel, cudaStream_t stream) {
   const FixedSums& fixed = arrays.fixedSums;
-  const size_t cells = arrays.foam.shape.cellCount, details = cells * arrays.foam.shape.detailCount;
   const auto take = [&](FixedNumber* from, auto* to, size_t numbers) {
     if (numbers == 0) return;
     takeFixedSumsKernel<<<blocksFor(numbers), kBlock, 0, stream>>>(from, reinterpret_cast<float*>(to), numbers,
                                                                    perPixel / kFixedSteps);
   };
-  take(fixed.cells, arrays.sums.cells, cells * (sizeof(CellSums<float>) / sizeof(float)));
-  take(fixed.details, arrays.sums.details, details * (sizeof(DetailSums<float>) / sizeof(float)));
+  take(fixed.cells, arrays.sums.cells, fixed.cellNumbers);
+  take(fixed.details, arrays.sums.details, fixed.detailNumbers);
   take(fixed.pairs, arrays.sums.pairs, fixed.pairNumbers);
   return checkLaunch("takeFixedSums");
 }

@@ -9,7 +9,7 @@
 namespace froth {
 
 inline constexpr float kFixedSteps = 1 << 30;  // of FixedNumber
-// What a ray adds is no more. Divisors are bounded, so grazing rays stay below; eight such rays still fit.
+// What a warp adds at once is cut to this; seven such sums still fit.
 inline constexpr float kMostFixed = static_cast<float>(uint64_t{1} << 60);
 
 // Where the rays of a view add up, as numbers one after the other: floats or FixedNumbers.

@@ -24,8 +24,8 @@ using FixedNumber = unsigned long long;
 
 // Where rays add up in place of GradientSums if two runs are to give the same bits (fixed_sums.h); null: they are not.
 struct FixedSums {
-  FixedNumber *cells, *details, *pairs;  // as many numbers, all 0 between views
-  size_t pairNumbers;
+  FixedNumber *cells, *details, *pairs;  // all 0 between views
+  size_t cellNumbers, detailNumbers, pairNumbers;
 };
 
 struct StepArrays {
