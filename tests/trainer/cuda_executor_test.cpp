@@ -41,8 +41,9 @@ class CudaExecutorOf : public ::testing::Test {
     return photo;
   }
 
-  StepPlan planOf(uint32_t step, std::vector<uint32_t> photos) {
-    return {std::move(photos), step % 2, drifts_.adamAt(step), weightsAt(schedule_, pace_.positionAt(step)), 1e-2f};
+  StepPlan planOf(uint32_t step, std::vector<uint32_t> photos) { return planOf(drifts_, step, std::move(photos)); }
+  StepPlan planOf(DriftTables& drifts, uint32_t step, std::vector<uint32_t> photos) {
+    return {std::move(photos), step % 2, drifts.adamAt(step), weightsAt(schedule_, pace_.positionAt(step)), 1e-2f};
   }
 
   // In the second step cells wait that the first photos show alone, and the third updates them.
@@ -53,7 +54,8 @@ class CudaExecutorOf : public ::testing::Test {
   std::vector<Photo> photos_{makePhoto({0.5, 0.4, -3}), makePhoto({-2, 1.2, -2})};
   Schedule schedule_;
   Pace pace_{schedule_};
-  DriftTables drifts_{pace_, {{10, 0, 0}, 1}};  // units of some 2
+  Eyes eyes_{{10, 0, 0}, 1};  // units of some 2
+  DriftTables drifts_{pace_, eyes_};
 };
 
 double relativeDifference(const std::vector<float>& expected, const std::vector<float>& found) {
@@ -170,10 +172,11 @@ void CudaExecutorOf::expectSameBits(const MakeExecutor& make, uint32_t photosPer
   for (uint32_t run = 0; run < 3; ++run) {
     Result<std::unique_ptr<StepExecutor>> gpu = make(run == 2 ? halfway : foam_, photos_);
     ASSERT_TRUE(gpu) << gpu.error().message;
+    DriftTables drifts(pace_, eyes_);  // they never go back
     for (uint32_t step = run == 2 ? 20 : 0; step < 40; ++step) {
       std::vector<uint32_t> photos{step % 2, step / 2 % 2};
       photos.resize(photosPerStep);
-      const Status ran = (*gpu)->run(planOf(step, photos));
+      const Status ran = (*gpu)->run(planOf(drifts, step, photos));
       ASSERT_TRUE(ran) << ran.error().message;
       if (step % 15 == 14) {
         const Result<CellFacts> facts = (*gpu)->facts();
